@@ -11,7 +11,7 @@ from fmpy.ssp.ssd import read_ssd
 from spacecraft import call
 
 
-def flown(heliotorque, ssp, names, *options):
+def simulated(heliotorque, ssp, names, *options):
     """A run's table: time and columns by name, a row at the start."""
     done = call(heliotorque, "run", ssp, "--quiet", "--record", ",".join(names), "--output", "-", *options)
     assert done.returncode == 0, done.stderr
@@ -20,7 +20,7 @@ def flown(heliotorque, ssp, names, *options):
     return dict(zip(header.split(","), values.T, strict=True))
 
 
-def flown_by_fmpy(ssp, stop_s, step_s):
+def simulated_by_fmpy(ssp, stop_s, step_s):
     """FMPy's table: its row k is of the end of step k, where inputs have been exchanged already."""
     return simulate_ssp(str(ssp), stop_time=stop_s, step_size=step_s)
 
@@ -75,7 +75,7 @@ def loop_of(ssp, folder, initially):
     return None
 
 
-def flown_by_libcosim(ssp, folder, step_s, steps, names):
+def simulated_by_libcosim(ssp, folder, step_s, steps, names):
     """The last values under libcosim, which exchanges outputs in initialization."""
     from libcosimpy.CosimExecution import CosimExecution
     from libcosimpy.CosimObserver import CosimObserver

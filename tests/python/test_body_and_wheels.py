@@ -26,7 +26,7 @@ def basilisk():
     return basilisk_table("free-flight-basilisk")
 
 
-def flown(unpacked_plant, table):
+def simulated(unpacked_plant, table):
     """The FMU's motion at the rows' times, fed with the rows' motor torques from each row on."""
     first = table[0]
     start = {"attitude.source": 4, "solar.flux": 0.0, "gravityGradient.enabled": False}
@@ -66,7 +66,7 @@ def differences(motion, other):
 
 def test_it_is_basilisks(unpacked_plant, basilisk):
     assert np.abs(columns(basilisk, SPEEDS)).min() > 10.0
-    attitude, rate_rad_s, wheels_n_m_s = differences(flown(unpacked_plant, basilisk), columns(basilisk, MOTION))
+    attitude, rate_rad_s, wheels_n_m_s = differences(simulated(unpacked_plant, basilisk), columns(basilisk, MOTION))
     assert attitude < 1e-12 and rate_rad_s < 1e-13 and wheels_n_m_s < 1e-12
 
 

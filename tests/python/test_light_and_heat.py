@@ -55,12 +55,12 @@ def test_every_plate_says_which_surface_it_is(orbiter):
 
 def test_in_the_shadow_heat_alone_pushes(orbiter):
     output = ["sun.litFraction", *vector("force.solar"), *vector("force.thermal")]
-    flown = simulate(orbiter, 60.0, DAY_S, {**EFFECTS, **ECLIPSES, **DISTURBED}, output)
-    dark = flown["sun.litFraction"] == 0.0
-    assert 10 < dark.sum() < len(flown) / 2
-    assert not stack(flown, "force.solar")[dark].any()
+    recorded = simulate(orbiter, 60.0, DAY_S, {**EFFECTS, **ECLIPSES, **DISTURBED}, output)
+    dark = recorded["sun.litFraction"] == 0.0
+    assert 10 < dark.sum() < len(recorded) / 2
+    assert not stack(recorded, "force.solar")[dark].any()
     # The spacecraft is its own mirror image across its Y-Z plane: the recoil of heat lies within it.
-    thermal = np.abs(stack(flown, "force.thermal")[dark])
+    thermal = np.abs(stack(recorded, "force.thermal")[dark])
     assert thermal[:, 1:].max(axis=1).min() > 1e-9 and thermal[:, 0].max() < 1e-20
 
 

@@ -135,6 +135,6 @@ def test_a_flight_without_a_stated_tolerance_is_judged_as_by_other_tools(dist, h
     ],
     ids=["root", "missing", "outside", "header", "column"],
 )
-def test_a_flight_that_cannot_be_flown_is_named(dist, heliotorque, tmp_path, change, expected):
+def test_a_flight_that_cannot_be_simulated_is_named(dist, heliotorque, tmp_path, change, expected):
     ran = check(heliotorque, changed(dist / "DisturbanceTorque.fmu", tmp_path / "DisturbanceTorque.fmu", change))
     assert ran.returncode == 1 and expected in ran.stdout, ran.stdout

@@ -73,9 +73,9 @@ def test_directions_follow_the_flat_plate_law(heliotorque, dist, tmp_path):
         assert np.abs(solar_torque(SAILER, sun, pressure, angles) - torque(row)).max() <= 1e-12 * greatest, row
 
 
-def interval_day(flown, least, most):
+def interval_day(simulated, least, most):
     """The day on which no momentum about X is left that downlinks could have led to within 4 N.m.s."""
-    with open(flown, encoding="utf-8") as file:
+    with open(simulated, encoding="utf-8") as file:
         rows = [{name: float(cell) for name, cell in row.items()} for row in csv.DictReader(file)]
     low = high = 0.0
     for before, now in zip(rows, rows[1:]):
@@ -102,15 +102,15 @@ def test_a_mission_leaves_the_band_when_it_dumps(heliotorque, dist, tmp_path, co
         *("--set", "dump.threshold=4,4,4"),
     ]
     plant = (dist / "MomentumPlant.fmu").resolve()
-    flown, when = tmp_path / "flown.csv", tmp_path / "when.csv"
-    for output, record in [(flown, columns), (when, "dump.lastTime,dump.count")]:
+    simulated, when = tmp_path / "simulated.csv", tmp_path / "when.csv"
+    for output, record in [(simulated, columns), (when, "dump.lastTime,dump.count")]:
         done = call(
             heliotorque, "run", plant, "--stop", "60d", "--step", "600", "--record", record, "--output", output, "--quiet", *settings
         )
         assert done.returncode == 0, done.stderr
     with open(when, encoding="utf-8") as file:
         first_s = next(float(row["dump.lastTime"]) for row in csv.DictReader(file) if row["dump.count"] == "1")
-    arguments = ["--mission", flown, "--no-picture", "--step", "10deg", "--set", "spacecraft.centerOfMass[3]=-2.54cm"]
+    arguments = ["--mission", simulated, "--no-picture", "--step", "10deg", "--set", "spacecraft.centerOfMass[3]=-2.54cm"]
     arguments += ["--set", "dump.threshold=4,4,4"]
     told = call(heliotorque, "map", RESOURCES / "messenger.toml", "--template", plant, *arguments)
     assert told.returncode == 0, told.stderr
@@ -119,7 +119,7 @@ def test_a_mission_leaves_the_band_when_it_dumps(heliotorque, dist, tmp_path, co
     # Z is held with ease, so X decides, between what the table says downlinks can add at the least and at the most.
     least, most = np.array(re.search(r"mean torque about X +(\S+) +(\S+)", told.stdout).groups(), dtype=float) * 1e-6
     held = re.search(r"holdable without a dump until day ([\d.]+) of 60.0", told.stdout)
-    expected = interval_day(flown, least, most)
+    expected = interval_day(simulated, least, most)
     assert abs(float(held[1]) - expected) < 0.06, (expected, told.stdout)
     assert expected > float(day) + 5
     # Without downlinks nothing is held any longer.

@@ -1,4 +1,4 @@
-"""The shipped systems, flown by this project's masters and by others; what `wire` connects."""
+"""The shipped systems, simulated by this project's masters and by others; what `wire` connects."""
 
 import csv
 import importlib.util
@@ -14,7 +14,7 @@ from lxml import etree
 
 from masters import elements
 from spacecraft import call
-from systems import connectors, flown, flown_by_fmpy, flown_by_libcosim, loop_of
+from systems import connectors, loop_of, simulated, simulated_by_fmpy, simulated_by_libcosim
 
 # File, stop and step of a flight; DisturbanceLoop's is its default experiment.
 SYSTEMS = {
@@ -41,8 +41,8 @@ def table(result, names):
 def test_fmpy_and_our_jacobi_master_that_begins_with_zeros_agree(heliotorque, dist, system, stop_s):
     ssp, (_, step_s) = dist / f"{system}.ssp", SYSTEMS[system]
     outputs, inputs, joined = connectors(ssp)
-    theirs = flown_by_fmpy(ssp, stop_s, step_s)
-    ours = flown(heliotorque, ssp, outputs, "--first-exchange", "zeros", "--stop", str(stop_s))
+    theirs = simulated_by_fmpy(ssp, stop_s, step_s)
+    ours = simulated(heliotorque, ssp, outputs, "--first-exchange", "zeros", "--stop", str(stop_s))
     assert len(theirs) == stop_s / step_s and ours["time"][-1] == stop_s
     moved = 0
     for name in outputs:
@@ -71,13 +71,13 @@ def test_the_default_experiment_is_a_day_at_a_second_about_mercury(dist):
 def test_outputs_at_the_start_are_exchanged_before_the_first_step(heliotorque, dist):
     names = [*elements("plant.attitude.q", 4), *elements("guidance.command.q", 4)]
     ssp = dist / "MessengerLoop.ssp"
-    first = flown(heliotorque, ssp, names, "--stop", "1")
+    first = simulated(heliotorque, ssp, names, "--stop", "1")
     attitude, command = (table(first, names[part])[0] for part in (slice(0, 4), slice(4, 8)))
     assert np.abs(np.dot(attitude, command)) > 1.0 - 1e-12
     # Guidance computed it from where the plant is, which without an exchange it does not know.
     rate = elements("guidance.command.rate", 3)
     exchanged, zeros = (
-        table(flown(heliotorque, ssp, rate, "--stop", "1", "--first-exchange", first), rate)[0]
+        table(simulated(heliotorque, ssp, rate, "--stop", "1", "--first-exchange", first), rate)[0]
         for first in ("initial", "zeros")
     )
     assert exchanged.all() and not zeros.any()
@@ -96,8 +96,8 @@ PLAIN = {
 def test_libcosim_and_our_jacobi_master_agree_to_the_bit(heliotorque, dist, tmp_path, system, stop_s):
     """libcosim exchanges in initialization, too."""
     ssp, (_, step_s), names = dist / f"{system}.ssp", SYSTEMS[system], PLAIN[system]
-    ours = flown(heliotorque, ssp, names, "--stop", str(stop_s))
-    theirs = flown_by_libcosim(ssp, tmp_path, step_s, int(stop_s / step_s), names)
+    ours = simulated(heliotorque, ssp, names, "--stop", str(stop_s))
+    theirs = simulated_by_libcosim(ssp, tmp_path, step_s, int(stop_s / step_s), names)
     assert [ours[name][-1] for name in names] == theirs
 
 
@@ -121,7 +121,7 @@ def test_both_masters_converge_to_each_other_with_the_step(heliotorque, dist):
     def difference(step_s):
         options = ("--stop", "7200", "--step", str(step_s), "--every", "7200")
         ends = [
-            table(flown(heliotorque, ssp, RATE, *options, "--master", master), RATE)[-1]
+            table(simulated(heliotorque, ssp, RATE, *options, "--master", master), RATE)[-1]
             for master in ("jacobi", "gaussSeidel")
         ]
         return np.linalg.norm(ends[0] - ends[1])
@@ -137,7 +137,7 @@ def test_masters_take_the_values_that_they_say(heliotorque, dist):
     ssp = dist / "DisturbanceLoop.ssp"
     given, taken = elements("disturbance.torque.total", 3), elements("body.torque.total", 3)
     for master, lag in (("jacobi", 1), ("gaussSeidel", 0)):
-        result = flown(heliotorque, ssp, [*given, *taken], "--stop", "200", "--master", master)
+        result = simulated(heliotorque, ssp, [*given, *taken], "--stop", "200", "--master", master)
         output, use = table(result, given), table(result, taken)
         assert (use[1:] == output[1 - lag : len(output) - lag]).all()
         assert np.ptp(output, axis=0).max() > 0.0
@@ -218,9 +218,9 @@ def test_the_description_follows_the_schema_and_names_components_units_and_optio
 def test_values_are_set_by_component_with_units_and_dates(heliotorque, dist):
     ssp = dist / "DisturbanceLoop.ssp"
     settings = ("--set", "body.start.rate=0,0,1 deg/s")
-    first = flown(heliotorque, ssp, RATE, "--stop", "10", *settings)
+    first = simulated(heliotorque, ssp, RATE, "--stop", "10", *settings)
     assert first["body.attitude.rate[3]"][0] == np.radians(1.0)
-    dated = flown(
+    dated = simulated(
         heliotorque, dist / "MessengerLoop.ssp", ["guidance.epoch"], "--stop", "1",
         "--set", "guidance.start.epoch=2011-04-06T00:00:00 UTC",
     )
@@ -254,7 +254,7 @@ def test_open_inputs_follow_a_table(heliotorque, dist, tmp_path):
     csv = tmp_path / "panels.csv"
     csv.write_text("time,disturbance.panel[1].angle\n0,0\n100,0\n100,1\n", encoding="utf-8")
     name = "disturbance.panel[1].angle"
-    result = flown(heliotorque, dist / "DisturbanceLoop.ssp", [name, *elements("disturbance.torque.solar", 3)], "--stop", "200", "--input", csv)
+    result = simulated(heliotorque, dist / "DisturbanceLoop.ssp", [name, *elements("disturbance.torque.solar", 3)], "--stop", "200", "--input", csv)
     assert result[name].tolist() == [0.0] * 11 + [1.0] * 10
     torque = table(result, elements("disturbance.torque.solar", 3))
     assert np.abs(torque[11] - torque[10]).max() > 10.0 * np.abs(torque[10] - torque[9]).max()
@@ -279,8 +279,8 @@ def test_the_systems_own_connectors_are_set_and_recorded_by_their_names(heliotor
     assert done.returncode == 0, done.stderr
     options = ("--stop", "600", "--step", "10")
     bare = [re.sub(r"[.\[]", "_", name.removeprefix("body.")).removesuffix("]") for name in RATE]
-    plain = flown(heliotorque, dist / "DisturbanceLoop.ssp", RATE, *options, "--set", f"{inner}=30deg")
-    ours = flown(heliotorque, ssp, ["panel_1_angle", inner, *bare, *RATE], *options, "--set", "panel_1_angle=30deg")
+    plain = simulated(heliotorque, dist / "DisturbanceLoop.ssp", RATE, *options, "--set", f"{inner}=30deg")
+    ours = simulated(heliotorque, ssp, ["panel_1_angle", inner, *bare, *RATE], *options, "--set", "panel_1_angle=30deg")
     for name, of_system in zip(RATE, bare):
         assert (ours[of_system] == plain[name]).all() and (ours[name] == plain[name]).all()
     assert (ours[inner] == np.pi / 6.0).all() and (ours["panel_1_angle"] == np.pi / 6.0).all()
@@ -297,16 +297,16 @@ def test_the_systems_own_connectors_are_set_and_recorded_by_their_names(heliotor
             archive.writestr(name, content)
     angles = tmp_path / "angles.csv"
     angles.write_text("time,panel_1_angle\n0,0\n300,0\n300,0.5\n", encoding="utf-8")
-    turned = flown(heliotorque, other, ["panel_1_angle", inner], *options, "--input", angles)
+    turned = simulated(heliotorque, other, ["panel_1_angle", inner], *options, "--input", angles)
     assert turned["panel_1_angle"].tolist() == [0.0] * 31 + [0.5] * 30
     assert turned[inner].tolist() == [0.0] * 31 + [np.pi / 2.0] * 30
     # FMPy shows them, too, and libcosim takes no such system.
-    theirs = flown_by_fmpy(ssp, 600.0, 10.0)
+    theirs = simulated_by_fmpy(ssp, 600.0, 10.0)
     for name, of_system in zip(RATE, bare):
         assert (theirs[of_system] == theirs[name]).all() and np.ptp(theirs[of_system]) > 0.0
     (tmp_path / "libcosim").mkdir()
     with pytest.raises(AssertionError, match="Unable to create execution"):
-        flown_by_libcosim(ssp, tmp_path / "libcosim", 10.0, 60, RATE)
+        simulated_by_libcosim(ssp, tmp_path / "libcosim", 10.0, 60, RATE)
 
 
 @pytest.mark.skipif(importlib.util.find_spec("OMSimulator") is None, reason="OMSimulator is not installed")
@@ -328,5 +328,5 @@ def test_omsimulator_flies_the_system(heliotorque, dist, system):
     theirs = np.array([running.getValue(CRef(system, *name.split(".", 1))) for name in names])
     running.terminate()
     running.delete()
-    ours = flown(heliotorque, ssp, names, "--every", str(stop_s))
+    ours = simulated(heliotorque, ssp, names, "--every", str(stop_s))
     assert np.abs(theirs - table(ours, names)[-1]).max() < 1e-9

@@ -1,10 +1,10 @@
-"""Burns of a timeline, each by thrusters of its own, flown by Guidance and a controlled plant wired to each other."""
+"""Burns of a timeline, each by thrusters of its own, simulated by Guidance and a controlled plant wired to each other."""
 
 import numpy as np
 import pytest
 
 from spacecraft import call
-from systems import flown, flown_by_fmpy
+from systems import simulated, simulated_by_fmpy
 
 CRAFT = """\
 name = "Burner"
@@ -106,7 +106,7 @@ def test_three_burns_of_a_weeks_timeline_add_their_velocities(heliotorque, dist,
     begins_s, lasts_s = [30 * HOUR_S, 84 * HOUR_S, 138 * HOUR_S], 0.5 * HOUR_S
     ssp = wired(heliotorque, dist, tmp_path, timeline(begins_s, lasts_s))
     names = [*DELTA_V, "plant.mass", "guidance.burn.timedOut", "guidance.mode.active"]
-    result = flown(heliotorque, ssp, names, "--every", "600")
+    result = simulated(heliotorque, ssp, names, "--every", "600")
     assert result["time"][-1] == 7 * 24 * HOUR_S
     assert not result["guidance.burn.timedOut"].any() and (result["guidance.mode.active"] == 1).all()
     delta_v = np.column_stack([result[name] for name in DELTA_V])
@@ -117,7 +117,7 @@ def test_both_masters_fly_three_burns_of_a_timeline(heliotorque, dist, tmp_path)
     begins_s, lasts_s = [600.0, 2400.0, 4200.0], 1200.0
     ssp = wired(heliotorque, dist, tmp_path, timeline(begins_s, lasts_s))
     for result in (
-        flown_by_fmpy(ssp, 6000.0, 1.0), flown(heliotorque, ssp, [*DELTA_V, "plant.mass"], "--stop", "6000"),
+        simulated_by_fmpy(ssp, 6000.0, 1.0), simulated(heliotorque, ssp, [*DELTA_V, "plant.mass"], "--stop", "6000"),
     ):
         delta_v = np.column_stack([result[name] for name in DELTA_V])
         judge(result["time"], delta_v, result["plant.mass"], begins_s, lasts_s)

@@ -155,7 +155,7 @@ impl Target {
         Self { model, instance, names: support::names(model), fresh_bytes, accepted: 0 }
     }
 
-    /// The bytes are refused with an error, or give a state the instance can go on from; never a panic.
+    /// The bytes are refused with an error, or give a state the instance can continue from; never a panic.
     fn offer(&mut self, bytes: &[u8]) {
         let ((status, state), count) = counted(|| self.instance.deserialize(bytes));
         // No length inside the bytes makes the decoder request more memory than they can fill.
@@ -202,7 +202,7 @@ fn run<S: Strategy>(cases: u32, strategy: S, test: impl Fn(S::Value)) {
 /// Few are accepted by chance, many after a flip in a number: both must happen for the test to mean much.
 fn resealed(model: &'static str, cases: u32) {
     let blobs = genuine(model);
-    // A panic takes the target with it; shrinking goes on with a new one.
+    // A panic takes the target with it; shrinking continues with a new one.
     let kept = std::cell::Cell::new(None);
     run(cases, (0..blobs.len(), damage()), |(which, damage)| {
         let mut target = kept.take().unwrap_or_else(|| Target::new(model));

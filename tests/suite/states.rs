@@ -1,4 +1,4 @@
-//! A saved state goes on as if nothing had happened: in the same instance, after Reset, in another instance and
+//! A saved state continues as if nothing had happened: in the same instance, after Reset, in another instance and
 //! in another process, to the bit.
 
 use model_description::BaseType;
@@ -80,7 +80,7 @@ fn saved_simulations_go_on(scenario: Scenario, child_test: &str) {
         )
         .unwrap();
         elsewhere.push(straight);
-        // The simulation itself goes on from the saved point.
+        // The simulation itself continues from the saved point.
         simulation.instance = restored(instance, &bytes);
     }
     in_a_process_of_its_own(child_test, CHILD_FOLDER, folder.path().as_os_str());

@@ -121,7 +121,7 @@ pub(crate) fn mingw(arguments: &str, target: &str) -> Command {
     cargo
 }
 
-/// Builds for Linux with glibc 2.17 or later; where that cannot be had, for this machine, and says so.
+/// Builds for Linux with glibc 2.17 or later; where that cannot be had, for this machine, and is reported.
 pub(crate) fn portable() -> Result<Built, String> {
     let shown = format!("{} with glibc {}", LINUX.target, LINUX.glibc.unwrap_or_default());
     if !cfg!(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu")) {

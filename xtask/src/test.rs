@@ -36,7 +36,7 @@ pub(crate) fn all() -> Outcome {
 
 /// Builds libraries, programs and tests, and lints them.
 fn build_and_lint() -> Result<Built, String> {
-    // Most of it is optimised on one core: lints and the tests' own build go on beside it.
+    // Most of it is optimised on one core: lints and the tests' own build run beside it.
     let library = Beside::start(&mut build::libraries())?;
     let interpreter = std::thread::spawn(python::interpreter);
     if shell::output(&mut cargo("clippy --version")).is_ok() {

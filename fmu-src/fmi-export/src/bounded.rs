@@ -9,7 +9,7 @@ use crate::model::Failure;
 /// Greatest magnitude of a number in a saved state: far beyond any quantity, and its square is finite.
 const GREATEST: f64 = 1e100;
 
-/// Refuses a state with a float that no simulation can go on with. Allocates only to refuse.
+/// Refuses a state with a float that no simulation can continue with. Allocates only to refuse.
 ///
 /// # Errors
 /// The field that is not finite or beyond 1e100 in magnitude, and its value.

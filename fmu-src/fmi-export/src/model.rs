@@ -26,7 +26,7 @@ pub trait Model: Sized + 'static {
     /// File under `resources/` that holds the setup, or `None` for a model without resources.
     const SETUP_FILE: Option<&'static str> = None;
     /// Files under `resources/` that hold schedules, what is commanded or known over time, each of which may be there beside
-    /// the setup. A schedule does not enter the GUID: one FMU flies many.
+    /// the setup. A schedule does not enter the GUID: one FMU simulates many.
     const SCHEDULE_FILES: &'static [&'static str] = &[];
     /// The compiled-in setup text, used when an importer gives no resource location.
     const DEFAULT_SETUP: &'static str = "";
@@ -88,7 +88,7 @@ pub trait Model: Sized + 'static {
 
     /// Writes the parameters that the importer left to the model as they act, so that they read back. Called once, when
     /// initialization ends: [`Model::initialize`] may run again before, and goes by what was set.
-    fn settle_parameters(_context: &Context<'_, Self>, _values: &mut Values) {}
+    fn resolve_parameters(_context: &Context<'_, Self>, _values: &mut Values) {}
 
     /// Checks a length or index inside a decoded state against the setup; an error refuses the blob.
     fn check_state(_setup: &Self::Setup, _state: &Self::State) -> Result<(), Failure> {
@@ -204,7 +204,7 @@ pub trait Log {
     fn events_enabled(&self) -> bool;
     /// Reports an event at a time; `message` is plain text.
     fn event(&self, time_s: f64, message: &str);
-    /// Reports something that the simulation goes on with and its user should know.
+    /// Reports something that the simulation continues with and its user should know.
     fn warning(&self, message: &str);
 }
 
@@ -428,7 +428,7 @@ fn blocks(text: &'static str) -> impl Iterator<Item = (&'static str, String)> {
     })
 }
 
-/// Why a model cannot go on; the text reaches the log.
+/// Why a model cannot continue; the text reaches the log.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct Failure(String);

@@ -16,7 +16,7 @@ pub(crate) trait Runtime: Send {
     fn take_schedule(&mut self, schedule: &str, file: &str, text: &str) -> Result<(), SetupError>;
     fn initialize(&mut self, values: &mut Values, start_s: f64, log: &dyn Log) -> Result<(), Failure>;
     /// Writes parameters as they act.
-    fn settle_parameters(&self, values: &mut Values, log: &dyn Log);
+    fn resolve_parameters(&self, values: &mut Values, log: &dyn Log);
     fn step(&mut self, values: &mut Values, step: &Step<'_>, log: &dyn Log) -> Result<StepEnd, Failure>;
     fn output_rate(&self, values: &Values, output: Real, log: &dyn Log) -> Result<f64, Failure>;
     fn jacobian_vector_product(
@@ -39,7 +39,7 @@ pub(crate) trait Runtime: Send {
     fn check(&self, saved: &ErasedState) -> Result<(), Failure>;
     /// Bytes that [`Runtime::encode`] needs.
     fn encoded_size(&self, saved: &ErasedState) -> Result<usize, Failure>;
-    /// Writes a saved state into `bytes` and says how many it took.
+    /// Writes a saved state into `bytes` and returns how many it took.
     fn encode(&self, saved: &ErasedState, bytes: &mut [u8]) -> Result<usize, Failure>;
     /// Reads what [`Runtime::encode`] wrote, all of `bytes`; total: any bytes give a state or an error.
     fn decode(&self, bytes: &[u8]) -> Result<ErasedState, Failure>;
@@ -80,8 +80,8 @@ impl<M: Model> Runtime for Typed<M> {
         Ok(())
     }
 
-    fn settle_parameters(&self, values: &mut Values, log: &dyn Log) {
-        M::settle_parameters(&self.context(log), values);
+    fn resolve_parameters(&self, values: &mut Values, log: &dyn Log) {
+        M::resolve_parameters(&self.context(log), values);
     }
 
     fn step(&mut self, values: &mut Values, step: &Step<'_>, log: &dyn Log) -> Result<StepEnd, Failure> {

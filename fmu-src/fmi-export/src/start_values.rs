@@ -64,7 +64,7 @@ impl<'a> Readers<'a> {
         Self { own, file, read_others, others: OnceCell::new() }
     }
 
-    /// Asked only when a name is not the model's own.
+    /// Called only when a name is not the model's own.
     fn others(&self) -> &[Reader] {
         self.others.get_or_init(self.read_others)
     }

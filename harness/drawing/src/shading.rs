@@ -8,7 +8,7 @@ use super::{
 
 /// Width of a scale with its numbers, in px.
 pub(super) const SCALE_WIDTH: f64 = 50.0;
-/// Shades that are told apart.
+/// Shades that are distinguished.
 const SHADES: usize = 32;
 /// From the least to the greatest, equally apart: of ever less luminance, so that order shows without colour too (ColorBrewer's YlGnBu).
 const SCALE: [[f64; 3]; 9] = [

@@ -148,7 +148,7 @@ impl Growing {
             .map_err(|error| format!("{}: {error}: see {}", part.path.display(), self.destination.option))
     }
 
-    /// Goes on with what a recording before left, of which the first bytes are kept; on the standard output there is none.
+    /// Continues with what a recording before left, of which the first bytes are kept; on the standard output there is none.
     pub fn keep(&mut self, bytes: u64) -> Result<(), String> {
         let Some(part) = &mut self.part else { return Ok(()) };
         part.keep(bytes)

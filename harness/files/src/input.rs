@@ -77,7 +77,7 @@ pub fn read_text(path: &Path) -> Result<String, String> {
     let no_text = |found: &str| format!("{}: found {found}, allowed: a text saved as UTF-8", path.display());
     let mut head = Vec::new();
     let read = open(path).and_then(|file| file.take(ZIP.len() as u64).read_to_end(&mut head));
-    // Before its size is told: that is no text's.
+    // Before its size is reported: that is no text's.
     if read.is_ok() && head == ZIP {
         return Err(no_text("a ZIP archive, as FMUs and systems are"));
     }

@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn functions_whose_rounding_hangs_on_the_system_are_told() {
+    fn functions_whose_rounding_hangs_on_the_system_are_reported() {
         let imports = ["cosf", "floor", "malloc", "sincos", "sinks"].map(str::to_owned).to_vec();
         let requirements =
             Requirements { format: "ELF x86-64".to_owned(), imports, ..Requirements::default() };
@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn a_library_in_the_folder_of_another_platform_is_told() {
+    fn a_library_in_the_folder_of_another_platform_is_reported() {
         let requirements = |format: &str, path: &str| Requirements {
             format: format.to_owned(),
             path: path.into(),

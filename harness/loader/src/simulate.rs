@@ -38,7 +38,7 @@ pub struct Options<'a> {
     pub apart: Option<usize>,
     /// How to instantiate.
     pub instance: InstanceOptions,
-    /// Told the time in s after every step.
+    /// Called with the time in s after every step.
     pub progress: Option<&'a mut dyn FnMut(f64)>,
     /// Once true, the run ends after the step under way.
     pub cancel: Option<&'a AtomicBool>,

@@ -1,4 +1,4 @@
-//! Flies the reference flights of an FMU again.
+//! Simulates the reference flights of an FMU again.
 
 use std::path::PathBuf;
 

@@ -75,7 +75,7 @@ impl Running {
             loader::initialize(instance, given.chain(own))?;
         }
         if first == FirstExchange::Initial {
-            running.settle()?;
+            running.exchange_until_unchanged()?;
         }
         for (number, instance) in running.instances.iter_mut().enumerate() {
             record_instance(number);
@@ -88,7 +88,7 @@ impl Running {
     }
 
     /// Exchanges outputs in initialization mode, component after component, until none changes.
-    fn settle(&mut self) -> Result<(), Error> {
+    fn exchange_until_unchanged(&mut self) -> Result<(), Error> {
         self.get_all()?;
         for _ in 0..MOST_SWEEPS {
             let before = self.signals.bits();

@@ -181,7 +181,7 @@ impl<'a> Xml<'a> {
         }
     }
 
-    /// Line of a byte offset; offsets mostly grow, so the count goes on from the last one.
+    /// Line of a byte offset; offsets mostly grow, so the count continues from the last one.
     fn line_at(&mut self, offset: u64) -> u32 {
         let offset = usize::try_from(offset).unwrap_or(usize::MAX).min(self.text.len());
         let bytes = self.text.as_bytes();

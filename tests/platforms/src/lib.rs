@@ -75,7 +75,7 @@ fn guidance() -> u64 {
     let (cosine, sine) =
         ((1.0 - tangent * tangent) / (1.0 + tangent * tangent), 2.0 * tangent / (1.0 + tangent * tangent));
     let (mut x, mut z) = (1.0, 0.0);
-    fly_with(guidance, DAY_S, 10.0, move |guidance| {
+    simulate_with(guidance, DAY_S, 10.0, move |guidance| {
         guidance.put_vector("position", [10.136e6 * x, 0.0, 10.136e6 * z]);
         guidance.put_vector("velocity", [-1474.0 * z, 0.0, 1474.0 * x]);
         (x, z) = (cosine * x - sine * z, sine * x + cosine * z);
@@ -91,11 +91,11 @@ fn instance(model: &str) -> NamedInstance {
 
 /// Steps to `stop_s` and digests all outputs at every communication point.
 fn simulated(instance: NamedInstance, stop_s: f64, step_s: f64) -> u64 {
-    fly_with(instance, stop_s, step_s, |_| ())
+    simulate_with(instance, stop_s, step_s, |_| ())
 }
 
 /// The same with inputs that `set` sets before initialization and before each step.
-fn fly_with(
+fn simulate_with(
     mut instance: NamedInstance,
     stop_s: f64,
     step_s: f64,

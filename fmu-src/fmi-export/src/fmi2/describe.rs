@@ -88,7 +88,8 @@ pub unsafe fn describe(
             )
         };
         let entry = found(library, model.unwrap_or_default())?;
-        let description = library.describe(entry, file, setup).map_err(|error| said(entry.name, &error))?;
+        let description =
+            library.describe(entry, file, setup).map_err(|error| message(entry.name, &error))?;
         sender.introduce(entry);
         sender.send(kind::XML, &model_description::to_xml(&description));
         Ok(())
@@ -129,7 +130,7 @@ pub unsafe fn check_schedule(
         let text = text.ok_or("argument schedule_text is NULL")?;
         library
             .check_schedule(entry, file, setup, schedule, schedule_file, text)
-            .map_err(|error| said(entry.name, &error))
+            .map_err(|error| message(entry.name, &error))
     })
 }
 
@@ -139,7 +140,7 @@ fn found(library: &Library, model: &str) -> Result<&'static Entry, String> {
         .ok_or_else(|| format!("no model `{model}` in this library; it has {}", library.names()))
 }
 
-fn said(model: &str, error: &DescribeError) -> String {
+fn message(model: &str, error: &DescribeError) -> String {
     match error {
         // They name their file and line first, where editors expect them.
         DescribeError::Setup(problem) => problem.to_string(),

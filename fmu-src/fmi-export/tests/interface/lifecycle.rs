@@ -77,7 +77,7 @@ fn reset_equals_a_fresh_instance_byte_for_byte() {
 
 /// What was switched off, said once or promised in one run has no meaning for the next.
 #[test]
-fn reset_forgets_what_was_logged_said_and_promised() {
+fn reset_forgets_what_was_logged_and_returned() {
     let (mut instance, description) = fresh("AllTypes");
     let input = [reference(&description, "input.real")];
     assert_eq!(instance.set_real(&input, &[1.0]), Ok);

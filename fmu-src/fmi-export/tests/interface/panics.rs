@@ -1,4 +1,4 @@
-//! A fault of the model is a status of the call that met it; a panic ends its instance, and other instances go on.
+//! A fault of the model is a status of the call that met it; a panic ends its instance, and other instances continue.
 
 use client::{InProcess, StatePointer};
 use fmi_export::Enumeration;

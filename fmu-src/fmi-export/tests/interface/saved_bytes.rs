@@ -1,4 +1,4 @@
-//! Whatever bytes are given to DeSerialize, the answer is a state or an error that says what is wrong.
+//! Whatever bytes are given to DeSerialize, the answer is a state or an error that names what is wrong.
 
 use client::InProcess;
 use fmi_export::model_description::BaseType;
@@ -50,7 +50,7 @@ fn saved() -> Vec<u8> {
     instance.state_bytes().1
 }
 
-/// Decodes, and where that works uses the state; says whether it worked.
+/// Decodes, and where that works uses the state; returns whether it worked.
 fn survives(instance: &mut InProcess, bytes: &[u8]) -> bool {
     let (status, state) = instance.deserialize(bytes);
     let messages = instance.take_messages();

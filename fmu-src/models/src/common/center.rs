@@ -1,4 +1,4 @@
-//! What a spacecraft flies about, and the parameters' defaults that follow from it.
+//! The centre of a spacecraft's orbit, and the parameters' defaults that follow from it.
 
 use fmi_export::SetupError;
 use physics::bodies::air::ExponentialAir;
@@ -19,7 +19,7 @@ const PLANT: &str = "MomentumPlant";
 /// Longest and shortest semi-major axis of a planet's ellipse in `ephemeris.*`, in m, and its greatest eccentricity.
 const ELLIPSES: ([f64; 2], f64) = ([1e9, 1e13], 0.99);
 
-/// A body with what a spacecraft's file says of it.
+/// A body with what a spacecraft's file gives of it.
 #[derive(Clone, Copy, Debug)]
 pub struct CenterBody {
     /// What is known of it.
@@ -49,7 +49,7 @@ fn of_entry(entry: Option<&StartEntry>) -> Option<Body> {
     }
 }
 
-/// All bodies with what a spacecraft's file says of one.
+/// All bodies with what a spacecraft's file gives of one.
 #[derive(Clone, Copy, Debug)]
 pub struct CenterBodies {
     custom: Option<CenterBody>,

@@ -8,7 +8,7 @@ use physics::guidance::downlink::sun_place::SunRequest;
 /// The file of commands over time in an FMU.
 pub(crate) const TIMELINE_FILE: &str = "timeline.toml";
 
-/// What is said of a keep-in zone without a direction.
+/// What is reported of a keep-in zone without a direction.
 pub(crate) const ZERO_KEEP_IN_AXIS: &str =
     "keepIn.axis: found (0, 0, 0), allowed: a vector of any length but zero";
 

@@ -85,7 +85,7 @@ pub struct ManagementVariables {
     #[parameter(start = MomentumStrategy(Strategy::DumpsOnly))]
     pub strategy: Choice<MomentumStrategy>,
     #[group(name = "")]
-    pub aim: TargetingVariables,
+    pub targeting: TargetingVariables,
 }
 
 /// What is lacking for a downlink.

@@ -14,9 +14,9 @@ pub(super) fn table(_setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Depe
     let eclipse = &knowns![&v.planet, v.sun.radius, &v.eclipse];
     let light = &knowns![eclipse, &v.solar, &v.planet_light, &v.thermal, &v.shadowing, &v.sunshade];
     let laws = &knowns![&v.planet, &v.laws, &v.spacecraft];
-    let near = &knowns![places, v.planet.pole];
+    let planet_geometry = &knowns![places, v.planet.pole];
     // Surfaces in air are as warm as light makes them.
-    let blown = &knowns![lit, v.spacecraft.center_of_mass, &v.atmosphere];
+    let aerodynamic = &knowns![lit, v.spacecraft.center_of_mass, &v.atmosphere];
     let air = &knowns![light, laws];
     let field = &knowns![&v.magnetic_field];
     let on_torque = (&knowns![lit, v.spacecraft.center_of_mass], &knowns![light, laws]);
@@ -29,10 +29,10 @@ pub(super) fn table(_setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Depe
     for (by_source, total, of_light) in quantities {
         for (effect, output) in by_source.iter() {
             let (at_steps, at_start) = match effect {
-                Effect::Aerodynamic => (blown, air),
+                Effect::Aerodynamic => (aerodynamic, air),
                 Effect::Magnetic => (field, laws),
                 effect if effect.is_light() => of_light,
-                _ => (near, laws),
+                _ => (planet_geometry, laws),
             };
             table.output(knowns![output, total], at_steps, at_start);
         }

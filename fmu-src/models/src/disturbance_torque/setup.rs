@@ -18,7 +18,7 @@ pub(super) type Plan<'a> = Context<'a, DisturbanceTorque>;
 pub struct DisturbanceSetup {
     /// As read from the file.
     pub spacecraft: Spacecraft,
-    /// What it flies about by its file, and the defaults of the parameters go by.
+    /// The centre of its orbit by its file, by which the defaults of the parameters go.
     #[serde(skip)]
     pub center: CenterBody,
     /// The faces reported one by one, with the panel each belongs to; empty unless the file asks for that.

@@ -13,8 +13,8 @@ pub(super) fn table(_setup: &GuidanceSetup, v: &GuidanceVariables) -> Dependenci
     table.output(&v.panel, knowns![], &v.panel);
     table.output(&v.dump, v.momentum.body, knowns![&v.momentum, &v.dump]);
 
-    let places = knowns![v.position, v.velocity, &v.sun, &v.earth];
-    let mode = &knowns![v.mode.request, &v.estimate, places];
+    let positions = knowns![v.position, v.velocity, &v.sun, &v.earth];
+    let mode = &knowns![v.mode.request, &v.estimate, positions];
     let body = knowns![&v.start, &v.target, &v.planet, &v.ephemeris];
     let zones = knowns![&v.keep_in, &v.safe_hold, &v.hot_pole, &v.monitor];
     let judged = &knowns![body, zones];

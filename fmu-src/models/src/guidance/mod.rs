@@ -173,7 +173,7 @@ impl Model for Guidance {
         Ok(StepEnd::at(step.end_s))
     }
 
-    fn settle_parameters(context: &Plan<'_>, values: &mut Values) {
+    fn resolve_parameters(context: &Plan<'_>, values: &mut Values) {
         inputs::resolve_start(context, values);
     }
 
@@ -192,7 +192,7 @@ impl Model for Guidance {
     }
 }
 
-/// Says why the mode fell at the sample, or what was lost beside: a request as an event, what comes by itself as a warning.
+/// Reports why the mode fell at the sample, or what was lost beside: a request as an event, what comes by itself as a warning.
 fn log_demotion(
     context: &Plan<'_>,
     sampled_s: f64,
@@ -346,8 +346,8 @@ impl State {
         entries.burn_is_over = self.burn_entry.is_some() && self.burn_entry != line;
         settings.burn = self.burn_settings(context, &fixed.burn);
         let command = self.system.continued(&command);
-        let places = reader.places(fixed, &command, (&mut self.ephemeris, &mut self.coarse), epoch_s);
-        if !places.are_known() && !self.warned_unconnected {
+        let positions = reader.positions(fixed, &command, (&mut self.ephemeris, &mut self.coarse), epoch_s);
+        if !positions.are_known() && !self.warned_unconnected {
             self.warned_unconnected = true;
             context.log.warning(
                 "position, or with ephemeris.source inputs sun.position or earth.position, is all zero and counts as not \
@@ -355,7 +355,7 @@ impl State {
             );
         }
         let commanded = self.system.command().attitude_at(time_s);
-        let (mut sensed, is_estimated) = reader.sensed(commanded, places.are_known())?;
+        let (mut sensed, is_estimated) = reader.sensed(commanded, positions.are_known())?;
         if !is_estimated {
             settings.modes.monitor = None;
             settings.modes.ephemeris_check = None;
@@ -371,7 +371,7 @@ impl State {
         let manager = SampledManager { momentum_body_n_m_s, ..manager };
         if command.scenario == Some(Scenario::OrbitPhase)
             && !self.windows_are_checked
-            && let Some(windows) = self.system.windows(&settings.orbit_phase, &places)
+            && let Some(windows) = self.system.windows(&settings.orbit_phase, &positions)
         {
             self.windows_are_checked = true;
             if let Some(warning) = window_warning(&windows) {
@@ -379,8 +379,15 @@ impl State {
             }
         }
         let sun_is_placed = entry.is_some_and(|entry| entry.downlink.sun.is_some());
-        let inputs =
-            SampleInputs { command, requested_sun, sun_is_placed, entries, places, sensed, delta_v_body_m_s };
+        let inputs = SampleInputs {
+            command,
+            requested_sun,
+            sun_is_placed,
+            entries,
+            positions,
+            sensed,
+            delta_v_body_m_s,
+        };
         let is_chosen = self.system.sample(&settings, &inputs, |start| manager.choose(start));
         Ok(if is_chosen { manager.work(settings.orbit_phase.science.unloads()) } else { 0 })
     }

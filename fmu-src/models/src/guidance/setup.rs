@@ -30,7 +30,7 @@ pub struct GuidanceSetup {
     /// The planet that is observed by the file, and the defaults of the parameters go by.
     #[serde(skip)]
     pub target: CenterBody,
-    /// Bodies with what the file says of one.
+    /// Bodies with what the file gives of one.
     #[serde(skip)]
     pub bodies: CenterBodies,
     /// Start values of the downlink windows.

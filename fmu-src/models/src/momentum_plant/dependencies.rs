@@ -42,7 +42,7 @@ struct Inputs {
     /// Dumps of an ideal flight, which take the momentum at once.
     dumped_at_once: Knowns,
     /// Air and magnetic field as they are given.
-    surroundings: Knowns,
+    environment: Knowns,
     /// What fails.
     failures: Knowns,
     /// What fires thrusters and turns wheels.
@@ -56,15 +56,15 @@ impl Inputs {
         let places = knowns![v.orbit.position, v.orbit.velocity, &v.sun, &v.earth, &maneuver];
         let panels_weigh = setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some());
         // The Sun's place in a downlink follows the momentum, and that the dump.
-        let surroundings = knowns![&v.atmosphere, &v.magnetic_field];
-        let guided = knowns![&v.panel, &v.dump, &v.downlink, &surroundings].only_if(choice.guided);
+        let environment = knowns![&v.atmosphere, &v.magnetic_field];
+        let guided = knowns![&v.panel, &v.dump, &v.downlink, &environment].only_if(choice.guided);
         let commanded = knowns![&v.command].only_if(choice.ideal || choice.waits);
         let attitude = knowns![&places, guided, commanded, knowns![&v.panel].only_if(panels_weigh)];
         let sensors = v.sun_sensor.iter().map(|sensor| sensor.failed).collect::<Knowns>();
         let wheels = v.wheel.iter().map(|wheel| wheel.failed).collect::<Knowns>();
         Self {
             places,
-            surroundings,
+            environment,
             attitude,
             dumped_at_once: knowns![&v.dump, maneuver].only_if(choice.ideal),
             failures: knowns![
@@ -98,7 +98,7 @@ impl Parameters {
         let wheels = v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.start_momentum]);
         // Guidance balances torques against the momentum.
         let air = &knowns![&v.atmosphere, &v.space_weather, &v.magnetic_field, v.earth.ut1_offset];
-        let aimed = &knowns![
+        let solution = &knowns![
             air,
             &v.laws,
             &v.guided,
@@ -110,7 +110,7 @@ impl Parameters {
         let panels = knowns![&v.panel, v.articulation.target_suns];
         let followed = knowns![&v.attitude, &v.command, &v.timeline, &v.keep_in];
         let turned = knowns![&orbit, followed, &v.sunshade, panels];
-        let attitude = knowns![turned, aimed.clone().only_if(choice.guided || choice.begins_guided)];
+        let attitude = knowns![turned, solution.clone().only_if(choice.guided || choice.begins_guided)];
         let sensors = knowns![&v.star_tracker, &v.gyro, &v.sun_sensor, &v.noise, v.control.rate];
         // In free flight they are fitted along the torque-free turn ahead, which goes by the rotors' inertia.
         let rotors = v.wheel.iter().map(|wheel| wheel.inertia).collect::<Knowns>();
@@ -127,7 +127,7 @@ impl Parameters {
             &v.spacecraft,
             &v.tank,
         ];
-        let momentum = knowns![&attitude, aimed, &v.dump];
+        let momentum = knowns![&attitude, solution, &v.dump];
         Self {
             // A dump at once takes propellant, which moves the centre of mass, and may move it at random.
             light: knowns![light, knowns![&momentum, &v.thruster, &v.noise].only_if(choice.ideal)],
@@ -152,10 +152,10 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramet
     let orientation = knowns![&parameters.orbit, v.earth.ut1_offset];
     table.output(&v.geodetic, &inputs.places, &orientation);
     let air = knowns![v.atmosphere.density, v.atmosphere.temperature, v.atmosphere.molar_mass];
-    let of_places = knowns![&inputs.places, &inputs.surroundings];
+    let of_places = knowns![&inputs.places, &inputs.environment];
     let models = knowns![orientation, &v.laws, &v.atmosphere, &v.space_weather, &v.magnetic_field];
     table.output(knowns![air, v.magnetic_field.inertial], of_places, &models);
-    let turned = knowns![&inputs.attitude, &inputs.surroundings];
+    let turned = knowns![&inputs.attitude, &inputs.environment];
     let relative = knowns![v.atmosphere.velocity_body, v.magnetic_field.body];
     table.output(relative, turned, knowns![models, &parameters.attitude]);
     let sun = knowns![v.sun.direction, v.sun.azimuth, v.sun.elevation, v.sun.position_body];
@@ -179,7 +179,7 @@ fn predicted(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, para
 
 /// Forces and torques by source, what they add up to, and faces one by one.
 fn loads(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, parameters: &Parameters) {
-    let lit = &knowns![&inputs.attitude, &inputs.dumped_at_once, &v.panel, &inputs.surroundings];
+    let lit = &knowns![&inputs.attitude, &inputs.dumped_at_once, &v.panel, &inputs.environment];
     let by_source = knowns![&v.torque.by_source, &v.force.by_source, &v.plate];
     table.output(by_source, lit, &parameters.light);
     let total = knowns![v.torque.total, v.force.total, v.force.inertial, v.acceleration];
@@ -218,7 +218,7 @@ fn actuators(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, para
     table.output(knowns![fired, &v.control], all, &parameters.actuators);
     for wheel in &v.wheel {
         // What acts on the body reaches the wheels that follow ideally or stand at their capacity.
-        let applied = knowns![v.torque.applied, v.force.applied, &inputs.surroundings];
+        let applied = knowns![v.torque.applied, v.force.applied, &inputs.environment];
         let driven = knowns![all, &v.panel, &inputs.dumped_at_once, applied];
         let at_start = knowns![&parameters.light, &parameters.actuators];
         table.output(knowns![wheel.torque, wheel.power], driven, at_start);

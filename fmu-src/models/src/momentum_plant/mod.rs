@@ -102,7 +102,7 @@ impl Model for MomentumPlant {
         Ok(StepEnd::at(step.end_s))
     }
 
-    fn settle_parameters(context: &Plan<'_>, values: &mut Values) {
+    fn resolve_parameters(context: &Plan<'_>, values: &mut Values) {
         inputs::resolve_start(context, values);
     }
 

@@ -34,10 +34,10 @@ pub(super) type Plan<'a> = Context<'a, MomentumPlant>;
 pub struct PlantSetup {
     /// As read from the file.
     pub spacecraft: Spacecraft,
-    /// What it flies about by its file, and the defaults of the parameters go by.
+    /// The centre of its orbit by its file, by which the defaults of the parameters go.
     #[serde(skip)]
     pub center: CenterBody,
-    /// Bodies with what the file says of one.
+    /// Bodies with what the file gives of one.
     #[serde(skip)]
     pub bodies: CenterBodies,
     /// Start values of the downlink windows.
@@ -120,7 +120,7 @@ impl PlantSetup {
         matches!(source, Some(AttitudeSource::Controlled | AttitudeSource::Free))
     }
 
-    /// What flies, with its shade modelled as requested.
+    /// The spacecraft, with its shade modelled as requested.
     pub fn prepared_spacecraft(&self, model: SunshadeModel) -> Result<PreparedSpacecraft<'_>, Failure> {
         Ok(PreparedSpacecraft {
             panels: &self.spacecraft.panels,

@@ -31,7 +31,7 @@ pub struct PlantState {
     pub maneuver_request: Request,
     /// Which warnings were given.
     pub warned: Warned,
-    /// What inputs and tunables say.
+    /// What inputs and tunables set.
     #[serde(skip)]
     pub inputs: StepInputs,
 }

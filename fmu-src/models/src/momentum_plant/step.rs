@@ -2,7 +2,7 @@
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use physics::environment::ephemeris::Ephemeris;
-use physics::plant::{Undo, World};
+use physics::plant::{SimulationContext, Undo};
 
 use super::inputs::{self, FixedParameters, Reading, propulsion};
 use super::outputs::{self, failure, log_event};
@@ -63,9 +63,10 @@ fn configure(
             (Some(fixed), Some(settings)) => {
                 let FixedParameters { light, air, thrusters } = fixed;
                 let ephemeris = Ephemeris::sharing(&context.setup.evaluated);
-                let world = World { ephemeris, light, air, ..World::new(read.configuration) };
+                let simulation =
+                    SimulationContext { ephemeris, light, air, ..SimulationContext::new(read.configuration) };
                 state.flight.thrusters.settings = thrusters;
-                state.flight.configure(world, settings);
+                state.flight.configure(simulation, settings);
             }
             (_, changed) => (configuration, settings) = (Some(read.configuration), changed),
         }
@@ -107,7 +108,7 @@ fn begin(
     Ok(undo)
 }
 
-/// The flight goes on to the step's end.
+/// The flight continues to the step's end.
 fn advance(
     context: &Plan<'_>,
     state: &mut PlantState,

@@ -22,7 +22,7 @@ fn suns(plant: &NamedInstance<'_, MomentumPlant>, panel: usize) -> f64 {
 #[test]
 fn windmilling_goes_evenly_through_zero_and_its_sense_is_its_sign() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut plant = named.fly(0.0, COMMANDED).unwrap();
+    let mut plant = named.initialize(0.0, COMMANDED).unwrap();
     for k in -4..4 {
         let offset_rad = 0.01 * f64::from(k);
         plant.set("panel[1].sunOffsetCommand", offset_rad);
@@ -39,7 +39,7 @@ fn windmilling_goes_evenly_through_zero_and_its_sense_is_its_sign() {
     // A windmill is the mirror image in X of the opposite one: the torque along X stays, along Y and Z it changes sign.
     let [one, other] = [0.04, -0.04].map(|offset_rad| {
         let windmill = [("panel[1].sunOffset", offset_rad), ("panel[2].sunOffset", -offset_rad)];
-        let mut plant = named.fly(0.0, &windmill).unwrap();
+        let mut plant = named.initialize(0.0, &windmill).unwrap();
         plant.step_to(600.0).unwrap();
         plant.vector("torque.solar")
     });
@@ -50,7 +50,8 @@ fn windmilling_goes_evenly_through_zero_and_its_sense_is_its_sign() {
 #[test]
 fn light_on_the_cells_and_its_margin_follow_from_where_the_panels_stand() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut plant = named.fly(0.0, &[("panel[1].sunOffset", -0.3), ("panel[2].enabled", 0.0)]).unwrap();
+    let mut plant =
+        named.initialize(0.0, &[("panel[1].sunOffset", -0.3), ("panel[2].enabled", 0.0)]).unwrap();
     let mut outside = 0;
     for day in 0..44 {
         plant.step_to(f64::from(day) * 2.0 * DAY_S + 300.0).unwrap();
@@ -76,7 +77,7 @@ fn light_on_the_cells_and_its_margin_follow_from_where_the_panels_stand() {
 #[test]
 fn control_by_distance_keeps_the_light_on_the_cells() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut plant = named.fly(0.0, DISTANCE).unwrap();
+    let mut plant = named.initialize(0.0, DISTANCE).unwrap();
     let mut distances_au = [f64::INFINITY, 0.0];
     for half_day in 1..=176 {
         plant.step_to(0.5 * DAY_S * f64::from(half_day)).unwrap();
@@ -92,7 +93,8 @@ fn control_by_distance_keeps_the_light_on_the_cells() {
     }
     assert!(distances_au[0] < 0.32 && distances_au[1] > 0.45, "{distances_au:?}");
     // More than full sunlight there is not.
-    let mut bright = named.fly(0.0, &[DISTANCE, &[("articulation.targetSuns", 50.0)]].concat()).unwrap();
+    let mut bright =
+        named.initialize(0.0, &[DISTANCE, &[("articulation.targetSuns", 50.0)]].concat()).unwrap();
     bright.step_to(600.0).unwrap();
     let [sun, distance_au] =
         [bright.vector("sun.direction"), Vector3::repeat(bright.real("sun.distance") / ASTRONOMICAL_UNIT_M)];
@@ -103,7 +105,7 @@ fn control_by_distance_keeps_the_light_on_the_cells() {
 #[test]
 fn cuts_change_nothing_under_control_by_distance() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let fly = || named.fly(0.0, DISTANCE).unwrap();
+    let initialize = || named.initialize(0.0, DISTANCE).unwrap();
     let ends_s = (1..=24).map(|hour| 3600.0 * f64::from(hour));
-    assert_cuts_change_nothing(fly, ends_s, &[130.0, 60.0, 97.3], |_| {});
+    assert_cuts_change_nothing(initialize, ends_s, &[130.0, 60.0, 97.3], |_| {});
 }

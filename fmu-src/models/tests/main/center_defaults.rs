@@ -1,4 +1,4 @@
-//! What follows the body that a spacecraft flies about: start values by the file's, and what is left at them by another's.
+//! What follows the centre of a spacecraft's orbit: start values by the file's, and what is left at them by another's.
 
 use fmi_export::{Entry, Library, Model};
 use model_description::{Description, VariableKind};
@@ -74,7 +74,7 @@ fn start_values_are_those_of_the_center_in_the_file() {
         }
         assert_eq!(start(&plant, "planet.emissivity"), start(&torque, "planet.emissivity"));
         // Outside the planet: it initializes.
-        NamedModel::<DisturbanceTorque>::with("my.toml", &text).fly(0.0, &[]).unwrap();
+        NamedModel::<DisturbanceTorque>::with("my.toml", &text).initialize(0.0, &[]).unwrap();
     }
     // What the file sets besides stays.
     let set = format!("{}\"orbit.eccentricity\" = 0.3\n", about("sun"));
@@ -90,15 +90,15 @@ fn a_center_set_later_gives_the_same_orbit_and_a_warning() {
         let by_file = NamedModel::<MomentumPlant>::with("my.toml", &about(center));
         let by_master = NamedModel::<MomentumPlant>::with("my.toml", SAILER);
         let item = start(&described::<MomentumPlant>(&about(center)), "orbit.center");
-        let mut a = by_file.fly(0.0, &[]).unwrap();
-        let mut b = by_master.fly(0.0, &[("orbit.center", item)]).unwrap();
+        let mut a = by_file.initialize(0.0, &[]).unwrap();
+        let mut b = by_master.initialize(0.0, &[("orbit.center", item)]).unwrap();
         a.step_to(86_400.0).unwrap();
         b.step_to(86_400.0).unwrap();
         for name in ["position", "velocity", "torque.total", "sun.direction"] {
             assert_eq!(a.vector(name), b.vector(name), "{body:?} {name}");
         }
         assert_eq!(by_file.warnings(), [""; 0]);
-        let said = by_master.warnings();
+        let reported = by_master.warnings();
         let names = [
             "orbit.center is",
             center,
@@ -106,8 +106,8 @@ fn a_center_set_later_gives_the_same_orbit_and_a_warning() {
             "orbit.eccentricity = 0",
             "orbit.inclination = ",
         ];
-        assert!(said.len() == 1 && names.iter().all(|name| said[0].contains(name)), "{said:?}");
-        assert_eq!(said[0].contains("orbit.frame = ecliptic"), body == Body::Sun, "{said:?}");
+        assert!(reported.len() == 1 && names.iter().all(|name| reported[0].contains(name)), "{reported:?}");
+        assert_eq!(reported[0].contains("orbit.frame = ecliptic"), body == Body::Sun, "{reported:?}");
     }
 }
 
@@ -119,7 +119,7 @@ fn values_that_are_set_are_simulated() {
         about("sun")
     );
     let named = NamedModel::<MomentumPlant>::with("my.toml", &set);
-    let flight = named.fly(0.0, &[]).unwrap();
+    let flight = named.initialize(0.0, &[]).unwrap();
     let position_m = flight.vector("position");
     assert!((position_m.norm() / (0.26 * 149_597_870_700.0) - 1.0).abs() < 1e-12, "{position_m}");
     // Right ascension of the Sun's equator's node on that of the Earth: 90 deg beyond that of its pole, 286.13 deg.
@@ -137,14 +137,14 @@ fn values_that_are_set_are_simulated() {
         ("orbit.ascendingNode", 0.3),
         ("orbit.periapsisArgument", 0.4),
     ];
-    plant.fly(0.0, &elements).unwrap();
+    plant.initialize(0.0, &elements).unwrap();
     let given = [
         ("orbit.center", 2.0),
         ("orbit.source", 2.0),
         ("orbit.position[1]", 1e11),
         ("orbit.velocity[2]", 3e4),
     ];
-    plant.fly(0.0, &given).unwrap();
+    plant.initialize(0.0, &given).unwrap();
     assert_eq!(plant.warnings(), [""; 0]);
 }
 
@@ -165,13 +165,17 @@ fn start_values_of_groups(description: &Description) -> Vec<(&str, f64)> {
 fn a_value_that_is_set_counts_also_where_it_is_the_start_value() {
     let plant = NamedModel::<MomentumPlant>::shipped();
     let axis = ("orbit.semiMajorAxis", 6e7);
-    let (left, set) = (plant.fly(0.0, &[VENUS, axis]).unwrap(), [VENUS, axis, ("orbit.eccentricity", 0.74)]);
+    let (left, set) =
+        (plant.initialize(0.0, &[VENUS, axis]).unwrap(), [VENUS, axis, ("orbit.eccentricity", 0.74)]);
     assert!((left.vector("position").norm() / 6e7 - 1.0).abs() < 1e-12);
-    let set = plant.fly(0.0, &set).unwrap();
+    let set = plant.initialize(0.0, &set).unwrap();
     // From periapsis, at a (1 - e).
     assert!((set.vector("position").norm() / (6e7 * 0.26) - 1.0).abs() < 1e-12);
-    let said = plant.warnings();
-    assert!(said[0].contains("orbit.eccentricity") && !said[1].contains("orbit.eccentricity"), "{said:?}");
+    let reported = plant.warnings();
+    assert!(
+        reported[0].contains("orbit.eccentricity") && !reported[1].contains("orbit.eccentricity"),
+        "{reported:?}"
+    );
 }
 
 /// Tools that write every parameter write start values; the centre is what somebody chose.
@@ -181,8 +185,8 @@ fn a_group_of_which_everything_is_written_follows_the_center_still() {
     let everything = start_values_of_groups(&description);
     assert!(everything.len() > 25, "{everything:?}");
     let plant = NamedModel::<MomentumPlant>::shipped();
-    let mut alone = plant.fly(0.0, &[VENUS]).unwrap();
-    let mut written = plant.fly(0.0, &[&everything[..], &[VENUS]].concat()).unwrap();
+    let mut alone = plant.initialize(0.0, &[VENUS]).unwrap();
+    let mut written = plant.initialize(0.0, &[&everything[..], &[VENUS]].concat()).unwrap();
     alone.step_to(7_200.0).unwrap();
     written.step_to(7_200.0).unwrap();
     for name in ["position", "velocity", "torque.total"] {
@@ -193,7 +197,7 @@ fn a_group_of_which_everything_is_written_follows_the_center_still() {
         .iter()
         .map(|&(name, value)| (name, if name == "planet.radius" { 6e6 } else { value }))
         .collect();
-    let other = plant.fly(0.0, &[&other[..], &[VENUS]].concat()).unwrap();
+    let other = plant.initialize(0.0, &[&other[..], &[VENUS]].concat()).unwrap();
     assert_eq!(other.real("planet.j2"), start(&description, "planet.j2"));
     assert_eq!(other.real("orbit.eccentricity"), 0.0);
 }
@@ -206,7 +210,7 @@ fn what_follows_the_center_reads_back() {
     for center in ["sun", "mercury", "venus", "earth", "mars", "jupiter"] {
         let (plant, target) =
             (described::<MomentumPlant>(&about(center)), described::<Guidance>(&about(center)));
-        let flight = sailer.fly(0.0, &[("orbit.center", start(&plant, "orbit.center"))]).unwrap();
+        let flight = sailer.initialize(0.0, &[("orbit.center", start(&plant, "orbit.center"))]).unwrap();
         let of_center = start_values_of_groups(&plant);
         for (name, expected) in of_center.iter().filter(|(name, _)| *name != "orbit.source") {
             let is_real = !["orbit.frame", "planet.dayTemperature"].contains(name);
@@ -221,7 +225,7 @@ fn what_follows_the_center_reads_back() {
         if center == "sun" {
             continue;
         }
-        let seen = guidance.fly(0.0, &[("target.planet", start(&target, "target.planet"))]).unwrap();
+        let seen = guidance.initialize(0.0, &[("target.planet", start(&target, "target.planet"))]).unwrap();
         for name in
             ["planet.radii[3]", "planet.primeMeridian", "planet.rotationRate", "ephemeris.semiMajorAxis"]
         {

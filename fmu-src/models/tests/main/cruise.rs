@@ -10,7 +10,7 @@ use physics::constants::{DAY_S, GM_MERCURY_M3_S2, RADIUS_MERCURY_M};
 use physics::environment::CartesianState;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::orbit::{
-    BodyPlaces, DisturbedOrbit, Elements, NBodyGravity, NBodySettings, OrbitMethod,
+    BodyEphemeris, DisturbedOrbit, Elements, NBodyGravity, NBodySettings, OrbitMethod,
 };
 
 use super::named_model::{NamedModel, assert_cuts_change_nothing};
@@ -25,7 +25,7 @@ const BODIES: [Body; 5] = [Body::Mercury, Body::Venus, Body::Earth, Body::Mars, 
 /// The planets, time running back from the flyby.
 struct Backward(Ephemeris);
 
-impl BodyPlaces for Backward {
+impl BodyEphemeris for Backward {
     fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState {
         let state = self.0.state(body, FLYBY_S - at_s);
         CartesianState { velocity_m_s: -state.velocity_m_s, ..state }
@@ -101,14 +101,14 @@ pub(super) fn sets(start: &CartesianState, feedback: bool) -> Vec<(&'static str,
 #[test]
 fn a_flyby_is_counted_where_it_is_and_its_asymptote_follows_from_position_and_velocity() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = named.fly(0.0, &sets(&start(2e5, 0.0), false)).unwrap();
+    let mut flight = named.initialize(0.0, &sets(&start(2e5, 0.0), false)).unwrap();
     let mut centers = vec![flight.integer("orbit.currentCenter")];
     assert_eq!((flight.integer("encounter.count"), flight.real("encounter.lastTime")), (0, -1.0));
     let (mut at_periapsis_m, mut six_hours_before_m) = (0.0, 0.0);
     let mut nearest_m = f64::INFINITY;
     for minute in (0..17_280).step_by(20) {
         let time_s = 60.0 * f64::from(minute);
-        flight.fly_to(time_s, 1e9).unwrap();
+        flight.simulate_to(time_s, 1e9).unwrap();
         let center = flight.integer("orbit.currentCenter");
         if centers.last() != Some(&center) {
             centers.push(center);
@@ -194,7 +194,7 @@ fn neither_cuts_nor_saving_change_a_bit_of_a_flyby() {
     // In between: before the sphere, within it before and after periapsis, behind it.
     let ends_s = [9.0, 9.9, 10.002, 10.1, 12.0].map(|day| day * DAY_S).into_iter();
     assert_cuts_change_nothing(
-        || named.fly(0.0, &sets).unwrap(),
+        || named.initialize(0.0, &sets).unwrap(),
         ends_s,
         &[step_s],
         |flight| {
@@ -205,7 +205,7 @@ fn neither_cuts_nor_saving_change_a_bit_of_a_flyby() {
     // Ten days and that step; another altitude, so that cells and edges lie elsewhere.
     let sets = self::sets(&start(5e5, 0.0), true);
     assert_cuts_change_nothing(
-        || named.fly(0.0, &sets).unwrap(),
+        || named.initialize(0.0, &sets).unwrap(),
         [20.0 * DAY_S],
         &[step_s, 10.0 * DAY_S],
         |_| (),
@@ -217,7 +217,7 @@ fn light_moves_it_as_its_pressure_says() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let start = start(2e5, 0.0);
     let [mut pushed, mut free] =
-        [true, false].map(|feedback| named.fly(0.0, &sets(&start, feedback)).unwrap());
+        [true, false].map(|feedback| named.initialize(0.0, &sets(&start, feedback)).unwrap());
     let time_s = 8.0 * DAY_S;
     pushed.step_to(time_s).unwrap();
     free.step_to(time_s).unwrap();
@@ -231,7 +231,7 @@ fn light_moves_it_as_its_pressure_says() {
 fn a_planet_in_the_way_is_named_and_what_cannot_be_is_refused() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let start = start(1.0, 0.5);
-    let mut flight = named.fly(0.0, &sets(&start, false)).unwrap();
+    let mut flight = named.initialize(0.0, &sets(&start, false)).unwrap();
     let error = flight.step_to(11.0 * DAY_S).unwrap_err().to_string();
     assert!(["hits Mercury", "m/s", "at 86"].iter().all(|word| error.contains(word)), "{error}");
     let with = |others: &[(&'static str, f64)]| [&sets(&start, false)[..], others].concat();
@@ -259,20 +259,20 @@ fn a_planet_in_the_way_is_named_and_what_cannot_be_is_refused() {
 #[test]
 fn parameters_of_the_planet_are_those_of_the_encounter() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let flight = named.fly(0.0, &sets(&start(2e5, 0.0), false)).unwrap();
+    let flight = named.initialize(0.0, &sets(&start(2e5, 0.0), false)).unwrap();
     let BodyData { gm_m3_s2, radius_m, .. } = *Body::Mercury.data();
     assert_eq!(flight.real("planet.gravitationalParameter"), gm_m3_s2);
     assert_eq!(flight.real("planet.radius"), radius_m);
     // Without one they are the Sun's.
     let mut without = sets(&start(2e5, 0.0), false);
     without.retain(|(name, _)| *name != "encounter.body");
-    let flight = named.fly(0.0, &without).unwrap();
+    let flight = named.initialize(0.0, &without).unwrap();
     assert!(flight.real("planet.radius") > 6e8);
     assert_eq!((flight.real("encounter.distance"), flight.real("encounter.lastTime")), (0.0, -1.0));
-    // An encounter has no effect in other dynamics, and a warning says so.
+    // An encounter has no effect in other dynamics, and a warning reports that.
     assert!(!named.warnings().iter().any(|it| it.contains("encounter.body")));
     let circle = [("orbit.center", 2.0), ("encounter.body", 1.0)];
-    let flight = named.fly(0.0, &circle).unwrap();
+    let flight = named.initialize(0.0, &circle).unwrap();
     assert!(flight.real("planet.radius") > 6e8);
     assert!(named.warnings().iter().any(|it| it.contains("encounter.body") && it.contains("nBody")));
 }

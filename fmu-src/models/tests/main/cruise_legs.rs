@@ -61,7 +61,7 @@ fn two_hundred_days_under_light_are_those_of_an_independent_integrator() {
         ("orbit.attraction.mars", 0.0),
         ("orbit.attraction.jupiter", 0.0),
     ]);
-    let mut flight = named.fly(0.0, &sets).unwrap();
+    let mut flight = named.initialize(0.0, &sets).unwrap();
     let [mut light, mut dark] = [[start.position_m, start.velocity_m_s]; 2];
     let mut mercury = state(&flight, "encounter.position", "encounter.velocity");
     let mut pushed = flight.vector("deltaV");
@@ -129,10 +129,10 @@ fn the_suns_tide_moves_an_aim_of_200_km_to_223_km() {
     let inward_m_s = (speed_squared - along_m_s * along_m_s).sqrt();
     let excess_m_s = across * along_m_s - outward * inward_m_s - mercury.velocity_m_s;
     assert!((excess_m_s.norm() - 5.2e3).abs() < 100.0, "{}", excess_m_s.norm());
-    let aimed = hyperbola(&excess_m_s, RADIUS_MERCURY_M + 2e5, -lead_s);
-    let mut sets = sets(&(aimed + ephemeris.state(Body::Mercury, FLYBY_S - lead_s)), true);
+    let solution = hyperbola(&excess_m_s, RADIUS_MERCURY_M + 2e5, -lead_s);
+    let mut sets = sets(&(solution + ephemeris.state(Body::Mercury, FLYBY_S - lead_s)), true);
     sets.extend([("start.epoch", FLYBY_S - lead_s), ("prediction.refresh", DAY_S)]);
-    let mut flight = named.fly(0.0, &sets).unwrap();
+    let mut flight = named.initialize(0.0, &sets).unwrap();
     let aimed_m = ["encounter.bT", "encounter.bR"].map(|name| flight.real(name));
     let (arrival_s, altitude_m) = (flight.real("prediction.arrival"), flight.real("prediction.altitude"));
     assert!(aimed_m[0] > 3e6 && aimed_m[1].abs() < 1e3, "{aimed_m:?}");
@@ -162,7 +162,7 @@ fn nothing_has_a_kink_where_the_centre_changes() {
     let mut sets = sets(&start, true);
     sets.extend([("start.epoch", FLYBY_S), ("planetLight.enabled", 1.0), ("thermal.enabled", 1.0)]);
     sets.extend([("solver.disturbanceTolerance", 1e-8)]);
-    let mut flight = named.fly(0.0, &sets).unwrap();
+    let mut flight = named.initialize(0.0, &sets).unwrap();
     let (mut centers, mut rows) = (Vec::new(), Vec::new());
     let names = ["torque.gravityGradient", "force.solar", "force.infrared", "force.thermal"];
     for step in 0..80 {
@@ -207,14 +207,14 @@ fn a_file_places_all_that_attracts_over_the_whole_flight_or_is_refused() {
     }
     // Not attracted by it, the flight needs no Moon.
     let without_moon = with_file(&file(&all[..5], 12.0));
-    without_moon.fly(0.0, &[&by_file[..], &[("orbit.attraction.moon", 0.0)]].concat()).unwrap();
+    without_moon.initialize(0.0, &[&by_file[..], &[("orbit.attraction.moon", 0.0)]].concat()).unwrap();
     let named = with_file(&file(&all, 12.0));
     let early = [&by_file[..], &[("start.epoch", FLYBY_S - AHEAD_S - DAY_S)]].concat();
     let text = named.refusal(&early);
     assert!(text.contains("start.epoch: found") && text.contains("places"), "{text}");
-    let mut flight = named.fly(0.0, &by_file).unwrap();
+    let mut flight = named.initialize(0.0, &by_file).unwrap();
     let reference = NamedModel::<MomentumPlant>::shipped();
-    let mut by_theory = reference.fly(0.0, &sets(&begin, false)).unwrap();
+    let mut by_theory = reference.initialize(0.0, &sets(&begin, false)).unwrap();
     assert!(flight.boolean("prediction.valid"));
     for days in [9.0, 11.0] {
         flight.step_to(days * DAY_S).unwrap();
@@ -226,6 +226,7 @@ fn a_file_places_all_that_attracts_over_the_whole_flight_or_is_refused() {
     let error = flight.step_to(12.5 * DAY_S).unwrap_err().to_string();
     assert!(error.contains("the epoch at the end of the step: found") && error.contains(FILE), "{error}");
     // Nothing is predicted beyond the file.
-    let short = with_file(&file(&all, 8.0)).fly(0.0, &by_file).map(|it| it.boolean("prediction.valid"));
+    let short =
+        with_file(&file(&all, 8.0)).initialize(0.0, &by_file).map(|it| it.boolean("prediction.valid"));
     assert_eq!(short.ok(), Some(false));
 }

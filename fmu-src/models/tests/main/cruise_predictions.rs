@@ -35,7 +35,7 @@ fn simulated(flight: &mut NamedInstance<'_, MomentumPlant>, arrival_s: f64) -> [
 #[test]
 fn what_is_predicted_comes_to_the_bit() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = named.fly(0.0, &predicting(2.5 * DAY_S)).unwrap();
+    let mut flight = named.initialize(0.0, &predicting(2.5 * DAY_S)).unwrap();
     let first = predicted(&flight);
     assert_eq!(flight.real("prediction.since"), 0.0);
     assert_eq!(flight.real("prediction.epoch"), FLYBY_S - AHEAD_S + (first[0] - LEAD_S));
@@ -47,7 +47,7 @@ fn what_is_predicted_comes_to_the_bit() {
     assert_eq!(simulated(&mut flight, first[0]), first);
     // Light is in it.
     let without = [&predicting(2.5 * DAY_S)[..], &[("orbit.radiationFeedback", 0.0)]].concat();
-    let other = predicted(&named.fly(0.0, &without).unwrap());
+    let other = predicted(&named.initialize(0.0, &without).unwrap());
     assert!((other[2] - first[2]).hypot(other[3] - first[3]) > 1e3);
 }
 
@@ -56,8 +56,9 @@ fn maneuvers_ahead_count_and_inputs_are_held() {
     let events = "[[event]]\nat = \"2008-09-29T08:40:00 TDB\"\nmaneuver = { deltaV = [0.3, 0.1, -0.2], dump = false }\n[[panels]]\n\
                   at = \"2008-10-01T00:00:00 TDB\"\nsunOffset = \"40 deg\"\n";
     let named = NamedModel::<MomentumPlant>::shipped().with_schedule("timeline.toml", events);
-    let plain = predicted(&NamedModel::<MomentumPlant>::shipped().fly(0.0, &predicting(DAY_S)).unwrap());
-    let mut flight = named.fly(0.0, &predicting(DAY_S)).unwrap();
+    let plain =
+        predicted(&NamedModel::<MomentumPlant>::shipped().initialize(0.0, &predicting(DAY_S)).unwrap());
+    let mut flight = named.initialize(0.0, &predicting(DAY_S)).unwrap();
     let first = predicted(&flight);
     // 0.37 m/s over seven days.
     assert!((1e5..4e5).contains(&(first[2] - plain[2]).hypot(first[3] - plain[3])), "{first:?} {plain:?}");
@@ -81,7 +82,7 @@ fn neither_cuts_nor_saving_change_a_bit_of_them() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let sets = predicting(1.3 * DAY_S);
     let mut since_s = Vec::new();
-    let begin = || named.fly(0.0, &sets).unwrap();
+    let begin = || named.initialize(0.0, &sets).unwrap();
     let ends_s = [1.3, 5.0, 9.9, 10.002, 10.5].map(|day| day * DAY_S);
     assert_cuts_change_nothing(begin, ends_s, &[short_or_long(43_200.0, 10_800.0), 3.0 * DAY_S], |flight| {
         since_s.push(flight.real("prediction.since"));
@@ -94,7 +95,7 @@ fn neither_cuts_nor_saving_change_a_bit_of_them() {
 fn without_an_approach_there_is_none() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let short = [&predicting(3.0 * DAY_S)[..], &[("prediction.horizon", 8.0 * DAY_S)]].concat();
-    let mut flight = named.fly(0.0, &short).unwrap();
+    let mut flight = named.initialize(0.0, &short).unwrap();
     let none = |flight: &NamedInstance<'_, MomentumPlant>| {
         assert!(!flight.boolean("prediction.valid"));
         assert_eq!(flight.real("prediction.arrival"), -1.0);
@@ -110,11 +111,11 @@ fn without_an_approach_there_is_none() {
     assert_eq!(flight.real("prediction.since"), 12.0 * DAY_S);
     none(&flight);
     // None is requested, and none possible.
-    let flight = named.fly(0.0, &sets(&start(2e5, 0.0), true)).unwrap();
+    let flight = named.initialize(0.0, &sets(&start(2e5, 0.0), true)).unwrap();
     none(&flight);
     assert_eq!(flight.real("prediction.since"), -1.0);
     assert!(!named.warnings().iter().any(|it| it.contains("prediction.refresh")));
-    let flight = named.fly(0.0, &[("prediction.refresh", 10.0)]).unwrap();
+    let flight = named.initialize(0.0, &[("prediction.refresh", 10.0)]).unwrap();
     assert_eq!(flight.real("prediction.since"), -1.0);
     assert!(named.warnings().iter().any(|it| it.contains("prediction.refresh") && it.contains("nBody")));
 }
@@ -122,7 +123,7 @@ fn without_an_approach_there_is_none() {
 #[test]
 fn within_the_lead_it_is_the_present_hyperbola() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = named.fly(0.0, &predicting(AHEAD_S - 2.0 * 3600.0)).unwrap();
+    let mut flight = named.initialize(0.0, &predicting(AHEAD_S - 2.0 * 3600.0)).unwrap();
     let first = predicted(&flight);
     let now_s = AHEAD_S - 2.0 * 3600.0;
     flight.step_to(now_s).unwrap();
@@ -138,7 +139,7 @@ fn within_the_lead_it_is_the_present_hyperbola() {
 fn a_path_into_the_planet_arrives_where_it_hits() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let falling = [&sets(&start(1.0, 0.5), false)[..], &[("prediction.refresh", DAY_S)]].concat();
-    let mut flight = named.fly(0.0, &falling).unwrap();
+    let mut flight = named.initialize(0.0, &falling).unwrap();
     flight.step_to(9.0 * DAY_S).unwrap();
     let [arrival_s, altitude_m, b_t_m, b_r_m, _] = predicted(&flight);
     assert_eq!(altitude_m, 0.0);
@@ -159,7 +160,7 @@ fn in_flight_by_torque_the_command_is_followed_ideally() {
         for (name, value) in ["command.q[1]", "command.q[2]", "command.q[3]", "command.q[4]"].iter().zip(q) {
             sets.push((name, value));
         }
-        let mut flight = named.fly(0.0, &sets).unwrap();
+        let mut flight = named.initialize(0.0, &sets).unwrap();
         flight.step_to(601.0).unwrap();
         assert_eq!(flight.real("prediction.since"), 600.0);
         Vector3::from_row_slice(&predicted(&flight)[1..4])
@@ -168,13 +169,13 @@ fn in_flight_by_torque_the_command_is_followed_ideally() {
     // The controller's swing of ten minutes moves the spacecraft by less than a metre in ten days.
     assert!((commanded - controlled).norm() < 10.0, "{commanded} {controlled}");
     let controlled = [&predicting(100.0)[..], &[("attitude.source", 3.0), ("command.source", 2.0)]].concat();
-    let begin = || named.fly(0.0, &controlled).unwrap();
+    let begin = || named.initialize(0.0, &controlled).unwrap();
     assert_cuts_change_nothing(begin, [200.0, 350.0], &[50.0, 133.0], |flight| {
         assert!(flight.boolean("prediction.valid"));
     });
     let mut free = predicting(600.0);
     free.extend([("attitude.source", 4.0), ("start.q[1]", q[0]), ("start.q[2]", q[1])]);
     free.extend([("start.q[3]", q[2]), ("start.q[4]", q[3])]);
-    let held = predicted(&named.fly(0.0, &free).unwrap());
+    let held = predicted(&named.initialize(0.0, &free).unwrap());
     assert!((Vector3::from_row_slice(&held[1..4]) - commanded).norm() < 10.0, "{held:?} {commanded}");
 }

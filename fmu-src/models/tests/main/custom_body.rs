@@ -21,7 +21,7 @@ const CUSTOM: f64 = 100.0;
 const ON_A_CIRCLE: &str = "elements = { semi_major_axis_m = 4e11, eccentricity = 0.0, inclination_deg = 0, ascending_node_deg = 0, \
      periapsis_argument_deg = 0, true_anomaly_deg = 0 }\nepoch = \"2030-01-01 TDB\"\n";
 
-/// The sailer about an asteroid, with what is said of its motion.
+/// The sailer about an asteroid, with what is reported of its motion.
 fn about_an_asteroid(motion: &str, start: &str) -> String {
     format!(
         "{SAILER}\n[body]\nname = \"Rock\"\ngravitational_parameter_m3_s2 = {GM_M3_S2}\nradii_m = [5000, 5000, 5000]\n\
@@ -37,7 +37,7 @@ fn from_ecliptic(x: f64, y: f64) -> Vector3<f64> {
 #[test]
 fn an_orbit_about_it_has_keplers_period_and_it_goes_round_the_sun() {
     let plant = NamedModel::<MomentumPlant>::with("my.toml", &about_an_asteroid(ON_A_CIRCLE, ""));
-    let mut flight = plant.fly(0.0, &[]).unwrap();
+    let mut flight = plant.initialize(0.0, &[]).unwrap();
     let start_m = flight.vector("position");
     assert!((start_m.norm() - 6500.0).abs() < 1e-9);
     let sun_m = flight.vector("sun.positionInertial");
@@ -68,7 +68,7 @@ fn a_state_in_either_frame_is_as_good_as_elements() {
     ];
     let sun_m = |motion: &str| {
         let guidance = NamedModel::<MomentumPlant>::with("my.toml", &about_an_asteroid(motion, ""));
-        let mut flight = guidance.fly(0.0, &[]).unwrap();
+        let mut flight = guidance.initialize(0.0, &[]).unwrap();
         flight.step_to(30.0 * 86_400.0).unwrap();
         flight.vector("sun.positionInertial")
     };
@@ -84,7 +84,7 @@ fn all_models_have_its_numbers() {
         format!("{ON_A_CIRCLE}j2 = 0.02\npole_deg = [30, 60]\nrotation_rate_rad_s = 3e-4\nalbedo = 0.2\n");
     let text = about_an_asteroid(&motion, "").replace("[5000, 5000, 5000]", "[6000, 5000, 4000]");
     let plant = NamedModel::<MomentumPlant>::with("my.toml", &text);
-    let flight = plant.fly(0.0, &[]).unwrap();
+    let flight = plant.initialize(0.0, &[]).unwrap();
     for (name, expected) in [
         ("planet.gravitationalParameter", GM_M3_S2),
         ("planet.radius", 5000.0),
@@ -98,9 +98,9 @@ fn all_models_have_its_numbers() {
         assert_eq!(flight.real(name), expected, "{name}");
     }
     let torque = NamedModel::<DisturbanceTorque>::with("my.toml", &text);
-    assert_eq!(torque.fly(0.0, &[]).unwrap().real("planet.radius"), 5000.0);
+    assert_eq!(torque.initialize(0.0, &[]).unwrap().real("planet.radius"), 5000.0);
     let guidance = NamedModel::<Guidance>::with("my.toml", &text);
-    let flight = guidance.fly(0.0, &[("position[1]", 7e3), ("velocity[2]", 3.0)]).unwrap();
+    let flight = guidance.initialize(0.0, &[("position[1]", 7e3), ("velocity[2]", 3.0)]).unwrap();
     assert_eq!(flight.vector("planet.radii"), Vector3::new(6000.0, 5000.0, 4000.0));
     assert_eq!(flight.real("planet.rotationRate"), 3e-4);
 }
@@ -119,7 +119,7 @@ fn it_is_aimed_at_from_elsewhere() {
     ];
     let scenario = [("pointing.scenario", 2.0), ("aimpoint.option", 15.0), ("aimpoint.body", CUSTOM)];
     let sets: Vec<_> = place.into_iter().chain(scenario).collect();
-    let flight = guidance.fly(0.0, &sets).unwrap();
+    let flight = guidance.initialize(0.0, &sets).unwrap();
     let toward = (from_ecliptic(AXIS_M, 0.0) - Vector3::new(0.0, 1.5e11, 0.0)).normalize();
     let z_inertial = flight.to_inertial("command.q") * Vector3::z();
     assert!(z_inertial.angle(&toward) < 1e-9, "{z_inertial} {toward}");
@@ -131,7 +131,7 @@ fn where_the_file_does_not_place_it_something_else_must() {
     let message = plant.refusal(&[]);
     assert!(message.contains("neither `elements` nor `position_m`"), "{message}");
     let inputs = [("ephemeris.source", 3.0), ("sun.position[1]", 2e11), ("earth.position[1]", 3e11)];
-    let mut flight = plant.fly(0.0, &inputs).unwrap();
+    let mut flight = plant.initialize(0.0, &inputs).unwrap();
     flight.step_to(60.0).unwrap();
     assert!((flight.real("sun.distance") / 2e11 - 1.0).abs() < 1e-6);
     let message = plant.refusal(&[("ephemeris.source", 2.0)]);
@@ -139,7 +139,7 @@ fn where_the_file_does_not_place_it_something_else_must() {
     let given =
         [("ephemeris.source", 2.0), ("ephemeris.semiMajorAxis", 3e11), ("ephemeris.eccentricity", 0.1)];
     // At perihelion.
-    let distance_m = plant.fly(0.0, &given).unwrap().real("sun.distance");
+    let distance_m = plant.initialize(0.0, &given).unwrap().real("sun.distance");
     assert!((distance_m / 2.7e11 - 1.0).abs() < 1e-6, "{distance_m}");
 }
 
@@ -149,6 +149,6 @@ fn the_source_kepler_takes_the_files_elements_at_their_own_time() {
     // A quarter of its year after the file's epoch, 10,957.5 days past J2000.
     let quarter_s = 0.25 * TAU * (AXIS_M.powi(3) / GM_SUN_M3_S2).sqrt();
     let later = [("ephemeris.source", 2.0), ("start.epoch", 946_728_000.0 + quarter_s)];
-    let sun_m = plant.fly(0.0, &later).unwrap().vector("sun.positionInertial");
+    let sun_m = plant.initialize(0.0, &later).unwrap().vector("sun.positionInertial");
     assert!((sun_m + from_ecliptic(0.0, AXIS_M)).norm() < 1e-8 * AXIS_M, "{sun_m}");
 }

@@ -28,7 +28,7 @@ fn start(description: &Description, name: &str) -> f64 {
 }
 
 #[test]
-fn a_file_that_says_nothing_flies_nadir_without_downlinks_or_hot_pole() {
+fn a_file_without_settings_points_at_nadir_without_downlinks_or_hot_pole() {
     let plant = described::<MomentumPlant>("my.toml", &text("")).unwrap();
     let guidance = described::<Guidance>("my.toml", &text("")).unwrap();
     for (description, name, expected) in [
@@ -59,11 +59,11 @@ fn shares_of_the_period_follow_the_orbit_unless_a_time_is_set() {
     let orbit = [("orbit.semiMajorAxis", axis_m), ("orbit.eccentricity", 0.1), gm];
     let times = [("guided.downlinkStart", 0.2 * period_s), ("guided.downlinkEnd", 0.4 * period_s)];
     let every = [("guided.downlinkEvery", 1.0)];
-    let mut by_shares = in_shares.fly(0.0, &orbit).unwrap();
-    let mut by_seconds = in_seconds.fly(0.0, &[&orbit[..], &times, &every].concat()).unwrap();
-    let mut never = in_seconds.fly(0.0, &orbit).unwrap();
+    let mut by_shares = in_shares.initialize(0.0, &orbit).unwrap();
+    let mut by_seconds = in_seconds.initialize(0.0, &[&orbit[..], &times, &every].concat()).unwrap();
+    let mut never = in_seconds.initialize(0.0, &orbit).unwrap();
     let mut set =
-        in_shares.fly(0.0, &[&orbit[..], &[("guided.downlinkEnd", 0.3 * period_s)]].concat()).unwrap();
+        in_shares.initialize(0.0, &[&orbit[..], &[("guided.downlinkEnd", 0.3 * period_s)]].concat()).unwrap();
     for (share, is_open, is_open_where_set) in [
         (0.1, false, false),
         (0.25, true, true),
@@ -87,7 +87,7 @@ fn a_window_as_long_as_the_cycle_is_warned_of_whatever_the_strategy() {
     for (stop, words) in [("\"110 %\"", Some("always open")), ("\"90 %\"", None)] {
         let windows = format!("[downlinks]\nstart = \"5 %\"\nstop = {stop}\nevery = 1");
         let named = NamedModel::<MomentumPlant>::with("my.toml", &text(&windows));
-        named.fly(0.0, &[]).unwrap();
+        named.initialize(0.0, &[]).unwrap();
         let warnings = named.warnings();
         assert_eq!(warnings.len(), usize::from(words.is_some()), "{warnings:?}");
         assert!(words.is_none_or(|words| warnings[0].contains(words)), "{warnings:?}");
@@ -98,7 +98,7 @@ fn a_window_as_long_as_the_cycle_is_warned_of_whatever_the_strategy() {
 fn of_tutorial(lines: &str, sets: &[(&str, f64)]) -> ([f64; 2], f64, Vec<String>) {
     let text = include_str!("../../../../docs/src/tutorial/venus.toml");
     let named = NamedModel::<MomentumPlant>::with("venus.toml", &format!("{text}\n{lines}"));
-    let mut flight = named.fly(0.0, sets).unwrap();
+    let mut flight = named.initialize(0.0, sets).unwrap();
     let mut greatest_deg = [0.0_f64; 2];
     for step in 1..=1440 {
         flight.step_to(f64::from(step) * 600.0).unwrap();

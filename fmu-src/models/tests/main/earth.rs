@@ -31,15 +31,15 @@ fn both_act_about_the_earth_unless_they_are_set() {
     let switches = ["aerodynamics.enabled", "magnetics.enabled"];
     let acts = |flight: &NamedInstance<'_, MomentumPlant>| switches.map(|name| flight.boolean(name));
     let orbit = [("orbit.center", 4.0), ("orbit.semiMajorAxis", 6.9e6), ("orbit.eccentricity", 0.0)];
-    let flight = messenger.fly(0.0, &orbit).unwrap();
+    let flight = messenger.initialize(0.0, &orbit).unwrap();
     assert_eq!((acts(&flight), flight.integer("planet.orientation")), ([true; 2], 2));
     assert!(flight.real("atmosphere.density") > 0.0);
     // Set to the start value of the file's own centre it counts too.
     let off = with(&[&orbit, &[("aerodynamics.enabled", 0.0)]]);
-    let flight = messenger.fly(0.0, &off).unwrap();
+    let flight = messenger.initialize(0.0, &off).unwrap();
     assert_eq!(acts(&flight), [false, true]);
     assert_eq!(flight.real("atmosphere.density"), 0.0);
-    let about_mercury = messenger.fly(0.0, &[]).unwrap();
+    let about_mercury = messenger.initialize(0.0, &[]).unwrap();
     assert_eq!((acts(&about_mercury), about_mercury.integer("planet.orientation")), ([false; 2], 1));
 }
 
@@ -54,7 +54,7 @@ fn neither_cuts_nor_saving_change_a_bit() {
         (with(&[PLAIN, FREE, &[("orbit.dynamics", 1.0), ("solver.dynamicsStep", 60.0)]]), 900.0),
     ] {
         let ends_s = [0.4 * end_s, end_s];
-        assert_cuts_change_nothing(|| named.fly(0.0, &sets).unwrap(), ends_s, &[97.0, 600.0], |_| {});
+        assert_cuts_change_nothing(|| named.initialize(0.0, &sets).unwrap(), ends_s, &[97.0, 600.0], |_| {});
     }
 }
 
@@ -64,7 +64,7 @@ fn the_fit_along_the_orbit_is_as_good_as_its_tolerance() {
     let named = cubesat();
     let at = |tolerance: f64| {
         let sets = with(&[PLAIN, ELLIPSE, &[("orbit.dynamics", 1.0), ("atmosphere.tolerance", tolerance)]]);
-        let mut flight = named.fly(0.0, &sets).unwrap();
+        let mut flight = named.initialize(0.0, &sets).unwrap();
         let mut found = Vec::new();
         for k in 1..=240 {
             flight.step_to(30.0 * f64::from(k)).unwrap();
@@ -82,7 +82,7 @@ fn the_fit_along_the_orbit_is_as_good_as_its_tolerance() {
 fn air_takes_energy_from_the_orbit_as_its_force_says() {
     let named = cubesat();
     let sets = with(&[PLAIN, &[("magnetics.enabled", 0.0), ("atmosphere.densityFactor", 100.0)]]);
-    let mut flight = named.fly(0.0, &sets).unwrap();
+    let mut flight = named.initialize(0.0, &sets).unwrap();
     let height_m = flight.real("geodetic.height");
     let (mut work, mut now_s) = (0.0, 0.0);
     let power = |flight: &NamedInstance<'_, MomentumPlant>| {
@@ -122,8 +122,8 @@ fn drag_is_the_same_in_free_and_in_commanded_attitude() {
     let position_m = |parts: &[(&'static str, f64)], factor: f64| {
         let sets =
             with(&[PLAIN, parts, &[("atmosphere.densityFactor", factor), ("atmosphere.tolerance", 1e-10)]]);
-        let mut flight = named.fly(0.0, &sets).unwrap();
-        flight.fly_to(6_000.0, 100.0).unwrap();
+        let mut flight = named.initialize(0.0, &sets).unwrap();
+        flight.simulate_to(6_000.0, 100.0).unwrap();
         flight.vector("position")
     };
     let commanded = &[("attitude.source", 2.0), ("command.q[4]", 1.0)];
@@ -161,10 +161,10 @@ fn a_free_dipole_swings_in_a_given_field_by_its_closed_form() {
         // One interval of the grid is a fraction of a swing.
         ("solver.dynamicsStep", 60.0),
     ];
-    let mut flight = named.fly(0.0, &with(&[FREE, quiet])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[FREE, quiet])).unwrap();
     let period_s = core::f64::consts::TAU * (inertia / (dipole * field)).sqrt();
     // Wheels that rest on their bearings turn with the body; after half a period it is at twice the angle, at rest.
-    flight.fly_to(0.5 * period_s, 10.0).unwrap();
+    flight.simulate_to(0.5 * period_s, 10.0).unwrap();
     let turned = flight.to_inertial("attitude.q") * Vector3::x();
     let angle = turned.y.atan2(turned.x);
     assert!((angle - 0.04).abs() < 4e-5 * 0.04 * 30.0, "{angle}");
@@ -176,8 +176,8 @@ fn a_free_dipole_swings_in_a_given_field_by_its_closed_form() {
 #[test]
 fn the_momentum_of_all_effects_is_what_the_momentum_changed_by() {
     let named = cubesat();
-    let mut flight = named.fly(0.0, &[]).unwrap();
-    flight.fly_to(20_000.0, 500.0).unwrap();
+    let mut flight = named.initialize(0.0, &[]).unwrap();
+    flight.simulate_to(20_000.0, 500.0).unwrap();
     let names = ["solar", "albedo", "infrared", "thermal", "gravityGradient", "aerodynamic", "magnetic"];
     let sum: Vector3<f64> = names.iter().map(|name| flight.vector(&format!("momentum.{name}"))).sum();
     let total = flight.vector("momentum.body");

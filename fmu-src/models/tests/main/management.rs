@@ -63,7 +63,7 @@ fn an_attainable_target_is_hit_to_a_nanonewton_metre_second() {
                             ("momentum.target[3]", target.z),
                         ],
                     );
-                    let mut flight = named.fly(start_s, &sets).unwrap();
+                    let mut flight = named.initialize(start_s, &sets).unwrap();
                     flight.step_to(start_s + 1.5 * HOUR_S).unwrap();
                     let clamped = flight.boolean("momentum.targetClamped");
                     let (azimuth_rad, elevation_rad) =
@@ -100,7 +100,7 @@ fn an_attainable_target_is_hit_to_a_nanonewton_metre_second() {
 fn a_downlink_at_the_start_takes_the_momentum_of_the_start() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let sets = with(&still(60.0), &[("guided.downlinkStart", 0.0), ("guided.downlinkEnd", 8.0 * HOUR_S)]);
-    let mut flight = named.fly(0.0, &sets).unwrap();
+    let mut flight = named.initialize(0.0, &sets).unwrap();
     assert!((flight.vector("momentum.body") - Vector3::new(0.4, -0.1, -0.3)).amax() < 1e-12);
     assert!(flight.real("sun.elevation").abs() > 0.01);
     flight.step_to(8.0 * HOUR_S - 1e-6).unwrap();
@@ -110,7 +110,7 @@ fn a_downlink_at_the_start_takes_the_momentum_of_the_start() {
 #[test]
 fn a_target_out_of_reach_is_flagged_while_the_downlink_lasts() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = named.fly(0.0, &with(&still(60.0), &[("momentum.target[1]", 30.0)])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&still(60.0), &[("momentum.target[1]", 30.0)])).unwrap();
     assert!(!flight.boolean("momentum.targetClamped"));
     flight.step_to(2.0 * HOUR_S).unwrap();
     assert!(flight.boolean("momentum.targetClamped"));
@@ -130,7 +130,7 @@ fn the_linear_formula_falls_short_of_the_exact_one() {
             ("panel[1].enabled", 0.0),
             ("panel[2].enabled", 0.0),
         ];
-        let mut flight = named.fly(0.0, &with(&still(60.0), &sets)).unwrap();
+        let mut flight = named.initialize(0.0, &with(&still(60.0), &sets)).unwrap();
         flight.step_to(HOUR_S - 1e-3).unwrap();
         let start = flight.vector("momentum.body").xz().norm();
         flight.step_to(9.0 * HOUR_S - 1e-6).unwrap();
@@ -163,8 +163,8 @@ fn mission(strategy: f64) -> Sets {
 fn targets_save_dumps_and_looking_ahead_saves_more() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let dumps = [1.0, 2.0, 3.0].map(|strategy| {
-        let mut flight = named.fly(0.0, &mission(strategy)).unwrap();
-        flight.fly_to(short_or_long(60.0, 90.0) * 86_400.0, 3600.0).unwrap();
+        let mut flight = named.initialize(0.0, &mission(strategy)).unwrap();
+        flight.simulate_to(short_or_long(60.0, 90.0) * 86_400.0, 3600.0).unwrap();
         flight.integer("dump.count")
     });
     println!("dumps only, reactive, predictive: {dumps:?}");
@@ -204,7 +204,7 @@ fn random_mission(number: u32, convention: f64) -> Sets {
 
 /// Dumps of sixty days, and the shortest time between two, in s.
 fn dumps_of(named: &NamedModel<MomentumPlant>, mission: &Sets, strategy: f64) -> (i32, f64) {
-    let mut flight = named.fly(0.0, &with(mission, &[("momentum.strategy", strategy)])).unwrap();
+    let mut flight = named.initialize(0.0, &with(mission, &[("momentum.strategy", strategy)])).unwrap();
     let (mut count, mut last_s, mut shortest_s) = (0, f64::NEG_INFINITY, f64::INFINITY);
     for hour in 1..=60 * 24 {
         flight.step_to(f64::from(hour) * HOUR_S).unwrap();
@@ -241,8 +241,8 @@ fn the_communication_step_changes_no_dump() {
     for strategy in [1.0, 2.0, 3.0] {
         let steps_s = short_or_long(&[60.0, 600.0][..], &[10.0, 60.0, 600.0]);
         let simulated = steps_s.iter().map(|&step_s| {
-            let mut flight = named.fly(0.0, &mission(strategy)).unwrap();
-            flight.fly_to(short_or_long(15.0, 90.0) * 86_400.0, step_s).unwrap();
+            let mut flight = named.initialize(0.0, &mission(strategy)).unwrap();
+            flight.simulate_to(short_or_long(15.0, 90.0) * 86_400.0, step_s).unwrap();
             (flight.integer("dump.count"), flight.real("dump.lastTime"))
         });
         let simulated: Vec<_> = simulated.collect();
@@ -254,8 +254,9 @@ fn the_communication_step_changes_no_dump() {
 fn looking_ahead_under_a_turning_body_costs_no_dumps() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let dumps = [2.0, 3.0].map(|strategy| {
-        let mut flight = named.fly(0.0, &with(&mission(strategy), &[("momentum.convention", 1.0)])).unwrap();
-        flight.fly_to(short_or_long(60.0, 90.0) * 86_400.0, 3600.0).unwrap();
+        let mut flight =
+            named.initialize(0.0, &with(&mission(strategy), &[("momentum.convention", 1.0)])).unwrap();
+        flight.simulate_to(short_or_long(60.0, 90.0) * 86_400.0, 3600.0).unwrap();
         flight.integer("dump.count")
     });
     println!("physical momentum: reactive, predictive: {dumps:?}");
@@ -278,7 +279,7 @@ fn cutting_and_saving_change_no_bit() {
                 if is_simulated { (6000.0, 8000.0) } else { (80_000.0, short_or_long(110_000.0, 220_000.0)) };
             let step_s = if is_simulated { 333.3 } else { 7777.7 };
             assert_cuts_change_nothing(
-                || named.fly(0.0, &sets).unwrap(),
+                || named.initialize(0.0, &sets).unwrap(),
                 [from_s, until_s],
                 &[step_s],
                 |_| {},
@@ -305,7 +306,7 @@ fn a_controlled_flight_turns_to_the_chosen_place() {
             ("momentum.strategy", 2.0),
         ],
     );
-    let mut flight = named.fly(0.0, &sets).unwrap();
+    let mut flight = named.initialize(0.0, &sets).unwrap();
     flight.step_to(99.0).unwrap();
     let before = flight.vector("momentum.body");
     flight.step_to(2000.0).unwrap();
@@ -323,9 +324,9 @@ fn a_controlled_flight_turns_to_the_chosen_place() {
 #[test]
 fn a_commanded_offset_turns_the_panels_as_a_parameter_does() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut by_parameter = named.fly(0.0, &[("panel[1].sunOffset", 0.7)]).unwrap();
+    let mut by_parameter = named.initialize(0.0, &[("panel[1].sunOffset", 0.7)]).unwrap();
     let commanded = [("panel[1].control", 3.0), ("panel[1].sunOffsetCommand", 0.7)];
-    let mut by_input = named.fly(0.0, &commanded).unwrap();
+    let mut by_input = named.initialize(0.0, &commanded).unwrap();
     for flight in [&mut by_parameter, &mut by_input] {
         flight.step_to(5000.0).unwrap();
     }
@@ -338,7 +339,7 @@ fn a_commanded_offset_turns_the_panels_as_a_parameter_does() {
 #[test]
 fn a_held_place_is_the_inputs_own() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = named.fly(0.0, &still(60.0)).unwrap();
+    let mut flight = named.initialize(0.0, &still(60.0)).unwrap();
     flight.step_to(500.0).unwrap();
     assert_eq!(flight.vector("position"), Vector3::new(1e7, 0.0, 0.0));
     assert_eq!(flight.vector("velocity"), Vector3::new(0.0, 1e3, 0.0));
@@ -346,10 +347,10 @@ fn a_held_place_is_the_inputs_own() {
     flight.step_to(501.0).unwrap();
     assert_eq!(flight.vector("position"), Vector3::new(1e7, 0.0, 2e6));
     // Without a velocity it stands still; without a position it is not known.
-    let mut resting = named.fly(0.0, &with(&still(60.0), &[("orbit.velocity[2]", 0.0)])).unwrap();
+    let mut resting = named.initialize(0.0, &with(&still(60.0), &[("orbit.velocity[2]", 0.0)])).unwrap();
     resting.step_to(10.0 * HOUR_S).unwrap();
     assert_eq!(resting.vector("position"), Vector3::new(1e7, 0.0, 0.0));
-    let waiting = named.fly(0.0, &with(&still(60.0), &[("orbit.position[1]", 0.0)])).unwrap();
+    let waiting = named.initialize(0.0, &with(&still(60.0), &[("orbit.position[1]", 0.0)])).unwrap();
     assert_eq!(waiting.vector("sun.direction"), Vector3::zeros());
 }
 
@@ -386,7 +387,7 @@ fn sources_add_up_to_the_momentum_since_the_last_dump() {
                 ("dump.threshold[3]", threshold),
             ],
         );
-        let mut flight = named.fly(0.0, &[&sets[..], &EFFECTS[..2], &EFFECTS[3..]].concat()).unwrap();
+        let mut flight = named.initialize(0.0, &[&sets[..], &EFFECTS[..2], &EFFECTS[3..]].concat()).unwrap();
         let (mut since, mut dumps, mut checked) = (Vector3::zeros(), 0, 0);
         for day in 1..=days {
             flight.step_to(86_400.0 * f64::from(day)).unwrap();
@@ -420,7 +421,7 @@ fn sources_add_up_in_controlled_flight() {
     let sets =
         [&[("attitude.source", 3.0), ("command.source", 2.0), ("wheel[1].startMomentum", 1.0)][..], &EFFECTS]
             .concat();
-    let mut flight = named.fly(0.0, &sets).unwrap();
+    let mut flight = named.initialize(0.0, &sets).unwrap();
     let start = flight.vector("momentum.inertial");
     for end_s in [0.7, 100.0, 7300.0] {
         flight.step_to(end_s).unwrap();

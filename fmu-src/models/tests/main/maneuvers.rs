@@ -61,7 +61,7 @@ fn state(flight: &Plant<'_>) -> [Vector3<f64>; 2] {
 #[test]
 fn it_happens_where_the_step_begins_and_once() {
     let named = full();
-    let mut flight = named.fly(100.0, &[("start.momentum[2]", 1.5)]).unwrap();
+    let mut flight = named.initialize(100.0, &[("start.momentum[2]", 1.5)]).unwrap();
     assert_eq!((flight.integer("maneuver.count"), flight.real("maneuver.lastTime")), (0, -1.0));
     flight.set_elements("dump.target", &[0.1, -0.2, 0.3]);
     flight.step_to(7200.0).unwrap();
@@ -86,7 +86,7 @@ fn it_happens_where_the_step_begins_and_once() {
 fn without_its_dump_it_leaves_the_momentum() {
     let named = full();
     let sets = [("start.momentum[2]", 1.5), ("maneuver.dump", 0.0)];
-    let [mut flight, mut other] = [0, 1].map(|_| named.fly(0.0, &sets).unwrap());
+    let [mut flight, mut other] = [0, 1].map(|_| named.initialize(0.0, &sets).unwrap());
     for flight in [&mut flight, &mut other] {
         flight.step_to(7200.0).unwrap();
     }
@@ -107,14 +107,14 @@ fn propellant_is_that_of_the_rocket_equation() {
     // Thrust of each set is along one axis, so that its specific impulse is its thrusters'.
     for (set, isp_s, tank) in [(LVA, LVA_ISP_S, 1), (C22, C22_ISP_S, 1), (NONE, f64::INFINITY, 1)] {
         let sets = [("maneuver.thrusters", set), ("maneuver.dump", 0.0)];
-        let mut flight = named.fly(0.0, &sets).unwrap();
+        let mut flight = named.initialize(0.0, &sets).unwrap();
         let mut mass_kg = flight.real("mass");
         for _ in 0..2 {
             maneuver(&mut flight, &delta_v, 600.0);
             mass_kg *= (-13.0 / (STANDARD_GRAVITY_M_S2 * isp_s)).exp();
             assert_near(flight.real("mass"), mass_kg, 1e-13);
         }
-        let used_kg = named.fly(0.0, &sets).unwrap().real("mass") - mass_kg;
+        let used_kg = named.initialize(0.0, &sets).unwrap().real("mass") - mass_kg;
         let left_kg = flight.real(&format!("tank[{tank}].propellantLeft"));
         let loaded_kg = flight.real(&format!("tank[{tank}].propellant"));
         assert!((flight.real("propellant.used") - used_kg).abs() < 1e-10);
@@ -125,7 +125,7 @@ fn propellant_is_that_of_the_rocket_equation() {
 #[test]
 fn a_file_without_thrusters_takes_no_propellant() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = named.fly(0.0, &[]).unwrap();
+    let mut flight = named.initialize(0.0, &[]).unwrap();
     assert_eq!(flight.integer("maneuver.thrusters"), C22 as i32);
     let mass_kg = flight.real("mass");
     maneuver(&mut flight, &Vector3::new(0.0, 10.0, 0.0), 600.0);
@@ -139,7 +139,7 @@ fn the_orbit_after_it_has_the_energy_and_angular_momentum_of_the_new_velocity() 
     let alone = [("planet.j2", 0.0), ("orbit.sunTide", 0.0), ("orbit.radiationFeedback", 0.0)];
     let integrated = with(&[&[("orbit.dynamics", 2.0)], &alone]);
     for (sets, tolerance) in [(vec![], 1e-11), (integrated, 1e-10)] {
-        let mut flight = named.fly(0.0, &sets).unwrap();
+        let mut flight = named.initialize(0.0, &sets).unwrap();
         for (end_s, delta_v) in [
             (5000.0, Vector3::new(20.0, 0.0, -5.0)),
             (40_000.0, Vector3::new(-3.0, 30.0, 1.0)),
@@ -171,8 +171,8 @@ fn downlinks_and_periapses_are_those_of_the_new_orbit() {
     let integrated = with(&[&[("orbit.dynamics", 2.0)], &alone]);
     for every in [1.0, 2.0, 3.0] {
         let sets = [("guided.downlinkEvery", every), ("guided.slewRate", 3e-3)];
-        let mut closed = named.fly(0.0, &sets).unwrap();
-        let mut found = named.fly(0.0, &with(&[&integrated, &sets])).unwrap();
+        let mut closed = named.initialize(0.0, &sets).unwrap();
+        let mut found = named.initialize(0.0, &with(&[&integrated, &sets])).unwrap();
         let mut downlinks = 0;
         for number in 1..=200 {
             for flight in [&mut closed, &mut found] {
@@ -188,7 +188,7 @@ fn downlinks_and_periapses_are_those_of_the_new_orbit() {
                     let delta_v = flight.vector("velocity") * share;
                     flight.set_elements("maneuver.deltaV", delta_v.iter());
                 }
-                // Beside whole orbits, where rounding says which one it is.
+                // Beside whole orbits, where rounding decides which one it is.
                 flight.step_to(f64::from(number) * 3600.0 + 17.0).unwrap();
             }
             let apart_m = (closed.vector("position") - found.vector("position")).norm();
@@ -207,11 +207,11 @@ fn downlinks_and_periapses_are_those_of_the_new_orbit() {
 fn a_place_that_is_given_stays_and_one_that_is_given_anew_rules() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let place = [("orbit.position[1]", 4e6), ("orbit.velocity[2]", 3500.0)];
-    let mut held = named.fly(0.0, &with(&[&[("orbit.source", 3.0)], &place])).unwrap();
+    let mut held = named.initialize(0.0, &with(&[&[("orbit.source", 3.0)], &place])).unwrap();
     maneuver(&mut held, &Vector3::new(0.0, 5.0, 0.0), 600.0);
     assert_eq!(state(&held), [Vector3::new(4e6, 0.0, 0.0), Vector3::new(0.0, 3500.0, 0.0)]);
     assert_eq!(held.vector("maneuver.executed"), Vector3::new(0.0, 5.0, 0.0));
-    let mut moving = named.fly(0.0, &with(&[&[("orbit.source", 2.0)], &place])).unwrap();
+    let mut moving = named.initialize(0.0, &with(&[&[("orbit.source", 2.0)], &place])).unwrap();
     maneuver(&mut moving, &Vector3::new(0.0, 50.0, 0.0), 600.0);
     let begin_s = moving.time_s();
     moving.set("orbit.position[1]", 5e6);
@@ -233,10 +233,10 @@ fn steps_of_any_length_and_saving_change_no_bit() {
     ];
     for dynamics in [0, 1] {
         let sets = with(&[&ERRORS, &more[dynamics..]]);
-        let fly = || named.fly(0.0, &sets).unwrap();
+        let initialize = || named.initialize(0.0, &sets).unwrap();
         let ends_s = (1..=12).map(|number| 12_345.0 * f64::from(number));
         let mut centers = Vec::new();
-        assert_cuts_change_nothing(fly, ends_s, &[600.0, 4321.0], |flight| {
+        assert_cuts_change_nothing(initialize, ends_s, &[600.0, 4321.0], |flight| {
             let number = (flight.time_s() / 12_345.0).round() as i32;
             flight.set("maneuver.request", f64::from(u8::from(number % 2 == 0)));
             flight.set_elements("maneuver.deltaV", &[0.3, 0.1 * f64::from(number), -0.2]);
@@ -250,7 +250,7 @@ fn steps_of_any_length_and_saving_change_no_bit() {
 #[test]
 fn without_deviations_the_seed_moves_no_bit() {
     let named = full();
-    let mut flights = [1.0, 77.0].map(|seed| named.fly(0.0, &[("noise.seed", seed)]).unwrap());
+    let mut flights = [1.0, 77.0].map(|seed| named.initialize(0.0, &[("noise.seed", seed)]).unwrap());
     for flight in &mut flights {
         for _ in 0..3 {
             maneuver(flight, &Vector3::new(0.3, -0.1, 0.2), 5000.0);
@@ -261,7 +261,7 @@ fn without_deviations_the_seed_moves_no_bit() {
     assert_eq!(one.vector("maneuver.executed"), Vector3::new(0.3, -0.1, 0.2));
     // With them it moves the maneuver.
     let executed = [1.0, 77.0].map(|seed| {
-        let mut flight = named.fly(0.0, &with(&[&ERRORS, &[("noise.seed", seed)]])).unwrap();
+        let mut flight = named.initialize(0.0, &with(&[&ERRORS, &[("noise.seed", seed)]])).unwrap();
         maneuver(&mut flight, &Vector3::new(0.3, -0.1, 0.2), 600.0);
         flight.vector("maneuver.executed")
     });
@@ -271,7 +271,7 @@ fn without_deviations_the_seed_moves_no_bit() {
 #[test]
 fn every_thruster_event_moves_the_centre_of_mass() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = named.fly(0.0, &ERRORS).unwrap();
+    let mut flight = named.initialize(0.0, &ERRORS).unwrap();
     let nominal = flight.vector("centerOfMass");
     assert_eq!(nominal, flight.vector("spacecraft.centerOfMass"));
     let mut shifts = Vec::new();
@@ -297,14 +297,14 @@ fn every_thruster_event_moves_the_centre_of_mass() {
 fn a_shift_turns_the_force_of_sunlight_into_torque() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let plain = [("gravityGradient.enabled", 0.0), ("orbit.center", 2.0), ("attitude.source", 2.0)];
-    let fly = |sigma_m: f64| {
+    let simulate = |sigma_m: f64| {
         let sets = with(&[&plain, &[("spacecraft.centerOfMassShift[3]", sigma_m)]]);
-        let mut flight = named.fly(0.0, &sets).unwrap();
+        let mut flight = named.initialize(0.0, &sets).unwrap();
         flight.set("dump.request", 1.0);
         flight.step_to(600.0).unwrap();
         flight
     };
-    let (still, moved) = (fly(0.0), fly(0.01));
+    let (still, moved) = (simulate(0.0), simulate(0.01));
     let shift = moved.vector("centerOfMass") - still.vector("centerOfMass");
     assert!(shift.z.abs() > 1e-4 && shift.x == 0.0);
     let torque = moved.vector("torque.solar") - still.vector("torque.solar");
@@ -315,17 +315,17 @@ fn a_shift_turns_the_force_of_sunlight_into_torque() {
 #[test]
 fn a_request_without_velocity_warns_and_does_nothing() {
     let named = full();
-    let [mut asked, mut other] = [0, 1].map(|_| named.fly(0.0, &[]).unwrap());
-    for flight in [&mut asked, &mut other] {
+    let [mut requested, mut other] = [0, 1].map(|_| named.initialize(0.0, &[]).unwrap());
+    for flight in [&mut requested, &mut other] {
         flight.step_to(600.0).unwrap();
     }
-    asked.set("maneuver.request", 1.0);
+    requested.set("maneuver.request", 1.0);
     // Anything that is set ends the present segment.
     other.set("thrust.stop", 5.0);
-    for flight in [&mut asked, &mut other] {
+    for flight in [&mut requested, &mut other] {
         flight.step_to(1200.0).unwrap();
     }
-    assert_same(&asked, &other);
+    assert_same(&requested, &other);
     let warnings = named.warnings();
     let found = warnings.iter().filter(|it| it.contains("maneuver.deltaV = (0, 0, 0) m/s")).count();
     assert_eq!(found, 1, "{warnings:?}");
@@ -335,13 +335,13 @@ fn a_request_without_velocity_warns_and_does_nothing() {
 fn what_cannot_be_executed_is_refused_by_name() {
     let named = full();
     let refusal = |sets: &[(&str, f64)], delta_v: [f64; 3]| {
-        let mut flight = named.fly(0.0, sets).unwrap();
+        let mut flight = named.initialize(0.0, sets).unwrap();
         flight.step_to(1.0).unwrap();
         flight.set("maneuver.request", 1.0);
         flight.set_elements("maneuver.deltaV", &delta_v);
         flight.step_to(2.0).unwrap_err().to_string()
     };
-    let mut bystander = named.fly(0.0, &[]).unwrap();
+    let mut bystander = named.initialize(0.0, &[]).unwrap();
     for source in [3.0, 4.0] {
         let found = refusal(&[("attitude.source", source), ("start.q[4]", 1.0)], [1.0, 0.0, 0.0]);
         let names = ["controlled", "maneuver.request", "thrust.request", "guided (1) and commanded (2)"];
@@ -360,7 +360,7 @@ fn what_cannot_be_executed_is_refused_by_name() {
 #[test]
 fn a_velocity_that_stops_the_spacecraft_has_no_orbit() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = named.fly(0.0, &[]).unwrap();
+    let mut flight = named.initialize(0.0, &[]).unwrap();
     flight.step_to(1.0).unwrap();
     let back = -flight.vector("velocity");
     flight.set("maneuver.request", 1.0);
@@ -372,7 +372,7 @@ fn a_velocity_that_stops_the_spacecraft_has_no_orbit() {
 #[test]
 fn a_commanded_flight_maneuvers_too() {
     let named = full();
-    let mut flight = named.fly(0.0, &[("attitude.source", 2.0), ("command.kind", 1.0)]).unwrap();
+    let mut flight = named.initialize(0.0, &[("attitude.source", 2.0), ("command.kind", 1.0)]).unwrap();
     flight.set_elements("command.q", &[0.0, 0.0, 0.0, 1.0]);
     maneuver(&mut flight, &Vector3::new(0.0, 0.0, 2.0), 600.0);
     assert_eq!((flight.integer("maneuver.count"), flight.integer("dump.count")), (1, 1));

@@ -135,9 +135,12 @@ impl<M: Model> NamedModel<M> {
         self
     }
 
-    /// What refuses to fly with these start values says.
+    /// The error of an initialization that refuses these start values.
     pub(crate) fn refusal(&self, sets: &[(&str, f64)]) -> String {
-        self.fly(0.0, sets).err().unwrap_or_else(|| panic!("it flies with {sets:?}")).to_string()
+        self.initialize(0.0, sets)
+            .err()
+            .unwrap_or_else(|| panic!("it is initialized with {sets:?}"))
+            .to_string()
     }
 
     /// What a master may set, with its limits and whether it is a whole number.
@@ -177,13 +180,17 @@ impl<M: Model> NamedModel<M> {
     }
 
     /// A flight from `start_s` with these start values.
-    pub(crate) fn fly(&self, start_s: f64, sets: &[(&str, f64)]) -> Result<NamedInstance<'_, M>, Failure> {
+    pub(crate) fn initialize(
+        &self,
+        start_s: f64,
+        sets: &[(&str, f64)],
+    ) -> Result<NamedInstance<'_, M>, Failure> {
         let mut tables = Tables::of(&self.start);
         tables.set.iter_mut().flatten().for_each(|word| *word = 0);
         sets.iter().for_each(|(name, value)| self.set(&mut tables, name, *value));
         let mut values = tables.back();
         let state = M::initialize(&self.context(), &mut values, start_s)?;
-        M::settle_parameters(&self.context(), &mut values);
+        M::resolve_parameters(&self.context(), &mut values);
         let (tables, before) = (OnceCell::new(), None);
         Ok(NamedInstance { named: self, values, tables, state, time_s: start_s, before, moved: false })
     }
@@ -279,7 +286,7 @@ impl Tables {
 pub(crate) struct NamedInstance<'a, M: Model> {
     named: &'a NamedModel<M>,
     values: Values,
-    /// The same, once somebody asked.
+    /// The same, once read.
     tables: OnceCell<Tables>,
     state: M::State,
     time_s: f64,
@@ -325,7 +332,7 @@ impl<M: Model> NamedInstance<'_, M> {
     }
 
     /// Steps of equal length.
-    pub(crate) fn fly_to(&mut self, end_s: f64, step_s: f64) -> Result<(), Failure> {
+    pub(crate) fn simulate_to(&mut self, end_s: f64, step_s: f64) -> Result<(), Failure> {
         while self.time_s < end_s {
             self.step_to(next_multiple_s(self.time_s, step_s).min(end_s))?;
         }
@@ -451,13 +458,13 @@ pub(crate) fn assert_same<M: Model>(a: &NamedInstance<'_, M>, b: &NamedInstance<
 /// How a master cuts a flight changes no bit of any output: in one step to each of `ends_s`, or in steps of each of `steps_s`,
 /// saved and restored before each of the first. `each` sees all of them there, and may set what it sets in all alike.
 pub(crate) fn assert_cuts_change_nothing<'a, M: Model>(
-    fly: impl Fn() -> NamedInstance<'a, M>,
+    initialize: impl Fn() -> NamedInstance<'a, M>,
     ends_s: impl IntoIterator<Item = f64>,
     steps_s: &[f64],
     mut each: impl FnMut(&mut NamedInstance<'a, M>),
 ) {
-    let mut whole = fly();
-    let mut cut: Vec<_> = steps_s.iter().map(|_| fly()).collect();
+    let mut whole = initialize();
+    let mut cut: Vec<_> = steps_s.iter().map(|_| initialize()).collect();
     for end_s in ends_s {
         whole.step_to(end_s).unwrap();
         each(&mut whole);

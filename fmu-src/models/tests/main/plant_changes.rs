@@ -22,7 +22,7 @@ fn light_follows_what_is_set_on_the_way_at_once() {
     let models = radiating::<DisturbanceTorque>();
     let flux = ("solar.flux", 1365.0);
     let sets = [EFFECTS, COMMANDED, SUN_INPUTS, &[flux, ("thermal.storage", 0.0)]].concat();
-    let mut plant = plants.fly(0.0, &sets).unwrap();
+    let mut plant = plants.initialize(0.0, &sets).unwrap();
     let mut center_m = [0.1, 0.05, -0.2];
     let check = |plant: &NamedInstance<'_, MomentumPlant>, center_m: [f64; 3], what: &str| {
         let center = [1, 2, 3].map(|i| format!("spacecraft.centerOfMass[{i}]"));
@@ -73,7 +73,7 @@ fn an_orbit_given_on_the_way_begins_when_it_was_given() {
             ("planet.j2", 0.0),
             ("orbit.radiationFeedback", 0.0),
         ];
-        let mut flight = named.fly(-500.0, &[sets.as_slice(), &disturbed].concat()).unwrap();
+        let mut flight = named.initialize(-500.0, &[sets.as_slice(), &disturbed].concat()).unwrap();
         let on_circle = |flight: &NamedInstance<'_, MomentumPlant>, since_s: f64, from_rad: f64| {
             let (sin, cos) = (from_rad + rate_rad_s * (flight.time_s() - since_s)).sin_cos();
             let expected = Vector3::new(cos, sin, 0.0) * radius_m;
@@ -109,7 +109,7 @@ fn after_a_minute(sets: &[(&str, f64)]) -> Vector3<f64> {
 fn a_minute(sets: &[(&str, f64)]) -> [Vector3<f64>; 2] {
     let named = NamedModel::<MomentumPlant>::shipped();
     let still = [("orbit.dynamics", 2.0), ("orbit.radiationFeedback", 0.0)];
-    let mut flight = named.fly(0.0, &[SUN_INPUTS, &still, sets].concat()).unwrap();
+    let mut flight = named.initialize(0.0, &[SUN_INPUTS, &still, sets].concat()).unwrap();
     let start = flight.vector("position");
     flight.step_to(60.0).unwrap();
     [start, flight.vector("position")]

@@ -13,7 +13,7 @@ const HALF_WAY: f64 = 0.25 * core::f64::consts::SQRT_2;
 #[test]
 fn an_interpolated_quaternion_is_restored() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = named.fly(0.0, &[COMMANDED]).unwrap();
+    let mut flight = named.initialize(0.0, &[COMMANDED]).unwrap();
     flight.step_to(60.0).unwrap();
     flight.set("command.q[1]", HALF_WAY);
     flight.set("command.q[4]", 0.5 + HALF_WAY);
@@ -33,7 +33,7 @@ fn an_interpolated_quaternion_is_restored() {
 fn four_numbers_without_a_direction_are_refused() {
     for (name, error) in [("command.q[4]", -0.01), ("command.q[4]", 0.05), ("command.q[2]", 20.0)] {
         let named = NamedModel::<MomentumPlant>::shipped();
-        let refused = named.fly(0.0, &[COMMANDED, (name, error)]);
+        let refused = named.initialize(0.0, &[COMMANDED, (name, error)]);
         let text = refused.map(|_| ()).unwrap_err().to_string();
         assert!(text.contains("command.q") && text.contains("0.1 to 10"), "{text}");
     }
@@ -44,7 +44,7 @@ fn commands_that_nobody_follows_change_nothing() {
     let named = NamedModel::<MomentumPlant>::shipped();
     // Either way an input was touched, which ends the cell there.
     let momentum = |command: [f64; 2]| {
-        let mut flight = named.fly(0.0, &[]).unwrap();
+        let mut flight = named.initialize(0.0, &[]).unwrap();
         flight.step_to(600.0).unwrap();
         flight.set("command.q[4]", command[0]);
         flight.set("command.rate[2]", command[1]);
@@ -75,7 +75,7 @@ fn an_error_quaternion_brings_the_sun_onto_the_boresight_once() {
     let start =
         [COMMANDED, ("start.q[1]", 0.5), ("start.q[2]", -0.1), ("start.q[3]", 0.7), ("start.q[4]", 0.5)];
     for boresight in [Vector3::new(0.0, -1.0, 0.0), Vector3::new(0.36, 0.48, -0.8), Vector3::x()] {
-        let mut flight = named.fly(0.0, &[&start[..], &[("command.kind", 3.0)]].concat()).unwrap();
+        let mut flight = named.initialize(0.0, &[&start[..], &[("command.kind", 3.0)]].concat()).unwrap();
         flight.step_to(60.0).unwrap();
         let send = |flight: &mut super::named_model::NamedInstance<'_, MomentumPlant>, error: [f64; 4]| {
             for (i, x) in error.into_iter().enumerate() {
@@ -90,7 +90,7 @@ fn an_error_quaternion_brings_the_sun_onto_the_boresight_once() {
         // Within a second the Sun moves on by 1e-6 rad.
         let off_rad = flight.vector("sun.direction").angle(&boresight);
         assert!(off_rad < 3e-6, "{off_rad}");
-        // The sensor still says what it said: that error is turned out and turns no more, until the kind is chosen anew.
+        // The sensor still measures what it measured: that error is turned out and turns no more, until the kind is chosen anew.
         send(&mut flight, error_quaternion(&Vector3::z(), &sensed));
         flight.step_to(62.0).unwrap();
         assert!(flight.vector("sun.direction").angle(&boresight) < 3e-6);

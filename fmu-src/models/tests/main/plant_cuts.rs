@@ -24,9 +24,9 @@ fn sets() -> Vec<(&'static str, f64)> {
 fn neither_cuts_nor_saving_change_a_bit() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let (mut shaded, mut dumps) = (0, 0);
-    let fly = || named.fly(0.0, &sets()).unwrap();
+    let initialize = || named.initialize(0.0, &sets()).unwrap();
     let ends_s = (1..=48).map(|hour| 3600.0 * f64::from(hour));
-    assert_cuts_change_nothing(fly, ends_s, &[130.0, 60.0, 97.3], |flight| {
+    assert_cuts_change_nothing(initialize, ends_s, &[130.0, 60.0, 97.3], |flight| {
         shaded += i32::from(flight.real("sun.litFraction") == 0.0);
         dumps = flight.integer("dump.count");
     });
@@ -36,9 +36,9 @@ fn neither_cuts_nor_saving_change_a_bit() {
 #[test]
 fn setting_what_was_set_changes_nothing_and_a_new_value_does() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut held = named.fly(0.0, &sets()).unwrap();
-    let mut pushed = named.fly(0.0, &sets()).unwrap();
-    held.fly_to(5_000.0, 500.0).unwrap();
+    let mut held = named.initialize(0.0, &sets()).unwrap();
+    let mut pushed = named.initialize(0.0, &sets()).unwrap();
+    held.simulate_to(5_000.0, 500.0).unwrap();
     while pushed.time_s() < 5_000.0 {
         let end_s = pushed.time_s() + 250.0;
         // To another value and back, and to the same value.
@@ -50,8 +50,8 @@ fn setting_what_was_set_changes_nothing_and_a_new_value_does() {
     }
     assert_same(&held, &pushed);
     pushed.set("force.applied[1]", 1.0);
-    held.fly_to(10_000.0, 500.0).unwrap();
-    pushed.fly_to(10_000.0, 500.0).unwrap();
+    held.simulate_to(10_000.0, 500.0).unwrap();
+    pushed.simulate_to(10_000.0, 500.0).unwrap();
     // 1 N on half a ton for 5000 s, about Mercury: the same order as the free motion 1/2 a t^2.
     let moved_m = (held.vector("position") - pushed.vector("position")).norm();
     assert!((0.3..3.0).contains(&(moved_m / (0.5 * 5_000.0 * 5_000.0 / held.real("mass")))), "{moved_m}");

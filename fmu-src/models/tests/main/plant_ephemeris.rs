@@ -15,23 +15,23 @@ fn sun_m(flight: &NamedInstance<'_, MomentumPlant>) -> nalgebra::Vector3<f64> {
 fn sun_and_earth_are_where_the_file_has_them() {
     let (text, error_m) = file(10.0 * 86_400.0, 0.0);
     let named = NamedModel::<MomentumPlant>::shipped().with_schedule(FILE, &text);
-    let mut flown = named.fly(0.0, CHEBYSHEV).unwrap();
-    let mut theory = named.fly(0.0, &[]).unwrap();
+    let mut fitted = named.initialize(0.0, CHEBYSHEV).unwrap();
+    let mut theory = named.initialize(0.0, &[]).unwrap();
     let mut greatest_m = 0.0_f64;
     for step in 1..=60 {
         let end_s = f64::from(step) * 13_000.0;
-        for flight in [&mut flown, &mut theory] {
+        for flight in [&mut fitted, &mut theory] {
             flight.step_to(end_s).unwrap();
         }
         for name in ["sun.positionInertial", "earth.positionInertial"] {
-            let off_m = (flown.vector(name) - theory.vector(name)).norm();
+            let off_m = (fitted.vector(name) - theory.vector(name)).norm();
             // Positions of 1e11 m are rounded to 2e-5 m, epochs of 3e8 s to 6e-8 s at 50 km/s.
             assert!(off_m < 1.05 * error_m + 0.01, "{name} at {end_s}: {off_m} m of {error_m}");
             greatest_m = greatest_m.max(off_m);
         }
     }
     assert!(greatest_m > 0.3 * error_m, "{greatest_m} of {error_m} m");
-    assert_ne!(sun_m(&flown), sun_m(&theory));
+    assert_ne!(sun_m(&fitted), sun_m(&theory));
 }
 
 #[test]
@@ -41,7 +41,7 @@ fn outside_the_span_it_is_refused_by_name() {
         let text = named.refusal(&[CHEBYSHEV, &[("start.epoch", epoch_s)]].concat());
         assert!(text.contains("start.epoch: found") && text.contains(FILE) && text.contains("sun"), "{text}");
     }
-    let mut flight = named.fly(0.0, CHEBYSHEV).unwrap();
+    let mut flight = named.initialize(0.0, CHEBYSHEV).unwrap();
     flight.step_to(86_400.0).unwrap();
     let text = flight.step_to(86_401.0).unwrap_err().to_string();
     assert!(text.contains("the epoch at the end of the step: found") && text.contains(FILE), "{text}");
@@ -52,12 +52,13 @@ fn outside_the_span_it_is_refused_by_name() {
 #[test]
 fn without_a_file_it_is_vsop87_to_the_bit() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let (mut flown, mut theory) = (named.fly(0.0, CHEBYSHEV).unwrap(), named.fly(0.0, &[]).unwrap());
+    let (mut fitted, mut theory) =
+        (named.initialize(0.0, CHEBYSHEV).unwrap(), named.initialize(0.0, &[]).unwrap());
     for end_s in [600.0, 50_000.0] {
-        for flight in [&mut flown, &mut theory] {
+        for flight in [&mut fitted, &mut theory] {
             flight.step_to(end_s).unwrap();
         }
-        assert_same(&flown, &theory);
+        assert_same(&fitted, &theory);
     }
 }
 
@@ -66,8 +67,13 @@ fn neither_cuts_nor_saving_change_a_bit() {
     let named = NamedModel::<MomentumPlant>::shipped().with_schedule(FILE, &file(5.0 * 86_400.0, 0.0).0);
     for disturbed in [0.0, 1.0] {
         let sets = [CHEBYSHEV, &[("orbit.dynamics", 1.0 + disturbed)]].concat();
-        let fly = || named.fly(0.0, &sets).unwrap();
-        assert_cuts_change_nothing(fly, [86_400.0, 200_000.0, 5.0 * 86_400.0], &[3_000.0, 700.0], |_| {});
+        let initialize = || named.initialize(0.0, &sets).unwrap();
+        assert_cuts_change_nothing(
+            initialize,
+            [86_400.0, 200_000.0, 5.0 * 86_400.0],
+            &[3_000.0, 700.0],
+            |_| {},
+        );
     }
 }
 
@@ -76,7 +82,7 @@ fn neither_cuts_nor_saving_change_a_bit() {
 #[test]
 fn given_velocities_of_sun_and_earth_reach_outputs_and_rates() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut theory = named.fly(0.0, &[]).unwrap();
+    let mut theory = named.initialize(0.0, &[]).unwrap();
     theory.step_to(60.0).unwrap();
     let names = ["sun.position", "sun.velocity", "earth.position", "earth.velocity"];
     let outputs = names.map(|name| theory.vector(&format!("{name}Inertial")));
@@ -89,14 +95,14 @@ fn given_velocities_of_sun_and_earth_reach_outputs_and_rates() {
         let still: Vec<_> = given.iter().filter(|(name, _)| name.contains("position")).collect();
         let mut sets: Vec<_> = still.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         sets.push(("ephemeris.source", 3.0));
-        let mut flight = named.fly(0.0, &sets).unwrap();
+        let mut flight = named.initialize(0.0, &sets).unwrap();
         flight.step_to(60.0).unwrap();
         assert_eq!(flight.vector("sun.velocityInertial"), nalgebra::Vector3::zeros());
         flight.vector("attitude.rate")
     };
     let mut sets: Vec<_> = given.iter().map(|(name, value)| (name.as_str(), *value)).collect();
     sets.push(("ephemeris.source", 3.0));
-    let mut flight = named.fly(0.0, &sets).unwrap();
+    let mut flight = named.initialize(0.0, &sets).unwrap();
     flight.step_to(60.0).unwrap();
     for (name, expected) in names.iter().zip(&outputs) {
         let found = flight.vector(&format!("{name}Inertial"));

@@ -38,9 +38,9 @@ pub(crate) fn radiating<M: fmi_export::Model>() -> NamedModel<M> {
 fn neither_cuts_nor_saving_change_a_bit() {
     let named = radiating::<MomentumPlant>();
     let (mut shaded, mut dumps, mut felt) = (0, 0, [0; 3]);
-    let fly = || named.fly(0.0, &[EFFECTS, SHADOWED, BUSY].concat()).unwrap();
+    let initialize = || named.initialize(0.0, &[EFFECTS, SHADOWED, BUSY].concat()).unwrap();
     let ends_s = (1..=48).map(|half_hour| 1800.0 * f64::from(half_hour));
-    assert_cuts_change_nothing(fly, ends_s, &[130.0, 60.0, 97.3], |flight| {
+    assert_cuts_change_nothing(initialize, ends_s, &[130.0, 60.0, 97.3], |flight| {
         shaded += i32::from(flight.real("sun.litFraction") == 0.0);
         dumps = flight.integer("dump.count");
         for (count, name) in felt.iter_mut().zip(["torque.albedo", "torque.infrared", "torque.thermal"]) {
@@ -70,7 +70,7 @@ pub(crate) fn memoryless<'a>(
         (1..=2).map(|k| (format!("panel[{k}].angle"), plant.real(&format!("panel[{k}].angleActual")))),
     );
     let all: Vec<(&str, f64)> = all.iter().map(|(name, value)| (name.as_str(), *value)).collect();
-    named.fly(0.0, &[EFFECTS, &all].concat()).unwrap()
+    named.initialize(0.0, &[EFFECTS, &all].concat()).unwrap()
 }
 
 #[test]
@@ -78,7 +78,7 @@ fn in_balance_every_source_is_that_of_the_memoryless_model() {
     let plants = radiating::<MomentumPlant>();
     let models = radiating::<DisturbanceTorque>();
     let sets = [EFFECTS, SHADOWED, &[("thermal.storage", 0.0), ("solar.flux", 1365.0)]].concat();
-    let mut plant = plants.fly(0.0, &sets).unwrap();
+    let mut plant = plants.initialize(0.0, &sets).unwrap();
     let (mut shaded, mut worst) = (0, 0.0_f64);
     while plant.time_s() < DAY_S / 2.0 {
         plant.step_to(plant.time_s() + 61.7).unwrap();
@@ -104,7 +104,7 @@ fn momentum_does_not_depend_on_how_light_is_resolved() {
     let named = radiating::<MomentumPlant>();
     let simulated = |step_s: f64, tolerance: f64| {
         let solver = [("solver.disturbanceStep", step_s), ("solver.disturbanceTolerance", tolerance)];
-        let mut plant = named.fly(0.0, &[EFFECTS, SHADOWED, &solver].concat()).unwrap();
+        let mut plant = named.initialize(0.0, &[EFFECTS, SHADOWED, &solver].concat()).unwrap();
         plant.step_to(DAY_S).unwrap();
         plant.vector("momentum.inertial")
     };
@@ -118,7 +118,7 @@ fn momentum_does_not_depend_on_how_light_is_resolved() {
 #[test]
 fn in_the_dark_a_radiator_cools_by_the_closed_form() {
     let named = radiating::<MomentumPlant>();
-    let mut plant = named.fly(0.0, &[&[("thermal.enabled", 1.0)], SHADOWED].concat()).unwrap();
+    let mut plant = named.initialize(0.0, &[&[("thermal.enabled", 1.0)], SHADOWED].concat()).unwrap();
     let kelvin =
         |plant: &NamedInstance<'_, MomentumPlant>| plant.real(&format!("plate[{RADIATOR}].temperature"));
     plant.step_to(3.0 * 3600.0).unwrap();
@@ -148,8 +148,8 @@ fn in_the_dark_a_radiator_cools_by_the_closed_form() {
 fn what_ends_a_cell_changes_stored_heat_by_no_more_than_the_tolerance() {
     let named = radiating::<MomentumPlant>();
     let sets = [EFFECTS, SHADOWED].concat();
-    let mut still = named.fly(0.0, &sets).unwrap();
-    let mut disturbed = named.fly(0.0, &sets).unwrap();
+    let mut still = named.initialize(0.0, &sets).unwrap();
+    let mut disturbed = named.initialize(0.0, &sets).unwrap();
     let mut steps = 0;
     while still.time_s() < DAY_S / 2.0 {
         let end_s = still.time_s() + 77.0;
@@ -172,14 +172,14 @@ fn what_ends_a_cell_changes_stored_heat_by_no_more_than_the_tolerance() {
 fn a_torque_from_outside_leaves_light_and_heat_alone() {
     let named = radiating::<MomentumPlant>();
     let sets = [EFFECTS, SHADOWED].concat();
-    let mut still = named.fly(0.0, &sets).unwrap();
-    let mut pushed = named.fly(0.0, &sets).unwrap();
-    let mut relay = named.fly(0.0, &sets).unwrap();
+    let mut still = named.initialize(0.0, &sets).unwrap();
+    let mut pushed = named.initialize(0.0, &sets).unwrap();
+    let mut relay = named.initialize(0.0, &sets).unwrap();
     for step in 1..=600 {
         for flight in [&mut pushed, &mut relay] {
             flight.set("torque.applied[2]", 1e-7 * f64::from(step));
         }
-        // Whether a cell goes on must not depend on what is not saved.
+        // Whether a cell continues must not depend on what is not saved.
         relay = relay.restored();
         for flight in [&mut still, &mut pushed, &mut relay] {
             flight.step_to(f64::from(step) * 50.0).unwrap();
@@ -196,7 +196,7 @@ fn faces_add_up_to_the_total_and_a_panel_left_out_has_none() {
     let named = radiating::<MomentumPlant>();
     for panel_on in [1.0, 0.0] {
         let sets = [EFFECTS, SHADOWED, &[("panel[1].enabled", panel_on)]].concat();
-        let mut plant = named.fly(0.0, &sets).unwrap();
+        let mut plant = named.initialize(0.0, &sets).unwrap();
         for _ in 0..100 {
             plant.step_to(plant.time_s() + 211.0).unwrap();
             let forces: Vec<Vector3<f64>> =
@@ -214,9 +214,12 @@ fn faces_add_up_to_the_total_and_a_panel_left_out_has_none() {
 #[test]
 fn effects_that_are_off_are_zero_and_change_nothing() {
     let named = radiating::<MomentumPlant>();
-    let mut bare = named.fly(0.0, &[("planetLight.enabled", 0.0)]).unwrap();
+    let mut bare = named.initialize(0.0, &[("planetLight.enabled", 0.0)]).unwrap();
     let mut odd = named
-        .fly(0.0, &[("solver.disturbanceStep", 7.0), ("thermal.storage", 0.0), ("planet.emissivity", 0.1)])
+        .initialize(
+            0.0,
+            &[("solver.disturbanceStep", 7.0), ("thermal.storage", 0.0), ("planet.emissivity", 0.1)],
+        )
         .unwrap();
     for _ in 0..50 {
         bare.step_to(bare.time_s() + 600.0).unwrap();
@@ -243,14 +246,14 @@ fn a_flight_that_ends_in_the_planet_says_where() {
     let place = |position_m: f64, velocity_m_s: f64| {
         let state =
             [("orbit.source", 2.0), ("orbit.position[1]", position_m), ("orbit.velocity[2]", velocity_m_s)];
-        named.fly(0.0, &[EFFECTS, &state].concat())
+        named.initialize(0.0, &[EFFECTS, &state].concat())
     };
     let text = place(1e6, 3000.0).err().unwrap().to_string();
     assert!(
         text.contains("1000000") && text.contains("more than its radius") && text.contains("orbit.*"),
         "{text}"
     );
-    // Falls from 10,000 km: it flies while it is above the surface, and no cell ahead ends it early.
+    // Falls from 10,000 km: it is simulated while it is above the surface, and no cell ahead ends it early.
     let mut falling = place(1e7, 100.0).unwrap();
     let failure = loop {
         match falling.step_to(falling.time_s() + 5.0) {
@@ -273,8 +276,8 @@ fn the_scale_of_sunlight_is_one_of_its_force_and_not_of_its_heat() {
         let undumped =
             ["dump.threshold[1]", "dump.threshold[2]", "dump.threshold[3]"].map(|name| (name, 1e6));
         let sets = [effects, SHADOWED, &undumped, &[("attitude.source", 2.0)]].concat();
-        let mut plain = named.fly(0.0, &sets).unwrap();
-        let mut scaled = named.fly(0.0, &[&sets, [("solar.scale", 2.0)].as_slice()].concat()).unwrap();
+        let mut plain = named.initialize(0.0, &sets).unwrap();
+        let mut scaled = named.initialize(0.0, &[&sets, [("solar.scale", 2.0)].as_slice()].concat()).unwrap();
         let mut shaded = 0;
         for k in 1..=60 {
             let at_s = 301.0 * f64::from(k);

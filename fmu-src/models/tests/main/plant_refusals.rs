@@ -22,12 +22,12 @@ fn orbits_inside_planet_or_sun() {
     // What is left at its default follows the centre.
     for center in [2.0, 3.0, 4.0, 6.0, 7.0] {
         let named = NamedModel::<MomentumPlant>::shipped();
-        named.fly(0.0, &[("orbit.center", center)]).unwrap().step_to(86_400.0).unwrap();
+        named.initialize(0.0, &[("orbit.center", center)]).unwrap().step_to(86_400.0).unwrap();
     }
-    // Above the Sun's surface it flies.
+    // Above the Sun's surface it is simulated.
     let named = NamedModel::<MomentumPlant>::shipped();
     let far = [("orbit.center", 2.0), ("orbit.semiMajorAxis", 6e10), ("orbit.eccentricity", 0.2)];
-    named.fly(0.0, &far).unwrap().step_to(86_400.0).unwrap();
+    named.initialize(0.0, &far).unwrap().step_to(86_400.0).unwrap();
     let near = [("orbit.source", 2.0), ("orbit.position[1]", 1e8), ("orbit.velocity[2]", 4e5)];
     says(&[&[("orbit.center", 2.0)][..], &near].concat(), &["inside the planet or the Sun", "orbit.*"]);
     // The Sun at the planet's centre, the spacecraft outside both.
@@ -55,11 +55,11 @@ fn strategies_without_a_downlink_or_with_downlinks_that_overlap() {
             &[&[strategy], sets].concat(),
             &["momentum.strategy", "guided.downlinkEvery", found, "dumpsOnly"],
         );
-        NamedModel::<MomentumPlant>::shipped().fly(0.0, sets).unwrap().step_to(86_400.0).unwrap();
+        NamedModel::<MomentumPlant>::shipped().initialize(0.0, sets).unwrap().step_to(86_400.0).unwrap();
     }
     // One window after the start serves a strategy.
     let once = [&[strategy, ("guided.downlinkReference", 2.0)][..], &overlapping, &never].concat();
-    NamedModel::<MomentumPlant>::shipped().fly(0.0, &once).unwrap().step_to(86_400.0).unwrap();
+    NamedModel::<MomentumPlant>::shipped().initialize(0.0, &once).unwrap().step_to(86_400.0).unwrap();
 }
 
 #[test]
@@ -67,7 +67,7 @@ fn downlinks_that_end_before_they_begin() {
     let backwards = [("guided.downlinkStart", 36_000.0), ("guided.downlinkEnd", 7_200.0)];
     says(&backwards, &["guided.downlinkStart", "guided.downlinkEnd", "36000.0", "7200.0", "allowed"]);
     let never = [&backwards[..], &[("guided.downlinkEvery", 0.0)]].concat();
-    NamedModel::<MomentumPlant>::shipped().fly(0.0, &never).unwrap().step_to(86_400.0).unwrap();
+    NamedModel::<MomentumPlant>::shipped().initialize(0.0, &never).unwrap().step_to(86_400.0).unwrap();
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn epochs_beyond_the_theory_of_the_planets() {
 fn thresholds_the_torque_outruns() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let sets = [("dump.threshold[1]", 1e-6), ("torque.applied[1]", 1.0)];
-    let mut flight = named.fly(0.0, &sets).unwrap();
+    let mut flight = named.initialize(0.0, &sets).unwrap();
     let failure = flight.step_to(600.0).unwrap_err().to_string();
     assert!(failure.contains("1000 dumps") && failure.contains("dump.threshold"), "{failure}");
 }

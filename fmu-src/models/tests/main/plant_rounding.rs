@@ -43,20 +43,20 @@ const EVERYTHING: &[(&str, f64)] = &[
 ];
 
 #[test]
-fn every_rounding_mode_flies_the_same_two_days() {
-    let fly = |options: &[(&str, f64)]| -> (Vec<Vector3<f64>>, i32) {
+fn every_rounding_mode_gives_the_same_two_days() {
+    let simulate = |options: &[(&str, f64)]| -> (Vec<Vector3<f64>>, i32) {
         let named = NamedModel::<MomentumPlant>::with("mercury-orbiter.toml", ORBITER);
-        let mut flight = named.fly(0.0, &[EVERYTHING, options].concat()).unwrap();
-        flight.fly_to(172_800.0, 7_200.0).unwrap();
+        let mut flight = named.initialize(0.0, &[EVERYTHING, options].concat()).unwrap();
+        flight.simulate_to(172_800.0, 7_200.0).unwrap();
         assert_eq!(flight.not_finite(), None);
         let names = ["momentum.inertial", "torque.total", "force.total", "position", "deltaV"];
         (names.map(|name| flight.vector(name)).to_vec(), flight.integer("dump.count"))
     };
     for options in [&[][..], &[("orbit.dynamics", 2.0), ("guided.slewRate", 1e-3)]] {
-        let (nearest, dumps) = fly(options);
+        let (nearest, dumps) = simulate(options);
         for mode in DIRECTED {
             let rounding = Rounding::set(mode);
-            let (found, found_dumps) = fly(options);
+            let (found, found_dumps) = simulate(options);
             drop(rounding);
             assert_eq!(found_dumps, dumps, "mode {mode:#x}");
             for (a, b) in found.iter().zip(&nearest) {
@@ -74,7 +74,7 @@ fn every_rounding_mode_gives_the_same_disturbance() {
             .map(|k| {
                 let (sin, cos) = (f64::from(k) * 0.7).sin_cos();
                 let sun = [("sun.positionBody[1]", 5e10 * sin), ("sun.positionBody[2]", -5e10 * cos)];
-                let model = named.fly(0.0, &sun).unwrap();
+                let model = named.initialize(0.0, &sun).unwrap();
                 assert_eq!(model.not_finite(), None);
                 model.vector("torque.total")
             })

@@ -43,7 +43,7 @@ fn a_dump_comes_where_the_turning_momentum_comes_to_its_threshold() {
     for flux in [0.0, 1367.0] {
         for rate_rad_s in [0.01, 0.02, 0.05, 1.0] {
             let sets = [HELD, &[("solar.flux", flux), ("command.rate[2]", rate_rad_s)]].concat();
-            let mut flight = named.fly(0.0, &sets).unwrap();
+            let mut flight = named.initialize(0.0, &sets).unwrap();
             let torque = flight.vector("torque.solar");
             assert_eq!(torque.norm() > 1e-5, flux > 0.0, "{torque}");
             let rate = Vector3::new(0.0, rate_rad_s, 0.0);

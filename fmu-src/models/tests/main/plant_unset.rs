@@ -42,7 +42,7 @@ fn zero_on_every_input_holds_the_attitude_and_nothing_acts() {
     for dynamics in [1.0, 2.0] {
         let options = [FED, &[("orbit.dynamics", dynamics)]].concat();
         let before = named.warnings().len();
-        let mut flight = named.fly(0.0, &zero(&named, &options)).unwrap();
+        let mut flight = named.initialize(0.0, &zero(&named, &options)).unwrap();
         for time_s in [60.0, 600.0, 90_000.0] {
             flight.step_to(time_s).unwrap();
             assert_eq!(flight.not_finite(), None);
@@ -66,7 +66,7 @@ fn zero_on_every_input_holds_the_attitude_and_nothing_acts() {
         assert!(flight.vector("torque.total").norm() > 1e-8);
         let epoch_s = flight.real("start.epoch") + 90_000.0;
         let known = [&zero(&named, &options)[..], CONNECTED, &[("start.epoch", epoch_s)]].concat();
-        let mut known = named.fly(90_000.0, &known).unwrap();
+        let mut known = named.initialize(90_000.0, &known).unwrap();
         known.step_to(91_000.0).unwrap();
         for name in ["torque.total", "momentum.body", "sun.positionBody", "position", "deltaV"] {
             let (a, b) = (flight.vector(name), known.vector(name));
@@ -90,7 +90,7 @@ fn a_quaternion_of_zero_is_no_command_yet() {
             ("command.rate[1]", 1e-3),
         ];
         let before = named.warnings().len();
-        let mut flight = named.fly(0.0, &sets).unwrap();
+        let mut flight = named.initialize(0.0, &sets).unwrap();
         flight.step_to(100.0).unwrap();
         assert!((flight.real("attitude.q[1]") - 0.6).abs() < 1e-15);
         assert!(flight.vector("torque.solar").norm() > 0.0, "the Sun is known");
@@ -106,7 +106,7 @@ fn a_quaternion_of_zero_is_no_command_yet() {
 #[test]
 fn a_sun_that_goes_back_to_zero_is_named() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = named.fly(0.0, &[FED, CONNECTED].concat()).unwrap();
+    let mut flight = named.initialize(0.0, &[FED, CONNECTED].concat()).unwrap();
     flight.step_to(60.0).unwrap();
     flight.set("sun.position[1]", 0.0);
     flight.set("sun.position[2]", 0.0);
@@ -121,7 +121,7 @@ fn the_memoryless_model_takes_zero_on_every_input() {
     for method in [1.0, 2.0] {
         let before = named.warnings().len();
         let options = [("planetLight.method", method)];
-        let mut model = named.fly(0.0, &[&zero[..], &options].concat()).unwrap();
+        let mut model = named.initialize(0.0, &[&zero[..], &options].concat()).unwrap();
         model.step_to(1.0).unwrap();
         model.step_to(2.0).unwrap();
         assert_eq!(model.not_finite(), None);
@@ -145,7 +145,7 @@ fn the_memoryless_model_takes_zero_on_every_input() {
 fn sun_and_planet_in_the_body_frame_are_the_inputs_of_the_memoryless_model() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let sets = [("planetLight.enabled", 1.0), ("solar.flux", 1365.0), ("gravityGradient.enabled", 1.0)];
-    let mut flight = named.fly(0.0, &sets).unwrap();
+    let mut flight = named.initialize(0.0, &sets).unwrap();
     let text = <MomentumPlant as fmi_export::Model>::DEFAULT_SETUP;
     let memoryless = NamedModel::<DisturbanceTorque>::with("messenger.toml", text);
     for time_s in [100.0, 9_000.0, 20_000.0] {
@@ -159,7 +159,7 @@ fn sun_and_planet_in_the_body_frame_are_the_inputs_of_the_memoryless_model() {
             inputs.push((format!("panel[{k}].angle"), flight.real(&format!("panel[{k}].angleActual"))));
         }
         let inputs: Vec<(&str, f64)> = inputs.iter().map(|(name, value)| (name.as_str(), *value)).collect();
-        let alone = memoryless.fly(0.0, &inputs).unwrap();
+        let alone = memoryless.initialize(0.0, &inputs).unwrap();
         for (name, within) in
             [("torque.solar", 1e-12), ("torque.gravityGradient", 1e-12), ("force.infrared", 1e-4)]
         {
@@ -168,7 +168,7 @@ fn sun_and_planet_in_the_body_frame_are_the_inputs_of_the_memoryless_model() {
         }
     }
     let sun = [("orbit.center", 2.0), ("orbit.semiMajorAxis", 6e10), ("orbit.eccentricity", 0.1)];
-    let mut about_the_sun = named.fly(0.0, &sun).unwrap();
+    let mut about_the_sun = named.initialize(0.0, &sun).unwrap();
     about_the_sun.step_to(60.0).unwrap();
     assert_eq!(about_the_sun.vector("planet.positionBody"), Vector3::zeros());
     let distance_m = about_the_sun.vector("sun.positionBody").norm();

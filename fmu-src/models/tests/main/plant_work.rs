@@ -26,7 +26,7 @@ type Requested<'a> = (&'a [(&'a str, f64)], f64, &'a [&'a str]);
 
 fn requested(sets: &[(&str, f64)], step_s: f64) -> Result<f64, String> {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = named.fly(0.0, sets).map_err(|failure| failure.to_string())?;
+    let mut flight = named.initialize(0.0, sets).map_err(|failure| failure.to_string())?;
     flight.step_to(step_s).map_err(|failure| failure.to_string())?;
     Ok(flight.time_s())
 }
@@ -73,8 +73,8 @@ fn a_step_that_passed_passes_after_its_state_was_restored_elsewhere() {
     for (source, start_s, step_s) in [(1.0, 40_000.0, 1e6), (3.0, 20.0, 40.0)] {
         for limit in (0..24).map(|k| (1_000.0 * 1.4_f64.powi(k)).round()) {
             let sets = [("attitude.source", source), ("command.source", 2.0), ("solver.workLimit", limit)];
-            let Ok(mut flight) = named.fly(0.0, &sets) else { continue };
-            if flight.fly_to(start_s, start_s / 10.0).is_err() {
+            let Ok(mut flight) = named.initialize(0.0, &sets) else { continue };
+            if flight.simulate_to(start_s, start_s / 10.0).is_err() {
                 continue;
             }
             let mut elsewhere = flight.with_state(&flight.state_bytes()).unwrap();
@@ -100,7 +100,7 @@ fn a_mercury_year_with_every_effect_is_far_within_the_default() {
         // Half of the default for the whole year.
         ("solver.workLimit", short_or_long(0.1, 1.0) * 1e7),
     ];
-    let mut flight = named.fly(0.0, &everything).unwrap();
+    let mut flight = named.initialize(0.0, &everything).unwrap();
     flight.step_to(short_or_long(0.1, 1.0) * 87.969 * 86_400.0).unwrap();
     assert_eq!(flight.not_finite(), None);
 }
@@ -124,7 +124,7 @@ fn scattered(named: &NamedModel<MomentumPlant>, seed: u64, limit: f64) -> (Durat
     let step_s = [1.0, 1e3, 1e6, 1e9, 1e12][random.below(5)];
     let now = Instant::now();
     let before = busy(now);
-    let answer = match named.fly(0.0, &sets) {
+    let answer = match named.initialize(0.0, &sets) {
         Err(failure) => failure.to_string(),
         Ok(mut flight) => match flight.step_to(step_s) {
             Err(failure) => failure.to_string(),
@@ -152,6 +152,6 @@ fn any_legal_parameters_get_an_answer() {
         exhausted += u32::from(answer.contains("solver.workLimit ="));
         worst = worst.max(took);
     }
-    println!("{trials} trials: {simulated} flown, {exhausted} out of work, the longest {worst:?}");
+    println!("{trials} trials: {simulated} simulated, {exhausted} out of work, the longest {worst:?}");
     assert!(simulated > 0 && exhausted > 0);
 }

@@ -46,11 +46,16 @@ fn events_fall_at_their_time_in_steps_of_any_length_to_the_bit() {
     ]);
     for dynamics in [1.0, 2.0] {
         let sets = [&ERRORS[..], &[("orbit.dynamics", dynamics), ("guided.downlinkEvery", 1.0)]].concat();
-        let fly = || named.fly(0.0, &sets).unwrap();
+        let initialize = || named.initialize(0.0, &sets).unwrap();
         let mut counts = Vec::new();
-        assert_cuts_change_nothing(fly, [86_400.0, 172_800.0], &[600.0, 12_345.0, 43_200.0], |flight| {
-            counts.push([flight.integer("maneuver.count"), flight.integer("dump.count")]);
-        });
+        assert_cuts_change_nothing(
+            initialize,
+            [86_400.0, 172_800.0],
+            &[600.0, 12_345.0, 43_200.0],
+            |flight| {
+                counts.push([flight.integer("maneuver.count"), flight.integer("dump.count")]);
+            },
+        );
         assert_eq!((counts[0], counts[4]), ([2, 3], [3, 4]), "{counts:?}");
     }
 }
@@ -59,7 +64,7 @@ fn events_fall_at_their_time_in_steps_of_any_length_to_the_bit() {
 fn the_momentum_is_the_dumps_target_at_its_time() {
     let at_s = 5000.125;
     let named = scheduled(&[dump_to(at_s, [0.5, -1.0, 2.0]), dump(9000.0)]);
-    let mut flight = named.fly(0.0, &[("start.momentum[1]", 1.0)]).unwrap();
+    let mut flight = named.initialize(0.0, &[("start.momentum[1]", 1.0)]).unwrap();
     flight.set_elements("dump.target", &[0.0, 0.25, 0.0]);
     flight.step_to(at_s - 1e-6).unwrap();
     assert_eq!(flight.integer("dump.count"), 0);
@@ -74,17 +79,17 @@ fn the_momentum_is_the_dumps_target_at_its_time() {
 fn a_maneuver_of_the_schedule_is_one_of_the_inputs() {
     let delta_v = [0.4, -0.1, 0.2];
     let named = scheduled(&[maneuver(7200.0, delta_v, true)]);
-    let mut planned = named.fly(0.0, &ERRORS).unwrap();
-    let asked = full();
-    let mut asked = asked.fly(0.0, &ERRORS).unwrap();
-    asked.step_to(7200.0).unwrap();
-    asked.set("maneuver.request", 1.0);
-    asked.set_elements("maneuver.deltaV", &delta_v);
+    let mut planned = named.initialize(0.0, &ERRORS).unwrap();
+    let requested = full();
+    let mut requested = requested.initialize(0.0, &ERRORS).unwrap();
+    requested.step_to(7200.0).unwrap();
+    requested.set("maneuver.request", 1.0);
+    requested.set_elements("maneuver.deltaV", &delta_v);
     planned.step_to(7200.0).unwrap();
-    for flight in [&mut planned, &mut asked] {
+    for flight in [&mut planned, &mut requested] {
         flight.step_to(50_000.0).unwrap();
     }
-    assert_same(&planned, &asked);
+    assert_same(&planned, &requested);
     assert_eq!(planned.integer("maneuver.count"), 1);
 }
 
@@ -95,7 +100,7 @@ fn one_at_the_start_happens_as_the_flight_begins_and_earlier_ones_never() {
         maneuver(1000.0, [0.0, 1.0, 0.0], false),
         maneuver(2000.0, [0.0, 2.0, 0.0], false),
     ]);
-    let mut flight = named.fly(1000.0, &[]).unwrap();
+    let mut flight = named.initialize(1000.0, &[]).unwrap();
     let first = (flight.integer("maneuver.count"), flight.real("maneuver.lastTime"));
     assert_eq!(first, (1, 1000.0));
     assert_eq!(flight.vector("deltaV"), Vector3::new(0.0, 1.0, 0.0));
@@ -106,7 +111,7 @@ fn one_at_the_start_happens_as_the_flight_begins_and_earlier_ones_never() {
 #[test]
 fn a_centre_of_mass_holds_until_the_parameter_is_set_anew() {
     let named = scheduled(&[center(1000.0, [0.0, 0.02, 0.01]), center(5000.0, [0.0, 0.0, 0.03])]);
-    let mut flight = named.fly(0.0, &[]).unwrap();
+    let mut flight = named.initialize(0.0, &[]).unwrap();
     let parameter = flight.vector("spacecraft.centerOfMass");
     assert_eq!(flight.vector("centerOfMass"), parameter);
     flight.step_to(1000.0).unwrap();
@@ -133,22 +138,27 @@ fn by_torque_dumps_begin_on_schedule_and_the_rest_is_refused() {
     let named = scheduled(&[dump_to(20.25, [0.0, 0.1, 0.0])]);
     for source in [3.0, 4.0] {
         let sets = [("attitude.source", source), ("start.q[4]", 1.0), ("wheel[1].startMomentum", 0.5)];
-        let fly = || named.fly(0.0, &sets).unwrap();
-        assert_cuts_change_nothing(fly, [20.0, 40.0, short_or_long(70.0, 200.0)], &[0.5, 0.37], |_| {});
-        let mut flight = fly();
+        let initialize = || named.initialize(0.0, &sets).unwrap();
+        assert_cuts_change_nothing(
+            initialize,
+            [20.0, 40.0, short_or_long(70.0, 200.0)],
+            &[0.5, 0.37],
+            |_| {},
+        );
+        let mut flight = initialize();
         flight.step_to(20.25).unwrap();
         assert_eq!(flight.integer("dump.count"), 0);
         flight.step_to(300.0).unwrap();
         assert_eq!((flight.integer("dump.count"), flight.real("dump.lastTime")), (1, 20.25));
         // It is the dump that a request at this time begins.
-        let asked = full();
-        let mut asked = asked.fly(0.0, &sets).unwrap();
-        asked.step_to(20.25).unwrap();
-        asked.set("dump.target[2]", 0.1);
-        asked.set("dump.request", 1.0);
-        asked.step_to(300.0).unwrap();
+        let requested = full();
+        let mut requested = requested.initialize(0.0, &sets).unwrap();
+        requested.step_to(20.25).unwrap();
+        requested.set("dump.target[2]", 0.1);
+        requested.set("dump.request", 1.0);
+        requested.step_to(300.0).unwrap();
         for name in ["momentum.body", "dump.impulse", "dump.deltaV"] {
-            let apart = (flight.vector(name) - asked.vector(name)).norm();
+            let apart = (flight.vector(name) - requested.vector(name)).norm();
             assert!(apart < 1e-9, "{name}: {apart:e}");
         }
         assert!(flight.vector("dump.impulse").norm() > 0.2);

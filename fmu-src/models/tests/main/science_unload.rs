@@ -15,7 +15,7 @@ type Sets = Vec<(&'static str, f64)>;
 const UNLOAD: &[(&str, f64)] = &[("guided.scienceUnload", 1.0), ("momentum.strategy", 2.0)];
 
 /// Light on the shade alone, the centre of mass off its middle; nothing dumps.
-const CRAFT: &[(&str, f64)] = &[
+const SPACECRAFT: &[(&str, f64)] = &[
     ("panel[1].enabled", 0.0),
     ("panel[2].enabled", 0.0),
     ("spacecraft.centerOfMass[1]", 0.004),
@@ -75,7 +75,7 @@ fn a_spacecraft_that_stands_still_ends_science_at_its_target() {
                     ("momentum.target[2]", target.y),
                     ("momentum.target[3]", target.z),
                 ];
-                let mut flight = named.fly(0.0, &with(&[&sets, UNLOAD])).unwrap();
+                let mut flight = named.initialize(0.0, &with(&[&sets, UNLOAD])).unwrap();
                 let place = sun_place(&flight);
                 assert!(place.iter().any(|it| it.abs() > 0.01) && !flight.boolean("momentum.targetClamped"));
                 flight.step_to(8.0 * HOUR_S - 1e-6).unwrap();
@@ -107,9 +107,9 @@ fn a_body_that_turns_under_its_momentum_ends_science_at_its_target() {
     ];
     let [unloaded, left] = [1.0, 0.0].map(|unload| {
         let choice = [("guided.scienceUnload", unload), ("momentum.strategy", 2.0)];
-        let mut flight = named.fly(0.0, &with(&[CRAFT, &sets, &choice])).unwrap();
+        let mut flight = named.initialize(0.0, &with(&[SPACECRAFT, &sets, &choice])).unwrap();
         assert!(!flight.boolean("momentum.targetClamped"));
-        flight.fly_to(6.0 * HOUR_S - 1e-3, 600.0).unwrap();
+        flight.simulate_to(6.0 * HOUR_S - 1e-3, 600.0).unwrap();
         flight.vector("momentum.body").xz().norm()
     });
     println!("left at the end: {unloaded:e}, without unloading {left:e}");
@@ -119,7 +119,7 @@ fn a_body_that_turns_under_its_momentum_ends_science_at_its_target() {
 
 /// Least and greatest of X and Z over ten days, and the flight.
 fn ten_days<'m>(named: &'m NamedModel<MomentumPlant>, sets: &[(&'static str, f64)]) -> (f64, Plant<'m>) {
-    let mut flight = named.fly(0.0, sets).unwrap();
+    let mut flight = named.initialize(0.0, sets).unwrap();
     let mut largest = 0.0_f64;
     while flight.time_s() < 10.0 * DAY_S {
         let end_s = flight.time_s() + HOUR_S;
@@ -140,7 +140,7 @@ fn ten_days_keep_a_smaller_momentum() {
                     ("momentum.strategy", strategy),
                     ("momentum.convention", convention),
                 ];
-                ten_days(&named, &with(&[CRAFT, &choice])).0
+                ten_days(&named, &with(&[SPACECRAFT, &choice])).0
             });
             println!("{convention} {strategy}: {with_it} with, {without} without");
             assert!(with_it < without, "{convention} {strategy}: {with_it} {without}");
@@ -153,7 +153,7 @@ fn the_torque_is_what_a_memoryless_model_finds_with_the_sun_there() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let text = <MomentumPlant as fmi_export::Model>::DEFAULT_SETUP;
     let memoryless = NamedModel::<DisturbanceTorque>::with("messenger.toml", text);
-    let mut flight = named.fly(0.0, &with(&[&CRAFT[2..], UNLOAD])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[&SPACECRAFT[2..], UNLOAD])).unwrap();
     let (mut science, mut places) = (0, Vec::new());
     while flight.time_s() < 4.0 * DAY_S {
         let end_s = flight.time_s() + 1000.0;
@@ -169,7 +169,7 @@ fn the_torque_is_what_a_memoryless_model_finds_with_the_sun_there() {
         let (sin_a, cos_a) = azimuth_rad.sin_cos();
         let (sin_e, cos_e) = elevation_rad.sin_cos();
         let sun = Vector3::new(cos_e * sin_a, -cos_e * cos_a, -sin_e) * flight.real("sun.distance");
-        let mut sets = with(&[&CRAFT[2..4]]);
+        let mut sets = with(&[&SPACECRAFT[2..4]]);
         sets.extend([
             ("sun.positionBody[1]", sun.x),
             ("sun.positionBody[2]", sun.y),
@@ -177,7 +177,7 @@ fn the_torque_is_what_a_memoryless_model_finds_with_the_sun_there() {
             ("panel[1].angle", flight.real("panel[1].angleActual")),
             ("panel[2].angle", flight.real("panel[2].angleActual")),
         ]);
-        let alone = memoryless.fly(0.0, &sets).unwrap().vector("torque.solar");
+        let alone = memoryless.initialize(0.0, &sets).unwrap().vector("torque.solar");
         let found = flight.vector("torque.solar");
         assert!((found - alone).norm() < 1e-12 * alone.norm(), "{end_s}: {found} {alone}");
     }
@@ -199,18 +199,18 @@ const SAMPLED: &[(&str, f64)] =
     &[("pointing.scenario", 10.0), ("hotPole.enabled", 0.0), ("monitor.enabled", 0.0)];
 
 #[test]
-fn guidance_turns_the_camera_to_nadir_and_flies_the_plants_attitude() {
+fn guidance_turns_the_camera_to_nadir_and_simulates_the_plants_attitude() {
     let (plants, guidances) = (NamedModel::<MomentumPlant>::shipped(), NamedModel::<Guidance>::shipped());
     let reported =
-        with(&[&CRAFT[..4], UNLOAD, &[("momentum.convention", 2.0), ("solar.fixedPressure", 1.0)]]);
+        with(&[&SPACECRAFT[..4], UNLOAD, &[("momentum.convention", 2.0), ("solar.fixedPressure", 1.0)]]);
     let start =
         [("start.momentum[1]", 0.3), ("start.momentum[3]", 0.2), ("guided.downlinkStart", 23.0 * HOUR_S)];
     let more = [("guided.downlinkEnd", 23.5 * HOUR_S)];
-    let mut plant = plants.fly(0.0, &with(&[&reported, &start, &more])).unwrap();
+    let mut plant = plants.initialize(0.0, &with(&[&reported, &start, &more])).unwrap();
     let at_start = places(&plant);
     let mut sets = with(&[&reported, SAMPLED, &start[2..], &more]);
     sets.extend(at_start.iter().map(|(name, value)| (&**name, *value)));
-    let mut guidance = guidances.fly(0.0, &sets).unwrap();
+    let mut guidance = guidances.initialize(0.0, &sets).unwrap();
     let place = sun_place(&plant);
     assert!(place[0].abs() > 0.01 && place[1].abs() > 0.01, "{place:?}");
     let (mut kept, mut at_bound) = (0, 0);
@@ -264,9 +264,9 @@ fn a_sample_in_science_chooses_what_a_plant_chooses() {
                 ("guided.downlinkEvery", 1.0),
                 ("guided.downlinkEnd", 5.1 * HOUR_S),
             ];
-            let reported = with(&[&CRAFT[..4], &choice]);
+            let reported = with(&[&SPACECRAFT[..4], &choice]);
             let alone = [("gravityGradient.enabled", 0.0), ("eclipse.method", 4.0)];
-            let mut plant = plants.fly(0.0, &with(&[&reported, &alone])).unwrap();
+            let mut plant = plants.initialize(0.0, &with(&[&reported, &alone])).unwrap();
             let (mut worst_rad, mut largest_rad) = (0.0_f64, 0.0_f64);
             for cycle in 0..8 {
                 plant.step_to(5.1 * HOUR_S + f64::from(cycle) * 12.0 * HOUR_S - 60.0).unwrap();
@@ -278,7 +278,7 @@ fn a_sample_in_science_chooses_what_a_plant_chooses() {
                 let mut sets = with(&[&reported, SAMPLED, &epoch]);
                 let seen = places(&plant);
                 sets.extend(seen.iter().map(|(name, value)| (&**name, *value)));
-                let guidance = guidances.fly(0.0, &sets).unwrap();
+                let guidance = guidances.initialize(0.0, &sets).unwrap();
                 let clamped = "momentum.targetClamped";
                 assert_eq!(
                     guidance.boolean(clamped),
@@ -300,7 +300,7 @@ fn the_sun_stays_in_its_zone_through_science_downlinks_and_slews() {
     let slews = [("guided.slewRate", 2e-3), ("guided.downlinkEvery", 1.0)];
     // Out of reach: the Sun stands at the bounds of the zone.
     let target = [("momentum.target[1]", 30.0), ("momentum.target[3]", -20.0)];
-    let mut flight = named.fly(0.0, &with(&[CRAFT, UNLOAD, &slews, &target])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[SPACECRAFT, UNLOAD, &slews, &target])).unwrap();
     let (mut least_rad, mut clamped) = (f64::INFINITY, 0);
     while flight.time_s() < 3.0 * DAY_S {
         let end_s = flight.time_s() + 20.0;
@@ -317,8 +317,8 @@ fn the_sun_stays_in_its_zone_through_science_downlinks_and_slews() {
 fn a_disturbed_orbit_has_places_of_its_science_too() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let [closed, disturbed] = [1.0, 2.0].map(|dynamics| {
-        let sets = with(&[CRAFT, UNLOAD, &[("orbit.dynamics", dynamics)]]);
-        let mut flight = named.fly(0.0, &sets).unwrap();
+        let sets = with(&[SPACECRAFT, UNLOAD, &[("orbit.dynamics", dynamics)]]);
+        let mut flight = named.initialize(0.0, &sets).unwrap();
         [1.0, 14.0, 38.0, 62.0].map(|hour| {
             flight.step_to(hour * HOUR_S).unwrap();
             (sun_place(&flight), flight.boolean("momentum.targetClamped"))
@@ -337,12 +337,12 @@ fn the_cut_and_a_restored_state_change_no_bit() {
         [("momentum.convention", 2.0), ("momentum.strategy", 3.0)],
     ] {
         let sets = with(&[
-            &CRAFT[..4],
+            &SPACECRAFT[..4],
             &[("guided.scienceUnload", 1.0), ("guided.slewRate", 3e-3), ("dump.threshold[1]", 0.2)],
             &more,
         ]);
         let ends_s = (1..=48).map(|hour| HOUR_S * f64::from(hour));
-        assert_cuts_change_nothing(|| named.fly(0.0, &sets).unwrap(), ends_s, &[600.0, 97.3], |_| {});
+        assert_cuts_change_nothing(|| named.initialize(0.0, &sets).unwrap(), ends_s, &[600.0, 97.3], |_| {});
     }
 }
 
@@ -352,9 +352,9 @@ fn a_controller_turns_to_the_place_that_is_chosen_and_holds_it() {
     let controlled = [("attitude.source", 3.0), ("command.source", 2.0)];
     let place = |unload: f64| {
         let choice = [("guided.scienceUnload", unload), ("momentum.strategy", 2.0)];
-        let mut flight = named.fly(0.0, &with(&[CRAFT, &controlled, &choice])).unwrap();
+        let mut flight = named.initialize(0.0, &with(&[SPACECRAFT, &controlled, &choice])).unwrap();
         [1800.0, 2700.0, 3600.0].map(|end_s| {
-            flight.fly_to(end_s, 60.0).unwrap();
+            flight.simulate_to(end_s, 60.0).unwrap();
             sun_place(&flight)
         })
     };

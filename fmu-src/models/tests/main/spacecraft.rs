@@ -1,4 +1,4 @@
-//! Spacecraft files that several tests fly: everything acts on everything, or hardly anything does.
+//! Spacecraft files that several tests simulate: everything acts on everything, or hardly anything does.
 
 /// Surfaces that shadow one another, with heat stored and not, each face reported; two wheels only.
 pub(crate) const RADIATING: &str = r#"

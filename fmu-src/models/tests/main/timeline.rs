@@ -63,9 +63,9 @@ fn a_plan_as_timeline_is_the_plan_by_inputs() {
     let events = "[[event]]\nat = \"30 h\"\nmaneuver = { deltaV = [0.5, -1, 0.2] }\n\
                   [[event]]\nat = \"50 h\"\ndump = [0.1, 0.2, -0.3]\n";
     let (planned, commanded) = (planned(&(plan() + events)), NamedModel::<MomentumPlant>::shipped());
-    let mut timeline = planned.fly(0.0, &[&cruise(0.4)[..], &by_timeline()].concat()).unwrap();
+    let mut timeline = planned.initialize(0.0, &[&cruise(0.4)[..], &by_timeline()].concat()).unwrap();
     let by_command = [("panel[1].control", 3.0), ("panel[2].control", 3.0)];
-    let mut inputs = commanded.fly(0.0, &[&cruise(0.4)[..], &by_command].concat()).unwrap();
+    let mut inputs = commanded.initialize(0.0, &[&cruise(0.4)[..], &by_command].concat()).unwrap();
     let mut edges: Vec<(f64, Option<&Window>)> = PLAN.iter().map(|it| (it.0, Some(it))).collect();
     edges.extend([30.0, 50.0, 96.0].map(|it| (it * HOUR_S, None)));
     edges.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -109,7 +109,7 @@ fn a_plan_as_timeline_is_the_plan_by_inputs() {
 }
 
 #[test]
-fn steps_of_any_length_fly_a_timeline_to_the_same_bits() {
+fn steps_of_any_length_simulate_a_timeline_to_the_same_bits() {
     let rest = "[[command]]\nat = \"85 h\"\nuntil = \"90 h\"\nscenario = \"generic\"\n\
                 boresight = { option = \"vector\", vector = [0, -1, 0] }\naimpoint = { option = \"sun\" }\n\
                 bodyRoll = { option = \"vector\", vector = [0, 0, 1] }\nexternalRoll = { option = \"earth\" }\n\
@@ -119,8 +119,8 @@ fn steps_of_any_length_fly_a_timeline_to_the_same_bits() {
     let named = planned(&(plan() + rest));
     for orbit in [&[("orbit.dynamics", 2.0), ("spacecraft.centerOfMassShift[3]", 0.01)][..], &[]] {
         let sets = [&cruise(0.35)[..], &by_timeline(), orbit].concat();
-        let fly = || named.fly(0.0, &sets).unwrap();
-        assert_cuts_change_nothing(fly, [2.0 * DAY_S, 4.0 * DAY_S], &[600.0, 12_345.0, DAY_S], |_| {});
+        let initialize = || named.initialize(0.0, &sets).unwrap();
+        assert_cuts_change_nothing(initialize, [2.0 * DAY_S, 4.0 * DAY_S], &[600.0, 12_345.0, DAY_S], |_| {});
     }
 }
 
@@ -131,7 +131,7 @@ fn left_across(named: &NamedModel<MomentumPlant>, sets: &[(&str, f64)], until_s:
         (momentum - sun * sun.dot(&momentum)).norm()
     };
     let [alternated, alone] = [1.0, 0.0].map(|enabled| {
-        let mut flight = named.fly(0.0, &[sets, &[("timeline.enabled", enabled)]].concat()).unwrap();
+        let mut flight = named.initialize(0.0, &[sets, &[("timeline.enabled", enabled)]].concat()).unwrap();
         flight.step_to(0.5 * until_s).unwrap();
         let sun = -flight.vector("position").normalize();
         flight.step_to(until_s).unwrap();
@@ -170,7 +170,7 @@ fn alternation_cancels_torque_across_the_sun_line() {
 #[test]
 fn the_sun_stands_where_the_downlink_has_it_and_what_cannot_be_is_flagged() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = named.fly(0.0, &cruise(0.4)).unwrap();
+    let mut flight = named.initialize(0.0, &cruise(0.4)).unwrap();
     assert_eq!(flight.integer("guided.phase"), 2);
     let mut time_s = 0.0;
     let mut clamped = 0;
@@ -191,11 +191,14 @@ fn the_sun_stands_where_the_downlink_has_it_and_what_cannot_be_is_flagged() {
     assert!(clamped > 0);
     // About the Sun with windows there is science between them.
     let mut windows = named
-        .fly(0.0, &[&cruise(0.4)[..], &[("guided.phase", 1.0), ("guided.downlinkReference", 2.0)]].concat())
+        .initialize(
+            0.0,
+            &[&cruise(0.4)[..], &[("guided.phase", 1.0), ("guided.downlinkReference", 2.0)]].concat(),
+        )
         .unwrap();
     windows.step_to(60.0).unwrap();
     assert!(!windows.boolean("downlink.active"));
-    assert_eq!(named.fly(0.0, &[]).unwrap().integer("guided.phase"), 1);
+    assert_eq!(named.initialize(0.0, &[]).unwrap().integer("guided.phase"), 1);
 }
 
 #[test]
@@ -212,8 +215,8 @@ fn a_place_outside_the_keep_in_zone_is_its_boundary_however_it_is_requested() {
     ] {
         // The Earth is far enough from the Sun line.
         let place = [&cruise(0.4)[..], &[("orbit.trueAnomaly", 2.0)]].concat();
-        let mut by_timeline = planned.fly(0.0, &[&place[..], zone].concat()).unwrap();
-        let mut by_input = plain.fly(0.0, &[&place[..], zone, &input].concat()).unwrap();
+        let mut by_timeline = planned.initialize(0.0, &[&place[..], zone].concat()).unwrap();
+        let mut by_input = plain.initialize(0.0, &[&place[..], zone, &input].concat()).unwrap();
         for flight in [&mut by_timeline, &mut by_input] {
             flight.step_to(HOUR_S).unwrap();
             let [azimuth, elevation] =
@@ -237,7 +240,7 @@ fn a_place_on_the_keep_in_zones_boundary_is_simulated_in_one_step() {
             "[[command]]\nat = 0\nscenario = \"downlink\"\n\
              sun = {{ azimuth = \"{azimuth_deg} deg\", elevation = \"{elevation_deg} deg\" }}\n"
         ));
-        let mut flight = named.fly(0.0, &[("solver.workLimit", 2e4)]).unwrap();
+        let mut flight = named.initialize(0.0, &[("solver.workLimit", 2e4)]).unwrap();
         flight.step_to(14.0 * HOUR_S).unwrap();
     }
 }
@@ -247,7 +250,7 @@ fn an_input_goes_before_the_timeline_and_what_it_leaves_goes_by_guided() {
     let timeline =
         "[[command]]\nat = 0\nuntil = 3600\nscenario = \"downlink\"\nsun = { elevation = \"4 deg\" }\n";
     let named = planned(timeline);
-    let mut flight = named.fly(0.0, &cruise(0.4)).unwrap();
+    let mut flight = named.initialize(0.0, &cruise(0.4)).unwrap();
     let elevation_deg = |flight: &NamedInstance<'_, MomentumPlant>| flight.real("sun.elevation").to_degrees();
     flight.step_to(1000.0).unwrap();
     assert!((elevation_deg(&flight) - 4.0).abs() < 1e-9);
@@ -280,7 +283,7 @@ fn dates_are_times_of_the_simulation_wherever_it_begins() {
         // J2000 is at noon of the first day of 2000.
         let epoch = [("start.epoch", 3_000.5 * DAY_S)];
         let sets = [&cruise(0.4)[..], &by_timeline(), &epoch].concat();
-        let mut flight = named.fly(start_s, &sets).unwrap();
+        let mut flight = named.initialize(start_s, &sets).unwrap();
         assert_eq!(flight.integer("maneuver.count"), 1, "{start_s}");
         let edge_s = start_s + 43_200.5;
         flight.step_to(edge_s - 1e-3).unwrap();
@@ -297,12 +300,13 @@ fn dates_are_times_of_the_simulation_wherever_it_begins() {
 fn without_the_timeline_neither_panels_nor_events_follow_it() {
     let timeline = "[[panels]]\nat = 0\nsunOffset = \"20 deg\"\n[[event]]\nat = 10\ndump = true\n";
     let named = planned(timeline);
-    let mut flight =
-        named.fly(0.0, &[&cruise(0.4)[..], &by_timeline(), &[("timeline.enabled", 0.0)]].concat()).unwrap();
+    let mut flight = named
+        .initialize(0.0, &[&cruise(0.4)[..], &by_timeline(), &[("timeline.enabled", 0.0)]].concat())
+        .unwrap();
     flight.step_to(100.0).unwrap();
     assert_eq!(flight.integer("dump.count"), 0);
     let plain = NamedModel::<MomentumPlant>::shipped();
-    let plain = plain.fly(0.0, &cruise(0.4)).unwrap();
+    let plain = plain.initialize(0.0, &cruise(0.4)).unwrap();
     assert!((flight.real("panel[1].angleActual") - plain.real("panel[1].angleActual")).abs() < 1e-6);
 }
 
@@ -311,7 +315,7 @@ fn the_alternate_attitude_is_half_a_turn_about_the_sun_line() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let [direct, alternate] = [0.0, 1.0].map(|alternate| {
         let sets = [&cruise(0.4)[..], &[("downlink.alternate", alternate), ("downlink.sunElevation", 0.1)]];
-        let mut flight = named.fly(0.0, &sets.concat()).unwrap();
+        let mut flight = named.initialize(0.0, &sets.concat()).unwrap();
         flight.step_to(HOUR_S).unwrap();
         flight
     });
@@ -330,7 +334,7 @@ fn controlled_flight_with_its_own_guidance_samples_the_timeline() {
                     [[command]]\nat = 600\nscenario = \"downlink\"\nsun = { elevation = \"4 deg\" }\n";
     let named = planned(timeline);
     let sets = [("attitude.source", 3.0), ("command.source", 2.0)];
-    let mut flight = named.fly(0.0, &[&cruise(0.4)[..2], &cruise(0.4)[2..4], &sets].concat()).unwrap();
+    let mut flight = named.initialize(0.0, &[&cruise(0.4)[..2], &cruise(0.4)[2..4], &sets].concat()).unwrap();
     flight.step_to(599.0).unwrap();
     assert!(flight.real("sun.elevation").abs() < 1e-3, "{}", flight.real("sun.elevation"));
     assert_eq!(flight.integer("timeline.command"), 1);

@@ -67,7 +67,7 @@ fn scattered(state: &[u8], count: usize) -> Vec<Vec<u8>> {
     (0..count).map(|_| tear()).collect()
 }
 
-/// Goes on from what `tear` makes of the state at `at_s` to `ends_s`; some are refused or fail, some go on.
+/// Continues from what `tear` makes of the state at `at_s` to `ends_s`; some are refused or fail, some continue.
 fn goes_on_or_fails<M: Model>(
     named: &NamedModel<M>,
     sets: &[(&str, f64)],
@@ -75,8 +75,8 @@ fn goes_on_or_fails<M: Model>(
     ends_s: &[f64],
     tear: impl Fn(&[u8]) -> Vec<Vec<u8>>,
 ) {
-    let mut flight = named.fly(0.0, sets).unwrap();
-    flight.fly_to(at_s, 500.0).unwrap();
+    let mut flight = named.initialize(0.0, sets).unwrap();
+    flight.simulate_to(at_s, 500.0).unwrap();
     let state = flight.state_bytes();
     let (mut refused, mut simulated) = (0, 0);
     for torn in tear(&state) {

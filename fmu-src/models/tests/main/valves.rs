@@ -58,7 +58,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Flies a case from `start_s` on; what was open, by the propellant, in s.
+/// Simulates a case from `start_s` on; what was open, by the propellant, in s.
 fn open_s<M: Model>(flight: &mut NamedInstance<'_, M>, case: &Case, start_s: f64, flow_kg_s: f64) -> f64 {
     let mut time_s = start_s;
     for ([step_s, delay_s, on_s], too_short) in case.commanded.iter().zip(&case.too_short) {
@@ -92,7 +92,7 @@ fn valves_of_the_three_axis_plant_open_by_the_law() {
     ];
     for start_s in [0.0, 1234.5] {
         for case in cases() {
-            let mut flight = named.fly(start_s, &sets).unwrap();
+            let mut flight = named.initialize(start_s, &sets).unwrap();
             let open_s = open_s(&mut flight, &case, start_s, 5.0 / EXHAUST_M_S);
             assert!((open_s - case.open_s).abs() < 1e-9, "{:?}: {open_s} {}", case.commanded, case.open_s);
             assert_eq!(flight.integer("thruster[1].pulses"), case.pulses, "{:?}", case.commanded);
@@ -106,21 +106,21 @@ fn valves_of_the_spinner_open_by_the_law() {
     let sets = [("burn.plan", 4.0), ("pulse.resolution", 0.0), ("thruster[1].minOnTime", 0.5)];
     for start_s in [0.0, 1234.5] {
         for case in cases() {
-            let mut flight = named.fly(start_s, &sets).unwrap();
+            let mut flight = named.initialize(start_s, &sets).unwrap();
             let open_s = open_s(&mut flight, &case, start_s, 4.448 / EXHAUST_M_S);
             assert!((open_s - case.open_s).abs() < 1e-9, "{:?}: {open_s} {}", case.commanded, case.open_s);
         }
     }
 }
 
-/// A pulse that scatters is one pulse, however many steps it goes on through.
+/// A pulse that scatters is one pulse, however many steps it continues through.
 #[test]
 fn a_pulse_over_many_steps_of_the_spinner_scatters_once() {
     let named = NamedModel::<SpinPlant>::shipped();
     let sets = [("burn.plan", 4.0), ("pulse.resolution", 0.0), ("thruster[1].scatter", 0.1)];
     let used_kg = |step_s: f64, count: usize| {
         let case = Case::of(&vec![[step_s, 0.0, step_s]; count], 0.0, &vec![false; count], 1);
-        open_s(&mut named.fly(0.0, &sets).unwrap(), &case, 0.0, 1.0)
+        open_s(&mut named.initialize(0.0, &sets).unwrap(), &case, 0.0, 1.0)
     };
     let whole_kg = used_kg(1.5, 1);
     for (step_s, count) in [(0.75, 2), (0.1, 15), (0.01, 150)] {

@@ -110,7 +110,7 @@ fn what_has_one_name_is_one_thing() {
             }
         }
     }
-    // The spinner flies a file of its own.
+    // SpinPlant has a spacecraft file of its own.
     let shipped = MODELS.map(|model| (model, described(model, None).unwrap()));
     let spinner = shipped.iter().find(|(name, _)| *name == "SpinPlant").unwrap();
     for (name, variables) in shipped.iter().filter(|(name, _)| *name != "SpinPlant") {

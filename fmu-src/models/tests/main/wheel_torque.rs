@@ -21,10 +21,10 @@ fn with(more: &[(&str, f64)]) -> Vec<(String, f64)> {
     wheels.chain(thresholds).chain(more.iter().map(|(name, value)| ((*name).to_owned(), *value))).collect()
 }
 
-pub(crate) fn fly<'a>(named: &'a NamedModel<MomentumPlant>, more: &[(&str, f64)]) -> Flight<'a> {
+pub(crate) fn initialize<'a>(named: &'a NamedModel<MomentumPlant>, more: &[(&str, f64)]) -> Flight<'a> {
     let sets = with(more);
     let sets: Vec<_> = sets.iter().map(|(name, value)| (name.as_str(), *value)).collect();
-    named.fly(0.0, &sets).unwrap()
+    named.initialize(0.0, &sets).unwrap()
 }
 
 /// h + I a.w of each wheel.
@@ -59,7 +59,7 @@ fn ideal_wheels_turn_by_the_torque_that_is_shown() {
     let guided: &[(&str, f64)] = &[("start.momentum[2]", 2.0), ("guided.slewRate", 2e-3)];
     for (start, times) in [(commanded, &[100.0, 731.0, 2500.0][..]), (guided, &[30.0, 900.0, 3000.0, 9000.0])]
     {
-        let mut flight = fly(&named, start);
+        let mut flight = initialize(&named, start);
         for time_s in times {
             let difference_s = 1.0;
             flight.step_to(time_s - difference_s).unwrap();
@@ -87,7 +87,7 @@ fn ideal_wheels_turn_by_the_torque_that_is_shown() {
 fn controlled_wheels_turn_by_the_torque_that_is_shown() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let turned = [("start.q[4]", 1.0), ("command.q[1]", 0.1), ("command.q[4]", 0.99)];
-    let mut flight = fly(&named, &[&[("attitude.source", 3.0)][..], &turned].concat());
+    let mut flight = initialize(&named, &[&[("attitude.source", 3.0)][..], &turned].concat());
     let mut moved = false;
     for sample in 1..=500 {
         let before = axial(&flight);
@@ -118,7 +118,7 @@ fn torques_add_up_to_the_momentum_while_propellant_flows() {
     let controlled: &[_] = &[("attitude.source", 3.0), ("start.q[4]", 1.0), ("wheel[1].startMomentum", 20.0)];
     let free: &[_] = &[("attitude.source", 4.0), ("start.rate[1]", 0.01), ("start.rate[3]", -0.02)];
     for (start, step_s, input) in [(controlled, 0.02, "dump.request"), (free, 0.5, "thrust.command")] {
-        let mut flight = fly(&named, start);
+        let mut flight = initialize(&named, start);
         flight.set("command.q[4]", 1.0);
         flight.set("thrust.request", 1.0);
         flight.set(input, 1.0);
@@ -153,10 +153,10 @@ pub(crate) fn most_off(begin: &[f64; WHEELS], end: &[f64; WHEELS], impulse: &[f6
 #[test]
 fn a_motor_shows_what_acts_after_failure_limit_and_capacity() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = fly(&named, &[("attitude.source", 4.0), ("wheel[3].startMomentum", 7.0)]);
+    let mut flight = initialize(&named, &[("attitude.source", 4.0), ("wheel[3].startMomentum", 7.0)]);
     let capacity = flight.real("wheel[3].capacity");
     let limit = flight.real("wheel[2].maxTorque");
-    flight = fly(&named, &[("attitude.source", 4.0), ("wheel[3].startMomentum", capacity)]);
+    flight = initialize(&named, &[("attitude.source", 4.0), ("wheel[3].startMomentum", capacity)]);
     for (k, command) in [(1, 0.01), (2, 10.0 * limit), (3, 0.5 * limit), (4, 0.02)] {
         flight.set(&format!("wheel[{k}].torqueCommand"), command);
     }

@@ -8,7 +8,7 @@ use super::spacecraft::{ALL, RADIATING};
 
 fn warnings<M: Model>(text: &str, sets: &[(&str, f64)]) -> Vec<String> {
     let named = NamedModel::<M>::with("my.toml", text);
-    named.fly(0.0, sets).unwrap();
+    named.initialize(0.0, sets).unwrap();
     named.warnings()
 }
 
@@ -88,7 +88,7 @@ fn each_switch_of_disturbance_torque_takes_one_source_away() {
     let named = NamedModel::<DisturbanceTorque>::with("my.toml", RADIATING);
     let all = [("planetLight.enabled", 1.0), ("thermal.enabled", 1.0), ("gravityGradient.enabled", 1.0)];
     let simulated = |sets: &[(&str, f64)]| {
-        let flight = named.fly(0.0, sets).unwrap();
+        let flight = named.initialize(0.0, sets).unwrap();
         let mut found = Vec::new();
         for source in ["solar", "albedo", "infrared", "thermal"] {
             found.push((

@@ -303,7 +303,7 @@ impl GyrostatMotion {
         sum
     }
 
-    /// Goes on from the end: the next segment, at most to `limit_s`, under these motor torques and loads (linear in time from
+    /// Continues from the end: the next segment, at most to `limit_s`, under these motor torques and loads (linear in time from
     /// the present end on).
     pub fn advance(&mut self, gyrostat: &Gyrostat, motors: &[Motor], load: &BodyLoad, limit_s: f64) {
         let start_s = self.end_s;

@@ -128,7 +128,7 @@ pub(super) fn change_one(
     true
 }
 
-/// When the first rotor changes how it moves, at most `longest_s` after the start, in s; that rotor is told.
+/// When the first rotor changes how it moves, at most `longest_s` after the start, in s, which changes that rotor.
 pub(super) fn first_event_s(
     rotors: &mut [RotorMotion],
     wheels: &[ReactionWheel],
@@ -145,7 +145,7 @@ pub(super) fn first_event_s(
     }
     let Some((it, at_s, rotor)) = first else { return longest_s };
     it.next = Some(rotor);
-    // Time always goes on.
+    // Time always advances.
     at_s.max(longest_s * 1e-9)
 }
 

@@ -22,7 +22,7 @@ use dipole::DipoleField;
 use surface::{DayTemperature, PlanetSurface};
 
 enumeration! {
-    /// A body a spacecraft can fly around or look at.
+    /// A body that a spacecraft can orbit or observe.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
     #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "camelCase")]

@@ -339,7 +339,7 @@ impl TwoLayers {
     }
 }
 
-/// Elements with the slow remainder of the longitude, in segments that go on smoothly: their ends have values, and rates by
+/// Elements with the slow remainder of the longitude, in segments that continue smoothly: their ends have values, and rates by
 /// differences, that are functions of the end alone.
 fn fit_elements(
     theory: &Theory,

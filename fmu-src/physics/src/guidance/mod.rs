@@ -17,7 +17,7 @@ pub use orbit_phase::attitudes::{
     AttitudeCommand, LinesOfSight, ScienceRule, downlink_toward, science, sun_pointing, unloading,
 };
 pub use orbit_phase::guided::{DownlinkStatus, Guided, GuidedAttitude};
-pub use orbit_phase::orbit_ahead::{OrbitAhead, lines_of_sight};
+pub use orbit_phase::predicted_orbit::{PredictedOrbit, lines_of_sight};
 pub use orbit_phase::schedule::{Activity, NoCycle, Schedule, Window};
 pub use orbit_phase::science_course::{CoursePoint, ScienceCourse};
 pub use pointing::law::{Pointing, PointingVectors};

@@ -125,7 +125,7 @@ impl Effect {
         matches!(self.row().grid, Grid::Field)
     }
 
-    /// Whether it disturbs from the surroundings.
+    /// Whether it is an environmental disturbance.
     pub const fn is_disturbance(self) -> bool {
         !matches!(self.row().grid, Grid::Motion)
     }

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use crate::numerics::scalar::Scalar;
 
-/// Force and torque in the body frame; the torque is about the centre of mass unless said otherwise.
+/// Force and torque in the body frame; the torque is about the centre of mass unless stated otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceTorque<T: Scalar = f64> {
     /// Force in N.

@@ -92,7 +92,7 @@ impl Branch {
         });
         let low_rad = middles_rad.into_iter().fold(-most_rad, |low_rad, it| low_rad.max(it - fan.half_rad));
         let high_rad = middles_rad.into_iter().fold(most_rad, |high_rad, it| high_rad.min(it + fan.half_rad));
-        // What stands at a bound is inside, whatever rounding says.
+        // What stands at a bound is inside, whatever the rounding.
         let is_point = high_rad < low_rad && high_rad > low_rad - ROUNDING_RAD;
         if high_rad >= low_rad || is_point { Some([low_rad.min(high_rad), high_rad]) } else { None }
     }

@@ -38,8 +38,8 @@ impl LinearTorque {
         requested: [bool; 2],
     ) -> Option<SunAngles> {
         let torque_m3 = self.dcm_body_from_shade.tr_mul(torque_body_n_m) / pressure_pa;
-        let solve = |requested: bool, wanted_m3: f64, [slope_m3, constant_m3]: [f64; 2]| {
-            let angle_rad = (wanted_m3 - constant_m3) / slope_m3;
+        let solve = |requested: bool, required_m3: f64, [slope_m3, constant_m3]: [f64; 2]| {
+            let angle_rad = (required_m3 - constant_m3) / slope_m3;
             if requested { Some(angle_rad).filter(|it| it.is_finite()) } else { Some(0.0) }
         };
         let in_shade = SunAngles {
@@ -60,8 +60,8 @@ mod tests {
 
     #[test]
     fn the_torque_comes_out_to_second_order() {
-        let craft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
-        let mut shade = craft.sunshade.unwrap();
+        let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
+        let mut shade = spacecraft.sunshade.unwrap();
         let center_of_mass_m = Vector3::new(0.01, 0.0, 0.03);
         for turn_rad in [0.0, 0.1] {
             let turn = Rotation3::from_axis_angle(&Vector3::y_axis(), turn_rad);
@@ -74,8 +74,8 @@ mod tests {
                 let none = Vector3::new(linear.along_x_m3[1], 0.0, linear.along_z_m3[1]);
                 let requested =
                     none + Vector3::new(linear.along_x_m3[0] * size, 0.0, -linear.along_z_m3[0] * size);
-                let asked_body = shade.dcm_body_from_shade * requested * 5e-5;
-                let angles = linear.sun_angles(&asked_body, 5e-5, [true; 2]).unwrap();
+                let requested_body = shade.dcm_body_from_shade * requested * 5e-5;
+                let angles = linear.sun_angles(&requested_body, 5e-5, [true; 2]).unwrap();
                 let source_body = shade.dcm_body_from_shade.tr_mul(&direction_from_angles(angles));
                 let torque = polynomial.torque_n_m(&Beam { source_body, pressure_pa: 1.0 });
                 (torque - requested).xz().norm()

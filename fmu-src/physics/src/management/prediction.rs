@@ -201,18 +201,21 @@ impl Components {
         &self.downlinks[0]
     }
 
-    /// Cycles to come of X and of Z, `reach` being what a coming downlink can add to each.
+    /// Cycles to come of X and of Z, `authority` being what a coming downlink can add to each.
     pub fn cycles(
         &self,
-        reach: impl Fn(&PredictedDownlink) -> [ControlAuthority; 2],
+        authority: impl Fn(&PredictedDownlink) -> [ControlAuthority; 2],
     ) -> [[Cycle; LONGEST_HORIZON]; 2] {
         let mut cycles = [[Cycle::default(); LONGEST_HORIZON]; 2];
         for cycle in 0..self.count {
             // The last science has no downlink after it within the horizon.
-            let reaches = self.downlinks.get(cycle + 1).filter(|_| cycle + 1 < self.count).map(&reach);
+            let authorities =
+                self.downlinks.get(cycle + 1).filter(|_| cycle + 1 < self.count).map(&authority);
             for (axis, cycles) in cycles.iter_mut().enumerate() {
-                cycles[cycle] =
-                    Cycle { swing: self.swings[axis][cycle], reach: reaches.map_or([0.0; 2], |it| it[axis]) };
+                cycles[cycle] = Cycle {
+                    swing: self.swings[axis][cycle],
+                    authority: authorities.map_or([0.0; 2], |it| it[axis]),
+                };
             }
         }
         cycles

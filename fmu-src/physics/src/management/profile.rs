@@ -40,16 +40,16 @@ pub struct Cycle {
     /// Of the science.
     pub swing: Excursion,
     /// Of the downlink.
-    pub reach: ControlAuthority,
+    pub authority: ControlAuthority,
 }
 
 /// One component where a downlink begins.
 #[derive(Clone, Copy, Debug)]
 pub struct Component<'a, D: Fn(f64) -> f64> {
     /// Momentum, in N m s.
-    pub now: f64,
+    pub momentum_n_m_s: f64,
     /// Of the downlink that begins.
-    pub reach: ControlAuthority,
+    pub authority: ControlAuthority,
     /// What follows it.
     pub cycles: &'a [Cycle],
     /// Momentum through the first science, relative to its start, in N m s, in the order of time.
@@ -71,7 +71,7 @@ const SPREAD: i32 = 4;
 impl<D: Fn(f64) -> f64> Component<'_, D> {
     /// The momentum to leave this downlink with, in N m s.
     pub fn target(&self) -> f64 {
-        let [low, high] = [self.now + self.reach[0], self.now + self.reach[1]];
+        let [low, high] = [self.momentum_n_m_s + self.authority[0], self.momentum_n_m_s + self.authority[1]];
         let nearest = middle(self.cycles, (1.0 - MARGIN) * self.threshold).max(low).min(high);
         let fewest = self.dumps_about(nearest);
         if fewest <= 1 {
@@ -120,11 +120,11 @@ fn middle(cycles: &[Cycle], threshold: f64) -> f64 {
 /// positive one.
 fn bounds(cycles: &[Cycle]) -> [f64; 2] {
     let mut later: Option<[f64; 2]> = None;
-    for Cycle { swing, reach } in cycles.iter().rev() {
+    for Cycle { swing, authority } in cycles.iter().rev() {
         let mut bounds = [-swing.lowest, -swing.highest];
         if let Some([least, most]) = later {
-            bounds[0] = bounds[0].max(least - swing.change - reach[1]);
-            bounds[1] = bounds[1].min(most - swing.change - reach[0]);
+            bounds[0] = bounds[0].max(least - swing.change - authority[1]);
+            bounds[1] = bounds[1].min(most - swing.change - authority[0]);
         }
         later = Some(bounds);
     }

@@ -7,16 +7,16 @@ use nalgebra::Vector3;
 use super::prediction::Prediction;
 use super::sampled_forecast::SampledForecast;
 use super::strategy::{Manager, Strategy};
-use super::targeting::{DownlinkState, ScienceAim};
+use super::targeting::{DownlinkState, ScienceUnload};
 use crate::attitude::angle_between_rad;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::{
-    Activity, ChosenPlace, CoursePoint, Guided, OrbitAhead, ScienceCourse, ScienceRule, WindowStart,
+    Activity, ChosenPlace, CoursePoint, Guided, PredictedOrbit, ScienceCourse, ScienceRule, WindowStart,
 };
 use crate::momentum::{Convention, DumpPolicy, Totals};
 use crate::numerics::intervals::sampled_range;
-use crate::plant::{StartMomentum, SunLight, SunlitCraft};
+use crate::plant::{StartMomentum, SunLight, SunlitConfiguration};
 
 /// A manager with what a sample knows.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +26,7 @@ pub struct SampledManager<'a> {
     /// The default downlink of the spacecraft's antennas.
     pub default_downlink: &'a DefaultDownlink,
     /// What the light meets.
-    pub spacecraft: SunlitCraft<'a>,
+    pub spacecraft: SunlitConfiguration<'a>,
     /// Sunlight.
     pub light: SunLight,
     /// What the momentum means.
@@ -45,12 +45,12 @@ impl SampledManager<'_> {
         }
         let spacecraft = &self.spacecraft;
         let [to_sun_m, to_earth_m] =
-            [start.surroundings.to_sun(), start.surroundings.to_earth()].map(|it| value(&it));
+            [start.ephemeris.to_sun(), start.ephemeris.to_earth()].map(|it| value(&it));
         let pressure_pa = self.light.pressure_pa(to_sun_m.norm());
         let totals = Totals::at_start(self.momentum_body_n_m_s, &start.attitude.inertial_from_body());
         let torque = |sun_body: &Vector3<f64>| spacecraft.torque_body_n_m(sun_body, pressure_pa);
         let science = self.science_course(start);
-        let aim = DownlinkState {
+        let state = DownlinkState {
             to_sun: to_sun_m.try_normalize(0.0)?,
             to_earth: to_earth_m.try_normalize(0.0)?,
             momentum: StartMomentum::of(&totals, self.convention),
@@ -58,20 +58,20 @@ impl SampledManager<'_> {
             torque_body_n_m: &torque,
             pressure_pa,
             linear: self.manager.linear(&spacecraft.center_of_mass_body_m()),
-            science: science.as_ref().map(|course| ScienceAim { course, convention: self.convention }),
+            science: science.as_ref().map(|course| ScienceUnload { course, convention: self.convention }),
         };
         let separations_rad = separations_rad(start);
-        self.manager.place(aim, self.ahead(start, totals).as_ref(), separations_rad)
+        self.manager.place(state, self.predict(start, totals).as_ref(), separations_rad)
     }
 }
 
 /// Least and greatest angle between Sun and Earth while the downlink lasts, in rad; that at its begin where the spacecraft is on
 /// no ellipse about its planet.
 fn separations_rad(start: &WindowStart<'_>) -> [f64; 2] {
-    let orbit = OrbitAhead::of(start.surroundings);
+    let orbit = PredictedOrbit::of(start.ephemeris);
     let at = |share: f64| {
-        let epoch_s = start.surroundings.epoch_s + start.span_s * share;
-        let then = orbit.map_or(*start.surroundings, |orbit| orbit.at(epoch_s));
+        let epoch_s = start.ephemeris.epoch_s + start.span_s * share;
+        let then = orbit.map_or(*start.ephemeris, |orbit| orbit.at(epoch_s));
         angle_between_rad(&value(&then.to_sun()), &value(&then.to_earth()))
     };
     sampled_range(at)
@@ -101,10 +101,10 @@ impl SampledManager<'_> {
         if start.activity == Activity::Downlink {
             return None;
         }
-        let orbit = OrbitAhead::of(start.surroundings);
+        let orbit = PredictedOrbit::of(start.ephemeris);
         Some(ScienceCourse::of(gimbal, start.span_s, |share| {
-            let epoch_s = start.surroundings.epoch_s + start.span_s * share;
-            let then = orbit.map_or(*start.surroundings, |orbit| orbit.at(epoch_s));
+            let epoch_s = start.ephemeris.epoch_s + start.span_s * share;
+            let then = orbit.map_or(*start.ephemeris, |orbit| orbit.at(epoch_s));
             let to_sun_m = value(&then.to_sun());
             CoursePoint {
                 to_sun_m,
@@ -115,11 +115,11 @@ impl SampledManager<'_> {
     }
 
     /// What lies ahead; nothing where the spacecraft is on no ellipse about its planet.
-    fn ahead(&self, start: &WindowStart<'_>, totals: Totals) -> Option<Prediction> {
+    fn predict(&self, start: &WindowStart<'_>, totals: Totals) -> Option<Prediction> {
         if self.manager.strategy != Strategy::Predictive {
             return None;
         }
-        let orbit = OrbitAhead::of(start.surroundings)?;
+        let orbit = PredictedOrbit::of(start.ephemeris)?;
         let schedule = start.law.schedule.in_orbit(orbit.period_s());
         let mut forecast = SampledForecast {
             orbit,
@@ -130,11 +130,11 @@ impl SampledManager<'_> {
             convention: self.convention,
             policy: self.policy,
             totals,
-            begin_s: start.surroundings.epoch_s,
+            begin_s: start.ephemeris.epoch_s,
             span_s: start.span_s,
             begins_in_science: start.activity == Activity::Science,
         };
-        let Ok(ahead) = self.manager.ahead(&mut forecast);
-        ahead
+        let Ok(prediction) = self.manager.predict(&mut forecast);
+        prediction
     }
 }

@@ -1,6 +1,6 @@
 //! The forecast of a sampled guidance, which knows no more than a sample and its own windows.
 //!
-//! Assumptions: the orbit ahead is [`OrbitAhead`]; science and downlink follow the windows of the orbit phase in its attitudes,
+//! Assumptions: the orbit ahead is [`PredictedOrbit`]; science and downlink follow the windows of the orbit phase in its attitudes,
 //! whatever is commanded; direct sunlight without shadows is all that acts.
 //! Method: torque by Gauss-Legendre quadrature of order 6 on intervals that end where a window or a slew does.
 //! Error measure: none at run time; where sunlight alone acts, choices differ from a plant's by less than 3e-5 rad (tested).
@@ -12,22 +12,22 @@ use nalgebra::Vector3;
 use super::prediction::Forecast;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::geometry::moving::value;
-use crate::guidance::{Activity, Guided, GuidedAttitude, OrbitAhead, lines_of_sight};
+use crate::guidance::{Activity, Guided, GuidedAttitude, PredictedOrbit, lines_of_sight};
 use crate::momentum::{Convention, DumpPolicy, Totals};
 use crate::numerics::quadrature::GAUSS_3;
-use crate::plant::{ForecastMomentum, SunLight, SunlitCraft};
+use crate::plant::{ForecastMomentum, SunLight, SunlitConfiguration};
 
 /// Momentum ahead by sunlight alone.
 #[derive(Clone, Copy, Debug)]
 pub struct SampledForecast<'a> {
     /// Where everything will be.
-    pub orbit: OrbitAhead<'a>,
+    pub orbit: PredictedOrbit<'a>,
     /// Windows and attitudes, the Sun on -Y in downlink and in science that unloads.
     pub law: Guided,
     /// The default downlink of the spacecraft's antennas.
     pub default_downlink: &'a DefaultDownlink,
     /// What the light meets.
-    pub spacecraft: SunlitCraft<'a>,
+    pub spacecraft: SunlitConfiguration<'a>,
     /// Sunlight.
     pub light: SunLight,
     /// What the momentum means.
@@ -51,13 +51,13 @@ impl SampledForecast<'_> {
 
     /// Adds the torque at a time, for `span_s`.
     fn add(&self, totals: &mut Totals, epoch_s: f64, span_s: f64) {
-        let surroundings = self.orbit.at(epoch_s);
+        let ephemeris = self.orbit.at(epoch_s);
         let lines = |at_s: f64| match at_s == epoch_s {
-            true => lines_of_sight(&surroundings),
+            true => lines_of_sight(&ephemeris),
             false => lines_of_sight(&self.orbit.at(at_s)),
         };
         let inertial_from_body = self.law.at(epoch_s, self.default_downlink, lines).frame.inertial_from_body;
-        let to_sun_m = surroundings.to_sun().map(|it| it.re);
+        let to_sun_m = ephemeris.to_sun().map(|it| it.re);
         let distance_m = to_sun_m.norm();
         let sun_body = inertial_from_body.inverse() * (to_sun_m / distance_m);
         let torque_body = self.spacecraft.torque_body_n_m(&sun_body, self.light.pressure_pa(distance_m));
@@ -117,12 +117,12 @@ impl Forecast for SampledForecast<'_> {
                 attitude = self.attitude(at_s);
             }
             let inertial_from_body = attitude.frame.inertial_from_body;
-            let surroundings = self.orbit.at(at_s);
-            let to_sun_m = value(&surroundings.to_sun());
+            let ephemeris = self.orbit.at(at_s);
+            let to_sun_m = value(&ephemeris.to_sun());
             visit(ForecastMomentum {
                 time_s: at_s,
                 to_sun: to_sun_m.try_normalize(0.0).unwrap_or(Vector3::x()),
-                to_earth: value(&surroundings.to_earth()).try_normalize(0.0),
+                to_earth: value(&ephemeris.to_earth()).try_normalize(0.0),
                 pressure_pa: self.light.pressure_pa(to_sun_m.norm()),
                 downlink: attitude.window.activity == Activity::Downlink,
                 momentum_body_n_m_s: totals.momentum_body_n_m_s(self.convention, &inertial_from_body),

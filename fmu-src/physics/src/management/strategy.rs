@@ -1,7 +1,7 @@
 //! Strategies of paper 000: dumps alone, reactive targets, predictive targets.
 //!
 //! Reactive: every downlink aims at the same momentum. Predictive: every downlink aims at the middle of the momenta from which the
-//! coming cycles, forecast in their default attitudes ([`super::ahead`]), can be simulated below all thresholds, each coming downlink
+//! coming cycles, forecast in their default attitudes ([`super::prediction`]), can be simulated below all thresholds, each coming downlink
 //! with what sunlight can do then; of the physical momentum at the one that keeps X and Z smallest through the next science.
 //! Without a cycle to come it is reactive. Science that unloads has the same targets at its end, of the physical momentum the reactive
 //! one.
@@ -12,7 +12,7 @@ use super::linear::LinearTorque;
 use super::prediction::{Components, Forecast, PredictedDownlink, PredictedScience, Prediction};
 use super::profile::{Component, ControlAuthority};
 use super::rotated_momentum::best_turned;
-use super::targeting::{DownlinkState, ScienceAim, Targeted, Targeting};
+use super::targeting::{DownlinkState, ScienceUnload, Targeted, Targeting};
 use crate::attitude::{SunAngles, direction_from_angles};
 use crate::enumeration::enumeration;
 use crate::guidance::{ChosenPlace, ScienceCourse};
@@ -101,10 +101,10 @@ impl Manager<'_> {
         let Some(to_earth) = forecast.to_earth.filter(|_| self.strategy != Strategy::DumpsOnly) else {
             return Ok(None);
         };
-        let ahead = self.ahead(forecast)?;
+        let prediction = self.predict(forecast)?;
         let linear = self.linear(&forecast.center_of_mass_body_m());
         let torque = |sun_body: &Vector3<f64>| forecast.torque_body_n_m(sun_body);
-        let aim = DownlinkState {
+        let state = DownlinkState {
             to_sun: forecast.to_sun,
             to_earth,
             momentum: forecast.momentum,
@@ -115,10 +115,10 @@ impl Manager<'_> {
             science: forecast
                 .science
                 .as_ref()
-                .map(|course| ScienceAim { course, convention: DownlinkForecast::convention(forecast) }),
+                .map(|course| ScienceUnload { course, convention: DownlinkForecast::convention(forecast) }),
         };
         let separations_rad = forecast.separations_rad;
-        Ok(self.place(aim, ahead.as_ref(), separations_rad))
+        Ok(self.place(state, prediction.as_ref(), separations_rad))
     }
 
     /// The shade's linear formula about this centre of mass; `None` without a shade.
@@ -132,7 +132,7 @@ impl Manager<'_> {
     ///
     /// # Errors
     /// What ends a forecast.
-    pub(super) fn ahead<F: Forecast>(&self, forecast: &mut F) -> Result<Option<Prediction>, F::Error> {
+    pub(super) fn predict<F: Forecast>(&self, forecast: &mut F) -> Result<Option<Prediction>, F::Error> {
         if self.strategy == Strategy::Predictive { Prediction::of(forecast, self.horizon) } else { Ok(None) }
     }
 
@@ -140,56 +140,56 @@ impl Manager<'_> {
     /// admissible.
     pub(super) fn place(
         &self,
-        mut aim: DownlinkState<'_>,
-        ahead: Option<&Prediction>,
+        mut state: DownlinkState<'_>,
+        prediction: Option<&Prediction>,
         separations_rad: [f64; 2],
     ) -> Option<ChosenPlace> {
-        let predicted = match (ahead, aim.momentum) {
+        let predicted = match (prediction, state.momentum) {
             (Some(Prediction::Science(science)), StartMomentum::Inertial(momentum)) => {
                 // A target in the body would be another one under the other antenna: what is off it in space is brought to zero.
-                self.turned(&aim, science).map(|end_body| {
+                self.turned(&state, science).map(|end_body| {
                     let end = science.inertial_from_body * end_body;
-                    aim.momentum = StartMomentum::Inertial(momentum - end);
+                    state.momentum = StartMomentum::Inertial(momentum - end);
                     Vector3::zeros()
                 })
             }
-            (Some(Prediction::Components(components)), _) => self.kept(&aim, components),
+            (Some(Prediction::Components(components)), _) => self.kept(&state, components),
             _ => None,
         };
         let target = predicted.unwrap_or(self.target_body_n_m_s);
-        let targeted = self.targeting.sun_place_throughout(&aim, &target, separations_rad);
+        let targeted = self.targeting.sun_place_throughout(&state, &target, separations_rad);
         targeted.map(|Targeted { place, clamped }| ChosenPlace { place, clamped })
     }
 
     /// The target from which X and Z stay below their thresholds through the coming cycles.
-    fn kept(&self, aim: &DownlinkState<'_>, ahead: &Components) -> Option<Vector3<f64>> {
-        let now = self.targeting.default_momentum(aim)?;
-        let torques = self.targeting.present_torques(aim, ahead.present().separations_rad)?;
-        let default_n_m = (aim.torque_body_n_m)(&direction_from_angles(SunAngles::default())).xz();
+    fn kept(&self, state: &DownlinkState<'_>, prediction: &Components) -> Option<Vector3<f64>> {
+        let momentum_body_n_m_s = self.targeting.default_momentum(state)?;
+        let torques = self.targeting.present_torques(state, prediction.present().separations_rad)?;
+        let default_n_m = (state.torque_body_n_m)(&direction_from_angles(SunAngles::default())).xz();
         // What the default attitude adds beside sunlight alone comes in others too.
         let beside = |downlink: &PredictedDownlink| {
-            let light = default_n_m * downlink.equivalent_s(aim.pressure_pa);
+            let light = default_n_m * downlink.equivalent_s(state.pressure_pa);
             [0, 1].map(|axis| downlink.added[axis] - light[axis])
         };
-        let later = ahead.cycles(|downlink| {
-            let torques = downlink.separations_rad.and_then(|it| self.targeting.torques(aim, it));
-            let light_s = downlink.equivalent_s(aim.pressure_pa);
+        let later = prediction.cycles(|downlink| {
+            let torques = downlink.separations_rad.and_then(|it| self.targeting.torques(state, it));
+            let light_s = downlink.equivalent_s(state.pressure_pa);
             let beside = beside(downlink);
             [0, 1].map(|axis| {
                 let torques_n_m = torques.map_or([default_n_m[axis]; 2], |it| it[axis]);
                 torques_n_m.map(|it| it * light_s + beside[axis])
             })
         });
-        let beside = beside(ahead.present());
+        let beside = beside(prediction.present());
         let target = |axis: usize| {
             let body_axis = 2 * axis;
             let component = Component {
-                now: now[body_axis] + beside[axis],
-                reach: torques[axis].map(|it| it * aim.span_s),
-                cycles: later[axis].get(..ahead.count()).unwrap_or_default(),
-                path: &ahead.path()[axis],
-                threshold: ahead.policy.threshold_body_n_m_s[body_axis],
-                dumped: |before| ahead.policy.component_after(body_axis, before),
+                momentum_n_m_s: momentum_body_n_m_s[body_axis] + beside[axis],
+                authority: torques[axis].map(|it| it * state.span_s),
+                cycles: later[axis].get(..prediction.count()).unwrap_or_default(),
+                path: &prediction.path()[axis],
+                threshold: prediction.policy.threshold_body_n_m_s[body_axis],
+                dumped: |before| prediction.policy.component_after(body_axis, before),
             };
             component.target() - beside[axis]
         };
@@ -197,20 +197,24 @@ impl Manager<'_> {
     }
 
     /// The target that keeps the momentum of the next science smallest.
-    fn turned(&self, aim: &DownlinkState<'_>, science: &PredictedScience) -> Option<Vector3<f64>> {
-        let now = self.targeting.default_momentum(aim)?;
-        let reach = self
+    fn turned(&self, state: &DownlinkState<'_>, science: &PredictedScience) -> Option<Vector3<f64>> {
+        let momentum_body_n_m_s = self.targeting.default_momentum(state)?;
+        let authority = self
             .targeting
-            .torques(aim, [aim.separation_rad(); 2])?
-            .map(|it| it.map(|torque| torque * aim.span_s));
+            .torques(state, [state.separation_rad(); 2])?
+            .map(|it| it.map(|torque| torque * state.span_s));
         let end = science.end_body_n_m_s;
-        let range = |axis: usize, reach: ControlAuthority, requested: bool| {
+        let range = |axis: usize, authority: ControlAuthority, requested: bool| {
             // Under the other antenna the body stands half a turn about the Sun line away.
-            let [least, most] = [reach[0].min(-reach[1]), reach[1].max(-reach[0])];
-            if requested { [now[axis] + least, now[axis] + most] } else { [end[axis]; 2] }
+            let [least, most] = [authority[0].min(-authority[1]), authority[1].max(-authority[0])];
+            if requested {
+                [momentum_body_n_m_s[axis] + least, momentum_body_n_m_s[axis] + most]
+            } else {
+                [end[axis]; 2]
+            }
         };
         let [by_x, by_z] = self.targeting.axes.requested();
-        let ranges = [range(0, reach[0], by_x), range(2, reach[1], by_z)];
+        let ranges = [range(0, authority[0], by_x), range(2, authority[1], by_z)];
         Some(best_turned(&science.squares, ranges, end.y))
     }
 }

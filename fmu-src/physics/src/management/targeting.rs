@@ -88,12 +88,12 @@ pub struct DownlinkState<'a> {
     /// The shade's linear formula; absent without a shade.
     pub linear: Option<LinearTorque>,
     /// The science that begins; `None`: a downlink does.
-    pub science: Option<ScienceAim<'a>>,
+    pub science: Option<ScienceUnload<'a>>,
 }
 
 /// Science that unloads.
 #[derive(Clone, Copy, Debug)]
-pub struct ScienceAim<'a> {
+pub struct ScienceUnload<'a> {
     /// How it goes.
     pub course: &'a ScienceCourse,
     /// Whether the body turns under the momentum.
@@ -123,28 +123,28 @@ const INTERVALS: usize = 16;
 impl Targeting<'_> {
     /// The place of the Sun for `target_body_n_m_s` at the downlink's end; `None` where Sun and Earth give no downlink attitude,
     /// or no place is admissible.
-    pub fn sun_place(&self, aim: &DownlinkState<'_>, target_body_n_m_s: &Vector3<f64>) -> Option<Targeted> {
-        self.sun_place_throughout(aim, target_body_n_m_s, [aim.separation_rad(); 2])
+    pub fn sun_place(&self, state: &DownlinkState<'_>, target_body_n_m_s: &Vector3<f64>) -> Option<Targeted> {
+        self.sun_place_throughout(state, target_body_n_m_s, [state.separation_rad(); 2])
     }
 
     /// The same where Sun and Earth come from the least to the greatest of these angles apart while the downlink lasts.
     pub fn sun_place_throughout(
         &self,
-        aim: &DownlinkState<'_>,
+        state: &DownlinkState<'_>,
         target_body_n_m_s: &Vector3<f64>,
         separations_rad: [f64; 2],
     ) -> Option<Targeted> {
         let (zone, sides);
-        let branches: &[Branch] = if aim.science.is_some() {
+        let branches: &[Branch] = if state.science.is_some() {
             zone = [self.zone()];
             &zone
         } else {
-            sides = self.branches(aim.separation_rad())?.lasting(separations_rad);
+            sides = self.branches(state.separation_rad())?.lasting(separations_rad);
             sides.as_slice()
         };
         match self.method {
-            TargetingMethod::Exact => self.exact(aim, target_body_n_m_s, branches),
-            TargetingMethod::Linear => self.linear(aim, target_body_n_m_s, branches),
+            TargetingMethod::Exact => self.exact(state, target_body_n_m_s, branches),
+            TargetingMethod::Linear => self.linear(state, target_body_n_m_s, branches),
         }
     }
 
@@ -152,28 +152,32 @@ impl Targeting<'_> {
     /// and Earth this far apart at both ends where an antenna can stay with it, else as they are at the begin.
     pub fn present_torques(
         &self,
-        aim: &DownlinkState<'_>,
+        state: &DownlinkState<'_>,
         separations_rad: Option<[f64; 2]>,
     ) -> Option<[[f64; 2]; 2]> {
-        if aim.science.is_some() {
-            return Self::torques_on(aim, &self.zone());
+        if state.science.is_some() {
+            return Self::torques_on(state, &self.zone());
         }
-        let lasting = separations_rad.and_then(|it| self.torques(aim, it));
-        lasting.or_else(|| self.torques(aim, [aim.separation_rad(); 2]))
+        let lasting = separations_rad.and_then(|it| self.torques(state, it));
+        lasting.or_else(|| self.torques(state, [state.separation_rad(); 2]))
     }
 
     /// Least and greatest torque of sunlight about X and Z in N m, the other angle at 0, in a downlink that begins and ends with Sun
     /// and Earth this far apart; `None` where one of them has no direction, or the antenna cannot stay with the Earth.
-    pub fn torques(&self, aim: &DownlinkState<'_>, [begin_rad, end_rad]: [f64; 2]) -> Option<[[f64; 2]; 2]> {
+    pub fn torques(
+        &self,
+        state: &DownlinkState<'_>,
+        [begin_rad, end_rad]: [f64; 2],
+    ) -> Option<[[f64; 2]; 2]> {
         let branches = self.branches(begin_rad)?;
         let branch = branches.first()?.lasting([begin_rad.min(end_rad), begin_rad.max(end_rad)]);
-        Self::torques_on(aim, &branch)
+        Self::torques_on(state, &branch)
     }
 
-    fn torques_on(aim: &DownlinkState<'_>, branch: &Branch) -> Option<[[f64; 2]; 2]> {
+    fn torques_on(state: &DownlinkState<'_>, branch: &Branch) -> Option<[[f64; 2]; 2]> {
         let torque = |elevation_rad: f64, azimuth_rad: f64| {
             let sun_body = direction_from_angles(SunAngles { azimuth_rad, elevation_rad });
-            (aim.torque_body_n_m)(&sun_body)
+            (state.torque_body_n_m)(&sun_body)
         };
         let sorted = |a: f64, b: f64| [a.min(b), a.max(b)];
         let most_rad = branch.elevation_rad();
@@ -185,13 +189,13 @@ impl Targeting<'_> {
     }
 
     /// Momentum at the start in the default attitude, body frame, in N m s.
-    pub fn default_momentum(&self, aim: &DownlinkState<'_>) -> Option<Vector3<f64>> {
-        let first = match aim.science {
+    pub fn default_momentum(&self, state: &DownlinkState<'_>) -> Option<Vector3<f64>> {
+        let first = match state.science {
             Some(_) => self.zone(),
-            None => *self.branches(aim.separation_rad())?.first()?,
+            None => *self.branches(state.separation_rad())?.first()?,
         };
         let place = first.nearest(SunAngles::default())?;
-        Some(aim.momentum_body_n_m_s(&place))
+        Some(state.momentum_body_n_m_s(&place))
     }
 
     fn branches(&self, separation_rad: f64) -> Option<Branches> {
@@ -208,13 +212,18 @@ impl Targeting<'_> {
         KeepInLimits { azimuth_rad: self.azimuth_limit_rad, elevation_rad: self.elevation_limit_rad }
     }
 
-    fn exact(&self, aim: &DownlinkState<'_>, target: &Vector3<f64>, branches: &[Branch]) -> Option<Targeted> {
-        let tolerance = ROUNDING * (1.0 + aim.momentum.magnitude_n_m_s() + target.norm());
+    fn exact(
+        &self,
+        state: &DownlinkState<'_>,
+        target: &Vector3<f64>,
+        branches: &[Branch],
+    ) -> Option<Targeted> {
+        let tolerance = ROUNDING * (1.0 + state.momentum.magnitude_n_m_s() + target.norm());
         let mut best: Option<(f64, Targeted)> = None;
         for branch in branches {
             let found = match self.axes {
-                TargetAxes::Xz => self.both(aim, target, branch, tolerance),
-                TargetAxes::X | TargetAxes::Z => self.one(aim, target, branch),
+                TargetAxes::Xz => self.both(state, target, branch, tolerance),
+                TargetAxes::X | TargetAxes::Z => self.one(state, target, branch),
             };
             let Some((place, left)) = found else { continue };
             let is_reached = left <= 10.0 * tolerance;
@@ -231,14 +240,14 @@ impl Targeting<'_> {
     /// The place for both axes on one branch, and what is left of the target.
     fn both(
         &self,
-        aim: &DownlinkState<'_>,
+        state: &DownlinkState<'_>,
         target: &Vector3<f64>,
         branch: &Branch,
         tolerance: f64,
     ) -> Option<(SunPlace, f64)> {
         let left = |azimuth_rad: f64, elevation_rad: f64| {
             let angles = SunAngles { azimuth_rad, elevation_rad };
-            aim.left(&SunPlace { angles, earth_ahead: branch.earth_ahead }, target).xz()
+            state.left(&SunPlace { angles, earth_ahead: branch.earth_ahead }, target).xz()
         };
         let start = branch.nearest(SunAngles::default())?.angles;
         if let Some(angles) = newton(start, left, tolerance)
@@ -261,7 +270,7 @@ impl Targeting<'_> {
     /// The same for one axis, the other angle at 0 as far as that is admissible.
     fn one(
         &self,
-        aim: &DownlinkState<'_>,
+        state: &DownlinkState<'_>,
         target: &Vector3<f64>,
         branch: &Branch,
     ) -> Option<(SunPlace, f64)> {
@@ -280,7 +289,7 @@ impl Targeting<'_> {
         };
         let left = |angle_rad: f64| {
             branch.nearest(angles(angle_rad)).map_or(f64::NAN, |place| {
-                let left = aim.left(&place, target);
+                let left = state.left(&place, target);
                 if by_elevation { left.x } else { left.z }
             })
         };
@@ -305,21 +314,21 @@ impl Targeting<'_> {
 
     fn linear(
         &self,
-        aim: &DownlinkState<'_>,
+        state: &DownlinkState<'_>,
         target: &Vector3<f64>,
         branches: &[Branch],
     ) -> Option<Targeted> {
-        let linear = aim.linear.as_ref()?;
+        let linear = state.linear.as_ref()?;
         let start = branches.iter().find_map(|branch| branch.nearest(SunAngles::default()))?;
         let [by_x, by_z] = self.axes.requested();
-        let mut change = target - aim.momentum_body_n_m_s(&start);
+        let mut change = target - state.momentum_body_n_m_s(&start);
         change.y = 0.0;
         for (component, is_targeted) in [(0, by_x), (2, by_z)] {
             if !is_targeted {
                 change[component] = 0.0;
             }
         }
-        let solution = linear.sun_angles(&(change / aim.span_s), aim.pressure_pa, self.axes.requested());
+        let solution = linear.sun_angles(&(change / state.span_s), state.pressure_pa, self.axes.requested());
         let requested = solution.unwrap_or_default();
         let distance_rad = |place: &SunPlace| {
             let to = direction_from_angles(place.angles);
@@ -359,7 +368,7 @@ impl DownlinkState<'_> {
 
     /// Science in which the body turns under the momentum, and that in EME2000 at its start; `None` in any other.
     fn turning(&self, place: &SunPlace) -> Option<(&ScienceCourse, Vector3<f64>)> {
-        let ScienceAim { course, convention } = self.science?;
+        let ScienceUnload { course, convention } = self.science?;
         match (self.momentum, convention) {
             (StartMomentum::Inertial(momentum), _) => Some((course, momentum)),
             (StartMomentum::Body(momentum), Convention::Inertial) => {

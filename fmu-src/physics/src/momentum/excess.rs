@@ -26,7 +26,7 @@ const MOST_HALVINGS: i32 = 60;
 pub(super) struct Excess {
     /// When a component comes to its threshold, in s.
     pub(super) time_s: f64,
-    /// Components that go on beyond theirs from there.
+    /// Components that continue beyond theirs from there.
     pub(super) components: [bool; 3],
 }
 

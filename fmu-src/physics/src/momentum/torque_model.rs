@@ -53,7 +53,7 @@ pub enum Effort {
 
 /// What gives attitude, torque and acceleration at any time.
 pub trait TorqueModel {
-    /// Why a flight cannot go on.
+    /// Why a flight cannot continue.
     type Failure: From<TooManyDumps>;
 
     /// Makes the flight ready for samples from `start_s` on, and tells up to where, at most to `limit_s` and to the next change

@@ -79,7 +79,7 @@ impl<const D: usize, const N: usize> Segment<D, N> {
     }
 
     /// The polynomial of four degrees more that equals this one at its `N` nodes and has `[value, derivative]` at start and end
-    /// (Hermite): segments with ends in common go on smoothly. `M` must be `N + 4`.
+    /// (Hermite): segments with ends in common continue smoothly. `M` must be `N + 4`.
     pub fn with_ends<const M: usize>(&self, ends: &[[SVector<f64, D>; 2]; 2]) -> Segment<D, M> {
         const { assert!(M == N + 4 && N > 3, "two conditions more at each end") }
         // This one plus T_N, which is zero at the nodes, times a cubic, whose values and slopes at -1 and 1 follow.

@@ -87,7 +87,7 @@ impl<const S: usize, const M: usize> Collocation<S, M> {
     /// rounding only. Costs `S` evaluations a sweep, 3 to 8 sweeps.
     ///
     /// # Errors
-    /// [`IntegrationError`]; the sweeps must settle to rounding (a few 1e-16 of each component's size or change).
+    /// [`IntegrationError`]; the sweeps must converge to rounding (a few 1e-16 of each component's size or change).
     pub fn solve<const D: usize>(
         &self,
         start_s: f64,

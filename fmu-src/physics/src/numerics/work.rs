@@ -19,7 +19,7 @@ impl<const KINDS: usize> Work<KINDS> {
         self.limit
     }
 
-    /// Counts `units` of `kind`. Past the limit this goes on: who loops asks [`Work::is_exhausted`].
+    /// Counts `units` of `kind`. Past the limit this continues: loops check [`Work::is_exhausted`].
     #[inline]
     pub fn spend(&mut self, kind: usize, units: u32) {
         self.total = self.total.saturating_add(u64::from(units));

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::spacecraft::MassProperties;
 
-/// Mass properties of a body that turns as its dynamics say.
+/// Mass properties of a body that turns by its dynamics.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct MassState {
     /// At the last edge of the grid, with the panels as they stood then: what the controller knows.

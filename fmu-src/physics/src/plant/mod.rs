@@ -1,6 +1,6 @@
 //! The three-axis spacecraft put together: orbit, attitude, light and gravity gradient in one flight.
 //!
-//! [`Configuration`] says what flies where; [`Plant`] evaluates it and is the [`crate::momentum::TorqueModel`] that the
+//! [`Configuration`] describes spacecraft and orbit; [`Plant`] evaluates it and is the [`crate::momentum::TorqueModel`] that the
 //! momentum integrator asks. What it has to remember between two evaluations is a [`PropagatorState`]: an integrated orbit,
 //! and a [`RadiationSegment`] of slowly changing light and heat.
 //!
@@ -10,7 +10,7 @@
 //! flight itself does not change by a bit.
 //!
 //! **Attitude that is known only up to now.** A controlled attitude is a [`Command`] that holds the attitude and rate of the
-//! latest sample and goes on at that rate. Light, heat and orbit are computed ahead on that assumption; the next sample
+//! latest sample and continues at that rate. Light, heat and orbit are computed ahead on that assumption; the next sample
 //! replaces the command and [`PropagatorState::cut`] drops what was computed beyond it, while heat stored up to then stays.
 //! How far ahead is computed is `RadiationSettings::grid_s`: about the time between two samples wastes nothing.
 
@@ -27,8 +27,8 @@ pub use air_and_field::aerodynamic_solver::AerodynamicSolver;
 pub use air_and_field::air_and_field_segment::AirAndField;
 pub use disturbances::by_source::{BySource, Parameters, PositionError, Positions, Surfaces, Workspaces};
 pub use disturbances::evaluation::{Evaluation, External, Plant};
-pub use disturbances::laws::{Laws, NearPlanet};
-pub use disturbances::world::{PreparedSpacecraft, World};
+pub use disturbances::laws::{Laws, LocalEnvironment};
+pub use disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
 pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 pub use flight::ideal::Maneuvers;
 pub use flight::propagator_state::PropagatorState;
@@ -40,7 +40,7 @@ pub use flight::{
 };
 pub use light::radiation_segment::RadiationSegment;
 pub use light::radiation_solver::RadiationSolver;
-pub use light::sunlit::SunlitCraft;
+pub use light::sunlit::SunlitConfiguration;
 pub use motion::approaches::Approach;
 pub use motion::geometry::Geometry;
 pub use motion::instant::{Instant, Regime};

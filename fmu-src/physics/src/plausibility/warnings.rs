@@ -104,7 +104,7 @@ fn masses(figures: &Figures, found: &mut Vec<String>) {
             figures.sunlit_area_m2
         ));
     }
-    let told = found.len();
+    let reported = found.len();
     let center_m = figures.mass_properties.center_of_mass_body_m;
     for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
         let spread_m = figures.mass_spread_m[axis];
@@ -126,8 +126,8 @@ fn masses(figures: &Figures, found: &mut Vec<String>) {
             extents_m.max()
         ));
     }
-    // One slip in the inertia is told once.
-    if found.len() == told {
+    // One error in the inertia is reported once.
+    if found.len() == reported {
         gyration(figures, found);
     }
 }

@@ -69,14 +69,14 @@ mod tests {
 
     #[test]
     fn a_panel_in_the_cone_is_hit() {
-        let craft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
-        let hits = |thruster: &Thruster| surface_in_plume(&craft, thruster, |_| Some(0.0)) == Some("+X");
+        let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
+        let hits = |thruster: &Thruster| surface_in_plume(&spacecraft, thruster, |_| Some(0.0)) == Some("+X");
         // The panel's centre is at (2.28, 0, 0): 45 deg off the exhaust.
         let aside = |half_deg: f64| nozzle([3.28, 0.0, 1.0], [0.0, 0.0, -1.0], half_deg);
         assert!(!hits(&aside(44.9)) && hits(&aside(45.1)));
         assert!(!hits(&aside(0.0)), "no plume is given");
         assert!(!hits(&nozzle([3.28, 0.0, 1.0], [0.0, 0.0, 1.0], 80.0)));
-        let left_out = surface_in_plume(&craft, &aside(50.0), |_| None);
+        let left_out = surface_in_plume(&spacecraft, &aside(50.0), |_| None);
         assert_eq!(left_out, None, "panels that are left out are not there");
     }
 }

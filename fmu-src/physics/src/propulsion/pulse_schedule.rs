@@ -3,7 +3,7 @@
 //! Law: a valve opens `delay` after the step's start where the pulse lasts at least the valve's shortest time, or reaches the
 //! step's end. It closes where the pulse or the step ends, whichever is first, and never sooner than the shortest time after it
 //! opened, over the step's end if need be. A pulse from the next step's start on joins one that is open there, so that a pulse
-//! may go on from step to step. Anything else does not open.
+//! may continue from step to step. Anything else does not open.
 
 use serde::{Deserialize, Serialize};
 
@@ -49,7 +49,7 @@ impl PulseSchedule {
         self.next.is_none_or(|next| next.opens_s <= next.closes_s)
     }
 
-    /// Takes the pulse commanded for the step from `start_s` to `end_s`, both in s; whether anything opens or goes on.
+    /// Takes the pulse commanded for the step from `start_s` to `end_s`, both in s; whether anything opens or continues.
     ///
     /// A valve that is busy otherwise (`is_free` false) takes none.
     pub fn command(

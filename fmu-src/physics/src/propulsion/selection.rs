@@ -274,7 +274,7 @@ impl Problem {
         Some(x)
     }
 
-    /// Adds what the weighted constraint left of the torque: dt = W^-1 B' (B W^-1 B')^-1 (wanted - B t), over the chosen ones.
+    /// Adds what the weighted constraint left of the torque: dt = W^-1 B' (B W^-1 B')^-1 (commanded - B t), over the chosen ones.
     fn exact(
         &self,
         chosen: &[bool; MOST_THRUSTERS],

@@ -54,7 +54,7 @@ pub(crate) struct Surface {
 
 impl Surface {
     /// What front and rear give off heat to; a face there is not gives off none.
-    pub(super) fn surroundings(&self) -> [FaceEnvironment; 2] {
+    pub(super) fn environments(&self) -> [FaceEnvironment; 2] {
         let Thermal { front, rear, bus, .. } = &self.thermal;
         let rear = rear.map_or(Emission::constant(0.0), |rear| rear.emission);
         let face = |emission, bus| FaceEnvironment { emission, background_k: self.background_k, bus };
@@ -80,7 +80,7 @@ impl Surface {
             if count == 2 { [at(0), at(1)] } else { [at(0), 0.0] }
         };
         let store = HeatStore {
-            faces: self.surroundings(),
+            faces: self.environments(),
             conduction: self.thermal.conduction,
             heat_capacity_j_m2_k: self.thermal.heat_capacity_j_m2_k,
         };

@@ -80,7 +80,7 @@ pub struct Spacecraft {
     pub per_plate_outputs: bool,
     /// Temperature of the space that surfaces see, in K.
     pub background_k: f64,
-    /// The planet it flies about, cell by cell.
+    /// The planet it orbits, cell by cell.
     pub planet_map: Option<PlanetMap>,
     /// A body of the user's own.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -204,7 +204,7 @@ impl Spacecraft {
                 .as_ref()
                 .map(|momentum| Vector3::from(momentum.dump_threshold_n_m_s.map(f64::from))),
             per_plate_outputs: description.per_plate_outputs(),
-            background_k: materials.surroundings.background_k,
+            background_k: materials.environment.background_k,
             planet_map: description
                 .planet_map
                 .as_ref()

@@ -65,7 +65,7 @@ pub struct BurnRequest {
     pub max_duration_s: f64,
 }
 
-/// A burn ready to fly.
+/// A burn ready for simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Burn {
     /// Thrusters of even half turns.
@@ -84,7 +84,7 @@ pub struct Burn {
     pub timing: Timing,
     /// Not before, in s.
     pub start_s: f64,
-    /// Unit vector toward which the momentum moves; 0 for a spin manoeuvre, which points nowhere.
+    /// Unit vector toward which the momentum moves; 0 for a spin manoeuvre, which has no direction.
     pub target_inertial: Vector3<f64>,
     /// Spin rate by which delays are computed, in rad/s.
     pub assumed_rate_rad_s: f64,

@@ -182,7 +182,7 @@ impl Motion {
         &self.torque
     }
 
-    /// Goes on to the next segment. Without effect on a closed form.
+    /// Continues to the next segment. Without effect on a closed form.
     pub fn next_segment(&mut self) {
         let end_s = self.segment_end_s();
         if end_s.is_finite() {

@@ -134,7 +134,7 @@ impl Sequencer {
         }
     }
 
-    /// Passes the next edge at `now_s`. How long the pulse lasts, if it went on.
+    /// Passes the next edge at `now_s`. How long the pulse lasts, if it continued.
     pub fn pass_edge(&mut self, now_s: f64) -> Option<f64> {
         match self.phase {
             Phase::Waiting { off_s, .. } => {

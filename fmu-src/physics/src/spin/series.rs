@@ -161,7 +161,7 @@ impl TaylorSegment {
         gain[0] = damper.gain(momentum_body);
         segment.expand(inertia, &torque, &gain[..usize::from(gain[0] != 0.0)], hint_s);
         if damper.acts() {
-            // The gain follows the nutation angle. It is weak, so a few rounds settle it to rounding.
+            // The gain follows the nutation angle. It is weak, so a few rounds converge to rounding.
             let length_s = segment.length_s.min(0.1 / damper.rate_1_s());
             let scale = momentum_body.norm() * length_s;
             for _ in 0..4 {

@@ -76,7 +76,7 @@ impl Work {
         self.0.is_exhausted()
     }
 
-    /// Whether a flight that has come to `time_s` may go on.
+    /// Whether a flight that has come to `time_s` may continue.
     ///
     /// # Errors
     /// More was spent than may be.

@@ -29,7 +29,7 @@ pub struct Checker<'d> {
 }
 
 impl<'d> Checker<'d> {
-    /// Goes on with what the reading of the document found.
+    /// Continues with what the reading of the document found.
     pub fn new(document: &'d Document<'d>, findings: Findings) -> Self {
         let stand_ins = findings.stand_ins.into_iter().collect();
         let mut checker = Self {

@@ -1,6 +1,6 @@
 //! Reading of TOML with the place of every mistake: five formats share it.
 //!
-//! A [`Document`] reads a type through serde and goes on behind every unknown, missing or ill-typed key; a [`Checker`] goes on
+//! A [`Document`] reads a type through serde and continues behind every unknown, missing or ill-typed key; a [`Checker`] continues
 //! with the values. So one run tells of everything, each with line, key, what was found and what is allowed.
 
 mod checker;

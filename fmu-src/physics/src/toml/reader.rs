@@ -1,4 +1,4 @@
-//! From a TOML value to a type, going on behind every mistake: an unknown key is passed over, and a value that is
+//! From a TOML value to a type, continuing behind every mistake: an unknown key is passed over, and a value that is
 //! missing or of the wrong type is stood in for, so that one reading finds them all.
 
 use core::cell::RefCell;

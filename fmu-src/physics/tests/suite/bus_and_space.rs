@@ -19,27 +19,27 @@ fn refusal(top: &str, plate: &str, panel: &str) -> String {
 
 #[test]
 fn space_is_the_microwave_background_and_no_surface_conducts_to_the_bus() {
-    let craft = Spacecraft::from_toml("my.toml", &file("", "", "")).unwrap();
-    assert_eq!((craft.background_k, BACKGROUND_K), (2.725, 2.725));
-    assert_eq!(craft.plates[0].thermal.bus, [BusLink::NONE; 2]);
-    assert_eq!(craft.panels[0].thermal.bus, [BusLink::NONE; 2]);
+    let spacecraft = Spacecraft::from_toml("my.toml", &file("", "", "")).unwrap();
+    assert_eq!((spacecraft.background_k, BACKGROUND_K), (2.725, 2.725));
+    assert_eq!(spacecraft.plates[0].thermal.bus, [BusLink::NONE; 2]);
+    assert_eq!(spacecraft.panels[0].thermal.bus, [BusLink::NONE; 2]);
 }
 
 #[test]
 fn a_surface_takes_the_files_bus_or_its_own() {
     let top = "thermal = { background_k = 40, bus_temperature_k = 290 }";
     let panel = "thermal = { bus_conductance_w_m2_k = 1.5, rear_bus_conductance_w_m2_k = 0.5, bus_temperature_k = 250 }";
-    let craft =
+    let spacecraft =
         Spacecraft::from_toml("my.toml", &file(top, "thermal.bus_conductance_w_m2_k = 3", panel)).unwrap();
     let link = |conductance_w_m2_k, temperature_k| BusLink { conductance_w_m2_k, temperature_k };
-    assert_eq!(craft.background_k, 40.0);
-    assert_eq!(craft.plates[0].thermal.bus, [link(3.0, 290.0), BusLink::NONE]);
-    assert_eq!(craft.panels[0].thermal.bus, [link(1.5, 250.0), link(0.5, 250.0)]);
+    assert_eq!(spacecraft.background_k, 40.0);
+    assert_eq!(spacecraft.plates[0].thermal.bus, [link(3.0, 290.0), BusLink::NONE]);
+    assert_eq!(spacecraft.panels[0].thermal.bus, [link(1.5, 250.0), link(0.5, 250.0)]);
     // A box hands it on to its faces.
     let boxed = "[[boxes]]\nname = \"bus\"\ncenter_m = [0, 0, 0]\nsize_m = [1, 1, 2]\noptics = \"white\"\n\
                  thermal = { bus_conductance_w_m2_k = 3 }";
-    let craft = Spacecraft::from_toml("my.toml", &file(top, "", boxed)).unwrap();
-    let faces = craft.plates.iter().filter(|plate| plate.thermal.bus[0] == link(3.0, 290.0));
+    let spacecraft = Spacecraft::from_toml("my.toml", &file(top, "", boxed)).unwrap();
+    let faces = spacecraft.plates.iter().filter(|plate| plate.thermal.bus[0] == link(3.0, 290.0));
     assert_eq!(faces.count(), 6);
 }
 

@@ -9,7 +9,7 @@ use physics::guidance::timeline::{TimelineEvent, TimelineManeuver};
 use physics::loads::ForceTorque;
 use physics::plant::{
     AttitudeSource, Command, DownlinkForecast, DynamicsInputs, Flight, IdealSettings, ModeSettings,
-    PlantError, StepContext, ThrusterEventSettings, Thrusters, World,
+    PlantError, SimulationContext, StepContext, ThrusterEventSettings, Thrusters,
 };
 
 use super::plant_flight::{Rig, configuration, guided, orbit};
@@ -56,7 +56,7 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
         seed: 0,
         start_momentum_body_n_m_s: Vector3::new(0.3, -0.2, 0.1),
     };
-    flight.configure(World::new(configured), ModeSettings::Ideal(settings));
+    flight.configure(SimulationContext::new(configured), ModeSettings::Ideal(settings));
     flight.begin(given, 0.0, &mut |_| {}).unwrap();
     let held = Command {
         attitude: Attitude::from_quaternion([0.0, 0.0, 0.0, 1.0]).unwrap(),

@@ -21,7 +21,7 @@ use physics::numerics::quadrature;
 use physics::plant::{
     AttitudeSource, Command, Configuration, EphemerisSource, External, Laws, LightSource, Motion,
     PanelSetting, PanelStep, Plant, PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver,
-    Ramp, SunLight, ThrusterEventSettings, World, orbit_from_elements,
+    Ramp, SimulationContext, SunLight, ThrusterEventSettings, orbit_from_elements,
 };
 use physics::radiation::SolarModel;
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel};
@@ -116,7 +116,7 @@ pub(crate) struct Rig {
     method: OrbitMethod,
     default_downlink: DefaultDownlink,
     pub(crate) propagator: PropagatorState,
-    world: Option<World>,
+    context: Option<SimulationContext>,
 }
 
 impl Rig {
@@ -128,7 +128,7 @@ impl Rig {
             method: OrbitMethod::default(),
             default_downlink: DefaultDownlink::default(),
             propagator: PropagatorState::default(),
-            world: None,
+            context: None,
         }
     }
 
@@ -137,11 +137,11 @@ impl Rig {
     }
 
     fn plant_in_light(&mut self, configuration: &Configuration, light: RadiationSolver) -> Plant<'_> {
-        self.world_of(configuration).light = Some(light);
+        self.context_of(configuration).light = Some(light);
         self.plant_now(&|_| [ForceTorque::zero(); 2])
     }
 
-    /// What flies.
+    /// The spacecraft.
     pub(crate) fn prepared(&self) -> PreparedSpacecraft<'_> {
         PreparedSpacecraft {
             panels: &self.spacecraft.panels,
@@ -152,9 +152,9 @@ impl Rig {
         }
     }
 
-    /// Goes on under this configuration.
-    fn world_of(&mut self, configuration: &Configuration) -> &mut World {
-        self.world.insert(World::new(configuration.clone()))
+    /// Continues under this configuration.
+    fn context_of(&mut self, configuration: &Configuration) -> &mut SimulationContext {
+        self.context.insert(SimulationContext::new(configuration.clone()))
     }
 
     pub(crate) fn plant_with<'a>(
@@ -162,7 +162,7 @@ impl Rig {
         configuration: &Configuration,
         load: &'a External<'a>,
     ) -> Plant<'a> {
-        self.world_of(configuration);
+        self.context_of(configuration);
         self.plant_now(load)
     }
 
@@ -174,7 +174,7 @@ impl Rig {
             default_downlink: &self.default_downlink,
             timeline: None,
         };
-        Plant::new(prepared, self.world.as_mut().unwrap(), &mut self.propagator, load)
+        Plant::new(prepared, self.context.as_mut().unwrap(), &mut self.propagator, load)
     }
 }
 
@@ -277,7 +277,7 @@ fn a_given_sun_is_where_it_was_given() {
 
 /// What a planner asks changes nothing in the flight, whatever it assumes of the time ahead.
 #[test]
-fn a_span_ahead_is_asked_of_a_clone() {
+fn a_clone_predicts_the_span_ahead() {
     let orbit = orbit();
     let configuration = configuration(orbit, guided(&orbit));
     let torques = |rig: &mut Rig, times_s: &[f64]| -> Vec<Vector3<f64>> {
@@ -316,7 +316,7 @@ fn light_follows_an_attitude_that_is_known_only_up_to_now() {
     };
     let spacecraft = spacecraft();
     let light = RadiationSolver::new(&spacecraft, &with(truth), &MERCURY, 6).unwrap();
-    let fly = |sample_s: Option<f64>| {
+    let simulate = |sample_s: Option<f64>| {
         let (mut rig, mut command) = (Rig::new(), truth);
         let mut loads = Vec::new();
         for k in 0..=60 {
@@ -332,7 +332,7 @@ fn light_follows_an_attitude_that_is_known_only_up_to_now() {
         }
         loads
     };
-    for (continuous, sampled) in fly(None).into_iter().zip(fly(Some(10.0))) {
+    for (continuous, sampled) in simulate(None).into_iter().zip(simulate(Some(10.0))) {
         let scale_n = continuous.force_body_n.norm();
         assert!(scale_n > 0.0);
         assert!((continuous.force_body_n - sampled.force_body_n).norm() < 1e-9 * scale_n);
@@ -367,7 +367,7 @@ fn spans_end_at_the_number_where_a_panel_goes_elsewhere() {
             tilt_sign: 1.0,
         };
         let stepped = Configuration { panels: vec![timeline(0), timeline(1)], ..whole.clone() };
-        let fly = |cut_s: f64| {
+        let simulate = |cut_s: f64| {
             let mut rig = Rig::new();
             let mut plant = rig.plant(&stepped);
             let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
@@ -378,9 +378,9 @@ fn spans_end_at_the_number_where_a_panel_goes_elsewhere() {
             }
             integrator.totals(END_S).momentum_inertial_n_m_s
         };
-        let found = fly(END_S);
+        let found = simulate(END_S);
         for cut_s in [100.0, 617.284, 86_400.0] {
-            assert_eq!(fly(cut_s), found, "{cut_s}");
+            assert_eq!(simulate(cut_s), found, "{cut_s}");
         }
         let mut totals = Totals::default();
         for (k, &start_s) in EDGES_S.iter().enumerate() {

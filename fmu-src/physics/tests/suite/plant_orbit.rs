@@ -28,8 +28,8 @@ fn at_rest() -> AttitudeSource {
     })
 }
 
-/// Flies to rising times and gives what `look` sees there.
-fn fly<T>(
+/// Simulates to rising times and gives what `look` sees there.
+fn simulate<T>(
     configuration: &Configuration,
     force_n: Vector3<f64>,
     times_s: impl Iterator<Item = f64>,
@@ -61,8 +61,10 @@ fn without_disturbances_it_is_the_closed_form() {
     let two_body = Configuration { motion: Motion::TwoBody, ..still.clone() };
     let times = || (0..400).map(|i| f64::from(i) * 731.0);
     let look = |plant: &mut Plant<'_>, time_s: f64| plant.evaluate(time_s);
-    let (found, expected) =
-        (fly(&still, Vector3::zeros(), times(), look), fly(&two_body, Vector3::zeros(), times(), look));
+    let (found, expected) = (
+        simulate(&still, Vector3::zeros(), times(), look),
+        simulate(&two_body, Vector3::zeros(), times(), look),
+    );
     for (found, expected) in found.iter().zip(&expected) {
         let (found, expected) = (found.instant, expected.instant);
         let off_m = (found.geometry.spacecraft.position_m - expected.geometry.spacecraft.position_m).norm();
@@ -108,7 +110,8 @@ fn a_force_moves_the_spacecraft_as_newton_says() {
     };
     let force_n = Vector3::new(0.02, -0.01, 0.03);
     let end_s = 40_000.0;
-    let found = fly(&configuration, force_n, [end_s].into_iter(), |plant, time_s| plant.evaluate(time_s));
+    let found =
+        simulate(&configuration, force_n, [end_s].into_iter(), |plant, time_s| plant.evaluate(time_s));
     let start = orbit().state_at(EPOCH_S);
     let pushed = runge_kutta(start, force_n / configuration.mass_kg, end_s, 200_000);
     let free = runge_kutta(start, Vector3::zeros(), end_s, 200_000);
@@ -124,7 +127,7 @@ fn periapses_are_counted_where_they_are_passed() {
     let gravity = Gravity { flattening: Some(flattening), ..Gravity::of(Body::Mercury.data()) };
     let configuration = disturbed(gravity, guided(&orbit()));
     let times = (1..=7200).map(|i| f64::from(i) * 60.0);
-    let seen = fly(&configuration, Vector3::zeros(), times, |plant, time_s| {
+    let seen = simulate(&configuration, Vector3::zeros(), times, |plant, time_s| {
         let state = plant.evaluate(time_s).instant.geometry.spacecraft;
         (
             time_s,
@@ -199,13 +202,13 @@ fn downlinks_begin_and_end_to_the_second_after_a_periapsis_that_was_met() {
         [periapsis_s + 7200.0, periapsis_s + 36_000.0]
     });
     let times = edges_s.into_iter().flatten().flat_map(|at_s| [at_s - 0.2, at_s + 0.2]);
-    let down = fly(&configuration, Vector3::zeros(), times, |plant, time_s| {
+    let down = simulate(&configuration, Vector3::zeros(), times, |plant, time_s| {
         plant.evaluate(time_s).instant.regime.downlink
     });
     assert_eq!(down, [false, true, true, false].repeat(3));
 }
 
-/// A slew that lasts longer than the cells of the orbit goes on from where it began.
+/// A slew that lasts longer than the cells of the orbit continues from where it began.
 #[test]
 fn a_long_slew_turns_as_its_rate_says() {
     let flattening = Flattening { j2: 5e-3, ..Flattening::of(Body::Mercury.data()) };
@@ -216,7 +219,7 @@ fn a_long_slew_turns_as_its_rate_says() {
     }
     let step_s = 10.0;
     let times = (1..26_000).map(|i| f64::from(i) * step_s);
-    let seen = fly(&configuration, Vector3::zeros(), times, |plant, time_s| {
+    let seen = simulate(&configuration, Vector3::zeros(), times, |plant, time_s| {
         let evaluation = plant.evaluate(time_s);
         (evaluation.instant.frame, evaluation.instant.regime)
     });

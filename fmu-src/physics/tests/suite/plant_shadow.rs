@@ -16,7 +16,7 @@ use physics::plant::{
 use super::plant_flight::{EPOCH_S, Rig, configuration, still};
 
 const RADIUS_M: f64 = 3.2e6;
-const FLOWN_S: f64 = 4_000.0;
+const DURATION_S: f64 = 4_000.0;
 
 fn mean_motion_rad_s() -> f64 {
     (GM_MERCURY_M3_S2 / RADIUS_M.powi(3)).sqrt()
@@ -88,9 +88,9 @@ fn the_momentum_of_a_grazing_passage_is_torque_times_time_in_light() {
                     .plant_with(&dark, &|_| [ForceTorque::zero(); 2])
                     .sample(midnight_s - 0.5 * shadow_s - 1.0);
                 let torque_n_m = sample.inertial_from_body * sample.torque_body_n_m;
-                let expected = torque_n_m * (FLOWN_S - shadow_s);
-                let found = momentum_after(&dark, FLOWN_S);
-                let off = (found - expected).norm() / (torque_n_m.norm() * FLOWN_S);
+                let expected = torque_n_m * (DURATION_S - shadow_s);
+                let found = momentum_after(&dark, DURATION_S);
+                let off = (found - expected).norm() / (torque_n_m.norm() * DURATION_S);
                 assert!(torque_n_m.norm() > 1e-7, "{torque_n_m}");
                 assert!(off < 1e-9, "{shadow_s} s at {midnight_s} s on {grid_s} s: {off:e}");
             }
@@ -110,7 +110,7 @@ fn long_steps_see_what_short_ones_see_in_every_shadow() {
                 let mut dark = in_light(orbit, model, grid_s);
                 dark.ephemeris =
                     EphemerisSource::Given { sun: still(sun_m), earth: still(Vector3::new(0.0, 1e11, 0.0)) };
-                momentum_after(&dark, FLOWN_S)
+                momentum_after(&dark, DURATION_S)
             };
             let (long, short) = (seen(600.0), seen(1.0));
             assert!((long - short).norm() < 1e-10, "{model:?} {shadow_s}: {:e}", (long - short).norm());

@@ -40,7 +40,7 @@ fn directions() -> impl Iterator<Item = Vector3<f64>> {
     })
 }
 
-/// With self-shadowing by the model that flies.
+/// With self-shadowing by the simulated model.
 fn shadowed_force_n(
     spacecraft: &Spacecraft,
     source_body: Vector3<f64>,

@@ -20,7 +20,7 @@ pub(crate) use without_effect::{can_read_map, unused_map};
 /// Paths within an archive with what stands there.
 type Contents = Vec<(String, Vec<u8>)>;
 
-/// The files of the reference flight of the FMU that these files make; an error where it cannot fly it.
+/// The files of the reference flight of the FMU that these files make; an error where it cannot simulate it.
 pub(crate) fn reference_flight(entries: &Entries, inputs: &str) -> Result<Contents, Box<dyn Error>> {
     let folder = Scratch::new()?;
     entries.write_below(folder.path())?;

@@ -1,4 +1,4 @@
-//! What is packed beside the spacecraft, commands over time and ephemerides, read by the library that will fly it.
+//! What is packed beside the spacecraft, commands over time and ephemerides, read by the library that simulates it.
 
 use loader::{Binary, Described};
 

@@ -136,11 +136,11 @@ mod tests {
     #[test]
     fn what_is_there_is_counted_with_its_span() {
         let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
-        let said = |text: &str| {
+        let printed = |text: &str| {
             let timeline = Timeline::from_toml("t.toml", text, &spacecraft).unwrap();
             (summary(&timeline), of_one_model("t.toml", text, &spacecraft, &timeline))
         };
-        let (all, of_one) = said(
+        let (all, of_one) = printed(
             "[[command]]\nat = 0\nscenario = \"burn\"\n[[panels]]\nat = 0\nsunOffset = 1\n[[panels]]\nat = 9\nsunOffset = 1\n\
              [[event]]\nat = 5\ncenterOfMass = [0, 0, 0]\nmaneuver = { deltaV = [1, 0, 0] }",
         );
@@ -154,7 +154,7 @@ mod tests {
         ];
         assert_eq!(of_one, expected);
         let (events, of_one) =
-            said("[[event]]\nat = 5\ndump = true\n[[event]]\nat = \"1 h\"\ndump = [0, 0, 1]");
+            printed("[[event]]\nat = 5\ndump = true\n[[event]]\nat = \"1 h\"\ndump = [0, 0, 1]");
         assert_eq!((events.as_str(), of_one.len()), ("2 events from 5 s to 3600 s", 0));
     }
 }

@@ -1,4 +1,4 @@
-//! `heliotorque check mission.toml`: whether a mission can fly; its first step is simulated.
+//! `heliotorque check mission.toml`: whether a mission can be simulated; its first step is simulated.
 
 use std::sync::atomic::AtomicBool;
 

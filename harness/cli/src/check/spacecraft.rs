@@ -56,7 +56,7 @@ pub(super) fn run(arguments: &Check, file: &str, text: &str) -> Outcome {
     }
     // Each model takes its own kind of file; one that takes this one is enough.
     if let Some((described, description)) = taken {
-        // What passes here can be packed, and an FMU that cannot fly is not.
+        // What passes here can be packed, and an FMU that cannot simulate is not.
         let parts =
             Parts { spacecraft: Some(&arguments.subject), model: Some(&described.model), ..Parts::default() };
         let assembled = assemble(&source, &parts)?;

@@ -55,7 +55,7 @@ pub(crate) enum EndReason {
     Hangs(f64),
     /// A call took longer than it may, in s.
     CallHangs(f64),
-    /// It reported its end and went on.
+    /// It reported its end and continued.
     DoesNotExit,
     /// It printed more bytes than it may.
     Prints(u64),
@@ -71,7 +71,7 @@ pub(crate) enum EndReason {
 #[derive(Debug)]
 pub(crate) struct Supervised {
     /// How it ended.
-    pub how: EndReason,
+    pub end_reason: EndReason,
     /// The call it was in.
     pub calls: RecordedCalls,
     /// The last lines it printed, each after a line break.
@@ -86,16 +86,16 @@ const NAMED: usize = 5;
 impl Supervised {
     /// Why it is no good end, with the call it came in; `None` for a good one.
     pub(crate) fn fault(&self) -> Option<String> {
-        let what = match &self.how {
+        let what = match &self.end_reason {
             EndReason::Ended(status) if status.success() => return None,
-            how => describe(how),
+            end_reason => describe(end_reason),
         };
         Some(self.placed(&what))
     }
 
     /// That it ended without a result.
     pub(crate) fn without_result(&self) -> String {
-        self.placed(&describe(&self.how))
+        self.placed(&describe(&self.end_reason))
     }
 
     /// What it left behind, if anything.
@@ -116,9 +116,9 @@ impl Supervised {
     }
 }
 
-fn describe(how: &EndReason) -> String {
-    match how {
-        EndReason::Ended(status) => format!("the process ended: {}", system::how(*status)),
+fn describe(end_reason: &EndReason) -> String {
+    match end_reason {
+        EndReason::Ended(status) => format!("the process ended: {}", system::describe_exit(*status)),
         EndReason::Hangs(time_s) => format!("hangs: still busy after {time_s} s in all (see --timeout)"),
         EndReason::CallHangs(time_s) => {
             format!("hangs: the call did not return within {time_s} s (see --timeout)")
@@ -170,18 +170,18 @@ impl ChildProcess {
         line: &mut dyn FnMut(&str),
         tick: &mut dyn FnMut(Option<&CallRecord>) -> Result<(), String>,
     ) -> Supervised {
-        let how = self.follow(bounds, take, line, tick);
+        let end_reason = self.follow(bounds, take, line, tick);
         let calls = self.inbox.calls().map(loader::recorded_calls).unwrap_or_default();
         let status = system::end(&mut self.child);
         self.printed.finish(line);
-        let (how, left) = match (how, status) {
-            (how, Ok((status, left))) => (how.unwrap_or(EndReason::Ended(status)), left),
-            (Some(how), Err(_)) => (how, Vec::new()),
+        let (end_reason, left) = match (end_reason, status) {
+            (end_reason, Ok((status, left))) => (end_reason.unwrap_or(EndReason::Ended(status)), left),
+            (Some(end_reason), Err(_)) => (end_reason, Vec::new()),
             (None, Err(error)) => {
                 (EndReason::Refused(format!("the process cannot be waited for: {error}")), Vec::new())
             }
         };
-        Supervised { how, calls, printed: self.printed.last(), left }
+        Supervised { end_reason, calls, printed: self.printed.last(), left }
     }
 
     /// Until it ended by itself (`None`) or has to be ended.

@@ -43,7 +43,8 @@ pub(crate) fn run(arguments: &Draw) -> Outcome {
     let file = named.map_or_else(|| format!("{DEFAULT_NAME}.toml"), |path| path.display().to_string());
     let text = named.map_or_else(|| Ok(MESSENGER_TOML.to_owned()), |path| FileKind::Spacecraft.read(path))?;
     let scene = read(&file, &text, &arguments.angle)?;
-    let views: Vec<View> = View::ALL.into_iter().filter(|view| is_asked(*view, &arguments.view)).collect();
+    let views: Vec<View> =
+        View::ALL.into_iter().filter(|view| is_requested(*view, &arguments.view)).collect();
     let svg = sheet::svg(&scene, &views).ok_or_else(|| {
         format!("{file}: found no surface and no thruster with an extent, allowed: at least one to draw")
     })?;
@@ -63,7 +64,7 @@ pub(crate) fn png(text: &str) -> Option<Vec<u8>> {
     drawing::png(&sheet::picture(&read("", text, &[]).ok()?, PICTURE)?)
 }
 
-fn is_asked(view: View, requested: &[ViewKind]) -> bool {
+fn is_requested(view: View, requested: &[ViewKind]) -> bool {
     let kind = match view {
         View::Front => ViewKind::Front,
         View::Side => ViewKind::Side,

@@ -27,7 +27,7 @@ type Failure = Box<dyn std::error::Error>;
 /// The model whose torque is mapped.
 const MODEL: &str = "DisturbanceTorque";
 /// The model whose parameters say how it is simulated.
-const FLOWN: &str = "MomentumPlant";
+const PLANT: &str = "MomentumPlant";
 
 /// How downlinks share the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,19 +87,19 @@ impl MappedSpacecraft {
             Ok(description(&source.binary().describe(model, file, text)?)?)
         };
         for set in &arguments.set {
-            let (torque, simulated) = (describe(MODEL, Some(&text))?, describe(FLOWN, Some(&text))?);
+            let (torque, simulated) = (describe(MODEL, Some(&text))?, describe(PLANT, Some(&text))?);
             // A name that neither has is reported as one of DisturbanceTorque.
             let name = set.split_once('=').map_or(set.as_str(), |(name, _)| name);
             let is_known = |description| loader::select(description, name).is_ok();
             let (model, description) = if !is_known(&torque) && is_known(&simulated) {
-                (FLOWN, &simulated)
+                (PLANT, &simulated)
             } else {
                 (MODEL, &torque)
             };
             text = with_values(&text, START, model, description, &[(format!("--set {set}"), set.clone())])?;
         }
         let described = source.binary().describe(MODEL, Some(&file), Some(&text))?;
-        let simulated = describe(FLOWN, Some(&text))?;
+        let simulated = describe(PLANT, Some(&text))?;
         let folder = Scratch::new()?;
         unpacked(&source, &described, &text)?.write_below(folder.path())?;
         let fmu = Fmu::open(folder.path())?;
@@ -199,7 +199,7 @@ fn panels_left_out(simulated: &Description) -> bool {
     (1..).map_while(enabled).any(|enabled| enabled == Value::Boolean(false))
 }
 
-/// Where the file puts the Sun, otherwise the mean distance of the body it flies around.
+/// Where the file puts the Sun, otherwise the mean distance of the body it orbits.
 fn distance_m(described: &Description, simulated: &Description, default: &Description) -> f64 {
     let sun_m = |description: &Description| {
         Vector3::from(

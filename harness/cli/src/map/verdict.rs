@@ -37,7 +37,7 @@ pub(super) fn on_mission(spacecraft: &MappedSpacecraft, attainable: &Attainable)
         None => format!("through all {length} days"),
     };
     let [x, y, z] = spacecraft.threshold_n_m_s.map(terminal::short);
-    let simulated = mission.dumps.map_or(String::new(), |dumps| format!("; flown with {dumps} dumps"));
+    let simulated = mission.dumps.map_or(String::new(), |dumps| format!("; simulated with {dumps} dumps"));
     vec![
         format!("holdable without a dump {} (X, Z within +-{x}, +-{z} N.m.s)", until(held.managed_d)),
         format!("without targets in downlinks {}{simulated}", until(held.unmanaged_d)),

@@ -27,7 +27,7 @@ pub(crate) struct At<T> {
     pub line: usize,
 }
 
-/// What flies.
+/// The FMU or spacecraft.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum SpacecraftSource {
     /// An FMU or system that is packed already.
@@ -82,7 +82,7 @@ pub(crate) struct Bounds {
 pub(crate) struct Mission {
     /// The file as the caller named it.
     pub file: PathBuf,
-    /// What flies.
+    /// The FMU or spacecraft.
     pub spacecraft_source: SpacecraftSource,
     /// The epoch of simulation time 0, where `start` is a date; in s past J2000 TDB.
     pub epoch_s: Option<At<f64>>,

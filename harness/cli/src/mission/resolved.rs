@@ -1,4 +1,4 @@
-//! A mission's names and values in the FMU that flies it.
+//! A mission's names and values in the FMU that simulates it.
 
 use std::collections::BTreeSet;
 

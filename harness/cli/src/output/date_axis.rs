@@ -26,10 +26,10 @@ pub(super) struct DateAxis {
 impl DateAxis {
     /// From one epoch to another, in s past J2000 TDB; `None` before UTC, and where hardly a round time lies within.
     pub(super) fn over(first_s: f64, last_s: f64) -> Option<Self> {
-        let wanted_s = (last_s - first_s) / MOST;
+        let interval_s = (last_s - first_s) / MOST;
         let day = day_of(first_s)?;
         let step = |steps: &[u32], unit_s: f64| {
-            steps.iter().copied().find(|step| f64::from(*step) * unit_s >= wanted_s * (1.0 - 1e-9))
+            steps.iter().copied().find(|step| f64::from(*step) * unit_s >= interval_s * (1.0 - 1e-9))
         };
         let (ticks, label) = if let Some(step_s) = step(&STEPS_S, 1.0) {
             (within_days(first_s, last_s, step_s)?, format!("UTC, from {day}"))

@@ -124,9 +124,9 @@ fn graticule(map: &Map) -> Vec<(f64, f64)> {
 }
 
 fn sphere(burn: &PlannedBurn) -> PlaneChart {
-    let aim = &burn.task.aim;
+    let geometry = &burn.task.geometry;
     let angle_rad = burn.task.angle_rad;
-    let map = Map::about(aim.on_great_circle(0.5 * angle_rad));
+    let map = Map::about(geometry.on_great_circle(0.5 * angle_rad));
     let limit = |name: &str| {
         let check = burn.checks.iter().find(|check| check.limit == name);
         check.map_or(f64::NAN, |check| check.allowed.1)
@@ -134,17 +134,20 @@ fn sphere(burn: &PlannedBurn) -> PlaneChart {
     let (sun_limit_deg, earth_limit_deg) = (limit("Sun angle"), limit("Earth angle"));
     let axes = std::iter::once(burn.flight.start_axis_inertial)
         .chain(burn.flight.pulses.iter().map(|pulse| pulse.axis_inertial));
-    let rhumb: Vec<Vector3<f64>> = shares().filter_map(|share| aim.on_rhumb_line(share)).collect();
-    let mut bodies = vec![map.place(&aim.sun_inertial)];
-    bodies.extend(aim.earth_inertial.map(|earth| map.place(&earth)));
-    let anti_earth = aim.earth_inertial.map(|earth| -earth);
+    let rhumb: Vec<Vector3<f64>> = shares().filter_map(|share| geometry.on_rhumb_line(share)).collect();
+    let mut bodies = vec![map.place(&geometry.sun_inertial)];
+    bodies.extend(geometry.earth_inertial.map(|earth| map.place(&earth)));
+    let anti_earth = geometry.earth_inertial.map(|earth| -earth);
     let series = vec![
         Series::dots("axis after each pulse", axes.map(|axis| map.place(&axis)).collect()),
-        Series::line("great circle", map.curve(shares().map(|share| aim.on_great_circle(share * angle_rad)))),
+        Series::line(
+            "great circle",
+            map.curve(shares().map(|share| geometry.on_great_circle(share * angle_rad))),
+        ),
         Series::dashed("rhumb line about the Sun", map.curve(rhumb)),
         Series::line(
             format!("axis {} deg from the Sun", terminal::short(sun_limit_deg)),
-            map.curve(circle(&aim.sun_inertial, sun_limit_deg.to_radians())),
+            map.curve(circle(&geometry.sun_inertial, sun_limit_deg.to_radians())),
         ),
         Series::line(
             anti_earth.map_or_else(String::new, |_| {
@@ -166,9 +169,9 @@ fn sphere(burn: &PlannedBurn) -> PlaneChart {
             ..PlanePanel::default()
         }
     };
-    let mut bodies = vec![("Sun", aim.sun_inertial)];
-    bodies.extend(aim.earth_inertial.map(|earth| ("Earth", earth)));
-    let ends = [("start", aim.axis_inertial), ("target", aim.target_inertial)];
+    let mut bodies = vec![("Sun", geometry.sun_inertial)];
+    bodies.extend(geometry.earth_inertial.map(|earth| ("Earth", earth)));
+    let ends = [("start", geometry.axis_inertial), ("target", geometry.target_inertial)];
     let (right_ascension_deg, declination_deg) = right_ascension_declination_deg(&map.middle);
     let whole = panel("the whole sphere", WHOLE_DEG, bodies.clone());
     let near = panel("the turn", close_deg, ends.into_iter().chain(bodies).collect());

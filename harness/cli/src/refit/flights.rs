@@ -35,7 +35,7 @@ const DRAWN: [&str; 5] = [
 const NEVER_N_M_S: f64 = 1e9;
 
 /// A mission ready to be simulated.
-pub(super) struct FlownMission {
+pub(super) struct RefitMission {
     fmu: Fmu,
     sets: Vec<(String, Value)>,
     inputs: Option<InputTable>,
@@ -43,13 +43,13 @@ pub(super) struct FlownMission {
     stop_s: f64,
     step_s: f64,
     /// Time of flights that are over, in s, and the bar that it is shown by.
-    flown_s: Cell<f64>,
+    simulated_s: Cell<f64>,
     pub bar: ProgressBar,
     // A mission's packed FMU, as long as it is in use.
     _folder: Option<Scratch>,
 }
 
-impl FlownMission {
+impl RefitMission {
     /// Reads the mission and packs its files.
     pub(super) fn open(arguments: &Refit) -> Result<(Self, Simulated), Failure> {
         let file = arguments.mission.display().to_string();
@@ -73,7 +73,7 @@ impl FlownMission {
         sets.extend(
             DRAWN.iter().filter(|name| is_drawn(name)).map(|name| ((*name).to_owned(), Value::Real(0.0))),
         );
-        let flown = Self {
+        let opened = Self {
             fmu,
             sets,
             start_s: times.start_s,
@@ -81,11 +81,11 @@ impl FlownMission {
             // Inputs change at the mission's steps alone; without any, a flight does not depend on them.
             step_s: if inputs.is_some() { times.step_s } else { times.step_s.max(DAY_S) },
             inputs,
-            flown_s: Cell::new(0.0),
+            simulated_s: Cell::new(0.0),
             bar: ProgressBar::hidden(),
             _folder: folder,
         };
-        Ok((flown, simulated))
+        Ok((opened, simulated))
     }
 
     /// The values that the mission sets.
@@ -120,8 +120,8 @@ impl FlownMission {
     }
 }
 
-impl Flights for FlownMission {
-    fn fly(&self, parameters: &Parameters, times_s: &[f64]) -> Result<History, Failure> {
+impl Flights for RefitMission {
+    fn simulate(&self, parameters: &Parameters, times_s: &[f64]) -> Result<History, Failure> {
         let description = self.fmu.description();
         let mut sets = self.sets.clone();
         let values: [f64; 4] = parameters.values().into();
@@ -129,7 +129,7 @@ impl Flights for FlownMission {
         sets.extend((1..=3).map(|axis| (format!("{THRESHOLD}[{axis}]"), Value::Real(NEVER_N_M_S))));
         let names: Vec<String> = MOMENTUM.iter().chain(&[DUMPS]).map(|name| (*name).to_owned()).collect();
         let last_s = times_s.last().copied().unwrap_or(self.stop_s);
-        let before_s = self.flown_s.get();
+        let before_s = self.simulated_s.get();
         let mut reported = |time_s: f64| self.bar.set_position((before_s + time_s - self.start_s) as u64);
         let options = Options {
             start_s: Some(self.start_s),
@@ -143,7 +143,7 @@ impl Flights for FlownMission {
             ..Options::default()
         };
         let simulation = loader::simulate(&self.fmu, options)?;
-        self.flown_s.set(before_s + last_s - self.start_s);
+        self.simulated_s.set(before_s + last_s - self.start_s);
         let recording = simulation.recording;
         if simulation.ended != Ended::AtStop || recording.times_s.len() != times_s.len() {
             let at = terminal::short(recording.times_s.last().copied().unwrap_or(self.start_s));

@@ -14,14 +14,14 @@ use files::Destination;
 use planner::refit::{Deviations, Requested, Telemetry, fit};
 
 use crate::outcome::Outcome;
-use flights::FlownMission;
+use flights::RefitMission;
 pub(crate) use options::Refit;
 use table::Found;
 
 /// Fits.
 pub(crate) fn run(arguments: &Refit) -> Outcome {
     let telemetry = Telemetry::read(&arguments.telemetry)?;
-    let (mut mission, simulated) = FlownMission::open(arguments)?;
+    let (mut mission, simulated) = RefitMission::open(arguments)?;
     let [table_file, json_file, picture_file] = destinations(arguments, &simulated.reads())?;
     let telemetry_file = arguments.telemetry.display().to_string();
     mission.check_times(&telemetry_file, &telemetry)?;
@@ -36,7 +36,8 @@ pub(crate) fn run(arguments: &Refit) -> Outcome {
     mission.bar = terminal::progress(span_s as u64, "s of flights", arguments.quiet);
     let requested = Requested { telemetry: &telemetry, prior, deviations };
     let bar = mission.bar.clone();
-    let fitted = fit(&mission, &requested, &mut |_, ahead| bar.set_length((ahead as f64 * span_s) as u64));
+    let fitted =
+        fit(&mission, &requested, &mut |_, expected| bar.set_length((expected as f64 * span_s) as u64));
     bar.finish_and_clear();
     let fitted = fitted.map_err(|error| format!("{}: {error}", arguments.mission.display()))?;
     let found = Found {

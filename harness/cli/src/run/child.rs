@@ -88,7 +88,7 @@ pub(super) fn simulate(
         terminal::note(&format!("{name}: {left}"));
     }
     let fault = supervised.fault().map(|fault| format!("{name}: {fault}"));
-    let outcome = match (outcome, &supervised.how) {
+    let outcome = match (outcome, &supervised.end_reason) {
         (Some(outcome), EndReason::Refused(why)) => outcome.and(Err(why.clone())),
         (Some(outcome), _) => outcome,
         (None, EndReason::Interrupted) => {

@@ -53,7 +53,7 @@ pub(crate) struct Prepared {
 }
 
 impl Prepared {
-    /// Opens what flies and every output.
+    /// Opens the FMU and every output.
     ///
     /// # Errors
     /// Whatever is refused, by the flag or the mission's line.

@@ -1,4 +1,4 @@
-//! What a run flies: the arguments of `heliotorque run` over those of a mission, and the FMU packed from its files.
+//! What a run simulates: the arguments of `heliotorque run` over those of a mission, and the FMU packed from its files.
 
 use std::{
     error::Error,
@@ -72,7 +72,7 @@ impl Simulated {
         Some(self.mission.as_ref()?.epoch_s.as_ref()?.it - start_s)
     }
 
-    /// Opens what flies; a mission's files are packed into a temporary FMU.
+    /// Opens the FMU; a mission's files are packed into a temporary FMU.
     pub(crate) fn open(&self) -> Result<(Subject, Option<Scratch>), Box<dyn Error>> {
         let Some(mission) = &self.mission else { return Ok((Subject::open(&self.run.fmu)?, None)) };
         if let SpacecraftSource::Fmu(path) = &mission.spacecraft_source {

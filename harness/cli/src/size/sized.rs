@@ -1,4 +1,4 @@
-//! What is sized: the FMU of a file, its spacecraft, and the values that it flies with.
+//! What is sized: the FMU of a file, its spacecraft, and the values that it is simulated with.
 
 use files::Scratch;
 use loader::{Fmu, InputTable, Instance, Value};
@@ -26,7 +26,7 @@ const PHASE: &str = "guided.phase";
 /// A year, in s.
 pub(super) const YEAR_S: f64 = 365.25 * DAY_S;
 
-/// A spacecraft ready to fly.
+/// A spacecraft ready for simulation.
 pub(super) struct SizedSpacecraft {
     pub fmu: Fmu,
     pub spacecraft: Spacecraft,

@@ -1,4 +1,4 @@
-//! Processes that simulate the runs of a campaign: each takes every n-th run, another one goes on where one crashes or hangs.
+//! Processes that simulate the runs of a campaign: each takes every n-th run, another one continues where one crashes or hangs.
 
 use std::{
     cell::RefCell,
@@ -71,7 +71,7 @@ impl Pool<'_> {
                 points: Vec::new(),
                 collector: None,
             };
-            let how = self.one_process(next, is_fresh, &mut inbox)?;
+            let end_reason = self.one_process(next, is_fresh, &mut inbox)?;
             if let Some(why) = inbox.refused.take() {
                 return Err(why);
             }
@@ -79,10 +79,12 @@ impl Pool<'_> {
                 return Ok(());
             }
             match inbox.current {
-                Some(run) => inbox.failed(run, &how)?,
+                Some(run) => inbox.failed(run, &end_reason)?,
                 // It did not come to a run: with the instance that is reset, a new one each time is left to try.
                 None if inbox.next == next && !is_fresh => is_fresh = true,
-                None if inbox.next == next => return Err(format!("{}: {how}", self.described.model_name)),
+                None if inbox.next == next => {
+                    return Err(format!("{}: {end_reason}", self.described.model_name));
+                }
                 None => {}
             }
             next = inbox.next;
@@ -116,7 +118,7 @@ impl Pool<'_> {
             &mut |line| shown.line(line),
             &mut |_| if self.is_over.load(Ordering::Relaxed) { Err(IS_OVER.to_owned()) } else { Ok(()) },
         );
-        if let EndReason::Refused(why) = &supervised.how
+        if let EndReason::Refused(why) = &supervised.end_reason
             && ![IS_OVER, NOT_REQUESTED].contains(&why.as_str())
         {
             return Err(why.clone());
@@ -183,10 +185,10 @@ impl Inbox<'_> {
     }
 
     /// A run that its process did not end.
-    fn failed(&mut self, run: u64, how: &str) -> Result<(), String> {
+    fn failed(&mut self, run: u64, end_reason: &str) -> Result<(), String> {
         let count = self.pool.campaign.kept.columns(self.pool.described).len();
         let numbers = vec![f64::NAN; count];
-        self.end(RunResult { run, status: RunStatus::Failed, reason: how.to_owned(), numbers })
+        self.end(RunResult { run, status: RunStatus::Failed, reason: end_reason.to_owned(), numbers })
     }
 
     fn end(&mut self, result: RunResult) -> Result<(), String> {

@@ -27,9 +27,9 @@ fn compared(folder: &Path, more: &[&str], status: i32) -> (String, String) {
 #[test]
 fn a_difference_is_a_fraction_of_its_vectors_largest_magnitude() {
     let scratch = files(FIRST, SECOND);
-    let (said, _) = compared(scratch.path(), &[], 1);
+    let (printed, _) = compared(scratch.path(), &[], 1);
     says(
-        &said,
+        &printed,
         &[
             "a.csv and b.csv: 3 times and 3 variables in common",
             "only a.csv has lone",
@@ -38,25 +38,29 @@ fn a_difference_is_a_fraction_of_its_vectors_largest_magnitude() {
             "1 of 3 beyond 1e-9 of the largest magnitude of its vector; 2 without any difference",
         ],
     );
-    let row: Vec<&str> =
-        said.lines().find(|line| line.trim_start().starts_with("h[1]")).unwrap().split_whitespace().collect();
+    let row: Vec<&str> = printed
+        .lines()
+        .find(|line| line.trim_start().starts_with("h[1]"))
+        .unwrap()
+        .split_whitespace()
+        .collect();
     assert_eq!(row, ["h[1]", "5.000e-1", "5.000e-2", "60", "1", "1.5"]);
     // The tolerance itself is within.
     for (tolerance, status) in [("0.0499", 1), ("0.05", 0), ("0", 1), ("1", 0)] {
-        let (said, _) = compared(scratch.path(), &["--tolerance", tolerance], status);
-        assert!(said.contains(if status == 0 { "none beyond" } else { "1 of 3 beyond" }), "{said}");
+        let (printed, _) = compared(scratch.path(), &["--tolerance", tolerance], status);
+        assert!(printed.contains(if status == 0 { "none beyond" } else { "1 of 3 beyond" }), "{printed}");
     }
     for bad in ["-1", "nan", "1e-9 m"] {
-        let (_, said) = compared(scratch.path(), &["--tolerance", bad], 2);
-        says(&said, &["--tolerance", "allowed is a number from 0 up"]);
+        let (_, printed) = compared(scratch.path(), &["--tolerance", bad], 2);
+        says(&printed, &["--tolerance", "allowed is a number from 0 up"]);
     }
 }
 
 #[test]
 fn the_same_table_differs_by_nothing() {
     let scratch = files(FIRST, &FIRST.replace("60,1,-10,nadir", "6e1,1.000,-1e1,nadir"));
-    let (said, _) = compared(scratch.path(), &["--tolerance", "0"], 0);
-    assert_eq!(said, "a.csv and b.csv: 3 times and 4 variables in common\nno difference\n");
+    let (printed, _) = compared(scratch.path(), &["--tolerance", "0"], 0);
+    assert_eq!(printed, "a.csv and b.csv: 3 times and 4 variables in common\nno difference\n");
 }
 
 #[test]
@@ -70,15 +74,15 @@ fn runs_of_a_campaign_are_compared_by_their_number() {
         runs.replace("-8,0,limit", "-8,2,ok").replace("1,2,,,failed", "1,2,0,0,ok"),
     )
     .unwrap();
-    let (said, _) = compared(scratch.path(), &[], 1);
+    let (printed, _) = compared(scratch.path(), &[], 1);
     let row = |name: &str| -> Vec<String> {
-        let line = said.lines().find(|line| line.trim_start().starts_with(name)).unwrap();
+        let line = printed.lines().find(|line| line.trim_start().starts_with(name)).unwrap();
         line.split_whitespace().map(str::to_owned).collect()
     };
     // A run that failed has no number, whatever the other one has.
     assert_eq!(row("h[1].final")[1..5], ["N.m.s", "infinite", "infinite", "1"]);
     assert_eq!(row("status")[1..], ["infinite", "infinite", "1", "failed", "ok"]);
-    says(&said, &["at run", "3 of 5 beyond 1e-9"]);
+    says(&printed, &["at run", "3 of 5 beyond 1e-9"]);
 }
 
 #[test]
@@ -90,13 +94,13 @@ fn the_picture_shows_what_differs() {
     let svg = fs::read_to_string(scratch.path().join("d.svg")).unwrap();
     says(&svg, &["b.csv less a.csv", "h [mN.m.s]", ">h[1]<", "time [s]", ">500<"]);
     assert!(!svg.contains("h[2]"), "{svg}");
-    let (picture, said) = compared(scratch.path(), &["--plot", "-"], 1);
+    let (picture, printed) = compared(scratch.path(), &["--plot", "-"], 1);
     assert_eq!(picture, svg);
-    says(&said, &["1 of 3 beyond"]);
-    let (_, said) = compared(scratch.path(), &["--plot", "d.png"], 1);
-    says(&said, &["d.png", "allowed: one that ends in .svg", "--plot"]);
-    let (_, said) = compared(scratch.path(), &["--plot", "b.csv.svg/d.svg"], 1);
-    says(&said, &["there is no folder", "--plot"]);
+    says(&printed, &["1 of 3 beyond"]);
+    let (_, printed) = compared(scratch.path(), &["--plot", "d.png"], 1);
+    says(&printed, &["d.png", "allowed: one that ends in .svg", "--plot"]);
+    let (_, printed) = compared(scratch.path(), &["--plot", "b.csv.svg/d.svg"], 1);
+    says(&printed, &["there is no folder", "--plot"]);
 }
 
 #[test]
@@ -108,12 +112,12 @@ fn two_runs_of_one_mission_differ_by_nothing() {
             ["run", shown(&fmu), "--stop", "12h", "--step", step, "--output", shown(output), "--quiet"];
         run(&[&flight[..], &["--record", "momentum.body,torque.solar,dump.count"]].concat(), 0);
     }
-    let said = run(&["compare", shown(&first), shown(&first), "--tolerance", "0"], 0);
-    says(&said, &["13 times and 7 variables in common", "no difference"]);
+    let printed = run(&["compare", shown(&first), shown(&first), "--tolerance", "0"], 0);
+    says(&printed, &["13 times and 7 variables in common", "no difference"]);
     // The plant's results are independent of the master's steps.
-    let said = run(&["compare", shown(&first), shown(&second), "--tolerance", "0"], 0);
+    let printed = run(&["compare", shown(&first), shown(&second), "--tolerance", "0"], 0);
     says(
-        &said,
+        &printed,
         &[
             "7 times and 7 variables in common",
             "has time 3600, 10800, 18000, 25200, ... 39600 s (6)",

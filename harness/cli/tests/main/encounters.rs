@@ -9,7 +9,7 @@ use std::{
 use model_description::value::Value;
 use nalgebra::{Matrix3x6, Vector3};
 use planner::{
-    flyby::{Sensitivity, Surroundings, miss::MissCost},
+    flyby::{ForceModel, Sensitivity, miss::MissCost},
     momentum::{
         Convention,
         plant::{self, StartValues},
@@ -80,7 +80,7 @@ impl Leg {
     }
 
     /// B.T, B.R and time of closest approach: B between the rows around its epoch by the polynomial through six of them.
-    fn aim(&self, sets: &[String]) -> Vector3<f64> {
+    fn intercept(&self, sets: &[String]) -> Vector3<f64> {
         let found = self.recorded("encounter.bT,encounter.bR,encounter.lastTime", sets);
         let closest_s = *found["encounter.lastTime"].last().unwrap();
         let times_s = &found["time"];
@@ -98,7 +98,7 @@ impl Leg {
     }
 
     /// The flight with its motion, and its spacecraft.
-    fn flight(&self) -> (SimulatedFlight, Surroundings, SunlitSpacecraft) {
+    fn flight(&self) -> (SimulatedFlight, ForceModel, SunlitSpacecraft) {
         let mut names: Vec<String> = plant::recorded(Convention::Inertial).map(str::to_owned).to_vec();
         names.extend(plant::RECORDED_MOTION.map(str::to_owned));
         names.extend([0, 1].map(plant::panel));
@@ -118,12 +118,12 @@ impl Leg {
         ];
         let sets: Vec<(String, Value)> = sets.map(|(name, value)| (name.to_owned(), value)).to_vec();
         let values = StartValues { description: fmu.description(), sets: &sets };
-        let mut surroundings = Surroundings::of(&values, 0.0).unwrap();
-        surroundings.lead_s = LEAD_S;
+        let mut force_model = ForceModel::of(&values, 0.0).unwrap();
+        force_model.lead_s = LEAD_S;
         let spacecraft = fs::read_to_string("../../fmu-src/resources/messenger.toml").unwrap();
         let spacecraft = plant::spacecraft("messenger.toml", &spacecraft).unwrap();
         let sunlit = plant::sunlit(spacecraft, &values, Convention::Inertial).unwrap();
-        (flight, surroundings, sunlit)
+        (flight, force_model, sunlit)
     }
 }
 
@@ -141,9 +141,9 @@ fn columns(file: &Path) -> Recording {
 #[test]
 fn partials_over_200_days_are_those_of_flights_through_the_fmu() {
     let Some(leg) = Leg::new() else { return };
-    let (flight, surroundings, sunlit) = leg.flight();
-    let sensitivity = Sensitivity::new(&flight, &surroundings, &sunlit).unwrap();
-    let nominal = leg.aim(&[]);
+    let (flight, force_model, sunlit) = leg.flight();
+    let sensitivity = Sensitivity::new(&flight, &force_model, &sunlit).unwrap();
+    let nominal = leg.intercept(&[]);
     assert!((sensitivity.encounter.time_s - nominal.z).abs() < 1e-2);
     let plane = sensitivity.encounter.plane;
     let off_m = (plane.b_t_m - nominal.x).hypot(plane.b_r_m - nominal.y);
@@ -156,7 +156,7 @@ fn partials_over_200_days_are_those_of_flights_through_the_fmu() {
         let name = if axis < 3 { "orbit.position" } else { "orbit.velocity" };
         let [after, before] = [step, -step].map(|step| {
             let value = leg.value(name, axis % 3) + step;
-            leg.aim(&[format!("{name}[{}]={value:e}", axis % 3 + 1)])
+            leg.intercept(&[format!("{name}[{}]={value:e}", axis % 3 + 1)])
         });
         differences.set_column(axis, &((after - before) / (2.0 * step)));
     }
@@ -173,7 +173,8 @@ fn partials_over_200_days_are_those_of_flights_through_the_fmu() {
 #[test]
 fn light_switched_off_moves_the_leg_by_thousands_of_kilometres() {
     let Some(leg) = Leg::new() else { return };
-    let [with, without] = [vec![], vec!["orbit.radiationFeedback=false".to_owned()]].map(|it| leg.aim(&it));
+    let [with, without] =
+        [vec![], vec!["orbit.radiationFeedback=false".to_owned()]].map(|it| leg.intercept(&it));
     let moved_km = (with - without).xy().norm() / 1e3;
     assert!((moved_km / 3471.0 - 1.0).abs() < 0.02, "{moved_km} km");
 }
@@ -182,15 +183,15 @@ fn light_switched_off_moves_the_leg_by_thousands_of_kilometres() {
 #[test]
 fn the_desired_change_of_velocity_takes_a_miss_away_through_the_fmu() {
     let Some(mut leg) = Leg::new() else { return };
-    let (flight, surroundings, sunlit) = leg.flight();
-    let sensitivity = Sensitivity::new(&flight, &surroundings, &sunlit).unwrap();
-    let nominal = leg.aim(&[]);
+    let (flight, force_model, sunlit) = leg.flight();
+    let sensitivity = Sensitivity::new(&flight, &force_model, &sunlit).unwrap();
+    let nominal = leg.intercept(&[]);
     for (days_before, miss_m) in [(118.0, [-17e3, 0.0]), (40.0, [5e3, 9e3])] {
         let time_s = ((nominal.z - days_before * DAY_S) / 3600.0).round() * 3600.0;
         let desired = sensitivity.desired(time_s, miss_m).unwrap();
         leg = leg.with_maneuver(time_s, &desired.delta_v_m_s);
-        let aim = leg.aim(&[]);
-        let left_m = (aim.x - nominal.x + miss_m[0]).hypot(aim.y - nominal.y + miss_m[1]);
+        let intercept = leg.intercept(&[]);
+        let left_m = (intercept.x - nominal.x + miss_m[0]).hypot(intercept.y - nominal.y + miss_m[1]);
         assert!(left_m < 2e-3 * miss_m[0].hypot(miss_m[1]), "{days_before} d: {left_m} m");
     }
 }
@@ -200,18 +201,18 @@ fn the_desired_change_of_velocity_takes_a_miss_away_through_the_fmu() {
 #[test]
 fn a_miss_of_170_km_takes_the_published_change_of_velocity() {
     let Some(leg) = Leg::new() else { return };
-    let (flight, surroundings, sunlit) = leg.flight();
-    let sensitivity = Sensitivity::new(&flight, &surroundings, &sunlit).unwrap();
+    let (flight, force_model, sunlit) = leg.flight();
+    let sensitivity = Sensitivity::new(&flight, &force_model, &sunlit).unwrap();
     let arrival_s = sensitivity.encounter.time_s;
     for (days_before, expected_mm_s) in [(118.0, 7.31), (4.0, 480.0)] {
         let desired = sensitivity.desired(arrival_s - days_before * DAY_S, [-170e3, 0.0]).unwrap();
         let found_mm_s = desired.size_m_s() * 1e3;
         assert!((found_mm_s / expected_mm_s - 1.0).abs() < 0.02, "{days_before} d: {found_mm_s} mm/s");
     }
-    let outgoing_1_s = sensitivity.encounter.plane.outgoing_change_1_s(surroundings.gm_m3_s2);
+    let outgoing_1_s = sensitivity.encounter.plane.outgoing_change_1_s(force_model.gm_m3_s2);
     assert!((outgoing_1_s * 1e3 - 0.71).abs() < 0.015, "{outgoing_1_s}");
     let times_s = [30.0 * DAY_S, NEXT_S].map(|it| arrival_s + it);
-    let cost = MissCost::new(&sensitivity, &surroundings, times_s).unwrap();
+    let cost = MissCost::new(&sensitivity, &force_model, times_s).unwrap();
     for (miss_m, expected_m_s) in [([1e3, 0.0], 0.72), ([0.0, 1e3], 0.48)] {
         let found_m_s = cost.cost_m_s(miss_m);
         assert!((found_m_s - expected_m_s).abs() < 0.03, "{miss_m:?}: {found_m_s} m/s");

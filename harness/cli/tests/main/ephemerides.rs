@@ -1,4 +1,4 @@
-//! An ephemeris is fitted from an FMU's flight, reported, packed and flown; what is wrong is reported by name.
+//! An ephemeris is fitted from an FMU's flight, reported, packed and used; what is wrong is reported by name.
 
 use std::fs;
 
@@ -23,7 +23,7 @@ fn a_file_is_reported_and_a_torn_one_refused_by_line() {
     let text = run(&["check", shown(&path)], 0);
     let reported = ["ok", "sun", "mercury", "2000-01-01T11:58:55", "2000-01-11T11:58:55", "1 m", "0.1 m/s"];
     assert!(reported.iter().all(|word| text.contains(word)), "{text}");
-    for (old, new, said) in [
+    for (old, new, printed) in [
         ("error_m = 1.0", "error_m = nan", "mine.toml:6: body[1].error_m: found NaN"),
         ("[[body]]", "[[bodies]]", "found the unknown key `bodies`, allowed: frame, source, body, coarse"),
         ("x_m = [5e10]", "x_m = [5e10, 1]", "mine.toml:8: body[1].segment[1].x_m: found 2 coefficients"),
@@ -31,7 +31,7 @@ fn a_file_is_reported_and_a_torn_one_refused_by_line() {
     ] {
         fs::write(&path, SMALL.replace(old, new)).unwrap();
         let text = run(&["check", shown(&path)], 1);
-        assert!(text.contains(said), "{new}: {text}");
+        assert!(text.contains(printed), "{new}: {text}");
     }
     assert!(run(&["schema", "ephemeris"], 0).contains("heliotorque ephemeris"));
 }
@@ -102,7 +102,7 @@ fn a_flight_is_fitted_to_the_tolerance_and_simulated_by_another_fmu() {
     placed_by_theory(&planets, &[Body::Venus, Body::Jupiter], 600.0);
     let moon = run(&[&make[..], &["moon"]].concat(), 1);
     assert!(moon.contains("--bodies moon: allowed with --kernel"), "{moon}");
-    // Another FMU flies by it within its span and nowhere else.
+    // Another FMU uses it within its span alone.
     let set = ["--set", "ephemeris.source=chebyshev", "--ephemeris", shown(&file)];
     let refusal = run(&[&pack[..], &[shown(&fitted)], &set].concat(), 1);
     says(&refusal, &["the FMU is not written", "start.epoch: found"]);
@@ -110,14 +110,14 @@ fn a_flight_is_fitted_to_the_tolerance_and_simulated_by_another_fmu() {
     run(&[&pack[..], &[shown(&fitted)], &set, &["--set", &epoch]].concat(), 0);
     assert!(run(&["info", shown(&fitted)], 0).contains("sun from mercury"));
     let record = path("record.csv");
-    let fly = |epoch: &str, status: i32| {
+    let simulate = |epoch: &str, status: i32| {
         let epoch = format!("start.epoch={epoch}");
         let output = ["--record", "sun.positionInertial", "--output", shown(&record)];
         let run_it = ["run", shown(&fitted), "--stop", "1d", "--quiet", "--set", &epoch];
         run(&[&run_it[..], &output].concat(), status)
     };
-    fly("2011-04-07 UTC", 0);
-    let text = fly("2011-05-07 UTC", 1);
+    simulate("2011-04-07 UTC", 0);
+    let text = simulate("2011-05-07 UTC", 1);
     assert!(text.contains("start.epoch: found") && text.contains("ephemeris.toml places sun"), "{text}");
     // It is no source for a span it does not cover, either.
     let beyond = ["--start", "2011-05-06 UTC", "--stop", "2011-05-07 UTC", "--output", "-"];

@@ -88,9 +88,9 @@ fn the_steps_of_the_paper_lead_back_to_the_aim() {
     );
     fs::write(folder.join("plan.toml"), text).unwrap();
     let output = folder.join("out");
-    let said = plan("flyby", &folder.join("plan.toml"), &output, &template, 0);
+    let printed = plan("flyby", &folder.join("plan.toml"), &output, &template, 0);
     says(
-        &said,
+        &printed,
         &[
             "Mercury, 6 h before closest approach: aim B.T",
             "the mission as it is misses by -1",
@@ -268,8 +268,8 @@ fn what_is_out_of_reach_is_refused_with_the_polygon() {
                 [tilt]\nazimuth = \"10 deg\"\nelevation = \"12 deg\"\n[sunOffset]\nchange = true\nlargest = \"90 deg\"\n\
                 [flyby]\nbody = \"mercury\"\nbT = \"3321.8 km\"\nbR = \"170 km\"\nfrom = \"2008-06-17 UTC\"\n";
     fs::write(&file, text).unwrap();
-    let said = plan("flyby", &file, &folder.join("far"), &template, 1);
-    says(&said, &["out of reach", "reach +T"]);
+    let printed = plan("flyby", &file, &folder.join("far"), &template, 1);
+    says(&printed, &["out of reach", "reach +T"]);
     let found = json(&folder.join("far"));
     assert_eq!(found["status"], "outOfReach");
     let reach = ["+T", "-T", "+R", "-R"].map(|key| found["reach_m"][key].as_f64().unwrap() / 1e3);
@@ -326,8 +326,8 @@ fn aims_and_states_that_cannot_be_are_refused() {
     let file = folder.join("plan.toml");
     for (tables, expected) in cases {
         fs::write(&file, format!("mission = \"flyby.toml\"\nfreeze = 0\n{tables}")).unwrap();
-        let said = plan("flyby", &file, &folder.join("out"), &template, 1);
-        says(&said, &[expected]);
+        let printed = plan("flyby", &file, &folder.join("out"), &template, 1);
+        says(&printed, &[expected]);
     }
     fs::write(&file, format!("mission = \"flyby.toml\"\n{aim}")).unwrap();
     says(

@@ -86,8 +86,8 @@ fn worst_m(ephemeris: &OnboardEphemeris, target: OnboardTarget, days: f64) -> f6
 
 #[test]
 fn fits_keep_their_error_against_the_closed_form() {
-    let (planets, craft) = (kernel("planets.bsp"), kernel("craft.bsp"));
-    let both = [planets.as_path(), &craft];
+    let (planets, spacecraft_spk) = (kernel("planets.bsp"), kernel("craft.bsp"));
+    let both = [planets.as_path(), &spacecraft_spk];
     let bodies = ["--bodies", "sun,earth,spacecraft", "--tolerance", "20", "--coarse"];
     let made = fitted(&both, "2011-04-04 TDB", &bodies);
     let source = made.source.as_deref().unwrap();
@@ -113,8 +113,8 @@ fn fits_keep_their_error_against_the_closed_form() {
 
 #[test]
 fn bodies_go_by_name_and_by_naif_id() {
-    let (planets, craft) = (kernel("planets.bsp"), kernel("craft.bsp"));
-    let both = [planets.as_path(), &craft];
+    let (planets, spacecraft_spk) = (kernel("planets.bsp"), kernel("craft.bsp"));
+    let both = [planets.as_path(), &spacecraft_spk];
     let by_name = ["--bodies", "sun,earth,spacecraft", "--center", "mercury", "--spacecraft", "messenger"];
     let by_id = ["--bodies", "10,399,spacecraft", "--center", "199", "--spacecraft", "-236"];
     let [named, numbered] = [by_name, by_id].map(|options| fitted(&both, "2011-04-03 TDB", &options));
@@ -222,8 +222,8 @@ fn a_flight_between_planets_goes_by_kernels() {
 
 #[test]
 fn a_span_that_is_not_covered_is_reported_with_the_one_that_is() {
-    let (planets, craft) = (kernel("planets.bsp"), kernel("craft.bsp"));
-    let both = [planets.as_path(), &craft];
+    let (planets, spacecraft_spk) = (kernel("planets.bsp"), kernel("craft.bsp"));
+    let both = [planets.as_path(), &spacecraft_spk];
     let text = fit(&both, "2011-05-04 UTC", &[], 1);
     says(
         &text,
@@ -252,10 +252,10 @@ fn a_span_that_is_not_covered_is_reported_with_the_one_that_is() {
 
 #[test]
 fn a_body_that_no_kernel_holds_is_reported_with_those_that_are() {
-    let (planets, craft) = (kernel("planets.bsp"), kernel("craft.bsp"));
+    let (planets, spacecraft_spk) = (kernel("planets.bsp"), kernel("craft.bsp"));
     let text = fit(&[&planets], "2011-04-03 TDB", &["--bodies", "spacecraft"], 1);
     says(&text, &["--kernel: found no MESSENGER (-236) in planets.bsp, allowed: Solar System"]);
-    let text = fit(&[&craft], "2011-04-03 TDB", &[], 1);
+    let text = fit(&[&spacecraft_spk], "2011-04-03 TDB", &[], 1);
     assert!(text.contains("found no Sun (10) in craft.bsp, allowed: MESSENGER (-236)"), "{text}");
     let text = fit(&[&planets], "2011-04-03 TDB", &["--center", "jupiter"], 1);
     assert!(text.contains("found no Jupiter (599) in planets.bsp"), "{text}");
@@ -294,7 +294,7 @@ fn damaged_and_foreign_files_are_refused_by_name() {
     // The list of the segments is record 2: next, previous, count, and 40 bytes for each segment.
     let (list, second) = (1024, 1024 + 24 + 40);
     let frame = patched(&bytes, second + 24, &17_i32.to_ne_bytes());
-    for (what, bytes, said) in [
+    for (what, bytes, printed) in [
         (
             "torn in the data",
             bytes[..bytes.len() - 1500].to_vec(),
@@ -325,7 +325,7 @@ fn damaged_and_foreign_files_are_refused_by_name() {
         ),
     ] {
         let text = refused(&bytes);
-        assert!(text.contains(said), "{what}: {text}");
+        assert!(text.contains(printed), "{what}: {text}");
     }
     let absent = scratch.path().join("none.bsp");
     assert!(fit(&[&absent], "2011-04-03 TDB", &[], 1).contains("none.bsp: "));

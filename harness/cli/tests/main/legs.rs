@@ -1,4 +1,4 @@
-//! `plan leg`: the shipped missions come from it, what it writes meets its aim as it is simulated, and what cannot be is refused.
+//! `plan leg`: the shipped missions come from it, what it writes meets its aimpoint as it is simulated, and what cannot be is refused.
 
 use std::{fs, path::Path};
 
@@ -85,9 +85,9 @@ fn the_shipped_missions_are_those_of_their_legs() {
             Path::new(RESOURCES).join(name)
         };
         let output = scratch.path().join(format!("flyby{number}"));
-        let said = plan(&at("legs"), &output, &template, 0);
+        let printed = plan(&at("legs"), &output, &template, 0);
         says(
-            &said,
+            &printed,
             &["altitude 200.000 km", "6 h before", "flights without the planet's gravity", "plan.json"],
         );
         let written = fs::read_to_string(output.join("mission.toml")).unwrap();
@@ -145,9 +145,9 @@ fn the_second_flyby_is_that_of_its_mission() {
     let moved = b_km(&dark, dark.last().unwrap()[5] - LEAD_S);
     let moved_km = (moved[0] - before[0]).hypot(moved[1] - before[1]);
     assert!((moved_km / 3471.0 - 1.0).abs() < 0.005, "{moved_km}");
-    let said = plan(&folder.join("leg.toml"), &folder.join("out"), &template, 0);
+    let printed = plan(&folder.join("leg.toml"), &folder.join("out"), &template, 0);
     let number = |before: &str, unit: &str| -> f64 {
-        let after = said.split_once(before).unwrap().1;
+        let after = printed.split_once(before).unwrap().1;
         after.split_once(unit).unwrap().0.parse().unwrap()
     };
     let delta_v_m_s = number("delta-v ", " m/s");
@@ -157,7 +157,7 @@ fn the_second_flyby_is_that_of_its_mission() {
     assert!((200.0 - osculating_km - 25.0).abs() < 2.0, "{osculating_km}");
 }
 
-/// An aim by components is met by the hyperbola six hours before the flyby, on a mission with other values and another start.
+/// An aimpoint by components is met by the hyperbola six hours before the flyby, on a mission with other values and another start.
 #[test]
 fn components_of_b_are_met_where_the_mission_that_was_written_passes() {
     let Some((scratch, template)) = template() else { return };
@@ -170,8 +170,8 @@ fn components_of_b_are_met_where_the_mission_that_was_written_passes() {
         ("\"900 kg\"", "\"500 kg\""),
     ];
     flyby(folder, 1, &edits);
-    let said = plan(&folder.join("leg.toml"), &folder.join("out"), &template, 0);
-    says(&said, &["B.T -4000.000 km, B.R 1500.000 km", "delta-v of the departure"]);
+    let printed = plan(&folder.join("leg.toml"), &folder.join("out"), &template, 0);
+    says(&printed, &["B.T -4000.000 km, B.R 1500.000 km", "delta-v of the departure"]);
     let mission = folder.join("out/mission.toml");
     let text = fs::read_to_string(&mission).unwrap();
     says(&text, &["start = \"2007-12-19T00:00:00 UTC\"", "stop = \"28 d\"", "\"500 kg\""]);
@@ -185,7 +185,7 @@ fn components_of_b_are_met_where_the_mission_that_was_written_passes() {
     assert!((found[0] + 4000.0).hypot(found[1] - 1500.0) < 2e-3, "{found:?}");
 }
 
-/// A path through the Sun ends there, whatever the aim.
+/// A path through the Sun ends there, whatever the aimpoint.
 #[test]
 fn a_path_into_a_body_is_named_with_time_and_speed() {
     let Some((scratch, template)) = template() else { return };
@@ -199,7 +199,7 @@ fn a_path_into_a_body_is_named_with_time_and_speed() {
         ("revolutions = 1\nbranch = \"left\"\n", ""),
     ];
     flyby(folder, 2, &edits);
-    let said = plan(&folder.join("leg.toml"), &folder.join("out"), &template, 1);
-    says(&said, &["leg.toml:", "the Sun", "m/s"]);
+    let printed = plan(&folder.join("leg.toml"), &folder.join("out"), &template, 1);
+    says(&printed, &["leg.toml:", "the Sun", "m/s"]);
     assert!(!folder.join("out/plan.json").exists());
 }

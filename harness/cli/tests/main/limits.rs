@@ -39,7 +39,7 @@ fn the_guide_has_every_limit() {
     assert_eq!(files::MOST_TEXT_BYTES, MOST_TEXT_BYTES as u64);
 }
 
-const CRAFT: &str = r#"
+const SPACECRAFT: &str = r#"
 name = "Limits"
 [optics.white]
 specular = 0.1
@@ -105,7 +105,7 @@ fn a_spacecraft_beyond_a_limit_is_refused_by_its_key() {
     let Some((folder, template)) = template() else { return };
     let file = folder.path().join("craft.toml");
     let check = |text: &str, status: i32| {
-        fs::write(&file, format!("{CRAFT}{text}")).unwrap();
+        fs::write(&file, format!("{SPACECRAFT}{text}")).unwrap();
         run(&["check", shown(&file), "--template", shown(&template)], status)
     };
     let plates = |count| times(count, |k| PLATE.replace("0.5]", &format!("{k}.5]")));

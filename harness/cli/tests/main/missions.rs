@@ -1,4 +1,4 @@
-//! Missions: what they name is simulated, drawn, judged and packed; options win; the examples fly.
+//! Missions: what they name is simulated, drawn, judged and packed; options win; the examples are simulated.
 
 use std::{fs, path::Path};
 
@@ -8,7 +8,7 @@ const RESOURCES: &str = "../../fmu-src/resources";
 
 /// What a command says in the folder, where it ends with this status.
 #[track_caller]
-fn said(folder: &Path, arguments: &[&str], status: i32) -> String {
+fn printed(folder: &Path, arguments: &[&str], status: i32) -> String {
     let output = heliotorque(arguments).current_dir(folder).output().unwrap();
     assert_eq!(output.status.code(), Some(status), "{arguments:?}: {}", text(&output));
     text(&output)
@@ -41,15 +41,15 @@ names = ["momentum.body[1]", "sun.elevation"]
 "#;
 
 #[test]
-fn a_mission_flies_as_it_is_written_and_options_win() {
+fn a_mission_is_simulated_as_it_is_written_and_options_win() {
     let Some((scratch, _)) = template() else { return };
     let folder = scratch.path();
     fs::create_dir(folder.join("deep")).unwrap();
     fs::write(folder.join("deep/m.toml"), MISSION).unwrap();
-    let fly = |more: &[&str], status: i32| {
-        said(folder, &[&["run", "deep/m.toml", "--template", "template.fmu"], more].concat(), status)
+    let simulate = |more: &[&str], status: i32| {
+        printed(folder, &[&["run", "deep/m.toml", "--template", "template.fmu"], more].concat(), status)
     };
-    let reported = fly(&[], 0);
+    let reported = simulate(&[], 0);
     says(&reported, &["120 steps to 7200 s", "kept: sun.elevation from -20 to 20 deg"]);
     // Beside the mission, not where it was started.
     assert!(folder.join("deep/momentum.svg").exists() && !folder.join("out.csv").exists());
@@ -68,7 +68,7 @@ fn a_mission_flies_as_it_is_written_and_options_win() {
     assert_eq!(offsets, [60.0, 60.0, 60.0, 65.0, 65.0], "a tunable parameter is held");
 
     let csv = folder.join("mine.csv");
-    let reported = fly(
+    let reported = simulate(
         &words(
             "--stop 1h --every 60s --record times*,dump.threshold --output mine.csv --set dump.threshold[2]=3",
         ),
@@ -76,7 +76,7 @@ fn a_mission_flies_as_it_is_written_and_options_win() {
     );
     assert!(reported.contains("times*"), "{reported}");
     let more = ["--stop", "1h", "--every", "60s", "--record", "dump.threshold", "--output", "mine.csv"];
-    fly(&[&more[..], &["--set", "dump.threshold[2]=3"]].concat(), 0);
+    simulate(&[&more[..], &["--set", "dump.threshold[2]=3"]].concat(), 0);
     let mine = rows(&csv);
     assert_eq!((mine.len(), &mine[0][1..4]), (61, &[4.0, 3.0, 4.0][..]));
 }
@@ -87,7 +87,7 @@ fn a_limit_that_breaks_is_reported_with_its_time_and_ends_with_one() {
     let folder = scratch.path();
     let text = MISSION.replace(r#"min = "-20 deg", max = "20 deg""#, "min = 100");
     fs::write(folder.join("m.toml"), text).unwrap();
-    let reported = said(folder, &["run", "m.toml", "--template", "template.fmu", "--quiet"], 1);
+    let reported = printed(folder, &["run", "m.toml", "--template", "template.fmu", "--quiet"], 1);
     let expected = "m.toml:18: limits.\"sun.elevation\": found ";
     says(&reported, &[expected, "at 0 s (2011-04-06T00:00:00 UTC), the first time"]);
     assert!(folder.join("out.csv").exists(), "what was simulated is kept");
@@ -100,26 +100,26 @@ fn a_packed_mission_starts_as_the_mission_does() {
     // Inputs over time are no start values.
     let text = MISSION.replace("\"60 deg\"], [\"1 h\", \"65 deg\"]", "\"65 deg\"]");
     fs::write(folder.join("m.toml"), &text).unwrap();
-    let reported = said(
+    let reported = printed(
         folder,
         &words("pack --mission m.toml --template template.fmu --name Mine --set dump.threshold[3]=5"),
         0,
     );
     assert!(reported.contains("Mine.fmu: Mine, "), "{reported}");
-    said(folder, &["run", "m.toml", "--template", "template.fmu"], 0);
+    printed(folder, &["run", "m.toml", "--template", "template.fmu"], 0);
     let record = "epoch,panel[1].sunOffset,momentum.body[1],sun.elevation,dump.threshold[3]";
     let more = ["--every", "30min", "--record", record, "--output", "fmu.csv"];
-    said(folder, &[&["run", "Mine.fmu"], &more[..]].concat(), 0);
+    printed(folder, &[&["run", "Mine.fmu"], &more[..]].concat(), 0);
     let (of_mission, of_fmu) = (rows(&folder.join("out.csv")), rows(&folder.join("fmu.csv")));
     assert!(of_fmu.iter().all(|row| row[5] == 5.0));
     let same: Vec<Vec<f64>> = of_fmu.into_iter().map(|row| row[..5].to_vec()).collect();
     assert_eq!(of_mission, same);
-    // It flies an FMU too, and then packs nothing.
+    // It simulates an FMU too, and then packs nothing.
     let text = text.replace("model = \"MomentumPlant\"", "fmu = \"Mine.fmu\"");
     fs::write(folder.join("of-fmu.toml"), text).unwrap();
-    said(folder, &["run", "of-fmu.toml", "--output", "again.csv"], 0);
+    printed(folder, &["run", "of-fmu.toml", "--output", "again.csv"], 0);
     assert_eq!(rows(&folder.join("again.csv")), of_mission);
-    let reported = said(folder, &["pack", "--mission", "of-fmu.toml", "--template", "template.fmu"], 1);
+    let reported = printed(folder, &["pack", "--mission", "of-fmu.toml", "--template", "template.fmu"], 1);
     assert!(reported.contains("which is packed already"), "{reported}");
 }
 
@@ -129,7 +129,7 @@ fn later_wins_file_mission_option() {
     let folder = scratch.path();
     // Its [start.MomentumPlant] has 4, 4, 4.
     fs::create_dir(folder.join("craft")).unwrap();
-    said(folder, &["new", "spacecraft", "craft/s.toml"], 0);
+    printed(folder, &["new", "spacecraft", "craft/s.toml"], 0);
     let mission = "spacecraft = \"craft/s.toml\"\nstop = 60\nstep = 60\nrecord = [\"dump.threshold\"]\noutput = \"out.csv\"\n";
     fs::write(
         folder.join("m.toml"),
@@ -137,15 +137,15 @@ fn later_wins_file_mission_option() {
     )
     .unwrap();
     let options = ["--template", "template.fmu", "--set", "dump.threshold[3]=3"];
-    said(folder, &[&["run", "m.toml"], &options[..]].concat(), 0);
-    let flown = rows(&folder.join("out.csv"));
-    assert_eq!(flown[0][1..], [4.0, 2.0, 3.0]);
+    printed(folder, &[&["run", "m.toml"], &options[..]].concat(), 0);
+    let simulated = rows(&folder.join("out.csv"));
+    assert_eq!(simulated[0][1..], [4.0, 2.0, 3.0]);
 
-    said(folder, &[&["pack", "--mission", "m.toml", "--name", "Mine"], &options[..]].concat(), 0);
+    printed(folder, &[&["pack", "--mission", "m.toml", "--name", "Mine"], &options[..]].concat(), 0);
     let again = ["run", "Mine.fmu", "--record", "dump.threshold", "--output", "again.csv"];
-    said(folder, &again, 0);
+    printed(folder, &again, 0);
     // Its default experiment is the mission's too.
-    assert_eq!(rows(&folder.join("again.csv")), flown);
+    assert_eq!(rows(&folder.join("again.csv")), simulated);
 }
 
 #[test]
@@ -154,12 +154,12 @@ fn the_files_of_a_mission_are_not_written_over() {
     let folder = scratch.path();
     let mission = MISSION.replace("output = \"out.csv\"", "output = \"m.toml\"");
     fs::write(folder.join("m.toml"), &mission).unwrap();
-    let reported = said(folder, &["run", "m.toml", "--template", "template.fmu"], 1);
+    let reported = printed(folder, &["run", "m.toml", "--template", "template.fmu"], 1);
     assert!(reported.contains("m.toml"), "{reported}");
     assert_eq!(fs::read_to_string(folder.join("m.toml")).unwrap(), mission);
     let two = MISSION.replace("[set]", "[[plot]]\nfile = \"momentum.svg\"\n[set]");
     fs::write(folder.join("m.toml"), two).unwrap();
-    let reported = said(folder, &["run", "m.toml", "--template", "template.fmu"], 1);
+    let reported = printed(folder, &["run", "m.toml", "--template", "template.fmu"], 1);
     assert!(reported.contains("one file cannot take two pictures"), "{reported}");
 }
 
@@ -174,7 +174,7 @@ fn what_is_no_mission_is_reported() {
 }
 
 #[test]
-fn the_missions_of_the_examples_fly() {
+fn the_missions_of_the_examples_are_simulated() {
     let Some((scratch, _)) = template() else { return };
     let at = |name: &str| scratch.path().join(name);
     fs::create_dir_all(at("examples/missions")).unwrap();
@@ -206,11 +206,11 @@ fn the_missions_of_the_examples_fly() {
     let folder = at("examples/missions");
     let template = ["--template", "../../template.fmu"];
     for mission in &missions {
-        let reported = said(&folder, &[&["check", mission], &template[..]].concat(), 0);
+        let reported = printed(&folder, &[&["check", mission], &template[..]].concat(), 0);
         assert!(reported.contains(".toml: ok: "), "{reported}");
-        // ACE's train is over after half an hour; the others fly for an hour of days.
+        // ACE's train is over after half an hour; the others last days.
         let stop: &[&str] = if mission == "ace.toml" { &[] } else { &["--stop", "2h"] };
-        let reported = said(&folder, &[&["run", mission], &template[..], stop].concat(), 0);
+        let reported = printed(&folder, &[&["run", mission], &template[..], stop].concat(), 0);
         for kind in ["csv", "svg"] {
             assert!(folder.join(mission.replace("toml", kind)).exists(), "{mission}: {reported}");
         }
@@ -220,8 +220,8 @@ fn the_missions_of_the_examples_fly() {
 /// What `check` and `run` say of a mission that both refuse.
 fn refused(folder: &Path, name: &str) -> String {
     let template = ["--template", "template.fmu"];
-    let checked = said(folder, &[&["check", name], &template[..]].concat(), 1);
-    let reported = said(folder, &[&["run", name], &template[..]].concat(), 1);
+    let checked = printed(folder, &[&["check", name], &template[..]].concat(), 1);
+    let reported = printed(folder, &[&["run", name], &template[..]].concat(), 1);
     let reason = reported.lines().find_map(|line| line.strip_prefix("heliotorque: ")).unwrap();
     // The call is made at the same place by both.
     assert!(checked.contains(reason.trim_start_matches("m: ")), "{name}: {checked}\n{reported}");
@@ -282,7 +282,7 @@ fn what_a_mission_writes_stays_beside_it_and_replaces_no_file_of_others() {
     }
     // Not a mission's word but the user's.
     let run = |more: &[&str], status: i32| {
-        said(&home, &[&["run", "m.toml", "--template", "template.fmu", "--quiet"], more].concat(), status)
+        printed(&home, &[&["run", "m.toml", "--template", "template.fmu", "--quiet"], more].concat(), status)
     };
     mission("../x.csv", "../x.svg");
     let reported = run(&["--output", "../away/a.csv", "--plot", "../away/a.svg"], 0);

@@ -6,7 +6,7 @@ use crate::{heliotorque, legs::flyby, momentum_plans::cruise, run, shown, templa
 
 const RECORDED: &str = "tests/main/mistakes.txt";
 /// What begins a line of what is said.
-const SAID: &str = "    ";
+const PRINTED: &str = "    ";
 
 /// A mistake in a base file.
 #[derive(Default)]
@@ -161,20 +161,20 @@ fn every_typical_mistake_is_reported_with_file_place_finding_and_remedy() {
         let template = if no_template { Vec::new() } else { vec!["--template", "template.fmu"] };
         let command = [words(&command), template].concat();
         let output = heliotorque(&command).current_dir(scratch.path()).output().unwrap();
-        let said = text(&output);
+        let printed = text(&output);
         let is_refused = output.status.code() == Some(1);
         if is_refused {
             reported += 1;
-            assert!(said.contains(".toml") || said.contains(&name), "{block}\n{said}");
-            assert!(!said.contains(shown(scratch.path())), "{said}");
+            assert!(printed.contains(".toml") || printed.contains(&name), "{block}\n{printed}");
+            assert!(!printed.contains(shown(scratch.path())), "{printed}");
         }
-        let input = block.lines().filter(|line| !line.starts_with(SAID) && !line.is_empty());
+        let input = block.lines().filter(|line| !line.starts_with(PRINTED) && !line.is_empty());
         found.push('\n');
         input.for_each(|line| found.push_str(&format!("{line}\n")));
         // What a file that is taken comes to is reported elsewhere.
-        let said = said.lines().enumerate();
-        let said = said.filter(|(k, line)| is_refused || *k == 0 || line.starts_with("warning"));
-        said.for_each(|(_, line)| found.push_str(&format!("{}\n", format!("{SAID}{line}").trim_end())));
+        let printed = printed.lines().enumerate();
+        let printed = printed.filter(|(k, line)| is_refused || *k == 0 || line.starts_with("warning"));
+        printed.for_each(|(_, line)| found.push_str(&format!("{}\n", format!("{PRINTED}{line}").trim_end())));
     }
     if std::env::var_os("HELIOTORQUE_BLESS").is_some() {
         fs::write(RECORDED, &found).unwrap();
@@ -196,7 +196,7 @@ fn every_command_says_what_the_wrong_file_is() {
     fs::write(scratch.path().join("of-file.toml"), "fmu = \"spacecraft.toml\"\nstop = 1\n").unwrap();
     let a_mission = "found a mission, allowed: a spacecraft: run it: `heliotorque run mission.toml`";
     let a_spacecraft = "`heliotorque pack --spacecraft spacecraft.toml` makes an FMU of it";
-    for (line, said) in [
+    for (line, printed) in [
         ("plan spin --spacecraft mission.toml", a_mission),
         ("plan spin --spacecraft spacecraft.toml", "found a three-axis spacecraft, allowed: a spinner"),
         ("run spacecraft.toml", a_spacecraft),
@@ -222,11 +222,11 @@ fn every_command_says_what_the_wrong_file_is() {
         let output = heliotorque(&crate::words(line)).current_dir(scratch.path()).output().unwrap();
         let found = text(&output);
         assert_eq!(output.status.code(), Some(1), "{line}: {found}");
-        assert!(found.contains(said), "{line}: {found}");
+        assert!(found.contains(printed), "{line}: {found}");
     }
     let Some((packed, _)) = template() else { return };
     let template = packed.path().join("template.fmu");
-    for (line, said) in [
+    for (line, printed) in [
         ("pack --spacecraft mission.toml", a_mission),
         ("pack --model Guidance --timeline mission.toml", "found a mission, allowed: a timeline: run it"),
         ("pack --ephemeris timeline.toml", "found a timeline, allowed: an ephemeris: "),
@@ -235,6 +235,6 @@ fn every_command_says_what_the_wrong_file_is() {
         let line = format!("{line} --template {}", shown(&template));
         let output = heliotorque(&crate::words(&line)).current_dir(scratch.path()).output().unwrap();
         let found = text(&output);
-        assert!(output.status.code() == Some(1) && found.contains(said), "{line}: {found}");
+        assert!(output.status.code() == Some(1) && found.contains(printed), "{line}: {found}");
     }
 }

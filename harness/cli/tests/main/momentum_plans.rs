@@ -116,12 +116,15 @@ const OFF: &str = "mission = \"cruise.toml\"\nwindmill = 0\nalternation = 0\n[mo
 
 /// The mission left alone comes to 43 N m s; planned it stays below 5.5 at every hour, with arrays in their corridor.
 #[test]
-fn a_cruise_is_planned_and_flown_below_its_limit() {
+fn a_cruise_is_planned_and_simulated_below_its_limit() {
     let Some((scratch, template)) = template() else { return };
     let folder = scratch.path();
     cruise(folder, &[]);
-    let said = plan(folder, &template, PLAN, 0);
-    says(&said, &["|H| as the mission is: 42.9", "dumps: 0", "7 changes of the arrays; no plan has fewer"]);
+    let printed = plan(folder, &template, PLAN, 0);
+    says(
+        &printed,
+        &["|H| as the mission is: 42.9", "dumps: 0", "7 changes of the arrays; no plan has fewer"],
+    );
     assert!(number(folder, "planned") < 5.5 && number(folder, "simulated") < 5.5);
     assert!(number(folder, "largestDifference_n_m_s") < 0.02 * 5.5);
     assert_eq!([number(folder, "changes"), number(folder, "changesAtLeast")], [7.0, 7.0]);
@@ -184,12 +187,12 @@ fn a_cruise_is_planned_and_flown_below_its_limit() {
 }
 
 #[test]
-fn without_controls_the_least_dumps_and_the_first_day_are_told() {
+fn without_controls_the_least_dumps_and_the_first_day_are_reported() {
     let Some((scratch, template)) = template() else { return };
     let folder = scratch.path();
     cruise(folder, &[]);
-    let said = plan(folder, &template, OFF, 1);
-    says(&said, &["no plan holds without a dump: 5 at least", "first on day 19."]);
+    let printed = plan(folder, &template, OFF, 1);
+    says(&printed, &["no plan holds without a dump: 5 at least", "first on day 19."]);
     assert_eq!([number(folder, "dumps"), number(folder, "dumpsAtLeast")], [5.0, 5.0]);
     assert!((number(folder, "excess_n_m_s") - 37.5).abs() < 0.2);
     assert!((19.0..20.0).contains(&number(folder, "firstDay")));
@@ -199,8 +202,8 @@ fn without_controls_the_least_dumps_and_the_first_day_are_told() {
         "{text}"
     );
     // With them allowed it is a plan, whose flight stays below the limit.
-    let said = plan(folder, &template, &OFF.replace("limit = 5.5", "limit = 5.5\ndumps = 5"), 0);
-    assert!(said.contains("dumps on days "), "{said}");
+    let printed = plan(folder, &template, &OFF.replace("limit = 5.5", "limit = 5.5\ndumps = 5"), 0);
+    assert!(printed.contains("dumps on days "), "{printed}");
     assert!(number(folder, "simulated") < 5.5);
     assert_eq!(table_is_timeline(folder, &template), 5);
 }
@@ -224,8 +227,8 @@ fn the_missions_events_are_in_the_input_table() {
                   [[event]]\nat = \"2008-04-20T03:00:00 UTC\"\ncenterOfMass = [0.002, 0.001, -0.024]\n\
                   [[event]]\nat = \"2008-05-01T00:00:00 UTC\"\ndump = true\n";
     fs::write(&timeline, text.replace(panels, &more) + events).unwrap();
-    let said = plan(folder, &template, PLAN, 0);
-    assert!(!said.contains("warning"), "{said}");
+    let printed = plan(folder, &template, PLAN, 0);
+    assert!(!printed.contains("warning"), "{printed}");
     let header = fs::read_to_string(folder.join("out/plan.csv")).unwrap();
     let header = header.lines().next().unwrap();
     says(
@@ -236,13 +239,13 @@ fn the_missions_events_are_in_the_input_table() {
     // Parameters of the flight are no inputs.
     let own = events.replace("0.2] }", "0.2], dump = false }");
     fs::write(&timeline, fs::read_to_string(&timeline).unwrap().replace(events, &own)).unwrap();
-    let said = plan(folder, &template, PLAN, 0);
-    assert!(said.contains("warning: plan.csv: the maneuver of day 8.5 is without a dump"), "{said}");
+    let printed = plan(folder, &template, PLAN, 0);
+    assert!(printed.contains("warning: plan.csv: the maneuver of day 8.5 is without a dump"), "{printed}");
 }
 
 /// Contacts hold no alternate attitude; a planned command and an activity have their price.
 #[test]
-fn contacts_are_kept_and_prices_told() {
+fn contacts_are_kept_and_prices_reported() {
     let Some((scratch, template)) = template() else { return };
     let folder = scratch.path();
     cruise(folder, &[("stop = \"200 d\"", "stop = \"60 d\"")]);
@@ -254,8 +257,8 @@ fn contacts_are_kept_and_prices_told() {
         (14..60).map(|day| format!("[[contact]]\nstart = \"{day}.25 d\"\nstop = \"{day}.5 d\"\n")).collect();
     let activity = "[[activity]]\nname = \"calibration\"\nstart = \"40 d\"\nstop = \"42 d\"\n\
                     command = { scenario = \"downlink\", sun = { elevation = \"10 deg\" } }\n";
-    let said = plan(folder, &template, &format!("{PLAN}{contacts}{activity}"), 0);
-    says(&said, &["without planned command 1: ", "with calibration: ", "dumps: 0"]);
+    let printed = plan(folder, &template, &format!("{PLAN}{contacts}{activity}"), 0);
+    says(&printed, &["without planned command 1: ", "with calibration: ", "dumps: 0"]);
     let text = fs::read_to_string(folder.join("out/timeline.toml")).unwrap();
     assert!(text.contains("status = \"planned\"") && text.contains("alternate = true"), "{text}");
     let rows = columns(&folder.join("out/plan.csv"), &["time", "downlink.alternate"]);
@@ -268,7 +271,7 @@ fn contacts_are_kept_and_prices_told() {
 
 /// A refit's values are simulated, three sigma of its covariance are left; other seeds move the centre of mass at every dump.
 #[test]
-fn a_refit_flies_and_leaves_its_margin() {
+fn a_refit_is_simulated_and_leaves_its_margin() {
     let Some((scratch, template)) = template() else { return };
     let folder = scratch.path();
     cruise(folder, &[("stop = \"200 d\"", "stop = \"40 d\"")]);
@@ -291,8 +294,8 @@ fn a_refit_flies_and_leaves_its_margin() {
     fs::write(folder.join("plan.toml"), PLAN).unwrap();
     let (file, output) = (folder.join("plan.toml"), folder.join("out"));
     let arguments = ["plan", "momentum", shown(&file), "--output", shown(&output), "--template"];
-    let said = run(&[&arguments[..], &[shown(&template), "--seeds", "5"]].concat(), 0);
-    assert!(said.contains("5 seeds: |H| "), "{said}");
+    let printed = run(&[&arguments[..], &[shown(&template), "--seeds", "5"]].concat(), 0);
+    assert!(printed.contains("5 seeds: |H| "), "{printed}");
     let text = fs::read_to_string(folder.join("out/plan.json")).unwrap();
     let momentum = text.split_once("\"momentum_n_m_s\": {").unwrap().1;
     let percentile = |key: &str| -> f64 {
@@ -354,8 +357,8 @@ fn what_cannot_be_planned_is_refused_by_line() {
             "plan.toml:4: momentum.refit: found ",
         ),
     ] {
-        let said = plan(folder, &template, &text, 1);
-        assert!(said.contains(expected), "{expected}: {said}");
+        let printed = plan(folder, &template, &text, 1);
+        assert!(printed.contains(expected), "{expected}: {printed}");
     }
     // What the mission does not allow.
     for (edit, expected) in [
@@ -373,8 +376,8 @@ fn what_cannot_be_planned_is_refused_by_line() {
         ),
     ] {
         cruise(folder, &[("stop = \"200 d\"", "stop = \"40 d\""), edit]);
-        let said = plan(folder, &template, PLAN, 1);
-        assert!(said.contains(expected), "{expected}: {said}");
+        let printed = plan(folder, &template, PLAN, 1);
+        assert!(printed.contains(expected), "{expected}: {printed}");
     }
     assert!(fs::read_to_string(folder.join("out/plan.json")).unwrap().contains("\"limit\": \"corridor\""));
     // Panels that no windmill angle turns.
@@ -382,14 +385,15 @@ fn what_cannot_be_planned_is_refused_by_line() {
     let spacecraft = folder.join("messenger.toml");
     let text = fs::read_to_string(&spacecraft).unwrap();
     fs::write(&spacecraft, text.replace("[[panels]]", "[[panels]]\nwindmill_side = 0")).unwrap();
-    let said = plan(folder, &template, &format!("windmill = \"1 deg\"\n{PLAN}"), 1);
-    assert!(said.contains("plan.toml:1: windmill: found panels without a side"), "{said}");
+    let printed = plan(folder, &template, &format!("windmill = \"1 deg\"\n{PLAN}"), 1);
+    assert!(printed.contains("plan.toml:1: windmill: found panels without a side"), "{printed}");
     // Contacts where alternation is needed.
     cruise(folder, &[("stop = \"200 d\"", "stop = \"60 d\"")]);
     let only = "mission = \"cruise.toml\"\nwindmill = 0\n[momentum]\nlimit = 5.5\n";
     plan(folder, &template, only, 0);
-    let said = plan(folder, &template, &format!("{only}[[contact]]\nstart = \"15 d\"\nstop = \"45 d\"\n"), 1);
-    assert!(said.contains("plan.toml:5: contact[1]: found contacts that fill the window"), "{said}");
+    let printed =
+        plan(folder, &template, &format!("{only}[[contact]]\nstart = \"15 d\"\nstop = \"45 d\"\n"), 1);
+    assert!(printed.contains("plan.toml:5: contact[1]: found contacts that fill the window"), "{printed}");
 }
 
 /// About Mercury the mission left alone dumps; with the Sun's places of a plan it does not, whether they are commanded or put in, none of
@@ -404,8 +408,8 @@ fn downlinks_of_an_orbit_phase_hold_the_momentum() {
                    record = [\"momentum.inertial\", \"attitude.q\", \"dump.count\", \"downlink.active\", \"downlink.clamped\"]\n\
                    [set]\n\"orbit.center\" = \"mercury\"\n\"spacecraft.centerOfMass[3]\" = \"-2.54 cm\"\n\"dump.threshold\" = [4, 4, 4]\n";
     fs::write(folder.join("orbit.toml"), mission).unwrap();
-    let said = plan(folder, &template, "mission = \"orbit.toml\"\nfreeze = 0\n", 0);
-    says(&said, &["dumps: 0", "places of the Sun in 20 downlinks"]);
+    let printed = plan(folder, &template, "mission = \"orbit.toml\"\nfreeze = 0\n", 0);
+    says(&printed, &["dumps: 0", "places of the Sun in 20 downlinks"]);
     assert!(number(folder, "simulated") < 0.6 * 4.0);
     assert!(number(folder, "largestDifference_n_m_s") < 0.02 * 4.0);
     let by_input = fs::read_to_string(folder.join("out/mission.toml")).unwrap();
@@ -437,6 +441,6 @@ fn downlinks_of_an_orbit_phase_hold_the_momentum() {
         assert!(row[4] != 0.0 || (was[6] - row[6]).abs() < 1e-9, "science in another attitude");
     }
     // What does not count there is refused with its line.
-    let said = plan(folder, &template, "mission = \"orbit.toml\"\nfreeze = 0\nwindmill = \"2 deg\"\n", 1);
-    says(&said, &["plan.toml:3: windmill: found it, allowed: none in an orbit phase"]);
+    let printed = plan(folder, &template, "mission = \"orbit.toml\"\nfreeze = 0\nwindmill = \"2 deg\"\n", 1);
+    says(&printed, &["plan.toml:3: windmill: found it, allowed: none in an orbit phase"]);
 }

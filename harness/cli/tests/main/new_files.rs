@@ -113,7 +113,7 @@ fn every_command_has_a_page_that_man_reads() {
     let page = scratch.path().join("heliotorque-run.1");
     if let Ok(read) = Command::new("man").args(["--warnings", "-l"]).arg(&page).env("MANWIDTH", "80").output()
     {
-        let (text, said) = (String::from_utf8_lossy(&read.stdout), String::from_utf8_lossy(&read.stderr));
-        assert!(read.status.success() && said.is_empty() && text.contains("--stop"), "{said}{text}");
+        let (text, printed) = (String::from_utf8_lossy(&read.stdout), String::from_utf8_lossy(&read.stderr));
+        assert!(read.status.success() && printed.is_empty() && text.contains("--stop"), "{printed}{text}");
     }
 }

@@ -259,8 +259,8 @@ fn a_file_of_another_model_names_the_model() {
     run(&["new", "spacecraft", shown(&file)], 0);
     let wrong = fs::read_to_string(&file).unwrap().replace("\"earth\"", "\"pluto\"");
     fs::write(&file, wrong).unwrap();
-    let craft = ["--library", shown(&library), "--spacecraft", shown(&file), "--model", "MomentumPlant"];
-    let text = run(&[&["pack"], &craft[..], &["--output", shown(&output)]].concat(), 1);
+    let spk = ["--library", shown(&library), "--spacecraft", shown(&file), "--model", "MomentumPlant"];
+    let text = run(&[&["pack"], &spk[..], &["--output", shown(&output)]].concat(), 1);
     assert!(text.contains("orbit.center") && text.contains("pluto"), "{text}");
     assert!(!text.contains("this is a file of"), "{text}");
 }
@@ -418,8 +418,9 @@ fn a_downlink_for_ever_is_warned_of_by_every_command_and_the_log() {
     let always = ["warning", "guided.downlinkStart", "always open"];
     says(&run(&[&pack[..], &["--output", shown(&fmu)]].concat(), 0), &always);
     says(&run(&["check", shown(&file), "--template", shown(&fmu)], 0), &always);
-    let flown = run(&["run", shown(&fmu), "--stop", "1h", "--step", "10min", "--record", "sun.elevation"], 0);
-    says(&flown, &always);
+    let simulated =
+        run(&["run", shown(&fmu), "--stop", "1h", "--step", "10min", "--record", "sun.elevation"], 0);
+    says(&simulated, &always);
     // By a value of the run alone, whatever the strategy.
     let rare =
         ["--set", "guided.downlinkEvery=2", "--stop", "1h", "--step", "10min", "--record", "sun.elevation"];

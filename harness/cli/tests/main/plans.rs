@@ -1,4 +1,4 @@
-//! A plan is simulated again through the shipped FMU where there is one, and what it prints and writes flies there.
+//! A plan is simulated again through the shipped FMU where there is one, and what it prints and writes is simulated there.
 
 use std::{
     path::Path,
@@ -62,7 +62,7 @@ fn axis_deg(csv: &Path) -> [f64; 3] {
 
 /// What the plan states of where it ends is where the FMU ends, by the printed options and by the `[start]` table.
 #[test]
-fn the_printed_start_values_fly_to_where_the_plan_says() {
+fn the_printed_start_values_lead_to_where_the_plan_says() {
     let Some(library) = library() else { return };
     let scratch = tempfile::tempdir().unwrap();
     let at = |name: &str| scratch.path().join(name);
@@ -121,12 +121,12 @@ fn the_printed_start_values_fly_to_where_the_plan_says() {
             shown(&fmu),
             shown(&csv)
         );
-        let flown = Command::new("sh")
+        let second = Command::new("sh")
             .args(["-c", &line, env!("CARGO_BIN_EXE_heliotorque")])
             .stdin(Stdio::null())
             .output()
             .unwrap();
-        assert!(flown.status.success(), "{}", text(&flown));
+        assert!(second.status.success(), "{}", text(&second));
         check(axis_deg(&csv));
         // The same as a file's `[start]`.
         let with_start = at("with_start.toml");

@@ -110,9 +110,9 @@ fn run_in(folder: &Path, arguments: &[&str]) -> String {
 #[test]
 fn a_histogram_counts_every_run() {
     let scratch = campaign();
-    let (svg, said) =
+    let (svg, printed) =
         drawn(scratch.path(), &["runs.csv", "--histogram", "h[1].final", "--histogram", "center[3]"]);
-    says(&said, &["1 of 401 runs have no number in h[1].final", "p.svg: of 401 rows"]);
+    says(&printed, &["1 of 401 runs have no number in h[1].final", "p.svg: of 401 rows"]);
     // h runs from 0 to 57 in whole steps: 59 values would be a bar each, but for those at the ends.
     says(&svg, &["h[1].final: 400 runs, mean 28.5", "h[1].final [N.m.s]", "center[3] [m]", "5, 50 and 95 %"]);
     let bars = tags(&svg, "rect", "fill=\"#0072b2\" stroke=\"#ffffff\"");

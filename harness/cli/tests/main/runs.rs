@@ -181,14 +181,14 @@ fn times_take_dates_that_count_from_the_epoch_of_the_start() {
     let dated = "guided.downlinkStart=2009-04-06T00:10:00 TDB";
     let text = simulate(&["--stop", "1 h", "--set", dated], 1);
     assert!(text.contains("guided.downlinkReference is periapsis"), "{text}");
-    let flown = |start: &str, end: &str| {
+    let simulated = |start: &str, end: &str| {
         let sets = ["--set", "guided.downlinkReference=start", "--set", start, "--set", end];
         simulate(&[&sets[..], &["--stop", "2 h", "--record", "attitude.q"]].concat(), 0);
         csv(&table).1
     };
-    let by_dates = flown(dated, "guided.downlinkEnd=2009-04-06T00:50:00 TDB");
-    assert_eq!(by_dates, flown("guided.downlinkStart=10 min", "guided.downlinkEnd=50 min"));
-    assert_ne!(by_dates, flown("guided.downlinkStart=60 min", "guided.downlinkEnd=100 min"));
+    let by_dates = simulated(dated, "guided.downlinkEnd=2009-04-06T00:50:00 TDB");
+    assert_eq!(by_dates, simulated("guided.downlinkStart=10 min", "guided.downlinkEnd=50 min"));
+    assert_ne!(by_dates, simulated("guided.downlinkStart=60 min", "guided.downlinkEnd=100 min"));
 }
 
 #[test]

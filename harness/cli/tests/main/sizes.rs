@@ -55,8 +55,8 @@ fn a_spacecraft_is_sized_by_flights_of_its_fmu() {
         ],
         0,
     );
-    let flown = table(&output);
-    let last: Vec<f64> = flown.last().unwrap().iter().map(|cell| cell.parse().unwrap()).collect();
+    let simulated = table(&output);
+    let last: Vec<f64> = simulated.last().unwrap().iter().map(|cell| cell.parse().unwrap()).collect();
     let own: Vec<f64> = rows[0][5..].iter().map(|cell| cell.parse().unwrap()).collect();
     assert!((own[0] - last[1] * 365.25 / 90.0).abs() < 1e-9, "{own:?}, {last:?}");
     assert!((own[2] - last[2] * 365.25 / 90.0).abs() < 1e-9 * own[2].max(1.0), "{own:?}, {last:?}");

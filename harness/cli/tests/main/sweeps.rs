@@ -92,7 +92,7 @@ fn an_interrupted_sweep_goes_on_with_what_it_has() {
     child.wait().unwrap();
     let left = fs::read_to_string(&part).unwrap();
     assert!(left.len() < whole.len() && whole.starts_with(&left), "{} of {} bytes", left.len(), whole.len());
-    // Another campaign does not go on with it.
+    // Another campaign does not continue with it.
     fs::write(&file, format!("fmu = \"Functions.fmu\"\n{}", text.replace("seed = 5", "seed = 6"))).unwrap();
     let refused = run(&[&arguments[..], &["--resume"]].concat(), 1);
     says(&refused, &["runs.csv.part.toml: found another campaign"]);

@@ -84,8 +84,8 @@ fn a_spacecraft_with_antennas_about_the_sun_is_in_downlink_throughout() {
     let file = scratch.path().join("cruise.toml");
     let spacecraft = include_str!("../../../../fmu-src/resources/messenger.toml");
     fs::write(&file, spacecraft.replace("[start]", "[start]\n\"orbit.center\" = \"sun\"")).unwrap();
-    let said = run(&["check", shown(&file), "--template", shown(&template)], 0);
-    says(&said, &["points               downlink throughout (guided.phase cruise), the Sun on -Y"]);
+    let printed = run(&["check", shown(&file), "--template", shown(&template)], 0);
+    says(&printed, &["points               downlink throughout (guided.phase cruise), the Sun on -Y"]);
 }
 
 /// Attitudes, panels, events; two lines are Guidance's alone.
@@ -136,16 +136,16 @@ fn a_file_is_judged_for_both_models() {
     );
     // What only one of them reads is judged too.
     fs::write(file, BOTH.replace("\"55 deg\"", "\"5 km\"").replace("N.m.s\"]", "N.m\"]")).unwrap();
-    let said = run(&["check", file], 1);
+    let printed = run(&["check", file], 1);
     says(
-        &said,
+        &printed,
         &[
             "both.toml:13: panels[1].sunOffset[2]: found \"5 km\"",
             "both.toml:20: event[1].dump[3]: found \"0.5 N.m\"",
         ],
     );
     says(
-        &said,
+        &printed,
         &["an angular momentum: a number in N.m.s or a string with a unit: N.m.s, mN.m.s", "2 problems"],
     );
 }
@@ -172,10 +172,10 @@ fn a_plant_takes_a_timeline_without_burns_and_modes() {
     };
     let arguments = pack("MomentumPlant");
     let arguments = arguments.each_ref().map(String::as_str);
-    let said = run(&arguments, 1);
-    says(&said, &["both.toml:7: command[2].scenario: found the scenario burn, allowed: another scenario"]);
+    let printed = run(&arguments, 1);
+    says(&printed, &["both.toml:7: command[2].scenario: found the scenario burn, allowed: another scenario"]);
     says(
-        &said,
+        &printed,
         &[
             "both.toml:10: command[3].mode: found the mode safeHold, allowed: no such key",
             "[[event]] with `maneuver`",
@@ -189,24 +189,24 @@ fn a_plant_takes_a_timeline_without_burns_and_modes() {
         .replace("scenario = \"burn\"", "scenario = \"nadir\"")
         .replace("mode = \"safeHold\"", "scenario = \"nadir\"");
     fs::write(&file, &plant).unwrap();
-    // Panels stand by another rule unless it is chosen, and that is said.
+    // Panels stand by another rule unless it is chosen, and that is reported.
     let without = "[[panels]] of the timeline are without effect: found panel[k].control = sunOffset, sunOffset, allowed: timeline";
     says(&run(&arguments, 0), &[without]);
     assert_eq!(guid(&fmu), guid(&plain));
     says(&run(&["check", shown(&fmu), "--static"], 0), &[without]);
     let chosen = [&arguments[..], &["--set", "panel[1].control=timeline"]].concat();
     assert!(!run(&chosen, 0).contains("warning"));
-    let said = run(&["info", shown(&fmu)], 0);
+    let printed = run(&["info", shown(&fmu)], 0);
     says(
-        &said,
+        &printed,
         &[
             "3 commands from 0 s to the end, 2 positions of the panels from 0 s to the end, 2 events from 10800 s",
         ],
     );
-    let said = run(&["check", shown(&fmu), "--only", "simulation", "--verbose"], 0);
-    says(&said, &["2 events from 10800 s to 14400 s"]);
+    let printed = run(&["check", shown(&fmu), "--only", "simulation", "--verbose"], 0);
+    says(&printed, &["2 events from 10800 s to 14400 s"]);
 
-    // A mission names it; what flies is told its commands.
+    // A mission names it; the FMU reads its commands.
     let mission = scratch.path().join("timed.toml");
     let text = "model = \"MomentumPlant\"\ntimeline = \"both.toml\"\nstop = \"5 h\"\nstep = \"10 min\"\n\
                 record = [\"timeline.command\", \"sun.azimuth\"]\noutput = \"timed.csv\"\n";
@@ -226,7 +226,7 @@ fn a_plant_takes_a_timeline_without_burns_and_modes() {
     };
     let commands = [1, 7, 13, 31].map(|number| row(number)[1]);
     assert_eq!(commands, [1.0, 2.0, 3.0, 3.0], "{rows}");
-    // A mission's mistakes are told by the timeline's lines.
+    // A mission's mistakes are reported by the timeline's lines.
     fs::write(&file, plant.replace("\"90 min\"", "0")).unwrap();
     says(&run(&check, 1), &["both.toml:16: panels[2].at: found 0, when panels[1] begins"]);
 }

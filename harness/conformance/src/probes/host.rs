@@ -114,7 +114,7 @@ pub(crate) fn paths(fmu: &Fmu) -> Findings {
             Err(error) => Finding::note(format!("not so: {what}\n{error}")),
         });
     }
-    // Whatever it answers to these, it must go on.
+    // Whatever it answers to these, it must continue.
     for (what, resources) in [
         ("NULL", Resources::Absent),
         ("an empty text", Resources::Uri(String::new())),

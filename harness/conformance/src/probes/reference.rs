@@ -7,7 +7,7 @@ use crate::{Finding, probe::Findings};
 /// Deviating columns that are shown.
 const SHOWN: usize = 5;
 
-/// Flies every reference flight.
+/// Simulates every reference flight.
 pub(crate) fn flights(fmu: &Fmu) -> Findings {
     let replays = match reference::replays(fmu) {
         Ok(Some(replays)) if !replays.is_empty() => replays,

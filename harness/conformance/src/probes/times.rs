@@ -10,7 +10,7 @@ use crate::{
     verdict::{refused, verdict},
 };
 
-/// Wrong times: an FMU whose solver goes on until it has passed the end of a step may never come back.
+/// Wrong times: an FMU whose solver continues until it has passed the end of a step may never come back.
 pub(crate) const TRIALS: &[Trial] = &[
     wrong("a step from a time that is not its own", false, |fmu, it| {
         step(fmu, it, |times| (times.start_s + 0.5 * times.step_s, times.step_s))

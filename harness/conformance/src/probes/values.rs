@@ -37,7 +37,7 @@ fn start_values(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), loader::Er
     Ok(())
 }
 
-/// Inputs, else parameters, with limits: just outside is refused, the instance goes on, nothing is written.
+/// Inputs, else parameters, with limits: just outside is refused, the instance continues, nothing is written.
 fn limits(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), loader::Error> {
     let mut tried = 0;
     for variable in &fmu.description().variables {

@@ -17,7 +17,7 @@ use crate::momentum::{
 };
 
 /// Of every window of a flight that sensitivities are of; `flight` has the geometry and the mass.
-pub fn aim_by_windows(
+pub fn lead_by_windows(
     sensitivity: &Sensitivity,
     sunlit: &SunlitSpacecraft,
     flight: &SimulatedFlight,

@@ -54,7 +54,7 @@ impl Dispersions {
 /// What a dispersed flight came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
-    /// B.T and B.R less the aim, in m.
+    /// B.T and B.R less the aimpoint, in m.
     pub miss_m: [f64; 2],
     /// Time of closest approach, in s of the flight.
     pub arrival_s: f64,

@@ -14,7 +14,7 @@ use physics::{
     numerics::roots,
 };
 
-use super::flight::{Path, Planets, Surroundings};
+use super::flight::{ForceModel, Path, Planets};
 
 /// Before and after the epoch of osculation B is looked at, in s.
 const AROUND_S: f64 = 60.0;
@@ -41,40 +41,40 @@ pub struct Encounter {
 }
 
 impl Encounter {
-    /// Of a recorded flight that comes to its encounter, or comes near and would go on to it.
+    /// Of a recorded flight that comes to its encounter, or comes near and would continue to it.
     ///
     /// # Errors
     /// A flight without motion, one that does not come near, an osculating orbit that is no hyperbola.
-    pub(super) fn of(path: &Path<'_>, surroundings: &Surroundings) -> Result<Self, String> {
-        let about_s = first_guess_s(path, surroundings)?;
-        let lead_s = surroundings.lead_s;
+    pub(super) fn of(path: &Path<'_>, force_model: &ForceModel) -> Result<Self, String> {
+        let about_s = first_guess_s(path, force_model)?;
+        let lead_s = force_model.lead_s;
         if !(lead_s.is_finite() && lead_s >= 0.0) {
             return Err(format!("encounter.leadTime: found {lead_s} s, allowed: 0 s or more"));
         }
         let row = path.rows[path.index_before(about_s - lead_s - 2.0 * AROUND_S)];
         let light_m_s2 = row.motion.light_n / row.motion.mass_kg;
-        let from = Ahead { surroundings, start_s: row.row.time_s, state: row.motion.from_body(), light_m_s2 };
+        let from =
+            PredictedPath { force_model, start_s: row.row.time_s, state: row.motion.from_body(), light_m_s2 };
         let time_s = from.closest_s()?;
         let epoch_s = time_s - lead_s;
         let [before, at_epoch, after] =
             [-AROUND_S, 0.0, AROUND_S].map(|off_s| from.state_at(epoch_s + off_s));
         let at_epoch = at_epoch?;
         let of = |state: &CartesianState| {
-            let plane = BPlane::of(state, surroundings.gm_m3_s2);
+            let plane = BPlane::of(state, force_model.gm_m3_s2);
             plane.ok_or_else(|| {
-                format!("the orbit about {} at {epoch_s} s: found no hyperbola", name(surroundings))
+                format!("the orbit about {} at {epoch_s} s: found no hyperbola", name(force_model))
             })
         };
         let [before, plane, after] = [of(&before?)?, of(&at_epoch)?, of(&after?)?];
-        let ahead = Ahead { start_s: epoch_s, state: at_epoch, ..from };
+        let predicted_path = PredictedPath { start_s: epoch_s, state: at_epoch, ..from };
         let mut matrix = Matrix6::identity();
-        let closest = ahead.propagate(time_s, &mut |cell| {
+        let closest = predicted_path.propagate(time_s, &mut |cell| {
             matrix = cell.transition()? * matrix;
             Ok(true)
         })?;
-        let time_by_state = closest_by_state(&closest, surroundings.gm_m3_s2) * matrix;
-        let mut partials =
-            BPlane::partials(&at_epoch, surroundings.gm_m3_s2).unwrap_or_else(Matrix3x6::zeros);
+        let time_by_state = closest_by_state(&closest, force_model.gm_m3_s2) * matrix;
+        let mut partials = BPlane::partials(&at_epoch, force_model.gm_m3_s2).unwrap_or_else(Matrix3x6::zeros);
         let rates = [after.b_t_m - before.b_t_m, after.b_r_m - before.b_r_m].map(|it| it / (2.0 * AROUND_S));
         for (row, rate_m_s) in rates.into_iter().enumerate() {
             let moved = partials.row(row) + time_by_state * rate_m_s;
@@ -85,8 +85,13 @@ impl Encounter {
     }
 
     /// Propagates on from the epoch of osculation.
-    pub(super) fn ahead<'a>(&self, surroundings: &'a Surroundings) -> Ahead<'a> {
-        Ahead { surroundings, start_s: self.epoch_s, state: self.at_epoch, light_m_s2: self.light_m_s2 }
+    pub(super) fn predicted_path<'a>(&self, force_model: &'a ForceModel) -> PredictedPath<'a> {
+        PredictedPath {
+            force_model,
+            start_s: self.epoch_s,
+            state: self.at_epoch,
+            light_m_s2: self.light_m_s2,
+        }
     }
 }
 
@@ -97,13 +102,13 @@ fn closest_by_state(closest: &CartesianState, gm_m3_s2: f64) -> RowVector6<f64> 
     -RowVector6::new(v.x, v.y, v.z, r.x, r.y, r.z) / rate_m2_s2
 }
 
-fn name(surroundings: &Surroundings) -> &'static str {
-    surroundings.body.data().name
+fn name(force_model: &ForceModel) -> &'static str {
+    force_model.body.data().name
 }
 
 /// About when the flight is nearest, by rows on both sides of it, or by the hyperbola of its last row.
-fn first_guess_s(path: &Path<'_>, surroundings: &Surroundings) -> Result<f64, String> {
-    let near_m = SPHERES * surroundings.gravity(surroundings.body).sphere_m(surroundings.body);
+fn first_guess_s(path: &Path<'_>, force_model: &ForceModel) -> Result<f64, String> {
+    let near_m = SPHERES * force_model.gravity(force_model.body).sphere_m(force_model.body);
     let is_approaching = |state: &CartesianState| state.position_m.dot(&state.velocity_m_s) < 0.0;
     let passed = path.rows.windows(2).find(|pair| {
         let [from, to] = [pair[0], pair[1]].map(|it| it.motion.from_body());
@@ -111,24 +116,24 @@ fn first_guess_s(path: &Path<'_>, surroundings: &Surroundings) -> Result<f64, St
     });
     let row = passed.map_or(path.rows[path.rows.len() - 1], |pair| pair[0]);
     let state = row.motion.from_body();
-    let found = TwoBodyOrbit::from_state(&state, surroundings.gm_m3_s2, row.row.time_s).ok();
+    let found = TwoBodyOrbit::from_state(&state, force_model.gm_m3_s2, row.row.time_s).ok();
     let found = found.filter(|orbit| is_approaching(&state) && orbit.period_s().is_infinite());
     let at_s = found.map(|orbit| (orbit.periapsis_epoch_s(0), orbit));
     let near = at_s.filter(|(at_s, orbit)| orbit.state_at(*at_s).position_m.norm() < near_m);
     near.map(|(at_s, _)| at_s).ok_or_else(|| {
         format!(
             "encounter.body: found no closest approach to {} up to {} s, allowed: a flight that comes within {:.0} km of it",
-            name(surroundings),
+            name(force_model),
             path.span_s()[1],
             near_m / 1e3
         )
     })
 }
 
-/// A path propagated on from a recorded one.
+/// A path predicted from a recorded one.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ahead<'a> {
-    pub surroundings: &'a Surroundings,
+pub(super) struct PredictedPath<'a> {
+    pub force_model: &'a ForceModel,
     /// Where it begins, in s of the flight.
     pub start_s: f64,
     /// The spacecraft from the planet of the encounter there.
@@ -157,16 +162,16 @@ impl Cell<'_> {
     }
 }
 
-impl Ahead<'_> {
+impl PredictedPath<'_> {
     /// Up to a time, cell by cell, as long as `visit` says so; the state at the end, from the planet.
     pub(super) fn propagate(
         &self,
         end_s: f64,
         visit: &mut dyn FnMut(&mut Cell<'_>) -> Result<bool, String>,
     ) -> Result<CartesianState, String> {
-        let gravity = self.surroundings.gravity(self.surroundings.body);
+        let gravity = self.force_model.gravity(self.force_model.body);
         let method = OrbitMethod::default();
-        let mut planets = self.surroundings.planets();
+        let mut planets = self.force_model.planets();
         let mut orbit = DisturbedOrbit::between_bodies(&self.state, self.start_s, &gravity)
             .map_err(|error| error.to_string())?;
         while orbit.end_s() < end_s {
@@ -184,7 +189,7 @@ impl Ahead<'_> {
     /// The state at a time, from the planet.
     fn state_at(&self, time_s: f64) -> Result<CartesianState, String> {
         if time_s <= self.start_s {
-            let back = TwoBodyOrbit::from_state(&self.state, self.surroundings.gm_m3_s2, self.start_s);
+            let back = TwoBodyOrbit::from_state(&self.state, self.force_model.gm_m3_s2, self.start_s);
             return Ok(back.map_err(|error| error.to_string())?.state_at(time_s));
         }
         self.propagate(time_s, &mut |_| Ok(true))
@@ -195,7 +200,7 @@ impl Ahead<'_> {
         let radial = |state: CartesianState| state.position_m.dot(&state.velocity_m_s);
         let mut found_s = None;
         // As long as the hyperbola would take, and as long again.
-        let two_body = TwoBodyOrbit::from_state(&self.state, self.surroundings.gm_m3_s2, self.start_s)
+        let two_body = TwoBodyOrbit::from_state(&self.state, self.force_model.gm_m3_s2, self.start_s)
             .map_err(|error| error.to_string())?;
         let until_s = 2.0 * two_body.periapsis_epoch_s(0) - self.start_s + 3600.0;
         self.propagate(until_s, &mut |cell| {
@@ -208,7 +213,7 @@ impl Ahead<'_> {
             Ok(false)
         })?;
         found_s.ok_or_else(|| {
-            format!("found no closest approach to {} up to {until_s} s", name(self.surroundings))
+            format!("found no closest approach to {} up to {until_s} s", name(self.force_model))
         })
     }
 }

@@ -1,4 +1,4 @@
-//! Surroundings of a flight between planets, and its recorded path from row to row.
+//! Force model of a flight between planets, and its recorded path from row to row.
 
 use nalgebra::Vector3;
 use physics::{
@@ -6,7 +6,7 @@ use physics::{
     environment::{
         CartesianState,
         ephemeris::Ephemeris,
-        orbit::{BodyPlaces, NBodyGravity, NBodySettings},
+        orbit::{BodyEphemeris, NBodyGravity, NBodySettings},
     },
 };
 
@@ -21,9 +21,9 @@ const PLANETS: [Body; 5] = [Body::Mercury, Body::Venus, Body::Earth, Body::Mars,
 const CELL_S: f64 = 86_400.0;
 const TOLERANCE_M: f64 = 1e-3;
 
-/// What attracts a spacecraft on its way, and the planet that it meets.
+/// Bodies that attract a spacecraft between planets, and the planet of its encounter.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Surroundings {
+pub struct ForceModel {
     /// The planet of the encounter.
     pub body: Body,
     /// Its gravitational parameter, in m3/s2.
@@ -38,7 +38,7 @@ pub struct Surroundings {
     pub lead_s: f64,
 }
 
-impl Surroundings {
+impl ForceModel {
     /// By the values of a MomentumPlant at the start of a flight, which begins at `start_s`.
     ///
     /// # Errors
@@ -110,7 +110,7 @@ pub(super) struct Planets {
     epoch_minus_time_s: f64,
 }
 
-impl BodyPlaces for Planets {
+impl BodyEphemeris for Planets {
     fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState {
         self.ephemeris.state(body, at_s + self.epoch_minus_time_s)
     }
@@ -172,7 +172,7 @@ impl<'a> Path<'a> {
         self.rows[if off_s(after) < off_s(before) { after } else { before }]
     }
 
-    /// Motion at a time, beyond the rows as the first or the last two go on.
+    /// Motion at a time, beyond the rows as the first or the last two continue.
     pub(super) fn at(&self, time_s: f64) -> Motion {
         let before = self.index_before(time_s).min(self.rows.len() - 2);
         let [from, to] = [self.rows[before], self.rows[before + 1]];
@@ -188,7 +188,7 @@ pub(super) struct Recorded<'a> {
     pub planets: Planets,
 }
 
-impl BodyPlaces for Recorded<'_> {
+impl BodyEphemeris for Recorded<'_> {
     fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState {
         if body == self.body {
             self.path.at(at_s).body_from_sun

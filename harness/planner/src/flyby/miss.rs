@@ -11,7 +11,7 @@
 use nalgebra::{Matrix3, Matrix3x2, Matrix6, Matrix6x2, Vector2, Vector3};
 use physics::environment::CartesianState;
 
-use super::{encounter::Ahead, flight::Surroundings, sensitivity::Sensitivity};
+use super::{encounter::PredictedPath, flight::ForceModel, sensitivity::Sensitivity};
 
 /// Manoeuvre by miss.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +27,7 @@ impl MissCost {
     /// Times in another order, a nominal path that cannot be propagated.
     pub fn new(
         sensitivity: &Sensitivity,
-        surroundings: &Surroundings,
+        force_model: &ForceModel,
         [manoeuvre_s, date_s]: [f64; 2],
     ) -> Result<Self, String> {
         let encounter = &sensitivity.encounter;
@@ -43,9 +43,9 @@ impl MissCost {
             by_place.try_inverse().ok_or("the encounter: its partials by the place have no inverse")?;
         let mut shift = Matrix6x2::zeros();
         shift.fixed_view_mut::<3, 2>(0, 0).copy_from(&place_by_miss.fixed_columns::<2>(0));
-        let nominal = Ahead { light_m_s2: Vector3::zeros(), ..encounter.ahead(surroundings) };
+        let nominal = PredictedPath { light_m_s2: Vector3::zeros(), ..encounter.predicted_path(force_model) };
         let (to_manoeuvre, state) = over(&nominal, manoeuvre_s)?;
-        let (to_date, _) = over(&Ahead { start_s: manoeuvre_s, state, ..nominal }, date_s)?;
+        let (to_date, _) = over(&PredictedPath { start_s: manoeuvre_s, state, ..nominal }, date_s)?;
         let off = to_manoeuvre * shift;
         let block = |column: usize| to_date.fixed_view::<3, 3>(0, column).into_owned();
         let back: Matrix3<f64> = block(3)
@@ -67,9 +67,9 @@ impl MissCost {
 }
 
 /// The transition matrix to a time, and the state there from the planet.
-fn over(ahead: &Ahead<'_>, end_s: f64) -> Result<(Matrix6<f64>, CartesianState), String> {
+fn over(predicted_path: &PredictedPath<'_>, end_s: f64) -> Result<(Matrix6<f64>, CartesianState), String> {
     let mut matrix = Matrix6::identity();
-    let state = ahead.propagate(end_s, &mut |cell| {
+    let state = predicted_path.propagate(end_s, &mut |cell| {
         matrix = cell.transition()? * matrix;
         Ok(true)
     })?;

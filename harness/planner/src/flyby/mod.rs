@@ -1,6 +1,6 @@
 //! Encounters of a recorded flight: what its B-plane depends on, at any time before, and what a miss costs behind it.
 
-pub mod aim;
+pub mod aimpoint;
 pub mod controls;
 pub mod dispersion;
 pub mod encounter;
@@ -13,8 +13,8 @@ pub mod sensitivity;
 #[cfg(test)]
 mod test_flight;
 
-pub use aim::Aim;
+pub use aimpoint::BPlaneAimpoint;
 pub use encounter::Encounter;
-pub use flight::Surroundings;
+pub use flight::ForceModel;
 pub use physics::environment::dates::epoch_s;
 pub use sensitivity::Sensitivity;

@@ -40,7 +40,7 @@ pub struct Campaign {
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlybyReport {
     /// B along T and R aimed at, in m.
-    pub aim_m: [f64; 2],
+    pub aimpoint_m: [f64; 2],
     /// What turns a time of the flight into s past J2000 TDB.
     pub epoch_minus_time_s: f64,
     /// Radius of the planet, in m.
@@ -52,7 +52,7 @@ pub struct FlybyReport {
     pub encounter: [f64; 4],
     /// Where the encounter can be moved to from where the mission meets it.
     pub reach: Reachable,
-    /// Whether no choice of arrays and attitudes reaches the aim.
+    /// Whether no choice of arrays and attitudes reaches the aimpoint.
     pub is_out_of_reach: bool,
     /// Least changes of velocity that would do the same, at times in s of the flight.
     pub desired: Vec<(f64, DesiredDeltaV)>,
@@ -89,7 +89,7 @@ impl FlybyReport {
             })
         });
         let members = json!({
-            "aim_m": self.aim_m,
+            "aim_m": self.aimpoint_m,
             "missBefore_m": miss(&self.miss[0]),
             "missAfter_m": miss(&self.miss[1]),
             "lateBefore_s": late(&self.miss[0]),

@@ -7,12 +7,12 @@
 use nalgebra::{Matrix3, Matrix3x6, Vector2, Vector3};
 use physics::{
     bodies::Body,
-    environment::orbit::{BodyPlaces, OrbitMethod, Partials, partials_over},
+    environment::orbit::{BodyEphemeris, OrbitMethod, Partials, partials_over},
 };
 
 use super::{
     encounter::Encounter,
-    flight::{Path, Recorded, Surroundings},
+    flight::{ForceModel, Path, Recorded},
     light::LightAlong,
 };
 use crate::momentum::{simulated::SimulatedFlight, torque::SunlitSpacecraft};
@@ -40,22 +40,22 @@ impl Sensitivity {
     /// See [`Encounter`]; a gradient that is not finite.
     pub fn new(
         flight: &SimulatedFlight,
-        surroundings: &Surroundings,
+        force_model: &ForceModel,
         sunlit: &SunlitSpacecraft,
     ) -> Result<Self, String> {
         let path = Path::of(flight)?;
-        let encounter = Encounter::of(&path, surroundings)?;
+        let encounter = Encounter::of(&path, force_model)?;
         let light = LightAlong::new(&path, sunlit);
-        let gravity = surroundings.gravity(Body::Sun);
-        let planets = surroundings.planets();
-        let mut places = Recorded { path: &path, body: surroundings.body, planets };
+        let gravity = force_model.gravity(Body::Sun);
+        let planets = force_model.planets();
+        let mut ephemeris = Recorded { path: &path, body: force_model.body, planets };
         let method = OrbitMethod::default();
         let mut flips = light.flips();
         let start_s = path.span_s()[0];
         let (mut end_s, mut partials) = (encounter.epoch_s, encounter.at_epoch_partials);
         let mut cells = Vec::new();
         while end_s > start_s {
-            let long_s = longest_s(&path, &surroundings.attracting, end_s, &mut places);
+            let long_s = longest_s(&path, &force_model.attracting, end_s, &mut ephemeris);
             while flips.last().is_some_and(|flip| flip.time_s > end_s) {
                 flips.pop();
             }
@@ -68,7 +68,7 @@ impl Sensitivity {
                 let inside_s = |at_s: f64| at_s.clamp(from_s + 1e-3, end_s - 1e-3);
                 let gradient = |at_s: f64| {
                     let position_m = path.at(at_s).from_sun.position_m;
-                    gravity.gradient_per_s2(Body::Sun, at_s, &position_m, &mut places)
+                    gravity.gradient_per_s2(Body::Sun, at_s, &position_m, &mut ephemeris)
                         + light.gradient_per_s2(inside_s(at_s))
                 };
                 let cell =
@@ -144,10 +144,10 @@ impl DesiredDeltaV {
 }
 
 /// How long a cell that ends at a time may be, by the planets that are near, in s.
-fn longest_s(path: &Path<'_>, attracting: &[Body], end_s: f64, places: &mut Recorded<'_>) -> f64 {
+fn longest_s(path: &Path<'_>, attracting: &[Body], end_s: f64, ephemeris: &mut Recorded<'_>) -> f64 {
     let here = path.at(end_s).from_sun;
     let times_s = attracting.iter().map(|body| {
-        let relative = here - places.heliocentric(*body, end_s);
+        let relative = here - ephemeris.heliocentric(*body, end_s);
         SHARE * relative.position_m.norm() / relative.velocity_m_s.norm()
     });
     times_s.fold(LONGEST_S, f64::min).max(SHORTEST_S)

@@ -8,7 +8,7 @@ use physics::{
     environment::{CartesianState, ephemeris::Ephemeris, orbit::BPlane},
 };
 
-use super::flight::Surroundings;
+use super::flight::ForceModel;
 use crate::momentum::simulated::{FlightRow, Motion, SimulatedFlight};
 
 pub(super) const DAY_S: f64 = 86_400.0;
@@ -32,10 +32,10 @@ pub(super) struct Leg {
 }
 
 /// B.T, B.R and the time of closest approach.
-pub(super) type Aim = Vector3<f64>;
+pub(super) type Intercept = Vector3<f64>;
 
-pub(super) fn surroundings() -> Surroundings {
-    Surroundings {
+pub(super) fn force_model() -> ForceModel {
+    ForceModel {
         body: Body::Mercury,
         gm_m3_s2: GM_MERCURY_M3_S2,
         attracting: BODIES.to_vec(),
@@ -221,7 +221,7 @@ impl Leg {
     }
 
     /// From a state on, near whose encounter the closest approach is about `about_s`: B 6 h before it, and when.
-    pub(super) fn aim(&mut self, y: State6, at_s: f64, about_s: f64) -> Aim {
+    pub(super) fn intercept(&mut self, y: State6, at_s: f64, about_s: f64) -> Intercept {
         let mut closest_s = about_s;
         let mut there = self.propagated(y, [at_s, closest_s]);
         for _ in 0..8 {
@@ -234,7 +234,7 @@ impl Leg {
                 break;
             }
         }
-        let epoch_s = closest_s - surroundings().lead_s;
+        let epoch_s = closest_s - force_model().lead_s;
         let there = unpacked(&self.propagated(there, [closest_s, epoch_s]));
         let plane = BPlane::of(&(there - self.body(Body::Mercury, epoch_s)), GM_MERCURY_M3_S2).unwrap();
         Vector3::new(plane.b_t_m, plane.b_r_m, closest_s)

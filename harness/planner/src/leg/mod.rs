@@ -1,12 +1,12 @@
 //! Legs: the velocity at a place and date that leads to an encounter with a planet, by Lambert's arc and shooting.
 
-mod aim;
+mod aimpoint;
 mod approach;
 pub mod report;
 mod shooting;
 #[cfg(test)]
 mod tests;
 
-pub use aim::{Aim, Flyby, closest_distance_m, impact_parameter_m};
+pub use aimpoint::{Flyby, FlybyAimpoint, closest_distance_m, impact_parameter_m};
 pub use approach::{Approach, ApproachRow, Encounter};
 pub use shooting::{Failure, Leg, LegError, LegTask, SimulatesLeg, shoot};

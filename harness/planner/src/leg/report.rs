@@ -5,7 +5,7 @@ use physics::environment::dates;
 use serde_json::{Value, json};
 
 use super::{
-    aim::{Aim, Flyby, closest_distance_m},
+    aimpoint::{Flyby, FlybyAimpoint, closest_distance_m},
     shooting::{Leg, LegTask},
 };
 
@@ -59,11 +59,11 @@ pub fn json(
     let of = |vector: &Vector3<f64>| json!(vector.as_slice());
     let found = &leg.encounter;
     let flyby = flyby(task, leg);
-    let aim = match task.aim {
-        Aim::Altitude { altitude_m, angle_rad } => {
+    let aimpoint = match task.aimpoint {
+        FlybyAimpoint::Altitude { altitude_m, angle_rad } => {
             json!({ "altitude_m": altitude_m, "angle_deg": angle_rad.to_degrees() })
         }
-        Aim::Plane { b_t_m, b_r_m } => json!({ "bT_m": b_t_m, "bR_m": b_r_m }),
+        FlybyAimpoint::Plane { b_t_m, b_r_m } => json!({ "bT_m": b_t_m, "bR_m": b_r_m }),
     };
     let mut report = json!({
         "status": "planned",
@@ -74,7 +74,7 @@ pub fn json(
             "velocity_m_s": of(&leg.velocity_m_s),
             "lambert_m_s": of(&leg.lambert_m_s),
         },
-        "aim": aim,
+        "aim": aimpoint,
         "arrival": instant(found.arrival_s, zero_epoch_s),
         "days": (found.arrival_s - task.start_s) / DAY_S,
         "altitude_m": found.altitude_m,

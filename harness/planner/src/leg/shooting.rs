@@ -5,7 +5,7 @@
 //! Method: Lambert's arc to the body's centre and B. Without the body's gravity its end is moved by what the flight misses it by.
 //! With it, Newton's method; the first matrix is that of two bodies, d(r)/d(v) along T, R and the asymptote S, each later one has
 //! what the last flight was different by (Broyden's rank one).
-//! Error measure: B and w (t* - t) of a flight against the aim.
+//! Error measure: B and w (t* - t) of a flight against the aimpoint.
 //! Reference: Battin, Introduction to the Mathematics and Methods of Astrodynamics, 1999, ch. 9; Broyden, Mathematics of Computation 19,
 //! 1965.
 
@@ -20,7 +20,7 @@ use physics::{
 };
 
 use super::{
-    aim::{Aim, impact_parameter_m},
+    aimpoint::{FlybyAimpoint, impact_parameter_m},
     approach::{Approach, Encounter},
 };
 
@@ -47,7 +47,7 @@ pub struct LegTask {
     /// When the closest approach shall be, s of the flight.
     pub arrival_s: f64,
     /// Where it shall pass the body.
-    pub aim: Aim,
+    pub aimpoint: FlybyAimpoint,
     /// How long before the closest approach the hyperbola of B osculates, s.
     pub lead_s: f64,
     /// Whole revolutions about the Sun, and which of both arcs where there are any.
@@ -58,7 +58,7 @@ pub struct LegTask {
     pub mu_m3_s2: f64,
     /// Its radius, m.
     pub radius_m: f64,
-    /// How near B comes to the aim, m; the time of arrival comes so near in the way of that time.
+    /// How near B comes to the aimpoint, m; the time of arrival comes so near in the way of that time.
     pub tolerance_m: f64,
 }
 
@@ -97,7 +97,7 @@ pub struct Leg {
     pub body: CartesianState,
     /// What the last flight did.
     pub encounter: Encounter,
-    /// What that flight misses the aim by along T and R, m.
+    /// What that flight misses the aimpoint by along T and R, m.
     pub miss_m: [f64; 2],
     /// Flights, those without the body's gravity first.
     pub rounds: [u32; 2],
@@ -109,7 +109,7 @@ pub enum LegError {
     /// No arc.
     #[error(transparent)]
     Lambert(#[from] LambertError),
-    /// An aim inside the body.
+    /// An aimpoint inside the body.
     #[error(
         "found |B| of {found_km:.1} km, with {excess_speed_m_s:.1} m/s far from the body: the path ends in it, allowed: above {least_km:.1} km"
     )]
@@ -166,9 +166,9 @@ impl LegTask {
         Ok([found.from_m_s, found.to_m_s])
     }
 
-    /// Refuses an aim whose path ends in the body.
-    fn check_aim(&self, excess_speed_m_s: f64) -> Result<(), LegError> {
-        let found_m = self.aim.b_m(excess_speed_m_s, self.mu_m3_s2, self.radius_m).norm();
+    /// Refuses an aimpoint whose path ends in the body.
+    fn check_aimpoint(&self, excess_speed_m_s: f64) -> Result<(), LegError> {
+        let found_m = self.aimpoint.b_m(excess_speed_m_s, self.mu_m3_s2, self.radius_m).norm();
         let least_m = impact_parameter_m(self.radius_m, excess_speed_m_s, self.mu_m3_s2);
         let [found_km, least_km] = [found_m, least_m].map(|size_m| 1e-3 * size_m);
         // Not a number is no aim either.
@@ -179,13 +179,13 @@ impl LegTask {
         }
     }
 
-    /// What an encounter lacks to the aim along T and R, and along S by its time, m.
+    /// What an encounter lacks to the aimpoint along T and R, and along S by its time, m.
     fn lacks_m(&self, found: &Encounter) -> Vector3<f64> {
-        let lacks = match self.aim {
-            Aim::Plane { .. } => {
-                self.aim.b_m(found.excess_speed_m_s, self.mu_m3_s2, self.radius_m) - found.b_m
+        let lacks = match self.aimpoint {
+            FlybyAimpoint::Plane { .. } => {
+                self.aimpoint.b_m(found.excess_speed_m_s, self.mu_m3_s2, self.radius_m) - found.b_m
             }
-            Aim::Altitude { altitude_m, angle_rad } => {
+            FlybyAimpoint::Altitude { altitude_m, angle_rad } => {
                 // The altitude is that of the flight, which is not the hyperbola's of the lead time.
                 let size_m = found.b_m.norm();
                 let speed_m_s = found.excess_speed_m_s;
@@ -217,22 +217,22 @@ impl LegTask {
     }
 }
 
-/// Finds the velocity at the start with which the flight meets the aim.
+/// Finds the velocity at the start with which the flight meets the aimpoint.
 ///
 /// # Errors
-/// No arc, an aim inside the body, flights that are refused or do not come near.
+/// No arc, an aimpoint inside the body, flights that are refused or do not come near.
 pub fn shoot(task: &LegTask, flights: &mut dyn SimulatesLeg) -> Result<Leg, LegError> {
     flights.progress("Lambert's arc");
     let body = flights.body(task.arrival_s).map_err(LegError::Flight)?;
     let [lambert_m_s, end_m_s] = task.lambert_m_s(body.position_m)?;
     let mut excess_m_s = end_m_s - body.velocity_m_s;
-    task.check_aim(excess_m_s.norm())?;
+    task.check_aimpoint(excess_m_s.norm())?;
 
     let mut velocity_m_s = lambert_m_s;
     let mut offset_m = Vector3::zeros();
     let mut unattracted = 0;
     while unattracted < UNATTRACTED_ROUNDS {
-        let b_m = task.aim.b_m(excess_m_s.norm(), task.mu_m3_s2, task.radius_m);
+        let b_m = task.aimpoint.b_m(excess_m_s.norm(), task.mu_m3_s2, task.radius_m);
         let place_m = body.position_m + axes(&excess_m_s).transpose() * b_m.push(0.0);
         let [from_m_s, to_m_s] = task.lambert_m_s(place_m + offset_m)?;
         (velocity_m_s, excess_m_s) = (from_m_s, to_m_s - body.velocity_m_s);

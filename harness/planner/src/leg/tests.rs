@@ -8,7 +8,7 @@ use physics::{
         CartesianState, dates,
         ephemeris::Ephemeris,
         orbit::{
-            BPlane, BodyPlaces, DisturbedOrbit, LambertArc, LambertBranch, LambertError, NBodyGravity,
+            BPlane, BodyEphemeris, DisturbedOrbit, LambertArc, LambertBranch, LambertError, NBodyGravity,
             NBodySettings, OrbitMethod, TwoBodyOrbit,
         },
     },
@@ -25,7 +25,7 @@ const LIGHT_M_S2: f64 = 6e-8;
 /// The planets, by a clock that is 0 at the flyby.
 struct Sky(Ephemeris);
 
-impl BodyPlaces for Sky {
+impl BodyEphemeris for Sky {
     fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState {
         self.0.state(body, FLYBY_S + at_s)
     }
@@ -119,12 +119,12 @@ fn from_mercury(state: &CartesianState, mercury: &CartesianState) -> CartesianSt
     }
 }
 
-fn task(days: f64, aim: Aim) -> LegTask {
+fn task(days: f64, aimpoint: FlybyAimpoint) -> LegTask {
     LegTask {
         position_m: Vector3::new(-0.3, -0.45, -0.21) * ASTRONOMICAL_UNIT_M,
         start_s: -days * DAY_S,
         arrival_s: 0.0,
-        aim,
+        aimpoint,
         lead_s: LEAD_S,
         revolutions: None,
         velocity_before_m_s: None,
@@ -148,9 +148,9 @@ fn closest(task: &LegTask, velocity_m_s: &Vector3<f64>) -> (f64, f64) {
 
 #[test]
 fn a_flight_with_the_velocity_found_passes_at_the_altitude_and_time_of_the_aim() {
-    let aim = Aim::Altitude { altitude_m: 2e5, angle_rad: 0.6 };
-    let direct = task(26.0, aim);
-    let revolving = LegTask { revolutions: Some((1, LambertBranch::Left)), ..task(160.0, aim) };
+    let aimpoint = FlybyAimpoint::Altitude { altitude_m: 2e5, angle_rad: 0.6 };
+    let direct = task(26.0, aimpoint);
+    let revolving = LegTask { revolutions: Some((1, LambertBranch::Left)), ..task(160.0, aimpoint) };
     for task in [direct, revolving] {
         let mut flights = Flights { task: &task, sky: Sky(Ephemeris::default()) };
         let leg = shoot(&task, &mut flights).unwrap();
@@ -166,7 +166,7 @@ fn a_flight_with_the_velocity_found_passes_at_the_altitude_and_time_of_the_aim()
 
 #[test]
 fn an_aim_by_components_is_met_six_hours_before() {
-    let task = task(40.0, Aim::Plane { b_t_m: -4.1e6, b_r_m: 1.3e6 });
+    let task = task(40.0, FlybyAimpoint::Plane { b_t_m: -4.1e6, b_r_m: 1.3e6 });
     let mut flights = Flights { task: &task, sky: Sky(Ephemeris::default()) };
     let leg = shoot(&task, &mut flights).unwrap();
     let before_s = leg.encounter.arrival_s - LEAD_S;
@@ -183,15 +183,15 @@ fn what_cannot_be_is_refused_before_a_flight_to_the_body() {
         let mut flights = Flights { task: &task, sky: Sky(Ephemeris::default()) };
         shoot(&task, &mut flights).unwrap_err()
     };
-    let inside = refused(task(40.0, Aim::Altitude { altitude_m: -1.0, angle_rad: 0.0 }));
+    let inside = refused(task(40.0, FlybyAimpoint::Altitude { altitude_m: -1.0, angle_rad: 0.0 }));
     assert!(matches!(inside, LegError::Inside { .. }), "{inside}");
-    let inside = refused(task(40.0, Aim::Plane { b_t_m: 1e6, b_r_m: 1e6 }));
+    let inside = refused(task(40.0, FlybyAimpoint::Plane { b_t_m: 1e6, b_r_m: 1e6 }));
     assert!(inside.to_string().contains("the path ends in it"), "{inside}");
-    let aim = Aim::Altitude { altitude_m: 2e5, angle_rad: 0.0 };
-    let short = refused(LegTask { revolutions: Some((1, LambertBranch::Left)), ..task(40.0, aim) });
+    let aimpoint = FlybyAimpoint::Altitude { altitude_m: 2e5, angle_rad: 0.0 };
+    let short = refused(LegTask { revolutions: Some((1, LambertBranch::Left)), ..task(40.0, aimpoint) });
     assert!(matches!(short, LegError::Lambert(LambertError::TooShort { revolutions: 1, .. })), "{short}");
     let mercury = Sky(Ephemeris::default()).heliocentric(Body::Mercury, 0.0);
-    let opposite = refused(LegTask { position_m: mercury.position_m * -1.2, ..task(80.0, aim) });
+    let opposite = refused(LegTask { position_m: mercury.position_m * -1.2, ..task(80.0, aimpoint) });
     assert!(opposite.to_string().starts_with("found places 180.000 deg apart"), "{opposite}");
 }
 

@@ -129,7 +129,7 @@ pub fn reachable(
     simulates.progress("reach");
     let mut model = bare(task, sunlit, &simulated.thinned(REACH_ROWS_S))?;
     // The target itself is no limit here.
-    model.aim(sunlit, task.target.map(|_| Target { tolerance: [None; 3] }));
+    model.set_target(sunlit, task.target.map(|_| Target { tolerance: [None; 3] }));
     let Some(here) = model.miss() else { return Ok(Reachable::default()) };
     let here = here.xy();
     let single = counted::single(&model);

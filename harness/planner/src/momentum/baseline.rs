@@ -2,7 +2,7 @@
 //!
 //! At the distance D (AU) light of cos(offset)/D^2 suns lies between min and max for offsets from acos(min(1, max D^2)) to
 //! acos(min D^2). A span can share one offset if the greatest of its lower bounds is below the least of its upper ones. The fewest
-//! spans come of going on as long as that holds. Where the same number does with steps at the edges of windows alone, those are taken,
+//! spans come of continuing as long as that holds. Where the same number does with steps at the edges of windows alone, those are taken,
 //! and of all such choices the one whose narrowest span is widest: that is the room windmilling has. The offset of a span is in the middle.
 
 use physics::{constants::ASTRONOMICAL_UNIT_M, spacecraft::Articulation};

@@ -1,12 +1,12 @@
 //! What is counted: fewest dumps, fewest changes of the arrays, each with a bound from below.
 //!
 //! **Dumps.** A dump leaves any momentum within the limit, so the flight falls into parts that do not know of one another, and a part of
-//! a feasible part is feasible: going on as far as some choice of controls allows and dumping there gives the fewest (of the linear
+//! a feasible part is feasible: continuing as far as some choice of controls allows and dumping there gives the fewest (of the linear
 //! model). Of all ways with that number the one is taken that does with the smallest limit.
 //!
 //! **Changes.** The arrays stand alike over groups of neighbouring windows. Steps of the baseline begin a group in any case. From below:
 //! windows that cannot share a windmill angle whatever the momentum before them have a change among them; such spans that share no edge
-//! are counted. From above: each group goes on as long as a plan for the rest exists in which every later window is a group by itself.
+//! are counted. From above: each group continues as long as a plan for the rest exists in which every later window is a group by itself.
 //! Where both differ, branch and bound over the places of the changes, depth first: a branch ends where even single windows
 //! behind it find no plan, or where the count from below exceeds what is left. It stops by the clock; the gap is reported. Controls stay
 //! within a range about the model's: the programmes are linear, and over a wide range their groups may not keep the limits.

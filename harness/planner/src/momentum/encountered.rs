@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-/// How a flight misses its aim, and what moves that.
+/// How a flight misses its aimpoint, and what moves that.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Encountered {
     /// Reached less aimed at.

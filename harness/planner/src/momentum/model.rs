@@ -10,7 +10,7 @@ use super::{
     cell::{At, Cell, cell},
     program::{Begin, Program, Step},
     simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
-    target::{Aimed, LinearMiss, Target},
+    target::{LinearMiss, Target, Targeting},
     torque::{ALL, CONTROLS, Control, SunlitSpacecraft},
     windows::{Window, WindowKind},
 };
@@ -46,7 +46,7 @@ pub(super) struct Model {
     pub judged_from_s: f64,
     /// Rows at which planned dumps leave any momentum, with what they leave.
     pub dumps: Vec<(usize, Vector3<f64>)>,
-    aimed: Option<Aimed>,
+    targeting: Option<Targeting>,
     cells: Vec<Cell>,
     /// What the last flight gained more, by cell.
     corrections: Vec<Vector3<f64>>,
@@ -82,7 +82,7 @@ impl Model {
             limit,
             judged_from_s: f64::NEG_INFINITY,
             dumps: Vec::new(),
-            aimed: None,
+            targeting: None,
             cells: Vec::new(),
             instants: Vec::new(),
             between: Vec::new(),
@@ -93,9 +93,9 @@ impl Model {
     }
 
     /// With a target of the plan, where the flight had an encounter.
-    pub(super) fn aim(&mut self, sunlit: &SunlitSpacecraft, target: Option<Target>) {
+    pub(super) fn set_target(&mut self, sunlit: &SunlitSpacecraft, target: Option<Target>) {
         let encountered = self.simulated.encountered.clone();
-        self.aimed = target.zip(encountered).map(|(target, encountered)| Aimed {
+        self.targeting = target.zip(encountered).map(|(target, encountered)| Targeting {
             target,
             encountered,
             simulated: Vector3::zeros(),
@@ -105,17 +105,17 @@ impl Model {
         self.linearise(sunlit);
         // The flight of the mission had its own arrays and attitudes.
         let simulated = self.recorded_moves(sunlit);
-        if let Some(aimed) = &mut self.aimed {
-            aimed.simulated = simulated;
+        if let Some(targeting) = &mut self.targeting {
+            targeting.simulated = simulated;
         }
     }
 
     /// What sunlight as it was recorded did about the target, where windows are not frozen.
     fn recorded_moves(&self, sunlit: &SunlitSpacecraft) -> Vector3<f64> {
-        let Some(aimed) = &self.aimed else { return Vector3::zeros() };
+        let Some(targeting) = &self.targeting else { return Vector3::zeros() };
         let rows = self.simulated.rows.iter();
         let rates: Vec<_> =
-            rows.map(|row| aimed.by_impulse(sunlit, row) * sunlit.simulated(row).force_n).collect();
+            rows.map(|row| targeting.by_impulse(sunlit, row) * sunlit.simulated(row).force_n).collect();
         let cells = self.cells.iter().enumerate();
         let free = cells.filter(|(_, cell)| self.windows[cell.window].kind != WindowKind::Frozen);
         free.map(|(index, _)| {
@@ -131,8 +131,8 @@ impl Model {
 
     /// Miss of the target at the present controls; `None` without one.
     pub(super) fn miss(&self) -> Option<Vector3<f64>> {
-        let aimed = self.aimed.as_ref()?;
-        Some(aimed.encountered.miss + self.moves() - aimed.simulated)
+        let targeting = self.targeting.as_ref()?;
+        Some(targeting.encountered.miss + self.moves() - targeting.simulated)
     }
 
     /// Anew about the present controls.
@@ -157,9 +157,10 @@ impl Model {
             }
             let share = of.alternate_at(middle_s);
             // What stays moves nothing.
-            let aimed = self.aimed.as_ref().filter(|_| of.kind != WindowKind::Frozen);
-            let by_impulse =
-                |row: &FlightRow| aimed.map_or_else(Matrix3::zeros, |aimed| aimed.by_impulse(sunlit, row));
+            let targeting = self.targeting.as_ref().filter(|_| of.kind != WindowKind::Frozen);
+            let by_impulse = |row: &FlightRow| {
+                targeting.map_or_else(Matrix3::zeros, |targeting| targeting.by_impulse(sunlit, row))
+            };
             let from = match last.take() {
                 Some((at_window, at, value)) if at_window == window && at == index => value,
                 _ => At::of(sunlit, &rows[index], of, by_impulse(&rows[index])),
@@ -214,12 +215,12 @@ impl Model {
             }
             self.corrections[index] = momentum(to) - momentum(from) - cell.gain;
         }
-        if let (Some(aimed), Some(encountered)) = (&mut self.aimed, &flight.encountered) {
-            aimed.encountered = encountered.clone();
+        if let (Some(targeting), Some(encountered)) = (&mut self.targeting, &flight.encountered) {
+            targeting.encountered = encountered.clone();
             self.linearise(sunlit);
             let simulated = self.moves();
-            if let Some(aimed) = &mut self.aimed {
-                aimed.simulated = simulated;
+            if let Some(targeting) = &mut self.targeting {
+                targeting.simulated = simulated;
             }
         }
     }
@@ -276,10 +277,10 @@ impl Model {
         let of_momentum = self.momentum_excess_n_m_s();
         let limit_n_m_s = self.limit.momentum_n_m_s;
         let of_target = self
-            .aimed
+            .targeting
             .as_ref()
             .zip(self.miss())
-            .map(|(aimed, miss)| aimed.target.excess_n_m_s(&miss, limit_n_m_s));
+            .map(|(targeting, miss)| targeting.target.excess_n_m_s(&miss, limit_n_m_s));
         match of_target {
             Some(excess) if excess > of_momentum.0 => (excess, self.cells.len()),
             _ => of_momentum,
@@ -451,8 +452,8 @@ impl Model {
     }
 
     fn add_target(&self, program: &mut Program, leaders: &[usize]) {
-        let (Some(aimed), Some(miss)) = (&self.aimed, self.linear_miss(leaders)) else { return };
-        program.targets = aimed.target.rows(&miss, self.limit.momentum_n_m_s);
+        let (Some(targeting), Some(miss)) = (&self.targeting, self.linear_miss(leaders)) else { return };
+        program.targets = targeting.target.rows(&miss, self.limit.momentum_n_m_s);
     }
 
     /// The light on the cells of every panel within its corridor.

@@ -291,7 +291,7 @@ fn structure(
             // A target that is missed needs no dump.
             let mut alone = model.clone();
             if task.target.is_some() {
-                alone.aim(sunlit, None);
+                alone.set_target(sunlit, None);
                 refine(&mut alone, sunlit, &single, (Goal::LeastExcess, WHOLE), simulates)?;
             }
             let excess_n_m_s = alone.excess_n_m_s().0;
@@ -344,7 +344,7 @@ pub fn plan(
 ) -> Result<MomentumPlan, PlanError> {
     let (windows, baseline) = task.layout.windows(sunlit, simulated).map_err(PlanError::Corridor)?;
     let mut model = Model::new(sunlit, simulated.clone(), windows, task.limit.clone());
-    model.aim(sunlit, task.target);
+    model.set_target(sunlit, task.target);
     let mut counts: Option<Structure> = None;
     let mut rounds = 0;
     loop {

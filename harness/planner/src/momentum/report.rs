@@ -139,7 +139,7 @@ pub fn json(
     serde_json::to_string_pretty(&all)
 }
 
-/// `plan.json` of a flyby whose aim is out of reach; `more` are its members.
+/// `plan.json` of a flyby whose aimpoint is out of reach; `more` are its members.
 ///
 /// # Errors
 /// What JSON does not take.

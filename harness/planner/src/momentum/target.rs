@@ -20,7 +20,7 @@ pub const QUANTITIES: usize = 3;
 /// Share of a tolerance that programmes allow; the rest is for what is not linear, as [`GUARD`] is of the momentum's limit.
 const ALLOWED: f64 = 0.5;
 
-/// How near a plan comes to its aim.
+/// How near a plan comes to its aimpoint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target {
     /// Greatest miss either way; `None`: it is free.
@@ -71,7 +71,7 @@ pub(super) struct LinearMiss {
 
 /// What the windows of a flight do about its target.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Aimed {
+pub(super) struct Targeting {
     /// The target.
     pub target: Target,
     /// The last flight.
@@ -80,7 +80,7 @@ pub(super) struct Aimed {
     pub simulated: Vector3<f64>,
 }
 
-impl Aimed {
+impl Targeting {
     /// What the encounter moves by, by force times time at a row.
     pub(super) fn by_impulse(&self, sunlit: &SunlitSpacecraft, row: &FlightRow) -> Matrix3<f64> {
         let mass_kg = row.motion.map_or(sunlit.mass_at_zero.mass_kg, |motion| motion.mass_kg);

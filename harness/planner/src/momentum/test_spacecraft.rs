@@ -12,7 +12,7 @@ use super::{
     plan::{Least, PlanTask},
     simulated::{FlightRow, MomentumSize, SimulatedFlight},
     torque::SunlitSpacecraft,
-    windows::{Layout, Reach},
+    windows::{ControlBounds, Layout},
 };
 
 pub(super) const DAY_S: f64 = 86_400.0;
@@ -56,7 +56,7 @@ pub(super) fn simulated(sunlit: &SunlitSpacecraft, days: u32, distance_au: f64) 
 }
 
 /// Windows of a day from the start on, without controls; the corridor is wide.
-pub(super) fn task(limit_n_m_s: f64, reach: Reach) -> PlanTask {
+pub(super) fn task(limit_n_m_s: f64, control_bounds: ControlBounds) -> PlanTask {
     PlanTask {
         layout: Layout {
             frozen_until_s: 0.0,
@@ -66,7 +66,7 @@ pub(super) fn task(limit_n_m_s: f64, reach: Reach) -> PlanTask {
             downlinks_s: None,
             contacts_s: Vec::new(),
             contact_share: 0.0,
-            reach,
+            control_bounds,
             in_force: Vec::new(),
             corridor: Articulation { min_suns: 0.0, max_suns: 1e3, target_suns: 1.0 },
             offset_sign: 1.0,

@@ -14,7 +14,7 @@ use physics::{
         pointing::antenna::Antennas,
     },
     momentum::Convention,
-    plant::{PanelSetting, Ramp, SunLight, SunlitCraft},
+    plant::{PanelSetting, Ramp, SunLight, SunlitConfiguration},
     radiation::{Beam, SolarModel},
     refusal::Refusal,
     spacecraft::{MassProperties, Spacecraft, SunshadeModel},
@@ -203,8 +203,8 @@ impl SunlitSpacecraft {
         row: &FlightRow,
         settings: &'a [PanelSetting],
         sun_distance_m: f64,
-    ) -> SunlitCraft<'a> {
-        SunlitCraft {
+    ) -> SunlitConfiguration<'a> {
+        SunlitConfiguration {
             solar: &self.solar,
             panels: &self.spacecraft.panels,
             settings,

@@ -152,9 +152,9 @@ const CYCLE_S: f64 = 86_400.0;
 /// Less of the alternate attitude in a window is none, in s.
 const SHORTEST_S: f64 = 60.0;
 
-/// How far controls go.
+/// Bounds of the controls.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Reach {
+pub struct ControlBounds {
     /// Largest change of the offset off the baseline, in rad; 0 where it is kept.
     pub offset_rad: f64,
     /// Largest windmill angle, in rad.
@@ -197,8 +197,8 @@ pub struct Layout {
     pub contacts_s: Vec<[f64; 2]>,
     /// Share of each window that contacts take where none is listed.
     pub contact_share: f64,
-    /// How far controls go.
-    pub reach: Reach,
+    /// Bounds of the controls.
+    pub control_bounds: ControlBounds,
     /// The plan that the mission has so far, in order: windows begin with its controls, those before it on the baseline without tilt.
     pub in_force: Vec<InForce>,
     /// Corridor of the light on the cells.
@@ -212,8 +212,12 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Of an orbit phase: downlinks are free as far as `reach` lets the Sun off -Y, everything else stays, the arrays so far off the Sun.
-    pub fn of_downlinks(downlinks_s: Vec<[f64; 2]>, reach: Reach, sun_offset_rad: f64) -> Self {
+    /// Of an orbit phase: downlinks are free as far as `control_bounds` lets the Sun off -Y, everything else stays, the arrays so far off the Sun.
+    pub fn of_downlinks(
+        downlinks_s: Vec<[f64; 2]>,
+        control_bounds: ControlBounds,
+        sun_offset_rad: f64,
+    ) -> Self {
         Self {
             frozen_until_s: f64::NEG_INFINITY,
             arrays_are_frozen: true,
@@ -222,7 +226,7 @@ impl Layout {
             downlinks_s: Some(downlinks_s),
             contacts_s: Vec::new(),
             contact_share: 0.0,
-            reach,
+            control_bounds,
             in_force: Vec::new(),
             corridor: Articulation { min_suns: 0.0, max_suns: f64::INFINITY, target_suns: 1.0 },
             offset_sign: 1.0,
@@ -358,27 +362,28 @@ impl Layout {
         let mut bounds = [[0.0; 2]; CONTROLS];
         bounds[Control::Offset as usize] = [offset_rad; 2];
         if kind != WindowKind::Frozen && self.sides.iter().any(|side| *side != 0.0) {
-            bounds[Control::Windmill as usize] = [-self.reach.windmill_rad, self.reach.windmill_rad];
+            bounds[Control::Windmill as usize] =
+                [-self.control_bounds.windmill_rad, self.control_bounds.windmill_rad];
         }
         if kind == WindowKind::Free {
-            let change_rad = self.reach.offset_rad;
+            let change_rad = self.control_bounds.offset_rad;
             if !self.sides.is_empty() {
                 bounds[Control::Offset as usize] = [
                     (offset_rad - change_rad).max(offsets_rad[0].min(offset_rad)),
                     (offset_rad + change_rad).min(offsets_rad[1].max(offset_rad)),
                 ];
             }
-            let azimuth_rad = self.reach.azimuth_rad;
-            let elevation_rad = self.reach.elevation_rad.min((separation_rad - LEFT_RAD).max(0.0));
+            let azimuth_rad = self.control_bounds.azimuth_rad;
+            let elevation_rad = self.control_bounds.elevation_rad.min((separation_rad - LEFT_RAD).max(0.0));
             bounds[Control::Azimuth as usize] = [-azimuth_rad, azimuth_rad];
             bounds[Control::Elevation as usize] = [-elevation_rad, elevation_rad];
-            bounds[Control::Alternate as usize] = [0.0, self.reach.alternate.min(share)];
+            bounds[Control::Alternate as usize] = [0.0, self.control_bounds.alternate.min(share)];
         }
         let mut controls = Controls::default().with(Control::Offset, offset_rad);
         let in_force = (kind == WindowKind::Free).then(|| mean(&self.in_force, [start_s, stop_s])).flatten();
         if let Some(in_force) = in_force {
             // Off the baseline or as it is: that of a shorter flight may be another one.
-            if self.reach.offset_rad > 0.0 {
+            if self.control_bounds.offset_rad > 0.0 {
                 let present_rad = in_force.get(Control::Offset).min(offsets_rad[1]).max(offsets_rad[0]);
                 let [low, high] = &mut bounds[Control::Offset as usize];
                 (*low, *high) = (low.min(present_rad), high.max(present_rad));
@@ -391,10 +396,10 @@ impl Layout {
         let mut allowed = Vec::new();
         if kind == WindowKind::Free && self.downlinks_s.is_some() {
             let all: Vec<&FlightRow> = rows().collect();
-            let reach = [self.reach.azimuth_rad, self.reach.elevation_rad];
-            allowed = places(sunlit, &all, reach);
-            bounds[Control::Azimuth as usize] = [-reach[0], reach[0]];
-            bounds[Control::Elevation as usize] = [-reach[1], reach[1]];
+            let sun_bounds = [self.control_bounds.azimuth_rad, self.control_bounds.elevation_rad];
+            allowed = places(sunlit, &all, sun_bounds);
+            bounds[Control::Azimuth as usize] = [-sun_bounds[0], sun_bounds[0]];
+            bounds[Control::Elevation as usize] = [-sun_bounds[1], sun_bounds[1]];
         }
         Window {
             start_s,

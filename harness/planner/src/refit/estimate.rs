@@ -80,8 +80,8 @@ impl Problem<'_> {
         let rows: Vec<(Vector3<f64>, Matrix3x4<f64>)> = expansion
             .at(parameters)
             .zip(&self.telemetry.momentum_inertial_n_m_s)
-            .map(|((flown, by), measured)| {
-                ((measured - flown) / self.deviations.noise_n_m_s, by * Matrix4::from_diagonal(&scales))
+            .map(|((simulated, by), measured)| {
+                ((measured - simulated) / self.deviations.noise_n_m_s, by * Matrix4::from_diagonal(&scales))
             })
             .collect();
         let mut normal = Normal { information: Matrix4::zeros(), gradient: Vector4::zeros() };
@@ -105,10 +105,10 @@ impl Problem<'_> {
 pub(super) fn residuals_n_m_s(
     telemetry: &Telemetry,
     arcs: &[Range<usize>],
-    flown_n_m_s: &[Vector3<f64>],
+    simulated_n_m_s: &[Vector3<f64>],
 ) -> Vec<Vector3<f64>> {
     let mut residuals: Vec<_> =
-        telemetry.momentum_inertial_n_m_s.iter().zip(flown_n_m_s).map(|(a, b)| a - b).collect();
+        telemetry.momentum_inertial_n_m_s.iter().zip(simulated_n_m_s).map(|(a, b)| a - b).collect();
     for arc in arcs {
         let rows = &mut residuals[arc.clone()];
         let mean = rows.iter().sum::<Vector3<f64>>() / rows.len() as f64;

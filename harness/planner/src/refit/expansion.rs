@@ -49,8 +49,8 @@ impl Expansion {
     ) -> Result<Self, Failure> {
         let scale_step = SCALE_STEP * center.solar_scale.abs().max(SCALE_STEP);
         let mut dumps: Option<Vec<i32>> = None;
-        let mut fly = |parameters: &Parameters| -> Result<Vec<Vector3<f64>>, Failure> {
-            let History { momentum_inertial_n_m_s, dumps: seen } = flights.fly(parameters, times_s)?;
+        let mut simulate = |parameters: &Parameters| -> Result<Vec<Vector3<f64>>, Failure> {
+            let History { momentum_inertial_n_m_s, dumps: seen } = flights.simulate(parameters, times_s)?;
             simulated();
             if dumps.get_or_insert_with(|| seen.clone()) != &seen {
                 return Err(
@@ -62,11 +62,11 @@ impl Expansion {
         let mut of_scale = |solar_scale: f64| -> Result<Vec<Affine>, Failure> {
             let at = Parameters { solar_scale, ..*center };
             let mut moved = Vec::with_capacity(3);
-            let middle = fly(&at)?;
+            let middle = simulate(&at)?;
             for axis in 0..3 {
                 let step_m = Vector3::ith(axis, CENTER_STEP_M);
                 let center_of_mass_body_m = at.center_of_mass_body_m + step_m;
-                moved.push(fly(&Parameters { center_of_mass_body_m, ..at })?);
+                moved.push(simulate(&Parameters { center_of_mass_body_m, ..at })?);
             }
             let row = |(row, momentum_n_m_s): (usize, Vector3<f64>)| {
                 let by = |axis: usize| (moved[axis][row] - momentum_n_m_s) / CENTER_STEP_M;

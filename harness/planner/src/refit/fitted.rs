@@ -64,14 +64,14 @@ pub fn fit(
 ) -> Result<Fitted, Failure> {
     let Requested { telemetry, prior, deviations } = requested;
     let mut center = *prior;
-    let (mut flown, mut round) = (0, 0);
+    let (mut count, mut round) = (0, 0);
     loop {
         round += 1;
-        let ahead = round * FLIGHTS_OF_ROUND;
-        progress(flown, ahead);
+        let expected = round * FLIGHTS_OF_ROUND;
+        progress(count, expected);
         let mut counted = || {
-            flown += 1;
-            progress(flown, ahead);
+            count += 1;
+            progress(count, expected);
         };
         let expansion = Expansion::about(flights, &center, &telemetry.times_s, &mut counted)?;
         let arcs = arcs(&[&telemetry.dumps, &expansion.dumps]);
@@ -86,7 +86,7 @@ pub fn fit(
         }
         let problem = Problem { telemetry, arcs: &arcs, prior, deviations };
         let estimate = problem.solve(&expansion, &center)?;
-        let simulated = flights.fly(&estimate.parameters, &telemetry.times_s)?.momentum_inertial_n_m_s;
+        let simulated = flights.simulate(&estimate.parameters, &telemetry.times_s)?.momentum_inertial_n_m_s;
         counted();
         let residuals = residuals_n_m_s(telemetry, &arcs, &simulated);
         let expanded: Vec<_> = expansion.at(&estimate.parameters).map(|(momentum, _)| momentum).collect();
@@ -106,12 +106,12 @@ pub fn fit(
                 degrees_of_freedom: (3 * (telemetry.times_s.len() - arcs.len())).saturating_sub(determined),
                 arcs,
                 residuals_n_m_s: residuals,
-                flights: flown,
+                flights: count,
             });
         }
         if round == MOST_ROUNDS {
             return Err(format!(
-                "after {flown} flights one departs by {} N m s from what it was expanded to, allowed: {} of --noise, {}",
+                "after {count} flights one departs by {} N m s from what it was expanded to, allowed: {} of --noise, {}",
                 terminal::short(departure_n_m_s),
                 terminal::short(AGREES),
                 terminal::short(AGREES * noise_n_m_s)

@@ -19,5 +19,5 @@ pub trait Flights {
     ///
     /// # Errors
     /// What ends a flight.
-    fn fly(&self, parameters: &Parameters, times_s: &[f64]) -> Result<History, Failure>;
+    fn simulate(&self, parameters: &Parameters, times_s: &[f64]) -> Result<History, Failure>;
 }

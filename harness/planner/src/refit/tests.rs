@@ -30,8 +30,8 @@ fn times_s() -> Vec<f64> {
 /// A history of flights with these values, noise by a seed, each start of an arc anywhere.
 fn telemetry(flights: &dyn Flights, truth: &Parameters, seed: u64, dumps: &[i32]) -> Telemetry {
     let times_s = times_s();
-    let flown = flights.fly(truth, &times_s).unwrap().momentum_inertial_n_m_s;
-    let noisy = flown.iter().enumerate().map(|(row, momentum)| {
+    let simulated = flights.simulate(truth, &times_s).unwrap().momentum_inertial_n_m_s;
+    let noisy = simulated.iter().enumerate().map(|(row, momentum)| {
         let start = 3.0 * normal_vector(seed, Channel::SunSensor, dumps[row] as u64);
         momentum + start + DEVIATIONS.noise_n_m_s * normal_vector(seed, Channel::StarTracker, row as u64)
     });
@@ -154,26 +154,28 @@ fn arcs_have_starts_of_their_own() {
 /// Flights that are simulated once for each set of values.
 struct Remembered {
     flights: Cruise,
-    flown: std::cell::RefCell<Vec<(Parameters, History)>>,
+    simulated: std::cell::RefCell<Vec<(Parameters, History)>>,
 }
 
 impl Remembered {
     fn new(flights: Cruise) -> Self {
-        Self { flights, flown: std::cell::RefCell::default() }
+        Self { flights, simulated: std::cell::RefCell::default() }
     }
 }
 
 impl Flights for Remembered {
-    fn fly(&self, parameters: &Parameters, times_s: &[f64]) -> Result<History, super::Failure> {
+    fn simulate(&self, parameters: &Parameters, times_s: &[f64]) -> Result<History, super::Failure> {
         // Those of the first expansion come again.
         const KEPT: usize = 12;
-        if let Some((_, history)) = self.flown.borrow().iter().find(|(flown, _)| flown == parameters) {
+        if let Some((_, history)) =
+            self.simulated.borrow().iter().find(|(simulated, _)| simulated == parameters)
+        {
             return Ok(history.clone());
         }
-        let history = self.flights.fly(parameters, times_s)?;
-        let mut flown = self.flown.borrow_mut();
-        if flown.len() < KEPT {
-            flown.push((*parameters, history.clone()));
+        let history = self.flights.simulate(parameters, times_s)?;
+        let mut simulated = self.simulated.borrow_mut();
+        if simulated.len() < KEPT {
+            simulated.push((*parameters, history.clone()));
         }
         Ok(history)
     }

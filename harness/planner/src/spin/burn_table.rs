@@ -6,11 +6,11 @@ use serde::Serialize;
 
 use super::{
     PlanError, Row, Task,
-    aim::{Way, right_ascension_declination_deg},
     flight::Flight,
     limit_checks::LimitCheck,
     start_values::{self, Setting},
     timing_label,
+    turn_geometry::{Way, right_ascension_declination_deg},
 };
 
 /// A plan that was simulated and checked against its limits.
@@ -129,7 +129,7 @@ impl PlannedBurn {
         for (name, value) in self.start_values() {
             values.insert(name.to_owned(), serde_json::to_value(value).map_err(failed)?);
         }
-        let aim = &self.task.aim;
+        let geometry = &self.task.geometry;
         let document = Document {
             spacecraft: &self.name,
             date: self.epoch_s.map(dates::utc),
@@ -137,13 +137,13 @@ impl PlannedBurn {
             timing: timing_label(self.task.case.timing),
             train: self.row.label(),
             start: Place::of(&self.flight.start_axis_inertial),
-            target: Place::of(&aim.target_inertial),
+            target: Place::of(&geometry.target_inertial),
             end: Place::of(&self.flight.end_axis_inertial()),
             miss_deg: self.flight.miss_rad(&self.task).to_degrees(),
-            sun: Place::of(&aim.sun_inertial),
-            earth: aim.earth_inertial.as_ref().map(Place::of),
-            great_circle: Course::of(&aim.great_circle()),
-            rhumb_line: aim.rhumb_line().as_ref().map(Course::of),
+            sun: Place::of(&geometry.sun_inertial),
+            earth: geometry.earth_inertial.as_ref().map(Place::of),
+            great_circle: Course::of(&geometry.great_circle()),
+            rhumb_line: geometry.rhumb_line().as_ref().map(Course::of),
             propellant_kg: self.row.propellant_kg,
             worst_nutation_deg: self.row.peak_rad.to_degrees(),
             worst_final_nutation_deg: self.row.final_rad.to_degrees(),
@@ -157,7 +157,7 @@ impl PlannedBurn {
     }
 
     fn lines(&self) -> impl Iterator<Item = Line<'_>> {
-        let aim = &self.task.aim;
+        let geometry = &self.task.geometry;
         self.flight.pulses.iter().enumerate().map(move |(k, pulse)| {
             let axis = &pulse.axis_inertial;
             let (axis_right_ascension_deg, axis_declination_deg) = right_ascension_declination_deg(axis);
@@ -171,8 +171,8 @@ impl PlannedBurn {
                 axis_right_ascension_deg,
                 axis_declination_deg,
                 nutation_deg: pulse.nutation_rad.to_degrees(),
-                sun_angle_deg: angle_between_rad(axis, &aim.sun_inertial).to_degrees(),
-                earth_angle_deg: aim
+                sun_angle_deg: angle_between_rad(axis, &geometry.sun_inertial).to_degrees(),
+                earth_angle_deg: geometry
                     .earth_inertial
                     .map(|earth| angle_between_rad(&-axis, &earth).to_degrees()),
             }

@@ -68,7 +68,7 @@ fn the_phase_is_the_turn_since_the_sun_crossing() {
             let turned_rad = (since_s * burn.task.case.spin.rate_rad_s).rem_euclid(core::f64::consts::TAU);
             let off_rad = (turned_rad - pulse.phase_rad).abs();
             // Nutation moves the crossing by its angle over the tangent of the Sun's.
-            let sun_rad = angle_between_rad(&pulse.axis_inertial, &burn.task.aim.sun_inertial);
+            let sun_rad = angle_between_rad(&pulse.axis_inertial, &burn.task.geometry.sun_inertial);
             assert!(off_rad < 3.0 * burn.row.peak_rad / sun_rad.tan() + 1e-6, "{arguments}: {off_rad}");
         }
     }
@@ -98,7 +98,7 @@ fn csv_and_json_agree() {
                 }
             }
         }
-        assert_eq!(pulses[0]["earth_angle_deg"].is_null(), burn.task.aim.earth_inertial.is_none());
+        assert_eq!(pulses[0]["earth_angle_deg"].is_null(), burn.task.geometry.earth_inertial.is_none());
         let table: toml::Table = super::start_table(&burn.start_values()).parse().unwrap();
         let in_json = json["start_values"].as_object().unwrap();
         assert_eq!(in_json.len(), table["start"].as_table().unwrap().len());

@@ -15,7 +15,7 @@ pub enum PlanError {
     },
     /// A direction that cannot be.
     #[error("{flag}: {what}")]
-    Aim {
+    Direction {
         /// The flag it comes from, or that mends it.
         flag: &'static str,
         /// What is wrong, and what is allowed.

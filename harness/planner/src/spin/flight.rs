@@ -74,7 +74,7 @@ impl Flight {
 
     /// From where the axis ends to the target, in rad.
     pub fn miss_rad(&self, task: &Task) -> f64 {
-        angle_between_rad(&self.end_axis_inertial(), &task.aim.target_inertial)
+        angle_between_rad(&self.end_axis_inertial(), &task.geometry.target_inertial)
     }
 }
 
@@ -108,7 +108,7 @@ fn start(spinner: &Spinner, task: &Task, row: &Row) -> Start {
             count: i32::try_from(train.count()).unwrap_or(i32::MAX),
             angle_rad: 0.0,
             resolution_s: task.resolution_s,
-            target_inertial: task.aim.burn_target_inertial(),
+            target_inertial: task.geometry.burn_target_inertial(),
             spin_rate_error: 0.0,
             ratio_error: 0.0,
             ratio_uncertainty: 0.0,
@@ -123,14 +123,14 @@ fn start(spinner: &Spinner, task: &Task, row: &Row) -> Start {
     }
 }
 
-/// Flies `row` to a few turns after its last pulse.
+/// Simulates `row` to a few turns after its last pulse.
 ///
 /// # Errors
 /// A burn that the plant refuses, or that does not end.
 pub(super) fn simulated(spinner: &Spinner, task: &Task, row: &Row) -> Result<Flight, PlanError> {
     let directions = Directions {
-        sun_inertial: task.aim.sun_inertial,
-        earth_inertial: task.aim.earth_inertial.unwrap_or_else(Vector3::zeros),
+        sun_inertial: task.geometry.sun_inertial,
+        earth_inertial: task.geometry.earth_inertial.unwrap_or_else(Vector3::zeros),
         star_inertial: Vector3::zeros(),
     };
     let plant = Plant::start(spinner, &start(spinner, task, row), directions, Commands::none(), 0.0)
@@ -224,7 +224,7 @@ impl Flyer<'_> {
         let [before_s, after_s] = burn.about_centre_s(k);
         let mut centred = self.plant.clone();
         centred.advance(self.spinner, time_s + before_s).map_err(failed)?;
-        let sun = centred.state().attitude.body_from_inertial(&self.task.aim.sun_inertial);
+        let sun = centred.state().attitude.body_from_inertial(&self.task.geometry.sun_inertial);
         let slit_rad = self.spinner.sun_sensor.azimuth_deg.to_radians();
         let last_s = self.plant.sensors().sun.last_s;
         self.opened = Some(Pulse {

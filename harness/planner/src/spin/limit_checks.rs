@@ -42,7 +42,7 @@ impl LimitCheck {
 /// The limits that the spacecraft's file and the flags give, each checked on the flight, and on the worst of the range where
 /// the plan knows it.
 pub(super) fn check_limits(spinner: &Spinner, task: &Task, row: &Row, flight: &Flight) -> Vec<LimitCheck> {
-    let (limits, sun) = (&spinner.limits, task.aim.sun_inertial);
+    let (limits, sun) = (&spinner.limits, task.geometry.sun_inertial);
     let mut checks = vec![
         over_time(
             flight,
@@ -50,7 +50,7 @@ pub(super) fn check_limits(spinner: &Spinner, task: &Task, row: &Row, flight: &F
             (0.0, limits.sun_angle_deg.0),
             |axis, _| angle_between_rad(axis, &sun).to_degrees(),
         ),
-        match task.aim.earth_inertial {
+        match task.geometry.earth_inertial {
             Some(earth) => over_time(
                 flight,
                 ("Earth angle", "limits.earth_angle_deg", "deg"),

@@ -1,7 +1,6 @@
 //! Attitude manoeuvres of a spinner: which train of pulses turns it by an angle with the least nutation, and how often
 //! to turn during months of antenna pointing (paper 002 and beyond).
 
-mod aim;
 mod burn_table;
 mod campaign;
 mod choice;
@@ -16,18 +15,18 @@ mod tables;
 mod task;
 mod text;
 mod trade;
+mod turn_geometry;
 mod verification;
 
-#[cfg(test)]
-mod aim_tests;
 #[cfg(test)]
 mod burn_tests;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod turn_geometry_tests;
+#[cfg(test)]
 mod verification_tests;
 
-pub use aim::{Aim, MOST_ANGLE_DEG, Way, right_ascension_declination_deg};
 pub use burn_table::PlannedBurn;
 pub use campaign::{Cadence, campaign, longest_interval_s, windows};
 pub use error::PlanError;
@@ -40,4 +39,5 @@ pub use start_values::toml as start_table;
 pub use task::{Firing, Task, TaskLimits};
 pub use text::{Answer, plan};
 pub use trade::{Row, best, evaluate, frontier, timing_label, trade, uniform_plan};
+pub use turn_geometry::{MOST_ANGLE_DEG, TurnGeometry, Way, right_ascension_declination_deg};
 pub use verification::{Verification, verify};

@@ -60,10 +60,10 @@ pub(super) fn start_values(task: &Task, row: &Row) -> Vec<(&'static str, Setting
         ("burn.turnsPerPulse", Setting::Real(train.turns_per_pulse())),
         ("burn.count", whole(train.count())),
         ("burn.angle", Setting::Real(0.0)),
-        ("burn.targetDirection", vector(task.aim.burn_target_inertial().as_slice())),
-        ("sun.direction", vector(task.aim.sun_inertial.as_slice())),
+        ("burn.targetDirection", vector(task.geometry.burn_target_inertial().as_slice())),
+        ("sun.direction", vector(task.geometry.sun_inertial.as_slice())),
     ]);
-    values.extend(task.aim.earth_inertial.map(|earth| ("earth.direction", vector(earth.as_slice()))));
+    values.extend(task.geometry.earth_inertial.map(|earth| ("earth.direction", vector(earth.as_slice()))));
     values
 }
 

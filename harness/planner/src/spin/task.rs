@@ -13,9 +13,8 @@ use physics::{
 };
 
 use super::{
-    Options, PlanError, TimingOption,
-    aim::{Aim, MOST_ANGLE_DEG},
-    started,
+    Options, PlanError, TimingOption, started,
+    turn_geometry::{MOST_ANGLE_DEG, TurnGeometry},
 };
 
 /// What fires, as a burn of the FMU takes it.
@@ -36,7 +35,7 @@ pub enum Firing {
 #[derive(Clone, Debug)]
 pub struct Task {
     /// From where to where.
-    pub aim: Aim,
+    pub geometry: TurnGeometry,
     /// Moments about the body axes of what is planned for, in kg m2.
     pub moments_kg_m2: [f64; 3],
     /// Products of inertia 12, 13, 23, in kg m2: elements of the tensor.
@@ -98,10 +97,10 @@ impl Task {
         check("--angle", angle_deg, angle_deg > 0.0 && angle_deg <= MOST_ANGLE_DEG, &allowed)?;
         let sun_deg = options.sun_angle_deg;
         check("--sun-angle", sun_deg, sun_deg > 0.0 && sun_deg < 90.0, "above 0 to below 90 deg")?;
-        let aim = Aim::new(options, spinner)?;
-        let angle_rad = if options.target.is_some() { aim.angle_rad() } else { angle_deg.to_radians() };
+        let geometry = TurnGeometry::new(options, spinner)?;
+        let angle_rad = if options.target.is_some() { geometry.angle_rad() } else { angle_deg.to_radians() };
         let sun_angle_rad = if options.sun.is_some() || options.date.is_some() {
-            aim.sun_angle_rad()
+            geometry.sun_angle_rad()
         } else {
             sun_deg.to_radians()
         };
@@ -176,7 +175,7 @@ impl Task {
         let spin = Spin { rate_rad_s, ratio, inertia_kg_m2: inertia.spin_kg_m2() };
         let limit = |flag, value: Option<f64>| value.map_or(Ok(f64::INFINITY), |value| positive(flag, value));
         Ok(Self {
-            aim,
+            geometry,
             moments_kg_m2,
             products_kg_m2,
             spin_axis_body: inertia.spin_axis_body(),
@@ -216,7 +215,7 @@ impl Task {
 
     /// EME2000 to body at the start, with the spin axis where the turn begins.
     pub fn attitude(&self) -> Quaternion {
-        self.aim.attitude(&self.spin_axis_body)
+        self.geometry.attitude(&self.spin_axis_body)
     }
 
     /// Whether a limit was given for the burn; the propellant on board always is one.
@@ -243,7 +242,7 @@ fn thruster_name(options: &Options, spinner: &Spinner) -> Result<String, PlanErr
         return Ok(name.clone());
     }
     let first = spinner.steering_pair().and_then(|(first, _)| spinner.thrusters.get(first));
-    first.map(|thruster| thruster.name.clone()).ok_or_else(|| PlanError::Aim {
+    first.map(|thruster| thruster.name.clone()).ok_or_else(|| PlanError::Direction {
         flag: "--thruster",
         what: "no thruster of the spacecraft's file tilts the spin axis".to_owned(),
     })

@@ -6,16 +6,16 @@ use loader::Fmu;
 use physics::{constants::RPM_RAD_S, spin::spinner::Spinner};
 
 use super::{
-    Options, PlanError, PlannedBurn, Row, Task, Verification,
-    aim::{Way, right_ascension_declination_deg},
-    best,
+    Options, PlanError, PlannedBurn, Row, Task, Verification, best,
     choice::{broken_limits, by_all_limits},
     flight::simulated,
     frontier,
     limit_checks::{broken, check_limits},
     months::months,
     options::ACE,
-    start_values, tables, timing_label, trade, uniform_plan, verify,
+    start_values, tables, timing_label, trade,
+    turn_geometry::{Way, right_ascension_declination_deg},
+    uniform_plan, verify,
 };
 
 /// Ratios simulated through the FMU.
@@ -85,11 +85,13 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
     ));
     line(format!(
         "From {} to {}, Sun at {}{}: {}",
-        place(&task.aim.axis_inertial),
-        place(&task.aim.target_inertial),
-        place(&task.aim.sun_inertial),
-        task.aim.earth_inertial.map_or_else(String::new, |earth| format!(", Earth at {}", place(&earth))),
-        task.aim.origin,
+        place(&task.geometry.axis_inertial),
+        place(&task.geometry.target_inertial),
+        place(&task.geometry.sun_inertial),
+        task.geometry
+            .earth_inertial
+            .map_or_else(String::new, |earth| format!(", Earth at {}", place(&earth))),
+        task.geometry.origin,
     ));
     line(format!(
         "Science bears {:.5} deg of nutation at a Sun angle of {:.4} deg",
@@ -131,14 +133,14 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
     }
     simulations.into_iter().for_each(&mut line);
     line(format!(
-        "Flown pulse by pulse it ends at {}, {:.4} deg from the target, with {:.5} deg of nutation",
+        "Simulated pulse by pulse it ends at {}, {:.4} deg from the target, with {:.5} deg of nutation",
         place(&flight.end_axis_inertial()),
         flight.miss_rad(&task).to_degrees(),
         flight.samples.last().map_or(f64::NAN, |sample| sample.nutation_rad).to_degrees(),
     ));
-    let great_circle = task.aim.great_circle();
-    line(format!("Great circle, as flown: {}", way(&great_circle)));
-    line(match task.aim.rhumb_line() {
+    let great_circle = task.geometry.great_circle();
+    line(format!("Great circle, as simulated: {}", way(&great_circle)));
+    line(match task.geometry.rhumb_line() {
         Some(rhumb_line) => format!(
             "Rhumb line about the Sun, with one delay after each Sun crossing: {}, {:+.2} % of way and propellant",
             way(&rhumb_line),
@@ -147,7 +149,7 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
         None => "No rhumb line: the Sun stands on the spin axis".to_owned(),
     });
     line(
-        "Limits of the spacecraft's file, as flown, and of the flags, at their worst over the range:"
+        "Limits of the spacecraft's file, as simulated, and of the flags, at their worst over the range:"
             .to_owned(),
     );
     line(tables::limits(&checks));

@@ -29,7 +29,7 @@ pub struct Load {
     pub force_n: Vector3<f64>,
 }
 
-/// An instance that is asked direction by direction.
+/// An instance that is evaluated direction by direction.
 pub struct Sunlight<'a> {
     instance: Instance,
     panels: &'a [TurnedPanels],

@@ -43,7 +43,7 @@ impl Errors {
         let last = simulated.samples.last();
         let reached = last.map_or(Vector::zeros(), |sample| sample.delta_v_m_s);
         Self {
-            direction_deg: angle_rad(&reached, &simulated.wanted_m_s).to_degrees(),
+            direction_deg: angle_rad(&reached, &simulated.commanded_m_s).to_degrees(),
             magnitude_mm_s: 1e3 * (reached.norm() - DELTA_V_M_S),
             is_unfinished: last.is_none_or(|last| last.is_commanded || last.is_timed_out),
             is_constrained: simulated.samples.iter().any(|sample| sample.is_constrained),
@@ -160,7 +160,7 @@ fn write(run: &mut Run<'_>, each: &[(Kind, &[Simulated])]) -> Outcome {
 
 /// Distance of the true velocity from the straight path, in m/s.
 fn off_path_m_s(simulated: &Simulated, sample: &Sample) -> f64 {
-    across(&sample.delta_v_m_s, &simulated.wanted_m_s.normalize()).norm()
+    across(&sample.delta_v_m_s, &simulated.commanded_m_s.normalize()).norm()
 }
 
 fn quaternion_chart(simulated: &Simulated) -> Chart {
@@ -190,7 +190,7 @@ fn velocity_chart(shown: &[(Kind, &Simulated)]) -> Chart {
     });
     let mut panels = vec![Panel::new("off path [mm/s]").with(off)];
     if let Some((kind, simulated)) = shown.last() {
-        let along = simulated.wanted_m_s.normalize();
+        let along = simulated.commanded_m_s.normalize();
         let component = |i: usize| {
             let name = ["x", "y", "z"][i];
             let points = from_start(simulated, &|sample| across(&sample.delta_v_m_s, &along)[i]);

@@ -71,11 +71,11 @@ pub(super) struct Simulated {
     /// One a second.
     pub samples: Vec<Sample>,
     /// Velocity to add, EME2000, in m/s.
-    pub wanted_m_s: Vector,
+    pub commanded_m_s: Vector,
 }
 
 impl Kind {
-    /// Flies one from the attitude that is commanded first, in steps of `step_s`, otherwise of a second.
+    /// Simulates one from the attitude that is commanded first, in steps of `step_s`, otherwise of a second.
     pub(super) fn simulated(
         &self,
         both: &Loop,
@@ -84,22 +84,22 @@ impl Kind {
     ) -> Result<Simulated, StudyError> {
         let step_s = whole_part_of_a_second(step_s)?;
         let label = format!("{}, seed {seed}", self.label);
-        let samples = |case: Case, wanted_m_s: &Vector| -> Result<Vec<Sample>, StudyError> {
-            let case = self.set(case, seed).set("guidance.burn.deltaV", *wanted_m_s);
+        let samples = |case: Case, commanded_m_s: &Vector| -> Result<Vec<Sample>, StudyError> {
+            let case = self.set(case, seed).set("guidance.burn.deltaV", *commanded_m_s);
             Ok(both.simulate(case, Sample::NAMES, &mut |_| Settings::new())?.all(0))
         };
         let short = Case::new(label.as_str(), SAMPLE_S, SAMPLE_S);
         // Along the orbit's plane or across it makes no difference; the Sun has to stand on -Y, so across the Sun line.
         let first = samples(short.clone(), &Vector::z())?;
-        let wanted_m_s = first.first().map_or(Vector::z(), |sample| {
+        let commanded_m_s = first.first().map_or(Vector::z(), |sample| {
             let to_sun = sample.sun_m - sample.position_m;
             to_sun.cross(&Vector::new(0.3, 0.0, 1.0)).normalize() * DELTA_V_M_S
         });
-        let start = samples(short, &wanted_m_s)?.last().map_or(Settings::new(), |last| {
+        let start = samples(short, &commanded_m_s)?.last().map_or(Settings::new(), |last| {
             start_settings(&last.command_q, &last.command_rate_rad_s, last.time_s)
         });
-        let samples = samples(Case::new(label, STOP_S, step_s).with(start), &wanted_m_s)?;
-        Ok(Simulated { samples, wanted_m_s })
+        let samples = samples(Case::new(label, STOP_S, step_s).with(start), &commanded_m_s)?;
+        Ok(Simulated { samples, commanded_m_s })
     }
 
     fn set(&self, case: Case, seed: i32) -> Case {

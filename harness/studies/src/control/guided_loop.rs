@@ -123,7 +123,7 @@ impl Loop {
         held.set("guidance.ephemeris.source", "inputs").every(SAMPLE_S).steer(&self.0, names, inputs)
     }
 
-    /// Flies it in steps of `step_s`, otherwise of a second; a sample a second. It begins in the attitude and at the rate
+    /// Simulates it in steps of `step_s`, otherwise of a second; a sample a second. It begins in the attitude and at the rate
     /// that is commanded first.
     pub(super) fn simulated(
         &self,

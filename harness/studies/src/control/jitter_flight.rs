@@ -47,7 +47,7 @@ fn dark(label: &str, stop_s: f64) -> Case {
 }
 
 impl Flight {
-    /// Flies it.
+    /// Simulates it.
     pub(super) fn simulated(&self, fmu: &Fmu, structure: &Structure) -> Result<Shaken, StudyError> {
         let stop_s = SETTLED_S + COUNT as f64 / RATE_HZ;
         let held_n_m_s = structure.rotor_kg_m2 * std::f64::consts::TAU * self.wheel_hz;

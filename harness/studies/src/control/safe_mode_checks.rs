@@ -143,14 +143,14 @@ fn outside_deg(body: &Vector, zone_deg: &Vector2<f64>) -> f64 {
 }
 
 /// Whether the greatest errors of the rate along an axis and across it are small beside what is requested, and text.
-fn turns_about(phase: &Phase<'_>, axis: &Vector, wanted_rad_s: f64) -> (bool, String) {
-    let along = phase.greatest(|sample| (sample.rate_rad_s.dot(axis) - wanted_rad_s).abs());
+fn turns_about(phase: &Phase<'_>, axis: &Vector, commanded_rad_s: f64) -> (bool, String) {
+    let along = phase.greatest(|sample| (sample.rate_rad_s.dot(axis) - commanded_rad_s).abs());
     let aside = phase.greatest(|sample| across(&sample.rate_rad_s, axis).norm());
-    let within = RATE * wanted_rad_s.abs();
-    let percent = |error: f64| 100.0 * error / wanted_rad_s.abs();
+    let within = RATE * commanded_rad_s.abs();
+    let percent = |error: f64| 100.0 * error / commanded_rad_s.abs();
     let text = format!(
         "{:.4} deg/s to {:.1e} % along, {:.1e} % across",
-        wanted_rad_s.to_degrees(),
+        commanded_rad_s.to_degrees(),
         percent(along),
         percent(aside),
     );

@@ -87,7 +87,7 @@ impl Chain {
         }
     }
 
-    /// Flies it.
+    /// Simulates it.
     pub(super) fn simulated(self, both: &Loop, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
         let events = self.events();
         let inputs = |sample: &Sample| {

@@ -154,7 +154,7 @@ impl Plant {
         Ok(Self { limits: Limits::read(&fmu)?, q, threshold_n_m_s, fmu })
     }
 
-    /// Flies it.
+    /// Simulates it.
     pub(super) fn simulated(&self, slew: &Slew, step_s: Option<f64>) -> Result<Simulated, StudyError> {
         let target = self.q * Attitude::from_scaled_axis(slew.axis * slew.angle_rad);
         let mut outputs: Vec<String> = BodySample::NAMES.iter().map(|name| (*name).to_owned()).collect();

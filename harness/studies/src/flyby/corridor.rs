@@ -4,7 +4,7 @@ use drawing::{Chart, Panel, Series};
 use planner::momentum::{
     baseline::allowed_rad,
     torque::Control,
-    windows::{Reach, Window},
+    windows::{ControlBounds, Window},
 };
 
 use super::early::WHOLE_S;
@@ -33,7 +33,7 @@ fn schedule(step: &Step<'_>, of: &dyn Fn(&Window) -> f64) -> Schedule {
 /// Figure 4.
 pub(crate) fn figure4(run: &mut Run<'_>) -> Outcome {
     let (corridor, schedules) = steps(run, 1, |steps| {
-        let corridor = steps.led.leg.layout(WHOLE_S, Reach::default()).corridor;
+        let corridor = steps.led.leg.layout(WHOLE_S, ControlBounds::default()).corridor;
         let allowed = move |au: f64| allowed_rad(&corridor, au * AU_M).map(|rad| rad.map(f64::to_degrees));
         let offset = |window: &Window| window.controls.get(Control::Offset);
         let last = steps.corrected.last().map_or(&steps.departed, |[_, after]| after);

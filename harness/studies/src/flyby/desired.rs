@@ -1,4 +1,4 @@
-//! Paper 003, Figure 5: the least velocity change that leads the second flyby back to its aim, by its time.
+//! Paper 003, Figure 5: the least velocity change that leads the second flyby back to its aimpoint, by its time.
 
 use drawing::{Chart, Panel, Series};
 use planner::flyby::sensitivity::DesiredDeltaV;

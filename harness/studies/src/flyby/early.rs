@@ -1,7 +1,7 @@
 //! Paper 003, Figure 3: the first flyby's B-plane before and behind a change of the arrays that comes three days early.
 
-use planner::flyby::Aim;
-use planner::momentum::windows::{Reach, Window};
+use planner::flyby::BPlaneAimpoint;
+use planner::momentum::windows::{ControlBounds, Window};
 
 use super::leg::{Failure, Leg, Met, planned};
 use super::mission::FLYBY_1;
@@ -24,7 +24,7 @@ pub(super) struct Early {
     pub target: Target,
     /// Misses along T and R in m: before, behind.
     pub miss_m: [[f64; 2]; 2],
-    /// Of the closest approach against the aim's, in m, as the FMU reports it.
+    /// Of the closest approach against the aimpoint's, in m, as the FMU reports it.
     pub altitude_offset_m: [f64; 2],
     /// Direction along T and R that a place nearer to the Sun is moved to.
     sunward: [f64; 2],
@@ -45,12 +45,12 @@ fn earlier(windows: &[Window]) -> Result<Vec<Window>, Failure> {
     Ok(all)
 }
 
-fn miss_m(aim: &Aim, met: &Met) -> [f64; 2] {
-    aim.miss(&met.sensitivity.encounter).xy().into()
+fn miss_m(aimpoint: &BPlaneAimpoint, met: &Met) -> [f64; 2] {
+    aimpoint.miss(&met.sensitivity.encounter).xy().into()
 }
 
 /// A miss of the first printed size that moves by `moved_m` to one of the second: of both that at which the altitude changes most to that of
-/// the aim.
+/// the aimpoint.
 fn before_m(target: &Target, moved_m: [f64; 2]) -> Option<[f64; 2]> {
     let size_m = moved_m[0].hypot(moved_m[1]);
     let along = moved_m.map(|part_m| part_m / size_m);
@@ -71,14 +71,14 @@ fn compute(leg: &Leg<'_>) -> Result<Early, Failure> {
     let first = leg.met(&[])?;
     let target = Target::of(leg, &first, &FLYBY_1)?;
     let encounter = &first.sensitivity.encounter;
-    let aim = Aim { b_m: target.aim_m, arrival_s: Some(encounter.time_s) };
+    let aimpoint = BPlaneAimpoint { b_m: target.aimpoint_m, arrival_s: Some(encounter.time_s) };
     let aimed_m = encounter.closest.position_m.norm() - leg.radius_m;
-    let layout = leg.layout(WHOLE_S, Reach::default());
+    let layout = leg.layout(WHOLE_S, ControlBounds::default());
     let no_offset = |_| "found a distance that no offset suits";
     let windows = layout.windows(&leg.sunlit, &first.flight).map_err(no_offset)?.0;
     let early = earlier(&windows)?;
-    let (leg, nominal) = leg.led(&windows, &aim)?;
-    let [from, moved] = [miss_m(&aim, &nominal), miss_m(&aim, &leg.met(&early)?)];
+    let (leg, nominal) = leg.led(&windows, &aimpoint)?;
+    let [from, moved] = [miss_m(&aimpoint, &nominal), miss_m(&aimpoint, &leg.met(&early)?)];
     let moved_m = [moved[0] - from[0], moved[1] - from[1]];
     let before_m = before_m(&target, moved_m).ok_or("found no place 10 km off that it moves to 11 km")?;
     // A state with that miss: by the least change of velocity.
@@ -97,7 +97,7 @@ fn compute(leg: &Leg<'_>) -> Result<Early, Failure> {
     let at_step_s = windows[last].start_s - EARLIER_S;
     Ok(Early {
         target,
-        miss_m: [miss_m(&aim, &before), miss_m(&aim, &behind)],
+        miss_m: [miss_m(&aimpoint, &before), miss_m(&aimpoint, &behind)],
         altitude_offset_m,
         sunward: sunward.into(),
         step: (step_s, [windows[last - 1].baseline_rad, windows[last].baseline_rad]),

@@ -1,11 +1,11 @@
-//! A leg to a flyby through MomentumPlant: simulated as its mission is or by a plan's inputs, led to an aim, planned anew.
+//! A leg to a flyby through MomentumPlant: simulated as its mission is or by a plan's inputs, led to an aimpoint, planned anew.
 //!
 //! Flights end seven hours and more before the closest approach: what follows is propagated by the planner, so that a path into the
 //! planet is one like others. [`Leg::passed`] simulates it to the end.
 
 use loader::Fmu;
 use planner::{
-    flyby::{Aim, Sensitivity, Surroundings},
+    flyby::{BPlaneAimpoint, ForceModel, Sensitivity},
     momentum::{
         Convention, Limit,
         attainable::{Reachable, reachable},
@@ -15,7 +15,7 @@ use planner::{
         simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
         target::Target,
         torque::{Control, SunlitSpacecraft},
-        windows::{Layout, Reach, Window},
+        windows::{ControlBounds, Layout, Window},
     },
 };
 
@@ -29,11 +29,11 @@ use crate::report::Run;
 use crate::settings::{Settings, set};
 
 const DAY_S: f64 = 86_400.0;
-/// How near a plan comes to its aim, in m.
+/// How near a plan comes to its aimpoint, in m.
 const TOLERANCE_M: f64 = 1e3;
 /// Between points at which plans command, in s; windows begin and end at them.
 pub(super) const STEP_S: f64 = 6.0 * 3600.0;
-/// The same where a flight goes past the planet, and how long it goes on behind.
+/// The same where a flight goes past the planet, and how long it continues behind.
 const FINE_S: f64 = 3600.0;
 const BEHIND_S: f64 = 2.0 * 3600.0;
 /// Flights to lead a leg at most, and when it is there: in m, and in s of the arrival.
@@ -48,11 +48,11 @@ pub(super) struct Leg<'a> {
     case: Case,
     stop_s: f64,
     kind: FlightKind,
-    pub surroundings: Surroundings,
+    pub force_model: ForceModel,
     pub sunlit: SunlitSpacecraft,
     /// Radius of the planet, in m.
     pub radius_m: f64,
-    /// The row of an earlier leg that it goes on from.
+    /// The row of an earlier leg that it continues from.
     begun: Option<FlightRow>,
 }
 
@@ -67,7 +67,7 @@ pub(super) struct Met {
 #[derive(Clone, Copy)]
 pub(super) struct Room {
     pub window_s: f64,
-    pub reach: Reach,
+    pub control_bounds: ControlBounds,
     /// Greatest |H|, in N m s.
     pub limit_n_m_s: f64,
 }
@@ -84,11 +84,11 @@ impl<'a> Leg<'a> {
         let text = files::read_text(&fmu.folder().join("resources/spacecraft.toml"))?;
         let sunlit =
             plant::sunlit(plant::spacecraft("spacecraft.toml", &text)?, &values, Convention::Inertial)?;
-        let surroundings = Surroundings::of(&values, 0.0)?;
+        let force_model = ForceModel::of(&values, 0.0)?;
         let radius_m = values.real("planet.radius");
         let kind =
             FlightKind { convention: Convention::Inertial, panels: sunlit.panels.len(), has_encounter: true };
-        Ok(Self { fmu, case, stop_s, kind, surroundings, sunlit, radius_m, begun: None })
+        Ok(Self { fmu, case, stop_s, kind, force_model, sunlit, radius_m, begun: None })
     }
 
     fn values(&self) -> StartValues<'_> {
@@ -97,7 +97,7 @@ impl<'a> Leg<'a> {
 
     /// Its time of an epoch in s past J2000 TDB.
     pub(super) fn time_s(&self, epoch_s: f64) -> f64 {
-        epoch_s - self.surroundings.epoch_minus_time_s
+        epoch_s - self.force_model.epoch_minus_time_s
     }
 
     /// With another velocity at the start.
@@ -122,7 +122,7 @@ impl<'a> Leg<'a> {
         Ok(Self { begun: Some(row.clone()), ..Self::new(self.fmu, case, self.stop_s - row.time_s)? })
     }
 
-    /// The momentum that it goes on with, in the body frame as it stands in a window.
+    /// The momentum that it continues with, in the body frame as it stands in a window.
     fn momentum(&self, window: &Window) -> Settings {
         let Some(row) = &self.begun else { return Settings::new() };
         let inertial_from_body = window.inertial_from_body(&self.sunlit, row, window.start_s);
@@ -175,7 +175,7 @@ impl<'a> Leg<'a> {
         if !windows.is_empty() {
             sunlit.followed_suns.fill(None);
         }
-        Ok(Sensitivity::new(flight, &self.surroundings, &sunlit)?)
+        Ok(Sensitivity::new(flight, &self.force_model, &sunlit)?)
     }
 
     /// Time (s) and altitude (m) of the closest approach of a flight past the planet, as the FMU reports them.
@@ -187,12 +187,12 @@ impl<'a> Leg<'a> {
         Ok([recorded.last(0), recorded.last(1)])
     }
 
-    /// With the velocity at the start that leads these windows to an aim with its time of arrival.
-    pub(super) fn led(&self, windows: &[Window], aim: &Aim) -> Result<(Self, Met), Failure> {
+    /// With the velocity at the start that leads these windows to an aimpoint with its time of arrival.
+    pub(super) fn led(&self, windows: &[Window], aimpoint: &BPlaneAimpoint) -> Result<(Self, Met), Failure> {
         let mut leg = self.clone();
         for _ in 0..ROUNDS {
             let met = leg.met(windows)?;
-            let miss = aim.miss(&met.sensitivity.encounter);
+            let miss = aimpoint.miss(&met.sensitivity.encounter);
             if miss.xy().norm() < LED_M && miss.z.abs() < LED_S {
                 return Ok((leg, met));
             }
@@ -203,9 +203,9 @@ impl<'a> Leg<'a> {
     }
 
     /// Windows of its time, on the baseline of the arrays.
-    pub(super) fn layout(&self, window_s: f64, reach: Reach) -> Layout {
+    pub(super) fn layout(&self, window_s: f64, control_bounds: ControlBounds) -> Layout {
         let values = self.values();
-        let whole = Layout::of_downlinks(Vec::new(), reach, 0.0);
+        let whole = Layout::of_downlinks(Vec::new(), control_bounds, 0.0);
         let mut layout = Layout {
             arrays_are_frozen: false,
             window_s,
@@ -224,7 +224,7 @@ impl<'a> Leg<'a> {
         // A square in the circle.
         let side_m = TOLERANCE_M * core::f64::consts::FRAC_1_SQRT_2;
         PlanTask {
-            layout: Layout { in_force, ..self.layout(room.window_s, room.reach) },
+            layout: Layout { in_force, ..self.layout(room.window_s, room.control_bounds) },
             limit: Limit {
                 momentum_n_m_s: room.limit_n_m_s,
                 size: MomentumSize::Length,
@@ -239,22 +239,27 @@ impl<'a> Leg<'a> {
     }
 
     /// Where plans may move the encounter of these windows to.
-    pub(super) fn reachable(&self, room: &Room, windows: &[Window], aim: &Aim) -> Result<Reachable, Failure> {
-        let mut sought = Sought { leg: self, aim: Some(aim) };
+    pub(super) fn reachable(
+        &self,
+        room: &Room,
+        windows: &[Window],
+        aimpoint: &BPlaneAimpoint,
+    ) -> Result<Reachable, Failure> {
+        let mut sought = Sought { leg: self, aimpoint: Some(aimpoint) };
         let simulated = sought.simulate(windows, &[])?;
         Ok(reachable(&self.task(room, windows, true), &self.sunlit, &simulated, &mut sought)?)
     }
 
-    /// A plan whose momentum stays below the limit, and which meets an aim to a kilometre if there is one; `windows` are those before it.
+    /// A plan whose momentum stays below the limit, and which meets an aimpoint to a kilometre if there is one; `windows` are those before it.
     pub(super) fn planned(
         &self,
         room: &Room,
         windows: &[Window],
-        aim: Option<&Aim>,
+        aimpoint: Option<&BPlaneAimpoint>,
     ) -> Result<MomentumPlan, Failure> {
-        let mut sought = Sought { leg: self, aim };
+        let mut sought = Sought { leg: self, aimpoint };
         let simulated = sought.simulate(windows, &[])?;
-        let task = self.task(room, windows, aim.is_some());
+        let task = self.task(room, windows, aimpoint.is_some());
         let found = plan(&task, &self.sunlit, &simulated, &mut sought)?;
         // What counts is the flight, not how near the linear plan came to it.
         let miss_m = found.flight.encountered.as_ref().map_or(0.0, |it| it.miss.xy().norm());
@@ -279,15 +284,15 @@ impl<'a> Leg<'a> {
 /// A plan of a leg that is sought.
 struct Sought<'a, 'f> {
     leg: &'a Leg<'f>,
-    aim: Option<&'a Aim>,
+    aimpoint: Option<&'a BPlaneAimpoint>,
 }
 
 impl Simulates for Sought<'_, '_> {
     fn simulate(&mut self, windows: &[Window], _: &[PlannedDump]) -> Result<SimulatedFlight, Failure> {
         let mut flight = self.leg.simulated(windows)?;
-        if let Some(aim) = self.aim {
+        if let Some(aimpoint) = self.aimpoint {
             let sensitivity = self.leg.sensitivity(&flight, windows)?;
-            flight.encountered = Some(aim.encountered(&sensitivity, &flight.rows));
+            flight.encountered = Some(aimpoint.encountered(&sensitivity, &flight.rows));
         }
         Ok(flight)
     }

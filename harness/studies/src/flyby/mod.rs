@@ -1,6 +1,6 @@
 //! Paper 003: flybys of Mercury aimed by sunlight, simulated through MomentumPlant.
 //!
-//! The paper prints neither state nor spacecraft, corridor or aim: all of these are those of the shipped missions.
+//! The paper prints neither state nor spacecraft, corridor or aimpoint: all of these are those of the shipped missions.
 
 mod corridor;
 mod desired;

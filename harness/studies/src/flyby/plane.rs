@@ -4,7 +4,7 @@ use drawing::{PlaneChart, PlanePanel, Series, ellipse};
 use nalgebra::{Matrix2, Matrix2x3};
 use planner::flyby::{
     Sensitivity,
-    aim::{b_of_periapsis_m, periapsis_of_b_m},
+    aimpoint::{b_of_periapsis_m, periapsis_of_b_m},
     maneuvers,
     miss::MissCost,
 };
@@ -26,7 +26,7 @@ pub(super) const VELOCITY_M_S: f64 = 5e-4;
 /// What a flight is aimed at, and what misses come to there.
 pub(super) struct Target {
     /// B along T and R, in m.
-    pub aim_m: [f64; 2],
+    pub aimpoint_m: [f64; 2],
     pub cost: MissCost,
     gm_m3_s2: f64,
     radius_m: f64,
@@ -39,39 +39,39 @@ impl Target {
         let encounter = &met.sensitivity.encounter;
         let times_s = [encounter.time_s + DEPARTURE_S, leg.time_s(mission.next_epoch_s())];
         Ok(Self {
-            aim_m: [encounter.plane.b_t_m, encounter.plane.b_r_m],
-            cost: MissCost::new(&met.sensitivity, &leg.surroundings, times_s)?,
-            gm_m3_s2: leg.surroundings.gm_m3_s2,
+            aimpoint_m: [encounter.plane.b_t_m, encounter.plane.b_r_m],
+            cost: MissCost::new(&met.sensitivity, &leg.force_model, times_s)?,
+            gm_m3_s2: leg.force_model.gm_m3_s2,
             radius_m: leg.radius_m,
             excess_m_s: encounter.plane.excess_speed_m_s,
         })
     }
 
-    /// By how much the altitude of a miss is above that of the aim, in m, without tides.
+    /// By how much the altitude of a miss is above that of the aimpoint, in m, without tides.
     pub(super) fn altitude_offset_m(&self, miss_m: [f64; 2]) -> f64 {
         let periapsis_m =
             |[t_m, r_m]: [f64; 2]| periapsis_of_b_m(t_m.hypot(r_m), self.gm_m3_s2, self.excess_m_s);
-        periapsis_m(self.place_m(miss_m)) - periapsis_m(self.aim_m)
+        periapsis_m(self.place_m(miss_m)) - periapsis_m(self.aimpoint_m)
     }
 
-    /// Misses of a size whose altitude is off by so much, in m: one either side of the radial through the aim.
+    /// Misses of a size whose altitude is off by so much, in m: one either side of the radial through the aimpoint.
     pub(super) fn misses_m(&self, size_m: f64, altitude_offset_m: f64) -> Option<[[f64; 2]; 2]> {
-        let aim_m = self.aim_m[0].hypot(self.aim_m[1]);
-        let periapsis_m = periapsis_of_b_m(aim_m, self.gm_m3_s2, self.excess_m_s) + altitude_offset_m;
+        let aimpoint_m = self.aimpoint_m[0].hypot(self.aimpoint_m[1]);
+        let periapsis_m = periapsis_of_b_m(aimpoint_m, self.gm_m3_s2, self.excess_m_s) + altitude_offset_m;
         let b_m = b_of_periapsis_m(periapsis_m, self.gm_m3_s2, self.excess_m_s);
         // Corners of the triangle with these sides.
-        let along_m = (b_m * b_m - aim_m * aim_m - size_m * size_m) / (2.0 * aim_m);
+        let along_m = (b_m * b_m - aimpoint_m * aimpoint_m - size_m * size_m) / (2.0 * aimpoint_m);
         let aside_m = (size_m * size_m - along_m * along_m).sqrt();
-        let [cosine, sine] = self.aim_m.map(|part_m| part_m / aim_m);
+        let [cosine, sine] = self.aimpoint_m.map(|part_m| part_m / aimpoint_m);
         let place = |aside_m: f64| [along_m * cosine - aside_m * sine, along_m * sine + aside_m * cosine];
         aside_m.is_finite().then(|| [place(aside_m), place(-aside_m)])
     }
 
     fn place_m(&self, miss_m: [f64; 2]) -> [f64; 2] {
-        [self.aim_m[0] + miss_m[0], self.aim_m[1] + miss_m[1]]
+        [self.aimpoint_m[0] + miss_m[0], self.aimpoint_m[1] + miss_m[1]]
     }
 
-    /// Misses around the aim that cost so much.
+    /// Misses around the aimpoint that cost so much.
     fn contour_m(&self, cost_m_s: f64) -> Vec<[f64; 2]> {
         let unit = ellipse((0.0, 0.0), [1.0; 2], 0.0).into_iter();
         unit.map(|(t, r)| [t, r].map(|part| part * cost_m_s / self.cost.cost_m_s([t, r]))).collect()
@@ -100,7 +100,7 @@ const WIDER: f64 = 3.5;
 /// What sunlight can still reach.
 const IN_REACH: &str = "in reach of sunlight";
 
-/// A picture of intercepts about the aim, with the planet and what misses cost.
+/// A picture of intercepts about the aimpoint, with the planet and what misses cost.
 pub(super) struct Plane<'a> {
     pub target: &'a Target,
     pub title: String,
@@ -127,7 +127,7 @@ impl Plane<'_> {
         let mut series = vec![Series::rings("aim", vec![at([0.0; 2])])];
         series.extend(dots);
         series.push(Series::line("impact", circle(radius_km(target.radius_m))));
-        let [t_m, r_m] = target.aim_m;
+        let [t_m, r_m] = target.aimpoint_m;
         series.push(Series::dashed("altitude of the aim", circle(t_m.hypot(r_m) / 1e3)));
         for it in &self.intercepts {
             let Some(covariance_m2) = it.covariance_m2 else { continue };
@@ -149,9 +149,9 @@ impl Plane<'_> {
     /// Draws it and writes its intercepts and contours.
     pub(super) fn write(&self, run: &mut Run<'_>, name: &str) -> Outcome {
         let series = self.series();
-        let aim = shown(self.target.aim_m);
+        let aimpoint = shown(self.target.aimpoint_m);
         let about = |points: &[(f64, f64)]| {
-            points.iter().map(|(x, y)| (x - aim.0).abs().max((y - aim.1).abs())).fold(0.0, f64::max)
+            points.iter().map(|(x, y)| (x - aimpoint.0).abs().max((y - aimpoint.1).abs())).fold(0.0, f64::max)
         };
         // Intercepts, ellipses and contours, without circles about the planet.
         let is_near =
@@ -161,7 +161,7 @@ impl Plane<'_> {
         let near: Vec<_> = series.iter().filter(fits).cloned().collect();
         let reach = near.iter().filter(|it| it.label == IN_REACH).map(|it| about(&it.points));
         let close = reach.fold(close, f64::max);
-        let wide = 1.3 * aim.0.hypot(aim.1) + close;
+        let wide = 1.3 * aimpoint.0.hypot(aimpoint.1) + close;
         let panel = |title: &str, series, centre, half_width| PlanePanel {
             title: title.to_owned(),
             series,
@@ -174,7 +174,7 @@ impl Plane<'_> {
             x_label: "B.T [km]".to_owned(),
             y_label: "-B.R [km]".to_owned(),
             panels: vec![
-                panel("about the aim", near, aim, 1.15 * close),
+                panel("about the aim", near, aimpoint, 1.15 * close),
                 panel("Mercury", series.clone(), (0.0, 0.0), wide),
             ],
             shading: None,

@@ -1,8 +1,8 @@
 //! Paper 003's steps to the second flyby: momentum planned, departure led to that plan, its error, and plans anew; Figures 6 and 7.
 
 use nalgebra::Matrix2;
-use planner::flyby::Aim;
-use planner::momentum::windows::{Reach, Window};
+use planner::flyby::BPlaneAimpoint;
+use planner::momentum::windows::{ControlBounds, Window};
 
 use super::leg::{Failure, Leg, Met, Room, STEP_S, planned, windows_from};
 use super::mission::FLYBY_2;
@@ -18,7 +18,7 @@ const DEPARTURE_MISS_M: [f64; 2] = [-170e3, 0.0];
 /// Of the plan of momentum alone: tilts and momentum leave room for what corrects later.
 const MOMENTUM: Room = Room {
     window_s: 10.0 * DAY_S,
-    reach: Reach {
+    control_bounds: ControlBounds {
         offset_rad: 0.0,
         windmill_rad: 2.0 * DEG,
         azimuth_rad: 5.0 * DEG,
@@ -50,14 +50,14 @@ pub(super) struct Correction {
 impl Correction {
     /// With the keep-in zone of the paper.
     fn room(&self) -> Room {
-        let reach = Reach {
+        let control_bounds = ControlBounds {
             offset_rad: OFFSET_RAD,
             windmill_rad: 2.0 * DEG,
             azimuth_rad: 10.0 * DEG,
             elevation_rad: 12.0 * DEG,
             alternate: 0.0,
         };
-        Room { window_s: self.window_s, reach, limit_n_m_s: self.limit_n_m_s }
+        Room { window_s: self.window_s, control_bounds, limit_n_m_s: self.limit_n_m_s }
     }
 }
 
@@ -92,7 +92,7 @@ pub(super) const CORRECTIONS: [Correction; 3] = [
     },
 ];
 
-/// A leg that goes on by some windows.
+/// A leg that continues by some windows.
 pub(super) struct Step<'a> {
     pub leg: Leg<'a>,
     pub windows: Vec<Window>,
@@ -103,7 +103,7 @@ impl Step<'_> {
     /// In m along T and R.
     pub(super) fn miss_m(&self, target: &Target) -> [f64; 2] {
         let plane = self.met.sensitivity.encounter.plane;
-        [plane.b_t_m - target.aim_m[0], plane.b_r_m - target.aim_m[1]]
+        [plane.b_t_m - target.aimpoint_m[0], plane.b_r_m - target.aimpoint_m[1]]
     }
 
     /// Altitude of its closest approach, in m, as the FMU reports it.
@@ -123,7 +123,7 @@ impl Step<'_> {
 
 /// The flyby's leg, as far as it is planned.
 pub(super) struct Steps<'a> {
-    /// The leg as its mission is: its B is the aim.
+    /// The leg as its mission is: its B is the aimpoint.
     unmanaged: Met,
     pub target: Target,
     /// Led to the plan of momentum.
@@ -139,10 +139,13 @@ impl<'a> Steps<'a> {
     fn of(leg: &Leg<'a>, corrections: usize, done: &dyn Fn()) -> Result<Self, Failure> {
         let unmanaged = leg.met(&[])?;
         let target = Target::of(leg, &unmanaged, &FLYBY_2)?;
-        let aim = Aim { b_m: target.aim_m, arrival_s: Some(unmanaged.sensitivity.encounter.time_s) };
+        let aimpoint = BPlaneAimpoint {
+            b_m: target.aimpoint_m,
+            arrival_s: Some(unmanaged.sensitivity.encounter.time_s),
+        };
         let windows = leg.planned(&MOMENTUM, &[], None)?.windows;
         done();
-        let (leg, met) = leg.led(&windows, &aim)?;
+        let (leg, met) = leg.led(&windows, &aimpoint)?;
         let led = Step { leg, windows, met };
         let departed = off(&led, 0.0, DEPARTURE_MISS_M)?;
         done();
@@ -152,7 +155,7 @@ impl<'a> Steps<'a> {
             let at_s = ((last.arrival_s() - correction.before_d * DAY_S) / STEP_S).round() * STEP_S;
             let before = off(last, at_s, correction.drift_m)?;
             let room = correction.room();
-            let free = Aim { arrival_s: None, ..aim };
+            let free = BPlaneAimpoint { arrival_s: None, ..aimpoint };
             let windows = before.leg.planned(&room, &before.windows, Some(&free))?.windows;
             let after = Step::of(before.leg.clone(), windows)?;
             corrected.push([before, after]);
@@ -259,7 +262,7 @@ struct Corrected {
     miss_m: [[f64; 2]; 2],
     covariance_m2: Matrix2<f64>,
     greatest_n_m_s: f64,
-    /// Off the aim's altitude, as the FMU reports it, in m.
+    /// Off the aimpoint's altitude, as the FMU reports it, in m.
     altitude_offset_m: f64,
     windows: usize,
 }
@@ -279,8 +282,8 @@ fn corrected(run: &mut Run<'_>, index: usize) -> Outcome {
         };
         let all = steps.corrected.iter().map(of).collect::<Result<Vec<_>, _>>()?;
         let Some([before, _]) = steps.corrected.last() else { return Err("found no correction".into()) };
-        let aim = Aim { b_m: steps.target.aim_m, arrival_s: None };
-        let reachable = before.leg.reachable(&correction.room(), &before.windows, &aim)?;
+        let aimpoint = BPlaneAimpoint { b_m: steps.target.aimpoint_m, arrival_s: None };
+        let reachable = before.leg.reachable(&correction.room(), &before.windows, &aimpoint)?;
         Ok((steps.target, all, reachable))
     })?;
     run.line(&format!(

@@ -75,7 +75,8 @@ impl Costs {
         let met = leg.met(&[])?;
         let target = Target::of(&leg, &met, &FLYBY_2)?;
         let brighter = leg.brighter(1.0 + SCALE).met(&[])?.sensitivity.encounter.plane;
-        let by_scale_m = Vector2::new(brighter.b_t_m - target.aim_m[0], brighter.b_r_m - target.aim_m[1]);
+        let by_scale_m =
+            Vector2::new(brighter.b_t_m - target.aimpoint_m[0], brighter.b_r_m - target.aimpoint_m[1]);
         let motion = met.flight.rows.first().and_then(|row| row.motion).ok_or("found no motion")?;
         let departure_m_s = motion.from_sun.velocity_m_s.normalize() * DEPARTURE_M_S;
         let sensitivity = &met.sensitivity;

@@ -322,8 +322,8 @@ fn chart(studied: &StudiedSpacecraft, worths: &[Worth]) -> Chart {
     };
     let panels = rows.enumerate().map(|(k, (title, unit, control, of))| {
         let label = |distance_au: f64| if k == 0 { format!("{distance_au} AU") } else { String::new() };
-        let flown = DISTANCES_AU.into_iter().filter(|au| worths.iter().any(|it| it.distance_au == *au));
-        let lines = flown.map(|distance_au| line(distance_au, control, of, label(distance_au)));
+        let distances = DISTANCES_AU.into_iter().filter(|au| worths.iter().any(|it| it.distance_au == *au));
+        let lines = distances.map(|distance_au| line(distance_au, control, of, label(distance_au)));
         Panel::new(format!("[{unit}]")).titled(title).with(lines.collect::<Vec<_>>())
     });
     Chart::new(title, "offset of the panels from the Sun [deg]").with(panels)

@@ -14,7 +14,7 @@ use planner::momentum::{
     plant::{self, StartValues},
     simulated::{MomentumSize, SAME_S, SimulatedFlight},
     torque::{Control, SunlitSpacecraft},
-    windows::{Layout, Reach, Window, WindowKind},
+    windows::{ControlBounds, Layout, Window, WindowKind},
 };
 
 use super::cases::{Case, Convention, Simulated, Strategy};
@@ -60,7 +60,7 @@ struct Sought<'a> {
     sunlit: SunlitSpacecraft,
     /// As it is without a plan.
     simulated: SimulatedFlight,
-    reach: Reach,
+    control_bounds: ControlBounds,
     sun_offset_rad: f64,
 }
 
@@ -77,7 +77,7 @@ impl<'a> Sought<'a> {
         let spacecraft = plant::spacecraft("spacecraft.toml", &text)?;
         let sunlit = plant::sunlit(spacecraft, &values, convention)?;
         let [azimuth_rad, elevation_rad] = values.zone_rad();
-        let reach = Reach { azimuth_rad, elevation_rad, ..Reach::default() };
+        let control_bounds = ControlBounds { azimuth_rad, elevation_rad, ..ControlBounds::default() };
         let mut sought = Self {
             fmu,
             panels: sunlit.panels.len(),
@@ -86,7 +86,7 @@ impl<'a> Sought<'a> {
             convention,
             sunlit,
             simulated: SimulatedFlight::default(),
-            reach,
+            control_bounds,
         };
         sought.simulated = sought.simulate(&[], &[])?;
         Ok(sought)
@@ -94,7 +94,11 @@ impl<'a> Sought<'a> {
 
     fn task(&self, case: &Case) -> PlanTask {
         PlanTask {
-            layout: Layout::of_downlinks(self.simulated.downlinks_s(), self.reach, self.sun_offset_rad),
+            layout: Layout::of_downlinks(
+                self.simulated.downlinks_s(),
+                self.control_bounds,
+                self.sun_offset_rad,
+            ),
             limit: Limit {
                 momentum_n_m_s: case.threshold_n_m_s,
                 size: match case.convention {

@@ -14,12 +14,12 @@ pub(crate) fn tables(run: &mut Run<'_>) -> Outcome {
     let cases = [lists::cylinder(), lists::panels()].concat();
     let simulated = simulate_all(run, cases)?;
     let of = |shade: Shade, papers: bool| -> Vec<Simulated> {
-        let is_asked = |it: &&Simulated| {
+        let is_requested = |it: &&Simulated| {
             let is_papers =
                 it.case.convention == Convention::BodyIntegral && it.case.strategy != Strategy::Optimum;
             it.case.shade == shade && (!papers || is_papers)
         };
-        simulated.iter().filter(is_asked).cloned().collect()
+        simulated.iter().filter(is_requested).cloned().collect()
     };
     counts(run, "table2.csv", &of(Shade::Cylinder, false), TABLE_2)?;
     gaps(run, "table3.csv", &of(Shade::Cylinder, true), "Table 3")?;

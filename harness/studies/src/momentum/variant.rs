@@ -24,7 +24,7 @@ pub(super) struct Edit {
 /// The text with every edit made at the first place it fits.
 ///
 /// # Errors
-/// An edit that fits nowhere.
+/// An edit that does not apply.
 pub(super) fn edited(text: &str, edits: &[Edit]) -> Result<String, String> {
     edits.iter().try_fold(text.to_owned(), |text, edit| {
         let place = text.find(edit.after).and_then(|at| {
@@ -49,7 +49,7 @@ impl Variant {
     /// The template with its spacecraft file edited, described by its own library.
     ///
     /// # Errors
-    /// An edit that fits nowhere, a file that the model refuses, a folder that cannot be written.
+    /// An edit that does not apply, a file that the model refuses, a folder that cannot be written.
     pub(super) fn of(
         template: &Fmu,
         edits: &[Edit],

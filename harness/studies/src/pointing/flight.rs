@@ -135,7 +135,7 @@ impl Fmus {
         Ok(Self { plant: options.fmu("MomentumPlant.fmu")?, guidance: options.fmu("Guidance.fmu")? })
     }
 
-    /// Flies it. Where the plant is does not hang on what is commanded: it goes first.
+    /// Simulates it. The plant's orbit does not depend on commands: it goes first.
     pub(super) fn simulated(&self, flight: &Flight<'_>) -> Result<Simulated, StudyError> {
         let case = Case::new(flight.label, f64::from(flight.seconds + 1), 1.0);
         let case = case.set("start.epoch", flight.epoch_s);

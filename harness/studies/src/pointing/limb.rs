@@ -20,7 +20,7 @@ const SCAN_AZIMUTH_DEG: f64 = 60.0;
 const HEIGHT_RATE_M_S: f64 = 1000.0;
 const SCAN_S: u32 = 300;
 
-/// What one case flies.
+/// What one case simulates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Case {
     Azimuth(f64),

@@ -18,7 +18,7 @@ const EVERY: usize = 60;
 /// Bounds of the Sun keep-in zone, in deg (eqs 23 and 24).
 const ZONE_DEG: [f64; 2] = [15.0, 13.0];
 
-/// Flies it without constraints: on this orbit the Sun would leave its zone.
+/// Simulates it without constraints: on this orbit the Sun would leave its zone.
 pub(super) fn simulated(fmus: &Fmus) -> Result<Simulated, StudyError> {
     let off = ["keepIn.enabled", "hotPole.enabled", "monitor.enabled"].map(|name| set(name, false));
     fmus.simulated(&Flight {

@@ -1,4 +1,4 @@
-//! Paper 001: the attitudes `Guidance` commands along the orbit `MomentumPlant` flies.
+//! Paper 001: the attitudes `Guidance` commands along the orbit that `MomentumPlant` propagates.
 //!
 //! Limb points and scans of the limb's height, mosaics on the planet's disc, and the commanded curves of Figures 7 and 8.
 

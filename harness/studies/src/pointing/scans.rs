@@ -199,7 +199,7 @@ impl Case {
         }
     }
 
-    /// Flies it.
+    /// Simulates it.
     pub(super) fn simulated(&self, fmus: &Fmus) -> Result<Simulated, StudyError> {
         // A flight of one second shows where the planet's axes are.
         let flight = Flight {

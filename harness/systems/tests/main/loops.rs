@@ -58,9 +58,9 @@ fn connected_commands_are_followed_unless_another_source_is_given() {
     for (source, sets) in [(4, &[][..]), (1, &["plant.attitude.source=free"])] {
         let free = wired(&of(source), sets);
         assert!(free.implied.is_empty());
-        let said: Vec<String> = free.unread.iter().map(ToString::to_string).collect();
+        let message: Vec<String> = free.unread.iter().map(ToString::to_string).collect();
         assert_eq!(
-            said,
+            message,
             [
                 "plant: connected and not read: command.q: found attitude.source at free, allowed: commanded, controlled"
             ]

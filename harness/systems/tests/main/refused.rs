@@ -5,7 +5,7 @@ use systems::System;
 
 use crate::support::{Ssd, description, fmu, ssp, taker};
 
-/// What is said of a system.
+/// What is reported of a system.
 fn refusal(ssd: &str, files: &[(&str, &str)]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = ssp(folder.path(), ssd, files);

@@ -275,13 +275,13 @@ fn exported_variables_are_connectors_of_the_system() {
     assert!(!wired.left.iter().any(|left| left.input == "duration"));
     let named = exported(&["one.position[2]"]).unwrap().structure.connectors;
     assert_eq!(named.last().map(|it| it.name.as_str()), Some("position_2"));
-    for (exports, said) in [
+    for (exports, message) in [
         (&["two.position[1]"][..], "--export two.position[1]: it is connected already"),
         (&["one.angle", "one.angle"], "the system has a connector `angle` already"),
         (&["one.label"], "it is a String"),
     ] {
         let error = exported(exports).unwrap_err().to_string();
-        assert!(error.contains(said), "{error}");
+        assert!(error.contains(message), "{error}");
     }
 }
 

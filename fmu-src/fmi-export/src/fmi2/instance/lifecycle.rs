@@ -105,7 +105,7 @@ impl Instance {
     /// `fmi2ExitInitializationMode`.
     pub(crate) fn exit_initialization_mode(&mut self) -> Result<(), Problem> {
         self.initialize_if_needed()?;
-        self.runtime.settle_parameters(&mut self.state.values, &self.logger);
+        self.runtime.resolve_parameters(&mut self.state.values, &self.logger);
         self.allocate_spare();
         Ok(())
     }
@@ -126,7 +126,7 @@ impl Instance {
         self.forget_last_step();
         self.state.copy_from(&InstanceState::new(&self.start));
         self.logger.reset();
-        self.said = 0;
+        self.reported = 0;
         self.earliest_s = f64::NEG_INFINITY;
     }
 

@@ -44,7 +44,7 @@ pub(crate) struct Instance {
     pub(super) digest: uuid::Uuid,
     pub(super) logger: Logger,
     /// Which of the messages in [`once`] were logged.
-    said: u8,
+    reported: u8,
     /// No FMU state before this time will be set, by `noSetFMUStatePriorToCurrentPoint`.
     earliest_s: f64,
     /// Spare memory for [`InstanceState::at_last_step`].
@@ -75,7 +75,7 @@ impl Instance {
             start,
             digest,
             logger,
-            said: 0,
+            reported: 0,
             earliest_s: f64::NEG_INFINITY,
             poisoned: false,
         }
@@ -142,13 +142,13 @@ impl Instance {
     /// Logs a message the first time only. What importers do every day is an event, `Status::Ok`.
     #[cold]
     pub(super) fn log_once(&mut self, what: u8, status: Status, message: core::fmt::Arguments<'_>) {
-        if self.said & what == 0 {
-            self.said |= what;
+        if self.reported & what == 0 {
+            self.reported |= what;
             self.logger.log(status, message);
         }
     }
 
-    /// Refuses values that are no finite numbers: nothing is answered under OK that a master cannot go on with.
+    /// Refuses values that are no finite numbers: nothing is answered under OK that a master cannot continue with.
     pub(super) fn check_finite(&self, initially: bool) -> Result<(), Problem> {
         match self.access.first_not_finite(&self.state.values) {
             None => Ok(()),

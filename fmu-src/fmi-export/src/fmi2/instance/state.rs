@@ -99,7 +99,7 @@ impl InstanceState {
     }
 
     /// Whether an input or tunable parameter differs from what the last step used. One that was set and set back does
-    /// not: values agree to the bit, so the model goes on as if nothing had been set.
+    /// not: values agree to the bit, so the model continues as if nothing had been set.
     pub(crate) fn differs(&self) -> bool {
         self.at_last_step.as_ref().is_some_and(|before| !same_values(before, &self.values))
     }

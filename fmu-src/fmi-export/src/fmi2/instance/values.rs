@@ -169,7 +169,7 @@ impl Instance {
     fn reading_needs_preparation(&self) -> bool {
         match self.state.mode {
             State::StepComplete => {
-                self.state.at_last_step.is_some() && self.said & once::OUTPUT_AFTER_SET == 0
+                self.state.at_last_step.is_some() && self.reported & once::OUTPUT_AFTER_SET == 0
             }
             State::InitializationMode => true,
             _ => false,

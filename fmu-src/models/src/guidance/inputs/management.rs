@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use physics::guidance::constraints::keep_in::KeepIn;
 use physics::management::{SampledManager, Strategy};
 use physics::momentum::{DumpPolicy, Reinitialise};
-use physics::plant::{PanelSetting, Ramp, SunlitCraft};
+use physics::plant::{PanelSetting, Ramp, SunlitConfiguration};
 use physics::spacecraft::MassProperties;
 
 use crate::common::management::check_strategy_has_antenna;
@@ -55,14 +55,14 @@ pub(crate) fn manager<'a>(
         )));
     }
     Ok(SampledManager {
-        manager: v.momentum.aim.manager(
+        manager: v.momentum.targeting.manager(
             values,
             strategy,
             [keep_in.azimuth_rad, keep_in.elevation_rad],
             (spacecraft, sunshade, &context.setup.antennas.all),
         ),
         default_downlink: &context.setup.antennas.default_downlink,
-        spacecraft: SunlitCraft {
+        spacecraft: SunlitConfiguration {
             solar: context.setup.shapes.solar(sunshade, &spacecraft.name)?,
             panels: &spacecraft.panels,
             settings: panels,
@@ -88,7 +88,7 @@ pub(crate) fn policy(context: &Plan<'_>, values: &Values) -> DumpPolicy {
         threshold_body_n_m_s: Vector3::from(values.vector(v.dump.threshold)),
         reinitialise: match values.choice(v.dump.reinit_to) {
             DumpReinitTo::Target => {
-                Reinitialise::Target { momentum_body_n_m_s: v.momentum.aim.target_body_n_m_s(values) }
+                Reinitialise::Target { momentum_body_n_m_s: v.momentum.targeting.target_body_n_m_s(values) }
             }
             DumpReinitTo::Opposite => {
                 Reinitialise::Opposite { fraction: values.real(v.dump.reinit_fraction) }

@@ -456,7 +456,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Where everything is at `epoch_s`, by every model that a mode may go by.
-    pub(super) fn places(
+    pub(super) fn positions(
         &self,
         fixed: &Fixed,
         command: &PointingCommand,
@@ -472,9 +472,9 @@ impl<'a> Reader<'a> {
             let mut body = |body| coarse.from_center(carried, body, bodies, epoch_s);
             let sun_and_earth = (body(Body::Sun), body(Body::Earth));
             let spacecraft = carried.and_then(|it| it.coarse_spacecraft(center, epoch_s)).unwrap_or(given);
-            let surroundings =
+            let ephemeris_at_time =
                 EphemerisAtTime::new(epoch_s, fixed.planet, &spacecraft, &sun_and_earth.0, &sun_and_earth.1);
-            connected(surroundings, command, center, body)
+            connected(ephemeris_at_time, command, center, body)
         } else {
             None
         };
@@ -497,9 +497,9 @@ impl<'a> Reader<'a> {
             None => (Some(bodies.sun_and_earth(ephemeris, epoch_s)), Some(given)),
         };
         let precise = sun_and_earth.zip(spacecraft).and_then(|((sun, earth), spacecraft)| {
-            let surroundings = EphemerisAtTime::new(epoch_s, fixed.planet, &spacecraft, &sun, &earth);
+            let ephemeris_at_time = EphemerisAtTime::new(epoch_s, fixed.planet, &spacecraft, &sun, &earth);
             let own = |body: Body| onboard(body.into()).filter(|_| is_onboard);
-            connected(surroundings, command, center, |body| {
+            connected(ephemeris_at_time, command, center, |body| {
                 own(body).unwrap_or_else(|| bodies.body(body, ephemeris, epoch_s))
             })
         });
@@ -570,9 +570,9 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The surroundings with the bodies that a command aims at; `None` while position, Sun or Earth is not connected.
+/// The ephemeris with the bodies that a command points at; `None` while position, Sun or Earth is not connected.
 fn connected(
-    mut surroundings: EphemerisAtTime,
+    mut ephemeris_at_time: EphemerisAtTime,
     command: &PointingCommand,
     center: Body,
     mut place: impl FnMut(Body) -> CartesianState,
@@ -580,7 +580,7 @@ fn connected(
     let aimpoints = [&command.aimpoint, &command.second_aimpoint].into_iter();
     let bodies = aimpoints.filter(|it| it.option == Some(AimpointOption::Body)).filter_map(|it| it.body);
     for body in bodies {
-        surroundings.place_body(body, &place(body));
+        ephemeris_at_time.place_body(body, &place(body));
     }
-    surroundings.is_connected(center).then_some(surroundings)
+    ephemeris_at_time.is_connected(center).then_some(ephemeris_at_time)
 }

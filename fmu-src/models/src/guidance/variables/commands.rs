@@ -2,7 +2,7 @@
 
 use crate::common::choices::custom_body;
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
-use physics::guidance::pointing::aimpoint::AimKind;
+use physics::guidance::pointing::aimpoint::AimpointKind;
 use physics::guidance::pointing::command;
 use physics::guidance::pointing::scan::DEFAULT_COMPATIBILITY;
 
@@ -185,16 +185,16 @@ pub struct ScanVariables {
 #[derive(Variables)]
 pub struct ScanCompatibilityVariables {
     /// With directions: vector, raDec (assumed).
-    #[parameter(start = DEFAULT_COMPATIBILITY[index][AimKind::Direction as usize])]
+    #[parameter(start = DEFAULT_COMPATIBILITY[index][AimpointKind::Direction as usize])]
     pub direction: Boolean,
     /// With directions of the local frames: lvlhDowntrack, lvlhSun (assumed).
-    #[parameter(start = DEFAULT_COMPATIBILITY[index][AimKind::LocalDirection as usize])]
+    #[parameter(start = DEFAULT_COMPATIBILITY[index][AimpointKind::LocalDirection as usize])]
     pub local_direction: Boolean,
     /// With points in space: earthCentered, sunCentered, planetCentered, sun, earth, body (assumed).
-    #[parameter(start = DEFAULT_COMPATIBILITY[index][AimKind::Point as usize])]
+    #[parameter(start = DEFAULT_COMPATIBILITY[index][AimpointKind::Point as usize])]
     pub point: Boolean,
     /// With points of the planet: planetFixed, latLon, nadir, subsolar, optimalLighting, limb (assumed).
-    #[parameter(start = DEFAULT_COMPATIBILITY[index][AimKind::PlanetPoint as usize])]
+    #[parameter(start = DEFAULT_COMPATIBILITY[index][AimpointKind::PlanetPoint as usize])]
     pub planet_point: Boolean,
 }
 

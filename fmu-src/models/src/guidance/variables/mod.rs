@@ -1,13 +1,13 @@
 //! Guidance's variables at its public face.
 
 pub(super) mod burn;
+pub(super) mod celestial_bodies;
 pub(super) mod choices;
 pub(super) mod commands;
 pub(super) mod ephemeris;
 pub(super) mod limits;
 pub(super) mod momentum;
 pub(super) mod outputs;
-pub(super) mod surroundings;
 
 use fmi_export::{Real, RealVector, Variables};
 use physics::guidance::pointing::scan::DEFAULT_COMPATIBILITY;
@@ -16,6 +16,10 @@ use super::setup::GuidanceSetup;
 use crate::common::downlink::DownlinkVariables;
 use crate::common::variables::{GuidedVariables, SolarVariables, WorkLimit};
 use burn::{AccelerometerVariables, BurnVariables, ThrustVariables};
+use celestial_bodies::{
+    EarthVariables, EstimateVariables, PlanetVariables, StartVariables, SubsolarVariables, SunVariables,
+    TargetVariables,
+};
 use commands::{
     AimpointVariables, BodyRollVariables, BoresightVariables, ExternalRollVariables, LimbVariables,
     ModeVariables, PointingVariables, ScanCompatibilityVariables, ScanVariables,
@@ -27,10 +31,6 @@ use limits::{
 };
 use momentum::{DumpVariables, MomentumVariables, PanelVariables, SpacecraftVariables, SunshadeVariables};
 use outputs::{CommandVariables, ConstraintVariables, GeometryVariables};
-use surroundings::{
-    EarthVariables, EstimateVariables, PlanetVariables, StartVariables, SubsolarVariables, SunVariables,
-    TargetVariables,
-};
 
 /// Every variable of guidance, in the order of the XML.
 #[derive(Variables)]

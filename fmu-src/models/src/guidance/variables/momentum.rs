@@ -58,7 +58,7 @@ pub struct MomentumVariables {
     #[parameter(start = MomentumStrategy(Strategy::DumpsOnly))]
     pub strategy: Choice<MomentumStrategy>,
     #[group(name = "")]
-    pub aim: TargetingVariables,
+    pub targeting: TargetingVariables,
     /// What momentum.body means. As inertial total it is turned to EME2000 by estimate.q, or by the commanded attitude where
     /// that is not connected.
     #[parameter(start = MomentumConvention(Convention::Inertial))]

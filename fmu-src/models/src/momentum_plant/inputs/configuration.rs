@@ -1,4 +1,4 @@
-//! From parameters, inputs and state to what flies, where, and under which light; refuses what cannot be simulated, by name.
+//! From parameters, inputs and state to spacecraft, orbit and light of the simulation; refuses what cannot be simulated, by name.
 
 use fmi_export::{Elements, Failure, InputsOverTime, Real, Values};
 use nalgebra::Vector3;

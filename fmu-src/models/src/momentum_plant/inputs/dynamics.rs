@@ -24,7 +24,7 @@ fn or_none(value: f64) -> f64 {
     if value == 0.0 { f64::INFINITY } else { value }
 }
 
-/// What parameters say of a flight in this mode.
+/// What parameters set of a flight in this mode.
 pub(super) fn settings(
     context: &Plan<'_>,
     values: &Values,
@@ -40,7 +40,7 @@ pub(super) fn settings(
     })
 }
 
-/// What parameters say about dynamics and control.
+/// What parameters set about dynamics and control.
 fn dynamics_settings(
     context: &Plan<'_>,
     values: &Values,

@@ -29,7 +29,7 @@ use crate::common::effects::unused_map;
 use crate::common::ephemeris;
 pub(super) use dynamics::wheel_array;
 
-/// What parameters and inputs say to one step, beside what [`PlantState::inputs`] hold.
+/// Parameters and inputs of one step, beside what [`PlantState::inputs`] hold.
 pub(super) struct Reading<'a> {
     /// What is another than at the last step; `None` where nothing was set.
     pub changes: Option<Changes>,
@@ -116,7 +116,7 @@ pub(super) fn read<'a>(
         is_reconfigured: is_anew || is_changed,
         is_anew,
         applied: state.inputs.applied_load(variables, step.inputs),
-        manager: management.aim.manager(
+        manager: management.targeting.manager(
             values,
             strategy,
             limits_rad,

@@ -8,7 +8,7 @@ use physics::spacecraft::{Tank, Thruster, ValveTiming};
 
 use crate::momentum_plant::setup::Plan;
 
-/// Thrusters and tanks as parameters say.
+/// Thrusters and tanks as parameters set them.
 pub(crate) fn reaction_control(
     context: &Plan<'_>,
     values: &Values,
@@ -68,7 +68,7 @@ pub(crate) fn check(flight: &Flight) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Says once that a dump found no thrusters.
+/// Reports once that a dump found no thrusters.
 pub(crate) fn warn_unserved(context: &Plan<'_>, report: &Report<'_>, warned: &mut ThrusterWarnings) {
     if warned.unserved || report.thrusters.unserved_dumps() == 0 {
         return;
@@ -119,7 +119,7 @@ pub(crate) fn warn(
     }
 }
 
-/// A maneuver that adds no velocity is none, and says so.
+/// A maneuver that adds no velocity is none, and is reported.
 pub(crate) fn drop_empty_maneuver(context: &Plan<'_>, inputs: &mut DynamicsInputs, time_s: f64) {
     let is_empty = inputs.maneuver.is_some_and(|it| it.delta_v_inertial_m_s == Vector3::from([0.0; 3]));
     if is_empty {

@@ -1,4 +1,4 @@
-//! What inputs and tunable parameters say to a step, as they are set.
+//! Inputs and tunable parameters of a step.
 
 use fmi_export::{Enumeration, InputsOverTime, Real, RealVector, Values};
 use nalgebra::Vector3;

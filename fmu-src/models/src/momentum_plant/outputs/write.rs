@@ -386,7 +386,7 @@ pub(crate) fn failure(error: PlantError) -> Failure {
     Failure::new(format!("{error}{hint}"))
 }
 
-/// Refuses a place where there is no flight: inside the planet or the Sun, or nowhere.
+/// Refuses a place where there is no flight: inside the planet or the Sun, or without position.
 pub(crate) fn flyable(report: &Report<'_>) -> Result<(), Failure> {
     let time_s = report.time_s;
     if !report.shown.totals.is_finite() {

@@ -2,6 +2,7 @@
 
 pub(super) mod air_and_field;
 pub(super) mod body;
+mod celestial_bodies;
 pub(super) mod choices;
 mod control;
 pub(super) mod defaults;
@@ -9,7 +10,6 @@ mod effects;
 mod flexibility;
 pub(super) mod motion;
 mod propulsion;
-mod surroundings;
 
 use fmi_export::{Real, RealVector, Variables};
 
@@ -17,6 +17,9 @@ use air_and_field::{AtmosphereVariables, GeodeticVariables, MagneticFieldVariabl
 use body::{
     ArticulationVariables, KeepInVariables, PanelVariables, SpacecraftVariables, SunshadeVariables,
     WheelVariables,
+};
+use celestial_bodies::{
+    EarthVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables, SunVariables,
 };
 use control::{
     ControlVariables, EstimateVariables, GyroVariables, NoiseVariables, StarTrackerVariables,
@@ -33,9 +36,6 @@ use motion::{
 use propulsion::{
     AccelerometerVariables, ManeuverVariables, PropellantVariables, TankVariables, ThrustVariables,
     ThrusterVariables,
-};
-use surroundings::{
-    EarthVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables, SunVariables,
 };
 
 use super::setup::PlantSetup;

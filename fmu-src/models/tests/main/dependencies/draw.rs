@@ -57,22 +57,28 @@ pub(super) fn redraw<M: Model>(
     rows: &[Row],
     values: &mut Tables,
 ) {
-    for (name, how, share) in rows {
+    for (name, variation, share) in rows {
         for name in names(name) {
             if random.next() < *share {
-                put(bench, random, &name, *how, values);
+                put(bench, random, &name, *variation, values);
             }
         }
     }
 }
 
-fn put<M: Model>(bench: &Bench<M>, random: &mut RandomNumbers, name: &str, how: Draw, values: &mut Tables) {
+fn put<M: Model>(
+    bench: &Bench<M>,
+    random: &mut RandomNumbers,
+    name: &str,
+    variation: Draw,
+    values: &mut Tables,
+) {
     let mut vector = |elements: &[f64]| {
         for (i, value) in elements.iter().enumerate() {
             bench.put(values, &format!("{name}[{}]", i + 1), *value);
         }
     };
-    match how {
+    match variation {
         Draw::Vector(low, high) => {
             let length = random.between(low, high);
             vector(&random.direction().map(|x| length * x));

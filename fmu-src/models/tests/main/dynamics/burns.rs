@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Quaternion, SVector, UnitQuaternion, Vector3};
 
 use super::super::named_model::{NamedModel, assert_cuts_change_nothing};
 use super::super::spacecraft::{EXHAUST_M_S, SIMPLE, couples, thruster};
-use super::{DARK, FREE, Flight, Start, fly, to_inertial};
+use super::{DARK, FREE, Flight, Start, initialize, to_inertial};
 
 const MU_M3_S2: f64 = 3.986_004_355_07e14;
 const J2: f64 = 1.082_635_9e-3;
@@ -159,7 +159,7 @@ fn simulated<'a>(
         // The pole is fixed, as in the integration.
         ("planet.orientation", 1.0),
     ];
-    let mut flight = fly(named, &[FREE, DARK, orbit, &place, more]);
+    let mut flight = initialize(named, &[FREE, DARK, orbit, &place, more]);
     flight.set("thrust.request", 1.0);
     flight.set("thrust.command", 1.0);
     flight
@@ -198,7 +198,7 @@ fn a_long_burn_leaves_the_spacecraft_where_continuous_thrust_does() {
         // Within an interval.
         flight.step_to(103.7).unwrap();
         let [early_m, early_m_s] = off(&flight, &early);
-        flight.fly_to(burn_s + 4_000.0, 100.0).unwrap();
+        flight.simulate_to(burn_s + 4_000.0, 100.0).unwrap();
         let [end_m, end_m_s] = off(&flight, &end);
         println!(
             "solver.dynamicsStep {step_s}: {early_m:.1e} m and {early_m_s:.1e} m/s after 103.7 s, {end_m:.1e} m and \
@@ -239,12 +239,12 @@ fn cutting_and_saving_change_no_bit_of_a_thrusting_orbit() {
     let spacecraft = Spacecraft { nozzle_m: [0.0, 0.1, -1.0], tank_m: [0.2, -0.1, 0.4], ..CENTRAL };
     let begin = start(&spacecraft, rate_rad_s);
     let named = spacecraft.model();
-    let fly = || {
+    let initialize = || {
         let mut flight = simulated(&named, &begin, rate_rad_s, &[("solver.dynamicsStep", 10.0)]);
         flight.set("thrust.stop", 17.321);
         flight
     };
-    assert_cuts_change_nothing(fly, [33.0], &[0.33, 1.7, 10.0], |_| {});
+    assert_cuts_change_nothing(initialize, [33.0], &[0.33, 1.7, 10.0], |_| {});
 }
 
 /// Momentum, inertial, in N m s.
@@ -272,10 +272,10 @@ fn a_tank_off_the_axis_moves_the_centre_of_mass_through_a_burn() {
     for step_s in [0.1, 1.0, 10.0] {
         let mut flight = simulated(&named, &begin, rate_rad_s, &[("solver.dynamicsStep", step_s)]);
         flight.set("thrust.stop", 60.0);
-        flight.fly_to(60.0, 60.0).unwrap();
+        flight.simulate_to(60.0, 60.0).unwrap();
         let (center, _) = spacecraft.left(end[13]);
         let off_m = (flight.vector("centerOfMass") - center).norm();
-        flight.fly_to(77.5, 17.5).unwrap();
+        flight.simulate_to(77.5, 17.5).unwrap();
         let found = flight.vector("momentum.inertial");
         let off = (found - momentum(&after)).norm() / momentum(&after).norm();
         let turned = Quaternion::new(after[9], after[6], after[7], after[8]);
@@ -306,7 +306,7 @@ fn the_jet_slows_a_turning_body_as_thomson_says() {
     assert!(ratio < 0.9);
     for step_s in [0.1, 1.0, 10.0] {
         let mut flight = simulated(&named, &begin, [0.2, 0.0, 0.0], &[("solver.dynamicsStep", step_s)]);
-        flight.fly_to(time_s, 50.0).unwrap();
+        flight.simulate_to(time_s, 50.0).unwrap();
         let slowed = 0.2 - flight.vector("attitude.rate").norm();
         let off = slowed / (0.2 * (1.0 - ratio)) - 1.0;
         println!("solver.dynamicsStep {step_s}: the rate falls by {slowed:.6} rad/s, {off:.1e} off");
@@ -317,7 +317,7 @@ fn the_jet_slows_a_turning_body_as_thomson_says() {
     let (begin, named) = (start(&spacecraft, [0.2, 0.05, 0.1]), spacecraft.model());
     let end = integrated(&spacecraft, begin, time_s, 0.01, true);
     let mut flight = simulated(&named, &begin, [0.2, 0.05, 0.1], &[("solver.dynamicsStep", 10.0)]);
-    flight.fly_to(time_s, 50.0).unwrap();
+    flight.simulate_to(time_s, 50.0).unwrap();
     let lost = (momentum(&end) - momentum(&begin)).norm();
     let off = (flight.vector("momentum.inertial") - momentum(&end)).norm() / lost;
     println!("with the tank 0.6 m along the axis: {off:.1e} of what is lost");

@@ -5,7 +5,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::super::named_model::NamedModel;
 use super::{
-    CONTROLLED, DARK, FREE, Flight, Start, fly, formed_momentum, inertia, set_quaternion, to_inertial,
+    CONTROLLED, DARK, FREE, Flight, Start, formed_momentum, inertia, initialize, set_quaternion, to_inertial,
 };
 
 const WHEELS: std::ops::RangeInclusive<usize> = 1..=4;
@@ -23,7 +23,7 @@ fn a_slew_settles_within_its_limits() {
     let named = NamedModel::<MomentumPlant>::shipped();
     for axis in [Vector3::x(), Vector3::y(), Vector3::z(), Vector3::new(0.6, -0.64, 0.48)] {
         for allocation in [1.0, 2.0] {
-            let mut flight = fly(&named, &[CONTROLLED, DARK, &[("control.allocation", allocation)]]);
+            let mut flight = initialize(&named, &[CONTROLLED, DARK, &[("control.allocation", allocation)]]);
             let target = UnitQuaternion::new(axis * 60_f64.to_radians());
             set_quaternion(&mut flight, "command.q", &target);
             let (rate_limit, acceleration) =
@@ -59,21 +59,21 @@ fn a_moving_command_is_followed() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let turning: Start<'_> =
         &[("command.rate[1]", 1e-3), ("command.rate[2]", -5e-4), ("command.rate[3]", 2e-3)];
-    let mut flight = fly(&named, &[CONTROLLED, turning]);
+    let mut flight = initialize(&named, &[CONTROLLED, turning]);
     let rate = Vector3::new(1e-3, -5e-4, 2e-3);
-    flight.fly_to(1_000.0, 10.0).unwrap();
+    flight.simulate_to(1_000.0, 10.0).unwrap();
     let commanded = UnitQuaternion::new(rate * 1_000.0);
     assert!(off(&flight, &commanded) < 1e-5, "{:e}", off(&flight, &commanded));
     assert!((flight.vector("attitude.rate") - rate).norm() < 1e-7);
     // The rate alone: the same rate, wherever that leads.
     flight.set("command.kind", 3.0);
-    flight.fly_to(1_300.0, 10.0).unwrap();
+    flight.simulate_to(1_300.0, 10.0).unwrap();
     assert!((flight.vector("attitude.rate") - rate).norm() < 1e-7);
     // None: it stops and stays.
     flight.set("command.kind", 0.0);
-    flight.fly_to(1_700.0, 10.0).unwrap();
+    flight.simulate_to(1_700.0, 10.0).unwrap();
     let there = to_inertial(&flight);
-    flight.fly_to(2_000.0, 10.0).unwrap();
+    flight.simulate_to(2_000.0, 10.0).unwrap();
     assert!(off(&flight, &there) < 1e-5 && flight.vector("attitude.rate").norm() < 1e-7);
 }
 
@@ -81,7 +81,7 @@ fn a_moving_command_is_followed() {
 fn an_error_quaternion_is_turned_out_whenever_it_changes() {
     let named = NamedModel::<MomentumPlant>::shipped();
     // From the start on.
-    let mut flight = fly(&named, &[CONTROLLED, &[("command.kind", 2.0)]]);
+    let mut flight = initialize(&named, &[CONTROLLED, &[("command.kind", 2.0)]]);
     let expected = UnitQuaternion::new(Vector3::new(0.3, -0.2, 0.5));
     // From the commanded to the actual frame, measured anew every second as a Sun sensor would.
     for second in 1..=400 {
@@ -106,8 +106,8 @@ fn a_forced_saturation_is_flagged_and_a_dump_recovers() {
         ("dump.threshold[3]", 1e3),
         ("torque.applied[2]", 5e-3),
     ];
-    let mut flight = fly(&named, &[CONTROLLED, DARK, full]);
-    flight.fly_to(600.0, 10.0).unwrap();
+    let mut flight = initialize(&named, &[CONTROLLED, DARK, full]);
+    flight.simulate_to(600.0, 10.0).unwrap();
     assert!(any_wheel(&flight, "saturated"));
     // Full wheels hold nothing against the torque any more.
     assert!(off(&flight, &UnitQuaternion::identity()) > 1e-2);
@@ -118,7 +118,7 @@ fn a_forced_saturation_is_flagged_and_a_dump_recovers() {
     flight.set("dump.request", 1.0);
     flight.step_to(610.0).unwrap();
     assert!(flight.boolean("dump.active") && flight.integer("dump.count") == 1);
-    flight.fly_to(2_000.0, 10.0).unwrap();
+    flight.simulate_to(2_000.0, 10.0).unwrap();
     assert!(!flight.boolean("dump.active") && !any_wheel(&flight, "saturated"));
     assert!(
         off(&flight, &UnitQuaternion::identity()) < 1e-5,
@@ -142,7 +142,7 @@ fn a_dump_at_rest_reaches_its_target_without_disturbing_the_attitude() {
         ("dump.threshold[2]", 1e3),
         ("dump.threshold[3]", 1e3),
     ];
-    let mut flight = fly(&named, &[CONTROLLED, DARK, start]);
+    let mut flight = initialize(&named, &[CONTROLLED, DARK, start]);
     flight.step_to(10.0).unwrap();
     let before = flight.vector("momentum.body");
     flight.set("dump.request", 1.0);
@@ -162,9 +162,9 @@ fn a_dump_at_rest_reaches_its_target_without_disturbing_the_attitude() {
     assert!((flight.vector("momentum.body") - target).norm() < 1e-6, "{}", flight.vector("momentum.body"));
     // A threshold that is exceeded dumps by itself.
     let own: Start<'_> = &[("wheel[1].startMomentum", 7.9), ("dump.threshold[1]", 4.0)];
-    let mut flight = fly(&named, &[CONTROLLED, DARK, own]);
+    let mut flight = initialize(&named, &[CONTROLLED, DARK, own]);
     assert!(flight.vector("momentum.body").x.abs() > 4.0);
-    flight.fly_to(400.0, 10.0).unwrap();
+    flight.simulate_to(400.0, 10.0).unwrap();
     assert_eq!(flight.integer("dump.count"), 1);
     assert!((flight.vector("momentum.body").x.abs() - 3.6).abs() < 1e-6);
 }
@@ -179,12 +179,12 @@ fn a_failed_wheel_is_survived() {
         ("wheel[1].startMomentum", 1.0),
     ];
     for allocation in [1.0, 2.0] {
-        let mut flight = fly(&named, &[CONTROLLED, friction, &[("control.allocation", allocation)]]);
+        let mut flight = initialize(&named, &[CONTROLLED, friction, &[("control.allocation", allocation)]]);
         let target = UnitQuaternion::new(Vector3::new(0.5, 0.4, -0.6));
         set_quaternion(&mut flight, "command.q", &target);
-        flight.fly_to(60.0, 1.0).unwrap();
+        flight.simulate_to(60.0, 1.0).unwrap();
         flight.set("wheel[2].failed", 1.0);
-        flight.fly_to(1_000.0, 1.0).unwrap();
+        flight.simulate_to(1_000.0, 1.0).unwrap();
         assert_eq!(flight.real("wheel[2].torque"), 0.0);
         // A torque that changes by d a second leaves d over the integral gain: here friction that dies away at v / I.
         let slope = (1.6e-3 + 1e-3) * 1e-5 / flight.real("wheel[2].inertia");
@@ -194,12 +194,12 @@ fn a_failed_wheel_is_survived() {
             off(&flight, &target)
         );
         // Friction has brought it to rest.
-        flight.fly_to(4_000.0, 60.0).unwrap();
+        flight.simulate_to(4_000.0, 60.0).unwrap();
         assert_eq!(flight.real("wheel[2].momentum"), 0.0);
         assert!(off(&flight, &target) < 1e-5);
         // Two are too few: nothing is left to turn with.
         flight.set("wheel[3].failed", 1.0);
-        flight.fly_to(4_010.0, 1.0).unwrap();
+        flight.simulate_to(4_010.0, 1.0).unwrap();
         assert!(flight.boolean("control.saturated"));
         assert_eq!(flight.real("wheel[1].torque"), 0.0);
     }
@@ -217,8 +217,8 @@ fn friction_leaves_no_error_whether_made_up_for_or_not() {
     ];
     for compensated in [0.0, 1.0] {
         let parts: Start<'_> = &[("control.frictionCompensation", compensated), ("control.balanceTime", 0.0)];
-        let mut flight = fly(&named, &[CONTROLLED, DARK, friction, parts]);
-        flight.fly_to(2_000.0, 10.0).unwrap();
+        let mut flight = initialize(&named, &[CONTROLLED, DARK, friction, parts]);
+        flight.simulate_to(2_000.0, 10.0).unwrap();
         let error = off(&flight, &UnitQuaternion::identity());
         assert!(error < 1e-6, "{compensated}: {error:e}");
     }
@@ -227,12 +227,12 @@ fn friction_leaves_no_error_whether_made_up_for_or_not() {
 #[test]
 fn free_wheels_turn_the_body_as_their_torque_says() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = fly(&named, &[FREE, DARK]);
+    let mut flight = initialize(&named, &[FREE, DARK]);
     // All four alike: their sum is along Y, 4 / sqrt 3 times each.
     for k in WHEELS {
         flight.set(&format!("wheel[{k}].torqueCommand"), 0.01);
     }
-    flight.fly_to(100.0, 0.02).unwrap();
+    flight.simulate_to(100.0, 0.02).unwrap();
     let rotors = 4.0 / 3.0 * flight.real("wheel[1].inertia");
     let expected = -0.01 * 4.0 / 3_f64.sqrt() * 100.0 / (inertia()[(1, 1)] - rotors);
     let rate = flight.vector("attitude.rate");

@@ -5,7 +5,7 @@ use models::MomentumPlant;
 use nalgebra::Vector3;
 
 use super::super::named_model::{NamedModel, assert_cuts_change_nothing};
-use super::{CONTROLLED, DARK, FREE, GUIDANCE, Start, fly, to_inertial, with};
+use super::{CONTROLLED, DARK, FREE, GUIDANCE, Start, initialize, to_inertial, with};
 
 const SWINGING: &str = r"
 [[flexible_modes]]
@@ -44,7 +44,7 @@ fn torque_and_force_reported_are_what_momentum_and_velocity_change_by() {
     let spinning: Start<'_> = &[("start.rate[1]", 2e-3), ("start.rate[3]", -1e-3)];
     let pushed: Start<'_> =
         &[("force.applied[1]", 4.0), ("force.applied[3]", -60.0), ("torque.applied[2]", 0.2)];
-    let mut flight = fly(&named, &[FREE, DARK, UNBALANCED, spinning, pushed]);
+    let mut flight = initialize(&named, &[FREE, DARK, UNBALANCED, spinning, pushed]);
     let reported = |flight: &super::Flight<'_>| {
         [to_inertial(flight) * flight.vector("torque.total"), flight.vector("acceleration")]
     };
@@ -83,12 +83,17 @@ fn how_the_flight_is_cut_changes_no_bit() {
         &[("starTracker.noise[1]", 1e-5), ("gyro.noise", 1e-6), ("wheel[1].coulombFriction", 1e-3)];
     let pushed: Start<'_> = &[("force.applied[2]", 3.0), ("force.applied[3]", -40.0)];
     let start = with(&[CONTROLLED, GUIDANCE, noisy, UNBALANCED, pushed]);
-    let fly = || named.fly(-0.3, &start).unwrap();
-    assert_cuts_change_nothing(fly, [0.0, 0.017, 5.5, 13.333, 20.0], &[0.7, 0.02, 0.013, 1.0], |flight| {
-        assert!(
-            flight.real("flexibleMode[2].displacement") != 0.0 && flight.real("slosh[1].angle[2]") != 0.0
-        );
-    });
+    let initialize = || named.initialize(-0.3, &start).unwrap();
+    assert_cuts_change_nothing(
+        initialize,
+        [0.0, 0.017, 5.5, 13.333, 20.0],
+        &[0.7, 0.02, 0.013, 1.0],
+        |flight| {
+            assert!(
+                flight.real("flexibleMode[2].displacement") != 0.0 && flight.real("slosh[1].angle[2]") != 0.0
+            );
+        },
+    );
 }
 
 #[test]
@@ -98,13 +103,13 @@ fn nothing_swings_where_the_attitude_is_followed_ideally() {
         let chosen = [("attitude.source", source), ("force.applied[3]", -40.0)];
         let start = with(&[&chosen, &UNBALANCED[..3]]);
         let [swinging, rigid] = [&named, &shipped].map(|named| {
-            let mut flight = named.fly(0.0, &start).unwrap();
-            flight.fly_to(600.0, 60.0).unwrap();
+            let mut flight = named.initialize(0.0, &start).unwrap();
+            flight.simulate_to(600.0, 60.0).unwrap();
             ["momentum.inertial", "deltaV", "torque.total"].map(|name| flight.vector(name))
         });
         assert_eq!(swinging, rigid);
-        let mut flight = named.fly(0.0, &start).unwrap();
-        flight.fly_to(600.0, 60.0).unwrap();
+        let mut flight = named.initialize(0.0, &start).unwrap();
+        flight.simulate_to(600.0, 60.0).unwrap();
         for output in ["flexibleMode[1].displacement", "slosh[1].angle[1]", "slosh[1].angle[2]"] {
             assert_eq!(flight.real(output), 0.0);
         }
@@ -123,6 +128,6 @@ fn what_cannot_swing_is_refused_by_name() {
     for (bad, named_in_it) in cases {
         let reported = named.refusal(&with(&[FREE, bad]));
         assert!(reported.contains(named_in_it) && reported.contains("allowed"), "{bad:?}: {reported}");
-        named.fly(0.0, bad).unwrap();
+        named.initialize(0.0, bad).unwrap();
     }
 }

@@ -63,6 +63,6 @@ fn set_quaternion(flight: &mut Flight<'_>, name: &str, attitude: &UnitQuaternion
     flight.set_elements(name, attitude.coords.iter());
 }
 
-fn fly<'a>(named: &'a NamedModel<MomentumPlant>, parts: &[Start<'_>]) -> Flight<'a> {
-    named.fly(0.0, &with(parts)).unwrap()
+fn initialize<'a>(named: &'a NamedModel<MomentumPlant>, parts: &[Start<'_>]) -> Flight<'a> {
+    named.initialize(0.0, &with(parts)).unwrap()
 }

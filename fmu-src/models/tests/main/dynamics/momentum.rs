@@ -3,7 +3,7 @@
 use client::short_or_long;
 
 use super::super::named_model::{NamedModel, assert_cuts_change_nothing};
-use super::{CONTROLLED, DARK, FREE, GUIDANCE, Start, fly, formed_momentum, inertia, with};
+use super::{CONTROLLED, DARK, FREE, GUIDANCE, Start, formed_momentum, inertia, initialize, with};
 use models::MomentumPlant;
 use nalgebra::Vector3;
 
@@ -19,7 +19,7 @@ const SPINNING: Start<'_> = &[
 #[test]
 fn momentum_is_conserved_in_controlled_flight() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = fly(&named, &[CONTROLLED, DARK, SPINNING]);
+    let mut flight = initialize(&named, &[CONTROLLED, DARK, SPINNING]);
     let start = flight.vector("momentum.inertial");
     assert!(start.norm() > 1.0);
     let mut worst = 0.0_f64;
@@ -38,10 +38,10 @@ fn energy_is_kept_with_locked_wheels() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let locked = [1, 2, 3, 4].map(|k| format!("wheel[{k}].locked"));
     let locked: Vec<(&str, f64)> = locked.iter().map(|name| (name.as_str(), 1.0)).collect();
-    let mut flight = fly(&named, &[FREE, DARK, &SPINNING[..3], &locked]);
+    let mut flight = initialize(&named, &[FREE, DARK, &SPINNING[..3], &locked]);
     let energy = |rate: Vector3<f64>| 0.5 * rate.dot(&(inertia() * rate));
     let start = energy(flight.vector("attitude.rate"));
-    flight.fly_to(short_or_long(7_200.0, 86_400.0), 600.0).unwrap();
+    flight.simulate_to(short_or_long(7_200.0, 86_400.0), 600.0).unwrap();
     let now = energy(flight.vector("attitude.rate"));
     assert!((now / start - 1.0).abs() < 1e-10, "{:e}", now / start - 1.0);
 }
@@ -50,10 +50,10 @@ fn energy_is_kept_with_locked_wheels() {
 fn days_of_control_add_up_to_what_guided_flight_does() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let slewing: Start<'_> = &[("guided.slewRate", 2e-3), ("control.rate", 10.0)];
-    let mut controlled = fly(&named, &[CONTROLLED, GUIDANCE, slewing]);
+    let mut controlled = initialize(&named, &[CONTROLLED, GUIDANCE, slewing]);
     let h = controlled.vector("momentum.body");
     let start = [("start.momentum[1]", h.x), ("start.momentum[2]", h.y), ("start.momentum[3]", h.z)];
-    let mut guided = fly(&named, &[slewing, &start]);
+    let mut guided = initialize(&named, &[slewing, &start]);
     let (mut largest, mut worst) = (0.0_f64, 0.0_f64);
     for step in 1..=short_or_long(120, 960) {
         let time_s = 360.0 * f64::from(step);
@@ -84,8 +84,8 @@ fn how_the_flight_is_cut_changes_no_bit() {
     ];
     let start = with(&[CONTROLLED, GUIDANCE, noisy, SPINNING]);
     let ends_s = [0.0, 0.017, 5.5, 33.333, 120.0];
-    let fly = || named.fly(-0.3, &start).unwrap();
-    assert_cuts_change_nothing(fly, ends_s, &[1.1, 0.02, 0.013, 1.0, 7.0], |_| {});
+    let initialize = || named.initialize(-0.3, &start).unwrap();
+    assert_cuts_change_nothing(initialize, ends_s, &[1.1, 0.02, 0.013, 1.0, 7.0], |_| {});
 }
 
 #[test]
@@ -100,8 +100,8 @@ fn disturbances_taken_once_a_second_add_up_to_those_of_a_tenth() {
         ("guided.downlinkEnd", 1_200.0),
         ("guided.downlinkEvery", 1.0),
     ];
-    let fly_by = |step_s: f64| {
-        let mut flight = fly(&named, &[CONTROLLED, GUIDANCE, lit, &[("solver.dynamicsStep", step_s)]]);
+    let simulate = |step_s: f64| {
+        let mut flight = initialize(&named, &[CONTROLLED, GUIDANCE, lit, &[("solver.dynamicsStep", step_s)]]);
         let mut history = Vec::new();
         for minute in 1..=short_or_long(21, 30) {
             flight.step_to(60.0 * f64::from(minute)).unwrap();
@@ -109,7 +109,7 @@ fn disturbances_taken_once_a_second_add_up_to_those_of_a_tenth() {
         }
         history
     };
-    let (coarse, fine) = (fly_by(1.0), fly_by(0.1));
+    let (coarse, fine) = (simulate(1.0), simulate(0.1));
     let largest = |of: fn(&[Vector3<f64>; 2]) -> Vector3<f64>| {
         let size = fine.iter().map(|it| of(it).norm()).fold(0.0, f64::max);
         let off = coarse.iter().zip(&fine).map(|(a, b)| (of(a) - of(b)).norm()).fold(0.0, f64::max);
@@ -125,18 +125,18 @@ fn a_force_moves_a_disturbed_orbit_as_it_does_in_commanded_flight() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let disturbed: Start<'_> =
         &[("orbit.dynamics", 2.0), ("gravityGradient.enabled", 0.0), ("solar.flux", 0.0)];
-    let fly_by = |source: Start<'_>| {
-        let mut flight = fly(&named, &[disturbed, source]);
+    let simulate = |source: Start<'_>| {
+        let mut flight = initialize(&named, &[disturbed, source]);
         for (until_s, force_n) in [(300.0, 2.0), (723.0, -1.0), (1_800.0, 0.0)] {
             flight.set("force.applied[1]", force_n);
             flight.set("force.applied[3]", 0.5 * force_n);
-            flight.fly_to(until_s, 30.0).unwrap();
+            flight.simulate_to(until_s, 30.0).unwrap();
         }
         flight.vector("position")
     };
-    let (free, commanded, quiet) = (fly_by(FREE), fly_by(&[("attitude.source", 2.0)]), {
-        let mut flight = fly(&named, &[disturbed]);
-        flight.fly_to(1_800.0, 30.0).unwrap();
+    let (free, commanded, quiet) = (simulate(FREE), simulate(&[("attitude.source", 2.0)]), {
+        let mut flight = initialize(&named, &[disturbed]);
+        flight.simulate_to(1_800.0, 30.0).unwrap();
         flight.vector("position")
     });
     let moved = (free - quiet).norm();

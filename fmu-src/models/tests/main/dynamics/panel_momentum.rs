@@ -7,7 +7,7 @@ use physics::numerics::quadrature::Rule;
 
 use super::super::named_model::{NamedModel, assert_cuts_change_nothing};
 use super::super::wheel_torque::{self, WHEELS, axial, most_off, torques};
-use super::{DARK, FREE, Flight, Start, axes, fly, held_momentum, to_inertial};
+use super::{DARK, FREE, Flight, Start, axes, held_momentum, initialize, to_inertial};
 
 const MASS_KG: f64 = 700.0;
 const LOCKED: Start<'_> =
@@ -163,7 +163,7 @@ fn a_pair_of_panels_turns_the_body_back() {
     // Plates about the axis through their middles: J about X stays, so the body turns by their share of it.
     let named = NamedModel::<MomentumPlant>::with("pair.toml", &text(PAIR));
     let share = 2.0 * 20.0 * 2.5 / 12.0 / 199.6;
-    let mut flight = fly(&named, &[FREE, DARK, LOCKED, BY_ANGLE]);
+    let mut flight = initialize(&named, &[FREE, DARK, LOCKED, BY_ANGLE]);
     let start = to_inertial(&flight);
     for panel in ["panel[1].angle", "panel[2].angle"] {
         flight.set(panel, core::f64::consts::FRAC_PI_2);
@@ -176,7 +176,7 @@ fn a_pair_of_panels_turns_the_body_back() {
     assert!(flight.vector("attitude.rate").norm() < 1e-15);
     assert_eq!(flight.vector("momentum.inertial"), Vector3::zeros());
     // The same evenly: the body turns back while they move, and stands when they do.
-    let mut flight = fly(&named, &[FREE, DARK, LOCKED, BY_ANGLE]);
+    let mut flight = initialize(&named, &[FREE, DARK, LOCKED, BY_ANGLE]);
     let rate = core::f64::consts::FRAC_PI_2 / 10.0;
     flight.step_moving(5.0, &[("panel[1].angle", rate), ("panel[2].angle", rate)]).unwrap();
     assert!((flight.vector("attitude.rate") + Vector3::x() * (share * rate)).norm() < 1e-12);
@@ -204,7 +204,7 @@ fn formed(flight: &Flight<'_>, spacecraft: &Spacecraft, angles: [f64; 2], rates:
 fn a_tumbling_body_gives_way_to_panels_that_move_evenly_and_at_once() {
     let named = NamedModel::<MomentumPlant>::with("hinged.toml", &text(HINGED));
     let spacecraft = hinged();
-    let mut flight = fly(&named, &[FREE, DARK, LOCKED, BY_ANGLE, TUMBLING]);
+    let mut flight = initialize(&named, &[FREE, DARK, LOCKED, BY_ANGLE, TUMBLING]);
     let momentum = flight.vector("momentum.inertial");
     let mut attitude = to_inertial(&flight);
     let (mut angles, mut now_s, mut worst_deg, mut worst_momentum) = ([0.0; 2], 0.0, 0.0_f64, 0.0_f64);
@@ -241,7 +241,7 @@ fn a_tumbling_body_gives_way_to_panels_that_move_evenly_and_at_once() {
     assert!(worst_deg < 1e-5, "{worst_deg:e}");
     assert!(worst_momentum < 1e-12 * momentum.norm(), "{worst_momentum:e}");
     // Begun at an angle, the rate is the one requested.
-    let turned = fly(&named, &[FREE, DARK, LOCKED, BY_ANGLE, TUMBLING, &[("panel[1].angle", 0.9)]]);
+    let turned = initialize(&named, &[FREE, DARK, LOCKED, BY_ANGLE, TUMBLING, &[("panel[1].angle", 0.9)]]);
     assert!((turned.vector("attitude.rate") - Vector3::new(4e-3, -7e-3, 5e-3)).norm() < 1e-17);
     let begun = formed(&turned, &spacecraft, [0.9, 0.0], [0.0; 2]);
     assert!((turned.vector("momentum.inertial") - begun).norm() < 1e-13);
@@ -254,7 +254,7 @@ fn panels_that_keep_to_the_sun_turn_a_spinning_body_back() {
     let spinning: Start<'_> = &[("start.rate[1]", 0.03), ("start.rate[2]", 0.004), ("start.rate[3]", -0.006)];
     let undumped: Start<'_> =
         &[("dump.threshold[1]", 1e6), ("dump.threshold[2]", 1e6), ("dump.threshold[3]", 1e6)];
-    let mut flight = fly(&named, &[FREE, DARK, LOCKED, spinning, undumped]);
+    let mut flight = initialize(&named, &[FREE, DARK, LOCKED, spinning, undumped]);
     let momentum = flight.vector("momentum.inertial");
     let start = to_inertial(&flight);
     let to_sun = start * flight.vector("sun.direction");
@@ -305,7 +305,7 @@ fn turning_as_commanded(mut flight: Flight<'_>) -> Flight<'_> {
 fn ideal_wheels_hold_what_the_panels_do_not() {
     let named = NamedModel::<MomentumPlant>::with("hinged.toml", &text(HINGED));
     let spacecraft = hinged();
-    let mut flight = turning_as_commanded(fly(&named, &[COMMANDED, DARK, BY_ANGLE]));
+    let mut flight = turning_as_commanded(initialize(&named, &[COMMANDED, DARK, BY_ANGLE]));
     let rates = [0.05, -0.02];
     flight.step_moving(7.0, &[("panel[1].angle", rates[0]), ("panel[2].angle", rates[1])]).unwrap();
     let held = to_inertial(&flight) * held_momentum(&flight);
@@ -337,14 +337,15 @@ fn torques_off(flight: &mut Flight<'_>, start_s: f64, mut step: impl FnMut(&mut 
 fn ideal_wheels_take_up_what_turning_panels_give() {
     let named = NamedModel::<MomentumPlant>::with("hinged.toml", &text(HINGED));
     // The Sun gives the angles, in science, in a slew and in the downlink.
-    let mut flight = wheel_torque::fly(&named, &[("start.momentum[2]", 2.0), ("guided.slewRate", 2e-3)]);
+    let mut flight =
+        wheel_torque::initialize(&named, &[("start.momentum[2]", 2.0), ("guided.slewRate", 2e-3)]);
     for start_s in [30.0, 900.0, 3000.0, 9000.0] {
         let off = torques_off(&mut flight, start_s, |flight, at_s| flight.step_to(at_s).unwrap());
         println!("guided, from {start_s} s: {off:.1e}");
         assert!(off < 1e-6, "{start_s}: {off}");
     }
     // An input does, and its derivative.
-    let mut flight = turning_as_commanded(wheel_torque::fly(&named, &[COMMANDED, BY_ANGLE].concat()));
+    let mut flight = turning_as_commanded(wheel_torque::initialize(&named, &[COMMANDED, BY_ANGLE].concat()));
     let rates = [("panel[1].angle", 0.05), ("panel[2].angle", -0.02)];
     let off = torques_off(&mut flight, 2.0, |flight, at_s| {
         let now_s = flight.time_s();
@@ -359,7 +360,7 @@ fn ideal_wheels_take_up_what_turning_panels_give() {
 fn ideal_wheels_show_the_torque_of_fast_panels_in_a_long_step() {
     let named = NamedModel::<MomentumPlant>::with("hinged.toml", &text(HINGED));
     let spacecraft = hinged();
-    let mut flight = turning_as_commanded(fly(&named, &[COMMANDED, DARK, BY_ANGLE]));
+    let mut flight = turning_as_commanded(initialize(&named, &[COMMANDED, DARK, BY_ANGLE]));
     let (rates, time_s, difference_s) = ([0.5, -0.3], 40.0, 1e-4);
     flight.step_moving(time_s, &[("panel[1].angle", rates[0]), ("panel[2].angle", rates[1])]).unwrap();
     let turning = flight.vector("attitude.rate");
@@ -380,8 +381,8 @@ fn ideal_wheels_show_the_torque_of_fast_panels_in_a_long_step() {
 fn how_the_motion_of_panels_is_cut_changes_no_bit() {
     let named = NamedModel::<MomentumPlant>::with("hinged.toml", &text(HINGED));
     let spinning: Start<'_> = &[("start.rate[1]", 0.03), ("start.rate[2]", 0.004)];
-    let fly = || fly(&named, &[FREE, spinning]);
-    assert_cuts_change_nothing(fly, [0.017, 5.5, 20.0, 40.0], &[1.3, 0.013, 0.5, 7.0], |flight| {
+    let initialize = || initialize(&named, &[FREE, spinning]);
+    assert_cuts_change_nothing(initialize, [0.017, 5.5, 20.0, 40.0], &[1.3, 0.013, 0.5, 7.0], |flight| {
         if flight.time_s() == 20.0 {
             flight.set("panel[1].sunOffset", 0.3);
         }
@@ -394,7 +395,7 @@ fn light_turns_the_body_about_its_moved_centre() {
     let named = NamedModel::<MomentumPlant>::with("hinged.toml", &text(HINGED));
     let start: Start<'_> =
         &[("attitude.source", 2.0), ("panel[1].control", 2.0), ("gravityGradient.enabled", 0.0)];
-    let mut flight = fly(&named, &[start]);
+    let mut flight = initialize(&named, &[start]);
     let torque_about_origin = |flight: &Flight<'_>| {
         let force = flight.vector("force.solar");
         (flight.vector("torque.solar") + flight.vector("centerOfMass").cross(&force), force)
@@ -403,7 +404,7 @@ fn light_turns_the_body_about_its_moved_centre() {
     flight.step_to(10.0).unwrap();
     let moved = torque_about_origin(&flight);
     let shipped = NamedModel::<MomentumPlant>::shipped();
-    let mut rigid = fly(&shipped, &[start]);
+    let mut rigid = initialize(&shipped, &[start]);
     rigid.set("panel[1].angle", 1.2);
     rigid.step_to(10.0).unwrap();
     let fixed = torque_about_origin(&rigid);

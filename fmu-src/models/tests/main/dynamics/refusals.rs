@@ -32,7 +32,7 @@ fn what_cannot_be_controlled_is_refused_by_name() {
         assert!(reported.contains(named_in_it) && says_what_is_allowed, "{bad:?}: {reported}");
         // Nothing of it matters without dynamics.
         if !bad.iter().any(|(name, _)| name.starts_with("sunSensor")) {
-            named.fly(0.0, bad).unwrap();
+            named.initialize(0.0, bad).unwrap();
         }
     }
 }
@@ -48,7 +48,8 @@ fn a_place_inside_the_planet_is_refused_before_the_body_is_simulated_there() {
         ("solver.workLimit", 2e4),
     ];
     for (source, shadow) in [(FREE, 1.0), (FREE, 4.0), (CONTROLLED, 1.0), (CONTROLLED, 4.0)] {
-        let mut flight = named.fly(0.0, &with(&[source, &sets, &[("eclipse.method", shadow)]])).unwrap();
+        let mut flight =
+            named.initialize(0.0, &with(&[source, &sets, &[("eclipse.method", shadow)]])).unwrap();
         flight.step_to(1.0).unwrap();
         flight.set("orbit.position[2]", 1e-4);
         let reported = flight.step_to(2.0).unwrap_err().to_string();

@@ -1,10 +1,10 @@
-//! Sensors: what they say, what their failures do, noise that repeats.
+//! Sensors: what they measure, what their failures do, noise that repeats.
 
 use models::MomentumPlant;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::super::named_model::{NamedModel, assert_same};
-use super::{CONTROLLED, FREE, Flight, GUIDANCE, Start, fly, to_inertial};
+use super::{CONTROLLED, FREE, Flight, GUIDANCE, Start, initialize, to_inertial};
 
 fn estimate(flight: &Flight<'_>) -> UnitQuaternion<f64> {
     flight.to_inertial("estimate.q")
@@ -23,9 +23,11 @@ const NOISE: Start<'_> = &[
 fn without_noise_everything_is_seen_as_it_is() {
     let named = NamedModel::<MomentumPlant>::shipped();
     for source in [1.0, 2.0, 3.0, 4.0] {
-        let mut flight =
-            fly(&named, &[&[("attitude.source", source), ("start.rate[3]", 1e-3 * (source - 2.0).max(0.0))]]);
-        flight.fly_to(50.0, 0.5).unwrap();
+        let mut flight = initialize(
+            &named,
+            &[&[("attitude.source", source), ("start.rate[3]", 1e-3 * (source - 2.0).max(0.0))]],
+        );
+        flight.simulate_to(50.0, 0.5).unwrap();
         let angle = estimate(&flight).angle_to(&to_inertial(&flight));
         // Propagated from the sample before at its rate.
         assert!(angle < 1e-7, "{source}: {angle:e}");
@@ -41,10 +43,10 @@ fn without_noise_everything_is_seen_as_it_is() {
 #[test]
 fn noise_spreads_as_reported_and_repeats() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let fly_with = |seed: f64| {
-        let mut flight = fly(&named, &[CONTROLLED, GUIDANCE, NOISE, &[("noise.seed", seed)]]);
+    let initialize_with = |seed: f64| {
+        let mut flight = initialize(&named, &[CONTROLLED, GUIDANCE, NOISE, &[("noise.seed", seed)]]);
         let (mut sum, mut count) = (0.0_f64, 0.0);
-        flight.fly_to(600.0, 10.0).unwrap();
+        flight.simulate_to(600.0, 10.0).unwrap();
         while flight.time_s() < 2_000.0 {
             flight.step_to(flight.time_s() + 2.0).unwrap();
             sum += estimate(&flight).angle_to(&to_inertial(&flight)).powi(2);
@@ -52,36 +54,36 @@ fn noise_spreads_as_reported_and_repeats() {
         }
         (flight, (sum / count).sqrt())
     };
-    let (first, spread) = fly_with(7.0);
+    let (first, spread) = initialize_with(7.0);
     // Filtered: well below the tracker's, well above nothing.
     assert!((2e-6..5e-5).contains(&spread), "{spread:e}");
-    assert_same(&first, &fly_with(7.0).0);
-    let (other, _) = fly_with(8.0);
+    assert_same(&first, &initialize_with(7.0).0);
+    let (other, _) = initialize_with(8.0);
     assert!(estimate(&first).angle_to(&estimate(&other)) > 1e-8);
 }
 
 #[test]
 fn failures_decide_what_is_valid() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = fly(&named, &[CONTROLLED, GUIDANCE, &[("starTracker.outage", 30.0)]]);
-    flight.fly_to(10.0, 1.0).unwrap();
+    let mut flight = initialize(&named, &[CONTROLLED, GUIDANCE, &[("starTracker.outage", 30.0)]]);
+    flight.simulate_to(10.0, 1.0).unwrap();
     flight.set("starTracker.failed", 1.0);
     flight.set("starTracker.spareFailed", 1.0);
-    flight.fly_to(35.0, 1.0).unwrap();
+    flight.simulate_to(35.0, 1.0).unwrap();
     assert!(flight.boolean("estimate.valid"));
-    flight.fly_to(50.0, 1.0).unwrap();
+    flight.simulate_to(50.0, 1.0).unwrap();
     assert!(!flight.boolean("estimate.valid"));
     flight.set("starTracker.failed", 0.0);
-    flight.fly_to(51.0, 1.0).unwrap();
+    flight.simulate_to(51.0, 1.0).unwrap();
     assert!(flight.boolean("estimate.valid"));
     // The tracker alone: rates by a filter of its attitudes.
     flight.set("gyro.failed", 1.0);
-    flight.fly_to(80.0, 1.0).unwrap();
+    flight.simulate_to(80.0, 1.0).unwrap();
     assert!(flight.boolean("estimate.valid"));
     assert!((flight.vector("estimate.rate") - flight.vector("attitude.rate")).norm() < 1e-5);
     // Neither.
     flight.set("starTracker.failed", 1.0);
-    flight.fly_to(90.0, 1.0).unwrap();
+    flight.simulate_to(90.0, 1.0).unwrap();
     assert!(!flight.boolean("estimate.valid"));
     assert_eq!(flight.vector("estimate.rate"), Vector3::zeros());
 }
@@ -91,7 +93,7 @@ fn the_estimate_is_lost_when_both_star_trackers_have_failed() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let commanded: Start<'_> = &[("attitude.source", 2.0)];
     for (source, outage_s) in [(CONTROLLED, 0.0), (commanded, 0.0)] {
-        let mut flight = fly(&named, &[source, GUIDANCE, &[("starTracker.outage", outage_s)]]);
+        let mut flight = initialize(&named, &[source, GUIDANCE, &[("starTracker.outage", outage_s)]]);
         for (failed, spare_failed) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0), (1.0, 0.0)] {
             flight.set("starTracker.failed", failed);
             flight.set("starTracker.spareFailed", spare_failed);
@@ -109,8 +111,8 @@ fn the_estimate_is_lost_when_both_star_trackers_have_failed() {
 #[test]
 fn sun_sensors_see_what_is_before_them() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = fly(&named, &[FREE]);
-    flight.fly_to(5.0, 1.0).unwrap();
+    let mut flight = initialize(&named, &[FREE]);
+    flight.simulate_to(5.0, 1.0).unwrap();
     let sun = flight.vector("sun.direction");
     // One after the other fails; those that see it are within 60 deg of it.
     let mut seeing = 0;
@@ -123,7 +125,7 @@ fn sun_sensors_see_what_is_before_them() {
     }
     assert!((1..=3).contains(&seeing));
     assert!(flight.boolean("sun.sensedValid"));
-    flight.fly_to(6.0, 1.0).unwrap();
+    flight.simulate_to(6.0, 1.0).unwrap();
     assert!(!flight.boolean("sun.sensedValid"));
     assert_eq!(flight.vector("sun.sensed"), Vector3::zeros());
 }
@@ -132,14 +134,14 @@ fn sun_sensors_see_what_is_before_them() {
 fn no_sun_is_sensed_in_the_shadow() {
     let named = NamedModel::<MomentumPlant>::shipped();
     // Where the shipped orbit has eclipses in a quarter of a year, guided flight tells quickly.
-    let mut guided = named.fly(0.0, &[]).unwrap();
+    let mut guided = named.initialize(0.0, &[]).unwrap();
     while guided.real("sun.litFraction") > 0.0 {
         guided.step_to(guided.time_s() + 300.0).unwrap();
         assert!(guided.time_s() < 86_400.0 * 90.0);
     }
     let dark_s = guided.time_s();
-    // The orbit is one in closed form: flown from the middle of the shadow and out of it.
-    let mut flight = named.fly(0.0, &[("attitude.source", 2.0)]).unwrap();
+    // The orbit is one in closed form: simulated from the middle of the shadow and out of it.
+    let mut flight = named.initialize(0.0, &[("attitude.source", 2.0)]).unwrap();
     flight.step_to(dark_s).unwrap();
     assert!(!flight.boolean("sun.sensedValid"));
     let [place, speed] = ["position", "velocity"].map(|name| flight.vector(name));
@@ -152,7 +154,7 @@ fn no_sun_is_sensed_in_the_shadow() {
     let mut start: Vec<(&str, f64)> = given.iter().map(|(name, value)| (name.as_str(), *value)).collect();
     let epoch_s = guided.real("epoch");
     start.extend([("attitude.source", 4.0), ("orbit.source", 2.0), ("start.epoch", epoch_s)]);
-    let mut flight = named.fly(0.0, &start).unwrap();
+    let mut flight = named.initialize(0.0, &start).unwrap();
     while flight.real("sun.litFraction") < 1.0 {
         flight.step_to(flight.time_s() + 10.0).unwrap();
         let lit = flight.real("sun.litFraction");

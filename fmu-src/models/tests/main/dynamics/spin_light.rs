@@ -5,7 +5,7 @@ use models::MomentumPlant;
 use nalgebra::Vector3;
 
 use super::super::named_model::NamedModel;
-use super::{FREE, Start, fly};
+use super::{FREE, Start, initialize};
 
 /// A vane off the axis, with a kink in its load whenever the Sun crosses its plane.
 const VANE: &str = r#"
@@ -42,9 +42,9 @@ fn off_the_fine_answer(named: &NamedModel<MomentumPlant>, rate_rad_s: Vector3<f6
         let step: Start<'_> = &[("solver.dynamicsStep", step_s), ("gravityGradient.enabled", 0.0)];
         let undumped: Start<'_> =
             &[("dump.threshold[1]", 1e6), ("dump.threshold[2]", 1e6), ("dump.threshold[3]", 1e6)];
-        let mut flight = fly(named, &[FREE, &rate, step, undumped, light]);
+        let mut flight = initialize(named, &[FREE, &rate, step, undumped, light]);
         let before = flight.vector("momentum.inertial");
-        flight.fly_to(20.0, 1.0).unwrap();
+        flight.simulate_to(20.0, 1.0).unwrap();
         [flight.vector("momentum.inertial") - before, flight.vector("deltaV")]
     };
     let (coarse, fine) = (added(1.0), added(1e-3));

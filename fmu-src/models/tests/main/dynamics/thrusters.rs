@@ -7,11 +7,11 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::super::named_model::{NamedModel, assert_cuts_change_nothing};
 use super::super::spacecraft::{EXHAUST_M_S, SIMPLE, couples, thruster};
-use super::{CONTROLLED, DARK, FREE, Flight, Start, fly, set_quaternion, to_inertial};
+use super::{CONTROLLED, DARK, FREE, Flight, Start, initialize, set_quaternion, to_inertial};
 
 const FULL: &str = include_str!("../../../../resources/messenger-full.toml");
 
-fn craft(thrusters: &str) -> NamedModel<MomentumPlant> {
+fn with_thrusters(thrusters: &str) -> NamedModel<MomentumPlant> {
     NamedModel::<MomentumPlant>::with("simple.toml", &format!("{SIMPLE}{thrusters}"))
 }
 
@@ -27,8 +27,9 @@ const NO_DUMPS: Start<'_> =
 fn a_pulse_train_gives_force_times_lever_times_time() {
     for (ramps, lost_s) in [("", 0.0), ("rise_time_s = 0.004\ntail_off_time_s = 0.01", 0.003)] {
         // Along +Z, 0.8 m off the axis along +Y: a torque about +X.
-        let named = craft(&(couples("") + &thruster([0.0, 0.8, -1.0], [0.0, 0.0, 1.0], 22.0, ramps)));
-        let mut flight = fly(&named, &[FREE, DARK, NO_DUMPS]);
+        let named =
+            with_thrusters(&(couples("") + &thruster([0.0, 0.8, -1.0], [0.0, 0.0, 1.0], 22.0, ramps)));
+        let mut flight = initialize(&named, &[FREE, DARK, NO_DUMPS]);
         let mut on_s = 0.0;
         for step in 0..40 {
             let width_s = 0.002 * f64::from(step % 7) + 0.005;
@@ -59,8 +60,8 @@ fn a_pulse_train_gives_force_times_lever_times_time() {
 #[test]
 fn thrust_is_never_active_without_thrusters() {
     // None at all, and none of the set.
-    for named in [craft(""), craft(&couples(""))] {
-        let mut flight = fly(&named, &[FREE, DARK]);
+    for named in [with_thrusters(""), with_thrusters(&couples(""))] {
+        let mut flight = initialize(&named, &[FREE, DARK]);
         flight.set("thrust.request", 2.0);
         flight.set("thrust.command", 1.0);
         flight.set("thrust.stop", 600.0);
@@ -78,8 +79,8 @@ fn a_long_thrust_follows_the_rocket_equation() {
         .iter()
         .map(|&(x, y)| thruster([x, y, -1.0], [0.0, 0.0, 1.0], 22.0, "set = \"own\""))
         .collect();
-    let named = craft(&(couples("") + &main));
-    let mut flight = fly(&named, &[FREE, DARK]);
+    let named = with_thrusters(&(couples("") + &main));
+    let mut flight = initialize(&named, &[FREE, DARK]);
     flight.set("thrust.request", 1.0);
     flight.set("thrust.command", 1.0);
     flight.set("thrust.stop", 600.123_456);
@@ -118,7 +119,7 @@ fn sets_are_the_files_own_in_its_order() {
         );
         let named = NamedModel::<MomentumPlant>::with("simple.toml", &text);
         for (item, (name, force_n)) in (1..).zip(&sets) {
-            let mut flight = fly(&named, &[FREE, DARK]);
+            let mut flight = initialize(&named, &[FREE, DARK]);
             flight.set("thrust.request", f64::from(item));
             flight.set("thrust.command", 1.0);
             flight.step_to(1.0).unwrap();
@@ -142,11 +143,11 @@ fn a_tank_runs_dry_and_blowdown_weakens() {
         })
         .collect();
     let named = NamedModel::<MomentumPlant>::with("blowdown.toml", &format!("{file}{}{main}", couples("")));
-    let mut flight = fly(&named, &[FREE, DARK]);
+    let mut flight = initialize(&named, &[FREE, DARK]);
     flight.set("thrust.request", 1.0);
     flight.set("thrust.command", 1.0);
     let time_s: f64 = 60.0;
-    flight.fly_to(time_s, 1.0).unwrap();
+    flight.simulate_to(time_s, 1.0).unwrap();
     // rho (sqrt(V^2 + 2 c V t / rho) - V) with the flow c at the start.
     let flow = 200.0 / EXHAUST_M_S;
     let used = 1000.0 * ((0.02_f64.powi(2) + 2.0 * flow * 0.02 * time_s / 1000.0).sqrt() - 0.02);
@@ -158,17 +159,17 @@ fn a_tank_runs_dry_and_blowdown_weakens() {
     let off = flight.vector("force.thruster").z / (200.0 * pressure / 2e6) - 1.0;
     assert!(off.abs() < 6e-9, "{off}");
     // 6e5 Pa are left at 46.7 kg, before it is empty: then nothing fires.
-    flight.fly_to(3_000.0, 5.0).unwrap();
+    flight.simulate_to(3_000.0, 5.0).unwrap();
     assert!(!flight.boolean("tank[1].feeds"));
     assert_eq!(flight.vector("force.thruster"), Vector3::zeros());
     let left = flight.real("tank[1].propellantLeft");
     assert!((50.0 - 0.02 * (2e6 / 6e5 - 1.0) * 1000.0 - left).abs() < 0.01, "{left}");
 
-    let named = craft(&(couples("") + &main));
-    let mut flight = fly(&named, &[FREE, DARK, &[("tank[1].propellant", 3.0)]]);
+    let named = with_thrusters(&(couples("") + &main));
+    let mut flight = initialize(&named, &[FREE, DARK, &[("tank[1].propellant", 3.0)]]);
     flight.set("thrust.request", 1.0);
     flight.set("thrust.command", 1.0);
-    flight.fly_to(100.0, 7.0).unwrap();
+    flight.simulate_to(100.0, 7.0).unwrap();
     assert_eq!(flight.real("tank[1].propellantLeft"), 0.0);
     assert!((flight.real("propellant.used") - 3.0).abs() < 1e-12 && !flight.boolean("tank[1].feeds"));
     assert!((flight.vector("deltaV").z - EXHAUST_M_S * (500.0_f64 / 497.0).ln()).abs() < 1e-9);
@@ -182,7 +183,7 @@ fn a_dump_in_controlled_flight_is_that_of_guided_flight() {
     let exact: Vec<(String, f64)> = (1..=17).map(|k| (format!("thruster[{k}].scatter"), 0.0)).collect();
     let exact: Vec<(&str, f64)> = exact.iter().map(|(name, value)| (name.as_str(), *value)).collect();
     let held: Start<'_> = &[("wheel[1].startMomentum", 3.0), ("wheel[2].startMomentum", -1.5)];
-    let mut simulated = fly(&named, &[CONTROLLED, quiet, held, &exact]);
+    let mut simulated = initialize(&named, &[CONTROLLED, quiet, held, &exact]);
     simulated.step_to(10.0).unwrap();
     let before = momentum(&simulated);
     let ask = |flight: &mut Flight<'_>| {
@@ -206,7 +207,7 @@ fn a_dump_in_controlled_flight_is_that_of_guided_flight() {
     let at: Vec<(String, f64)> = (0..3).map(|i| (format!("start.momentum[{}]", i + 1), before[i])).collect();
     let at: Vec<(&str, f64)> = at.iter().map(|(name, value)| (name.as_str(), *value)).collect();
     let commanded: Start<'_> = &[("attitude.source", 2.0)];
-    let mut ideal = fly(&named, &[commanded, quiet, &at]);
+    let mut ideal = initialize(&named, &[commanded, quiet, &at]);
     ask(&mut ideal);
     ideal.step_to(10.0).unwrap();
     let (impulse, ideal_impulse) = (simulated.vector("dump.impulse"), ideal.vector("dump.impulse"));
@@ -222,7 +223,7 @@ fn a_dump_in_controlled_flight_is_that_of_guided_flight() {
 fn the_momentum_is_the_integral_of_all_torques() {
     let named = NamedModel::<MomentumPlant>::with("messenger-full.toml", FULL);
     let held: Start<'_> = &[("wheel[1].startMomentum", 4.0), ("wheel[3].startMomentum", 2.0)];
-    let mut flight = fly(&named, &[CONTROLLED, held]);
+    let mut flight = initialize(&named, &[CONTROLLED, held]);
     flight.step_to(1.0).unwrap();
     flight.set("dump.request", 1.0);
     let begin = momentum(&flight);
@@ -248,7 +249,7 @@ fn the_momentum_is_the_integral_of_all_torques() {
 fn thrusters_hold_the_attitude_of_a_large_burn() {
     let named = NamedModel::<MomentumPlant>::with("messenger-full.toml", FULL);
     let offset: Start<'_> = &[("spacecraft.centerOfMass[1]", 0.02)];
-    let mut flight = fly(&named, &[CONTROLLED, DARK, offset]);
+    let mut flight = initialize(&named, &[CONTROLLED, DARK, offset]);
     set_quaternion(&mut flight, "command.q", &UnitQuaternion::identity());
     flight.step_to(5.0).unwrap();
     flight.set("thrust.request", 1.0);
@@ -274,13 +275,13 @@ fn thrusters_hold_the_attitude_of_a_large_burn() {
 #[test]
 fn thrusters_stand_in_for_failed_wheels() {
     let named = NamedModel::<MomentumPlant>::with("messenger-full.toml", FULL);
-    let mut flight = fly(&named, &[CONTROLLED, DARK]);
+    let mut flight = initialize(&named, &[CONTROLLED, DARK]);
     for k in [1, 2] {
         flight.set(&format!("wheel[{k}].failed"), 1.0);
     }
     let target = UnitQuaternion::new(Vector3::new(0.2, -0.1, 0.3));
     set_quaternion(&mut flight, "command.q", &target);
-    flight.fly_to(600.0, 1.0).unwrap();
+    flight.simulate_to(600.0, 1.0).unwrap();
     let off = to_inertial(&flight).angle_to(&target).to_degrees();
     println!("two wheels failed: {off:.4} deg off after a turn of 21 deg");
     assert!(off < 0.2, "{off}");
@@ -297,12 +298,12 @@ fn cutting_and_saving_change_no_bit() {
         ("thrust.jitter", 1e-3),
         ("accelerometer.noise", 1e-4),
     ];
-    let fly = || {
-        let mut flight = fly(&named, &[CONTROLLED, held]);
+    let initialize = || {
+        let mut flight = initialize(&named, &[CONTROLLED, held]);
         flight.set("dump.request", 1.0);
         flight
     };
-    assert_cuts_change_nothing(fly, [30.0, 60.0, 90.0], &[0.9, 0.013, 0.25, 7.0], |flight| {
+    assert_cuts_change_nothing(initialize, [30.0, 60.0, 90.0], &[0.9, 0.013, 0.25, 7.0], |flight| {
         if flight.time_s() == 60.0 {
             flight.set("thrust.request", 2.0);
             flight.set("thrust.command", 1.0);
@@ -313,14 +314,14 @@ fn cutting_and_saving_change_no_bit() {
 
 #[test]
 fn what_cannot_fire_is_refused_or_flagged() {
-    let message = craft(&couples("")).refusal(&[("tank[1].propellant", 600.0)]);
+    let message = with_thrusters(&couples("")).refusal(&[("tank[1].propellant", 600.0)]);
     assert!(message.contains("tank[k].propellant") && message.contains("500"), "{message}");
-    let bounded = craft(&format!("allowed_pressure_pa = [1e6, 3e6]\n{}", couples("")));
+    let bounded = with_thrusters(&format!("allowed_pressure_pa = [1e6, 3e6]\n{}", couples("")));
     let message = bounded.refusal(&[("tank[1].pressure", 5e5)]);
     assert!(message.contains("tank[1].pressure") && message.contains("1000000"), "{message}");
 
-    let named = craft(&(couples("min_on_time_s = 0.02")));
-    let mut flight = fly(&named, &[FREE, DARK, NO_DUMPS]);
+    let named = with_thrusters(&(couples("min_on_time_s = 0.02")));
+    let mut flight = initialize(&named, &[FREE, DARK, NO_DUMPS]);
     flight.set("thruster[1].onTime", 0.019);
     flight.step_to(1.0).unwrap();
     assert!(flight.boolean("thruster[1].tooShort") && flight.integer("thruster[1].pulses") == 0);
@@ -348,41 +349,41 @@ fn what_cannot_fire_is_refused_or_flagged() {
     assert!((momentum(&flight).norm() - expected).abs() < 1e-9, "{}", momentum(&flight).norm());
 }
 
-/// A main engine alone can be simulated; the dumps there are come by dump.torque, as without thrusters, and that is said.
+/// A main engine alone can be simulated; the dumps there are come by dump.torque, as without thrusters, and that is reported.
 #[test]
 fn thrusters_that_cannot_turn_the_body_leave_dumps_to_dump_torque() {
     let engine = thruster([0.0, 0.0, -1.0], [0.0, 0.0, 1.0], 22.0, "");
-    let said = |named: &NamedModel<MomentumPlant>| {
+    let reported = |named: &NamedModel<MomentumPlant>| {
         named.warnings().iter().filter(|it| it.contains("no torque about") && it.contains("dump")).count()
     };
     // 20 N m s about X, beyond the default thresholds: in free flight they are off unless set.
     let turning: Start<'_> = &[("start.rate[1]", 0.1), ("dump.torque", 0.5)];
-    let named = craft(&engine);
-    let mut flight = fly(&named, &[FREE, DARK, turning]);
-    flight.fly_to(5.0, 1.0).unwrap();
-    assert_eq!((flight.integer("dump.count"), said(&named)), (0, 0));
+    let named = with_thrusters(&engine);
+    let mut flight = initialize(&named, &[FREE, DARK, turning]);
+    flight.simulate_to(5.0, 1.0).unwrap();
+    assert_eq!((flight.integer("dump.count"), reported(&named)), (0, 0));
     // To -9 N m s by 0.5 N m.
     let thresholds: Start<'_> =
         &[("dump.threshold[1]", 10.0), ("dump.threshold[2]", 10.0), ("dump.threshold[3]", 10.0)];
-    let mut flight = fly(&named, &[FREE, DARK, turning, thresholds]);
-    flight.fly_to(57.0, 1.0).unwrap();
+    let mut flight = initialize(&named, &[FREE, DARK, turning, thresholds]);
+    flight.simulate_to(57.0, 1.0).unwrap();
     assert!(flight.boolean("dump.active"));
-    flight.fly_to(60.0, 1.0).unwrap();
+    flight.simulate_to(60.0, 1.0).unwrap();
     assert!(!flight.boolean("dump.active") && flight.integer("dump.count") == 1);
     assert!((momentum(&flight) - Vector3::x() * -9.0).norm() < 1e-9, "{}", momentum(&flight));
-    assert_eq!((flight.real("propellant.used"), said(&named)), (0.0, 1));
+    assert_eq!((flight.real("propellant.used"), reported(&named)), (0.0, 1));
     // In an attitude that is followed ideally at once.
-    let named = craft(&engine);
+    let named = with_thrusters(&engine);
     let mut flight =
-        fly(&named, &[&[("attitude.source", 2.0)], DARK, &[("start.momentum[1]", 20.0)], thresholds]);
-    flight.fly_to(5.0, 1.0).unwrap();
-    assert_eq!((flight.integer("dump.count"), said(&named)), (1, 1));
+        initialize(&named, &[&[("attitude.source", 2.0)], DARK, &[("start.momentum[1]", 20.0)], thresholds]);
+    flight.simulate_to(5.0, 1.0).unwrap();
+    assert_eq!((flight.integer("dump.count"), reported(&named)), (1, 1));
     assert_eq!((flight.real("propellant.used"), flight.vector("dump.deltaV")), (0.0, Vector3::zeros()));
 }
 
 /// The centre of mass moves onto the line of a thruster that alone gives +X.
 #[test]
-fn a_dump_without_thrusters_after_the_centre_of_mass_moved_is_said() {
+fn a_dump_without_thrusters_after_the_centre_of_mass_moved_is_reported() {
     let one_sided: String = (0..3)
         .flat_map(|axis| [1.0, -1.0].map(|side| (axis, side)))
         .map(|(axis, side)| {
@@ -394,14 +395,14 @@ fn a_dump_without_thrusters_after_the_centre_of_mass_moved_is_said() {
     let ideal: Start<'_> = &[("attitude.source", 2.0), ("start.momentum[1]", 3.0)];
     let free: Start<'_> = &[("attitude.source", 4.0), ("start.rate[1]", 0.015)];
     for start in [ideal, free] {
-        let named = craft(&one_sided);
-        let mut flight = fly(&named, &[start, DARK]);
+        let named = with_thrusters(&one_sided);
+        let mut flight = initialize(&named, &[start, DARK]);
         let dump = |flight: &mut Flight<'_>| {
             flight.set("dump.request", 1.0);
             let end_s = flight.time_s() + 200.0;
-            flight.fly_to(end_s, 1.0).unwrap();
+            flight.simulate_to(end_s, 1.0).unwrap();
             flight.set("dump.request", 0.0);
-            flight.fly_to(end_s + 1.0, 1.0).unwrap();
+            flight.simulate_to(end_s + 1.0, 1.0).unwrap();
             flight.real("propellant.used")
         };
         let served_kg = dump(&mut flight);

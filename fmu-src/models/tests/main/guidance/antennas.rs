@@ -26,7 +26,7 @@ fn other(tables: &str) -> String {
 #[test]
 fn a_fixed_antenna_is_turned_to_the_earth_and_the_sun_as_near_to_minus_y_as_that_allows() {
     let named = NamedModel::<Guidance>::with("dish.toml", &other(DISH));
-    let flight = named.fly(0.0, &with(&[PLACED, FREE, DOWNLINK])).unwrap();
+    let flight = named.initialize(0.0, &with(&[PLACED, FREE, DOWNLINK])).unwrap();
     let place = Vector3::new(3e6, 1e6, 2e6);
     let toward = |body: Vector3<f64>| to_inertial(&flight).inverse() * (body - place).normalize();
     let (axis, sun) = (Vector3::new(0.0, 0.6, 0.8), toward(Vector3::new(3e10, -4e10, 2e9)));
@@ -40,7 +40,7 @@ fn a_fixed_antenna_is_turned_to_the_earth_and_the_sun_as_near_to_minus_y_as_that
     assert!(flight.boolean("link.available") && flight.boolean("target.reachable"));
     assert!((flight.real("antenna.azimuth").abs() - core::f64::consts::PI).abs() < 1e-12);
     // The zone turns the antenna off the Earth: the beam stays where it is.
-    let flight = named.fly(0.0, &with(&[PLACED, &[("hotPole.enabled", 0.0)], DOWNLINK])).unwrap();
+    let flight = named.initialize(0.0, &with(&[PLACED, &[("hotPole.enabled", 0.0)], DOWNLINK])).unwrap();
     assert!(flight.boolean("constraint.sunKeepIn") && !flight.boolean("link.available"));
     assert_eq!(flight.integer("antenna.select"), 1);
 }
@@ -61,7 +61,7 @@ fn a_fan_of_another_range_has_the_sun_on_minus_y_where_it_reaches_the_earth_and_
         let fan =
             format!("\n[[antennas]]\nname = \"fan\"\nazimuth_deg = {range_deg:?}\nbeam_deg = [4, 15]\n");
         let named = NamedModel::<Guidance>::with("fan.toml", &other(&fan));
-        let flight = named.fly(0.0, &with(&[PLACED, FREE, DOWNLINK])).unwrap();
+        let flight = named.initialize(0.0, &with(&[PLACED, FREE, DOWNLINK])).unwrap();
         let toward = |line: Vector3<f64>| to_inertial(&flight).inverse() * line.normalize();
         let (sine, cosine) = azimuth_deg.to_radians().sin_cos();
         let beam = Vector3::new(sine, -cosine, 0.0);
@@ -81,7 +81,7 @@ fn a_fan_of_another_range_has_the_sun_on_minus_y_where_it_reaches_the_earth_and_
 #[test]
 fn the_plant_points_a_fixed_antenna_at_the_earth_in_its_windows() {
     let named = NamedModel::<MomentumPlant>::with("dish.toml", &other(&[DISH, WINDOWS].concat()));
-    let mut flight = named.fly(0.0, &[]).unwrap();
+    let mut flight = named.initialize(0.0, &[]).unwrap();
     for hours in [3.0, 9.0] {
         flight.step_to(hours * 3600.0).unwrap();
         let (azimuth_rad, elevation_rad) = (flight.real("earth.azimuth"), flight.real("earth.elevation"));
@@ -116,9 +116,10 @@ fn downlinks_and_targets_without_an_antenna_are_refused_by_name() {
         assert!(words.iter().all(|word| found.contains(word)), "{words:?}: {found}");
     }
     // Left alone there is no downlink, and Safe Hold has an attitude.
-    named.fly(0.0, &with(&[PLACED, &[("pointing.scenario", 10.0)]])).unwrap().step_to(60.0).unwrap();
-    let mut flight =
-        named.fly(0.0, &with(&[PLACED, &[("pointing.scenario", 3.0), ("mode.request", 2.0)]])).unwrap();
+    named.initialize(0.0, &with(&[PLACED, &[("pointing.scenario", 10.0)]])).unwrap().step_to(60.0).unwrap();
+    let mut flight = named
+        .initialize(0.0, &with(&[PLACED, &[("pointing.scenario", 3.0), ("mode.request", 2.0)]]))
+        .unwrap();
     flight.step_to(5.0).unwrap();
     assert_eq!((flight.integer("mode.active"), flight.integer("antenna.select")), (2, 0));
     assert!(flight.real("sun.azimuth").abs() < 1e-9 && !flight.boolean("link.available"));
@@ -130,7 +131,7 @@ fn downlinks_and_targets_without_an_antenna_are_refused_by_name() {
     );
     // Windows that never open need none.
     for every in [0.0, 1.0] {
-        named.fly(0.0, &[("guided.downlinkEvery", every)]).unwrap().step_to(86_400.0).unwrap();
+        named.initialize(0.0, &[("guided.downlinkEvery", every)]).unwrap().step_to(86_400.0).unwrap();
     }
     let dish = NamedModel::<MomentumPlant>::with("dish.toml", &other(DISH));
     let strategy = dish.refusal(&[("momentum.strategy", 3.0)]);
@@ -143,15 +144,15 @@ fn downlinks_and_targets_without_an_antenna_are_refused_by_name() {
 #[test]
 fn a_gimbal_of_another_axis_follows_its_target_and_without_one_it_is_refused() {
     let named = NamedModel::<Guidance>::with("tilted.toml", &other(TILTED));
-    for (asked_deg, found_deg) in [(40.0_f64, 40.0_f64), (80.0, 70.0), (-20.0, -10.0)] {
+    for (requested_deg, found_deg) in [(40.0_f64, 40.0_f64), (80.0, 70.0), (-20.0, -10.0)] {
         let command = [
             ("pointing.scenario", 4.0),
             ("aimpoint.option", 12.0),
-            ("boresight.angle", asked_deg.to_radians()),
+            ("boresight.angle", requested_deg.to_radians()),
         ];
-        let flight = named.fly(0.0, &with(&[PLACED, FREE, &command])).unwrap();
+        let flight = named.initialize(0.0, &with(&[PLACED, FREE, &command])).unwrap();
         assert!((flight.real("gimbal.angle").to_degrees() - found_deg).abs() < 1e-12);
-        assert_eq!(flight.boolean("gimbal.inRange"), asked_deg == found_deg);
+        assert_eq!(flight.boolean("gimbal.inRange"), requested_deg == found_deg);
         // From +X toward -Y.
         let (sine, cosine) = found_deg.to_radians().sin_cos();
         let nadir = to_inertial(&flight).inverse() * -Vector3::new(3e6, 1e6, 2e6).normalize();

@@ -35,16 +35,16 @@ fn on_s(flight: &Flight<'_>, time_s: f64) -> f64 {
     (until_s - time_s).clamp(0.0, 1.0)
 }
 
-/// Flies it second by second, each in `cuts` steps, saved and restored before each second where `saves`; calls `each` with
+/// Simulates it second by second, each in `cuts` steps, saved and restored before each second where `saves`; calls `each` with
 /// the flight after each second.
-fn fly<'a>(
+fn simulate<'a>(
     named: &'a NamedModel<Guidance>,
     sets: &[(&str, f64)],
     cuts: u32,
     saves: bool,
     mut each: impl FnMut(u32, &Flight<'a>),
 ) -> f64 {
-    let mut flight = named.fly(0.0, sets).unwrap();
+    let mut flight = named.initialize(0.0, sets).unwrap();
     let mut thrust_s = 0.0;
     for second in 0..80 {
         let time_s = f64::from(second);
@@ -67,7 +67,7 @@ fn thrusters_are_reported_from_the_scenario_to_the_exact_end() {
     let named = NamedModel::<Guidance>::shipped();
     let delta_v = Vector3::new(3.0, -1.0, 2.0);
     let mut ended_at = None;
-    let thrust_s = fly(&named, &with(&[PLACED, FREE, BURN]), 1, false, |second, flight| {
+    let thrust_s = simulate(&named, &with(&[PLACED, FREE, BURN]), 1, false, |second, flight| {
         let (request, command) = (flight.integer("thrust.request"), flight.boolean("thrust.command"));
         let stop_s = flight.real("thrust.stop");
         if second < 4 {
@@ -97,9 +97,9 @@ fn cuts_and_saved_states_change_no_bit_of_a_burn() {
     let rest = [("burn.profile[3,1]", 1.0), ("burn.profile[3,3]", 1.0)];
     for sets in [sets.clone(), with(&[&sets, &turn, &rest])] {
         let mut whole = Vec::new();
-        fly(&named, &sets, 1, false, |_, flight| whole.push(flight.restored()));
+        simulate(&named, &sets, 1, false, |_, flight| whole.push(flight.restored()));
         for (cuts, saves) in [(10, false), (3, false), (1, true), (7, true)] {
-            fly(&named, &sets, cuts, saves, |second, flight| {
+            simulate(&named, &sets, cuts, saves, |second, flight| {
                 assert_same(&whole[second as usize], flight);
             });
         }
@@ -113,7 +113,7 @@ fn a_profile_that_ends_elsewhere_is_refused_and_no_direction_holds_the_attitude(
     let refused = named.refusal(&sets);
     assert!(refused.contains("burn.profile") && refused.contains("burn.deltaV"), "{refused}");
     let none = [("burn.deltaV[1]", 0.0), ("burn.deltaV[2]", 0.0), ("burn.deltaV[3]", 0.0)];
-    let mut flight = named.fly(0.0, &with(&[PLACED, BURN, &none])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[PLACED, BURN, &none])).unwrap();
     flight.step_to(10.0).unwrap();
     assert_eq!(flight.integer("command.kind"), 0);
     assert!(flight.boolean("geometry.degenerate") && !flight.boolean("thrust.command"));
@@ -126,7 +126,7 @@ fn a_timelines_entry_that_names_no_scenario_does_not_burn_again() {
     let named = NamedModel::<Guidance>::shipped().with_schedule("timeline.toml", timeline);
     let burn: Vec<_> = BURN.iter().copied().filter(|(name, _)| *name != "pointing.scenario").collect();
     let mut reported = Vec::new();
-    fly(&named, &with(&[PLACED, FREE, &burn]), 1, false, |_, flight| {
+    simulate(&named, &with(&[PLACED, FREE, &burn]), 1, false, |_, flight| {
         reported.push(flight.boolean("thrust.command"))
     });
     let edges: Vec<_> = (1..reported.len()).filter(|at| reported[*at] != reported[at - 1]).collect();
@@ -146,7 +146,7 @@ fn a_burn_that_is_refused_or_ends_before_it_began_says_so() {
         ("pointing.scenario", 9.0),
     ];
     let named = NamedModel::<Guidance>::shipped();
-    let mut refused = named.fly(0.0, &with(&[PLACED, &zone, &toward_sun])).unwrap();
+    let mut refused = named.initialize(0.0, &with(&[PLACED, &zone, &toward_sun])).unwrap();
     for second in 0..40 {
         refused.step_to(f64::from(second + 1)).unwrap();
         assert_eq!(refused.boolean("burn.timedOut"), second >= 4, "{second}");
@@ -159,7 +159,7 @@ fn a_burn_that_is_refused_or_ends_before_it_began_says_so() {
     assert_eq!([reported(&named, "does not begin"), reported(&named, "before it began")], [1, 1]);
 
     let named = NamedModel::<Guidance>::shipped();
-    let mut ended = named.fly(0.0, &with(&[PLACED, FREE, BURN, &[("burn.start", 100.0)]])).unwrap();
+    let mut ended = named.initialize(0.0, &with(&[PLACED, FREE, BURN, &[("burn.start", 100.0)]])).unwrap();
     ended.step_to(10.0).unwrap();
     assert!(!ended.boolean("burn.timedOut") && named.warnings().is_empty());
     ended.set("pointing.scenario", 3.0);
@@ -183,7 +183,7 @@ fn burns_of_a_timeline_have_their_own_velocity_set_and_start() {
     let named = NamedModel::<Guidance>::shipped().with_schedule("timeline.toml", timeline);
     let mut began = Vec::new();
     let mut was_on = false;
-    fly(&named, &with(&[PLACED, FREE, &planned()]), 1, false, |second, flight| {
+    simulate(&named, &with(&[PLACED, FREE, &planned()]), 1, false, |second, flight| {
         let (request, is_on) = (flight.integer("thrust.request"), flight.boolean("thrust.command"));
         if is_on && !was_on {
             began.push((second, request));
@@ -197,7 +197,7 @@ fn burns_of_a_timeline_have_their_own_velocity_set_and_start() {
         }
         assert!(!matches!(second, 29 | 49) || flight.vector("burn.velocityError").norm() < 0.02, "{second}");
     });
-    // After its command and 5 s; a second after its command, when the attitude is there; as the parameters say.
+    // After its command and 5 s; a second after its command, when the attitude is there; as the parameters set.
     assert_eq!(began, [(7, 3), (31, 1), (50, 2)]);
     assert!(named.warnings().is_empty(), "{:?}", named.warnings());
 }
@@ -216,7 +216,7 @@ fn a_burn_is_cut_off_with_a_warning_where_its_command_ends() {
         let timeline = format!("{burn}{table}{end}");
         let named = NamedModel::<Guidance>::shipped().with_schedule("timeline.toml", &timeline);
         let mut last = None;
-        fly(&named, &with(&[PLACED, FREE, &planned()]), 1, false, |second, flight| {
+        simulate(&named, &with(&[PLACED, FREE, &planned()]), 1, false, |second, flight| {
             if flight.boolean("thrust.command") && flight.integer("thrust.request") == 2 {
                 last = Some(second);
             }
@@ -232,7 +232,7 @@ fn a_burn_without_start_waits_until_the_attitude_is_reached() {
     let timeline =
         "[[command]]\nat = 2\nscenario = \"burn\"\nburn = { deltaV = [1, 0, 0], thrusters = \"c22\" }\n";
     let named = NamedModel::<Guidance>::shipped().with_schedule("timeline.toml", timeline);
-    let mut flight = named.fly(0.0, &with(&[PLACED, FREE, &planned()])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[PLACED, FREE, &planned()])).unwrap();
     let held = flight.quaternion("command.q");
     for second in 0..60 {
         // The spacecraft turns at 25 s.

@@ -75,15 +75,15 @@ fn each_burn_of_a_timeline_adds_its_velocity() {
         NamedModel::<Guidance>::with("own.toml", &spacecraft).with_schedule("timeline.toml", TIMELINE);
     let epoch = [("start.epoch", physics::environment::dates::epoch_s(START).unwrap())];
     let places = ["position", "velocity"];
-    let before = plants.fly(0.0, &epoch).unwrap();
+    let before = plants.initialize(0.0, &epoch).unwrap();
     let names = places.map(|name| [1, 2, 3].map(|i| format!("{name}[{i}]")));
     let at_start: Vec<_> = names.iter().flatten().map(|name| (name.as_str(), before.real(name))).collect();
-    let mut guidance = guidances.fly(0.0, &with(&[&epoch, FREE, &at_start])).unwrap();
+    let mut guidance = guidances.initialize(0.0, &with(&[&epoch, FREE, &at_start])).unwrap();
     let start_q = guidance.quaternion("command.q");
     let names = [1, 2, 3, 4].map(|i| format!("start.q[{i}]"));
     let q: Vec<_> = names.iter().map(String::as_str).zip(start_q).collect();
     let controlled = [("attitude.source", 3.0), ("command.source", 1.0)];
-    let mut plant = plants.fly(0.0, &with(&[&epoch, &q, &controlled])).unwrap();
+    let mut plant = plants.initialize(0.0, &with(&[&epoch, &q, &controlled])).unwrap();
 
     let planned = planned();
     let (mut now_s, mut added) = (0.0, Vec::new());

@@ -29,7 +29,7 @@ fn scan(reversal_rad: f64) -> Vec<(&'static str, f64)> {
 #[test]
 fn an_ordinary_scan_near_the_boundary_does_not_end_in_safe_hold() {
     let (plants, guidances) = (NamedModel::<MomentumPlant>::shipped(), NamedModel::<Guidance>::shipped());
-    let places = plants.fly(0.0, &[]).unwrap();
+    let places = plants.initialize(0.0, &[]).unwrap();
     let [position, velocity] = ["position", "velocity"].map(|name| places.vector(name));
     let limit_rad = 13_f64.to_radians();
     let mut greatest_rad = 0.0_f64;
@@ -43,12 +43,12 @@ fn an_ordinary_scan_near_the_boundary_does_not_end_in_safe_hold() {
             ("velocity[2]", velocity.y),
             ("velocity[3]", velocity.z),
         ];
-        let mut guidance = guidances.fly(0.0, &with(&[&at_start, &scan(reversal_rad)])).unwrap();
+        let mut guidance = guidances.initialize(0.0, &with(&[&at_start, &scan(reversal_rad)])).unwrap();
         let start_q = guidance.quaternion("command.q");
         let names = [1, 2, 3, 4].map(|i| format!("start.q[{i}]"));
         let mut start: Vec<_> = names.iter().map(String::as_str).zip(start_q).collect();
         start.push(("attitude.source", 3.0));
-        let mut plant = plants.fly(0.0, &start).unwrap();
+        let mut plant = plants.initialize(0.0, &start).unwrap();
         for second in 0..900 {
             // Both take what the other had at the step's begin.
             let kind = guidance.integer("command.kind");

@@ -91,8 +91,8 @@ fn neither_cuts_nor_saving_change_a_bit() {
         for start_s in [0.0, -800.25, 1e9] {
             let sets = with(&[PLACED, case]);
             let ends_s = [60.0, 61.5, 180.0].map(|length_s| start_s + length_s);
-            let fly = || named.fly(start_s, &sets).unwrap();
-            assert_cuts_change_nothing(fly, ends_s, &[1.7, 0.1, 0.3, 7.0, 60.0], |_| {});
+            let initialize = || named.initialize(start_s, &sets).unwrap();
+            assert_cuts_change_nothing(initialize, ends_s, &[1.7, 0.1, 0.3, 7.0, 60.0], |_| {});
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Onboard ephemerides: what contradicts the Sun sensors is not flown by, and each mode goes by what paper 001 lets it.
+//! Onboard ephemerides: what contradicts the Sun sensors is not used, and each mode goes by what paper 001 lets it.
 
 use models::Guidance;
 use nalgebra::Vector3;
@@ -37,7 +37,7 @@ fn with_file(span_s: f64, turned_rad: f64) -> NamedModel<Guidance> {
     NamedModel::<Guidance>::shipped().with_schedule(FILE, &file(span_s, turned_rad).0)
 }
 
-/// What sensors say of an attitude that is the commanded one: estimate and Sun.
+/// What sensors measure of an attitude that is the commanded one: estimate and Sun.
 fn sense(flight: &mut Flight<'_>) {
     let to_body = to_inertial(flight).inverse();
     let sun_m = from_mercury(Body::Sun, START_S + flight.time_s()).position_m - position_m();
@@ -60,7 +60,7 @@ fn sun_from_minus_y_rad(flight: &Flight<'_>) -> f64 {
 #[test]
 fn a_sun_five_degrees_off_is_lost_after_its_persistence_and_the_coarse_one_simulated_by() {
     let named = with_file(86_400.0, 5.0 * DEG);
-    let mut flight = named.fly(0.0, ABOVE).unwrap();
+    let mut flight = named.initialize(0.0, ABOVE).unwrap();
     for second in 1..=40 {
         sense(&mut flight);
         flight.step_to(f64::from(second)).unwrap();
@@ -69,7 +69,7 @@ fn a_sun_five_degrees_off_is_lost_after_its_persistence_and_the_coarse_one_simul
         assert_eq!(seen(&flight), expected, "{second}");
         assert_eq!(flight.integer("mode.reason"), if second <= 10 { 0 } else { BY_EPHEMERIS }, "{second}");
     }
-    // Safe Hold flies downlink within its keep-in zone: now with the Sun where it is, to the coarse model's error.
+    // Safe Hold commands downlink within its keep-in zone: now with the Sun where it is, to the coarse model's error.
     let elevation_rad = flight.real("sun.elevation");
     let off_rad = (sun_from_minus_y_rad(&flight) - elevation_rad.hypot(flight.real("sun.azimuth"))).abs();
     assert!(off_rad < 3e-4, "{off_rad}");
@@ -87,7 +87,7 @@ fn a_sun_five_degrees_off_is_lost_after_its_persistence_and_the_coarse_one_simul
 fn a_sun_within_the_tolerance_and_one_that_is_not_judged_stay() {
     for (turned_deg, is_sensed) in [(0.0, true), (1.9, true), (5.0, false)] {
         let named = with_file(86_400.0, turned_deg * DEG);
-        let mut flight = named.fly(0.0, ABOVE).unwrap();
+        let mut flight = named.initialize(0.0, ABOVE).unwrap();
         for second in 1..=30 {
             if is_sensed {
                 sense(&mut flight);
@@ -109,7 +109,7 @@ fn earth_acquisition_goes_by_coarse_models_and_other_sources_know_none() {
         (2.0, 3.0, (EARTH_ACQUISITION, true, PRECISE)),
     ] {
         let sets = [("ephemeris.source", source), ("mode.request", request)];
-        let mut flight = named.fly(0.0, &with(&[ABOVE, &sets])).unwrap();
+        let mut flight = named.initialize(0.0, &with(&[ABOVE, &sets])).unwrap();
         flight.step_to(3.0).unwrap();
         assert_eq!(seen(&flight), expected, "{source} {request}");
     }
@@ -118,7 +118,7 @@ fn earth_acquisition_goes_by_coarse_models_and_other_sources_know_none() {
 #[test]
 fn a_span_that_ends_in_flight_ends_operational_and_one_not_begun_is_refused() {
     let named = with_file(100.0, 0.0);
-    let mut flight = named.fly(0.0, ABOVE).unwrap();
+    let mut flight = named.initialize(0.0, ABOVE).unwrap();
     for second in 1..=120 {
         flight.step_to(f64::from(second)).unwrap();
         let expected = if second <= 101 { (OPERATIONAL, true, PRECISE) } else { (SAFE_HOLD, false, COARSE) };
@@ -127,7 +127,9 @@ fn a_span_that_ends_in_flight_ends_operational_and_one_not_begun_is_refused() {
     for epoch_s in [START_S - 1.0, START_S + 101.0] {
         let text = named.refusal(&with(&[ABOVE, &[("start.epoch", epoch_s)]]));
         assert!(text.contains("start.epoch: found") && text.contains(FILE), "{text}");
-        named.fly(0.0, &with(&[ABOVE, &[("start.epoch", epoch_s), ("ephemeris.source", 1.0)]])).unwrap();
+        named
+            .initialize(0.0, &with(&[ABOVE, &[("start.epoch", epoch_s), ("ephemeris.source", 1.0)]]))
+            .unwrap();
     }
     let text = named.refusal(&with(&[ABOVE, &[("target.planet", 3.0)]]));
     assert!(text.contains("found no [[body]] that joins sun with venus"), "{text}");
@@ -136,8 +138,8 @@ fn a_span_that_ends_in_flight_ends_operational_and_one_not_begun_is_refused() {
 #[test]
 fn without_a_file_the_precise_models_are_those_of_vsop87_to_the_bit() {
     let named = NamedModel::<Guidance>::shipped();
-    let mut simulated = named.fly(0.0, ABOVE).unwrap();
-    let mut theory = named.fly(0.0, &with(&[ABOVE, &[("ephemeris.source", 1.0)]])).unwrap();
+    let mut simulated = named.initialize(0.0, ABOVE).unwrap();
+    let mut theory = named.initialize(0.0, &with(&[ABOVE, &[("ephemeris.source", 1.0)]])).unwrap();
     for end_s in [1.0, 30.0, 4_000.0] {
         for flight in [&mut simulated, &mut theory] {
             flight.step_to(end_s).unwrap();
@@ -151,13 +153,13 @@ fn without_a_file_the_precise_models_are_those_of_vsop87_to_the_bit() {
 fn a_file_points_as_vsop87_does_to_its_error_and_the_coarse_models_to_theirs() {
     let (text, error_m) = file(10.0 * 86_400.0, 0.0);
     let named = NamedModel::<Guidance>::shipped().with_schedule(FILE, &text);
-    let fly = |source: f64| {
+    let simulate = |source: f64| {
         let sets = [("ephemeris.source", source), ("pointing.scenario", 6.0)];
-        let mut flight = named.fly(0.0, &with(&[ABOVE, FREE, &sets])).unwrap();
+        let mut flight = named.initialize(0.0, &with(&[ABOVE, FREE, &sets])).unwrap();
         flight.step_to(86_400.0).unwrap();
         flight.to_inertial("command.q")
     };
-    let [theory, simulated, coarse] = [1.0, 4.0, 5.0].map(fly);
+    let [theory, simulated, coarse] = [1.0, 4.0, 5.0].map(simulate);
     let [simulated_rad, coarse_rad] = [simulated, coarse].map(|it| it.angle_to(&theory));
     // The attitude turns by the error's angle, at the Sun and at the Earth, as seen from 4e10 m at least.
     assert!(simulated_rad < 4.0 * error_m / 4e10 + 1e-12, "{simulated_rad:e} rad for {error_m} m");
@@ -167,7 +169,7 @@ fn a_file_points_as_vsop87_does_to_its_error_and_the_coarse_models_to_theirs() {
 #[test]
 fn neither_cuts_nor_saving_change_a_bit_of_a_fall_back() {
     let named = with_file(86_400.0, 5.0 * DEG);
-    let mut first = named.fly(0.0, ABOVE).unwrap();
+    let mut first = named.initialize(0.0, ABOVE).unwrap();
     sense(&mut first);
     let sensed: Vec<(String, f64)> = ["estimate.q[1]", "estimate.q[2]", "estimate.q[3]", "estimate.q[4]"]
         .into_iter()
@@ -176,9 +178,9 @@ fn neither_cuts_nor_saving_change_a_bit_of_a_fall_back() {
         .chain([("sun.sensedValid".to_owned(), 1.0)])
         .collect();
     let sensed: Vec<(&str, f64)> = sensed.iter().map(|(name, value)| (name.as_str(), *value)).collect();
-    let fly = || named.fly(0.0, &with(&[ABOVE, &sensed])).unwrap();
+    let initialize = || named.initialize(0.0, &with(&[ABOVE, &sensed])).unwrap();
     let mut last = None;
-    assert_cuts_change_nothing(fly, [9.0, 10.5, 25.0, 60.0], &[0.7, 0.1, 0.3, 7.0], |it| {
+    assert_cuts_change_nothing(initialize, [9.0, 10.5, 25.0, 60.0], &[0.7, 0.1, 0.3, 7.0], |it| {
         last = Some(seen(it))
     });
     assert_eq!(last, Some((SAFE_HOLD, false, COARSE)));

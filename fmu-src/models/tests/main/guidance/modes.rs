@@ -26,7 +26,7 @@ fn step(flight: &mut Flight<'_>, sets: &[(&str, f64)]) -> [i32; 2] {
 #[test]
 fn lost_attitude_demotes_and_requests_alone_promote() {
     let named = NamedModel::<Guidance>::shipped();
-    let mut flight = named.fly(0.0, &with(&[PLACED, DOWN])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[PLACED, DOWN])).unwrap();
     assert_eq!(step(&mut flight, &[]), [OPERATIONAL, ATTITUDE]);
     // Without attitude and Sun: the search; with the Sun: the turn about it.
     assert_eq!(step(&mut flight, &[("estimate.valid", 0.0)]), [EARTH_ACQUISITION, RATE_ONLY]);
@@ -53,7 +53,7 @@ fn earth_acquisition_turns_slowly_about_the_sun_line_and_the_search_about_each_a
         ("sunSearch.duration", 10.0),
         ("sunSearch.rate", 0.01),
     ];
-    let mut flight = named.fly(0.0, &with(&[PLACED, &sets])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[PLACED, &sets])).unwrap();
     for axis in [Vector3::x(), Vector3::y(), Vector3::z(), Vector3::x()] {
         flight.step_to(flight.time_s() + 10.0).unwrap();
         assert_eq!(flight.vector("command.rate"), axis * 0.01);
@@ -72,8 +72,8 @@ fn earth_acquisition_turns_slowly_about_the_sun_line_and_the_search_about_each_a
 fn the_monitor_demotes_after_its_persistence_and_watches_no_estimate_of_zero() {
     let named = NamedModel::<Guidance>::shipped();
     let monitor = [("monitor.persistence", 5.0), ("monitor.margin", 0.1), ("hotPole.enabled", 0.0)];
-    let mut flight = named.fly(0.0, &with(&[PLACED, DOWN, &monitor])).unwrap();
-    let mut near = named.fly(0.0, &with(&[PLACED, DOWN, &monitor])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[PLACED, DOWN, &monitor])).unwrap();
+    let mut near = named.initialize(0.0, &with(&[PLACED, DOWN, &monitor])).unwrap();
     near.set("estimate.q[4]", 0.0);
     near.step_to(30.0).unwrap();
     assert_eq!(near.integer("mode.active"), OPERATIONAL);
@@ -109,7 +109,7 @@ fn every_demotion_says_why_in_mode_reason_and_in_the_log() {
         assert!(words.iter().all(|word| warnings[0].contains(word)), "{words:?} {warnings:?}");
     };
     let zone_only = [("hotPole.enabled", 0.0)];
-    let mut flight = named.fly(0.0, &with(&[PLACED, DOWN, &at_once, &zone_only])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[PLACED, DOWN, &at_once, &zone_only])).unwrap();
     says(reason_of(&mut flight, &[]), (OPERATIONAL, 0), &[]);
     let held: [f64; 4] = flight.quaternion("command.q");
     let away = to_inertial(&flight) * nalgebra::UnitQuaternion::from_scaled_axis(Vector3::z() * 3.0);
@@ -125,8 +125,8 @@ fn every_demotion_says_why_in_mode_reason_and_in_the_log() {
     let sun = [("sun.sensed[1]", 2.0), ("sun.sensedValid", 1.0)];
     says(reason_of(&mut flight, &sun), (EARTH_ACQUISITION, 5), &["earthAcquisition stays", "attitudeLost"]);
     says(reason_of(&mut flight, &[]), (EARTH_ACQUISITION, 5), &[]);
-    let asked = [("estimate.valid", 1.0), ("mode.request", 2.0)];
-    says(reason_of(&mut flight, &asked), (SAFE_HOLD, 1), &[]);
+    let requested = [("estimate.valid", 1.0), ("mode.request", 2.0)];
+    says(reason_of(&mut flight, &requested), (SAFE_HOLD, 1), &[]);
 
     // Over the subsolar point at 100 km, without a zone: -Z at the planet.
     let over = [
@@ -138,7 +138,7 @@ fn every_demotion_says_why_in_mode_reason_and_in_the_log() {
         ("sun.position[2]", 0.0),
         ("sun.position[3]", 0.0),
     ];
-    let mut low = named.fly(0.0, &with(&[PLACED, &over, DOWN, &at_once])).unwrap();
+    let mut low = named.initialize(0.0, &with(&[PLACED, &over, DOWN, &at_once])).unwrap();
     let half = core::f64::consts::FRAC_1_SQRT_2;
     low.set_elements("estimate.q", [0.0, half, 0.0, half].iter());
     says(reason_of(&mut low, &[]), (SAFE_HOLD, 4), &["hotPole", "operational -> safeHold"]);
@@ -148,7 +148,7 @@ fn every_demotion_says_why_in_mode_reason_and_in_the_log() {
 fn safe_hold_ignores_all_but_downlink() {
     let named = NamedModel::<Guidance>::shipped();
     let hold = [("mode.request", 2.0), ("monitor.enabled", 0.0)];
-    let mut downlink = named.fly(0.0, &with(&[PLACED, &hold, &[("pointing.scenario", 6.0)]])).unwrap();
+    let mut downlink = named.initialize(0.0, &with(&[PLACED, &hold, &[("pointing.scenario", 6.0)]])).unwrap();
     downlink.step_to(20.0).unwrap();
     assert_eq!(downlink.integer("command.kind"), ATTITUDE);
     for command in [
@@ -157,7 +157,7 @@ fn safe_hold_ignores_all_but_downlink() {
         &[("pointing.scenario", 2.0), ("aimpoint.option", 10.0), ("scan.frame", 1.0), ("scan.rate[1]", 1e-3)],
         &[("pointing.scenario", 10.0)],
     ] {
-        let mut flight = named.fly(0.0, &with(&[PLACED, &hold, command])).unwrap();
+        let mut flight = named.initialize(0.0, &with(&[PLACED, &hold, command])).unwrap();
         flight.step_to(20.0).unwrap();
         assert_same(&flight, &downlink);
         assert_eq!(flight.integer("antenna.select"), downlink.integer("antenna.select"));
@@ -166,7 +166,7 @@ fn safe_hold_ignores_all_but_downlink() {
     let tight =
         [("safeHold.keepIn.azimuth", 0.0), ("safeHold.keepIn.elevation", 0.0), ("keepIn.enabled", 0.0)];
     let antenna = [("pointing.scenario", 6.0), ("boresight.option", 4.0), ("boresight.azimuth", -0.1)];
-    let flight = named.fly(0.0, &with(&[PLACED, &hold, &tight, &antenna])).unwrap();
+    let flight = named.initialize(0.0, &with(&[PLACED, &hold, &tight, &antenna])).unwrap();
     assert!(flight.boolean("constraint.sunKeepIn"));
     assert!(flight.real("sun.azimuth").abs() < 1e-12 && flight.real("sun.elevation").abs() < 1e-12);
 }
@@ -174,7 +174,7 @@ fn safe_hold_ignores_all_but_downlink() {
 #[test]
 fn without_an_estimate_nothing_is_demoted_and_the_start_attitude_is_held() {
     let named = NamedModel::<Guidance>::shipped();
-    let mut flight = named.fly(0.0, PLACED).unwrap();
+    let mut flight = named.initialize(0.0, PLACED).unwrap();
     let held = flight.quaternion("command.q");
     flight.step_to(600.0).unwrap();
     assert_eq!(["mode.active", "command.kind"].map(|name| flight.integer(name)), [OPERATIONAL, 0]);
@@ -184,8 +184,8 @@ fn without_an_estimate_nothing_is_demoted_and_the_start_attitude_is_held() {
 #[test]
 fn the_last_law_stays_within_its_zone_when_nothing_is_commanded() {
     let named = NamedModel::<Guidance>::shipped();
-    let mut flight = named.fly(0.0, &with(&[PLACED, DOWN])).unwrap();
-    let mut other = named.fly(0.0, &with(&[PLACED, DOWN])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[PLACED, DOWN])).unwrap();
+    let mut other = named.initialize(0.0, &with(&[PLACED, DOWN])).unwrap();
     for second in 1..=900 {
         if second == 20 {
             flight.set("pointing.scenario", 0.0);
@@ -200,8 +200,8 @@ fn the_last_law_stays_within_its_zone_when_nothing_is_commanded() {
 #[test]
 fn an_aim_without_direction_leaves_the_law_before_it() {
     let named = NamedModel::<Guidance>::shipped();
-    let mut flight = named.fly(0.0, &with(&[PLACED, DOWN])).unwrap();
-    let mut other = named.fly(0.0, &with(&[PLACED, DOWN])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[PLACED, DOWN])).unwrap();
+    let mut other = named.initialize(0.0, &with(&[PLACED, DOWN])).unwrap();
     flight.step_to(5.0).unwrap();
     flight.set("pointing.scenario", 2.0);
     flight.set("aimpoint.option", 1.0);
@@ -215,7 +215,7 @@ fn an_aim_without_direction_leaves_the_law_before_it() {
 fn the_sun_aimed_at_by_plus_z_stands_still_on_the_zones_edge() {
     let named = NamedModel::<Guidance>::shipped();
     let sets = [("pointing.scenario", 2.0), ("aimpoint.option", 10.0)];
-    let mut flight = named.fly(0.0, &with(&[PLACED, &sets])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[PLACED, &sets])).unwrap();
     for second in 1..=60 {
         flight.step_to(f64::from(second)).unwrap();
         assert!(flight.real("sun.azimuth").abs() < 1e-6, "{second}");

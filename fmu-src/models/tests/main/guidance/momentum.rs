@@ -81,8 +81,8 @@ fn a_plant_that_follows_reaches_an_attainable_target() {
                     ("momentum.target[2]", TARGET.y),
                     ("momentum.target[3]", TARGET.z),
                 ];
-                let mut guidance = guidances.fly(0.0, &with(&[&place, QUIET, &requested])).unwrap();
-                let mut plant = plants.fly(0.0, &with(&[&place, FOLLOWS])).unwrap();
+                let mut guidance = guidances.initialize(0.0, &with(&[&place, QUIET, &requested])).unwrap();
+                let mut plant = plants.initialize(0.0, &with(&[&place, FOLLOWS])).unwrap();
                 let before = plant.vector("momentum.body");
                 assert!((before - Vector3::from(MOMENTUM)).amax() < 1e-12, "{before:?}");
                 guidance.step_to(1.0).unwrap();
@@ -127,8 +127,8 @@ fn a_window_of_the_orbit_phase_aims_at_its_own_end() {
         ("guided.downlinkStart", 3.0),
         ("guided.downlinkEnd", 3.0 + SPAN_S),
     ];
-    let mut guidance = guidances.fly(0.0, &with(&[&still(60.0), QUIET, &windows])).unwrap();
-    let mut plant = plants.fly(0.0, &with(&[&still(60.0), FOLLOWS])).unwrap();
+    let mut guidance = guidances.initialize(0.0, &with(&[&still(60.0), QUIET, &windows])).unwrap();
+    let mut plant = plants.initialize(0.0, &with(&[&still(60.0), FOLLOWS])).unwrap();
     guidance.step_to(3.0).unwrap();
     assert!(guidance.real("sun.azimuth").abs() < 1e-12);
     // The momentum at the window's begin counts.
@@ -146,7 +146,7 @@ fn a_window_of_the_orbit_phase_aims_at_its_own_end() {
 fn a_target_out_of_reach_is_flagged_while_the_downlink_lasts() {
     let named = NamedModel::<Guidance>::shipped();
     let far = [("momentum.target[1]", 30.0)];
-    let mut flight = named.fly(0.0, &with(&[&still(60.0), QUIET, &far])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[&still(60.0), QUIET, &far])).unwrap();
     assert!(flight.boolean("momentum.targetClamped"));
     flight.step_to(1.0).unwrap();
     let sun_rad = [flight.real("sun.azimuth"), flight.real("sun.elevation")].map(f64::abs);
@@ -168,7 +168,7 @@ fn an_antenna_of_its_own_leaves_the_momentum_alone() {
     let own = [("boresight.option", 4.0), ("boresight.azimuth", -0.6)];
     let q = [1.0, 2.0].map(|strategy| {
         let sets = with(&[&still(60.0), QUIET, &own, &[("momentum.strategy", strategy)]]);
-        named.fly(0.0, &sets).unwrap().quaternion("command.q")
+        named.initialize(0.0, &sets).unwrap().quaternion("command.q")
     });
     assert_eq!(q[0], q[1]);
 }
@@ -177,7 +177,7 @@ fn an_antenna_of_its_own_leaves_the_momentum_alone() {
 fn a_component_beyond_its_threshold_asks_once() {
     let named = NamedModel::<Guidance>::shipped();
     let limits = [("dump.threshold[1]", 4.0), ("dump.threshold[2]", 5.0), ("dump.threshold[3]", 6.0)];
-    let mut flight = named.fly(0.0, &with(&[PLACED, &limits])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[PLACED, &limits])).unwrap();
     let mut end_s = 0.0;
     let mut sample = |flight: &mut Flight<'_>, momentum: [f64; 3]| {
         flight.set_elements("momentum.body", &momentum);
@@ -195,7 +195,7 @@ fn a_component_beyond_its_threshold_asks_once() {
     assert!(!sample(&mut flight, [3.0, 3.0, 3.0]).0);
     assert_eq!(sample(&mut flight, [-4.5, 3.0, 3.0]), (true, Vector3::new(3.6, 3.0, 3.0)));
     let zero = [("dump.reinitTo", 2.0), ("momentum.target[1]", 0.5), ("momentum.body[1]", 4.5)];
-    let flight = named.fly(0.0, &with(&[PLACED, &limits, &zero])).unwrap();
+    let flight = named.initialize(0.0, &with(&[PLACED, &limits, &zero])).unwrap();
     assert!(flight.boolean("dump.request"));
     assert_eq!(flight.vector("dump.target"), Vector3::new(0.5, 0.0, 0.0));
 }
@@ -206,7 +206,7 @@ fn a_request_that_no_communication_point_sees_is_warned_of() {
     let timeline = "[[event]]\nat = 9.5\ndump = true\n";
     for (step_s, warned) in [(1.0, 0), (5.5, 0), (2.0, 1), (3.0, 1), (60.0, 1)] {
         let named = NamedModel::<Guidance>::shipped().with_schedule("timeline.toml", timeline);
-        let mut flight = named.fly(0.0, &with(&[PLACED])).unwrap();
+        let mut flight = named.initialize(0.0, &with(&[PLACED])).unwrap();
         let mut seen = 0;
         while flight.time_s() < 60.0 {
             flight.step_to(flight.time_s() + step_s).unwrap();
@@ -232,7 +232,7 @@ fn a_dump_of_the_timeline_is_requested_at_the_sample_that_it_comes_to() {
         (15.0, &[(15.0, Vector3::zeros())]),
     ] {
         for step_s in [0.5, 1.0] {
-            let mut flight = named.fly(start_s, &with(&[PLACED])).unwrap();
+            let mut flight = named.initialize(start_s, &with(&[PLACED])).unwrap();
             let mut requested = Vec::new();
             let mut sampled_s = f64::NEG_INFINITY;
             for _ in 0..40 {
@@ -255,8 +255,8 @@ fn a_dump_of_the_timeline_is_requested_at_the_sample_that_it_comes_to() {
 fn a_request_makes_a_plant_dump_to_its_target() {
     let (guidances, plants) = (NamedModel::<Guidance>::shipped(), NamedModel::<MomentumPlant>::shipped());
     let limits = [("dump.threshold[1]", 0.3)];
-    let mut guidance = guidances.fly(0.0, &with(&[&still(60.0), QUIET, &limits])).unwrap();
-    let mut plant = plants.fly(0.0, &with(&[&still(60.0), FOLLOWS])).unwrap();
+    let mut guidance = guidances.initialize(0.0, &with(&[&still(60.0), QUIET, &limits])).unwrap();
+    let mut plant = plants.initialize(0.0, &with(&[&still(60.0), FOLLOWS])).unwrap();
     guidance.step_to(1.0).unwrap();
     plant.set("dump.request", f64::from(u8::from(guidance.boolean("dump.request"))));
     plant.set_elements("dump.target", &guidance.vector("dump.target"));
@@ -272,10 +272,11 @@ fn zero_inputs_and_bad_ones() {
     let zero: Vec<_> = named.inputs().into_iter().map(|name| (name, 0.0)).collect();
     for strategy in [2.0, 3.0] {
         let chosen = [("momentum.strategy", strategy)];
-        let mut flight = named.fly(0.0, &with(&[&zero, &chosen])).unwrap();
+        let mut flight = named.initialize(0.0, &with(&[&zero, &chosen])).unwrap();
         flight.step_to(60.0).unwrap();
         assert_eq!(flight.not_finite(), None);
-        let mut flight = named.fly(0.0, &with(&[PLACED, &[("pointing.scenario", 6.0)], &chosen])).unwrap();
+        let mut flight =
+            named.initialize(0.0, &with(&[PLACED, &[("pointing.scenario", 6.0)], &chosen])).unwrap();
         flight.step_to(60.0).unwrap();
         assert_eq!(flight.not_finite(), None);
     }
@@ -305,8 +306,8 @@ fn targets_count_on_the_scale_of_sunlight() {
         let place = still(60.0);
         let scaled = |scale: f64| [("solar.scale", scale)];
         let mut guidance =
-            guidances.fly(0.0, &with(&[&place, QUIET, &requested, &scaled(of_guidance)])).unwrap();
-        let mut plant = plants.fly(0.0, &with(&[&place, FOLLOWS, &scaled(of_plant)])).unwrap();
+            guidances.initialize(0.0, &with(&[&place, QUIET, &requested, &scaled(of_guidance)])).unwrap();
+        let mut plant = plants.initialize(0.0, &with(&[&place, FOLLOWS, &scaled(of_plant)])).unwrap();
         guidance.step_to(1.0).unwrap();
         assert!(!guidance.boolean("momentum.targetClamped"));
         follow(&mut plant, &guidance);

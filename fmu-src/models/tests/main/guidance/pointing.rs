@@ -13,13 +13,14 @@ const DOWN: &[(&str, f64)] = &[("pointing.scenario", 3.0)];
 #[test]
 fn a_sample_reads_the_inputs_of_the_step_that_begins_at_it() {
     let named = NamedModel::<Guidance>::shipped();
-    let mut flight = named.fly(0.0, &with(&[PLACED, FREE, AT_VECTOR])).unwrap();
-    for (end_s, aim) in [(1.0, Vector3::x()), (1.5, Vector3::y()), (2.5, -Vector3::x()), (4.0, Vector3::z())]
+    let mut flight = named.initialize(0.0, &with(&[PLACED, FREE, AT_VECTOR])).unwrap();
+    for (end_s, direction) in
+        [(1.0, Vector3::x()), (1.5, Vector3::y()), (2.5, -Vector3::x()), (4.0, Vector3::z())]
     {
         // The sample at 1.0 belongs to the step from 1.0, those at 2.0 and 3.0 to the steps that hold them.
-        flight.set_elements("aimpoint.vector", &aim);
+        flight.set_elements("aimpoint.vector", &direction);
         flight.step_to(end_s).unwrap();
-        assert!((to_inertial(&flight) * Vector3::z() - aim).norm() < 1e-6, "{end_s}");
+        assert!((to_inertial(&flight) * Vector3::z() - direction).norm() < 1e-6, "{end_s}");
     }
     // Without a sample inside, a step does not read them.
     let before = flight.quaternion("command.q");
@@ -33,7 +34,7 @@ fn a_sample_reads_the_inputs_of_the_step_that_begins_at_it() {
 #[test]
 fn outputs_are_those_of_the_last_sample_propagated_by_its_rate() {
     let named = NamedModel::<Guidance>::shipped();
-    let mut flight = named.fly(0.0, &with(&[PLACED, FREE, DOWN])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[PLACED, FREE, DOWN])).unwrap();
     flight.step_to(10.0 + 1e-9).unwrap();
     let (start, rate) = (to_inertial(&flight), flight.vector("command.rate"));
     assert!(rate.norm() > 1e-5);
@@ -46,7 +47,7 @@ fn outputs_are_those_of_the_last_sample_propagated_by_its_rate() {
 #[test]
 fn the_quaternions_sign_goes_on_through_transitions() {
     let named = NamedModel::<Guidance>::shipped();
-    let mut flight = named.fly(0.0, &with(&[PLACED, DOWN])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[PLACED, DOWN])).unwrap();
     let mut last = flight.quaternion("command.q");
     let mut turned = 0.0_f64;
     for minute in 1..=1440 {
@@ -72,8 +73,8 @@ fn a_scan_starts_at_the_sample_where_its_frame_is_commanded() {
     let named = NamedModel::<Guidance>::shipped();
     let scan = [("scan.rate[1]", 1e-3), ("scan.duration[1]", 1e6)];
     let sets = with(&[PLACED, FREE, AT_VECTOR, &scan]);
-    let mut flight = named.fly(0.0, &sets).unwrap();
-    let mut basic = named.fly(0.0, &sets).unwrap();
+    let mut flight = named.initialize(0.0, &sets).unwrap();
+    let mut basic = named.initialize(0.0, &sets).unwrap();
     let mut step = |flight: &mut super::Flight<'_>, end_s: f64| {
         flight.step_to(end_s).unwrap();
         basic.step_to(end_s).unwrap();
@@ -104,7 +105,8 @@ fn a_scan_that_does_not_fit_leaves_the_basic_pointing() {
     {
         for frame in frames {
             let sets = with(&[PLACED, command, &scan, &[("scan.frame", *frame)]]);
-            let (mut scanned, mut basic) = (named.fly(0.0, &sets).unwrap(), named.fly(0.0, &sets).unwrap());
+            let (mut scanned, mut basic) =
+                (named.initialize(0.0, &sets).unwrap(), named.initialize(0.0, &sets).unwrap());
             basic.set("scan.frame", 0.0);
             scanned.step_to(30.0).unwrap();
             basic.step_to(30.0).unwrap();
@@ -118,25 +120,28 @@ fn a_scan_that_does_not_fit_leaves_the_basic_pointing() {
 fn camera_and_antenna_stop_at_their_bounds() {
     let named = NamedModel::<Guidance>::shipped();
     let camera = [("pointing.scenario", 4.0), ("aimpoint.option", 12.0)];
-    for (asked_rad, found_rad) in [(0.5, 0.5), (1.0, 40_f64.to_radians()), (-2.0, -50_f64.to_radians())] {
-        let angle = [("boresight.angle", asked_rad)];
-        let flight = named.fly(0.0, &with(&[PLACED, FREE, &camera, &angle])).unwrap();
+    for (requested_rad, found_rad) in [(0.5, 0.5), (1.0, 40_f64.to_radians()), (-2.0, -50_f64.to_radians())] {
+        let angle = [("boresight.angle", requested_rad)];
+        let flight = named.initialize(0.0, &with(&[PLACED, FREE, &camera, &angle])).unwrap();
         assert!((flight.real("gimbal.angle") - found_rad).abs() < 1e-15);
-        let inside = asked_rad == found_rad;
+        let inside = requested_rad == found_rad;
         assert_eq!(
             [flight.boolean("gimbal.inRange"), flight.boolean("constraint.clamped")],
             [inside, !inside]
         );
     }
     let antenna = [("pointing.scenario", 6.0), ("boresight.option", 4.0)];
-    for (asked_deg, found_deg, select) in
+    for (requested_deg, found_deg, select) in
         [(-30.0, -30.0, 1), (30.0, 0.0, 1), (80.0, 90.0, 2), (150.0, 150.0, 2)]
     {
-        let azimuth = [("boresight.azimuth", f64::to_radians(asked_deg))];
-        let flight = named.fly(0.0, &with(&[PLACED, FREE, &antenna, &azimuth])).unwrap();
-        assert!((flight.real("antenna.azimuth") - f64::to_radians(found_deg)).abs() < 1e-12, "{asked_deg}");
+        let azimuth = [("boresight.azimuth", f64::to_radians(requested_deg))];
+        let flight = named.initialize(0.0, &with(&[PLACED, FREE, &antenna, &azimuth])).unwrap();
+        assert!(
+            (flight.real("antenna.azimuth") - f64::to_radians(found_deg)).abs() < 1e-12,
+            "{requested_deg}"
+        );
         assert_eq!(flight.integer("antenna.select"), select);
-        assert_eq!(flight.boolean("constraint.clamped"), asked_deg != found_deg);
+        assert_eq!(flight.boolean("constraint.clamped"), requested_deg != found_deg);
     }
 }
 
@@ -146,10 +151,10 @@ fn camera_and_beam_follow_their_targets_where_the_zone_moved_the_attitude() {
     let off = [("hotPole.enabled", 0.0)];
     let toward = |flight: &Flight<'_>, place: Vector3<f64>| to_inertial(flight).inverse() * place.normalize();
     let spacecraft = Vector3::new(3e6, 1e6, 2e6);
-    // The Earth is 157 deg from the Sun: asked at 100 deg it leaves the Sun outside the zone.
+    // The Earth is 157 deg from the Sun: requested at 100 deg it leaves the Sun outside the zone.
     let antenna =
         [("pointing.scenario", 6.0), ("boresight.option", 4.0), ("boresight.azimuth", 100_f64.to_radians())];
-    let flight = named.fly(0.0, &with(&[PLACED, &off, &antenna])).unwrap();
+    let flight = named.initialize(0.0, &with(&[PLACED, &off, &antenna])).unwrap();
     let earth = toward(&flight, Vector3::new(-9e10, 5e10, -3e9) - spacecraft);
     assert!(flight.boolean("constraint.sunKeepIn") && flight.boolean("link.available"));
     assert!((flight.real("antenna.azimuth") - earth.x.atan2(-earth.y)).abs() < 1e-12);
@@ -164,15 +169,15 @@ fn camera_and_beam_follow_their_targets_where_the_zone_moved_the_attitude() {
             ("aimpoint.elevation", -1.0),
             ("secondAimpoint.option", 12.0),
         ];
-        let flight = named.fly(0.0, &with(&[PLACED, &off, &targets])).unwrap();
+        let flight = named.initialize(0.0, &with(&[PLACED, &off, &targets])).unwrap();
         let nadir = toward(&flight, -spacecraft);
-        let wanted_deg = (-nadir.y).atan2(nadir.z).to_degrees();
-        let in_range = (-50.0..=40.0).contains(&wanted_deg);
-        assert_eq!(flight.boolean("gimbal.inRange"), in_range, "{azimuth_deg}: {wanted_deg}");
+        let expected_deg = (-nadir.y).atan2(nadir.z).to_degrees();
+        let in_range = (-50.0..=40.0).contains(&expected_deg);
+        assert_eq!(flight.boolean("gimbal.inRange"), in_range, "{azimuth_deg}: {expected_deg}");
         let found_deg = flight.real("gimbal.angle").to_degrees();
         assert!(
-            !in_range || (found_deg - wanted_deg).abs() < 1e-10,
-            "{azimuth_deg}: {found_deg} {wanted_deg}"
+            !in_range || (found_deg - expected_deg).abs() < 1e-10,
+            "{azimuth_deg}: {found_deg} {expected_deg}"
         );
         clamped += u32::from(flight.boolean("constraint.sunKeepIn"));
     }
@@ -188,7 +193,7 @@ fn the_keep_in_zone_is_switched_and_resized_between_steps() {
         ("keepIn.azimuth", 0.2),
         ("keepIn.elevation", 0.2),
     ];
-    let mut flight = named.fly(0.0, &with(&[PLACED, AT_VECTOR, &zone])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[PLACED, AT_VECTOR, &zone])).unwrap();
     // Toward the Sun, so that it would stand on +Z.
     flight.set_elements("aimpoint.vector", &Vector3::new(3e10, -4e10, 2e9));
     let mut step = |name: &str, value: f64, end_s: f64| {
@@ -213,7 +218,7 @@ fn a_zone_without_axis_is_refused_by_name_and_too_much_work_by_its_limit() {
     let named = NamedModel::<Guidance>::shipped();
     let refused = named.refusal(&with(&[PLACED, &[("keepIn.axis[2]", 0.0)]]));
     assert!(refused.contains("keepIn.axis: found (0, 0, 0)"), "{refused}");
-    let mut flight = named.fly(0.0, &with(&[PLACED, DOWN, &[("solver.workLimit", 1_000.0)]])).unwrap();
+    let mut flight = named.initialize(0.0, &with(&[PLACED, DOWN, &[("solver.workLimit", 1_000.0)]])).unwrap();
     flight.step_to(249.0).unwrap();
     let refused = flight.step_to(600.0).unwrap_err().to_string();
     assert!(refused.contains("solver.workLimit = 1000") && refused.contains("reached 499 s"), "{refused}");

@@ -10,7 +10,7 @@ const HOUR_S: f64 = 3600.0;
 const CYCLE_S: f64 = 24.0 * HOUR_S;
 
 /// What both are reported alike: the centre of mass 5 cm off along Z, a shade alone in the light.
-fn craft(strategy: f64, convention: f64) -> Vec<(&'static str, f64)> {
+fn spacecraft(strategy: f64, convention: f64) -> Vec<(&'static str, f64)> {
     vec![
         ("momentum.strategy", strategy),
         ("momentum.convention", convention),
@@ -64,8 +64,8 @@ fn a_sample_chooses_what_a_plant_chooses() {
     // What is left is the steps of the forecasts, and two-body motion over twenty days.
     let more = [("guided.downlinkEnd", 10.1 * HOUR_S), ("spacecraft.centerOfMass[3]", 0.02)];
     for (convention, bound_rad) in [(1.0, 1e-5), (2.0, 3e-5)] {
-        let reported = with(&[&craft(3.0, convention), &more]);
-        let mut plant = plants.fly(0.0, &with(&[&reported, PLANT])).unwrap();
+        let reported = with(&[&spacecraft(3.0, convention), &more]);
+        let mut plant = plants.initialize(0.0, &with(&[&reported, PLANT])).unwrap();
         let (mut worst_rad, mut reactive_rad) = (0.0_f64, 0.0_f64);
         // The plant forecasts nothing where its flight begins.
         for cycle in 1..12 {
@@ -73,7 +73,7 @@ fn a_sample_chooses_what_a_plant_chooses() {
             let choice = |strategy: f64| {
                 let epoch_s = plant.real("start.epoch") + plant.time_s();
                 let more = [("start.epoch", epoch_s), ("momentum.strategy", strategy)];
-                let mut guidance = guidances.fly(0.0, &with(&[&reported, GUIDANCE, &more])).unwrap();
+                let mut guidance = guidances.initialize(0.0, &with(&[&reported, GUIDANCE, &more])).unwrap();
                 observe(&mut guidance, &plant);
                 guidance.step_to(1e-3).unwrap();
                 guidance
@@ -97,10 +97,10 @@ fn a_sample_chooses_what_a_plant_chooses() {
 /// Dumps in thirty days of a plant that follows what a sampled guidance commands, ten minutes late at most.
 fn dumps_by_samples(strategy: f64) -> i32 {
     let (guidances, plants) = (NamedModel::<Guidance>::shipped(), NamedModel::<MomentumPlant>::shipped());
-    let reported = with(&[&craft(strategy, 2.0), LOW]);
+    let reported = with(&[&spacecraft(strategy, 2.0), LOW]);
     let follows = [("attitude.source", 2.0), ("momentum.strategy", 1.0)];
-    let mut plant = plants.fly(0.0, &with(&[&reported, PLANT, &follows])).unwrap();
-    let mut guidance = guidances.fly(0.0, &with(&[&reported, GUIDANCE])).unwrap();
+    let mut plant = plants.initialize(0.0, &with(&[&reported, PLANT, &follows])).unwrap();
+    let mut guidance = guidances.initialize(0.0, &with(&[&reported, GUIDANCE])).unwrap();
     while plant.time_s() < span_s() {
         let end_s = plant.time_s() + 600.0;
         observe(&mut guidance, &plant);
@@ -116,8 +116,8 @@ fn dumps_by_samples(strategy: f64) -> i32 {
 fn samples_that_look_ahead_save_as_many_dumps_as_a_plant_that_does() {
     let plants = NamedModel::<MomentumPlant>::shipped();
     let [reactive, predictive] = [2.0, 3.0].map(|strategy| {
-        let mut plant = plants.fly(0.0, &with(&[&craft(strategy, 2.0), LOW, PLANT])).unwrap();
-        plant.fly_to(span_s(), HOUR_S).unwrap();
+        let mut plant = plants.initialize(0.0, &with(&[&spacecraft(strategy, 2.0), LOW, PLANT])).unwrap();
+        plant.simulate_to(span_s(), HOUR_S).unwrap();
         (plant.integer("dump.count"), dumps_by_samples(strategy))
     });
     println!("dumps of the plant's own and of samples: reactive {reactive:?}, predictive {predictive:?}");
@@ -138,8 +138,9 @@ fn without_a_cycle_to_come_a_target_is_the_given_one() {
     ];
     for convention in [1.0, 2.0] {
         let chosen = |strategy: f64, more: &[(&str, f64)]| {
-            let flight =
-                named.fly(0.0, &with(&[&craft(strategy, convention), GUIDANCE, &place, more])).unwrap();
+            let flight = named
+                .initialize(0.0, &with(&[&spacecraft(strategy, convention), GUIDANCE, &place, more]))
+                .unwrap();
             flight.quaternion("command.q")
         };
         let cycles = [("guided.downlinkEvery", 2.0)];
@@ -161,7 +162,8 @@ fn a_longer_horizon_costs_work_that_a_step_may_not_have() {
     let place = [("position[1]", 4e6), ("velocity[2]", 2.3e3), ("pointing.scenario", 6.0)];
     let refusal = |horizon: f64| {
         let limit = [("solver.workLimit", 50_000.0), ("momentum.horizon", horizon)];
-        let mut flight = named.fly(0.0, &with(&[&craft(3.0, 2.0), GUIDANCE, &place, &limit])).unwrap();
+        let mut flight =
+            named.initialize(0.0, &with(&[&spacecraft(3.0, 2.0), GUIDANCE, &place, &limit])).unwrap();
         flight.step_to(2.0).err().map(|it| it.to_string())
     };
     assert_eq!(refusal(4.0), None);

@@ -38,7 +38,7 @@ fn compare_by(
     let commands = timeline.contains("[[command]]");
     let epoch = [("start.epoch", 2.9e8), ("guided.slewRate", 0.0)];
     let plant_sets = with(&[plant_sets, &epoch, &[("attitude.source", 1.0), ("orbit.dynamics", 1.0)]]);
-    let mut plant = plants.fly(0.0, &plant_sets).unwrap();
+    let mut plant = plants.initialize(0.0, &plant_sets).unwrap();
     let quiet = [("hotPole.enabled", 0.0), ("monitor.enabled", 0.0)];
     let mut start = with(&[guidance_sets, &epoch, &quiet]);
     let places =
@@ -49,7 +49,7 @@ fn compare_by(
     for (names, values) in places.iter().zip(at_start) {
         start.extend(names.iter().map(String::as_str).zip(values));
     }
-    let mut guidance = guidances.fly(0.0, &start).unwrap();
+    let mut guidance = guidances.initialize(0.0, &start).unwrap();
     let (mut worst, mut time_s, mut sun_rad) = (0.0_f64, 0.0, Vec::new());
     while time_s < length_s {
         for (names, values) in places.iter().zip(seen(&plant)) {
@@ -142,7 +142,8 @@ fn every_downlink_of_a_timeline_is_chosen_anew_in_both() {
     }
     // What lies ahead is forecast anew too.
     let plants = NamedModel::<MomentumPlant>::shipped().with_schedule("timeline.toml", timeline);
-    let mut plant = plants.fly(0.0, &with(&[&both, &momentum, &[("momentum.strategy", 3.0)]])).unwrap();
+    let mut plant =
+        plants.initialize(0.0, &with(&[&both, &momentum, &[("momentum.strategy", 3.0)]])).unwrap();
     let places = [600.0, 1800.0, 3300.0, 3900.0].map(|at_s| {
         plant.step_to(at_s).unwrap();
         ["sun.azimuth", "sun.elevation"].map(|name| plant.real(name))

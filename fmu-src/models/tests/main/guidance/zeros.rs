@@ -15,7 +15,7 @@ fn zero_on_every_input_holds_the_attitude_with_one_warning() {
         let zero: Vec<_> =
             options.into_iter().chain(named.inputs().into_iter().map(|name| (name, 0.0))).collect();
         let before = named.warnings().len();
-        let mut flight = named.fly(0.0, &zero).unwrap();
+        let mut flight = named.initialize(0.0, &zero).unwrap();
         // In initialization masters look before they have connected everything.
         assert_eq!(named.warnings().len(), before);
         for end_s in [1.0, 2.5, 60.0] {
@@ -37,11 +37,11 @@ fn zero_on_every_input_holds_the_attitude_with_one_warning() {
 fn the_first_values_start_the_command_and_bodies_that_are_missing_hold_it() {
     let named = NamedModel::<Guidance>::shipped();
     let nadir = [("pointing.scenario", 3.0)];
-    let whole = named.fly(0.0, &with(&[PLACED, &nadir])).unwrap();
+    let whole = named.initialize(0.0, &with(&[PLACED, &nadir])).unwrap();
     for missing in ["position", "sun.position", "earth.position"] {
         let zero: Vec<_> = (1..=3).map(|i| format!("{missing}[{i}]")).collect();
         let unset: Vec<_> = zero.iter().map(|name| (name.as_str(), 0.0)).collect();
-        let mut flight = named.fly(0.0, &with(&[PLACED, &nadir, &unset])).unwrap();
+        let mut flight = named.initialize(0.0, &with(&[PLACED, &nadir, &unset])).unwrap();
         flight.step_to(1.0).unwrap();
         assert_eq!(flight.integer("command.kind"), 0, "{missing}");
         for (name, value) in PLACED.iter().filter(|(name, _)| name.starts_with(missing)) {
@@ -93,7 +93,7 @@ fn any_inputs_within_their_limits_leave_finite_outputs() {
             let (name, limits, whole) = parameters[random.whole(0, parameters.len() as i32 - 1) as usize];
             sets.push((name, drawn(&mut random, *limits, *whole)));
         }
-        let Ok(mut flight) = named.fly(0.0, &sets) else {
+        let Ok(mut flight) = named.initialize(0.0, &sets) else {
             refused += 1;
             continue;
         };

@@ -1,4 +1,4 @@
-//! Every step of every legal flight is answered in bounded time, with finite outputs or an error that says what to do.
+//! Every step of every legal flight is answered in bounded time, with finite outputs or an error that names what to do.
 
 use std::time::Instant;
 
@@ -37,7 +37,7 @@ fn every_step_of_a_legal_flight_is_answered() {
             assert!(took_s < 20.0, "flight {number}, {what} took {took_s} s: {sets:?}");
         };
         let begun = Instant::now();
-        let started = named.fly(0.0, &sets);
+        let started = named.initialize(0.0, &sets);
         keep(begun, "initialization");
         let Ok(mut flight) = started else {
             refused += 1;
@@ -61,10 +61,10 @@ fn every_step_of_a_legal_flight_is_answered() {
 }
 
 #[test]
-fn the_longest_step_says_how_far_it_came_and_what_asked_for_so_much() {
+fn the_longest_step_says_how_far_it_came_and_what_took_so_much() {
     let named = NamedModel::<SpinPlant>::shipped();
     // A tenth of the default.
-    let mut flight = named.fly(0.0, &[("solver.workLimit", 2e6)]).unwrap();
+    let mut flight = named.initialize(0.0, &[("solver.workLimit", 2e6)]).unwrap();
     let begun = Instant::now();
     let before = busy(begun);
     let text = flight.step_to(1e12).unwrap_err().to_string();

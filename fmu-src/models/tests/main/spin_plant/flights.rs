@@ -30,15 +30,15 @@ fn the_default_flight_is_the_papers_manoeuvre() {
 fn neither_cuts_nor_saving_change_a_bit() {
     let named = NamedModel::<SpinPlant>::shipped();
     let steps_s = [3.7, 0.032, 0.7, 12.0, 280.0];
-    assert_cuts_change_nothing(|| named.fly(0.0, &[]).unwrap(), [60.0], &[0.4, 0.001], |_| {});
-    assert_cuts_change_nothing(|| named.fly(0.0, &[]).unwrap(), [1400.0], &steps_s, |_| {});
+    assert_cuts_change_nothing(|| named.initialize(0.0, &[]).unwrap(), [60.0], &[0.4, 0.001], |_| {});
+    assert_cuts_change_nothing(|| named.initialize(0.0, &[]).unwrap(), [1400.0], &steps_s, |_| {});
     // In the middle of pulses.
     let sets = [("burn.pulseWidth", 1.0), ("inertia[1]", 230.0), ("burn.count", 20.0), ("burn.timing", 3.0)];
-    let fly = || named.fly(0.0, &sets).unwrap();
-    let edge_s = fly().real("burn.nextEdge");
+    let initialize = || named.initialize(0.0, &sets).unwrap();
+    let edge_s = initialize().real("burn.nextEdge");
     let ends_s = (0..12).map(|turn| edge_s + 0.4 + PERIOD_S * f64::from(turn));
     let mut active = 0;
-    assert_cuts_change_nothing(fly, ends_s, &[3.7], |flight| {
+    assert_cuts_change_nothing(initialize, ends_s, &[3.7], |flight| {
         active += i32::from(flight.boolean("burn.active") && flight.boolean("thruster[8].active"));
     });
     assert!(active > 3, "{active}");
@@ -59,11 +59,11 @@ fn a_state_saved_in_a_ramp_of_the_thrust_continues_to_the_bit() {
         ("burn.count", 6.0),
         ("burn.timing", 3.0),
     ]);
-    let fly = || named.fly(0.0, &sets).unwrap();
-    let edge_s = fly().real("burn.nextEdge");
+    let initialize = || named.initialize(0.0, &sets).unwrap();
+    let edge_s = initialize().real("burn.nextEdge");
     let shares = [(0.1, 0.25), (0.6, 1.0), (1.2, 0.5)].map(|(into_s, share)| (edge_s + into_s, share));
     let ends_s = shares.map(|(at_s, _)| at_s).into_iter().chain([100.0]);
-    assert_cuts_change_nothing(fly, ends_s, &[7.0, 0.7], |flight| {
+    assert_cuts_change_nothing(initialize, ends_s, &[7.0, 0.7], |flight| {
         let Some((_, share)) = shares.iter().find(|(at_s, _)| *at_s == flight.time_s()) else { return };
         let scattered = flight.vector("force.thruster").norm() / (4.448 * share);
         assert!((scattered - 1.0).abs() < 0.4 && scattered != 1.0, "{share}: {scattered}");
@@ -83,7 +83,7 @@ fn a_pulse_shorter_than_its_valve_opens_is_flagged() {
 
 #[test]
 fn held_thrusters_and_pulses_within_steps_have_the_same_edges() {
-    let fly = |drive: &dyn Fn(&mut Spinner)| {
+    let simulate = |drive: &dyn Fn(&mut Spinner)| {
         let mut spinner = Spinner::new().set_integer("burn.plan", 4).start();
         drive(&mut spinner);
         spinner.to(40.0);
@@ -97,7 +97,7 @@ fn held_thrusters_and_pulses_within_steps_have_the_same_edges() {
         ]
         .map(|name| spinner.real(name))
     };
-    let held = fly(&|spinner| {
+    let held = simulate(&|spinner| {
         spinner.to(9.6);
         spinner.fire(8, true);
         for i in 1..=10 {
@@ -106,7 +106,7 @@ fn held_thrusters_and_pulses_within_steps_have_the_same_edges() {
         spinner.fire(8, false);
     });
     // 9.59 and 0.33 s are rounded to 32 ms: 300 and 10 of them.
-    let pulsed = fly(&|spinner| {
+    let pulsed = simulate(&|spinner| {
         spinner.put("thruster[8].onDelay", 9.59);
         spinner.put("thruster[8].onTime", 0.33);
         spinner.to(12.0);

@@ -51,7 +51,7 @@ fn what_cannot_be_simulated_is_refused_by_name() {
     spinner.start().to(1.0);
 }
 
-/// A step of 1 s that must fail: what the instance says. After Reset it flies as ever.
+/// A step of 1 s that must fail: what the instance says. After Reset it is simulated as ever.
 fn failed_step(mut spinner: Spinner) -> String {
     let _ = spinner.fmu.take_messages();
     assert_eq!(spinner.try_step(1.0), Status::Error);
@@ -133,7 +133,8 @@ fn a_direction_too_short_or_too_long_is_refused_where_it_is_used() {
 fn a_tank_that_no_pulse_can_empty_is_refused() {
     let named = NamedModel::<SpinPlant>::shipped();
     let on_board_kg = 123.456;
-    let mut flight = named.fly(0.0, &[("burn.plan", 4.0), ("propellant.loaded", on_board_kg)]).unwrap();
+    let mut flight =
+        named.initialize(0.0, &[("burn.plan", 4.0), ("propellant.loaded", on_board_kg)]).unwrap();
     flight.set("thruster[8].fire", 1.0);
     flight.step_to(3.0).unwrap();
     let state = flight.state_bytes();
@@ -151,7 +152,7 @@ fn a_tank_that_no_pulse_can_empty_is_refused() {
     for wrong_kg in [f64::NAN, -1.0, 195.001, f64::INFINITY] {
         assert!(with(wrong_kg).is_none(), "{wrong_kg}");
     }
-    // Less than the pulse has used by now is no number too many: it is booked when the pulse ends, and ends it at once.
+    // Less than the pulse has used by now is no number too many: it is subtracted when the pulse ends, and ends it at once.
     let mut empty = with(0.0).unwrap();
     empty.step_to(5.0).unwrap();
     assert_eq!(empty.real("propellant.used"), 0.0);

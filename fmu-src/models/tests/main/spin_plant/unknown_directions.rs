@@ -37,7 +37,7 @@ fn zero_on_every_direction_is_simulated_and_warned_of_once() {
         assert_eq!(spinner.real(name), 0.0, "{name}");
     }
     assert!(!spinner.boolean("limit.anyViolated"));
-    // The first values: from here on it flies as one that had them.
+    // The first values: from here on it moves as one that had them.
     put(&mut spinner, "sun.direction", [0.0, 0.17, 0.98]);
     put(&mut spinner, "earth.direction", [0.0, 0.0, -1.0]);
     put(&mut spinner, "star.direction", [0.3, 0.95, 0.02]);

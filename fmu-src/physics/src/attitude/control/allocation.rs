@@ -148,8 +148,8 @@ impl WheelAllocator {
 
     /// Shares with sum over k of `shares[k]` times axis k = `vector_body`, to rounding; those of inactive wheels are 0.
     /// `shares` has as many items as there are axes.
-    pub fn distribute(&self, how: Allocation, vector_body: &Vector3<f64>, shares: &mut [f64]) {
-        match how {
+    pub fn distribute(&self, method: Allocation, vector_body: &Vector3<f64>, shares: &mut [f64]) {
+        match method {
             Allocation::PseudoInverse => {
                 for (share, row) in shares.iter_mut().zip(&self.rows) {
                     *share = row.dot(vector_body);

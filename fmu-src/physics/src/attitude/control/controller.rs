@@ -28,10 +28,10 @@ pub struct ControllerState {
     /// Rate error of the last sample with only a rate commanded, in rad/s.
     last_rate_error_rad_s: Vector3<f64>,
     /// Torque that the last sample requested, in N m, body frame.
-    asked_body_n_m: Vector3<f64>,
+    requested_body_n_m: Vector3<f64>,
     /// What of it could not be given, in N m, body frame.
     missing_body_n_m: Vector3<f64>,
-    /// Whether the reference goes on from the last sample.
+    /// Whether the reference continues from the last sample.
     has_reference: bool,
     was_valid: bool,
     was_rate_only: bool,
@@ -68,7 +68,7 @@ impl ControllerState {
             integral_rad_s: Vector3::zeros(),
             drift_rad: Vector3::zeros(),
             last_rate_error_rad_s: Vector3::zeros(),
-            asked_body_n_m: Vector3::zeros(),
+            requested_body_n_m: Vector3::zeros(),
             missing_body_n_m: Vector3::zeros(),
             has_reference: true,
             was_valid: true,
@@ -99,7 +99,7 @@ impl ControllerState {
         external_body_n_m: &Vector3<f64>,
     ) -> Vector3<f64> {
         let missing_body_n_m = core::mem::take(&mut self.missing_body_n_m);
-        self.asked_body_n_m = Vector3::zeros();
+        self.requested_body_n_m = Vector3::zeros();
         let Some(rate) = estimate.rate_body_rad_s else {
             self.has_reference = false;
             return Vector3::zeros();
@@ -134,8 +134,8 @@ impl ControllerState {
             let momentum = inertia_body_kg_m2 * rate + wheels_body_n_m_s;
             middle_rate.cross(&(momentum - rate.cross(&momentum) * half_s))
         };
-        self.asked_body_n_m = inertia_body_kg_m2 * acceleration + gyroscopic - external_body_n_m;
-        self.asked_body_n_m
+        self.requested_body_n_m = inertia_body_kg_m2 * acceleration + gyroscopic - external_body_n_m;
+        self.requested_body_n_m
     }
 
     /// Other actuators give the torque from the next sample on: what the integral holds against the old ones is void.
@@ -147,7 +147,7 @@ impl ControllerState {
     /// Tells that of the last torque only this could be given: at the next sample the integral does not grow toward
     /// what is missing.
     pub fn limited(&mut self, given_body_n_m: &Vector3<f64>) {
-        self.missing_body_n_m = self.asked_body_n_m - given_body_n_m;
+        self.missing_body_n_m = self.requested_body_n_m - given_body_n_m;
     }
 
     /// Angle between the estimated and the commanded attitude at the last sample, in rad; 0 where only a rate is commanded.

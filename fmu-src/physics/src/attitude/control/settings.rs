@@ -20,7 +20,7 @@ pub struct ControllerSettings {
     pub slew_rate_rad_s: f64,
     /// Greatest acceleration of the reference, in rad/s2; 0 for no limit.
     pub slew_acceleration_rad_s2: f64,
-    /// Whether the reference goes on however far the body is off: with actuators that are far stronger than slews ask for.
+    /// Whether the reference continues however far the body is off: with actuators that are far stronger than slews require.
     pub keeps_reference: bool,
 }
 

@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use nalgebra::Matrix3;
 
-use super::tests::fly;
+use super::tests::simulate;
 use super::*;
 use crate::attitude::dipole_in_field::DipoleInField;
 
@@ -43,7 +43,7 @@ fn a_compass_needle_swings_like_a_pendulum() {
     let period_s = 4.0 * quarter_period((0.5 * away).sin()) * (INERTIA[2] / (dipole * field)).sqrt();
     // At rest on the other side of the field half a period later, and where it began after the whole of it.
     for (part, turned) in [(0.5, 2.0 * away), (1.0, 0.0)] {
-        fly(&mut motion, &spacecraft, &[], &load, part * period_s, 1.0);
+        simulate(&mut motion, &spacecraft, &[], &load, part * period_s, 1.0);
         let found = motion.at(&spacecraft, part * period_s);
         assert!(found.rate_body_rad_s.norm() < 1e-11, "{}", found.rate_body_rad_s);
         let needle = found.attitude.inertial_from_body(&Vector3::x());
@@ -68,7 +68,7 @@ fn energy_and_momentum_along_the_field_stay() {
         ]
     };
     let before = invariants(&motion.at(&spacecraft, 0.0));
-    fly(&mut motion, &spacecraft, &[], &load, 3600.0, 0.5);
+    simulate(&mut motion, &spacecraft, &[], &load, 3600.0, 0.5);
     for (before, after) in before.into_iter().zip(invariants(&motion.at(&spacecraft, 3600.0))) {
         assert_relative_eq!(before, after, max_relative = 1e-11);
     }

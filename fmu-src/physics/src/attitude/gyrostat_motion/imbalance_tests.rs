@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, Matrix3};
 
-use super::tests::fly;
+use super::tests::simulate;
 use super::*;
 use crate::attitude::wheel::ReactionWheel;
 use crate::attitude::{Appendages, RotorImbalance};
@@ -40,7 +40,7 @@ fn a_rotor_out_of_balance_shakes_the_body_as_the_closed_form_says() {
     let force = |time_s: f64| i * (i * (speed * time_s)).exp() * (imbalance * speed * speed);
     for step in 1..=1_000 {
         let time_s = 0.01 * f64::from(step) + 1e-4;
-        fly(&mut motion, &spacecraft, &[Motor::default()], &load, time_s, 0.02);
+        simulate(&mut motion, &spacecraft, &[Motor::default()], &load, time_s, 0.02);
         let at = motion.at(&spacecraft, time_s);
         let [_, found] = motion.swinging_load(&spacecraft, time_s, &at);
         let found = Complex::new(found.x, found.y);

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector2, vector};
 
-use super::tests::fly;
+use super::tests::simulate;
 use super::*;
 use crate::attitude::{Appendages, SloshPendulum};
 use crate::numerics::collocation::Collocation;
@@ -108,7 +108,7 @@ fn body_and_bob_swing_as_the_rod_between_them_says() {
             let from_s = 0.1 * f64::from(step);
             (_, y) = method.solve(from_s, from_s + 0.1, &y, None, rhs).unwrap();
             let time_s = from_s + 0.1;
-            fly(&mut motion, &spacecraft, &[], &thrust(), time_s, 0.02);
+            simulate(&mut motion, &spacecraft, &[], &thrust(), time_s, 0.02);
             let at = motion.at(&spacecraft, time_s);
             // Coordinates across -Y.
             let across = spacecraft.appendages().sloshes[0].across_body();
@@ -149,14 +149,14 @@ fn the_pendulum_swings_at_its_closed_form_frequency() {
         };
         for turn in 1..=20 {
             let half_s = (f64::from(turn) - 0.5) * period_s;
-            fly(&mut motion, &spacecraft, &[], &thrust(), half_s, 0.02);
+            simulate(&mut motion, &spacecraft, &[], &thrust(), half_s, 0.02);
             for (size, [displacement, _]) in sizes.iter_mut().zip(state(&motion, half_s)) {
                 *size = displacement;
             }
             largest = largest.max(sizes[0].hypot(sizes[1]));
             // A step from rest is back at rest after every period.
             let full_s = f64::from(turn) * period_s;
-            fly(&mut motion, &spacecraft, &[], &thrust(), full_s, 0.02);
+            simulate(&mut motion, &spacecraft, &[], &thrust(), full_s, 0.02);
             for [displacement, speed] in state(&motion, full_s) {
                 assert!(displacement.abs() < 1e-9 * largest, "{turn}: {displacement:e} of {largest:e}");
                 assert!(speed.abs() < 1e-9 * largest * frequency_rad_s(pivot_m));
@@ -190,7 +190,7 @@ fn a_pendulum_on_a_heavy_body_is_a_plain_one() {
     let rest = -ASIDE * ACCELERATION_M_S2 / (free * free) * 1e-9_f64.sqrt();
     for step in 1..=100 {
         let time_s = 0.3 * f64::from(step);
-        fly(&mut motion, &spacecraft, &[], &thrust(), time_s, 0.02);
+        simulate(&mut motion, &spacecraft, &[], &thrust(), time_s, 0.02);
         let at = motion.at(&spacecraft, time_s);
         let across = spacecraft.appendages().sloshes[0].across_body();
         let found: f64 = (0..2).map(|k| across[k].x * motion.oscillator(k, time_s, &at)[0]).sum();

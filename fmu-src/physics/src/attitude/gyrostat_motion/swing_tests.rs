@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Matrix6, SVector, Vector6};
 
-use super::tests::{fly, pyramid};
+use super::tests::{pyramid, simulate};
 use super::*;
 use crate::attitude::wheel::ReactionWheel;
 use crate::attitude::{Appendages, FlexibleMode};
@@ -43,7 +43,7 @@ fn a_mode_rings_at_its_free_frequency_and_damping() {
     let rest = -coupling * torque / (inertia * frequency * frequency);
     for step in 1..=200 {
         let time_s = 0.1 * f64::from(step);
-        fly(&mut motion, &spacecraft, &[], &load, time_s, 0.02);
+        simulate(&mut motion, &spacecraft, &[], &load, time_s, 0.02);
         let at = motion.at(&spacecraft, time_s);
         let (sine, cosine) = (ringing * time_s).sin_cos();
         let decay = (-damped * free * time_s).exp();
@@ -75,7 +75,7 @@ fn ringing() -> (Gyrostat, [Motor; 4], GyrostatMotion) {
 fn modes_keep_the_momentum() {
     let (spacecraft, motors, mut motion) = ringing();
     let total = motion.momentum_inertial_n_m_s;
-    fly(&mut motion, &spacecraft, &motors, &BodyLoad::none(MASS_KG), 100.0, 0.02);
+    simulate(&mut motion, &spacecraft, &motors, &BodyLoad::none(MASS_KG), 100.0, 0.02);
     let at = motion.at(&spacecraft, 100.0);
     assert_eq!(at.momentum_inertial_n_m_s, total);
     // The inertia holds the modes at rest.
@@ -103,7 +103,7 @@ fn only_damping_takes_energy() {
         torque_body_n_m: [Vector3::new(0.5, -1.0, 2.0), Vector3::zeros()],
         ..BodyLoad::none(MASS_KG)
     };
-    fly(&mut motion, &spacecraft, &[Motor::default(); 4], &load, 1.0, 0.02);
+    simulate(&mut motion, &spacecraft, &[Motor::default(); 4], &load, 1.0, 0.02);
     let state = |motion: &GyrostatMotion, time_s: f64| {
         let at = motion.at(&spacecraft, time_s);
         let rate = at.rate_body_rad_s;
@@ -122,7 +122,7 @@ fn only_damping_takes_energy() {
     for step in 0..6_000 {
         let time_s = 1.0 + 0.01 * f64::from(step);
         let begin = state(&motion, time_s)[1];
-        fly(
+        simulate(
             &mut motion,
             &spacecraft,
             &[Motor::default(); 4],
@@ -131,7 +131,14 @@ fn only_damping_takes_energy() {
             0.005,
         );
         let middle = state(&motion, time_s + 0.005)[1];
-        fly(&mut motion, &spacecraft, &[Motor::default(); 4], &BodyLoad::none(MASS_KG), time_s + 0.01, 0.005);
+        simulate(
+            &mut motion,
+            &spacecraft,
+            &[Motor::default(); 4],
+            &BodyLoad::none(MASS_KG),
+            time_s + 0.01,
+            0.005,
+        );
         lost += (begin + 4.0 * middle + state(&motion, time_s + 0.01)[1]) * (0.01 / 6.0);
     }
     let [last, _] = state(&motion, 61.0);
@@ -153,7 +160,7 @@ fn an_integration_of_order_twelve_agrees() {
     let (rate, torque) = (Vector3::new(0.02, -0.03, 0.05), Vector3::new(0.3, 0.1, -0.2));
     let mut motion = start(&spacecraft, rate);
     let load = BodyLoad { torque_body_n_m: [torque, Vector3::zeros()], ..BodyLoad::none(MASS_KG) };
-    fly(&mut motion, &spacecraft, &[], &load, 50.0, 0.02);
+    simulate(&mut motion, &spacecraft, &[], &load, 50.0, 0.02);
     let at = motion.at(&spacecraft, 50.0);
 
     // Attitude (scalar last), rate, displacements, speeds.
@@ -206,13 +213,13 @@ fn an_integration_of_order_twelve_agrees() {
 
 #[test]
 fn long_segments_give_what_short_ones_give() {
-    let fly_in = |piece_s: f64| {
+    let simulate_in = |piece_s: f64| {
         let (spacecraft, motors, mut motion) = ringing();
-        fly(&mut motion, &spacecraft, &motors, &BodyLoad::none(MASS_KG), 20.0, piece_s);
+        simulate(&mut motion, &spacecraft, &motors, &BodyLoad::none(MASS_KG), 20.0, piece_s);
         let at = motion.at(&spacecraft, 20.0);
         (at.rate_body_rad_s, motion.oscillator(2, 20.0, &at))
     };
-    let (short, long) = (fly_in(0.003), fly_in(10.0));
+    let (short, long) = (simulate_in(0.003), simulate_in(10.0));
     assert_relative_eq!(short.0, long.0, max_relative = 1e-11);
     assert_relative_eq!(
         Vector3::from([short.1[0], short.1[1], 0.0]),

@@ -31,8 +31,8 @@ fn spacecraft(wheels: Vec<ReactionWheel>) -> Gyrostat {
     Gyrostat::new(Matrix3::from_diagonal(&INERTIA.into()), wheels).unwrap()
 }
 
-/// Flies on to `end_s` in pieces of at most `piece_s`.
-pub(super) fn fly(
+/// Simulates on to `end_s` in pieces of at most `piece_s`.
+pub(super) fn simulate(
     motion: &mut GyrostatMotion,
     spacecraft: &Gyrostat,
     motors: &[Motor],
@@ -94,7 +94,7 @@ fn a_free_body_turns_as_jacobi_says() {
     let mut worst = 0.0_f64;
     for minute in 1..=60 {
         let time_s = 60.0 * f64::from(minute);
-        fly(&mut motion, &spacecraft, &[], &BodyLoad::none(1.0), time_s, 0.02);
+        simulate(&mut motion, &spacecraft, &[], &BodyLoad::none(1.0), time_s, 0.02);
         let found = motion.at(&spacecraft, time_s);
         let [sn, cn, dn] = jacobi(tau * time_s, m);
         // c = x, b = z, a = y is a left-handed order: the middle axis runs the other way.
@@ -152,7 +152,7 @@ fn momentum_and_energy_are_kept() {
         0.5 * motion.rate_body_rad_s.dot(&(spacecraft.inertia_body_kg_m2() * motion.rate_body_rad_s))
     };
     let first = motion.at(&spacecraft, 0.0);
-    fly(&mut motion, &spacecraft, &[Motor::default(); 4], &BodyLoad::none(1.0), end_s, 0.02);
+    simulate(&mut motion, &spacecraft, &[Motor::default(); 4], &BodyLoad::none(1.0), end_s, 0.02);
     let last = motion.at(&spacecraft, end_s);
     assert_eq!(last.momentum_inertial_n_m_s, first.momentum_inertial_n_m_s);
     assert_relative_eq!(energy(&last), energy(&first), max_relative = 1e-10);
@@ -176,13 +176,13 @@ fn a_rotor_runs_up_and_down_as_the_exponential_says() {
     let momentum = |motion: &GyrostatMotion, time_s| {
         motion.rotor_n_m_s(&spacecraft, 0, time_s, &motion.at(&spacecraft, time_s))
     };
-    fly(&mut motion, &spacecraft, &up, &free, 120.0, 1.0);
+    simulate(&mut motion, &spacecraft, &up, &free, 120.0, 1.0);
     let top = (torque - friction) / damping * (1.0 - (-damping * 120.0_f64).exp());
     assert_relative_eq!(momentum(&motion, 120.0), top, max_relative = 1e-7);
     // Down without motor: h + c / k decays, to rest at k t = ln(1 + k h / c), and stays there.
     let off = [Motor { torque_n_m: 0.0, failed: true }];
     let rest_s = 120.0 + (1.0 + damping * top / friction).ln() / damping;
-    fly(&mut motion, &spacecraft, &off, &free, 200.0, 1.0);
+    simulate(&mut motion, &spacecraft, &off, &free, 200.0, 1.0);
     let expected = (top + friction / damping) * (-damping * 80.0_f64).exp() - friction / damping;
     assert_relative_eq!(momentum(&motion, 200.0), expected, max_relative = 1e-7);
     while motion.end_s() < rest_s + 10.0 {
@@ -196,10 +196,10 @@ fn a_rotor_runs_up_and_down_as_the_exponential_says() {
     // Friction holds less than itself, and lets go above.
     let weak = [Motor { torque_n_m: 0.9 * friction, failed: false }];
     let end_s = motion.end_s() + 10.0;
-    fly(&mut motion, &spacecraft, &weak, &free, end_s, 1.0);
+    simulate(&mut motion, &spacecraft, &weak, &free, end_s, 1.0);
     assert_eq!(momentum(&motion, end_s), 0.0);
     let strong = [Motor { torque_n_m: -1.1 * friction, failed: false }];
-    fly(&mut motion, &spacecraft, &strong, &free, end_s + 10.0, 1.0);
+    simulate(&mut motion, &spacecraft, &strong, &free, end_s + 10.0, 1.0);
     let expected = -0.1 * friction / damping * (1.0 - (-damping * 10.0_f64).exp());
     assert_relative_eq!(momentum(&motion, end_s + 10.0), expected, max_relative = 1e-6);
 }
@@ -220,7 +220,7 @@ fn a_rotor_stops_at_its_capacity_and_leaves_it() {
     let free = BodyLoad::none(1.0);
     let mut motors = [Motor::default(); 4];
     motors[0].torque_n_m = 0.075;
-    fly(&mut motion, &spacecraft, &motors, &free, 60.0, 0.02);
+    simulate(&mut motion, &spacecraft, &motors, &free, 60.0, 0.02);
     let at = motion.at(&spacecraft, 60.0);
     assert_eq!(motion.rotor_n_m_s(&spacecraft, 0, 60.0, &at), 8.0);
     assert!(spacecraft.wheels()[0].is_saturated(8.0));
@@ -231,7 +231,7 @@ fn a_rotor_stops_at_its_capacity_and_leaves_it() {
     );
     assert_relative_eq!(relative, total, max_relative = 1e-12);
     motors[0].torque_n_m = -0.075;
-    fly(&mut motion, &spacecraft, &motors, &free, 61.0, 0.02);
+    simulate(&mut motion, &spacecraft, &motors, &free, 61.0, 0.02);
     let at = motion.at(&spacecraft, 61.0);
     let left = motion.rotor_n_m_s(&spacecraft, 0, 61.0, &at);
     assert!((left - (8.0 - 0.075)).abs() < 1e-4 && !spacecraft.wheels()[0].is_saturated(left), "{left}");
@@ -289,13 +289,13 @@ fn long_segments_give_what_short_ones_give() {
     let spacecraft = spacecraft(wheels);
     let rate = Vector3::new(0.02, -0.03, 0.05);
     let motors = [0.01, -0.02, 0.03, 0.005].map(|torque_n_m| Motor { torque_n_m, failed: false });
-    let fly_in = |piece_s: f64| {
+    let simulate_in = |piece_s: f64| {
         let mut motion =
             GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &rate, |k| k as f64 - 1.0);
-        fly(&mut motion, &spacecraft, &motors, &BodyLoad::none(1.0), 50.0, piece_s);
+        simulate(&mut motion, &spacecraft, &motors, &BodyLoad::none(1.0), 50.0, piece_s);
         motion.at(&spacecraft, 50.0)
     };
-    let (short, long) = (fly_in(0.01), fly_in(10.0));
+    let (short, long) = (simulate_in(0.01), simulate_in(10.0));
     assert_relative_eq!(short.rate_body_rad_s, long.rate_body_rad_s, max_relative = 1e-12);
     for (a, b) in short.attitude.0.iter().zip(long.attitude.0) {
         assert!((a - b).abs() < 1e-13, "{a} {b}");

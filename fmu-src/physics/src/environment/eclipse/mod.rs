@@ -203,13 +203,13 @@ impl Shadow {
     /// there is no such geometry.
     pub fn fraction_and_gaps(&self, spacecraft_m: &Vector3<f64>, sun_m: &Vector3<f64>) -> (f64, [f64; 2]) {
         let none = f64::INFINITY;
-        let nowhere = (f64::NAN, [f64::NAN; 2]);
+        let undefined = (f64::NAN, [f64::NAN; 2]);
         if self.model == ShadowModel::Off {
             let outside = spacecraft_m.norm() >= self.planet_radius_m;
-            return if outside { (1.0, [none; 2]) } else { nowhere };
+            return if outside { (1.0, [none; 2]) } else { undefined };
         }
         let radii_m = [self.planet_radius_m, self.sun_radius_m];
-        let Ok(discs) = self.discs(radii_m, spacecraft_m, sun_m) else { return nowhere };
+        let Ok(discs) = self.discs(radii_m, spacecraft_m, sun_m) else { return undefined };
         let all_or_nothing = |gap_rad: f64| (f64::from(gap_rad >= 0.0), [gap_rad, none]);
         match self.model {
             ShadowModel::DiscOverlap => {

@@ -60,7 +60,7 @@ impl CoarseElements {
         for ((state, at_s), slot) in states.iter().zip(nodes_s).zip(&mut elements) {
             let mut found = classical(state, center)?;
             if let Some((later_s, later)) = later {
-                // The mean anomaly goes on by the mean motion, the other angles hardly at all.
+                // The mean anomaly continues by the mean motion, the other angles hardly at all.
                 let a_m = 0.5 * (found[0] + later[0]);
                 let motion_rad_s = (center.data().gm_m3_s2 / (a_m * a_m * a_m)).sqrt();
                 for (angle, expected) in

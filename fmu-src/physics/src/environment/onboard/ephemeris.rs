@@ -156,7 +156,7 @@ impl OnboardEphemeris {
     }
 
     /// The second derivative of the position of `target` from `center` by the precise models, in m/s2, EME2000: 0 beyond their
-    /// span, as [`OnboardEphemeris::state_carried_on`] goes on; `None` where nothing joins them.
+    /// span, as [`OnboardEphemeris::state_carried_on`] continues; `None` where nothing joins them.
     pub fn acceleration_m_s2(
         &self,
         target: OnboardTarget,

@@ -268,7 +268,7 @@ fn the_small_file_is_right_and_a_straight_line() {
 #[test]
 fn what_is_wrong_is_reported_by_line_and_key() {
     let second = "{ start_s = 10.0, end_s = 20.0";
-    for (old, new, said) in [
+    for (old, new, message) in [
         (
             second,
             "{ start_s = 11.0, end_s = 20.0",
@@ -301,7 +301,7 @@ fn what_is_wrong_is_reported_by_line_and_key() {
         assert!(SMALL.contains(old), "{old}");
         let error =
             OnboardEphemeris::from_toml("e.toml", &SMALL.replacen(old, new, 1)).unwrap_err().to_string();
-        assert!(error.contains(said), "{new}: {error}");
+        assert!(error.contains(message), "{new}: {error}");
     }
     let cut = SMALL.find("center = \"sun\"").unwrap() - 3;
     let torn = OnboardEphemeris::from_toml("e.toml", &SMALL[..cut]).unwrap_err().to_string();
@@ -309,7 +309,7 @@ fn what_is_wrong_is_reported_by_line_and_key() {
     let empty = OnboardEphemeris::from_toml("e.toml", "frame = \"EME2000\"").unwrap_err().to_string();
     assert!(empty.contains("found no body"), "{empty}");
     let entry = &SMALL[SMALL.find("[[body]]").unwrap()..SMALL.find("[[coarse]]").unwrap()];
-    for (other, said) in [
+    for (other, message) in [
         (entry.to_owned(), "body[2].body: found sun for the second time, allowed: each body once"),
         (
             entry
@@ -321,6 +321,6 @@ fn what_is_wrong_is_reported_by_line_and_key() {
     ] {
         let error =
             OnboardEphemeris::from_toml("e.toml", &format!("{SMALL}\n{other}")).unwrap_err().to_string();
-        assert!(error.contains(said), "{error}");
+        assert!(error.contains(message), "{error}");
     }
 }

@@ -1,4 +1,4 @@
-//! An integrated orbit agrees with the closed form where there is one, and drifts as celestial mechanics says.
+//! An integrated orbit agrees with the closed form where there is one, and drifts as in celestial mechanics.
 
 use core::f64::consts::TAU;
 

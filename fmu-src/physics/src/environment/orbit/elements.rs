@@ -36,7 +36,7 @@ pub struct Elements {
     pub true_anomaly_rad: f64,
 }
 
-/// Elements or a state that are no orbit this module can fly.
+/// Elements or a state that are no orbit this module can propagate.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum OrbitError {
     /// A number outside its range.

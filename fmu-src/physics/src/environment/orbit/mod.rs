@@ -25,7 +25,7 @@ pub use disturbed::{DisturbedOrbit, OrbitIntegrationError};
 pub use elements::{Elements, OrbitError, period_s, semi_major_axis_m};
 pub use gravity::{Flattening, Gravity, tide_m_s2};
 pub use lambert::{LambertArc, LambertBranch, LambertError, LambertVelocities};
-pub use n_body::{BodyPlaces, Collision, NBodyGravity, NBodySettings};
+pub use n_body::{BodyEphemeris, Collision, NBodyGravity, NBodySettings};
 pub use orbit_method::OrbitMethod;
 pub use transition::{Partials, partials_over, transition};
 pub use two_body::TwoBodyOrbit;

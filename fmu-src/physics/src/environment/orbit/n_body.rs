@@ -28,15 +28,15 @@ use crate::{
 /// No segment is shortened below this for what light does, in s.
 const SHORTEST_LIT_S: f64 = 60.0;
 
-/// Where bodies are, EME2000, by the flight's clock.
-pub trait BodyPlaces {
+/// Ephemeris of bodies, EME2000, by the simulation's clock.
+pub trait BodyEphemeris {
     /// Position and velocity from the Sun.
     fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState;
 
     /// The second derivative of that position, in m/s2.
     fn acceleration_m_s2(&mut self, body: Body, at_s: f64) -> Vector3<f64>;
 
-    /// When the first segment of an ephemeris ends after `at_s`: until there places are smooth.
+    /// When the first segment of an ephemeris ends after `at_s`: until there positions are smooth.
     fn smooth_until_s(&self, at_s: f64) -> f64;
 
     /// Position of the Moon from the Earth, in m.
@@ -146,17 +146,17 @@ impl NBodyGravity {
         about: Body,
         at_s: f64,
         state: &CartesianState,
-        places: &mut impl BodyPlaces,
+        ephemeris: &mut impl BodyEphemeris,
     ) -> Vector3<f64> {
         let center =
-            if about.is_planet() { places.heliocentric(about, at_s) } else { CartesianState::default() };
+            if about.is_planet() { ephemeris.heliocentric(about, at_s) } else { CartesianState::default() };
         let from_sun = *state + center;
         let mut sum = fall_m_s2(&from_sun.position_m, self.bodies[Body::Sun as usize][0]);
         let mut earth_m = None;
         for body in self.planets() {
             let gm_m3_s2 = self.bodies[body as usize][0];
             let is_center = body == about;
-            let place_m = if is_center { center } else { places.heliocentric(body, at_s) }.position_m;
+            let place_m = if is_center { center } else { ephemeris.heliocentric(body, at_s) }.position_m;
             let from_body_m = if is_center { state.position_m } else { from_sun.position_m - place_m };
             sum += fall_m_s2(&from_body_m, gm_m3_s2) + fall_m_s2(&place_m, gm_m3_s2);
             if body == Body::Earth {
@@ -168,8 +168,8 @@ impl NBodyGravity {
             }
         }
         if self.settings.moon {
-            let earth_m = earth_m.unwrap_or_else(|| places.heliocentric(Body::Earth, at_s).position_m);
-            let moon_from_earth_m = places.moon_from_earth_m(at_s);
+            let earth_m = earth_m.unwrap_or_else(|| ephemeris.heliocentric(Body::Earth, at_s).position_m);
+            let moon_from_earth_m = ephemeris.moon_from_earth_m(at_s);
             let moon_m = earth_m + moon_from_earth_m;
             let from_moon_m = match about {
                 Body::Earth => state.position_m - moon_from_earth_m,
@@ -180,7 +180,7 @@ impl NBodyGravity {
         if self.settings.relativity {
             sum += relativity_m_s2(&from_sun, self.bodies[Body::Sun as usize][0]);
         }
-        if about.is_planet() { sum - places.acceleration_m_s2(about, at_s) } else { sum }
+        if about.is_planet() { sum - ephemeris.acceleration_m_s2(about, at_s) } else { sum }
     }
 
     /// Gradient of that acceleration by the position, 1/s2: of all that attract as point masses. Flattening, up to some 1e-4 of the
@@ -190,23 +190,24 @@ impl NBodyGravity {
         about: Body,
         at_s: f64,
         position_m: &Vector3<f64>,
-        places: &mut impl BodyPlaces,
+        ephemeris: &mut impl BodyEphemeris,
     ) -> Matrix3<f64> {
         let mut center_m = Vector3::zeros();
         if about.is_planet() {
-            center_m = places.heliocentric(about, at_s).position_m;
+            center_m = ephemeris.heliocentric(about, at_s).position_m;
         }
         let from_sun_m = position_m + center_m;
         let mut sum = gradient_per_s2(&from_sun_m, self.bodies[Body::Sun as usize][0]);
         for body in self.planets() {
             let from_body_m = match body == about {
                 true => *position_m,
-                false => from_sun_m - places.heliocentric(body, at_s).position_m,
+                false => from_sun_m - ephemeris.heliocentric(body, at_s).position_m,
             };
             sum += gradient_per_s2(&from_body_m, self.bodies[body as usize][0]);
         }
         if self.settings.moon {
-            let moon_m = places.heliocentric(Body::Earth, at_s).position_m + places.moon_from_earth_m(at_s);
+            let moon_m =
+                ephemeris.heliocentric(Body::Earth, at_s).position_m + ephemeris.moon_from_earth_m(at_s);
             sum += gradient_per_s2(&(from_sun_m - moon_m), GM_MOON_M3_S2);
         }
         sum
@@ -234,14 +235,15 @@ impl NBodyGravity {
         about: Body,
         state: &CartesianState,
         at_s: f64,
-        places: &mut impl BodyPlaces,
+        ephemeris: &mut impl BodyEphemeris,
     ) -> Body {
-        let share = |body: Body, places: &mut _| {
+        let share = |body: Body, ephemeris: &mut _| {
             let sphere_m = self.sphere_m(body);
-            (distance_m(body, about, &state.position_m, at_s, places) / sphere_m, body)
+            (distance_m(body, about, &state.position_m, at_s, ephemeris) / sphere_m, body)
         };
         let spheres = self.planets().filter(|body| self.sphere_m(*body) > 0.0);
-        let nearest = spheres.map(|body| share(body, places)).min_by(|one, other| one.0.total_cmp(&other.0));
+        let nearest =
+            spheres.map(|body| share(body, ephemeris)).min_by(|one, other| one.0.total_cmp(&other.0));
         nearest.filter(|(share, _)| *share < 1.0).map_or(Body::Sun, |(_, body)| body)
     }
 
@@ -251,13 +253,14 @@ impl NBodyGravity {
         about: Body,
         state: &CartesianState,
         at_s: f64,
-        places: &mut impl BodyPlaces,
+        ephemeris: &mut impl BodyEphemeris,
     ) -> Body {
-        let from_sun = *state + places.heliocentric(about, at_s);
+        let from_sun = *state + ephemeris.heliocentric(about, at_s);
         let mut spheres =
             self.planets().filter(|body| self.settings.changes_center && [Body::Sun, *body].contains(&about));
         let crossed = spheres.find(|body| {
-            let from_body = if *body == about { *state } else { from_sun - places.heliocentric(*body, at_s) };
+            let from_body =
+                if *body == about { *state } else { from_sun - ephemeris.heliocentric(*body, at_s) };
             let outward = if *body == about { 1.0 } else { -1.0 };
             let beyond_m = outward * (from_body.position_m.norm() - self.sphere_m(*body));
             beyond_m > -EDGE_M && outward * from_body.position_m.dot(&from_body.velocity_m_s) > 0.0
@@ -272,7 +275,7 @@ impl NBodyGravity {
         about: Body,
         span_s: [f64; 2],
         path: impl Fn(f64) -> CartesianState,
-        places: &mut impl BodyPlaces,
+        ephemeris: &mut impl BodyEphemeris,
     ) -> Option<Reached> {
         if !self.settings.changes_center {
             return None;
@@ -281,7 +284,7 @@ impl NBodyGravity {
         for body in self.planets().filter(|body| about == Body::Sun || *body == about) {
             // Positive outside; a path about a planet is within its sphere.
             let sense = if body == about { -1.0 } else { 1.0 };
-            let at_s = first_crossing([body, about], (self.sphere_m(body), sense), span_s, &path, places);
+            let at_s = first_crossing([body, about], (self.sphere_m(body), sense), span_s, &path, ephemeris);
             if let Some(at_s) = at_s.filter(|at_s| first.is_none_or(|first| *at_s < first.at_s)) {
                 let into = if body == about { Body::Sun } else { body };
                 first = Some(Reached { at_s, body: into });
@@ -296,17 +299,17 @@ impl NBodyGravity {
         about: Body,
         span_s: [f64; 2],
         path: impl Fn(f64) -> CartesianState,
-        places: &mut impl BodyPlaces,
+        ephemeris: &mut impl BodyEphemeris,
     ) -> Result<(), Collision> {
         let bodies = self.planets().chain([Body::Sun]);
         for body in bodies.filter(|body| *body == about || !self.settings.changes_center) {
             let radius_m = self.bodies[body as usize][1];
-            let at_s = first_crossing([body, about], (radius_m, 1.0), span_s, &path, places);
+            let at_s = first_crossing([body, about], (radius_m, 1.0), span_s, &path, ephemeris);
             if let Some(at_s) = at_s {
                 let of_body = if body == about {
                     CartesianState::default()
                 } else {
-                    places.heliocentric(body, at_s) - places.heliocentric(about, at_s)
+                    ephemeris.heliocentric(body, at_s) - ephemeris.heliocentric(about, at_s)
                 };
                 let speed_m_s = (path(at_s) - of_body).velocity_m_s.norm();
                 return Err(Collision::Impact { at_s, name: body.data().name, radius_m, speed_m_s });
@@ -321,11 +324,11 @@ impl NBodyGravity {
         about: Body,
         state: &CartesianState,
         at_s: f64,
-        places: &mut impl BodyPlaces,
+        ephemeris: &mut impl BodyEphemeris,
     ) -> Result<(), Collision> {
         for body in self.planets().chain([Body::Sun]) {
             let radius_m = self.bodies[body as usize][1];
-            let distance_m = distance_m(body, about, &state.position_m, at_s, places);
+            let distance_m = distance_m(body, about, &state.position_m, at_s, ephemeris);
             if distance_m < radius_m || distance_m.is_nan() {
                 return Err(Collision::Inside { at_s, name: body.data().name, distance_m, radius_m });
             }
@@ -354,12 +357,12 @@ fn distance_m(
     about: Body,
     position_m: &Vector3<f64>,
     at_s: f64,
-    places: &mut impl BodyPlaces,
+    ephemeris: &mut impl BodyEphemeris,
 ) -> f64 {
     if body == about {
         return position_m.norm();
     }
-    let [body_m, about_m] = [body, about].map(|body| places.heliocentric(body, at_s).position_m);
+    let [body_m, about_m] = [body, about].map(|body| ephemeris.heliocentric(body, at_s).position_m);
     (position_m - (body_m - about_m)).norm()
 }
 
@@ -374,10 +377,10 @@ fn first_crossing(
     (radius_m, sense): (f64, f64),
     span_s: [f64; 2],
     path: &impl Fn(f64) -> CartesianState,
-    places: &mut impl BodyPlaces,
+    ephemeris: &mut impl BodyEphemeris,
 ) -> Option<f64> {
     let mut gap_m =
-        |at_s: f64| sense * (distance_m(body, about, &path(at_s).position_m, at_s, places) - radius_m);
+        |at_s: f64| sense * (distance_m(body, about, &path(at_s).position_m, at_s, ephemeris) - radius_m);
     let reach_m = farthest_m(&path(span_s[0]), span_s);
     if gap_m(span_s[0]) > reach_m {
         return None;
@@ -434,15 +437,19 @@ impl IntegrationCenter {
         gravity: &NBodyGravity,
         state: &CartesianState,
         at_s: f64,
-        places: &mut impl BodyPlaces,
+        ephemeris: &mut impl BodyEphemeris,
     ) -> Result<Body, Collision> {
         if !self.is_begun {
-            gravity.check_outside(self.body, state, at_s, places)?;
+            gravity.check_outside(self.body, state, at_s, ephemeris)?;
             let changes = gravity.settings.changes_center;
-            return Ok(if changes { gravity.body_about(self.body, state, at_s, places) } else { self.body });
+            return Ok(if changes {
+                gravity.body_about(self.body, state, at_s, ephemeris)
+            } else {
+                self.body
+            });
         }
-        let at_edge = |places| gravity.body_at_edge(self.body, state, at_s, places);
-        Ok(self.reaches.map_or_else(|| at_edge(places), |reached| reached.body))
+        let at_edge = |ephemeris| gravity.body_at_edge(self.body, state, at_s, ephemeris);
+        Ok(self.reaches.map_or_else(|| at_edge(ephemeris), |reached| reached.body))
     }
 
     /// The present segment, from where positions are given.
@@ -450,12 +457,12 @@ impl IntegrationCenter {
         &mut self,
         from: Body,
         [start_s, end_s]: [f64; 2],
-        places: &mut impl BodyPlaces,
+        ephemeris: &mut impl BodyEphemeris,
     ) {
         self.is_begun = true;
         self.offset = (self.body != from).then(|| {
             Segment::fit(start_s, end_s, |at_s| {
-                let [body, from] = [self.body, from].map(|body| places.heliocentric(body, at_s));
+                let [body, from] = [self.body, from].map(|body| ephemeris.heliocentric(body, at_s));
                 pack(&(body - from))
             })
         });

@@ -3,7 +3,7 @@
 use nalgebra::{SVector, Vector3};
 
 use super::disturbed::{DisturbedOrbit, OrbitIntegrationError};
-use super::n_body::{BodyPlaces, Collision, NBodyGravity, NBodySettings};
+use super::n_body::{BodyEphemeris, Collision, NBodyGravity, NBodySettings};
 use super::orbit_method::OrbitMethod;
 use crate::bodies::{Body, BodyData};
 use crate::constants::{DAY_S, GM_MERCURY_M3_S2, GM_SUN_M3_S2, RADIUS_MERCURY_M};
@@ -25,7 +25,7 @@ impl Sky {
     }
 }
 
-impl BodyPlaces for Sky {
+impl BodyEphemeris for Sky {
     fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState {
         self.ephemeris.state(body, self.epoch_s + at_s)
     }

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use super::disturbed::DisturbedOrbit;
 use super::gravity::gradient_per_s2;
-use super::n_body::{BodyPlaces, NBodyGravity, NBodySettings};
+use super::n_body::{BodyEphemeris, NBodyGravity, NBodySettings};
 use super::orbit_method::OrbitMethod;
 use super::transition::{partials_over, transition};
 use super::two_body::TwoBodyOrbit;
@@ -112,7 +112,7 @@ impl Sky {
     const ZERO_S: f64 = 276_640_800.0 - 10.0 * DAY_S;
 }
 
-impl BodyPlaces for Sky {
+impl BodyEphemeris for Sky {
     fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState {
         self.0.state(body, Self::ZERO_S + at_s)
     }

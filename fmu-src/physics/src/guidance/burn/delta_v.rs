@@ -1,19 +1,19 @@
 //! Delta-V steering (paper 001, "Delta-V guidance", Figure 9): where to point the thrust, and when to end it.
 //!
 //! Once a second the accelerometers' increment, turned by the estimate at mid-interval, is added to velocity and magnitude.
-//! The magnitude tells the point of the path where the burn should be (2 in the figure), a look-ahead further on is the aim
+//! The magnitude tells the point of the path where the burn should be (2 in the figure), a look-ahead further on is the aimpoint
 //! (4). Steering starts from the path's tangent and has two corrections:
 //! - theta, predictive: the thrust direction in the body frame, the boresight, turns by a share `gain` of the angle to the
 //!   measured direction. That accumulates until the offset from nominal is found.
 //! - beta, reactive: the tangent turns by the rotation that takes the line from 2 to 4 onto the line from the actual
 //!   velocity to 4, so that an offset decays over the look-ahead.
 //!
-//! The tangent and not the chord to the aim: a chord leads a turning path by half the look-ahead and cuts its corners. The
+//! The tangent and not the chord to the aimpoint: a chord leads a turning path by half the look-ahead and cuts its corners. The
 //! tangent's turn at the estimated acceleration is the commanded rate. Cut-off is where the magnitude reaches the length of
 //! the path, predicted from the estimated acceleration: the greater of the last two intervals', since thrust may fill a part
 //! of one; before there is any, the nominal one. Paper 001 says that the secondary pair -Y and Sun is not relied on for Sun
 //! safety, since the mission's design keeps burns inside the keep-in zone: constraints hold as in any scenario, but a burn
-//! does not begin while they keep the thrust off its aim. It waits as long as thrust may last, then its time is up.
+//! does not begin while they keep the thrust off its commanded direction. It waits as long as thrust may last, then its time is up.
 
 use nalgebra::{Rotation3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -36,7 +36,7 @@ const LEAST_SHARE: f64 = 0.1;
 /// Where there is no nominal one: least acceleration that counts as thrust, in m/s2.
 const LEAST_ACCELERATION_M_S2: f64 = 1e-3;
 
-/// How near the estimated attitude brings the thrust to its aim where a burn begins with that, in rad: it costs 2e-4 of the
+/// How near the estimated attitude brings the thrust to its aimpoint where a burn begins with that, in rad: it costs 2e-4 of the
 /// first seconds' delta-v along the path, and the reactive correction takes back what it puts across.
 const ATTITUDE_REACHED_RAD: f64 = DEG_RAD;
 
@@ -49,7 +49,7 @@ pub struct BurnSettings {
     pub thrusters: Option<ThrusterSet>,
     /// Earliest time at which thrust begins, in s.
     pub start_s: f64,
-    /// Whether it begins when the estimated attitude has the thrust on its aim, and not before.
+    /// Whether it begins when the estimated attitude has the thrust on its commanded direction, and not before.
     pub awaits_attitude: bool,
     /// How far ahead the path is aimed at, in s at the estimated acceleration.
     pub look_ahead_s: f64,
@@ -65,7 +65,7 @@ pub struct BurnSettings {
     pub acceleration_m_s2: f64,
     /// Longest time that thrust may last, in s.
     pub timeout_s: f64,
-    /// Longest time that a burn which is due waits for its aim, in s.
+    /// Longest time that a burn which is due waits for its direction, in s.
     pub wait_s: f64,
 }
 
@@ -90,7 +90,7 @@ pub enum BurnPhase {
     Waiting {
         /// Since when, in s.
         since_s: f64,
-        /// Whether it is due and the constraints keep the thrust off its aim, or there is no direction to aim at.
+        /// Whether it is due and the constraints keep the thrust off its commanded direction, or there is no direction to aim at.
         refused: bool,
     },
     /// Thrust since this time, in s, until a time in s that is predicted anew at each sample.
@@ -107,9 +107,9 @@ pub enum BurnPhase {
     },
 }
 
-/// Where a burn wants its thrust.
+/// Thrust direction that a burn commands.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BurnAim {
+pub struct BurnPointing {
     /// Unit vector of the estimated thrust in the body frame.
     pub boresight_body: Vector3<f64>,
     /// Where it is to point, EME2000.
@@ -229,7 +229,7 @@ impl BurnState {
     }
 
     /// Begins thrust at `time_s` where a burn waits, its time has come and `is_aimed` says that the commanded attitude has the
-    /// thrust on its aim.
+    /// thrust on its commanded direction.
     pub fn begin(&mut self, settings: &BurnSettings, time_s: f64, is_aimed: bool) {
         let BurnPhase::Waiting { since_s, .. } = self.phase else { return };
         if time_s < settings.start_s {
@@ -277,7 +277,7 @@ impl BurnState {
     }
 
     /// Where the thrust is to point; `None` without a path.
-    pub fn aim(&self, settings: &BurnSettings) -> Option<BurnAim> {
+    pub fn pointing(&self, settings: &BurnSettings) -> Option<BurnPointing> {
         let path = settings.path.as_ref()?;
         let here = path.point(self.magnitude_m_s);
         let measured_m_s2 = self.measured_m_s2(settings);
@@ -290,17 +290,17 @@ impl BurnState {
         };
         let is_burning = matches!(self.phase, BurnPhase::Burning { .. });
         let speed_m_s2 = measured_m_s2.filter(|_| is_burning).unwrap_or(0.0);
-        Some(BurnAim {
+        Some(BurnPointing {
             boresight_body: self.thrust_body(settings),
             direction: moving(turn * here.tangent, turn * here.curvature_s_m * speed_m_s2),
         })
     }
 
-    /// Whether the attitude estimated at the last sample has the thrust on its aim.
+    /// Whether the attitude estimated at the last sample has the thrust on its commanded direction.
     fn is_reached(&self, settings: &BurnSettings) -> bool {
-        self.last.zip(self.aim(settings)).is_some_and(|(motion, aim)| {
-            let thrust = motion.attitude.to_inertial(&aim.boresight_body);
-            angle_between_rad(&thrust, &value(&aim.direction)) <= ATTITUDE_REACHED_RAD
+        self.last.zip(self.pointing(settings)).is_some_and(|(motion, pointing)| {
+            let thrust = motion.attitude.to_inertial(&pointing.boresight_body);
+            angle_between_rad(&thrust, &value(&pointing.direction)) <= ATTITUDE_REACHED_RAD
         })
     }
 

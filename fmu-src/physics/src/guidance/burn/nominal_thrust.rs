@@ -20,8 +20,8 @@ impl NominalThrust {
     /// Of the thrusters of `set` along `direction_body`, of any length. Where that is zero: along the sum of their forces, or
     /// along +Z where they have none. Those count that push along it at all.
     pub fn new(spacecraft: &Spacecraft, set: Option<ThrusterSet>, direction_body: Vector3<f64>) -> Self {
-        let taking_part = spacecraft.thrusters.iter().filter(|it| set.is_some() && it.set == set);
-        let forces_n = taking_part.map(|thruster| thruster.force_body_n);
+        let firing = spacecraft.thrusters.iter().filter(|it| set.is_some() && it.set == set);
+        let forces_n = firing.map(|thruster| thruster.force_body_n);
         let (sum_n, size_n) = forces_n
             .clone()
             .fold((Vector3::zeros(), 0.0), |(sum, size), force| (sum + force, size + force.norm()));

@@ -1,7 +1,7 @@
 //! The velocity that a burn is to add, as a path: a straight line, or a cubic in the progress from 0 to 1.
 //!
 //! Equation: v(s) = c1 s + c2 s^2 + c3 s^3, 0 <= s <= 1, without gravity (paper 001, "Delta-V guidance"). A point is reported
-//! by the length of path up to it, which is the magnitude of delta-v spent there; beyond the end the path goes on straight.
+//! by the length of path up to it, which is the magnitude of delta-v spent there; beyond the end the path continues straight.
 //! Method: the length is a Gauss-Legendre integral of |v'| over [`PANELS`] panels, its inverse Newton's iteration kept
 //! within a bracket.
 //! Error measure: length relative to the whole, 1e-12 where |v'| varies by less than a factor of three.

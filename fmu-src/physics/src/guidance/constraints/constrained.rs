@@ -55,17 +55,17 @@ impl Constraints {
     pub fn applied(
         &self,
         vectors: &PointingVectors,
-        surroundings: &EphemerisAtTime,
+        ephemeris: &EphemerisAtTime,
         last_turn: Option<TurnSide>,
     ) -> Option<ConstrainedPointing> {
         let (pointing, sun_keep_in) = match &self.keep_in {
             Some(zone) => {
-                let kept = zone.constrained(vectors, &surroundings.to_sun())?;
+                let kept = zone.constrained(vectors, &ephemeris.to_sun())?;
                 (kept.pointing, kept.in_force)
             }
             None => (vectors.pointing()?, false),
         };
-        let kept = self.hot_pole.as_ref().map(|cone| cone.constrained(&pointing, surroundings, last_turn));
+        let kept = self.hot_pole.as_ref().map(|cone| cone.constrained(&pointing, ephemeris, last_turn));
         Some(ConstrainedPointing {
             pointing: kept.map_or(pointing, |kept| kept.pointing),
             sun_keep_in,

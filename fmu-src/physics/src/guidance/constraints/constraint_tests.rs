@@ -7,7 +7,7 @@ use crate::attitude::SunAngles;
 use crate::guidance::geometry::moving::{unit, value};
 use crate::guidance::geometry::test_orbit::{TestOrbit, rate_error};
 use crate::guidance::pointing::command::{ExternalRollOption, PointingCommand, Scenario};
-use crate::guidance::pointing::scenario::{PointingProgress, aim};
+use crate::guidance::pointing::scenario::{PointingProgress, pointing_solution};
 use crate::guidance::pointing::scenario_tests::{
     FLOOR_RAD_S, SCENARIOS, STEP_S, aimpoint, command, every, hardware,
 };
@@ -37,10 +37,10 @@ fn hot_pole() -> Constraints {
 fn form(
     constraints: &Constraints,
     vectors: &PointingVectors,
-    surroundings: &EphemerisAtTime,
+    ephemeris: &EphemerisAtTime,
 ) -> Option<(Pointing, [i8; 4])> {
-    let found = constraints.applied(vectors, surroundings, None)?;
-    let sun_body = found.pointing.to_body(&unit(&surroundings.to_sun())?);
+    let found = constraints.applied(vectors, ephemeris, None)?;
+    let sun_body = found.pointing.to_body(&unit(&ephemeris.to_sun())?);
     let edge = constraints.keep_in.filter(|_| found.sun_keep_in).map_or([0; 2], |zone| {
         let SunAngles { azimuth_rad, elevation_rad } = zone.angles(&value(&sun_body)).unwrap();
         let side = |angle_rad: f64, limit_rad: f64| {
@@ -70,8 +70,8 @@ fn worst(
     let (mut worst, mut compared) = (0.0_f64, 0);
     for time_s in orbit.times_s() {
         let at = |at_s: f64| {
-            let surroundings = orbit.surroundings(at_s);
-            form(constraints, &vectors(&surroundings, at_s - time_s)?, &surroundings)
+            let ephemeris = orbit.ephemeris(at_s);
+            form(constraints, &vectors(&ephemeris, at_s - time_s)?, &ephemeris)
         };
         let Some((_, here)) = at(time_s) else { continue };
         let in_force = here[0] != 0 || here[1] == 1;
@@ -96,17 +96,17 @@ fn worst(
 /// The vectors of a command, its limb scan `elapsed_s` after an instant.
 fn vectors_of(
     command: &PointingCommand,
-    surroundings: &EphemerisAtTime,
+    ephemeris: &EphemerisAtTime,
     elapsed_s: f64,
 ) -> Option<PointingVectors> {
     let progress = PointingProgress { limb_elapsed_s: 30.0 + elapsed_s, ..PointingProgress::default() };
-    aim(command, &hardware(), surroundings, &progress).map(|aimed| aimed.vectors)
+    pointing_solution(command, &hardware(), ephemeris, &progress).map(|solution| solution.vectors)
 }
 
 #[test]
 fn the_rate_is_the_derivative_with_a_constraint_in_force() {
     let orbit = TestOrbit::new(12.0);
-    // The hot pole is far from attitudes that look at the planet; in force it is where the aim is elsewhere.
+    // The hot pole is far from attitudes that look at the planet; in force it is where the aimpoint is elsewhere.
     let rows =
         [(zone(KeepInMethod::Nearest), 40, 10), (zone(KeepInMethod::Clamp), 40, 10), (hot_pole(), 10, 4)];
     for (constraints, least, aims) in rows {

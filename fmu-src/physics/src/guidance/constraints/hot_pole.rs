@@ -53,16 +53,16 @@ pub struct KeptOut {
 
 impl HotPole {
     /// Whether the spacecraft is where the constraint counts.
-    pub fn in_region(&self, surroundings: &EphemerisAtTime) -> bool {
-        let position_m = value(&surroundings.position);
-        let over_the_pole = angle_between_rad(&position_m, &value(&surroundings.sun)) < self.angle_rad;
+    pub fn in_region(&self, ephemeris: &EphemerisAtTime) -> bool {
+        let position_m = value(&ephemeris.position);
+        let over_the_pole = angle_between_rad(&position_m, &value(&ephemeris.sun)) < self.angle_rad;
         if !over_the_pole {
             return false;
         }
         let distance_m = position_m.norm();
-        let planet = &surroundings.planet;
+        let planet = &ephemeris.planet;
         let along_axes =
-            value(&(planet.planet_from_inertial(surroundings.epoch_s) * surroundings.position)) / distance_m;
+            value(&(planet.planet_from_inertial(ephemeris.epoch_s) * ephemeris.position)) / distance_m;
         let surface_m = along_axes.component_div(&planet.radii_m).norm().recip();
         distance_m - surface_m < self.altitude_m
     }
@@ -77,14 +77,14 @@ impl HotPole {
     pub fn constrained(
         &self,
         pointing: &Pointing,
-        surroundings: &EphemerisAtTime,
+        ephemeris: &EphemerisAtTime,
         last: Option<TurnSide>,
     ) -> KeptOut {
         let free = KeptOut { pointing: *pointing, side: None, reached: true };
-        if !self.in_region(surroundings) {
+        if !self.in_region(ephemeris) {
             return free;
         }
-        let (Some(to_sun), Some(to_planet)) = (unit(&surroundings.to_sun()), unit(&surroundings.to_planet()))
+        let (Some(to_sun), Some(to_planet)) = (unit(&ephemeris.to_sun()), unit(&ephemeris.to_planet()))
         else {
             return free;
         };

@@ -19,7 +19,7 @@ pub struct WindowStart<'a> {
     /// Which of both.
     pub activity: Activity,
     /// Where everything is.
-    pub surroundings: &'a EphemerisAtTime,
+    pub ephemeris: &'a EphemerisAtTime,
     /// The attitude as it is estimated.
     pub attitude: Attitude,
     /// How long it lasts, in s.

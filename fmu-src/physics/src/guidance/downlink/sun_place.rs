@@ -306,28 +306,28 @@ pub struct Link {
 
 /// The link of a beam, the Earth being at `earth_body` in the body frame; `None` where Sun or Earth has no direction.
 pub fn link(
-    surroundings: &EphemerisAtTime,
+    ephemeris: &EphemerisAtTime,
     earth_body: &Vector3<f64>,
     (antennas, beam): (&Antennas, Option<&AntennaAzimuth>),
     limits: &LinkLimits,
 ) -> Option<Link> {
-    let earth = unit(&surroundings.to_earth())?;
-    let sun = unit(&surroundings.to_sun())?;
+    let earth = unit(&ephemeris.to_earth())?;
+    let sun = unit(&ephemeris.to_sun())?;
     let sun_separation_rad = angle_between_rad(&value(&sun), &value(&earth));
     let covered = beam.is_some_and(|beam| antennas.covers(beam, earth_body, limits.coverage_rad));
     let available =
-        covered && sun_separation_rad > limits.sun_separation_rad && !behind_planet(surroundings, &earth);
+        covered && sun_separation_rad > limits.sun_separation_rad && !behind_planet(ephemeris, &earth);
     Some(Link { sun_separation_rad, covered, available })
 }
 
 /// Whether the line to the Earth meets the sphere of the planet's greatest radius on its way.
-fn behind_planet(surroundings: &EphemerisAtTime, earth: &MovingVector) -> bool {
-    let to_planet_m = value(&surroundings.to_planet());
+fn behind_planet(ephemeris: &EphemerisAtTime, earth: &MovingVector) -> bool {
+    let to_planet_m = value(&ephemeris.to_planet());
     let earth = value(earth);
     let nearest_m = to_planet_m.dot(&earth);
     nearest_m > 0.0
-        && nearest_m < value(&surroundings.to_earth()).norm()
-        && to_planet_m.cross(&earth).norm() < surroundings.planet.radii_m.max()
+        && nearest_m < value(&ephemeris.to_earth()).norm()
+        && to_planet_m.cross(&earth).norm() < ephemeris.planet.radii_m.max()
 }
 
 #[cfg(test)]

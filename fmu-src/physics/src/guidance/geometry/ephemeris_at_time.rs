@@ -88,7 +88,7 @@ impl EphemerisAtTime {
         }
     }
 
-    /// Says where a body is.
+    /// Sets where a body is.
     pub fn place_body(&mut self, body: Body, place: &CartesianState) {
         self.bodies[body as usize] = Some(moving(place.position_m, place.velocity_m_s));
     }

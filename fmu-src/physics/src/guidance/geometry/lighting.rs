@@ -32,10 +32,10 @@ enumeration! {
 }
 
 /// Subsolar point from the planet's centre, EME2000, in m.
-pub fn subsolar_m(surroundings: &EphemerisAtTime, method: SubsolarMethod) -> Option<MovingVector> {
-    let planet_from_inertial = surroundings.planet.planet_from_inertial(surroundings.epoch_s);
-    let radii_m = &surroundings.planet.radii_m;
-    let sun = unit(&(planet_from_inertial * surroundings.sun))?;
+pub fn subsolar_m(ephemeris: &EphemerisAtTime, method: SubsolarMethod) -> Option<MovingVector> {
+    let planet_from_inertial = ephemeris.planet.planet_from_inertial(ephemeris.epoch_s);
+    let radii_m = &ephemeris.planet.radii_m;
+    let sun = unit(&(planet_from_inertial * ephemeris.sun))?;
     let point = match method {
         SubsolarMethod::Line => sun * radius_m(radii_m, &sun),
         SubsolarMethod::Normal => {
@@ -47,10 +47,10 @@ pub fn subsolar_m(surroundings: &EphemerisAtTime, method: SubsolarMethod) -> Opt
 }
 
 /// Surface point of optimal lighting from the planet's centre, EME2000, in m; `None` inside the planet.
-pub fn optimal_lighting_m(surroundings: &EphemerisAtTime) -> Option<MovingVector> {
-    let sphere_m = surroundings.planet.radii_m.x;
-    let (up, sun) = (unit(&surroundings.position)?, unit(&surroundings.sun)?);
-    let distance_m = surroundings.position.dot(&up);
+pub fn optimal_lighting_m(ephemeris: &EphemerisAtTime) -> Option<MovingVector> {
+    let sphere_m = ephemeris.planet.radii_m.x;
+    let (up, sun) = (unit(&ephemeris.position)?, unit(&ephemeris.sun)?);
+    let distance_m = ephemeris.position.dot(&up);
     if !(sphere_m > 0.0 && sphere_m < distance_m.re) {
         return None;
     }

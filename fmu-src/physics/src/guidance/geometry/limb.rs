@@ -5,7 +5,7 @@
 //! y = p/p^2 +- sqrt(1 - 1/p^2) w, w the unit vector along rho x sigma: closed, so that moving numbers give their rates.
 //! The plane is normal to the Sun's direction (terminator: 0, 1 or 2 solutions, the one nearer to the downtrack direction is
 //! taken), or holds the local vertical and the azimuth's direction (generic: one solution on the azimuth's side). Where
-//! there is none the aim is the planet's centre. Height counts along the radius of the limb point.
+//! there is none the aimpoint is the planet's centre. Height counts along the radius of the limb point.
 
 use nalgebra::{ComplexField, Vector3};
 
@@ -25,37 +25,33 @@ pub struct LimbPoint {
 }
 
 /// The limb point at the azimuth of the command, `elapsed_s` into its scan; `None` where the azimuth has no reference.
-pub fn generic_limb(
-    surroundings: &EphemerisAtTime,
-    command: &LimbCommand,
-    elapsed_s: f64,
-) -> Option<LimbPoint> {
-    let side = lvlh_direction(surroundings, command.reference.unwrap_or_default(), command.azimuth_rad, 0.0)?;
-    let normal = unit_normal(&surroundings.position, &side)?;
-    let solutions = limb_points(surroundings, &normal);
+pub fn generic_limb(ephemeris: &EphemerisAtTime, command: &LimbCommand, elapsed_s: f64) -> Option<LimbPoint> {
+    let side = lvlh_direction(ephemeris, command.reference.unwrap_or_default(), command.azimuth_rad, 0.0)?;
+    let normal = unit_normal(&ephemeris.position, &side)?;
+    let solutions = limb_points(ephemeris, &normal);
     let chosen = solutions.map(|[a, b]| if value(&(a - b)).dot(&value(&side)) >= 0.0 { a } else { b });
     Some(raised(chosen, command, elapsed_s))
 }
 
 /// The limb point on the terminator, `elapsed_s` into its scan; `None` without a Sun.
 pub fn terminator_limb(
-    surroundings: &EphemerisAtTime,
+    ephemeris: &EphemerisAtTime,
     command: &LimbCommand,
     elapsed_s: f64,
 ) -> Option<LimbPoint> {
-    let solutions = limb_points(surroundings, &unit(&surroundings.sun)?);
-    let downtrack = lvlh_axes(surroundings, AzimuthReference::Downtrack)
+    let solutions = limb_points(ephemeris, &unit(&ephemeris.sun)?);
+    let downtrack = lvlh_axes(ephemeris, AzimuthReference::Downtrack)
         .map_or(Vector3::zeros(), |axes| value(&axes.column(0).into_owned()));
-    let along = |point: &MovingVector| value(&(point - surroundings.position)).normalize().dot(&downtrack);
+    let along = |point: &MovingVector| value(&(point - ephemeris.position)).normalize().dot(&downtrack);
     let chosen = solutions.map(|[a, b]| if along(&a) >= along(&b) { a } else { b });
     Some(raised(chosen, command, elapsed_s))
 }
 
 /// Both limb points in the plane through the centre that `normal` (EME2000) is normal to.
-fn limb_points(surroundings: &EphemerisAtTime, normal: &MovingVector) -> Option<[MovingVector; 2]> {
-    let planet_from_inertial = surroundings.planet.planet_from_inertial(surroundings.epoch_s);
-    let radii = fixed(surroundings.planet.radii_m);
-    let rho = (planet_from_inertial * surroundings.position).component_div(&radii);
+fn limb_points(ephemeris: &EphemerisAtTime, normal: &MovingVector) -> Option<[MovingVector; 2]> {
+    let planet_from_inertial = ephemeris.planet.planet_from_inertial(ephemeris.epoch_s);
+    let radii = fixed(ephemeris.planet.radii_m);
+    let rho = (planet_from_inertial * ephemeris.position).component_div(&radii);
     let sigma = unit(&(planet_from_inertial * normal).component_mul(&radii))?;
     let across = rho - sigma * rho.dot(&sigma);
     let inverse = Moving::from_re(1.0) / across.dot(&across);

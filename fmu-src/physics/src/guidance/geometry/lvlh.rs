@@ -9,24 +9,24 @@ use super::moving::{MovingMatrix, MovingVector, fixed, spherical, unit, unit_nor
 use crate::guidance::pointing::command::AzimuthReference;
 
 /// Axes of the local frame as columns in EME2000; `None` where the reference has no horizontal part.
-pub fn lvlh_axes(surroundings: &EphemerisAtTime, reference: AzimuthReference) -> Option<MovingMatrix> {
+pub fn lvlh_axes(ephemeris: &EphemerisAtTime, reference: AzimuthReference) -> Option<MovingMatrix> {
     let toward = match reference {
-        AzimuthReference::Downtrack => surroundings.velocity,
-        AzimuthReference::Sun => surroundings.sun,
+        AzimuthReference::Downtrack => ephemeris.velocity,
+        AzimuthReference::Sun => ephemeris.sun,
     };
-    let up = unit(&surroundings.position)?;
-    let left = unit_normal(&surroundings.position, &toward)?;
+    let up = unit(&ephemeris.position)?;
+    let left = unit_normal(&ephemeris.position, &toward)?;
     Some(MovingMatrix::from_columns(&[left.cross(&up), left, up]))
 }
 
 /// EME2000 direction of an azimuth and elevation in the local frame.
 pub fn lvlh_direction(
-    surroundings: &EphemerisAtTime,
+    ephemeris: &EphemerisAtTime,
     reference: AzimuthReference,
     azimuth_rad: f64,
     elevation_rad: f64,
 ) -> Option<MovingVector> {
-    Some(lvlh_axes(surroundings, reference)? * fixed(spherical(azimuth_rad, elevation_rad)))
+    Some(lvlh_axes(ephemeris, reference)? * fixed(spherical(azimuth_rad, elevation_rad)))
 }
 
 #[cfg(test)]
@@ -39,13 +39,13 @@ mod tests {
     use core::f64::consts::FRAC_PI_2;
     use nalgebra::Vector3;
 
-    /// Above +X, flying toward +Y and upward; the Sun in the X-Z plane.
+    /// Above +X, moving toward +Y and upward; the Sun in the X-Z plane.
     fn above_x() -> EphemerisAtTime {
         EphemerisAtTime {
             position: moving(Vector3::x() * 5e6, Vector3::new(100.0, 2000.0, 0.0)),
             velocity: moving(Vector3::new(100.0, 2000.0, 0.0), Vector3::x() * -0.8),
             sun: fixed(Vector3::new(-1e10, 0.0, 5e10)),
-            ..TestOrbit::new(12.0).surroundings(0.0)
+            ..TestOrbit::new(12.0).ephemeris(0.0)
         }
     }
 

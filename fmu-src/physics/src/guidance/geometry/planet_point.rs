@@ -27,8 +27,8 @@ pub fn geographic_m(
 }
 
 /// EME2000 position from the planet's centre of a point given along the planet's axes, in m.
-pub fn planet_fixed(surroundings: &EphemerisAtTime, position_planet: &MovingVector) -> MovingVector {
-    let planet_from_inertial = surroundings.planet.planet_from_inertial(surroundings.epoch_s);
+pub fn planet_fixed(ephemeris: &EphemerisAtTime, position_planet: &MovingVector) -> MovingVector {
+    let planet_from_inertial = ephemeris.planet.planet_from_inertial(ephemeris.epoch_s);
     planet_from_inertial.tr_mul(position_planet)
 }
 
@@ -67,13 +67,13 @@ mod tests {
 
     #[test]
     fn a_point_turns_eastward_about_the_pole() {
-        let surroundings = TestOrbit::new(12.0).surroundings(100.0);
+        let ephemeris = TestOrbit::new(12.0).ephemeris(100.0);
         let planet = Body::Mercury.data();
         let (sin_ra, cos_ra) = planet.pole_right_ascension_rad.sin_cos();
         let (sin_dec, cos_dec) = planet.pole_declination_rad.sin_cos();
         let pole = Vector3::new(cos_ra * cos_dec, sin_ra * cos_dec, sin_dec);
         for at in [Vector3::new(1e6, 2e6, 3e5), Vector3::new(-2e6, 1e5, -1e6)] {
-            let point = planet_fixed(&surroundings, &fixed(at));
+            let point = planet_fixed(&ephemeris, &fixed(at));
             assert_relative_eq!(value(&point).dot(&pole), at.z, epsilon = 1e-7);
             assert_relative_eq!(value(&point).norm(), at.norm(), epsilon = 1e-7);
             let expected = pole.cross(&value(&point)) * planet.rotation_rate_rad_s;
@@ -81,9 +81,9 @@ mod tests {
         }
         // The prime meridian stands W east of the node of the equator, which lies 90 deg east of the pole.
         let node = Vector3::new(-sin_ra, cos_ra, 0.0);
-        let turned = planet.prime_meridian_rad + planet.rotation_rate_rad_s * surroundings.epoch_s;
+        let turned = planet.prime_meridian_rad + planet.rotation_rate_rad_s * ephemeris.epoch_s;
         let expected = node * turned.cos() + pole.cross(&node) * turned.sin();
-        let found = value(&planet_fixed(&surroundings, &fixed(Vector3::x())));
+        let found = value(&planet_fixed(&ephemeris, &fixed(Vector3::x())));
         assert_relative_eq!(found, expected, epsilon = 1e-12);
     }
 }

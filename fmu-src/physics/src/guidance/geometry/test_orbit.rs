@@ -86,7 +86,7 @@ impl TestOrbit {
     }
 
     /// At a time after periapsis.
-    pub(crate) fn surroundings(&self, time_s: f64) -> EphemerisAtTime {
+    pub(crate) fn ephemeris(&self, time_s: f64) -> EphemerisAtTime {
         let epoch_s = EPOCH_S + time_s;
         let mut ephemeris = self.ephemeris.borrow_mut();
         let mercury = ephemeris.state(Body::Mercury, epoch_s);
@@ -99,12 +99,12 @@ impl TestOrbit {
         };
         let (sun, earth) = (from_planet(Body::Sun), from_planet(Body::Earth));
         let spacecraft = self.orbit.state_at(epoch_s);
-        let mut surroundings = EphemerisAtTime::new(epoch_s, self.planet, &spacecraft, &sun, &earth);
+        let mut at_time = EphemerisAtTime::new(epoch_s, self.planet, &spacecraft, &sun, &earth);
         for body in [Body::Venus, Body::Mars, Body::Jupiter] {
             let state = from_planet(body);
-            surroundings.bodies[body as usize] = Some(moving(state.position_m, state.velocity_m_s));
+            at_time.bodies[body as usize] = Some(moving(state.position_m, state.velocity_m_s));
         }
-        surroundings
+        at_time
     }
 
     /// 1 Hz instants over one orbit, densest about periapsis, in s.

@@ -21,7 +21,7 @@ pub const SUN_TOLERANCE_RAD: f64 = 2.0 * crate::constants::DEG_RAD;
 /// For how long it may be farther away, in s, assumed.
 pub const SUN_PERSISTENCE_S: f64 = 10.0;
 
-/// Where everything is.
+/// Positions of spacecraft and bodies by precise and coarse models.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyPositions {
     /// By the precise models, or by the only ones; `None` while a place is not known, or outside their span.
@@ -34,8 +34,8 @@ pub struct BodyPositions {
 
 impl BodyPositions {
     /// The same in every mode.
-    pub fn in_every_mode(surroundings: Option<EphemerisAtTime>) -> Self {
-        Self { precise: surroundings, coarse: None, by_mode: false }
+    pub fn in_every_mode(ephemeris: Option<EphemerisAtTime>) -> Self {
+        Self { precise: ephemeris, coarse: None, by_mode: false }
     }
 
     /// What a mode goes by.
@@ -82,14 +82,14 @@ impl EphemerisTrust {
         &mut self,
         check: Option<&Monitor>,
         time_s: f64,
-        places: &BodyPositions,
+        positions: &BodyPositions,
         sensed: Option<(Attitude, Vector3<f64>)>,
     ) {
-        if !places.by_mode || self.is_lost {
+        if !positions.by_mode || self.is_lost {
             return;
         }
-        let Some(precise) = &places.precise else {
-            self.is_lost = places.coarse.is_some();
+        let Some(precise) = &positions.precise else {
+            self.is_lost = positions.coarse.is_some();
             return;
         };
         let angle_rad = sensed.map_or(0.0, |(estimate, sun_body)| {

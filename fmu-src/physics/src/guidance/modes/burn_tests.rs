@@ -4,7 +4,7 @@
 use nalgebra::Vector3;
 
 use super::system::{GuidanceState, SampleInputs};
-use super::test_burn::{BurnFlight, guidance_settings, sample_inputs, settings, still_inputs, surroundings};
+use super::test_burn::{BurnFlight, ephemeris, guidance_settings, sample_inputs, settings, still_inputs};
 use crate::attitude::Attitude;
 use crate::attitude::control::AccelerometerSettings;
 use crate::constants::DEG_RAD;
@@ -213,7 +213,7 @@ fn a_burn_interrupted_does_not_go_on_by_itself() {
     guidance.sample(&all, &inputs, |_| None);
     assert!(guidance.burn().stop_s().is_some());
     assert_eq!(guidance.burn().velocity_m_s(), &Vector3::zeros());
-    // An entry of a timeline that goes on with its scenario does not begin it anew, one that names it does.
+    // An entry of a timeline that continues with its scenario does not begin it anew, one that names it does.
     let mut guidance = burning;
     let mut planned = inputs;
     planned.entries.scenario = Some(7);
@@ -232,7 +232,7 @@ fn no_thrust_without_direction_or_off_the_aim() {
     assert_eq!(guidance.burn().stop_s(), None);
     assert!(guidance.status().degenerate);
     // A keep-in zone that the burn's direction leaves no room in.
-    let toward_sun = crate::guidance::geometry::moving::value(&surroundings().to_sun()).normalize() * 10.0;
+    let toward_sun = crate::guidance::geometry::moving::value(&ephemeris().to_sun()).normalize() * 10.0;
     let burn = settings(toward_sun);
     let mut all = guidance_settings(burn);
     all.modes.operational.keep_in = Some(all.keep_in);
@@ -246,7 +246,7 @@ fn no_thrust_without_direction_or_off_the_aim() {
 
 #[test]
 fn a_burn_that_cannot_begin_says_so_and_times_out() {
-    let toward_sun = crate::guidance::geometry::moving::value(&surroundings().to_sun()).normalize() * 10.0;
+    let toward_sun = crate::guidance::geometry::moving::value(&ephemeris().to_sun()).normalize() * 10.0;
     let burn = BurnSettings { timeout_s: 20.0, wait_s: 20.0, ..settings(toward_sun) };
     let none = BurnSettings { path: None, ..burn };
     for burn in [burn, none] {

@@ -69,16 +69,20 @@ struct Simulated {
     jumps: Vec<(u32, f64)>,
 }
 
-fn simulated(all: &GuidanceSettings<'_>, command: PointingCommand, places: &[EphemerisAtTime]) -> Simulated {
+fn simulated(
+    all: &GuidanceSettings<'_>,
+    command: PointingCommand,
+    positions: &[EphemerisAtTime],
+) -> Simulated {
     let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
-    let mut simulated = Simulated { flags: Vec::with_capacity(places.len()), jumps: Vec::new() };
-    for (second, surroundings) in (0_u32..).zip(places) {
+    let mut simulated = Simulated { flags: Vec::with_capacity(positions.len()), jumps: Vec::new() };
+    for (second, ephemeris) in (0_u32..).zip(positions) {
         let time_s = f64::from(second);
         let led_to = guidance.command().attitude_at(time_s);
         let rate_before = guidance.command().rate_body_rad_s;
         let inputs = SampleInputs {
             command,
-            places: BodyPositions::in_every_mode(Some(*surroundings)),
+            positions: BodyPositions::in_every_mode(Some(*ephemeris)),
             ..sample_inputs(led_to, Vector3::zeros())
         };
         guidance.sample(all, &inputs, |_| None);
@@ -112,8 +116,8 @@ fn no_flag_flickers_and_no_command_jumps_over_half_a_day_of_every_scenario() {
     let mut greatest = [0; 7];
     let mut unexplained = Vec::new();
     for day in &[0.0, 40.0][..short_or_long(1, 2)] {
-        let places: Vec<EphemerisAtTime> =
-            (0..HALF_DAY_S).map(|second| orbit.surroundings(day * 86_400.0 + f64::from(second))).collect();
+        let positions: Vec<EphemerisAtTime> =
+            (0..HALF_DAY_S).map(|second| orbit.ephemeris(day * 86_400.0 + f64::from(second))).collect();
         let orbit_phases = [
             (ScienceRule::Scaled { gain: 0.25 }, 0.0),
             (ScienceRule::Nadir, 0.0),
@@ -129,7 +133,7 @@ fn no_flag_flickers_and_no_command_jumps_over_half_a_day_of_every_scenario() {
                 (command, law(science, slew_rate_rad_s))
             }));
         for (command, orbit_phase) in commands {
-            let simulated = simulated(&flight_settings(orbit_phase), command, &places);
+            let simulated = simulated(&flight_settings(orbit_phase), command, &positions);
             for (flag, most) in greatest.iter_mut().enumerate() {
                 let count = changes(&simulated, flag, 1);
                 *most = count.max(*most);
@@ -145,7 +149,7 @@ fn no_flag_flickers_and_no_command_jumps_over_half_a_day_of_every_scenario() {
                 // The limb and the terminator meet or part.
                 let has_limb = |at: u32| {
                     let elapsed_s = f64::from(at);
-                    terminator_limb(&places[at as usize], &command.limb, elapsed_s).map(|limb| limb.exists)
+                    terminator_limb(&positions[at as usize], &command.limb, elapsed_s).map(|limb| limb.exists)
                 };
                 let at_limb = command.scenario == Some(Scenario::LimbTerminator)
                     && has_limb(*second) != has_limb(second - 1);
@@ -185,7 +189,7 @@ fn random_flights_with_slews_stay_in_the_zone() {
             }
         };
         let sun_place = (flight % 3 > 0).then(&mut place);
-        let begin_s = orbit.surroundings(start_s).epoch_s + random.within(0.0, 9.0 * 3600.0);
+        let begin_s = orbit.ephemeris(start_s).epoch_s + random.within(0.0, 9.0 * 3600.0);
         let length_s = random.within(3_000.0, 9_000.0);
         let base = law(science, random.within(5e-4, 1e-2));
         let schedule = Schedule {
@@ -205,8 +209,8 @@ fn random_flights_with_slews_stay_in_the_zone() {
         };
         let eigenaxis = Guided { keep_in: None, ..law };
         let base_hardware = hardware();
-        let offset_s = start_s - orbit.surroundings(start_s).epoch_s;
-        let lines = |epoch_s: f64| lines_of_sight(&orbit.surroundings(epoch_s + offset_s));
+        let offset_s = start_s - orbit.ephemeris(start_s).epoch_s;
+        let lines = |epoch_s: f64| lines_of_sight(&orbit.ephemeris(epoch_s + offset_s));
         for edge_s in [begin_s, begin_s + length_s] {
             for step in 0..3_000 {
                 let at_s = edge_s + 0.5 * f64::from(step);
@@ -241,19 +245,19 @@ fn a_downlink_of_the_orbit_phase_reaches_the_earth_beyond_a_right_angle_from_the
     let all = flight_settings(law(ScienceRule::Nadir, 0.0));
     let (mut near, mut far) = (0, 0);
     for day in 0..88 {
-        let surroundings = orbit.surroundings(f64::from(day) * 86_400.0 + 5.0 * 3600.0);
+        let ephemeris = orbit.ephemeris(f64::from(day) * 86_400.0 + 5.0 * 3600.0);
         let command = PointingCommand { scenario: Some(Scenario::OrbitPhase), ..PointingCommand::default() };
         let inputs = SampleInputs {
             command,
-            places: BodyPositions::in_every_mode(Some(surroundings)),
+            positions: BodyPositions::in_every_mode(Some(ephemeris)),
             ..still_inputs()
         };
         let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
         guidance.sample(&all, &inputs, |_| None);
-        let earth = guidance.command().attitude_at(0.0).to_body(&value(&surroundings.to_earth()).normalize());
+        let earth = guidance.command().attitude_at(0.0).to_body(&value(&ephemeris.to_earth()).normalize());
         assert!(earth.z.abs() < 1e-9);
         assert!(guidance.status().reachable, "{day}");
-        let is_near = value(&surroundings.to_sun()).dot(&value(&surroundings.to_earth())) > 0.0;
+        let is_near = value(&ephemeris.to_sun()).dot(&value(&ephemeris.to_earth())) > 0.0;
         if is_near { near += 1 } else { far += 1 }
     }
     assert!(near > 10 && far > 10, "{near} {far}");
@@ -274,9 +278,9 @@ fn a_scan_that_changes_begins_anew() {
     let mut faster = nadir;
     faster.scan.rate_rad_s[0] = 2e-3;
     let sample = |guidance: &mut GuidanceState, second: u32, command: PointingCommand| {
-        let surroundings = orbit.surroundings(20_000.0 + f64::from(second));
-        let places = BodyPositions::in_every_mode(Some(surroundings));
-        let inputs = SampleInputs { command, places, ..still_inputs() };
+        let ephemeris = orbit.ephemeris(20_000.0 + f64::from(second));
+        let positions = BodyPositions::in_every_mode(Some(ephemeris));
+        let inputs = SampleInputs { command, positions, ..still_inputs() };
         guidance.sample(&all, &inputs, |_| None);
         guidance.command().attitude_at(f64::from(second))
     };

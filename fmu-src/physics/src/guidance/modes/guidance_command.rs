@@ -62,7 +62,7 @@ pub struct CommandStatus {
     pub degenerate: bool,
     /// Whether a scan moves boresight or aim.
     pub scan_active: bool,
-    /// What is to be said of a downlink.
+    /// What is reported of a downlink.
     pub downlink: DownlinkStatus,
     /// Whether the keep-in zone changed the attitude.
     pub sun_keep_in: bool,
@@ -105,7 +105,7 @@ impl GuidanceCommand {
         Self { kind, since_s: time_s, attitude, quaternion, rate_body_rad_s, error }
     }
 
-    /// An attitude and rate at `time_s`, the quaternion's sign going on.
+    /// An attitude and rate at `time_s`, the quaternion's sign continuing.
     pub(super) fn followed_by(&self, frame: &MovingFrame, time_s: f64) -> Self {
         let attitude = Attitude::from_rotation(&frame.inertial_from_body);
         Self {
@@ -123,7 +123,7 @@ impl GuidanceCommand {
         self.attitude.propagated(self.rate_body_rad_s, time_s - self.since_s)
     }
 
-    /// Its quaternion, scalar last, EME2000 to body; the sign goes on from sample to sample.
+    /// Its quaternion, scalar last, EME2000 to body; the sign continues from sample to sample.
     pub fn quaternion_at(&self, time_s: f64) -> [f64; 4] {
         self.quaternion_of(&self.attitude_at(time_s))
     }

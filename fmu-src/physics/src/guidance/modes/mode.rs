@@ -25,9 +25,9 @@ enumeration! {
     /// Why a mode is in force.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     pub enum ModeReason {
-        /// The input mode.request asked for it.
+        /// The input mode.request requests it.
         1 => Request,
-        /// The timeline asked for it.
+        /// The timeline requests it.
         2 => Timeline,
         /// The estimated attitude had the Sun outside the keep-in zone for too long.
         3 => SunKeepIn,

@@ -71,11 +71,11 @@ impl Monitor {
 }
 
 /// By how much an estimated attitude exceeds the constraints.
-pub fn excess(constraints: &Constraints, estimate: &Attitude, surroundings: &EphemerisAtTime) -> Excess {
+pub fn excess(constraints: &Constraints, estimate: &Attitude, ephemeris: &EphemerisAtTime) -> Excess {
     let body_from_inertial = estimate.inertial_from_body().inverse();
-    let in_region = constraints.hot_pole.is_some_and(|cone| cone.in_region(surroundings));
+    let in_region = constraints.hot_pole.is_some_and(|cone| cone.in_region(ephemeris));
     let body = |vector| body_from_inertial * value(&vector);
-    constraints.excess(&body(surroundings.to_sun()), &body(surroundings.to_planet()), in_region)
+    constraints.excess(&body(ephemeris.to_sun()), &body(ephemeris.to_planet()), in_region)
 }
 
 #[cfg(test)]

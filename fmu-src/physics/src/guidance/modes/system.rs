@@ -22,8 +22,8 @@ use crate::guidance::downlink::sun_place::{ChosenPlace, LinkLimits, SunPlace, Su
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{MovingVector, value};
 use crate::guidance::orbit_phase::guided::{DownlinkStatus, Guided};
-use crate::guidance::orbit_phase::orbit_ahead::ellipse_of;
 use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
+use crate::guidance::orbit_phase::predicted_orbit::ellipse_of;
 use crate::guidance::orbit_phase::schedule::{Activity, Schedule};
 use crate::guidance::pointing::antenna::Beam;
 use crate::guidance::pointing::command::{
@@ -31,7 +31,9 @@ use crate::guidance::pointing::command::{
 };
 use crate::guidance::pointing::law::{Pointing, PointingVectors};
 use crate::guidance::pointing::scan::ScanTime;
-use crate::guidance::pointing::scenario::{Aimed, GuidanceHardware, PointingProgress, aim};
+use crate::guidance::pointing::scenario::{
+    GuidanceHardware, PointingProgress, PointingSolution, pointing_solution,
+};
 use crate::numerics::spacing::spacing;
 
 /// Time between two samples, in s.
@@ -40,7 +42,7 @@ pub const SAMPLE_INTERVAL_S: f64 = 1.0;
 /// Units of about a microsecond that a sample takes at most, a choice of the Sun's place aside.
 pub const SAMPLE_WORK: u32 = 4;
 
-/// Everything that parameters say.
+/// Everything that parameters set.
 #[derive(Clone, Copy, Debug)]
 pub struct GuidanceSettings<'a> {
     /// Instruments, gimbal, scans.
@@ -71,7 +73,7 @@ pub struct SampleInputs {
     /// The timeline's entries that say scan, limb and mode, where they and no input do: each begins with its entry.
     pub entries: TimedEntries,
     /// Where everything is.
-    pub places: BodyPositions,
+    pub positions: BodyPositions,
     /// Mode request, estimate and Sun sensors at the sample's time.
     pub sensed: Sensed,
     /// Sum of the accelerometers' increments along the body axes, in m/s.
@@ -118,7 +120,7 @@ pub struct GuidanceState {
 struct SampleContext<'a> {
     settings: &'a GuidanceSettings<'a>,
     constraints: Constraints,
-    surroundings: &'a EphemerisAtTime,
+    ephemeris: &'a EphemerisAtTime,
     requested_sun: (SunRequest, bool),
     sun_is_placed: bool,
     time_s: f64,
@@ -185,9 +187,9 @@ impl GuidanceState {
     }
 
     /// The windows of the orbit phase where the spacecraft is; `None` where that is not known.
-    pub fn windows(&self, law: &Guided, places: &BodyPositions) -> Option<Schedule> {
+    pub fn windows(&self, law: &Guided, positions: &BodyPositions) -> Option<Schedule> {
         let mut periapses = self.periapses;
-        self.modes.surroundings(places).map(|surroundings| periapses.windows(&law.schedule, surroundings))
+        self.modes.ephemeris_in_mode(positions).map(|ephemeris| periapses.windows(&law.schedule, ephemeris))
     }
 
     /// When the next sample is due, in s.
@@ -213,7 +215,7 @@ impl GuidanceState {
         self.next_sample_s = next_whole_s(time_s);
         let sensed = Sensed { time_s, ..inputs.sensed };
         let mut modes = settings.modes;
-        let before = self.modes.surroundings(&inputs.places).map(EphemerisAtTime::to_sun);
+        let before = self.modes.ephemeris_in_mode(&inputs.positions).map(EphemerisAtTime::to_sun);
         if before.is_some_and(|to_sun| value(&to_sun).norm() > settings.keep_in_distance_m) {
             modes.operational.keep_in = None;
         }
@@ -227,9 +229,9 @@ impl GuidanceState {
                 delta_v_body_m_s: inputs.delta_v_body_m_s,
             }),
         );
-        let steering = self.modes.sample(&modes, &sensed, &inputs.places);
-        let surroundings = self.modes.surroundings(&inputs.places);
-        if let Some(to_sun) = surroundings.map(EphemerisAtTime::to_sun) {
+        let steering = self.modes.sample(&modes, &sensed, &inputs.positions);
+        let ephemeris = self.modes.ephemeris_in_mode(&inputs.positions);
+        if let Some(to_sun) = ephemeris.map(EphemerisAtTime::to_sun) {
             self.sun_line = SunLine::new(&to_sun, time_s);
         }
         match steering {
@@ -237,14 +239,14 @@ impl GuidanceState {
                 let command = self.modes.mode.allowed(&inputs.command);
                 let orbit_phase = Guided { keep_in: constraints.keep_in, ..settings.orbit_phase };
                 let settings = &GuidanceSettings { orbit_phase, ..*settings };
-                if let Some(surroundings) = surroundings.filter(|_| command.scenario.is_some()) {
+                if let Some(ephemeris) = ephemeris.filter(|_| command.scenario.is_some()) {
                     let attitude = sensed.estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
-                    is_chosen = self.place_sun(settings, &command, surroundings, attitude, choose);
+                    is_chosen = self.place_sun(settings, &command, ephemeris, attitude, choose);
                     self.compute_attitude(
                         &SampleContext {
                             settings,
                             constraints,
-                            surroundings,
+                            ephemeris,
                             requested_sun: match self.modes.mode {
                                 Mode::Operational => {
                                     inputs.requested_sun.within(constraints.keep_in.as_ref())
@@ -285,12 +287,12 @@ impl GuidanceState {
         &mut self,
         settings: &GuidanceSettings<'_>,
         command: &PointingCommand,
-        surroundings: &EphemerisAtTime,
+        ephemeris: &EphemerisAtTime,
         attitude: Attitude,
         choose: impl Fn(&WindowStart<'_>) -> Option<ChosenPlace>,
     ) -> bool {
-        let epoch_s = surroundings.epoch_s;
-        let windows = &in_present_orbit(&settings.orbit_phase.schedule, surroundings);
+        let epoch_s = ephemeris.epoch_s;
+        let windows = &in_present_orbit(&settings.orbit_phase.schedule, ephemeris);
         let found = match command.scenario {
             _ if self.modes.mode != Mode::Operational => None,
             Some(scenario @ Scenario::Downlink) => {
@@ -299,7 +301,7 @@ impl GuidanceState {
                 is_free.then(|| (scenario, Activity::Downlink, windows.begun_at(epoch_s), span_s))
             }
             Some(scenario @ Scenario::OrbitPhase) => {
-                let windows = self.periapses.windows(windows, surroundings);
+                let windows = self.periapses.windows(windows, ephemeris);
                 let window = windows.window(epoch_s);
                 let has_place =
                     window.activity == Activity::Downlink || settings.orbit_phase.science.unloads();
@@ -314,7 +316,7 @@ impl GuidanceState {
         let chosen = || {
             let law = Guided { schedule, ..settings.orbit_phase };
             let is_span = span_s.is_finite() && span_s > 0.0;
-            let start = WindowStart { activity, surroundings, attitude, span_s, law };
+            let start = WindowStart { activity, ephemeris, attitude, span_s, law };
             is_span.then(|| choose(&start)).flatten()
         };
         match activity {
@@ -389,7 +391,7 @@ impl GuidanceState {
         } else if is_given && self.modes.mode == Mode::Operational {
             self.law = Some(*command);
         }
-        let Some((aimed, constrained)) = found else {
+        let Some((solution, constrained)) = found else {
             self.status = CommandStatus { degenerate: true, ..CommandStatus::NOTHING };
             return;
         };
@@ -397,16 +399,16 @@ impl GuidanceState {
         let hot_pole = turn.is_some();
         self.hot_pole_turn = turn;
         self.command = self.command.followed_by(&pointing.frame(), now.time_s);
-        let earth_body = value(&pointing.to_body(&now.surroundings.to_earth()));
+        let earth_body = value(&pointing.to_body(&now.ephemeris.to_earth()));
         let is_moved = sun_keep_in || hot_pole;
         let antennas = now.settings.hardware.antennas;
-        let beam = aimed.antenna.map(|requested| match requested {
+        let beam = solution.antenna.map(|requested| match requested {
             // A fan's beam follows the Earth where a constraint moved the antenna off it.
             Beam::AtTheEarth(beam) if is_moved => antennas.following(beam, &earth_body),
             Beam::AtTheEarth(azimuth) | Beam::Commanded(azimuth) => azimuth,
         });
-        let link = link(now.surroundings, &earth_body, (antennas, beam.as_ref()), &now.settings.link);
-        let gimbal = aimed
+        let link = link(now.ephemeris, &earth_body, (antennas, beam.as_ref()), &now.settings.link);
+        let gimbal = solution
             .gimbal_angle(&pointing, now.settings.hardware.gimbal.as_ref())
             .unwrap_or(CommandStatus::NOTHING.gimbal);
         self.status = CommandStatus {
@@ -415,21 +417,21 @@ impl GuidanceState {
             antenna_azimuth_rad: beam.map_or(0.0, |beam| beam.azimuth_rad),
             sun_separation_rad: link.map_or(0.0, |link| link.sun_separation_rad),
             link_available: link.is_some_and(|link| link.available),
-            reachable: match aimed.antenna {
+            reachable: match solution.antenna {
                 Some(Beam::AtTheEarth(_)) => link.is_some_and(|link| link.covered),
-                _ => aimed.reachable && is_on(&pointing, &aimed.vectors),
+                _ => solution.reachable && is_on(&pointing, &solution.vectors),
             },
             degenerate: pointing.degenerate || !is_given,
-            scan_active: aimed.scan_active,
+            scan_active: solution.scan_active,
             downlink: DownlinkStatus {
-                clamped: aimed.downlink.active
-                    && (aimed.downlink.clamped || now.requested_sun.1 || sun_keep_in),
-                ..aimed.downlink
+                clamped: solution.downlink.active
+                    && (solution.downlink.clamped || now.requested_sun.1 || sun_keep_in),
+                ..solution.downlink
             },
             sun_keep_in,
             hot_pole,
             hot_pole_reached,
-            clamped: !hot_pole_reached || aimed.clamped || !gimbal.in_range,
+            clamped: !hot_pole_reached || solution.clamped || !gimbal.in_range,
         };
     }
 
@@ -438,19 +440,19 @@ impl GuidanceState {
         &mut self,
         now: &SampleContext<'_>,
         command: &PointingCommand,
-    ) -> Option<(Aimed, ConstrainedPointing)> {
-        let aimed = self.aimed(now, command)?;
-        let constrained = now.constraints.applied(&aimed.vectors, now.surroundings, self.hot_pole_turn)?;
-        Some((aimed, constrained))
+    ) -> Option<(PointingSolution, ConstrainedPointing)> {
+        let solution = self.solution(now, command)?;
+        let constrained = now.constraints.applied(&solution.vectors, now.ephemeris, self.hot_pole_turn)?;
+        Some((solution, constrained))
     }
 
     /// The vectors that the command asks for.
-    fn aimed(&mut self, now: &SampleContext<'_>, command: &PointingCommand) -> Option<Aimed> {
+    fn solution(&mut self, now: &SampleContext<'_>, command: &PointingCommand) -> Option<PointingSolution> {
         if command.scenario == Some(Scenario::OrbitPhase) {
             let science = self.downlink_sun.in_science().filter(|_| self.modes.mode == Mode::Operational);
             let law = now.settings.orbit_phase.with_sun_places(self.sun_place(), science);
             let law = Guided { requested: now.requested_sun.0, ..law };
-            return Some(self.orbit_phase(&law, now.surroundings, &now.settings.hardware));
+            return Some(self.orbit_phase(&law, now.ephemeris, &now.settings.hardware));
         }
         let progress = PointingProgress {
             scan: self.scan.map(|(_, since_s)| ScanTime {
@@ -460,31 +462,31 @@ impl GuidanceState {
             limb_elapsed_s: self.limb.map_or(0.0, |(_, since_s)| now.time_s - since_s),
             downlink_sun: self.sun_place().filter(|_| !now.sun_is_placed),
             requested: now.requested_sun.0,
-            burn: self.burn.aim(&now.settings.burn),
+            burn: self.burn.pointing(&now.settings.burn),
         };
-        aim(command, &now.settings.hardware, now.surroundings, &progress)
+        pointing_solution(command, &now.settings.hardware, now.ephemeris, &progress)
     }
 
     /// The orbit phase's attitude as vectors: +Z at where it looks, -Y rolled to where it is.
     fn orbit_phase(
         &mut self,
         law: &Guided,
-        surroundings: &EphemerisAtTime,
+        ephemeris: &EphemerisAtTime,
         hardware: &GuidanceHardware<'_>,
-    ) -> Aimed {
-        let attitude = self.periapses.attitude(law, hardware.default_downlink, surroundings);
+    ) -> PointingSolution {
+        let attitude = self.periapses.attitude(law, hardware.default_downlink, ephemeris);
         let pointing = Pointing::of(&attitude.frame);
         let is_downlink = attitude.window.activity == Activity::Downlink && !attitude.slewing;
         let keeps_nadir = attitude.window.activity == Activity::Science && law.science.unloads();
-        let earth_body = || value(&pointing.to_body(&surroundings.to_earth()));
-        Aimed {
-            second: keeps_nadir.then(|| surroundings.to_planet()),
+        let earth_body = || value(&pointing.to_body(&ephemeris.to_earth()));
+        PointingSolution {
+            second: keeps_nadir.then(|| ephemeris.to_planet()),
             antenna: (is_downlink && !law.requested.alternate)
                 .then(|| Beam::AtTheEarth(hardware.antennas.toward(&earth_body()))),
             downlink: DownlinkStatus::of(&attitude),
             reachable: !attitude.slewing
                 && (is_downlink || attitude.margins.iter().all(|margin| *margin >= 0.0)),
-            ..Aimed::at(pointing.vectors())
+            ..PointingSolution::at(pointing.vectors())
         }
     }
 
@@ -502,17 +504,17 @@ impl GuidanceState {
 }
 
 /// The windows, of which shares of the period follow the orbit that the spacecraft is on.
-fn in_present_orbit(windows: &Schedule, surroundings: &EphemerisAtTime) -> Schedule {
+fn in_present_orbit(windows: &Schedule, ephemeris: &EphemerisAtTime) -> Schedule {
     if windows.period_shares == [None; 2] {
         return *windows;
     }
-    ellipse_of(surroundings).map_or(*windows, |orbit| Schedule {
+    ellipse_of(ephemeris).map_or(*windows, |orbit| Schedule {
         period_s: windows.period_s,
         ..windows.in_orbit(orbit.period_s())
     })
 }
 
-/// A command that goes on after its end: its scans do not.
+/// A command that continues after its end: its scans do not.
 fn without_scans(command: &PointingCommand) -> PointingCommand {
     let limb = LimbCommand { height_rate_m_s: 0.0, ..command.limb };
     PointingCommand { scan: ScanCommand::default(), limb, ..*command }
@@ -522,10 +524,10 @@ fn without_scans(command: &PointingCommand) -> PointingCommand {
 fn is_on(pointing: &Pointing, vectors: &PointingVectors) -> bool {
     const ROUNDING_RAD: f64 = 1e-9;
     let toward = |vector: &MovingVector| value(vector).try_normalize(0.0);
-    let aim_body = toward(&pointing.to_body(&vectors.aimpoint));
-    let both = aim_body.zip(toward(&vectors.boresight_body));
-    both.is_some_and(|(aim, boresight)| {
-        aim.cross(&boresight).norm() < ROUNDING_RAD && aim.dot(&boresight) > 0.0
+    let aimpoint_body = toward(&pointing.to_body(&vectors.aimpoint));
+    let both = aimpoint_body.zip(toward(&vectors.boresight_body));
+    both.is_some_and(|(aimpoint, boresight)| {
+        aimpoint.cross(&boresight).norm() < ROUNDING_RAD && aimpoint.dot(&boresight) > 0.0
     })
 }
 

@@ -43,7 +43,7 @@ pub(crate) struct TrueThrust {
     pub jitter_rad: f64,
 }
 
-/// A burn to fly.
+/// A burn to simulate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BurnFlight {
     pub settings: BurnSettings,
@@ -74,7 +74,7 @@ pub(crate) struct Simulated {
 }
 
 /// The Sun to the side of burns along x.
-pub(crate) fn surroundings() -> EphemerisAtTime {
+pub(crate) fn ephemeris() -> EphemerisAtTime {
     let position = Vector3::x() * Body::Mercury.data().radius_m * 2.0;
     about_mercury(position, Vector3::new(1e10, 5e10, 2e10), Vector3::new(4e10, 8e10, 1e10))
 }
@@ -128,7 +128,7 @@ pub(crate) fn sample_inputs(attitude: Attitude, delta_v_body_m_s: Vector3<f64>) 
         requested_sun: SunRequest::default(),
         sun_is_placed: false,
         entries: TimedEntries::default(),
-        places: BodyPositions::in_every_mode(Some(surroundings())),
+        positions: BodyPositions::in_every_mode(Some(ephemeris())),
         sensed: Sensed {
             time_s: 0.0,
             request: None,
@@ -185,7 +185,7 @@ impl BurnFlight {
         UnitQuaternion::from_scaled_axis(turn) * self.settings.thrust_body
     }
 
-    /// Flies it for `duration_s`.
+    /// Simulates it for `duration_s`.
     pub(crate) fn simulated(&self, duration_s: u32) -> Simulated {
         let settings = guidance_settings(self.settings);
         let path = self.settings.path.unwrap();

@@ -3,7 +3,7 @@
 //! Demotion is autonomous: lost attitude leads to Earth Acquisition, the constraint monitor one mode down. Promotion comes
 //! by request alone. A request acts at the sample where it changes, so that one that is held does not undo a demotion; a
 //! reason to demote at the same sample outweighs it. Losing the Sun sensors alone demotes nothing. Losing the precise
-//! ephemerides, where a spacecraft carries its own ([`super::places`]), ends Operational.
+//! ephemerides, where a spacecraft carries its own ([`super::body_positions`]), ends Operational.
 //!
 //! In Earth Acquisition the Sun is sensed, or computed from the ephemeris with the estimated attitude once that is back.
 //! The error quaternion (eqs 25 and 26) is the rotation from the commanded to the actual frame: A(q) takes the components
@@ -116,14 +116,14 @@ impl ModeState {
         &mut self,
         settings: &ModeSettings,
         sensed: &Sensed,
-        places: &BodyPositions,
+        positions: &BodyPositions,
     ) -> Option<Steering> {
-        self.change_mode(settings, sensed, places);
+        self.change_mode(settings, sensed, positions);
         if self.mode != Mode::EarthAcquisition {
             self.search_since_s = None;
             return Some(Steering::Pointing(*settings.constraints(self.mode)));
         }
-        let Some(sun_body) = sun_body(sensed, self.surroundings(places)) else {
+        let Some(sun_body) = sun_body(sensed, self.ephemeris_in_mode(positions)) else {
             let since_s = *self.search_since_s.get_or_insert(sensed.time_s);
             return Some(Steering::RateOnly(settings.search_rate_body_rad_s(sensed.time_s - since_s)));
         };
@@ -136,8 +136,8 @@ impl ModeState {
     }
 
     /// Where everything is by the ephemerides that the mode goes by.
-    pub fn surroundings<'p>(&self, places: &'p BodyPositions) -> Option<&'p EphemerisAtTime> {
-        places.in_mode(self.mode, &self.ephemeris)
+    pub fn ephemeris_in_mode<'p>(&self, positions: &'p BodyPositions) -> Option<&'p EphemerisAtTime> {
+        positions.in_mode(self.mode, &self.ephemeris)
     }
 
     /// The next lower mode.
@@ -146,7 +146,7 @@ impl ModeState {
         self.reason = Some(reason);
     }
 
-    fn change_mode(&mut self, settings: &ModeSettings, sensed: &Sensed, places: &BodyPositions) {
+    fn change_mode(&mut self, settings: &ModeSettings, sensed: &Sensed, positions: &BodyPositions) {
         let requested = sensed.request.filter(|_| sensed.request != self.last_request);
         self.last_request = sensed.request;
         if let Some(mode) = requested {
@@ -163,7 +163,7 @@ impl ModeState {
         }
         let sensed_sun = sensed.sun_body.and_then(direction);
         let sun_in_estimate = sensed.estimate.zip(sensed_sun);
-        self.ephemeris.sample(settings.ephemeris_check.as_ref(), sensed.time_s, places, sun_in_estimate);
+        self.ephemeris.sample(settings.ephemeris_check.as_ref(), sensed.time_s, positions, sun_in_estimate);
         if self.mode == Mode::Operational && !self.ephemeris.is_valid() {
             // Coarse models do not point as Operational demands.
             self.demote(ModeReason::Ephemeris);
@@ -185,10 +185,10 @@ impl ModeState {
             self.monitor = MonitorState::default();
             return;
         };
-        let excess = self.surroundings(places).map_or(Excess::NONE, |surroundings| {
+        let excess = self.ephemeris_in_mode(positions).map_or(Excess::NONE, |ephemeris| {
             let constraints = settings.constraints(self.mode);
             let hot_pole = constraints.hot_pole.filter(|_| settings.watches_hot_pole);
-            excess(&Constraints { hot_pole, ..*constraints }, estimate, surroundings)
+            excess(&Constraints { hot_pole, ..*constraints }, estimate, ephemeris)
         });
         let reason = if self.monitor.is_answered() {
             ModeReason::NoProgress
@@ -225,9 +225,9 @@ impl ModeSettings {
 }
 
 /// Unit vector to the Sun in the body frame: sensed, or else of the ephemeris in the estimated attitude.
-pub fn sun_body(sensed: &Sensed, surroundings: Option<&EphemerisAtTime>) -> Option<Vector3<f64>> {
+pub fn sun_body(sensed: &Sensed, ephemeris: Option<&EphemerisAtTime>) -> Option<Vector3<f64>> {
     let computed = || {
-        let to_sun = value(&surroundings?.to_sun());
+        let to_sun = value(&ephemeris?.to_sun());
         Some(sensed.estimate?.inertial_from_body().inverse() * to_sun)
     };
     sensed.sun_body.and_then(direction).or_else(|| computed().and_then(direction))

@@ -56,7 +56,7 @@ pub struct GuidedAttitude {
     pub until_s: f64,
 }
 
-/// What is to be said of a downlink.
+/// What is reported of a downlink.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DownlinkStatus {
     /// Whether one lasts, the turn to it done.

@@ -2,7 +2,7 @@
 
 pub mod attitudes;
 pub mod guided;
-pub mod orbit_ahead;
 pub mod periapsis_count;
+pub mod predicted_orbit;
 pub mod schedule;
 pub mod science_course;

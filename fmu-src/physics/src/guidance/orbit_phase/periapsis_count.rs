@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::guided::{Guided, GuidedAttitude};
-use super::orbit_ahead::{ellipse_of, lines_of_sight};
+use super::predicted_orbit::{ellipse_of, lines_of_sight};
 use super::schedule::Schedule;
 use crate::environment::orbit::TwoBodyOrbit;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
@@ -17,36 +17,36 @@ pub struct PeriapsisCount {
 
 impl PeriapsisCount {
     /// The attitude of the orbit phase. Periapsis and period of `law` are replaced by those of the orbit that position and
-    /// velocity give; between disturbed orbits the count goes on. Where a slew begins the spacecraft stood on that orbit, and
+    /// velocity give; between disturbed orbits the count continues. Where a slew begins the spacecraft stood on that orbit, and
     /// Sun and Earth moved evenly since.
     pub fn attitude(
         &mut self,
         law: &Guided,
         default_downlink: &DefaultDownlink,
-        surroundings: &EphemerisAtTime,
+        ephemeris: &EphemerisAtTime,
     ) -> GuidedAttitude {
-        let (orbit, schedule) = self.counted(&law.schedule, surroundings);
-        let (epoch_s, now) = (surroundings.epoch_s, lines_of_sight(surroundings));
+        let (orbit, schedule) = self.counted(&law.schedule, ephemeris);
+        let (epoch_s, now) = (ephemeris.epoch_s, lines_of_sight(ephemeris));
         Guided { schedule, ..*law }.at(epoch_s, default_downlink, |at_s| match orbit {
             Some(orbit) if at_s != epoch_s => {
-                lines_of_sight(&surroundings.moved_to(at_s, &orbit.state_at(at_s)))
+                lines_of_sight(&ephemeris.moved_to(at_s, &orbit.state_at(at_s)))
             }
             _ => now,
         })
     }
 
     /// The windows after the periapses that were counted, in s past J2000 TDB.
-    pub fn windows(&mut self, windows: &Schedule, surroundings: &EphemerisAtTime) -> Schedule {
-        self.counted(windows, surroundings).1
+    pub fn windows(&mut self, windows: &Schedule, ephemeris: &EphemerisAtTime) -> Schedule {
+        self.counted(windows, ephemeris).1
     }
 
     /// The present orbit, if it is one whose periapses count, and its windows.
     fn counted(
         &mut self,
         windows: &Schedule,
-        surroundings: &EphemerisAtTime,
+        ephemeris: &EphemerisAtTime,
     ) -> (Option<TwoBodyOrbit>, Schedule) {
-        let orbit = ellipse_of(surroundings).filter(|_| !windows.once);
+        let orbit = ellipse_of(ephemeris).filter(|_| !windows.once);
         let schedule = orbit.map_or(windows.in_orbit(f64::INFINITY), |orbit| self.schedule(windows, &orbit));
         (orbit, schedule)
     }

@@ -10,9 +10,9 @@ use crate::guidance::geometry::lvlh::lvlh_direction;
 use crate::guidance::geometry::moving::{MovingVector, fixed, moving, spherical, value};
 use crate::guidance::geometry::planet_point::{geographic_m, planet_fixed};
 
-/// What an aim is, which decides how it can be scanned.
+/// Kind of an aimpoint, which decides how it can be scanned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum AimKind {
+pub enum AimpointKind {
     /// A direction in EME2000, infinitely far.
     Direction,
     /// A direction in a local frame.
@@ -23,87 +23,86 @@ pub enum AimKind {
     PlanetPoint,
 }
 
-/// Where to aim.
+/// An aimpoint as a vector from the spacecraft.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Aim {
+pub struct Aimpoint {
     /// From the spacecraft, EME2000: a direction of any length, or m to a point. Never zero, never NaN.
     pub toward: MovingVector,
     /// What it is.
-    pub kind: AimKind,
+    pub kind: AimpointKind,
     /// Whether it is what was requested, and no substitute.
     pub reachable: bool,
 }
 
-impl Aim {
+impl Aimpoint {
     /// Toward a vector from the spacecraft; `None` where it has no direction.
-    pub fn new(toward: MovingVector, kind: AimKind) -> Option<Self> {
+    pub fn new(toward: MovingVector, kind: AimpointKind) -> Option<Self> {
         let finite = toward.iter().all(|x| x.re.is_finite() && x.eps.is_finite());
         (finite && value(&toward).amax() > 0.0).then_some(Self { toward, kind, reachable: true })
     }
 }
 
-/// What the aim of an option is.
-pub fn aim_kind(option: AimpointOption) -> AimKind {
+/// Kind of an option's aimpoint.
+pub fn aimpoint_kind(option: AimpointOption) -> AimpointKind {
     match option {
-        AimpointOption::Vector | AimpointOption::RightAscensionDeclination => AimKind::Direction,
-        AimpointOption::LvlhDowntrack | AimpointOption::LvlhSun => AimKind::LocalDirection,
+        AimpointOption::Vector | AimpointOption::RightAscensionDeclination => AimpointKind::Direction,
+        AimpointOption::LvlhDowntrack | AimpointOption::LvlhSun => AimpointKind::LocalDirection,
         AimpointOption::EarthCentered
         | AimpointOption::SunCentered
         | AimpointOption::Sun
         | AimpointOption::Earth
-        | AimpointOption::Body => AimKind::Point,
+        | AimpointOption::Body => AimpointKind::Point,
         AimpointOption::PlanetCentered
         | AimpointOption::PlanetFixed
         | AimpointOption::LatitudeLongitude
         | AimpointOption::Nadir
         | AimpointOption::Subsolar
-        | AimpointOption::OptimalLighting => AimKind::PlanetPoint,
+        | AimpointOption::OptimalLighting => AimpointKind::PlanetPoint,
     }
 }
 
-/// The commanded aim; `None` where nothing is commanded or it has no direction, such as a zero vector or a body whose place
+/// The commanded aimpoint; `None` where nothing is commanded or it has no direction, such as a zero vector or a body whose place
 /// is not known.
 pub fn aimpoint(
     command: &AimpointCommand,
-    surroundings: &EphemerisAtTime,
+    ephemeris: &EphemerisAtTime,
     method: SubsolarMethod,
-) -> Option<Aim> {
+) -> Option<Aimpoint> {
     let option = command.option?;
     let position = moving(command.position_m, command.velocity_m_s);
-    let lvlh =
-        |reference| lvlh_direction(surroundings, reference, command.azimuth_rad, command.elevation_rad);
+    let lvlh = |reference| lvlh_direction(ephemeris, reference, command.azimuth_rad, command.elevation_rad);
     let toward = match option {
         AimpointOption::Vector => fixed(command.vector),
         AimpointOption::RightAscensionDeclination => {
             fixed(spherical(command.right_ascension_rad, command.declination_rad))
         }
-        AimpointOption::EarthCentered => surroundings.to_earth() + position,
-        AimpointOption::SunCentered => surroundings.to_sun() + position,
-        AimpointOption::PlanetCentered => surroundings.to_planet() + position,
-        AimpointOption::PlanetFixed => surroundings.to_planet() + planet_fixed(surroundings, &position),
+        AimpointOption::EarthCentered => ephemeris.to_earth() + position,
+        AimpointOption::SunCentered => ephemeris.to_sun() + position,
+        AimpointOption::PlanetCentered => ephemeris.to_planet() + position,
+        AimpointOption::PlanetFixed => ephemeris.to_planet() + planet_fixed(ephemeris, &position),
         AimpointOption::LatitudeLongitude => {
             let at_m = geographic_m(
-                &surroundings.planet.radii_m,
+                &ephemeris.planet.radii_m,
                 command.latitude_rad,
                 command.longitude_rad,
                 command.height_m,
             );
-            surroundings.to_planet() + planet_fixed(surroundings, &fixed(at_m))
+            ephemeris.to_planet() + planet_fixed(ephemeris, &fixed(at_m))
         }
         AimpointOption::LvlhDowntrack => lvlh(AzimuthReference::Downtrack)?,
         AimpointOption::LvlhSun => lvlh(AzimuthReference::Sun)?,
-        AimpointOption::Sun => surroundings.to_sun(),
-        AimpointOption::Earth => surroundings.to_earth(),
-        AimpointOption::Nadir => surroundings.to_planet(),
-        AimpointOption::Subsolar => surroundings.to_planet() + subsolar_m(surroundings, method)?,
-        AimpointOption::OptimalLighting => surroundings.to_planet() + optimal_lighting_m(surroundings)?,
+        AimpointOption::Sun => ephemeris.to_sun(),
+        AimpointOption::Earth => ephemeris.to_earth(),
+        AimpointOption::Nadir => ephemeris.to_planet(),
+        AimpointOption::Subsolar => ephemeris.to_planet() + subsolar_m(ephemeris, method)?,
+        AimpointOption::OptimalLighting => ephemeris.to_planet() + optimal_lighting_m(ephemeris)?,
         AimpointOption::Body => match command.body? {
-            Body::Sun => surroundings.to_sun(),
-            Body::Earth => surroundings.to_earth(),
-            other => surroundings.to_body(other),
+            Body::Sun => ephemeris.to_sun(),
+            Body::Earth => ephemeris.to_earth(),
+            other => ephemeris.to_body(other),
         },
     };
-    Aim::new(toward, aim_kind(option))
+    Aimpoint::new(toward, aimpoint_kind(option))
 }
 
 #[cfg(test)]

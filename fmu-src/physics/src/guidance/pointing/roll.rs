@@ -22,15 +22,15 @@ pub fn body_roll(command: &BodyRollCommand) -> MovingVector {
 }
 
 /// The commanded external roll reference, from the spacecraft, EME2000, of any length.
-pub fn external_roll(command: &ExternalRollCommand, surroundings: &EphemerisAtTime) -> MovingVector {
+pub fn external_roll(command: &ExternalRollCommand, ephemeris: &EphemerisAtTime) -> MovingVector {
     match command.option {
         Some(ExternalRollOption::Vector) => fixed(command.vector),
         Some(ExternalRollOption::RightAscensionDeclination) => {
             fixed(spherical(command.right_ascension_rad, command.declination_rad))
         }
-        None | Some(ExternalRollOption::Sun) => surroundings.to_sun(),
-        Some(ExternalRollOption::Earth) => surroundings.to_earth(),
-        Some(ExternalRollOption::Planet) => surroundings.to_planet(),
+        None | Some(ExternalRollOption::Sun) => ephemeris.to_sun(),
+        Some(ExternalRollOption::Earth) => ephemeris.to_earth(),
+        Some(ExternalRollOption::Planet) => ephemeris.to_planet(),
     }
 }
 
@@ -60,7 +60,7 @@ mod tests {
 
     #[test]
     fn the_external_reference_is_the_sun_unless_commanded() {
-        let s = TestOrbit::new(12.0).surroundings(60.0);
+        let s = TestOrbit::new(12.0).ephemeris(60.0);
         let roll = |option| {
             let command = ExternalRollCommand {
                 option,

@@ -4,28 +4,28 @@
 //! often as it has segments (0: without end); then it holds. At a corner, and within the tolerance of time before it, the
 //! motion that begins counts. Rotations are
 //! right-handed about x, y and z of the frame in turn, the axes staying where they are: Rz Ry Rx. A scan in the body frame
-//! turns the boresight, one in any other frame moves the aim; the attitude law stays as it is.
+//! turns the boresight, one in any other frame moves the aimpoint; the attitude law stays as it is.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::aimpoint::{Aim, AimKind};
+use super::aimpoint::{Aimpoint, AimpointKind};
 use super::command::{ScanCommand, ScanFrame};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lvlh::lvlh_axes;
 use crate::guidance::geometry::moving::{Moving, MovingMatrix, MovingVector, rotation_about};
 use crate::numerics::spacing::spacing;
 
-/// Which scan frames go with which kind of aim. The paper prints no matrix; the default is an assumption.
+/// Which scan frames go with which kind of aimpoint. The paper prints no matrix; the default is an assumption.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ScanCompatibility {
-    /// By [`ScanFrame`], then by [`AimKind`].
+    /// By [`ScanFrame`], then by [`AimpointKind`].
     pub allowed: [[bool; 4]; 5],
 }
 
 /// Body scans go with everything (said by the paper), and so do inertial rotations. A translation needs a point at a
 /// distance (the paper's example), along the planet's axes one that belongs to the planet. A rotation in the local frame goes
-/// with what stands in that frame: its own directions and the planet. By [`ScanFrame`], then by [`AimKind`].
+/// with what stands in that frame: its own directions and the planet. By [`ScanFrame`], then by [`AimpointKind`].
 pub const DEFAULT_COMPATIBILITY: [[bool; 4]; 5] = [
     // direction, local direction, point, planet point
     [true, true, true, true],
@@ -42,8 +42,8 @@ impl Default for ScanCompatibility {
 }
 
 impl ScanCompatibility {
-    /// Whether a scan in this frame goes with this kind of aim.
-    pub fn allows(&self, frame: ScanFrame, kind: AimKind) -> bool {
+    /// Whether a scan in this frame goes with this kind of aimpoint.
+    pub fn allows(&self, frame: ScanFrame, kind: AimpointKind) -> bool {
         self.allowed[frame as usize][kind as usize]
     }
 }
@@ -53,7 +53,7 @@ impl ScanCompatibility {
 pub struct Scanned {
     /// The boresight, body frame.
     pub boresight_body: MovingVector,
-    /// From the spacecraft to the aim, EME2000.
+    /// From the spacecraft to the aimpoint, EME2000.
     pub toward: MovingVector,
 }
 
@@ -66,34 +66,34 @@ pub struct ScanTime {
     pub tolerance_s: f64,
 }
 
-/// The boresight and aim at a time of a scan; `None` where none is commanded, it does not go with the aim,
-/// or the moved aim has no direction: then the basic pointing stands.
+/// The boresight and aim at a time of a scan; `None` where none is commanded, it does not go with the aimpoint,
+/// or the moved aimpoint has no direction: then the basic pointing stands.
 pub fn scanned(
     boresight_body: &MovingVector,
-    aim: &Aim,
+    aimpoint: &Aimpoint,
     command: &ScanCommand,
-    surroundings: &EphemerisAtTime,
+    ephemeris: &EphemerisAtTime,
     compatibility: &ScanCompatibility,
     time: ScanTime,
 ) -> Option<Scanned> {
-    let frame = command.frame.filter(|frame| compatibility.allows(*frame, aim.kind))?;
-    let mut moved = Scanned { boresight_body: *boresight_body, toward: aim.toward };
+    let frame = command.frame.filter(|frame| compatibility.allows(*frame, aimpoint.kind))?;
+    let mut moved = Scanned { boresight_body: *boresight_body, toward: aimpoint.toward };
     match frame {
         ScanFrame::Body => moved.boresight_body = rotation(command, time) * boresight_body,
-        ScanFrame::InertialRotation => moved.toward = rotation(command, time) * aim.toward,
+        ScanFrame::InertialRotation => moved.toward = rotation(command, time) * aimpoint.toward,
         ScanFrame::InertialTranslation => moved.toward += translation_m(command, time),
         ScanFrame::PlanetTranslation => {
-            let planet_from_inertial = surroundings.planet.planet_from_inertial(surroundings.epoch_s);
+            let planet_from_inertial = ephemeris.planet.planet_from_inertial(ephemeris.epoch_s);
             moved.toward += planet_from_inertial.tr_mul(&translation_m(command, time));
         }
         ScanFrame::LvlhRotation => {
-            let inertial_from_lvlh = lvlh_axes(surroundings, command.reference.unwrap_or_default())?;
+            let inertial_from_lvlh = lvlh_axes(ephemeris, command.reference.unwrap_or_default())?;
             // The change alone is turned back: a turn by nothing then changes no bit.
             let change = rotation(command, time) - MovingMatrix::identity();
-            moved.toward += inertial_from_lvlh * (change * inertial_from_lvlh.tr_mul(&aim.toward));
+            moved.toward += inertial_from_lvlh * (change * inertial_from_lvlh.tr_mul(&aimpoint.toward));
         }
     }
-    Aim::new(moved.toward, aim.kind).is_some().then_some(moved)
+    Aimpoint::new(moved.toward, aimpoint.kind).is_some().then_some(moved)
 }
 
 /// Where one axis is, and its rate: `speed` per second in each motion.

@@ -1,10 +1,10 @@
 //! The scenarios of paper 001's Table 5: which vectors each sets, with limb and scan.
 //!
-//! All but the generic one roll -Y toward the Sun. A scan goes on top of any but downlink and burn.
+//! All but the generic one roll -Y toward the Sun. A scan continues  top of any but downlink and burn.
 
 use nalgebra::Vector3;
 
-use super::aimpoint::{Aim, AimKind, aimpoint};
+use super::aimpoint::{Aimpoint, AimpointKind, aimpoint};
 use super::antenna::{Antennas, Beam};
 use super::boresight::{Boresight, DeviceAngle, Gimbal, boresight, instrument_boresight};
 use super::command::{BoresightOption, LimbCommand, PointingCommand, Scenario};
@@ -12,7 +12,7 @@ use super::law::{Pointing, PointingVectors};
 use super::roll::{body_roll, external_roll};
 use super::scan::{ScanCompatibility, ScanTime, scanned};
 use crate::guidance::DownlinkStatus;
-use crate::guidance::burn::delta_v::BurnAim;
+use crate::guidance::burn::delta_v::BurnPointing;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::downlink::sun_place::{DownlinkRequest, SunPlace, SunRequest, downlink, half_turned};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
@@ -34,7 +34,7 @@ pub struct GuidanceHardware<'a> {
     pub default_downlink: &'a DefaultDownlink,
     /// What the subsolar point is.
     pub subsolar: SubsolarMethod,
-    /// Which scans go with which aims.
+    /// Which scans go with which aimpoints.
     pub scans: ScanCompatibility,
 }
 
@@ -49,13 +49,13 @@ pub struct PointingProgress {
     pub downlink_sun: Option<SunPlace>,
     /// Where downlink is to have the Sun, and whether it is turned about the Sun line.
     pub requested: SunRequest,
-    /// Where a burn wants its thrust.
-    pub burn: Option<BurnAim>,
+    /// Thrust direction that a burn commands.
+    pub burn: Option<BurnPointing>,
 }
 
-/// The vectors of a command, and what is said about them.
+/// The pointing vectors of a command, with its flags.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Aimed {
+pub struct PointingSolution {
     /// For the attitude law.
     pub vectors: PointingVectors,
     /// The gimbal's angle, where the command sets it; out of range it is the nearest bound.
@@ -68,9 +68,9 @@ pub struct Aimed {
     pub reachable: bool,
     /// Whether an angle that was requested is out of its range.
     pub clamped: bool,
-    /// Whether a scan moves boresight or aim.
+    /// Whether a scan moves boresight or aimpoint.
     pub scan_active: bool,
-    /// What is to be said of a downlink.
+    /// Outputs of a downlink.
     pub downlink: DownlinkStatus,
     /// Of a downlink, where its law takes another form; infinite otherwise.
     pub margins: [f64; 2],
@@ -83,30 +83,30 @@ type LimbLaw = fn(&EphemerisAtTime, &LimbCommand, f64) -> Option<LimbPoint>;
 struct Reading<'a> {
     command: &'a PointingCommand,
     hardware: &'a GuidanceHardware<'a>,
-    surroundings: &'a EphemerisAtTime,
+    ephemeris: &'a EphemerisAtTime,
     progress: &'a PointingProgress,
 }
 
-/// The vectors of a command, its scan included; `None` where it has no scenario, or boresight or aim no direction: then the
+/// The vectors of a command, its scan included; `None` where it has no scenario, or boresight or aimpoint no direction: then the
 /// last command stays.
-pub fn aim(
+pub fn pointing_solution(
     command: &PointingCommand,
     hardware: &GuidanceHardware<'_>,
-    surroundings: &EphemerisAtTime,
+    ephemeris: &EphemerisAtTime,
     progress: &PointingProgress,
-) -> Option<Aimed> {
-    let r = Reading { command, hardware, surroundings, progress };
-    let aimed = match command.scenario? {
+) -> Option<PointingSolution> {
+    let r = Reading { command, hardware, ephemeris, progress };
+    let solution = match command.scenario? {
         Scenario::Generic => {
             let boresight = boresight(&command.boresight, hardware.gimbal.as_ref(), hardware.antennas)?;
-            let mut aimed = r.sunward(boresight, r.aimpoint()?);
-            aimed.vectors.body_roll = body_roll(&command.body_roll);
-            aimed.vectors.external_roll = external_roll(&command.external_roll, surroundings);
-            aimed
+            let mut solution = r.sunward(boresight, r.aimpoint()?);
+            solution.vectors.body_roll = body_roll(&command.body_roll);
+            solution.vectors.external_roll = external_roll(&command.external_roll, ephemeris);
+            solution
         }
         Scenario::PlusZ => r.sunward(r.instrument()?, r.aimpoint()?),
         Scenario::Nadir => {
-            let nadir = Aim::new(surroundings.to_planet(), AimKind::PlanetPoint)?;
+            let nadir = Aimpoint::new(ephemeris.to_planet(), AimpointKind::PlanetPoint)?;
             r.sunward(r.instrument()?, nadir)
         }
         Scenario::Gimbal => {
@@ -114,26 +114,26 @@ pub fn aim(
             r.sunward(boresight, r.aimpoint()?)
         }
         Scenario::DoubleTarget => {
-            let second = aimpoint(&command.second_aimpoint, surroundings, hardware.subsolar);
+            let second = aimpoint(&command.second_aimpoint, ephemeris, hardware.subsolar);
             let second = second.map(|second| second.toward);
-            Aimed { second, ..r.sunward(r.instrument()?, r.aimpoint()?) }
+            PointingSolution { second, ..r.sunward(r.instrument()?, r.aimpoint()?) }
         }
         Scenario::Downlink => r.antenna_at_the_earth()?,
         Scenario::LimbTerminator => r.limb(terminator_limb)?,
         Scenario::LimbGeneric => r.limb(generic_limb)?,
         Scenario::Burn => {
             let burn = progress.burn.as_ref()?;
-            Aimed::at(r.rolled_sunward(fixed(burn.boresight_body), burn.direction))
+            PointingSolution::at(r.rolled_sunward(fixed(burn.boresight_body), burn.direction))
         }
         // Its own law gives the attitude, not vectors of a scenario.
         Scenario::OrbitPhase => return None,
     };
     let directed =
         |vector: &MovingVector| value(vector).amax() > 0.0 && vector.iter().all(|x| x.re.is_finite());
-    directed(&aimed.vectors.boresight_body).then_some(aimed)
+    directed(&solution.vectors.boresight_body).then_some(solution)
 }
 
-impl Aimed {
+impl PointingSolution {
     /// These vectors without a device.
     pub fn at(vectors: PointingVectors) -> Self {
         Self {
@@ -162,14 +162,14 @@ impl Reading<'_> {
         instrument_boresight(self.hardware.instruments, self.command.boresight.instrument).map(Boresight::of)
     }
 
-    fn aimpoint(&self) -> Option<Aim> {
-        aimpoint(&self.command.aimpoint, self.surroundings, self.hardware.subsolar)
+    fn aimpoint(&self) -> Option<Aimpoint> {
+        aimpoint(&self.command.aimpoint, self.ephemeris, self.hardware.subsolar)
     }
 
-    fn limb(&self, law: LimbLaw) -> Option<Aimed> {
-        let limb = law(self.surroundings, &self.command.limb, self.progress.limb_elapsed_s)?;
-        let aim = Aim::new(self.surroundings.to_planet() + limb.position, AimKind::PlanetPoint)?;
-        Some(self.sunward(self.instrument()?, Aim { reachable: limb.exists, ..aim }))
+    fn limb(&self, law: LimbLaw) -> Option<PointingSolution> {
+        let limb = law(self.ephemeris, &self.command.limb, self.progress.limb_elapsed_s)?;
+        let aimpoint = Aimpoint::new(self.ephemeris.to_planet() + limb.position, AimpointKind::PlanetPoint)?;
+        Some(self.sunward(self.instrument()?, Aimpoint { reachable: limb.exists, ..aimpoint }))
     }
 
     /// -Y rolled toward the Sun.
@@ -178,25 +178,25 @@ impl Reading<'_> {
             boresight_body,
             aimpoint,
             body_roll: fixed(-Vector3::y()),
-            external_roll: self.surroundings.to_sun(),
+            external_roll: self.ephemeris.to_sun(),
         }
     }
 
-    /// The boresight at the aim with -Y rolled toward the Sun, and the scan on top.
-    fn sunward(&self, boresight: Boresight, aim: Aim) -> Aimed {
+    /// The boresight at the aimpoint with -Y rolled toward the Sun, and the scan on top.
+    fn sunward(&self, boresight: Boresight, aimpoint: Aimpoint) -> PointingSolution {
         let scan = self.progress.scan.and_then(|time| {
             let (scan, scans) = (&self.command.scan, &self.hardware.scans);
-            scanned(&boresight.body, &aim, scan, self.surroundings, scans, time)
+            scanned(&boresight.body, &aimpoint, scan, self.ephemeris, scans, time)
         });
-        Aimed {
+        PointingSolution {
             vectors: self.rolled_sunward(
                 scan.map_or(boresight.body, |scan| scan.boresight_body),
-                scan.map_or(aim.toward, |scan| scan.toward),
+                scan.map_or(aimpoint.toward, |scan| scan.toward),
             ),
             gimbal: boresight.gimbal,
             second: None,
             antenna: boresight.antenna.map(Beam::Commanded),
-            reachable: aim.reachable,
+            reachable: aimpoint.reachable,
             clamped: boresight.gimbal.is_some_and(|angle| !angle.in_range)
                 || boresight.antenna.is_some_and(|antenna| !antenna.is_in_range()),
             scan_active: scan.is_some(),
@@ -207,7 +207,7 @@ impl Reading<'_> {
 
     /// An antenna at the Earth: a fan at the commanded azimuth where the boresight is one, otherwise where it puts
     /// the Sun in its place. No scan moves it.
-    fn antenna_at_the_earth(&self) -> Option<Aimed> {
+    fn antenna_at_the_earth(&self) -> Option<PointingSolution> {
         let boresight = &self.command.boresight;
         let commanded = boresight.option == Some(BoresightOption::PhasedArray);
         let place = self.progress.downlink_sun;
@@ -216,25 +216,26 @@ impl Reading<'_> {
             sun_body: place.map_or(self.progress.requested.sun, |place| place.angles),
             earth_ahead: place.map(|place| place.earth_ahead),
         };
-        let found = downlink(
-            &self.surroundings.to_sun(),
-            &self.surroundings.to_earth(),
-            self.hardware.antennas,
-            &request,
-        )?;
+        let found =
+            downlink(&self.ephemeris.to_sun(), &self.ephemeris.to_earth(), self.hardware.antennas, &request)?;
         let downlink = DownlinkStatus { active: true, clamped: found.clamped };
         if self.progress.requested.alternate && !commanded {
-            let aimpoint = half_turned(&found.vectors.aimpoint, &self.surroundings.to_sun());
+            let aimpoint = half_turned(&found.vectors.aimpoint, &self.ephemeris.to_sun());
             let vectors = PointingVectors { aimpoint, ..found.vectors };
             let margins = found.margins;
-            return Some(Aimed { clamped: found.clamped, downlink, margins, ..Aimed::at(vectors) });
+            return Some(PointingSolution {
+                clamped: found.clamped,
+                downlink,
+                margins,
+                ..PointingSolution::at(vectors)
+            });
         }
-        Some(Aimed {
+        Some(PointingSolution {
             antenna: Some(Beam::AtTheEarth(found.antenna)),
             clamped: found.clamped,
             downlink,
             margins: found.margins,
-            ..Aimed::at(found.vectors)
+            ..PointingSolution::at(found.vectors)
         })
     }
 }

@@ -7,13 +7,13 @@ use std::sync::{LazyLock, OnceLock};
 use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
-use super::aimpoint::aim_kind;
+use super::aimpoint::aimpoint_kind;
 use super::antenna::tests::quadrants;
 use super::antenna::{Antennas, Beam};
 use super::boresight::Gimbal;
 use super::command::*;
 use super::scan::{ScanCompatibility, ScanTime};
-use super::scenario::{Aimed, GuidanceHardware, PointingProgress, aim};
+use super::scenario::{GuidanceHardware, PointingProgress, PointingSolution, pointing_solution};
 use crate::attitude::angle_between_rad;
 use crate::bodies::Body;
 use crate::enumeration::Enumerated;
@@ -156,28 +156,28 @@ const SCAN_TIMES_S: [f64; 6] = [10.0, 22.0, 38.5, 54.0, 117.0, 160.0];
 /// Largest ratio of rate error to what is allowed, over an orbit; the boresight is on the aimpoint throughout.
 fn worst(command: &PointingCommand, scan_s: Option<f64>, orbit: &TestOrbit) -> f64 {
     let hardware = hardware();
-    let at = |started_s: f64, time_s: f64| -> Option<(EphemerisAtTime, Aimed)> {
+    let at = |started_s: f64, time_s: f64| -> Option<(EphemerisAtTime, PointingSolution)> {
         let elapsed_s = time_s - started_s;
         let progress = PointingProgress {
             scan: scan_s.map(|scan_s| scan_at(scan_s + elapsed_s)),
             limb_elapsed_s: 30.0 + elapsed_s,
             ..PointingProgress::default()
         };
-        let surroundings = orbit.surroundings(time_s);
-        Some((surroundings, aim(command, &hardware, &surroundings, &progress)?))
+        let ephemeris = orbit.ephemeris(time_s);
+        Some((ephemeris, pointing_solution(command, &hardware, &ephemeris, &progress)?))
     };
     let mut worst: f64 = 0.0;
     let mut compared = 0;
     for time_s in orbit.times_s() {
-        let (_, aimed) = at(time_s, time_s).unwrap();
-        let pointing = aimed.vectors.pointing().unwrap();
+        let (_, solution) = at(time_s, time_s).unwrap();
+        let pointing = solution.vectors.pointing().unwrap();
         let boresight =
-            pointing.frame().inertial_from_body * value(&aimed.vectors.boresight_body).normalize();
-        let toward = value(&aimed.vectors.aimpoint).normalize();
+            pointing.frame().inertial_from_body * value(&solution.vectors.boresight_body).normalize();
+        let toward = value(&solution.vectors.aimpoint).normalize();
         assert!(boresight.cross(&toward).norm() < 1e-12 && boresight.dot(&toward) > 0.0);
         // Where the terminator comes onto the disc or leaves it the law takes another form.
         let same_form = [-2.0, 2.0].iter().all(|step| {
-            at(time_s, time_s + step * STEP_S).is_some_and(|(_, other)| other.reachable == aimed.reachable)
+            at(time_s, time_s + step * STEP_S).is_some_and(|(_, other)| other.reachable == solution.reachable)
         });
         if same_form {
             let axes = |time_s_: f64| Some(at(time_s, time_s_)?.1.vectors.pointing()?.inertial_from_body);
@@ -245,7 +245,7 @@ fn the_rate_is_the_derivative_for_every_aimpoint_with_every_scan() {
         for frame in every() {
             let mut command = command(Scenario::Generic);
             command.aimpoint = aimpoint(option);
-            // An aim that leaves the Sun by metres spans no plane with it.
+            // An aimpoint that leaves the Sun by metres spans no plane with it.
             command.external_roll.option = Some(ExternalRollOption::Vector);
             command.scan = scan(frame);
             for scan_s in SCAN_TIMES_S {
@@ -253,9 +253,10 @@ fn the_rate_is_the_derivative_for_every_aimpoint_with_every_scan() {
                 assert!(worst < 1e-7, "{worst:e} {option:?} {frame:?} {scan_s}");
             }
             let progress = PointingProgress { scan: Some(scan_at(10.0)), ..PointingProgress::default() };
-            let aimed = aim(&command, &hardware(), &orbit.surroundings(11.0), &progress).unwrap();
-            assert_eq!(aimed.scan_active, hardware().scans.allows(frame, aim_kind(option)));
-            active += usize::from(aimed.scan_active);
+            let solution =
+                pointing_solution(&command, &hardware(), &orbit.ephemeris(11.0), &progress).unwrap();
+            assert_eq!(solution.scan_active, hardware().scans.allows(frame, aimpoint_kind(option)));
+            active += usize::from(solution.scan_active);
         }
     }
     // Body and inertial rotations with 15, translations with 11 and 6, local rotations with 8.
@@ -266,10 +267,10 @@ fn at(
     command: &PointingCommand,
     time_s: f64,
     progress: &PointingProgress,
-) -> (EphemerisAtTime, Option<Aimed>) {
-    let surroundings = TestOrbit::new(12.0).surroundings(time_s);
-    let aimed = aim(command, &hardware(), &surroundings, progress);
-    (surroundings, aimed)
+) -> (EphemerisAtTime, Option<PointingSolution>) {
+    let ephemeris = TestOrbit::new(12.0).ephemeris(time_s);
+    let solution = pointing_solution(command, &hardware(), &ephemeris, progress);
+    (ephemeris, solution)
 }
 
 #[test]
@@ -280,14 +281,14 @@ fn scenarios_set_the_vectors_of_table_5() {
         if scenario == Scenario::Downlink {
             command.boresight.option = Some(BoresightOption::PhasedArray);
         }
-        let (s, aimed) = at(&command, 3000.0, &still);
-        let aimed = aimed.unwrap();
+        let (s, solution) = at(&command, 3000.0, &still);
+        let solution = solution.unwrap();
         if scenario == Scenario::Generic {
             continue;
         }
-        assert_eq!(aimed.vectors.body_roll, fixed(-Vector3::y()), "{scenario:?}");
-        assert_eq!(aimed.vectors.external_roll, s.to_sun());
-        let boresight = value(&aimed.vectors.boresight_body);
+        assert_eq!(solution.vectors.body_roll, fixed(-Vector3::y()), "{scenario:?}");
+        assert_eq!(solution.vectors.external_roll, s.to_sun());
+        let boresight = value(&solution.vectors.boresight_body);
         match scenario {
             Scenario::Gimbal => assert_eq!(boresight, camera().boresight(0.4)),
             Scenario::Downlink => {
@@ -295,7 +296,7 @@ fn scenarios_set_the_vectors_of_table_5() {
             }
             _ => assert_eq!(boresight, hardware().instruments[0].boresight_body, "{scenario:?}"),
         }
-        let toward = value(&aimed.vectors.aimpoint);
+        let toward = value(&solution.vectors.aimpoint);
         match scenario {
             Scenario::Nadir => assert_eq!(toward, -value(&s.position)),
             Scenario::Downlink => assert_eq!(toward, value(&s.to_earth())),
@@ -310,8 +311,8 @@ fn a_body_scan_keeps_the_moved_boresight_on_the_aim() {
     command.scan = ScanCommand { duration_s: [100.0; 3], ..scan(ScanFrame::Body) };
     for elapsed_s in [1.0, 40.0, 99.0] {
         let progress = PointingProgress { scan: Some(scan_at(elapsed_s)), ..PointingProgress::default() };
-        let (s, aimed) = at(&command, 3000.0, &progress);
-        let pointing = aimed.unwrap().vectors.pointing().unwrap();
+        let (s, solution) = at(&command, 3000.0, &progress);
+        let pointing = solution.unwrap().vectors.pointing().unwrap();
         let nadir_body = value(&pointing.to_body(&s.to_planet())).normalize();
         // The instrument turned about X, then Y, then Z by rotation vectors.
         let turn = |axis: Vector3<f64>, rate: f64| nalgebra::Rotation3::new(axis * (rate * elapsed_s));
@@ -346,15 +347,15 @@ fn the_camera_comes_nearest_to_the_second_aimpoint() {
     for (step, option) in (0..45).zip(every().cycle()) {
         let mut command = command(Scenario::DoubleTarget);
         command.second_aimpoint = aimpoint(option);
-        let s = orbit.surroundings(f64::from(step) * 900.0);
-        let aimed = aim(&command, &hardware(), &s, &PointingProgress::default()).unwrap();
-        let pointing = aimed.vectors.pointing().unwrap();
-        let angle = aimed.gimbal_angle(&pointing, hardware().gimbal.as_ref()).unwrap();
+        let s = orbit.ephemeris(f64::from(step) * 900.0);
+        let solution = pointing_solution(&command, &hardware(), &s, &PointingProgress::default()).unwrap();
+        let pointing = solution.vectors.pointing().unwrap();
+        let angle = solution.gimbal_angle(&pointing, hardware().gimbal.as_ref()).unwrap();
         in_range += u32::from(angle.in_range);
         let to_inertial = pointing.frame().inertial_from_body;
         let mut only_second = PointingCommand { aimpoint: command.second_aimpoint, ..command };
         only_second.scenario = Some(Scenario::PlusZ);
-        let second = aim(&only_second, &hardware(), &s, &PointingProgress::default()).unwrap();
+        let second = pointing_solution(&only_second, &hardware(), &s, &PointingProgress::default()).unwrap();
         let second = value(&second.vectors.aimpoint);
         let off_rad =
             |angle_rad: f64| angle_between_rad(&(to_inertial * camera().boresight(angle_rad)), &second);
@@ -373,16 +374,16 @@ fn devices_stop_at_their_range_and_say_so() {
     let still = PointingProgress::default();
     let mut camera = command(Scenario::Gimbal);
     camera.boresight.angle_rad = 1.2;
-    let (_, aimed) = at(&camera, 3000.0, &still);
-    let angle = aimed.unwrap().gimbal.unwrap();
+    let (_, solution) = at(&camera, 3000.0, &still);
+    let angle = solution.unwrap().gimbal.unwrap();
     assert!(!angle.in_range && (angle.angle_rad - 40.0 * PI / 180.0).abs() < 1e-15);
     let mut antenna = command(Scenario::Generic);
     antenna.boresight.option = Some(BoresightOption::PhasedArray);
     antenna.boresight.azimuth_rad = 0.2;
-    let aimed = at(&antenna, 3000.0, &still).1.unwrap();
-    let Some(Beam::Commanded(antenna)) = aimed.antenna else { panic!("{:?}", aimed.antenna) };
+    let solution = at(&antenna, 3000.0, &still).1.unwrap();
+    let Some(Beam::Commanded(antenna)) = solution.antenna else { panic!("{:?}", solution.antenna) };
     assert_eq!(antenna.azimuth_rad, 0.0);
-    assert!(!antenna.is_in_range() && aimed.gimbal.is_none());
+    assert!(!antenna.is_in_range() && solution.gimbal.is_none());
 }
 
 #[test]
@@ -390,14 +391,14 @@ fn a_terminator_off_the_disc_aims_at_the_centre_and_says_so() {
     let orbit = TestOrbit::new(12.0);
     let (mut there, mut gone) = (0, 0);
     for step in 0..200 {
-        let s = orbit.surroundings(f64::from(step) * 216.0);
+        let s = orbit.ephemeris(f64::from(step) * 216.0);
         let command = command(Scenario::LimbTerminator);
-        let aimed = aim(&command, &hardware(), &s, &PointingProgress::default()).unwrap();
-        if aimed.reachable {
+        let solution = pointing_solution(&command, &hardware(), &s, &PointingProgress::default()).unwrap();
+        if solution.reachable {
             there += 1;
         } else {
             gone += 1;
-            assert_eq!(value(&aimed.vectors.aimpoint), -value(&s.position));
+            assert_eq!(value(&solution.vectors.aimpoint), -value(&s.position));
         }
     }
     assert!(there > 0 && gone > 0, "{there} {gone}");
@@ -410,13 +411,13 @@ fn zeros_and_unknown_rows_are_no_command() {
     assert!(none.is_none());
     for scenario in SCENARIOS {
         let zeros = PointingCommand { scenario: Some(scenario), ..PointingCommand::default() };
-        let aimed = aim(&zeros, &hardware(), &s, &still);
+        let solution = pointing_solution(&zeros, &hardware(), &s, &still);
         let alone = matches!(
             scenario,
             Scenario::Nadir | Scenario::Downlink | Scenario::LimbTerminator | Scenario::LimbGeneric
         );
-        assert_eq!(aimed.is_some(), alone, "{scenario:?}");
-        assert!(aimed.is_none_or(|aimed| aimed.vectors.pointing().is_some()));
+        assert_eq!(solution.is_some(), alone, "{scenario:?}");
+        assert!(solution.is_none_or(|solution| solution.vectors.pointing().is_some()));
     }
     let mut unknown = command(Scenario::Nadir);
     unknown.boresight.instrument = 2;

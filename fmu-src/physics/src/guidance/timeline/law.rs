@@ -15,13 +15,13 @@ use crate::guidance::geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet
 use crate::guidance::geometry::moving::value;
 use crate::guidance::pointing::command::{AimpointOption, PointingCommand};
 use crate::guidance::pointing::scan::{ScanTime, next_corner_s};
-use crate::guidance::pointing::scenario::{GuidanceHardware, PointingProgress, aim};
+use crate::guidance::pointing::scenario::{GuidanceHardware, PointingProgress, pointing_solution};
 use crate::numerics::spacing::spacing;
 
 /// A Sun this little off the zone's boundary is on it, in rad.
 const ON_BOUNDARY_RAD: f64 = 1e-9;
 
-/// What parameters say.
+/// What parameters set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimelineSettings {
     /// The keep-in zone, in force or not.
@@ -73,13 +73,13 @@ impl TimelineLaw<'_> {
         settings: &TimelineSettings,
         entry: &TimelineEntry,
         time_s: f64,
-        surroundings: &EphemerisAtTime,
+        ephemeris: &EphemerisAtTime,
         (chosen, requested): (Option<SunPlace>, SunRequest),
     ) -> Option<TimelineAttitude> {
         let begin_s = simulation_time_s(entry.at_s, settings.clock_minus_time_s);
         let elapsed_s = time_s - begin_s;
         let scan = ScanTime { elapsed_s, tolerance_s: 4.0 * (spacing(entry.at_s) + spacing(time_s)) };
-        let to_sun = surroundings.to_sun();
+        let to_sun = ephemeris.to_sun();
         let counts = value(&to_sun).norm() <= settings.keep_in_distance_m;
         let keep_in =
             entry.keep_in.applied(&settings.keep_in, settings.keep_in_is_enabled).filter(|_| counts);
@@ -91,22 +91,22 @@ impl TimelineLaw<'_> {
             requested,
             burn: None,
         };
-        let aimed = aim(&entry.command, &self.hardware, surroundings, &progress)?;
-        let unconstrained = aimed.vectors.pointing()?;
+        let solution = pointing_solution(&entry.command, &self.hardware, ephemeris, &progress)?;
+        let unconstrained = solution.vectors.pointing()?;
         let sun_body = || value(&unconstrained.to_body(&to_sun)).try_normalize(0.0);
         let margin = keep_in.and_then(|zone| Some(-zone.excess_rad(&sun_body()?)?));
         let moves = margin.is_some_and(|margin| margin < -ON_BOUNDARY_RAD);
-        // A place of the Sun on the boundary stays there, whatever rounding says.
-        let is_held = cut || aimed.downlink.active;
+        // A place of the Sun on the boundary stays there, whatever the rounding.
+        let is_held = cut || solution.downlink.active;
         let margin = margin.filter(|margin| !is_held || margin.abs() > ON_BOUNDARY_RAD);
         let constraints = Constraints { keep_in, hot_pole: None };
-        let constrained = constraints.applied(&aimed.vectors, surroundings, None)?;
+        let constrained = constraints.applied(&solution.vectors, ephemeris, None)?;
         let corner_s = next_corner_s(&entry.command.scan, scan).map_or(f64::INFINITY, |it| it + begin_s);
-        let [form, bound] = aimed.margins;
+        let [form, bound] = solution.margins;
         Some(TimelineAttitude {
             frame: constrained.pointing.frame(),
             margins: [margin.unwrap_or(f64::INFINITY).min(bound), form],
-            clamped: aimed.downlink.clamped || cut || moves,
+            clamped: solution.downlink.clamped || cut || moves,
             corner_s,
         })
     }

@@ -1,10 +1,10 @@
-//! The scan of a command: a scenario that has scans, numbers of its frame, motions that last, an aim that its frame goes with.
+//! The scan of a command: a scenario that has scans, numbers of its frame, motions that last, an aimpoint that its frame goes with.
 
 use super::commands::{Commands, named};
 use super::description::{CommandDescription, ScanDescription};
 use super::quantity::{RATE, SPEED, TIME};
 use super::reads::{scan_keys, tables};
-use crate::guidance::pointing::aimpoint::{self, AimKind};
+use crate::guidance::pointing::aimpoint::{self, AimpointKind};
 use crate::guidance::pointing::command::{AimpointOption, PointingCommand, ScanCommand, Scenario};
 use crate::guidance::pointing::scan::ScanCompatibility;
 use crate::toml::Place;
@@ -25,8 +25,8 @@ pub(super) fn scan(
     if !commands.check.is_stand_in(&at.key("frame")) {
         let known = &["reference", "rate", "speed", "duration", "pause", "segments", "reverse"];
         commands.check_keys(&at, known, scan_keys(given.frame), &named("the frame", given.frame));
-        let aim = aim_kind(scenario, command.aimpoint.option);
-        if aim.is_some_and(|aim| !ScanCompatibility::default().allows(given.frame, aim)) {
+        let kind = aimpoint_kind(scenario, command.aimpoint.option);
+        if kind.is_some_and(|kind| !ScanCompatibility::default().allows(given.frame, kind)) {
             let found = named("the frame", given.frame) + ", which does not go with this aimpoint";
             commands.check.report(&at.key("frame"), found, "a frame that does: body, inertialRotation ...");
         }
@@ -79,12 +79,12 @@ fn check_motions(commands: &mut Commands<'_, '_>, at: &Place, given: &ScanDescri
 }
 
 /// What a scenario aims at; `None` where no aimpoint is given.
-fn aim_kind(scenario: Scenario, aimpoint: Option<AimpointOption>) -> Option<AimKind> {
+fn aimpoint_kind(scenario: Scenario, aimpoint: Option<AimpointOption>) -> Option<AimpointKind> {
     match scenario {
-        Scenario::Nadir | Scenario::LimbTerminator | Scenario::LimbGeneric => Some(AimKind::PlanetPoint),
+        Scenario::Nadir | Scenario::LimbTerminator | Scenario::LimbGeneric => Some(AimpointKind::PlanetPoint),
         Scenario::Downlink | Scenario::Burn | Scenario::OrbitPhase => None,
         Scenario::Generic | Scenario::PlusZ | Scenario::Gimbal | Scenario::DoubleTarget => {
-            aimpoint.map(aimpoint::aim_kind)
+            aimpoint.map(aimpoint::aimpoint_kind)
         }
     }
 }

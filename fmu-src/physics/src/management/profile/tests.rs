@@ -9,13 +9,13 @@ fn drift(change: f64) -> Excursion {
     swing
 }
 
-fn cycles(changes: &[f64], reach: ControlAuthority) -> Vec<Cycle> {
-    changes.iter().map(|change| Cycle { swing: drift(*change), reach }).collect()
+fn cycles(changes: &[f64], authority: ControlAuthority) -> Vec<Cycle> {
+    changes.iter().map(|change| Cycle { swing: drift(*change), authority }).collect()
 }
 
 /// The target without dumps in sight.
-fn target(now: f64, reach: ControlAuthority, cycles: &[Cycle], threshold: f64) -> f64 {
-    Component { now, reach, cycles, path: &[], threshold, dumped: |_| 0.0 }.target()
+fn target(momentum_n_m_s: f64, authority: ControlAuthority, cycles: &[Cycle], threshold: f64) -> f64 {
+    Component { momentum_n_m_s, authority, cycles, path: &[], threshold, dumped: |_| 0.0 }.target()
 }
 
 #[test]
@@ -29,7 +29,7 @@ fn a_drift_is_met_half_way() {
 fn a_downlink_without_authority_is_prepared_for() {
     // Four days of -1 with 0.8 a downlink, then two downlinks that add nothing: what they lack is stored before.
     let mut ahead = cycles(&[-1.0; 4], [-0.8, 0.8]);
-    (ahead[1].reach, ahead[2].reach) = ([0.0; 2], [0.0; 2]);
+    (ahead[1].authority, ahead[2].authority) = ([0.0; 2], [0.0; 2]);
     // From h: h - 1, at most h - 0.2, h - 1.2, h - 2.2, h - 3.2 stay above -4; h itself below 4.
     assert_relative_eq!(target(0.0, [-9.0, 9.0], &ahead, 4.0), 0.5 * (4.0 + (3.2 - 4.0)), epsilon = 1e-12);
     let alike = cycles(&[-1.0; 4], [-0.8, 0.8]);
@@ -59,11 +59,11 @@ fn a_dump_that_would_not_stay_alone_is_brought_on_earlier() {
         .collect();
     let mut swing = Excursion::default();
     path.iter().for_each(|at| swing.note(*at));
-    let ahead = [Cycle { swing, reach: [0.0; 2] }];
-    let with = |reach: ControlAuthority, fraction: f64| {
+    let ahead = [Cycle { swing, authority: [0.0; 2] }];
+    let with = |authority: ControlAuthority, fraction: f64| {
         let component = Component {
-            now: -3.6,
-            reach,
+            momentum_n_m_s: -3.6,
+            authority,
             cycles: &ahead,
             path: &path,
             threshold: 4.0,
@@ -87,10 +87,16 @@ fn what_stays_just_below_the_threshold_is_not_given_up_for_a_dump() {
     let path = [-0.05, -0.1, -0.08, -0.06];
     let mut swing = Excursion::default();
     path.iter().for_each(|at| swing.note(*at));
-    let ahead = [Cycle { swing, reach: [0.0; 2] }];
+    let ahead = [Cycle { swing, authority: [0.0; 2] }];
     let dumped = |at: f64| -at.signum() * 4.0;
-    let component =
-        Component { now: -4.0, reach: [-0.1, 0.12], cycles: &ahead, path: &path, threshold: 4.0, dumped };
+    let component = Component {
+        momentum_n_m_s: -4.0,
+        authority: [-0.1, 0.12],
+        cycles: &ahead,
+        path: &path,
+        threshold: 4.0,
+        dumped,
+    };
     assert_relative_eq!(component.target(), -3.88, epsilon = 1e-12);
     assert_eq!((component.dumps_about(-3.88), component.dumps(-3.92)), (0, 2));
     // Neither is a place taken for good about which some bring a second one.
@@ -99,9 +105,10 @@ fn what_stays_just_below_the_threshold_is_not_given_up_for_a_dump() {
 
 /// Whether the threshold can be kept from a momentum before the first science, on a grid of what downlinks add.
 fn can_keep(start: f64, cycles: &[Cycle], threshold: f64) -> bool {
-    let Some((Cycle { swing, reach }, rest)) = cycles.split_first() else { return true };
+    let Some((Cycle { swing, authority }, rest)) = cycles.split_first() else { return true };
     let is_kept = start + swing.lowest >= -threshold && start + swing.highest <= threshold;
-    let added = (0..=GRID).map(|k| reach[0] + (reach[1] - reach[0]) * f64::from(k) / f64::from(GRID));
+    let added =
+        (0..=GRID).map(|k| authority[0] + (authority[1] - authority[0]) * f64::from(k) / f64::from(GRID));
     is_kept
         && (rest.is_empty()
             || added.into_iter().any(|it| can_keep(start + swing.change + it, rest, threshold)))
@@ -113,7 +120,7 @@ fn any_cycle() -> impl Strategy<Value = Cycle> {
     let parts = (-3.0..3.0_f64, 0.0..1.0_f64, 0.0..1.0_f64, -2.0..1.0_f64, 0.05..2.0_f64);
     parts.prop_map(|(change, below, above, least, width)| Cycle {
         swing: Excursion { change, lowest: change.min(0.0) - below, highest: change.max(0.0) + above },
-        reach: [least, least + width],
+        authority: [least, least + width],
     })
 }
 
@@ -125,7 +132,7 @@ proptest! {
     ) {
         const THRESHOLD: f64 = 4.0;
         let [least, most] = bounds(&cycles);
-        let step = cycles.iter().map(|it| it.reach[1] - it.reach[0]).fold(0.0, f64::max) / f64::from(GRID);
+        let step = cycles.iter().map(|it| it.authority[1] - it.authority[0]).fold(0.0, f64::max) / f64::from(GRID);
         for k in -100..=100 {
             let start = 0.05 * f64::from(k);
             let inside = (start - (least - THRESHOLD)).min(most + THRESHOLD - start);
@@ -138,14 +145,14 @@ proptest! {
 
     #[test]
     fn no_other_target_within_reach_is_nearer_to_the_middle_of_what_is_kept(
-        now in -4.0..4.0_f64,
-        reach in (-2.0..1.0_f64, 0.05..3.0_f64),
+        momentum_n_m_s in -4.0..4.0_f64,
+        authority in (-2.0..1.0_f64, 0.05..3.0_f64),
         cycles in proptest::collection::vec(any_cycle(), 1..4),
     ) {
         const THRESHOLD: f64 = 5.0;
-        let reach = [reach.0, reach.0 + reach.1];
-        let found = target(now, reach, &cycles, THRESHOLD);
-        prop_assert!((now + reach[0] - 1e-12..=now + reach[1] + 1e-12).contains(&found));
+        let authority = [authority.0, authority.0 + authority.1];
+        let found = target(momentum_n_m_s, authority, &cycles, THRESHOLD);
+        prop_assert!((momentum_n_m_s + authority[0] - 1e-12..=momentum_n_m_s + authority[1] + 1e-12).contains(&found));
         // The longest part of the horizon that some start keeps, and the starts that do.
         let starts = |count: usize| -> Vec<f64> {
             let all = (-500..=500).map(|k| 0.01 * f64::from(k));
@@ -158,37 +165,37 @@ proptest! {
         let middle = 0.5 * (best[0] + best[best.len() - 1]);
         let off = |target: f64| (target - middle).abs();
         for k in 0..=200 {
-            let other = now + reach[0] + (reach[1] - reach[0]) * f64::from(k) / 200.0;
+            let other = momentum_n_m_s + authority[0] + (authority[1] - authority[0]) * f64::from(k) / 200.0;
             prop_assert!(off(other) > off(found) - 0.12, "{other} beats {found} about {middle}");
         }
     }
 
     #[test]
     fn no_other_target_has_fewer_dumps_in_the_next_science(
-        now in -4.0..4.0_f64,
-        reach in (-2.0..1.0_f64, 0.05..3.0_f64),
+        momentum_n_m_s in -4.0..4.0_f64,
+        authority in (-2.0..1.0_f64, 0.05..3.0_f64),
         steps in proptest::collection::vec(-1.0..1.0_f64, 4..16),
         fraction in 0.0..1.0_f64,
     ) {
-        let reach = [reach.0, reach.0 + reach.1];
+        let authority = [authority.0, authority.0 + authority.1];
         let mut path = vec![];
         let mut swing = Excursion::default();
         for step in steps {
             path.push(path.last().unwrap_or(&0.0) + step);
             swing.note(path[path.len() - 1]);
         }
-        let cycles = [Cycle { swing, reach: [0.0; 2] }];
-        let component = Component { now, reach, cycles: &cycles, path: &path, threshold: 2.0, dumped: |at: f64| -at.signum() * fraction * 2.0 };
+        let cycles = [Cycle { swing, authority: [0.0; 2] }];
+        let component = Component { momentum_n_m_s, authority, cycles: &cycles, path: &path, threshold: 2.0, dumped: |at: f64| -at.signum() * fraction * 2.0 };
         let found = component.target();
         let dumps = component.dumps_about(found);
         for k in 0..=TARGETS {
-            let other = now + reach[0] + (reach[1] - reach[0]) * k as f64 / TARGETS as f64;
+            let other = momentum_n_m_s + authority[0] + (authority[1] - authority[0]) * k as f64 / TARGETS as f64;
             let is_fewer = dumps > 1 && other.abs() <= 2.0 && component.dumps_about(other) < dumps;
             prop_assert!(!is_fewer, "{other}: {} < {dumps} of {found}", component.dumps_about(other));
         }
         // What needs no dump is never given up for what does.
         let inside = |at: f64| at + swing.lowest >= -2.0 && at + swing.highest <= 2.0;
-        let any_inside = (0..=1000).any(|k| inside(now + reach[0] + (reach[1] - reach[0]) * f64::from(k) / 1000.0));
+        let any_inside = (0..=1000).any(|k| inside(momentum_n_m_s + authority[0] + (authority[1] - authority[0]) * f64::from(k) / 1000.0));
         prop_assert!(!any_inside || component.dumps(found) == 0 || dumps <= 1, "{found}");
     }
 }

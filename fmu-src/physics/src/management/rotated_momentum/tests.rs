@@ -62,9 +62,9 @@ proptest! {
             let bodies = along.iter().map(|at| (at.turn * h + at.added_body_n_m_s).component_div(&threshold));
             bodies.map(|body| body.xz().norm_squared()).sum()
         };
-        let reach = [-width, 0.6 * width];
-        let found = all(best(&along, [reach; 2], y, &threshold));
-        let at = |k: u32| reach[0] + (reach[1] - reach[0]) * f64::from(k) / 60.0;
+        let authority = [-width, 0.6 * width];
+        let found = all(best(&along, [authority; 2], y, &threshold));
+        let at = |k: u32| authority[0] + (authority[1] - authority[0]) * f64::from(k) / 60.0;
         for (i, j) in (0..=60).flat_map(|i| (0..=60).map(move |j| (i, j))) {
             prop_assert!(all(Vector3::new(at(i), y, at(j))) > found - 1e-6);
         }

@@ -108,7 +108,7 @@ fn target_x(separations_rad: [f64; 4], horizon: u32) -> f64 {
         let SunAngles { azimuth_rad, elevation_rad } = SunAngles::of(sun_body);
         Vector3::new(0.0025 * elevation_rad, 0.0, 0.0025 * azimuth_rad)
     };
-    let aim = DownlinkState {
+    let state = DownlinkState {
         to_sun: Vector3::x(),
         to_earth: Vector3::new(separations_rad[0].cos(), separations_rad[0].sin(), 0.0),
         momentum: StartMomentum::Body(Vector3::new(0.9, 0.0, 0.0)),
@@ -118,9 +118,9 @@ fn target_x(separations_rad: [f64; 4], horizon: u32) -> f64 {
         linear: None,
         science: None,
     };
-    let Ok(ahead) = manager.ahead(&mut ByHand { separations_rad, begins_in_science: false });
-    let Some(Prediction::Components(components)) = ahead else { panic!("no forecast") };
-    manager.kept(&aim, &components).unwrap().x
+    let Ok(prediction) = manager.predict(&mut ByHand { separations_rad, begins_in_science: false });
+    let Some(Prediction::Components(components)) = prediction else { panic!("no forecast") };
+    manager.kept(&state, &components).unwrap().x
 }
 
 #[test]
@@ -151,5 +151,8 @@ fn science_that_unloads_looks_ahead_over_the_next_downlink() {
     let [x, _] = components.cycles(|downlink| [[-downlink.span_s, downlink.span_s]; 2]);
     let changes: Vec<f64> = x.iter().take(3).map(|cycle| cycle.swing.change).collect();
     assert_relative_eq!(changes.as_slice(), [0.0, -1.0, -1.0].as_slice(), epsilon = 1e-12);
-    assert_eq!([x[0].reach, x[1].reach, x[2].reach], [[-1000.0, 1000.0], [-1000.0, 1000.0], [0.0; 2]]);
+    assert_eq!(
+        [x[0].authority, x[1].authority, x[2].authority],
+        [[-1000.0, 1000.0], [-1000.0, 1000.0], [0.0; 2]]
+    );
 }

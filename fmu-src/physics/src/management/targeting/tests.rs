@@ -24,13 +24,13 @@ fn targeting() -> Targeting<'static> {
     }
 }
 
-struct Craft {
+struct TestSpacecraft {
     spacecraft: Spacecraft,
     solar: SolarModel,
     center_of_mass_m: Vector3<f64>,
 }
 
-impl Craft {
+impl TestSpacecraft {
     fn new(center_of_mass_m: Vector3<f64>, shade_turn_rad: f64) -> Self {
         let mut spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
         if let Some(shade) = &mut spacecraft.sunshade {
@@ -88,12 +88,12 @@ fn aims() -> Vec<(f64, StartMomentum)> {
 fn an_attainable_target_is_hit_to_rounding() {
     let mut reached = [0; 3];
     for turn_rad in [0.0, 0.05] {
-        let craft = Craft::new(Vector3::new(0.01, -0.01, 0.02), turn_rad);
-        let torque = |sun: &Vector3<f64>| craft.torque(sun);
+        let test_spacecraft = TestSpacecraft::new(Vector3::new(0.01, -0.01, 0.02), turn_rad);
+        let torque = |sun: &Vector3<f64>| test_spacecraft.torque(sun);
         for (degrees, momentum) in aims() {
             let (to_sun, to_earth) = (Vector3::y(), earth(degrees));
-            let linear = Some(craft.linear());
-            let aim = DownlinkState {
+            let linear = Some(test_spacecraft.linear());
+            let state = DownlinkState {
                 to_sun,
                 to_earth,
                 momentum,
@@ -106,7 +106,7 @@ fn an_attainable_target_is_hit_to_rounding() {
             for (axes, count) in [(TargetAxes::X, 0), (TargetAxes::Z, 1), (TargetAxes::Xz, 2)] {
                 let targeting = Targeting { axes, ..targeting() };
                 let target = Vector3::new(-0.05, 7.0, 0.1);
-                let Some(Targeted { place, clamped }) = targeting.sun_place(&aim, &target) else {
+                let Some(Targeted { place, clamped }) = targeting.sun_place(&state, &target) else {
                     panic!("{degrees} {momentum:?}")
                 };
                 if clamped {
@@ -118,7 +118,7 @@ fn an_attainable_target_is_hit_to_rounding() {
                     StartMomentum::Inertial(momentum) => body * momentum,
                     StartMomentum::Body(momentum) => momentum,
                 };
-                let end = start + craft.torque(&(body * to_sun)) * SPAN_S;
+                let end = start + test_spacecraft.torque(&(body * to_sun)) * SPAN_S;
                 for (component, requested) in [(0, axes.requested()[0]), (2, axes.requested()[1])] {
                     if requested {
                         assert_relative_eq!(end[component], target[component], epsilon = 1e-11);
@@ -139,12 +139,12 @@ fn an_attainable_target_is_hit_to_rounding() {
 
 #[test]
 fn no_admissible_place_comes_nearer_to_a_target_out_of_reach() {
-    let craft = Craft::new(Vector3::new(0.0, 0.0, 0.05), 0.0);
-    let torque = |sun: &Vector3<f64>| craft.torque(sun);
+    let test_spacecraft = TestSpacecraft::new(Vector3::new(0.0, 0.0, 0.05), 0.0);
+    let torque = |sun: &Vector3<f64>| test_spacecraft.torque(sun);
     let mut clamped = 0;
     for (degrees, momentum) in aims() {
         let (to_sun, to_earth) = (Vector3::y(), earth(degrees));
-        let aim = DownlinkState {
+        let state = DownlinkState {
             to_sun,
             to_earth,
             momentum,
@@ -157,10 +157,10 @@ fn no_admissible_place_comes_nearer_to_a_target_out_of_reach() {
         for target in
             [Vector3::new(5.0, 0.0, 3.0), Vector3::new(-4.0, 0.0, 0.1), Vector3::new(0.0, 0.0, -6.0)]
         {
-            let found = targeting().sun_place(&aim, &target).unwrap();
+            let found = targeting().sun_place(&state, &target).unwrap();
             clamped += i32::from(found.clamped);
-            let best = aim.left(&found.place, &target).xz().norm();
-            for branch in targeting().branches(aim.separation_rad()).unwrap().as_slice() {
+            let best = state.left(&found.place, &target).xz().norm();
+            for branch in targeting().branches(state.separation_rad()).unwrap().as_slice() {
                 for i in -40..=40 {
                     for j in -40..=40 {
                         let angles = SunAngles {
@@ -168,7 +168,7 @@ fn no_admissible_place_comes_nearer_to_a_target_out_of_reach() {
                             elevation_rad: targeting().elevation_limit_rad * f64::from(j) / 40.0,
                         };
                         let Some(place) = branch.place(angles) else { continue };
-                        let other = aim.left(&place, &target).xz().norm();
+                        let other = state.left(&place, &target).xz().norm();
                         assert!(other > best - 1e-6, "{degrees} {momentum:?} {target:?}: {other} {best}");
                     }
                 }
@@ -180,15 +180,15 @@ fn no_admissible_place_comes_nearer_to_a_target_out_of_reach() {
 
 #[test]
 fn the_linear_formula_falls_short_by_a_few_per_cent() {
-    let craft = Craft::new(Vector3::new(0.0, 0.0, 0.0), 0.0);
+    let test_spacecraft = TestSpacecraft::new(Vector3::new(0.0, 0.0, 0.0), 0.0);
     let shade = |sun: &Vector3<f64>| {
         let beam = Beam { source_body: *sun, pressure_pa: PRESSURE_PA };
-        craft.solar.load(&beam, |_| None, &craft.center_of_mass_m).torque_body_n_m
+        test_spacecraft.solar.load(&beam, |_| None, &test_spacecraft.center_of_mass_m).torque_body_n_m
     };
     let (to_sun, to_earth) = (Vector3::y(), earth(60.0));
-    let linear = Some(craft.linear());
+    let linear = Some(test_spacecraft.linear());
     let momentum = StartMomentum::Body(Vector3::zeros());
-    let aim = DownlinkState {
+    let state = DownlinkState {
         to_sun,
         to_earth,
         momentum,
@@ -198,14 +198,15 @@ fn the_linear_formula_falls_short_by_a_few_per_cent() {
         linear,
         science: None,
     };
-    let by =
-        |method, target: &Vector3<f64>| Targeting { method, ..targeting() }.sun_place(&aim, target).unwrap();
+    let by = |method, target: &Vector3<f64>| {
+        Targeting { method, ..targeting() }.sun_place(&state, target).unwrap()
+    };
     let mut worst = 0.0_f64;
     for share in [-0.9, -0.4, 0.3, 0.9] {
         let target = Vector3::new(0.6 * share, 0.0, -0.3 * share);
         let (exact, linear) = (by(TargetingMethod::Exact, &target), by(TargetingMethod::Linear, &target));
-        assert!(aim.left(&exact.place, &target).xz().norm() < 1e-11);
-        worst = worst.max(aim.left(&linear.place, &target).xz().norm() / target.xz().norm());
+        assert!(state.left(&exact.place, &target).xz().norm() < 1e-11);
+        worst = worst.max(state.left(&linear.place, &target).xz().norm() / target.xz().norm());
     }
     // The notes say up to 8 % inside the zone.
     assert!((0.002..0.08).contains(&worst), "{worst}");
@@ -216,7 +217,7 @@ fn without_a_plane_of_sun_and_earth_there_is_no_place() {
     let none = |_: &Vector3<f64>| Vector3::zeros();
     for to_earth in [Vector3::y(), -Vector3::y()] {
         let momentum = StartMomentum::Body(Vector3::x());
-        let aim = DownlinkState {
+        let state = DownlinkState {
             to_sun: Vector3::y(),
             to_earth,
             momentum,
@@ -226,6 +227,6 @@ fn without_a_plane_of_sun_and_earth_there_is_no_place() {
             linear: None,
             science: None,
         };
-        assert_eq!(targeting().sun_place(&aim, &Vector3::zeros()), None);
+        assert_eq!(targeting().sun_place(&state, &Vector3::zeros()), None);
     }
 }

@@ -200,7 +200,7 @@ fn a_dump_turns_with_the_body() {
 #[test]
 fn how_the_flight_is_cut_changes_no_bit() {
     let setting = settings(0.01, Convention::Inertial);
-    let fly = |step_s: f64| {
+    let simulate = |step_s: f64| {
         let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
         let mut k = 0.0;
         while k * step_s < 50_400.0 {
@@ -209,10 +209,10 @@ fn how_the_flight_is_cut_changes_no_bit() {
         }
         (integrator.totals(50_400.0), *integrator.dumps())
     };
-    let reference = fly(50_400.0);
+    let reference = simulate(50_400.0);
     assert!(reference.1.count > 3);
     for step_s in [7.0, 60.0, 300.0, 700.0] {
-        assert_eq!(fly(step_s), reference);
+        assert_eq!(simulate(step_s), reference);
     }
 }
 

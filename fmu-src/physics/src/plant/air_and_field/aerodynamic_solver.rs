@@ -31,7 +31,7 @@ impl AerodynamicSolver {
         configuration: &Configuration,
         options: &AerodynamicOptions,
     ) -> Result<Self, Refusal> {
-        let (panels, simulated) = configuration.taking_part(spacecraft);
+        let (panels, simulated) = configuration.enabled_panels(spacecraft);
         let model = AerodynamicModel::new(&simulated, options)?;
         Ok(Self {
             panel_angles_rad: vec![0.0; panels.len()],
@@ -56,8 +56,14 @@ impl AerodynamicSolver {
         let is_known = light.is_some_and(|(segment, time_s)| {
             segment.wall_temperatures_at(time_s, &mut self.wall_temperatures_k)
         });
-        let walls_k = is_known.then_some(self.wall_temperatures_k.as_slice());
-        self.model.load(flow, &self.panel_angles_rad, center_of_mass_body_m, walls_k, &mut self.workspace)
+        let wall_temperatures_k = is_known.then_some(self.wall_temperatures_k.as_slice());
+        self.model.load(
+            flow,
+            &self.panel_angles_rad,
+            center_of_mass_body_m,
+            wall_temperatures_k,
+            &mut self.workspace,
+        )
     }
 
     /// About how many microseconds an evaluation takes.

@@ -4,7 +4,7 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::laws::{Laws, NearPlanet};
+use super::laws::{Laws, LocalEnvironment};
 use crate::aerodynamics::{AerodynamicModel, AerodynamicWorkspace, AirFlow};
 use crate::bodies::surface::PlanetSurface;
 use crate::environment::eclipse::{EclipseError, Shadow};
@@ -70,12 +70,12 @@ pub struct Workspaces<T: Scalar> {
     /// In air.
     pub air: AerodynamicWorkspace<T>,
     /// Temperatures of the faces, in K.
-    walls_k: Vec<T>,
+    face_temperatures_k: Vec<T>,
 }
 
 impl<T: Scalar> Default for Workspaces<T> {
     fn default() -> Self {
-        Self { light: Default::default(), air: Default::default(), walls_k: Vec::new() }
+        Self { light: Default::default(), air: Default::default(), face_temperatures_k: Vec::new() }
     }
 }
 
@@ -104,16 +104,16 @@ pub enum PositionError {
 impl<T> Positions<T> {
     /// Every number.
     pub fn iter(&self) -> impl Iterator<Item = &T> {
-        let places = [&self.sun_m, &self.planet_m, &self.pole, &self.center_of_mass_m];
-        let surroundings = [&self.air, &self.air_velocity_m_s, &self.field_t];
-        places.into_iter().chain(surroundings).flatten().chain(&self.panel_angles_rad)
+        let positions = [&self.sun_m, &self.planet_m, &self.pole, &self.center_of_mass_m];
+        let air_and_field = [&self.air, &self.air_velocity_m_s, &self.field_t];
+        positions.into_iter().chain(air_and_field).flatten().chain(&self.panel_angles_rad)
     }
 
     /// Every number in the same order, to be written.
     pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut T> {
-        let places = [&mut self.sun_m, &mut self.planet_m, &mut self.pole, &mut self.center_of_mass_m];
-        let surroundings = [&mut self.air, &mut self.air_velocity_m_s, &mut self.field_t];
-        places.into_iter().chain(surroundings).flatten().chain(&mut self.panel_angles_rad)
+        let positions = [&mut self.sun_m, &mut self.planet_m, &mut self.pole, &mut self.center_of_mass_m];
+        let air_and_field = [&mut self.air, &mut self.air_velocity_m_s, &mut self.field_t];
+        positions.into_iter().chain(air_and_field).flatten().chain(&mut self.panel_angles_rad)
     }
 
     /// What `of` makes of every number.
@@ -142,7 +142,7 @@ impl<T: Scalar> BySource<T> {
         shadow: Option<&Shadow>,
         parameters: &Parameters<T>,
         positions: &Positions<T>,
-        Workspaces { light: workspace, air: air_workspace, walls_k }: &mut Workspaces<T>,
+        Workspaces { light: workspace, air: air_workspace, face_temperatures_k }: &mut Workspaces<T>,
     ) -> Result<Self, PositionError> {
         let sun_m = Vector3::from(positions.sun_m);
         if is_zero(&sun_m) {
@@ -183,13 +183,13 @@ impl<T: Scalar> BySource<T> {
         let air = air.filter(|_| density_kg_m3.value() > 0.0).map(|model| {
             let center = Vector3::from(positions.center_of_mass_m);
             let wall_temperatures_k = active.has(Effect::Thermal).then(|| {
-                walls_k.clear();
-                walls_k.extend(workspace.faces().iter().map(|face| face.temperature_k));
-                walls_k.as_slice()
+                face_temperatures_k.clear();
+                face_temperatures_k.extend(workspace.faces().iter().map(|face| face.temperature_k));
+                face_temperatures_k.as_slice()
             });
             model.load(&flow, &positions.panel_angles_rad, &center, wall_temperatures_k, air_workspace)
         });
-        let at = NearPlanet {
+        let at = LocalEnvironment {
             planet_body_m: planet_m,
             pole_body: if is_zero(&pole) { -Vector3::z() } else { pole.normalize() },
             inertia_body_kg_m2: parameters.inertia_body_kg_m2,

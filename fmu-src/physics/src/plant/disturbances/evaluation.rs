@@ -18,8 +18,8 @@ use crate::numerics::chebyshev::Segment;
 use crate::radiation::Beam;
 use crate::spacecraft::MassProperties;
 
-use super::laws::NearPlanet;
-use super::world::{PreparedSpacecraft, World};
+use super::laws::LocalEnvironment;
+use super::simulation_context::{PreparedSpacecraft, SimulationContext};
 use crate::plant::air_and_field::aerodynamic_solver::AerodynamicSolver;
 use crate::plant::air_and_field::air_and_field_builder::AirAndFieldBuilder;
 use crate::plant::air_and_field::air_and_field_segment::{AirAndField, AirAndFieldSegment};
@@ -133,14 +133,14 @@ impl<'a> Plant<'a> {
     /// Units of a sample, sunlight on many faces aside: everything that is not read from a polynomial.
     const SAMPLE_UNITS: u32 = 3;
 
-    /// `propagator` belongs to this world; `external` gives the load from outside at any time.
+    /// `propagator` belongs to this context; `external` gives the load from outside at any time.
     pub fn new(
         prepared: PreparedSpacecraft<'a>,
-        world: &'a mut World,
+        context: &'a mut SimulationContext,
         propagator: &'a mut PropagatorState,
         external: &'a External<'a>,
     ) -> Self {
-        let World { configuration, mass_at_zero, ephemeris, light, air, work, .. } = world;
+        let SimulationContext { configuration, mass_at_zero, ephemeris, light, air, work, .. } = context;
         let PropagatorState { trajectory, light: segment, air_and_field, sun_choice, .. } = propagator;
         let kinematics = Kinematics {
             configuration,
@@ -179,7 +179,7 @@ impl<'a> Plant<'a> {
         self.radiation(time_s, instant, &mass.center_of_mass_body_m, loads);
         if let Some(planet_body_m) = instant.planet_body_m {
             let is_magnetic = configuration.effects.has(Effect::Magnetic);
-            let at = NearPlanet {
+            let at = LocalEnvironment {
                 planet_body_m: Some(planet_body_m),
                 pole_body: instant.to_body * self.pole_inertial(time_s),
                 inertia_body_kg_m2: mass.inertia_body_kg_m2,

@@ -18,9 +18,9 @@ pub struct Laws<T = f64> {
     pub dipole_body_a_m2: Vector3<T>,
 }
 
-/// A body near a planet.
+/// What the laws read at the spacecraft: planet, inertia, magnetic field and air.
 #[derive(Clone, Copy, Debug)]
-pub struct NearPlanet<T: Scalar> {
+pub struct LocalEnvironment<T: Scalar> {
     /// From the spacecraft to the planet's centre, body frame, in m; `None` where it is not known.
     pub planet_body_m: Option<Vector3<T>>,
     /// Unit vector to the planet's north pole, body frame.
@@ -35,13 +35,13 @@ pub struct NearPlanet<T: Scalar> {
 
 impl<T: Scalar> Laws<T> {
     /// Writes the loads of those effects in closed form that act.
-    pub fn exert(&self, active: Active, at: &NearPlanet<T>, loads: &mut Loads<T>) {
+    pub fn exert(&self, active: Active, at: &LocalEnvironment<T>, loads: &mut Loads<T>) {
         for effect in active.disturbances().filter(|effect| !effect.is_light()) {
             loads[effect] = self.load(effect, at);
         }
     }
 
-    fn load(&self, effect: Effect, at: &NearPlanet<T>) -> ForceTorque<T> {
+    fn load(&self, effect: Effect, at: &LocalEnvironment<T>) -> ForceTorque<T> {
         let torque = |torque_body_n_m: Option<Vector3<T>>| ForceTorque {
             torque_body_n_m: torque_body_n_m.unwrap_or_else(Vector3::zeros),
             ..ForceTorque::zero()

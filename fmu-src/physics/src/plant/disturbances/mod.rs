@@ -4,4 +4,4 @@ pub(super) mod by_source;
 pub(super) mod disturbance_interval;
 pub(super) mod evaluation;
 pub(super) mod laws;
-pub(super) mod world;
+pub(super) mod simulation_context;

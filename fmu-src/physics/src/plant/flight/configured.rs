@@ -10,7 +10,7 @@ use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 use super::propagator_state::PropagatorState;
 use crate::plant::disturbances::disturbance_interval::DisturbanceInterval;
 use crate::plant::disturbances::evaluation::{External, Plant};
-use crate::plant::disturbances::world::{PreparedSpacecraft, World};
+use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
 use crate::plant::settings::configuration::{AttitudeSource, Command, DynamicAttitude};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::thruster_events::ThrusterEvent;
@@ -52,7 +52,7 @@ pub struct StepContext<'a> {
 /// A flight in one step: everything that its loads follow from.
 pub(crate) struct ConfiguredFlight<'a> {
     pub given: StepContext<'a>,
-    pub world: &'a mut World,
+    pub context: &'a mut SimulationContext,
     pub propagator: &'a mut PropagatorState,
     pub thrusters: &'a mut Thrusters,
     /// Receives dumps and maneuvers.
@@ -62,7 +62,7 @@ pub(crate) struct ConfiguredFlight<'a> {
 impl ConfiguredFlight<'_> {
     /// Frame and rate that this guidance commands where the flight begins.
     pub(super) fn frame_by(&mut self, law: &Guided, time_s: f64) -> Result<MovingFrame, PlantError> {
-        self.world.begin_work(self.given.work_limit);
+        self.context.begin_work(self.given.work_limit);
         let mut plant = self.plant();
         plant.prepare(time_s, time_s)?;
         Ok(plant.kinematics.attitude_by(law, time_s).frame)
@@ -79,7 +79,8 @@ impl ConfiguredFlight<'_> {
         momentum: StartMomentum,
         first: bool,
     ) -> Result<(), PlantError> {
-        let Some(law) = self.world.configuration.attitude.guided().copied().filter(|law| law.managed) else {
+        let Some(law) = self.context.configuration.attitude.guided().copied().filter(|law| law.managed)
+        else {
             return Ok(());
         };
         let Some(guided) = self.plant().kinematics.guided_attitude(time_s) else { return Ok(()) };
@@ -104,7 +105,7 @@ impl ConfiguredFlight<'_> {
         }
         // A dump at the very start changes nothing of it.
         choice.chosen_s = (!first).then_some(time_s);
-        let epoch_minus_time_s = self.world.configuration.epoch_minus_time_s;
+        let epoch_minus_time_s = self.context.configuration.epoch_minus_time_s;
         let now_epoch_s = time_s + epoch_minus_time_s;
         let (law, until_s) = match downlink && guided.row != 0 {
             true => {
@@ -122,13 +123,13 @@ impl ConfiguredFlight<'_> {
             let separations_rad = plant.kinematics.separations_rad(time_s, until_s);
             let science = gimbal.map(|gimbal| plant.kinematics.science_course(gimbal, time_s, until_s));
             if science.is_some() {
-                let evaluations = self.world.ephemeris.evaluations();
-                self.world.work.spend(Cost::Search, SCIENCE_UNITS, evaluations, time_s)?;
+                let evaluations = self.context.ephemeris.evaluations();
+                self.context.work.spend(Cost::Search, SCIENCE_UNITS, evaluations, time_s)?;
             }
             let [applied, _] = (self.given.external)(time_s);
             let mut downlink_forecast = DownlinkForecast {
                 prepared: self.given.prepared,
-                world: self.world,
+                context: self.context,
                 propagator: self.propagator,
                 applied,
                 law,
@@ -154,7 +155,7 @@ impl ConfiguredFlight<'_> {
         } else {
             choice.science = chosen;
         }
-        self.world.configuration.attitude.set_sun_places(choice.place(), choice.in_science());
+        self.context.configuration.attitude.set_sun_places(choice.place(), choice.in_science());
         Ok(())
     }
 
@@ -166,7 +167,7 @@ impl ConfiguredFlight<'_> {
         interval: &DisturbanceInterval,
         mass_kg: f64,
     ) -> Result<(), PlantError> {
-        let (load, configuration) = (self.thrusters.load(), &self.world.configuration);
+        let (load, configuration) = (self.thrusters.load(), &self.context.configuration);
         let trajectory = &mut self.propagator.trajectory;
         let span_s = [motion.start_s(), motion.end_s()];
         let (thrusts, disturbed) = (!load.law.is_none(), configuration.motion.uses_encke());
@@ -189,7 +190,7 @@ impl ConfiguredFlight<'_> {
 
     /// The plant in the attitude of its configuration.
     pub(super) fn plant(&mut self) -> Plant<'_> {
-        Plant::new(self.given.prepared, self.world, self.propagator, self.given.external)
+        Plant::new(self.given.prepared, self.context, self.propagator, self.given.external)
     }
 
     /// The plant with the body as it turns at `time_s`.
@@ -209,7 +210,7 @@ impl ConfiguredFlight<'_> {
             rate_body_rad_s: body.rate_body_rad_s,
             since_s: time_s,
         };
-        let attitude = &mut self.world.configuration.attitude;
+        let attitude = &mut self.context.configuration.attitude;
         let guided = attitude.guided().copied();
         *attitude = AttitudeSource::Dynamic(DynamicAttitude { motion, rate_terms_body, guided });
         self.plant()

@@ -32,7 +32,7 @@ pub(crate) struct ControlLoop {
     pub wheels: WheelControl,
     /// What guidance commanded last.
     guidance: Option<Command>,
-    /// What it said of a downlink.
+    /// What it reported of a downlink.
     pub downlink: DownlinkStatus,
     /// When guidance is sampled next, in s.
     next_guidance_s: f64,

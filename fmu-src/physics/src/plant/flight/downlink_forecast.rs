@@ -10,8 +10,8 @@ use super::propagator_state::PropagatorState;
 use crate::guidance::{ChosenPlace, Guided, ScienceCourse};
 use crate::loads::ForceTorque;
 use crate::momentum::{Convention, DumpPolicy, Totals};
-use crate::plant::disturbances::world::{PreparedSpacecraft, World};
-use crate::plant::light::sunlit::SunlitCraft;
+use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
+use crate::plant::light::sunlit::SunlitConfiguration;
 use crate::plant::settings::error::PlantError;
 
 /// Momentum where a downlink begins, in N m s.
@@ -47,7 +47,7 @@ pub type SunPlanner<'a> = dyn Fn(&mut DownlinkForecast<'_>) -> Result<Option<Cho
 /// Where a downlink begins, or science that unloads.
 pub struct DownlinkForecast<'o> {
     pub(crate) prepared: PreparedSpacecraft<'o>,
-    pub(crate) world: &'o mut World,
+    pub(crate) context: &'o mut SimulationContext,
     pub(crate) propagator: &'o PropagatorState,
     pub(crate) applied: ForceTorque,
     pub(crate) law: Guided,
@@ -74,8 +74,8 @@ pub struct DownlinkForecast<'o> {
 }
 
 impl DownlinkForecast<'_> {
-    fn sunlit(&self) -> SunlitCraft<'_> {
-        let World { configuration, mass_at_zero, .. } = &*self.world;
+    fn sunlit(&self) -> SunlitConfiguration<'_> {
+        let SimulationContext { configuration, mass_at_zero, .. } = &*self.context;
         self.prepared.sunlit(configuration, mass_at_zero, [self.time_s, self.sun_distance_m])
     }
 
@@ -112,7 +112,7 @@ impl DownlinkForecast<'_> {
         let begin = (self.time_s, self.totals);
         let held = [self.applied, ForceTorque::zero()];
         let mut fork =
-            Fork::guided(self.prepared, self.world, self.propagator, &self.law, held, begin, step_s);
+            Fork::guided(self.prepared, self.context, self.propagator, &self.law, held, begin, step_s);
         times_s.try_for_each(|at_s| {
             fork.advance(at_s)?;
             visit(fork.momentum_at(at_s));
@@ -122,11 +122,11 @@ impl DownlinkForecast<'_> {
 
     /// Which momentum the flight's convention watches.
     pub fn convention(&self) -> Convention {
-        self.world.configuration.momentum.convention
+        self.context.configuration.momentum.convention
     }
 
     /// When thrusters dump, and what they leave.
     pub fn dump_policy(&self) -> DumpPolicy {
-        self.world.configuration.momentum.policy
+        self.context.configuration.momentum.policy
     }
 }

@@ -55,7 +55,7 @@ impl AttitudeDynamics {
         flight: &mut ConfiguredFlight<'_>,
         time_s: f64,
     ) -> Result<Self, PlantError> {
-        let events = &flight.world.configuration.thruster_events;
+        let events = &flight.context.configuration.thruster_events;
         let scheduled = events.before(time_s);
         events.check_for_dynamics(scheduled)?;
         let StartMotion { mut attitude, mut rate_body_rad_s, rate_is_pointed, .. } = settings.start;
@@ -73,7 +73,7 @@ impl AttitudeDynamics {
         let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = [Vector3::zeros(); 2];
         let body =
             BodyMotion { attitude: unit, rate_body_rad_s, momentum_inertial_n_m_s, delta_v_inertial_m_s };
-        let mut mass = flight.world.configuration.loaded();
+        let mut mass = flight.context.configuration.loaded();
         if settings.panels_have_mass {
             let still = BodyMotion { rate_body_rad_s: Vector3::zeros(), ..body };
             let mut plant = flight.plant_at(time_s, &still);
@@ -164,12 +164,12 @@ impl AttitudeDynamics {
         let units = if settings.gyrostat.is_rigid() { 1 } else { FLEXIBLE_UNITS };
         while self.motion.end_s() < end_s - tolerance_s(end_s) {
             let time_s = self.motion.end_s();
-            let evaluations = flight.world.ephemeris.evaluations();
-            flight.world.work.spend(Cost::Segment, units, evaluations, time_s)?;
+            let evaluations = flight.context.ephemeris.evaluations();
+            flight.context.work.spend(Cost::Segment, units, evaluations, time_s)?;
             self.process_events(settings, flight, inputs)?;
             let edge_s = flight.thrusters.next_edge_s();
             let limit_s = self.sensing.next_s().min(self.disturbance.end_s()).min(edge_s);
-            let events = &flight.world.configuration.thruster_events;
+            let events = &flight.context.configuration.thruster_events;
             let limit_s = limit_s.min(self.dumps.until_s()).min(events.next_s(self.scheduled));
             let external = (flight.given.external)(time_s);
             let mut load = self.load(&external, flight.thrusters, time_s);
@@ -190,7 +190,7 @@ impl AttitudeDynamics {
         inputs: &DynamicsInputs,
         time_s: f64,
     ) -> AttitudeSource {
-        match (&settings.control, inputs.tracked, flight.world.configuration.attitude.guided()) {
+        match (&settings.control, inputs.tracked, flight.context.configuration.attitude.guided()) {
             (Some(_), Tracked::Guidance, Some(law)) => AttitudeSource::Guided(*law),
             (Some(_), Tracked::Attitude(command), _) => AttitudeSource::Commanded(command),
             _ => AttitudeSource::Commanded(Command {
@@ -204,8 +204,8 @@ impl AttitudeDynamics {
     /// The body has the mass properties of the present segment, and the whole spacecraft those of the last edge of the grid.
     pub(super) fn resume(&self, settings: &mut DynamicsSettings, flight: &mut ConfiguredFlight<'_>) {
         settings.set_mass_properties(&self.mass.now);
-        let world = &mut *flight.world;
-        world.mass_at_zero = self.mass.left.unwrap_or_else(|| world.configuration.loaded());
+        let context = &mut *flight.context;
+        context.mass_at_zero = self.mass.left.unwrap_or_else(|| context.configuration.loaded());
     }
 
     /// At the present end of the motion: edges of thrusters, disturbances anew, a dump's end, the sample, where they are due.
@@ -241,7 +241,7 @@ impl AttitudeDynamics {
         }
         self.turn_mass(settings, flight);
         let used_kg = flight.thrusters.propellant.total_used_kg(time_s);
-        self.mass.now.mass_kg = flight.world.configuration.mass_kg - used_kg;
+        self.mass.now.mass_kg = flight.context.configuration.mass_kg - used_kg;
         flight.thrusters.exert(&self.mass.now, time_s);
         Ok(())
     }
@@ -254,13 +254,13 @@ impl AttitudeDynamics {
     ) -> Result<(), PlantError> {
         let time_s = self.motion.end_s();
         let body = self.motion.at(&settings.gyrostat, time_s);
-        let world = &mut *flight.world;
-        let loaded = world.configuration.loaded();
+        let context = &mut *flight.context;
+        let loaded = context.configuration.loaded();
         self.mass.left = flight.thrusters.left(&loaded, time_s);
-        world.mass_at_zero = self.mass.left.unwrap_or(loaded);
+        context.mass_at_zero = self.mass.left.unwrap_or(loaded);
         let begins = self.disturbance.is_before();
-        if begins || !world.configuration.motion.uses_encke() {
-            flight.propagator.cut(&world.configuration, time_s, true);
+        if begins || !context.configuration.motion.uses_encke() {
+            flight.propagator.cut(&context.configuration, time_s, true);
         } else {
             flight.propagator.cut_light(time_s);
         }
@@ -323,7 +323,7 @@ impl AttitudeDynamics {
             return;
         }
         let time_s = self.motion.end_s();
-        let loaded = flight.world.configuration.loaded();
+        let loaded = flight.context.configuration.loaded();
         let left = self.mass.left.and_then(|_| flight.thrusters.left(&loaded, time_s)).unwrap_or(loaded);
         self.set_mass(settings, self.panels.mass_properties(&left, flight.given.prepared.panels, time_s));
     }
@@ -350,7 +350,7 @@ impl AttitudeDynamics {
         let number = self.sensing.sample(settings, inputs, time_s, &body, self.disturbance.sun_at(time_s));
         let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
         let is_free = self.dumps.are_over(flight.thrusters) && !self.control.by_thrusters;
-        let policy = flight.world.configuration.momentum.policy;
+        let policy = flight.context.configuration.momentum.policy;
         if is_free && flight.thrusters.burning().is_none() && policy.exceeded(&momentum_body) {
             self.begin_dump(flight, &momentum_body, policy.after(&momentum_body));
             self.dumps.dumps.check()?;
@@ -390,7 +390,7 @@ impl AttitudeDynamics {
         flight: &mut ConfiguredFlight<'_>,
         due_s: f64,
     ) {
-        while let events = &flight.world.configuration.thruster_events
+        while let events = &flight.context.configuration.thruster_events
             && let Some(event) = events.next(self.scheduled).filter(|event| events.time_s(event) <= due_s)
         {
             self.scheduled = self.scheduled.saturating_add(1);
@@ -433,8 +433,8 @@ impl AttitudeDynamics {
 
     /// The dipole in the field from the end of the motion on, where there is one.
     fn dipole(&self, flight: &ConfiguredFlight<'_>) -> Option<DipoleInField> {
-        let dipole_body_a_m2 = flight.world.configuration.laws.dipole_body_a_m2;
-        let acts = flight.world.configuration.effects.has(Effect::Magnetic);
+        let dipole_body_a_m2 = flight.context.configuration.laws.dipole_body_a_m2;
+        let acts = flight.context.configuration.effects.has(Effect::Magnetic);
         let field_inertial_t = self.disturbance.field_at(self.motion.end_s());
         (acts && dipole_body_a_m2 != Vector3::zeros())
             .then_some(DipoleInField { dipole_body_a_m2, field_inertial_t })
@@ -457,8 +457,8 @@ impl AttitudeDynamics {
         body: &BodyMotion,
         time_s: f64,
     ) -> Evaluation {
-        let loaded = flight.world.configuration.loaded();
-        flight.world.mass_at_zero = flight.thrusters.left(&loaded, time_s).unwrap_or(loaded);
+        let loaded = flight.context.configuration.loaded();
+        flight.context.mass_at_zero = flight.thrusters.left(&loaded, time_s).unwrap_or(loaded);
         let mass_kg = loaded.mass_kg - flight.thrusters.propellant.total_used_kg(time_s);
         let mut plant = flight.plant_at(time_s, body);
         let instant = plant.instant(time_s);

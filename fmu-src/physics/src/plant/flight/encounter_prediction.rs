@@ -51,21 +51,21 @@ impl EncounterPrediction {
         attitude: Option<AttitudeSource>,
         time_s: f64,
     ) -> Result<Self, PlantError> {
-        let ConfiguredFlight { given, world, propagator, .. } = flight;
-        let evaluations = world.ephemeris.evaluations();
-        world.work.spend(Cost::Search, UNITS, evaluations, time_s)?;
-        let Some(encounter) = world.configuration.encounter else {
+        let ConfiguredFlight { given, context, propagator, .. } = flight;
+        let evaluations = context.ephemeris.evaluations();
+        context.work.spend(Cost::Search, UNITS, evaluations, time_s)?;
+        let Some(encounter) = context.configuration.encounter else {
             return Ok(Self { since_s: time_s, arrival: None });
         };
         let [applied, slope] = (given.external)(time_s);
         let held = [applied, ForceTorque::zero()];
         let begin = (time_s, Totals::default());
         let is_another = attitude.is_some();
-        let mut attitude = attitude.unwrap_or(world.configuration.attitude);
+        let mut attitude = attitude.unwrap_or(context.configuration.attitude);
         if let AttitudeSource::Guided(law) = &mut attitude {
             law.managed = false;
         }
-        let mut fork = Fork::new(given.prepared, world, propagator, attitude, held, begin);
+        let mut fork = Fork::new(given.prepared, context, propagator, attitude, held, begin);
         if is_another || slope != ForceTorque::zero() {
             fork.cut(time_s);
         }

@@ -12,7 +12,7 @@ use crate::guidance::timeline::TimelineManeuver;
 use crate::loads::ForceTorque;
 use crate::momentum::{MomentumIntegrator, Settings, Stop, StopTimes, Totals};
 use crate::plant::disturbances::evaluation::Plant;
-use crate::plant::disturbances::world::{PreparedSpacecraft, World};
+use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
 use crate::plant::motion::approaches::Approach;
 use crate::plant::motion::geometry::Geometry;
 use crate::plant::settings::configuration::AttitudeSource;
@@ -47,7 +47,7 @@ pub struct ForecastMomentum {
 /// A fork. It borrows the configuration, which it changes for itself and restores when it is dropped: a step allocates nothing.
 pub(crate) struct Fork<'f> {
     prepared: PreparedSpacecraft<'f>,
-    world: &'f mut World,
+    context: &'f mut SimulationContext,
     propagator: PropagatorState,
     integrator: MomentumIntegrator,
     /// Applied from outside, with its rate.
@@ -71,34 +71,34 @@ impl<'f> Fork<'f> {
     /// Begins at a time in s in this attitude with these totals, where the flight is.
     pub(super) fn new(
         prepared: PreparedSpacecraft<'f>,
-        world: &'f mut World,
+        context: &'f mut SimulationContext,
         propagator: &PropagatorState,
         attitude: AttitudeSource,
         applied: [ForceTorque<f64>; 2],
         (time_s, totals): (f64, Totals),
     ) -> Self {
-        let [mut own, first, second] = core::mem::take(&mut world.fork_room);
+        let [mut own, first, second] = core::mem::take(&mut context.fork_room);
         own.copy_from(propagator);
-        let configuration = &mut world.configuration;
+        let configuration = &mut context.configuration;
         let attitude = core::mem::replace(&mut configuration.attitude, attitude);
-        let flight = (attitude, configuration.momentum, configuration.light_and_heat, world.mass_at_zero);
+        let flight = (attitude, configuration.momentum, configuration.light_and_heat, context.mass_at_zero);
         // Those of this time are over.
         let scheduled = configuration.thruster_events.until(time_s);
         let integrator = MomentumIntegrator::new(time_s, totals);
         let waypoints = [(None, first), (None, second)];
-        Self { prepared, world, propagator: own, integrator, applied, scheduled, waypoints, flight }
+        Self { prepared, context, propagator: own, integrator, applied, scheduled, waypoints, flight }
     }
 
     /// What the flight computed ahead of `time_s` is void: something else acts from there on.
     pub(super) fn cut(&mut self, time_s: f64) {
-        self.propagator.cut(&self.world.configuration, time_s, true);
+        self.propagator.cut(&self.context.configuration, time_s, true);
     }
 
     /// Begins at a time in s with these totals, in default attitudes of the law and without dumps, evaluated about every `step_s`;
     /// tolerances shorten what is too coarse.
     pub(super) fn guided(
         prepared: PreparedSpacecraft<'f>,
-        world: &'f mut World,
+        context: &'f mut SimulationContext,
         propagator: &PropagatorState,
         law: &Guided,
         applied: [ForceTorque<f64>; 2],
@@ -107,8 +107,8 @@ impl<'f> Fork<'f> {
     ) -> Self {
         let law = Guided { managed: false, ..law.with_sun_places(None, None) };
         let attitude = AttitudeSource::Guided(law);
-        let mut fork = Self::new(prepared, world, propagator, attitude, applied, (time_s, totals));
-        let configuration = &mut fork.world.configuration;
+        let mut fork = Self::new(prepared, context, propagator, attitude, applied, (time_s, totals));
+        let configuration = &mut fork.context.configuration;
         configuration.momentum.grid_s = configuration.momentum.grid_s.max(step_s);
         configuration.light_and_heat.grid_s = configuration.light_and_heat.grid_s.max(step_s);
         configuration.momentum.tolerance = configuration.momentum.tolerance.max(FORECAST_TOLERANCE);
@@ -122,11 +122,11 @@ impl<'f> Fork<'f> {
     /// # Errors
     /// What ends a flight.
     pub(super) fn advance(&mut self, time_s: f64) -> Result<(), PlantError> {
-        let settings = self.world.configuration.momentum;
+        let settings = self.context.configuration.momentum;
         loop {
-            let scheduled_s = self.world.configuration.thruster_events.next_s(self.scheduled);
+            let scheduled_s = self.context.configuration.thruster_events.next_s(self.scheduled);
             let external = |_: f64| self.applied;
-            let mut plant = Plant::new(self.prepared, self.world, &mut self.propagator, &external);
+            let mut plant = Plant::new(self.prepared, self.context, &mut self.propagator, &external);
             let times = StopTimes { scheduled_s, dumped_s: None };
             match self.integrator.advance_to_stop(&mut plant, &settings, time_s, times)? {
                 Stop::Scheduled { at_s } => {
@@ -146,9 +146,9 @@ impl<'f> Fork<'f> {
     /// # Errors
     /// What ends a flight.
     pub(super) fn advance_orbit(&mut self, time_s: f64, limit_s: f64) -> Result<f64, PlantError> {
-        let scheduled_s = self.world.configuration.thruster_events.next_s(self.scheduled);
+        let scheduled_s = self.context.configuration.thruster_events.next_s(self.scheduled);
         let external = |_: f64| self.applied;
-        let mut plant = Plant::new(self.prepared, self.world, &mut self.propagator, &external);
+        let mut plant = Plant::new(self.prepared, self.context, &mut self.propagator, &external);
         let until_s = plant.orbit_and_light(time_s)?.min(limit_s);
         if scheduled_s <= until_s {
             self.take_event(scheduled_s)?;
@@ -158,7 +158,7 @@ impl<'f> Fork<'f> {
 
     /// The time at an epoch in s past J2000 TDB, in s.
     pub(super) fn time_at_epoch_s(&self, epoch_s: f64) -> f64 {
-        epoch_s - self.world.configuration.epoch_minus_time_s
+        epoch_s - self.context.configuration.epoch_minus_time_s
     }
 
     /// Keeps `time_s`, where the fork has come, as a waypoint if the last one is more than `apart_s` back.
@@ -170,7 +170,7 @@ impl<'f> Fork<'f> {
         let (waypoint, propagator) = &mut self.waypoints[1];
         propagator.copy_from(&self.propagator);
         *waypoint =
-            Some(Waypoint { time_s, scheduled: self.scheduled, mass_at_zero: self.world.mass_at_zero });
+            Some(Waypoint { time_s, scheduled: self.scheduled, mass_at_zero: self.context.mass_at_zero });
     }
 
     /// Goes back to the last waypoint up to `time_s` and gives its time; `None` without one.
@@ -179,14 +179,14 @@ impl<'f> Fork<'f> {
         let (waypoint, propagator) = self.waypoints.iter_mut().rfind(|(waypoint, _)| is_up_to(waypoint))?;
         core::mem::swap(&mut self.propagator, propagator);
         let Waypoint { time_s, scheduled, mass_at_zero } = waypoint.take()?;
-        (self.scheduled, self.world.mass_at_zero) = (scheduled, mass_at_zero);
+        (self.scheduled, self.context.mass_at_zero) = (scheduled, mass_at_zero);
         Some(time_s)
     }
 
     /// What the schedule has at `time_s`, where the fork has come; gives the velocity change, EME2000, in m/s.
     fn take_event(&mut self, time_s: f64) -> Result<Vector3<f64>, PlantError> {
-        let Self { world, propagator, .. } = self;
-        let configuration = &world.configuration;
+        let Self { context, propagator, .. } = self;
+        let configuration = &context.configuration;
         let next = configuration.thruster_events.next(self.scheduled).copied();
         let Some(event) = next else { return Ok(Vector3::zeros()) };
         self.scheduled += 1;
@@ -194,7 +194,7 @@ impl<'f> Fork<'f> {
             let before = propagator.center_of_mass.of(configuration);
             propagator.center_of_mass.place(configuration, place_body_m);
             let after = propagator.center_of_mass.of(configuration);
-            world.mass_at_zero.center_of_mass_body_m +=
+            context.mass_at_zero.center_of_mass_body_m +=
                 after.center_of_mass_body_m - before.center_of_mass_body_m;
             propagator.cut(configuration, time_s, true);
         }
@@ -213,7 +213,7 @@ impl<'f> Fork<'f> {
 
     /// Sun, planet and Earth at `time_s` as the spacecraft sees them, where the orbit is known.
     pub(super) fn geometry_at(&mut self, time_s: f64) -> Geometry {
-        let World { configuration, ephemeris, .. } = &mut *self.world;
+        let SimulationContext { configuration, ephemeris, .. } = &mut *self.context;
         let spacecraft = self.propagator.trajectory.state_at(configuration, time_s);
         Geometry::at(configuration, ephemeris, time_s, spacecraft)
     }
@@ -221,7 +221,7 @@ impl<'f> Fork<'f> {
     /// Momentum and geometry at `time_s`, where the fork has come.
     pub(super) fn momentum_at(&mut self, time_s: f64) -> ForecastMomentum {
         let external = |_: f64| self.applied;
-        let mut plant = Plant::new(self.prepared, self.world, &mut self.propagator, &external);
+        let mut plant = Plant::new(self.prepared, self.context, &mut self.propagator, &external);
         let instant = plant.instant(time_s);
         let pressure_pa = plant.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
         let convention = plant.kinematics.configuration.momentum.convention;
@@ -242,13 +242,13 @@ impl<'f> Fork<'f> {
 impl Drop for Fork<'_> {
     fn drop(&mut self) {
         let [(_, first), (_, second)] = &mut self.waypoints;
-        self.world.fork_room = [&mut self.propagator, first, second].map(core::mem::take);
-        let configuration = &mut self.world.configuration;
+        self.context.fork_room = [&mut self.propagator, first, second].map(core::mem::take);
+        let configuration = &mut self.context.configuration;
         (
             configuration.attitude,
             configuration.momentum,
             configuration.light_and_heat,
-            self.world.mass_at_zero,
+            self.context.mass_at_zero,
         ) = self.flight;
     }
 }

@@ -64,18 +64,18 @@ impl IdealFlight {
         time_s: f64,
         momentum_body_n_m_s: Vector3<f64>,
     ) -> Result<Self, PlantError> {
-        spacecraft.world.begin_work(spacecraft.given.work_limit);
+        spacecraft.context.begin_work(spacecraft.given.work_limit);
         let frame = spacecraft.plant().instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
         spacecraft.choose_sun_place(time_s, &totals, StartMomentum::Body(momentum_body_n_m_s), true)?;
-        spacecraft.world.begin_work(spacecraft.given.work_limit);
+        spacecraft.context.begin_work(spacecraft.given.work_limit);
         let mut plant = spacecraft.plant();
         plant.prepare(time_s, time_s)?;
         let frame = plant.instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-        let over = spacecraft.world.configuration.thruster_events.before(time_s);
+        let over = spacecraft.context.configuration.thruster_events.before(time_s);
         let mut begun = Self::new(time_s, totals, over);
-        spacecraft.world.begin_work(spacecraft.given.work_limit);
+        spacecraft.context.begin_work(spacecraft.given.work_limit);
         begun.advance(spacecraft, time_s)?;
         Ok(begun)
     }
@@ -90,7 +90,7 @@ impl IdealFlight {
         let mut target = inputs.dump_to_body_n_m_s;
         if let Some(maneuver) = &inputs.maneuver {
             self.maneuver(spacecraft, start_s, maneuver)?;
-            let requested = spacecraft.world.configuration.thruster_events.requested_body_n_m_s;
+            let requested = spacecraft.context.configuration.thruster_events.requested_body_n_m_s;
             target = target.or(maneuver.dumps.then_some(requested));
         }
         if let Some(target_body_n_m_s) = target {
@@ -106,7 +106,7 @@ impl IdealFlight {
         time_s: f64,
         target_body_n_m_s: Vector3<f64>,
     ) {
-        let settings = spacecraft.world.configuration.momentum;
+        let settings = spacecraft.context.configuration.momentum;
         let event = self.integrator.dump_to(&mut spacecraft.plant(), &settings, time_s, target_body_n_m_s);
         self.dumped(spacecraft, &event);
     }
@@ -123,11 +123,11 @@ impl IdealFlight {
         if !found_m_s.iter().all(|it| it.is_finite()) {
             return Err(refused(ManeuverError::NotFinite { found_m_s: found_m_s.into() }));
         }
-        let configuration = &spacecraft.world.configuration;
+        let configuration = &spacecraft.context.configuration;
         let number = u64::from(self.maneuvers.count.unsigned_abs());
         let executed_m_s = configuration.thruster_events.executed_m_s(&found_m_s, number);
         if let Some(set) = maneuver.thrusters {
-            let mass_kg = spacecraft.world.mass_at_zero.mass_kg;
+            let mass_kg = spacecraft.context.mass_at_zero.mass_kg;
             let given = spacecraft.thrusters.give_at_once(set, executed_m_s.norm(), mass_kg, time_s);
             given.map_err(refused)?;
         }
@@ -150,16 +150,16 @@ impl IdealFlight {
         spacecraft: &mut ConfiguredFlight<'_>,
         time_s: f64,
     ) -> Result<(), PlantError> {
-        let configuration = &spacecraft.world.configuration;
+        let configuration = &spacecraft.context.configuration;
         let Some(event) = configuration.thruster_events.next(self.scheduled).copied() else { return Ok(()) };
         self.scheduled = self.scheduled.saturating_add(1);
         if let Some(place_body_m) = event.center_of_mass_body_m {
             spacecraft.propagator.center_of_mass.place(configuration, place_body_m);
             self.integrator.cut(time_s);
-            spacecraft.propagator.cut(&spacecraft.world.configuration, time_s, true);
+            spacecraft.propagator.cut(&spacecraft.context.configuration, time_s, true);
             self.set_mass(spacecraft, time_s);
         }
-        let events = &spacecraft.world.configuration.thruster_events;
+        let events = &spacecraft.context.configuration.thruster_events;
         let (maneuver, target) = (events.maneuver(&event), events.dump_target_body_n_m_s(&event));
         if let Some(maneuver) = maneuver {
             self.maneuver(spacecraft, time_s, &maneuver)?;
@@ -176,10 +176,10 @@ impl IdealFlight {
         spacecraft: &mut ConfiguredFlight<'_>,
         time_s: f64,
     ) -> Result<(), PlantError> {
-        let settings = spacecraft.world.configuration.momentum;
+        let settings = spacecraft.context.configuration.momentum;
         let mut dumped_s = None;
         loop {
-            let scheduled_s = spacecraft.world.configuration.thruster_events.next_s(self.scheduled);
+            let scheduled_s = spacecraft.context.configuration.thruster_events.next_s(self.scheduled);
             let times = StopTimes { scheduled_s, dumped_s };
             let stop = self.integrator.advance_to_stop(&mut spacecraft.plant(), &settings, time_s, times)?;
             let at_s = match stop {
@@ -215,7 +215,7 @@ impl IdealFlight {
 
     /// A thruster event is over: the centre of mass is elsewhere, where that is simulated.
     fn move_center_of_mass(&mut self, spacecraft: &mut ConfiguredFlight<'_>, time_s: f64) -> bool {
-        let configuration = &spacecraft.world.configuration;
+        let configuration = &spacecraft.context.configuration;
         let events = [self.integrator.dumps().count, self.maneuvers.count].map(i32::unsigned_abs);
         let number: u64 = events.map(u64::from).iter().sum();
         let shift = configuration.thruster_events.shift_body_m(number.saturating_sub(1));
@@ -228,8 +228,8 @@ impl IdealFlight {
 
     /// Mass properties of what is left at `time_s`.
     fn set_mass(&self, spacecraft: &mut ConfiguredFlight<'_>, time_s: f64) {
-        let loaded = spacecraft.propagator.center_of_mass.of(&spacecraft.world.configuration);
-        spacecraft.world.mass_at_zero = spacecraft.thrusters.left(&loaded, time_s).unwrap_or(loaded);
+        let loaded = spacecraft.propagator.center_of_mass.of(&spacecraft.context.configuration);
+        spacecraft.context.mass_at_zero = spacecraft.thrusters.left(&loaded, time_s).unwrap_or(loaded);
     }
 
     fn push(&mut self, spacecraft: &mut ConfiguredFlight<'_>, event: &DumpEvent) {
@@ -247,7 +247,7 @@ impl IdealFlight {
         self.integrator.push(&delta_v_inertial_m_s);
         self.set_mass(spacecraft, time_s);
         spacecraft.propagator.cut_with_jump(
-            &spacecraft.world.configuration,
+            &spacecraft.context.configuration,
             time_s,
             true,
             &delta_v_inertial_m_s,

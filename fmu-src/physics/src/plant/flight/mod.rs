@@ -1,4 +1,4 @@
-//! The spacecraft in flight: world, thrusters, state and mode (attitude followed ideally, or by dynamics) in one.
+//! The spacecraft in simulation: context, thrusters, state and mode (attitude followed ideally, or by dynamics) in one.
 //!
 //! Parameters and inputs are no state: a restored flight is configured anew before it advances.
 
@@ -30,7 +30,7 @@ use crate::momentum::Totals;
 
 use crate::loads::ForceTorque;
 use crate::plant::disturbances::evaluation::{Evaluation, Plant};
-use crate::plant::disturbances::world::{PreparedSpacecraft, World};
+use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
 use crate::plant::motion::instant::Instant;
 use crate::plant::settings::configuration::{Command, Configuration, PredictionSettings};
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
@@ -69,16 +69,16 @@ enum Mode {
     Dynamic(Box<AttitudeDynamics>),
 }
 
-/// What parameters and inputs say.
+/// What parameters and inputs set.
 #[derive(Clone, Debug)]
 struct FlightSetup {
-    world: World,
+    context: SimulationContext,
     settings: ModeSettings,
     /// Where everything was and what acted at the last report, kept in place: it is large.
     evaluation: Option<Evaluation>,
 }
 
-/// What parameters say beside the configuration.
+/// What parameters set beside the configuration.
 #[derive(Clone, Debug)]
 pub enum ModeSettings {
     /// Of a flight whose attitude is followed ideally, and of one that waits.
@@ -152,7 +152,7 @@ impl Flight {
 
     /// The configuration that is simulated.
     pub fn configuration(&self) -> Option<&Configuration> {
-        self.setup.as_ref().map(|setup| &setup.world.configuration)
+        self.setup.as_ref().map(|setup| &setup.context.configuration)
     }
 
     /// Whether it waits.
@@ -181,22 +181,22 @@ impl Flight {
         &self.propagator.sun_choice
     }
 
-    /// Takes what parameters and inputs say.
-    pub fn configure(&mut self, world: World, settings: ModeSettings) {
-        self.setup = Some(Box::new(FlightSetup { world, settings, evaluation: None }));
+    /// Takes what parameters and inputs set.
+    pub fn configure(&mut self, context: SimulationContext, settings: ModeSettings) {
+        self.setup = Some(Box::new(FlightSetup { context, settings, evaluation: None }));
         self.set_left();
     }
 
     /// Takes the memory of the panels' settings for the next configuration.
     pub fn take_panels(&mut self) -> Vec<PanelSetting> {
-        self.setup.as_mut().map_or_else(Vec::new, |it| core::mem::take(&mut it.world.configuration.panels))
+        self.setup.as_mut().map_or_else(Vec::new, |it| core::mem::take(&mut it.context.configuration.panels))
     }
 
     /// In flight that is followed ideally nothing flows between dumps.
     fn set_left(&mut self) {
-        if let Some(FlightSetup { world, .. }) = self.setup.as_deref_mut() {
-            let loaded = self.propagator.center_of_mass.of(&world.configuration);
-            world.mass_at_zero = self.thrusters.left(&loaded, 0.0).unwrap_or(loaded);
+        if let Some(FlightSetup { context, .. }) = self.setup.as_deref_mut() {
+            let loaded = self.propagator.center_of_mass.of(&context.configuration);
+            context.mass_at_zero = self.thrusters.left(&loaded, 0.0).unwrap_or(loaded);
         }
     }
 
@@ -212,7 +212,7 @@ impl Flight {
         time_s: f64,
     ) -> Result<(), PlantError> {
         let Some(setup) = self.setup.as_deref_mut() else { return Err(PlantError::OtherMode) };
-        let so_far = &setup.world.configuration;
+        let so_far = &setup.context.configuration;
         // On a disturbed orbit the mass decides where the spacecraft goes.
         let pushed = changes.force && so_far.motion.is_pushed();
         match &mut self.mode {
@@ -230,17 +230,17 @@ impl Flight {
             }
         }
         if let Some(configuration) = configuration {
-            if configuration.air_and_field != setup.world.configuration.air_and_field {
+            if configuration.air_and_field != setup.context.configuration.air_and_field {
                 self.propagator.air_and_field.cut(time_s);
             }
-            setup.world.configuration = configuration;
-            self.propagator.center_of_mass.reconfigured(&setup.world.configuration);
+            setup.context.configuration = configuration;
+            self.propagator.center_of_mass.reconfigured(&setup.context.configuration);
         }
         if let Some(settings) = settings {
             setup.settings = settings;
         }
         if changes.orbit {
-            self.propagator.move_to(&setup.world.configuration, time_s)?;
+            self.propagator.move_to(&setup.context.configuration, time_s)?;
         }
         self.set_left();
         Ok(())
@@ -255,8 +255,8 @@ impl Flight {
         let Self { propagator, thrusters, setup: Some(setup), mode, .. } = self else {
             return Err(PlantError::OtherMode);
         };
-        let FlightSetup { world, settings, .. } = &mut **setup;
-        Ok((ConfiguredFlight { given, world, propagator, thrusters, log }, settings, mode))
+        let FlightSetup { context, settings, .. } = &mut **setup;
+        Ok((ConfiguredFlight { given, context, propagator, thrusters, log }, settings, mode))
     }
 
     /// Begins at `time_s`.
@@ -270,7 +270,7 @@ impl Flight {
         log: &mut dyn FnMut(&ThrusterEvent),
     ) -> Result<(), PlantError> {
         let (mut flight, settings, mode) = self.parts(given, log)?;
-        *flight.propagator = PropagatorState::new(&flight.world.configuration, time_s)?;
+        *flight.propagator = PropagatorState::new(&flight.context.configuration, time_s)?;
         *mode = match settings {
             ModeSettings::Ideal(IdealSettings { start_momentum_body_n_m_s, .. }) => {
                 Mode::Ideal(Box::new(IdealFlight::begin(&mut flight, time_s, *start_momentum_body_n_m_s)?))
@@ -310,7 +310,7 @@ impl Flight {
         log: &mut dyn FnMut(&ThrusterEvent),
     ) -> Result<(), PlantError> {
         let (mut flight, settings, mode) = self.parts(given, log)?;
-        flight.world.begin_work(given.work_limit);
+        flight.context.begin_work(given.work_limit);
         match (mode, settings) {
             (Mode::Waiting, _) => Ok(()),
             (Mode::Ideal(ideal), ModeSettings::Ideal(_)) => {
@@ -379,7 +379,7 @@ impl Flight {
         let ignored = &mut |_: &ThrusterEvent| {};
         let (mut flight, settings, mode) = self.parts(given, ignored)?;
         if let (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) = (mode, settings) {
-            flight.world.begin_work(given.work_limit);
+            flight.context.begin_work(given.work_limit);
             dynamics.process_events(settings, &mut flight, inputs)?;
         }
         if self.prediction_settings().is_due(time_s) {
@@ -409,8 +409,8 @@ impl Flight {
         let Self { propagator, thrusters, setup: Some(setup), mode, prediction } = self else {
             return Err(PlantError::OtherMode);
         };
-        let FlightSetup { world, settings, evaluation } = &mut **setup;
-        let mut flight = ConfiguredFlight { given, world, propagator, thrusters, log: &mut |_| {} };
+        let FlightSetup { context, settings, evaluation } = &mut **setup;
+        let mut flight = ConfiguredFlight { given, context, propagator, thrusters, log: &mut |_| {} };
         let mut sampled = None;
         let (evaluation, shown) = match (mode, settings) {
             (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
@@ -436,7 +436,7 @@ impl Flight {
                 (evaluation, shown)
             }
             (Mode::Waiting, ModeSettings::Ideal(settings)) => {
-                let evaluated = Evaluation::without_position(frame, flight.world.mass_at_zero);
+                let evaluated = Evaluation::without_position(frame, flight.context.mass_at_zero);
                 let evaluation = &*evaluation.insert(evaluated);
                 let momentum_body_n_m_s = settings.start_momentum_body_n_m_s;
                 let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
@@ -445,7 +445,7 @@ impl Flight {
             }
             _ => return Err(PlantError::OtherMode),
         };
-        let (configuration, thrusters) = (&world.configuration, &*thrusters);
+        let (configuration, thrusters) = (&context.configuration, &*thrusters);
         let since_periapsis_s = match is_waiting {
             true => 0.0,
             false => propagator.trajectory.time_since_periapsis_s(configuration, time_s),
@@ -486,7 +486,7 @@ impl Flight {
     ) -> Result<(), PlantError> {
         let Self { propagator, setup: Some(setup), .. } = self else { return Err(PlantError::OtherMode) };
         let external = |_: f64| [ForceTorque::zero(); 2];
-        Plant::new(prepared, &mut setup.world, propagator, &external).faces(time_s, report)
+        Plant::new(prepared, &mut setup.context, propagator, &external).faces(time_s, report)
     }
 }
 

@@ -56,7 +56,7 @@ impl PropagatorState {
         (self.sun_choice, self.center_of_mass) = (sun_choice, center_of_mass);
     }
 
-    /// Goes on from another place; the heat stored in the surfaces comes along.
+    /// Continues from another place; the heat stored in the surfaces comes along.
     ///
     /// # Errors
     /// A place below the surface.

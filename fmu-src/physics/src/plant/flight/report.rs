@@ -30,7 +30,7 @@ pub struct Report<'a> {
     pub thrusters: &'a Thrusters,
     /// Time since the last periapsis, in s; 0 where the flight waits.
     pub since_periapsis_s: f64,
-    /// What is to be said of a downlink.
+    /// What is reported of a downlink.
     pub downlink: DownlinkStatus,
     /// Row of the timeline's command in force, from 1; 0 where none is.
     pub timeline_row: usize,
@@ -138,7 +138,7 @@ enum Bodies<'a> {
         rate_body_n_m: Vector3<f64>,
         acceleration_body_rad_s2: Vector3<f64>,
     },
-    /// Body and wheels as their dynamics say.
+    /// Body and wheels by their dynamics.
     Dynamic { settings: &'a DynamicsSettings, dynamics: &'a AttitudeDynamics, body: BodyMotion },
 }
 
@@ -232,7 +232,7 @@ pub(super) fn ideal<'a>(
     }
 }
 
-/// The body as its dynamics say.
+/// The body by its dynamics.
 pub(super) fn dynamic<'a>(
     dynamics: &'a AttitudeDynamics,
     settings: &'a DynamicsSettings,

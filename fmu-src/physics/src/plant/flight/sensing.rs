@@ -7,7 +7,7 @@ use crate::attitude::control::{AccelerometerState, Estimate, EstimatorState, sen
 use crate::attitude::{Attitude, BodyMotion, Quaternion};
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
 
-/// What the sensors said last.
+/// What the sensors measured last.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Sensing {
     /// Number of the next sample and its time, in s.

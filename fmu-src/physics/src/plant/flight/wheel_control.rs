@@ -84,7 +84,7 @@ impl WheelControl {
         self.known(gyrostat).allocator.is_some()
     }
 
-    /// The rotors go on as they are: the motors make up for friction alone.
+    /// The rotors continue as they are: the motors make up for friction alone.
     pub fn coast(
         &mut self,
         settings: &WheelControlSettings,

@@ -122,7 +122,7 @@ impl RadiationBuilder<'_, '_> {
         let end_s = interval.end_s();
         (segment.span.start_s, segment.span.end_s, segment.loads) = (start_s, end_s, series);
         segment.temperatures_k.clear();
-        if stores || self.needs_walls() {
+        if stores || self.needs_wall_temperatures() {
             segment.temperatures_k.extend((0..light.face_count()).map(|face| {
                 let samples = core::array::from_fn(|j| SVector::from([light.nodes[j].temperatures_k[face]]));
                 Segment::from_samples(start_s, end_s, &samples)
@@ -179,7 +179,7 @@ impl RadiationBuilder<'_, '_> {
             for node in nodes.iter_mut() {
                 node.radiate_stored(model)?;
             }
-        } else if self.needs_walls() {
+        } else if self.needs_wall_temperatures() {
             nodes.iter_mut().for_each(RadiationNode::take_balance);
         }
         let mut series = ByEffect::default();
@@ -242,7 +242,7 @@ impl RadiationBuilder<'_, '_> {
     }
 
     /// Whether air meets the surfaces at the temperatures that light gives them.
-    fn needs_walls(&self) -> bool {
+    fn needs_wall_temperatures(&self) -> bool {
         let effects = self.kinematics.configuration.effects;
         effects.has(Effect::Aerodynamic) && effects.has(Effect::Thermal)
     }

@@ -23,7 +23,7 @@ pub struct RadiationSolver {
 }
 
 impl RadiationSolver {
-    /// Prepares `spacecraft` without the panels the configuration leaves out; `planet` is the surface it flies over.
+    /// Prepares `spacecraft` without the panels the configuration leaves out; `planet` is the surface below it.
     ///
     /// # Errors
     /// An impossible planet surface, number of nodes or form of the sunshade.
@@ -33,7 +33,7 @@ impl RadiationSolver {
         planet: &PlanetSurface,
         quadrature_nodes: usize,
     ) -> Result<Self, Refusal> {
-        let (panels, simulated) = configuration.taking_part(spacecraft);
+        let (panels, simulated) = configuration.enabled_panels(spacecraft);
         let effects = &configuration.light_and_heat;
         let over_planet = configuration.effects.has(Effect::Albedo) && configuration.planet().is_some();
         let options = Options {

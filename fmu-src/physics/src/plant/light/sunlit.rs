@@ -9,7 +9,7 @@ use crate::spacecraft::{MassProperties, Panel, with_panels};
 
 /// A spacecraft as sunlight meets it.
 #[derive(Clone, Copy, Debug)]
-pub struct SunlitCraft<'a> {
+pub struct SunlitConfiguration<'a> {
     /// Prepared for sunlight.
     pub solar: &'a SolarModel,
     /// Its panels.
@@ -24,7 +24,7 @@ pub struct SunlitCraft<'a> {
     pub sun_distance_m: f64,
 }
 
-impl SunlitCraft<'_> {
+impl SunlitConfiguration<'_> {
     /// Mass, centre of mass and inertia as the panels stand, the Sun being there (unit vector, body frame).
     pub fn mass_properties(&self, sun_body: &Vector3<f64>) -> MassProperties {
         with_panels(&self.mass_at_zero, self.panels, |index| self.angle_rad(index, sun_body).unwrap_or(0.0))

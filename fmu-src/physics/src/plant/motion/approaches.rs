@@ -23,7 +23,7 @@ pub(crate) struct Approaches {
     count: i32,
     /// The last one and the one before it.
     last: [Option<Approach>; 2],
-    /// Whether the spacecraft came nearer where the last span ended, on which the next one goes on: computed anew it may have the
+    /// Whether the spacecraft came nearer where the last span ended, on which the next one continues: computed anew it may have the
     /// other sign.
     came_nearer: Option<bool>,
 }

@@ -8,7 +8,7 @@ use crate::environment::CartesianState;
 use crate::environment::bodies_from_center::{BodiesFromCenter, fixed};
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::onboard::OnboardTarget;
-use crate::environment::orbit::BodyPlaces;
+use crate::environment::orbit::BodyEphemeris;
 use crate::guidance::LinesOfSight;
 
 use crate::plant::settings::configuration::{Configuration, EphemerisSource};
@@ -127,19 +127,19 @@ pub(crate) fn sun_and_earth(
     BodiesFromCenter { center: configuration.center, ellipse, custom: None }.sun_and_earth(ephemeris, epoch_s)
 }
 
-/// Sun, planets and Moon by the flight's ephemeris and clock.
-pub(crate) struct PlacesInFlight<'a> {
+/// Sun, planets and Moon by the simulation's ephemeris and clock.
+pub(crate) struct SimulationEphemeris<'a> {
     pub configuration: &'a Configuration,
     pub ephemeris: &'a mut Ephemeris,
 }
 
-impl PlacesInFlight<'_> {
+impl SimulationEphemeris<'_> {
     fn epoch_s(&self, at_s: f64) -> f64 {
         at_s + self.configuration.epoch_minus_time_s
     }
 }
 
-impl BodyPlaces for PlacesInFlight<'_> {
+impl BodyEphemeris for SimulationEphemeris<'_> {
     fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState {
         let epoch_s = self.epoch_s(at_s);
         match &self.configuration.ephemeris {

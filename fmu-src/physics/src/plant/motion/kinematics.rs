@@ -240,13 +240,13 @@ impl Kinematics<'_> {
     ) -> Option<TimelineAttitude> {
         let epoch_s = time_s + self.configuration.epoch_minus_time_s;
         let (sun_state, earth) = (geometry.sun_from_center(), geometry.earth_from_center());
-        let mut surroundings =
+        let mut ephemeris_at_time =
             EphemerisAtTime::new(epoch_s, settings.planet, &geometry.spacecraft, &sun_state, &earth);
         for body in bodies_of(&entry.command) {
             let place = geometry::body(self.configuration, self.ephemeris, body, epoch_s);
-            surroundings.place_body(body, &place);
+            ephemeris_at_time.place_body(body, &place);
         }
-        law.attitude(settings, entry, time_s, &surroundings, sun)
+        law.attitude(settings, entry, time_s, &ephemeris_at_time, sun)
     }
 
     /// What the orbit phase's own guidance commands at `time_s`.
@@ -278,7 +278,7 @@ impl Kinematics<'_> {
         self.guided(law, time_s, &geometry)
     }
 
-    /// Least and greatest angle between Sun and Earth from one time to a later one, in rad, the spacecraft going on along the
+    /// Least and greatest angle between Sun and Earth from one time to a later one, in rad, the spacecraft continuing along the
     /// ellipse that it is on.
     pub(crate) fn separations_rad(&mut self, from_s: f64, to_s: f64) -> [f64; 2] {
         let mut ahead = self.geometry_ahead(from_s);
@@ -303,7 +303,7 @@ impl Kinematics<'_> {
         })
     }
 
-    /// Where everything is later than `from_s`, the spacecraft going on along the ellipse that it is on.
+    /// Where everything is later than `from_s`, the spacecraft continuing along the ellipse that it is on.
     fn geometry_ahead(&mut self, from_s: f64) -> impl FnMut(f64) -> Geometry {
         let configuration = self.configuration;
         let now = self.trajectory.state_at(configuration, from_s);

@@ -146,7 +146,7 @@ impl PanelMotion {
             distance_m,
         };
         for _ in 0..ROUNDS {
-            if !self.aim(hinged, &sun(&attitude)) {
+            if !self.point_at(hinged, &sun(&attitude)) {
                 break;
             }
             let before = core::mem::replace(&mut attitude, self.given_way(hinged, gyrostat, motion, start));
@@ -186,7 +186,7 @@ impl PanelMotion {
     }
 
     /// Looks how far each panel has to go; whether one has to at all.
-    fn aim(&mut self, hinged: Hinged<'_>, sun: &SunAt) -> bool {
+    fn point_at(&mut self, hinged: Hinged<'_>, sun: &SunAt) -> bool {
         let settings = hinged.configuration.panels.iter().zip(hinged.panels);
         for (turn, (setting, panel)) in self.turns.iter_mut().zip(settings) {
             let to_rad = setting.angle_rad(panel, sun).unwrap_or(0.0);

@@ -7,14 +7,14 @@ use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::{
-    BodyPlaces, DisturbedOrbit, OrbitError, OrbitIntegrationError, OrbitMethod, TwoBodyOrbit,
+    BodyEphemeris, DisturbedOrbit, OrbitError, OrbitIntegrationError, OrbitMethod, TwoBodyOrbit,
 };
 use crate::guidance::Window;
 use crate::numerics::roots;
 use crate::numerics::spacing::spacing;
 
 use super::approaches::{Approach, Approaches};
-use super::geometry::{self, PlacesInFlight};
+use super::geometry::{self, SimulationEphemeris};
 use crate::plant::settings::configuration::{Configuration, Encounter, Motion};
 
 /// Two passages closer together than this part of a revolution are one, found twice.
@@ -297,7 +297,7 @@ impl Trajectory {
         self.periapses.forget_after(time_s, || radial(&orbit.state_at(time_s)));
     }
 
-    /// The velocity jumps by `delta_v_m_s`, EME2000, at `time_s`: an integrated orbit goes on from there, two-body motion on
+    /// The velocity jumps by `delta_v_m_s`, EME2000, at `time_s`: an integrated orbit continues from there, two-body motion on
     /// another orbit; a place that is held stays.
     ///
     /// # Errors
@@ -387,13 +387,14 @@ impl Trajectory {
                 0
             }
             Motion::NBody { gravity, .. } => {
-                let places = &mut PlacesInFlight { configuration, ephemeris };
-                let count = orbit.advance_between_bodies(limit_s, method, gravity, places, extra_m_s2)?;
+                let body_ephemeris = &mut SimulationEphemeris { configuration, ephemeris };
+                let count =
+                    orbit.advance_between_bodies(limit_s, method, gravity, body_ephemeris, extra_m_s2)?;
                 if let Some(Encounter { body, radius_m, .. }) = configuration.encounter {
                     let sizes_m = [radius_m, gravity.sphere_m(body)];
                     self.approaches.detect([orbit.start_s(), orbit.end_s()], sizes_m, |at_s| {
                         let [center, body] =
-                            [configuration.center, body].map(|body| places.heliocentric(body, at_s));
+                            [configuration.center, body].map(|body| body_ephemeris.heliocentric(body, at_s));
                         orbit.state_at(at_s) + (center - body)
                     });
                 }
@@ -416,7 +417,7 @@ impl Periapses {
         if !period_s.is_finite() {
             return Self::default();
         }
-        // A start at periapsis counts as past it, whatever rounding says.
+        // A start at periapsis counts as past it, whatever the rounding.
         let number = orbit.orbit_number(epoch_s + SAME_PASSAGE * period_s);
         let at_s = |number: i64| orbit.periapsis_epoch_s(number) - configuration.epoch_minus_time_s;
         let every = every(configuration);

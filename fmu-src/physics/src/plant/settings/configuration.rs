@@ -1,4 +1,4 @@
-//! What flies, where, and under which light: constant between two changes of a parameter or input.
+//! Spacecraft, orbit and light of a simulation: constant between two changes of a parameter or input.
 
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ pub enum AttitudeSource {
     Guided(Guided),
     /// A command, followed ideally.
     Commanded(Command),
-    /// A body that turns as its dynamics say.
+    /// A body that turns by its dynamics.
     Dynamic(DynamicAttitude),
 }
 
@@ -68,7 +68,7 @@ impl AttitudeSource {
 /// An attitude that is known up to now, and what it is to follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DynamicAttitude {
-    /// The attitude now, going on at the present rate.
+    /// The attitude now, continuing at the present rate.
     pub motion: Command,
     /// How that rate changes: the first and second term of its series, in rad/s2 and rad/s3.
     pub rate_terms_body: [Vector3<f64>; 2],
@@ -335,9 +335,9 @@ impl Configuration {
     }
 
     /// Indices of the enabled panels, and the spacecraft with those alone.
-    pub(crate) fn taking_part(&self, spacecraft: &Spacecraft) -> (Vec<usize>, Spacecraft) {
-        let takes_part = |index: &usize| self.panels.get(*index) != Some(&PanelSetting::Disabled);
-        let panels: Vec<usize> = (0..spacecraft.panels.len()).filter(takes_part).collect();
+    pub(crate) fn enabled_panels(&self, spacecraft: &Spacecraft) -> (Vec<usize>, Spacecraft) {
+        let is_enabled = |index: &usize| self.panels.get(*index) != Some(&PanelSetting::Disabled);
+        let panels: Vec<usize> = (0..spacecraft.panels.len()).filter(is_enabled).collect();
         let mut simulated = spacecraft.clone();
         simulated.panels = panels.iter().map(|&index| spacecraft.panels[index].clone()).collect();
         (panels, simulated)
@@ -347,11 +347,11 @@ impl Configuration {
     pub(crate) fn panel_angles_rad(
         &self,
         panels: &[Panel],
-        taking_part: &[usize],
+        enabled_panels: &[usize],
         sun: &SunAt,
         angles_rad: &mut [f64],
     ) {
-        for (angle_rad, &index) in angles_rad.iter_mut().zip(taking_part) {
+        for (angle_rad, &index) in angles_rad.iter_mut().zip(enabled_panels) {
             let setting = self.panels.get(index).zip(panels.get(index));
             *angle_rad = setting.and_then(|(setting, panel)| setting.angle_rad(panel, sun)).unwrap_or(0.0);
         }

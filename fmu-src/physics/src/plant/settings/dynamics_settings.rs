@@ -1,4 +1,4 @@
-//! What parameters and inputs say about attitude dynamics and control.
+//! What parameters and inputs set about attitude dynamics and control.
 
 use nalgebra::Vector3;
 
@@ -15,7 +15,7 @@ use super::reaction_control_settings::ThrustCommand;
 use super::thruster_events::Maneuver;
 use crate::plant::flight::wheel_control::WheelControlSettings;
 
-/// What parameters say about dynamics and control.
+/// What parameters set about dynamics and control.
 #[derive(Clone, Debug)]
 pub struct DynamicsSettings {
     /// Body and wheels.

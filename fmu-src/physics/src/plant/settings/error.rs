@@ -93,7 +93,7 @@ pub enum PlantError {
         /// What it has.
         found: &'static str,
     },
-    /// Restored bytes of another way to fly.
+    /// Restored bytes of another kind of simulation.
     #[error("the state holds another kind of flight: it belongs to another attitude.source")]
     OtherMode,
     /// An orbit that goes no further: restored bytes that belong to another kind of motion.
@@ -101,7 +101,7 @@ pub enum PlantError {
         "the orbit ends at {end_s:?} s and does not go on from {start_s:?} s: the state belongs to another orbit.dynamics"
     )]
     Stuck {
-        /// Where it should go on, in s.
+        /// Where it should continue, in s.
         start_s: f64,
         /// Where it ends, in s.
         end_s: f64,

@@ -1,4 +1,4 @@
-//! What parameters say about wheels and sensors where the attitude is followed ideally.
+//! What parameters set about wheels and sensors where the attitude is followed ideally.
 
 use nalgebra::Vector3;
 

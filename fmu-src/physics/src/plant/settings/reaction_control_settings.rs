@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::propulsion::{Preference, PropellantState, SelectionError, ThrustErrors, ThrusterSelection};
 use crate::spacecraft::{Tank, Thruster, ThrusterSet};
 
-/// What parameters say about thrusters and tanks.
+/// What parameters set about thrusters and tanks.
 #[derive(Clone, Debug, Default)]
 pub struct ReactionControlSettings {
     /// Thrusters.

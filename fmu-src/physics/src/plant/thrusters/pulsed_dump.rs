@@ -2,7 +2,7 @@
 //!
 //! Method: what is left of the impulse is shared out by the selection, as much at a time as the mean torque allows. A thruster
 //! whose share is less than its valve's shortest pulse owes it until it is not. At the end, where all is shared out, the pulses are
-//! taken one after another that come nearest to what is owed, a few times, as pulses scatter and the body turns under them.
+//! taken one after another that come nearest to the residual, a few times, as pulses scatter and the body turns under them.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -79,10 +79,10 @@ impl PulsedDump {
         let torque = |k: usize| settings.thrusters[k].torque_about_n_m(center_of_mass_body_m);
         let shortest_s = |k: usize| settings.thrusters[k].valve.min_on_s;
         let most_n_m_s = settings.dump_torque_n_m * settings.dump_period_s;
-        let owed = |residual_s: &[f64; MOST_THRUSTERS]| -> Vector3<f64> {
+        let residual_n_m_s = |residual_s: &[f64; MOST_THRUSTERS]| -> Vector3<f64> {
             (0..settings.thrusters.len()).map(|k| torque(k) * residual_s[k]).sum()
         };
-        let new_body_n_m_s = left_body_n_m_s - owed(&self.residual_s);
+        let new_body_n_m_s = left_body_n_m_s - residual_n_m_s(&self.residual_s);
         let part = (most_n_m_s / new_body_n_m_s.amax()).min(1.0);
         let mut opened_s = [0.0; MOST_THRUSTERS];
         let mut given_body_n_m_s = Vector3::zeros();
@@ -95,12 +95,12 @@ impl PulsedDump {
             }
         }
         if part == 1.0 {
-            // All that is left is owed, each thruster less than its shortest pulse: those that come nearest.
+            // All that is left is residual, each thruster less than its shortest pulse: those that come nearest.
             let shortest = |k: usize| {
                 let full_s = settings.thrusters[k].valve.full_thrust_s(shortest_s(k));
                 torque(k) * (full_s * feed.pressure_ratio(k))
             };
-            let mut left = owed(&self.residual_s);
+            let mut left = residual_n_m_s(&self.residual_s);
             let pulses = (0..settings.thrusters.len()).filter(|k| selection.uses(*k) && shortest_s(*k) > 0.0);
             loop {
                 let free = pulses.clone().filter(|k| opened_s[*k] == 0.0);

@@ -38,7 +38,7 @@ struct Burn {
 /// Thrusters of the plant: what they are, what is left in their tanks, and what their valves do.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Thrusters {
-    /// What parameters say; in a state that was restored nothing, until it is said again.
+    /// What parameters set; in a state that was restored nothing, until it is said again.
     #[serde(skip)]
     pub settings: ReactionControlSettings,
     /// Propellant used so far.
@@ -93,7 +93,7 @@ impl Thrusters {
         let mut any = false;
         let is_dumping = self.is_dumping();
         for (k, (thruster, pulse)) in self.settings.thrusters.iter().zip(pulses).enumerate() {
-            // What thrusters do on their own goes on.
+            // What thrusters do on their own continues.
             let is_own = self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) || is_dumping;
             any |= self.schedule[k].command(&thruster.valve, pulse, span_s, !is_own);
         }
@@ -443,10 +443,10 @@ impl Thrusters {
         let given = if longest_s > period_s { period_s / longest_s } else { 1.0 };
         for (k, full_s) in times {
             let shortest_s = settings.thrusters[k].valve.min_on_s;
-            let wanted_s = feed.opens_for_s(k, full_s * given).min(period_s);
-            let opens_s = if wanted_s >= shortest_s {
-                wanted_s
-            } else if wanted_s >= 0.5 * shortest_s {
+            let commanded_s = feed.opens_for_s(k, full_s * given).min(period_s);
+            let opens_s = if commanded_s >= shortest_s {
+                commanded_s
+            } else if commanded_s >= 0.5 * shortest_s {
                 shortest_s
             } else {
                 0.0

@@ -78,12 +78,12 @@ impl<T: Scalar> FaceLoads<'_, T> {
                 _ => None,
             };
             let at_center = set_temperatures(surface, faces, states, stored);
-            for ((face, state), surroundings) in faces.iter().zip(states).zip(surface.surroundings()) {
+            for ((face, state), environment) in faces.iter().zip(states).zip(surface.environments()) {
                 let normal = &workspace.normals[face.normal];
-                let radiated_w = surroundings.radiated_w_m2(state.temperature_k).0 * surface.area_m2;
+                let radiated_w = environment.radiated_w_m2(state.temperature_k).0 * surface.area_m2;
                 let center_m =
                     constant_vector::<T>(&surface.center_body_m) - self.geometry.center_of_mass_body_m;
-                let at_center = at_center || surroundings.bus.conducts();
+                let at_center = at_center || environment.bus.conducts();
                 // An insulated face gives off sunlight where it is absorbed, everything else evenly.
                 let spread_w =
                     if at_center { radiated_w } else { state.absorbed_planet_w + face.internal_heat_w };
@@ -123,13 +123,13 @@ fn set_temperatures<T: Scalar>(
         && (conduction.conductance_w_m2_k > 0.0 || conduction.radiative_exchange > 0.0)
     {
         let heat_w_m2 = [heat(front, front_state), heat(rear, rear_state)];
-        let [front_k, rear_k] = conducting_temperatures_k(&surface.surroundings(), conduction, heat_w_m2);
+        let [front_k, rear_k] = conducting_temperatures_k(&surface.environments(), conduction, heat_w_m2);
         front_state.temperature_k = front_k;
         rear_state.temperature_k = rear_k;
         return true;
     }
-    for ((face, state), surroundings) in faces.iter().zip(states).zip(surface.surroundings()) {
-        state.temperature_k = face_temperature_k(&surroundings, heat(face, state));
+    for ((face, state), environment) in faces.iter().zip(states).zip(surface.environments()) {
+        state.temperature_k = face_temperature_k(&environment, heat(face, state));
     }
     false
 }

@@ -113,27 +113,27 @@ fn a_face_half_in_shadow_recoils_where_it_is_lit() {
 fn a_plate_on_the_bus_pushes_by_what_the_bus_leaves() {
     let black = Optics::from_reflectivities(0.0, 0.0);
     // 9000 W/m2 of sunlight: at 350 K the plate radiates 850.9 W/m2 and gives 8149 W/m2 to a bus of 300 K.
-    let (wanted_k, bus_k) = (350.0_f64, 300.0);
-    let radiated = crate::constants::STEFAN_BOLTZMANN_W_M2_K4 * wanted_k.powi(4);
-    let link = BusLink { conductance_w_m2_k: (9000.0 - radiated) / (wanted_k - bus_k), temperature_k: bus_k };
+    let (target_k, bus_k) = (350.0_f64, 300.0);
+    let radiated = crate::constants::STEFAN_BOLTZMANN_W_M2_K4 * target_k.powi(4);
+    let link = BusLink { conductance_w_m2_k: (9000.0 - radiated) / (target_k - bus_k), temperature_k: bus_k };
     let mut plate = square(Vector3::z(), Vector3::x(), 0.5, black);
     plate.thermal.bus[0] = link;
     let bare = square(-Vector3::z(), Vector3::x(), 0.5, black);
-    let craft = Spacecraft { background_k: 0.0, ..spacecraft(vec![plate.clone(), bare.clone()]) };
+    let two_plates = Spacecraft { background_k: 0.0, ..spacecraft(vec![plate.clone(), bare.clone()]) };
     let model =
-        DisturbanceModel::new(&craft, &Options { self_shadowing: false, ..Options::default() }).unwrap();
+        DisturbanceModel::new(&two_plates, &Options { self_shadowing: false, ..Options::default() }).unwrap();
     let mut workspace = Workspace::default();
     let found = model.evaluate(&sunlit(Vector3::z()), Recoil::Balance, &mut workspace).unwrap();
-    assert_relative_eq!(workspace.faces()[0].temperature_k, wanted_k, max_relative = 1e-12);
+    assert_relative_eq!(workspace.faces()[0].temperature_k, target_k, max_relative = 1e-12);
     assert_eq!(workspace.faces()[1].temperature_k, 0.0);
     let expected = Vector3::z() * (-2.0 / 3.0 * radiated / SPEED_OF_LIGHT_M_S);
     assert_relative_eq!(found[RECOIL].force_body_n, expected, max_relative = 1e-11);
     assert_relative_eq!(found[RECOIL].torque_body_n_m, Vector3::x().cross(&expected), max_relative = 1e-11);
 
     // In the dark, with space at 2.725 K as files have it unless they say otherwise.
-    let craft = spacecraft(vec![plate, bare]);
-    assert_eq!(craft.background_k, 2.725);
-    let model = DisturbanceModel::new(&craft, &Options::default()).unwrap();
+    let two_plates = spacecraft(vec![plate, bare]);
+    assert_eq!(two_plates.background_k, 2.725);
+    let model = DisturbanceModel::new(&two_plates, &Options::default()).unwrap();
     let dark = Geometry { lit_fraction: 0.0, ..sunlit(Vector3::z()) };
     let found = model.evaluate(&dark, Recoil::Balance, &mut workspace).unwrap();
     let [warm, cold] = [0, 1].map(|face| workspace.faces()[face]);

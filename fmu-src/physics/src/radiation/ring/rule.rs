@@ -30,7 +30,7 @@ const AT_ONCE: usize = 8;
 /// the quadrature's error into a slope.
 const RACING: f64 = 0.02;
 
-/// A normal whose horizontal part is shorter leans nowhere.
+/// A normal whose horizontal part is shorter has no azimuth.
 const LEAST_REACH: f64 = 1e-9;
 
 /// The quadrature with its nodes; built once, used without allocation.
@@ -132,7 +132,7 @@ impl RingRule {
 
 impl<T: Scalar> Plate<T> {
     fn new(view: &PlanetView<T>, normal: &Vector3<T>) -> Self {
-        // A normal along nadir leans nowhere; every ring is then seen all or not at all, in any frame.
+        // A normal along nadir has no azimuth; every ring is then seen all or not at all, in any frame.
         let (azimuth, reach) = match Azimuth::of(normal.x, normal.y) {
             (azimuth, reach) if reach.value() > LEAST_REACH => (azimuth, reach),
             (_, reach) => (Azimuth { cos: T::constant(1.0), sin: T::constant(0.0) }, reach),

@@ -59,7 +59,7 @@ fn fourth(temperature_k: f64) -> f64 {
     (temperature_k * temperature_k) * (temperature_k * temperature_k)
 }
 
-/// Temperature of a face that takes in `heat_w_m2` and is insulated but for its surroundings (eq 43 where they are cold). No
+/// Temperature of a face that takes in `heat_w_m2` and radiates to its environment alone (eq 43 where they are cold). No
 /// heat gives the temperature of space.
 pub fn face_temperature_k<T: Scalar>(face: &FaceEnvironment, heat_w_m2: T) -> T {
     let heat = heat_w_m2.value();

@@ -70,7 +70,7 @@ impl HeatStore {
                     step_s *= 2.0;
                 }
                 None if step_s > shortest_s => step_s = 0.5 * (end_s - time_s),
-                // Beyond any physical stiffness: take the plain first-order step and go on.
+                // Beyond any physical stiffness: take the plain first-order step and continue.
                 None => {
                     temperatures_k = self.substeps(&temperatures_k, time_s, end_s, 1, &heat_at);
                     time_s = end_s;

@@ -42,7 +42,7 @@ pub(crate) struct ThermalEnvironment {
 /// The file's materials by name, and what their surfaces exchange heat with.
 pub(crate) struct Materials {
     by_name: BTreeMap<String, Material>,
-    pub surroundings: ThermalEnvironment,
+    pub environment: ThermalEnvironment,
 }
 
 impl Materials {
@@ -50,7 +50,7 @@ impl Materials {
     pub(crate) fn read(check: &mut Checker<'_>, description: &Description) -> Self {
         let none = SurroundingsDescription::default();
         let thermal = description.thermal.as_ref().unwrap_or(&none);
-        let surroundings = ThermalEnvironment {
+        let environment = ThermalEnvironment {
             background_k: thermal.background_k(),
             bus_temperature_k: thermal.bus_temperature_k.map(f64::from),
         };
@@ -60,7 +60,7 @@ impl Materials {
             let thermal = face_thermal(check, &at, description, &optics);
             (name.clone(), Material { optics, thermal, gas_surface: gas_surface(description) })
         });
-        Self { by_name: materials.collect(), surroundings }
+        Self { by_name: materials.collect(), environment }
     }
 
     /// The material of this name; an unknown one is reported.

@@ -96,7 +96,7 @@ fn plate(
         optics: front.optics,
         rear_optics: rear.map(|rear| rear.optics),
         gas_surface: Material::in_air(front, rear),
-        thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
+        thermal: thermal(check, materials.environment, at, description.thermal.as_ref(), front, rear),
         polygon: outline,
     }
 }
@@ -188,7 +188,7 @@ pub(crate) fn panel(
         optics: front.optics,
         rear_optics: rear.map(|rear| rear.optics),
         gas_surface: Material::in_air(front, rear),
-        thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
+        thermal: thermal(check, materials.environment, at, description.thermal.as_ref(), front, rear),
         polygon: outline.as_ref().map(|polygon| polygon.moved(|v| dcm_body_from_panel * v)),
         control: description.control(),
         sun_offset_rad: description.sun_offset_deg().to_radians(),

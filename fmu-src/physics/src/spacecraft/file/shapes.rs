@@ -67,7 +67,7 @@ pub(crate) fn box_plates(
         shift_m: check.vector(&at.key("center_m"), description.center_m),
         facets: box_faces(&size_m, description.open_faces.as_deref().unwrap_or_default()),
         rear,
-        thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
+        thermal: thermal(check, materials.environment, at, description.thermal.as_ref(), front, rear),
         mirror: description.mirror.as_deref(),
         repeat: description.repeat.as_ref(),
     };
@@ -96,7 +96,7 @@ pub(crate) fn cylinder_plates(
         shift_m: check.vector(&at.key("center_m"), description.center_m),
         facets: cylinder_facets(radius_m, height_m, description.facets(), open),
         rear,
-        thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
+        thermal: thermal(check, materials.environment, at, description.thermal.as_ref(), front, rear),
         mirror: description.mirror.as_deref(),
         repeat: description.repeat.as_ref(),
     };
@@ -121,7 +121,7 @@ pub(crate) fn disc_plates(
         shift_m: check.vector(&at.key("center_m"), description.center_m),
         facets: disc(description.radius_m.0, description.corners()),
         rear,
-        thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
+        thermal: thermal(check, materials.environment, at, description.thermal.as_ref(), front, rear),
         mirror: description.mirror.as_deref(),
         repeat: description.repeat.as_ref(),
     };
@@ -146,7 +146,7 @@ pub(crate) fn dish_plates(
         shift_m: check.vector(&at.key("vertex_m"), description.vertex_m),
         facets: dish_facets(radius_m, depth_m, description.facets(), description.rings()),
         rear,
-        thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
+        thermal: thermal(check, materials.environment, at, description.thermal.as_ref(), front, rear),
         mirror: description.mirror.as_deref(),
         repeat: description.repeat.as_ref(),
     };

@@ -8,7 +8,7 @@ use crate::toml::{Checker, NotNegative, Place};
 /// Heat of a surface whose faces are of these materials.
 pub(crate) fn thermal(
     check: &mut Checker<'_>,
-    surroundings: ThermalEnvironment,
+    environment: ThermalEnvironment,
     at: &Place,
     description: Option<&ThermalDescription>,
     front: Material,
@@ -27,7 +27,7 @@ pub(crate) fn thermal(
             check.report(&at.key(key), "a surface without `rear_optics`", "a surface with both faces");
         }
     }
-    let bus = bus(check, surroundings, &at, description);
+    let bus = bus(check, environment, &at, description);
     Thermal {
         front: front.thermal,
         rear: rear.map(|rear| rear.thermal),
@@ -41,7 +41,7 @@ pub(crate) fn thermal(
 /// Heat flow from front and rear to the bus.
 fn bus(
     check: &mut Checker<'_>,
-    surroundings: ThermalEnvironment,
+    environment: ThermalEnvironment,
     at: &Place,
     description: &ThermalDescription,
 ) -> [BusLink; 2] {
@@ -56,7 +56,7 @@ fn bus(
     }
     faces.map(|(key, given)| {
         let Some(NotNegative(conductance_w_m2_k)) = given else { return BusLink::NONE };
-        let temperature_k = own_k.or(surroundings.bus_temperature_k);
+        let temperature_k = own_k.or(environment.bus_temperature_k);
         if temperature_k.is_none() && conductance_w_m2_k > 0.0 {
             check.report(
                 &at.key(key),

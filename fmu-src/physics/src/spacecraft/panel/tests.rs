@@ -120,7 +120,7 @@ proptest! {
             .map(|n| (n.dot(&sun).clamp(-1.0, 1.0).acos() - offset.abs()).abs())
             .fold(f64::INFINITY, f64::min);
         prop_assert!((met - offset.abs()).abs() <= least + 1e-7, "miss {} against {least}", met - offset.abs());
-        // The asked side: the normal is the Sun-facing one turned by `sign` and the offset's sign about the axis.
+        // The requested side: the normal is the Sun-facing one turned by `sign` and the offset's sign about the axis.
         prop_assert!(sign * offset.signum() * panel.axis_body.cross(&sun).dot(&normal) >= -1e-12);
     }
 }

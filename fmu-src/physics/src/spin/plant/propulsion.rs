@@ -194,7 +194,7 @@ impl Propulsion {
         if law.is_none() || !motion.segment_end_s().is_infinite() {
             return Ok(());
         }
-        // Thrusters without torque: whole panels of the closed form, counted from when they went on.
+        // Thrusters without torque: whole panels of the closed form, counted from when they continued.
         let rate = motion.at(motion.anchor_s()).rate_rad_s(motion.inertia()).norm();
         loop {
             let panel_end_s = self.delta_v_until_s.max(law.since_s) + IMPULSE_PANEL_RAD / rate;

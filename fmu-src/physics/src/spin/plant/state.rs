@@ -203,7 +203,7 @@ impl Plant {
         self.commanded = true;
     }
 
-    /// Flies to `end_s`. Pulses commanded beyond it are cut there, or where their valves may close.
+    /// Advances to `end_s`. Pulses commanded beyond it are cut there, or where their valves may close.
     ///
     /// # Errors
     /// A body that cannot be followed to there, or only with more work than a step may cost; the flight is then of no
@@ -357,7 +357,7 @@ impl Plant {
         Ok(Some(time_s))
     }
 
-    /// Goes on to the next segment, summing delta-v as the present one is left.
+    /// Continues to the next segment, summing delta-v as the present one is left.
     fn next_segment(&mut self, spinner: &Spinner, work: &mut Work) -> Result<(), SpinPlantError> {
         self.motion.check()?;
         let end_s = self.motion.segment_end_s();
@@ -368,7 +368,7 @@ impl Plant {
         Ok(())
     }
 
-    /// Goes on through segments until the present one holds `time_s`.
+    /// Continues through segments until the present one holds `time_s`.
     fn reach(&mut self, spinner: &Spinner, time_s: f64, work: &mut Work) -> Result<(), SpinPlantError> {
         while self.motion.segment_end_s() < time_s {
             work.check(self.motion.anchor_s())?;

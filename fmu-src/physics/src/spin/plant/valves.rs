@@ -69,7 +69,7 @@ impl Valves {
     }
 
     /// The first edge of a commanded pulse clearly before `end_s`, in s: one at the end of a step waits for the next step's
-    /// command, which may go on with the pulse.
+    /// command, which may continue with the pulse.
     pub(super) fn edge_before_s(&self, spinner: &Spinner, end_s: f64) -> f64 {
         let used = self.schedule.iter().zip(&spinner.thrusters).map(|(schedule, _)| schedule);
         let edges = used.filter(|it| !it.is_idle()).map(PulseSchedule::next_edge_s);

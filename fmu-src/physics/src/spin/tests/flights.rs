@@ -19,7 +19,7 @@ use crate::spin::{
     train::Shape,
 };
 
-fn fly(spinner: &Spinner, start: &Start, end_s: f64) -> Plant {
+fn simulate(spinner: &Spinner, start: &Start, end_s: f64) -> Plant {
     let mut plant = launch(spinner, start);
     plant.advance(spinner, end_s).unwrap();
     plant
@@ -96,7 +96,7 @@ fn the_momentum_moves_toward_the_target_by_the_sum_of_eq_3() {
             (Shape::Split, 114, 1.0),
         ] {
             let start = burning(BurnRequest { shape, count, turns_per_pulse: turns, timing, ..request() });
-            let plant = fly(&spinner, &start, 3000.0);
+            let plant = simulate(&spinner, &start, 3000.0);
             let outputs = Outputs::of(&plant, &spinner);
             assert!(outputs.burn_done, "{timing:?} {shape:?} {turns}: {} pulses", outputs.pulses_fired);
             let expected = Predictions::of(&plant).manoeuvre_rad;
@@ -120,7 +120,7 @@ fn the_tapered_train_turns_2_deg_in_11_4_min_and_stays_under_0_0033_deg() {
         let ratio = 1.471 + 0.001 * f64::from(i);
         let mut start = undamped(ratio);
         start.burn = Some(BurnRequest { shape: Shape::Tapered { order: 1 }, count: 58, ..request() });
-        let plant = fly(&spinner, &start, 720.0);
+        let plant = simulate(&spinner, &start, 720.0);
         let outputs = Outputs::of(&plant, &spinner);
         assert!(outputs.burn_done);
         assert!(outputs.nutation_rad.to_degrees() < 0.0033, "{ratio}: {}", outputs.nutation_rad.to_degrees());
@@ -134,7 +134,7 @@ fn a_split_train_leaves_no_nutation_when_the_ratio_is_known() {
     let spinner = ace();
     let mut start = undamped(1.483);
     start.burn = Some(BurnRequest { shape: Shape::Split, count: 114, ..request() });
-    let outputs = Outputs::of(&fly(&spinner, &start, 3000.0), &spinner);
+    let outputs = Outputs::of(&simulate(&spinner, &start, 3000.0), &spinner);
     assert!(outputs.burn_done);
     assert!(outputs.nutation_rad.to_degrees() < 2e-5, "{}", outputs.nutation_rad.to_degrees());
 }
@@ -161,7 +161,7 @@ fn any_grid_gives_the_same_bits() {
         start.damper_time_constant_s = tau;
         start.nutation_rad = 1e-3;
         start.burn = Some(BurnRequest { timing, count: 8, pulse_width_s: 0.96, ..request() });
-        let whole = Outputs::of(&fly(&spinner, &start, 140.0), &spinner);
+        let whole = Outputs::of(&simulate(&spinner, &start, 140.0), &spinner);
         for step in [0.001, 0.032, 0.7, 12.0] {
             let mut plant = launch(&spinner, &start);
             let count = (140.0_f64 / step).floor() as u32;
@@ -180,7 +180,7 @@ fn commanded_pulses_and_held_thrusters_do_what_the_plan_does() {
     let mut start = burning(BurnRequest { count: 5, ..request() });
     let planned = launch(&spinner, &start);
     let (first, period) = (planned.sequencer().unwrap().next_edge_s(), planned.initial().theory.period_s());
-    let expected = Outputs::of(&fly(&spinner, &start, 60.0), &spinner);
+    let expected = Outputs::of(&simulate(&spinner, &start, 60.0), &spinner);
     // The same edges as pulses within steps of one turn.
     start.burn = None;
     let mut plant = launch(&spinner, &start);
@@ -215,7 +215,7 @@ fn spin_couples_change_the_rate_alone() {
     let spinner = ace();
     for (group, sign) in [("spin up", 1.0), ("spin down", -1.0)] {
         let start = burning(BurnRequest { group: group.into(), count: 3, pulse_width_s: 4.0, ..request() });
-        let outputs = Outputs::of(&fly(&spinner, &start, 60.0), &spinner);
+        let outputs = Outputs::of(&simulate(&spinner, &start, 60.0), &spinner);
         // Two arms of 0.78 m, canted by 45 deg.
         let torque = 2.0 * 4.448 * 0.78 * std::f64::consts::FRAC_1_SQRT_2;
         let expected = std::f64::consts::PI / 6.0 + sign * torque * 12.0 / 353.82;
@@ -229,7 +229,7 @@ fn spin_couples_change_the_rate_alone() {
 fn delta_v_of_one_pulse_is_that_of_a_turning_force() {
     let spinner = ace();
     let mut start = burning(BurnRequest { count: 1, pulse_width_s: 3.0, ..request() });
-    let outputs = Outputs::of(&fly(&spinner, &start, 30.0), &spinner);
+    let outputs = Outputs::of(&simulate(&spinner, &start, 30.0), &spinner);
     let rate = std::f64::consts::PI / 6.0;
     let mass_kg = 562.0 + 97.5 - 1.5 * 4.448 / (220.0 * 9.80665);
     let expected = 4.448 / mass_kg * 2.0 * (0.5 * rate * 3.0_f64).sin() / rate;
@@ -341,7 +341,7 @@ fn a_clock_that_runs_wrong_turns_the_burn_away_and_sun_pulses_do_not() {
     let mut moved = Vec::new();
     for timing in [Timing::Clock, Timing::SunCrossing] {
         let start = burning(BurnRequest { timing, spin_rate_error: 0.002, count: 114, ..request() });
-        let outputs = Outputs::of(&fly(&spinner, &start, 1600.0), &spinner);
+        let outputs = Outputs::of(&simulate(&spinner, &start, 1600.0), &spinner);
         assert!(outputs.burn_done);
         moved.push(outputs.momentum_displacement_rad.to_degrees());
     }
@@ -376,7 +376,7 @@ fn a_burn_far_ahead_waits_without_following_the_motion_there() {
         start.inertia_kg_m2[0] = 230.0;
         start.nutation_rad = 1e-3;
         start.burn = Some(BurnRequest { timing, start_s: 4000.0, count: 3, ..request() });
-        let whole = Outputs::of(&fly(&spinner, &start, 4100.0), &spinner);
+        let whole = Outputs::of(&simulate(&spinner, &start, 4100.0), &spinner);
         assert_eq!(whole.pulses_fired, 3);
         assert!(whole.burn_done);
         let mut cut = launch(&spinner, &start);
@@ -395,7 +395,7 @@ fn where_the_sun_sensor_sits_does_not_turn_the_burn() {
         let mut spinner = ace();
         spinner.sun_sensor.azimuth_deg = azimuth_deg;
         let start = burning(BurnRequest { timing: Timing::SunCrossing, ..request() });
-        let outputs = Outputs::of(&fly(&spinner, &start, 1600.0), &spinner);
+        let outputs = Outputs::of(&simulate(&spinner, &start, 1600.0), &spinner);
         assert!(outputs.burn_done && !outputs.burn_active);
         // The momentum began along Z and was to move toward the target, square to it.
         let moved = outputs.state.momentum_inertial.normalize();
@@ -418,7 +418,7 @@ fn a_sun_pulse_at_the_time_of_a_pulse_does_not_cost_a_turn() {
             let target_inertial = Vector3::new(cos, sin, 0.0);
             start.burn =
                 Some(BurnRequest { timing: Timing::SunCrossing, count: 30, target_inertial, ..request() });
-            let outputs = Outputs::of(&fly(&spinner, &start, 33.0 * period_s), &spinner);
+            let outputs = Outputs::of(&simulate(&spinner, &start, 33.0 * period_s), &spinner);
             assert!(outputs.burn_done, "{nutation_deg} {degrees}: {}", outputs.pulses_fired);
         }
     }

@@ -42,7 +42,7 @@ fn energy_j(state: &RigidBodyState, inertia: &Inertia) -> f64 {
     0.5 * state.rate_rad_s(inertia).dot(&state.momentum_body)
 }
 
-/// Goes on segment by segment until the present one holds `time_s`.
+/// Continues segment by segment until the present one holds `time_s`.
 fn reach(motion: &mut Motion, time_s: f64) {
     while motion.segment_end_s() < time_s {
         motion.next_segment();

@@ -73,7 +73,7 @@ fn turned(spinner: &Spinner, inertia: &Inertia) -> Spinner {
 }
 
 #[test]
-fn the_same_body_described_in_principal_axes_flies_the_same() {
+fn the_same_body_described_in_principal_axes_moves_the_same() {
     let in_body = ace();
     for (products, damper_s) in [(PRODUCTS, 0.0), ([0.0, 0.0, 3.0], 600.0)] {
         let inertia = Inertia::with_products(DIAGONAL, products).unwrap();
@@ -90,7 +90,7 @@ fn the_same_body_described_in_principal_axes_flies_the_same() {
         let mut other = start.clone();
         (other.inertia_kg_m2, other.products_kg_m2) = (inertia.principal_kg_m2(), [0.0; 3]);
         other.attitude = inertia.principal_attitude(Quaternion(start.attitude)).0;
-        let fly = |spinner: &Spinner, start| {
+        let simulate = |spinner: &Spinner, start| {
             let mut plant = Plant::start(spinner, start, directions(), Commands::none(), 0.0).unwrap();
             for i in 0..60_u32 {
                 let mut commands = Commands::none();
@@ -102,7 +102,7 @@ fn the_same_body_described_in_principal_axes_flies_the_same() {
             }
             Outputs::of(&plant, spinner)
         };
-        let (one, two) = (fly(&in_body, &start), fly(&in_principal, &other));
+        let (one, two) = (simulate(&in_body, &start), simulate(&in_principal, &other));
         let attitude = inertia.principal_attitude(one.state.attitude);
         for (a, b) in attitude.0.iter().zip(two.state.attitude.0) {
             assert!((a - b).abs() < 1e-12, "{attitude:?} {:?}", two.state.attitude);

@@ -164,7 +164,7 @@ fn burns_with_slow_valves_move_by_what_they_plan() {
         for (shape, turns) in
             [(Shape::Uniform, 1.0), (Shape::Uniform, 0.5), (Shape::Tapered { order: 1 }, 1.0)]
         {
-            let fly = |valve: ValveTiming| {
+            let simulate = |valve: ValveTiming| {
                 let mut start = start(valve, 0.0);
                 start.damper_time_constant_s = 0.0;
                 start.burn = Some(BurnRequest {
@@ -179,7 +179,7 @@ fn burns_with_slow_valves_move_by_what_they_plan() {
                 plant.advance(&spinner, 170.0).unwrap();
                 plant
             };
-            let plant = fly(TIMING);
+            let plant = simulate(TIMING);
             let seen = Outputs::of(&plant, &spinner);
             assert!(seen.burn_done, "{timing:?} {shape:?}");
             let burn = *plant.sequencer().unwrap().burn();
@@ -194,7 +194,7 @@ fn burns_with_slow_valves_move_by_what_they_plan() {
                 let end = plant.state().momentum_inertial.normalize();
                 end.dot(&Vector3::new(-0.6, 0.8, 0.0)) / moved
             };
-            let [slow, quick] = [&plant, &fly(ValveTiming::default())].map(aside);
+            let [slow, quick] = [&plant, &simulate(ValveTiming::default())].map(aside);
             assert!((slow - quick).abs() < 3e-3, "{timing:?} {shape:?} {turns}: {slow} {quick}");
             assert_relative_eq!(seen.nutation_rad, seen.predicted_nutation_rad, epsilon = 2e-4 * moved);
         }

@@ -33,7 +33,7 @@ pub(super) const RING_WORDS: usize = 1 << 19;
 pub(crate) const NOT_REQUESTED: &str = "it sent what was not requested";
 /// Longest payload; a row of a million Reals fits.
 const MAX_WORDS: usize = 1 << 21;
-/// How often a child checks whether a full ring has space again, and how much has to be free before it goes on.
+/// How often a child checks whether a full ring has space again, and how much has to be free before it continues.
 const PAUSE: Duration = Duration::from_millis(1);
 const FREE_WORDS: u64 = RING_WORDS as u64 / 4;
 
@@ -238,7 +238,7 @@ impl Inbox {
                 }
                 take((head & 0xff) as u8, Payload(payload))?;
                 self.frame.clear();
-                // The child may go on while the rest is taken.
+                // The child may continue while the rest is taken.
                 self.words[TAIL].store(self.tail, Ordering::Release);
             }
         }

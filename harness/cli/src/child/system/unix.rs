@@ -240,7 +240,7 @@ pub(crate) fn wait_for<'p>(pipes: impl Iterator<Item = &'p Pipe>, longest: Durat
 }
 
 /// How a process ended, for people.
-pub(crate) fn how(status: ExitStatus) -> String {
+pub(crate) fn describe_exit(status: ExitStatus) -> String {
     if let Some(signal) = status.signal() {
         let name = match signal {
             4 => " (illegal instruction)",

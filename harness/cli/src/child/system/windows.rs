@@ -126,7 +126,7 @@ impl Job {
             _more: [usize; MEMBERS - 1],
         }
         let mut list = List { head: JOBOBJECT_BASIC_PROCESS_ID_LIST::default(), _more: [0; MEMBERS - 1] };
-        // SAFETY: the list, whose numbers go on behind its head, is of this size. Of a longer one the first numbers are given.
+        // SAFETY: the list, whose numbers continue behind its head, is of this size. Of a longer one the first numbers are given.
         unsafe {
             QueryInformationJobObject(
                 self.0.as_raw_handle(),
@@ -313,7 +313,7 @@ pub(crate) fn wait_for<'p>(pipes: impl Iterator<Item = &'p Pipe>, longest: Durat
 }
 
 /// How a process ended: exit status or the name of the exception (NTSTATUS).
-pub(crate) fn how(status: ExitStatus) -> String {
+pub(crate) fn describe_exit(status: ExitStatus) -> String {
     let Some(code) = status.code() else { return status.to_string() };
     let name = match code as u32 {
         0xc000_0005 => "segmentation fault",

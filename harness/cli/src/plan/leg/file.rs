@@ -7,7 +7,7 @@ use physics::{
     environment::{dates, orbit::LambertBranch},
     toml::Place,
 };
-use planner::leg::Aim;
+use planner::leg::FlybyAimpoint;
 
 use super::description::{ArcBranch, ArriveDescription, Description};
 use crate::{
@@ -34,7 +34,7 @@ pub(super) struct LegFile {
     /// The planet's name in variables of the FMU.
     pub body: At<&'static str>,
     pub arrive: At<Instant>,
-    pub aim: At<Aim>,
+    pub aimpoint: At<FlybyAimpoint>,
     /// With their branch where there are any.
     pub revolutions: At<Option<(u32, LambertBranch)>>,
 }
@@ -69,7 +69,7 @@ impl Builder<'_> {
             from.velocity.as_ref().map(|written| self.vector(&velocity, written, ("m/s", ALLOWED_SPEED)));
         let [body, arrive_at, revolutions] = ["body", "at", "revolutions"].map(|key| arrive.key(key));
         let arrival = self.instant(&arrive_at, &to.at).unwrap_or(Instant::Time(0.0));
-        let (aim_key, aim) = self.aim(&arrive, to);
+        let (aimpoint_key, aimpoint) = self.aimpoint(&arrive, to);
         let turns = self.revolutions(&arrive, to);
         LegFile {
             file: file.to_owned(),
@@ -79,7 +79,7 @@ impl Builder<'_> {
             velocity_before_m_s,
             body: self.at(&body, to.body.word()),
             arrive: self.at(&arrive_at, arrival),
-            aim: self.at(&aim_key, aim),
+            aimpoint: self.at(&aimpoint_key, aimpoint),
             revolutions: self.at(&revolutions, turns),
         }
     }
@@ -113,7 +113,7 @@ impl Builder<'_> {
     }
 
     /// With the key that it stands in.
-    fn aim(&mut self, arrive: &Place, to: &ArriveDescription) -> (Place, Aim) {
+    fn aimpoint(&mut self, arrive: &Place, to: &ArriveDescription) -> (Place, FlybyAimpoint) {
         let [altitude, angle, b_t, b_r] = ["altitude", "angle", "bT", "bR"].map(|key| arrive.key(key));
         match (&to.altitude, &to.angle, &to.b_t, &to.b_r) {
             (Some(above), Some(toward), None, None) => {
@@ -130,12 +130,12 @@ impl Builder<'_> {
                 if angle_rad.abs() > core::f64::consts::TAU {
                     self.check.report(&angle, toward, ALLOWED_ANGLE);
                 }
-                (altitude, Aim::Altitude { altitude_m, angle_rad })
+                (altitude, FlybyAimpoint::Altitude { altitude_m, angle_rad })
             }
             (None, None, Some(along_t), Some(along_r)) => {
                 let b_t_m = self.required(&b_t, along_t, ("m", ALLOWED_LENGTH));
                 let b_r_m = self.required(&b_r, along_r, ("m", ALLOWED_LENGTH));
-                (b_t, Aim::Plane { b_t_m, b_r_m })
+                (b_t, FlybyAimpoint::Plane { b_t_m, b_r_m })
             }
             (above, toward, along_t, along_r) => {
                 let keys = [("altitude", above), ("angle", toward), ("bT", along_t), ("bR", along_r)];
@@ -143,7 +143,7 @@ impl Builder<'_> {
                     keys.iter().filter(|(_, it)| it.is_some()).map(|(key, _)| *key).collect();
                 let found = if found.is_empty() { "no aim".to_owned() } else { found.join(", ") };
                 self.check.report(arrive, found, "altitude and angle, or bT and bR");
-                (arrive.clone(), Aim::Plane { b_t_m: 0.0, b_r_m: 0.0 })
+                (arrive.clone(), FlybyAimpoint::Plane { b_t_m: 0.0, b_r_m: 0.0 })
             }
         }
     }

@@ -13,7 +13,7 @@ use crate::interrupt;
 
 /// Distance of rows about the arrival, in s.
 const ROW_S: f64 = 600.0;
-/// How long a flight goes on behind the arrival, in s.
+/// How long a flight continues behind the arrival, in s.
 const BEHIND_S: f64 = 3600.0;
 /// Rows of a path, and the time of the first behind its start as a share of the leg.
 const PATH_ROWS: u32 = 240;

@@ -15,7 +15,7 @@ use physics::{
     constants::DAY_S,
     environment::{dates, orbit::LambertError},
 };
-use planner::leg::{Aim, Leg, LegError, LegTask, report, shoot};
+use planner::leg::{FlybyAimpoint, Leg, LegError, LegTask, report, shoot};
 use toml_edit::{DocumentMut, value};
 
 pub(crate) use self::options::LegOptions;
@@ -34,9 +34,9 @@ use crate::{
 
 /// Names of the files.
 const NAMES: [&str; 3] = ["mission.toml", "plan.svg", "plan.json"];
-/// How near B comes to the aim, in m.
+/// How near B comes to the aimpoint, in m.
 const TOLERANCE_M: f64 = 1.0;
-/// How long a mission goes on behind the arrival, at least, in s.
+/// How long a mission continues behind the arrival, at least, in s.
 const BEHIND_S: f64 = DAY_S;
 /// Elements, which a start from position and velocity does not read.
 const ELEMENTS: [&str; 7] = [
@@ -68,18 +68,18 @@ pub(crate) fn checked(file: &Path) -> Result<String, String> {
         found.mission.it.display(),
         found.body.it,
         at(found.arrive.it),
-        aim(&found.aim.it),
+        aimpoint(&found.aimpoint.it),
     ))
 }
 
-fn aim(aim: &Aim) -> String {
+fn aimpoint(aimpoint: &FlybyAimpoint) -> String {
     let km = |length_m: f64| terminal::short(1e-3 * length_m);
-    match aim {
-        Aim::Altitude { altitude_m, angle_rad } => {
+    match aimpoint {
+        FlybyAimpoint::Altitude { altitude_m, angle_rad } => {
             let angle_deg = terminal::short(angle_rad.to_degrees());
             format!("{} km above it, B {angle_deg} deg from T toward R", km(*altitude_m))
         }
-        Aim::Plane { b_t_m, b_r_m } => format!("B.T {} km, B.R {} km", km(*b_t_m), km(*b_r_m)),
+        FlybyAimpoint::Plane { b_t_m, b_r_m } => format!("B.T {} km, B.R {} km", km(*b_t_m), km(*b_r_m)),
     }
 }
 
@@ -217,7 +217,7 @@ pub(crate) fn run(options: &LegOptions) -> Outcome {
             position_m: file.position_m.it,
             start_s: mission.start_s,
             arrival_s,
-            aim: file.aim.it,
+            aimpoint: file.aimpoint.it,
             lead_s: flights.lead_s,
             revolutions: file.revolutions.it,
             velocity_before_m_s: file.velocity_before_m_s,
@@ -252,7 +252,7 @@ pub(crate) fn run(options: &LegOptions) -> Outcome {
 fn refusal(file: &LegFile, error: &LegError, in_mission: &dyn Fn(Failure) -> String) -> String {
     let what = error.to_string();
     match error {
-        LegError::Inside { .. } | LegError::Lost { .. } => file.problem(&file.aim, &what),
+        LegError::Inside { .. } | LegError::Lost { .. } => file.problem(&file.aimpoint, &what),
         LegError::Lambert(LambertError::TooShort { .. }) => file.problem(&file.revolutions, &what),
         LegError::Lambert(LambertError::Time { .. }) => file.problem(&file.arrive, &what),
         LegError::Lambert(_) | LegError::Orbit(_) => file.problem(&file.position_m, &what),

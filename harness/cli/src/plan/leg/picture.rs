@@ -68,7 +68,7 @@ fn b_plane(body: &str, task: &LegTask, leg: &Leg) -> PlaneChart {
     let km = |length_m: f64| 1e-3 * length_m;
     let found = &leg.encounter;
     let impact_m = impact_parameter_m(task.radius_m, found.excess_speed_m_s, task.mu_m3_s2);
-    let aimed = (km(found.b_m.x - leg.miss_m[0]), km(found.b_m.y - leg.miss_m[1]));
+    let aimpoint = (km(found.b_m.x - leg.miss_m[0]), km(found.b_m.y - leg.miss_m[1]));
     let simulated = (km(found.b_m.x), km(found.b_m.y));
     let hours = terminal::short(task.lead_s / 3600.0);
     let panel = PlanePanel {
@@ -77,7 +77,7 @@ fn b_plane(body: &str, task: &LegTask, leg: &Leg) -> PlaneChart {
         series: vec![
             Series::line(body, circle(km(task.radius_m))),
             Series::dashed("paths within end in it", circle(km(impact_m))),
-            Series::rings("aim", vec![aimed]),
+            Series::rings("aim", vec![aimpoint]),
             Series::dots("simulated", vec![simulated]),
         ],
         half_width: 1.3 * km(impact_m.max(found.b_m.norm())),

@@ -6,7 +6,7 @@ use nalgebra::Matrix4;
 use planner::momentum::{
     simulated::SimulatedFlight,
     torque::SunlitSpacecraft,
-    windows::{Layout, Reach},
+    windows::{ControlBounds, Layout},
 };
 
 use super::{
@@ -80,17 +80,17 @@ pub(super) fn orbit_layout(
     let tilt = |angle_rad: Option<f64>, zone_rad: f64| {
         angle_rad.unwrap_or(MOST_TILT_RAD).min(zone_rad - WITHIN_ZONE_RAD).max(0.0)
     };
-    let reach = Reach {
+    let control_bounds = ControlBounds {
         azimuth_rad: tilt(file.azimuth_rad, zone_rad[0]),
         elevation_rad: tilt(file.elevation_rad, zone_rad[1]),
-        ..Reach::default()
+        ..ControlBounds::default()
     };
     let sun_offset_rad = mission.values().real("panel[1].sunOffset");
     let sun_offset_rad = if sun_offset_rad.is_finite() { sun_offset_rad } else { 0.0 };
     Ok(Layout {
         frozen_until_s: mission.start_s + file.freeze_s.it,
         occupied: timeline.occupied(mission.stop_s),
-        ..Layout::of_downlinks(downlinks_s, reach, sun_offset_rad)
+        ..Layout::of_downlinks(downlinks_s, control_bounds, sun_offset_rad)
     })
 }
 
@@ -143,7 +143,7 @@ pub(super) fn layout(
         downlinks_s: None,
         contacts_s,
         contact_share: file.contact_share,
-        reach: Reach {
+        control_bounds: ControlBounds {
             offset_rad: file.offset_rad,
             windmill_rad: file.windmill_rad.0,
             azimuth_rad: file.azimuth_rad.unwrap_or(0.0).min(zone_rad[0]),

@@ -1,9 +1,9 @@
 //! `heliotorque plan momentum`: arrays, places of the Sun and alternation that hold the momentum of a mission.
 
-mod aimed;
 mod description;
 mod file;
 mod flyby;
+mod flyby_task;
 mod layout;
 mod options;
 mod picture;
@@ -30,8 +30,8 @@ use planner::momentum::{
 
 pub(crate) use self::options::MomentumOptions;
 use self::{
-    aimed::Aimed,
     file::PlanFile,
+    flyby_task::FlybyTask,
     layout::{check_arrays, check_spans, layout, orbit_layout, refit},
     planned::{NAMES, Planned},
     timeline::MissionTimeline,
@@ -127,11 +127,11 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
     let own: Option<&Timeline> = found.as_ref().map(|(_, timeline)| timeline);
     let sunlit = mission.sunlit(own)?;
     let mut simulated = mission.simulate(Thresholds::Never, None)?;
-    let aimed = match &file.flyby {
+    let flyby_task = match &file.flyby {
         Some(at) => {
-            let aimed = Aimed::of(file, &at.it, (&mission, &sunlit), &simulated)?;
-            simulated.encountered = Some(aimed.aim.encountered(&aimed.first, &simulated.rows));
-            Some(aimed)
+            let flyby_task = FlybyTask::of(file, &at.it, (&mission, &sunlit), &simulated)?;
+            simulated.encountered = Some(flyby_task.aimpoint.encountered(&flyby_task.first, &simulated.rows));
+            Some(flyby_task)
         }
         None => None,
     };
@@ -147,10 +147,22 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
         covariance: refit.map(|it| it.covariance),
     };
     let least = if is_in_orbit { Least::Momentum } else { Least::Tilt };
-    let target = aimed.as_ref().map(Aimed::target);
+    let target = flyby_task.as_ref().map(FlybyTask::target);
     let task = PlanTask { layout, limit, dumps: file.dumps, least, budget_s: options.budget, target };
     let last = RefCell::new(String::new());
-    Ok(Planned { options, mission, timeline, sunlit, simulated, aimed, task, sets, began, last, keeps: None })
+    Ok(Planned {
+        options,
+        mission,
+        timeline,
+        sunlit,
+        simulated,
+        flyby_task,
+        task,
+        sets,
+        began,
+        last,
+        keeps: None,
+    })
 }
 
 /// A plan whose `[flyby] from` says until when the mission stays as it is.
@@ -203,14 +215,14 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     std::fs::create_dir_all(&options.output)
         .map_err(|error| format!("{}: {error}: see --output", options.output.display()))?;
     let planned = opened(options, &file, began)?;
-    let mut encounter = match &planned.aimed {
-        Some(aimed) => Some(flyby::before(&planned, aimed)?),
+    let mut encounter = match &planned.flyby_task {
+        Some(flyby_task) => Some(flyby::before(&planned, flyby_task)?),
         None => None,
     };
-    if let (Some(report), Some(aimed)) = (&encounter, &planned.aimed)
+    if let (Some(report), Some(flyby_task)) = (&encounter, &planned.flyby_task)
         && report.is_out_of_reach
     {
-        return refuse(&planned, (report, aimed));
+        return refuse(&planned, (report, flyby_task));
     }
     let mut simulates = &planned;
     let outcome = plan(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates);
@@ -246,15 +258,15 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     let windows = report::windows_csv(&found, &timeline::shown_deg)?;
     let seeds = planned.simulate_seeds(&found.windows, &found.dumps)?;
     let mut of_flyby = Vec::new();
-    if let (Some(report), Some(aimed)) = (&mut encounter, &planned.aimed) {
-        let sensitivity = flyby::complete(report, &file, (&planned, aimed), &found)?;
+    if let (Some(report), Some(flyby_task)) = (&mut encounter, &planned.flyby_task) {
+        let sensitivity = flyby::complete(report, &file, (&planned, flyby_task), &found)?;
         of_flyby = vec![
             (flyby::NAMES[0], String::from_utf8(report.desired_csv()?)?),
             (flyby::NAMES[1], sensitivity),
         ];
     }
     let chart = picture::chart(&planned.sunlit.spacecraft.name, &found, &planned.task);
-    let picture = drawn(Some(&chart), encounter.as_ref().zip(planned.aimed.as_ref()))?;
+    let picture = drawn(Some(&chart), encounter.as_ref().zip(planned.flyby_task.as_ref()))?;
     let more = encounter.as_ref().map(FlybyReport::members).unwrap_or_default();
     let json = report::json(&found, &planned.task, &events, (&prices, &seeds), more)?;
     let [timeline, mission] = planned.write_into(&options.output, (&found.windows, &found.dumps), None)?;
@@ -278,8 +290,8 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     }
     if !options.quiet {
         terminal::print(&summary(&planned, &found, (&prices, &seeds)))?;
-        if let (Some(report), Some(aimed)) = (&encounter, &planned.aimed) {
-            terminal::print(&flyby::summary(report, aimed).join("\n"))?;
+        if let (Some(report), Some(flyby_task)) = (&encounter, &planned.flyby_task) {
+            terminal::print(&flyby::summary(report, flyby_task).join("\n"))?;
         }
         for (name, _) in &contents {
             terminal::note(&format!("wrote {}", options.output.join(name).display()));
@@ -292,21 +304,21 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     Ok(if is_planned { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// Writes what there is of a plan whose aim is out of reach.
-fn refuse(planned: &Planned<'_>, (report, aimed): (&FlybyReport, &Aimed)) -> Outcome {
-    let picture = drawn(None, Some((report, aimed)))?;
+/// Writes what there is of a plan whose aimpoint is out of reach.
+fn refuse(planned: &Planned<'_>, (report, flyby_task): (&FlybyReport, &FlybyTask)) -> Outcome {
+    let picture = drawn(None, Some((report, flyby_task)))?;
     let json = report::out_of_reach_json(report.members())?;
     let desired = String::from_utf8(report.desired_csv()?)?;
     write(planned, &[(NAMES[4], picture), (NAMES[5], json), (flyby::NAMES[0], desired)])?;
     if !planned.options.quiet {
-        terminal::print(&flyby::summary(report, aimed).join("\n"))?;
+        terminal::print(&flyby::summary(report, flyby_task).join("\n"))?;
     }
     Ok(ExitCode::FAILURE)
 }
 
 /// `plan.svg`.
-fn drawn(chart: Option<&Chart>, flyby: Option<(&FlybyReport, &Aimed)>) -> Result<String, DrawingError> {
-    let of_flyby = flyby.map(|(report, aimed)| flyby::charts(report, aimed));
+fn drawn(chart: Option<&Chart>, flyby: Option<(&FlybyReport, &FlybyTask)>) -> Result<String, DrawingError> {
+    let of_flyby = flyby.map(|(report, flyby_task)| flyby::charts(report, flyby_task));
     let mut all: Vec<&dyn Picture> = chart.iter().map(|chart| *chart as &dyn Picture).collect();
     if let Some((plane, desired)) = &of_flyby {
         all.push(plane);

@@ -13,7 +13,9 @@ use planner::momentum::{
 };
 
 use super::super::flights::{Failure, SimulatedMission, Thresholds};
-use super::{aimed::Aimed, file::Activity, options::MomentumOptions, timeline::MissionTimeline, written};
+use super::{
+    file::Activity, flyby_task::FlybyTask, options::MomentumOptions, timeline::MissionTimeline, written,
+};
 
 /// Names of the files.
 pub(super) const NAMES: [&str; 6] =
@@ -27,7 +29,7 @@ pub(super) struct Planned<'a> {
     pub sunlit: SunlitSpacecraft,
     pub simulated: SimulatedFlight,
     /// Of a plan with a flyby.
-    pub aimed: Option<Aimed>,
+    pub flyby_task: Option<FlybyTask>,
     pub task: PlanTask,
     /// Values that a refit gives.
     pub sets: Vec<(String, Vec<f64>)>,
@@ -87,8 +89,8 @@ impl Planned<'_> {
         let mission =
             SimulatedMission::open(&folder.path().join(NAMES[1]), self.options.template.as_deref(), &[])?;
         let mut flight = mission.simulate(Thresholds::Never, None)?;
-        if let Some(aimed) = &self.aimed {
-            aimed.judge(&mut flight, &self.sunlit)?;
+        if let Some(flyby_task) = &self.flyby_task {
+            flyby_task.judge(&mut flight, &self.sunlit)?;
         }
         Ok(flight)
     }

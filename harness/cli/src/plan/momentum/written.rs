@@ -197,7 +197,7 @@ pub(super) fn inputs(
 pub(super) fn beyond_inputs(planned: &SimulatedMission, timeline: &MissionTimeline) -> Vec<String> {
     let dumps = planned.values().is_true("maneuver.dump");
     let maneuvers = timeline.thruster_events.iter().filter_map(|(at_s, event)| Some((at_s, event.maneuver?)));
-    let said = maneuvers.filter_map(|(at_s, maneuver)| {
+    let printed = maneuvers.filter_map(|(at_s, maneuver)| {
         let what = match (dumps, maneuver.dumps, maneuver.thrusters) {
             (true, Some(false), _) => "is without a dump, the input table's has one (maneuver.dump)",
             (_, _, Some(_)) => "names its thrusters, the input table's are those of maneuver.thrusters",
@@ -206,7 +206,7 @@ pub(super) fn beyond_inputs(planned: &SimulatedMission, timeline: &MissionTimeli
         let day = terminal::short((at_s - planned.start_s) / 86_400.0);
         Some(format!("warning: plan.csv: the maneuver of day {day} {what}"))
     });
-    said.collect()
+    printed.collect()
 }
 
 enum Change<'w> {

@@ -131,7 +131,7 @@ const SYSTEM: &str = r#"<ssd:SystemStructureDescription name="Pair" version="1.0
 
 #[test]
 fn a_component_that_crashes_or_hangs_is_named_with_its_call_and_the_rows_stay() {
-    for (behaviour, more, said) in [
+    for (behaviour, more, found) in [
         ("CRASHES", &[][..], "the process ended"),
         ("SLEEPS", &["--timeout", "0.5"], "did not return within 0.5 s"),
     ] {
@@ -144,7 +144,7 @@ fn a_component_that_crashes_or_hangs_is_named_with_its_call_and_the_rows_stay() 
         let csv = scratch.path().join("rows.csv");
         let printed = ended(&scratch, "run", &[&["--output", shown(&csv)], more].concat(), 1);
         let call = "Pair, component one: fmi2DoStep(currentCommunicationPoint=3";
-        assert!(printed.contains(call) && printed.contains(said), "{printed}");
+        assert!(printed.contains(call) && printed.contains(found), "{printed}");
         let rows = fs::read_to_string(scratch.path().join("rows.csv.part")).unwrap();
         assert_eq!(rows, "time,one.x,two.x\n0,0,0\n1,1,1\n2,2,2\n3,3,3\n");
     }

@@ -5,7 +5,7 @@ use std::{cell::Cell, rc::Rc};
 use nalgebra::Vector3;
 
 use super::*;
-use crate::flyby::test_flight::{Aim, DAY_S, LONG_S, Leg, packed, surroundings};
+use crate::flyby::test_flight::{DAY_S, Intercept, LONG_S, Leg, force_model, packed};
 use crate::momentum::{
     simulated::FlightRow,
     test_spacecraft::sunlit,
@@ -53,16 +53,16 @@ fn controls_of_a_window_move_the_encounter_as_flights_show() {
     let window = window(102.0 * DAY_S, controls);
     let (mut leg, put) = leg(&window);
     let start = leg.start();
-    let about = leg.aim(start, 0.0, LONG_S);
+    let about = leg.intercept(start, 0.0, LONG_S);
     let flight = leg.recorded(start, about.z);
-    let sensitivity = Sensitivity::new(&flight, &surroundings(), &sunlit([0.0; 3])).unwrap();
-    let found = aim_by_windows(&sensitivity, &sunlit([0.0; 3]), &flight, std::slice::from_ref(&window));
+    let sensitivity = Sensitivity::new(&flight, &force_model(), &sunlit([0.0; 3])).unwrap();
+    let found = lead_by_windows(&sensitivity, &sunlit([0.0; 3]), &flight, std::slice::from_ref(&window));
     let row = flight.rows.iter().find(|row| row.time_s == window.start_s).unwrap();
     let state = packed(&row.motion.unwrap().from_sun);
-    let mut aim = |controls: Option<Controls>| -> Aim {
+    let mut intercept = |controls: Option<Controls>| -> Intercept {
         put.set(controls);
         let behind = leg.propagated(state, [window.start_s, window.stop_s]);
-        leg.aim(behind, window.stop_s, about.z)
+        leg.intercept(behind, window.stop_s, about.z)
     };
     for (index, step) in STEPS.into_iter().enumerate() {
         let of = |sign: f64| {
@@ -70,7 +70,7 @@ fn controls_of_a_window_move_the_encounter_as_flights_show() {
                 controls.0[it] + if it == index { sign * step } else { 0.0 }
             })))
         };
-        let expected = (aim(of(1.0)) - aim(of(-1.0))) / (2.0 * step);
+        let expected = (intercept(of(1.0)) - intercept(of(-1.0))) / (2.0 * step);
         let partials = found[0].by_control[index];
         if index == Control::Elevation as usize {
             assert_eq!(partials, Vector3::zeros(), "its bounds leave no choice");
@@ -80,7 +80,7 @@ fn controls_of_a_window_move_the_encounter_as_flights_show() {
         assert!(off < 1e-4 * size, "{index}: {off} of {size} m");
         assert!((partials.z - expected.z).abs() < 1e-4 * expected.z.abs() + 1e-3, "{index}");
     }
-    let by_light = aim(Some(controls)) - aim(None);
+    let by_light = intercept(Some(controls)) - intercept(None);
     let off_m = (found[0].at - by_light).xy().norm();
     assert!(off_m < 1e-3 * by_light.xy().norm() && by_light.xy().norm() > 1e4, "{off_m} {by_light}");
 }

@@ -7,15 +7,15 @@ use physics::{
 };
 
 use super::*;
-use crate::flyby::test_flight::{LONG_S, Leg, fixed_in_the_body, packed, surroundings};
+use crate::flyby::test_flight::{LONG_S, Leg, fixed_in_the_body, force_model, packed};
 use crate::momentum::test_spacecraft::sunlit;
 
 #[test]
 fn the_attitude_turns_over_later_where_the_place_says_so() {
     let mut leg = Leg::new(fixed_in_the_body(1.0), true);
     let start = leg.start();
-    let aim = leg.aim(start, 0.0, LONG_S);
-    let flight = leg.recorded(start, aim.z);
+    let intercept = leg.intercept(start, 0.0, LONG_S);
+    let flight = leg.recorded(start, intercept.z);
     let path = Path::of(&flight).unwrap();
     let sunlit = sunlit([0.0; 3]);
     let flips = LightAlong::new(&path, &sunlit).flips();
@@ -35,7 +35,7 @@ fn the_attitude_turns_over_later_where_the_place_says_so() {
     let light = LightAlong::new(&path, &sunlit);
     let found = light.flips();
     assert_eq!(found.len(), 1);
-    let (gravity, mut planets) = (surroundings().gravity(Body::Sun), surroundings().planets());
+    let (gravity, mut planets) = (force_model().gravity(Body::Sun), force_model().planets());
     let mut over = |span_s: [f64; 2]| {
         transition(&OrbitMethod::default(), span_s, |at_s| {
             let position_m = path.at(at_s).from_sun.position_m;

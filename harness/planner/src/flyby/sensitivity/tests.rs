@@ -3,23 +3,23 @@
 use nalgebra::{Matrix3x6, SVector, Vector3};
 
 use super::*;
-use crate::flyby::test_flight::{Aim, DAY_S, LONG_S, Law, Leg, fixed_in_the_body, packed, surroundings};
+use crate::flyby::test_flight::{DAY_S, Intercept, LONG_S, Law, Leg, fixed_in_the_body, force_model, packed};
 use crate::momentum::test_spacecraft::sunlit;
 
 struct Flight {
     leg: Leg,
     recorded: SimulatedFlight,
     sensitivity: Sensitivity,
-    aim: Aim,
+    intercept: Intercept,
 }
 
 fn flight(law: Law, flips: bool) -> Flight {
     let mut leg = Leg::new(law, flips);
     let start = leg.start();
-    let aim = leg.aim(start, 0.0, LONG_S);
-    let recorded = leg.recorded(start, aim.z);
-    let sensitivity = Sensitivity::new(&recorded, &surroundings(), &sunlit([0.0; 3])).unwrap();
-    Flight { leg, recorded, sensitivity, aim }
+    let intercept = leg.intercept(start, 0.0, LONG_S);
+    let recorded = leg.recorded(start, intercept.z);
+    let sensitivity = Sensitivity::new(&recorded, &force_model(), &sunlit([0.0; 3])).unwrap();
+    Flight { leg, recorded, sensitivity, intercept }
 }
 
 impl Flight {
@@ -27,7 +27,7 @@ impl Flight {
         packed(&self.recorded.rows[row].motion.unwrap().from_sun)
     }
 
-    /// Central differences of the aim by the state at a row, whose steps move B by some 2 km.
+    /// Central differences of the aimpoint by the state at a row, whose steps move B by some 2 km.
     fn differences(&mut self, row: usize) -> Matrix3x6<f64> {
         let (time_s, state) = (self.recorded.rows[row].time_s, self.state(row));
         let partials = self.sensitivity.at(time_s);
@@ -38,7 +38,7 @@ impl Flight {
             let [after, before] = [step, -step].map(|step| {
                 let mut moved = state;
                 moved[axis] += step;
-                self.leg.aim(moved, time_s, self.aim.z)
+                self.leg.intercept(moved, time_s, self.intercept.z)
             });
             found.set_column(axis, &((after - before) / (2.0 * step)));
         }
@@ -65,8 +65,14 @@ impl Flight {
 fn the_encounter_is_that_of_the_flight() {
     let flight = flight(fixed_in_the_body(1.0), true);
     let encounter = &flight.sensitivity.encounter;
-    assert!((encounter.time_s - flight.aim.z).abs() < 1e-3, "{} {}", encounter.time_s, flight.aim.z);
-    let off_m = (encounter.plane.b_t_m - flight.aim.x).hypot(encounter.plane.b_r_m - flight.aim.y);
+    assert!(
+        (encounter.time_s - flight.intercept.z).abs() < 1e-3,
+        "{} {}",
+        encounter.time_s,
+        flight.intercept.z
+    );
+    let off_m =
+        (encounter.plane.b_t_m - flight.intercept.x).hypot(encounter.plane.b_r_m - flight.intercept.y);
     assert!(off_m < 10.0, "{off_m}");
     assert!((encounter.plane.excess_speed_m_s - 5.02e3).abs() < 20.0);
 }
@@ -94,23 +100,24 @@ fn with_strong_light_that_turns_over_they_are_to_1e_4() {
 fn the_desired_change_of_velocity_takes_a_miss_away() {
     let mut flight = flight(fixed_in_the_body(1.0), true);
     for days_before in [118.0, 4.0] {
-        let row = ((flight.aim.z - days_before * DAY_S) / 3600.0) as usize;
+        let row = ((flight.intercept.z - days_before * DAY_S) / 3600.0) as usize;
         let time_s = flight.recorded.rows[row].time_s;
         for miss_m in [[-17e3, 0.0], [6e3, 11e3]] {
             let desired = flight.sensitivity.desired(time_s, miss_m).unwrap();
             let mut changed = flight.state(row);
             let mut rows = changed.fixed_rows_mut::<3>(3);
             rows += desired.delta_v_m_s;
-            let aim = flight.leg.aim(changed, time_s, flight.aim.z);
-            let left_m = (aim.x - flight.aim.x + miss_m[0]).hypot(aim.y - flight.aim.y + miss_m[1]);
+            let intercept = flight.leg.intercept(changed, time_s, flight.intercept.z);
+            let left_m = (intercept.x - flight.intercept.x + miss_m[0])
+                .hypot(intercept.y - flight.intercept.y + miss_m[1]);
             assert!(left_m < 5e-3 * miss_m[0].hypot(miss_m[1]), "{days_before}: {left_m}");
             // The same with the time of arrival kept.
             let desired = flight.sensitivity.desired_in_time(time_s, miss_m, 0.0).unwrap();
             let mut changed = flight.state(row);
             let mut rows = changed.fixed_rows_mut::<3>(3);
             rows += desired.delta_v_m_s;
-            let aim = flight.leg.aim(changed, time_s, flight.aim.z);
-            assert!((aim.z - flight.aim.z).abs() < 0.05, "{}", aim.z - flight.aim.z);
+            let intercept = flight.leg.intercept(changed, time_s, flight.intercept.z);
+            assert!((intercept.z - flight.intercept.z).abs() < 0.05, "{}", intercept.z - flight.intercept.z);
             let direction = Vector3::new(
                 desired.declination_rad().cos() * desired.right_ascension_rad().cos(),
                 desired.declination_rad().cos() * desired.right_ascension_rad().sin(),

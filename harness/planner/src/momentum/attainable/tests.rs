@@ -9,7 +9,7 @@ use crate::momentum::{
     target::Target,
     test_spacecraft::{DAY_S, row, simulated, sunlit, task},
     torque::Controls,
-    windows::Reach,
+    windows::ControlBounds,
 };
 
 const DAYS: f64 = 8.0;
@@ -82,14 +82,14 @@ impl Simulates for Encounters {
     fn progress(&mut self, _: &str) {}
 }
 
-fn tilts() -> Reach {
-    Reach { azimuth_rad: 0.1, elevation_rad: 0.1, windmill_rad: 0.05, ..Reach::default() }
+fn tilts() -> ControlBounds {
+    ControlBounds { azimuth_rad: 0.1, elevation_rad: 0.1, windmill_rad: 0.05, ..ControlBounds::default() }
 }
 
-fn aimed(limit_n_m_s: f64, reach: Reach) -> PlanTask {
+fn targeting(limit_n_m_s: f64, control_bounds: ControlBounds) -> PlanTask {
     PlanTask {
         target: Some(Target { tolerance: [Some(100.0), Some(100.0), None] }),
-        ..task(limit_n_m_s, reach)
+        ..task(limit_n_m_s, control_bounds)
     }
 }
 
@@ -107,8 +107,8 @@ fn reached(task: &PlanTask) -> Reachable {
 /// One control alone: the force at its bounds, times the time, is the reach.
 #[test]
 fn the_reach_of_one_control_is_what_its_bounds_do() {
-    let one = Reach { elevation_rad: 0.1, ..Reach::default() };
-    let task = aimed(1e3, one);
+    let one = ControlBounds { elevation_rad: 0.1, ..ControlBounds::default() };
+    let task = targeting(1e3, one);
     let found = reached(&task);
     let encounters = Encounters::new(Vector3::zeros());
     let (windows, _) = task.layout.windows(&encounters.sunlit, &encounters.simulated).unwrap();
@@ -135,7 +135,7 @@ fn the_reach_of_one_control_is_what_its_bounds_do() {
 /// What lies inside of the polygon is met within all limits, what lies outside is not.
 #[test]
 fn a_target_in_reach_is_met_and_one_beyond_is_not() {
-    let task = aimed(LIMIT_N_M_S, tilts());
+    let task = targeting(LIMIT_N_M_S, tilts());
     let reach = reached(&task);
     for (axis, sign, along) in [(0, 1.0, 0), (1, -1.0, 3)] {
         let farthest_m: f64 = reach.along_m[along].unwrap();

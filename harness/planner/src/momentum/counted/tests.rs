@@ -6,16 +6,16 @@ use super::*;
 use crate::momentum::{
     simulated::SimulatedFlight,
     test_spacecraft::{DAY_S, simulated, sunlit, task},
-    windows::Reach,
+    windows::ControlBounds,
 };
 
 fn model(
-    reach: Reach,
+    control_bounds: ControlBounds,
     limit: f64,
     simulated: impl Fn(&crate::momentum::torque::SunlitSpacecraft) -> SimulatedFlight,
 ) -> Model {
     let sunlit = sunlit([0.0; 3]);
-    let task = task(limit, reach);
+    let task = task(limit, control_bounds);
     let simulated = simulated(&sunlit);
     let (windows, _) = task.layout.windows(&sunlit, &simulated).unwrap();
     Model::new(&sunlit, simulated, windows, task.limit)
@@ -26,7 +26,7 @@ fn model(
 fn dumps_of_a_constant_torque_are_counted_in_closed_form() {
     let per_day = 1.0;
     for (limit, days) in [(1.02, 12), (2.1, 12), (5.0, 12), (20.0, 12)] {
-        let model = model(Reach::default(), limit, |sunlit| {
+        let model = model(ControlBounds::default(), limit, |sunlit| {
             let mut simulated = simulated(sunlit, days, 3000.0);
             for row in &mut simulated.rows {
                 row.other_torque_n_m = Vector3::x() * (per_day / DAY_S);
@@ -50,14 +50,14 @@ fn dumps_of_a_constant_torque_are_counted_in_closed_form() {
 /// A torque that turns round needs windmill angles that do; the fewest changes are those of all choices.
 #[test]
 fn changes_are_the_fewest_of_all_choices() {
-    let reach = Reach { windmill_rad: 0.05, ..Reach::default() };
+    let control_bounds = ControlBounds { windmill_rad: 0.05, ..ControlBounds::default() };
     for (pattern, limit) in [
         ([1.0, 1.0, -1.0, -1.0, 1.0, 1.0, -1.0], 0.6),
         ([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0], 0.6),
         ([1.0, 1.0, 1.0, -1.0, 0.5, 0.5, -1.0], 0.9),
         ([0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1], 0.9),
     ] {
-        let model = model(reach, limit, |sunlit| {
+        let model = model(control_bounds, limit, |sunlit| {
             let mut simulated = simulated(sunlit, 7, 0.4);
             let sun = simulated.rows[0].to_sun_m.normalize();
             for row in &mut simulated.rows {

@@ -7,24 +7,24 @@ use super::*;
 use crate::momentum::{
     test_spacecraft::{DAY_S, simulated, sunlit, task},
     torque::Attitude,
-    windows::Reach,
+    windows::ControlBounds,
 };
 
-fn model(reach: Reach, limit: Limit) -> (SunlitSpacecraft, Model) {
+fn model(control_bounds: ControlBounds, limit: Limit) -> (SunlitSpacecraft, Model) {
     let sunlit = sunlit([0.01, 0.02, 0.03]);
     let simulated = simulated(&sunlit, 10, 0.4);
-    let (windows, _) = task(5.0, reach).layout.windows(&sunlit, &simulated).unwrap();
+    let (windows, _) = task(5.0, control_bounds).layout.windows(&sunlit, &simulated).unwrap();
     let model = Model::new(&sunlit, simulated, windows, limit);
     (sunlit, model)
 }
 
 fn limit() -> Limit {
-    task(5.0, Reach::default()).limit
+    task(5.0, ControlBounds::default()).limit
 }
 
 #[test]
 fn a_constant_torque_is_time_times_torque() {
-    let (sunlit, model) = model(Reach::default(), limit());
+    let (sunlit, model) = model(ControlBounds::default(), limit());
     let torque = sunlit.torque_n_m(&model.simulated.rows[0], Attitude::Downlink, &model.windows[0].controls);
     let end = *model.momentum_n_m_s().last().unwrap();
     assert_relative_eq!(end, torque * (10.0 * DAY_S), max_relative = 1e-12);
@@ -34,7 +34,7 @@ fn a_constant_torque_is_time_times_torque() {
 /// Equal parts of both attitudes leave what is along the Sun line.
 #[test]
 fn alternation_leaves_the_sun_line() {
-    let (sunlit, mut model) = model(Reach { alternate: 0.5, ..Reach::default() }, limit());
+    let (sunlit, mut model) = model(ControlBounds { alternate: 0.5, ..ControlBounds::default() }, limit());
     for window in &mut model.windows {
         window.controls = window.controls.with(Control::Alternate, 0.5);
     }
@@ -48,7 +48,7 @@ fn alternation_leaves_the_sun_line() {
 
 #[test]
 fn a_flight_that_gains_more_is_believed() {
-    let (sunlit, mut model) = model(Reach::default(), limit());
+    let (sunlit, mut model) = model(ControlBounds::default(), limit());
     let more = Vector3::new(1e-6, -2e-6, 3e-6);
     let planned = model.momentum_n_m_s();
     let mut flight = model.simulated.clone();
@@ -66,7 +66,7 @@ fn a_flight_that_gains_more_is_believed() {
 fn a_covariance_leaves_three_sigma() {
     let covariance = |diagonal: [f64; 4]| {
         let covariance = Some(Matrix4::from_diagonal(&nalgebra::Vector4::from(diagonal)));
-        model(Reach::default(), Limit { covariance, ..limit() })
+        model(ControlBounds::default(), Limit { covariance, ..limit() })
     };
     let (sunlit, of_scale) = covariance([0.0, 0.0, 0.0, 0.1 * 0.1]);
     let row = &of_scale.simulated.rows[0];

@@ -6,7 +6,7 @@ use super::*;
 use crate::momentum::{
     test_spacecraft::{DAY_S, simulated, sunlit, task},
     torque::{Attitude, Control},
-    windows::{Reach, WindowKind},
+    windows::{ControlBounds, WindowKind},
 };
 
 /// Simulates windows with the alternate attitude as it is timed, in steps of ten minutes, and one more torque.
@@ -66,14 +66,14 @@ fn planned(task: &PlanTask, more_n_m: Vector3<f64>) -> (MomentumPlan, Integrated
 
 #[test]
 fn the_flight_agrees_with_the_plan_below_the_limit() {
-    let reach = Reach {
+    let control_bounds = ControlBounds {
         windmill_rad: 0.06,
         azimuth_rad: 0.1,
         elevation_rad: 0.1,
         alternate: 0.5,
-        ..Reach::default()
+        ..ControlBounds::default()
     };
-    let task = task(3.0, reach);
+    let task = task(3.0, control_bounds);
     let more = Vector3::new(0.05, -0.08, 0.03) / DAY_S;
     let (found, integrated) = planned(&task, more);
     assert!(found.holds && found.exceeded.is_none() && found.dumps.is_empty());
@@ -81,7 +81,10 @@ fn the_flight_agrees_with_the_plan_below_the_limit() {
     assert!(simulated <= 3.0 && found.difference_n_m_s() <= AGREED * 3.0);
     assert_eq!(integrated.flights, found.rounds);
     // Without the plan the limit is exceeded.
-    let bare = PlanTask { layout: Layout { reach: Reach::default(), ..task.layout.clone() }, ..task };
+    let bare = PlanTask {
+        layout: Layout { control_bounds: ControlBounds::default(), ..task.layout.clone() },
+        ..task
+    };
     let (none, _) = planned(&bare, more);
     let exceeded = none.exceeded.unwrap();
     assert!(exceeded.excess_n_m_s > 1.0 && !none.dumps.is_empty());
@@ -91,8 +94,8 @@ fn the_flight_agrees_with_the_plan_below_the_limit() {
 
 /// By hand: the torque is constant, so |H| = |T| t exceeds L first at L / |T|, and by |T| t_end - L at the end.
 #[test]
-fn what_no_plan_holds_is_told_with_its_day() {
-    let task = task(2.0, Reach::default());
+fn what_no_plan_holds_is_reported_with_its_day() {
+    let task = task(2.0, ControlBounds::default());
     let sunlit = sunlit([0.01, 0.02, 0.03]);
     let simulated = simulated(&sunlit, 20, 0.4);
     let (windows, _) = task.layout.windows(&sunlit, &simulated).unwrap();
@@ -109,8 +112,8 @@ fn what_no_plan_holds_is_told_with_its_day() {
 /// Tilt alone, whose least is known: the torque across the Sun line has to be made so much smaller that |H| ends at the limit.
 #[test]
 fn no_plan_of_the_same_windows_has_less_tilt() {
-    let reach = Reach { azimuth_rad: 0.2, elevation_rad: 0.2, ..Reach::default() };
-    let task = task(2.5, reach);
+    let control_bounds = ControlBounds { azimuth_rad: 0.2, elevation_rad: 0.2, ..ControlBounds::default() };
+    let task = task(2.5, control_bounds);
     let (found, _) = planned(&task, Vector3::zeros());
     assert!(found.holds);
     let tilt = |windows: &[Window]| windows.iter().map(|it| it.controls.tilt_rad()).sum::<f64>();
@@ -148,7 +151,8 @@ fn arrays_move_no_more_often_than_by_the_best_of_all_choices() {
     let sunlit = sunlit([0.0; 3]);
     let still = simulated(&sunlit, DAYS as u32, 0.4);
     let row = &still.rows[0];
-    let layout = |windmill_rad| task(0.5 * UNIT_N_M_S, Reach { windmill_rad, ..Reach::default() });
+    let layout =
+        |windmill_rad| task(0.5 * UNIT_N_M_S, ControlBounds { windmill_rad, ..ControlBounds::default() });
     let (windows, _) = layout(0.05).layout.windows(&sunlit, &still).unwrap();
     let torque = |windmill_rad: f64| {
         let controls = windows[0].controls.with(Control::Windmill, windmill_rad);
@@ -295,12 +299,16 @@ mod downlinks {
             let mut edges = Edges { sunlit: sunlit.clone(), simulated: simulated(&sunlit, 4, 0.35), size };
             edges.simulated = edges.flight([Controls::default(); 2]);
             let unmanaged = edges.simulated.greatest(size).0;
-            let reach = Reach { azimuth_rad: REACH_RAD[0], elevation_rad: REACH_RAD[1], ..Reach::default() };
+            let control_bounds = ControlBounds {
+                azimuth_rad: REACH_RAD[0],
+                elevation_rad: REACH_RAD[1],
+                ..ControlBounds::default()
+            };
             let task = PlanTask {
-                layout: Layout::of_downlinks(edges.simulated.downlinks_s(), reach, 0.0),
+                layout: Layout::of_downlinks(edges.simulated.downlinks_s(), control_bounds, 0.0),
                 least: Least::Momentum,
-                limit: Limit { size, ..task(5.0, reach).limit },
-                ..task(5.0, reach)
+                limit: Limit { size, ..task(5.0, control_bounds).limit },
+                ..task(5.0, control_bounds)
             };
             let simulated = edges.simulated.clone();
             let found = plan(&task, &sunlit, &simulated, &mut edges).unwrap();

@@ -3,8 +3,13 @@
 use super::*;
 use crate::momentum::test_spacecraft::{DAY_S, simulated, sunlit, task};
 
-const REACH: Reach =
-    Reach { offset_rad: 0.0, windmill_rad: 0.03, azimuth_rad: 0.1, elevation_rad: 0.1, alternate: 0.5 };
+const REACH: ControlBounds = ControlBounds {
+    offset_rad: 0.0,
+    windmill_rad: 0.03,
+    azimuth_rad: 0.1,
+    elevation_rad: 0.1,
+    alternate: 0.5,
+};
 
 fn layout() -> Layout {
     let mut layout = task(5.0, REACH).layout;
@@ -34,7 +39,7 @@ fn windows_follow_one_another() {
 fn free_windows_begin_with_the_plan_in_force() {
     let sunlit = sunlit([0.0; 3]);
     let mut layout = layout();
-    layout.reach.offset_rad = 0.05;
+    layout.control_bounds.offset_rad = 0.05;
     let present = Controls([0.2, 0.01, 0.05, 0.3, 0.0]);
     layout.in_force = vec![InForce { at_s: 0.0, controls: present }];
     let (windows, steps) = layout.windows(&sunlit, &simulated(&sunlit, 20, 0.4)).unwrap();
@@ -44,7 +49,7 @@ fn free_windows_begin_with_the_plan_in_force() {
     assert!(controls(WindowKind::Free).all(|it| it == [0.2, 0.01, 0.05, REACH.elevation_rad, 0.0]));
     assert!(controls(WindowKind::Planned).all(|it| it == [baseline_rad, 0.0, 0.0, 0.0, 0.0]));
     assert_eq!(windows[1].bounds[Control::Offset as usize], [0.2, baseline_rad + 0.05]);
-    layout.reach.offset_rad = 0.0;
+    layout.control_bounds.offset_rad = 0.0;
     let (kept, _) = layout.windows(&sunlit, &simulated(&sunlit, 20, 0.4)).unwrap();
     assert_eq!(kept[1].controls.get(Control::Offset), baseline_rad);
 }

@@ -39,7 +39,7 @@ fn turned(vector: &Vector3<f64>, from_s: f64, to_s: f64) -> Vector3<f64> {
 }
 
 impl Flights for Pushed {
-    fn fly(&self, parameters: &Parameters, times_s: &[f64]) -> Result<History, Failure> {
+    fn simulate(&self, parameters: &Parameters, times_s: &[f64]) -> Result<History, Failure> {
         let [early, late] = [false, true].map(|is_later| self.torque_body_n_m(parameters, is_later));
         let momentum = |time_s: &f64| {
             turned(&early, 0.0, time_s.min(HALF_S)) + turned(&late, HALF_S, time_s.max(HALF_S))
@@ -54,7 +54,7 @@ impl Flights for Pushed {
 
 fn fitted(flights: &Pushed, truth: &Parameters) -> Result<Fitted, Failure> {
     let times_s: Vec<f64> = (0..=200).map(|row| f64::from(row) * 4e3).collect();
-    let history = flights.fly(truth, &times_s)?;
+    let history = flights.simulate(truth, &times_s)?;
     let telemetry = Telemetry {
         momentum_inertial_n_m_s: history.momentum_inertial_n_m_s,
         dumps: vec![0; times_s.len()],

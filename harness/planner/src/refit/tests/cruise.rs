@@ -14,8 +14,8 @@ use physics::{
     momentum::{Convention, DumpPolicy, MomentumIntegrator, Reinitialise, Settings, Totals},
     plant::{
         AttitudeSource, Configuration, EphemerisSource, Laws, LightSource, Motion, PanelSetting, PanelStep,
-        Plant, PreparedSpacecraft, PropagatorState, RadiationSettings, SunLight, ThrusterEventSettings,
-        World, orbit_from_elements,
+        Plant, PreparedSpacecraft, PropagatorState, RadiationSettings, SimulationContext, SunLight,
+        ThrusterEventSettings, orbit_from_elements,
     },
     radiation::SolarModel,
     spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel},
@@ -134,7 +134,7 @@ impl Cruise {
 }
 
 impl Flights for Cruise {
-    fn fly(&self, parameters: &Parameters, times_s: &[f64]) -> Result<History, Failure> {
+    fn simulate(&self, parameters: &Parameters, times_s: &[f64]) -> Result<History, Failure> {
         let configuration = self.configuration(parameters);
         let settings = configuration.momentum;
         let (method, default_downlink) = (OrbitMethod::default(), DefaultDownlink::default());
@@ -146,9 +146,9 @@ impl Flights for Cruise {
             timeline: None,
         };
         let mut propagator = PropagatorState::default();
-        let mut world = World::new(configuration);
+        let mut context = SimulationContext::new(configuration);
         let nothing = |_: f64| [ForceTorque::zero(); 2];
-        let mut plant = Plant::new(prepared, &mut world, &mut propagator, &nothing);
+        let mut plant = Plant::new(prepared, &mut context, &mut propagator, &nothing);
         let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
         let mut momentum_inertial_n_m_s = Vec::with_capacity(times_s.len());
         for time_s in times_s {

@@ -33,9 +33,9 @@ fn arrays() -> Vec<Vec<Vector3<f64>>> {
     ]
 }
 
-fn shares(array: &WheelAllocator, how: Allocation, vector: &Vector3<f64>, count: usize) -> Vec<f64> {
+fn shares(array: &WheelAllocator, method: Allocation, vector: &Vector3<f64>, count: usize) -> Vec<f64> {
     let mut shares = vec![f64::NAN; count];
-    array.distribute(how, vector, &mut shares);
+    array.distribute(method, vector, &mut shares);
     shares
 }
 
@@ -92,11 +92,11 @@ fn shares_add_up_to_the_vector_to_rounding() {
         let array = WheelAllocator::new(&axes, |_| true).unwrap();
         for number in 0..300 {
             let vector = random(number);
-            for how in BOTH {
-                let shares = shares(&array, how, &vector, axes.len());
+            for method in BOTH {
+                let shares = shares(&array, method, &vector, axes.len());
                 let sum: Vector3<f64> = shares.iter().zip(&axes).map(|(share, axis)| axis * *share).sum();
                 let scale = vector.norm() + largest(&shares);
-                assert!((sum - vector).norm() < 4e-15 * scale, "{how:?} {sum} {vector}");
+                assert!((sum - vector).norm() < 4e-15 * scale, "{method:?} {sum} {vector}");
             }
         }
     }
@@ -181,8 +181,8 @@ fn three_wheels_go_on_after_one_fails() {
         for number in 0..50 {
             let vector = random(number);
             let expected = only * vector;
-            for how in BOTH {
-                let shares = shares(&array, how, &vector, 4);
+            for method in BOTH {
+                let shares = shares(&array, method, &vector, 4);
                 assert_eq!(shares[failed], 0.0);
                 let found: Vec<f64> = (0..4).filter(|&wheel| wheel != failed).map(|w| shares[w]).collect();
                 assert_relative_eq!(

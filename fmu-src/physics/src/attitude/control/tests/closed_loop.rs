@@ -43,7 +43,7 @@ fn a_turning_command_is_followed_without_lag() {
     for sample in 0..15_000_u32 {
         let attitude = end.propagated(rate, f64::from(sample) * DT_S);
         flight.target = ControlTarget::Attitude { attitude, rate_body_rad_s: rate };
-        flight.fly(DT_S);
+        flight.simulate(DT_S);
         if sample > 12_000 {
             assert!(flight.state.is_settled());
             assert!(flight.state.attitude_error_rad() < 1e-9, "{}", flight.state.attitude_error_rad());
@@ -73,7 +73,7 @@ fn a_small_step_without_limits_answers_as_the_continuous_loop() {
         for sample in 1..5000_u32 {
             let attitude = end(f64::from(sample - 1) * DT_S);
             flight.target = ControlTarget::Attitude { attitude, rate_body_rad_s: rate };
-            flight.fly(DT_S);
+            flight.simulate(DT_S);
             let t = f64::from(sample) * DT_S;
             let expected =
                 angle * (-d * w * t).exp() * ((damped * t).cos() + d * w / damped * (damped * t).sin());
@@ -90,9 +90,9 @@ fn a_constant_disturbance_leaves_an_error_without_the_integral_and_none_with_it(
     for integral in [0.0, 0.1, 0.3] {
         let mut flight = Loop::new(ControllerSettings { integral, ..settings() }, attitude, hold(attitude));
         flight.body.external = torque;
-        flight.fly(600.0);
+        flight.simulate(600.0);
         let first = flight.error_to(&attitude);
-        flight.fly(1400.0);
+        flight.simulate(1400.0);
         let found = attitude.rotation_vector_to(&flight.body.attitude());
         if integral == 0.0 {
             let expected = inertia().try_inverse().unwrap() * torque / 0.01;
@@ -137,7 +137,7 @@ fn at_the_bound_of_stability_the_loop_turns_from_decay_to_growth() {
             // A body without coupling of its axes.
             flight.body.inertia = Matrix3::from_diagonal(&Vector3::new(400.0, 300.0, 500.0));
             flight.body.wheels = Vector3::zeros();
-            flight.fly(40.0);
+            flight.simulate(40.0);
             let error = flight.state.attitude_error_rad();
             if is_stable {
                 assert!(error < 1e-3 * angle, "{tried:?} {error}");
@@ -177,7 +177,7 @@ fn the_signs_of_quaternions_do_not_matter() {
 fn a_restored_controller_goes_on_to_the_bit() {
     let (start, end) = (random_attitude(16), random_attitude(17));
     let mut flight = Loop::new(settings(), start, hold(end));
-    flight.fly(50.0);
+    flight.simulate(50.0);
     let mut restored: ControllerState = toml::from_str(&toml::to_string(&flight.state).unwrap()).unwrap();
     let inertia = inertia();
     for _ in 0..1000 {

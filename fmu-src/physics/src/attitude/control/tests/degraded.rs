@@ -107,7 +107,7 @@ fn without_a_rate_there_is_no_torque_and_control_is_taken_up_again() {
     let attitude = random_attitude(12);
     let mut flight = Loop::new(settings(), attitude, hold(attitude));
     flight.body.external = Vector3::new(2e-3, 0.0, -1e-3);
-    flight.fly(1000.0);
+    flight.simulate(1000.0);
     for _ in 0..3000 {
         let estimate = Estimate { rate_body_rad_s: None, is_valid: false, ..flight.body.estimate() };
         let torque = flight.sample_with(&estimate, &Vector3::zeros());

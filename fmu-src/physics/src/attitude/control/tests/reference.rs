@@ -16,7 +16,7 @@ fn hold(attitude: Attitude) -> ControlTarget {
 }
 
 /// Samples until the reference has settled and ten more; fails after `longest_s`.
-fn fly(
+fn simulate(
     reference: &mut Reference,
     limits: &SlewLimits,
     target: impl Fn(f64) -> ControlTarget,
@@ -44,7 +44,7 @@ fn a_rest_to_rest_slew_takes_the_time_of_the_trapezoid() {
     for angle in [1e-4, 0.02, 0.3, 1.0, 2.0, PI] {
         let start = random_attitude(3);
         let mut reference = Reference::new(start, Vector3::zeros());
-        let samples = fly(&mut reference, &LIMITS, |_| hold(start.turned(axis * angle)), 3600.0);
+        let samples = simulate(&mut reference, &LIMITS, |_| hold(start.turned(axis * angle)), 3600.0);
         let settled_s = (samples.len() - 10) as f64 * DT_S;
         let (v, a) = (LIMITS.rate_rad_s, LIMITS.acceleration_rad_s2);
         let expected_s = if angle > v * v / a { angle / v + v / a } else { 2.0 * (angle / a).sqrt() };
@@ -74,7 +74,7 @@ fn a_reference_that_has_caught_the_command_is_the_command() {
     let (start, rate) = (random_attitude(4), Vector3::new(1e-3, -5e-4, 8e-4));
     let target = turning(start.turned(Vector3::new(0.3, -0.8, 0.2)), rate);
     let mut reference = Reference::new(start, Vector3::zeros());
-    let mut settled = fly(&mut reference, &LIMITS, &target, 600.0).len();
+    let mut settled = simulate(&mut reference, &LIMITS, &target, 600.0).len();
     // Four powers of ten closer in 25 s, with a time constant of 1.4 s at the end.
     for _ in 0..1250 {
         reference.step(&target(settled as f64 * DT_S), &LIMITS, DT_S);
@@ -133,7 +133,7 @@ fn a_turning_command_is_approached_about_the_eigenaxis() {
     // At rest relative to the command.
     let mut reference = Reference::new(start, start.to_body(&command.to_inertial(&rate)));
     let mut worst: f64 = 0.0;
-    for sample in fly(&mut reference, &LIMITS, &target, 600.0).iter().enumerate() {
+    for sample in simulate(&mut reference, &LIMITS, &target, 600.0).iter().enumerate() {
         let ControlTarget::Attitude { attitude, .. } = target(sample.0 as f64 * DT_S) else { unreachable!() };
         let left = attitude.rotation_vector_to(&sample.1.attitude);
         worst = worst.max(left.cross(&axis).norm());
@@ -146,7 +146,7 @@ fn a_sample_goes_on_where_the_one_before_leads() {
     let start = random_attitude(8);
     let target = turning(random_attitude(9), random(10) * 1e-3);
     let mut reference = Reference::new(start, random(11) * 1e-3);
-    let samples = fly(&mut reference, &LIMITS, target, 2000.0);
+    let samples = simulate(&mut reference, &LIMITS, target, 2000.0);
     for pair in samples.windows(2) {
         let rate = pair[0].rate_body_rad_s + pair[0].acceleration_body_rad_s2 * DT_S;
         assert!((rate - pair[1].rate_body_rad_s).norm() < 1.1e-10 / DT_S);
@@ -177,13 +177,13 @@ fn no_limits_follow_at_once_and_one_limit_alone_holds() {
     let angle = start.rotation_vector_to(&end).norm();
     let rate_only = SlewLimits { rate_rad_s: 0.01, acceleration_rad_s2: 0.0 };
     let mut reference = Reference::new(start, Vector3::zeros());
-    let samples = fly(&mut reference, &rate_only, |_| hold(end), 1000.0);
+    let samples = simulate(&mut reference, &rate_only, |_| hold(end), 1000.0);
     let settled_s = (samples.len() - 10) as f64 * DT_S;
     assert!((settled_s - angle / 0.01).abs() <= 4.0 * DT_S, "{settled_s} {}", angle / 0.01);
     assert!(samples.iter().all(|sample| sample.rate_body_rad_s.norm() <= 0.01 * (1.0 + 1e-12)));
     let acceleration_only = SlewLimits { rate_rad_s: 0.0, acceleration_rad_s2: 1e-3 };
     let mut reference = Reference::new(start, Vector3::zeros());
-    let samples = fly(&mut reference, &acceleration_only, |_| hold(end), 1000.0);
+    let samples = simulate(&mut reference, &acceleration_only, |_| hold(end), 1000.0);
     let settled_s = (samples.len() - 10) as f64 * DT_S;
     let expected_s = 2.0 * (angle / 1e-3).sqrt();
     assert!(settled_s >= expected_s && settled_s <= expected_s + 8.0, "{settled_s} {expected_s}");
@@ -194,7 +194,7 @@ fn small_jumps_of_a_command_ask_for_little_acceleration() {
     // What guidance sampled each second leaves of a command that accelerates by 1e-6 rad/s2.
     let (start, axis, acceleration) = (random_attitude(30), random_unit(31), 1e-6);
     let mut reference = Reference::new(start, Vector3::zeros());
-    fly(&mut reference, &LIMITS, |_| hold(start), 10.0);
+    simulate(&mut reference, &LIMITS, |_| hold(start), 10.0);
     let (mut most, mut mean): (f64, f64) = (0.0, 0.0);
     for sample in 0..5000_u32 {
         let time_s = f64::from(sample) * DT_S;
@@ -234,7 +234,7 @@ fn a_rate_alone_is_reached_within_the_acceleration() {
     let (start, rate) = (random_attitude(50), Vector3::new(0.01, -0.02, 0.005));
     let mut reference = Reference::new(start, Vector3::zeros());
     let target = ControlTarget::RateOnly { rate_body_rad_s: rate };
-    let samples = fly(&mut reference, &LIMITS, |_| target, 1000.0);
+    let samples = simulate(&mut reference, &LIMITS, |_| target, 1000.0);
     let reached_s = (samples.len() - 10) as f64 * DT_S;
     assert_relative_eq!(reached_s, rate.norm() / LIMITS.acceleration_rad_s2, epsilon = 1.01 * DT_S);
     // The angle of a constant acceleration and then a constant rate about one axis.
@@ -255,7 +255,7 @@ fn a_command_that_turns_faster_than_the_slew_rate_is_caught() {
             let mut reference = Reference::new(random_attitude(90 + number), Vector3::zeros());
             // Half a turn at the rate that the acceleration allows, after the rate has been reached.
             let fastest_rad_s = limits.rate_rad_s.min(0.5 * acceleration_rad_s2 / 0.05);
-            fly(&mut reference, &limits, target, 0.05 / acceleration_rad_s2 + PI / fastest_rad_s + 60.0);
+            simulate(&mut reference, &limits, target, 0.05 / acceleration_rad_s2 + PI / fastest_rad_s + 60.0);
         }
     }
 }

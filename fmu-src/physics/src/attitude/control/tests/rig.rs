@@ -104,7 +104,7 @@ impl Loop {
         torque
     }
 
-    pub(super) fn fly(&mut self, duration_s: f64) {
+    pub(super) fn simulate(&mut self, duration_s: f64) {
         for _ in 0..(duration_s / DT_S).round() as u64 {
             let torque = self.sample();
             self.body.advance(&torque);

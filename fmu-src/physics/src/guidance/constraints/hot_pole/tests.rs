@@ -9,7 +9,7 @@ use crate::guidance::geometry::test_orbit::about_mercury;
 use crate::guidance::pointing::law::PointingVectors;
 use crate::tests::short_or_long;
 
-fn surroundings(position: MovingVector, sun: MovingVector) -> EphemerisAtTime {
+fn ephemeris(position: MovingVector, sun: MovingVector) -> EphemerisAtTime {
     let far = Moving::constant(1e7);
     EphemerisAtTime {
         position: position * far,
@@ -27,7 +27,7 @@ fn rounding_does_not_choose_the_sense_of_the_turn() {
     // -Y at the Sun, -Z rolled to the planet: Sun, deck and planet in one plane.
     let at = |noise: Vector3<f64>| {
         let up = Vector3::new(0.9, 0.3, 0.1).normalize();
-        let s = surroundings(fixed(up), fixed(Vector3::x()));
+        let s = ephemeris(fixed(up), fixed(Vector3::x()));
         let vectors = PointingVectors {
             boresight_body: fixed(-Vector3::y()),
             aimpoint: fixed(Vector3::x() + noise),
@@ -59,7 +59,7 @@ fn the_cone_is_kept_or_the_best_turn_flagged() {
             body_roll: vector(),
             external_roll: vector(),
         };
-        let around = surroundings(vector(), vector());
+        let around = ephemeris(vector(), vector());
         let cone = HotPole { cone_rad: random.within(0.1, 3.0), ..EVERYWHERE };
         let free = vectors.pointing().unwrap();
         let kept = cone.constrained(&free, &around, None);
@@ -110,7 +110,7 @@ fn the_rate_is_the_difference_of_the_attitude() {
             let [boresight_body, aimpoint, body_roll, external_roll, position, sun] =
                 motions.map(|motion| motion.at(time_s));
             let vectors = PointingVectors { boresight_body, aimpoint, body_roll, external_roll };
-            let kept = cone.constrained(&vectors.pointing()?, &surroundings(position, sun), None);
+            let kept = cone.constrained(&vectors.pointing()?, &ephemeris(position, sun), None);
             kept.side.map(|_| kept)
         };
         let Some(kept) = at(0.0) else { continue };
@@ -144,7 +144,7 @@ fn a_turn_that_lasts_keeps_its_side_and_moves_steadily() {
     let kept_at = |step: i32, last: Option<TurnSide>| {
         let angle_rad = 0.7 * (f64::from(step) * 1e-3 * PI).sin();
         let planet = Vector3::new(angle_rad.sin(), 0.3, -angle_rad.cos());
-        let around = surroundings(fixed(-planet), fixed(-Vector3::y()));
+        let around = ephemeris(fixed(-planet), fixed(-Vector3::y()));
         cone.constrained(&pointing, &around, last)
     };
     let axes = |kept: &KeptOut| kept.pointing.frame().inertial_from_body;
@@ -168,7 +168,7 @@ fn it_ends_with_its_condition() {
     let around = |height_m: f64, angle_rad: f64| {
         let radius_m = Body::Mercury.data().radius_m + height_m;
         let position = Vector3::new(angle_rad.cos(), angle_rad.sin(), 0.0) * radius_m;
-        EphemerisAtTime { position: fixed(position), ..surroundings(sun, sun) }
+        EphemerisAtTime { position: fixed(position), ..ephemeris(sun, sun) }
     };
     let cone = HotPole { altitude_m: 1e6, angle_rad: 0.5, cone_rad: 1.0 };
     // -Z at the planet, -Y toward the Sun as far as possible.

@@ -29,7 +29,7 @@ fn without_height(azimuth_rad: f64, reference: AzimuthReference) -> LimbCommand 
 fn the_generic_point_solves_the_equations_on_the_azimuths_side() {
     let orbit = TestOrbit::new(12.0);
     for time_s in orbit.times_s() {
-        let s = orbit.surroundings(time_s);
+        let s = orbit.ephemeris(time_s);
         for step in 0..16 {
             let azimuth = TAU * f64::from(step) / 16.0;
             for reference in [AzimuthReference::Downtrack, AzimuthReference::Sun] {
@@ -44,7 +44,7 @@ fn the_generic_point_solves_the_equations_on_the_azimuths_side() {
 
 #[test]
 fn random_ellipsoids_seen_from_anywhere_have_two_points_or_none() {
-    let mut some = TestOrbit::new(12.0).surroundings(0.0);
+    let mut some = TestOrbit::new(12.0).ephemeris(0.0);
     // Fractions of multiples of irrational numbers fill the cube evenly.
     let within =
         |k: u32, root: f64, low: f64, high: f64| low + (high - low) * (f64::from(k) * root.sqrt()).fract();
@@ -73,7 +73,7 @@ fn random_ellipsoids_seen_from_anywhere_have_two_points_or_none() {
 
 #[test]
 fn on_a_sphere_the_limb_is_at_the_known_angle_from_nadir() {
-    let mut s = TestOrbit::new(12.0).surroundings(3000.0);
+    let mut s = TestOrbit::new(12.0).ephemeris(3000.0);
     s.planet.radii_m = Vector3::repeat(2.44e6);
     let (up, distance_m) = (value(&s.position).normalize(), value(&s.position).norm());
     let side = value(&lvlh_direction(&s, AzimuthReference::Sun, 0.4, 0.0).unwrap());
@@ -88,7 +88,7 @@ fn the_terminator_point_solves_the_equations_and_is_the_one_ahead() {
     let orbit = TestOrbit::new(12.0);
     let mut found = 0;
     for step in 0..400 {
-        let s = orbit.surroundings(f64::from(step) * 108.0 + 3.0);
+        let s = orbit.ephemeris(f64::from(step) * 108.0 + 3.0);
         let point = terminator_limb(&s, &LimbCommand::default(), 0.0).unwrap();
         let sun = value(&s.sun);
         // On a sphere the limb meets the terminator where the Sun's angle from up is within limb angle of 90 deg.
@@ -123,7 +123,7 @@ fn the_terminator_point_solves_the_equations_and_is_the_one_ahead() {
 #[test]
 fn two_solutions_become_one_and_none_as_the_terminator_leaves_the_disc() {
     let at = |across: f64| {
-        let mut s = TestOrbit::new(12.0).surroundings(0.0);
+        let mut s = TestOrbit::new(12.0).ephemeris(0.0);
         s.planet.radii_m = Vector3::repeat(2.0);
         s.position = fixed(Vector3::new(across, 0.0, 5.0));
         limb_points(&s, &fixed(Vector3::z()))
@@ -141,7 +141,7 @@ fn two_solutions_become_one_and_none_as_the_terminator_leaves_the_disc() {
 
 #[test]
 fn height_grows_along_the_radius() {
-    let s = TestOrbit::new(12.0).surroundings(2000.0);
+    let s = TestOrbit::new(12.0).ephemeris(2000.0);
     let ground = generic_limb(&s, &without_height(1.0, AzimuthReference::Downtrack), 0.0).unwrap();
     let command = LimbCommand {
         height_m: 1e4,
@@ -159,7 +159,7 @@ fn height_grows_along_the_radius() {
 
 #[test]
 fn inside_the_planet_there_is_no_limb() {
-    let s = TestOrbit::new(12.0).surroundings(2000.0);
+    let s = TestOrbit::new(12.0).ephemeris(2000.0);
     let inside = EphemerisAtTime { position: s.position * Moving::from_re(0.01), ..s };
     assert!(!generic_limb(&inside, &LimbCommand::default(), 0.0).unwrap().exists);
     assert!(!terminator_limb(&inside, &LimbCommand::default(), 0.0).unwrap().exists);

@@ -9,14 +9,14 @@ use crate::guidance::geometry::ephemeris_at_time::TargetPlanet;
 
 const CHECK: Monitor = Monitor { margin_rad: SUN_TOLERANCE_RAD, persistence_s: 3.0 };
 
-fn surroundings(sun_m: Vector3<f64>) -> EphemerisAtTime {
+fn ephemeris(sun_m: Vector3<f64>) -> EphemerisAtTime {
     let spacecraft = CartesianState { position_m: Vector3::x(), velocity_m_s: Vector3::y() };
     let planet = TargetPlanet::of(Body::Mercury.data());
     EphemerisAtTime::new(0.0, planet, &spacecraft, &fixed(sun_m), &fixed(Vector3::z() * 1e11))
 }
 
-fn places() -> BodyPositions {
-    let (precise, coarse) = (surroundings(Vector3::x() * 5e10), surroundings(Vector3::y() * 5e10));
+fn positions() -> BodyPositions {
+    let (precise, coarse) = (ephemeris(Vector3::x() * 5e10), ephemeris(Vector3::y() * 5e10));
     BodyPositions { precise: Some(precise), coarse: Some(coarse), by_mode: true }
 }
 
@@ -30,7 +30,7 @@ fn sensed(off_rad: f64) -> Option<(Attitude, Vector3<f64>)> {
 fn valid_after(offs_rad: &[Option<f64>]) -> bool {
     let mut trust = EphemerisTrust::default();
     for (second, off_rad) in offs_rad.iter().enumerate() {
-        trust.sample(Some(&CHECK), second as f64, &places(), off_rad.and_then(sensed));
+        trust.sample(Some(&CHECK), second as f64, &positions(), off_rad.and_then(sensed));
     }
     trust.is_valid()
 }
@@ -49,11 +49,11 @@ fn a_disagreement_counts_once_it_has_lasted() {
 #[test]
 fn a_span_that_is_left_ends_them_at_once_and_lack_of_places_does_not() {
     let mut trust = EphemerisTrust::default();
-    trust.sample(None, 0.0, &BodyPositions { precise: None, coarse: None, ..places() }, None);
+    trust.sample(None, 0.0, &BodyPositions { precise: None, coarse: None, ..positions() }, None);
     assert!(trust.is_valid());
-    trust.sample(None, 0.0, &BodyPositions { precise: None, by_mode: false, ..places() }, None);
+    trust.sample(None, 0.0, &BodyPositions { precise: None, by_mode: false, ..positions() }, None);
     assert!(trust.is_valid());
-    trust.sample(None, 0.0, &BodyPositions { precise: None, ..places() }, None);
+    trust.sample(None, 0.0, &BodyPositions { precise: None, ..positions() }, None);
     assert!(!trust.is_valid());
     trust.renew();
     assert!(trust.is_valid());
@@ -61,12 +61,12 @@ fn a_span_that_is_left_ends_them_at_once_and_lack_of_places_does_not() {
 
 #[test]
 fn each_mode_goes_by_its_own_models() {
-    let (mut trust, places) = (EphemerisTrust::default(), places());
-    let [precise, coarse] = [places.precise.as_ref(), places.coarse.as_ref()];
+    let (mut trust, positions) = (EphemerisTrust::default(), positions());
+    let [precise, coarse] = [positions.precise.as_ref(), positions.coarse.as_ref()];
     let modes = [Mode::Operational, Mode::SafeHold, Mode::EarthAcquisition];
-    assert_eq!(modes.map(|mode| places.in_mode(mode, &trust)), [precise, precise, coarse]);
-    trust.sample(None, 0.0, &BodyPositions { precise: None, ..places }, None);
-    assert_eq!(modes.map(|mode| places.in_mode(mode, &trust)), [precise, coarse, coarse]);
-    let alone = BodyPositions { by_mode: false, ..places };
+    assert_eq!(modes.map(|mode| positions.in_mode(mode, &trust)), [precise, precise, coarse]);
+    trust.sample(None, 0.0, &BodyPositions { precise: None, ..positions }, None);
+    assert_eq!(modes.map(|mode| positions.in_mode(mode, &trust)), [precise, coarse, coarse]);
+    let alone = BodyPositions { by_mode: false, ..positions };
     assert_eq!(modes.map(|mode| alone.in_mode(mode, &trust)), [precise; 3]);
 }

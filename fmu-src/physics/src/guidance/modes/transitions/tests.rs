@@ -35,13 +35,13 @@ fn settings() -> ModeSettings {
     }
 }
 
-fn surroundings() -> EphemerisAtTime {
+fn ephemeris() -> EphemerisAtTime {
     let position = Vector3::x() * Body::Mercury.data().radius_m * 2.0;
     about_mercury(position, Vector3::x() * 5e10, Vector3::new(4e10, 8e10, 1e10))
 }
 
 fn known() -> BodyPositions {
-    BodyPositions::in_every_mode(Some(surroundings()))
+    BodyPositions::in_every_mode(Some(ephemeris()))
 }
 
 /// -Y at the Sun along +x, turned on by `angle_rad` about Z: that is the Sun's azimuth, save for its sign.
@@ -169,7 +169,7 @@ fn after_a_promotion_a_violation_counts_in_full() {
 
 #[test]
 fn a_demoted_mode_commands_a_safe_attitude_at_once() {
-    let surroundings = surroundings();
+    let ephemeris = ephemeris();
     let mut settings = settings();
     let cone = HotPole { altitude_m: 1e8, angle_rad: 0.5, cone_rad: 1.7 };
     settings.safe_hold.hot_pole = Some(cone);
@@ -179,13 +179,11 @@ fn a_demoted_mode_commands_a_safe_attitude_at_once() {
     assert_eq!(state.mode, SafeHold);
     for azimuth_rad in [None, Some(-1.5), Some(2.0)] {
         let request = DownlinkRequest { antenna_azimuth_rad: azimuth_rad, ..DownlinkRequest::default() };
-        let found =
-            downlink(&surroundings.to_sun(), &surroundings.to_earth(), &quadrants(), &request).unwrap();
-        let kept = constraints.applied(&found.vectors, &surroundings, None).unwrap();
+        let found = downlink(&ephemeris.to_sun(), &ephemeris.to_earth(), &quadrants(), &request).unwrap();
+        let kept = constraints.applied(&found.vectors, &ephemeris, None).unwrap();
         let body = |v| value(&kept.pointing.to_body(&unit(&v).unwrap()));
-        let excess_rad = constraints
-            .excess(&body(surroundings.to_sun()), &body(surroundings.to_planet()), true)
-            .greatest_rad();
+        let excess_rad =
+            constraints.excess(&body(ephemeris.to_sun()), &body(ephemeris.to_planet()), true).greatest_rad();
         // The planet is opposite the Sun here: the cone is out of reach with the Sun on -Y, and flagged.
         assert!(excess_rad < 1e-12 || !kept.hot_pole_reached, "{excess_rad} {kept:?}");
     }

@@ -9,12 +9,12 @@ use nalgebra::Vector3;
 #[test]
 fn every_option_has_a_direction_and_the_points_are_where_they_are_said_to_be() {
     use AimpointOption as Option;
-    let s = TestOrbit::new(12.0).surroundings(700.0);
+    let s = TestOrbit::new(12.0).ephemeris(700.0);
     let spacecraft = value(&s.position);
     let toward = |option| {
-        let aim = aimpoint(&command(option), &s, SubsolarMethod::Line).unwrap();
-        assert!(aim.reachable);
-        value(&aim.toward)
+        let aimpoint = aimpoint(&command(option), &s, SubsolarMethod::Line).unwrap();
+        assert!(aimpoint.reachable);
+        value(&aimpoint.toward)
     };
     let c = command(Option::Vector);
     let place = |option| toward(option) + spacecraft;
@@ -48,7 +48,7 @@ fn every_option_has_a_direction_and_the_points_are_where_they_are_said_to_be() {
 
 #[test]
 fn an_aim_without_direction_is_none() {
-    let s = TestOrbit::new(12.0).surroundings(700.0);
+    let s = TestOrbit::new(12.0).ephemeris(700.0);
     let none = |command: AimpointCommand, s: &EphemerisAtTime| {
         assert!(aimpoint(&command, s, SubsolarMethod::Normal).is_none(), "{:?}", command.option);
     };

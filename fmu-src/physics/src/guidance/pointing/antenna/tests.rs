@@ -30,12 +30,12 @@ pub(crate) fn quadrants() -> Antennas {
 #[test]
 fn a_fan_over_180_deg_stays_within_a_turn() {
     let all = antennas(&[fan(170.0, 190.0)]);
-    for (asked_deg, found_deg, outside_deg) in
+    for (requested_deg, found_deg, outside_deg) in
         [(175.0_f64, 175.0_f64, 0.0_f64), (-175.0, -175.0, 0.0), (160.0, 170.0, 10.0), (-100.0, -170.0, 70.0)]
     {
-        let found = all.nearest_fan(asked_deg.to_radians());
-        assert!((found.azimuth_rad.to_degrees() - found_deg).abs() < 1e-10, "{asked_deg}: {found:?}");
-        assert!((found.outside_rad.to_degrees() - outside_deg).abs() < 1e-10, "{asked_deg}: {found:?}");
+        let found = all.nearest_fan(requested_deg.to_radians());
+        assert!((found.azimuth_rad.to_degrees() - found_deg).abs() < 1e-10, "{requested_deg}: {found:?}");
+        assert!((found.outside_rad.to_degrees() - outside_deg).abs() < 1e-10, "{requested_deg}: {found:?}");
     }
 }
 

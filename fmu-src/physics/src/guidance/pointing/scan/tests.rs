@@ -119,25 +119,25 @@ fn moved(
     frame: ScanFrame,
     axis: usize,
     amount: f64,
-    aim: &Aim,
-    surroundings: &EphemerisAtTime,
+    aimpoint: &Aimpoint,
+    ephemeris: &EphemerisAtTime,
 ) -> Option<Scanned> {
     let mut command = ScanCommand { frame: Some(frame), ..pattern(1.0, 0.0, 1, false) };
     command.reference = Some(AzimuthReference::Sun);
     command.rate_rad_s[axis] = amount;
     command.speed_m_s[axis] = amount;
     let compatibility = ScanCompatibility::default();
-    scanned(&fixed(Vector3::z()), aim, &command, surroundings, &compatibility, exact(5.0))
+    scanned(&fixed(Vector3::z()), aimpoint, &command, ephemeris, &compatibility, exact(5.0))
 }
 
 #[test]
 fn each_frame_moves_what_it_says() {
-    let s = TestOrbit::new(12.0).surroundings(900.0);
-    let down = Aim::new(s.to_planet(), AimKind::PlanetPoint).unwrap();
+    let s = TestOrbit::new(12.0).ephemeris(900.0);
+    let down = Aimpoint::new(s.to_planet(), AimpointKind::PlanetPoint).unwrap();
     let body = moved(ScanFrame::Body, 0, FRAC_PI_2, &down, &s).unwrap();
     assert_relative_eq!(value(&body.boresight_body), -Vector3::y(), epsilon = 1e-15);
     assert_eq!(body.toward, down.toward);
-    let x = Aim::new(fixed(Vector3::x()), AimKind::Direction).unwrap();
+    let x = Aimpoint::new(fixed(Vector3::x()), AimpointKind::Direction).unwrap();
     let turned = moved(ScanFrame::InertialRotation, 2, FRAC_PI_2, &x, &s).unwrap();
     assert_relative_eq!(value(&turned.toward), Vector3::y(), epsilon = 1e-15);
     let shifted = moved(ScanFrame::InertialTranslation, 1, 1e4, &down, &s).unwrap();
@@ -149,7 +149,7 @@ fn each_frame_moves_what_it_says() {
     let turned = moved(ScanFrame::LvlhRotation, 0, FRAC_PI_2, &down, &s).unwrap();
     let left = value(&s.position).cross(&value(&s.sun)).normalize();
     assert_relative_eq!(value(&turned.toward).normalize(), left, epsilon = 1e-13);
-    // About up a vertical aim stays.
+    // About up a vertical aimpoint stays.
     let turned = moved(ScanFrame::LvlhRotation, 2, 1.0, &down, &s).unwrap();
     let apart_m = (value(&turned.toward) - value(&down.toward)).norm();
     assert!(apart_m <= 1e-15 * value(&down.toward).norm(), "{apart_m}");
@@ -157,8 +157,8 @@ fn each_frame_moves_what_it_says() {
 
 #[test]
 fn rotations_follow_each_other_about_fixed_axes() {
-    let s = TestOrbit::new(12.0).surroundings(900.0);
-    let y = Aim::new(fixed(Vector3::y()), AimKind::Direction).unwrap();
+    let s = TestOrbit::new(12.0).ephemeris(900.0);
+    let y = Aimpoint::new(fixed(Vector3::y()), AimpointKind::Direction).unwrap();
     let command = ScanCommand {
         frame: Some(ScanFrame::InertialRotation),
         rate_rad_s: [FRAC_PI_2, FRAC_PI_2, 0.0],
@@ -172,9 +172,9 @@ fn rotations_follow_each_other_about_fixed_axes() {
 
 #[test]
 fn incompatible_scans_are_not_done() {
-    let s = TestOrbit::new(12.0).surroundings(900.0);
-    let star = Aim::new(fixed(Vector3::x()), AimKind::Direction).unwrap();
-    let sun = Aim::new(s.to_sun(), AimKind::Point).unwrap();
+    let s = TestOrbit::new(12.0).ephemeris(900.0);
+    let star = Aimpoint::new(fixed(Vector3::x()), AimpointKind::Direction).unwrap();
+    let sun = Aimpoint::new(s.to_sun(), AimpointKind::Point).unwrap();
     for frame in [ScanFrame::InertialTranslation, ScanFrame::PlanetTranslation, ScanFrame::LvlhRotation] {
         assert!(moved(frame, 0, 1.0, &star, &s).is_none());
     }
@@ -182,6 +182,6 @@ fn incompatible_scans_are_not_done() {
     assert!(moved(ScanFrame::InertialTranslation, 0, 1.0, &sun, &s).is_some());
     // The Sun overhead leaves its local frame without a reference.
     let noon = EphemerisAtTime { sun: s.position * Moving::from_re(1e4), ..s };
-    let down = Aim::new(s.to_planet(), AimKind::PlanetPoint).unwrap();
+    let down = Aimpoint::new(s.to_planet(), AimpointKind::PlanetPoint).unwrap();
     assert!(moved(ScanFrame::LvlhRotation, 0, 1.0, &down, &noon).is_none());
 }

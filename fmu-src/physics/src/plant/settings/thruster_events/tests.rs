@@ -1,4 +1,4 @@
-//! Draws have the mean and deviation that was asked for, are independent, and belong to seed and number alone.
+//! Draws have the requested mean and deviation, are independent, and belong to seed and number alone.
 
 use approx::assert_relative_eq;
 
@@ -22,11 +22,11 @@ fn assert_normal(draws: &[f64], sigma: f64) {
     let mean = draws.iter().sum::<f64>() / n;
     let deviation = (draws.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt();
     assert!(mean.abs() < 4.0 * sigma / n.sqrt(), "mean {mean:e} of sigma {sigma:e}");
-    assert!((deviation / sigma - 1.0).abs() < 4.0 / (2.0 * n).sqrt(), "{deviation:e}, asked {sigma:e}");
+    assert!((deviation / sigma - 1.0).abs() < 4.0 / (2.0 * n).sqrt(), "{deviation:e}, requested {sigma:e}");
 }
 
 #[test]
-fn a_thousand_maneuvers_have_the_errors_asked_for() {
+fn a_thousand_maneuvers_have_the_requested_errors() {
     let delta_v = Vector3::new(3.0, -4.0, 12.0);
     let along = delta_v / 13.0;
     let one = along.cross(&Vector3::z()).normalize();
@@ -48,7 +48,7 @@ fn a_thousand_maneuvers_have_the_errors_asked_for() {
 }
 
 #[test]
-fn a_thousand_shifts_have_the_deviations_asked_for() {
+fn a_thousand_shifts_have_the_requested_deviations() {
     let shifts: Vec<_> = (0..DRAWS).filter_map(|k| settings().shift_body_m(k)).collect();
     for (axis, sigma) in [1e-3, 2e-3].into_iter().enumerate() {
         assert_normal(&shifts.iter().map(|it| it[axis]).collect::<Vec<_>>(), sigma);

@@ -128,16 +128,16 @@ proptest! {
 /// is arithmetic.
 #[test]
 fn a_plate_on_a_bus_has_the_temperature_its_balance_was_made_for() {
-    let (emissivity, wanted_k, bus_k, background_k, heat) = (0.8, 310.0_f64, 280.0, 60.0_f64, 900.0);
-    let radiated = emissivity * SIGMA * (wanted_k.powi(4) - background_k.powi(4));
-    let conductance_w_m2_k = (heat - radiated) / (wanted_k - bus_k);
+    let (emissivity, expected_k, bus_k, background_k, heat) = (0.8, 310.0_f64, 280.0, 60.0_f64, 900.0);
+    let radiated = emissivity * SIGMA * (expected_k.powi(4) - background_k.powi(4));
+    let conductance_w_m2_k = (heat - radiated) / (expected_k - bus_k);
     assert!(conductance_w_m2_k > 10.0);
     let face = FaceEnvironment {
         emission: Emission::constant(emissivity),
         background_k,
         bus: BusLink { conductance_w_m2_k, temperature_k: bus_k },
     };
-    assert_relative_eq!(face_temperature_k(&face, heat), wanted_k, max_relative = 1e-13);
+    assert_relative_eq!(face_temperature_k(&face, heat), expected_k, max_relative = 1e-13);
     // In the dark the bus keeps it warm: between the two it is where both flows are equal.
     let dark_k = face_temperature_k(&face, 0.0);
     let from_bus = conductance_w_m2_k * (bus_k - dark_k);

@@ -32,11 +32,13 @@ fn units_are_read() {
     assert_eq!((epoch_s, text.as_str()), (dates::epoch_s("2008-03-19 TDB").unwrap(), "2008-03-19 TDB"));
     assert_eq!(leg.arrive.it, Instant::Epoch(dates::epoch_s("2008-10-06T08:40:00 UTC").unwrap()));
     assert_eq!((leg.body.it, leg.revolutions.it), ("mercury", Some((1, LambertBranch::Right))));
-    let Aim::Altitude { altitude_m, angle_rad } = leg.aim.it else { panic!("{:?}", leg.aim) };
+    let FlybyAimpoint::Altitude { altitude_m, angle_rad } = leg.aimpoint.it else {
+        panic!("{:?}", leg.aimpoint)
+    };
     assert_eq!(altitude_m, 2e5);
     assert!((angle_rad - core::f64::consts::FRAC_PI_2).abs() < 1e-15);
     let components = FULL.replace("altitude = \"200 km\"\nangle = \"90 deg\"", "bT = \"-3100 km\"\nbR = 5e5");
-    assert_eq!(parsed(&components).unwrap().aim.it, Aim::Plane { b_t_m: -3.1e6, b_r_m: 5e5 });
+    assert_eq!(parsed(&components).unwrap().aimpoint.it, FlybyAimpoint::Plane { b_t_m: -3.1e6, b_r_m: 5e5 });
 }
 
 #[test]

@@ -21,7 +21,7 @@ const MOST_RUNS: usize = 100_000;
 
 /// Where the B-plane is to be met.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::plan) enum Aim {
+pub(in crate::plan) enum GivenAimpoint {
     /// B along T and R, in m.
     BPlane([f64; 2]),
     /// Altitude of the closest approach in m, angle of B from T toward R in rad.
@@ -32,7 +32,7 @@ pub(in crate::plan) enum Aim {
 #[derive(Clone, Debug)]
 pub(in crate::plan) struct Flyby {
     pub body: At<String>,
-    pub aim: At<Aim>,
+    pub aimpoint: At<GivenAimpoint>,
     /// When the spacecraft arrives, where that is a goal.
     pub time: Option<At<values::Instant>>,
     pub from: Option<At<values::Instant>>,
@@ -106,14 +106,14 @@ impl Builder<'_> {
             }
             angle_rad
         });
-        let aim = match (b_t_m, b_r_m, altitude_m, angle_rad) {
-            (Some(b_t_m), Some(b_r_m), None, None) => Some((Aim::BPlane([b_t_m, b_r_m]), "bT")),
+        let aimpoint = match (b_t_m, b_r_m, altitude_m, angle_rad) {
+            (Some(b_t_m), Some(b_r_m), None, None) => Some((GivenAimpoint::BPlane([b_t_m, b_r_m]), "bT")),
             (None, None, Some(altitude_m), Some(angle_rad)) => {
                 if altitude_m < 0.0 {
                     let found = format!("{altitude_m} m, inside of the planet");
                     self.check.report(&place.key("altitude"), found, "an altitude from 0 on");
                 }
-                Some((Aim::Altitude([altitude_m, angle_rad]), "altitude"))
+                Some((GivenAimpoint::Altitude([altitude_m, angle_rad]), "altitude"))
             }
             _ => {
                 self.check.report(place, "no whole aim, or two", "either bT and bR, or altitude and angle");
@@ -155,10 +155,10 @@ impl Builder<'_> {
         if let Some(written) = flyby.tolerance.as_ref().filter(|_| tolerance_m < LEAST_TOLERANCE_M) {
             self.check.report(&tolerance, written, "a length from 1 m on");
         }
-        let (aim, key) = aim?;
+        let (aimpoint, key) = aimpoint?;
         Some(Flyby {
             body: self.at(&place.key("body"), flyby.body),
-            aim: self.at(&place.key(key), aim),
+            aimpoint: self.at(&place.key(key), aimpoint),
             time,
             from,
             tolerance_m,

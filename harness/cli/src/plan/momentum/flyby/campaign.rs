@@ -13,7 +13,7 @@ use crate::{
     interrupt,
     plan::{
         flights::{Failure, Requested, SimulatedMission},
-        momentum::{aimed::Aimed, file::encounter::MonteCarlo, planned::Planned},
+        momentum::{file::encounter::MonteCarlo, flyby_task::FlybyTask, planned::Planned},
     },
 };
 
@@ -36,7 +36,7 @@ const COARSE_S: f64 = 6.0 * 3600.0;
 pub(super) fn simulated(
     mission: &SimulatedMission,
     (table, covariance): (MonteCarlo, Option<Matrix6<f64>>),
-    (aimed, arrival_s): (&Aimed, f64),
+    (flyby_task, arrival_s): (&FlybyTask, f64),
     planned: &Planned<'_>,
 ) -> Result<Campaign, Failure> {
     let spread =
@@ -47,7 +47,7 @@ pub(super) fn simulated(
         }
         None => spread,
     };
-    let lead_s = aimed.surroundings.lead_s;
+    let lead_s = flyby_task.force_model.lead_s;
     let times_s = rows_s([mission.start_s, mission.stop_s], arrival_s - lead_s);
     let starts = Starts::of(mission)?;
     let bar = terminal::progress(table.runs as u64, "runs", planned.options.quiet);
@@ -63,7 +63,7 @@ pub(super) fn simulated(
         });
         bar.inc(1);
         let found = recording.map_err(|error| error.to_string());
-        (run, found.and_then(|it| outcome(&it, lead_s, aimed.aim.b_m)))
+        (run, found.and_then(|it| outcome(&it, lead_s, flyby_task.aimpoint.b_m)))
     };
     let found: Vec<(u64, Result<Outcome, String>)> =
         (1..=table.runs as u64).into_par_iter().map(of).collect();
@@ -136,7 +136,7 @@ impl Starts {
 }
 
 /// What a flight came to.
-fn outcome(recording: &Recording, lead_s: f64, aim_m: [f64; 2]) -> Result<Outcome, String> {
+fn outcome(recording: &Recording, lead_s: f64, aimpoint_m: [f64; 2]) -> Result<Outcome, String> {
     let column = |name: &str| {
         recording
             .column(name)
@@ -165,7 +165,7 @@ fn outcome(recording: &Recording, lead_s: f64, aim_m: [f64; 2]) -> Result<Outcom
     let sizes = (0..recording.times_s.len())
         .map(|row| momentum.iter().map(|column| column[row].powi(2)).sum::<f64>().sqrt());
     Ok(Outcome {
-        miss_m: [at(OUTPUTS[0])? - aim_m[0], at(OUTPUTS[1])? - aim_m[1]],
+        miss_m: [at(OUTPUTS[0])? - aimpoint_m[0], at(OUTPUTS[1])? - aimpoint_m[1]],
         arrival_s,
         altitude_m: last(OUTPUTS[4])?,
         momentum_n_m_s: sizes.fold(0.0, f64::max),

@@ -12,8 +12,8 @@ use super::update::time_s;
 use crate::plan::{
     flights::Failure,
     momentum::{
-        aimed::Aimed,
         file::{PlanFile, encounter::Compare},
+        flyby_task::FlybyTask,
         planned::Planned,
     },
 };
@@ -22,32 +22,32 @@ use crate::plan::{
 pub(super) fn compared(
     file: &PlanFile,
     compare: &Compare,
-    (planned, aimed): (&Planned<'_>, &Aimed),
+    (planned, flyby_task): (&Planned<'_>, &FlybyTask),
     after: &Sensitivity,
 ) -> Result<Compared, Failure> {
-    let arrival_s = aimed.first.encounter.time_s;
+    let arrival_s = flyby_task.first.encounter.time_s;
     let next_s = time_s(file, &compare.next, compare.next.it, &planned.mission)?;
     let departure_s = arrival_s + compare.departure_s;
     if next_s <= departure_s {
         let what = "found a date before the departure manoeuvre, allowed: a later one";
         return Err(file.problem(&compare.next, what).into());
     }
-    let cost = MissCost::new(after, &aimed.surroundings, [departure_s, next_s])?;
+    let cost = MissCost::new(after, &flyby_task.force_model, [departure_s, next_s])?;
     let errors =
         ExecutionErrors { direction_rad: compare.direction_error_rad, magnitude: compare.magnitude_error };
     let of = |sensitivity: &Sensitivity| Miss {
-        mean_m: aimed.aim.miss(&sensitivity.encounter).xy(),
+        mean_m: flyby_task.aimpoint.miss(&sensitivity.encounter).xy(),
         covariance_m2: Matrix2::zeros(),
     };
-    let mut miss = of(&aimed.first);
+    let mut miss = of(&flyby_task.first);
     let mut all = Vec::new();
     for at in &compare.approach_s {
         let at_s = arrival_s + at.it;
-        if at_s < planned.mission.start_s || at_s >= aimed.first.encounter.epoch_s {
+        if at_s < planned.mission.start_s || at_s >= flyby_task.first.encounter.epoch_s {
             let what = "found a time outside of the flight, allowed: between its start and the encounter";
             return Err(file.problem(at, what).into());
         }
-        let by_velocity = aimed.first.by_velocity(at_s).fixed_rows::<2>(0).into_owned();
+        let by_velocity = flyby_task.first.by_velocity(at_s).fixed_rows::<2>(0).into_owned();
         let Some(found) = approach(&miss, &by_velocity, &errors) else {
             let what = "found a time at which no velocity moves both components of B, allowed: another";
             return Err(file.problem(at, what).into());
@@ -55,7 +55,7 @@ pub(super) fn compared(
         miss = found.left;
         all.push((at_s, found));
     }
-    let sizes = [of(&aimed.first), miss, of(after)].map(|miss| departure(&miss, &cost.by_miss_1_s).1);
+    let sizes = [of(&flyby_task.first), miss, of(after)].map(|miss| departure(&miss, &cost.by_miss_1_s).1);
     let by_m_1_s = [Vector2::x(), Vector2::y()].map(|miss_m| cost.cost_m_s(miss_m.into()));
     Ok(Compared { approach: all, departure_s, departure_m_s: sizes, by_m_1_s })
 }

@@ -9,14 +9,14 @@ use ::files::Scratch;
 use nalgebra::Vector2;
 use planner::{
     flyby::{
-        controls::aim_by_windows,
+        controls::lead_by_windows,
         report::{FlybyReport, encounter_of, sensitivity_csv},
     },
     momentum::{attainable::reachable, plan::MomentumPlan},
 };
 
 pub(super) use self::{picture::charts, update::updated};
-use super::{aimed::Aimed, file::PlanFile, planned::Planned};
+use super::{file::PlanFile, flyby_task::FlybyTask, planned::Planned};
 use crate::plan::flights::{Failure, SimulatedMission};
 
 /// Between the times of desired velocity changes, in s.
@@ -38,27 +38,27 @@ fn holds(polygon_m: &[[f64; 2]], correction_m: Vector2<f64>) -> bool {
 }
 
 /// What can be known before the plan.
-pub(super) fn before(planned: &Planned<'_>, aimed: &Aimed) -> Result<FlybyReport, Failure> {
+pub(super) fn before(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<FlybyReport, Failure> {
     let mut simulates = planned;
     let reach = reachable(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates);
     let reach = reach.map_err(|error| error.to_string())?;
-    let miss = aimed.first_miss();
+    let miss = flyby_task.first_miss();
     let from_s = planned.task.layout.frozen_until_s.max(planned.mission.start_s);
-    let epoch_s = aimed.first.encounter.epoch_s;
+    let epoch_s = flyby_task.first.encounter.epoch_s;
     let days = (0..).map(|day| from_s + f64::from(day) * DESIRED_S).take_while(|at_s| *at_s < epoch_s);
     let desired = days.filter_map(|at_s| {
-        let found = match aimed.aim.arrival_s {
-            None => aimed.first.desired(at_s, [miss.x, miss.y]),
-            Some(_) => aimed.first.desired_in_time(at_s, [miss.x, miss.y], miss.z),
+        let found = match flyby_task.aimpoint.arrival_s {
+            None => flyby_task.first.desired(at_s, [miss.x, miss.y]),
+            Some(_) => flyby_task.first.desired_in_time(at_s, [miss.x, miss.y], miss.z),
         };
         Some((at_s, found?))
     });
     Ok(FlybyReport {
-        aim_m: aimed.aim.b_m,
-        epoch_minus_time_s: aimed.surroundings.epoch_minus_time_s,
-        radius_m: aimed.radius_m,
+        aimpoint_m: flyby_task.aimpoint.b_m,
+        epoch_minus_time_s: flyby_task.force_model.epoch_minus_time_s,
+        radius_m: flyby_task.radius_m,
         miss: [Some(miss), None],
-        encounter: encounter_of(&aimed.first, aimed.radius_m),
+        encounter: encounter_of(&flyby_task.first, flyby_task.radius_m),
         is_out_of_reach: !holds(&reach.polygon_m, -miss.xy()),
         reach,
         desired: desired.collect(),
@@ -71,15 +71,15 @@ pub(super) fn before(planned: &Planned<'_>, aimed: &Aimed) -> Result<FlybyReport
 pub(super) fn complete(
     report: &mut FlybyReport,
     file: &PlanFile,
-    (planned, aimed): (&Planned<'_>, &Aimed),
+    (planned, flyby_task): (&Planned<'_>, &FlybyTask),
     found: &MomentumPlan,
 ) -> Result<String, Failure> {
     let mut flight = found.flight.clone();
-    let after = aimed.judge(&mut flight, &planned.sunlit)?;
-    report.miss[1] = Some(aimed.aim.miss(&after.encounter));
-    report.encounter = encounter_of(&after, aimed.radius_m);
+    let after = flyby_task.judge(&mut flight, &planned.sunlit)?;
+    report.miss[1] = Some(flyby_task.aimpoint.miss(&after.encounter));
+    report.encounter = encounter_of(&after, flyby_task.radius_m);
     if let Some(at) = &file.compare {
-        report.compared = Some(compared::compared(file, &at.it, (planned, aimed), &after)?);
+        report.compared = Some(compared::compared(file, &at.it, (planned, flyby_task), &after)?);
     }
     if let Some(at) = &file.monte_carlo {
         let folder = Scratch::new()?;
@@ -91,29 +91,29 @@ pub(super) fn complete(
         let covariance = file.update.as_ref().and_then(|it| it.it.covariance);
         let arrival_s = after.encounter.time_s;
         report.campaign =
-            Some(campaign::simulated(&mission, (at.it, covariance), (aimed, arrival_s), planned)?);
+            Some(campaign::simulated(&mission, (at.it, covariance), (flyby_task, arrival_s), planned)?);
     }
-    let by_window = aim_by_windows(&after, &planned.sunlit, &flight, &found.windows);
+    let by_window = lead_by_windows(&after, &planned.sunlit, &flight, &found.windows);
     Ok(String::from_utf8(sensitivity_csv(&found.windows, &by_window)?)?)
 }
 
 /// What a person reads of it.
-pub(super) fn summary(report: &FlybyReport, aimed: &Aimed) -> Vec<String> {
+pub(super) fn summary(report: &FlybyReport, flyby_task: &FlybyTask) -> Vec<String> {
     let km = |length_m: f64| terminal::short(length_m / 1e3);
     let [arrival_s, osculation_s, altitude_m, excess_m_s] = report.encounter;
     let lead_h = terminal::short((arrival_s - osculation_s) / 3600.0);
     let missed = |label: &str, miss: &nalgebra::Vector3<f64>| {
-        let late = match aimed.aim.arrival_s {
+        let late = match flyby_task.aimpoint.arrival_s {
             Some(_) => format!(", {} s late", terminal::short(miss.z)),
             None => String::new(),
         };
         format!("{label} misses by {} km along T, {} km along R{late}", km(miss.x), km(miss.y))
     };
-    let name = aimed.surroundings.body.data().name;
+    let name = flyby_task.force_model.body.data().name;
     let mut lines = vec![format!(
         "{name}, {lead_h} h before closest approach: aim B.T {} km, B.R {} km; closest approach {} km above it, excess speed {} km/s",
-        km(report.aim_m[0]),
-        km(report.aim_m[1]),
+        km(report.aimpoint_m[0]),
+        km(report.aimpoint_m[1]),
         km(altitude_m),
         terminal::short(excess_m_s / 1e3),
     )];

@@ -2,42 +2,45 @@
 
 use drawing::{Chart, Panel, PlaneChart, PlanePanel, Series, ellipse};
 use planner::flyby::{
-    aim::b_of_periapsis_m,
+    aimpoint::b_of_periapsis_m,
     maneuvers,
     report::{Campaign, FlybyReport},
 };
 
-use super::super::aimed::Aimed;
+use super::super::flyby_task::FlybyTask;
 
 const DAY_S: f64 = 86_400.0;
 /// Deviations of the ellipse that is drawn.
 const SIGMAS: f64 = 3.0;
 
 /// B-plane and desired velocity changes.
-pub(in crate::plan::momentum) fn charts(report: &FlybyReport, aimed: &Aimed) -> (PlaneChart, Option<Chart>) {
-    (plane(report, aimed), desired(report))
+pub(in crate::plan::momentum) fn charts(
+    report: &FlybyReport,
+    flyby_task: &FlybyTask,
+) -> (PlaneChart, Option<Chart>) {
+    (plane(report, flyby_task), desired(report))
 }
 
 /// In km from the planet's centre; the picture has T to the right and R down, as seen along the asymptote.
-fn plane(report: &FlybyReport, aimed: &Aimed) -> PlaneChart {
+fn plane(report: &FlybyReport, flyby_task: &FlybyTask) -> PlaneChart {
     let km = |[t_m, r_m]: [f64; 2]| (t_m / 1e3, -r_m / 1e3);
-    let aim = report.aim_m;
+    let aimpoint = report.aimpoint_m;
     let place = |miss: &Option<nalgebra::Vector3<f64>>| {
-        miss.map(|miss| km([aim[0] + miss.x, aim[1] + miss.y])).into_iter().collect::<Vec<_>>()
+        miss.map(|miss| km([aimpoint[0] + miss.x, aimpoint[1] + miss.y])).into_iter().collect::<Vec<_>>()
     };
-    let impact_m = b_of_periapsis_m(report.radius_m, aimed.surroundings.gm_m3_s2, report.encounter[3]);
+    let impact_m = b_of_periapsis_m(report.radius_m, flyby_task.force_model.gm_m3_s2, report.encounter[3]);
     let before = report.miss[0].unwrap_or_default();
     let mut reach: Vec<(f64, f64)> = report
         .reach
         .polygon_m
         .iter()
-        .map(|[t_m, r_m]| km([aim[0] + before.x + t_m, aim[1] + before.y + r_m]))
+        .map(|[t_m, r_m]| km([aimpoint[0] + before.x + t_m, aimpoint[1] + before.y + r_m]))
         .collect();
     reach.extend(reach.first().copied());
     let circle = |radius_m: f64| ellipse((0.0, 0.0), [radius_m / 1e3; 2], 0.0);
     let series = |wide: bool| {
         let mut series = vec![
-            Series::rings("aim", vec![km(aim)]),
+            Series::rings("aim", vec![km(aimpoint)]),
             Series::dots("mission as it is", place(&report.miss[0])),
             Series::dots("plan", place(&report.miss[1])),
             Series::line("reach", reach.clone()),
@@ -47,7 +50,7 @@ fn plane(report: &FlybyReport, aimed: &Aimed) -> PlaneChart {
             series.push(Series::dashed("impact", circle(impact_m)));
         }
         if let Some(campaign) = &report.campaign {
-            series.push(Series::dashed("three deviations", ring(campaign, aim)));
+            series.push(Series::dashed("three deviations", ring(campaign, aimpoint)));
         }
         series
     };
@@ -55,9 +58,9 @@ fn plane(report: &FlybyReport, aimed: &Aimed) -> PlaneChart {
         .iter()
         .chain(&place(&report.miss[0]))
         .fold(0.0_f64, |far, (x, y)| far.max(x.abs()).max(y.abs()));
-    let near = |(x, y): (f64, f64)| (x - km(aim).0).abs().max((y - km(aim).1).abs());
+    let near = |(x, y): (f64, f64)| (x - km(aimpoint).0).abs().max((y - km(aimpoint).1).abs());
     let close = reach.iter().copied().chain(place(&report.miss[0])).map(near).fold(1.0, f64::max);
-    let name = aimed.surroundings.body.data().name;
+    let name = flyby_task.force_model.body.data().name;
     PlaneChart {
         title: format!("B-plane at {name}, hyperbola osculating before closest approach"),
         x_label: "B.T [km]".to_owned(),
@@ -72,7 +75,7 @@ fn plane(report: &FlybyReport, aimed: &Aimed) -> PlaneChart {
             PlanePanel {
                 title: "about the aim".to_owned(),
                 series: series(false),
-                centre: km(aim),
+                centre: km(aimpoint),
                 half_width: 1.15 * close,
                 ..PlanePanel::default()
             },
@@ -81,9 +84,9 @@ fn plane(report: &FlybyReport, aimed: &Aimed) -> PlaneChart {
     }
 }
 
-fn ring(campaign: &Campaign, aim_m: [f64; 2]) -> Vec<(f64, f64)> {
+fn ring(campaign: &Campaign, aimpoint_m: [f64; 2]) -> Vec<(f64, f64)> {
     let (axes_m, angle_rad) = maneuvers::ellipse(&campaign.covariance_m2);
-    let middle = ((aim_m[0] + campaign.mean_m.x) / 1e3, -(aim_m[1] + campaign.mean_m.y) / 1e3);
+    let middle = ((aimpoint_m[0] + campaign.mean_m.x) / 1e3, -(aimpoint_m[1] + campaign.mean_m.y) / 1e3);
     ellipse(middle, axes_m.map(|axis_m| SIGMAS * axis_m / 1e3), -angle_rad)
 }
 

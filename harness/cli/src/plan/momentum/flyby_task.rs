@@ -4,23 +4,23 @@ use nalgebra::Vector3;
 use physics::bodies::Body;
 use planner::{
     flyby::{
-        Aim, Sensitivity, Surroundings,
-        aim::{b_of_periapsis_m, periapsis_of_b_m},
+        BPlaneAimpoint, ForceModel, Sensitivity,
+        aimpoint::{b_of_periapsis_m, periapsis_of_b_m},
     },
     momentum::{simulated::SimulatedFlight, target::Target, torque::SunlitSpacecraft},
 };
 
 use super::file::{
     PlanFile,
-    encounter::{Aim as AimOfFile, Flyby},
+    encounter::{Flyby, GivenAimpoint},
 };
 use crate::plan::flights::{Failure, SimulatedMission};
 
 /// Where a plan's flights are to meet a planet.
 #[derive(Clone, Debug)]
-pub(in crate::plan) struct Aimed {
-    pub surroundings: Surroundings,
-    pub aim: Aim,
+pub(in crate::plan) struct FlybyTask {
+    pub force_model: ForceModel,
+    pub aimpoint: BPlaneAimpoint,
     pub tolerance_m: f64,
     /// Radius of the planet, in m.
     pub radius_m: f64,
@@ -28,7 +28,7 @@ pub(in crate::plan) struct Aimed {
     pub first: Sensitivity,
 }
 
-impl Aimed {
+impl FlybyTask {
     /// By the flight of the mission as it is.
     pub(super) fn of(
         file: &PlanFile,
@@ -38,25 +38,25 @@ impl Aimed {
     ) -> Result<Self, Failure> {
         let values = mission.values();
         let shown = mission.mission.file.display();
-        let surroundings =
-            Surroundings::of(&values, mission.start_s).map_err(|error| format!("{shown}: {error}"))?;
+        let force_model =
+            ForceModel::of(&values, mission.start_s).map_err(|error| format!("{shown}: {error}"))?;
         let name = |body: Body| body.data().name;
-        if !name(surroundings.body).eq_ignore_ascii_case(&flyby.body.it) {
+        if !name(force_model.body).eq_ignore_ascii_case(&flyby.body.it) {
             let what = format!(
                 "found {:?}, allowed: {:?}, the mission's encounter.body",
                 flyby.body.it,
-                name(surroundings.body).to_lowercase()
+                name(force_model.body).to_lowercase()
             );
             return Err(file.problem(&flyby.body, &what).into());
         }
-        let first = Sensitivity::new(simulated, &surroundings, sunlit)
-            .map_err(|error| format!("{shown}: {error}"))?;
+        let first =
+            Sensitivity::new(simulated, &force_model, sunlit).map_err(|error| format!("{shown}: {error}"))?;
         let radius_m = values.real("planet.radius");
         let excess_m_s = first.encounter.plane.excess_speed_m_s;
-        let gm_m3_s2 = surroundings.gm_m3_s2;
-        let b_m = match flyby.aim.it {
-            AimOfFile::BPlane(b_m) => b_m,
-            AimOfFile::Altitude([altitude_m, angle_rad]) => {
+        let gm_m3_s2 = force_model.gm_m3_s2;
+        let b_m = match flyby.aimpoint.it {
+            GivenAimpoint::BPlane(b_m) => b_m,
+            GivenAimpoint::Altitude([altitude_m, angle_rad]) => {
                 // From the osculation on tides change B: by as much as in the flight of the mission as it is.
                 let simulated_m = first.encounter.plane.b_t_m.hypot(first.encounter.plane.b_r_m);
                 let [aimed_m, passed_m] = [radius_m + altitude_m, first.encounter.closest.position_m.norm()]
@@ -72,10 +72,10 @@ impl Aimed {
                 b_m[0] / 1e3,
                 b_m[1] / 1e3,
                 (radius_m - periapsis_m) / 1e3,
-                name(surroundings.body),
+                name(force_model.body),
                 b_of_periapsis_m(radius_m, gm_m3_s2, excess_m_s) / 1e3,
             );
-            return Err(file.problem(&flyby.aim, &what).into());
+            return Err(file.problem(&flyby.aimpoint, &what).into());
         }
         let arrival_s = flyby.time.as_ref().map(|at| {
             mission.time_s(at.it).ok_or_else(|| {
@@ -85,31 +85,31 @@ impl Aimed {
                 )
             })
         });
-        let aim = Aim { b_m, arrival_s: arrival_s.transpose()? };
-        Ok(Self { surroundings, aim, tolerance_m: flyby.tolerance_m, radius_m, first })
+        let aimpoint = BPlaneAimpoint { b_m, arrival_s: arrival_s.transpose()? };
+        Ok(Self { force_model, aimpoint, tolerance_m: flyby.tolerance_m, radius_m, first })
     }
 
     /// A square within the circle of the tolerance; the time that the spacecraft takes for it, where the arrival is fixed.
     pub(super) fn target(&self) -> Target {
         let side_m = self.tolerance_m * core::f64::consts::FRAC_1_SQRT_2;
         let excess_m_s = self.first.encounter.plane.excess_speed_m_s;
-        let in_time = self.aim.arrival_s.map(|_| self.tolerance_m / excess_m_s);
+        let in_time = self.aimpoint.arrival_s.map(|_| self.tolerance_m / excess_m_s);
         Target { tolerance: [Some(side_m), Some(side_m), in_time] }
     }
 
-    /// Gives a flight its miss of the aim.
+    /// Gives a flight its miss of the aimpoint.
     pub(super) fn judge(
         &self,
         flight: &mut SimulatedFlight,
         sunlit: &SunlitSpacecraft,
     ) -> Result<Sensitivity, Failure> {
-        let found = Sensitivity::new(flight, &self.surroundings, sunlit)?;
-        flight.encountered = Some(self.aim.encountered(&found, &flight.rows));
+        let found = Sensitivity::new(flight, &self.force_model, sunlit)?;
+        flight.encountered = Some(self.aimpoint.encountered(&found, &flight.rows));
         Ok(found)
     }
 
     /// The miss of the mission as it is: along T and R in m, of the arrival in s.
     pub(in crate::plan) fn first_miss(&self) -> Vector3<f64> {
-        self.aim.miss(&self.first.encounter)
+        self.aimpoint.miss(&self.first.encounter)
     }
 }

@@ -1,4 +1,4 @@
-//! The orbit ahead of a sample: the spacecraft on its present orbit, Sun and Earth by the planet's and the Earth's orbits about
+//! Predicted orbit after a sample: the spacecraft on its present orbit, Sun and Earth by the planet's and the Earth's orbits about
 //! the Sun.
 //!
 //! Equation: two-body motion through position and velocity at the sample, about the target planet and about the Sun. What is
@@ -16,35 +16,35 @@ use crate::environment::orbit::TwoBodyOrbit;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{MovingVector, rate, value};
 
-/// Everything about the planet at other epochs than the sample's.
+/// Spacecraft, Sun and Earth about the planet, predicted from a sample for other epochs.
 #[derive(Clone, Copy, Debug)]
-pub struct OrbitAhead<'a> {
-    now: &'a EphemerisAtTime,
+pub struct PredictedOrbit<'a> {
+    present: &'a EphemerisAtTime,
     spacecraft: TwoBodyOrbit,
-    planet_from_sun: BodyAhead,
-    earth_from_sun: BodyAhead,
+    planet_from_sun: PredictedBody,
+    earth_from_sun: PredictedBody,
 }
 
 /// Motion of a body about the Sun.
 #[derive(Clone, Copy, Debug)]
-struct BodyAhead {
+struct PredictedBody {
     epoch_s: f64,
     state: CartesianState,
     ellipse: Option<TwoBodyOrbit>,
 }
 
-impl<'a> OrbitAhead<'a> {
+impl<'a> PredictedOrbit<'a> {
     /// From where everything is now; `None` where the spacecraft is on no ellipse about the planet.
-    pub fn of(now: &'a EphemerisAtTime) -> Option<Self> {
+    pub fn of(present: &'a EphemerisAtTime) -> Option<Self> {
         let state = |position: MovingVector| CartesianState {
             position_m: value(&position),
             velocity_m_s: rate(&position),
         };
         Some(Self {
-            now,
-            spacecraft: ellipse_of(now)?,
-            planet_from_sun: BodyAhead::of(state(-now.sun), now.epoch_s),
-            earth_from_sun: BodyAhead::of(state(now.earth - now.sun), now.epoch_s),
+            present,
+            spacecraft: ellipse_of(present)?,
+            planet_from_sun: PredictedBody::of(state(-present.sun), present.epoch_s),
+            earth_from_sun: PredictedBody::of(state(present.earth - present.sun), present.epoch_s),
         })
     }
 
@@ -59,11 +59,11 @@ impl<'a> OrbitAhead<'a> {
         let planet = self.planet_from_sun.at(epoch_s);
         let earth = self.earth_from_sun.at(epoch_s) - planet;
         let sun = CartesianState::default() - planet;
-        EphemerisAtTime::new(epoch_s, self.now.planet, &spacecraft, &sun, &earth)
+        EphemerisAtTime::new(epoch_s, self.present.planet, &spacecraft, &sun, &earth)
     }
 }
 
-impl BodyAhead {
+impl PredictedBody {
     fn of(state: CartesianState, epoch_s: f64) -> Self {
         let ellipse = TwoBodyOrbit::from_state(&state, GM_SUN_M3_S2, epoch_s).ok();
         Self { epoch_s, state, ellipse: ellipse.filter(|orbit| orbit.period_s().is_finite()) }
@@ -79,28 +79,26 @@ impl BodyAhead {
 }
 
 /// The present orbit about the planet, if it is an ellipse.
-pub fn ellipse_of(surroundings: &EphemerisAtTime) -> Option<TwoBodyOrbit> {
-    let state = CartesianState {
-        position_m: value(&surroundings.position),
-        velocity_m_s: value(&surroundings.velocity),
-    };
-    let orbit = TwoBodyOrbit::from_state(&state, surroundings.planet.gm_m3_s2, surroundings.epoch_s).ok();
+pub fn ellipse_of(ephemeris: &EphemerisAtTime) -> Option<TwoBodyOrbit> {
+    let state =
+        CartesianState { position_m: value(&ephemeris.position), velocity_m_s: value(&ephemeris.velocity) };
+    let orbit = TwoBodyOrbit::from_state(&state, ephemeris.planet.gm_m3_s2, ephemeris.epoch_s).ok();
     orbit.filter(|orbit| orbit.period_s().is_finite())
 }
 
 /// Directions from the spacecraft with their rates; a body at zero distance counts as lying toward +X.
-pub fn lines_of_sight(surroundings: &EphemerisAtTime) -> LinesOfSight {
+pub fn lines_of_sight(ephemeris: &EphemerisAtTime) -> LinesOfSight {
     let unit = |vector: &MovingVector| {
         MovingUnit::of(value(vector), rate(vector))
             .unwrap_or(MovingUnit { direction: Vector3::x(), rate_1_s: Vector3::zeros() })
     };
     LinesOfSight {
-        sun: unit(&surroundings.to_sun()),
-        planet: Some(unit(&surroundings.to_planet())),
-        earth: unit(&surroundings.to_earth()),
+        sun: unit(&ephemeris.to_sun()),
+        planet: Some(unit(&ephemeris.to_planet())),
+        earth: unit(&ephemeris.to_earth()),
         sun_from_planet: Some(CartesianState {
-            position_m: value(&surroundings.sun),
-            velocity_m_s: rate(&surroundings.sun),
+            position_m: value(&ephemeris.sun),
+            velocity_m_s: rate(&ephemeris.sun),
         }),
     }
 }

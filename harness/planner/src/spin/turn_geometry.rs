@@ -29,7 +29,7 @@ const NO_CLOSER_RAD: f64 = 1e-9;
 
 /// What a turn goes from and to, unit vectors in EME2000.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Aim {
+pub struct TurnGeometry {
     /// Spin axis at the start.
     pub axis_inertial: Vector3<f64>,
     /// Where it shall point.
@@ -53,13 +53,13 @@ pub struct Way {
     pub heading_rad: (f64, f64),
 }
 
-impl Aim {
+impl TurnGeometry {
     /// From the flags and the spacecraft's file.
     ///
     /// # Errors
     /// Flags that leave a direction open, or that contradict each other.
     pub fn new(options: &Options, spinner: &Spinner) -> Result<Self, PlanError> {
-        let refuse = |flag, what: &str| PlanError::Aim { flag, what: what.to_owned() };
+        let refuse = |flag, what: &str| PlanError::Direction { flag, what: what.to_owned() };
         let date = options.date.map(|epoch_s| seen_from_l1(&spinner.l1_orbit, epoch_s));
         let given_sun = options.sun.map(inertial).or(date.map(|(sun, _)| sun));
         let earth_inertial = options.earth.map(inertial).or(date.map(|(_, earth)| earth));
@@ -159,7 +159,7 @@ impl Aim {
         Quaternion::turn(&axis, angle_rad)
     }
 
-    /// The great circle: the shortest way, flown by delays that change from pulse to pulse.
+    /// The great circle: the shortest way, by delays that change from pulse to pulse.
     pub fn great_circle(&self) -> Way {
         let length_rad = self.angle_rad();
         let mut seen = (f64::INFINITY, 0.0_f64);
@@ -173,7 +173,7 @@ impl Aim {
         Way { length_rad, sun_angle_rad: seen, heading_rad }
     }
 
-    /// The rhumb line about the Sun: one way from the Sun all along, flown by one delay after each Sun crossing. `None` where
+    /// The rhumb line about the Sun: one way from the Sun all along, by one delay after each Sun crossing. `None` where
     /// the Sun is on the axis.
     pub fn rhumb_line(&self) -> Option<Way> {
         let course = self.rhumb_course()?;

@@ -6,16 +6,16 @@ use nalgebra::Vector3;
 use physics::attitude::angle_between_rad;
 
 use super::tests::{ace, options};
-use super::{ACE, Aim, Options, PlanError, right_ascension_declination_deg};
+use super::{ACE, Options, PlanError, TurnGeometry, right_ascension_declination_deg};
 use clap::Parser;
 use physics::spin::spinner::Spinner;
 
-fn aim(arguments: &str) -> Aim {
-    Aim::new(&options(arguments), &ace()).unwrap()
+fn geometry(arguments: &str) -> TurnGeometry {
+    TurnGeometry::new(&options(arguments), &ace()).unwrap()
 }
 
 fn refused(arguments: &str) -> String {
-    Aim::new(&options(arguments), &ace()).unwrap_err().to_string()
+    TurnGeometry::new(&options(arguments), &ace()).unwrap_err().to_string()
 }
 
 fn dated(date: &str, arguments: &str) -> Options {
@@ -38,23 +38,27 @@ fn the_sun_stands_where_the_almanac_has_it() {
         ("2026-09-23T00:05:00 UTC", 180.0),
         ("2026-12-21T20:50:00 UTC", 270.0),
     ] {
-        let aim = Aim::new(&dated(date, "--from 0,90 --target 0,80"), &ace()).unwrap();
+        let geometry = TurnGeometry::new(&dated(date, "--from 0,90 --target 0,80"), &ace()).unwrap();
         let longitude_rad = (longitude_deg - precession_deg).to_radians();
         let (sine, cosine) = 23.4393_f64.to_radians().sin_cos();
         let almanac =
             Vector3::new(longitude_rad.cos(), longitude_rad.sin() * cosine, longitude_rad.sin() * sine);
-        let off_deg = angle_between_rad(&aim.sun_inertial, &almanac).to_degrees();
+        let off_deg = angle_between_rad(&geometry.sun_inertial, &almanac).to_degrees();
         assert!(off_deg < 0.02, "{date}: {off_deg} deg");
         // From L1 the Earth stands opposite.
-        let opposite_rad = angle_between_rad(&aim.sun_inertial, &aim.earth_inertial.unwrap());
+        let opposite_rad = angle_between_rad(&geometry.sun_inertial, &geometry.earth_inertial.unwrap());
         assert!((opposite_rad - PI).abs() < 1e-9);
-        assert!(aim.origin.contains(&date[..10]) && aim.origin.contains("L1"), "{}", aim.origin);
+        assert!(
+            geometry.origin.contains(&date[..10]) && geometry.origin.contains("L1"),
+            "{}",
+            geometry.origin
+        );
     }
 }
 
 #[test]
 fn an_angle_and_a_direction_are_a_target() {
-    let default = aim("--angle 2");
+    let default = geometry("--angle 2");
     assert_eq!(default.axis_inertial, Vector3::z());
     assert!(
         (default.sun_inertial - Vector3::new(0.0, 10_f64.to_radians().sin(), 10_f64.to_radians().cos()))
@@ -68,7 +72,7 @@ fn an_angle_and_a_direction_are_a_target() {
     );
     // By the spherical law of cosines: toward, away, across.
     for (direction_deg, sun_deg) in [(0.0, 7.0), (180.0, 13.0), (60.0, f64::NAN)] {
-        let turned = aim(&format!("--angle 3 --from 30,40 --sun 30,50 --direction {direction_deg}"));
+        let turned = geometry(&format!("--angle 3 --from 30,40 --sun 30,50 --direction {direction_deg}"));
         let direction = f64::to_radians(direction_deg);
         let (angle, sun) = (3_f64.to_radians(), 10_f64.to_radians());
         let expected = (angle.cos() * sun.cos() + angle.sin() * sun.sin() * direction.cos()).acos();
@@ -85,31 +89,31 @@ fn an_angle_and_a_direction_are_a_target() {
 #[test]
 fn the_rhumb_line_is_the_navigators() {
     // Meridian and parallel of the Sun, and in between a course that is sailed step by step.
-    let straight = aim("--from 0,60 --sun 0,90 --target 0,70").rhumb_line().unwrap();
+    let straight = geometry("--from 0,60 --sun 0,90 --target 0,70").rhumb_line().unwrap();
     assert!(
         (straight.length_rad - 10_f64.to_radians()).abs() < 1e-12 && straight.heading_rad.0.abs() < 1e-12
     );
-    let parallel = aim("--from 0,60 --sun 0,90 --target 50,60").rhumb_line().unwrap();
+    let parallel = geometry("--from 0,60 --sun 0,90 --target 50,60").rhumb_line().unwrap();
     assert!((parallel.length_rad - 0.5 * 50_f64.to_radians()).abs() < 1e-12, "{parallel:?}");
     assert!((parallel.heading_rad.0.abs() - FRAC_PI_2).abs() < 1e-9);
     for arguments in
         ["--from 10,-20 --sun 30,-28 --target 25,5", "--from 240,-20 --sun 237.6,-20.1 --target 252,-15"]
     {
-        let aim = aim(arguments);
-        let (rhumb, great) = (aim.rhumb_line().unwrap(), aim.great_circle());
+        let geometry = geometry(arguments);
+        let (rhumb, great) = (geometry.rhumb_line().unwrap(), geometry.great_circle());
         assert!(rhumb.length_rad > great.length_rad);
         let steps = 200_000;
-        let mut at = aim.axis_inertial;
+        let mut at = geometry.axis_inertial;
         for _ in 0..steps {
-            let sun = (aim.sun_inertial - at * at.dot(&aim.sun_inertial)).normalize();
+            let sun = (geometry.sun_inertial - at * at.dot(&geometry.sun_inertial)).normalize();
             let (sine, cosine) = rhumb.heading_rad.0.sin_cos();
             at = (at + (sun * cosine + at.cross(&sun) * sine) * (rhumb.length_rad / f64::from(steps)))
                 .normalize();
         }
-        let miss_rad = angle_between_rad(&at, &aim.target_inertial);
+        let miss_rad = angle_between_rad(&at, &geometry.target_inertial);
         assert!(miss_rad < 2e-5, "{arguments}: {miss_rad}");
-        assert!(angle_between_rad(&aim.on_rhumb_line(1.0).unwrap(), &aim.target_inertial) < 1e-9);
-        assert!(angle_between_rad(&aim.on_rhumb_line(0.0).unwrap(), &aim.axis_inertial) < 1e-9);
+        assert!(angle_between_rad(&geometry.on_rhumb_line(1.0).unwrap(), &geometry.target_inertial) < 1e-9);
+        assert!(angle_between_rad(&geometry.on_rhumb_line(0.0).unwrap(), &geometry.axis_inertial) < 1e-9);
     }
 }
 
@@ -121,12 +125,12 @@ fn the_attitude_has_the_axis_where_the_turn_begins() {
         ("0,90", Vector3::z()),
         ("70,10", Vector3::new(0.1, -0.2, 0.9).normalize()),
     ] {
-        let aim = aim(&format!("--from {from} --sun 100,0"));
-        let found = aim.attitude(&body).inertial_from_body(&body);
-        assert!((found - aim.axis_inertial).norm() < 1e-12, "{from}: {found}");
+        let geometry = geometry(&format!("--from {from} --sun 100,0"));
+        let found = geometry.attitude(&body).inertial_from_body(&body);
+        assert!((found - geometry.axis_inertial).norm() < 1e-12, "{from}: {found}");
     }
     let (right_ascension, declination) =
-        right_ascension_declination_deg(&aim("--from=-120,-20 --sun 0,0").axis_inertial);
+        right_ascension_declination_deg(&geometry("--from=-120,-20 --sun 0,0").axis_inertial);
     assert!((right_ascension - 240.0).abs() < 1e-9 && (declination + 20.0).abs() < 1e-9);
 }
 
@@ -137,8 +141,8 @@ fn the_files_start_values_are_where_a_plan_begins() {
         format!("{ACE}\n[start]\n\"start.q\" = [0.0, {half}, 0.0, {half}]\n\"spin.initialRate\" = {value}\n")
     };
     let spinner = |value: &str| Spinner::parse("my.toml", &text(value)).unwrap();
-    let aim = Aim::new(&options("--target 2,0 --sun 10,5"), &spinner("0.6")).unwrap();
-    assert!((aim.axis_inertial - Vector3::x()).norm() < 1e-12, "{}", aim.axis_inertial);
+    let geometry = TurnGeometry::new(&options("--target 2,0 --sun 10,5"), &spinner("0.6")).unwrap();
+    assert!((geometry.axis_inertial - Vector3::x()).norm() < 1e-12, "{}", geometry.axis_inertial);
     let rate = |value: &str, arguments: &str| {
         super::Task::new(&options(arguments), &spinner(value)).map(|task| task.case.spin.rate_rad_s)
     };
@@ -165,7 +169,10 @@ fn what_is_left_open_is_refused() {
         let text = refused(arguments);
         assert!(parts.iter().all(|part| text.contains(part)), "{arguments}: {text}");
     }
-    assert!(matches!(Aim::new(&options("--target 1,2 --from 3,4"), &ace()), Err(PlanError::Aim { .. })));
+    assert!(matches!(
+        TurnGeometry::new(&options("--target 1,2 --from 3,4"), &ace()),
+        Err(PlanError::Direction { .. })
+    ));
     let parse = |words: &[&str]| {
         #[derive(Parser)]
         struct Line {

@@ -1,13 +1,13 @@
-//! Aims in the B-plane, and the hyperbola that turns the path there.
+//! Aimpoints in the B-plane, and the hyperbola that turns the path there.
 //!
 //! Equation: with v the speed far from the body, r the distance of its closest approach: B^2 = r^2 + 2 r mu / v^2; e = 1 + r v^2 / mu,
 //! turn = 2 asin(1 / e), delta-v = 2 v / e.
 
 use nalgebra::Vector2;
 
-/// Where a path shall pass a body.
+/// Aimpoint of a flyby: where a path passes a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Aim {
+pub enum FlybyAimpoint {
     /// By the altitude of its closest approach, and the angle of B from T toward R.
     Altitude {
         /// Above the body's radius, m.
@@ -35,7 +35,7 @@ pub fn closest_distance_m(b_m: f64, excess_speed_m_s: f64, mu_m3_s2: f64) -> f64
     b_m * b_m / (axis_m + axis_m.hypot(b_m))
 }
 
-impl Aim {
+impl FlybyAimpoint {
     /// B along T and R, in m, on a hyperbola without tides about a body of this gravitational parameter and radius.
     pub fn b_m(&self, excess_speed_m_s: f64, mu_m3_s2: f64, radius_m: f64) -> Vector2<f64> {
         match *self {

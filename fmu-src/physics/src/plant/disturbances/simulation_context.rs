@@ -1,4 +1,4 @@
-//! Environment of a simulation, and the spacecraft prepared for it.
+//! Context of a simulation, and the spacecraft prepared for it.
 
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
@@ -7,15 +7,15 @@ use crate::guidance::timeline::TimelineLaw;
 use crate::plant::air_and_field::aerodynamic_solver::AerodynamicSolver;
 use crate::plant::flight::propagator_state::PropagatorState;
 use crate::plant::light::radiation_solver::RadiationSolver;
-use crate::plant::light::sunlit::SunlitCraft;
+use crate::plant::light::sunlit::SunlitConfiguration;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::work::Work;
 use crate::radiation::SolarModel;
 use crate::spacecraft::{MassProperties, Panel};
 
-/// Environment of a simulation: everything beside its state.
+/// Configuration, environment and work limit of a simulation: everything beside its state.
 #[derive(Clone, Debug)]
-pub struct World {
+pub struct SimulationContext {
     /// Spacecraft and orbit; the attitude is set during the simulation.
     pub configuration: Configuration,
     /// Mass properties with every panel at angle 0 and the propellant left.
@@ -32,7 +32,7 @@ pub struct World {
     pub fork_room: [PropagatorState; 3],
 }
 
-impl World {
+impl SimulationContext {
     /// Of this configuration with full tanks, without light and heat beyond direct sunlight.
     pub fn new(configuration: Configuration) -> Self {
         Self {
@@ -75,8 +75,8 @@ impl PreparedSpacecraft<'_> {
         configuration: &'c Configuration,
         mass_at_zero: &MassProperties,
         [time_s, sun_distance_m]: [f64; 2],
-    ) -> SunlitCraft<'c> {
-        SunlitCraft {
+    ) -> SunlitConfiguration<'c> {
+        SunlitConfiguration {
             solar: self.solar,
             panels: self.panels,
             settings: &configuration.panels,

@@ -16,7 +16,7 @@ fn start() -> CartesianState {
     }
 }
 
-fn surroundings(center: Body, sun: &CartesianState, earth: &CartesianState) -> EphemerisAtTime {
+fn ephemeris_at_time(center: Body, sun: &CartesianState, earth: &CartesianState) -> EphemerisAtTime {
     EphemerisAtTime::new(EPOCH_S, TargetPlanet::of(center.data()), &start(), sun, earth)
 }
 
@@ -26,12 +26,12 @@ fn sun_and_earth_stand_where_the_theory_has_them() {
     for center in [Body::Mercury, Body::Venus, Body::Mars] {
         let bodies = BodiesFromCenter { center, ellipse: None, custom: None };
         let (sun, earth) = bodies.sun_and_earth(&mut ephemeris, EPOCH_S);
-        let now = surroundings(center, &sun, &earth);
-        let ahead = OrbitAhead::of(&now).unwrap();
+        let present = ephemeris_at_time(center, &sun, &earth);
+        let predicted = PredictedOrbit::of(&present).unwrap();
         for days in [0.5, 1.0, 4.0] {
             let epoch_s = EPOCH_S + days * DAY_S;
             let (sun, earth) = bodies.sun_and_earth(&mut ephemeris, epoch_s);
-            let then = ahead.at(epoch_s);
+            let then = predicted.at(epoch_s);
             for (found, expected) in [(then.sun, sun), (then.earth, earth)] {
                 let off_rad = angle_between_rad(&value(&found), &expected.position_m);
                 worst_rad = worst_rad.max(off_rad);
@@ -47,18 +47,18 @@ fn sun_and_earth_stand_where_the_theory_has_them() {
 #[test]
 fn the_spacecraft_falls_about_its_planet() {
     let still = fixed(Vector3::new(6e10, 0.0, 0.0));
-    let now = surroundings(Body::Mercury, &still, &still);
+    let present = ephemeris_at_time(Body::Mercury, &still, &still);
     let (mut r, mut v) = (start().position_m, start().velocity_m_s);
     // Leapfrog, of second order.
     let (step_s, steps) = (0.5, 8_000);
-    let pull = |r: &Vector3<f64>| r * (-now.planet.gm_m3_s2 / r.norm().powi(3));
+    let pull = |r: &Vector3<f64>| r * (-present.planet.gm_m3_s2 / r.norm().powi(3));
     for _ in 0..steps {
         v += pull(&r) * (0.5 * step_s);
         r += v * step_s;
         v += pull(&r) * (0.5 * step_s);
     }
-    let ahead = OrbitAhead::of(&now).unwrap();
-    let then = ahead.at(EPOCH_S + step_s * f64::from(steps));
+    let predicted = PredictedOrbit::of(&present).unwrap();
+    let then = predicted.at(EPOCH_S + step_s * f64::from(steps));
     assert!((value(&then.position) - r).norm() < 1.0, "{:?} {r:?}", then.position);
     // What is given without a velocity stands still.
     assert_eq!(value(&then.sun), still.position_m);
@@ -68,7 +68,7 @@ fn the_spacecraft_falls_about_its_planet() {
 #[test]
 fn what_escapes_has_no_orbit_ahead() {
     let still = fixed(Vector3::new(6e10, 0.0, 0.0));
-    let mut now = surroundings(Body::Mercury, &still, &still);
-    now.velocity *= crate::guidance::geometry::moving::Moving::from_re(10.0);
-    assert!(OrbitAhead::of(&now).is_none());
+    let mut present = ephemeris_at_time(Body::Mercury, &still, &still);
+    present.velocity *= crate::guidance::geometry::moving::Moving::from_re(10.0);
+    assert!(PredictedOrbit::of(&present).is_none());
 }

@@ -1,4 +1,4 @@
-//! Aim of a flight in the B-plane of its encounter, and by how much it is missed.
+//! Aimpoint in the B-plane of an encounter, and by how much a flight misses it.
 //!
 //! Equation: B = r_p sqrt(1 + 2 mu / (r_p v^2)), r_p the periapsis of the hyperbola, v the speed far from the planet.
 
@@ -9,14 +9,14 @@ use crate::momentum::{encountered::Encountered, simulated::FlightRow};
 
 /// Where the B-plane of the hyperbola that osculates some time before the closest approach is to be met.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Aim {
+pub struct BPlaneAimpoint {
     /// B along T and R, in m.
     pub b_m: [f64; 2],
     /// Time of closest approach, in s of the flight, where it is a goal.
     pub arrival_s: Option<f64>,
 }
 
-impl Aim {
+impl BPlaneAimpoint {
     /// What an encounter reaches less this: B.T and B.R in m, arrival in s (0 where it is free).
     pub fn miss(&self, encounter: &Encounter) -> Vector3<f64> {
         Vector3::new(
