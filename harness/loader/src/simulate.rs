@@ -177,6 +177,8 @@ impl Times {
 /// Communication points are `start + k*step`; the last step ends at the stop time. Inputs are set at the start
 /// of each step, and only if their value changed. A recorded Real that is NaN is an error.
 pub fn simulate(fmu: &Fmu, options: Options<'_>) -> Result<Simulation, Box<Stopped>> {
+    // Refused before the FMU is instantiated.
+    collector(fmu, &options)?;
     let mut instance = Instance::new(fmu, "run", &options.instance)?;
     let (recording, ended) = simulate_by(&mut instance, options)?;
     Ok(Simulation { recording, ended, messages: instance.messages() })
@@ -187,20 +189,25 @@ pub fn simulate_by(
     instance: &mut Instance,
     mut options: Options<'_>,
 ) -> Result<(Recording, Ended), Box<Stopped>> {
-    let fmu = &instance.fmu().clone();
-    let positions = options.record.take().unwrap_or_else(|| outputs(fmu.description()));
-    let mut collector = Collector::new(fmu.description(), &positions);
+    let (mut collector, positions) = collector(instance.fmu(), &options)?;
+    options.record = Some(positions);
+    match simulate_with(instance, options, &mut collector) {
+        Ok(ended) => Ok((collector.into_recording(), ended)),
+        Err(error) => Err(Box::new(Stopped { error, partial: collector.into_recording() })),
+    }
+}
+
+/// What a run is recorded by, and the positions of the variables; more points than memory is given for are refused.
+fn collector(fmu: &Fmu, options: &Options<'_>) -> Result<(Collector, Vec<usize>), Error> {
+    let positions = options.record.clone().unwrap_or_else(|| outputs(fmu.description()));
+    let collector = Collector::new(fmu.description(), &positions);
     let times = Times::of(fmu, options.start_s, options.stop_s, options.step_s)?;
     let points = match options.record_at_s {
         Some(record_at_s) => record_at_s.len() as u64,
         None => RecordedPoints::new(&times, options.record_every_s)?.count(),
     };
     collector.fits(points)?;
-    options.record = Some(positions);
-    match simulate_with(instance, options, &mut collector) {
-        Ok(ended) => Ok((collector.into_recording(), ended)),
-        Err(error) => Err(Box::new(Stopped { error, partial: collector.into_recording() })),
-    }
+    Ok((collector, positions))
 }
 
 /// As [`simulate`], with the rows handed on as they are recorded. Also gives what the instance logged.
