@@ -19,9 +19,8 @@ use physics::environment::time;
 use physics::guidance::burn::delta_v::{BurnPhase, BurnSettings, BurnState, Interruption};
 use physics::guidance::downlink::sun_place::SunRequest;
 use physics::guidance::modes::mode::{Mode, ModeReason};
-use physics::guidance::modes::system::{
-    GuidanceSettings, GuidanceState, SAMPLE_WORK, SampleInputs, TimedEntries,
-};
+use physics::guidance::modes::sample_inputs::{GuidanceSettings, SampleInputs, TimedEntries};
+use physics::guidance::modes::system::{GuidanceState, SAMPLE_WORK};
 use physics::guidance::pointing::command::Scenario;
 use physics::guidance::timeline::{TimelineDump, simulation_time_s};
 use physics::management::{DumpRequests, SampledManager};

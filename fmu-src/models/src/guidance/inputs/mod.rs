@@ -19,7 +19,7 @@ use physics::guidance::constraints::hot_pole::HotPole;
 use physics::guidance::constraints::keep_in::KeepIn;
 use physics::guidance::downlink::sun_place::LinkLimits;
 use physics::guidance::modes::monitor::Monitor;
-use physics::guidance::modes::system::GuidanceSettings;
+use physics::guidance::modes::sample_inputs::GuidanceSettings;
 use physics::guidance::modes::transitions::ModeSettings;
 use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::pointing::command::{BoresightOption, PointingCommand, Scenario};
