@@ -208,12 +208,14 @@ pub(super) fn settings<'a>(
     if axis_body == Vector3::from([0.0; 3]) {
         return Err(Failure::new(ZERO_KEEP_IN_AXIS));
     }
-    if real(v.gimbal.minimum) > real(v.gimbal.maximum) {
-        return Err(Failure::new(format!(
-            "gimbal.minimum, gimbal.maximum: found {:?} and {:?} rad, allowed: a minimum not above the maximum",
-            real(v.gimbal.minimum),
-            real(v.gimbal.maximum)
-        )));
+    let [minimum_rad, maximum_rad] = [v.gimbal.minimum, v.gimbal.maximum].map(real);
+    let refused = |allowed: &str| {
+        Err(Failure::new(format!(
+            "gimbal.minimum, gimbal.maximum: found {minimum_rad:?} and {maximum_rad:?} rad, allowed: {allowed}"
+        )))
+    };
+    if minimum_rad > maximum_rad {
+        return refused("a minimum not above the maximum");
     }
     let zone = |azimuth, elevation| KeepIn {
         axis_body,
@@ -228,17 +230,10 @@ pub(super) fn settings<'a>(
     });
     let keep_in = zone(v.keep_in.azimuth, v.keep_in.elevation);
     let beam = context.given(values, &[v.link.beam.into()]);
-    let gimbal = Gimbal::of(&context.setup.spacecraft.instruments).map(|gimbal| Gimbal {
-        minimum_rad: real(v.gimbal.minimum),
-        maximum_rad: real(v.gimbal.maximum),
-        ..gimbal
-    });
-    if gimbal.is_none() && [v.gimbal.minimum, v.gimbal.maximum].map(real) != [0.0; 2] {
-        return Err(Failure::new(format!(
-            "gimbal.minimum, gimbal.maximum: found {:?} and {:?} rad, allowed: 0 and 0; {NO_GIMBAL}",
-            real(v.gimbal.minimum),
-            real(v.gimbal.maximum)
-        )));
+    let gimbal = Gimbal::of(&context.setup.spacecraft.instruments);
+    let gimbal = gimbal.map(|gimbal| Gimbal { minimum_rad, maximum_rad, ..gimbal });
+    if gimbal.is_none() && [minimum_rad, maximum_rad] != [0.0; 2] {
+        return refused(&format!("0 and 0; {NO_GIMBAL}"));
     }
     Ok(GuidanceSettings {
         hardware: GuidanceHardware {
