@@ -19,9 +19,8 @@ use physics::environment::time;
 use physics::guidance::burn::delta_v::{BurnPhase, BurnSettings, BurnState, Interruption};
 use physics::guidance::downlink::sun_place::SunRequest;
 use physics::guidance::modes::mode::{Mode, ModeReason};
-use physics::guidance::modes::system::{
-    GuidanceSettings, GuidanceState, SAMPLE_WORK, SampleInputs, TimedEntries,
-};
+use physics::guidance::modes::sample_inputs::{GuidanceSettings, SampleInputs, TimedEntries};
+use physics::guidance::modes::system::{GuidanceState, SAMPLE_WORK};
 use physics::guidance::pointing::command::Scenario;
 use physics::guidance::timeline::{TimelineDump, simulation_time_s};
 use physics::management::{DumpRequests, SampledManager};
@@ -30,7 +29,8 @@ use physics::numerics::work::Work;
 use crate::common::downlink::TIMELINE_FILE;
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
 use crate::common::management::window_warning;
-use inputs::{Fixed, Reader, management};
+use inputs::reader::Reader;
+use inputs::{Fixed, management};
 pub use setup::Guidance;
 use setup::{GuidanceSetup, Plan};
 use state::State;

@@ -12,6 +12,7 @@ mod frame;
 mod gravity_gradient;
 mod gyrostat;
 mod gyrostat_motion;
+mod gyrostat_series;
 mod imbalance;
 mod inertia;
 mod internal_motion;

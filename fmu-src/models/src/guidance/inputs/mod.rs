@@ -1,18 +1,16 @@
-//! From parameters, inputs and the timeline to what a sample reads.
+//! From parameters to what holds for a whole flight and to the settings of a sample.
 
 pub(super) mod management;
+pub(super) mod reader;
 
-use fmi_export::{Boolean, Choice, Enumeration, Failure, InputsOverTime, Integer, Real, RealVector, Values};
+use fmi_export::{Failure, Real, Values};
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::bodies::{Body, BodyData};
 use physics::enumeration::Enumerated;
-use physics::environment::CartesianState;
 use physics::environment::bodies_from_center::BodiesFromCenter;
-use physics::environment::coarse_ephemeris::CoarseEphemeris;
-use physics::environment::ephemeris::Ephemeris;
-use physics::environment::onboard::OnboardTarget;
 use physics::environment::orientation::Orientation;
+use physics::guidance::TargetPlanet;
 use physics::guidance::burn::delta_v::BurnSettings;
 use physics::guidance::burn::nominal_thrust::NominalThrust;
 use physics::guidance::burn::velocity_path::VelocityPath;
@@ -20,23 +18,17 @@ use physics::guidance::constraints::constrained::Constraints;
 use physics::guidance::constraints::hot_pole::HotPole;
 use physics::guidance::constraints::keep_in::KeepIn;
 use physics::guidance::downlink::sun_place::LinkLimits;
-use physics::guidance::modes::body_positions::BodyPositions;
 use physics::guidance::modes::monitor::Monitor;
-use physics::guidance::modes::system::GuidanceSettings;
-use physics::guidance::modes::transitions::{ModeSettings, Sensed};
+use physics::guidance::modes::sample_inputs::GuidanceSettings;
+use physics::guidance::modes::transitions::ModeSettings;
 use physics::guidance::pointing::boresight::Gimbal;
-use physics::guidance::pointing::command::{
-    AimpointCommand, AimpointOption, BodyRollCommand, BoresightCommand, BoresightOption, ExternalRollCommand,
-    LimbCommand, PointingCommand, ScanCommand, Scenario,
-};
+use physics::guidance::pointing::command::{BoresightOption, PointingCommand, Scenario};
 use physics::guidance::pointing::scan::ScanCompatibility;
 use physics::guidance::pointing::scenario::GuidanceHardware;
-use physics::guidance::{EphemerisAtTime, TargetPlanet};
 use physics::plant::PanelSetting;
 
 use super::setup::Plan;
-use super::variables::choices::{EphemerisSource, ModeRequest};
-use super::variables::commands::AimpointVariables;
+use super::variables::choices::EphemerisSource;
 use crate::common::choices::PlanetOrientation;
 use crate::common::downlink::ZERO_KEEP_IN_AXIS;
 use crate::common::ephemeris;
@@ -203,9 +195,6 @@ fn burn(context: &Plan<'_>, values: &Values) -> Result<BurnSettings, Failure> {
     })
 }
 
-/// The start value of `estimate.q`.
-const NOT_CONNECTED: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
-
 /// Parameters, as a sample uses them. The timeline may override the keep-in zone.
 pub(super) fn settings<'a>(
     context: &'a Plan<'_>,
@@ -219,12 +208,14 @@ pub(super) fn settings<'a>(
     if axis_body == Vector3::from([0.0; 3]) {
         return Err(Failure::new(ZERO_KEEP_IN_AXIS));
     }
-    if real(v.gimbal.minimum) > real(v.gimbal.maximum) {
-        return Err(Failure::new(format!(
-            "gimbal.minimum, gimbal.maximum: found {:?} and {:?} rad, allowed: a minimum not above the maximum",
-            real(v.gimbal.minimum),
-            real(v.gimbal.maximum)
-        )));
+    let [minimum_rad, maximum_rad] = [v.gimbal.minimum, v.gimbal.maximum].map(real);
+    let refused = |allowed: &str| {
+        Err(Failure::new(format!(
+            "gimbal.minimum, gimbal.maximum: found {minimum_rad:?} and {maximum_rad:?} rad, allowed: {allowed}"
+        )))
+    };
+    if minimum_rad > maximum_rad {
+        return refused("a minimum not above the maximum");
     }
     let zone = |azimuth, elevation| KeepIn {
         axis_body,
@@ -239,17 +230,10 @@ pub(super) fn settings<'a>(
     });
     let keep_in = zone(v.keep_in.azimuth, v.keep_in.elevation);
     let beam = context.given(values, &[v.link.beam.into()]);
-    let gimbal = Gimbal::of(&context.setup.spacecraft.instruments).map(|gimbal| Gimbal {
-        minimum_rad: real(v.gimbal.minimum),
-        maximum_rad: real(v.gimbal.maximum),
-        ..gimbal
-    });
-    if gimbal.is_none() && [v.gimbal.minimum, v.gimbal.maximum].map(real) != [0.0; 2] {
-        return Err(Failure::new(format!(
-            "gimbal.minimum, gimbal.maximum: found {:?} and {:?} rad, allowed: 0 and 0; {NO_GIMBAL}",
-            real(v.gimbal.minimum),
-            real(v.gimbal.maximum)
-        )));
+    let gimbal = Gimbal::of(&context.setup.spacecraft.instruments);
+    let gimbal = gimbal.map(|gimbal| Gimbal { minimum_rad, maximum_rad, ..gimbal });
+    if gimbal.is_none() && [minimum_rad, maximum_rad] != [0.0; 2] {
+        return refused(&format!("0 and 0; {NO_GIMBAL}"));
     }
     Ok(GuidanceSettings {
         hardware: GuidanceHardware {
@@ -359,228 +343,4 @@ fn scans(context: &Plan<'_>, values: &Values) -> ScanCompatibility {
 pub(super) fn start_attitude(context: &Plan<'_>, values: &Values) -> Result<Attitude, Failure> {
     let q = values.vector(context.variables.start.q);
     Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))
-}
-
-/// Reads variables at the time of a sample.
-#[derive(Clone, Copy)]
-pub(super) struct Reader<'a> {
-    context: &'a Plan<'a>,
-    values: &'a Values,
-    inputs: InputsOverTime<'a>,
-    time_s: f64,
-}
-
-impl<'a> Reader<'a> {
-    /// At `time_s`, where `inputs` moved since they were set.
-    pub(super) fn new(
-        context: &'a Plan<'a>,
-        values: &'a Values,
-        inputs: InputsOverTime<'a>,
-        time_s: f64,
-    ) -> Self {
-        Self { context, values, inputs, time_s }
-    }
-
-    fn real(&self, handle: Real) -> f64 {
-        self.inputs.real(self.values, handle, self.time_s)
-    }
-
-    fn vector(&self, handle: RealVector<3>) -> Vector3<f64> {
-        Vector3::from(self.inputs.vector(self.values, handle, self.time_s))
-    }
-
-    /// How a vector of inputs moves now, by their derivatives.
-    fn rate(&self, handle: RealVector<3>) -> Vector3<f64> {
-        Vector3::from([0, 1, 2].map(|i| self.inputs.rate(handle.element(i), self.time_s)))
-    }
-
-    fn count(&self, handle: Integer) -> u32 {
-        self.values.integer(handle).unsigned_abs()
-    }
-
-    fn flag(&self, handle: Boolean) -> bool {
-        self.values.boolean(handle)
-    }
-
-    /// The item of an input; none where nothing is chosen.
-    fn item<E: Enumeration, T>(&self, handle: Choice<E>, inner: impl Fn(E) -> Option<T>) -> Option<T> {
-        inner(self.values.choice(handle))
-    }
-
-    /// What the inputs command.
-    pub(super) fn command(&self) -> PointingCommand {
-        let v = self.context.variables;
-        let (boresight, body_roll, external_roll) = (&v.boresight, &v.body_roll, &v.external_roll);
-        let (limb, scan) = (&v.limb, &v.scan);
-        PointingCommand {
-            scenario: self.item(v.pointing.scenario, |it| it.0),
-            boresight: BoresightCommand {
-                option: self.item(boresight.option, |it| it.0),
-                vector: self.vector(boresight.vector),
-                azimuth_rad: self.real(boresight.azimuth),
-                elevation_rad: self.real(boresight.elevation),
-                angle_rad: self.real(boresight.angle),
-                instrument: self.count(boresight.instrument),
-            },
-            aimpoint: self.aimpoint(&v.aimpoint),
-            second_aimpoint: self.aimpoint(&v.second_aimpoint),
-            body_roll: BodyRollCommand {
-                option: self.item(body_roll.option, |it| it.0),
-                vector: self.vector(body_roll.vector),
-                azimuth_rad: self.real(body_roll.azimuth),
-                elevation_rad: self.real(body_roll.elevation),
-            },
-            external_roll: ExternalRollCommand {
-                option: self.item(external_roll.option, |it| it.0),
-                vector: self.vector(external_roll.vector),
-                right_ascension_rad: self.real(external_roll.right_ascension),
-                declination_rad: self.real(external_roll.declination),
-            },
-            limb: LimbCommand {
-                azimuth_rad: self.real(limb.azimuth),
-                reference: self.item(limb.reference, |it| it.0),
-                height_m: self.real(limb.height),
-                height_rate_m_s: self.real(limb.height_rate),
-            },
-            scan: ScanCommand {
-                frame: self.item(scan.frame, |it| it.0),
-                reference: self.item(scan.reference, |it| it.0),
-                rate_rad_s: self.vector(scan.rate).into(),
-                speed_m_s: self.vector(scan.speed).into(),
-                duration_s: self.vector(scan.duration).into(),
-                pause_s: self.vector(scan.pause).into(),
-                segments: [scan.segments_x, scan.segments_y, scan.segments_z].map(|it| self.count(it)),
-                reverse: [scan.reverse_x, scan.reverse_y, scan.reverse_z].map(|it| self.flag(it)),
-            },
-        }
-    }
-
-    /// Where everything is at `epoch_s`, by every model that a mode may go by.
-    pub(super) fn positions(
-        &self,
-        fixed: &Fixed,
-        command: &PointingCommand,
-        (ephemeris, coarse): (&mut Ephemeris, &mut CoarseEphemeris),
-        epoch_s: f64,
-    ) -> BodyPositions {
-        let (v, bodies, center) = (self.context.variables, &fixed.bodies, fixed.bodies.center);
-        let carried = self.context.setup.ephemeris.as_deref();
-        let precise = ephemeris::precise(self.context.setup.ephemeris.as_ref());
-        let given = self.state(v.position, v.velocity);
-        let is_onboard = fixed.source == EphemerisSource::Chebyshev;
-        let coarse = if is_onboard || fixed.source == EphemerisSource::Coarse {
-            let mut body = |body| coarse.from_center(carried, body, bodies, epoch_s);
-            let sun_and_earth = (body(Body::Sun), body(Body::Earth));
-            let spacecraft = carried.and_then(|it| it.coarse_spacecraft(center, epoch_s)).unwrap_or(given);
-            let ephemeris_at_time =
-                EphemerisAtTime::new(epoch_s, fixed.planet, &spacecraft, &sun_and_earth.0, &sun_and_earth.1);
-            connected(ephemeris_at_time, command, center, body)
-        } else {
-            None
-        };
-        if fixed.source == EphemerisSource::Coarse {
-            return BodyPositions::in_every_mode(coarse);
-        }
-        let onboard = |target: OnboardTarget| precise.and_then(|it| it.state(target, center, epoch_s));
-        let (sun_and_earth, spacecraft) = match precise.filter(|_| is_onboard) {
-            Some(carried) => (
-                onboard(OnboardTarget::Sun).zip(onboard(OnboardTarget::Earth)),
-                match carried.span_s(OnboardTarget::Spacecraft, center) {
-                    Some(_) => onboard(OnboardTarget::Spacecraft),
-                    None => Some(given),
-                },
-            ),
-            None if fixed.source == EphemerisSource::Inputs => {
-                let sun = self.state(v.sun.position, v.sun.velocity);
-                (Some((sun, self.state(v.earth.position, v.earth.velocity))), Some(given))
-            }
-            None => (Some(bodies.sun_and_earth(ephemeris, epoch_s)), Some(given)),
-        };
-        let precise = sun_and_earth.zip(spacecraft).and_then(|((sun, earth), spacecraft)| {
-            let ephemeris_at_time = EphemerisAtTime::new(epoch_s, fixed.planet, &spacecraft, &sun, &earth);
-            let own = |body: Body| onboard(body.into()).filter(|_| is_onboard);
-            connected(ephemeris_at_time, command, center, |body| {
-                own(body).unwrap_or_else(|| bodies.body(body, ephemeris, epoch_s))
-            })
-        });
-        BodyPositions { precise, coarse, by_mode: is_onboard }
-    }
-
-    fn state(&self, position: RealVector<3>, velocity: RealVector<3>) -> CartesianState {
-        CartesianState { position_m: self.vector(position), velocity_m_s: self.vector(velocity) }
-    }
-
-    /// Sum of the accelerometers' increments.
-    pub(super) fn delta_v_body_m_s(&self) -> Vector3<f64> {
-        self.vector(self.context.variables.accelerometer.delta_v)
-    }
-
-    /// System momentum along the body axes.
-    pub(super) fn momentum_body_n_m_s(&self) -> Vector3<f64> {
-        self.vector(self.context.variables.momentum.body)
-    }
-
-    /// Whether an input asks for a mode.
-    pub(super) fn asks_for_a_mode(&self) -> bool {
-        self.item(self.context.variables.mode.request, ModeRequest::mode).is_some()
-    }
-
-    /// Mode request, estimate and Sun sensors, and whether there is an estimate to be judged. Where it is not connected, or
-    /// nothing is placed yet, the attitude commanded now stands in for it.
-    pub(super) fn sensed(&self, commanded: Attitude, is_placed: bool) -> Result<(Sensed, bool), Failure> {
-        let v = self.context.variables;
-        let q = self.inputs.vector(self.values, v.estimate.q, self.time_s);
-        let valid = self.flag(v.estimate.valid);
-        let given = self.context.given(self.values, &[v.estimate.q.into(), v.estimate.valid.into()]);
-        let is_connected = q != [0.0; 4] && (q != NOT_CONNECTED || given.has(v.estimate.q));
-        let is_estimated = is_placed && (is_connected || !valid);
-        let estimate = if !is_estimated {
-            Some(commanded)
-        } else if valid {
-            let attitude = Attitude::along_quaternion(q);
-            Some(attitude.map_err(|error| Failure::new(format!("estimate.q: {error}")))?)
-        } else {
-            None
-        };
-        let sensed = Sensed {
-            time_s: self.time_s,
-            request: self.item(v.mode.request, ModeRequest::mode),
-            is_of_timeline: false,
-            estimate,
-            sun_body: self.flag(v.sun.sensed_valid).then(|| self.vector(v.sun.sensed)),
-        };
-        Ok((sensed, is_estimated))
-    }
-
-    fn aimpoint(&self, aimpoint: &AimpointVariables) -> AimpointCommand {
-        AimpointCommand {
-            option: self.item(aimpoint.option, |it| it.0),
-            vector: self.vector(aimpoint.vector),
-            position_m: self.vector(aimpoint.position),
-            velocity_m_s: self.rate(aimpoint.position),
-            right_ascension_rad: self.real(aimpoint.right_ascension),
-            declination_rad: self.real(aimpoint.declination),
-            latitude_rad: self.real(aimpoint.latitude),
-            longitude_rad: self.real(aimpoint.longitude),
-            height_m: self.real(aimpoint.height),
-            azimuth_rad: self.real(aimpoint.azimuth),
-            elevation_rad: self.real(aimpoint.elevation),
-            body: self.item(aimpoint.body, |it| it.0),
-        }
-    }
-}
-
-/// The ephemeris with the bodies that a command points at; `None` while position, Sun or Earth is not connected.
-fn connected(
-    mut ephemeris_at_time: EphemerisAtTime,
-    command: &PointingCommand,
-    center: Body,
-    mut place: impl FnMut(Body) -> CartesianState,
-) -> Option<EphemerisAtTime> {
-    let aimpoints = [&command.aimpoint, &command.second_aimpoint].into_iter();
-    let bodies = aimpoints.filter(|it| it.option == Some(AimpointOption::Body)).filter_map(|it| it.body);
-    for body in bodies {
-        ephemeris_at_time.place_body(body, &place(body));
-    }
-    ephemeris_at_time.is_connected(center).then_some(ephemeris_at_time)
 }

@@ -3,7 +3,8 @@
 
 use nalgebra::Vector3;
 
-use super::system::{GuidanceState, SampleInputs};
+use super::sample_inputs::SampleInputs;
+use super::system::GuidanceState;
 use super::test_burn::{BurnFlight, ephemeris, guidance_settings, sample_inputs, settings, still_inputs};
 use crate::attitude::Attitude;
 use crate::attitude::control::AccelerometerSettings;

@@ -3,8 +3,9 @@
 use nalgebra::Vector3;
 
 use super::body_positions::BodyPositions;
-use super::guidance_command::CommandStatus;
-use super::system::{GuidanceSettings, GuidanceState, SampleInputs};
+use super::command_status::CommandStatus;
+use super::sample_inputs::{GuidanceSettings, SampleInputs};
+use super::system::GuidanceState;
 use super::test_burn::{guidance_settings, sample_inputs, settings, still_inputs};
 use crate::attitude::{Attitude, SunAngles};
 use crate::constants::DEG_RAD;

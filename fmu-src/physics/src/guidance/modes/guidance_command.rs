@@ -1,13 +1,10 @@
-//! A command of the sampled guidance, propagated by its rate, and its status.
+//! A command of the sampled guidance, propagated by its rate.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::{Attitude, MovingFrame};
 use crate::enumeration::enumeration;
-use crate::guidance::orbit_phase::guided::DownlinkStatus;
-use crate::guidance::pointing::antenna::AntennaRow;
-use crate::guidance::pointing::boresight::DeviceAngle;
 
 enumeration! {
     /// What a command gives.
@@ -41,37 +38,6 @@ pub struct GuidanceCommand {
     pub rate_body_rad_s: Vector3<f64>,
     /// From the commanded to the actual body frame, scalar last (paper 001 eq 25).
     pub error: [f64; 4],
-}
-
-/// Status of a command.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CommandStatus {
-    /// The gimbal's angle, and whether it is the one requested.
-    pub gimbal: DeviceAngle,
-    /// The antenna in use.
-    pub antenna: Option<AntennaRow>,
-    /// Where it looks, in rad.
-    pub antenna_azimuth_rad: f64,
-    /// Angle between Sun and Earth, in rad.
-    pub sun_separation_rad: f64,
-    /// Whether there is a link with the Earth.
-    pub link_available: bool,
-    /// Whether the boresight is on the aimpoint.
-    pub reachable: bool,
-    /// Whether a fallback stands in for a roll vector, or there is no direction at all.
-    pub degenerate: bool,
-    /// Whether a scan moves boresight or aim.
-    pub scan_active: bool,
-    /// What is reported of a downlink.
-    pub downlink: DownlinkStatus,
-    /// Whether the keep-in zone changed the attitude.
-    pub sun_keep_in: bool,
-    /// Whether the hot-pole keep-out did.
-    pub hot_pole: bool,
-    /// Whether its cone is kept, in force or not.
-    pub hot_pole_reached: bool,
-    /// Whether something that was requested was clamped.
-    pub clamped: bool,
 }
 
 impl GuidanceCommand {
@@ -140,23 +106,4 @@ impl GuidanceCommand {
         let vector = rate * w + Vector3::new(x, y, z).cross(&rate);
         [vector.x, vector.y, vector.z, -Vector3::new(x, y, z).dot(&rate)]
     }
-}
-
-impl CommandStatus {
-    /// Of no attitude.
-    pub(super) const NOTHING: Self = Self {
-        gimbal: DeviceAngle { angle_rad: 0.0, in_range: true },
-        antenna: None,
-        antenna_azimuth_rad: 0.0,
-        sun_separation_rad: 0.0,
-        link_available: false,
-        reachable: false,
-        degenerate: false,
-        scan_active: false,
-        downlink: DownlinkStatus { active: false, clamped: false },
-        sun_keep_in: false,
-        hot_pole: false,
-        hot_pole_reached: true,
-        clamped: false,
-    };
 }

@@ -8,19 +8,20 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::body_positions::BodyPositions;
-use super::guidance_command::{CommandKind, CommandStatus, GuidanceCommand};
+use super::command_status::CommandStatus;
+use super::guidance_command::{CommandKind, GuidanceCommand};
 use super::mode::{Mode, ModeReason};
+use super::sample_inputs::{GuidanceSettings, SampleInputs, TimedEntries};
 use super::sun_line::SunLine;
-use super::transitions::{ModeSettings, ModeState, Sensed, Steering};
+use super::transitions::{ModeState, Sensed, Steering};
 use crate::attitude::Attitude;
-use crate::guidance::burn::delta_v::{BurnSettings, BurnState, MeasuredMotion};
+use crate::guidance::burn::delta_v::{BurnState, MeasuredMotion};
 use crate::guidance::constraints::constrained::{ConstrainedPointing, Constraints};
 use crate::guidance::constraints::hot_pole::TurnSide;
-use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::downlink::downlink_sun::{DownlinkSun, WindowStart};
-use crate::guidance::downlink::sun_place::{ChosenPlace, LinkLimits, SunPlace, SunRequest, link};
+use crate::guidance::downlink::sun_place::{ChosenPlace, SunPlace, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
-use crate::guidance::geometry::moving::{MovingVector, value};
+use crate::guidance::geometry::moving::value;
 use crate::guidance::orbit_phase::guided::{DownlinkStatus, Guided};
 use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
 use crate::guidance::orbit_phase::predicted_orbit::ellipse_of;
@@ -29,7 +30,7 @@ use crate::guidance::pointing::antenna::Beam;
 use crate::guidance::pointing::command::{
     BoresightOption, LimbCommand, PointingCommand, ScanCommand, Scenario,
 };
-use crate::guidance::pointing::law::{Pointing, PointingVectors};
+use crate::guidance::pointing::law::Pointing;
 use crate::guidance::pointing::scan::ScanTime;
 use crate::guidance::pointing::scenario::{
     GuidanceHardware, PointingProgress, PointingSolution, pointing_solution,
@@ -41,57 +42,6 @@ pub const SAMPLE_INTERVAL_S: f64 = 1.0;
 
 /// Units of about a microsecond that a sample takes at most, a choice of the Sun's place aside.
 pub const SAMPLE_WORK: u32 = 4;
-
-/// Everything that parameters set.
-#[derive(Clone, Copy, Debug)]
-pub struct GuidanceSettings<'a> {
-    /// Instruments, gimbal, scans.
-    pub hardware: GuidanceHardware<'a>,
-    /// Modes and their constraints.
-    pub modes: ModeSettings,
-    /// The keep-in zone of Operational, in force or not.
-    pub keep_in: KeepIn,
-    /// Greatest distance from the Sun at which the keep-in zone of Operational counts, in m.
-    pub keep_in_distance_m: f64,
-    /// The radio link.
-    pub link: LinkLimits,
-    /// The law of [`Scenario::OrbitPhase`]; its periapsis and period are computed.
-    pub orbit_phase: Guided,
-    /// The burn of [`Scenario::Burn`].
-    pub burn: BurnSettings,
-}
-
-/// Everything that a sample reads.
-#[derive(Clone, Copy, Debug)]
-pub struct SampleInputs {
-    /// What is commanded.
-    pub command: PointingCommand,
-    /// Where downlinks are to have the Sun where no strategy chooses it.
-    pub requested_sun: SunRequest,
-    /// Whether the timeline says where the Sun stands, so that no strategy does.
-    pub sun_is_placed: bool,
-    /// The timeline's entries that say scan, limb and mode, where they and no input do: each begins with its entry.
-    pub entries: TimedEntries,
-    /// Where everything is.
-    pub positions: BodyPositions,
-    /// Mode request, estimate and Sun sensors at the sample's time.
-    pub sensed: Sensed,
-    /// Sum of the accelerometers' increments along the body axes, in m/s.
-    pub delta_v_body_m_s: Vector3<f64>,
-}
-
-/// Which entry of a timeline something comes from; `None` where it comes from no timeline.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct TimedEntries {
-    /// The scan.
-    pub scan: Option<usize>,
-    /// The scenario: the entry that names one.
-    pub scenario: Option<usize>,
-    /// The mode that is requested.
-    pub mode: Option<usize>,
-    /// Whether the burn is one of an entry that is no longer in force; its attitude is held.
-    pub burn_is_over: bool,
-}
 
 /// State of the sampled system.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -395,44 +345,11 @@ impl GuidanceState {
             self.status = CommandStatus { degenerate: true, ..CommandStatus::NOTHING };
             return;
         };
-        let ConstrainedPointing { pointing, sun_keep_in, hot_pole: turn, hot_pole_reached } = constrained;
-        let hot_pole = turn.is_some();
-        self.hot_pole_turn = turn;
-        self.command = self.command.followed_by(&pointing.frame(), now.time_s);
-        let earth_body = value(&pointing.to_body(&now.ephemeris.to_earth()));
-        let is_moved = sun_keep_in || hot_pole;
-        let antennas = now.settings.hardware.antennas;
-        let beam = solution.antenna.map(|requested| match requested {
-            // A fan's beam follows the Earth where a constraint moved the antenna off it.
-            Beam::AtTheEarth(beam) if is_moved => antennas.following(beam, &earth_body),
-            Beam::AtTheEarth(azimuth) | Beam::Commanded(azimuth) => azimuth,
-        });
-        let link = link(now.ephemeris, &earth_body, (antennas, beam.as_ref()), &now.settings.link);
-        let gimbal = solution
-            .gimbal_angle(&pointing, now.settings.hardware.gimbal.as_ref())
-            .unwrap_or(CommandStatus::NOTHING.gimbal);
-        self.status = CommandStatus {
-            gimbal,
-            antenna: beam.and_then(|beam| beam.antenna),
-            antenna_azimuth_rad: beam.map_or(0.0, |beam| beam.azimuth_rad),
-            sun_separation_rad: link.map_or(0.0, |link| link.sun_separation_rad),
-            link_available: link.is_some_and(|link| link.available),
-            reachable: match solution.antenna {
-                Some(Beam::AtTheEarth(_)) => link.is_some_and(|link| link.covered),
-                _ => solution.reachable && is_on(&pointing, &solution.vectors),
-            },
-            degenerate: pointing.degenerate || !is_given,
-            scan_active: solution.scan_active,
-            downlink: DownlinkStatus {
-                clamped: solution.downlink.active
-                    && (solution.downlink.clamped || now.requested_sun.1 || sun_keep_in),
-                ..solution.downlink
-            },
-            sun_keep_in,
-            hot_pole,
-            hot_pole_reached,
-            clamped: !hot_pole_reached || solution.clamped || !gimbal.in_range,
-        };
+        self.hot_pole_turn = constrained.hot_pole;
+        self.command = self.command.followed_by(&constrained.pointing.frame(), now.time_s);
+        let (_, is_sun_moved) = now.requested_sun;
+        self.status = CommandStatus::of(now.settings, now.ephemeris, &solution, &constrained, is_sun_moved);
+        self.status.degenerate |= !is_given;
     }
 
     /// The vectors of a command and the attitude within the constraints; `None` where something has no direction.
@@ -518,17 +435,6 @@ fn in_present_orbit(windows: &Schedule, ephemeris: &EphemerisAtTime) -> Schedule
 fn without_scans(command: &PointingCommand) -> PointingCommand {
     let limb = LimbCommand { height_rate_m_s: 0.0, ..command.limb };
     PointingCommand { scan: ScanCommand::default(), limb, ..*command }
-}
-
-/// Whether the boresight is on the aimpoint, within what rounding leaves.
-fn is_on(pointing: &Pointing, vectors: &PointingVectors) -> bool {
-    const ROUNDING_RAD: f64 = 1e-9;
-    let toward = |vector: &MovingVector| value(vector).try_normalize(0.0);
-    let aimpoint_body = toward(&pointing.to_body(&vectors.aimpoint));
-    let both = aimpoint_body.zip(toward(&vectors.boresight_body));
-    both.is_some_and(|(aimpoint, boresight)| {
-        aimpoint.cross(&boresight).norm() < ROUNDING_RAD && aimpoint.dot(&boresight) > 0.0
-    })
 }
 
 /// The next whole second after a sample at `time_s`; a time within rounding of a whole second counts as it.

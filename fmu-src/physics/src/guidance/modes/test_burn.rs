@@ -6,7 +6,8 @@ use crate::guidance::geometry::test_geometry::nearest_zone;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::body_positions::BodyPositions;
-use super::system::{GuidanceSettings, GuidanceState, SampleInputs, TimedEntries};
+use super::sample_inputs::{GuidanceSettings, SampleInputs, TimedEntries};
+use super::system::GuidanceState;
 use super::transitions::{ModeSettings, Sensed};
 use crate::attitude::Attitude;
 use crate::attitude::control::{AccelerometerSettings, AccelerometerState};

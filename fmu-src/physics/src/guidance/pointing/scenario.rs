@@ -188,20 +188,18 @@ impl Reading<'_> {
             let (scan, scans) = (&self.command.scan, &self.hardware.scans);
             scanned(&boresight.body, &aimpoint, scan, self.ephemeris, scans, time)
         });
+        let vectors = self.rolled_sunward(
+            scan.map_or(boresight.body, |scan| scan.boresight_body),
+            scan.map_or(aimpoint.toward, |scan| scan.toward),
+        );
         PointingSolution {
-            vectors: self.rolled_sunward(
-                scan.map_or(boresight.body, |scan| scan.boresight_body),
-                scan.map_or(aimpoint.toward, |scan| scan.toward),
-            ),
             gimbal: boresight.gimbal,
-            second: None,
             antenna: boresight.antenna.map(Beam::Commanded),
             reachable: aimpoint.reachable,
             clamped: boresight.gimbal.is_some_and(|angle| !angle.in_range)
                 || boresight.antenna.is_some_and(|antenna| !antenna.is_in_range()),
             scan_active: scan.is_some(),
-            downlink: DownlinkStatus::default(),
-            margins: [f64::INFINITY; 2],
+            ..PointingSolution::at(vectors)
         }
     }
 

@@ -1,0 +1,64 @@
+//! What a sample of guidance reads: settings by parameters, commands and their timeline entries, positions and measurements.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::body_positions::BodyPositions;
+use super::transitions::{ModeSettings, Sensed};
+use crate::guidance::burn::delta_v::BurnSettings;
+use crate::guidance::constraints::keep_in::KeepIn;
+use crate::guidance::downlink::sun_place::{LinkLimits, SunRequest};
+use crate::guidance::orbit_phase::guided::Guided;
+use crate::guidance::pointing::command::PointingCommand;
+use crate::guidance::pointing::scenario::GuidanceHardware;
+
+/// Everything that parameters set.
+#[derive(Clone, Copy, Debug)]
+pub struct GuidanceSettings<'a> {
+    /// Instruments, gimbal, scans.
+    pub hardware: GuidanceHardware<'a>,
+    /// Modes and their constraints.
+    pub modes: ModeSettings,
+    /// The keep-in zone of Operational, in force or not.
+    pub keep_in: KeepIn,
+    /// Greatest distance from the Sun at which the keep-in zone of Operational counts, in m.
+    pub keep_in_distance_m: f64,
+    /// The radio link.
+    pub link: LinkLimits,
+    /// The law of the orbit phase; its periapsis and period are computed.
+    pub orbit_phase: Guided,
+    /// The burn of the scenario burn.
+    pub burn: BurnSettings,
+}
+
+/// Everything that a sample reads.
+#[derive(Clone, Copy, Debug)]
+pub struct SampleInputs {
+    /// What is commanded.
+    pub command: PointingCommand,
+    /// Where downlinks are to have the Sun where no strategy chooses it.
+    pub requested_sun: SunRequest,
+    /// Whether the timeline says where the Sun stands, so that no strategy does.
+    pub sun_is_placed: bool,
+    /// The timeline's entries that say scan, limb and mode, where they and no input do: each begins with its entry.
+    pub entries: TimedEntries,
+    /// Where everything is.
+    pub positions: BodyPositions,
+    /// Mode request, estimate and Sun sensors at the sample's time.
+    pub sensed: Sensed,
+    /// Sum of the accelerometers' increments along the body axes, in m/s.
+    pub delta_v_body_m_s: Vector3<f64>,
+}
+
+/// Which entry of a timeline something comes from; `None` where it comes from no timeline.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TimedEntries {
+    /// The scan.
+    pub scan: Option<usize>,
+    /// The scenario: the entry that names one.
+    pub scenario: Option<usize>,
+    /// The mode that is requested.
+    pub mode: Option<usize>,
+    /// Whether the burn is one of an entry that is no longer in force; its attitude is held.
+    pub burn_is_over: bool,
+}
