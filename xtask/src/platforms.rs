@@ -58,7 +58,7 @@ const PROGRAM: [&str; 5] = ["--release", "-p", "heliotorque", "--all-features", 
 impl Platform {
     /// Files of a build.
     pub(crate) fn built(&self) -> Built {
-        let folder = target().join(self.target);
+        let folder = self.target_folder().join(self.target);
         let (prefix, suffix) = self.library_affixes;
         let library = |name: &str| folder.join("fmu").join(format!("{prefix}{name}{suffix}"));
         Built {
@@ -67,6 +67,12 @@ impl Platform {
             probe: library("probe"),
             others: Vec::new(),
         }
+    }
+
+    /// Folder of its builds. Windows has one of its own: macros and build scripts depend on `RUSTC_BOOTSTRAP`, so that builds with and
+    /// without it would make one another stale.
+    fn target_folder(&self) -> PathBuf {
+        if self.folder == WINDOWS.folder { target().join("mingw") } else { target() }
     }
 
     /// Ending of its shared libraries.
@@ -78,7 +84,7 @@ impl Platform {
     fn build(&self) -> Result<Built, String> {
         let build = || match self.glibc {
             Some(version) => zig_build(&format!("{}.{version}", self.target)),
-            None => Ok(mingw("build", self.target)),
+            None => Ok(mingw("build")),
         };
         run(build()?.args(LIBRARIES))?;
         run(build()?.args(PROGRAM))?;
@@ -109,11 +115,13 @@ fn path_with(folder: &Path) -> Result<std::ffi::OsString, String> {
 }
 
 /// A command of cargo for Windows, with a standard library built too: none is distributed for this target.
-pub(crate) fn mingw(arguments: &str, target: &str) -> Command {
-    let variable = |name: &str| format!("CARGO_TARGET_{}_{name}", target.to_uppercase().replace('-', "_"));
+pub(crate) fn mingw(arguments: &str) -> Command {
+    let triple = WINDOWS.target.to_uppercase().replace('-', "_");
+    let variable = |name: &str| format!("CARGO_TARGET_{triple}_{name}");
     let mut cargo = cargo(arguments);
     cargo
-        .args(["-Zbuild-std=std,panic_unwind", "--target", target])
+        .args(["-Zbuild-std=std,panic_unwind", "--target", WINDOWS.target, "--target-dir"])
+        .arg(WINDOWS.target_folder())
         // `-Zbuild-std` is an unstable feature.
         .env("RUSTC_BOOTSTRAP", "1")
         .env(variable("LINKER"), tools::MINGW.program)

@@ -13,8 +13,7 @@ const OF_THE_SYSTEM: &str = "-p files -p loader";
 
 /// Runs the tests of program and libraries for Windows under Wine; everything is built and packed.
 pub(crate) fn test(built: &Built) -> Outcome {
-    run(mingw(&format!("test --locked --release --all-features --lib {OF_THE_SYSTEM}"), WINDOWS.target)
-        .envs(wine()))?;
+    run(mingw(&format!("test --locked --release --all-features --lib {OF_THE_SYSTEM}")).envs(wine()))?;
     let environment = test::environment(built)?.into_iter().map(|(name, it)| (name, it.into()));
     let windows = [("HELIOTORQUE_WINDOWS", shipped()?.into())];
     test::python_file("test_windows.py", environment.chain(windows).chain(wine()))
