@@ -10,9 +10,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::spacecraft::{MOST_THRUSTERS, Thruster};
 
-/// Weights of the torque over what is preferred, the second where the first leaves out a thruster that the torque needs; the torque is
-/// made exact afterwards.
-const TORQUE_WEIGHTS: [f64; 2] = [1e6, 1e9];
+/// Weight of the torque over what is preferred; the torque is made exact afterwards.
+const TORQUE_WEIGHT: f64 = 1e6;
 /// Share of the on-time beside the parasitic force.
 const ON_TIME_SHARE: f64 = 1e-3;
 /// A torque that misses its unit vector by more is none.
@@ -137,8 +136,6 @@ struct Problem {
     count: usize,
     /// W over the candidates.
     weight: [[f64; MOST_THRUSTERS]; MOST_THRUSTERS],
-    /// W's units over those of a squared torque.
-    torque_unit: f64,
     /// Weight of the torque in W's units.
     torque_weight: f64,
 }
@@ -173,8 +170,8 @@ impl Problem {
             largest = largest.max(row[i]);
         }
         let arm_n_m = candidates[..count].iter().map(|(_, torque)| torque.norm()).fold(0.0, f64::max);
-        let torque_unit = if arm_n_m > 0.0 { largest / (arm_n_m * arm_n_m) } else { 0.0 };
-        Self { candidates, count, weight, torque_unit, torque_weight: torque_unit }
+        let torque_weight = if arm_n_m > 0.0 { TORQUE_WEIGHT * largest / (arm_n_m * arm_n_m) } else { 0.0 };
+        Self { candidates, count, weight, torque_weight }
     }
 
     fn torque(&self, i: usize) -> &Vector3<f64> {
@@ -183,14 +180,6 @@ impl Problem {
 
     /// On-times of all thrusters that give `requested`; none where nothing does.
     fn solve(&mut self, requested: &Vector3<f64>) -> Option<OnTimes> {
-        TORQUE_WEIGHTS.into_iter().find_map(|weight| {
-            self.torque_weight = weight * self.torque_unit;
-            self.solve_weighted(requested)
-        })
-    }
-
-    /// The same with the constraint's present weight.
-    fn solve_weighted(&self, requested: &Vector3<f64>) -> Option<OnTimes> {
         let (mut times, mut chosen) = ([0.0; MOST_THRUSTERS], [false; MOST_THRUSTERS]);
         // Every thruster comes in and goes out a few times at most.
         for _ in 0..4 * MOST_THRUSTERS {
