@@ -176,7 +176,7 @@ def test_text_files_may_have_lines_of_windows(program, heliotorque, fmus, tmp_pa
         shutil.copy(RESOURCES / "messenger.toml", folder / "craft.toml")
         (folder / "mission.toml").write_text("")
         program.good("new", "mission", path(folder / "mission.toml"), "--force")
-        program.good("new", "plan", path(folder / "plan.toml"))
+        (folder / "plan.toml").write_text('mission = "mission.toml"\nfreeze = 0\n[tilt]\nazimuth = "10 deg"\n[momentum]\ndumps = 2\n')
         (folder / "campaign.toml").write_text(
             'mission = "mission.toml"\nstep = "1 h"\nsampling = "file"\nfile = "values.csv"\n[keep]\nfinal = ["momentum.body"]\n')
         (folder / "values.csv").write_text("run,spacecraft.centerOfMass[3]\n0,-0.02\n1,-0.03\n")
