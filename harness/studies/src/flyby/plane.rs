@@ -96,7 +96,7 @@ pub(super) struct Intercept {
 }
 
 /// A reach that is so many times as wide as the rest is left to the second panel.
-const WIDER: f64 = 3.5;
+const WIDER: f64 = 6.0;
 /// What sunlight can still reach.
 const IN_REACH: &str = "in reach of sunlight";
 
@@ -157,14 +157,12 @@ impl Plane<'_> {
         let is_near =
             |it: &&Series| !["impact", "altitude of the aim", IN_REACH].contains(&it.label.as_str());
         let close = series.iter().filter(is_near).map(|it| about(&it.points)).fold(1.0, f64::max);
-        let fits = |it: &&Series| it.label != IN_REACH || about(&it.points) < WIDER * close;
-        let near: Vec<_> = series.iter().filter(fits).cloned().collect();
-        let reach = near.iter().filter(|it| it.label == IN_REACH).map(|it| about(&it.points));
-        let close = reach.fold(close, f64::max);
+        let reach = series.iter().filter(|it| it.label == IN_REACH).map(|it| about(&it.points));
+        let close = reach.filter(|reach| *reach < WIDER * close).fold(close, f64::max);
         let wide = 1.3 * aimpoint.0.hypot(aimpoint.1) + close;
-        let panel = |title: &str, series, centre, half_width| PlanePanel {
+        let panel = |title: &str, centre, half_width| PlanePanel {
             title: title.to_owned(),
-            series,
+            series: series.clone(),
             centre,
             half_width,
             ..PlanePanel::default()
@@ -173,10 +171,7 @@ impl Plane<'_> {
             title: self.title.clone(),
             x_label: "B.T [km]".to_owned(),
             y_label: "-B.R [km]".to_owned(),
-            panels: vec![
-                panel("about the aim", near, aimpoint, 1.15 * close),
-                panel("Mercury", series.clone(), (0.0, 0.0), wide),
-            ],
+            panels: vec![panel("about the aim", aimpoint, 1.15 * close), panel("Mercury", (0.0, 0.0), wide)],
             shading: None,
         };
         run.picture(&format!("{name}.svg"), &chart)?;
