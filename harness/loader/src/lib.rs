@@ -45,7 +45,7 @@ pub use requirements::Requirements;
 pub use select::{select, select_outputs};
 pub use simulate::{
     Ended, Options, RecordedPoints, Simulation, Stopped, Times, initialize, outputs, set_early, simulate,
-    simulate_by, simulate_into, simulate_with,
+    simulate_instance, simulate_into, simulate_with,
 };
 pub use status::LogMessage;
 pub use uri::file_uri;

@@ -177,19 +177,27 @@ impl Times {
 /// Communication points are `start + k*step`; the last step ends at the stop time. Inputs are set at the start
 /// of each step, and only if their value changed. A recorded Real that is NaN is an error.
 pub fn simulate(fmu: &Fmu, options: Options<'_>) -> Result<Simulation, Box<Stopped>> {
-    // Refused before the FMU is instantiated.
-    collector(fmu, &options)?;
+    // Options are checked before the FMU is instantiated.
+    let collector = collector(fmu, &options)?;
     let mut instance = Instance::new(fmu, "run", &options.instance)?;
-    let (recording, ended) = simulate_by(&mut instance, options)?;
+    let (recording, ended) = record(&mut instance, options, collector)?;
     Ok(Simulation { recording, ended, messages: instance.messages() })
 }
 
 /// As [`simulate`], with an instance that was just made or reset.
-pub fn simulate_by(
+pub fn simulate_instance(
+    instance: &mut Instance,
+    options: Options<'_>,
+) -> Result<(Recording, Ended), Box<Stopped>> {
+    let collector = collector(instance.fmu(), &options)?;
+    record(instance, options, collector)
+}
+
+fn record(
     instance: &mut Instance,
     mut options: Options<'_>,
+    (mut collector, positions): (Collector, Vec<usize>),
 ) -> Result<(Recording, Ended), Box<Stopped>> {
-    let (mut collector, positions) = collector(instance.fmu(), &options)?;
     options.record = Some(positions);
     match simulate_with(instance, options, &mut collector) {
         Ok(ended) => Ok((collector.into_recording(), ended)),
@@ -197,7 +205,10 @@ pub fn simulate_by(
     }
 }
 
-/// What a run is recorded by, and the positions of the variables; more points than memory is given for are refused.
+/// Collector of a run and the positions of its variables.
+///
+/// # Errors
+/// Invalid times, or more points than the memory limit allows.
 fn collector(fmu: &Fmu, options: &Options<'_>) -> Result<(Collector, Vec<usize>), Error> {
     let positions = options.record.clone().unwrap_or_else(|| outputs(fmu.description()));
     let collector = Collector::new(fmu.description(), &positions);

@@ -107,7 +107,7 @@ impl Model for Guidance {
             epoch_minus_time_s: time::epoch_minus_time_s(epoch_s, start_s),
             warned_unconnected: false,
             windows_are_checked: false,
-            ephemeris: Ephemeris::sharing(&context.setup.evaluated),
+            ephemeris: Ephemeris::with_cache(&context.setup.ephemeris_cache),
             coarse: CoarseEphemeris::default(),
             fixed: None,
         };

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use fmi_export::{Context, Model, SetupError};
-use physics::environment::ephemeris::Evaluated;
+use physics::environment::ephemeris::EphemerisCache;
 use physics::environment::onboard::OnboardEphemeris;
 use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::timeline::Timeline;
@@ -42,9 +42,9 @@ pub struct GuidanceSetup {
     /// Prepared for sunlight.
     #[serde(skip)]
     pub shapes: PreparedShapes,
-    /// What VSOP87 was evaluated for: a simulation after a reset need not do it again.
+    /// Planets' segments, kept over a reset.
     #[serde(skip)]
-    pub evaluated: Evaluated,
+    pub ephemeris_cache: EphemerisCache,
     /// Positions over time, if there is a file of them; they do not enter the GUID.
     #[serde(skip)]
     pub ephemeris: Option<Arc<OnboardEphemeris>>,
@@ -66,7 +66,7 @@ impl GuidanceSetup {
             antennas: PreparedAntennas::of(&spacecraft),
             shapes: PreparedShapes::of(&spacecraft),
             spacecraft,
-            evaluated: Evaluated::default(),
+            ephemeris_cache: EphemerisCache::default(),
             ephemeris: None,
             timeline: None,
         })

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use fmi_export::{Context, Failure, Model, SetupError};
-use physics::environment::ephemeris::Evaluated;
+use physics::environment::ephemeris::EphemerisCache;
 use physics::environment::onboard::OnboardEphemeris;
 use physics::environment::orbit::OrbitMethod;
 use physics::guidance::geometry::lighting::SubsolarMethod;
@@ -70,9 +70,9 @@ pub struct PlantSetup {
     /// How disturbed orbits are integrated.
     #[serde(skip)]
     orbit_method: OrbitMethod,
-    /// What VSOP87 was evaluated for: a simulation after a reset need not do it again.
+    /// Planets' segments, kept over a reset.
     #[serde(skip)]
-    pub evaluated: Evaluated,
+    pub ephemeris_cache: EphemerisCache,
 }
 
 impl PlantSetup {
@@ -97,7 +97,7 @@ impl PlantSetup {
             timeline: None,
             panel_steps: Vec::new(),
             orbit_method: OrbitMethod::default(),
-            evaluated: Evaluated::default(),
+            ephemeris_cache: EphemerisCache::default(),
             spacecraft,
         })
     }

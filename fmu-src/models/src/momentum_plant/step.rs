@@ -62,7 +62,7 @@ fn configure(
         match (read.fixed, read.settings) {
             (Some(fixed), Some(settings)) => {
                 let FixedParameters { light, air, thrusters } = fixed;
-                let ephemeris = Ephemeris::sharing(&context.setup.evaluated);
+                let ephemeris = Ephemeris::with_cache(&context.setup.ephemeris_cache);
                 let simulation =
                     SimulationContext { ephemeris, light, air, ..SimulationContext::new(read.configuration) };
                 state.flight.thrusters.settings = thrusters;

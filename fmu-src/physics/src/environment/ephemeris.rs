@@ -17,8 +17,8 @@
 //!
 //! A Julian date resolves 4e-5 s, in which Mercury moves by 2 m: what is evaluated is moved to the date itself.
 //!
-//! Two neighbouring segments of each layer are held, so that looking back and forth over an edge costs no refill. What VSOP87
-//! itself was evaluated for is kept in [`Evaluated`], which forecasts and repeated simulations of one instance share.
+//! Two neighbouring segments of positions are kept, so that looking back and forth over an edge costs no refill. Segments for which
+//! VSOP87 itself is evaluated are kept in an [`EphemerisCache`], which forecasts and repeated simulations of one instance share.
 
 use core::f64::consts::TAU;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -95,14 +95,14 @@ impl Theory {
     }
 }
 
-/// Span of time whose segments are kept for all who share them, in s.
-const SHARED_S: f64 = 1000.0 * DAY_S;
+/// Span of time whose segments a cache keeps, in s.
+const CACHED_S: f64 = 1000.0 * DAY_S;
 
-/// The segments that VSOP87 was evaluated for, of each body about a thousand days. A function of time alone, so no state.
+/// Segments for which VSOP87 was evaluated, of each body up to a thousand days. A function of time alone, so no state.
 #[derive(Clone, Debug, Default)]
-pub struct Evaluated(Arc<Mutex<Segments>>);
+pub struct EphemerisCache(Arc<Mutex<Segments>>);
 
-/// Room of a body is allocated with its first segment.
+/// Allocated by body, with its first segment.
 #[derive(Debug, Default)]
 struct Segments {
     elements: [Option<Slots<6, ELEMENT_TERMS>>; Body::COUNT],
@@ -110,8 +110,8 @@ struct Segments {
     moon: Option<Slots<3, MOON_TERMS>>,
 }
 
-impl Evaluated {
-    /// The segment about `epoch_s` of those that `of` chooses.
+impl EphemerisCache {
+    /// The segment about `epoch_s` of the body that `of` selects.
     fn segment<const D: usize, const N: usize>(
         &self,
         of: impl FnOnce(&mut Segments) -> &mut Option<Slots<D, N>>,
@@ -120,7 +120,7 @@ impl Evaluated {
     ) -> Segment<D, N> {
         // A panic leaves only whole segments.
         let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let slots = of(&mut all).get_or_insert_with(|| Slots::holding(SHARED_S, length_s));
+        let slots = of(&mut all).get_or_insert_with(|| Slots::spanning(CACHED_S, length_s));
         *slots.segment(epoch_s, length_s, fit)
     }
 }
@@ -129,10 +129,10 @@ impl Evaluated {
 /// start from the default.
 #[derive(Clone, Debug, Default)]
 pub struct Ephemeris {
-    planets: [TwoLayers; Body::COUNT],
+    planets: [Slots<3, PLANET_TERMS>; Body::COUNT],
     earth: Slots<3, EARTH_TERMS>,
     moon: Slots<3, MOON_TERMS>,
-    evaluated: Evaluated,
+    cache: EphemerisCache,
     entered: [Entered; Body::COUNT],
     moon_entered: Entered,
 }
@@ -158,9 +158,9 @@ impl Entered {
 }
 
 impl Ephemeris {
-    /// One that shares what VSOP87 was evaluated for.
-    pub fn sharing(evaluated: &Evaluated) -> Self {
-        Self { evaluated: evaluated.clone(), ..Self::default() }
+    /// Ephemeris that shares a cache with others.
+    pub fn with_cache(cache: &EphemerisCache) -> Self {
+        Self { cache: cache.clone(), ..Self::default() }
     }
 
     /// Heliocentric position and velocity in EME2000 at `epoch_s` past J2000 TDB, geometric (no light time).
@@ -195,9 +195,9 @@ impl Ephemeris {
     /// Position and velocity of the Moon from the Earth in EME2000 at `epoch_s`, geometric; see [`Ephemeris::state`].
     pub fn moon_from_earth(&mut self, epoch_s: f64) -> CartesianState {
         self.moon_entered.enter((epoch_s / MIDDLE_S).floor() as i64);
-        let evaluated = &self.evaluated;
+        let cache = &self.cache;
         let segment = self.moon.segment(epoch_s, MIDDLE_S, |_, _| {
-            evaluated.segment(
+            cache.segment(
                 |all| &mut all.moon,
                 (epoch_s, MIDDLE_S),
                 |start_s, end_s| {
@@ -215,9 +215,9 @@ impl Ephemeris {
 
     fn earth(&mut self, epoch_s: f64) -> &Segment<3, EARTH_TERMS> {
         self.entered[Body::Earth as usize].enter((epoch_s / MIDDLE_S).floor() as i64);
-        let evaluated = &self.evaluated;
+        let cache = &self.cache;
         self.earth.segment(epoch_s, MIDDLE_S, |_, _| {
-            evaluated.segment(
+            cache.segment(
                 |all| &mut all.earth,
                 (epoch_s, MIDDLE_S),
                 |start_s, end_s| {
@@ -227,9 +227,26 @@ impl Ephemeris {
         })
     }
 
+    /// The positions about `epoch_s`, computed from slowly varying elements. Only the slow remainder of the longitude is fitted: any
+    /// value near gives the same positions.
     fn planet(&mut self, body: Body, theory: &Theory, epoch_s: f64) -> &Segment<3, PLANET_TERMS> {
         self.entered[body as usize].enter((epoch_s / LONG_S).floor() as i64);
-        self.planets[body as usize].segment(epoch_s, (body, theory), &self.evaluated)
+        let mean_motion_rad_s = theory.mean_motion_rad_s();
+        let cache = &self.cache;
+        self.planets[body as usize].segment(epoch_s, SHORT_S, |start_s, end_s| {
+            // Nodes lie inside the segment that `epoch_s` chose, and that inside one segment of elements.
+            let middle_s = ((epoch_s / LONG_S).floor() + 0.5) * LONG_S;
+            let slow = cache.segment(
+                |all| &mut all.elements[body as usize],
+                (epoch_s, LONG_S),
+                |start_s, end_s| fit_elements(theory, mean_motion_rad_s, [start_s, middle_s, end_s]),
+            );
+            Segment::fit(start_s, end_s, |node_s| {
+                let [[a, longitude_rad, k, h, q, p]] = slow.value(node_s).data.0;
+                let mean_longitude_rad = longitude_rad + mean_motion_rad_s * (node_s - middle_s);
+                from_elements([a, mean_longitude_rad, k, h, q, p])
+            })
+        })
     }
 
     /// Begins a count of work: of each body the segment that is requested first counts as held.
@@ -272,8 +289,8 @@ impl<const D: usize, const N: usize> Default for Slots<D, N> {
 }
 
 impl<const D: usize, const N: usize> Slots<D, N> {
-    /// For all segments of this length that a span touches, wherever it begins, and its neighbour.
-    fn holding(span_s: f64, length_s: f64) -> Self {
+    /// For all segments of this length that a span touches, wherever it begins, and a neighbour.
+    fn spanning(span_s: f64, length_s: f64) -> Self {
         let count = (span_s / length_s).ceil() as usize + 2;
         Self { held: vec![None; count].into_boxed_slice() }
     }
@@ -299,43 +316,6 @@ impl<const D: usize, const N: usize> Slots<D, N> {
             (number, fit(start_s, start_s + length_s))
         });
         segment
-    }
-}
-
-/// Slowly varying elements, and positions computed from them.
-#[derive(Clone, Debug, Default)]
-struct TwoLayers {
-    elements: Slots<6, ELEMENT_TERMS>,
-    position: Slots<3, PLANET_TERMS>,
-}
-
-impl TwoLayers {
-    /// The positions about `epoch_s`. Only the slow remainder of the longitude is fitted: any value near gives the same
-    /// positions.
-    fn segment(
-        &mut self,
-        epoch_s: f64,
-        (body, theory): (Body, &Theory),
-        evaluated: &Evaluated,
-    ) -> &Segment<3, PLANET_TERMS> {
-        let mean_motion_rad_s = theory.mean_motion_rad_s();
-        let elements = &mut self.elements;
-        self.position.segment(epoch_s, SHORT_S, |start_s, end_s| {
-            // Nodes lie inside the segment that `epoch_s` chose, and that inside one segment of elements.
-            let middle_s = ((epoch_s / LONG_S).floor() + 0.5) * LONG_S;
-            let slow = elements.segment(epoch_s, LONG_S, |_, _| {
-                evaluated.segment(
-                    |all| &mut all.elements[body as usize],
-                    (epoch_s, LONG_S),
-                    |start_s, end_s| fit_elements(theory, mean_motion_rad_s, [start_s, middle_s, end_s]),
-                )
-            });
-            Segment::fit(start_s, end_s, |node_s| {
-                let [[a, longitude_rad, k, h, q, p]] = slow.value(node_s).data.0;
-                let mean_longitude_rad = longitude_rad + mean_motion_rad_s * (node_s - middle_s);
-                from_elements([a, mean_longitude_rad, k, h, q, p])
-            })
-        })
     }
 }
 

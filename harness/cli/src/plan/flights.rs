@@ -80,8 +80,8 @@ pub(super) struct SimulatedMission {
     pub stop_s: f64,
     /// Epoch of time 0 in s past J2000 TDB, where the mission begins at a date.
     pub zero_epoch_s: Option<f64>,
-    // Instances that wait for their next simulation: at most as many as ran at once.
-    instances: Mutex<Vec<Instance>>,
+    // Idle instances, at most one for each thread.
+    idle: Mutex<Vec<Instance>>,
     // The FMU's folder, as long as it is in use.
     _folder: Option<Scratch>,
 }
@@ -120,7 +120,7 @@ impl SimulatedMission {
             zero_epoch_s: simulated.zero_epoch_s(settings.times.start_s),
             sets: settings.sets,
             inputs: settings.inputs,
-            instances: Mutex::default(),
+            idle: Mutex::default(),
             _folder: folder,
         })
     }
@@ -295,9 +295,9 @@ impl SimulatedMission {
             ..Options::default()
         };
         let mut instance = self.instance()?;
-        let simulated = loader::simulate_by(&mut instance, options);
+        let simulated = loader::simulate_instance(&mut instance, options);
         if simulated.is_ok() {
-            self.instances.lock().unwrap_or_else(PoisonError::into_inner).push(instance);
+            self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(instance);
         }
         if interrupt::raised() {
             return Err("interrupted".into());
@@ -311,10 +311,10 @@ impl SimulatedMission {
         })
     }
 
-    /// An instance as freshly made: what its last simulation evaluated VSOP87 for, it knows.
+    /// An idle instance after a reset, which keeps its ephemeris cache; otherwise a new one.
     fn instance(&self) -> Result<Instance, loader::Error> {
-        let waiting = self.instances.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        match waiting {
+        let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        match idle {
             Some(mut instance) => instance.reset().map(|()| instance),
             None => Instance::new(&self.fmu, "run", &InstanceOptions::default()),
         }

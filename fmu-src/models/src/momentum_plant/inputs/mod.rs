@@ -35,17 +35,17 @@ pub(super) struct Reading<'a> {
     pub changes: Option<Changes>,
     /// Whether the flight begins, everything it needs being known.
     pub begins: bool,
-    /// Whether the configuration is another than at the last step, or not known yet.
+    /// Whether the configuration changed since the last step, or is not known yet.
     pub is_reconfigured: bool,
-    /// Whether all of it is to be read: the flight begins, was restored or waits for inputs.
-    is_anew: bool,
+    /// Whether fixed parameters are read too: the simulation begins, was restored or waits for inputs.
+    is_complete: bool,
     applied: AppliedLoad<'a>,
     manager: Manager<'a>,
     prepared: PreparedSpacecraft<'a>,
     work_limit: u32,
 }
 
-/// What a flight is configured by.
+/// A configuration and settings.
 pub(super) struct Configured {
     /// What follows from inputs and tunable parameters, among others.
     pub configuration: Configuration,
@@ -108,13 +108,13 @@ pub(super) fn read<'a>(
     let (management, spacecraft) = (&variables.momentum.management, &context.setup.spacecraft);
     let strategy = values.choice(management.strategy).0;
     let is_dynamic = state.inputs.source.is_dynamic && !state.waiting;
-    let is_anew = begins || !state.flight.is_configured() || (state.waiting && changes.is_some());
+    let is_complete = begins || !state.flight.is_configured() || (state.waiting && changes.is_some());
     let is_changed = changes.is_some_and(|it| !is_dynamic || it.orbit || it.light || it.tunables);
     Ok(Reading {
         changes,
         begins,
-        is_reconfigured: is_anew || is_changed,
-        is_anew,
+        is_reconfigured: is_complete || is_changed,
+        is_complete,
         applied: state.inputs.applied_load(variables, step.inputs),
         manager: management.targeting.manager(
             values,
@@ -127,7 +127,7 @@ pub(super) fn read<'a>(
     })
 }
 
-/// The configuration by inputs and tunable parameters, all that is fixed too where it is read anew.
+/// The configuration by inputs and tunable parameters, and by fixed ones where [`Reading::is_complete`].
 pub(super) fn configured(
     context: &Plan<'_>,
     values: &Values,
@@ -136,16 +136,16 @@ pub(super) fn configured(
     reading: &Reading<'_>,
 ) -> Result<Configured, Failure> {
     let is_dynamic = state.inputs.source.is_dynamic && !state.waiting;
-    let is_anew = reading.is_anew;
+    let is_complete = reading.is_complete;
     let center = Center::read(context, values);
     let moving = (over_time, state.flight.take_panels());
     let configuration = configuration::read(context, values, state, &center, moving)?;
-    let settings = if is_anew || is_dynamic {
+    let settings = if is_complete || is_dynamic {
         Some(dynamics::settings(context, values, &configuration, state)?)
     } else {
         None
     };
-    let fixed = if is_anew {
+    let fixed = if is_complete {
         Some(FixedParameters {
             air: match state.waiting {
                 true => None,

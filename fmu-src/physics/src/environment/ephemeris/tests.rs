@@ -244,10 +244,10 @@ fn history_leaves_no_trace() {
 }
 
 #[test]
-fn what_was_evaluated_is_shared_and_changes_no_bit() {
+fn a_shared_cache_changes_no_bit() {
     let (start_s, days) = (-1e8, 400);
-    let evaluated = Evaluated::default();
-    let [mut first, mut second] = [(); 2].map(|()| Ephemeris::sharing(&evaluated));
+    let cache = EphemerisCache::default();
+    let [mut first, mut second] = [(); 2].map(|()| Ephemeris::with_cache(&cache));
     let mut alone = Ephemeris::default();
     for day in (0..=days).chain((0..=days).rev()) {
         let epoch_s = start_s + f64::from(day) * DAY_S;
@@ -265,7 +265,7 @@ fn what_was_evaluated_is_shared_and_changes_no_bit() {
     fn held<const D: usize, const N: usize>(slots: &Option<Slots<D, N>>) -> usize {
         slots.iter().flat_map(|slots| &slots.held).flatten().count()
     }
-    let all = evaluated.0.lock().unwrap();
+    let all = cache.0.lock().unwrap();
     for body in [Body::Mercury, Body::Venus, Body::Mars, Body::Jupiter] {
         assert_eq!(held(&all.elements[body as usize]), touched(LONG_S));
     }
@@ -273,13 +273,12 @@ fn what_was_evaluated_is_shared_and_changes_no_bit() {
 }
 
 #[test]
-fn a_segment_of_others_is_taken_and_not_evaluated() {
-    let evaluated = Evaluated::default();
-    let _ = Ephemeris::sharing(&evaluated).state(Body::Earth, 0.0);
-    // Falsified, so that it shows whose it is.
-    let falsified =
-        Segment::<3, EARTH_TERMS>::from_samples(0.0, MIDDLE_S, &[Vector3::repeat(7.0); EARTH_TERMS]);
-    evaluated.0.lock().unwrap().earth.as_mut().unwrap().held[0] = Some((0, falsified));
-    let taken_m = Ephemeris::sharing(&evaluated).position_m(Body::Earth, 0.0);
+fn a_cached_segment_is_not_evaluated_again() {
+    let cache = EphemerisCache::default();
+    let _ = Ephemeris::with_cache(&cache).state(Body::Earth, 0.0);
+    // A wrong one, so that its use shows.
+    let wrong = Segment::<3, EARTH_TERMS>::from_samples(0.0, MIDDLE_S, &[Vector3::repeat(7.0); EARTH_TERMS]);
+    cache.0.lock().unwrap().earth.as_mut().unwrap().held[0] = Some((0, wrong));
+    let taken_m = Ephemeris::with_cache(&cache).position_m(Body::Earth, 0.0);
     assert!((taken_m - Vector3::repeat(7.0)).norm() < 1e-12, "{taken_m}");
 }
