@@ -130,7 +130,7 @@ fn processor_s() -> f64 {
 /// A cruise of 200 days by its timeline, its plans, and a refit of ten days of a history; starts of the processes with them.
 fn plans(built: &Built) -> Outcome {
     let folder = Folder::new(built, "bench-plans")?;
-    let heliotorque = |words: &str| folder.command(words);
+    let heliotorque = |words: &str| folder.quiet(words);
     let write = |name: &str, text: &str| folder.write(name, text);
     let flight = "run cruise.toml --output cruise.csv";
     write("messenger-cruise-timeline.toml", &resource("examples/missions/messenger-cruise-timeline.toml")?)?;
@@ -168,7 +168,7 @@ fn plans(built: &Built) -> Outcome {
 fn flybys(built: &Built) -> Outcome {
     const LEGS: u32 = 1000;
     let folder = Folder::new(built, "bench-flybys")?;
-    let heliotorque = |words: &str| folder.command(words);
+    let heliotorque = |words: &str| folder.quiet(words);
     let mission = resource("examples/missions/messenger-flyby2.toml")?;
     folder.write("flyby.toml", &mission.replace("../../messenger.toml", "messenger.toml"))?;
     let leg = resource("examples/legs/messenger-flyby2.toml")?;
@@ -176,6 +176,7 @@ fn flybys(built: &Built) -> Outcome {
     let flight = "run flyby.toml --stop 17280000 --output flyby.csv";
     row("n_body_200_days", &mut heliotorque(flight))?;
     peak_row("n_body_200_days_peak", &mut heliotorque(flight))?;
+    n_body_by_c(&folder)?;
     // Arrays of a plan flyby stay as they are up to its date: they come from a plan of the momentum, to which the departure is led.
     let tilt = "[tilt]\nazimuth = \"10 deg\"\nelevation = \"12 deg\"\n";
     folder.write(
@@ -191,7 +192,13 @@ fn flybys(built: &Built) -> Outcome {
     };
     let met = format!("mission = \"leg/mission.toml\"\nwindmill = 0\n{tilt}{}", aim("200 km"));
     folder.write("met.toml", &met)?;
-    row("partials_of_all_windows_with_the_flight", &mut heliotorque("plan flyby met.toml --output met"))?;
+    // The flight and its partials stand before what can be reached.
+    let plan =
+        folder.command("plan flyby met.toml --output met").output().map_err(|error| error.to_string())?;
+    let progress = String::from_utf8_lossy(&plan.stderr).into_owned();
+    let partials_s = progress.lines().find_map(|line| line.strip_suffix(" s: reach"));
+    let partials_s = partials_s.ok_or_else(|| format!("`plan flyby` reported no reach: {progress}"))?;
+    println!("bench partials_of_all_windows_with_the_flight {partials_s} s");
     let text = format!(
         "mission = \"leg/mission.toml\"\nwindow = \"10 d\"\n{tilt}[sunOffset]\nchange = true\nlargest = \"20 deg\"\n{}",
         aim("370 km")
@@ -210,6 +217,27 @@ fn flybys(built: &Built) -> Outcome {
     output(&mut heliotorque("plan flyby dispersed.toml --output dispersed"))?;
     println!("bench plan_flyby_{LEGS}_dispersed_legs {:.2} s", begin.elapsed().as_secs_f64());
     Ok(())
+}
+
+/// The same flight in one step through the C interface.
+fn n_body_by_c(folder: &Folder<'_>) -> Outcome {
+    if !need("gcc", "the benchmark of a flight between planets by C")? {
+        return Ok(());
+    }
+    let mission = resource("examples/missions/messenger-flyby2.toml")?;
+    let one_step = mission.replace("../../messenger.toml", "messenger.toml").replace("\nevery = \"6 h\"", "");
+    let one_step = one_step.replace("\"203 d\"", "\"200 d\"").replace("\"1 h\"", "\"200 d\"");
+    folder.write("one-step.toml", &one_step)?;
+    run(&mut folder.command("pack --mission one-step.toml --name Leg --output Leg.fmu"))?;
+    run(command("python3").args(["-m", "zipfile", "-e", "Leg.fmu", "Leg"]).current_dir(&folder.path))?;
+    let program = compile_c(&folder.path, "flight")?;
+    let unpacked = folder.path.join("Leg");
+    let library = unpacked.join("binaries").join("linux64").join("Leg.so");
+    let mut by_c = command(&program);
+    by_c.arg(library).arg(unpacked.join("modelDescription.xml"));
+    by_c.arg(format!("file://{}", unpacked.join("resources").display()));
+    row("n_body_200_days_by_c", &mut by_c)?;
+    peak_row("n_body_200_days_by_c_peak", &mut by_c)
 }
 
 /// A file of the resources.
@@ -238,8 +266,15 @@ impl<'b> Folder<'b> {
 
     fn command(&self, words: &str) -> Command {
         let mut command = command(&self.built.heliotorque);
-        command.current_dir(&self.path).args(words.split_whitespace()).arg("--quiet");
+        command.current_dir(&self.path).args(words.split_whitespace());
         command.arg("--template").arg(root().join("dist").join("MomentumPlant.fmu"));
+        command
+    }
+
+    /// Without progress.
+    fn quiet(&self, words: &str) -> Command {
+        let mut command = self.command(words);
+        command.arg("--quiet");
         command
     }
 }

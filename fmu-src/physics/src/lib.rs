@@ -35,8 +35,6 @@ pub mod radiation;
 
 pub mod aerodynamics;
 
-pub mod magnetics;
-
 pub mod guidance;
 
 pub mod momentum;

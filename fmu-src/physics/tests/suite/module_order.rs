@@ -20,7 +20,6 @@ const ORDER: &[&str] = &[
     "loads",
     "radiation",
     "aerodynamics",
-    "magnetics",
     "guidance",
     "momentum",
     "plant",

@@ -126,10 +126,10 @@ pub fn reachable(
     simulated: &SimulatedFlight,
     simulates: &mut dyn Simulates,
 ) -> Result<Reachable, PlanError> {
-    simulates.progress("reach");
     let mut model = bare(task, sunlit, &simulated.thinned(REACH_ROWS_S))?;
     // The target itself is no limit here.
     model.set_target(sunlit, task.target.map(|_| Target { tolerance: [None; 3] }));
+    simulates.progress("reach");
     let Some(here) = model.miss() else { return Ok(Reachable::default()) };
     let here = here.xy();
     let single = counted::single(&model);

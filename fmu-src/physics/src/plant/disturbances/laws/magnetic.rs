@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::numerics::scalar::Scalar;
 
 /// Torque m x B of a dipole (in A m2) in a field (in T), both in the body frame, in N m.
-pub fn torque_n_m<T: Scalar>(dipole_body_a_m2: &Vector3<T>, field_body_t: &Vector3<T>) -> Vector3<T> {
+pub(super) fn torque_n_m<T: Scalar>(dipole_body_a_m2: &Vector3<T>, field_body_t: &Vector3<T>) -> Vector3<T> {
     dipole_body_a_m2.cross(field_body_t)
 }
 

@@ -1,10 +1,11 @@
 //! Effects in closed form, each row of the table joined with its law.
 
+mod magnetic;
+
 use nalgebra::{Matrix3, Vector3};
 
 use crate::attitude::{OblatePlanet, gravity_gradient_n_m, oblate_gravity_gradient_n_m};
 use crate::loads::{Active, Effect, ForceTorque, Loads};
-use crate::magnetics;
 use crate::numerics::scalar::Scalar;
 
 /// What the laws go by that does not change in flight.
@@ -56,7 +57,7 @@ impl<T: Scalar> Laws<T> {
                 }
             })),
             Effect::Aerodynamic => at.air,
-            Effect::Magnetic => torque(Some(magnetics::torque_n_m(&self.dipole_body_a_m2, &at.field_body_t))),
+            Effect::Magnetic => torque(Some(magnetic::torque_n_m(&self.dipole_body_a_m2, &at.field_body_t))),
             Effect::Solar
             | Effect::Albedo
             | Effect::Infrared
