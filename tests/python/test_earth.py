@@ -8,7 +8,7 @@ import ppigrf
 import pytest
 from fmpy import extract
 
-from simulation import DAY_S, basilisk_table, columns, simulate, stack, vector
+from simulation import DAY_S, QUATERNION, basilisk_table, columns, simulate, stack, to_body, vector
 from spacecraft import RESOURCES, call, pack, urchin
 from studies import table
 
@@ -130,19 +130,96 @@ def test_loads_along_a_day_are_basilisks_at_equal_density_and_field(heliotorque,
     assert abs(higher_m.min()) < 1.0 and 20e3 < higher_m.max() < 21.4e3
 
 
-def test_a_day_has_the_same_bits_in_steps_of_ten_seconds_and_of_ten_minutes(heliotorque, dist, tmp_path):
+# A day of the file's epoch, which is midnight UTC, and two hours about midnight, when the air's model goes on to another day.
+@pytest.mark.parametrize(("epoch", "hours"), [("2024-03-20 UTC", 24), ("2024-03-20T23:00:00 UTC", 2)])
+def test_bits_are_the_same_in_steps_of_ten_seconds_and_of_ten_minutes(heliotorque, dist, tmp_path, epoch, hours):
     recorded = [part for name in ("torque.*", "atmosphere.*", "magneticField.*", "geodetic.*") for part in ("--record", name)]
     tables = []
     for step in ("10s", "600s"):
         file = tmp_path / f"{step}.csv"
-        fmu = (dist / "Cubesat.fmu").resolve()
-        done = call(heliotorque, "run", fmu, "--stop", "1d", "--step", step, *recorded, "--output", file, "--quiet")
+        times = ("--stop", f"{hours}h", "--step", step, "--set", f"start.epoch={epoch}")
+        done = call(heliotorque, "run", (dist / "Cubesat.fmu").resolve(), *times, *recorded, "--output", file, "--quiet")
         assert done.returncode == 0, done.stderr
         tables.append(file.read_text(encoding="utf-8").splitlines())
     fine, coarse = tables
     assert fine[0] == coarse[0] and "atmosphere.density" in fine[0]
-    assert len(fine) == 8642 and len(coarse) == 146
+    assert len(fine) == 360 * hours + 2 and len(coarse) == 6 * hours + 2
     assert coarse[1:] == fine[1::60]
+
+
+# Through every height at which the model of the air changes its form.
+ELLIPSE = {"orbit.semiMajorAxis": "7468137", "orbit.eccentricity": "0.121837"}
+
+
+def test_a_day_between_180_and_2000_km_stays_in_the_work_budget(heliotorque, dist):
+    every = {name: "true" for name in ("planetLight.enabled", "thermal.enabled", "gravityGradient.flattening")}
+
+    def run(limit):
+        values = ELLIPSE | every | {"solver.workLimit": limit}
+        settings = [part for name, value in values.items() for part in ("--set", f"{name}={value}")]
+        return call(heliotorque, "run", (dist / "Cubesat.fmu").resolve(), "--stop", "1d", "--step", "1d", *settings)
+
+    # Of the default a twentieth; it takes some 380,000.
+    done = run(1_000_000)
+    assert done.returncode == 0, done.stderr
+    done = run(200_000)
+    assert done.returncode != 0 and "solver.workLimit = 200000" in done.stderr, done.stderr
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "allowed"), [("spaceWeather.f107", -1, "0.0 to 1000.0"), ("spaceWeather.ap", 401, "0.0 to 400.0")]
+)
+def test_space_weather_outside_its_range_is_refused_by_name(heliotorque, dist, name, value, allowed):
+    times = ("--stop", "60s", "--step", "60s", "--set", f"{name}={value}")
+    done = call(heliotorque, "run", (dist / "Cubesat.fmu").resolve(), *times)
+    assert done.returncode != 0
+    assert f"`{name}`" in done.stderr and f"set to {value}.0, allowed is {allowed}" in done.stderr, done.stderr
+
+
+@pytest.mark.parametrize("name", ["aerodynamics.enabled", "magnetics.enabled"])
+def test_the_log_says_that_an_effect_follows_the_earth_unless_it_is_set(heliotorque, dist, name):
+    command = ("run", (dist / "Cubesat.fmu").resolve(), "--stop", "60s", "--step", "60s", "--log")
+    line = f"{name} = true, as about the Earth unless it is set"
+    for settings, count in (((), 1), (("--set", f"{name}=true"), 0), (("--set", f"{name}=false"), 0)):
+        done = call(heliotorque, *command, *settings)
+        assert done.returncode == 0 and (done.stdout + done.stderr).count(line) == count, done.stderr
+
+
+def test_wind_comes_from_the_velocity_along_east_north_and_up(cubesat):
+    """Local axes where the geodetic latitude has them, turned to EME2000 by pyerfa."""
+    start_s, utc, tt = epoch(2020)
+    to_inertial = terrestrial(utc, tt, YEARS[2020]).T
+    names = vector("position") + vector("atmosphere.velocityBody") + QUATERNION
+    found = []
+    for wind in np.vstack([np.zeros(3), 300.0 * np.eye(3)]):
+        start = {"start.epoch": start_s, "earth.ut1Offset": YEARS[2020], "orbit.trueAnomaly": 0.7}
+        start |= dict(zip(vector("atmosphere.wind"), wind))
+        found.append(simulate(cubesat, days=0.0, start=start, output=names))
+    still = found[0]
+    longitude, latitude, _ = by_erfa(stack(still, "position")[0], to_inertial.T)
+    east = np.array([-np.sin(longitude), np.cos(longitude), 0.0])
+    up = np.array([np.cos(latitude) * np.cos(longitude), np.cos(latitude) * np.sin(longitude), np.sin(latitude)])
+    for axis, row in zip((east, np.cross(up, east), up), found[1:]):
+        change = stack(row, "atmosphere.velocityBody")[0] - stack(still, "atmosphere.velocityBody")[0]
+        expected = -300.0 * to_body(still)[0] @ to_inertial @ axis
+        assert np.linalg.norm(change - expected) < ARCSECOND * 300.0
+
+
+def test_the_example_of_500_kg_is_simulated_for_an_hour(heliotorque, dist, tmp_path):
+    text = (RESOURCES / "examples" / "leo-500kg.toml").read_text(encoding="utf-8")
+    body = extract(pack(heliotorque, dist, tmp_path, text, "Leo"), unzipdir=str(tmp_path / "unpacked"))
+    loads = ("torque.solar", "torque.gravityGradient", "torque.aerodynamic", "torque.magnetic", "force.aerodynamic")
+    names = [*sum(map(vector, loads), []), *vector("velocity"), *QUATERNION, "geodetic.height"]
+    result = simulate(body, step_s=60.0, days=1.0 / 24.0, output=names)
+    # 500 km by the equator's radius; over the poles 21 km more, and as much again by the flattening's short periods.
+    assert len(result) == 61 and (np.abs(result["geodetic.height"] - 530e3) < 40e3).all()
+    for load in loads:
+        assert np.isfinite(stack(result, load)).all() and np.abs(stack(result, load)).max() > 1e-9, load
+    # Drag: against the velocity, within what the turning air and lift make of it.
+    velocity = np.einsum("nij,nj->ni", to_body(result), stack(result, "velocity"))
+    force = stack(result, "force.aerodynamic")
+    cosine = (force * velocity).sum(axis=1) / np.linalg.norm(force, axis=1) / np.linalg.norm(velocity, axis=1)
+    assert (cosine < -0.99).all(), cosine
 
 
 def test_plant_and_disturbance_torque_joined_by_wire_have_equal_air_and_magnetism(heliotorque, dist, tmp_path):
