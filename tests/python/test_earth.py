@@ -1,5 +1,6 @@
 """The Earth about Cubesat.fmu: its orientation and heights by pyerfa, its magnetic field by ppigrf, a day's loads by Basilisk."""
 
+import shlex
 from datetime import datetime
 
 import erfa
@@ -243,6 +244,22 @@ def test_plant_and_disturbance_torque_joined_by_wire_have_equal_air_and_magnetis
         plant, light = (columns(result, vector(f"{part}.torque.{effect}")) for part in ("plant", "light"))
         assert np.abs(plant).max() > 1e-7
         assert np.abs(light[1:] - plant[:-1]).max() <= 1e-14 * np.abs(plant).max()
+
+
+def test_the_tutorials_spacecraft_gets_all_four_torques_in_one_picture(heliotorque, dist, tmp_path):
+    book = RESOURCES.parents[1] / "docs" / "src" / "tutorial"
+    command = "run EarthSurveyor.fmu --stop 3h --step 1min --record 'torque.*' --plot torques.svg"
+    assert f"$ heliotorque {command}\n" in (book / "low-earth-orbit.md").read_text(encoding="utf-8")
+    pack(heliotorque, dist, tmp_path, (book / "leo.toml").read_text(encoding="utf-8"), "EarthSurveyor")
+    done = call(heliotorque, *shlex.split(command), "--output", "torques.csv", folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    rows = np.genfromtxt(tmp_path / "torques.csv", delimiter=",", names=True, deletechars="", encoding="utf-8")
+    picture = (tmp_path / "torques.svg").read_text(encoding="utf-8")
+    shown = (book.parent / "pictures" / "torques.svg").read_text(encoding="utf-8")
+    for effect in ("solar", "gravityGradient", "aerodynamic", "magnetic"):
+        assert np.abs(columns(rows, vector(f"torque.{effect}"))).max() > 1e-6, effect
+        assert all(f">torque.{effect} [uN.m]</text>" in drawn for drawn in (picture, shown)), effect
+    assert "torque.albedo" not in picture
 
 
 EFFECTS = {

@@ -22,7 +22,10 @@ BLOCK = re.compile(r"(?m)^```console\n(.*?)^```$", re.DOTALL)
 PAGES = sorted(page for page in BOOK.rglob("*.md") if BLOCK.search(page.read_text(encoding="utf-8")))
 BLESS = "HELIOTORQUE_BLESS" in os.environ
 # Pictures that commands of a page write and the guide shows. A drawing is the same everywhere; a simulation's last digits are not.
-PICTURES = {"venus.svg": "venus.svg", "ten-days.svg": "ten-days.svg", "year.svg": "year.svg", "turn/burn.svg": "turn.svg"}
+PICTURES = {
+    "venus.svg": "venus.svg", "ten-days.svg": "ten-days.svg", "year.svg": "year.svg", "turn/burn.svg": "turn.svg",
+    "torques.svg": "torques.svg",
+}
 DRAWINGS = ("venus.svg",)
 # What differs from run to run, from build to build, and in the last digits from processor to processor.
 VARYING = [
@@ -201,4 +204,5 @@ def test_every_variable_that_the_guide_names_exists(dist):
 
 def test_the_tutorials_run():
     names = {str(page.relative_to(BOOK)) for page in PAGES}
-    assert {"tutorial/own-spacecraft.md", "tutorial/own-controller.md", "tutorial/spinner.md", "commands.md"} <= names
+    tutorials = {f"tutorial/{page}.md" for page in ("own-spacecraft", "low-earth-orbit", "own-controller", "spinner")}
+    assert tutorials | {"commands.md"} <= names
