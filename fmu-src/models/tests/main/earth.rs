@@ -2,8 +2,9 @@
 
 use models::MomentumPlant;
 use nalgebra::Vector3;
+use physics::environment::dates;
 
-use super::named_model::{NamedInstance, NamedModel, assert_cuts_change_nothing};
+use super::named_model::{NamedInstance, NamedModel, assert_cuts_change_nothing, assert_same};
 
 const CUBESAT: &str = include_str!("../../../resources/examples/cubesat-12u.toml");
 
@@ -46,8 +47,11 @@ fn both_act_about_the_earth_unless_they_are_set() {
 #[test]
 fn neither_cuts_nor_saving_change_a_bit() {
     let named = cubesat();
+    // Half an hour before midnight UTC, when the air's model goes on to another day of the year.
+    let late = [("start.epoch", dates::epoch_s("2024-03-20T23:30:00 UTC").unwrap())];
     for (sets, end_s) in [
         (with(&[PLAIN]), 9_000.0),
+        (with(&[PLAIN, &late]), 3_600.0),
         (with(&[PLAIN, ELLIPSE]), 9_000.0),
         (with(&[PLAIN, ELLIPSE, &[("orbit.dynamics", 1.0)]]), 9_000.0),
         (with(&[PLAIN, FREE]), 240.0),
@@ -75,6 +79,67 @@ fn the_fit_along_the_orbit_is_as_good_as_its_tolerance() {
     for ((density, field), (fine, fine_field)) in at(1e-6).into_iter().zip(at(1e-9)) {
         assert!((density - fine).abs() <= 2e-5 * fine, "{density:e} {fine:e}");
         assert!((field - fine_field).norm() < 1e-5 * field.norm());
+    }
+}
+
+#[test]
+fn a_tunable_set_in_flight_acts_from_the_next_step_on() {
+    // On an orbit without disturbance and in a given attitude nothing else differs.
+    let named = cubesat();
+    let start = |sets: &[(&'static str, f64)]| {
+        named.initialize(0.0, &with(&[PLAIN, &[("orbit.dynamics", 1.0)], sets])).unwrap()
+    };
+    let (set_s, end_s) = (600.0, 660.0);
+    let inertial = |flight: &NamedInstance<'_, MomentumPlant>, momentum: &str| {
+        flight.to_inertial("attitude.q") * flight.vector(momentum)
+    };
+    let at = |mut flight: NamedInstance<'_, MomentumPlant>, momentum: &str, value: &str| {
+        flight.step_to(set_s).unwrap();
+        let before = inertial(&flight, momentum);
+        flight.step_to(end_s).unwrap();
+        (inertial(&flight, momentum) - before, flight.real(value))
+    };
+    for (name, value, momentum, shown) in [
+        ("dipole.residual[1]", 0.05, "momentum.magnetic", "torque.magnetic[2]"),
+        ("spaceWeather.f107", 220.0, "momentum.aerodynamic", "atmosphere.density"),
+        ("atmosphere.densityFactor", 2.0, "momentum.aerodynamic", "force.aerodynamic[1]"),
+    ] {
+        let (kept, kept_shown) = at(start(&[]), momentum, shown);
+        let (expected, expected_shown) = at(start(&[(name, value)]), momentum, shown);
+        let mut flight = start(&[]);
+        flight.step_to(set_s).unwrap();
+        let until = inertial(&flight, momentum);
+        flight.set(name, value);
+        flight.step_to(end_s).unwrap();
+        let gained = inertial(&flight, momentum) - until;
+        let differs = (expected - kept).norm();
+        assert!(differs > 0.05 * kept.norm(), "{name} {kept} {expected}");
+        assert_ne!(kept_shown, expected_shown, "{shown}");
+        // The fits of both begin at other times, so differ by their tolerance.
+        assert!((gained - expected).norm() < 1e-4 * differs, "{name} {gained} {expected}");
+        let found = flight.real(shown);
+        assert!(
+            (found - expected_shown).abs() < 1e-5 * expected_shown.abs(),
+            "{name} {found} {expected_shown}"
+        );
+    }
+}
+
+#[test]
+fn the_pole_of_the_parameters_counts_where_the_rotation_is_uniform_alone() {
+    let named = cubesat();
+    let [iau, uniform] = [2.0, 1.0].map(|orientation| {
+        [1.0, 1.2].map(|declination| {
+            let pole = [("planet.orientation", orientation), ("planet.poleDeclination", declination)];
+            let mut flight = named.initialize(0.0, &with(&[PLAIN, &pole])).unwrap();
+            flight.step_to(1_200.0).unwrap();
+            flight
+        })
+    });
+    assert_same(&iau[0], &iau[1]);
+    for name in ["geodetic.latitude", "atmosphere.density", "magneticField.body[1]", "position[3]"] {
+        let [a, b] = [0, 1].map(|i| uniform[i].real(name));
+        assert!((a - b).abs() > 1e-6 * a.abs(), "{name} {a} {b}");
     }
 }
 
@@ -211,6 +276,7 @@ fn what_no_model_has_is_refused_by_name() {
             ["height", "m", "100 km"],
         ),
         (&cubesat, with(&[&[("start.epoch", 9.9e8)]]), ["magneticField.method", "start.epoch", "2030"]),
+        (&cubesat, with(&[&[("start.epoch", -3.16e9)]]), ["magneticField.method", "start.epoch", "1899"]),
     ] {
         let refusal = model.refusal(&sets);
         for word in words {
