@@ -1,5 +1,7 @@
 """`heliotorque study flyby/*`: paper 003's numbers typed a second time, hyperbolas in closed form, the aim by FMPy."""
 
+import re
+
 import numpy as np
 import pytest
 from simulation import DAY_S, simulate, stack
@@ -15,7 +17,11 @@ def study(studied):
     """What a study prints, and the rows of its CSV."""
     def run(name):
         text, files = studied(f"flyby/{name}")
-        return text, table(files, f"{name}.csv")
+        rows = table(files, f"{name}.csv")
+        if "b_t_m" in rows[0]:
+            assert all("6 h before closest approach" in it for it in (text, files[f"{name}.svg"]))
+            assert {float(row["osculation_before_h"]) for row in rows} == {6.0}
+        return text, rows
     return run
 
 
@@ -189,3 +195,6 @@ def test_plans_lead_back_to_within_a_kilometre(study, name, before_km):
     inward = (sides[:, 0] * toward[:, 1] - sides[:, 1] * toward[:, 0])[lengths > 0.0] / lengths[lengths > 0.0]
     assert inward.min() > -100.0
     assert "off" not in [line.split()[-1] for line in text.splitlines() if line.strip().endswith(("agrees", "off"))]
+    corrections = [re.split(r"\s{2,}", line.strip()) for line in text.splitlines() if re.match(r"\s*\d+ d  ", line)]
+    rounds = {row[0]: int(row[6]) for row in corrections}
+    assert list(rounds) == ["111 d", "18 d", "7 d"][: len(rounds)] and max(rounds.values()) <= 5

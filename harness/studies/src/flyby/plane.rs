@@ -31,6 +31,8 @@ pub(super) struct Target {
     gm_m3_s2: f64,
     radius_m: f64,
     excess_m_s: f64,
+    /// How long before closest approach the hyperbola osculates that B is of, in h.
+    lead_h: f64,
 }
 
 impl Target {
@@ -44,6 +46,7 @@ impl Target {
             gm_m3_s2: leg.force_model.gm_m3_s2,
             radius_m: leg.radius_m,
             excess_m_s: encounter.plane.excess_speed_m_s,
+            lead_h: leg.force_model.lead_s / 3600.0,
         })
     }
 
@@ -167,9 +170,12 @@ impl Plane<'_> {
             half_width,
             ..PlanePanel::default()
         };
+        let lead_h = self.target.lead_h;
+        let epoch = format!("{lead_h} h before closest approach");
+        run.line(&format!("B is that of the hyperbola osculating {epoch}."));
         let chart = PlaneChart {
             title: self.title.clone(),
-            x_label: "B.T [km]".to_owned(),
+            x_label: format!("B.T {epoch} [km]"),
             y_label: "-B.R [km]".to_owned(),
             panels: vec![panel("about the aim", aimpoint, 1.15 * close), panel("Mercury", (0.0, 0.0), wide)],
             shading: None,
@@ -179,7 +185,7 @@ impl Plane<'_> {
         let cells = |what: &str, miss_m: [f64; 2]| {
             let [t_m, r_m] = target.place_m(miss_m);
             let altitude_m = target.altitude_offset_m(miss_m);
-            row![what, t_m, r_m, miss_m, target.cost.cost_m_s(miss_m), altitude_m]
+            row![what, t_m, r_m, miss_m, target.cost.cost_m_s(miss_m), altitude_m, lead_h]
         };
         let mut rows = vec![cells("aim", [0.0; 2])];
         rows.extend(self.intercepts.iter().map(|it| cells(it.label, it.miss_m)));
@@ -190,7 +196,7 @@ impl Plane<'_> {
         }
         run.csv(
             &format!("{name}.csv"),
-            "what | b_t_m | b_r_m | miss_t_m | miss_r_m | cost_m_s | altitude_offset_m",
+            "what | b_t_m | b_r_m | miss_t_m | miss_r_m | cost_m_s | altitude_offset_m | osculation_before_h",
             rows,
         )
     }

@@ -132,6 +132,8 @@ pub(super) struct Steps<'a> {
     pub departed: Step<'a>,
     /// By correction: before and behind it.
     pub corrected: Vec<[Step<'a>; 2]>,
+    /// Rounds that their plans took.
+    rounds: Vec<usize>,
 }
 
 impl<'a> Steps<'a> {
@@ -150,18 +152,20 @@ impl<'a> Steps<'a> {
         let departed = off(&led, 0.0, DEPARTURE_MISS_M)?;
         done();
         let mut corrected: Vec<[Step<'a>; 2]> = Vec::new();
+        let mut rounds = Vec::new();
         for correction in &CORRECTIONS[..corrections] {
             let last = corrected.last().map_or(&departed, |[_, after]| after);
             let at_s = ((last.arrival_s() - correction.before_d * DAY_S) / STEP_S).round() * STEP_S;
             let before = off(last, at_s, correction.drift_m)?;
             let room = correction.room();
             let free = BPlaneAimpoint { arrival_s: None, ..aimpoint };
-            let windows = before.leg.planned(&room, &before.windows, Some(&free))?.windows;
-            let after = Step::of(before.leg.clone(), windows)?;
+            let plan = before.leg.planned(&room, &before.windows, Some(&free))?;
+            rounds.push(plan.rounds);
+            let after = Step::of(before.leg.clone(), plan.windows)?;
             corrected.push([before, after]);
             done();
         }
-        Ok(Self { unmanaged, target, led, departed, corrected })
+        Ok(Self { unmanaged, target, led, departed, corrected, rounds })
     }
 
     /// Altitude of the leg as its mission is, in m.
@@ -265,22 +269,24 @@ struct Corrected {
     /// Off the aimpoint's altitude, as the FMU reports it, in m.
     altitude_offset_m: f64,
     windows: usize,
+    rounds: usize,
 }
 
 fn corrected(run: &mut Run<'_>, index: usize) -> Outcome {
     let correction = &CORRECTIONS[index];
     let (target, all, reachable) = steps(run, index + 1, |steps| {
         let aimed_m = steps.aimed_altitude_m();
-        let of = |[before, after]: &[Step<'_>; 2]| -> Result<Corrected, Failure> {
+        let of = |([before, after], rounds): (&[Step<'_>; 2], &usize)| -> Result<Corrected, Failure> {
             Ok(Corrected {
                 miss_m: [before, after].map(|step| step.miss_m(&steps.target)),
                 covariance_m2: covariance_m2(&after.met.sensitivity, 0.0),
                 greatest_n_m_s: after.met.flight.greatest_momentum().0,
                 altitude_offset_m: after.altitude_m()? - aimed_m,
                 windows: after.windows.len(),
+                rounds: *rounds,
             })
         };
-        let all = steps.corrected.iter().map(of).collect::<Result<Vec<_>, _>>()?;
+        let all = steps.corrected.iter().zip(&steps.rounds).map(of).collect::<Result<Vec<_>, _>>()?;
         let Some([before, _]) = steps.corrected.last() else { return Err("found no correction".into()) };
         let aimpoint = BPlaneAimpoint { b_m: steps.target.aimpoint_m, arrival_s: None };
         let reachable = before.leg.reachable(&correction.room(), &before.windows, &aimpoint)?;
@@ -304,6 +310,7 @@ fn corrected(run: &mut Run<'_>, index: usize) -> Outcome {
             format!("{:+.2}", found.altitude_offset_m / 1e3),
             format!("{:.2}", found.greatest_n_m_s),
             found.windows.to_string(),
+            found.rounds.to_string(),
             format!("{:.1} by {:.1}", SIGMAS * large_m / 1e3, SIGMAS * small_m / 1e3),
             verdict(holds).to_owned(),
         ]
@@ -311,7 +318,7 @@ fn corrected(run: &mut Run<'_>, index: usize) -> Outcome {
     let rows: Vec<_> = all.iter().zip(&CORRECTIONS).map(row).collect();
     run.table(
         "before the flyby | miss before [km] | miss behind, paper: under 1 [km] | altitude offset [km] | momentum, limit 5.5 [N.m.s] | \
-         windows | ellipse [km] | verdict",
+         windows | rounds | ellipse [km] | verdict",
         &rows,
     );
     let moved = ["+T", "-T", "+R", "-R"].iter().zip(reachable.along_m);

@@ -61,8 +61,9 @@ fn plane(report: &FlybyReport, flyby_task: &FlybyTask) -> PlaneChart {
     let near = |(x, y): (f64, f64)| (x - km(aimpoint).0).abs().max((y - km(aimpoint).1).abs());
     let close = reach.iter().copied().chain(place(&report.miss[0])).map(near).fold(1.0, f64::max);
     let name = flyby_task.force_model.body.data().name;
+    let hours = terminal::short(flyby_task.force_model.lead_s / 3600.0);
     PlaneChart {
-        title: format!("B-plane at {name}, hyperbola osculating before closest approach"),
+        title: format!("B-plane at {name}, hyperbola osculating {hours} h before closest approach"),
         x_label: "B.T [km]".to_owned(),
         y_label: "-B.R [km]".to_owned(),
         panels: vec![
