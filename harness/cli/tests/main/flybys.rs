@@ -2,10 +2,10 @@
 
 use std::{fs, path::Path};
 
-use nalgebra::{Matrix2, Matrix6, Rotation2, Vector2};
+use nalgebra::{Matrix2, Matrix6, Rotation2, Vector2, Vector3};
 use serde_json::Value;
 
-use crate::{heliotorque, legs::flyby, momentum_plans::columns, run, says, shown, template};
+use crate::{heliotorque, is_long, legs::flyby, momentum_plans::columns, run, says, shown, template};
 
 const LIMIT_N_M_S: f64 = 5.5;
 
@@ -48,11 +48,19 @@ fn vector(text: &str, name: &str) -> Vec<f64> {
     list.split(',').map(|it| it.trim().parse().unwrap()).collect()
 }
 
-/// B along T and R in km of a simulated mission, six hours before its closest approach, and the altitude there.
-/// A step of ten minutes or less: between rows so far apart B is linear to 5 m.
-fn passed(mission: &Path, template: &Path, (step, more): (&str, &[&str])) -> [f64; 3] {
+/// Outputs of an encounter.
+const ENCOUNTER: [&str; 5] =
+    ["time", "encounter.bT", "encounter.bR", "encounter.lastTime", "encounter.lastAltitude"];
+
+/// Rows of a simulated mission, ten minutes apart or less: an encounter's, behind them `outputs`.
+fn simulated(
+    mission: &Path,
+    template: &Path,
+    (step, more): (&str, &[&str]),
+    outputs: &[&str],
+) -> Vec<Vec<f64>> {
     let output = mission.with_extension("passed.csv");
-    let names = ["time", "encounter.bT", "encounter.bR", "encounter.lastTime", "encounter.lastAltitude"];
+    let names = [&ENCOUNTER[..], outputs].concat();
     let record = names[1..].join(",");
     let arguments = [
         &["run", shown(mission), "--template", shown(template), "--every", "600", "--quiet"][..],
@@ -60,7 +68,12 @@ fn passed(mission: &Path, template: &Path, (step, more): (&str, &[&str])) -> [f6
         more,
     ];
     run(&arguments.concat(), 0);
-    let rows = columns(&output, &names);
+    columns(&output, &names)
+}
+
+/// B along T and R in km of rows, six hours before their closest approach, and the altitude there: between rows ten minutes apart B is
+/// linear to 5 m.
+fn encounter(rows: &[Vec<f64>]) -> [f64; 3] {
     let last = rows.last().unwrap();
     let at_s = last[3] - 21_600.0;
     let after = rows.partition_point(|row| row[0] <= at_s);
@@ -71,22 +84,83 @@ fn passed(mission: &Path, template: &Path, (step, more): (&str, &[&str])) -> [f6
     [at(1), at(2), 1e-3 * last[4]]
 }
 
-/// Momentum planned, departure led to 200 km with that plan, an error of 4 cm/s there, corrected from 111 d before on.
+fn passed(mission: &Path, template: &Path, (step, more): (&str, &[&str])) -> [f64; 3] {
+    encounter(&simulated(mission, template, (step, more), &[]))
+}
+
+/// What a plan keeps along its input table, behind the outputs of the encounter.
+const KEPT: [&str; 9] = [
+    "momentum.inertial[1]",
+    "momentum.inertial[2]",
+    "momentum.inertial[3]",
+    "sun.azimuth",
+    "sun.elevation",
+    "panel[1].corridorMargin",
+    "panel[2].corridorMargin",
+    "dump.count",
+    "downlink.alternate",
+];
+
+/// Of every window; the alternate attitude may have what they leave.
+const CONTACTS: f64 = 0.3;
+const TILT_DEG: [f64; 2] = [10.0, 12.0];
+
+/// Limits of the plan in a folder by the rows of its input table: momentum, tilts, corridor, no dump, contacts.
+fn keeps(folder: &Path, rows: &[Vec<f64>]) {
+    let jumps = columns(&folder.join("plan.csv"), &["time"]).concat();
+    for row in rows {
+        let [h_x, h_y, h_z, azimuth, elevation, first_suns, second_suns, dumps, _] = row[5..] else {
+            panic!()
+        };
+        let size_n_m_s = Vector3::new(h_x, h_y, h_z).norm();
+        assert!(size_n_m_s < LIMIT_N_M_S && dumps == 0.0, "{row:?}");
+        let tilts_deg = [azimuth, elevation].map(|tilt| tilt.to_degrees().abs());
+        assert!(tilts_deg.iter().zip(TILT_DEG).all(|(tilt, most)| *tilt < most + 1e-6), "{row:?}");
+        // The row of a jump has the arrays from before it. Their bounds are those of the flight that is to be corrected, 180 km from this
+        // one along the Sun line: 10 s on the way.
+        let least_suns = if jumps.contains(&row[0]) { -1e-4 } else { 0.0 };
+        assert!(first_suns.min(second_suns) > least_suns, "{row:?}");
+    }
+    let mut greatest = 0.0_f64;
+    let windows = columns(&folder.join("windows.csv"), &["start_s", "stop_s", "alternate_share"]);
+    // The first is frozen: the plan before has it.
+    for window in &windows[1..] {
+        let within = rows.iter().filter(|row| (window[0]..window[1]).contains(&row[0]));
+        let (count, alternate) = within.fold((0.0, 0.0), |(count, sum), row| (count + 1.0, sum + row[13]));
+        let share = alternate / count;
+        // A stretch a day, whose edges lie between rows.
+        let row_of_a_day = 600.0 / 86_400.0;
+        assert!((share - window[2]).abs() < row_of_a_day, "{share} {window:?}");
+        assert!(share < 1.0 - CONTACTS + row_of_a_day, "{share} {window:?}");
+        greatest = greatest.max(share);
+    }
+    println!("alternate up to {greatest} of a window");
+    assert!(greatest > 0.65, "contacts limit none of them: {greatest}");
+}
+
+/// Momentum planned, departure led to 200 km with that plan, an error of 4 cm/s there, corrected from 111 d before on: `plan.toml`, with
+/// more about the flyby.
+fn departed(folder: &Path, template: &Path, flyby: &str) {
+    let momentum = "contactShare = 0.3\n[momentum]\nlimit = \"5.3 N.m.s\"\n[tilt]\nazimuth = \"5 deg\"\nelevation = \"6 deg\"\n";
+    led(folder, template, momentum);
+    let [azimuth_deg, elevation_deg] = TILT_DEG;
+    let text = format!(
+        "mission = \"leg/mission.toml\"\nwindow = \"10 d\"\nalternation = 1\ncontactShare = {CONTACTS}\n\
+         [momentum]\nlimit = \"{LIMIT_N_M_S} N.m.s\"\n[tilt]\nazimuth = \"{azimuth_deg} deg\"\nelevation = \"{elevation_deg} deg\"\n\
+         [sunOffset]\nchange = true\nlargest = \"20 deg\"\n\
+         [flyby]\nbody = \"mercury\"\naltitude = \"200 km\"\nangle = 0\nfrom = \"2008-06-17 UTC\"\n{flyby}\
+         [update]\nat = \"2008-03-19 UTC\"\nvelocity = {}\n[compare]\nnext = \"2009-09-29 UTC\"\n",
+        velocity(folder, 0.0404)
+    );
+    fs::write(folder.join("plan.toml"), text).unwrap();
+}
+
 #[test]
 fn the_steps_of_the_paper_lead_back_to_the_aim() {
     let Some((_packed, template)) = template() else { return };
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let momentum = "contactShare = 0.3\n[momentum]\nlimit = \"5.3 N.m.s\"\n[tilt]\nazimuth = \"5 deg\"\nelevation = \"6 deg\"\n";
-    led(folder, &template, momentum);
-    let text = format!(
-        "mission = \"leg/mission.toml\"\nwindow = \"10 d\"\ncontactShare = 0.3\n[momentum]\nlimit = \"{LIMIT_N_M_S} N.m.s\"\n\
-         [tilt]\nazimuth = \"10 deg\"\nelevation = \"12 deg\"\n[sunOffset]\nchange = true\nlargest = \"20 deg\"\n\
-         [flyby]\nbody = \"mercury\"\naltitude = \"200 km\"\nangle = 0\nfrom = \"2008-06-17 UTC\"\n\
-         [update]\nat = \"2008-03-19 UTC\"\nvelocity = {}\n[compare]\nnext = \"2009-09-29 UTC\"\n",
-        velocity(folder, 0.0404)
-    );
-    fs::write(folder.join("plan.toml"), text).unwrap();
+    departed(folder, &template, "");
     let output = folder.join("out");
     let printed = plan("flyby", &folder.join("plan.toml"), &output, &template, 0);
     says(
@@ -97,6 +171,8 @@ fn the_steps_of_the_paper_lead_back_to_the_aim() {
             "departure manoeuvre",
         ],
     );
+    let picture = fs::read_to_string(output.join("plan.svg")).unwrap();
+    says(&picture, &["hyperbola osculating 6 h before closest approach"]);
     let found = json(&output);
     assert_eq!(found["status"], "planned");
     let [before, after] = ["missBefore_m", "missAfter_m"].map(|key| numbers(&found[key]));
@@ -116,11 +192,13 @@ fn the_steps_of_the_paper_lead_back_to_the_aim() {
     assert!((by_timeline[2] - 200.0).abs() < 1.0);
     let text = fs::read_to_string(&mission).unwrap();
     let table = text.replace("timeline = \"timeline.toml\"\n", "").replace("\"timeline\"", "\"command\"");
-    // Between the rows of a jump the corridor is left for a millisecond.
+    // At the jump of the arrays the corridor is left, see `keeps`.
     let table = table.split("\n[limits]").next().unwrap();
     fs::write(output.join("table.toml"), table).unwrap();
     let inputs = output.join("plan.csv");
-    let by_table = passed(&output.join("table.toml"), &template, ("60s", &["--input", shown(&inputs)]));
+    let rows = simulated(&output.join("table.toml"), &template, ("60s", &["--input", shown(&inputs)]), &KEPT);
+    keeps(&output, &rows);
+    let by_table = encounter(&rows);
     let apart_m = [0, 1, 2].map(|column| 1e3 * (by_table[column] - by_timeline[column]));
     println!("by table less by timeline {apart_m:?} m");
     assert!(apart_m.iter().all(|apart_m| apart_m.abs() < 0.1), "{by_table:?} {by_timeline:?}");
@@ -129,6 +207,26 @@ fn the_steps_of_the_paper_lead_back_to_the_aim() {
     let cost = departure["withoutCorrection_m_s"].as_f64().unwrap();
     assert!((cost / (before[0].abs() / 1e3) - 0.72).abs() < 0.15, "{cost}");
     assert!(departure["behindPlan_m_s"].as_f64().unwrap() < 1.0);
+}
+
+/// The error of the departure makes it two minutes late.
+#[test]
+fn an_arrival_that_is_fixed_is_met_to_a_fifth_of_a_second() {
+    if !is_long() {
+        return;
+    }
+    let Some((_packed, template)) = template() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    departed(folder, &template, "arrival = \"fixed\"\ntime = \"2008-10-06T08:40:00 UTC\"\n");
+    let output = folder.join("out");
+    plan("flyby", &folder.join("plan.toml"), &output, &template, 0);
+    let found = json(&output);
+    let late_s = ["lateBefore_s", "lateAfter_s"].map(|key| found[key].as_f64().unwrap());
+    let miss_m = numbers(&found["missAfter_m"]);
+    println!("late by {late_s:?} s, off by {miss_m:?} m, rounds {}", found["rounds"]);
+    assert!(late_s[0] > 60.0 && late_s[1].abs() < 0.2, "{late_s:?}");
+    assert!(miss_m[0].hypot(miss_m[1]) < 1e3, "{miss_m:?}");
 }
 
 /// Near conjunctions the spacecraft rolls within hours: cells of a day follow its sunlight as those of two hours do.
@@ -185,9 +283,12 @@ fn root() -> Matrix6<f64> {
 
 const RUNS: u32 = 100;
 const SCALE: f64 = 0.02;
+const CENTER_OF_MASS_M: f64 = 2e-3;
+/// What 90 % of a normal distribution do not exceed, in deviations.
+const MOST: f64 = 1.281_55;
 
-/// From ten days before the encounter on: the ellipse is that of the flights that each column of the covariance's root leads to, the
-/// percentiles are alike for one thread and two.
+/// From ten days before the encounter on: the ellipse and the spread of |H| are those of the flights that each column of the covariance's
+/// root leads to, and each coordinate of the centre of mass; the percentiles are alike for one thread and two.
 #[test]
 fn dispersed_flights_spread_as_the_covariance_says_on_any_number_of_threads() {
     let Some((_packed, template)) = template() else { return };
@@ -202,7 +303,7 @@ fn dispersed_flights_spread_as_the_covariance_says_on_any_number_of_threads() {
          [momentum]\nlimit = \"1e6 N.m.s\"\n[tilt]\nazimuth = \"10 deg\"\nelevation = \"10 deg\"\n\
          [flyby]\nbody = \"mercury\"\naltitude = \"200 km\"\nangle = 0\ntolerance = \"5 km\"\n\
          [update]\nat = \"2008-09-26 UTC\"\ncovariance = \"covariance.csv\"\n\
-         [montecarlo]\nruns = {RUNS}\nseed = 3\nscale = {SCALE}\n"
+         [montecarlo]\nruns = {RUNS}\nseed = 3\nscale = {SCALE}\ncenterOfMass = {CENTER_OF_MASS_M}\n"
     );
     let file = folder.join("plan.toml");
     fs::write(&file, text).unwrap();
@@ -218,29 +319,44 @@ fn dispersed_flights_spread_as_the_covariance_says_on_any_number_of_threads() {
     let dispersions = &found["dispersions"];
     assert_eq!(dispersions, &other["dispersions"]);
     assert_eq!((&dispersions["runs"], &dispersions["failed"]), (&RUNS.into(), &Value::Array(Vec::new())));
-    // What each column leads to, and sunlight.
+    // What each column leads to, sunlight, and each coordinate of the centre of mass.
     let mission = folder.join("1/mission.toml");
     let text = fs::read_to_string(&mission).unwrap();
     let [position, velocity] = ["orbit.position", "orbit.velocity"].map(|name| vector(&text, name));
+    // B along T and R in m, and the greatest |H| in N m s.
     let passed = |settings: &[String]| {
         let more: Vec<&str> = settings.iter().flat_map(|setting| ["--set", setting.as_str()]).collect();
-        let [b_t, b_r, _] = passed(&mission, &template, ("600s", &more));
-        Vector2::new(1e3 * b_t, 1e3 * b_r)
+        let rows = simulated(&mission, &template, ("600s", &more), &KEPT[..3]);
+        let [b_t, b_r, _] = encounter(&rows);
+        let greatest = rows.iter().map(|row| Vector3::new(row[5], row[6], row[7]).norm()).fold(0.0, f64::max);
+        (Vector2::new(1e3 * b_t, 1e3 * b_r), greatest)
     };
     let set = |name: &str, at: &[f64], off: &[f64]| {
         let values: Vec<String> = at.iter().zip(off).map(|(at, off)| (at + off).to_string()).collect();
         format!("{name}={}", values.join(","))
     };
-    let nominal = passed(&[]);
+    let (nominal, nominal_n_m_s) = passed(&[]);
     let root = root();
     let moved = root.column_iter().map(|column| {
         let off = column.as_slice();
         let sets = [set("orbit.position", &position, &off[..3]), set("orbit.velocity", &velocity, &off[3..])];
         passed(&sets)
     });
+    let by_center_of_mass = (0..3).map(|axis| {
+        let off: [f64; 3] = core::array::from_fn(|it| if it == axis { CENTER_OF_MASS_M } else { 0.0 });
+        passed(&[set("spacecraft.centerOfMass", &[0.01, 0.02, 0.03], &off)])
+    });
+    let by_center_of_mass: Vec<_> = by_center_of_mass.collect();
     let moved: Vec<_> = moved.chain([passed(&[format!("solar.scale={}", 1.0 + SCALE)])]).collect();
+    let all = || moved.iter().chain(&by_center_of_mass);
     let expected: Matrix2<f64> =
-        moved.iter().map(|moved| (moved - nominal) * (moved - nominal).transpose()).sum();
+        all().map(|(moved, _)| (moved - nominal) * (moved - nominal).transpose()).sum();
+    let expected_n_m_s = all().map(|(_, greatest)| (greatest - nominal_n_m_s).powi(2)).sum::<f64>().sqrt();
+    let [half, most] =
+        ["50", "90"].map(|share| dispersions["percentiles"]["momentum_n_m_s"][share].as_f64().unwrap());
+    println!("momentum {half} and {most} of {nominal_n_m_s} N m s, deviation expected {expected_n_m_s}");
+    // Of so many flights the difference of the two percentiles is known to 13 %. Without the centre of mass it were 0.4 of this.
+    assert!(((most - half) / (MOST * expected_n_m_s) - 1.0).abs() < 0.4);
     let ellipse = &dispersions["ellipse"];
     let semi_axes = Vector2::from_vec(numbers(&ellipse["semiAxes_m"]));
     let turn = Rotation2::new(ellipse["angle_deg"].as_f64().unwrap().to_radians()).into_inner();
@@ -273,8 +389,11 @@ fn what_is_out_of_reach_is_refused_with_the_polygon() {
     let found = json(&folder.join("far"));
     assert_eq!(found["status"], "outOfReach");
     let reach = ["+T", "-T", "+R", "-R"].map(|key| found["reach_m"][key].as_f64().unwrap() / 1e3);
-    println!("reach {reach:?} km; independent estimate of NOTES: 146 along +R, 233 along -R");
-    assert!((100.0..170.0).contains(&reach[2]) && reach[3] > 170.0);
+    println!("reach {reach:?} km");
+    // With windows of 10 d. The issue's 146 and 233 km are of windows that nobody wrote down: see docs/src/validation.md.
+    for (found_km, expected_km) in [(reach[2], 109.5), (reach[3], 198.7)] {
+        assert!((found_km / expected_km - 1.0).abs() < 0.1, "{reach:?}");
+    }
     assert!(found["reachable_m"].as_array().unwrap().len() > 6);
     assert!(!folder.join("far/mission.toml").exists());
 }
