@@ -223,24 +223,26 @@ def test_the_example_of_500_kg_is_simulated_for_an_hour(heliotorque, dist, tmp_p
     assert (cosine < -0.99).all(), cosine
 
 
-def test_plant_and_disturbance_torque_joined_by_wire_have_equal_air_and_magnetism(heliotorque, dist, tmp_path):
-    """What the plant reports at one communication point DisturbanceTorque has in the next step, by its own surfaces and dipole."""
+def test_plant_and_disturbance_torque_joined_by_wire_have_equal_torques(heliotorque, dist, tmp_path):
+    """What the plant reports at one communication point DisturbanceTorque has in the next step, by its own surfaces, dipole and inertia."""
     text = (RESOURCES / "examples" / "cubesat-12u.toml").read_text(encoding="utf-8")
     light = pack(heliotorque, dist, tmp_path, text.partition("[start]")[0], "Light", "DisturbanceTorque.fmu")
     ssp, file = tmp_path / "loop.ssp", tmp_path / "loop.csv"
     wired = call(heliotorque, "wire", f"plant={(dist / 'Cubesat.fmu').resolve()}", f"light={light}", "--output", ssp)
     assert wired.returncode == 0, wired.stderr
     both = {"aerodynamics.law": "sentman", "aerodynamics.shadowing": "true", "dipole.residual": "0.02,-0.03,0.05"}
+    both["gravityGradient.flattening"] = "true"
     values = {f"{part}.{name}": value for part in ("plant", "light") for name, value in both.items()}
     values |= {"light.aerodynamics.enabled": "true", "light.magnetics.enabled": "true"}
     settings = [part for name, value in values.items() for part in ("--set", f"{name}={value}")]
-    names = [f"{part}.torque.{effect}" for part in ("plant", "light") for effect in ("aerodynamic", "magnetic")]
+    effects = ("aerodynamic", "magnetic", "gravityGradient", "solar")
+    names = [f"{part}.torque.{effect}" for part in ("plant", "light") for effect in effects]
     recorded = [part for name in names for part in ("--record", name)]
     times = ("--stop", "6000", "--step", "60", "--master", "jacobi")
     done = call(heliotorque, "run", ssp, *times, *settings, *recorded, "--output", file, "--quiet")
     assert done.returncode == 0, done.stderr
     result = np.genfromtxt(file, delimiter=",", names=True, deletechars="", encoding="utf-8")
-    for effect in ("aerodynamic", "magnetic"):
+    for effect in effects:
         plant, light = (columns(result, vector(f"{part}.torque.{effect}")) for part in ("plant", "light"))
         assert np.abs(plant).max() > 1e-7
         assert np.abs(light[1:] - plant[:-1]).max() <= 1e-14 * np.abs(plant).max()

@@ -26,6 +26,7 @@ const RENAMED: &[(&str, &str)] = &[
     ("earth.velocity", "earth.velocityInertial"),
     ("panel[k].sunOffsetCommand", "panel[k].sunOffset"),
     ("panel[k].angle", "panel[k].angleActual"),
+    ("planet.pole", "planet.poleBody"),
 ];
 
 /// An input that was left open.

@@ -6,7 +6,7 @@ use physics::aerodynamics::{self, AerodynamicOptions};
 use physics::bodies::Body;
 use physics::loads::{Active, Switch};
 use physics::numerics::scalar::Scalar;
-use physics::plant::Laws;
+use physics::plant::{Laws, TUNABLE};
 use physics::spacecraft::{Spacecraft, StartValue, SunshadeModel};
 
 use super::center::CenterBody;
@@ -108,7 +108,20 @@ pub struct LawVariables {
     pub dipole: DipoleVariables,
 }
 
+/// Number of switches that follow the planet.
+pub(crate) const FOLLOWING: usize = 2;
+
 impl LawVariables {
+    /// The switches that are on about the Earth alone unless they are set, by name.
+    pub(crate) fn following(&self) -> [(&'static str, Boolean); FOLLOWING] {
+        [("aerodynamics.enabled", self.aerodynamics.enabled), ("magnetics.enabled", self.magnetics.enabled)]
+    }
+
+    /// The tunable parameters, in the order of [`Laws::tunable_mut`].
+    pub fn tunable(&self) -> [Real; TUNABLE] {
+        core::array::from_fn(|i| self.dipole.residual.element(i))
+    }
+
     /// Parameters of the laws about a planet with this gravitational parameter, J2 and its reference radius, each read by `read`.
     pub fn read<T: Scalar>(
         &self,
@@ -124,19 +137,16 @@ impl LawVariables {
         }
     }
 
-    /// The effects that act, by the switches here and those of planet light and recoil; air and magnetic field as given.
-    pub fn active(
-        &self,
-        values: &Values,
-        [planet_light, recoil]: [Boolean; 2],
-        [air, field]: [bool; 2],
-    ) -> Active {
-        Active::by(|switch| match switch {
-            Switch::PlanetLight => values.boolean(planet_light),
-            Switch::Recoil => values.boolean(recoil),
-            Switch::GravityGradient => values.boolean(self.gravity_gradient.enabled),
-            Switch::Aerodynamics => air,
-            Switch::Magnetics => field,
+    /// The effects that act, by the switches here and those of planet light and recoil, each read by `is_on`.
+    pub fn active(&self, [planet_light, recoil]: [Boolean; 2], is_on: impl Fn(Boolean) -> bool) -> Active {
+        Active::by(|switch| {
+            is_on(match switch {
+                Switch::PlanetLight => planet_light,
+                Switch::Recoil => recoil,
+                Switch::GravityGradient => self.gravity_gradient.enabled,
+                Switch::Aerodynamics => self.aerodynamics.enabled,
+                Switch::Magnetics => self.magnetics.enabled,
+            })
         })
     }
 }

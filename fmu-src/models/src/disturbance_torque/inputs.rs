@@ -5,7 +5,7 @@ use std::cell::Cell;
 use fmi_export::{Failure, Real, Values};
 use physics::aerodynamics::AerodynamicModel;
 use physics::environment::eclipse::Shadow;
-use physics::loads::Active;
+use physics::loads::{Active, Effect};
 use physics::numerics::scalar::Scalar;
 use physics::plant::{BySource, Parameters, PositionError, Positions, Surfaces, Workspaces};
 use physics::radiation::disturbance::{DisturbanceModel, Options, PlanetLightMethod};
@@ -104,9 +104,9 @@ impl Prepared {
             ))
         })?;
         let laws = &variables.laws;
-        let [air_acts, field_acts] =
-            [laws.aerodynamics.enabled, laws.magnetics.enabled].map(|it| values.boolean(it));
-        let air = match air_acts {
+        let active =
+            laws.active([light.rings.enabled, variables.thermal.enabled], |switch| values.boolean(switch));
+        let air = match active.has(Effect::Aerodynamic) {
             true => Some(laws.aerodynamics.options(values, spacecraft, sunshade_model)?),
             false => None,
         };
@@ -117,11 +117,7 @@ impl Prepared {
             shadow: present.then_some(shadow),
             parameters,
             inputs: variables.positions(),
-            active: laws.active(
-                values,
-                [light.rings.enabled, variables.thermal.enabled],
-                [air_acts, field_acts],
-            ),
+            active,
         })
     }
 

@@ -14,7 +14,7 @@ use fmi_export::{
     Step, StepEnd, Values,
 };
 use physics::numerics::scalar::Dual64;
-use physics::plant::{Parameters, Positions, Workspaces};
+use physics::plant::{Parameters, Positions, TUNABLE, Workspaces};
 use serde::{Deserialize, Serialize};
 
 use inputs::Prepared;
@@ -28,8 +28,8 @@ pub struct DisturbanceState {
     positions: Positions<f64>,
     /// Factor of force and torque of direct sunlight, a tunable parameter.
     solar_scale: f64,
-    /// The residual dipole, body frame, in A m2, a tunable parameter.
-    dipole_body_a_m2: [f64; 3],
+    /// The laws' tunable parameters.
+    tunable: [f64; TUNABLE],
     /// Whether the warning was given which inputs are not set yet.
     said_unset: bool,
     #[serde(skip)]
@@ -93,7 +93,7 @@ impl Model for DisturbanceTorque {
         let mut state = DisturbanceState {
             positions: prepared.inputs.map(|input| values.real(*input)),
             solar_scale: prepared.parameters.solar_scale,
-            dipole_body_a_m2: prepared.parameters.laws.dipole_body_a_m2.into(),
+            tunable: context.variables.laws.tunable().map(|it| values.real(it)),
             said_unset: false,
             prepared: Some(prepared.clone()),
             workspaces: Workspaces::default(),
@@ -116,7 +116,7 @@ impl Model for DisturbanceTorque {
             *position = step.inputs.real(values, *input, step.end_s);
         }
         state.solar_scale = values.real(context.variables.solar.scale);
-        state.dipole_body_a_m2 = values.vector(context.variables.laws.dipole.residual);
+        state.tunable = context.variables.laws.tunable().map(|it| values.real(it));
         if !state.said_unset {
             let unset = prepared.unset(&state.positions);
             state.said_unset = !unset.is_empty();
@@ -172,7 +172,7 @@ impl Differentiable for DisturbanceTorque {
         let mut parameters = variables.parameters(values, seeded);
         // Of the step that the outputs are of.
         parameters.solar_scale.re = state.solar_scale;
-        for (seeded, value) in parameters.laws.dipole_body_a_m2.iter_mut().zip(state.dipole_body_a_m2) {
+        for (seeded, value) in parameters.laws.tunable_mut().zip(state.tunable) {
             seeded.re = value;
         }
         let mut workspaces = Workspaces::<Dual64>::default();
@@ -194,7 +194,9 @@ fn update(
     prepared: &Prepared,
 ) -> Result<(), Failure> {
     let mut parameters = Parameters { solar_scale: state.solar_scale, ..prepared.parameters };
-    parameters.laws.dipole_body_a_m2 = state.dipole_body_a_m2.into();
+    for (parameter, value) in parameters.laws.tunable_mut().zip(state.tunable) {
+        *parameter = value;
+    }
     let found = prepared.evaluate(&parameters, &state.positions, &mut state.workspaces)?;
     if !found.loads.total().is_finite() {
         return Err(Failure::new(

@@ -23,7 +23,13 @@ pub(super) fn table(setup: &PlantSetup, v: &PlantVariables) -> Dependencies {
 /// Outputs that follow the attitude.
 fn turned(v: &PlantVariables) -> Knowns {
     let sun = knowns![v.sun.direction, v.sun.azimuth, v.sun.elevation, v.sun.position_body];
-    let others = knowns![v.planet.position_body, v.earth.azimuth, v.earth.elevation, v.keep_in.margin];
+    let others = knowns![
+        v.planet.position_body,
+        v.planet.pole_body,
+        v.earth.azimuth,
+        v.earth.elevation,
+        v.keep_in.margin
+    ];
     let seen = knowns![&v.attitude, sun, others, v.sunshade.polynomial_valid, &v.panel, &v.downlink];
     let sensed = knowns![&v.estimate, v.sun.sensed, v.sun.sensed_valid, &v.control];
     let loads = knowns![&v.torque, &v.force, &v.plate, v.acceleration, v.delta_v, v.accelerometer.delta_v];
@@ -157,7 +163,9 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramet
     table.output(knowns![air, v.magnetic_field.inertial], of_places, &models);
     let turned = knowns![&inputs.attitude, &inputs.environment];
     let relative = knowns![v.atmosphere.velocity_body, v.magnetic_field.body];
-    table.output(relative, turned, knowns![models, &parameters.attitude]);
+    let models = knowns![models, &parameters.attitude];
+    table.output(relative, turned, &models);
+    table.output(v.planet.pole_body, &inputs.attitude, &models);
     let sun = knowns![v.sun.direction, v.sun.azimuth, v.sun.elevation, v.sun.position_body];
     let others = knowns![v.planet.position_body, v.earth.azimuth, v.earth.elevation, v.keep_in.margin];
     let seen = knowns![v.attitude.q, v.attitude.rate, sun, others, v.sunshade.polynomial_valid];

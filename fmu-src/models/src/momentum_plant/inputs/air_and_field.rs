@@ -1,6 +1,6 @@
 //! Figure, rotation, atmosphere and magnetic field of the planet from parameters and inputs; rejects by name what no model covers.
 
-use fmi_export::{Elements, Failure, Values};
+use fmi_export::{Boolean, Elements, Failure, Values};
 use nalgebra::Vector3;
 use physics::bodies::{Body, BodyData};
 use physics::environment::atmosphere::{Air, AtmosphereModel, SpaceWeather};
@@ -12,6 +12,7 @@ use physics::plant::{AirAndFieldSettings, AirSettings, AirSource, FieldSource, P
 
 use super::center::Center;
 use crate::common::choices::PlanetOrientation;
+use crate::common::effects::FOLLOWING;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::air_and_field::{AtmosphereMethod, MagneticFieldMethod};
@@ -132,45 +133,56 @@ fn field(v: &PlantVariables, values: &Values, planet: &BodyData) -> Result<Field
 pub(super) struct Followed {
     /// Rotation model.
     pub orientation: PlanetOrientation,
-    /// Whether air acts, and whether the magnetic field does.
-    pub acts: [bool; 2],
-    /// Whether that was set.
-    is_set: [bool; 2],
+    /// Switches of effects, whether each is on, and whether it was set.
+    switches: [(Boolean, bool, bool); FOLLOWING],
 }
 
 impl Followed {
-    /// Values set for a body; by default air, field and the rotation iau for the Earth alone.
+    /// Values set for a body; by default the effects and the rotation iau for the Earth alone.
     pub(super) fn read(context: &Plan<'_>, values: &Values, body: Body) -> Self {
         let (laws, planet) = (&context.variables.laws, &context.variables.planet);
         let rotation = &planet.rotation;
-        let switches = [laws.aerodynamics.enabled, laws.magnetics.enabled];
-        let [air, field] = switches.map(Elements::from);
-        // Importers that write every start value write the planet too; these three set alone are a user's choice.
+        // Importers that write every start value write the planet too; the others set alone are a user's choice.
         let written = [planet.gravitational_parameter, planet.radius].map(Elements::from);
-        let given = context.given(values, &[air, field, rotation.orientation.into(), written[0], written[1]]);
-        let is_set = switches.map(|switch| given.has(switch));
-        let acts = [0, 1].map(|i| if is_set[i] { values.boolean(switches[i]) } else { body == Body::Earth });
-        Self { orientation: rotation.choice(&given, values, body), acts, is_set }
+        let mut looked_at = [Elements::from(rotation.orientation); FOLLOWING + 3];
+        looked_at[1..3].copy_from_slice(&written);
+        for (place, (_, switch)) in looked_at[3..].iter_mut().zip(laws.following()) {
+            *place = switch.into();
+        }
+        let given = context.given(values, &looked_at);
+        let switches = laws.following().map(|(_, switch)| {
+            let is_set = given.has(switch);
+            (switch, if is_set { values.boolean(switch) } else { body == Body::Earth }, is_set)
+        });
+        Self { orientation: rotation.choice(&given, values, body), switches }
+    }
+
+    /// Whether a switch is on, be it one of these or not.
+    pub(super) fn is_on(&self, values: &Values, switch: Boolean) -> bool {
+        let own = self.switches.iter().find(|(it, ..)| *it == switch);
+        own.map_or_else(|| values.boolean(switch), |(_, is_on, _)| *is_on)
     }
 
     /// Writes it as it acts.
     pub(super) fn write(self, variables: &PlantVariables, values: &mut Values) {
         values.set_choice(variables.planet.rotation.orientation, self.orientation);
-        values.set_boolean(variables.laws.aerodynamics.enabled, self.acts[0]);
-        values.set_boolean(variables.laws.magnetics.enabled, self.acts[1]);
+        for (switch, is_on, _) in self.switches {
+            values.set_boolean(switch, is_on);
+        }
     }
 }
 
 /// What to report of air and field that act by default, and to warn of where they are switched on and cannot act.
 pub(super) fn report(context: &Plan<'_>, values: &Values, start_s: f64) {
     let planet = Center::read(context, values).planet.body;
-    let Followed { acts, is_set, .. } = Followed::read(context, values, planet);
-    for (k, name) in ["aerodynamics.enabled", "magnetics.enabled"].into_iter().enumerate() {
-        if acts[k] && !planet.is_planet() {
+    let followed = Followed::read(context, values, planet);
+    let named = context.variables.laws.following().map(|(name, _)| name);
+    for (name, (_, is_on, is_set)) in named.into_iter().zip(followed.switches) {
+        if is_on && !planet.is_planet() {
             context.log.warning(&format!(
                 "{name} = true is without effect: there is no planet about which it could act"
             ));
-        } else if acts[k] && !is_set[k] {
+        } else if is_on && !is_set {
             context.log.event(start_s, &format!("{name} = true, as about the Earth unless it is set"));
         }
     }

@@ -92,8 +92,8 @@ pub(super) fn read(
             PanelControl::Distance => PanelSetting::Distance { suns: corridor.target_suns, tilt_sign },
         }
     }));
-    let acts = air_and_field::Followed::read(context, values, center.planet.body).acts;
-    let effects = variables.laws.active(values, switches, acts);
+    let by_planet = air_and_field::Followed::read(context, values, center.planet.body);
+    let effects = variables.laws.active(switches, |switch| by_planet.is_on(values, switch));
     let figure = air_and_field::figure(context, values, &center.planet)?;
     let planet = &variables.planet;
     let laws = [

@@ -158,8 +158,9 @@ impl StepInputs {
         let given = [air.given_density, air.given_temperature, air.given_molar_mass, air.density_factor];
         self.light
             .extend(given.into_iter().chain([weather.f107, weather.f107_average, weather.ap]).map(real));
-        let vectors = [air.wind, v.magnetic_field.given, v.laws.dipole.residual];
+        let vectors = [air.wind, v.magnetic_field.given];
         self.light.extend(vectors.into_iter().flat_map(|vector| values.vector(vector)));
+        self.light.extend(v.laws.tunable().map(real));
         self.light.push(real(v.earth.ut1_offset));
         let moves = |input: Real| over_time.derivatives(input).next().is_some();
         self.panels_move = v.panel.iter().any(|panel| moves(panel.angle) || moves(panel.sun_offset_command));

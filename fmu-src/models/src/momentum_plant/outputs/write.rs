@@ -58,6 +58,7 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let planet_body_m = instant.planet_body_m.unwrap_or_default();
     values.set_vector(variables.sun.position_body, instant.sun_position_body_m().into());
     values.set_vector(variables.planet.position_body, planet_body_m.into());
+    values.set_vector(variables.planet.pole_body, evaluation.pole_body(configuration, time_s).into());
     values.set_vector(variables.sun.direction, instant.sun_body.into());
     values.set_real(variables.sun.azimuth, sun.azimuth_rad);
     values.set_real(variables.sun.elevation, sun.elevation_rad);

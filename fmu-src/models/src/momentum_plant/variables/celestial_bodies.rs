@@ -50,6 +50,9 @@ pub struct PlanetVariables {
     /// From the spacecraft to the planet's centre, body frame; 0 without a planet, that is with orbit.center sun.
     #[output(unit = "m", display = "km", nominal = 1e7)]
     pub position_body: RealVector<3>,
+    /// North of the planet, body frame; 0 unless gravityGradient.flattening.
+    #[output(unit = "1", nominal = 1.0)]
+    pub pole_body: RealVector<3>,
 }
 
 /// The Sun as seen from the spacecraft.

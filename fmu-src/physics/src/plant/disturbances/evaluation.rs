@@ -102,6 +102,11 @@ impl Evaluation {
         velocity_in_air_body_m_s(&self.instant, &self.air_and_field).unwrap_or_else(Vector3::zeros)
     }
 
+    /// North of the planet, body frame, where its flattening acts on the gravity gradient; otherwise zero.
+    pub fn pole_body(&self, configuration: &Configuration, time_s: f64) -> Vector3<f64> {
+        pole_inertial(configuration, time_s).map_or_else(Vector3::zeros, |it| self.instant.to_body * it)
+    }
+
     /// Magnetic field, body frame, in T.
     pub fn field_body_t(&self) -> Vector3<f64> {
         self.instant.to_body * self.air_and_field.field_inertial_t
@@ -115,6 +120,13 @@ pub type External<'a> = dyn Fn(f64) -> [ForceTorque; 2] + 'a;
 fn velocity_in_air_body_m_s(instant: &Instant, about: &AirAndField) -> Option<Vector3<f64>> {
     let from_planet = instant.geometry.from_planet()?;
     Some(instant.to_body * (from_planet.velocity_m_s - about.air_velocity_m_s))
+}
+
+/// North of the planet, EME2000, where its flattening acts on the gravity gradient.
+fn pole_inertial(configuration: &Configuration, time_s: f64) -> Option<Vector3<f64>> {
+    let Configuration { figure, laws, epoch_minus_time_s, .. } = configuration;
+    let figure = figure.as_ref().filter(|_| laws.flattening.is_some());
+    figure.map(|it| it.orientation.pole_eme2000(time_s + epoch_minus_time_s))
 }
 
 /// A configured flight, ready to be evaluated.
@@ -181,7 +193,7 @@ impl<'a> Plant<'a> {
             let is_magnetic = configuration.effects.has(Effect::Magnetic);
             let at = LocalEnvironment {
                 planet_body_m: Some(planet_body_m),
-                pole_body: instant.to_body * self.pole_inertial(time_s),
+                pole_body: instant.to_body * pole_inertial(configuration, time_s).unwrap_or_else(Vector3::z),
                 inertia_body_kg_m2: mass.inertia_body_kg_m2,
                 field_body_t: match is_magnetic {
                     true => instant.to_body * air_and_field.field_inertial_t,
@@ -205,13 +217,6 @@ impl<'a> Plant<'a> {
     pub(crate) fn air_and_field(&self, time_s: f64) -> AirAndField {
         let settings = &self.kinematics.configuration.air_and_field;
         settings.as_ref().map_or_else(AirAndField::default, |it| self.air_and_field.at(it, time_s))
-    }
-
-    /// The planet's pole, EME2000, where the flattening of its gravity acts on the gradient.
-    fn pole_inertial(&self, time_s: f64) -> Vector3<f64> {
-        let Configuration { figure, laws, epoch_minus_time_s, .. } = self.kinematics.configuration;
-        let figure = figure.as_ref().filter(|_| laws.flattening.is_some());
-        figure.map_or(Vector3::z(), |it| it.orientation.pole_eme2000(time_s + epoch_minus_time_s))
     }
 
     /// Aerodynamic force and torque.

@@ -8,7 +8,10 @@ use crate::attitude::{OblatePlanet, gravity_gradient_n_m, oblate_gravity_gradien
 use crate::loads::{Active, Effect, ForceTorque, Loads};
 use crate::numerics::scalar::Scalar;
 
-/// What the laws go by that does not change in flight.
+/// Number of parameters of the laws that may change in flight.
+pub const TUNABLE: usize = 3;
+
+/// What the laws go by, the same within a segment of a flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Laws<T = f64> {
     /// Gravitational parameter of the planet, in m3/s2.
@@ -35,6 +38,11 @@ pub struct LocalEnvironment<T: Scalar> {
 }
 
 impl<T: Scalar> Laws<T> {
+    /// The parameters that may change in flight.
+    pub fn tunable_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        self.dipole_body_a_m2.iter_mut()
+    }
+
     /// Writes the loads of those effects in closed form that act.
     pub fn exert(&self, active: Active, at: &LocalEnvironment<T>, loads: &mut Loads<T>) {
         for effect in active.disturbances().filter(|effect| !effect.is_light()) {
