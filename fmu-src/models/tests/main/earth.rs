@@ -129,6 +129,19 @@ fn a_tunable_set_in_flight_acts_from_the_next_step_on() {
             (found - expected_shown).abs() < 1e-5 * expected_shown.abs(),
             "{name} {found} {expected_shown}"
         );
+
+        // A body that turns freely is elsewhere after other torques: set where it begins, it moves as if it had begun with the value.
+        let [kept, begun, mut set] = [&[][..], &[(name, value)], &[]].map(|sets| start(&with(&[FREE, sets])));
+        set.set(name, value);
+        let [kept, begun, set] = [kept, begun, set].map(|mut flight| {
+            flight.step_to(60.0).unwrap();
+            inertial(&flight, momentum)
+        });
+        let differs = (begun - kept).norm();
+        assert!(
+            differs > 0.05 * kept.norm() && (set - begun).norm() < 1e-6 * differs,
+            "{name} {set} {begun}"
+        );
     }
 }
 
