@@ -5,6 +5,7 @@
 mod articulation;
 mod center_defaults;
 mod cruise;
+mod cruise_centers;
 mod cruise_legs;
 mod cruise_predictions;
 mod custom_body;
