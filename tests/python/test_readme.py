@@ -423,7 +423,7 @@ BENCHMARKS = {
         "n_body_200_days_by_c", "n_body_200_days_by_c_peak", "n_body_200_days", "n_body_200_days_peak",
     ],
     "`plan flyby` of the leg to the second flyby of Mercury, an aim 170 km off: offsets and tilts of 11 windows from 111 days before on, with its flights": [
-        "plan_flyby_170_km",
+        "plan_flyby_170_km", "partials_of_all_windows_with_the_flight",
     ],
     "the same with 1,000 dispersed flights of 201 days each": ["plan_flyby_1000_dispersed_legs"],
     "`refit` of ten days, 1,441 rows, nine flights": ["refit_10_days_1441_rows"],
