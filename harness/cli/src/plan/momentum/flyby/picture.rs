@@ -38,17 +38,16 @@ fn plane(report: &FlybyReport, flyby_task: &FlybyTask) -> PlaneChart {
         .collect();
     reach.extend(reach.first().copied());
     let circle = |radius_m: f64| ellipse((0.0, 0.0), [radius_m / 1e3; 2], 0.0);
-    let series = |wide: bool| {
+    // Colours follow the order, which the panels share.
+    let series = || {
         let mut series = vec![
             Series::rings("aim", vec![km(aimpoint)]),
             Series::dots("mission as it is", place(&report.miss[0])),
             Series::dots("plan", place(&report.miss[1])),
             Series::line("reach", reach.clone()),
+            Series::line("planet", circle(report.radius_m)),
+            Series::dashed("impact", circle(impact_m)),
         ];
-        if wide {
-            series.push(Series::line("planet", circle(report.radius_m)));
-            series.push(Series::dashed("impact", circle(impact_m)));
-        }
         if let Some(campaign) = &report.campaign {
             series.push(Series::dashed("three deviations", ring(campaign, aimpoint)));
         }
@@ -69,13 +68,13 @@ fn plane(report: &FlybyReport, flyby_task: &FlybyTask) -> PlaneChart {
         panels: vec![
             PlanePanel {
                 title: name.to_owned(),
-                series: series(true),
+                series: series(),
                 half_width: 1.15 * farthest.max(impact_m / 1e3),
                 ..PlanePanel::default()
             },
             PlanePanel {
                 title: "about the aim".to_owned(),
-                series: series(false),
+                series: series(),
                 centre: km(aimpoint),
                 half_width: 1.15 * close,
                 ..PlanePanel::default()
