@@ -192,7 +192,7 @@ fn flybys(built: &Built) -> Outcome {
     };
     let met = format!("mission = \"leg/mission.toml\"\nwindmill = 0\n{tilt}{}", aim("200 km"));
     folder.write("met.toml", &met)?;
-    // The flight and its partials stand before what can be reached.
+    // The progress message `reach` follows the simulation and its partials.
     let plan =
         folder.command("plan flyby met.toml --output met").output().map_err(|error| error.to_string())?;
     let progress = String::from_utf8_lossy(&plan.stderr).into_owned();
@@ -219,7 +219,7 @@ fn flybys(built: &Built) -> Outcome {
     Ok(())
 }
 
-/// The same flight in one step through the C interface.
+/// The same simulation in one step through the C interface.
 fn n_body_by_c(folder: &Folder<'_>) -> Outcome {
     if !need("gcc", "the benchmark of a flight between planets by C")? {
         return Ok(());
@@ -232,9 +232,8 @@ fn n_body_by_c(folder: &Folder<'_>) -> Outcome {
     run(command("python3").args(["-m", "zipfile", "-e", "Leg.fmu", "Leg"]).current_dir(&folder.path))?;
     let program = compile_c(&folder.path, "flight")?;
     let unpacked = folder.path.join("Leg");
-    let library = unpacked.join("binaries").join("linux64").join("Leg.so");
     let mut by_c = command(&program);
-    by_c.arg(library).arg(unpacked.join("modelDescription.xml"));
+    by_c.arg(&folder.built.library).arg(unpacked.join("modelDescription.xml"));
     by_c.arg(format!("file://{}", unpacked.join("resources").display()));
     row("n_body_200_days_by_c", &mut by_c)?;
     peak_row("n_body_200_days_by_c_peak", &mut by_c)

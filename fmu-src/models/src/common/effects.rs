@@ -6,7 +6,7 @@ use physics::aerodynamics::{self, AerodynamicOptions};
 use physics::bodies::Body;
 use physics::loads::{Active, Switch};
 use physics::numerics::scalar::Scalar;
-use physics::plant::{Laws, TUNABLE};
+use physics::plant::{Laws, TUNABLE_COUNT};
 use physics::spacecraft::{Spacecraft, StartValue, SunshadeModel};
 
 use super::center::CenterBody;
@@ -108,17 +108,17 @@ pub struct LawVariables {
     pub dipole: DipoleVariables,
 }
 
-/// Number of switches that follow the planet.
-pub(crate) const FOLLOWING: usize = 2;
+/// Number of switches whose default depends on the planet.
+pub(crate) const PLANET_SWITCHES: usize = 2;
 
 impl LawVariables {
-    /// The switches that are on about the Earth alone unless they are set, by name.
-    pub(crate) fn following(&self) -> [(&'static str, Boolean); FOLLOWING] {
+    /// Switches that are on by default about the Earth only, with their names.
+    pub(crate) fn planet_switches(&self) -> [(&'static str, Boolean); PLANET_SWITCHES] {
         [("aerodynamics.enabled", self.aerodynamics.enabled), ("magnetics.enabled", self.magnetics.enabled)]
     }
 
-    /// The tunable parameters, in the order of [`Laws::tunable_mut`].
-    pub fn tunable(&self) -> [Real; TUNABLE] {
+    /// Tunable parameters, in the order of [`Laws::tunable_mut`].
+    pub fn tunable(&self) -> [Real; TUNABLE_COUNT] {
         core::array::from_fn(|i| self.dipole.residual.element(i))
     }
 
@@ -137,7 +137,7 @@ impl LawVariables {
         }
     }
 
-    /// The effects that act, by the switches here and those of planet light and recoil, each read by `is_on`.
+    /// Active effects; `is_on` reads each switch.
     pub fn active(&self, [planet_light, recoil]: [Boolean; 2], is_on: impl Fn(Boolean) -> bool) -> Active {
         Active::by(|switch| {
             is_on(match switch {

@@ -14,7 +14,7 @@ use fmi_export::{
     Step, StepEnd, Values,
 };
 use physics::numerics::scalar::Dual64;
-use physics::plant::{Parameters, Positions, TUNABLE, Workspaces};
+use physics::plant::{Parameters, Positions, TUNABLE_COUNT, Workspaces};
 use serde::{Deserialize, Serialize};
 
 use inputs::Prepared;
@@ -28,8 +28,8 @@ pub struct DisturbanceState {
     positions: Positions<f64>,
     /// Factor of force and torque of direct sunlight, a tunable parameter.
     solar_scale: f64,
-    /// The laws' tunable parameters.
-    tunable: [f64; TUNABLE],
+    /// Tunable parameters of the laws.
+    tunable: [f64; TUNABLE_COUNT],
     /// Whether the warning was given which inputs are not set yet.
     said_unset: bool,
     #[serde(skip)]

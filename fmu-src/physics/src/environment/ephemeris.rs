@@ -17,7 +17,7 @@
 //!
 //! A Julian date resolves 4e-5 s, in which Mercury moves by 2 m: what is evaluated is moved to the date itself.
 //!
-//! Two neighbouring segments of positions are kept, so that looking back and forth over an edge costs no refill. Segments for which
+//! Two neighbouring segments of positions are kept, so that evaluations on both sides of an edge need no new fit. Segments for which
 //! VSOP87 itself is evaluated are kept in an [`EphemerisCache`], which forecasts and repeated simulations of one instance share.
 
 use core::f64::consts::TAU;
@@ -111,7 +111,7 @@ struct Segments {
 }
 
 impl EphemerisCache {
-    /// The segment about `epoch_s` of the body that `of` selects.
+    /// Segment that contains `epoch_s`, of the body that `of` selects.
     fn segment<const D: usize, const N: usize>(
         &self,
         of: impl FnOnce(&mut Segments) -> &mut Option<Slots<D, N>>,
@@ -227,8 +227,7 @@ impl Ephemeris {
         })
     }
 
-    /// The positions about `epoch_s`, computed from slowly varying elements. Only the slow remainder of the longitude is fitted: any
-    /// value near gives the same positions.
+    /// Segment of positions that contains `epoch_s`, computed from slowly varying elements.
     fn planet(&mut self, body: Body, theory: &Theory, epoch_s: f64) -> &Segment<3, PLANET_TERMS> {
         self.entered[body as usize].enter((epoch_s / LONG_S).floor() as i64);
         let mean_motion_rad_s = theory.mean_motion_rad_s();

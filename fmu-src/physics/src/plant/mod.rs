@@ -27,7 +27,7 @@ pub use air_and_field::aerodynamic_solver::AerodynamicSolver;
 pub use air_and_field::air_and_field_segment::AirAndField;
 pub use disturbances::by_source::{BySource, Parameters, PositionError, Positions, Surfaces, Workspaces};
 pub use disturbances::evaluation::{Evaluation, External, Plant};
-pub use disturbances::laws::{Laws, LocalEnvironment, TUNABLE};
+pub use disturbances::laws::{Laws, LocalEnvironment, TUNABLE_COUNT};
 pub use disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
 pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 pub use flight::ideal::Maneuvers;

@@ -88,7 +88,7 @@ fn passed(mission: &Path, template: &Path, (step, more): (&str, &[&str])) -> [f6
     encounter(&simulated(mission, template, (step, more), &[]))
 }
 
-/// What a plan keeps along its input table, behind the outputs of the encounter.
+/// Outputs that the limits of a plan apply to, after those of the encounter.
 const KEPT: [&str; 9] = [
     "momentum.inertial[1]",
     "momentum.inertial[2]",
@@ -390,7 +390,7 @@ fn what_is_out_of_reach_is_refused_with_the_polygon() {
     assert_eq!(found["status"], "outOfReach");
     let reach = ["+T", "-T", "+R", "-R"].map(|key| found["reach_m"][key].as_f64().unwrap() / 1e3);
     println!("reach {reach:?} km");
-    // With windows of 10 d. The 146 and 233 km are of windows that nobody wrote down: see docs/src/validation.md.
+    // With windows of 10 d. 146 and 233 km were computed with unknown windows: see docs/src/validation.md.
     for (found_km, expected_km) in [(reach[2], 109.5), (reach[3], 198.7)] {
         assert!((found_km / expected_km - 1.0).abs() < 0.1, "{reach:?}");
     }

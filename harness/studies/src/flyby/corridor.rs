@@ -36,7 +36,7 @@ pub(crate) fn figure4(run: &mut Run<'_>) -> Outcome {
         let corridor = steps.led.leg.layout(WHOLE_S, ControlBounds::default()).corridor;
         let allowed = move |au: f64| allowed_rad(&corridor, au * AU_M).map(|rad| rad.map(f64::to_degrees));
         let offset = |window: &Window| window.controls.get(Control::Offset);
-        let last = steps.corrected.last().map_or(&steps.departed, |[_, after]| after);
+        let last = steps.corrected.last().map_or(&steps.departed, |it| &it.after);
         let schedules = [
             ("baseline", schedule(&steps.led, &|window| window.baseline_rad)),
             ("plan of 17 June 2008", schedule(last, &offset)),

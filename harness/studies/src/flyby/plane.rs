@@ -31,7 +31,7 @@ pub(super) struct Target {
     gm_m3_s2: f64,
     radius_m: f64,
     excess_m_s: f64,
-    /// How long before closest approach the hyperbola osculates that B is of, in h.
+    /// Time from the epoch of osculation to closest approach, in h.
     lead_h: f64,
 }
 

@@ -130,10 +130,15 @@ pub(super) struct Steps<'a> {
     pub led: Step<'a>,
     /// With the error of the departure.
     pub departed: Step<'a>,
-    /// By correction: before and behind it.
-    pub corrected: Vec<[Step<'a>; 2]>,
-    /// Rounds that their plans took.
-    rounds: Vec<usize>,
+    pub corrected: Vec<CorrectedStep<'a>>,
+}
+
+/// The leg before and after a correction.
+pub(super) struct CorrectedStep<'a> {
+    before: Step<'a>,
+    pub after: Step<'a>,
+    /// Rounds of the plan.
+    rounds: usize,
 }
 
 impl<'a> Steps<'a> {
@@ -151,21 +156,19 @@ impl<'a> Steps<'a> {
         let led = Step { leg, windows, met };
         let departed = off(&led, 0.0, DEPARTURE_MISS_M)?;
         done();
-        let mut corrected: Vec<[Step<'a>; 2]> = Vec::new();
-        let mut rounds = Vec::new();
+        let mut corrected: Vec<CorrectedStep<'a>> = Vec::new();
         for correction in &CORRECTIONS[..corrections] {
-            let last = corrected.last().map_or(&departed, |[_, after]| after);
+            let last = corrected.last().map_or(&departed, |it| &it.after);
             let at_s = ((last.arrival_s() - correction.before_d * DAY_S) / STEP_S).round() * STEP_S;
             let before = off(last, at_s, correction.drift_m)?;
             let room = correction.room();
             let free = BPlaneAimpoint { arrival_s: None, ..aimpoint };
             let plan = before.leg.planned(&room, &before.windows, Some(&free))?;
-            rounds.push(plan.rounds);
             let after = Step::of(before.leg.clone(), plan.windows)?;
-            corrected.push([before, after]);
+            corrected.push(CorrectedStep { before, after, rounds: plan.rounds });
             done();
         }
-        Ok(Self { unmanaged, target, led, departed, corrected, rounds })
+        Ok(Self { unmanaged, target, led, departed, corrected })
     }
 
     /// Altitude of the leg as its mission is, in m.
@@ -276,7 +279,7 @@ fn corrected(run: &mut Run<'_>, index: usize) -> Outcome {
     let correction = &CORRECTIONS[index];
     let (target, all, reachable) = steps(run, index + 1, |steps| {
         let aimed_m = steps.aimed_altitude_m();
-        let of = |([before, after], rounds): (&[Step<'_>; 2], &usize)| -> Result<Corrected, Failure> {
+        let of = |CorrectedStep { before, after, rounds }: &CorrectedStep<'_>| -> Result<Corrected, Failure> {
             Ok(Corrected {
                 miss_m: [before, after].map(|step| step.miss_m(&steps.target)),
                 covariance_m2: covariance_m2(&after.met.sensitivity, 0.0),
@@ -286,8 +289,10 @@ fn corrected(run: &mut Run<'_>, index: usize) -> Outcome {
                 rounds: *rounds,
             })
         };
-        let all = steps.corrected.iter().zip(&steps.rounds).map(of).collect::<Result<Vec<_>, _>>()?;
-        let Some([before, _]) = steps.corrected.last() else { return Err("found no correction".into()) };
+        let all = steps.corrected.iter().map(of).collect::<Result<Vec<_>, _>>()?;
+        let Some(CorrectedStep { before, .. }) = steps.corrected.last() else {
+            return Err("found no correction".into());
+        };
         let aimpoint = BPlaneAimpoint { b_m: steps.target.aimpoint_m, arrival_s: None };
         let reachable = before.leg.reachable(&correction.room(), &before.windows, &aimpoint)?;
         Ok((steps.target, all, reachable))

@@ -122,7 +122,9 @@ pub(crate) fn table3(run: &mut Run<'_>) -> Outcome {
     let first: Ours = [t_m.hypot(r_m), early.altitude_offset_m[1], cost_m_s];
     let (target, second) = steps(run, CORRECTIONS.len(), |steps| {
         let aimed_m = steps.aimed_altitude_m();
-        let Some([_, last]) = steps.corrected.last() else { return Err("found no correction".into()) };
+        let Some(last) = steps.corrected.last().map(|it| &it.after) else {
+            return Err("found no correction".into());
+        };
         let miss_m = last.miss_m(&steps.target);
         let ours: Ours =
             [miss_m[0].hypot(miss_m[1]), last.altitude_m()? - aimed_m, steps.target.cost.cost_m_s(miss_m)];

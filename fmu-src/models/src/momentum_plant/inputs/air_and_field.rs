@@ -12,7 +12,7 @@ use physics::plant::{AirAndFieldSettings, AirSettings, AirSource, FieldSource, P
 
 use super::center::Center;
 use crate::common::choices::PlanetOrientation;
-use crate::common::effects::FOLLOWING;
+use crate::common::effects::PLANET_SWITCHES;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::air_and_field::{AtmosphereMethod, MagneticFieldMethod};
@@ -134,30 +134,30 @@ pub(super) struct Followed {
     /// Rotation model.
     pub orientation: PlanetOrientation,
     /// Switches of effects, whether each is on, and whether it was set.
-    switches: [(Boolean, bool, bool); FOLLOWING],
+    switches: [(Boolean, bool, bool); PLANET_SWITCHES],
 }
 
 impl Followed {
-    /// Values set for a body; by default the effects and the rotation iau for the Earth alone.
+    /// Values set for a body; the defaults are true and iau for the Earth only.
     pub(super) fn read(context: &Plan<'_>, values: &Values, body: Body) -> Self {
         let (laws, planet) = (&context.variables.laws, &context.variables.planet);
         let rotation = &planet.rotation;
         // Importers that write every start value write the planet too; the others set alone are a user's choice.
         let written = [planet.gravitational_parameter, planet.radius].map(Elements::from);
-        let mut looked_at = [Elements::from(rotation.orientation); FOLLOWING + 3];
-        looked_at[1..3].copy_from_slice(&written);
-        for (place, (_, switch)) in looked_at[3..].iter_mut().zip(laws.following()) {
-            *place = switch.into();
+        let mut elements = [Elements::from(rotation.orientation); PLANET_SWITCHES + 3];
+        elements[1..3].copy_from_slice(&written);
+        for (element, (_, switch)) in elements[3..].iter_mut().zip(laws.planet_switches()) {
+            *element = switch.into();
         }
-        let given = context.given(values, &looked_at);
-        let switches = laws.following().map(|(_, switch)| {
+        let given = context.given(values, &elements);
+        let switches = laws.planet_switches().map(|(_, switch)| {
             let is_set = given.has(switch);
             (switch, if is_set { values.boolean(switch) } else { body == Body::Earth }, is_set)
         });
         Self { orientation: rotation.choice(&given, values, body), switches }
     }
 
-    /// Whether a switch is on, be it one of these or not.
+    /// Value of a switch, including the default by the planet.
     pub(super) fn is_on(&self, values: &Values, switch: Boolean) -> bool {
         let own = self.switches.iter().find(|(it, ..)| *it == switch);
         own.map_or_else(|| values.boolean(switch), |(_, is_on, _)| *is_on)
@@ -176,8 +176,8 @@ impl Followed {
 pub(super) fn report(context: &Plan<'_>, values: &Values, start_s: f64) {
     let planet = Center::read(context, values).planet.body;
     let followed = Followed::read(context, values, planet);
-    let named = context.variables.laws.following().map(|(name, _)| name);
-    for (name, (_, is_on, is_set)) in named.into_iter().zip(followed.switches) {
+    let names = context.variables.laws.planet_switches().map(|(name, _)| name);
+    for (name, (_, is_on, is_set)) in names.into_iter().zip(followed.switches) {
         if is_on && !planet.is_planet() {
             context.log.warning(&format!(
                 "{name} = true is without effect: there is no planet about which it could act"

@@ -8,10 +8,10 @@ use crate::attitude::{OblatePlanet, gravity_gradient_n_m, oblate_gravity_gradien
 use crate::loads::{Active, Effect, ForceTorque, Loads};
 use crate::numerics::scalar::Scalar;
 
-/// Number of parameters of the laws that may change in flight.
-pub const TUNABLE: usize = 3;
+/// Number of tunable parameters.
+pub const TUNABLE_COUNT: usize = 3;
 
-/// What the laws go by, the same within a segment of a flight.
+/// Parameters of the laws, constant during a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Laws<T = f64> {
     /// Gravitational parameter of the planet, in m3/s2.
@@ -38,7 +38,7 @@ pub struct LocalEnvironment<T: Scalar> {
 }
 
 impl<T: Scalar> Laws<T> {
-    /// The parameters that may change in flight.
+    /// Tunable parameters.
     pub fn tunable_mut(&mut self) -> impl Iterator<Item = &mut T> {
         self.dipole_body_a_m2.iter_mut()
     }

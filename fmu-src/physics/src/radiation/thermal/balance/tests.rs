@@ -115,7 +115,7 @@ proptest! {
         let seeded = [Dual64::new(heats[0], 1.0), Dual64::new(heats[1], -0.3)];
         let exact = conducting_temperatures_k(&emission.map(in_the_cold), &link, seeded);
         let step = 1e-4 * heats[0].min(heats[1]);
-        // Where an emissivity reaches its bound, its slope jumps.
+        // The slope is discontinuous where an emissivity reaches 1.
         let slopes = |x: f64| [0, 1].map(|i| emission[i].at(at(x)[i]).1);
         prop_assume!(slopes(step) == slopes(-step));
         for i in 0..2 {

@@ -38,7 +38,7 @@ fn plane(report: &FlybyReport, flyby_task: &FlybyTask) -> PlaneChart {
         .collect();
     reach.extend(reach.first().copied());
     let circle = |radius_m: f64| ellipse((0.0, 0.0), [radius_m / 1e3; 2], 0.0);
-    // Colours follow the order, which the panels share.
+    // Both panels have the same series, because colours are assigned by index.
     let series = || {
         let mut series = vec![
             Series::rings("aim", vec![km(aimpoint)]),
