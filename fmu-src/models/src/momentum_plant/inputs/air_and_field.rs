@@ -17,8 +17,61 @@ use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::air_and_field::{AtmosphereMethod, MagneticFieldMethod};
 
+/// The planet as it acts on the spacecraft.
+pub(super) struct PlanetEnvironment {
+    /// Effects that are on, with those that follow the planet.
+    pub effects: Active,
+    /// Air and field where one of them acts.
+    pub air_and_field: Option<AirAndFieldSettings>,
+    /// Figure and rotation of the planet; `None` without one.
+    pub figure: Option<PlanetFigure>,
+    /// Rotation of the body in the centre; `None` for the Sun.
+    pub rotation: Option<Orientation>,
+    /// The centre, with the poles of the start epoch as axes of oblateness.
+    pub center: Center,
+}
+
+/// Effects, rotation, air and field by parameters.
+///
+/// # Errors
+/// The Earth's orientation or models requested of another body.
+pub(super) fn read(
+    context: &Plan<'_>,
+    values: &Values,
+    center: &Center,
+) -> Result<PlanetEnvironment, Failure> {
+    let (v, planet) = (context.variables, &center.planet);
+    let followed = Followed::read(context, values, planet.body);
+    let switches = [v.planet_light.enabled, v.thermal.recoil.enabled];
+    let effects = v.laws.active(switches, |switch| followed.is_on(values, switch));
+    let [rotation, of_planet] = [&center.data, planet].map(|body| orientation(context, values, body));
+    let (rotation, of_planet) = (rotation?, of_planet?);
+    let ellipsoid =
+        Ellipsoid { equatorial_radius_m: planet.equatorial_radius_m, flattening: planet.flattening };
+    let air_and_field = if planet.body.is_planet() {
+        let air = if effects.has(Effect::Aerodynamic) { Some(air(v, values, center)?) } else { None };
+        let field = if effects.has(Effect::Magnetic) { Some(field(v, values, planet)?) } else { None };
+        let tolerance = values.real(v.atmosphere.tolerance);
+        (air.is_some() || field.is_some()).then_some(AirAndFieldSettings { air, field, tolerance })
+    } else {
+        None
+    };
+    let epoch_s = values.real(v.start.epoch);
+    let turned = |body: &BodyData, rotation: Option<&Orientation>| match rotation {
+        Some(rotation @ Orientation::Iau { .. }) => body.with_pole(&rotation.pole_eme2000(epoch_s)),
+        _ => *body,
+    };
+    let center = Center {
+        data: turned(&center.data, rotation.as_ref()),
+        planet: turned(planet, of_planet.as_ref()),
+        ..*center
+    };
+    let figure = of_planet.map(|orientation| PlanetFigure { orientation, ellipsoid });
+    Ok(PlanetEnvironment { effects, air_and_field, figure, rotation, center })
+}
+
 /// Rotation of a planet; `None` for the Sun.
-pub(super) fn orientation(
+fn orientation(
     context: &Plan<'_>,
     values: &Values,
     planet: &BodyData,
@@ -28,46 +81,6 @@ pub(super) fn orientation(
     }
     let orientation = Followed::read(context, values, planet.body).orientation;
     orientation.about(planet, values.real(context.variables.earth.ut1_offset)).map(Some)
-}
-
-/// A body with the pole of the start epoch as axis of its oblateness.
-///
-/// # Errors
-/// The Earth's orientation requested of another body.
-pub(super) fn at_start(context: &Plan<'_>, values: &Values, body: &BodyData) -> Result<BodyData, Failure> {
-    let Some(turned @ Orientation::Iau { .. }) = orientation(context, values, body)? else {
-        return Ok(*body);
-    };
-    Ok(body.with_pole(&turned.pole_eme2000(values.real(context.variables.start.epoch))))
-}
-
-/// Figure and rotation of the planet; `None` without one.
-pub(super) fn figure(
-    context: &Plan<'_>,
-    values: &Values,
-    planet: &BodyData,
-) -> Result<Option<PlanetFigure>, Failure> {
-    let Some(orientation) = orientation(context, values, planet)? else { return Ok(None) };
-    let ellipsoid =
-        Ellipsoid { equatorial_radius_m: planet.equatorial_radius_m, flattening: planet.flattening };
-    Ok(Some(PlanetFigure { orientation, ellipsoid }))
-}
-
-/// Air and field where one of them acts.
-pub(super) fn read(
-    context: &Plan<'_>,
-    values: &Values,
-    center: &Center,
-    effects: Active,
-) -> Result<Option<AirAndFieldSettings>, Failure> {
-    let v = context.variables;
-    if !center.planet.body.is_planet() {
-        return Ok(None);
-    }
-    let air = if effects.has(Effect::Aerodynamic) { Some(air(v, values, center)?) } else { None };
-    let field = if effects.has(Effect::Magnetic) { Some(field(v, values, &center.planet)?) } else { None };
-    let tolerance = values.real(v.atmosphere.tolerance);
-    Ok((air.is_some() || field.is_some()).then_some(AirAndFieldSettings { air, field, tolerance }))
 }
 
 fn air(v: &PlantVariables, values: &Values, center: &Center) -> Result<AirSettings, Failure> {

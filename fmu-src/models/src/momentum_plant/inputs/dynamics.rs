@@ -10,13 +10,11 @@ use physics::attitude::{
 };
 use physics::momentum::{Convention, WheelArray};
 use physics::plant::{
-    Configuration, Control, DynamicsSettings, IdealSettings, ModeSettings, StartMotion, StartPointing,
-    ThrusterControl, WheelControlSettings,
+    Configuration, Control, DynamicsSettings, IdealSettings, StartMotion, StartPointing, ThrusterControl,
+    WheelControlSettings,
 };
 
-use super::configuration::guidance_law;
 use crate::momentum_plant::setup::Plan;
-use crate::momentum_plant::state::PlantState;
 use crate::momentum_plant::variables::choices::AttitudeSource;
 
 /// Zero stands for none.
@@ -24,29 +22,14 @@ fn or_none(value: f64) -> f64 {
     if value == 0.0 { f64::INFINITY } else { value }
 }
 
-/// What parameters set of a flight in this mode.
-pub(super) fn settings(
-    context: &Plan<'_>,
-    values: &Values,
-    configuration: &Configuration,
-    state: &PlantState,
-) -> Result<ModeSettings, Failure> {
-    Ok(match state.inputs.source.is_dynamic && !state.waiting {
-        true => {
-            let start = start_motion(context, values, configuration, state)?;
-            ModeSettings::Dynamic(dynamics_settings(context, values, configuration, start)?.into())
-        }
-        false => ModeSettings::Ideal(ideal_settings(context, values)?),
-    })
-}
-
 /// What parameters set about dynamics and control.
-fn dynamics_settings(
+pub(super) fn dynamic(
     context: &Plan<'_>,
     values: &Values,
     configuration: &Configuration,
-    start: StartMotion,
+    pointing: Option<StartPointing>,
 ) -> Result<DynamicsSettings, Failure> {
+    let start = start_motion(context, values, pointing)?;
     let v = context.variables;
     let real = |handle: Real| values.real(handle);
     if configuration.momentum.convention == Convention::BodyIntegral {
@@ -222,7 +205,7 @@ fn direction(
 }
 
 /// Wheels and sensors of a flight that is followed ideally.
-fn ideal_settings(context: &Plan<'_>, values: &Values) -> Result<IdealSettings, Failure> {
+pub(super) fn ideal(context: &Plan<'_>, values: &Values) -> Result<IdealSettings, Failure> {
     let v = context.variables;
     Ok(IdealSettings {
         array: wheel_array(context, values),
@@ -279,19 +262,12 @@ fn appendages(context: &Plan<'_>, values: &Values) -> Result<Appendages, Failure
 fn start_motion(
     context: &Plan<'_>,
     values: &Values,
-    configuration: &Configuration,
-    state: &PlantState,
+    pointing: Option<StartPointing>,
 ) -> Result<StartMotion, Failure> {
     let start = &context.variables.start;
     let q = values.vector(start.q);
     let attitude = Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
     let given = context.given(values, &[start.q.into(), start.rate.into()]);
-    let pointing = match configuration.attitude.guided() {
-        _ if given.has(start.q) => None,
-        Some(law) => Some(StartPointing::Guidance(Box::new(*law))),
-        None if state.inputs.source.is_commanded => state.attitude_command().map(StartPointing::Command),
-        None => Some(StartPointing::Guidance(Box::new(guidance_law(context, values, &configuration.orbit)?))),
-    };
     Ok(StartMotion {
         attitude,
         rate_body_rad_s: Vector3::from(values.vector(start.rate)),

@@ -4,16 +4,18 @@ mod air_and_field;
 mod center;
 mod configuration;
 mod dynamics;
+mod ephemeris_source;
+mod guidance;
 mod n_body;
+mod orbit;
 pub(super) mod propulsion;
+mod solvers;
 pub(super) mod step_inputs;
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use physics::attitude::Attitude;
-use physics::bodies::surface::PlanetSurface;
 use physics::environment::time;
 use physics::guidance::ChosenPlace;
-use physics::loads::Effect;
 use physics::management::Manager;
 use physics::plant::{
     AerodynamicSolver, Changes, Configuration, DownlinkForecast, External, ModeSettings, PlantError,
@@ -140,21 +142,23 @@ pub(super) fn configured(
     let center = Center::read(context, values);
     let moving = (over_time, state.flight.take_panels());
     let configuration = configuration::read(context, values, state, &center, moving)?;
-    let settings = if is_complete || is_dynamic {
-        Some(dynamics::settings(context, values, &configuration, state)?)
+    let settings = if is_dynamic {
+        let pointing = guidance::start_pointing(context, values, &configuration, state)?;
+        let settings = dynamics::dynamic(context, values, &configuration, pointing)?;
+        Some(ModeSettings::Dynamic(settings.into()))
+    } else if is_complete {
+        Some(ModeSettings::Ideal(dynamics::ideal(context, values)?))
     } else {
         None
     };
     let fixed = if is_complete {
+        let acting = Some(&configuration).filter(|_| !state.waiting);
         Some(FixedParameters {
-            air: match state.waiting {
-                true => None,
-                false => air(context, values, &configuration)?,
-            },
-            light: match state.waiting {
-                true => None,
-                false => light(context, values, &configuration, &center.surface)?,
-            },
+            air: acting.map(|it| solvers::air(context, values, it)).transpose()?.flatten(),
+            light: acting
+                .map(|it| solvers::light(context, values, it, &center.surface))
+                .transpose()?
+                .flatten(),
             thrusters: propulsion::reaction_control(context, values)?,
         })
     } else {
@@ -222,43 +226,4 @@ pub(super) fn check_span(
     let end = "the epoch at the end of the step";
     ephemeris::check_onboard(carried, center, end, end_epoch_s)?;
     n_body::check_onboard(variables, values, carried, end, end_epoch_s)
-}
-
-/// Surfaces in air; `None` where that does not act.
-fn air(
-    context: &Plan<'_>,
-    values: &Values,
-    configuration: &Configuration,
-) -> Result<Option<AerodynamicSolver>, Failure> {
-    let spacecraft = &context.setup.spacecraft;
-    if !configuration.effects.has(Effect::Aerodynamic) {
-        return Ok(None);
-    }
-    let options = context.variables.laws.aerodynamics.options(values, spacecraft, configuration.sunshade)?;
-    let solver = AerodynamicSolver::new(spacecraft, configuration, &options);
-    solver.map(Some).map_err(|error| Failure::new(format!("aerodynamics.*, sunshade.shape: {error}")))
-}
-
-/// What light and heat need beyond the configuration; `None` where direct sunlight is all there is.
-fn light(
-    context: &Plan<'_>,
-    values: &Values,
-    configuration: &Configuration,
-    surface: &PlanetSurface,
-) -> Result<Option<RadiationSolver>, Failure> {
-    let variables = context.variables;
-    if !configuration.has_light_and_heat() && variables.plate.is_empty() {
-        return Ok(None);
-    }
-    let nodes = usize::try_from(values.integer(variables.planet_light.nodes)).unwrap_or(0);
-    let spacecraft = &context.setup.spacecraft;
-    let requested = spacecraft.sunshade.as_ref().map_or(configuration.sunshade, |shade| shade.model);
-    if !variables.plate.is_empty() && requested != configuration.sunshade {
-        return Err(Failure::new(
-            "sunshade.shape: found another than the spacecraft file's, allowed: the file's, whose faces plate[k] are",
-        ));
-    }
-    RadiationSolver::new(spacecraft, configuration, surface, nodes)
-        .map(Some)
-        .map_err(|error| Failure::new(format!("planet.*, planetLight.nodes, sunshade.shape: {error}")))
 }

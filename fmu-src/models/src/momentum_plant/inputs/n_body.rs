@@ -40,39 +40,19 @@ fn attracting<'a>(variables: &PlantVariables, values: &'a Values) -> impl Iterat
     planets.filter(|(_, attracts)| values.boolean(*attracts)).map(|(body, _)| body)
 }
 
-/// Gravity of Sun, centre and all that attracts.
-pub(super) fn gravity(variables: &PlantVariables, values: &Values, center: &Center) -> NBodyGravity {
-    let orbit = &variables.orbit;
-    let settings = NBodySettings {
-        relativity: values.boolean(orbit.relativity),
-        changes_center: values.boolean(orbit.change_center),
-        moon: values.boolean(orbit.attraction.moon),
-        cell_s: values.real(orbit.n_body_step),
-        tolerance_m: values.real(orbit.n_body_tolerance),
-    };
-    let planet = &center.planet;
-    let data = |body: Body| if body == planet.body { *planet } else { *body.data() };
-    let encounter = Some(*planet).filter(|planet| planet.body != center.data.body);
-    let bodies: [Option<BodyData>; Body::COUNT] = {
-        let mut all = attracting(variables, values).map(data).chain(encounter);
-        core::array::from_fn(|_| all.next())
-    };
-    NBodyGravity::new(settings, &center.data, bodies.into_iter().flatten(), Some(planet))
-}
-
-/// The encounter.
+/// Gravity of all bodies in orbit.dynamics nBody (3), and the encounter.
 ///
 /// # Errors
 /// Ephemerides without planets, or an encounter with the centre.
-pub(super) fn check(
+pub(super) fn read(
     context: &Plan<'_>,
     values: &Values,
     center: &Center,
-) -> Result<Option<Encounter>, Failure> {
+) -> Result<(Option<NBodyGravity>, Option<Encounter>), Failure> {
     let variables = context.variables;
     let encounter = variables.encounter.body(&variables.orbit, values);
     if !variables.orbit.is_n_body(values) {
-        return Ok(None);
+        return Ok((None, None));
     }
     let source = match values.choice(variables.ephemeris.source) {
         EphemerisSource::Kepler => Some("kepler (2)"),
@@ -91,7 +71,7 @@ pub(super) fn check(
             center.data.name
         )));
     }
-    Ok(encounter.map(|body| Encounter {
+    let encounter = encounter.map(|body| Encounter {
         body,
         gm_m3_s2: center.planet.gm_m3_s2,
         radius_m: center.planet.radius_m,
@@ -101,7 +81,28 @@ pub(super) fn check(
             last_epoch_s: last_epoch_s(context, values),
             lead_s: values.real(variables.encounter.lead_time),
         },
-    }))
+    });
+    Ok((Some(gravity(variables, values, center)), encounter))
+}
+
+/// Gravity of Sun, centre and all that attracts.
+fn gravity(variables: &PlantVariables, values: &Values, center: &Center) -> NBodyGravity {
+    let orbit = &variables.orbit;
+    let settings = NBodySettings {
+        relativity: values.boolean(orbit.relativity),
+        changes_center: values.boolean(orbit.change_center),
+        moon: values.boolean(orbit.attraction.moon),
+        cell_s: values.real(orbit.n_body_step),
+        tolerance_m: values.real(orbit.n_body_tolerance),
+    };
+    let planet = &center.planet;
+    let data = |body: Body| if body == planet.body { *planet } else { *body.data() };
+    let encounter = Some(*planet).filter(|planet| planet.body != center.data.body);
+    let bodies: [Option<BodyData>; Body::COUNT] = {
+        let mut all = attracting(variables, values).map(data).chain(encounter);
+        core::array::from_fn(|_| all.next())
+    };
+    NBodyGravity::new(settings, &center.data, bodies.into_iter().flatten(), Some(planet))
 }
 
 /// Until when the ephemerides place all that attracts, in s past J2000 TDB.

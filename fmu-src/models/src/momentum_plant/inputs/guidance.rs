@@ -1,0 +1,138 @@
+//! Guidance that the plant follows by itself, from parameters and inputs; refuses what cannot be simulated, by name.
+
+use fmi_export::{Failure, Values};
+use nalgebra::Vector3;
+use physics::bodies::BodyData;
+use physics::environment::orbit::TwoBodyOrbit;
+use physics::environment::orientation::Orientation;
+use physics::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
+use physics::guidance::downlink::sun_place::{SunRequest, SunZone};
+use physics::guidance::pointing::boresight::Gimbal;
+use physics::guidance::timeline::TimelineSettings;
+use physics::guidance::{Guided, TargetPlanet};
+use physics::management::Strategy;
+use physics::plant::{self, Configuration, DynamicAttitude, StartPointing};
+
+use crate::common::downlink::ZERO_KEEP_IN_AXIS;
+use crate::common::management::{check_strategy_has_antenna, check_windows, check_windows_have_antenna};
+use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::state::PlantState;
+use crate::momentum_plant::variables::PlantVariables;
+
+/// The keep-in zone of commands.
+fn zone(variables: &PlantVariables, values: &Values) -> Result<KeepIn, Failure> {
+    let v = &variables.keep_in;
+    let axis_body = Vector3::from(values.vector(v.axis));
+    if axis_body == Vector3::zeros() {
+        return Err(Failure::new(ZERO_KEEP_IN_AXIS));
+    }
+    Ok(KeepIn {
+        axis_body,
+        azimuth_rad: values.real(v.azimuth).min(core::f64::consts::FRAC_PI_2),
+        elevation_rad: values.real(v.elevation),
+        method: values.choice(v.method).0,
+    })
+}
+
+/// What the timeline goes by about a centre of this rotation.
+pub(super) fn timeline(
+    variables: &PlantVariables,
+    values: &Values,
+    (center, rotation): (&BodyData, Option<Orientation>),
+    clock_minus_time_s: f64,
+) -> Result<TimelineSettings, Failure> {
+    let v = &variables.keep_in;
+    let own = TargetPlanet::of(center);
+    Ok(TimelineSettings {
+        keep_in: zone(variables, values)?,
+        keep_in_is_enabled: values.boolean(v.enabled),
+        keep_in_distance_m: values.real(v.distance),
+        planet: TargetPlanet { orientation: rotation.unwrap_or(own.orientation), ..own },
+        clock_minus_time_s,
+    })
+}
+
+/// The orbit phase's own guidance on this orbit, unmanaged.
+fn law(context: &Plan<'_>, values: &Values, orbit: &TwoBodyOrbit) -> Result<Guided, Failure> {
+    let variables = context.variables;
+    let is_planet = values.choice(variables.orbit.center).0.is_planet();
+    let period_s = if is_planet { orbit.period_s() } else { f64::INFINITY };
+    let keep_in = KeepIn {
+        axis_body: Vector3::new(0.0, -1.0, 0.0),
+        azimuth_rad: values.real(variables.keep_in.azimuth),
+        elevation_rad: values.real(variables.keep_in.elevation),
+        method: KeepInMethod::Nearest,
+    };
+    let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
+    let gimbal = Gimbal::of(&context.setup.spacecraft.instruments);
+    let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in, gimbal)?;
+    Ok(variables.guided.in_phase(context, values, &context.setup.windows, (law, !is_planet)))
+}
+
+/// The attitude's source: commands, the orbit phase's own guidance, or the dynamics that follow one of them.
+pub(super) fn attitude(
+    context: &Plan<'_>,
+    values: &Values,
+    state: &PlantState,
+    orbit: &TwoBodyOrbit,
+) -> Result<plant::AttitudeSource, Failure> {
+    let source = state.inputs.source;
+    let guided = if source.guides_itself { Some(managed_law(context, values, state, orbit)?) } else { None };
+    Ok(match guided {
+        _ if source.is_dynamic => {
+            let (motion, rate_terms_body) = (state.command, [Vector3::from([0.0; 3]); 2]);
+            plant::AttitudeSource::Dynamic(DynamicAttitude { motion, rate_terms_body, guided })
+        }
+        Some(guided) => plant::AttitudeSource::Guided(guided),
+        None => plant::AttitudeSource::Commanded(state.command),
+    })
+}
+
+/// The orbit phase's own guidance, with the places of the Sun that management chose or inputs request.
+fn managed_law(
+    context: &Plan<'_>,
+    values: &Values,
+    state: &PlantState,
+    orbit: &TwoBodyOrbit,
+) -> Result<Guided, Failure> {
+    let variables = context.variables;
+    let keep_in = zone(variables, values)?;
+    let law = law(context, values, orbit)?;
+    let antennas = &context.setup.antennas.all;
+    let strategy = values.choice(variables.momentum.management.strategy).0;
+    let managed = strategy != Strategy::DumpsOnly;
+    if !state.waiting {
+        check_windows_have_antenna(&law.schedule, antennas)?;
+    }
+    variables.guided.check_unload(values, managed)?;
+    check_strategy_has_antenna(strategy, antennas)?;
+    if managed && !state.waiting {
+        check_windows(&law.schedule)?;
+    }
+    let choice = state.flight.sun_choice();
+    let requested = if managed {
+        SunRequest::default()
+    } else {
+        let zone = SunZone { keep_in, distance_m: values.real(variables.keep_in.distance) };
+        let zone = values.boolean(variables.keep_in.enabled).then_some(zone);
+        SunRequest { zone, ..variables.downlink.request(values) }
+    };
+    let law = law.with_sun_places(choice.place(), choice.in_science());
+    Ok(Guided { managed, requested, ..law })
+}
+
+/// What a body that turns by its dynamics points by at its start; `None` by `start.q`.
+pub(super) fn start_pointing(
+    context: &Plan<'_>,
+    values: &Values,
+    configuration: &Configuration,
+    state: &PlantState,
+) -> Result<Option<StartPointing>, Failure> {
+    let start = &context.variables.start;
+    Ok(match configuration.attitude.guided() {
+        _ if context.given(values, &[start.q.into()]).has(start.q) => None,
+        Some(law) => Some(StartPointing::Guidance(Box::new(*law))),
+        None if state.inputs.source.is_commanded => state.attitude_command().map(StartPointing::Command),
+        None => Some(StartPointing::Guidance(Box::new(law(context, values, &configuration.orbit)?))),
+    })
+}
