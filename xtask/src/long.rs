@@ -1,4 +1,4 @@
-//! `cargo xtask test --long`: fuzzing, sanitizers, Miri, failing allocations, failing writes, long tests of
+//! `cargo xtask test --long`: lints, the guide, fuzzing, sanitizers, Miri, failing allocations, failing writes, long tests of
 //! the models, of the shared library and in Python.
 
 use std::fs;
@@ -6,9 +6,9 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::build::{self, Built, TESTS};
-use crate::dist;
 use crate::shell::{Outcome, available, cargo, command, root, run, target};
 use crate::test::{self, compile_c_with};
+use crate::{dist, guide, shell};
 
 /// Fuzz targets, in `tests/fuzz/targets`.
 const TARGETS: &[&str] = &["spacecraft", "model_description", "state", "calls", "zip"];
@@ -30,6 +30,8 @@ const MOST_WRITES: u32 = 2_000;
 type Part = (&'static str, fn() -> Outcome);
 
 const PARTS: &[Part] = &[
+    ("lints", lints),
+    ("guide", guide),
     ("fuzz", fuzz),
     ("sanitizers", sanitizers),
     ("miri", miri),
@@ -62,6 +64,23 @@ fn python() -> Outcome {
     let environment = test::current_environment()?;
     test::python(environment.clone(), "long and not rebuilds")?;
     test::python(environment, "rebuilds")
+}
+
+/// What clippy says of everything, the guide's builder too.
+fn lints() -> Outcome {
+    if shell::output(&mut cargo("clippy --version")).is_ok() {
+        run(&mut cargo(&format!("clippy {TESTS} --all-targets --quiet -- -D warnings")))?;
+        guide::lint()
+    } else if std::env::var_os("CI").is_some() {
+        Err("`cargo clippy` is missing".to_owned())
+    } else {
+        skipped("lints", "`cargo clippy`")
+    }
+}
+
+/// The guide: its links, its commands, what it leaves out.
+fn guide() -> Outcome {
+    guide::test(test::current_environment()?)
 }
 
 /// Tests of the physics and of the models in their long extent.

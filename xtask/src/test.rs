@@ -1,4 +1,4 @@
-//! `cargo xtask test`: format, lints, Rust tests, the guide, FMPy, C client.
+//! `cargo xtask test`: format, Rust tests, FMPy, C client.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -10,43 +10,33 @@ use crate::{dist, guide, locale, python, shell};
 /// Seed of the property tests: the same draws in every run, so that what turns red was changed; set it for others.
 const DRAWS: &str = "PROPTEST_RNG_SEED";
 
-/// Runs everything: formatting, lints or a build that fail end it, tests that fail are named at the end.
+/// Runs everything but what stands in `--long`: formatting or a build that fail end it, tests that fail are named at the end.
 pub(crate) fn all() -> Outcome {
     if need("rustfmt", "the format check")? {
         run(&mut cargo("fmt --all --check"))?;
         guide::check_format()?;
     }
-    let built = build_and_lint()?;
+    let built = build()?;
     dist::pack_all(&built)?;
     let environment = environment(&built)?;
     let locale = locale::environment()?;
-    let others = std::thread::scope(|scope| {
-        // The client waits for one core, as some of the tests do; the guide is compiled meanwhile.
-        let others = scope.spawn(|| [c_client(&built, false), guide::test(environment.clone())]);
+    let in_rust = std::thread::scope(|scope| {
+        // The client waits for one core, as some of the tests do.
+        let client = scope.spawn(|| c_client(&built, false));
         let tests =
             run(cargo(&format!("test --no-fail-fast {TESTS}")).envs(environment.clone()).envs(locale));
-        let others =
-            others.join().unwrap_or_else(|_| [Err("a thread of the tests panicked".to_owned()), Ok(())]);
-        others.into_iter().chain([tests]).collect::<Vec<_>>()
+        [client.join().unwrap_or_else(|_| Err("the thread of the C client panicked".to_owned())), tests]
     });
-    let outcomes = others.into_iter().chain([python(environment, "not long")]);
+    let outcomes = in_rust.into_iter().chain([python(environment, "not long")]);
     let failures: Vec<String> = outcomes.filter_map(Outcome::err).collect();
     if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
 }
 
-/// Builds libraries, programs and tests, and lints them.
-fn build_and_lint() -> Result<Built, String> {
-    // Most of it is optimised on one core: lints and the tests' own build run beside it.
+/// Builds libraries, programs and tests.
+fn build() -> Result<Built, String> {
+    // Most of it is optimised on one core: the tests' own build runs beside it.
     let library = Beside::start(&mut build::libraries())?;
     let interpreter = std::thread::spawn(python::interpreter);
-    if shell::output(&mut cargo("clippy --version")).is_ok() {
-        run(&mut cargo(&format!("clippy {TESTS} --all-targets --quiet -- -D warnings")))?;
-        guide::lint()?;
-    } else if std::env::var_os("CI").is_some() {
-        return Err("`cargo clippy` is missing".to_owned());
-    } else {
-        eprintln!("skipped: lints (no `cargo clippy` on this machine)");
-    }
     run(&mut cargo(&format!("test --no-run {TESTS}")))?;
     library.finish()?;
     interpreter.join().unwrap_or_else(|_| Err("the thread of the Python environment panicked".to_owned()))?;
