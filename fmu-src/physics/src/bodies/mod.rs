@@ -162,6 +162,30 @@ const fn gray(radius_m: f64, bond_albedo: f64, effective_temperature_k: f64) -> 
     }
 }
 
+/// A body of which nothing is known but that its pole is the north of EME2000.
+const CUSTOM: BodyData = BodyData {
+    body: Body::Custom,
+    name: "the body of the spacecraft's file",
+    gm_m3_s2: 0.0,
+    radius_m: 1.0,
+    j2: 0.0,
+    j2_radius_m: 1.0,
+    pole_right_ascension_rad: 0.0,
+    pole_declination_rad: 90.0 * DEG_RAD,
+    prime_meridian_rad: 0.0,
+    rotation_rate_rad_s: 0.0,
+    orbit_semi_major_axis_m: 0.0,
+    orbit_eccentricity: 0.0,
+    orbit_node_rad: 0.0,
+    orbit_inclination_rad: 0.0,
+    orbit_perihelion_longitude_rad: 0.0,
+    equatorial_radius_m: 1.0,
+    flattening: 0.0,
+    atmosphere: None,
+    dipole: None,
+    surface: None,
+};
+
 /// Every body, in the order of [`Body`].
 pub const BODIES: [BodyData; Body::COUNT] = [
     BodyData {
@@ -169,22 +193,13 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         name: "the Sun",
         gm_m3_s2: constants::GM_SUN_M3_S2,
         radius_m: constants::RADIUS_SUN_M,
-        j2: 0.0,
         j2_radius_m: constants::RADIUS_SUN_M,
         pole_right_ascension_rad: 286.13 * DEG_RAD,
         pole_declination_rad: 63.87 * DEG_RAD,
         prime_meridian_rad: 84.176 * DEG_RAD,
         rotation_rate_rad_s: degrees_a_day(14.184_4),
-        orbit_semi_major_axis_m: 0.0,
-        orbit_eccentricity: 0.0,
-        orbit_node_rad: 0.0,
-        orbit_inclination_rad: 0.0,
-        orbit_perihelion_longitude_rad: 0.0,
         equatorial_radius_m: constants::RADIUS_SUN_M,
-        flattening: 0.0,
-        atmosphere: None,
-        dipole: None,
-        surface: None,
+        ..CUSTOM
     },
     BodyData {
         body: Body::Mercury,
@@ -205,9 +220,9 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         orbit_perihelion_longitude_rad: 77.457_796_28 * DEG_RAD,
         equatorial_radius_m: 2_440.53e3,
         flattening: 1.0 - 2_438.26 / 2_440.53,
-        atmosphere: None,
         dipole: Some(dipole::MERCURY),
         surface: Some(surface::MERCURY),
+        ..CUSTOM
     },
     BodyData {
         body: Body::Venus,
@@ -229,8 +244,8 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         equatorial_radius_m: 6_051.8e3,
         flattening: 0.0,
         atmosphere: Some(air::VENUS),
-        dipole: None,
         surface: Some(gray(constants::RADIUS_VENUS_M, 0.77, 226.6)),
+        ..CUSTOM
     },
     BodyData {
         body: Body::Earth,
@@ -275,8 +290,8 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         equatorial_radius_m: 3_396.19e3,
         flattening: 1.0 - 3_376.20 / 3_396.19,
         atmosphere: Some(air::MARS),
-        dipole: None,
         surface: Some(gray(constants::RADIUS_MARS_M, 0.25, 209.8)),
+        ..CUSTOM
     },
     BodyData {
         body: Body::Jupiter,
@@ -301,28 +316,7 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         dipole: Some(dipole::JUPITER),
         surface: Some(gray(constants::RADIUS_JUPITER_M, 0.343, 109.9)),
     },
-    BodyData {
-        body: Body::Custom,
-        name: "the body of the spacecraft's file",
-        gm_m3_s2: 0.0,
-        radius_m: 1.0,
-        j2: 0.0,
-        j2_radius_m: 1.0,
-        pole_right_ascension_rad: 0.0,
-        pole_declination_rad: 90.0 * DEG_RAD,
-        prime_meridian_rad: 0.0,
-        rotation_rate_rad_s: 0.0,
-        orbit_semi_major_axis_m: 0.0,
-        orbit_eccentricity: 0.0,
-        orbit_node_rad: 0.0,
-        orbit_inclination_rad: 0.0,
-        orbit_perihelion_longitude_rad: 0.0,
-        equatorial_radius_m: 1.0,
-        flattening: 0.0,
-        atmosphere: None,
-        dipole: None,
-        surface: None,
-    },
+    CUSTOM,
 ];
 
 #[cfg(test)]

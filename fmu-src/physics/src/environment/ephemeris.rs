@@ -123,6 +123,21 @@ impl EphemerisCache {
         let slots = of(&mut all).get_or_insert_with(|| Slots::spanning(CACHED_S, length_s));
         *slots.segment(epoch_s, length_s, fit)
     }
+
+    /// The same, held in `held` too, of a body whose place by the Julian date is known.
+    fn of_places<'s, const N: usize>(
+        &self,
+        held: &'s mut Slots<3, N>,
+        of: impl FnOnce(&mut Segments) -> &mut Option<Slots<3, N>>,
+        epoch_s: f64,
+        position_m: impl Fn(f64) -> Vector3<f64>,
+    ) -> &'s Segment<3, N> {
+        held.segment(epoch_s, MIDDLE_S, |_, _| {
+            self.segment(of, (epoch_s, MIDDLE_S), |start_s, end_s| {
+                fit_rectangular(start_s, end_s, position_m)
+            })
+        })
+    }
 }
 
 /// Planet positions, a cache over VSOP87: the same epoch always gives the same bits. It is no state: skip it when serialising and
@@ -195,36 +210,28 @@ impl Ephemeris {
     /// Position and velocity of the Moon from the Earth in EME2000 at `epoch_s`, geometric; see [`Ephemeris::state`].
     pub fn moon_from_earth(&mut self, epoch_s: f64) -> CartesianState {
         self.moon_entered.enter((epoch_s / MIDDLE_S).floor() as i64);
-        let cache = &self.cache;
-        let segment = self.moon.segment(epoch_s, MIDDLE_S, |_, _| {
-            cache.segment(
-                |all| &mut all.moon,
-                (epoch_s, MIDDLE_S),
-                |start_s, end_s| {
-                    fit_rectangular(start_s, end_s, |date| {
-                        let barycentre_m = from_rectangular(vsop87::vsop87a::earth_moon(date));
-                        let earth_m = from_rectangular(vsop87::vsop87a::earth(date));
-                        (barycentre_m - earth_m) * (1.0 + EARTH_TO_MOON_MASS)
-                    })
-                },
-            )
-        });
+        let segment = self.cache.of_places(
+            &mut self.moon,
+            |all| &mut all.moon,
+            epoch_s,
+            |date| {
+                let barycentre_m = from_rectangular(vsop87::vsop87a::earth_moon(date));
+                let earth_m = from_rectangular(vsop87::vsop87a::earth(date));
+                (barycentre_m - earth_m) * (1.0 + EARTH_TO_MOON_MASS)
+            },
+        );
         let (position_m, velocity_m_s) = segment.value_and_derivative(epoch_s);
         CartesianState { position_m, velocity_m_s }
     }
 
     fn earth(&mut self, epoch_s: f64) -> &Segment<3, EARTH_TERMS> {
         self.entered[Body::Earth as usize].enter((epoch_s / MIDDLE_S).floor() as i64);
-        let cache = &self.cache;
-        self.earth.segment(epoch_s, MIDDLE_S, |_, _| {
-            cache.segment(
-                |all| &mut all.earth,
-                (epoch_s, MIDDLE_S),
-                |start_s, end_s| {
-                    fit_rectangular(start_s, end_s, |date| from_rectangular(vsop87::vsop87a::earth(date)))
-                },
-            )
-        })
+        self.cache.of_places(
+            &mut self.earth,
+            |all| &mut all.earth,
+            epoch_s,
+            |date| from_rectangular(vsop87::vsop87a::earth(date)),
+        )
     }
 
     /// Segment of positions that contains `epoch_s`, computed from slowly varying elements.

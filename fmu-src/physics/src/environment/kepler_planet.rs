@@ -89,11 +89,7 @@ impl KeplerPlanet {
             }
             BodyOrbit::State { position_m, velocity_m_s } => CartesianState { position_m, velocity_m_s },
         };
-        let state = CartesianState {
-            position_m: hci_from_frame * state.position_m,
-            velocity_m_s: hci_from_frame * state.velocity_m_s,
-        };
-        Self::new(Elements::from_state(&state, GM_SUN_M3_S2)?, motion.epoch_s)
+        Self::new(Elements::from_state(&state.along(&hci_from_frame), GM_SUN_M3_S2)?, motion.epoch_s)
     }
 
     /// Its elements about the Sun, in HCI.
@@ -110,11 +106,7 @@ impl KeplerPlanet {
 
     /// Heliocentric position and velocity in EME2000.
     pub fn state(&self, epoch_s: f64) -> CartesianState {
-        let hci = self.orbit_hci.state_at(epoch_s);
-        CartesianState {
-            position_m: self.dcm_eme2000_from_hci * hci.position_m,
-            velocity_m_s: self.dcm_eme2000_from_hci * hci.velocity_m_s,
-        }
+        self.orbit_hci.state_at(epoch_s).along(&self.dcm_eme2000_from_hci)
     }
 }
 

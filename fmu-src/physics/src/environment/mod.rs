@@ -20,7 +20,7 @@ pub use crate::toml::dates;
 
 use core::ops::{Add, Sub};
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// Position and velocity in one inertial frame relative to one centre.
@@ -39,6 +39,11 @@ impl CartesianState {
             position_m: Vector3::x() * radius_m,
             velocity_m_s: Vector3::y() * (mu_m3_s2 / radius_m).sqrt(),
         }
+    }
+
+    /// The same along other axes.
+    pub fn along(&self, dcm: &Matrix3<f64>) -> Self {
+        Self { position_m: dcm * self.position_m, velocity_m_s: dcm * self.velocity_m_s }
     }
 }
 

@@ -22,4 +22,4 @@ pub use rotated_momentum::{RotatedMomentum, SquareSum, best_turned};
 pub use sampled::SampledManager;
 pub use sampled_forecast::SampledForecast;
 pub use strategy::{Manager, Strategy};
-pub use targeting::{DownlinkState, TargetAxes, Targeted, Targeting, TargetingMethod};
+pub use targeting::{DownlinkState, TargetAxes, Targeting, TargetingMethod};

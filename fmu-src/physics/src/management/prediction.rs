@@ -23,31 +23,32 @@ const LATER_SAMPLES: usize = 32;
 /// Samples of the next cycle, of the physical momentum.
 const SAMPLES: usize = 96;
 
+/// Times of a forecast, which momentum is watched, and how it is dumped.
+#[derive(Clone, Copy, Debug)]
+pub struct ForecastTerms {
+    /// Where the downlink begins, or science that unloads, in s.
+    pub begin_s: f64,
+    /// Length of a cycle of science and downlink, in s; infinite or 0 where none follows.
+    pub cycle_s: f64,
+    /// How long it lasts, in s.
+    pub span_s: f64,
+    /// Whether science that unloads begins.
+    pub begins_in_science: bool,
+    /// Length of a coming downlink, in s.
+    pub downlink_s: f64,
+    /// Which momentum is watched.
+    pub convention: Convention,
+    /// When thrusters dump, and what they leave.
+    pub policy: DumpPolicy,
+}
+
 /// Momentum ahead of a downlink's begin.
 pub trait Forecast {
     /// Why there is none.
     type Error;
 
-    /// Where the downlink begins, or science that unloads, in s.
-    fn begin_s(&self) -> f64;
-
-    /// Length of a cycle of science and downlink, in s; infinite or 0 where none follows.
-    fn cycle_s(&self) -> f64;
-
-    /// How long it lasts, in s.
-    fn span_s(&self) -> f64;
-
-    /// Whether science that unloads begins.
-    fn begins_in_science(&self) -> bool;
-
-    /// Length of a coming downlink, in s.
-    fn downlink_s(&self) -> f64;
-
-    /// Which momentum is watched.
-    fn convention(&self) -> Convention;
-
-    /// When thrusters dump, and what they leave.
-    fn dump_policy(&self) -> DumpPolicy;
+    /// Its terms.
+    fn terms(&self) -> ForecastTerms;
 
     /// Visits the momentum at these times in s, which do not descend, the downlink's begin first; about `step_s` apart.
     ///
@@ -77,14 +78,14 @@ impl Prediction {
     /// # Errors
     /// What ends a forecast.
     pub fn of<F: Forecast>(forecast: &mut F, horizon: u32) -> Result<Option<Self>, F::Error> {
-        let cycle_s = forecast.cycle_s();
-        let science_s = cycle_s - forecast.downlink_s();
+        let ForecastTerms { cycle_s, downlink_s, convention, begins_in_science, .. } = forecast.terms();
+        let science_s = cycle_s - downlink_s;
         if !(cycle_s.is_finite() && science_s > 0.0 && horizon > 0) {
             return Ok(None);
         }
-        Ok(match forecast.convention() {
+        Ok(match convention {
             Convention::BodyIntegral => Some(Self::Components(Components::of(forecast, science_s, horizon)?)),
-            Convention::Inertial if forecast.begins_in_science() => None,
+            Convention::Inertial if begins_in_science => None,
             Convention::Inertial => PredictedScience::of(forecast, cycle_s)?.map(Self::Science),
         })
     }
@@ -123,19 +124,20 @@ pub struct Components {
 
 impl Components {
     fn of<F: Forecast>(forecast: &mut F, science_s: f64, horizon: u32) -> Result<Self, F::Error> {
-        let (begin_s, cycle_s) = (forecast.begin_s(), forecast.cycle_s());
+        let ForecastTerms { begin_s, cycle_s, span_s, begins_in_science, downlink_s, policy, .. } =
+            forecast.terms();
         let count = (horizon as usize).min(LONGEST_HORIZON);
         let mut components = Self {
             count,
             swings: [[Excursion::default(); LONGEST_HORIZON]; 2],
             downlinks: [PredictedDownlink::default(); LONGEST_HORIZON],
             path: [[0.0; NEXT_SAMPLES]; 2],
-            policy: forecast.dump_policy(),
+            policy,
         };
-        let spans_s = [forecast.span_s(), forecast.downlink_s()];
+        let spans_s = [span_s, downlink_s];
         let first_end_s = begin_s + spans_s[0];
         // Without a science first all that comes after it comes so much sooner.
-        let sooner_s = if forecast.begins_in_science() { science_s } else { 0.0 };
+        let sooner_s = if begins_in_science { science_s } else { 0.0 };
         let times_s = (0..visits_before(count) + 1).map(|visit| match cycle_and_sample(visit) {
             (0, 0) => begin_s,
             (0, _) if sooner_s > 0.0 => first_end_s,
@@ -265,10 +267,11 @@ pub struct PredictedScience {
 impl PredictedScience {
     /// The next science; `None` where none follows.
     fn of<F: Forecast>(forecast: &mut F, cycle_s: f64) -> Result<Option<Self>, F::Error> {
-        let (begin_s, step_s) = (forecast.begin_s(), cycle_s / SAMPLES as f64);
+        let ForecastTerms { begin_s, policy, .. } = forecast.terms();
+        let step_s = cycle_s / SAMPLES as f64;
         // Half a sample before the next downlink: rounding must not say how many samples there are.
         let until_s = begin_s + cycle_s * (1.0 - 0.5 / SAMPLES as f64);
-        let threshold = forecast.dump_policy().threshold_body_n_m_s;
+        let threshold = policy.threshold_body_n_m_s;
         let (mut left, mut has_begun, mut has_ended) = (None, false, false);
         let mut squares = SquareSum::default();
         let times_s = (0..=SAMPLES).map(|k| (begin_s + k as f64 * step_s).min(until_s));

@@ -4,7 +4,7 @@
 
 use nalgebra::Vector3;
 
-use super::prediction::Prediction;
+use super::prediction::{ForecastTerms, Prediction};
 use super::sampled_forecast::SampledForecast;
 use super::strategy::{Manager, Strategy};
 use super::targeting::{DownlinkState, ScienceUnload};
@@ -127,12 +127,16 @@ impl SampledManager<'_> {
             default_downlink: self.default_downlink,
             spacecraft: self.spacecraft,
             light: self.light,
-            convention: self.convention,
-            policy: self.policy,
             totals,
-            begin_s: start.ephemeris.epoch_s,
-            span_s: start.span_s,
-            begins_in_science: start.activity == Activity::Science,
+            terms: ForecastTerms {
+                begin_s: start.ephemeris.epoch_s,
+                cycle_s: schedule.cycle_s(),
+                span_s: start.span_s,
+                begins_in_science: start.activity == Activity::Science,
+                downlink_s: schedule.downlink_s(),
+                convention: self.convention,
+                policy: self.policy,
+            },
         };
         let Ok(prediction) = self.manager.predict(&mut forecast);
         prediction

@@ -9,11 +9,11 @@ use core::convert::Infallible;
 
 use nalgebra::Vector3;
 
-use super::prediction::Forecast;
+use super::prediction::{Forecast, ForecastTerms};
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::{Activity, Guided, GuidedAttitude, PredictedOrbit, lines_of_sight};
-use crate::momentum::{Convention, DumpPolicy, Totals};
+use crate::momentum::Totals;
 use crate::numerics::quadrature::GAUSS_3;
 use crate::plant::{ForecastMomentum, SunLight, SunlitConfiguration};
 
@@ -30,18 +30,10 @@ pub struct SampledForecast<'a> {
     pub spacecraft: SunlitConfiguration<'a>,
     /// Sunlight.
     pub light: SunLight,
-    /// What the momentum means.
-    pub convention: Convention,
-    /// When thrusters dump, and what they leave.
-    pub policy: DumpPolicy,
     /// Momentum at the begin.
     pub totals: Totals,
-    /// The begin, in s past J2000 TDB.
-    pub begin_s: f64,
-    /// How long the downlink lasts that begins, or science that unloads, in s.
-    pub span_s: f64,
-    /// Whether that science begins.
-    pub begins_in_science: bool,
+    /// Its terms, the begin in s past J2000 TDB.
+    pub terms: ForecastTerms,
 }
 
 impl SampledForecast<'_> {
@@ -69,32 +61,8 @@ impl SampledForecast<'_> {
 impl Forecast for SampledForecast<'_> {
     type Error = Infallible;
 
-    fn begin_s(&self) -> f64 {
-        self.begin_s
-    }
-
-    fn cycle_s(&self) -> f64 {
-        self.law.schedule.cycle_s()
-    }
-
-    fn span_s(&self) -> f64 {
-        self.span_s
-    }
-
-    fn downlink_s(&self) -> f64 {
-        self.law.schedule.downlink_s()
-    }
-
-    fn begins_in_science(&self) -> bool {
-        self.begins_in_science
-    }
-
-    fn convention(&self) -> Convention {
-        self.convention
-    }
-
-    fn dump_policy(&self) -> DumpPolicy {
-        self.policy
+    fn terms(&self) -> ForecastTerms {
+        self.terms
     }
 
     fn simulated(
@@ -103,7 +71,7 @@ impl Forecast for SampledForecast<'_> {
         step_s: f64,
         mut visit: impl FnMut(ForecastMomentum),
     ) -> Result<(), Infallible> {
-        let (mut at_s, mut totals) = (self.begin_s, self.totals);
+        let (mut at_s, mut totals) = (self.terms.begin_s, self.totals);
         let mut attitude = self.attitude(at_s);
         for end_s in times_s {
             while at_s < end_s {
@@ -125,7 +93,7 @@ impl Forecast for SampledForecast<'_> {
                 to_earth: value(&ephemeris.to_earth()).try_normalize(0.0),
                 pressure_pa: self.light.pressure_pa(to_sun_m.norm()),
                 downlink: attitude.window.activity == Activity::Downlink,
-                momentum_body_n_m_s: totals.momentum_body_n_m_s(self.convention, &inertial_from_body),
+                momentum_body_n_m_s: totals.momentum_body_n_m_s(self.terms.convention, &inertial_from_body),
                 momentum_inertial_n_m_s: totals.momentum_inertial_n_m_s,
                 body_from_inertial: inertial_from_body.inverse(),
             });

@@ -9,14 +9,16 @@
 use nalgebra::Vector3;
 
 use super::linear::LinearTorque;
-use super::prediction::{Components, Forecast, PredictedDownlink, PredictedScience, Prediction};
+use super::prediction::{
+    Components, Forecast, ForecastTerms, PredictedDownlink, PredictedScience, Prediction,
+};
 use super::profile::{Component, ControlAuthority};
 use super::rotated_momentum::best_turned;
-use super::targeting::{DownlinkState, ScienceUnload, Targeted, Targeting};
+use super::targeting::{DownlinkState, ScienceUnload, Targeting};
 use crate::attitude::{SunAngles, direction_from_angles};
 use crate::enumeration::enumeration;
 use crate::guidance::{ChosenPlace, ScienceCourse};
-use crate::momentum::{Convention, DumpPolicy};
+use crate::momentum::Settings;
 use crate::plant::{DownlinkForecast, ForecastMomentum, PlantError, StartMomentum};
 use crate::radiation::TorquePolynomial;
 use crate::spacecraft::{Sunshade, SunshadeModel};
@@ -54,32 +56,17 @@ pub struct Manager<'a> {
 impl Forecast for DownlinkForecast<'_> {
     type Error = PlantError;
 
-    fn begin_s(&self) -> f64 {
-        self.time_s
-    }
-
-    fn cycle_s(&self) -> f64 {
-        DownlinkForecast::cycle_s(self)
-    }
-
-    fn span_s(&self) -> f64 {
-        self.span_s
-    }
-
-    fn downlink_s(&self) -> f64 {
-        DownlinkForecast::downlink_s(self)
-    }
-
-    fn begins_in_science(&self) -> bool {
-        self.science.is_some()
-    }
-
-    fn convention(&self) -> Convention {
-        DownlinkForecast::convention(self)
-    }
-
-    fn dump_policy(&self) -> DumpPolicy {
-        DownlinkForecast::dump_policy(self)
+    fn terms(&self) -> ForecastTerms {
+        let Settings { convention, policy, .. } = self.context.configuration.momentum;
+        ForecastTerms {
+            begin_s: self.time_s,
+            cycle_s: if self.forecasts { self.law.schedule.cycle_s() } else { f64::INFINITY },
+            span_s: self.span_s,
+            begins_in_science: self.science.is_some(),
+            downlink_s: self.law.schedule.downlink_s(),
+            convention,
+            policy,
+        }
     }
 
     fn simulated(
@@ -103,6 +90,7 @@ impl Manager<'_> {
         };
         let prediction = self.predict(forecast)?;
         let linear = self.linear(&forecast.center_of_mass_body_m());
+        let ForecastTerms { convention, .. } = forecast.terms();
         let torque = |sun_body: &Vector3<f64>| forecast.torque_body_n_m(sun_body);
         let state = DownlinkState {
             to_sun: forecast.to_sun,
@@ -112,10 +100,7 @@ impl Manager<'_> {
             torque_body_n_m: &torque,
             pressure_pa: forecast.pressure_pa,
             linear,
-            science: forecast
-                .science
-                .as_ref()
-                .map(|course| ScienceUnload { course, convention: DownlinkForecast::convention(forecast) }),
+            science: forecast.science.as_ref().map(|course| ScienceUnload { course, convention }),
         };
         let separations_rad = forecast.separations_rad;
         Ok(self.place(state, prediction.as_ref(), separations_rad))
@@ -157,8 +142,7 @@ impl Manager<'_> {
             _ => None,
         };
         let target = predicted.unwrap_or(self.target_body_n_m_s);
-        let targeted = self.targeting.sun_place_throughout(&state, &target, separations_rad);
-        targeted.map(|Targeted { place, clamped }| ChosenPlace { place, clamped })
+        self.targeting.sun_place_throughout(&state, &target, separations_rad)
     }
 
     /// The target from which X and Z stay below their thresholds through the coming cycles.

@@ -17,7 +17,7 @@ use super::linear::LinearTorque;
 use crate::attitude::{MovingUnit, SunAngles, angle_between_rad, direction_from_angles};
 use crate::enumeration::enumeration;
 use crate::guidance::pointing::antenna::Antennas;
-use crate::guidance::{LinesOfSight, ScienceCourse, SunPlace, downlink_toward};
+use crate::guidance::{ChosenPlace, LinesOfSight, ScienceCourse, SunPlace, downlink_toward};
 use crate::math;
 use crate::momentum::Convention;
 use crate::numerics::roots;
@@ -100,15 +100,6 @@ pub struct ScienceUnload<'a> {
     pub convention: Convention,
 }
 
-/// The place found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Targeted {
-    /// Where the Sun is to stand.
-    pub place: SunPlace,
-    /// Whether the place that reaches the target is not admissible, or there is none.
-    pub clamped: bool,
-}
-
 /// Newton steps.
 const NEWTON_STEPS: usize = 30;
 /// Half width of central differences, in rad.
@@ -123,7 +114,11 @@ const INTERVALS: usize = 16;
 impl Targeting<'_> {
     /// The place of the Sun for `target_body_n_m_s` at the downlink's end; `None` where Sun and Earth give no downlink attitude,
     /// or no place is admissible.
-    pub fn sun_place(&self, state: &DownlinkState<'_>, target_body_n_m_s: &Vector3<f64>) -> Option<Targeted> {
+    pub fn sun_place(
+        &self,
+        state: &DownlinkState<'_>,
+        target_body_n_m_s: &Vector3<f64>,
+    ) -> Option<ChosenPlace> {
         self.sun_place_throughout(state, target_body_n_m_s, [state.separation_rad(); 2])
     }
 
@@ -133,7 +128,7 @@ impl Targeting<'_> {
         state: &DownlinkState<'_>,
         target_body_n_m_s: &Vector3<f64>,
         separations_rad: [f64; 2],
-    ) -> Option<Targeted> {
+    ) -> Option<ChosenPlace> {
         let (zone, sides);
         let branches: &[Branch] = if state.science.is_some() {
             zone = [self.zone()];
@@ -142,9 +137,10 @@ impl Targeting<'_> {
             sides = self.branches(state.separation_rad())?.lasting(separations_rad);
             sides.as_slice()
         };
+        let aim = MomentumAim { axes: self.axes, state, target: target_body_n_m_s };
         match self.method {
-            TargetingMethod::Exact => self.exact(state, target_body_n_m_s, branches),
-            TargetingMethod::Linear => self.linear(state, target_body_n_m_s, branches),
+            TargetingMethod::Exact => aim.exact(branches),
+            TargetingMethod::Linear => aim.linear(branches),
         }
     }
 
@@ -211,43 +207,41 @@ impl Targeting<'_> {
     fn limits(&self) -> KeepInLimits {
         KeepInLimits { azimuth_rad: self.azimuth_limit_rad, elevation_rad: self.elevation_limit_rad }
     }
+}
 
-    fn exact(
-        &self,
-        state: &DownlinkState<'_>,
-        target: &Vector3<f64>,
-        branches: &[Branch],
-    ) -> Option<Targeted> {
-        let tolerance = ROUNDING * (1.0 + state.momentum.magnitude_n_m_s() + target.norm());
-        let mut best: Option<(f64, Targeted)> = None;
+/// The momentum that a Sun place is to bring about.
+struct MomentumAim<'a> {
+    axes: TargetAxes,
+    state: &'a DownlinkState<'a>,
+    target: &'a Vector3<f64>,
+}
+
+impl MomentumAim<'_> {
+    fn exact(&self, branches: &[Branch]) -> Option<ChosenPlace> {
+        let tolerance = ROUNDING * (1.0 + self.state.momentum.magnitude_n_m_s() + self.target.norm());
+        let mut best: Option<(f64, ChosenPlace)> = None;
         for branch in branches {
             let found = match self.axes {
-                TargetAxes::Xz => self.both(state, target, branch, tolerance),
-                TargetAxes::X | TargetAxes::Z => self.one(state, target, branch),
+                TargetAxes::Xz => self.both(branch, tolerance),
+                TargetAxes::X | TargetAxes::Z => self.one(branch),
             };
             let Some((place, left)) = found else { continue };
             let is_reached = left <= 10.0 * tolerance;
             if is_reached {
-                return Some(Targeted { place, clamped: false });
+                return Some(ChosenPlace { place, clamped: false });
             }
             if best.is_none_or(|(least, _)| left < least - tolerance) {
-                best = Some((left, Targeted { place, clamped: true }));
+                best = Some((left, ChosenPlace { place, clamped: true }));
             }
         }
         best.map(|(_, targeted)| targeted)
     }
 
     /// The place for both axes on one branch, and what is left of the target.
-    fn both(
-        &self,
-        state: &DownlinkState<'_>,
-        target: &Vector3<f64>,
-        branch: &Branch,
-        tolerance: f64,
-    ) -> Option<(SunPlace, f64)> {
+    fn both(&self, branch: &Branch, tolerance: f64) -> Option<(SunPlace, f64)> {
         let left = |azimuth_rad: f64, elevation_rad: f64| {
             let angles = SunAngles { azimuth_rad, elevation_rad };
-            state.left(&SunPlace { angles, earth_ahead: branch.earth_ahead }, target).xz()
+            self.state.left(&SunPlace { angles, earth_ahead: branch.earth_ahead }, self.target).xz()
         };
         let start = branch.nearest(SunAngles::default())?.angles;
         if let Some(angles) = newton(start, left, tolerance)
@@ -268,12 +262,7 @@ impl Targeting<'_> {
     }
 
     /// The same for one axis, the other angle at 0 as far as that is admissible.
-    fn one(
-        &self,
-        state: &DownlinkState<'_>,
-        target: &Vector3<f64>,
-        branch: &Branch,
-    ) -> Option<(SunPlace, f64)> {
+    fn one(&self, branch: &Branch) -> Option<(SunPlace, f64)> {
         let by_elevation = self.axes == TargetAxes::X;
         let angles = |angle_rad: f64| {
             if by_elevation {
@@ -289,7 +278,7 @@ impl Targeting<'_> {
         };
         let left = |angle_rad: f64| {
             branch.nearest(angles(angle_rad)).map_or(f64::NAN, |place| {
-                let left = state.left(&place, target);
+                let left = self.state.left(&place, self.target);
                 if by_elevation { left.x } else { left.z }
             })
         };
@@ -312,23 +301,18 @@ impl Targeting<'_> {
         left.is_finite().then_some((place, left))
     }
 
-    fn linear(
-        &self,
-        state: &DownlinkState<'_>,
-        target: &Vector3<f64>,
-        branches: &[Branch],
-    ) -> Option<Targeted> {
-        let linear = state.linear.as_ref()?;
+    fn linear(&self, branches: &[Branch]) -> Option<ChosenPlace> {
+        let linear = self.state.linear.as_ref()?;
         let start = branches.iter().find_map(|branch| branch.nearest(SunAngles::default()))?;
         let [by_x, by_z] = self.axes.requested();
-        let mut change = target - state.momentum_body_n_m_s(&start);
+        let mut change = self.target - self.state.momentum_body_n_m_s(&start);
         change.y = 0.0;
         for (component, is_targeted) in [(0, by_x), (2, by_z)] {
             if !is_targeted {
                 change[component] = 0.0;
             }
         }
-        let solution = linear.sun_angles(&(change / state.span_s), state.pressure_pa, self.axes.requested());
+        let solution = linear.sun_angles(&(change / self.state.span_s), self.state.pressure_pa, [by_x, by_z]);
         let requested = solution.unwrap_or_default();
         let distance_rad = |place: &SunPlace| {
             let to = direction_from_angles(place.angles);
@@ -340,7 +324,7 @@ impl Targeting<'_> {
         };
         let place = places.reduce(nearest)?;
         let clamped = solution.is_none() || distance_rad(&place) > 1e-9;
-        Some(Targeted { place, clamped })
+        Some(ChosenPlace { place, clamped })
     }
 }
 

@@ -39,7 +39,7 @@ pub struct Settings {
 }
 
 /// One interval without events.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct MomentumSegment {
     start_s: f64,
     end_s: f64,
@@ -68,12 +68,8 @@ impl MomentumSegment {
             end_s: time_s,
             at_start: totals,
             next_longest_s: f64::INFINITY,
-            totals: None,
             by_source_at_start: by_source,
-            by_source: ByEffect::default(),
-            rate_body_rad_s: None,
-            structure_body_n_m_s: None,
-            at_threshold: [false; 3],
+            ..Self::default()
         }
     }
 

@@ -100,11 +100,14 @@ pub struct SegmentSpan {
     pub next_longest_s: f64,
 }
 
-impl SegmentSpan {
+impl Default for SegmentSpan {
     /// Before the first segment.
-    pub const BEFORE: Self =
-        Self { start_s: f64::INFINITY, end_s: f64::NEG_INFINITY, next_longest_s: f64::INFINITY };
+    fn default() -> Self {
+        Self { start_s: f64::INFINITY, end_s: f64::NEG_INFINITY, next_longest_s: f64::INFINITY }
+    }
+}
 
+impl SegmentSpan {
     /// Whether it is the one before the first segment.
     pub fn is_before(&self) -> bool {
         self.start_s == f64::INFINITY

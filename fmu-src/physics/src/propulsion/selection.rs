@@ -75,8 +75,8 @@ impl ThrusterSelection {
         Ok(Self { per_impulse_s, count })
     }
 
-    /// The same of the weakest thrusters that give a torque every way, those of full thrust up to the least possible: a
-    /// pulse of theirs is the smallest.
+    /// The same with the least force, of the weakest thrusters that give a torque every way, those of full thrust up to the least
+    /// possible: a pulse of theirs is the smallest.
     ///
     /// # Errors
     /// A way about an axis that not even all of them give.
@@ -84,8 +84,8 @@ impl ThrusterSelection {
         thrusters: &[Thruster],
         may_fire: impl Fn(usize) -> bool,
         center_of_mass_body_m: &Vector3<f64>,
-        preference: Preference,
     ) -> Result<Self, SelectionError> {
+        let preference = Preference::LeastForce;
         let force_n = |k: usize| thrusters[k].force_body_n.norm();
         let mut limit_n = 0.0;
         loop {

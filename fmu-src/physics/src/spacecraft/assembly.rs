@@ -13,7 +13,8 @@ use super::file::description::Description;
 use super::file::devices::{check_gimbals, instrument, sun_sensor, wheel};
 use super::file::mass::{mass, parts_fit};
 use super::file::materials::Materials;
-use super::file::names::{check_names, list};
+use super::file::names::check_names;
+use super::file::part_reader::PartReader;
 use super::file::planet_map::planet_map;
 use super::file::plates::{body_plates, panel, sunshade};
 use super::file::propulsion::{tank, thruster};
@@ -151,54 +152,44 @@ impl Spacecraft {
             check.push(&root, "no surface", format_args!("at least one of {keys}"));
         }
         check_names(check, description);
+        let file = &mut PartReader { check, materials: &materials, at: root, index: 0 };
         let whole_kg = description.mass_properties.mass_kg.0;
         let panels = description.panels.iter().flat_map(|panels| panels.iter());
         let panels_kg = panels.map(|panel| panel.mass_kg.map(f64::from));
-        parts_fit(check, ("panels", "mass_kg"), panels_kg, whole_kg);
-        let tanks = list(check, &root.key("tanks"), description.tanks.as_deref(), tank);
+        parts_fit(file.check, ("panels", "mass_kg"), panels_kg, whole_kg);
+        let tanks = file.list("tanks", description.tanks.as_deref(), tank);
         let tanks_kg = tanks.iter().map(|tank| Some(tank.propellant_kg));
-        parts_fit(check, ("tanks", "propellant_kg"), tanks_kg, whole_kg);
-        let thruster_sets = thruster_sets(check, description);
-        let thrusters =
-            list(check, &root.key("thrusters"), description.thrusters.as_deref(), |check, at, index, it| {
-                thruster(check, (&tanks, &thruster_sets), at, index, it)
-            });
-        let mass_properties = mass(check, &root.key("mass_properties"), &description.mass_properties);
-        let flexible_modes =
-            list(check, &root.key("flexible_modes"), description.flexible_modes.as_deref(), mode);
-        let sloshes = list(check, &root.key("slosh"), description.slosh.as_deref(), slosh);
-        swinging_fits(check, &flexible_modes, &sloshes, &mass_properties);
-        let instruments =
-            list(check, &root.key("instruments"), description.instruments.as_deref(), instrument);
-        let has_antenna = description.antennas.is_some() || check.is_stand_in(&root.key("antennas"));
-        check_gimbals(check, &root.key("instruments"), &instruments);
-        let start = start_entries(check, description.start.as_ref(), description.fixed.as_ref());
+        parts_fit(file.check, ("tanks", "propellant_kg"), tanks_kg, whole_kg);
+        let thruster_sets = thruster_sets(file.check, description);
+        let thrusters = file.list("thrusters", description.thrusters.as_deref(), |part, it| {
+            thruster(part, it, &tanks, &thruster_sets)
+        });
+        let mass_properties = mass(&mut file.table("mass_properties"), &description.mass_properties);
+        let flexible_modes = file.list("flexible_modes", description.flexible_modes.as_deref(), mode);
+        let sloshes = file.list("slosh", description.slosh.as_deref(), slosh);
+        swinging_fits(file.check, &flexible_modes, &sloshes, &mass_properties);
+        let instruments = file.list("instruments", description.instruments.as_deref(), instrument);
+        let has_antenna = description.antennas.is_some() || file.is_stand_in("antennas");
+        check_gimbals(file.check, &file.at.key("instruments"), &instruments);
+        let start = start_entries(file.check, description.start.as_ref(), description.fixed.as_ref());
         Self {
             name: description.name.clone(),
             mass_properties,
-            plates: body_plates(check, &materials, description),
-            sunshade: description
-                .sunshade
-                .as_ref()
-                .map(|s| sunshade(check, &materials, &root.key("sunshade"), s)),
-            panels: list(
-                check,
-                &root.key("panels"),
-                description.panels.as_deref(),
-                |check, at, index, it| panel(check, &materials, at, index, it),
-            ),
-            wheels: list(check, &root.key("wheels"), description.wheels.as_deref(), wheel),
+            plates: body_plates(file, description),
+            sunshade: description.sunshade.as_ref().map(|it| sunshade(&mut file.table("sunshade"), it)),
+            panels: file.list("panels", description.panels.as_deref(), panel),
+            wheels: file.list("wheels", description.wheels.as_deref(), wheel),
             flexible_modes,
             sloshes,
             tanks,
             thrusters,
             thruster_sets,
             sun_sensors: match description.sun_sensors.as_deref() {
-                Some(sensors) => list(check, &root.key("sun_sensors"), Some(sensors), sun_sensor),
+                Some(sensors) => file.list("sun_sensors", Some(sensors), sun_sensor),
                 None => MountedSunSensor::six(),
             },
             instruments,
-            antennas: list(check, &root.key("antennas"), description.antennas.as_deref(), antenna),
+            antennas: file.list("antennas", description.antennas.as_deref(), antenna),
             dump_threshold_n_m_s: description
                 .momentum
                 .as_ref()
@@ -208,16 +199,16 @@ impl Spacecraft {
             planet_map: description
                 .planet_map
                 .as_ref()
-                .and_then(|map| planet_map(check, &root.key("planet_map"), map)),
-            body: description.body.as_ref().map(|own| body(check, &root.key("body"), own)),
+                .and_then(|map| planet_map(&mut file.table("planet_map"), map)),
+            body: description.body.as_ref().map(|own| body(&mut file.table("body"), own)),
             downlinks: description
                 .downlinks
                 .as_ref()
-                .map(|it| downlinks(check, &root.key("downlinks"), it, &start, has_antenna)),
+                .map(|it| downlinks(&mut file.table("downlinks"), it, &start, has_antenna)),
             articulation: description
                 .articulation
                 .as_ref()
-                .map_or(Articulation::default(), |it| articulation(check, &root.key("articulation"), it)),
+                .map_or(Articulation::default(), |it| articulation(&mut file.table("articulation"), it)),
             hot_pole: description.hot_pole.as_ref().map(hot_pole),
             start,
             sun_keep_in: description.sun_keep_in.as_ref().map(|limits| SunKeepIn {

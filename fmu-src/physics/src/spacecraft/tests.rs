@@ -469,3 +469,23 @@ fn a_thousand_faults_take_a_thousand_times_as_long_as_one() {
         assert!(many < 4.0 * few, "{few} s for a tenth ten times, {many} s for {most}");
     }
 }
+
+impl Thruster {
+    /// One with nothing but a place, a force and a flow.
+    pub(crate) fn plain(position_body_m: Vector3<f64>, force_body_n: Vector3<f64>) -> Self {
+        Self {
+            name: String::new(),
+            position_body_m,
+            force_body_n,
+            torque_body_n_m: position_body_m.cross(&force_body_n),
+            flow_kg_s: 0.002,
+            valve: ValveTiming::default(),
+            scatter: 0.0,
+            set: None,
+            attitude_control: true,
+            tank: 0,
+            at_pressure_pa: None,
+            plume_half_angle_rad: 0.0,
+        }
+    }
+}

@@ -95,25 +95,6 @@ impl Thruster {
             flow_kg_s: self.flow_kg_s,
         }
     }
-
-    /// One with nothing but a place, a force and a flow.
-    #[cfg(test)]
-    pub(crate) fn plain(position_body_m: Vector3<f64>, force_body_n: Vector3<f64>) -> Self {
-        Self {
-            name: String::new(),
-            position_body_m,
-            force_body_n,
-            torque_body_n_m: position_body_m.cross(&force_body_n),
-            flow_kg_s: 0.002,
-            valve: ValveTiming::default(),
-            scatter: 0.0,
-            set: None,
-            attitude_control: true,
-            tank: 0,
-            at_pressure_pa: None,
-            plume_half_angle_rad: 0.0,
-        }
-    }
 }
 
 /// Force, torque and flow of a set of thrusters.

@@ -26,8 +26,7 @@ impl<'t> Document<'t> {
         if text.len() > MOST_TEXT_BYTES {
             let found = format!("a text of {} bytes", text.len());
             let allowed = format!("at most {MOST_TEXT_BYTES}");
-            let problem = Problem { line: None, key: String::new(), found, allowed };
-            return Err(FileError { file: file.to_owned(), problems: vec![problem], unlisted: 0 });
+            return Err(FileError::one(file, None, found, allowed));
         }
         match DeTable::parse(text) {
             Ok(root) => {
@@ -40,16 +39,8 @@ impl<'t> Document<'t> {
                 let written =
                     line.and_then(|line| text.lines().nth(line - 1)).map(excerpt).unwrap_or_default();
                 let message = one_line(error.message());
-                Err(FileError {
-                    file: file.to_owned(),
-                    problems: vec![Problem {
-                        line,
-                        key: String::new(),
-                        found: format!("text that is not TOML ({message}){written}"),
-                        allowed: grammar(&message).to_owned(),
-                    }],
-                    unlisted: 0,
-                })
+                let found = format!("text that is not TOML ({message}){written}");
+                Err(FileError::one(file, line, found, grammar(&message).to_owned()))
             }
         }
     }
@@ -66,10 +57,7 @@ impl<'t> Document<'t> {
         let findings = RefCell::default();
         match T::deserialize(Reader::new(self.root.get_ref(), &findings, self.own_limits)) {
             Ok(value) => Ok((value, findings.into_inner())),
-            Err(error) => {
-                let (found, allowed) = (error.to_string(), String::new());
-                Err(self.error(vec![Problem { line: None, key: String::new(), found, allowed }]))
-            }
+            Err(error) => Err(FileError::one(self.file, None, error.to_string(), String::new())),
         }
     }
 

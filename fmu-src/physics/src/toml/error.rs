@@ -26,6 +26,14 @@ pub struct FileError {
     pub unlisted: usize,
 }
 
+impl FileError {
+    /// One problem of the file as a whole.
+    pub(super) fn one(file: &str, line: Option<usize>, found: String, allowed: String) -> Self {
+        let problem = Problem { line, key: String::new(), found, allowed };
+        Self { file: file.to_owned(), problems: vec![problem], unlisted: 0 }
+    }
+}
+
 impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, problem) in self.problems.iter().enumerate() {

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use physics::{
     momentum::WheelCapacity,
-    propulsion::{Preference, ThrusterSelection},
+    propulsion::ThrusterSelection,
     spacecraft::{Spacecraft, Thruster},
 };
 
@@ -167,7 +167,7 @@ pub(super) fn allocations(sized: &SizedSpacecraft) -> Result<Vec<Allocation>, St
         vector(&mut sized.started().map_err(|error| error.to_string())?, "spacecraft.centerOfMass");
     let center_m = center_m.map_err(|error| error.to_string())?;
     let may_fire = |k: usize| thrusters[k].attitude_control;
-    let selection = ThrusterSelection::of_the_finest(thrusters, may_fire, &center_m, Preference::LeastForce)
+    let selection = ThrusterSelection::of_the_finest(thrusters, may_fire, &center_m)
         .map_err(|error| format!("Thrusters: {error}; dumps take no propellant."))?;
     let senses = NAMES.into_iter().enumerate().flat_map(|(axis, name)| {
         [("+", 1.0), ("-", -1.0)].map(|(sign, way)| (format!("{sign}{name}"), Vector3::ith(axis, way)))

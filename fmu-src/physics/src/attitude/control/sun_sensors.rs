@@ -1,7 +1,5 @@
 //! Sun sensors with a conical field of view, and the direction of the Sun that they give together.
 
-use core::f64::consts::FRAC_PI_3;
-
 use nalgebra::Vector3;
 
 use crate::attitude::angles::angle_between_rad;
@@ -23,14 +21,6 @@ pub struct SunSensor {
 }
 
 impl SunSensor {
-    /// Six sensors along +X, -X, +Y, -Y, +Z, -Z without noise. Paper 001 says that there are six and nothing else of
-    /// them: half a field of view of 60 deg is an assumption; 54.74 deg (a cube's corner) would cover the sphere.
-    pub fn six() -> [Self; 6] {
-        let sensor = |axis_body| Self { axis_body, half_field_of_view_rad: FRAC_PI_3, noise_rad: 0.0 };
-        let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
-        [x, -x, y, -y, z, -z].map(sensor)
-    }
-
     /// Whether the Sun is in its field of view.
     pub fn sees(&self, sun_body: &Vector3<f64>) -> bool {
         // 1 - h^2 / 2 <= cos h <= 1 - h^2 / 2 + h^4 / 24: the angle itself is needed near the cone alone.

@@ -35,44 +35,37 @@ impl fmt::Display for Portable {
 }
 
 macro_rules! operators {
-    ($($trait:ident $method:ident, $assign:ident $assign_method:ident;)+) => {$(
-        impl $trait for Portable {
+    ($other:ident: $right:ty => $number:expr; $($trait:ident $method:ident),+) => {$(
+        impl $trait<$right> for Portable {
             type Output = Self;
-            fn $method(self, other: Self) -> Self {
-                Self($trait::$method(self.0, other.0))
-            }
-        }
-        impl $trait<&Self> for Portable {
-            type Output = Self;
-            fn $method(self, other: &Self) -> Self {
-                Self($trait::$method(self.0, other.0))
-            }
-        }
-        impl $trait<f64> for Portable {
-            type Output = Self;
-            fn $method(self, other: f64) -> Self {
-                Self($trait::$method(self.0, other))
-            }
-        }
-        impl $assign for Portable {
-            fn $assign_method(&mut self, other: Self) {
-                $assign::$assign_method(&mut self.0, other.0);
-            }
-        }
-        impl $assign<f64> for Portable {
-            fn $assign_method(&mut self, other: f64) {
-                $assign::$assign_method(&mut self.0, other);
+            fn $method(self, $other: $right) -> Self {
+                Self($trait::$method(self.0, $number))
             }
         }
     )+};
 }
 
-operators! {
-    Add add, AddAssign add_assign;
-    Sub sub, SubAssign sub_assign;
-    Mul mul, MulAssign mul_assign;
-    Div div, DivAssign div_assign;
-    Rem rem, RemAssign rem_assign;
+operators! { other: Self => other.0; Add add, Sub sub, Mul mul, Div div, Rem rem }
+operators! { other: &Self => other.0; Add add, Sub sub, Mul mul, Div div, Rem rem }
+operators! { other: f64 => other; Add add, Sub sub, Mul mul, Div div, Rem rem }
+
+macro_rules! assignments {
+    ($other:ident: $right:ty => $number:expr; $($trait:ident $method:ident),+) => {$(
+        impl $trait<$right> for Portable {
+            fn $method(&mut self, $other: $right) {
+                $trait::$method(&mut self.0, $number);
+            }
+        }
+    )+};
+}
+
+assignments! {
+    other: Self => other.0;
+    AddAssign add_assign, SubAssign sub_assign, MulAssign mul_assign, DivAssign div_assign, RemAssign rem_assign
+}
+assignments! {
+    other: f64 => other;
+    AddAssign add_assign, SubAssign sub_assign, MulAssign mul_assign, DivAssign div_assign, RemAssign rem_assign
 }
 
 impl Neg for Portable {

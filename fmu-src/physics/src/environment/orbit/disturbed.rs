@@ -8,7 +8,9 @@ use thiserror::Error;
 use super::deviation::Deviation;
 use super::elements::{OrbitError, check, check_mu};
 use super::gravity::Gravity;
-use super::n_body::{BodyEphemeris, Collision, IntegrationCenter, NBodyGravity, Reached, pack, unpack};
+use super::n_body::{
+    BodiesAbout, BodyEphemeris, Collision, IntegrationCenter, NBodyGravity, Reached, pack, unpack,
+};
 use super::orbit_method::{OrbitMethod, TERMS};
 use crate::{
     bodies::Body,
@@ -221,12 +223,12 @@ impl DisturbedOrbit {
     ///
     /// # Errors
     /// [`OrbitIntegrationError`]; the orbit stays as it was.
-    pub fn advance_between_bodies(
+    pub fn advance_between_bodies<E: BodyEphemeris>(
         &mut self,
         limit_s: f64,
         method: &OrbitMethod,
         gravity: &NBodyGravity,
-        ephemeris: &mut impl BodyEphemeris,
+        ephemeris: &mut E,
         mut extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
     ) -> Result<u32, OrbitIntegrationError> {
         let mut chain = self.chain;
@@ -234,21 +236,22 @@ impl DisturbedOrbit {
         let limit_s = limit_s.min(ephemeris.smooth_until_s(start_s));
         let mut state = self.own_state_at(start_s);
         let mut center = self.center.unwrap_or(IntegrationCenter::new(gravity.center));
-        let body = center.next_body(gravity, &state, start_s, ephemeris)?;
+        let mut bodies = BodiesAbout { gravity, about: center.body, ephemeris };
+        let body = center.next_body(&mut bodies, &state, start_s)?;
         if body != center.body {
-            let [before, after] = [center.body, body].map(|body| ephemeris.heliocentric(body, start_s));
+            let [before, after] =
+                [center.body, body].map(|body| bodies.ephemeris.heliocentric(body, start_s));
             state = state + (before - after);
-            center.body = body;
+            (center.body, bodies.about) = (body, body);
         }
         if self.deviation.is_some() || self.center.is_none_or(|before| before.body != body) {
             chain.cut(start_s, pack(&state));
         }
-        let mut integrate = |to_s: f64, ephemeris: &mut _| {
+        let mut integrate = |to_s: f64, bodies: &mut BodiesAbout<'_, E>| {
             let mut next = chain;
             next.advance_to(&method.0, to_s, |at_s, y| {
                 let state = unpack(y);
-                let acceleration_m_s2 =
-                    gravity.acceleration_m_s2(body, at_s, &state, ephemeris) + extra_m_s2(at_s);
+                let acceleration_m_s2 = bodies.acceleration_m_s2(at_s, &state) + extra_m_s2(at_s);
                 pack(&CartesianState { position_m: state.velocity_m_s, velocity_m_s: acceleration_m_s2 })
             })?;
             Ok::<_, IntegrationError>(next)
@@ -260,7 +263,7 @@ impl DisturbedOrbit {
             let to_s = edge_after_s(start_s, length_s).min(limit_s);
             count += 1;
             let may_halve = center.level < IntegrationCenter::FINEST;
-            match integrate(to_s, ephemeris) {
+            match integrate(to_s, &mut bodies) {
                 Ok(next) if !may_halve || gravity.is_resolved(next.segment()) => break next,
                 Err(error) if !may_halve => return Err(error.into()),
                 Ok(_) | Err(IntegrationError::NotConverged { .. }) => center.level += 1,
@@ -270,16 +273,16 @@ impl DisturbedOrbit {
         center.reaches = None;
         let path = |next: &SegmentChain<6, TERMS>, at_s: f64| unpack(&next.value(at_s));
         let span_s = [start_s, next.end_s()];
-        if let Some(reached) = gravity.sphere_reached(body, span_s, |at_s| path(&next, at_s), ephemeris)
+        if let Some(reached) = bodies.sphere_reached(span_s, |at_s| path(&next, at_s))
             && reached.at_s > start_s
         {
             count += 1;
-            next = integrate(reached.at_s, ephemeris)?;
+            next = integrate(reached.at_s, &mut bodies)?;
             center.reaches = Some(Reached { at_s: next.end_s(), ..reached });
         }
         let span_s = [start_s, next.end_s()];
-        gravity.check_above(body, span_s, |at_s| path(&next, at_s), ephemeris)?;
-        center.set_offset(gravity.center, span_s, ephemeris);
+        bodies.check_above(span_s, |at_s| path(&next, at_s))?;
+        center.set_offset(span_s, &mut bodies);
         (self.chain, self.deviation, self.center) = (next, None, Some(center));
         Ok(count)
     }

@@ -140,50 +140,7 @@ impl NBodyGravity {
         Gravity { flattening, ..Gravity::point_mass(self.bodies[body as usize][0]) }
     }
 
-    /// Acceleration in EME2000, m/s2, of a spacecraft at `state` from `about`, relative to that.
-    pub(super) fn acceleration_m_s2(
-        &self,
-        about: Body,
-        at_s: f64,
-        state: &CartesianState,
-        ephemeris: &mut impl BodyEphemeris,
-    ) -> Vector3<f64> {
-        let center =
-            if about.is_planet() { ephemeris.heliocentric(about, at_s) } else { CartesianState::default() };
-        let from_sun = *state + center;
-        let mut sum = fall_m_s2(&from_sun.position_m, self.bodies[Body::Sun as usize][0]);
-        let mut earth_m = None;
-        for body in self.planets() {
-            let gm_m3_s2 = self.bodies[body as usize][0];
-            let is_center = body == about;
-            let place_m = if is_center { center } else { ephemeris.heliocentric(body, at_s) }.position_m;
-            let from_body_m = if is_center { state.position_m } else { from_sun.position_m - place_m };
-            sum += fall_m_s2(&from_body_m, gm_m3_s2) + fall_m_s2(&place_m, gm_m3_s2);
-            if body == Body::Earth {
-                earth_m = Some(place_m);
-            }
-            if let Some((_, flattening)) = self.flattened.filter(|(of, _)| *of == body) {
-                let inverse = 1.0 / from_body_m.norm();
-                flattening.add_to(&mut sum, &from_body_m, inverse, gm_m3_s2 * inverse * inverse * inverse);
-            }
-        }
-        if self.settings.moon {
-            let earth_m = earth_m.unwrap_or_else(|| ephemeris.heliocentric(Body::Earth, at_s).position_m);
-            let moon_from_earth_m = ephemeris.moon_from_earth_m(at_s);
-            let moon_m = earth_m + moon_from_earth_m;
-            let from_moon_m = match about {
-                Body::Earth => state.position_m - moon_from_earth_m,
-                _ => from_sun.position_m - moon_m,
-            };
-            sum += fall_m_s2(&from_moon_m, GM_MOON_M3_S2) + fall_m_s2(&moon_m, GM_MOON_M3_S2);
-        }
-        if self.settings.relativity {
-            sum += relativity_m_s2(&from_sun, self.bodies[Body::Sun as usize][0]);
-        }
-        if about.is_planet() { sum - ephemeris.acceleration_m_s2(about, at_s) } else { sum }
-    }
-
-    /// Gradient of that acceleration by the position, 1/s2: of all that attract as point masses. Flattening, up to some 1e-4 of the
+    /// Gradient of a spacecraft's acceleration by the position from `about`, 1/s2: of all that attract as point masses. Flattening, up to some 1e-4 of the
     /// gradient near Mercury's surface, and relativity, 1e-7, are left out.
     pub fn gradient_per_s2(
         &self,
@@ -228,63 +185,132 @@ impl NBodyGravity {
         // Of what is not a number no shorter segment is better.
         length_s <= SHORTEST_LIT_S || off_m.is_nan() || off_m <= self.settings.tolerance_m
     }
+}
+
+/// The bodies that attract, as they stand from the one that a path is integrated about.
+pub(super) struct BodiesAbout<'a, E> {
+    /// Which they are.
+    pub gravity: &'a NBodyGravity,
+    /// The one that the path counts from.
+    pub about: Body,
+    /// Where they are.
+    pub ephemeris: &'a mut E,
+}
+
+impl<E: BodyEphemeris> BodiesAbout<'_, E> {
+    /// A body's position and velocity from `about`.
+    fn state(&mut self, body: Body, at_s: f64) -> CartesianState {
+        if body == self.about {
+            return CartesianState::default();
+        }
+        self.ephemeris.heliocentric(body, at_s) - self.ephemeris.heliocentric(self.about, at_s)
+    }
+
+    /// Distance of a body from a place that counts from `about`.
+    fn distance_m(&mut self, body: Body, position_m: &Vector3<f64>, at_s: f64) -> f64 {
+        (position_m - self.state(body, at_s).position_m).norm()
+    }
+
+    /// Acceleration in EME2000, m/s2, of a spacecraft at `state` from `about`, relative to that.
+    pub(super) fn acceleration_m_s2(&mut self, at_s: f64, state: &CartesianState) -> Vector3<f64> {
+        let Self { gravity, about, ephemeris } = self;
+        let about = *about;
+        let center =
+            if about.is_planet() { ephemeris.heliocentric(about, at_s) } else { CartesianState::default() };
+        let from_sun = *state + center;
+        let mut sum = fall_m_s2(&from_sun.position_m, gravity.bodies[Body::Sun as usize][0]);
+        let mut earth_m = None;
+        for body in gravity.planets() {
+            let gm_m3_s2 = gravity.bodies[body as usize][0];
+            let is_center = body == about;
+            let place_m = if is_center { center } else { ephemeris.heliocentric(body, at_s) }.position_m;
+            let from_body_m = if is_center { state.position_m } else { from_sun.position_m - place_m };
+            sum += fall_m_s2(&from_body_m, gm_m3_s2) + fall_m_s2(&place_m, gm_m3_s2);
+            if body == Body::Earth {
+                earth_m = Some(place_m);
+            }
+            if let Some((_, flattening)) = gravity.flattened.filter(|(of, _)| *of == body) {
+                let inverse = 1.0 / from_body_m.norm();
+                flattening.add_to(&mut sum, &from_body_m, inverse, gm_m3_s2 * inverse * inverse * inverse);
+            }
+        }
+        if gravity.settings.moon {
+            let earth_m = earth_m.unwrap_or_else(|| ephemeris.heliocentric(Body::Earth, at_s).position_m);
+            let moon_from_earth_m = ephemeris.moon_from_earth_m(at_s);
+            let moon_m = earth_m + moon_from_earth_m;
+            let from_moon_m = match about {
+                Body::Earth => state.position_m - moon_from_earth_m,
+                _ => from_sun.position_m - moon_m,
+            };
+            sum += fall_m_s2(&from_moon_m, GM_MOON_M3_S2) + fall_m_s2(&moon_m, GM_MOON_M3_S2);
+        }
+        if gravity.settings.relativity {
+            sum += relativity_m_s2(&from_sun, gravity.bodies[Body::Sun as usize][0]);
+        }
+        if about.is_planet() { sum - ephemeris.acceleration_m_s2(about, at_s) } else { sum }
+    }
 
     /// The body within whose sphere of influence a place is, else the Sun.
-    fn body_about(
-        &self,
-        about: Body,
-        state: &CartesianState,
-        at_s: f64,
-        ephemeris: &mut impl BodyEphemeris,
-    ) -> Body {
-        let share = |body: Body, ephemeris: &mut _| {
-            let sphere_m = self.sphere_m(body);
-            (distance_m(body, about, &state.position_m, at_s, ephemeris) / sphere_m, body)
-        };
-        let spheres = self.planets().filter(|body| self.sphere_m(*body) > 0.0);
-        let nearest =
-            spheres.map(|body| share(body, ephemeris)).min_by(|one, other| one.0.total_cmp(&other.0));
+    fn body_about(&mut self, state: &CartesianState, at_s: f64) -> Body {
+        let gravity = self.gravity;
+        let spheres = gravity.planets().filter(|body| gravity.sphere_m(*body) > 0.0);
+        let shares = spheres.map(|body| {
+            let share = self.distance_m(body, &state.position_m, at_s) / gravity.sphere_m(body);
+            (share, body)
+        });
+        let nearest = shares.min_by(|one, other| one.0.total_cmp(&other.0));
         nearest.filter(|(share, _)| *share < 1.0).map_or(Body::Sun, |(_, body)| body)
     }
 
     /// The body beyond the edge that a path from `about` is just about to go over, else `about`.
-    fn body_at_edge(
-        &self,
-        about: Body,
-        state: &CartesianState,
-        at_s: f64,
-        ephemeris: &mut impl BodyEphemeris,
-    ) -> Body {
+    fn body_at_edge(&mut self, state: &CartesianState, at_s: f64) -> Body {
+        let Self { gravity, about, ephemeris } = self;
+        let about = *about;
         let from_sun = *state + ephemeris.heliocentric(about, at_s);
-        let mut spheres =
-            self.planets().filter(|body| self.settings.changes_center && [Body::Sun, *body].contains(&about));
+        let changes = gravity.settings.changes_center;
+        let mut spheres = gravity.planets().filter(|body| changes && [Body::Sun, *body].contains(&about));
         let crossed = spheres.find(|body| {
             let from_body =
                 if *body == about { *state } else { from_sun - ephemeris.heliocentric(*body, at_s) };
             let outward = if *body == about { 1.0 } else { -1.0 };
-            let beyond_m = outward * (from_body.position_m.norm() - self.sphere_m(*body));
+            let beyond_m = outward * (from_body.position_m.norm() - gravity.sphere_m(*body));
             beyond_m > -EDGE_M && outward * from_body.position_m.dot(&from_body.velocity_m_s) > 0.0
         });
         crossed.map_or(about, |body| if body == about { Body::Sun } else { body })
     }
 
+    /// The first time at which a path from `about` comes nearer to a body than a radius, in m; with a negative sense, farther.
+    fn first_crossing(
+        &mut self,
+        body: Body,
+        (radius_m, sense): (f64, f64),
+        span_s: [f64; 2],
+        path: &impl Fn(f64) -> CartesianState,
+    ) -> Option<f64> {
+        let mut gap_m = |at_s: f64| sense * (self.distance_m(body, &path(at_s).position_m, at_s) - radius_m);
+        let reach_m = farthest_m(&path(span_s[0]), span_s);
+        if gap_m(span_s[0]) > reach_m {
+            return None;
+        }
+        first_fall(span_s, reach_m, &mut gap_m)
+    }
+
     /// Where a path from `about` first comes into the sphere of influence of another body or leaves its own, and the body whose
     /// sphere it is in from there on.
     pub(super) fn sphere_reached(
-        &self,
-        about: Body,
+        &mut self,
         span_s: [f64; 2],
         path: impl Fn(f64) -> CartesianState,
-        ephemeris: &mut impl BodyEphemeris,
     ) -> Option<Reached> {
-        if !self.settings.changes_center {
+        let Self { gravity, about, .. } = *self;
+        if !gravity.settings.changes_center {
             return None;
         }
         let mut first: Option<Reached> = None;
-        for body in self.planets().filter(|body| about == Body::Sun || *body == about) {
+        for body in gravity.planets().filter(|body| about == Body::Sun || *body == about) {
             // Positive outside; a path about a planet is within its sphere.
             let sense = if body == about { -1.0 } else { 1.0 };
-            let at_s = first_crossing([body, about], (self.sphere_m(body), sense), span_s, &path, ephemeris);
+            let at_s = self.first_crossing(body, (gravity.sphere_m(body), sense), span_s, &path);
             if let Some(at_s) = at_s.filter(|at_s| first.is_none_or(|first| *at_s < first.at_s)) {
                 let into = if body == about { Body::Sun } else { body };
                 first = Some(Reached { at_s, body: into });
@@ -295,23 +321,16 @@ impl NBodyGravity {
 
     /// Refuses a path from `about` that goes through a body.
     pub(super) fn check_above(
-        &self,
-        about: Body,
+        &mut self,
         span_s: [f64; 2],
         path: impl Fn(f64) -> CartesianState,
-        ephemeris: &mut impl BodyEphemeris,
     ) -> Result<(), Collision> {
-        let bodies = self.planets().chain([Body::Sun]);
-        for body in bodies.filter(|body| *body == about || !self.settings.changes_center) {
-            let radius_m = self.bodies[body as usize][1];
-            let at_s = first_crossing([body, about], (radius_m, 1.0), span_s, &path, ephemeris);
-            if let Some(at_s) = at_s {
-                let of_body = if body == about {
-                    CartesianState::default()
-                } else {
-                    ephemeris.heliocentric(body, at_s) - ephemeris.heliocentric(about, at_s)
-                };
-                let speed_m_s = (path(at_s) - of_body).velocity_m_s.norm();
+        let Self { gravity, about, .. } = *self;
+        let bodies = gravity.planets().chain([Body::Sun]);
+        for body in bodies.filter(|body| *body == about || !gravity.settings.changes_center) {
+            let radius_m = gravity.bodies[body as usize][1];
+            if let Some(at_s) = self.first_crossing(body, (radius_m, 1.0), span_s, &path) {
+                let speed_m_s = (path(at_s) - self.state(body, at_s)).velocity_m_s.norm();
                 return Err(Collision::Impact { at_s, name: body.data().name, radius_m, speed_m_s });
             }
         }
@@ -319,16 +338,10 @@ impl NBodyGravity {
     }
 
     /// Refuses a place inside a body.
-    fn check_outside(
-        &self,
-        about: Body,
-        state: &CartesianState,
-        at_s: f64,
-        ephemeris: &mut impl BodyEphemeris,
-    ) -> Result<(), Collision> {
-        for body in self.planets().chain([Body::Sun]) {
-            let radius_m = self.bodies[body as usize][1];
-            let distance_m = distance_m(body, about, &state.position_m, at_s, ephemeris);
+    fn check_outside(&mut self, state: &CartesianState, at_s: f64) -> Result<(), Collision> {
+        for body in self.gravity.planets().chain([Body::Sun]) {
+            let radius_m = self.gravity.bodies[body as usize][1];
+            let distance_m = self.distance_m(body, &state.position_m, at_s);
             if distance_m < radius_m || distance_m.is_nan() {
                 return Err(Collision::Inside { at_s, name: body.data().name, distance_m, radius_m });
             }
@@ -351,41 +364,9 @@ fn relativity_m_s2(state: &CartesianState, gm_m3_s2: f64) -> Vector3<f64> {
     (r * (4.0 * gm_m3_s2 / distance_m - v.norm_squared()) + v * (4.0 * r.dot(&v))) * factor
 }
 
-/// Distance of a body from a place that counts from `about`.
-fn distance_m(
-    body: Body,
-    about: Body,
-    position_m: &Vector3<f64>,
-    at_s: f64,
-    ephemeris: &mut impl BodyEphemeris,
-) -> f64 {
-    if body == about {
-        return position_m.norm();
-    }
-    let [body_m, about_m] = [body, about].map(|body| ephemeris.heliocentric(body, at_s).position_m);
-    (position_m - (body_m - about_m)).norm()
-}
-
 /// How far spacecraft and body come toward each other at most, m: both fall, and no planet is faster than 100 km/s.
 fn farthest_m(state: &CartesianState, [start_s, end_s]: [f64; 2]) -> f64 {
     2.0 * (state.velocity_m_s.norm() + 1e5) * (end_s - start_s)
-}
-
-/// The first time at which a path from `about` comes nearer to a body than a radius, in m; with a negative sense, farther.
-fn first_crossing(
-    [body, about]: [Body; 2],
-    (radius_m, sense): (f64, f64),
-    span_s: [f64; 2],
-    path: &impl Fn(f64) -> CartesianState,
-    ephemeris: &mut impl BodyEphemeris,
-) -> Option<f64> {
-    let mut gap_m =
-        |at_s: f64| sense * (distance_m(body, about, &path(at_s).position_m, at_s, ephemeris) - radius_m);
-    let reach_m = farthest_m(&path(span_s[0]), span_s);
-    if gap_m(span_s[0]) > reach_m {
-        return None;
-    }
-    first_fall(span_s, reach_m, &mut gap_m)
 }
 
 /// Where a path comes into a sphere of influence or leaves it.
@@ -434,35 +415,25 @@ impl IntegrationCenter {
     /// The body that the next segment counts from, the spacecraft being at `state` from that of the present one.
     pub(super) fn next_body(
         &self,
-        gravity: &NBodyGravity,
+        bodies: &mut BodiesAbout<'_, impl BodyEphemeris>,
         state: &CartesianState,
         at_s: f64,
-        ephemeris: &mut impl BodyEphemeris,
     ) -> Result<Body, Collision> {
-        if !self.is_begun {
-            gravity.check_outside(self.body, state, at_s, ephemeris)?;
-            let changes = gravity.settings.changes_center;
-            return Ok(if changes {
-                gravity.body_about(self.body, state, at_s, ephemeris)
-            } else {
-                self.body
-            });
+        if self.is_begun {
+            return Ok(self.reaches.map_or_else(|| bodies.body_at_edge(state, at_s), |reached| reached.body));
         }
-        let at_edge = |ephemeris| gravity.body_at_edge(self.body, state, at_s, ephemeris);
-        Ok(self.reaches.map_or_else(|| at_edge(ephemeris), |reached| reached.body))
+        bodies.check_outside(state, at_s)?;
+        let changes = bodies.gravity.settings.changes_center;
+        Ok(if changes { bodies.body_about(state, at_s) } else { self.body })
     }
 
     /// The present segment, from where positions are given.
-    pub(super) fn set_offset(
-        &mut self,
-        from: Body,
-        [start_s, end_s]: [f64; 2],
-        ephemeris: &mut impl BodyEphemeris,
-    ) {
+    pub(super) fn set_offset(&mut self, span_s: [f64; 2], bodies: &mut BodiesAbout<'_, impl BodyEphemeris>) {
+        let from = bodies.gravity.center;
         self.is_begun = true;
         self.offset = (self.body != from).then(|| {
-            Segment::fit(start_s, end_s, |at_s| {
-                let [body, from] = [self.body, from].map(|body| ephemeris.heliocentric(body, at_s));
+            Segment::fit(span_s[0], span_s[1], |at_s| {
+                let [body, from] = [self.body, from].map(|body| bodies.ephemeris.heliocentric(body, at_s));
                 pack(&(body - from))
             })
         });

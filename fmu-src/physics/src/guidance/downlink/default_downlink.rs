@@ -9,7 +9,7 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::Vector3;
 
-use super::sun_place::{is_ahead, nearest_axis};
+use super::sun_place::is_ahead;
 use crate::attitude::angle_between_rad;
 use crate::guidance::pointing::antenna::{Antennas, BOUND_RAD};
 use crate::math;
@@ -92,7 +92,7 @@ fn chosen(antennas: &Antennas, separation_rad: f64) -> EarthBoresight {
     let azimuths_rad = [-separation_rad, separation_rad];
     let ahead = is_ahead(antennas, azimuths_rad, math::cos(separation_rad));
     let fan = antennas.nearest_fan(azimuths_rad[usize::from(ahead)]);
-    match nearest_axis(antennas, &fan, &-Vector3::y(), separation_rad) {
+    match antennas.nearest_axis(&fan, &-Vector3::y(), separation_rad) {
         Some((_, axis_body)) => EarthBoresight::Fixed(axis_body),
         None if fan.antenna.is_some() && !fan.is_in_range() => EarthBoresight::Fixed(fan.direction_body()),
         None if ahead => EarthBoresight::Ahead,

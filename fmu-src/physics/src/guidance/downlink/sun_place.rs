@@ -24,7 +24,7 @@ use crate::constants::DEG_RAD;
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{Moving, MovingVector, PARALLEL_RAD, direction, fixed, unit, value};
-use crate::guidance::pointing::antenna::{AntennaAzimuth, AntennaRow, Antennas, BOUND_RAD};
+use crate::guidance::pointing::antenna::{AntennaAzimuth, Antennas, BOUND_RAD};
 use crate::guidance::pointing::law::PointingVectors;
 use crate::math;
 use crate::numerics::scalar::Scalar;
@@ -136,6 +136,8 @@ pub fn downlink(
     request: &DownlinkRequest,
 ) -> Option<Downlink> {
     let solutions = both_solutions(to_sun, to_earth, request.sun_body)?;
+    let is_placed = request.antenna_azimuth_rad.is_none();
+    let is_free = is_placed && request.earth_ahead.is_none();
     let (azimuth, sun_body, cut) = match request.antenna_azimuth_rad {
         Some(azimuth_rad) => {
             let minus_y = fixed(direction_from_angles(SunAngles::default()));
@@ -143,25 +145,24 @@ pub fn downlink(
         }
         None => {
             let [minus, plus] = solutions.azimuths;
-            let requested = request.earth_ahead.map(|ahead| if ahead { plus } else { minus });
-            (
-                requested.unwrap_or_else(|| solutions.preferred(antennas)),
-                solutions.sun_body,
-                solutions.margin < 0.0,
-            )
+            // The one inside a fan's range, or nearest to one; where both are inside, that on the default attitude's side.
+            let preferred = || is_ahead(antennas, [minus.re, plus.re], solutions.cosine);
+            let ahead = request.earth_ahead.unwrap_or_else(preferred);
+            (if ahead { plus } else { minus }, solutions.sun_body, solutions.margin < 0.0)
         }
     };
+    let vectors = |boresight_body, body_roll| PointingVectors {
+        boresight_body,
+        aimpoint: *to_earth,
+        body_roll,
+        external_roll: *to_sun,
+    };
     let antenna = antennas.nearest_fan(azimuth.re);
-    if request.antenna_azimuth_rad.is_none() && request.earth_ahead.is_none() {
+    if is_free {
         let place_body = direction_from_angles(request.sun_body);
         let separation_rad = angle_between_rad(&value(to_sun), &value(to_earth));
-        if let Some((row, axis_body)) = nearest_axis(antennas, &antenna, &place_body, separation_rad) {
-            let vectors = PointingVectors {
-                boresight_body: fixed(axis_body),
-                aimpoint: *to_earth,
-                body_roll: fixed(place_body),
-                external_roll: *to_sun,
-            };
+        if let Some((row, axis_body)) = antennas.nearest_axis(&antenna, &place_body, separation_rad) {
+            let vectors = vectors(fixed(axis_body), fixed(place_body));
             let antenna = AntennaAzimuth::fixed(row, &axis_body);
             let off_rad = (angle_between_rad(&place_body, &axis_body) - separation_rad).abs();
             // Nobody requested the default place.
@@ -170,30 +171,16 @@ pub fn downlink(
         }
     }
     let at_bound = antenna.antenna.is_some() && !antenna.is_in_range();
-    let is_placed = request.antenna_azimuth_rad.is_none();
     let margins = [
-        if is_placed && request.earth_ahead.is_none() {
-            solutions.margin_of_choice(antennas)
-        } else {
-            f64::INFINITY
-        },
-        if is_placed {
-            solutions.margin.min(antennas.fan_margin_rad(antenna.antenna, azimuth.re))
-        } else {
-            f64::INFINITY
-        },
+        is_free.then(|| solutions.margin_of_choice(antennas)),
+        is_placed.then(|| solutions.margin.min(antennas.fan_margin_rad(antenna.antenna, azimuth.re))),
     ];
     let boresight_azimuth = if at_bound { Moving::constant(antenna.azimuth_rad) } else { azimuth };
     Some(Downlink {
-        vectors: PointingVectors {
-            boresight_body: direction(boresight_azimuth, Moving::constant(0.0)),
-            aimpoint: *to_earth,
-            body_roll: sun_body,
-            external_roll: *to_sun,
-        },
+        vectors: vectors(direction(boresight_azimuth, Moving::constant(0.0)), sun_body),
         antenna,
         clamped: cut || at_bound,
-        margins,
+        margins: margins.map(|margin| margin.unwrap_or(f64::INFINITY)),
     })
 }
 
@@ -234,14 +221,6 @@ pub fn both_solutions(
 }
 
 impl EarthAzimuths {
-    /// The one inside a fan's range, or nearest to one; where both are inside, that on the default attitude's side.
-    fn preferred(&self, antennas: &Antennas) -> Moving {
-        let [minus, plus] = self.azimuths;
-        if is_ahead(antennas, [minus.re, plus.re], self.cosine) { plus } else { minus }
-    }
-}
-
-impl EarthAzimuths {
     /// Changes its sign where the other azimuth is taken; positive with A - delta.
     fn margin_of_choice(&self, antennas: &Antennas) -> f64 {
         let [minus_rad, plus_rad] = self.azimuths.map(|azimuth| outside_rad(antennas, azimuth.re));
@@ -261,24 +240,6 @@ pub(crate) fn is_ahead(antennas: &Antennas, [minus_rad, plus_rad]: [f64; 2], cos
     // Symmetric ranges about the Sun line are equally far outside; rounding does not choose between them.
     let [minus_rad, plus_rad] = [minus_rad, plus_rad].map(|it| outside_rad(antennas, it));
     if cosine > 0.0 { plus_rad < minus_rad - BOUND_RAD } else { plus_rad <= minus_rad + BOUND_RAD }
-}
-
-/// The antenna along an axis that leaves the Sun nearest to its place, if it is nearer than with the fan nearest to the Earth.
-pub(super) fn nearest_axis(
-    antennas: &Antennas,
-    fan: &AntennaAzimuth,
-    place_body: &Vector3<f64>,
-    separation_rad: f64,
-) -> Option<(AntennaRow, Vector3<f64>)> {
-    let off_rad =
-        |earth_body: &Vector3<f64>| (angle_between_rad(place_body, earth_body) - separation_rad).abs();
-    let of_fan_rad = fan.antenna.map_or(f64::INFINITY, |_| off_rad(&fan.direction_body()));
-    let nearest = antennas.axes().fold((of_fan_rad, None), |(least_rad, found), (row, axis_body)| {
-        let off_rad = off_rad(&axis_body);
-        let is_nearer = off_rad < least_rad - BOUND_RAD;
-        if is_nearer { (off_rad, Some((row, axis_body))) } else { (least_rad, found) }
-    });
-    nearest.1
 }
 
 /// Least angle between Sun and Earth for a link, assumed: no paper names it.

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::moving::{Moving, MovingMatrix, MovingVector, fixed, moving, rate, value};
+use super::moving::{Moving, MovingMatrix, MovingVector, fixed, moving, state, value};
 use crate::bodies::{Body, BodyData};
 use crate::environment::CartesianState;
 use crate::environment::orientation::{Equator, Orientation};
@@ -103,9 +103,9 @@ impl EphemerisAtTime {
 
     /// At another epoch with the spacecraft in `spacecraft`; Sun and Earth moved evenly.
     pub fn moved_to(&self, epoch_s: f64, spacecraft: &CartesianState) -> Self {
-        let evenly = |vector: &MovingVector| CartesianState {
-            position_m: value(vector) + rate(vector) * (epoch_s - self.epoch_s),
-            velocity_m_s: rate(vector),
+        let evenly = |vector: &MovingVector| {
+            let now = state(vector);
+            CartesianState { position_m: now.position_m + now.velocity_m_s * (epoch_s - self.epoch_s), ..now }
         };
         Self::new(epoch_s, self.planet, spacecraft, &evenly(&self.sun), &evenly(&self.earth))
     }

@@ -6,6 +6,7 @@
 
 use nalgebra::{ComplexField, Matrix3, Rotation3, Vector3};
 
+use crate::environment::CartesianState;
 use crate::math;
 use crate::numerics::scalar::{Dual64, sin_cos};
 
@@ -39,6 +40,11 @@ pub fn value(vector: &MovingVector) -> Vector3<f64> {
 /// Its time derivative.
 pub fn rate(vector: &MovingVector) -> Vector3<f64> {
     vector.map(|x| x.eps)
+}
+
+/// A position with its rate as a state.
+pub fn state(position: &MovingVector) -> CartesianState {
+    CartesianState { position_m: value(position), velocity_m_s: rate(position) }
 }
 
 /// The matrix at this time.

@@ -27,6 +27,17 @@ pub struct LinesOfSight {
     pub sun_from_planet: Option<CartesianState>,
 }
 
+impl LinesOfSight {
+    /// Those to these places and motions from the spacecraft; a body at zero distance counts as lying toward +X.
+    pub fn to([sun, earth]: [&CartesianState; 2], planet: Option<&CartesianState>) -> Self {
+        let unit = |to: &CartesianState| {
+            MovingUnit::of(to.position_m, to.velocity_m_s)
+                .unwrap_or(MovingUnit { direction: Vector3::x(), rate_1_s: Vector3::zeros() })
+        };
+        Self { sun: unit(sun), planet: planet.map(unit), earth: unit(earth), sun_from_planet: None }
+    }
+}
+
 /// How far science observations pitch the spacecraft, as Sun elevation over (Sun-nadir angle - 90 deg).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ScienceRule {

@@ -6,15 +6,12 @@
 //! Error measure: the planets' pull on one another is left out; Sun and Earth stand off by less than 3e-5 rad after four days
 //! about Mercury, Venus and Mars (tested).
 
-use nalgebra::Vector3;
-
 use super::attitudes::LinesOfSight;
-use crate::attitude::MovingUnit;
 use crate::constants::GM_SUN_M3_S2;
 use crate::environment::CartesianState;
 use crate::environment::orbit::TwoBodyOrbit;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
-use crate::guidance::geometry::moving::{MovingVector, rate, value};
+use crate::guidance::geometry::moving::{state, value};
 
 /// Spacecraft, Sun and Earth about the planet, predicted from a sample for other epochs.
 #[derive(Clone, Copy, Debug)]
@@ -36,15 +33,11 @@ struct PredictedBody {
 impl<'a> PredictedOrbit<'a> {
     /// From where everything is now; `None` where the spacecraft is on no ellipse about the planet.
     pub fn of(present: &'a EphemerisAtTime) -> Option<Self> {
-        let state = |position: MovingVector| CartesianState {
-            position_m: value(&position),
-            velocity_m_s: rate(&position),
-        };
         Some(Self {
             present,
             spacecraft: ellipse_of(present)?,
-            planet_from_sun: PredictedBody::of(state(-present.sun), present.epoch_s),
-            earth_from_sun: PredictedBody::of(state(present.earth - present.sun), present.epoch_s),
+            planet_from_sun: PredictedBody::of(state(&-present.sun), present.epoch_s),
+            earth_from_sun: PredictedBody::of(state(&(present.earth - present.sun)), present.epoch_s),
         })
     }
 
@@ -88,18 +81,11 @@ pub fn ellipse_of(ephemeris: &EphemerisAtTime) -> Option<TwoBodyOrbit> {
 
 /// Directions from the spacecraft with their rates; a body at zero distance counts as lying toward +X.
 pub fn lines_of_sight(ephemeris: &EphemerisAtTime) -> LinesOfSight {
-    let unit = |vector: &MovingVector| {
-        MovingUnit::of(value(vector), rate(vector))
-            .unwrap_or(MovingUnit { direction: Vector3::x(), rate_1_s: Vector3::zeros() })
-    };
+    let [to_sun, to_earth, to_planet] =
+        [ephemeris.to_sun(), ephemeris.to_earth(), ephemeris.to_planet()].map(|it| state(&it));
     LinesOfSight {
-        sun: unit(&ephemeris.to_sun()),
-        planet: Some(unit(&ephemeris.to_planet())),
-        earth: unit(&ephemeris.to_earth()),
-        sun_from_planet: Some(CartesianState {
-            position_m: value(&ephemeris.sun),
-            velocity_m_s: rate(&ephemeris.sun),
-        }),
+        sun_from_planet: Some(state(&ephemeris.sun)),
+        ..LinesOfSight::to([&to_sun, &to_earth], Some(&to_planet))
     }
 }
 

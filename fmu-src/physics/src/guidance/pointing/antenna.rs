@@ -93,19 +93,27 @@ impl Antennas {
     /// Of the antenna nearest to a body-frame direction: a fan, unless one along an axis is nearer.
     pub fn toward(&self, direction_body: &Vector3<f64>) -> AntennaAzimuth {
         let fan = self.nearest_fan(SunAngles::of(direction_body).azimuth_rad);
-        let off_rad = match fan.antenna {
-            Some(_) => angle_between_rad(&fan.direction_body(), direction_body),
-            None => f64::INFINITY,
-        };
-        let nearer = |best: (f64, AntennaAzimuth), (row, axis_body): (AntennaRow, Vector3<f64>)| {
-            let off_rad = angle_between_rad(&axis_body, direction_body);
-            if off_rad < best.0 - BOUND_RAD {
-                (off_rad, AntennaAzimuth::fixed(row, &axis_body))
-            } else {
-                best
-            }
-        };
-        self.axes().fold((off_rad, fan), nearer).1
+        let nearest = self.nearest_axis(&fan, direction_body, 0.0);
+        nearest.map_or(fan, |(row, axis_body)| AntennaAzimuth::fixed(row, &axis_body))
+    }
+
+    /// The antenna along an axis that, looking at the Earth, leaves the Sun nearest to its place, if it is nearer than with the fan
+    /// nearest to the Earth.
+    pub fn nearest_axis(
+        &self,
+        fan: &AntennaAzimuth,
+        place_body: &Vector3<f64>,
+        separation_rad: f64,
+    ) -> Option<(AntennaRow, Vector3<f64>)> {
+        let off_rad =
+            |earth_body: &Vector3<f64>| (angle_between_rad(place_body, earth_body) - separation_rad).abs();
+        let of_fan_rad = fan.antenna.map_or(f64::INFINITY, |_| off_rad(&fan.direction_body()));
+        let nearest = self.axes().fold((of_fan_rad, None), |(least_rad, found), (row, axis_body)| {
+            let off_rad = off_rad(&axis_body);
+            let is_nearer = off_rad < least_rad - BOUND_RAD;
+            if is_nearer { (off_rad, Some((row, axis_body))) } else { (least_rad, found) }
+        });
+        nearest.1
     }
 
     /// Where the beam looks after a constraint moved it off the Earth: a fan follows it.

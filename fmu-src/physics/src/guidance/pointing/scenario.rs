@@ -216,24 +216,17 @@ impl Reading<'_> {
         };
         let found =
             downlink(&self.ephemeris.to_sun(), &self.ephemeris.to_earth(), self.hardware.antennas, &request)?;
-        let downlink = DownlinkStatus { active: true, clamped: found.clamped };
-        if self.progress.requested.alternate && !commanded {
-            let aimpoint = half_turned(&found.vectors.aimpoint, &self.ephemeris.to_sun());
-            let vectors = PointingVectors { aimpoint, ..found.vectors };
-            let margins = found.margins;
-            return Some(PointingSolution {
-                clamped: found.clamped,
-                downlink,
-                margins,
-                ..PointingSolution::at(vectors)
-            });
+        let alternate = self.progress.requested.alternate && !commanded;
+        let mut vectors = found.vectors;
+        if alternate {
+            vectors.aimpoint = half_turned(&vectors.aimpoint, &self.ephemeris.to_sun());
         }
         Some(PointingSolution {
-            antenna: Some(Beam::AtTheEarth(found.antenna)),
+            antenna: (!alternate).then_some(Beam::AtTheEarth(found.antenna)),
             clamped: found.clamped,
-            downlink,
+            downlink: DownlinkStatus { active: true, clamped: found.clamped },
             margins: found.margins,
-            ..PointingSolution::at(found.vectors)
+            ..PointingSolution::at(vectors)
         })
     }
 }

@@ -14,7 +14,7 @@ use crate::guidance::pointing::command::{
 /// What stands in the file.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(untagged)]
-pub(super) enum Quantity {
+pub(crate) enum Quantity {
     /// A number, SI.
     Number(f64),
     /// A string.

@@ -5,7 +5,7 @@ use nalgebra::Rotation3;
 use super::super::prediction::Forecast;
 use super::super::targeting::{TargetAxes, TargetingMethod};
 use super::*;
-use crate::momentum::Reinitialise;
+use crate::momentum::{Convention, DumpPolicy, Reinitialise};
 
 const DOWNLINK_S: f64 = 1000.0;
 const SCIENCE_S: f64 = 2000.0;
@@ -27,34 +27,18 @@ impl ByHand {
 impl Forecast for ByHand {
     type Error = core::convert::Infallible;
 
-    fn begin_s(&self) -> f64 {
-        0.0
-    }
-
-    fn cycle_s(&self) -> f64 {
-        CYCLE_S
-    }
-
-    fn span_s(&self) -> f64 {
-        if self.begins_in_science { SCIENCE_S } else { DOWNLINK_S }
-    }
-
-    fn downlink_s(&self) -> f64 {
-        DOWNLINK_S
-    }
-
-    fn begins_in_science(&self) -> bool {
-        self.begins_in_science
-    }
-
-    fn convention(&self) -> Convention {
-        Convention::BodyIntegral
-    }
-
-    fn dump_policy(&self) -> DumpPolicy {
-        DumpPolicy {
-            threshold_body_n_m_s: Vector3::repeat(3.0),
-            reinitialise: Reinitialise::Opposite { fraction: 1.0 },
+    fn terms(&self) -> ForecastTerms {
+        ForecastTerms {
+            begin_s: 0.0,
+            cycle_s: CYCLE_S,
+            span_s: if self.begins_in_science { SCIENCE_S } else { DOWNLINK_S },
+            begins_in_science: self.begins_in_science,
+            downlink_s: DOWNLINK_S,
+            convention: Convention::BodyIntegral,
+            policy: DumpPolicy {
+                threshold_body_n_m_s: Vector3::repeat(3.0),
+                reinitialise: Reinitialise::Opposite { fraction: 1.0 },
+            },
         }
     }
 

@@ -106,7 +106,7 @@ fn an_attainable_target_is_hit_to_rounding() {
             for (axes, count) in [(TargetAxes::X, 0), (TargetAxes::Z, 1), (TargetAxes::Xz, 2)] {
                 let targeting = Targeting { axes, ..targeting() };
                 let target = Vector3::new(-0.05, 7.0, 0.1);
-                let Some(Targeted { place, clamped }) = targeting.sun_place(&state, &target) else {
+                let Some(ChosenPlace { place, clamped }) = targeting.sun_place(&state, &target) else {
                     panic!("{degrees} {momentum:?}")
                 };
                 if clamped {

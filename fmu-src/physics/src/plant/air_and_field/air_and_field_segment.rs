@@ -38,8 +38,8 @@ pub struct AirAndField {
     pub field_inertial_t: Vector3<f64>,
 }
 
-/// Air and field over one interval; what is given needs no series.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// Air and field over one interval; what is given needs no series. The default stands before the first segment.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct AirAndFieldSegment {
     pub(crate) span: SegmentSpan,
     /// Position relative to the planet on which the segment was fitted, EME2000, in m; absent before the first segment.
@@ -50,13 +50,6 @@ pub struct AirAndFieldSegment {
     pub(crate) air_velocity: Option<Series>,
     /// Field, EME2000, in T.
     pub(crate) field: Option<Series>,
-}
-
-impl Default for AirAndFieldSegment {
-    /// Before the first segment.
-    fn default() -> Self {
-        Self { span: SegmentSpan::BEFORE, position: None, air: None, air_velocity: None, field: None }
-    }
 }
 
 impl AirAndFieldSegment {

@@ -167,8 +167,8 @@ impl<T: Scalar> BySource<T> {
             &positions.panel_angles_rad,
             Vector3::from(positions.center_of_mass_m),
         )?
-        .with_sun_radius(parameters.sun_radius_m)
-        .with_solar_scale(parameters.solar_scale);
+        .with_sun_radius(parameters.sun_radius_m);
+        geometry.solar_scale = parameters.solar_scale;
         if let Some(planet) = &mut geometry.planet {
             let pole = Vector3::from(positions.pole);
             planet.pole_body = if is_zero(&pole) { -Vector3::z() } else { pole };

@@ -9,9 +9,10 @@ use super::fork::{ForecastMomentum, Fork};
 use super::propagator_state::PropagatorState;
 use crate::guidance::{ChosenPlace, Guided, ScienceCourse};
 use crate::loads::ForceTorque;
-use crate::momentum::{Convention, DumpPolicy, Totals};
+use crate::momentum::{Convention, Totals};
 use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
 use crate::plant::light::sunlit::SunlitConfiguration;
+use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
 
 /// Momentum where a downlink begins, in N m s.
@@ -89,16 +90,6 @@ impl DownlinkForecast<'_> {
         self.sunlit().center_of_mass_body_m()
     }
 
-    /// Length of a cycle of science and downlink, in s; infinite where none follows, and where nothing may be forecast.
-    pub fn cycle_s(&self) -> f64 {
-        if self.forecasts { self.law.schedule.cycle_s() } else { f64::INFINITY }
-    }
-
-    /// Length of a downlink, in s.
-    pub fn downlink_s(&self) -> f64 {
-        self.law.schedule.downlink_s()
-    }
-
     /// Momentum from here on at `times_s`, which do not descend; about `step_s` apart.
     ///
     /// # Errors
@@ -111,22 +102,15 @@ impl DownlinkForecast<'_> {
     ) -> Result<(), PlantError> {
         let begin = (self.time_s, self.totals);
         let held = [self.applied, ForceTorque::zero()];
-        let mut fork =
-            Fork::guided(self.prepared, self.context, self.propagator, &self.law, held, begin, step_s);
+        // Default attitudes.
+        let law = Guided { managed: false, ..self.law.with_sun_places(None, None) };
+        let attitude = AttitudeSource::Guided(law);
+        let mut fork = Fork::new(self.prepared, self.context, self.propagator, attitude, held, begin);
+        fork.coarsen(self.time_s, step_s);
         times_s.try_for_each(|at_s| {
             fork.advance(at_s)?;
             visit(fork.momentum_at(at_s));
             Ok(())
         })
-    }
-
-    /// Which momentum the flight's convention watches.
-    pub fn convention(&self) -> Convention {
-        self.context.configuration.momentum.convention
-    }
-
-    /// When thrusters dump, and what they leave.
-    pub fn dump_policy(&self) -> DumpPolicy {
-        self.context.configuration.momentum.policy
     }
 }

@@ -48,6 +48,16 @@ pub(crate) struct AttitudeDynamics {
     scheduled: usize,
 }
 
+/// A step of a flight by torque.
+pub(super) struct DynamicStep<'s, 'f> {
+    /// What it is set to; its body follows the mass.
+    pub settings: &'s mut DynamicsSettings,
+    /// What takes it.
+    pub flight: &'s mut ConfiguredFlight<'f>,
+    /// What comes from outside.
+    pub inputs: &'s DynamicsInputs,
+}
+
 impl AttitudeDynamics {
     /// At the start of a flight.
     pub(super) fn begin(
@@ -133,64 +143,51 @@ impl AttitudeDynamics {
     /// What a step requests from its start on: dumps, pulses, thrust.
     pub(super) fn take_requests(
         &mut self,
-        settings: &DynamicsSettings,
-        flight: &mut ConfiguredFlight<'_>,
-        inputs: &DynamicsInputs,
+        step: &mut DynamicStep<'_, '_>,
         [start_s, end_s]: [f64; 2],
     ) -> Result<(), PlantError> {
-        if inputs.maneuver.is_some() {
+        if step.inputs.maneuver.is_some() {
             return Err(PlantError::Maneuver { time_s: start_s, why: ManeuverError::ByTorque });
         }
-        if let Some(target_body_n_m_s) = inputs.dump_to_body_n_m_s {
+        if let Some(target_body_n_m_s) = step.inputs.dump_to_body_n_m_s {
             self.cut(start_s, false);
-            self.dump_to(settings, flight, target_body_n_m_s);
+            self.dump_to(step, target_body_n_m_s);
         }
-        let pulses = flight.thrusters.command_pulses(&inputs.pulses, [start_s, end_s]);
-        if flight.thrusters.command_thrust(&inputs.thrust, start_s) || pulses {
+        let pulses = step.flight.thrusters.command_pulses(&step.inputs.pulses, [start_s, end_s]);
+        if step.flight.thrusters.command_thrust(&step.inputs.thrust, start_s) || pulses {
             self.cut(start_s, false);
         }
         Ok(())
     }
 
     /// Advances until the motion covers `end_s`, within the work that has begun.
-    pub(super) fn advance(
-        &mut self,
-        settings: &mut DynamicsSettings,
-        flight: &mut ConfiguredFlight<'_>,
-        inputs: &DynamicsInputs,
-        end_s: f64,
-    ) -> Result<(), PlantError> {
-        self.resume(settings, flight);
-        let units = if settings.gyrostat.is_rigid() { 1 } else { FLEXIBLE_UNITS };
+    pub(super) fn advance(&mut self, step: &mut DynamicStep<'_, '_>, end_s: f64) -> Result<(), PlantError> {
+        self.resume(step.settings, step.flight);
+        let units = if step.settings.gyrostat.is_rigid() { 1 } else { FLEXIBLE_UNITS };
         while self.motion.end_s() < end_s - tolerance_s(end_s) {
             let time_s = self.motion.end_s();
-            let evaluations = flight.context.ephemeris.evaluations();
-            flight.context.work.spend(Cost::Segment, units, evaluations, time_s)?;
-            self.process_events(settings, flight, inputs)?;
-            let edge_s = flight.thrusters.next_edge_s();
+            let evaluations = step.flight.context.ephemeris.evaluations();
+            step.flight.context.work.spend(Cost::Segment, units, evaluations, time_s)?;
+            self.process_events(step)?;
+            let edge_s = step.flight.thrusters.next_edge_s();
             let limit_s = self.sensing.next_s().min(self.disturbance.end_s()).min(edge_s);
-            let events = &flight.context.configuration.thruster_events;
+            let events = &step.flight.context.configuration.thruster_events;
             let limit_s = limit_s.min(self.dumps.until_s()).min(events.next_s(self.scheduled));
-            let external = (flight.given.external)(time_s);
-            let mut load = self.load(&external, flight.thrusters, time_s);
-            load.dipole = self.dipole(flight);
-            load.internal = self.panels.internal(flight.given.prepared.panels, &self.mass.now, time_s);
+            let external = (step.flight.given.external)(time_s);
+            let mut load = self.load(&external, step.flight.thrusters, time_s);
+            load.dipole = self.dipole(step.flight);
+            load.internal = self.panels.internal(step.flight.given.prepared.panels, &self.mass.now, time_s);
             self.dumps.torques = self.torques_by_source(&external, time_s);
-            self.motion.advance(&settings.gyrostat, self.control.wheels.motors(), &load, limit_s);
-            flight.take_thrust(&self.motion, &self.disturbance, self.mass.now.mass_kg)?;
+            self.motion.advance(&step.settings.gyrostat, self.control.wheels.motors(), &load, limit_s);
+            step.flight.take_thrust(&self.motion, &self.disturbance, self.mass.now.mass_kg)?;
         }
         Ok(())
     }
 
     /// What a fork stands in from `time_s` on: the commanded attitude, followed ideally; without one the present attitude is held.
-    pub(super) fn ideal_attitude(
-        &mut self,
-        settings: &DynamicsSettings,
-        flight: &mut ConfiguredFlight<'_>,
-        inputs: &DynamicsInputs,
-        time_s: f64,
-    ) -> AttitudeSource {
-        match (&settings.control, inputs.tracked, flight.context.configuration.attitude.guided()) {
+    pub(super) fn ideal_attitude(&self, step: &DynamicStep<'_, '_>, time_s: f64) -> AttitudeSource {
+        let guided = step.flight.context.configuration.attitude.guided();
+        match (&step.settings.control, step.inputs.tracked, guided) {
             (Some(_), Tracked::Guidance, Some(law)) => AttitudeSource::Guided(*law),
             (Some(_), Tracked::Attitude(command), _) => AttitudeSource::Commanded(command),
             _ => AttitudeSource::Commanded(Command {
@@ -209,49 +206,42 @@ impl AttitudeDynamics {
     }
 
     /// At the present end of the motion: edges of thrusters, disturbances anew, a dump's end, the sample, where they are due.
-    pub(super) fn process_events(
-        &mut self,
-        settings: &mut DynamicsSettings,
-        flight: &mut ConfiguredFlight<'_>,
-        inputs: &DynamicsInputs,
-    ) -> Result<(), PlantError> {
+    pub(super) fn process_events(&mut self, step: &mut DynamicStep<'_, '_>) -> Result<(), PlantError> {
         let time_s = self.motion.end_s();
         let due_s = time_s + tolerance_s(time_s);
-        self.motion.remembered_at(&settings.gyrostat, time_s);
-        self.dumps.accumulate(&self.motion, self.dumps.is_dumping(flight.thrusters, time_s));
-        if !flight.thrusters.load().law.is_none() {
-            let Thrusters { propellant, settings: known, .. } = &*flight.thrusters;
-            self.set_mass(settings, propellant.mass_properties_since(&self.mass.now, &known.tanks, time_s));
+        self.motion.remembered_at(&step.settings.gyrostat, time_s);
+        self.dumps.accumulate(&self.motion, self.dumps.is_dumping(step.flight.thrusters, time_s));
+        if !step.flight.thrusters.load().law.is_none() {
+            let Thrusters { propellant, settings: known, .. } = &*step.flight.thrusters;
+            let mass = propellant.mass_properties_since(&self.mass.now, &known.tanks, time_s);
+            self.set_mass(step.settings, mass);
         }
-        flight.thrusters.accumulate(&self.motion, time_s);
-        flight.thrusters.process_valve_events(time_s);
+        step.flight.thrusters.accumulate(&self.motion, time_s);
+        step.flight.thrusters.process_valve_events(time_s);
         self.dumps.end(due_s);
-        self.control.wheels.fail(&inputs.wheel_failed);
-        if settings.control.is_none() {
-            self.control.wheels.drive(&settings.gyrostat, &inputs.wheel_torques_n_m);
+        self.control.wheels.fail(&step.inputs.wheel_failed);
+        if step.settings.control.is_none() {
+            self.control.wheels.drive(&step.settings.gyrostat, &step.inputs.wheel_torques_n_m);
         }
         let (sample_due, grid_due) = (self.sensing.next_s() <= due_s, self.disturbance.end_s() <= due_s);
         if grid_due {
-            self.begin_interval(settings, flight)?;
+            self.begin_interval(step)?;
         }
-        self.dump_as_scheduled(settings, flight, due_s);
+        self.dump_as_scheduled(step, due_s);
         if sample_due {
-            self.sample(settings, flight, inputs)?;
-            flight.thrusters.process_valve_events(time_s);
+            self.sample(step)?;
+            step.flight.thrusters.process_valve_events(time_s);
         }
-        self.turn_mass(settings, flight);
-        let used_kg = flight.thrusters.propellant.total_used_kg(time_s);
-        self.mass.now.mass_kg = flight.context.configuration.mass_kg - used_kg;
-        flight.thrusters.exert(&self.mass.now, time_s);
+        self.turn_mass(step.settings, step.flight);
+        let used_kg = step.flight.thrusters.propellant.total_used_kg(time_s);
+        self.mass.now.mass_kg = step.flight.context.configuration.mass_kg - used_kg;
+        step.flight.thrusters.exert(&self.mass.now, time_s);
         Ok(())
     }
 
     /// At an edge of the grid: orbit, mass properties and disturbances anew.
-    fn begin_interval(
-        &mut self,
-        settings: &mut DynamicsSettings,
-        flight: &mut ConfiguredFlight<'_>,
-    ) -> Result<(), PlantError> {
+    fn begin_interval(&mut self, step: &mut DynamicStep<'_, '_>) -> Result<(), PlantError> {
+        let DynamicStep { settings, flight, .. } = step;
         let time_s = self.motion.end_s();
         let body = self.motion.at(&settings.gyrostat, time_s);
         let context = &mut *flight.context;
@@ -339,12 +329,8 @@ impl AttitudeDynamics {
     }
 
     /// Sensors, watch of the momentum, controller.
-    fn sample(
-        &mut self,
-        settings: &DynamicsSettings,
-        flight: &mut ConfiguredFlight<'_>,
-        inputs: &DynamicsInputs,
-    ) -> Result<(), PlantError> {
+    fn sample(&mut self, step: &mut DynamicStep<'_, '_>) -> Result<(), PlantError> {
+        let DynamicStep { settings, flight, inputs } = step;
         let time_s = self.motion.end_s();
         let body = self.motion.remembered_at(&settings.gyrostat, time_s);
         let number = self.sensing.sample(settings, inputs, time_s, &body, self.disturbance.sun_at(time_s));
@@ -372,30 +358,20 @@ impl AttitudeDynamics {
     }
 
     /// Thrusters bring the momentum to `target_body_n_m_s` from the present end of the motion on.
-    fn dump_to(
-        &mut self,
-        settings: &DynamicsSettings,
-        flight: &mut ConfiguredFlight<'_>,
-        target_body_n_m_s: Vector3<f64>,
-    ) {
-        let body = self.motion.at(&settings.gyrostat, self.motion.end_s());
+    fn dump_to(&mut self, step: &mut DynamicStep<'_, '_>, target_body_n_m_s: Vector3<f64>) {
+        let body = self.motion.at(&step.settings.gyrostat, self.motion.end_s());
         let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
-        self.begin_dump(flight, &momentum_body, target_body_n_m_s);
+        self.begin_dump(step.flight, &momentum_body, target_body_n_m_s);
     }
 
     /// Begins the dumps of the schedule whose time has come.
-    fn dump_as_scheduled(
-        &mut self,
-        settings: &DynamicsSettings,
-        flight: &mut ConfiguredFlight<'_>,
-        due_s: f64,
-    ) {
-        while let events = &flight.context.configuration.thruster_events
+    fn dump_as_scheduled(&mut self, step: &mut DynamicStep<'_, '_>, due_s: f64) {
+        while let events = &step.flight.context.configuration.thruster_events
             && let Some(event) = events.next(self.scheduled).filter(|event| events.time_s(event) <= due_s)
         {
             self.scheduled = self.scheduled.saturating_add(1);
             if let Some(target_body_n_m_s) = events.dump_target_body_n_m_s(event) {
-                self.dump_to(settings, flight, target_body_n_m_s);
+                self.dump_to(step, target_body_n_m_s);
             }
         }
     }

@@ -7,7 +7,6 @@
 use nalgebra::{Rotation3, Vector3};
 
 use super::propagator_state::PropagatorState;
-use crate::guidance::Guided;
 use crate::guidance::timeline::TimelineManeuver;
 use crate::loads::ForceTorque;
 use crate::momentum::{MomentumIntegrator, Settings, Stop, StopTimes, Totals};
@@ -94,27 +93,14 @@ impl<'f> Fork<'f> {
         self.propagator.cut(&self.context.configuration, time_s, true);
     }
 
-    /// Begins at a time in s with these totals, in default attitudes of the law and without dumps, evaluated about every `step_s`;
-    /// tolerances shorten what is too coarse.
-    pub(super) fn guided(
-        prepared: PreparedSpacecraft<'f>,
-        context: &'f mut SimulationContext,
-        propagator: &PropagatorState,
-        law: &Guided,
-        applied: [ForceTorque<f64>; 2],
-        (time_s, totals): (f64, Totals),
-        step_s: f64,
-    ) -> Self {
-        let law = Guided { managed: false, ..law.with_sun_places(None, None) };
-        let attitude = AttitudeSource::Guided(law);
-        let mut fork = Self::new(prepared, context, propagator, attitude, applied, (time_s, totals));
-        let configuration = &mut fork.context.configuration;
+    /// Is evaluated about every `step_s` from a time in s on, without dumps; tolerances shorten what is too coarse.
+    pub(super) fn coarsen(&mut self, time_s: f64, step_s: f64) {
+        let configuration = &mut self.context.configuration;
         configuration.momentum.grid_s = configuration.momentum.grid_s.max(step_s);
         configuration.light_and_heat.grid_s = configuration.light_and_heat.grid_s.max(step_s);
         configuration.momentum.tolerance = configuration.momentum.tolerance.max(FORECAST_TOLERANCE);
         configuration.momentum.policy.threshold_body_n_m_s = Vector3::repeat(f64::INFINITY);
-        fork.cut(time_s);
-        fork
+        self.cut(time_s);
     }
 
     /// Advances until everything is known at `time_s`.

@@ -60,61 +60,56 @@ impl IdealFlight {
 
     /// At the start of a flight, where the system has this momentum, body frame, in N m s.
     pub(super) fn begin(
-        spacecraft: &mut ConfiguredFlight<'_>,
+        flight: &mut ConfiguredFlight<'_>,
         time_s: f64,
         momentum_body_n_m_s: Vector3<f64>,
     ) -> Result<Self, PlantError> {
-        spacecraft.context.begin_work(spacecraft.given.work_limit);
-        let frame = spacecraft.plant().instant(time_s).frame;
+        flight.context.begin_work(flight.given.work_limit);
+        let frame = flight.plant().instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-        spacecraft.choose_sun_place(time_s, &totals, StartMomentum::Body(momentum_body_n_m_s), true)?;
-        spacecraft.context.begin_work(spacecraft.given.work_limit);
-        let mut plant = spacecraft.plant();
+        flight.choose_sun_place(time_s, &totals, StartMomentum::Body(momentum_body_n_m_s), true)?;
+        flight.context.begin_work(flight.given.work_limit);
+        let mut plant = flight.plant();
         plant.prepare(time_s, time_s)?;
         let frame = plant.instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-        let over = spacecraft.context.configuration.thruster_events.before(time_s);
+        let over = flight.context.configuration.thruster_events.before(time_s);
         let mut begun = Self::new(time_s, totals, over);
-        spacecraft.context.begin_work(spacecraft.given.work_limit);
-        begun.advance(spacecraft, time_s)?;
+        flight.context.begin_work(flight.given.work_limit);
+        begun.advance(flight, time_s)?;
         Ok(begun)
     }
 
     /// What a step requests from `start_s` on: a maneuver, a dump.
     pub(super) fn take_requests(
         &mut self,
-        spacecraft: &mut ConfiguredFlight<'_>,
+        flight: &mut ConfiguredFlight<'_>,
         inputs: &DynamicsInputs,
         start_s: f64,
     ) -> Result<(), PlantError> {
         let mut target = inputs.dump_to_body_n_m_s;
         if let Some(maneuver) = &inputs.maneuver {
-            self.maneuver(spacecraft, start_s, maneuver)?;
-            let requested = spacecraft.context.configuration.thruster_events.requested_body_n_m_s;
+            self.maneuver(flight, start_s, maneuver)?;
+            let requested = flight.context.configuration.thruster_events.requested_body_n_m_s;
             target = target.or(maneuver.dumps.then_some(requested));
         }
         if let Some(target_body_n_m_s) = target {
-            self.dump_to(spacecraft, start_s, target_body_n_m_s);
+            self.dump_to(flight, start_s, target_body_n_m_s);
         }
         Ok(())
     }
 
     /// Dumps to this momentum, body frame, in N m s, at `time_s` on request.
-    fn dump_to(
-        &mut self,
-        spacecraft: &mut ConfiguredFlight<'_>,
-        time_s: f64,
-        target_body_n_m_s: Vector3<f64>,
-    ) {
-        let settings = spacecraft.context.configuration.momentum;
-        let event = self.integrator.dump_to(&mut spacecraft.plant(), &settings, time_s, target_body_n_m_s);
-        self.dumped(spacecraft, &event);
+    fn dump_to(&mut self, flight: &mut ConfiguredFlight<'_>, time_s: f64, target_body_n_m_s: Vector3<f64>) {
+        let settings = flight.context.configuration.momentum;
+        let event = self.integrator.dump_to(&mut flight.plant(), &settings, time_s, target_body_n_m_s);
+        self.dumped(flight, &event);
     }
 
     /// The maneuver, at `time_s`.
     fn maneuver(
         &mut self,
-        spacecraft: &mut ConfiguredFlight<'_>,
+        flight: &mut ConfiguredFlight<'_>,
         time_s: f64,
         maneuver: &Maneuver,
     ) -> Result<(), PlantError> {
@@ -123,49 +118,45 @@ impl IdealFlight {
         if !found_m_s.iter().all(|it| it.is_finite()) {
             return Err(refused(ManeuverError::NotFinite { found_m_s: found_m_s.into() }));
         }
-        let configuration = &spacecraft.context.configuration;
+        let configuration = &flight.context.configuration;
         let number = u64::from(self.maneuvers.count.unsigned_abs());
         let executed_m_s = configuration.thruster_events.executed_m_s(&found_m_s, number);
         if let Some(set) = maneuver.thrusters {
-            let mass_kg = spacecraft.context.mass_at_zero.mass_kg;
-            let given = spacecraft.thrusters.give_at_once(set, executed_m_s.norm(), mass_kg, time_s);
+            let mass_kg = flight.context.mass_at_zero.mass_kg;
+            let given = flight.thrusters.give_at_once(set, executed_m_s.norm(), mass_kg, time_s);
             given.map_err(refused)?;
         }
-        let moved = spacecraft.propagator.maneuver(configuration, time_s, &executed_m_s);
+        let moved = flight.propagator.maneuver(configuration, time_s, &executed_m_s);
         moved.map_err(|error| refused(error.into()))?;
         self.integrator.cut(time_s);
         self.integrator.push(&executed_m_s);
         self.maneuvers.count = self.maneuvers.count.saturating_add(1);
         self.maneuvers.last = Some((time_s, executed_m_s));
         let event = ThrusterEvent::Maneuver { time_s, requested_m_s: found_m_s, executed_m_s };
-        self.move_center_of_mass(spacecraft, time_s);
-        self.set_mass(spacecraft, time_s);
-        (spacecraft.log)(&event);
+        self.move_center_of_mass(flight, time_s);
+        self.set_mass(flight, time_s);
+        (flight.log)(&event);
         Ok(())
     }
 
     /// What the schedule has at `time_s`, where the momentum has come.
-    fn scheduled_event(
-        &mut self,
-        spacecraft: &mut ConfiguredFlight<'_>,
-        time_s: f64,
-    ) -> Result<(), PlantError> {
-        let configuration = &spacecraft.context.configuration;
+    fn scheduled_event(&mut self, flight: &mut ConfiguredFlight<'_>, time_s: f64) -> Result<(), PlantError> {
+        let configuration = &flight.context.configuration;
         let Some(event) = configuration.thruster_events.next(self.scheduled).copied() else { return Ok(()) };
         self.scheduled = self.scheduled.saturating_add(1);
         if let Some(place_body_m) = event.center_of_mass_body_m {
-            spacecraft.propagator.center_of_mass.place(configuration, place_body_m);
+            flight.propagator.center_of_mass.place(configuration, place_body_m);
             self.integrator.cut(time_s);
-            spacecraft.propagator.cut(&spacecraft.context.configuration, time_s, true);
-            self.set_mass(spacecraft, time_s);
+            flight.propagator.cut(&flight.context.configuration, time_s, true);
+            self.set_mass(flight, time_s);
         }
-        let events = &spacecraft.context.configuration.thruster_events;
+        let events = &flight.context.configuration.thruster_events;
         let (maneuver, target) = (events.maneuver(&event), events.dump_target_body_n_m_s(&event));
         if let Some(maneuver) = maneuver {
-            self.maneuver(spacecraft, time_s, &maneuver)?;
+            self.maneuver(flight, time_s, &maneuver)?;
         }
         if let Some(target_body_n_m_s) = target {
-            self.dump_to(spacecraft, time_s, target_body_n_m_s);
+            self.dump_to(flight, time_s, target_body_n_m_s);
         }
         Ok(())
     }
@@ -173,71 +164,71 @@ impl IdealFlight {
     /// Advances until the momentum is known at `time_s`, within the work that has begun.
     pub(super) fn advance(
         &mut self,
-        spacecraft: &mut ConfiguredFlight<'_>,
+        flight: &mut ConfiguredFlight<'_>,
         time_s: f64,
     ) -> Result<(), PlantError> {
-        let settings = spacecraft.context.configuration.momentum;
+        let settings = flight.context.configuration.momentum;
         let mut dumped_s = None;
         loop {
-            let scheduled_s = spacecraft.context.configuration.thruster_events.next_s(self.scheduled);
+            let scheduled_s = flight.context.configuration.thruster_events.next_s(self.scheduled);
             let times = StopTimes { scheduled_s, dumped_s };
-            let stop = self.integrator.advance_to_stop(&mut spacecraft.plant(), &settings, time_s, times)?;
+            let stop = self.integrator.advance_to_stop(&mut flight.plant(), &settings, time_s, times)?;
             let at_s = match stop {
                 Stop::Reached => return Ok(()),
                 Stop::Choice { at_s } => at_s,
                 Stop::Scheduled { at_s } => {
-                    self.scheduled_event(spacecraft, at_s)?;
+                    self.scheduled_event(flight, at_s)?;
                     at_s
                 }
                 Stop::Dump(event) => {
-                    self.dumped(spacecraft, &event);
+                    self.dumped(flight, &event);
                     dumped_s = Some(event.time_s);
                     event.time_s
                 }
             };
             let totals = self.integrator.totals(at_s);
             let momentum = StartMomentum::of(&totals, settings.convention);
-            spacecraft.choose_sun_place(at_s, &totals, momentum, false)?;
+            flight.choose_sun_place(at_s, &totals, momentum, false)?;
         }
     }
 
     /// Counts a dump; propellant, push and mass properties after it.
-    fn dumped(&mut self, spacecraft: &mut ConfiguredFlight<'_>, event: &DumpEvent) {
+    fn dumped(&mut self, flight: &mut ConfiguredFlight<'_>, event: &DumpEvent) {
         self.spacing.dumped(event);
-        if !spacecraft.thrusters.settings.thrusters.is_empty() {
-            self.push(spacecraft, event);
+        if !flight.thrusters.settings.thrusters.is_empty() {
+            self.push(flight, event);
         }
-        if self.move_center_of_mass(spacecraft, event.time_s) {
-            self.set_mass(spacecraft, event.time_s);
+        if self.move_center_of_mass(flight, event.time_s) {
+            self.set_mass(flight, event.time_s);
         }
-        (spacecraft.log)(&ThrusterEvent::Dump(*event));
+        (flight.log)(&ThrusterEvent::Dump(*event));
     }
 
     /// A thruster event is over: the centre of mass is elsewhere, where that is simulated.
-    fn move_center_of_mass(&mut self, spacecraft: &mut ConfiguredFlight<'_>, time_s: f64) -> bool {
-        let configuration = &spacecraft.context.configuration;
+    fn move_center_of_mass(&mut self, flight: &mut ConfiguredFlight<'_>, time_s: f64) -> bool {
+        let configuration = &flight.context.configuration;
         let events = [self.integrator.dumps().count, self.maneuvers.count].map(i32::unsigned_abs);
         let number: u64 = events.map(u64::from).iter().sum();
         let shift = configuration.thruster_events.shift_body_m(number.saturating_sub(1));
         if shift.is_some() {
-            spacecraft.propagator.center_of_mass.shift_body_m = shift;
-            spacecraft.propagator.cut(configuration, time_s, true);
+            flight.propagator.center_of_mass.shift_body_m = shift;
+            flight.propagator.cut(configuration, time_s, true);
         }
         shift.is_some()
     }
 
     /// Mass properties of what is left at `time_s`.
-    fn set_mass(&self, spacecraft: &mut ConfiguredFlight<'_>, time_s: f64) {
-        let loaded = spacecraft.propagator.center_of_mass.of(&spacecraft.context.configuration);
-        spacecraft.context.mass_at_zero = spacecraft.thrusters.left(&loaded, time_s).unwrap_or(loaded);
+    fn set_mass(&self, flight: &mut ConfiguredFlight<'_>, time_s: f64) {
+        let loaded = flight.propagator.center_of_mass.of(&flight.context.configuration);
+        flight.context.mass_at_zero = flight.thrusters.left(&loaded, time_s).unwrap_or(loaded);
     }
 
-    fn push(&mut self, spacecraft: &mut ConfiguredFlight<'_>, event: &DumpEvent) {
+    fn push(&mut self, flight: &mut ConfiguredFlight<'_>, event: &DumpEvent) {
         let time_s = event.time_s;
-        let mut plant = spacecraft.plant();
+        let mut plant = flight.plant();
         let instant = plant.instant(time_s);
         let mass = plant.mass_properties(&instant, time_s);
-        let push_body_n_s = spacecraft.thrusters.dump_at_once(event, &mass.center_of_mass_body_m);
+        let push_body_n_s = flight.thrusters.dump_at_once(event, &mass.center_of_mass_body_m);
         let Some(push_body_n_s) = push_body_n_s else {
             self.dump_delta_v_inertial_m_s = Vector3::zeros();
             return;
@@ -245,12 +236,7 @@ impl IdealFlight {
         let delta_v_inertial_m_s = instant.frame.inertial_from_body * push_body_n_s / mass.mass_kg;
         self.dump_delta_v_inertial_m_s = delta_v_inertial_m_s;
         self.integrator.push(&delta_v_inertial_m_s);
-        self.set_mass(spacecraft, time_s);
-        spacecraft.propagator.cut_with_jump(
-            &spacecraft.context.configuration,
-            time_s,
-            true,
-            &delta_v_inertial_m_s,
-        );
+        self.set_mass(flight, time_s);
+        flight.propagator.cut_with_jump(&flight.context.configuration, time_s, true, &delta_v_inertial_m_s);
     }
 }

@@ -41,7 +41,7 @@ use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::Spacecraft;
 use configured::ConfiguredFlight;
-use dynamic::AttitudeDynamics;
+use dynamic::{AttitudeDynamics, DynamicStep};
 use ideal::IdealFlight;
 use propagator_state::PropagatorState;
 use report::{Report, dynamic, ideal};
@@ -317,7 +317,7 @@ impl Flight {
                 ideal.take_requests(&mut flight, inputs, span_s[0])
             }
             (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
-                dynamics.take_requests(settings, &mut flight, inputs, span_s)
+                dynamics.take_requests(&mut DynamicStep { settings, flight: &mut flight, inputs }, span_s)
             }
             _ => Err(PlantError::OtherMode),
         }
@@ -336,7 +336,7 @@ impl Flight {
             (Mode::Waiting, _) => Ok(()),
             (Mode::Ideal(ideal), ModeSettings::Ideal(_)) => ideal.advance(&mut flight, time_s),
             (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
-                dynamics.advance(settings, &mut flight, inputs, time_s)
+                dynamics.advance(&mut DynamicStep { settings, flight: &mut flight, inputs }, time_s)
             }
             _ => Err(PlantError::OtherMode),
         }
@@ -358,7 +358,8 @@ impl Flight {
         let (mut flight, settings, mode) = self.parts(given, ignored)?;
         let mut attitude = None;
         if let (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) = (mode, settings) {
-            attitude = Some(dynamics.ideal_attitude(settings, &mut flight, inputs, time_s));
+            let step = DynamicStep { settings, flight: &mut flight, inputs };
+            attitude = Some(dynamics.ideal_attitude(&step, time_s));
         }
         self.prediction = Some(EncounterPrediction::of(&mut flight, attitude, time_s)?);
         Ok(())
@@ -380,7 +381,7 @@ impl Flight {
         let (mut flight, settings, mode) = self.parts(given, ignored)?;
         if let (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) = (mode, settings) {
             flight.context.begin_work(given.work_limit);
-            dynamics.process_events(settings, &mut flight, inputs)?;
+            dynamics.process_events(&mut DynamicStep { settings, flight: &mut flight, inputs })?;
         }
         if self.prediction_settings().is_due(time_s) {
             self.predict(given, inputs, time_s)?;

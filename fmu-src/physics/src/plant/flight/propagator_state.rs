@@ -63,9 +63,7 @@ impl PropagatorState {
     pub fn move_to(&mut self, configuration: &Configuration, time_s: f64) -> Result<(), PlantError> {
         self.trajectory = Trajectory::new(configuration, time_s)?;
         self.air_and_field.cut(time_s);
-        if let Some(light) = &mut self.light {
-            light.cut(time_s);
-        }
+        self.cut_light(time_s);
         Ok(())
     }
 
@@ -112,9 +110,7 @@ impl PropagatorState {
     ) -> Result<(), OrbitError> {
         self.trajectory.maneuver(configuration, time_s, delta_v_m_s)?;
         self.air_and_field.cut(time_s);
-        if let Some(light) = &mut self.light {
-            light.cut(time_s);
-        }
+        self.cut_light(time_s);
         Ok(())
     }
 }

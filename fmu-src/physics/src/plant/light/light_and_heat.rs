@@ -59,7 +59,7 @@ impl RadiationBuilder<'_, '_> {
                 pole_body: -Vector3::z(),
             }
         });
-        let angles_rad = &mut viewing.panel_angles_rad;
+        let angles_rad = &mut node.panel_angles_rad;
         configuration.panel_angles_rad(self.panels, light_panels, &instant.sun_at(time_s), angles_rad);
     }
 
@@ -71,7 +71,7 @@ impl RadiationBuilder<'_, '_> {
         start_s: f64,
         limit_s: f64,
     ) -> Result<f64, PlantError> {
-        let segment = segment.get_or_insert_with(RadiationSegment::before);
+        let segment = segment.get_or_insert_default();
         if segment.span.contains(start_s) {
             return Ok(segment.span.end_s.min(limit_s));
         }

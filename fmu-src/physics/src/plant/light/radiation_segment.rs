@@ -23,8 +23,8 @@ pub(crate) type LoadSeries = Segment<6, NODES>;
 /// No surface is hotter, in K.
 pub(crate) const HOTTEST_K: f64 = 1e5;
 
-/// Light and heat over one interval, and the heat stored at its end.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// Light and heat over one interval, and the heat stored at its end. The default stands before the first segment.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RadiationSegment {
     pub(crate) span: SegmentSpan,
     /// Absent for effects that do not act, and before the first segment for all.
@@ -36,16 +36,6 @@ pub struct RadiationSegment {
 }
 
 impl RadiationSegment {
-    /// Before the first segment.
-    pub(crate) fn before() -> Self {
-        Self {
-            span: SegmentSpan::BEFORE,
-            loads: ByEffect::default(),
-            temperatures_k: Vec::new(),
-            end_k: Vec::new(),
-        }
-    }
-
     /// Becomes another one; allocates nothing where it held as many temperatures before.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         let (mut temperatures_k, mut end_k) =

@@ -2,7 +2,6 @@
 
 use nalgebra::Vector3;
 
-use crate::attitude::MovingUnit;
 use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::bodies_from_center::{BodiesFromCenter, fixed};
@@ -14,7 +13,7 @@ use crate::guidance::LinesOfSight;
 use crate::plant::settings::configuration::{Configuration, EphemerisSource};
 
 /// Positions and velocities in EME2000.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Geometry {
     /// Spacecraft about the orbit's centre.
     pub spacecraft: CartesianState,
@@ -70,15 +69,9 @@ impl Geometry {
 
     /// Directions with their rates; a body at zero distance counts as lying toward +X.
     pub fn lines_of_sight(&self) -> LinesOfSight {
-        let unit = |to: &CartesianState| {
-            MovingUnit::of(to.position_m, to.velocity_m_s)
-                .unwrap_or(MovingUnit { direction: Vector3::x(), rate_1_s: Vector3::zeros() })
-        };
         LinesOfSight {
-            sun: unit(&self.to_sun),
-            planet: self.to_planet.as_ref().map(unit),
-            earth: unit(&self.to_earth),
             sun_from_planet: self.to_planet.map(|to_planet| self.to_sun - to_planet),
+            ..LinesOfSight::to([&self.to_sun, &self.to_earth], self.to_planet.as_ref())
         }
     }
 }

@@ -4,7 +4,6 @@ use nalgebra::{Rotation3, Vector3};
 
 use super::geometry::Geometry;
 use crate::attitude::MovingFrame;
-use crate::environment::CartesianState;
 use crate::guidance::DownlinkStatus;
 use crate::momentum::EventValues;
 use crate::numerics::scalar::Dual64;
@@ -40,28 +39,15 @@ pub struct Instant {
 impl Instant {
     /// Of a spacecraft of which nothing is known but how it stands.
     pub fn without_position(frame: MovingFrame) -> Self {
-        let geometry = Geometry {
-            spacecraft: CartesianState::default(),
-            to_sun: CartesianState::default(),
-            to_planet: None,
-            to_earth: CartesianState::default(),
-        };
         Self {
-            geometry,
+            geometry: Geometry::default(),
             frame,
             to_body: frame.inertial_from_body.inverse(),
             sun_body: Vector3::zeros(),
             sun_distance_m: 0.0,
             planet_body_m: None,
             lit_fraction: 0.0,
-            regime: Regime {
-                window_since_s: f64::NEG_INFINITY,
-                downlink: false,
-                row: 0,
-                slewing: false,
-                corner_s: f64::INFINITY,
-                in_shadow: false,
-            },
+            regime: Regime::UNCHANGING,
             events: EventValues::repeat(f64::INFINITY),
             downlink: DownlinkStatus::default(),
             attitude_until_s: f64::INFINITY,
@@ -121,4 +107,16 @@ pub struct Regime {
     pub corner_s: f64,
     /// Whether the planet hides a part of the Sun.
     pub in_shadow: bool,
+}
+
+impl Regime {
+    /// In sunlight by a law without windows, slews and scans.
+    pub(crate) const UNCHANGING: Self = Self {
+        window_since_s: f64::NEG_INFINITY,
+        downlink: false,
+        row: 0,
+        slewing: false,
+        corner_s: f64::INFINITY,
+        in_shadow: false,
+    };
 }

@@ -43,11 +43,7 @@ const EPOCH_ROUNDING_S: f64 = 1e-6;
 /// Body frame, window and margins of the attitude law.
 struct LawAt {
     frame: MovingFrame,
-    window_since_s: f64,
-    downlink: bool,
-    row: usize,
-    slewing: bool,
-    corner_s: f64,
+    regime: Regime,
     status: DownlinkStatus,
     margins: [f64; 2],
     until_s: f64,
@@ -112,14 +108,7 @@ impl Kinematics<'_> {
             geometry,
             frame: law.frame,
             lit_fraction,
-            regime: Regime {
-                window_since_s: law.window_since_s,
-                downlink: law.downlink,
-                row: law.row,
-                slewing: law.slewing,
-                corner_s: law.corner_s,
-                in_shadow: gaps_rad[0] <= 0.0,
-            },
+            regime: Regime { in_shadow: gaps_rad[0] <= 0.0, ..law.regime },
             events: EventValues::new(gaps_rad[0], gaps_rad[1], law.margins[0], law.margins[1]),
             downlink: law.status,
             attitude_until_s: law.until_s,
@@ -153,11 +142,7 @@ impl Kinematics<'_> {
     fn attitude(&mut self, time_s: f64, geometry: &Geometry) -> LawAt {
         let held = |frame: MovingFrame| LawAt {
             frame,
-            window_since_s: f64::NEG_INFINITY,
-            downlink: false,
-            row: 0,
-            slewing: false,
-            corner_s: f64::INFINITY,
+            regime: Regime::UNCHANGING,
             status: DownlinkStatus::default(),
             margins: [f64::INFINITY; 2],
             until_s: f64::INFINITY,
@@ -167,11 +152,14 @@ impl Kinematics<'_> {
                 let guided = self.guided(guided, time_s, geometry);
                 LawAt {
                     frame: guided.frame,
-                    window_since_s: guided.window.since_s,
-                    downlink: guided.window.activity == Activity::Downlink,
-                    row: guided.row,
-                    slewing: guided.slewing,
-                    corner_s: guided.corner_s,
+                    regime: Regime {
+                        window_since_s: guided.window.since_s,
+                        downlink: guided.window.activity == Activity::Downlink,
+                        row: guided.row,
+                        slewing: guided.slewing,
+                        corner_s: guided.corner_s,
+                        in_shadow: false,
+                    },
                     status: DownlinkStatus::of(&guided),
                     margins: guided.margins,
                     until_s: guided.until_s - self.configuration.epoch_minus_time_s,
@@ -338,12 +326,10 @@ impl Kinematics<'_> {
         if before_s >= limit_s || behind_s.is_nan() {
             return limit_s;
         }
+        let form = |it: &Regime| (it.window_since_s, it.downlink, it.slewing, it.corner_s);
         let same = |it: &mut Self, at_s: f64| {
             let geometry = it.geometry(at_s);
-            let law = it.attitude(at_s, &geometry);
-            let now = (law.window_since_s, law.downlink, law.slewing, law.corner_s);
-            let regime = &instant.regime;
-            now == (regime.window_since_s, regime.downlink, regime.slewing, regime.corner_s)
+            form(&it.attitude(at_s, &geometry).regime) == form(&instant.regime)
         };
         if same(self, behind_s) {
             return limit_s;

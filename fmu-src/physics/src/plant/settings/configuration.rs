@@ -49,17 +49,10 @@ impl AttitudeSource {
             Self::Dynamic(dynamic) => dynamic.guided.as_ref(),
         }
     }
-}
 
-impl AttitudeSource {
     /// Puts the Sun there during downlinks and in science that unloads.
     pub(crate) fn set_sun_places(&mut self, place: Option<SunPlace>, science: Option<SunAngles>) {
-        let guided = match self {
-            Self::Guided(guided) => Some(guided),
-            Self::Commanded(_) => None,
-            Self::Dynamic(dynamic) => dynamic.guided.as_mut(),
-        };
-        if let Some(guided) = guided {
+        if let Self::Guided(guided) | Self::Dynamic(DynamicAttitude { guided: Some(guided), .. }) = self {
             *guided = guided.with_sun_places(place, science);
         }
     }
@@ -304,12 +297,7 @@ pub fn orbit_from_elements(
     epoch_s: f64,
 ) -> Result<TwoBodyOrbit, OrbitError> {
     let to_eme2000 = frame.dcm_eme2000_from_frame(center);
-    let state = elements.state(gm_m3_s2)?;
-    let state = CartesianState {
-        position_m: to_eme2000 * state.position_m,
-        velocity_m_s: to_eme2000 * state.velocity_m_s,
-    };
-    TwoBodyOrbit::from_state(&state, gm_m3_s2, epoch_s)
+    TwoBodyOrbit::from_state(&elements.state(gm_m3_s2)?.along(&to_eme2000), gm_m3_s2, epoch_s)
 }
 
 impl Configuration {
@@ -352,8 +340,7 @@ impl Configuration {
         angles_rad: &mut [f64],
     ) {
         for (angle_rad, &index) in angles_rad.iter_mut().zip(enabled_panels) {
-            let setting = self.panels.get(index).zip(panels.get(index));
-            *angle_rad = setting.and_then(|(setting, panel)| setting.angle_rad(panel, sun)).unwrap_or(0.0);
+            *angle_rad = self.panel_angle_rad(panels, index, sun);
         }
     }
 
@@ -368,11 +355,12 @@ impl Configuration {
 
     /// The same of a body that has `at_zero`, as the panels stand with the Sun there.
     pub fn mass_properties(&self, at_zero: &MassProperties, panels: &[Panel], sun: &SunAt) -> MassProperties {
-        let angle_rad = |index: usize| {
-            let set = self.panels.get(index).zip(panels.get(index));
-            set.and_then(|(setting, panel)| setting.angle_rad(panel, sun)).unwrap_or(0.0)
-        };
-        with_panels(at_zero, panels, angle_rad)
+        with_panels(at_zero, panels, |index| self.panel_angle_rad(panels, index, sun))
+    }
+
+    fn panel_angle_rad(&self, panels: &[Panel], index: usize, sun: &SunAt) -> f64 {
+        let set = self.panels.get(index).zip(panels.get(index));
+        set.and_then(|(setting, panel)| setting.angle_rad(panel, sun)).unwrap_or(0.0)
     }
 
     /// The first time after `time_s` at which a panel goes elsewhere at once, in s; infinite where none does.

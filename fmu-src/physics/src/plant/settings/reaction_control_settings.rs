@@ -30,12 +30,7 @@ impl ReactionControlSettings {
         center_of_mass_body_m: &Vector3<f64>,
     ) -> Result<ThrusterSelection, SelectionError> {
         let may_fire = |k: usize| self.thrusters[k].attitude_control;
-        ThrusterSelection::of_the_finest(
-            &self.thrusters,
-            may_fire,
-            center_of_mass_body_m,
-            Preference::LeastForce,
-        )
+        ThrusterSelection::of_the_finest(&self.thrusters, may_fire, center_of_mass_body_m)
     }
 
     /// The thrusters that control the attitude while those of a set give a delta-v.

@@ -63,17 +63,11 @@ fn the_weakest_that_suffice_are_taken() {
         let force_body_n = it.force_body_n * 5.0;
         Thruster { force_body_n, torque_body_n_m: it.torque_body_n_m * 5.0, ..it }
     }));
-    let found =
-        ThrusterSelection::of_the_finest(&thrusters, |_| true, &Vector3::zeros(), Preference::LeastOnTime);
+    let found = ThrusterSelection::of_the_finest(&thrusters, |_| true, &Vector3::zeros());
     let times: Vec<f64> = found.unwrap().on_times_s(&Vector3::new(1.0, 1.0, 1.0)).collect();
     assert!(times[12..].iter().all(|it| *it == 0.0) && times[..12].iter().sum::<f64>() > 0.0);
     // Without the weak ones about Z, the strong ones come in.
-    let found = ThrusterSelection::of_the_finest(
-        &thrusters,
-        |k| !(8..12).contains(&k),
-        &Vector3::zeros(),
-        Preference::LeastOnTime,
-    );
+    let found = ThrusterSelection::of_the_finest(&thrusters, |k| !(8..12).contains(&k), &Vector3::zeros());
     let times: Vec<f64> = found.unwrap().on_times_s(&Vector3::z()).collect();
     assert!(times[20..].iter().any(|it| *it > 0.0));
 }

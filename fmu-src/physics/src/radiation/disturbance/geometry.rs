@@ -91,39 +91,25 @@ impl<'a, T: Scalar> Geometry<'a, T> {
             Ok((flux_w_m2, distance_m))
         };
         let (sun_flux_w_m2, distance_m) = flux(sun_position_body_m)?;
-        let planet = match planet_position_body_m {
-            None => None,
-            Some(position_body_m) => {
-                let sun_from_planet_body_m = sun_position_body_m - position_body_m;
-                let (sun_flux_w_m2, _) = flux(&sun_from_planet_body_m)?;
-                Some(PlanetGeometry {
-                    position_body_m: *position_body_m,
-                    sun_from_planet_body_m,
-                    sun_flux_w_m2,
-                    pole_body: -Vector3::z(),
-                })
-            }
-        };
+        let planet = planet_position_body_m.map(|position_body_m| {
+            let sun_from_planet_body_m = sun_position_body_m - position_body_m;
+            let (sun_flux_w_m2, _) = flux(&sun_from_planet_body_m)?;
+            let (position_body_m, pole_body) = (*position_body_m, -Vector3::z());
+            Ok(PlanetGeometry { position_body_m, sun_from_planet_body_m, sun_flux_w_m2, pole_body })
+        });
         Ok(Self {
-            sun_direction_body: sun_position_body_m / distance_m,
             sun_sine: distance_m.recip() * RADIUS_SUN_M,
-            sun_flux_w_m2,
-            solar_scale: T::constant(1.0),
             lit_fraction,
-            planet,
+            planet: planet.transpose()?,
             panel_angles_rad,
             center_of_mass_body_m,
+            ..Self::sunlit(sun_position_body_m / distance_m, sun_flux_w_m2)
         })
     }
 
     /// The same with a Sun of this radius, in m, in place of the nominal one.
     pub fn with_sun_radius(self, sun_radius_m: T) -> Self {
         Self { sun_sine: self.sun_sine * (sun_radius_m / T::constant(RADIUS_SUN_M)), ..self }
-    }
-
-    /// The same with this factor of the force of direct sunlight.
-    pub fn with_solar_scale(self, solar_scale: T) -> Self {
-        Self { solar_scale, ..self }
     }
 
     /// Sunlight as far as the planet lets it through.

@@ -4,31 +4,26 @@ use core::f64::consts::PI;
 
 use super::description::AntennaDescription;
 use super::names::check_item_name;
+use super::part_reader::PartReader;
 use crate::spacecraft::antennas::{Antenna, AntennaRange, FanAzimuths, NamedAntenna};
-use crate::toml::{Checker, Place};
 
 /// A fan is steered over this at most, in deg, if not all round.
 const WIDEST_FAN_DEG: f64 = 180.0;
 
-pub(crate) fn antenna(
-    check: &mut Checker<'_>,
-    at: &Place,
-    _: usize,
-    description: &AntennaDescription,
-) -> NamedAntenna {
-    check_item_name(check, &at.key("name"), &description.name);
+pub(crate) fn antenna(part: &mut PartReader<'_, '_>, description: &AntennaDescription) -> NamedAntenna {
+    check_item_name(part.check, &part.at.key("name"), &description.name);
     let range = match (description.azimuth_deg, description.axis) {
-        (Some(azimuth_deg), None) => AntennaRange::Fan(fan(check, at, azimuth_deg.map(f64::from))),
-        (None, Some(axis)) => AntennaRange::Axis(check.unit_vector(&at.key("axis"), axis)),
+        (Some(azimuth_deg), None) => AntennaRange::Fan(fan(part, azimuth_deg.map(f64::from))),
+        (None, Some(axis)) => AntennaRange::Axis(part.unit_vector("axis", axis)),
         (azimuth_deg, _) => {
-            let are_stand_ins = ["azimuth_deg", "axis"].iter().any(|key| check.is_stand_in(&at.key(key)));
+            let are_stand_ins = ["azimuth_deg", "axis"].iter().any(|key| part.is_stand_in(key));
             if azimuth_deg.is_some() {
                 let allowed = "one of both: a fan has `azimuth_deg`, a fixed antenna `axis`";
-                check.report(&at.key("axis"), "an axis beside `azimuth_deg`", allowed);
+                part.report("axis", "an axis beside `azimuth_deg`", allowed);
             } else if !are_stand_ins {
                 let allowed =
                     "`azimuth_deg = [from, to]` of a fan in the XY plane, or `axis` of a fixed antenna";
-                check.push(at, "neither `azimuth_deg` nor `axis`", allowed);
+                part.check.push(&part.at, "neither `azimuth_deg` nor `axis`", allowed);
             }
             AntennaRange::Fan(FanAzimuths { middle_rad: 0.0, half_rad: 0.0 })
         }
@@ -38,7 +33,7 @@ pub(crate) fn antenna(
     NamedAntenna { name: description.name.clone(), antenna }
 }
 
-fn fan(check: &mut Checker<'_>, at: &Place, [from_deg, to_deg]: [f64; 2]) -> FanAzimuths {
+fn fan(part: &mut PartReader<'_, '_>, [from_deg, to_deg]: [f64; 2]) -> FanAzimuths {
     let width_deg = to_deg - from_deg;
     if width_deg == 360.0 {
         return FanAzimuths { middle_rad: 0.5 * (from_deg + to_deg).to_radians(), half_rad: PI };
@@ -46,7 +41,7 @@ fn fan(check: &mut Checker<'_>, at: &Place, [from_deg, to_deg]: [f64; 2]) -> Fan
     if !(width_deg > 0.0 && width_deg <= WIDEST_FAN_DEG) {
         let allowed =
             "from and to in deg, from -Y toward +X, 0 to 180 deg apart or 360, as in [-90, 0] or [170, 190]";
-        check.report(&at.key("azimuth_deg"), format_args!("[{from_deg}, {to_deg}]"), allowed);
+        part.report("azimuth_deg", format_args!("[{from_deg}, {to_deg}]"), allowed);
     }
     let [from_rad, to_rad] = [from_deg, to_deg].map(f64::to_radians);
     FanAzimuths { middle_rad: 0.5 * (from_rad + to_rad), half_rad: 0.5 * (to_rad - from_rad) }

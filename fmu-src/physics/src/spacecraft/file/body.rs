@@ -3,96 +3,99 @@
 use nalgebra::Vector3;
 
 use super::description::{BodyDescription, BodyElementsDescription};
+use super::part_reader::PartReader;
 use crate::spacecraft::body::{BodyMotion, BodyOrbit, CustomBody};
 use crate::toml::dates::{self, ALLOWED_DATE};
-use crate::toml::{Checker, Place};
 
-pub(crate) fn body(check: &mut Checker<'_>, at: &Place, description: &BodyDescription) -> CustomBody {
+pub(crate) fn body(part: &mut PartReader<'_, '_>, description: &BodyDescription) -> CustomBody {
     if description.name.trim().is_empty() {
-        check.report(&at.key("name"), "an empty name", "a name");
+        part.report("name", "an empty name", "a name");
     }
     let [right_ascension, declination] = description.pole_deg();
-    check.within(
-        &at.key("pole_deg").item(0),
-        right_ascension,
-        -360.0,
-        360.0,
-        "an angle from -360 to 360 deg",
-    );
-    check.within(&at.key("pole_deg").item(1), declination, -90.0, 90.0, "an angle from -90 to 90 deg");
+    let pole = part.at.key("pole_deg");
+    part.check.within(&pole.item(0), right_ascension, -360.0, 360.0, "an angle from -360 to 360 deg");
+    part.check.within(&pole.item(1), declination, -90.0, 90.0, "an angle from -90 to 90 deg");
+    let rate_rad_s = description.rotation_rate_rad_s();
+    let place = part.at.key("rotation_rate_rad_s");
+    part.check.within(&place, rate_rad_s, -1.0, 1.0, "a rate from -1 to 1 rad/s");
     CustomBody {
         name: description.name.clone(),
         gm_m3_s2: description.gravitational_parameter_m3_s2.0,
         radii_m: description.radii_m.map(f64::from),
-        j2: check.within(&at.key("j2"), description.j2(), -1.0, 1.0, "a number from -1 to 1"),
+        j2: part.check.within(&part.at.key("j2"), description.j2(), -1.0, 1.0, "a number from -1 to 1"),
         pole_rad: [right_ascension, declination].map(f64::to_radians),
         prime_meridian_rad: description.prime_meridian_deg().to_radians(),
-        rotation_rate_rad_s: check.within(
-            &at.key("rotation_rate_rad_s"),
-            description.rotation_rate_rad_s(),
-            -1.0,
-            1.0,
-            "a rate from -1 to 1 rad/s",
-        ),
+        rotation_rate_rad_s: rate_rad_s,
         albedo: description.albedo(),
         emissivity: description.emissivity(),
-        motion: motion(check, at, description),
+        motion: motion(part, description),
     }
 }
 
 /// Its motion, if elements or a state say it; both at once, or a part of them, are reported.
-fn motion(check: &mut Checker<'_>, at: &Place, description: &BodyDescription) -> Option<BodyMotion> {
+fn motion(part: &mut PartReader<'_, '_>, description: &BodyDescription) -> Option<BodyMotion> {
     let state = [("position_m", description.position_m), ("velocity_m_s", description.velocity_m_s)];
     let written = state.map(|(_, vector)| vector.is_some());
     let orbit = match (&description.elements, written) {
         (Some(_), [true, _] | [_, true]) => {
-            check.report(
-                &at.key("elements"),
+            part.report(
+                "elements",
                 "elements beside position_m or velocity_m_s",
                 "either `elements`, or `position_m` and `velocity_m_s`",
             );
             return None;
         }
-        (Some(given), _) => elements(check, &at.key("elements"), given),
+        (Some(given), _) => elements(&mut part.table("elements"), given),
         (None, [true, true]) => {
             let [position_m, velocity_m_s] =
-                state.map(|(key, vector)| check.vector(&at.key(key), vector.unwrap_or_default()));
+                state.map(|(key, vector)| part.vector(key, vector.unwrap_or_default()));
             if position_m.cross(&velocity_m_s) == Vector3::zeros() {
                 let allowed = "not along position_m: a fall along a line is no orbit about the Sun";
-                check.report(&at.key("velocity_m_s"), format_args!("{:?}", velocity_m_s.as_slice()), allowed);
+                part.report("velocity_m_s", format_args!("{:?}", velocity_m_s.as_slice()), allowed);
             }
             BodyOrbit::State { position_m, velocity_m_s }
         }
         (None, [false, false]) => {
-            if let Some(key) = ["epoch", "frame"].into_iter().find(|key| check.is_written(&at.key(key))) {
+            if let Some(key) =
+                ["epoch", "frame"].into_iter().find(|key| part.check.is_written(&part.at.key(key)))
+            {
                 let found = "no `elements` and no `position_m` beside it";
-                check.report(&at.key(key), found, "what the body's place about the Sun is at that time");
+                part.report(key, found, "what the body's place about the Sun is at that time");
             }
             return None;
         }
         (None, written) => {
             let missing = if written[0] { "velocity_m_s" } else { "position_m" };
-            check.report_lack(at, missing, "position_m in m and velocity_m_s in m/s, both from the Sun");
+            part.check.report_lack(
+                &part.at,
+                missing,
+                "position_m in m and velocity_m_s in m/s, both from the Sun",
+            );
             return None;
         }
     };
     let Some(epoch) = description.epoch.as_deref() else {
-        check.report_lack(at, "epoch", format_args!("when the body is there, {ALLOWED_DATE}"));
+        part.check.report_lack(&part.at, "epoch", format_args!("when the body is there, {ALLOWED_DATE}"));
         return None;
     };
     let epoch_s = match dates::epoch_s(epoch) {
         Ok(epoch_s) => epoch_s,
         Err(error) => {
-            check.report(&at.key("epoch"), format_args!("{epoch:?}, {error}"), ALLOWED_DATE);
+            part.report("epoch", format_args!("{epoch:?}, {error}"), ALLOWED_DATE);
             return None;
         }
     };
     Some(BodyMotion { epoch_s, frame: description.frame.unwrap_or_default(), orbit })
 }
 
-fn elements(check: &mut Checker<'_>, at: &Place, given: &BodyElementsDescription) -> BodyOrbit {
-    let eccentricity =
-        check.within(&at.key("eccentricity"), given.eccentricity, 0.0, 0.99, "a number from 0 to 0.99");
+fn elements(part: &mut PartReader<'_, '_>, given: &BodyElementsDescription) -> BodyOrbit {
+    let eccentricity = part.check.within(
+        &part.at.key("eccentricity"),
+        given.eccentricity,
+        0.0,
+        0.99,
+        "a number from 0 to 0.99",
+    );
     BodyOrbit::Elements {
         semi_major_axis_m: given.semi_major_axis_m.0,
         eccentricity,

@@ -4,9 +4,10 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::describe_shapes::{MirrorPlane, RepeatDescription};
 use super::facets::sincos_deg;
+use super::part_reader::PartReader;
 use crate::spacecraft::polygon::Polygon;
 use crate::spacecraft::surface::Plate;
-use crate::toml::{Checker, Copies, Place};
+use crate::toml::Copies;
 
 /// Most plates that one shape and its copies may come to.
 pub(crate) const MOST_PLATES: usize = 2000;
@@ -45,23 +46,22 @@ impl Motion {
 
 /// Every copy, the one that is written first: those of `repeat`, then the mirror images of all before.
 pub(crate) fn motions(
-    check: &mut Checker<'_>,
-    at: &Place,
+    part: &mut PartReader<'_, '_>,
     mirror: Option<&[MirrorPlane]>,
     repeat: Option<&RepeatDescription>,
 ) -> Vec<Motion> {
     let itself = Motion { matrix: Matrix3::identity(), shift_m: Vector3::zeros() };
     let mut motions = match repeat {
         None => vec![itself],
-        Some(repeat) => repeated(check, &at.key("repeat"), repeat).unwrap_or_else(|| vec![itself]),
+        Some(repeat) => repeated(&mut part.table("repeat"), repeat).unwrap_or_else(|| vec![itself]),
     };
     let planes = mirror.unwrap_or_default();
     if mirror.is_some_and(<[_]>::is_empty) {
-        check.report(&at.key("mirror"), "an empty list", "at least one of x, y, z, or no such key");
+        part.report("mirror", "an empty list", "at least one of x, y, z, or no such key");
     }
     for (k, plane) in planes.iter().enumerate() {
         if planes[..k].contains(plane) {
-            check.report(&at.key("mirror").item(k), "the same plane again", "each of x, y, z once");
+            part.check.report(&part.at.key("mirror").item(k), "the same plane again", "each of x, y, z once");
             continue;
         }
         let images: Vec<Motion> = motions.iter().map(|motion| motion.mirrored(*plane)).collect();
@@ -76,7 +76,7 @@ pub(crate) fn copy_name(name: &str, index: usize, count: usize) -> String {
 }
 
 /// Reports a copy that lies where an earlier one does; `count` copies have each the same number of plates.
-pub(crate) fn check_apart(check: &mut Checker<'_>, at: &Place, plates: &[Plate], count: usize) {
+pub(crate) fn check_apart(part: &mut PartReader<'_, '_>, plates: &[Plate], count: usize) {
     for (index, later) in plates.iter().enumerate().skip(plates.len() / count.max(1)) {
         let size_m = later.area_m2.sqrt();
         let is_same = |plate: &&Plate| {
@@ -86,7 +86,7 @@ pub(crate) fn check_apart(check: &mut Checker<'_>, at: &Place, plates: &[Plate],
         };
         if let Some(earlier) = plates[..index].iter().find(is_same) {
             let found = format!("`{}` in the place of `{}`", later.name, earlier.name);
-            check.report(at, found, "copies that lie apart");
+            part.check.report(&part.at, found, "copies that lie apart");
             return;
         }
     }
@@ -107,22 +107,22 @@ pub(crate) fn plate_copies(plate: &Plate, motions: &[Motion]) -> Vec<Plate> {
     motions.iter().enumerate().map(copy).collect()
 }
 
-fn repeated(check: &mut Checker<'_>, at: &Place, repeat: &RepeatDescription) -> Option<Vec<Motion>> {
+fn repeated(part: &mut PartReader<'_, '_>, repeat: &RepeatDescription) -> Option<Vec<Motion>> {
     let Copies(count) = repeat.count;
     let turning = [("angle_deg", repeat.angle_deg.is_some()), ("point_m", repeat.point_m.is_some())];
     for (key, _) in turning.into_iter().filter(|(_, is_given)| *is_given && repeat.axis.is_none()) {
-        check.report_across(at, &at.key(key), "no `axis` beside it", "with `axis` alone");
+        part.report_across(key, "no `axis` beside it", "with `axis` alone");
     }
     let numbers = 0..count;
     match (repeat.step_m, repeat.axis) {
         (Some(step_m), None) => {
-            let step_m = check.vector(&at.key("step_m"), step_m);
+            let step_m = part.vector("step_m", step_m);
             let shifted = |k: u32| Motion { matrix: Matrix3::identity(), shift_m: step_m * f64::from(k) };
             Some(numbers.map(shifted).collect())
         }
         (None, Some(axis)) => {
-            let axis = check.unit_vector(&at.key("axis"), axis);
-            let point_m = check.vector(&at.key("point_m"), repeat.point_m());
+            let axis = part.unit_vector("axis", axis);
+            let point_m = part.vector("point_m", repeat.point_m());
             let angle_deg = repeat.angle_deg.map_or(360.0 / f64::from(count), f64::from);
             let turned = |k: u32| {
                 let matrix = turn(&axis, angle_deg * f64::from(k));
@@ -130,12 +130,10 @@ fn repeated(check: &mut Checker<'_>, at: &Place, repeat: &RepeatDescription) -> 
             };
             Some(numbers.map(turned).collect())
         }
-        (None, None) => {
-            check.report_across(at, at, "neither `step_m` nor `axis`", "one of them");
-            None
-        }
-        (Some(_), Some(_)) => {
-            check.report_across(at, at, "both `step_m` and `axis`", "one of them");
+        (step_m, _) => {
+            let found =
+                if step_m.is_some() { "both `step_m` and `axis`" } else { "neither `step_m` nor `axis`" };
+            part.check.report(&part.at, found, "one of them");
             None
         }
     }

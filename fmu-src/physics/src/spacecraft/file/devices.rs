@@ -4,35 +4,28 @@ use nalgebra::Vector3;
 
 use super::description::{GimbalDescription, InstrumentDescription, SunSensorDescription, WheelDescription};
 use super::names::Named;
+use super::part_reader::PartReader;
 use crate::spacecraft::instruments::{GimbalMount, Instrument};
 use crate::spacecraft::sun_sensors::MountedSunSensor;
 use crate::spacecraft::wheels::{SPEED_AT_CAPACITY_RAD_S, TIME_TO_CAPACITY_S, Wheel};
 use crate::toml::{Checker, Place};
 
-pub(crate) fn wheel(
-    check: &mut Checker<'_>,
-    at: &Place,
-    index: usize,
-    description: &WheelDescription,
-) -> Wheel {
+pub(crate) fn wheel(part: &mut PartReader<'_, '_>, description: &WheelDescription) -> Wheel {
     let capacity_n_m_s = description.capacity_n_m_s.0;
     let static_imbalance_kg_m = description.static_imbalance_kg_m();
     if static_imbalance_kg_m > 0.0 && description.position_m.is_none() {
-        check.report(
-            &at.key("static_imbalance_kg_m"),
-            "no position_m beside it",
-            "with the rotor's place, position_m",
-        );
+        let allowed = "with the rotor's place, position_m";
+        part.report("static_imbalance_kg_m", "no position_m beside it", allowed);
     }
     Wheel {
         static_imbalance_kg_m,
         position_body_m: description
             .position_m
-            .map_or(Vector3::zeros(), |place| check.vector(&at.key("position_m"), place)),
-        name: description.called(index),
+            .map_or(Vector3::zeros(), |place| part.vector("position_m", place)),
+        name: description.called(part.index),
         coulomb_friction_n_m: description.coulomb_friction_n_m(),
         viscous_friction_n_m_s: description.viscous_friction_n_m_s(),
-        axis_body: check.unit_vector(&at.key("axis"), description.axis),
+        axis_body: part.unit_vector("axis", description.axis),
         capacity_n_m_s,
         inertia_kg_m2: description.inertia_kg_m2.map_or(capacity_n_m_s / SPEED_AT_CAPACITY_RAD_S, f64::from),
         max_torque_n_m: description.max_torque_n_m.map_or(capacity_n_m_s / TIME_TO_CAPACITY_S, f64::from),
@@ -40,43 +33,35 @@ pub(crate) fn wheel(
 }
 
 pub(crate) fn sun_sensor(
-    check: &mut Checker<'_>,
-    at: &Place,
-    index: usize,
+    part: &mut PartReader<'_, '_>,
     description: &SunSensorDescription,
 ) -> MountedSunSensor {
     MountedSunSensor {
-        name: description.called(index),
-        axis_body: check.unit_vector(&at.key("axis"), description.axis),
+        name: description.called(part.index),
+        axis_body: part.unit_vector("axis", description.axis),
         half_field_of_view_rad: description.half_field_of_view_deg().to_radians(),
     }
 }
 
-pub(crate) fn instrument(
-    check: &mut Checker<'_>,
-    at: &Place,
-    _: usize,
-    description: &InstrumentDescription,
-) -> Instrument {
-    let boresight_body = check.unit_vector(&at.key("boresight"), description.boresight);
+pub(crate) fn instrument(part: &mut PartReader<'_, '_>, description: &InstrumentDescription) -> Instrument {
+    let boresight_body = part.unit_vector("boresight", description.boresight);
     let given = description.gimbal.as_ref();
-    let gimbal = given.map(|given| gimbal(check, &at.key("gimbal"), given, &boresight_body));
+    let gimbal = given.map(|given| gimbal(&mut part.table("gimbal"), given, &boresight_body));
     Instrument { name: description.name.clone(), boresight_body, gimbal }
 }
 
 fn gimbal(
-    check: &mut Checker<'_>,
-    at: &Place,
+    part: &mut PartReader<'_, '_>,
     description: &GimbalDescription,
     boresight_body: &Vector3<f64>,
 ) -> GimbalMount {
     let [minimum_deg, maximum_deg] = [description.minimum_deg.0, description.maximum_deg.0];
     if minimum_deg > maximum_deg {
         let allowed = format!("an angle from `minimum_deg`, {minimum_deg} deg, to 180 deg");
-        check.report(&at.key("maximum_deg"), maximum_deg, allowed);
+        part.report("maximum_deg", maximum_deg, allowed);
     }
     GimbalMount {
-        axis_body: check.perpendicular(&at.key("axis"), description.axis, boresight_body, "boresight"),
+        axis_body: part.perpendicular("axis", description.axis, ("boresight", boresight_body)),
         minimum_rad: minimum_deg.to_radians(),
         maximum_rad: maximum_deg.to_radians(),
     }

@@ -3,14 +3,15 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::description::{MassDescription, PanelDescription};
+use super::part_reader::PartReader;
 use crate::spacecraft::mass::{MassProperties, PanelMass, check_inertia};
 use crate::toml::{Checker, Place, Positive};
 
-pub(crate) fn mass(check: &mut Checker<'_>, at: &Place, description: &MassDescription) -> MassProperties {
+pub(crate) fn mass(part: &mut PartReader<'_, '_>, description: &MassDescription) -> MassProperties {
     MassProperties {
-        inertia_body_kg_m2: inertia_kg_m2(check, at, description.inertia_kg_m2),
+        inertia_body_kg_m2: inertia_kg_m2(part, description.inertia_kg_m2),
         mass_kg: description.mass_kg.0,
-        center_of_mass_body_m: check.vector(&at.key("center_of_mass_m"), description.center_of_mass_m),
+        center_of_mass_body_m: part.vector("center_of_mass_m", description.center_of_mass_m),
     }
 }
 
@@ -35,18 +36,17 @@ pub(crate) fn parts_fit(
     }
 }
 
-fn inertia_kg_m2(check: &mut Checker<'_>, at: &Place, rows: [[f64; 3]; 3]) -> Matrix3<f64> {
+fn inertia_kg_m2(part: &mut PartReader<'_, '_>, rows: [[f64; 3]; 3]) -> Matrix3<f64> {
     let inertia_kg_m2 = Matrix3::from(rows).transpose();
     if let Err(allowed) = check_inertia(&inertia_kg_m2) {
-        check.report(&at.key("inertia_kg_m2"), format!("{rows:?}"), allowed);
+        part.report("inertia_kg_m2", format!("{rows:?}"), allowed);
     }
     inertia_kg_m2
 }
 
 /// A panel's mass in the panel frame.
 pub(crate) fn panel_mass(
-    check: &mut Checker<'_>,
-    at: &Place,
+    part: &mut PartReader<'_, '_>,
     description: &PanelDescription,
     area_m2: f64,
     center_m: Vector3<f64>,
@@ -58,15 +58,15 @@ pub(crate) fn panel_mass(
             ("inertia_kg_m2", description.inertia_kg_m2.is_some()),
         ] {
             if is_given {
-                check.report(&at.key(key), "no mass_kg beside it", "with mass_kg alone");
+                part.report(key, "no mass_kg beside it", "with mass_kg alone");
             }
         }
         return None;
     };
-    let place = description.mass_center_m.map(|place| check.vector(&at.key("mass_center_m"), place));
+    let place = description.mass_center_m.map(|place| part.vector("mass_center_m", place));
     let mut mass = PanelMass::square_plate(mass_kg, area_m2, place.unwrap_or(center_m), normal);
     if let Some(rows) = description.inertia_kg_m2 {
-        mass.inertia_body_kg_m2 = inertia_kg_m2(check, at, rows);
+        mass.inertia_body_kg_m2 = inertia_kg_m2(part, rows);
     }
     Some(mass)
 }

@@ -7,6 +7,7 @@ pub(super) mod devices;
 pub(super) mod mass;
 pub(super) mod materials;
 pub(super) mod names;
+pub(super) mod part_reader;
 pub(super) mod planet_map;
 pub(super) mod plates;
 pub(super) mod propulsion;

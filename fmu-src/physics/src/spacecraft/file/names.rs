@@ -67,19 +67,6 @@ always_named! {
     AntennaDescription: "antenna",
 }
 
-/// A list that may be left out but not be empty.
-pub(crate) fn list<D, S>(
-    check: &mut Checker<'_>,
-    at: &Place,
-    items: Option<&[D]>,
-    mut read: impl FnMut(&mut Checker<'_>, &Place, usize, &D) -> S,
-) -> Vec<S> {
-    if items.is_some_and(<[D]>::is_empty) {
-        check.report(at, "an empty list", "at least one item, or no such key");
-    }
-    items.unwrap_or_default().iter().enumerate().map(|(i, d)| read(check, &at.item(i), i, d)).collect()
-}
-
 /// Where a part stands, what it is called, and whether the file says so.
 type Name = (Place, String, bool);
 

@@ -2,9 +2,10 @@
 
 use nalgebra::Vector3;
 
+use super::part_reader::PartReader;
 use crate::math;
 use crate::spacecraft::polygon::Polygon;
-use crate::toml::{Checker, Place, Positive};
+use crate::toml::Positive;
 
 /// How far area, centre and normal may be off the polygon's, relative to its size: printed tables are rounded ...
 const OUTLINE_TOLERANCE: f64 = 1e-3;
@@ -26,24 +27,22 @@ fn short(tolerance: f64) -> String {
 
 /// The outline with its front where the normal is, if both are given.
 pub(crate) fn checked_outline(
-    check: &mut Checker<'_>,
-    at: &Place,
+    part: &mut PartReader<'_, '_>,
     vertices_m: Option<&[[f64; 3]]>,
     normal: Option<&Vector3<f64>>,
 ) -> Option<Polygon> {
-    let place = at.key("polygon_m");
+    let place = part.at.key("polygon_m");
     let vertices_m = vertices_m?;
     for (i, vertex) in vertices_m.iter().enumerate() {
-        check.vector(&place.item(i), *vertex);
+        part.check.vector(&place.item(i), *vertex);
     }
     match Polygon::new(vertices_m.iter().map(|v| Vector3::from(*v)).collect()) {
         Ok(polygon) => {
             let along = normal.map_or(1.0, |normal| polygon.normal().dot(normal));
             let off = tolerance(&polygon);
             if let (Some(normal), true) = (normal, along.abs() < (1.0 - math::powi(off, 2) / 2.0)) {
-                check.report_across(
-                    at,
-                    &place,
+                part.report_across(
+                    "polygon_m",
                     format_args!("an outline with the normal {:?}", polygon.normal().as_slice()),
                     format_args!(
                         "one with the normal {:?} or its opposite, within {}",
@@ -55,29 +54,27 @@ pub(crate) fn checked_outline(
             Some(if along < 0.0 { polygon.reversed() } else { polygon })
         }
         Err(error) => {
-            check.report(&place, error.found, error.allowed);
+            part.report("polygon_m", error.found, error.allowed);
             None
         }
     }
 }
 
 pub(crate) fn checked_area(
-    check: &mut Checker<'_>,
-    at: &Place,
+    part: &mut PartReader<'_, '_>,
     given_m2: Option<Positive>,
     outline: Option<&Polygon>,
 ) -> f64 {
-    let place = at.key("area_m2");
     match (given_m2.map(f64::from), outline) {
         (Some(area_m2), None) => area_m2,
-        (None, None) => missing(check, at, "area_m2", 1.0),
+        (None, None) => missing(part, "area_m2", 1.0),
         (given_m2, Some(outline)) => {
             let area_m2 = outline.area_m2();
             if let Some(given_m2) = given_m2
                 && (given_m2 / area_m2 - 1.0).abs() > tolerance(outline)
             {
                 let allowed = format!("the polygon's {area_m2} within {}", short(tolerance(outline)));
-                check.report_across(at, &place, given_m2, allowed);
+                part.report_across("area_m2", given_m2, allowed);
             }
             area_m2
         }
@@ -85,16 +82,14 @@ pub(crate) fn checked_area(
 }
 
 pub(crate) fn checked_center(
-    check: &mut Checker<'_>,
-    at: &Place,
+    part: &mut PartReader<'_, '_>,
     given_m: Option<[f64; 3]>,
     outline: Option<&Polygon>,
 ) -> Vector3<f64> {
-    let place = at.key("center_m");
-    let given_m = given_m.map(|center_m| check.vector(&place, center_m));
+    let given_m = given_m.map(|center_m| part.vector("center_m", center_m));
     match (given_m, outline) {
         (Some(center_m), None) => center_m,
-        (None, None) => missing(check, at, "center_m", Vector3::zeros()),
+        (None, None) => missing(part, "center_m", Vector3::zeros()),
         (given_m, Some(outline)) => {
             let center_m = outline.centroid_m();
             if let Some(given_m) = given_m
@@ -106,7 +101,7 @@ pub(crate) fn checked_center(
                     center_m.as_slice(),
                     short(tolerance(outline))
                 );
-                check.report_across(at, &place, found, allowed);
+                part.report_across("center_m", found, allowed);
             }
             center_m
         }
@@ -114,24 +109,22 @@ pub(crate) fn checked_center(
 }
 
 pub(crate) fn checked_normal(
-    check: &mut Checker<'_>,
-    at: &Place,
+    part: &mut PartReader<'_, '_>,
     given: Option<Vector3<f64>>,
     outline: Option<&Polygon>,
 ) -> Vector3<f64> {
     match (given, outline) {
         (_, Some(outline)) => outline.normal(),
         (Some(normal), None) => normal,
-        (None, None) => missing(check, at, "normal", Vector3::x()),
+        (None, None) => missing(part, "normal", Vector3::x()),
     }
 }
 
-fn missing<V>(check: &mut Checker<'_>, at: &Place, key: &str, stand_in: V) -> V {
+fn missing<V>(part: &mut PartReader<'_, '_>, key: &str, stand_in: V) -> V {
     // An outline that was refused would have given it.
-    let outline = at.key("polygon_m");
-    if check.has_reported(&outline) || check.is_stand_in(&outline) {
+    if part.has_reported("polygon_m") || part.is_stand_in("polygon_m") {
         return stand_in;
     }
-    check.report_lack(at, key, format_args!("a value for `{key}`, or an outline `polygon_m`"));
+    part.check.report_lack(&part.at, key, format_args!("a value for `{key}`, or an outline `polygon_m`"));
     stand_in
 }

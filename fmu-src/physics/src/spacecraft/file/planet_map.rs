@@ -1,13 +1,12 @@
 //! The planet's surface cell by cell, from its description.
 
 use super::description::PlanetMapDescription;
+use super::part_reader::PartReader;
 use crate::spacecraft::planet_map::{HOTTEST_K, MOST_BELTS, PlanetCell, PlanetMap};
-use crate::toml::{Checker, Place};
 
 /// The map, unless something in it was reported.
 pub(crate) fn planet_map(
-    check: &mut Checker<'_>,
-    at: &Place,
+    part: &mut PartReader<'_, '_>,
     description: &PlanetMapDescription,
 ) -> Option<PlanetMap> {
     let belts = description.temperature_k.len();
@@ -17,7 +16,7 @@ pub(crate) fn planet_map(
         ("temperature_k", &description.temperature_k, HOTTEST_K, "a number from 0 to 10000 K"),
     ]
     .map(|(key, rows, most, allowed)| {
-        let place = at.key(key);
+        let (place, check) = (part.at.key(key), &mut *part.check);
         if rows.len() != belts || !(1..=MOST_BELTS).contains(&belts) {
             let requested = format!("as many as `temperature_k` has, 1 to {MOST_BELTS}");
             check.report(&place, format_args!("{} belts", rows.len()), requested);

@@ -5,33 +5,30 @@ use super::description::{
     CylinderDescription, Description, PanelDescription, PlateDescription, SunshadeDescription,
 };
 use super::mass::panel_mass;
-use super::materials::{Material, Materials};
-use super::names::{Named, list};
+use super::materials::Material;
+use super::names::Named;
 use super::outline::{checked_area, checked_center, checked_normal, checked_outline};
+use super::part_reader::PartReader;
 use super::shapes::{box_plates, cylinder_plates, disc_plates, dish_plates, distinct_plates};
 use super::thermal::thermal;
 use crate::spacecraft::panel::Panel;
 use crate::spacecraft::surface::{Cylinder, MOST_SURFACES, Plate, Sunshade, SunshadeModel};
-use crate::toml::{Checker, Place};
+use crate::toml::Place;
 
 /// The plates that the file lists, then those of its shapes; none beyond the most that a spacecraft may have.
-pub(crate) fn body_plates(
-    check: &mut Checker<'_>,
-    materials: &Materials,
-    description: &Description,
-) -> Vec<Plate> {
+pub(crate) fn body_plates(file: &mut PartReader<'_, '_>, description: &Description) -> Vec<Plate> {
     let mut found = Vec::new();
     let Description { plates: listed, boxes, cylinders, discs, dishes, .. } = description;
-    shaped(check, materials, &mut found, ("plates", listed.as_deref()), plates);
-    shaped(check, materials, &mut found, ("boxes", boxes.as_deref()), box_plates);
-    shaped(check, materials, &mut found, ("cylinders", cylinders.as_deref()), cylinder_plates);
-    shaped(check, materials, &mut found, ("discs", discs.as_deref()), disc_plates);
-    shaped(check, materials, &mut found, ("dishes", dishes.as_deref()), dish_plates);
+    shaped(file, &mut found, ("plates", listed.as_deref()), plates);
+    shaped(file, &mut found, ("boxes", boxes.as_deref()), box_plates);
+    shaped(file, &mut found, ("cylinders", cylinders.as_deref()), cylinder_plates);
+    shaped(file, &mut found, ("discs", discs.as_deref()), disc_plates);
+    shaped(file, &mut found, ("dishes", dishes.as_deref()), dish_plates);
     if surfaces(&found) > MOST_SURFACES {
         let found = "more surfaces, copies and facets of shapes among them";
-        check.push(&Place::root(), found, format_args!("at most {MOST_SURFACES}"));
+        file.check.push(&file.at, found, format_args!("at most {MOST_SURFACES}"));
     }
-    distinct_plates(check, &found);
+    distinct_plates(file.check, &found);
     found.into_iter().flat_map(|(_, plates)| plates).collect()
 }
 
@@ -44,99 +41,72 @@ fn surfaces(found: &Found) -> usize {
 
 /// Adds the plates of every item under a key.
 fn shaped<D>(
-    check: &mut Checker<'_>,
-    materials: &Materials,
+    file: &mut PartReader<'_, '_>,
     found: &mut Found,
     (key, items): (&str, Option<&[D]>),
-    plates: impl Fn(&mut Checker<'_>, &Materials, &Place, usize, &D) -> Vec<Plate>,
+    plates: impl Fn(&mut PartReader<'_, '_>, &D) -> Vec<Plate>,
 ) {
     let mut count = surfaces(found);
-    list(check, &Place::root().key(key), items, |check, at, index, item| {
+    file.list(key, items, |part, item| {
         if count <= MOST_SURFACES {
-            let made = plates(check, materials, at, index, item);
+            let made = plates(part, item);
             count += made.len();
-            found.push((at.clone(), made));
+            found.push((part.at.clone(), made));
         }
     });
 }
 
 /// A plate with its copies.
-fn plates(
-    check: &mut Checker<'_>,
-    materials: &Materials,
-    at: &Place,
-    index: usize,
-    description: &PlateDescription,
-) -> Vec<Plate> {
-    let plate = plate(check, materials, at, index, description);
+fn plates(part: &mut PartReader<'_, '_>, description: &PlateDescription) -> Vec<Plate> {
+    let plate = plate(part, description);
     let (mirror, repeat) = (description.mirror.as_deref(), description.repeat.as_ref());
-    let motions = motions(check, at, mirror, repeat);
+    let motions = motions(part, mirror, repeat);
     let plates = plate_copies(&plate, &motions);
-    check_apart(check, at, &plates, motions.len());
+    check_apart(part, &plates, motions.len());
     plates
 }
 
-fn plate(
-    check: &mut Checker<'_>,
-    materials: &Materials,
-    at: &Place,
-    index: usize,
-    description: &PlateDescription,
-) -> Plate {
-    let front = materials.find(check, &at.key("optics"), &description.optics);
-    let rear =
-        description.rear_optics.as_ref().map(|name| materials.find(check, &at.key("rear_optics"), name));
-    let normal = description.normal.map(|normal| check.unit_vector(&at.key("normal"), normal));
-    let outline = checked_outline(check, at, description.polygon_m.as_deref(), normal.as_ref());
+fn plate(part: &mut PartReader<'_, '_>, description: &PlateDescription) -> Plate {
+    let front = part.material("optics", &description.optics);
+    let rear = part.rear(description.rear_optics.as_deref());
+    let normal = description.normal.map(|normal| part.unit_vector("normal", normal));
+    let outline = checked_outline(part, description.polygon_m.as_deref(), normal.as_ref());
     Plate {
-        name: description.called(index),
-        area_m2: checked_area(check, at, description.area_m2, outline.as_ref()),
-        center_m: checked_center(check, at, description.center_m, outline.as_ref()),
-        normal: checked_normal(check, at, normal, outline.as_ref()),
+        name: description.called(part.index),
+        area_m2: checked_area(part, description.area_m2, outline.as_ref()),
+        center_m: checked_center(part, description.center_m, outline.as_ref()),
+        normal: checked_normal(part, normal, outline.as_ref()),
         optics: front.optics,
         rear_optics: rear.map(|rear| rear.optics),
         gas_surface: Material::in_air(front, rear),
-        thermal: thermal(check, materials.environment, at, description.thermal.as_ref(), front, rear),
+        thermal: thermal(part, description.thermal.as_ref(), front, rear),
         polygon: outline,
     }
 }
 
-pub(crate) fn sunshade(
-    check: &mut Checker<'_>,
-    materials: &Materials,
-    at: &Place,
-    description: &SunshadeDescription,
-) -> Sunshade {
+pub(crate) fn sunshade(part: &mut PartReader<'_, '_>, description: &SunshadeDescription) -> Sunshade {
     let sunshade = Sunshade {
         model: description.model,
-        dcm_body_from_shade: check.rotation(
-            at,
+        dcm_body_from_shade: part.check.rotation(
+            &part.at,
             ("rotation_deg", description.rotation_deg),
             ("dcm_body_from_shade", description.dcm_body_from_shade),
         ),
-        plates: list(check, &at.key("plates"), description.plates.as_deref(), |check, at, index, it| {
-            plates(check, materials, at, index, it)
-        })
-        .concat(),
-        cylinder: description.cylinder.as_ref().map(|c| cylinder(check, materials, &at.key("cylinder"), c)),
+        plates: part.list("plates", description.plates.as_deref(), plates).concat(),
+        cylinder: description.cylinder.as_ref().map(|c| cylinder(&mut part.table("cylinder"), c)),
     };
     if !sunshade.has(description.model) {
         let (found, allowed) = match description.model {
             SunshadeModel::Plates => ("`plates` without plates", "[[sunshade.plates]] or \"cylinder\""),
             SunshadeModel::Cylinder => ("`cylinder` without a cylinder", "[sunshade.cylinder] or \"plates\""),
         };
-        check.report_across(at, &at.key("model"), found, allowed);
+        part.report_across("model", found, allowed);
     }
     sunshade
 }
 
-fn cylinder(
-    check: &mut Checker<'_>,
-    materials: &Materials,
-    at: &Place,
-    description: &CylinderDescription,
-) -> Cylinder {
-    let material = materials.find(check, &at.key("optics"), &description.optics);
+fn cylinder(part: &mut PartReader<'_, '_>, description: &CylinderDescription) -> Cylinder {
+    let material = part.material("optics", &description.optics);
     Cylinder {
         radius_m: description.radius_m.0,
         height_m: description.height_m.0,
@@ -146,40 +116,33 @@ fn cylinder(
     }
 }
 
-pub(crate) fn panel(
-    check: &mut Checker<'_>,
-    materials: &Materials,
-    at: &Place,
-    index: usize,
-    description: &PanelDescription,
-) -> Panel {
-    let dcm_body_from_panel = check.rotation(
-        at,
+pub(crate) fn panel(part: &mut PartReader<'_, '_>, description: &PanelDescription) -> Panel {
+    let dcm_body_from_panel = part.check.rotation(
+        &part.at,
         ("rotation_deg", description.rotation_deg),
         ("dcm_body_from_panel", description.dcm_body_from_panel),
     );
-    let axis = check.unit_vector(&at.key("axis"), description.axis());
-    let zero_normal = check.perpendicular(&at.key("zero_normal"), description.zero_normal(), &axis, "axis");
+    let axis = part.unit_vector("axis", description.axis());
+    let zero_normal = part.perpendicular("zero_normal", description.zero_normal(), ("axis", &axis));
     let tilt_sign = description.tilt_sign();
     if tilt_sign.abs() != 1 {
-        check.report(&at.key("tilt_sign"), tilt_sign, "1 or -1");
+        part.report("tilt_sign", tilt_sign, "1 or -1");
     }
     if let Some(side) = description.windmill_side.filter(|side| !(-1..=1).contains(side)) {
-        check.report(&at.key("windmill_side"), side, "1, -1 or 0");
+        part.report("windmill_side", side, "1, -1 or 0");
     }
-    let front = materials.find(check, &at.key("optics"), &description.optics);
-    let rear =
-        description.rear_optics.as_ref().map(|name| materials.find(check, &at.key("rear_optics"), name));
-    let outline = checked_outline(check, at, description.polygon_m.as_deref(), Some(&zero_normal));
-    let area_m2 = checked_area(check, at, description.area_m2, outline.as_ref());
-    let center_m = checked_center(check, at, description.center_m, outline.as_ref());
-    let mass = panel_mass(check, at, description, area_m2, center_m, &zero_normal);
+    let front = part.material("optics", &description.optics);
+    let rear = part.rear(description.rear_optics.as_deref());
+    let outline = checked_outline(part, description.polygon_m.as_deref(), Some(&zero_normal));
+    let area_m2 = checked_area(part, description.area_m2, outline.as_ref());
+    let center_m = checked_center(part, description.center_m, outline.as_ref());
+    let mass = panel_mass(part, description, area_m2, center_m, &zero_normal);
     let windmill_side = match description.windmill_side {
         Some(side) => side as f64,
         None => side_of(center_m.dot(&axis)),
     };
     Panel {
-        name: description.called(index),
+        name: description.called(part.index),
         area_m2,
         center_body_m: dcm_body_from_panel * center_m,
         mass: mass.map(|mass| mass.turned(&dcm_body_from_panel)),
@@ -188,7 +151,7 @@ pub(crate) fn panel(
         optics: front.optics,
         rear_optics: rear.map(|rear| rear.optics),
         gas_surface: Material::in_air(front, rear),
-        thermal: thermal(check, materials.environment, at, description.thermal.as_ref(), front, rear),
+        thermal: thermal(part, description.thermal.as_ref(), front, rear),
         polygon: outline.as_ref().map(|polygon| polygon.moved(|v| dcm_body_from_panel * v)),
         control: description.control(),
         sun_offset_rad: description.sun_offset_deg().to_radians(),

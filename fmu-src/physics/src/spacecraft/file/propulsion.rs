@@ -1,36 +1,38 @@
 //! Tanks and thrusters, from their descriptions: checks every value, and that they belong together.
 
-use nalgebra::Vector3;
-
 use super::description::{TankDescription, ThrusterDescription};
 use super::names::Named;
+use super::part_reader::PartReader;
 use super::thruster_sets::set_of;
 use crate::constants::STANDARD_GRAVITY_M_S2;
 use crate::spacecraft::tank::{Blowdown, Tank};
 use crate::spacecraft::thruster::{Thruster, ValveTiming};
-use crate::toml::{Checker, Place, hint};
+use crate::toml::{Place, hint};
 
 /// A tank that holds a part of `mass_kg`.
-pub(crate) fn tank(check: &mut Checker<'_>, at: &Place, index: usize, description: &TankDescription) -> Tank {
+pub(crate) fn tank(part: &mut PartReader<'_, '_>, description: &TankDescription) -> Tank {
     let pressure_pa = description.pressure_pa();
     let blowdown = description
         .ullage_m3
         .map(|ullage_m3| Blowdown { ullage_m3: ullage_m3.0, density_kg_m3: description.density_kg_m3() });
     if blowdown.is_none() && description.density_kg_m3.is_some() {
-        check.report(&at.key("density_kg_m3"), "no ullage_m3 beside it", "with ullage_m3 alone (blowdown)");
+        part.report("density_kg_m3", "no ullage_m3 beside it", "with ullage_m3 alone (blowdown)");
     }
     let allowed_pa = description.allowed_pressure_pa.unwrap_or([0.0, f64::MAX]);
-    let place = at.key("allowed_pressure_pa");
     let [least_pa, greatest_pa] = allowed_pa;
     if !(least_pa >= 0.0 && greatest_pa > least_pa) {
-        check.report(&place, format_args!("{allowed_pa:?}"), "two rising numbers, not negative");
+        part.report(
+            "allowed_pressure_pa",
+            format_args!("{allowed_pa:?}"),
+            "two rising numbers, not negative",
+        );
     } else if !(least_pa..=greatest_pa).contains(&pressure_pa) {
         let allowed = format!("a range around pressure_pa = {pressure_pa}");
-        check.report(&place, format_args!("{allowed_pa:?}"), allowed);
+        part.report("allowed_pressure_pa", format_args!("{allowed_pa:?}"), allowed);
     }
     Tank {
-        name: description.called(index),
-        position_body_m: check.vector(&at.key("position_m"), description.position_m),
+        name: description.called(part.index),
+        position_body_m: part.vector("position_m", description.position_m),
         propellant_kg: description.propellant_kg.0,
         pressure_pa,
         allowed_pa,
@@ -40,11 +42,10 @@ pub(crate) fn tank(check: &mut Checker<'_>, at: &Place, index: usize, descriptio
 
 /// A thruster that one of `tanks` feeds, of one of `sets` or none.
 pub(crate) fn thruster(
-    check: &mut Checker<'_>,
-    (tanks, sets): (&[Tank], &[String]),
-    at: &Place,
-    index: usize,
+    part: &mut PartReader<'_, '_>,
     description: &ThrusterDescription,
+    tanks: &[Tank],
+    sets: &[String],
 ) -> Thruster {
     let force_n = description.force_n.0;
     let valve = ValveTiming {
@@ -52,11 +53,10 @@ pub(crate) fn thruster(
         rise_s: description.rise_time_s(),
         tail_off_s: description.tail_off_time_s(),
     };
-    let position_body_m = check.vector(&at.key("position_m"), description.position_m);
-    let direction: Vector3<f64> = check.unit_vector(&at.key("direction"), description.direction);
-    let force_body_n = direction * force_n;
+    let position_body_m = part.vector("position_m", description.position_m);
+    let force_body_n = part.unit_vector("direction", description.direction) * force_n;
     Thruster {
-        name: description.called(index),
+        name: description.called(part.index),
         position_body_m,
         force_body_n,
         torque_body_n_m: position_body_m.cross(&force_body_n),
@@ -65,18 +65,17 @@ pub(crate) fn thruster(
         scatter: description.scatter(),
         set: set_of(sets, description.set.as_deref()),
         attitude_control: description.attitude_control(),
-        tank: tank_of(check, tanks, at, description.tank.as_deref()),
+        tank: tank_of(part, tanks, description.tank.as_deref()),
         at_pressure_pa: description.at_pressure_pa.map(f64::from),
         plume_half_angle_rad: description.plume_half_angle_deg().to_radians(),
     }
 }
 
 /// Index of the tank of this name, the first without one.
-fn tank_of(check: &mut Checker<'_>, tanks: &[Tank], at: &Place, name: Option<&str>) -> usize {
-    let place = at.key("tank");
+fn tank_of(part: &mut PartReader<'_, '_>, tanks: &[Tank], name: Option<&str>) -> usize {
     if tanks.is_empty() {
-        if !check.is_stand_in(&Place::root().key("tanks")) {
-            check.report(at, "a thruster without a tank", "at least one of [[tanks]] in the file");
+        if !part.check.is_stand_in(&Place::root().key("tanks")) {
+            part.check.report(&part.at, "a thruster without a tank", "at least one of [[tanks]] in the file");
         }
         return 0;
     }
@@ -84,7 +83,7 @@ fn tank_of(check: &mut Checker<'_>, tanks: &[Tank], at: &Place, name: Option<&st
     let names: Vec<&str> = tanks.iter().map(|tank| tank.name.as_str()).collect();
     names.iter().position(|known| *known == name).unwrap_or_else(|| {
         let allowed = format!("a name under [[tanks]]: {}", names.join(", "));
-        check.report(&place, format_args!("the unknown tank `{name}`{}", hint(name, &names)), allowed);
+        part.report("tank", format_args!("the unknown tank `{name}`{}", hint(name, &names)), allowed);
         0
     })
 }

@@ -10,8 +10,9 @@ use super::describe_shapes::{
     RepeatDescription,
 };
 use super::facets::{BOX_FACES, Facet, box_faces, cylinder_facets, disc, dish_facets};
-use super::materials::{Material, Materials};
+use super::materials::Material;
 use super::names::Named;
+use super::part_reader::PartReader;
 use super::thermal::thermal;
 use crate::spacecraft::polygon::Polygon;
 use crate::spacecraft::surface::Plate;
@@ -32,125 +33,101 @@ struct Shape<'s> {
 }
 
 /// The plates of a box.
-pub(crate) fn box_plates(
-    check: &mut Checker<'_>,
-    materials: &Materials,
-    at: &Place,
-    index: usize,
-    description: &BoxDescription,
-) -> Vec<Plate> {
-    let front = materials.find(check, &at.key("optics"), &description.optics);
+pub(crate) fn box_plates(part: &mut PartReader<'_, '_>, description: &BoxDescription) -> Vec<Plate> {
+    let front = part.material("optics", &description.optics);
     let mut own = Vec::new();
     for (face, name) in description.face_optics.iter().flatten() {
-        let place = at.key("face_optics").key(face);
-        let material = materials.find(check, &place, name);
+        let mut optics = part.table("face_optics");
+        let material = optics.material(face, name);
         let names = BOX_FACES.map(|(.., name)| name);
         match BOX_FACES.iter().find(|(.., name)| name == face) {
             None => {
-                check.report(
-                    &place,
-                    format_args!("the unknown face `{face}`{}", hint(face, &names)),
-                    names.join(", "),
-                );
+                let found = format!("the unknown face `{face}`{}", hint(face, &names));
+                optics.report(face, found, names.join(", "));
             }
             Some((which, ..)) if description.open_faces.iter().flatten().any(|open| open == which) => {
-                check.report(&place, "a face that is open too", "a face that the box has");
+                optics.report(face, "a face that is open too", "a face that the box has");
             }
             Some(_) => own.push((face.clone(), material)),
         }
     }
-    let rear = rear(check, materials, at, description.rear_optics.as_deref());
+    let rear = part.rear(description.rear_optics.as_deref());
     let size_m = Vector3::from(description.size_m.map(f64::from));
     let shape = Shape {
-        name: description.called(index),
-        turn: check.rotation(at, ("rotation_deg", description.rotation_deg), ("", None)),
-        shift_m: check.vector(&at.key("center_m"), description.center_m),
+        name: description.called(part.index),
+        turn: part.check.rotation(&part.at, ("rotation_deg", description.rotation_deg), ("", None)),
+        shift_m: part.vector("center_m", description.center_m),
         facets: box_faces(&size_m, description.open_faces.as_deref().unwrap_or_default()),
         rear,
-        thermal: thermal(check, materials.environment, at, description.thermal.as_ref(), front, rear),
+        thermal: thermal(part, description.thermal.as_ref(), front, rear),
         mirror: description.mirror.as_deref(),
         repeat: description.repeat.as_ref(),
     };
     let material = |face: &str| own.iter().find(|(name, _)| name == face).map_or(front, |(_, own)| *own);
-    shape.plates(check, at, "faces", &material)
+    shape.plates(part, "faces", &material)
 }
 
 /// The plates of a cylinder.
 pub(crate) fn cylinder_plates(
-    check: &mut Checker<'_>,
-    materials: &Materials,
-    at: &Place,
-    index: usize,
+    part: &mut PartReader<'_, '_>,
     description: &FacetedCylinderDescription,
 ) -> Vec<Plate> {
-    let front = materials.find(check, &at.key("optics"), &description.optics);
+    let front = part.material("optics", &description.optics);
     let end = description.end_optics.as_ref();
-    let end = end.map_or(front, |name| materials.find(check, &at.key("end_optics"), name));
-    let rear = rear(check, materials, at, description.rear_optics.as_deref());
-    let axis = check.unit_vector(&at.key("axis"), description.axis());
+    let end = end.map_or(front, |name| part.material("end_optics", name));
+    let rear = part.rear(description.rear_optics.as_deref());
+    let axis = part.unit_vector("axis", description.axis());
     let (radius_m, height_m) = (description.radius_m.0, description.height_m.0);
     let open = description.open_ends.as_deref().unwrap_or_default();
     let shape = Shape {
-        name: description.called(index),
+        name: description.called(part.index),
         turn: frame(&axis),
-        shift_m: check.vector(&at.key("center_m"), description.center_m),
+        shift_m: part.vector("center_m", description.center_m),
         facets: cylinder_facets(radius_m, height_m, description.facets(), open),
         rear,
-        thermal: thermal(check, materials.environment, at, description.thermal.as_ref(), front, rear),
+        thermal: thermal(part, description.thermal.as_ref(), front, rear),
         mirror: description.mirror.as_deref(),
         repeat: description.repeat.as_ref(),
     };
     let material = |facet: &str| if facet.starts_with("side") { front } else { end };
-    shape.plates(check, at, "facets", &material)
+    shape.plates(part, "facets", &material)
 }
 
 /// The plate of a disc.
-pub(crate) fn disc_plates(
-    check: &mut Checker<'_>,
-    materials: &Materials,
-    at: &Place,
-    index: usize,
-    description: &DiscDescription,
-) -> Vec<Plate> {
-    let front = materials.find(check, &at.key("optics"), &description.optics);
-    let rear = rear(check, materials, at, description.rear_optics.as_deref());
-    let normal = check.unit_vector(&at.key("normal"), description.normal);
+pub(crate) fn disc_plates(part: &mut PartReader<'_, '_>, description: &DiscDescription) -> Vec<Plate> {
+    let front = part.material("optics", &description.optics);
+    let rear = part.rear(description.rear_optics.as_deref());
+    let normal = part.unit_vector("normal", description.normal);
     let shape = Shape {
-        name: description.called(index),
+        name: description.called(part.index),
         turn: frame(&normal),
-        shift_m: check.vector(&at.key("center_m"), description.center_m),
+        shift_m: part.vector("center_m", description.center_m),
         facets: disc(description.radius_m.0, description.corners()),
         rear,
-        thermal: thermal(check, materials.environment, at, description.thermal.as_ref(), front, rear),
+        thermal: thermal(part, description.thermal.as_ref(), front, rear),
         mirror: description.mirror.as_deref(),
         repeat: description.repeat.as_ref(),
     };
-    shape.plates(check, at, "discs", &|_| front)
+    shape.plates(part, "discs", &|_| front)
 }
 
 /// The plates of a dish.
-pub(crate) fn dish_plates(
-    check: &mut Checker<'_>,
-    materials: &Materials,
-    at: &Place,
-    index: usize,
-    description: &DishDescription,
-) -> Vec<Plate> {
-    let front = materials.find(check, &at.key("optics"), &description.optics);
-    let rear = rear(check, materials, at, description.rear_optics.as_deref());
-    let axis = check.unit_vector(&at.key("axis"), description.axis);
+pub(crate) fn dish_plates(part: &mut PartReader<'_, '_>, description: &DishDescription) -> Vec<Plate> {
+    let front = part.material("optics", &description.optics);
+    let rear = part.rear(description.rear_optics.as_deref());
+    let axis = part.unit_vector("axis", description.axis);
     let (radius_m, depth_m) = (description.radius_m.0, description.depth_m.0);
     let shape = Shape {
-        name: description.called(index),
+        name: description.called(part.index),
         turn: frame(&axis),
-        shift_m: check.vector(&at.key("vertex_m"), description.vertex_m),
+        shift_m: part.vector("vertex_m", description.vertex_m),
         facets: dish_facets(radius_m, depth_m, description.facets(), description.rings()),
         rear,
-        thermal: thermal(check, materials.environment, at, description.thermal.as_ref(), front, rear),
+        thermal: thermal(part, description.thermal.as_ref(), front, rear),
         mirror: description.mirror.as_deref(),
         repeat: description.repeat.as_ref(),
     };
-    shape.plates(check, at, "facets", &|_| front)
+    shape.plates(part, "facets", &|_| front)
 }
 
 /// Two plates of one name, made by different items of the file, could not be distinguished.
@@ -171,18 +148,17 @@ impl Shape<'_> {
     /// Its plates and those of its copies; none where something was reported.
     fn plates(
         &self,
-        check: &mut Checker<'_>,
-        at: &Place,
-        parts: &str,
+        part: &mut PartReader<'_, '_>,
+        kind: &str,
         material: &dyn Fn(&str) -> Material,
     ) -> Vec<Plate> {
-        let motions = motions(check, at, self.mirror, self.repeat);
-        if check.has_reported(at) || check.has_stand_in(at) {
+        let motions = motions(part, self.mirror, self.repeat);
+        if part.check.has_reported(&part.at) || part.check.has_stand_in(&part.at) {
             return Vec::new();
         }
         let count = motions.len() * self.facets.len();
         if count == 0 || count > MOST_PLATES {
-            check.report(at, format_args!("{count} {parts}"), format_args!("1 to {MOST_PLATES}"));
+            part.check.report(&part.at, format_args!("{count} {kind}"), format_args!("1 to {MOST_PLATES}"));
             return Vec::new();
         }
         let mut plates = Vec::with_capacity(count);
@@ -197,14 +173,14 @@ impl Shape<'_> {
                     }
                     Err(error) => {
                         let found = format!("lengths that make no outline of `{}` ({error})", facet.name);
-                        check.report(at, found, "lengths within a factor of 1e8 of one another");
+                        part.check.report(&part.at, found, "lengths within a factor of 1e8 of one another");
                         return Vec::new();
                     }
                 }
             }
             self.share_heat(&mut plates[index * self.facets.len()..]);
         }
-        check_apart(check, at, &plates, motions.len());
+        check_apart(part, &plates, motions.len());
         plates
     }
 
@@ -225,10 +201,6 @@ impl Shape<'_> {
             plate.thermal.internal_heat_w = self.thermal.internal_heat_w.map(|heat_w| heat_w * share);
         }
     }
-}
-
-fn rear(check: &mut Checker<'_>, materials: &Materials, at: &Place, name: Option<&str>) -> Option<Material> {
-    name.map(|name| materials.find(check, &at.key("rear_optics"), name))
 }
 
 /// Axes with Z along a direction, as columns: X is the body axis that is most across it, made perpendicular.

@@ -2,43 +2,33 @@
 
 use super::describe_swinging::{FlexibleModeDescription, SloshDescription};
 use super::names::Named;
+use super::part_reader::PartReader;
 use crate::attitude::{Appendages, FlexibleMode, Gyrostat, GyrostatError, SloshPendulum};
 use crate::spacecraft::mass::MassProperties;
 use crate::spacecraft::swinging::{NamedMode, NamedSlosh};
 use crate::toml::{Checker, Place};
 
 /// A flexible mode.
-pub(crate) fn mode(
-    check: &mut Checker<'_>,
-    at: &Place,
-    index: usize,
-    description: &FlexibleModeDescription,
-) -> NamedMode {
+pub(crate) fn mode(part: &mut PartReader<'_, '_>, description: &FlexibleModeDescription) -> NamedMode {
     NamedMode {
-        name: description.called(index),
+        name: description.called(part.index),
         mode: FlexibleMode {
             frequency_hz: description.frequency_hz.0,
             damping: description.damping(),
-            coupling_body_sqrt_kg_m: check
-                .vector(&at.key("coupling_sqrt_kg_m"), description.coupling_sqrt_kg_m),
+            coupling_body_sqrt_kg_m: part.vector("coupling_sqrt_kg_m", description.coupling_sqrt_kg_m),
         },
     }
 }
 
 /// Propellant that swings.
-pub(crate) fn slosh(
-    check: &mut Checker<'_>,
-    at: &Place,
-    index: usize,
-    description: &SloshDescription,
-) -> NamedSlosh {
+pub(crate) fn slosh(part: &mut PartReader<'_, '_>, description: &SloshDescription) -> NamedSlosh {
     NamedSlosh {
-        name: description.called(index),
+        name: description.called(part.index),
         pendulum: SloshPendulum {
             mass_kg: description.mass_kg.0,
             length_m: description.length_m.0,
-            pivot_body_m: check.vector(&at.key("pivot_m"), description.pivot_m),
-            axis_body: check.unit_vector(&at.key("axis"), description.axis),
+            pivot_body_m: part.vector("pivot_m", description.pivot_m),
+            axis_body: part.unit_vector("axis", description.axis),
             damping: description.damping(),
             coast_frequency_hz: description.coast_frequency_hz(),
         },

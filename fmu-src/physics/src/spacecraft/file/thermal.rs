@@ -1,81 +1,69 @@
 //! Heat of a surface, from its description.
 
 use super::describe_thermal::{ConductionDescription, ThermalDescription};
-use super::materials::{Material, ThermalEnvironment};
+use super::materials::Material;
+use super::part_reader::PartReader;
 use crate::spacecraft::thermal::{BusLink, Conduction, Honeycomb, Thermal};
-use crate::toml::{Checker, NotNegative, Place};
+use crate::toml::NotNegative;
 
 /// Heat of a surface whose faces are of these materials.
 pub(crate) fn thermal(
-    check: &mut Checker<'_>,
-    environment: ThermalEnvironment,
-    at: &Place,
+    part: &mut PartReader<'_, '_>,
     description: Option<&ThermalDescription>,
     front: Material,
     rear: Option<Material>,
 ) -> Thermal {
     let nothing = ThermalDescription::default();
-    let (surface, at) = (at, at.key("thermal"));
     let description = description.unwrap_or(&nothing);
-    if rear.is_none() && !check.is_stand_in(&surface.key("rear_optics")) {
+    let has_rear = rear.is_some() || part.is_stand_in("rear_optics");
+    let mut part = part.table("thermal");
+    if !has_rear {
         let needs_rear = [
             ("conduction", description.conduction.is_some()),
             ("rear_internal_heat_w", description.rear_internal_heat_w.is_some()),
             ("rear_bus_conductance_w_m2_k", description.rear_bus_conductance_w_m2_k.is_some()),
         ];
         for (key, _) in needs_rear.into_iter().filter(|(_, given)| *given) {
-            check.report(&at.key(key), "a surface without `rear_optics`", "a surface with both faces");
+            part.report(key, "a surface without `rear_optics`", "a surface with both faces");
         }
     }
-    let bus = bus(check, environment, &at, description);
+    let bus = bus(&mut part, description);
     Thermal {
         front: front.thermal,
         rear: rear.map(|rear| rear.thermal),
         bus,
         internal_heat_w: [description.internal_heat_w(), description.rear_internal_heat_w()],
         heat_capacity_j_m2_k: description.heat_capacity_j_m2_k(),
-        conduction: description.conduction.as_ref().map(|c| conduction(check, &at.key("conduction"), c)),
+        conduction: description.conduction.as_ref().map(|it| conduction(&mut part.table("conduction"), it)),
     }
 }
 
 /// Heat flow from front and rear to the bus.
-fn bus(
-    check: &mut Checker<'_>,
-    environment: ThermalEnvironment,
-    at: &Place,
-    description: &ThermalDescription,
-) -> [BusLink; 2] {
-    let temperature = at.key("bus_temperature_k");
+fn bus(part: &mut PartReader<'_, '_>, description: &ThermalDescription) -> [BusLink; 2] {
     let own_k = description.bus_temperature_k.map(f64::from);
     let faces = [
         ("bus_conductance_w_m2_k", description.bus_conductance_w_m2_k),
         ("rear_bus_conductance_w_m2_k", description.rear_bus_conductance_w_m2_k),
     ];
     if own_k.is_some() && faces.iter().all(|(_, given)| given.is_none()) {
-        check.report(&temperature, "no conductance to the bus", "`bus_conductance_w_m2_k` beside it");
+        part.report("bus_temperature_k", "no conductance to the bus", "`bus_conductance_w_m2_k` beside it");
     }
     faces.map(|(key, given)| {
         let Some(NotNegative(conductance_w_m2_k)) = given else { return BusLink::NONE };
-        let temperature_k = own_k.or(environment.bus_temperature_k);
+        let temperature_k = own_k.or(part.materials.environment.bus_temperature_k);
         if temperature_k.is_none() && conductance_w_m2_k > 0.0 {
-            check.report(
-                &at.key(key),
-                "no temperature of the bus",
-                "`bus_temperature_k` beside it or under [thermal]",
-            );
+            let allowed = "`bus_temperature_k` beside it or under [thermal]";
+            part.report(key, "no temperature of the bus", allowed);
         }
         BusLink { conductance_w_m2_k, temperature_k: temperature_k.unwrap_or(0.0) }
     })
 }
 
-fn conduction(check: &mut Checker<'_>, at: &Place, description: &ConductionDescription) -> Conduction {
+fn conduction(part: &mut PartReader<'_, '_>, description: &ConductionDescription) -> Conduction {
     let Some(honeycomb) = &description.honeycomb else {
         if (description.conductance_w_m2_k, description.radiative_exchange) == (None, None) {
-            check.report(
-                at,
-                "no conduction",
-                "`honeycomb`, or `conductance_w_m2_k` and `radiative_exchange` or one of them",
-            );
+            let allowed = "`honeycomb`, or `conductance_w_m2_k` and `radiative_exchange` or one of them";
+            part.check.report(&part.at, "no conduction", allowed);
         }
         return Conduction {
             conductance_w_m2_k: description.conductance_w_m2_k.map_or(0.0, f64::from),
@@ -83,7 +71,7 @@ fn conduction(check: &mut Checker<'_>, at: &Place, description: &ConductionDescr
         };
     };
     if (description.conductance_w_m2_k, description.radiative_exchange) != (None, None) {
-        check.report(at, "both numbers and a `honeycomb`", "one of them");
+        part.check.report(&part.at, "both numbers and a `honeycomb`", "one of them");
     }
     Honeycomb {
         conductivity_w_m_k: honeycomb.conductivity_w_m_k.0,

@@ -1,23 +1,22 @@
 //! Downlink windows, hot pole and corridor of light, from their descriptions.
 
 use super::description::{ArticulationDescription, DownlinksDescription, HotPoleDescription};
+use super::part_reader::PartReader;
 use super::written_time::{ALLOWED_TIME, WrittenTime};
 use crate::spacecraft::articulation::Articulation;
 use crate::spacecraft::downlinks::{DownlinkWindows, TimeAfterPeriapsis};
 use crate::spacecraft::hot_pole::HotPoleZone;
 use crate::spacecraft::start::StartEntry;
-use crate::toml::{Checker, Place};
 
 pub(crate) fn downlinks(
-    check: &mut Checker<'_>,
-    at: &Place,
+    part: &mut PartReader<'_, '_>,
     description: &DownlinksDescription,
     start: &[StartEntry],
     has_antenna: bool,
 ) -> DownlinkWindows {
     let mut time = |key: &str, written: &WrittenTime| {
         written.read().unwrap_or_else(|| {
-            check.report(&at.key(key), written.found(), ALLOWED_TIME);
+            part.report(key, written.found(), ALLOWED_TIME);
             TimeAfterPeriapsis::Seconds(0.0)
         })
     };
@@ -27,17 +26,17 @@ pub(crate) fn downlinks(
         | (TimeAfterPeriapsis::PeriodShare(begin), TimeAfterPeriapsis::PeriodShare(end)) => end <= begin,
         _ => false,
     };
-    if is_backwards && !check.has_reported(&at.key("start")) && !check.has_reported(&at.key("stop")) {
-        check.report(&at.key("stop"), description.stop.found(), "a time after the start");
+    if is_backwards && !part.has_reported("start") && !part.has_reported("stop") {
+        part.report("stop", description.stop.found(), "a time after the start");
     }
     if let Some(entry) = start.iter().find(|it| !it.is_fixed && it.name.starts_with("guided.downlink")) {
         let allowed = format!("one of both: [downlinks], or {} in [start]", entry.name);
-        check.report(at, format!("[downlinks] beside {}", entry.key), allowed);
+        part.check.report(&part.at, format!("[downlinks] beside {}", entry.key), allowed);
     }
     let every = description.every();
-    if every > 0 && !has_antenna && !check.has_reported(&at.key("every")) {
+    if every > 0 && !has_antenna && !part.has_reported("every") {
         let allowed = "0, no downlink, where the spacecraft has no antenna ([[antennas]])";
-        check.report(&at.key("every"), every, allowed);
+        part.report("every", every, allowed);
     }
     DownlinkWindows { start: begin, stop: end, every }
 }
@@ -51,8 +50,7 @@ pub(crate) fn hot_pole(description: &HotPoleDescription) -> HotPoleZone {
 }
 
 pub(crate) fn articulation(
-    check: &mut Checker<'_>,
-    at: &Place,
+    part: &mut PartReader<'_, '_>,
     description: &ArticulationDescription,
 ) -> Articulation {
     let found = Articulation {
@@ -61,19 +59,14 @@ pub(crate) fn articulation(
         target_suns: description.target_suns(),
     };
     let Articulation { min_suns, max_suns, target_suns } = found;
-    if ["min_suns", "max_suns", "target_suns"].iter().any(|key| check.has_reported(&at.key(key))) {
+    if ["min_suns", "max_suns", "target_suns"].iter().any(|key| part.has_reported(key)) {
         return found;
     }
     if max_suns <= min_suns {
-        check.report_across(
-            at,
-            &at.key("max_suns"),
-            max_suns,
-            format_args!("more than min_suns, {min_suns}"),
-        );
+        part.report_across("max_suns", max_suns, format_args!("more than min_suns, {min_suns}"));
     } else if found.margin_suns(target_suns) < 0.0 {
         let allowed = format_args!("from min_suns to max_suns, {min_suns} to {max_suns}");
-        check.report_across(at, &at.key("target_suns"), target_suns, allowed);
+        part.report_across("target_suns", target_suns, allowed);
     }
     found
 }

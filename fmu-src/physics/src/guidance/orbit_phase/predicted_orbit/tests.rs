@@ -1,10 +1,13 @@
 //! Sun and Earth against VSOP87, the spacecraft against its motion integrated step by step.
+use nalgebra::Vector3;
+
 use super::*;
 use crate::attitude::angle_between_rad;
 use crate::bodies::Body;
 use crate::environment::bodies_from_center::{BodiesFromCenter, fixed};
 use crate::environment::ephemeris::Ephemeris;
 use crate::guidance::TargetPlanet;
+use crate::guidance::geometry::moving::rate;
 
 const EPOCH_S: f64 = 2.9e8;
 const DAY_S: f64 = 86_400.0;

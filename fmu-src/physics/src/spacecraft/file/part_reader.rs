@@ -1,0 +1,95 @@
+//! A part of a spacecraft file while it is read: where it stands, what it may be made of, and the file's checker.
+
+use core::fmt::Display;
+
+use nalgebra::Vector3;
+
+use super::materials::{Material, Materials};
+use crate::toml::{Checker, Place};
+
+/// A table of the file, or an item of one of its lists.
+pub(crate) struct PartReader<'p, 'd> {
+    /// Reports what is wrong with it.
+    pub check: &'p mut Checker<'d>,
+    /// Those of the file.
+    pub materials: &'p Materials,
+    /// Where the part stands.
+    pub at: Place,
+    /// Its number in its list, from 0.
+    pub index: usize,
+}
+
+impl<'d> PartReader<'_, 'd> {
+    /// A table in it.
+    pub(crate) fn table(&mut self, key: &str) -> PartReader<'_, 'd> {
+        PartReader { check: self.check, materials: self.materials, at: self.at.key(key), index: 0 }
+    }
+
+    /// A list in it, which may be left out but not be empty.
+    pub(crate) fn list<D, S>(
+        &mut self,
+        key: &str,
+        items: Option<&[D]>,
+        mut read: impl FnMut(&mut PartReader<'_, 'd>, &D) -> S,
+    ) -> Vec<S> {
+        if items.is_some_and(<[D]>::is_empty) {
+            self.report(key, "an empty list", "at least one item, or no such key");
+        }
+        let list = self.at.key(key);
+        let mut part = self.table(key);
+        let items = items.unwrap_or_default().iter().enumerate();
+        let made = items.map(|(index, item)| {
+            (part.at, part.index) = (list.item(index), index);
+            read(&mut part, item)
+        });
+        made.collect()
+    }
+
+    /// Reports a key of it.
+    pub(crate) fn report(&mut self, key: &str, found: impl Display, allowed: impl Display) {
+        self.check.report(&self.at.key(key), found, allowed);
+    }
+
+    /// Reports a key of it by what another one says.
+    pub(crate) fn report_across(&mut self, key: &str, found: impl Display, allowed: impl Display) {
+        self.check.report_across(&self.at, &self.at.key(key), found, allowed);
+    }
+
+    /// Whether something was reported at a key of it.
+    pub(crate) fn has_reported(&self, key: &str) -> bool {
+        self.check.has_reported(&self.at.key(key))
+    }
+
+    /// Whether nobody wrote the value of a key of it.
+    pub(crate) fn is_stand_in(&self, key: &str) -> bool {
+        self.check.is_stand_in(&self.at.key(key))
+    }
+
+    pub(crate) fn vector(&mut self, key: &str, value: [f64; 3]) -> Vector3<f64> {
+        self.check.vector(&self.at.key(key), value)
+    }
+
+    pub(crate) fn unit_vector(&mut self, key: &str, value: [f64; 3]) -> Vector3<f64> {
+        self.check.unit_vector(&self.at.key(key), value)
+    }
+
+    /// A direction perpendicular to that of another key.
+    pub(crate) fn perpendicular(
+        &mut self,
+        key: &str,
+        value: [f64; 3],
+        (to_key, to): (&str, &Vector3<f64>),
+    ) -> Vector3<f64> {
+        self.check.perpendicular(&self.at.key(key), value, to, to_key)
+    }
+
+    /// The material that a key names.
+    pub(crate) fn material(&mut self, key: &str, name: &str) -> Material {
+        self.materials.find(self.check, &self.at.key(key), name)
+    }
+
+    /// That of its rear, if it has one.
+    pub(crate) fn rear(&mut self, name: Option<&str>) -> Option<Material> {
+        name.map(|name| self.material("rear_optics", name))
+    }
+}
