@@ -1,8 +1,8 @@
 //! What the probes share: an instance brought to a state, and all its values as bits.
 
 use loader::{Checking, Error, Fmu, Instance, InstanceOptions, Times};
-use model_description::Causality;
 use model_description::call_table::State;
+use model_description::{Causality, Variability};
 
 /// Steps of a short simulation.
 pub(crate) const STEPS: u64 = 12;
@@ -20,6 +20,15 @@ pub(crate) fn unchecked() -> InstanceOptions {
 /// The FMU's own times.
 pub(crate) fn times(fmu: &Fmu) -> Result<Times, Error> {
     Times::of(fmu, None, None, None)
+}
+
+/// References of continuous variables.
+pub(crate) fn continuous(fmu: &Fmu, causality: Causality) -> Vec<u32> {
+    let variables = fmu.description().variables.iter();
+    variables
+        .filter(|it| it.causality == causality && it.variability == Variability::Continuous)
+        .map(|it| it.value_reference)
+        .collect()
 }
 
 /// The value references of all variables of a causality: Reals, Integers and Enumerations, Booleans, Strings.

@@ -14,6 +14,7 @@ use loader::{Error, Fmu};
 
 pub use finding::{Finding, Verdict};
 pub use probe::{Findings, Probe, Trial};
+pub use probes::state::resets;
 pub use static_checks::{archive, description};
 
 use probes::{calls, host, library, reference as reference_flight, state, stepping, times, values};
@@ -44,14 +45,6 @@ pub const PROBES: &[Probe] = &[
 
 const fn probe(name: &'static str, title: &'static str, run: fn(&Fmu) -> Findings) -> Probe {
     Probe { name, title, run }
-}
-
-/// Whether an instance that was reset runs as a fresh one, to the bit, over a few steps of the default experiment.
-///
-/// # Errors
-/// A call that fails.
-pub fn resets(fmu: &Fmu) -> Result<bool, Error> {
-    state::resets(fmu)
 }
 
 /// Runs the probe or trial of this name; `None` where there is none. An FMU that fails in it is a finding.

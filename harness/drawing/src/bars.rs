@@ -53,13 +53,8 @@ impl Picture for BarChart {
             let (width, height) = (WIDTH - PLOT_LEFT - RIGHT, PANEL_HEIGHT - 16.0);
             let frame = Frame { left: PLOT_LEFT, top: below, width, height, x: [-0.5, cases - 0.5], y };
             let steps = [0.0, round_up((y[1] - y[0]) / 5.0)];
-            let axes = Axes {
-                labels: ["", &panel.y_label],
-                steps,
-                label_px: LABEL,
-                is_whole: false,
-                named: [&[]; 2],
-            };
+            let labels = ["", panel.y_label.as_str()];
+            let axes = Axes { labels, steps, label_px: LABEL, ..Axes::default() };
             frame.grid(pen, &axes);
             frame.axes(pen, &axes);
             let width = FILLED / panel.values.len().max(1) as f64;

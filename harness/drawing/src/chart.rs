@@ -181,6 +181,7 @@ pub(super) fn draw_series(
 ) {
     let colour = COLOURS[index % COLOURS.len()];
     let stroke = |width: u32| format!("stroke=\"{colour}\" stroke-width=\"{width}\"");
+    let filled = |opacity: f64| format!("fill=\"{colour}\" fill-opacity=\"{opacity}\"");
     let place = |points: Vec<(f64, f64)>| -> Vec<Pixel> {
         points.into_iter().map(|(x, y)| frame.at([x, y])).collect()
     };
@@ -191,10 +192,7 @@ pub(super) fn draw_series(
             let pieces = series.bands.iter().flat_map(|band| band.range.pieces());
             pieces.for_each(|piece| {
                 let edges = Envelope { lowest: thin(&piece.lowest), greatest: thin(&piece.greatest) };
-                pen.polygon(
-                    &place(edges.outline()),
-                    &format!("fill=\"{colour}\" fill-opacity=\"{BAND_OPACITY}\""),
-                );
+                pen.polygon(&place(edges.outline()), &filled(BAND_OPACITY));
             });
         });
     }
@@ -209,11 +207,8 @@ pub(super) fn draw_series(
             bars.for_each(|pair| {
                 let ((from, value), to) = (pair[0], pair[1].0);
                 let corners = [[from, value.max(0.0)], [to, value.min(0.0)]].map(|corner| frame.at(corner));
-                pen.rect(
-                    corners[0],
-                    corners[1],
-                    &format!("fill=\"{colour}\" stroke=\"#ffffff\" stroke-width=\"0.6\""),
-                );
+                let edged = format!("fill=\"{colour}\" stroke=\"#ffffff\" stroke-width=\"0.6\"");
+                pen.rect(corners[0], corners[1], &edged);
             });
         }),
         Mark::Rings => dots().for_each(|at| {
@@ -226,10 +221,7 @@ pub(super) fn draw_series(
             for piece in pieces(points) {
                 match envelope::of(piece).filter(|_| mark == Mark::Line) {
                     Some(band) => {
-                        pen.polygon(
-                            &place(band.outline()),
-                            &format!("fill=\"{colour}\" fill-opacity=\"0.25\""),
-                        );
+                        pen.polygon(&place(band.outline()), &filled(0.25));
                         edges.extend([band.lowest, band.greatest].map(place));
                     }
                     None if mark == Mark::Steps => lines.push(place(piece.to_vec())),
@@ -238,10 +230,8 @@ pub(super) fn draw_series(
             }
             let dashes = if mark == Mark::Dashed { " stroke-dasharray=\"6 5\"" } else { "" };
             pen.lines(edges.iter().map(Vec::as_slice), &stroke(1));
-            pen.lines(
-                lines.iter().map(Vec::as_slice),
-                &format!("{} stroke-linejoin=\"round\"{dashes}", stroke(2)),
-            );
+            let round = format!("{} stroke-linejoin=\"round\"{dashes}", stroke(2));
+            pen.lines(lines.iter().map(Vec::as_slice), &round);
         }),
     }
 }

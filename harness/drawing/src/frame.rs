@@ -35,6 +35,7 @@ pub struct Frame {
 }
 
 /// What the axes of a frame say.
+#[derive(Default)]
 pub struct Axes<'a> {
     /// Labels of the horizontal and the vertical axis; without the first, its ticks have no numbers.
     pub labels: [&'a str; 2],

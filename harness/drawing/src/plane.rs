@@ -111,7 +111,7 @@ impl Picture for PlaneChart {
             let frame = Frame { left, top, width: side, height: side, x, y };
             let labels = [self.x_label.as_str(), self.y_label.as_str()];
             let steps = halves.map(|half| round_up(half / 3.0));
-            let axes = Axes { labels, steps, label_px: LABEL - 20.0, is_whole: false, named: [&[]; 2] };
+            let axes = Axes { labels, steps, label_px: LABEL - 20.0, ..Axes::default() };
             let axes = axes.beside(y);
             pen.text((left + 0.5 * side, top - 8.0), 13.0, "middle", TEXT, &panel.title);
             panel.draw(pen, &frame, &axes, self.shading.as_ref());

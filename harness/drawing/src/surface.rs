@@ -2,6 +2,8 @@
 
 use nalgebra::Vector3;
 
+use super::shading::mixed;
+
 /// A place in m or a direction, in the body frame.
 pub type Vector = Vector3<f64>;
 
@@ -67,16 +69,13 @@ impl Surface {
     /// Front sides in the light are bright; cells are blue, cloth is yellowish white, backs are grey.
     pub fn colour(&self, front: bool, light: Vector) -> String {
         let light = unit(light).map_or(0.0, |light| self.normal.dot(&light)).max(0.0);
-        let (dark, bright) = match (self.finish, front) {
-            (Finish::Cells, true) => ([0x16, 0x2c, 0x5c], [0x3f, 0x74, 0xc4]),
-            (Finish::Nozzle, _) => ([0x4a, 0x52, 0x5c], [0x7d, 0x86, 0x91]),
-            (_, true) => ([0xb0, 0xa5, 0x8c], [0xff, 0xf6, 0xe2]),
-            (_, false) => ([0x6f, 0x75, 0x7d], [0x8e, 0x95, 0x9e]),
+        let shades: [[u8; 3]; 2] = match (self.finish, front) {
+            (Finish::Cells, true) => [[0x16, 0x2c, 0x5c], [0x3f, 0x74, 0xc4]],
+            (Finish::Nozzle, _) => [[0x4a, 0x52, 0x5c], [0x7d, 0x86, 0x91]],
+            (_, true) => [[0xb0, 0xa5, 0x8c], [0xff, 0xf6, 0xe2]],
+            (_, false) => [[0x6f, 0x75, 0x7d], [0x8e, 0x95, 0x9e]],
         };
-        let mix =
-            |low: u8, high: u8| (f64::from(low) + (f64::from(high) - f64::from(low)) * light).round() as u8;
-        let [r, g, b]: [u8; 3] = std::array::from_fn(|i| mix(dark[i], bright[i]));
-        format!("#{r:02x}{g:02x}{b:02x}")
+        mixed(&shades.map(|shade| shade.map(f64::from)), light)
     }
 
     /// Ends of the lines of a solar panel's grid: nearly square cells over the rectangle around the outline.

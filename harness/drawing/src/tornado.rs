@@ -80,8 +80,8 @@ impl Picture for TornadoChart {
             labels: [&self.x_label, ""],
             steps: [round_up((x[1] - x[0]) / 8.0), 1.0],
             label_px: left,
-            is_whole: false,
             named: [&[], &names],
+            ..Axes::default()
         };
         frame.grid(pen, &axes);
         frame.axes(pen, &axes);

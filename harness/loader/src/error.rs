@@ -23,10 +23,10 @@ pub enum Error {
         /// What is wrong with it.
         what: String,
     },
-    /// `modelDescription.xml` cannot be read.
+    /// `modelDescription.xml`, or the requirements of a shared library, cannot be read.
     #[error("{}: {what}", path.display())]
-    Description {
-        /// The FMU.
+    Unusable {
+        /// The FMU or the library.
         path: PathBuf,
         /// What is wrong, with line and element where known.
         what: String,
@@ -56,14 +56,6 @@ pub enum Error {
         path: PathBuf,
         /// The loader's whole chain of reasons.
         chain: String,
-    },
-    /// The requirements of a shared library cannot be read from its file.
-    #[error("{}: {what}", path.display())]
-    NotReadable {
-        /// The shared library.
-        path: PathBuf,
-        /// What was found and what is allowed.
-        what: String,
     },
     /// An FMI call failed.
     #[error(transparent)]

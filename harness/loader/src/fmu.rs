@@ -58,7 +58,7 @@ impl Fmu {
         };
         let xml_path = folder.join("modelDescription.xml");
         let xml = files::read_at_most(&xml_path, MAX_BYTES as u64).map_err(|error| match error.kind() {
-            std::io::ErrorKind::NotFound => Error::Description {
+            std::io::ErrorKind::NotFound => Error::Unusable {
                 path: source.clone(),
                 what: if metadata.is_dir() {
                     "it is a folder that holds no modelDescription.xml, so no FMU was unpacked into it"
@@ -69,7 +69,7 @@ impl Fmu {
             },
             _ => Error::File { path: xml_path.clone(), source: error },
         })?;
-        let parsed = model_description::parse(&xml).map_err(|error| Error::Description {
+        let parsed = model_description::parse(&xml).map_err(|error| Error::Unusable {
             path: source.clone(),
             what: format!("modelDescription.xml: {}", Error::chain(&error)),
         })?;

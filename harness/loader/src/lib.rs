@@ -14,6 +14,7 @@ mod checker;
 pub mod csv;
 mod error;
 mod fmu;
+mod folder;
 mod foreign;
 mod inputs;
 mod instance;
@@ -35,6 +36,7 @@ pub use call_record::{
 pub use checker::Checking;
 pub use error::{CallError, Error, Outcome};
 pub use fmu::{Fmu, platform_folders};
+pub use folder::copy_folder;
 pub use inputs::InputTable;
 pub use instance::{Instance, InstanceOptions, Resources, State};
 pub use model_description::Status;

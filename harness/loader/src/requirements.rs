@@ -52,7 +52,7 @@ impl Requirements {
     pub fn read(path: &Path) -> Result<Self, Error> {
         let bytes = files::read_at_most(path, MAX_BYTES)
             .map_err(|source| Error::File { path: path.to_owned(), source })?;
-        let refused = |what: String| Error::NotReadable { path: path.to_owned(), what };
+        let refused = |what: String| Error::Unusable { path: path.to_owned(), what };
         let mut found = match Object::parse(&bytes) {
             Ok(Object::Elf(elf)) => Self::of_elf(&elf),
             Ok(Object::PE(pe)) => Self::of_pe(&pe),

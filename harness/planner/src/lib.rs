@@ -4,9 +4,12 @@
 //! theory, then runs what it found through the FMU, which knows nothing of the planner.
 
 pub mod ephemeris;
+mod failure;
 pub mod flyby;
 pub mod leg;
 pub mod momentum;
 pub mod refit;
 pub mod spin;
 pub mod torque_map;
+
+pub use failure::Failure;

@@ -1,7 +1,7 @@
 //! Records a reference flight.
 
-use loader::{Fmu, InputTable, Options, Recording, Simulation, Times, outputs};
-use model_description::{Causality, ScalarVariable, VariableKind};
+use loader::{Fmu, InputTable, Options, Recording, Simulation, Times, Value, outputs};
+use model_description::{Causality, ScalarVariable, VariableKind, value};
 
 use crate::{
     FOLDER, MANIFEST,
@@ -130,12 +130,6 @@ fn table(fmu: &Fmu, inputs: &str, times: &Times) -> Result<Option<(String, Input
 
 /// The start value of a number.
 fn start(variable: &ScalarVariable) -> Option<String> {
-    match &variable.kind {
-        VariableKind::Real { start, .. } => start.map(|start| start.to_string()),
-        VariableKind::Integer { start, .. } | VariableKind::Enumeration { start, .. } => {
-            start.map(|start| start.to_string())
-        }
-        VariableKind::Boolean { start, .. } => start.map(|start| u8::from(start).to_string()),
-        VariableKind::String { .. } => None,
-    }
+    let start = value::start(variable).filter(|start| !matches!(start, Value::Text(_)))?;
+    Some(start.to_f64().to_string())
 }

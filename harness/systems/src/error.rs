@@ -5,14 +5,6 @@ use std::path::PathBuf;
 /// Any failure of a system.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// A file or folder cannot be read or written.
-    #[error("{}: {source}", path.display())]
-    File {
-        /// Which one.
-        path: PathBuf,
-        /// What the system reports.
-        source: std::io::Error,
-    },
     /// The archive is no usable SSP.
     #[error("{}: not a usable SSP archive: {what}", path.display())]
     Archive {

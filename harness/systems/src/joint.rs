@@ -150,16 +150,12 @@ pub(crate) fn link(structure: &Structure, fmus: &[Fmu], connection: &Connection)
     let Connection { start, end, .. } = connection;
     match (&start.component, &end.component) {
         (Some(_), Some(_)) => joint(structure, fmus, connection).map(Link::Joint),
-        (None, Some(_)) => {
-            let own = find_own(structure, start, true)?;
-            let inner = find(structure, fmus, end, own.kind)?;
-            let linear = own_linear(structure, connection, (own, &inner), true)?;
-            Ok(Link::Own(own.name.clone(), Place { at: inner.at, linear }))
-        }
-        (Some(_), None) => {
-            let own = find_own(structure, end, false)?;
-            let inner = find(structure, fmus, start, Kind::Output)?;
-            let linear = own_linear(structure, connection, (own, &inner), false)?;
+        (None, Some(_)) | (Some(_), None) => {
+            let inwards = start.component.is_none();
+            let (outer, inner) = if inwards { (start, end) } else { (end, start) };
+            let own = find_own(structure, outer, inwards)?;
+            let inner = find(structure, fmus, inner, if inwards { own.kind } else { Kind::Output })?;
+            let linear = own_linear(structure, connection, (own, &inner), inwards)?;
             Ok(Link::Own(own.name.clone(), Place { at: inner.at, linear }))
         }
         (None, None) => {

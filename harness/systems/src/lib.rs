@@ -33,8 +33,8 @@ pub use package::{MOST_BYTES, is_system};
 pub use reader::{MOST_COMPONENTS, read as read_structure};
 pub use simulate::simulate_into;
 pub use structure::{
-    Binding, Component, Connection, Connector, End, Enumeration, Experiment, Kind, Linear, Parameter,
-    ParameterSet, SSD_FILE, Signal, Structure, Written,
+    Binding, Component, Connection, Connector, End, Enumeration, Kind, Linear, Parameter, ParameterSet,
+    SSD_FILE, Signal, Structure, Written,
 };
 pub use system::{Part, System};
 pub use unread::Unread;

@@ -5,8 +5,6 @@ use model_description::{
     DefaultExperiment, Description, NamingConvention, ScalarVariable, SimpleType, Unit, VariableKind,
 };
 
-use crate::structure::Experiment;
-
 /// The variables of all components, and of each its component and position there.
 pub(crate) struct Merged {
     /// The description; value references are those of the FMUs and therefore not unique.
@@ -18,18 +16,13 @@ pub(crate) struct Merged {
 /// Merges the descriptions of named components.
 pub(crate) fn merge<'a>(
     name: &str,
-    experiment: Experiment,
+    experiment: DefaultExperiment,
     components: impl Iterator<Item = (&'a str, &'a Fmu)>,
 ) -> Merged {
     let mut description = Description {
         model_name: name.to_owned(),
         variable_naming: NamingConvention::Structured,
-        default_experiment: Some(DefaultExperiment {
-            start_time: experiment.start_s,
-            stop_time: experiment.stop_s,
-            step_size: experiment.step_s,
-            tolerance: None,
-        }),
+        default_experiment: Some(experiment),
         ..Description::default()
     };
     let mut origins = Vec::new();

@@ -33,16 +33,15 @@ pub(crate) struct Package {
 impl Package {
     /// Unpacks an `.ssp` file, or takes the folder that one was unpacked into.
     pub(crate) fn open(path: &Path) -> Result<Self, Error> {
-        let at_path = |source| Error::File { path: path.to_owned(), source };
+        let at_path = |source| loader::Error::File { path: path.to_owned(), source };
         if std::fs::metadata(path).map_err(at_path)?.is_dir() {
             let folder = std::path::absolute(path).map_err(at_path)?;
             return Ok(Self { source: path.to_owned(), folder, _temporary: None });
         }
         let temporary =
-            Scratch::new().map_err(|source| Error::File { path: std::env::temp_dir(), source })?;
+            Scratch::new().map_err(|source| loader::Error::File { path: std::env::temp_dir(), source })?;
         loader::unpack(path, temporary.path(), Limits::default()).map_err(|error| match error {
             loader::Error::Archive { path, what } => Error::Archive { path, what },
-            loader::Error::File { path, source } => Error::File { path, source },
             other => other.into(),
         })?;
         let folder = temporary.path().to_owned();
@@ -59,7 +58,7 @@ impl Package {
                 what: format!("it holds no {SSD_FILE}, so it is no system"),
             },
             io::ErrorKind::NotFound => refuse(format!("there is no such file in the SSP{}", self.listed())),
-            _ => Error::File { path, source: error },
+            _ => loader::Error::File { path, source: error }.into(),
         })
     }
 
@@ -85,7 +84,7 @@ impl Package {
         let into = path.with_extension("unpacked");
         let failed = |path: &Path| {
             let path = path.to_owned();
-            move |source| Error::File { path, source }
+            move |source| loader::Error::File { path, source }
         };
         std::fs::create_dir(&into).map_err(failed(&into))?;
         loader::unpack(&path, &into, Limits::default())

@@ -1,7 +1,7 @@
 //! Reads `SystemStructure.ssd` (SSP 1.0, section 5). What cannot be simulated here is refused by its name.
 
 use files::ANNOTATION;
-use model_description::{ReadError, Start, Xml};
+use model_description::{DefaultExperiment, ReadError, Start, Xml};
 
 use crate::{
     elements::{
@@ -9,9 +9,7 @@ use crate::{
         unknown,
     },
     parameter_set,
-    structure::{
-        Binding, Component, Connection, Connector, End, Experiment, Kind, Linear, Signal, Structure,
-    },
+    structure::{Binding, Component, Connection, Connector, End, Kind, Linear, Signal, Structure},
 };
 
 /// Most components of a system: each is an instance of its FMU.
@@ -207,9 +205,9 @@ fn binding(xml: &mut Xml<'_>, start: &Start) -> Result<Binding, ReadError> {
     Ok(binding)
 }
 
-fn experiment(xml: &mut Xml<'_>, start: &Start) -> Result<Experiment, ReadError> {
-    let mut experiment =
-        Experiment { start_s: number(start, "startTime")?, stop_s: number(start, "stopTime")?, step_s: None };
+fn experiment(xml: &mut Xml<'_>, start: &Start) -> Result<DefaultExperiment, ReadError> {
+    let (start_time, stop_time) = (number(start, "startTime")?, number(start, "stopTime")?);
+    let mut experiment = DefaultExperiment { start_time, stop_time, ..DefaultExperiment::default() };
     list(xml, start, "Annotations", |xml, annotations| {
         while let Some(annotation) = xml.child(annotations)? {
             if attribute(&annotation, "type") != Some(ANNOTATION) {
@@ -218,7 +216,7 @@ fn experiment(xml: &mut Xml<'_>, start: &Start) -> Result<Experiment, ReadError>
             }
             let size = |step: &Start| parsed(step, "size", "a number of seconds");
             if let Some(size_s) = leaves(xml, &annotation, "Step", size)?.pop() {
-                experiment.step_s = size_s;
+                experiment.step_size = size_s;
             }
         }
         Ok(())

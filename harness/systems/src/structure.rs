@@ -1,6 +1,6 @@
 //! The content of a `SystemStructure.ssd` and of parameter sets as plain values (SSP 1.0, sections 5 and 6).
 
-use model_description::{EnumerationItem, Unit};
+use model_description::{DefaultExperiment, EnumerationItem, Unit};
 
 /// The description of a system, where it begins in an SSP.
 pub const SSD_FILE: &str = "SystemStructure.ssd";
@@ -22,8 +22,8 @@ pub struct Structure {
     pub enumerations: Vec<Enumeration>,
     /// Units that connectors name.
     pub units: Vec<Unit>,
-    /// When to start, stop and step.
-    pub experiment: Experiment,
+    /// When to start, stop and step; SSP has no place for the step but an annotation.
+    pub experiment: DefaultExperiment,
 }
 
 /// A component: one FMU.
@@ -234,15 +234,4 @@ impl Written {
             Self::Enumeration(_) => "Enumeration",
         }
     }
-}
-
-/// When a run starts and stops, and its step, in s.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Experiment {
-    /// Start.
-    pub start_s: Option<f64>,
-    /// Stop.
-    pub stop_s: Option<f64>,
-    /// Communication step; SSP has no place for it but an annotation.
-    pub step_s: Option<f64>,
 }

@@ -14,44 +14,33 @@ struct Reading {
     implied: Option<(&'static str, &'static str)>,
 }
 
+/// A reading of which no item is implied.
+const fn reading(
+    inputs: &'static [&'static str],
+    option: &'static str,
+    items: &'static [&'static str],
+) -> Reading {
+    Reading { inputs, option, items, implied: None }
+}
+
 const READINGS: [Reading; 7] = [
     Reading {
-        inputs: &["command."],
-        option: "attitude.source",
-        items: &["commanded", "controlled"],
         implied: Some(("commanded", "guided")),
+        ..reading(&["command."], "attitude.source", &["commanded", "controlled"])
     },
     Reading {
-        inputs: &["command."],
-        option: "command.source",
-        items: &["inputs"],
         implied: Some(("inputs", "guidance")),
+        ..reading(&["command."], "command.source", &["inputs"])
     },
-    Reading {
-        inputs: &["wheel[k].torqueCommand"],
-        option: "attitude.source",
-        items: &["free"],
-        implied: None,
-    },
-    Reading {
-        inputs: &["orbit.position", "orbit.velocity"],
-        option: "orbit.source",
-        items: &["inputs", "held"],
-        implied: None,
-    },
-    Reading {
-        inputs: &["sun.position", "sun.velocity", "earth.position", "earth.velocity"],
-        option: "ephemeris.source",
-        items: &["inputs"],
-        implied: None,
-    },
-    Reading { inputs: &["panel[k].angle"], option: "panel[k].control", items: &["angle"], implied: None },
-    Reading {
-        inputs: &["panel[k].sunOffsetCommand"],
-        option: "panel[k].control",
-        items: &["command"],
-        implied: None,
-    },
+    reading(&["wheel[k].torqueCommand"], "attitude.source", &["free"]),
+    reading(&["orbit.position", "orbit.velocity"], "orbit.source", &["inputs", "held"]),
+    reading(
+        &["sun.position", "sun.velocity", "earth.position", "earth.velocity"],
+        "ephemeris.source",
+        &["inputs"],
+    ),
+    reading(&["panel[k].angle"], "panel[k].control", &["angle"]),
+    reading(&["panel[k].sunOffsetCommand"], "panel[k].control", &["command"]),
 ];
 
 /// Inputs of a component that are connected and not read.

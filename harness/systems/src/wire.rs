@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use loader::Fmu;
-use model_description::{Causality, Description, ScalarVariable, VariableKind, names, value};
+use model_description::{
+    Causality, DefaultExperiment, Description, ScalarVariable, VariableKind, names, value,
+};
 
 use crate::{
     connectors::{add_connector, connection},
@@ -11,9 +13,7 @@ use crate::{
     experiment::complete,
     joint::foreign_item,
     merged::{Merged, merge},
-    structure::{
-        Binding, Component, Connector, End, Experiment, Kind, Parameter, ParameterSet, Structure, Written,
-    },
+    structure::{Binding, Component, Connector, End, Kind, Parameter, ParameterSet, Structure, Written},
     units::shown,
     unread::{Unread, unread},
 };
@@ -83,7 +83,7 @@ pub fn component_name(path: &Path) -> String {
 pub fn wire(
     name: &str,
     components: &[(String, Fmu)],
-    experiment: Experiment,
+    experiment: DefaultExperiment,
     wiring: &Wiring,
 ) -> Result<Wired, Error> {
     for (number, (component, fmu)) in components.iter().enumerate() {
@@ -149,7 +149,7 @@ pub fn wire(
         imply(&mut wired, components, number)?;
     }
     let named = components.iter().map(|(component, fmu)| (component.as_str(), fmu));
-    let merged = merge(name, Experiment::default(), named);
+    let merged = merge(name, DefaultExperiment::default(), named);
     list_outputs(&mut wired.structure, components, wiring, &merged)?;
     export(&mut wired, components, wiring, &merged)?;
     for (component, (_, fmu)) in wired.structure.components.iter_mut().zip(components) {

@@ -75,7 +75,7 @@ fn write_structure(to: &mut String, structure: &Structure) -> std::fmt::Result {
         }
         writeln!(to, "    </ssd:Connections>")?;
     }
-    if let Some(step_s) = structure.experiment.step_s {
+    if let Some(step_s) = structure.experiment.step_size {
         let [tool, schema] = OMSIMULATOR;
         let tolerance = OMSIMULATOR_TOLERANCE;
         writeln!(
@@ -106,12 +106,12 @@ fn write_structure(to: &mut String, structure: &Structure) -> std::fmt::Result {
     }
     let experiment = structure.experiment;
     write!(to, "  <ssd:DefaultExperiment")?;
-    for (name, value) in [("startTime", experiment.start_s), ("stopTime", experiment.stop_s)] {
+    for (name, value) in [("startTime", experiment.start_time), ("stopTime", experiment.stop_time)] {
         if let Some(value) = value {
             write!(to, " {name}=\"{value}\"")?;
         }
     }
-    match experiment.step_s {
+    match experiment.step_size {
         Some(step_s) => writeln!(
             to,
             ">\n    <ssd:Annotations>\n      <ssc:Annotation type=\"{ANNOTATION}\">\

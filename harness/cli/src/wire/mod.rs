@@ -10,7 +10,8 @@ use std::{
 use clap::Args;
 use files::{Destination, Entries};
 use loader::Fmu;
-use systems::{Experiment, SSD_FILE, Wired, Wiring};
+use model_description::DefaultExperiment;
+use systems::{SSD_FILE, Wired, Wiring};
 
 use crate::{
     home, kind,
@@ -84,7 +85,8 @@ pub(crate) fn run(arguments: &Wire) -> Outcome {
     }
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let name = arguments.name.clone().or(stem.filter(|stem| stem != "-"));
-    let experiment = Experiment { start_s: None, stop_s: arguments.stop, step_s: arguments.step };
+    let (stop_time, step_size) = (arguments.stop, arguments.step);
+    let experiment = DefaultExperiment { stop_time, step_size, ..DefaultExperiment::default() };
     let name = name.unwrap_or_else(|| DEFAULT_NAME.to_owned());
     let wiring = Wiring {
         outputs: arguments.outputs.clone(),

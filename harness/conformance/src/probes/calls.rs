@@ -2,7 +2,7 @@
 
 use loader::{Error, Fmu, Instance, State as Saved, Status};
 use model_description::call_table::{Access, Condition, Function, LENIENCIES, State, allowed};
-use model_description::{BaseType, Causality, ScalarVariable, Variability, value::start};
+use model_description::{BaseType, Causality, ScalarVariable, value::start};
 
 use crate::{Finding, experiment, probe::Findings};
 
@@ -18,8 +18,8 @@ pub(crate) fn probe(fmu: &Fmu) -> Findings {
         for &function in Function::ALL {
             for case in cases(fmu, function, state) {
                 match call(fmu, &case)? {
-                    Answer::None => left_out += 1,
-                    Answer::Status(status) => match compare(&case, status) {
+                    None => left_out += 1,
+                    Some(status) => match compare(&case, status) {
                         None => as_reported += 1,
                         Some(finding) => findings.push(finding),
                     },
@@ -49,12 +49,6 @@ enum Expected {
     Refused,
     /// The call is illegal, but our own FMUs and others accept it.
     Either,
-}
-
-enum Answer {
-    /// The call cannot be made with this FMU.
-    None,
-    Status(Status),
 }
 
 /// The calls of one function in one state: for conditional access one with a variable that meets the condition
@@ -134,8 +128,8 @@ fn compare(case: &Case<'_>, status: Status) -> Option<Finding> {
     }
 }
 
-/// Makes the call in a fresh instance.
-fn call(fmu: &Fmu, case: &Case<'_>) -> Result<Answer, Error> {
+/// Makes the call in a fresh instance; none where it cannot be made with this FMU.
+fn call(fmu: &Fmu, case: &Case<'_>) -> Result<Option<Status>, Error> {
     let flags = fmu.co_simulation()?;
     let mut instance = Instance::new(fmu, "probe", &experiment::unchecked())?;
     let needs_saved = matches!(
@@ -149,7 +143,7 @@ fn call(fmu: &Fmu, case: &Case<'_>) -> Result<Answer, Error> {
     let mut saved = None;
     if needs_saved {
         if !flags.can_get_and_set_fmu_state {
-            return Ok(Answer::None);
+            return Ok(None);
         }
         saved = Some(instance.save_state()?);
     }
@@ -158,20 +152,20 @@ fn call(fmu: &Fmu, case: &Case<'_>) -> Result<Answer, Error> {
         && let Some(saved) = saved
     {
         if !flags.can_serialize_fmu_state {
-            return Ok(Answer::None);
+            return Ok(None);
         }
         bytes = instance.serialize_state(saved)?;
     }
     if !experiment::advance(&mut instance, case.state)? {
-        return Ok(Answer::None);
+        return Ok(None);
     }
-    let Some(outcome) = make(&mut instance, case, saved, &bytes)? else { return Ok(Answer::None) };
+    let Some(outcome) = make(&mut instance, case, saved, &bytes)? else { return Ok(None) };
     match outcome {
-        Ok(()) => Ok(Answer::Status(Status::Ok)),
+        Ok(()) => Ok(Some(Status::Ok)),
         Err(error) => match error.status() {
-            Some(status) => Ok(Answer::Status(status)),
+            Some(status) => Ok(Some(status)),
             None if error.has_unknown_status() => Err(error),
-            None => Ok(Answer::None),
+            None => Ok(None),
         },
     }
 }
@@ -182,12 +176,7 @@ fn make(instance: &mut Instance, case: &Case<'_>, saved: Option<Saved>, bytes: &
     let fmu = instance.fmu().clone();
     let flags = fmu.co_simulation()?;
     let times = experiment::times(&fmu)?;
-    let continuous = |causality: Causality| {
-        let mut variables = fmu.description().variables.iter();
-        variables
-            .find(|it| it.causality == causality && it.variability == Variability::Continuous)
-            .map(|it| it.value_reference)
-    };
+    let continuous = |causality| experiment::continuous(&fmu, causality).first().copied();
     if let Some(variable) = case.variable {
         return Ok(match variable_function(case.function) {
             Some((_, true)) => start(variable).map(|value| instance.set_variable(variable, &value)),

@@ -1,8 +1,6 @@
 //! The FMU's host: callbacks, paths, names, locale, threads.
 
-use std::{fs, path::Path};
-
-use loader::{Callbacks, Error, Fmu, Instance, InstanceOptions, LogMessage, Resources, Status};
+use loader::{Callbacks, Error, Fmu, Instance, InstanceOptions, LogMessage, Resources, Status, copy_folder};
 
 use crate::{
     Finding,
@@ -96,7 +94,7 @@ pub(crate) fn paths(fmu: &Fmu) -> Findings {
     let scratch = tempfile::tempdir().map_err(|source| Error::File { path: std::env::temp_dir(), source })?;
     for name in STRANGE {
         let place = scratch.path().join(name);
-        copy(fmu.folder(), &place)?;
+        copy_folder(fmu.folder(), &place)?;
         let there = Fmu::open(&place)?;
         let what = format!("runs from a folder called {name:?}");
         findings.push(runs_alike(&there, &experiment::strict(), &expected, &what));
@@ -127,21 +125,6 @@ pub(crate) fn paths(fmu: &Fmu) -> Findings {
         findings.push(Finding::good(format!("{runs} with {what} for the resource location, and goes on")));
     }
     Ok(findings)
-}
-
-fn copy(from: &Path, to: &Path) -> Result<(), Error> {
-    let failed = |path: &Path, source| Error::File { path: path.to_owned(), source };
-    fs::create_dir_all(to).map_err(|source| failed(to, source))?;
-    for entry in fs::read_dir(from).map_err(|source| failed(from, source))? {
-        let path = entry.map_err(|source| failed(from, source))?.path();
-        let target = to.join(path.file_name().unwrap_or_default());
-        if path.is_dir() {
-            copy(&path, &target)?;
-        } else {
-            fs::copy(&path, &target).map_err(|source| failed(&target, source))?;
-        }
-    }
-    Ok(())
 }
 
 /// GUIDs and names.

@@ -72,11 +72,11 @@ pub(crate) fn probe(fmu: &Fmu) -> Findings {
     Ok(findings)
 }
 
-/// Whether an instance that was reset runs as a fresh one, to the bit.
+/// Whether an instance that was reset runs as a fresh one, to the bit, over a few steps of the default experiment.
 ///
 /// # Errors
 /// A call that fails.
-pub(crate) fn resets(fmu: &Fmu) -> Result<bool, Error> {
+pub fn resets(fmu: &Fmu) -> Result<bool, Error> {
     let mut instance = experiment::ready(fmu, &InstanceOptions::default())?;
     let at_start = experiment::outputs(&mut instance)?;
     experiment::simulate(&mut instance, 0, STEPS)?;

@@ -132,8 +132,8 @@ fn references(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), loader::Erro
 /// Derivatives of inputs and outputs, and directional ones.
 pub(crate) fn derivatives(fmu: &Fmu) -> Findings {
     let flags = fmu.co_simulation()?;
-    let inputs = continuous(fmu, Causality::Input);
-    let outputs = continuous(fmu, Causality::Output);
+    let inputs = experiment::continuous(fmu, Causality::Input);
+    let outputs = experiment::continuous(fmu, Causality::Output);
     let mut findings = Vec::new();
     match inputs.first() {
         Some(&input) if flags.can_interpolate_inputs => {
@@ -202,12 +202,4 @@ fn directional(
     let linear = result.iter().zip(&doubled).all(|(one, two)| (2.0 * one - two).abs() <= 1e-9 * two.abs());
     findings.push(Finding::expect(linear, "directional derivatives are finite and linear in their seed"));
     Ok(())
-}
-
-fn continuous(fmu: &Fmu, causality: Causality) -> Vec<u32> {
-    let variables = fmu.description().variables.iter();
-    variables
-        .filter(|it| it.causality == causality && it.variability == Variability::Continuous)
-        .map(|it| it.value_reference)
-        .collect()
 }

@@ -154,5 +154,5 @@ fn what_is_no_fmu_says_so() {
     let error = Fmu::open(&path).unwrap_err().to_string();
     assert!(error.contains("a.fmu") && error.contains("modelDescription.xml"), "{error}");
     archive(&path, &[("modelDescription.xml", b"\xff\xfe<\0")]);
-    assert!(matches!(Fmu::open(&path), Err(Error::Description { .. })));
+    assert!(matches!(Fmu::open(&path), Err(Error::Unusable { .. })));
 }

@@ -13,7 +13,8 @@ use physics::{
     numerics::chebyshev::Segment,
 };
 
-use super::source::{Failure, Source};
+use super::source::Source;
+use crate::Failure;
 
 /// Length of the segments to begin with: of planets, and of the spacecraft.
 const LONGEST_S: [f64; 2] = [16.0 * DAY_S, 0.25 * DAY_S];
@@ -139,11 +140,7 @@ pub fn coarse(
         Ok(())
     };
     let from_sun = |states: &[CartesianState], sun: &[CartesianState]| -> Vec<CartesianState> {
-        let difference = |(a, b): (&CartesianState, &CartesianState)| CartesianState {
-            position_m: a.position_m - b.position_m,
-            velocity_m_s: a.velocity_m_s - b.velocity_m_s,
-        };
-        states.iter().zip(sun).map(difference).collect()
+        states.iter().zip(sun).map(|(state, sun)| *state - *sun).collect()
     };
     // One flight for all.
     let mut requested = vec![OnboardTarget::Sun, OnboardTarget::Earth];

@@ -5,5 +5,6 @@ mod source;
 #[cfg(feature = "spk")]
 pub mod spk;
 
+pub use crate::Failure;
 pub use fit::{Requested, coarse, precise};
-pub use source::{Failure, Source, utc_date};
+pub use source::{Source, utc_date};

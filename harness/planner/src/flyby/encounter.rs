@@ -68,11 +68,7 @@ impl Encounter {
         };
         let [before, plane, after] = [of(&before?)?, of(&at_epoch)?, of(&after?)?];
         let predicted_path = PredictedPath { start_s: epoch_s, state: at_epoch, ..from };
-        let mut matrix = Matrix6::identity();
-        let closest = predicted_path.propagate(time_s, &mut |cell| {
-            matrix = cell.transition()? * matrix;
-            Ok(true)
-        })?;
+        let (matrix, closest) = predicted_path.over(time_s)?;
         let time_by_state = closest_by_state(&closest, force_model.gm_m3_s2) * matrix;
         let mut partials = BPlane::partials(&at_epoch, force_model.gm_m3_s2).unwrap_or_else(Matrix3x6::zeros);
         let rates = [after.b_t_m - before.b_t_m, after.b_r_m - before.b_r_m].map(|it| it / (2.0 * AROUND_S));
@@ -184,6 +180,16 @@ impl PredictedPath<'_> {
             }
         }
         Ok(orbit.state_at(orbit.end_s().min(end_s)))
+    }
+
+    /// The transition matrix to a time, and the state there from the planet.
+    pub(super) fn over(&self, end_s: f64) -> Result<(Matrix6<f64>, CartesianState), String> {
+        let mut matrix = Matrix6::identity();
+        let state = self.propagate(end_s, &mut |cell| {
+            matrix = cell.transition()? * matrix;
+            Ok(true)
+        })?;
+        Ok((matrix, state))
     }
 
     /// The state at a time, from the planet.

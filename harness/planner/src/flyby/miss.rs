@@ -8,8 +8,7 @@
 //! Error: of the second order in the miss, by its share of B.
 //! Reference: paper 003 gives no definition of its penalty; this one is that of a trajectory that must be met again.
 
-use nalgebra::{Matrix3, Matrix3x2, Matrix6, Matrix6x2, Vector2, Vector3};
-use physics::environment::CartesianState;
+use nalgebra::{Matrix3, Matrix3x2, Matrix6x2, Vector2, Vector3};
 
 use super::{encounter::PredictedPath, flight::ForceModel, sensitivity::Sensitivity};
 
@@ -44,8 +43,8 @@ impl MissCost {
         let mut shift = Matrix6x2::zeros();
         shift.fixed_view_mut::<3, 2>(0, 0).copy_from(&place_by_miss.fixed_columns::<2>(0));
         let nominal = PredictedPath { light_m_s2: Vector3::zeros(), ..encounter.predicted_path(force_model) };
-        let (to_manoeuvre, state) = over(&nominal, manoeuvre_s)?;
-        let (to_date, _) = over(&PredictedPath { start_s: manoeuvre_s, state, ..nominal }, date_s)?;
+        let (to_manoeuvre, state) = nominal.over(manoeuvre_s)?;
+        let (to_date, _) = PredictedPath { start_s: manoeuvre_s, state, ..nominal }.over(date_s)?;
         let off = to_manoeuvre * shift;
         let block = |column: usize| to_date.fixed_view::<3, 3>(0, column).into_owned();
         let back: Matrix3<f64> = block(3)
@@ -64,16 +63,6 @@ impl MissCost {
     pub fn cost_m_s(&self, miss_m: [f64; 2]) -> f64 {
         self.delta_v_m_s(miss_m).norm()
     }
-}
-
-/// The transition matrix to a time, and the state there from the planet.
-fn over(predicted_path: &PredictedPath<'_>, end_s: f64) -> Result<(Matrix6<f64>, CartesianState), String> {
-    let mut matrix = Matrix6::identity();
-    let state = predicted_path.propagate(end_s, &mut |cell| {
-        matrix = cell.transition()? * matrix;
-        Ok(true)
-    })?;
-    Ok((matrix, state))
 }
 
 #[cfg(test)]

@@ -8,7 +8,12 @@ use super::{
     maneuvers::{Maneuver, ellipse},
     sensitivity::{DesiredDeltaV, Sensitivity},
 };
-use crate::momentum::{attainable::Reachable, report::percentiles, target::Moves, windows::Window};
+use crate::momentum::{
+    attainable::Reachable,
+    report::{by_percent, percentiles},
+    target::Moves,
+    windows::Window,
+};
 
 /// Manoeuvres that would do what the plan does.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,15 +141,19 @@ impl FlybyReport {
     }
 }
 
+fn ellipse_json(covariance_m2: &Matrix2<f64>) -> Value {
+    let (semi_axes_m, angle_rad) = ellipse(covariance_m2);
+    json!({ "semiAxes_m": semi_axes_m, "angle_deg": angle_rad.to_degrees() })
+}
+
 fn compared(compared: &Compared) -> Value {
     let approach = compared.approach.iter().map(|(at_s, it)| {
-        let ([large_m, small_m], angle_rad) = ellipse(&it.left.covariance_m2);
         json!({
             "at_s": at_s,
             "mean_m_s": [it.mean_m_s.x, it.mean_m_s.y, it.mean_m_s.z],
             "rms_m_s": it.rms_m_s,
             "left_m": it.left.rms_m(),
-            "ellipse": { "semiAxes_m": [large_m, small_m], "angle_deg": angle_rad.to_degrees() },
+            "ellipse": ellipse_json(&it.left.covariance_m2),
         })
     });
     let [without, behind_approach, behind_plan] = compared.departure_m_s;
@@ -163,15 +172,13 @@ fn compared(compared: &Compared) -> Value {
 
 fn campaign(campaign: &Campaign) -> Value {
     let of = |value: &dyn Fn(&Outcome) -> f64| {
-        let [half, most, nearly_all] = percentiles(campaign.outcomes.iter().map(value).collect());
-        json!({ "50": half, "90": most, "99": nearly_all })
+        by_percent(percentiles(campaign.outcomes.iter().map(value).collect()))
     };
-    let ([large_m, small_m], angle_rad) = ellipse(&campaign.covariance_m2);
     json!({
         "runs": campaign.outcomes.len() + campaign.failed.len(),
         "failed": campaign.failed.iter().map(|(run, why)| json!({ "run": run, "why": why })).collect::<Vec<_>>(),
         "mean_m": [campaign.mean_m.x, campaign.mean_m.y],
-        "ellipse": { "semiAxes_m": [large_m, small_m], "angle_deg": angle_rad.to_degrees() },
+        "ellipse": ellipse_json(&campaign.covariance_m2),
         "percentiles": {
             "miss_m": of(&|it| it.miss_m[0].hypot(it.miss_m[1])),
             "missT_m": of(&|it| it.miss_m[0]),

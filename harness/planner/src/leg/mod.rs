@@ -7,6 +7,7 @@ mod shooting;
 #[cfg(test)]
 mod tests;
 
+pub use crate::Failure;
 pub use aimpoint::{Flyby, FlybyAimpoint, closest_distance_m, impact_parameter_m};
 pub use approach::{Approach, ApproachRow, Encounter};
-pub use shooting::{Failure, Leg, LegError, LegTask, SimulatesLeg, shoot};
+pub use shooting::{Leg, LegError, LegTask, SimulatesLeg, shoot};

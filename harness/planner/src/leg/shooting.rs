@@ -23,9 +23,7 @@ use super::{
     aimpoint::{FlybyAimpoint, impact_parameter_m},
     approach::{Approach, Encounter},
 };
-
-/// Why a flight was not simulated.
-pub type Failure = Box<dyn std::error::Error>;
+use crate::Failure;
 
 /// Most flights without the body's gravity; they end where they are this near to their place, as a share of B.
 const UNATTRACTED_ROUNDS: u32 = 12;

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::{
     counted,
     model::Model,
-    plan::{PlanError, PlanTask, PlannedDump, Simulates, give, refine, whole},
+    plan::{PlanError, PlanTask, PlannedDump, Simulates, give, refine},
     program::{GUARD, Goal, TargetRow, WHOLE},
     region::Region,
     simulated::{FlightRow, SAME_S, SimulatedFlight},
@@ -17,6 +17,7 @@ use super::{
     torque::{Attitude, Control, SunlitSpacecraft},
     windows::Window,
 };
+use crate::Failure;
 
 /// Directions in which the farthest places are sought.
 const DIRECTIONS: usize = 16;
@@ -41,15 +42,9 @@ fn bare(task: &PlanTask, sunlit: &SunlitSpacecraft, simulated: &SimulatedFlight)
 struct Silent;
 
 impl Simulates for Silent {
-    fn simulate(
-        &mut self,
-        _: &[Window],
-        _: &[PlannedDump],
-    ) -> Result<SimulatedFlight, Box<dyn std::error::Error>> {
+    fn simulate(&mut self, _: &[Window], _: &[PlannedDump]) -> Result<SimulatedFlight, Failure> {
         Err("nothing is simulated here".into())
     }
-
-    fn progress(&mut self, _: &str) {}
 }
 
 /// By how much the limit is exceeded from a time on without dumps at best, in N m s, by the model before any flight of a plan; negative
@@ -195,7 +190,7 @@ fn climb(
     let limit_n_m_s = model.limit.momentum_n_m_s;
     while trust > LEAST_RANGE {
         let LinearMiss { constant, terms } = model.linear_miss(&leaders)?;
-        let mut program = model.program(&leaders, whole(model), [GUARD, trust]);
+        let mut program = model.program(&leaders, model.whole(), [GUARD, trust]);
         let by = |axis: Vector2<f64>| terms.iter().map(move |(index, by)| (*index, axis.dot(&by.xy())));
         let size = by(direction).map(|(_, by)| by.abs()).fold(0.0, f64::max);
         if size == 0.0 {

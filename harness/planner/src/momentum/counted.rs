@@ -160,13 +160,9 @@ impl Search<'_> {
             .collect()
     }
 
-    fn whole(&self) -> Part {
-        Part { steps: [0, self.model.instants().len()], free: false }
-    }
-
     /// Whether a plan exists with these changes, all windows from one on by themselves.
     fn is_open(&self, changes: &[usize], single_from: usize) -> bool {
-        is_kept(self.model, &self.leaders(changes, single_from), self.whole(), self.ranges, 1.0)
+        is_kept(self.model, &self.leaders(changes, single_from), self.model.whole(), self.ranges, 1.0)
     }
 
     /// The window up to which those from `from` on can share their arrays, whatever comes before and after.

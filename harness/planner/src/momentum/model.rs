@@ -196,6 +196,11 @@ impl Model {
         self.instants = instants;
     }
 
+    /// The whole flight as a part.
+    pub(super) fn whole(&self) -> Part {
+        Part { steps: [0, self.instants.len()], free: false }
+    }
+
     /// The rows at which the programme's steps end.
     pub(super) fn instants(&self) -> &[usize] {
         &self.instants

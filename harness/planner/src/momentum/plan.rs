@@ -13,13 +13,14 @@ use physics::momentum::Convention;
 use super::{
     baseline::{NoOffset, OffsetStep},
     counted::{self, Groups},
-    model::{Limit, Model, Part},
+    model::{Limit, Model},
     program::{GUARD, Goal, Program, Solution, WHOLE},
     simulated::{MomentumSize, SAME_S, SimulatedFlight},
     target::Target,
     torque::{ALL, Controls, SunlitSpacecraft},
     windows::{Layout, Window},
 };
+use crate::Failure;
 
 /// Flight and plan agree where they differ by less than this share of the limit.
 pub const AGREED: f64 = 0.02;
@@ -132,11 +133,17 @@ pub struct MomentumPlan {
     pub flight: SimulatedFlight,
 }
 
+/// The greatest |H| of rows as planned and as simulated, in N m s.
+pub(super) fn greatest_n_m_s<'a>(rows: impl Iterator<Item = &'a PlannedRow>) -> [f64; 2] {
+    rows.fold([0.0; 2], |[planned, simulated], row| {
+        [row.planned_n_m_s.max(planned), row.simulated_n_m_s.max(simulated)]
+    })
+}
+
 impl MomentumPlan {
     /// Greatest |H| as planned and as simulated, in N m s.
     pub fn greatest_n_m_s(&self) -> [f64; 2] {
-        let most = |of: fn(&PlannedRow) -> f64| self.rows.iter().map(of).fold(0.0, f64::max);
-        [most(|row| row.planned_n_m_s), most(|row| row.simulated_n_m_s)]
+        greatest_n_m_s(self.rows.iter())
     }
 
     /// Greatest difference of flight and plan, in N m s.
@@ -153,7 +160,7 @@ pub enum PlanError {
     Corridor(NoOffset),
     /// A flight failed.
     #[error("{0}")]
-    Flight(Box<dyn std::error::Error>),
+    Flight(Failure),
     /// The solver found nothing.
     #[error("no programme was solved: {0}")]
     Programme(&'static str),
@@ -165,19 +172,10 @@ pub trait Simulates {
     ///
     /// # Errors
     /// The flight fails.
-    fn simulate(
-        &mut self,
-        windows: &[Window],
-        dumps: &[PlannedDump],
-    ) -> Result<SimulatedFlight, Box<dyn std::error::Error>>;
+    fn simulate(&mut self, windows: &[Window], dumps: &[PlannedDump]) -> Result<SimulatedFlight, Failure>;
 
     /// Receives what is being done.
-    fn progress(&mut self, doing: &str);
-}
-
-/// The whole flight as a part.
-pub(super) fn whole(model: &Model) -> Part {
-    Part { steps: [0, model.instants().len()], free: false }
+    fn progress(&mut self, _doing: &str) {}
 }
 
 /// Gives every window the controls of a solution, and every dump its momentum.
@@ -219,7 +217,7 @@ pub(super) fn refine(
     let mut merit_now = f64::INFINITY;
     for step in 0..MOST_STEPS {
         simulates.progress("momentum");
-        let program = model.program(leaders, whole(model), [GUARD, trust]);
+        let program = model.program(leaders, model.whole(), [GUARD, trust]);
         if step == 0 && model.is_of(leaders) {
             merit_now = merit(&program, &model.controls(leaders), exceeded(model), goal);
         }
@@ -361,7 +359,11 @@ pub fn plan(
                 (found, kept)
             }
         };
-        let dumps = planned_dumps(&model);
+        let dumps: Vec<PlannedDump> = model
+            .dumps
+            .iter()
+            .map(|(row, after)| PlannedDump { at_s: model.simulated.rows[*row].time_s, after_n_m_s: *after })
+            .collect();
         simulates.progress("flight");
         let flight = simulates.simulate(&model.windows, &dumps).map_err(PlanError::Flight)?;
         let rows = rows(&model, &flight);
@@ -414,13 +416,6 @@ pub fn body_momentum_n_m_s(
     let inertial_from_body =
         window.map_or(row.inertial_from_body, |window| window.inertial_from_body(sunlit, &row, dump.at_s));
     inertial_from_body.inverse() * dump.after_n_m_s
-}
-
-fn planned_dumps(model: &Model) -> Vec<PlannedDump> {
-    let dumps = model.dumps.iter();
-    dumps
-        .map(|(row, after)| PlannedDump { at_s: model.simulated.rows[*row].time_s, after_n_m_s: *after })
-        .collect()
 }
 
 fn rows(model: &Model, flight: &SimulatedFlight) -> Vec<PlannedRow> {

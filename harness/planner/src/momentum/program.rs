@@ -114,11 +114,29 @@ pub(super) struct Solution {
     pub excess: f64,
 }
 
-/// A bounded control that the solver moves, in units of its own range.
+/// A bounded control, in units of its own range; one whose bounds are apart has a column of the solver.
 struct Moved {
-    column: usize,
+    column: Option<usize>,
     middle: f64,
     half: f64,
+}
+
+impl Moved {
+    fn new([low, high]: [f64; 2], columns: &mut usize) -> Self {
+        let half = 0.5 * (high - low);
+        let column = (half > 1e-12).then_some(*columns);
+        *columns += usize::from(column.is_some());
+        Self { column, middle: 0.5 * (low + high), half }
+    }
+
+    /// The entry of a row that has the control `by` times.
+    fn entry(&self, by: f64) -> Option<(usize, f64)> {
+        Some((self.column?, by * self.half))
+    }
+
+    fn value(&self, [low, high]: [f64; 2], found: &[f64]) -> f64 {
+        self.column.map_or(self.middle, |column| (self.middle + self.half * found[column]).clamp(low, high))
+    }
 }
 
 /// Rows and columns of the solver's matrix, cone by cone.
@@ -155,8 +173,7 @@ impl Program {
             return None;
         }
         let mut columns = 0;
-        let moved: Vec<Option<Moved>> =
-            self.bounds.iter().map(|bounds| moved(*bounds, &mut columns)).collect();
+        let moved: Vec<Moved> = self.bounds.iter().map(|bounds| Moved::new(*bounds, &mut columns)).collect();
         let momentum_at = columns;
         columns += 3 * self.steps.len();
         let begin_at = columns;
@@ -167,7 +184,9 @@ impl Program {
         let length_at = columns;
         columns += lengths.len();
         let magnitudes: Vec<_> = match goal {
-            Goal::LeastCost => self.magnitudes.iter().filter(|(index, _)| moved[*index].is_some()).collect(),
+            Goal::LeastCost => {
+                self.magnitudes.iter().filter(|(index, _)| moved[*index].column.is_some()).collect()
+            }
             Goal::LeastExcess | Goal::Farthest => Vec::new(),
         };
         let magnitude_at = columns;
@@ -185,45 +204,35 @@ impl Program {
         self.equations(&mut rows, &moved, momentum_at, begin_at);
         let equations = rows.right.len();
         rows.cones.push(ZeroConeT(equations));
-        for moved in moved.iter().flatten() {
-            rows.row([(moved.column, 1.0)], 1.0);
-            rows.row([(moved.column, -1.0)], 1.0);
+        for column in moved.iter().filter_map(|it| it.column) {
+            rows.row([(column, 1.0)], 1.0);
+            rows.row([(column, -1.0)], 1.0);
         }
+        let middles = |terms: &[(usize, f64)]| -> f64 {
+            terms.iter().map(|(index, by)| by * moved[*index].middle).sum()
+        };
         for (terms, most) in &self.sums {
-            let constant: f64 = terms
-                .iter()
-                .map(|(index, weight)| {
-                    weight * moved[*index].as_ref().map_or(middle(self.bounds[*index]), |it| it.middle)
-                })
-                .sum();
-            let entries = terms
-                .iter()
-                .filter_map(|(index, weight)| moved[*index].as_ref().map(|it| (it.column, weight * it.half)));
-            rows.row(entries.collect::<Vec<_>>(), most - constant);
+            let entries = terms.iter().filter_map(|(index, weight)| moved[*index].entry(*weight));
+            rows.row(entries, most - middles(terms));
         }
         for (at, (index, _)) in magnitudes.iter().enumerate() {
-            let Some(moved) = &moved[*index] else { continue };
-            rows.row([(moved.column, moved.half), (magnitude_at + at, -1.0)], -moved.middle);
-            rows.row([(moved.column, -moved.half), (magnitude_at + at, -1.0)], moved.middle);
+            let moved = &moved[*index];
+            for sign in [1.0, -1.0] {
+                let entries = moved.entry(sign).into_iter().chain([(magnitude_at + at, -1.0)]);
+                rows.row(entries, -sign * moved.middle);
+            }
         }
         let greatest = self.steps.iter().map(|step| step.limit).fold(0.0, f64::max);
         if let Some(excess) = excess {
             rows.row([(excess, -1.0)], greatest);
         }
         for target in &self.targets {
-            let at = |index: usize| moved[index].as_ref();
-            let middles = target
-                .terms
-                .iter()
-                .map(|(index, by)| by * at(*index).map_or(middle(self.bounds[*index]), |it| it.middle));
-            let constant = target.constant + middles.sum::<f64>();
+            let constant = target.constant + middles(&target.terms);
             // In units of its bound: rows of one size.
             let unit = 1.0 / target.within;
             for sign in [1.0, -1.0] {
-                let terms = target
-                    .terms
-                    .iter()
-                    .filter_map(|(index, by)| at(*index).map(|it| (it.column, sign * by * it.half * unit)));
+                let entries = target.terms.iter().filter_map(|(index, by)| moved[*index].entry(sign * by));
+                let terms = entries.map(|(column, by)| (column, by * unit));
                 let wider = excess.map(|column| (column, -target.per_excess * unit));
                 rows.row(terms.chain(wider), 1.0 - sign * constant * unit);
             }
@@ -261,10 +270,7 @@ impl Program {
         for (at, (pair, _)) in lengths.iter().enumerate() {
             rows.row([(length_at + at, -1.0)], 0.0);
             for index in pair {
-                match &moved[*index] {
-                    Some(moved) => rows.row([(moved.column, -moved.half)], moved.middle),
-                    None => rows.row([], middle(self.bounds[*index])),
-                }
+                rows.row(moved[*index].entry(-1.0), moved[*index].middle);
             }
             rows.cones.push(SecondOrderConeT(3));
         }
@@ -281,8 +287,8 @@ impl Program {
         }
         if goal == Goal::Farthest {
             for (index, gain) in &self.gains {
-                if let Some(moved) = &moved[*index] {
-                    cost[moved.column] -= gain * moved.half;
+                if let Some((column, gain)) = moved[*index].entry(*gain) {
+                    cost[column] -= gain;
                 }
             }
         }
@@ -294,7 +300,7 @@ impl Program {
         let over =
             momentum.iter().zip(&self.steps).map(|(momentum, step)| self.size.of(momentum) - step.limit);
         let controls: Vec<f64> =
-            self.bounds.iter().zip(&moved).map(|(bounds, moved)| value(*bounds, moved, &found)).collect();
+            self.bounds.iter().zip(&moved).map(|(bounds, moved)| moved.value(*bounds, &found)).collect();
         let missed = self.targets.iter().map(|target| target.excess(&controls));
         Some(Solution {
             excess: over.chain(missed).fold(f64::NEG_INFINITY, f64::max),
@@ -305,7 +311,7 @@ impl Program {
     }
 
     /// h_j - h_(j-1) - sum g x = d.
-    fn equations(&self, rows: &mut Rows, moved: &[Option<Moved>], momentum_at: usize, begin_at: usize) {
+    fn equations(&self, rows: &mut Rows, moved: &[Moved], momentum_at: usize, begin_at: usize) {
         let mut begins = begin_at;
         for (index, step) in self.steps.iter().enumerate() {
             let mut known = step.drift;
@@ -319,38 +325,17 @@ impl Program {
                 }
             }
             for (control, gain) in &step.terms {
-                known +=
-                    gain * moved[*control].as_ref().map_or(middle(self.bounds[*control]), |it| it.middle);
+                known += gain * moved[*control].middle;
             }
             for axis in 0..3 {
                 let of_before = before.map(|column| (column + axis, -1.0));
-                let of_controls = step.terms.iter().filter_map(|(control, gain)| {
-                    moved[*control].as_ref().map(|it| (it.column, -gain[axis] * it.half))
-                });
+                let of_controls =
+                    step.terms.iter().filter_map(|(control, gain)| moved[*control].entry(-gain[axis]));
                 let own = [(momentum_at + 3 * index + axis, 1.0)];
                 rows.row(own.into_iter().chain(of_before).chain(of_controls), known[axis]);
             }
         }
     }
-}
-
-fn middle([low, high]: [f64; 2]) -> f64 {
-    0.5 * (low + high)
-}
-
-/// A control whose bounds are apart.
-fn moved(bounds: [f64; 2], columns: &mut usize) -> Option<Moved> {
-    let half = 0.5 * (bounds[1] - bounds[0]);
-    (half > 1e-12).then(|| {
-        let column = *columns;
-        *columns += 1;
-        Moved { column, middle: middle(bounds), half }
-    })
-}
-
-fn value(bounds: [f64; 2], moved: &Option<Moved>, found: &[f64]) -> f64 {
-    let Some(moved) = moved else { return middle(bounds) };
-    (moved.middle + moved.half * found[moved.column]).clamp(bounds[0], bounds[1])
 }
 
 /// min cost.x within the cones.

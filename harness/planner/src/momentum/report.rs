@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::{
     baseline::NoOffset,
-    plan::{MomentumPlan, PlanTask},
+    plan::{MomentumPlan, PlanTask, greatest_n_m_s},
     simulated::SAME_S,
     torque::Control,
     windows::Window,
@@ -72,6 +72,11 @@ pub fn percentiles(mut values: Vec<f64>) -> [f64; 3] {
     })
 }
 
+/// Percentiles by their names.
+pub(crate) fn by_percent([half, most, nearly_all]: [f64; 3]) -> Value {
+    json!({ "50": half, "90": most, "99": nearly_all })
+}
+
 /// Those of the greatest |H| (N m s) and of the dumps of flights.
 pub fn of_seeds(flights: &[(f64, u32)]) -> [[f64; 3]; 2] {
     let momentum = flights.iter().map(|(momentum, _)| *momentum).collect();
@@ -110,7 +115,6 @@ pub fn json(
             .collect()
     };
     let [momentum, dumps] = of_seeds(seeds);
-    let by_percent = |of: [f64; 3]| json!({ "50": of[0], "90": of[1], "99": of[2] });
     let percentiles = match seeds.len() {
         0 => Value::Null,
         count => {
@@ -171,14 +175,8 @@ pub fn corridor_json(none: &NoOffset, start_s: f64) -> Result<String, serde_json
 
 /// Greatest |H| in a window as planned and as simulated, in N m s.
 pub fn greatest_in(plan: &MomentumPlan, window: &Window) -> [f64; 2] {
-    let rows = || {
-        let inside = window.start_s - SAME_S..=window.stop_s + SAME_S;
-        plan.rows.iter().filter(move |row| inside.contains(&row.time_s))
-    };
-    [
-        rows().map(|row| row.planned_n_m_s).fold(0.0, f64::max),
-        rows().map(|row| row.simulated_n_m_s).fold(0.0, f64::max),
-    ]
+    let inside = window.start_s - SAME_S..=window.stop_s + SAME_S;
+    greatest_n_m_s(plan.rows.iter().filter(|row| inside.contains(&row.time_s)))
 }
 
 /// `windows.csv`; `shown_deg` gives an angle in rad as it is simulated.

@@ -62,11 +62,6 @@ impl Controls {
         self.0[control as usize] = value;
         self
     }
-
-    /// Angle between the Sun and -Y, in rad.
-    pub fn tilt_rad(&self) -> f64 {
-        self.get(Control::Azimuth).hypot(self.get(Control::Elevation))
-    }
 }
 
 /// Which attitude a window has.
@@ -254,14 +249,20 @@ impl SunlitSpacecraft {
     }
 
     fn loads(&self, row: &FlightRow, attitude: Attitude, controls: &Controls) -> [Vector3<f64>; 2] {
+        self.load(row, &self.inertial_from_body(row, attitude, controls), &self.settings(controls))
+    }
+
+    /// That attitude; the simulated one where the downlink has none.
+    pub(super) fn inertial_from_body(
+        &self,
+        row: &FlightRow,
+        attitude: Attitude,
+        controls: &Controls,
+    ) -> Rotation3<f64> {
         let [azimuth_rad, elevation_rad] = [Control::Azimuth, Control::Elevation].map(|it| controls.get(it));
-        let inertial_from_body = match attitude {
-            Attitude::SimulatedFlight => row.inertial_from_body,
-            Attitude::Downlink => {
-                self.downlink_attitude(row, azimuth_rad, elevation_rad).unwrap_or(row.inertial_from_body)
-            }
-        };
-        self.load(row, &inertial_from_body, &self.settings(controls))
+        let turns = attitude == Attitude::Downlink;
+        let downlink = turns.then(|| self.downlink_attitude(row, azimuth_rad, elevation_rad)).flatten();
+        downlink.unwrap_or(row.inertial_from_body)
     }
 
     /// That torque, the force with it, and their derivatives by the angles.
@@ -279,13 +280,9 @@ impl SunlitSpacecraft {
             by_angle[2] = by(Control::Azimuth);
             by_angle[3] = by(Control::Elevation);
         }
-        let inertial_from_body = match attitude {
-            Attitude::SimulatedFlight => row.inertial_from_body,
-            Attitude::Downlink => self
-                .downlink_attitude(row, controls.get(Control::Azimuth), controls.get(Control::Elevation))
-                .unwrap_or(row.inertial_from_body),
-        };
-        self.linear(row, &inertial_from_body, self.loads(row, attitude, controls), by_angle)
+        let inertial_from_body = self.inertial_from_body(row, attitude, controls);
+        let loads = self.load(row, &inertial_from_body, &self.settings(controls));
+        self.linear(row, &inertial_from_body, loads, by_angle)
     }
 
     fn linear(

@@ -77,12 +77,13 @@ impl Window {
     /// Sunlight at a row of the window about its present controls.
     pub fn linearised(&self, sunlit: &SunlitSpacecraft, row: &FlightRow) -> LinearTorque {
         match self.kind {
-            WindowKind::Free => sunlit.linearised(row, Attitude::Downlink, &self.controls),
             WindowKind::Frozen => sunlit.simulated(row),
-            WindowKind::Fixed | WindowKind::Planned => {
-                sunlit.linearised(row, Attitude::SimulatedFlight, &self.controls)
-            }
+            _ => sunlit.linearised(row, self.attitude(), &self.controls),
         }
+    }
+
+    fn attitude(&self) -> Attitude {
+        if self.kind == WindowKind::Free { Attitude::Downlink } else { Attitude::SimulatedFlight }
     }
 
     /// The attitude at a time where the geometry is a row's: that row's own where the window is not free.
@@ -92,13 +93,9 @@ impl Window {
         row: &FlightRow,
         at_s: f64,
     ) -> Rotation3<f64> {
-        let [azimuth_rad, elevation_rad] =
-            [Control::Azimuth, Control::Elevation].map(|it| self.controls.get(it));
-        let is_free = self.kind == WindowKind::Free;
-        let downlink = is_free.then(|| sunlit.downlink_attitude(row, azimuth_rad, elevation_rad)).flatten();
-        let inertial_from_body = downlink.unwrap_or(row.inertial_from_body);
+        let inertial_from_body = sunlit.inertial_from_body(row, self.attitude(), &self.controls);
         let is_alternate = |[from_s, to_s]: &[f64; 2]| (*from_s..*to_s).contains(&at_s);
-        if !is_free || !self.alternate_spans_s().iter().any(is_alternate) {
+        if self.kind != WindowKind::Free || !self.alternate_spans_s().iter().any(is_alternate) {
             return inertial_from_body;
         }
         let sun_line = Unit::new_normalize(row.to_sun_m);
@@ -254,18 +251,11 @@ impl Layout {
             let kind = if self.arrays_are_frozen { WindowKind::Frozen } else { WindowKind::Fixed };
             spans.push(([begin_s, frozen_s], kind, None));
         }
-        let mut at_s = frozen_s;
-        for occupied in &self.occupied {
-            let [from_s, to_s] = [occupied.start_s.max(at_s), occupied.stop_s.min(end_s)];
-            if to_s <= from_s + SAME_S {
-                continue;
-            }
-            self.cut(&mut spans, [at_s, from_s]);
-            let kind = if occupied.planned { WindowKind::Planned } else { WindowKind::Fixed };
-            spans.push(([from_s, to_s], kind, Some(occupied.command)));
-            at_s = to_s;
-        }
-        self.cut(&mut spans, [at_s, end_s]);
+        let occupied = self.occupied.iter().map(|it| {
+            let kind = if it.planned { WindowKind::Planned } else { WindowKind::Fixed };
+            ([it.start_s, it.stop_s], kind, Some(it.command))
+        });
+        fill(&mut spans, [frozen_s, end_s], occupied, |spans, gap_s| self.cut(spans, gap_s));
 
         let arrays_from_s = if self.arrays_are_frozen { frozen_s } else { begin_s };
         let places: Vec<(f64, f64)> = simulated
@@ -294,27 +284,11 @@ impl Layout {
     }
 
     /// Free time in pieces; a last one of less than half a window joins the one before. In an orbit phase each downlink is one.
-    fn cut(&self, spans: &mut Vec<([f64; 2], WindowKind, Option<usize>)>, [from_s, to_s]: [f64; 2]) {
-        if to_s <= from_s + SAME_S {
-            return;
-        }
+    fn cut(&self, spans: &mut Vec<Span>, [from_s, to_s]: [f64; 2]) {
         if let Some(downlinks_s) = &self.downlinks_s {
-            let mut at_s = from_s;
-            for [start_s, stop_s] in downlinks_s {
-                let [start_s, stop_s] = [start_s.max(at_s), stop_s.min(to_s)];
-                if stop_s <= start_s + SAME_S {
-                    continue;
-                }
-                if start_s > at_s + SAME_S {
-                    spans.push(([at_s, start_s], WindowKind::Frozen, None));
-                }
-                spans.push(([start_s, stop_s], WindowKind::Free, None));
-                at_s = stop_s;
-            }
-            if to_s > at_s + SAME_S {
-                spans.push(([at_s, to_s], WindowKind::Frozen, None));
-            }
-            return;
+            let free = downlinks_s.iter().map(|span_s| (*span_s, WindowKind::Free, None));
+            let freeze = |spans: &mut Vec<Span>, gap_s| spans.push((gap_s, WindowKind::Frozen, None));
+            return fill(spans, [from_s, to_s], free, freeze);
         }
         let pieces = ((to_s - from_s) / self.window_s + 0.5).floor().max(1.0) as usize;
         for piece in 0..pieces {
@@ -432,6 +406,33 @@ impl Layout {
             free.push([at_s, stop_s]);
         }
         free
+    }
+}
+
+/// Times, kind and command of a window.
+type Span = ([f64; 2], WindowKind, Option<usize>);
+
+/// Adds what of `own` is within an interval, in its order, and what `between` makes of the gaps.
+fn fill(
+    spans: &mut Vec<Span>,
+    [from_s, to_s]: [f64; 2],
+    own: impl Iterator<Item = Span>,
+    between: impl Fn(&mut Vec<Span>, [f64; 2]),
+) {
+    let mut at_s = from_s;
+    for ([start_s, stop_s], kind, command) in own {
+        let [start_s, stop_s] = [start_s.max(at_s), stop_s.min(to_s)];
+        if stop_s <= start_s + SAME_S {
+            continue;
+        }
+        if start_s > at_s + SAME_S {
+            between(spans, [at_s, start_s]);
+        }
+        spans.push(([start_s, stop_s], kind, command));
+        at_s = stop_s;
+    }
+    if to_s > at_s + SAME_S {
+        between(spans, [at_s, to_s]);
     }
 }
 

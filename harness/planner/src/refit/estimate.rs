@@ -29,14 +29,6 @@ pub(super) struct Problem<'a> {
     pub deviations: &'a Deviations,
 }
 
-/// The normal equations about some parameters, in units of noise and priors.
-struct Normal {
-    /// J'J.
-    information: Matrix4<f64>,
-    /// J'r.
-    gradient: Vector4<f64>,
-}
-
 /// Where the sum is least.
 pub(super) struct Estimate {
     pub parameters: Parameters,
@@ -54,9 +46,9 @@ impl Problem<'_> {
         let mut y = (start.values() - prior).component_div(&deviations);
         for _ in 0..MOST_STEPS {
             let parameters = Parameters::of(&(prior + y.component_mul(&deviations)));
-            let normal = self.normal(expansion, &parameters);
-            let directions = principal(&normal.information);
-            let right = normal.information * y + normal.gradient;
+            let (information, gradient) = self.normal(expansion, &parameters);
+            let directions = principal(&information);
+            let right = information * y + gradient;
             let determined = directions.iter().filter(|it| it.observable);
             // (J'J + 1) y = J'(r + J y), in which the eigenvalues of the left are 1 / sigma^2.
             let next: Vector4<f64> =
@@ -65,7 +57,7 @@ impl Problem<'_> {
             y = next;
             if directions.iter().all(|it| it.vector.dot(&step).abs() <= CONVERGED * it.sigma) {
                 let parameters = Parameters::of(&(prior + y.component_mul(&deviations)));
-                let directions = principal(&self.normal(expansion, &parameters).information);
+                let directions = principal(&self.normal(expansion, &parameters).0);
                 return Ok(Estimate { parameters, directions });
             }
         }
@@ -75,7 +67,8 @@ impl Problem<'_> {
         ))
     }
 
-    fn normal(&self, expansion: &Expansion, parameters: &Parameters) -> Normal {
+    /// The normal equations about some parameters, in units of noise and priors: J'J and J'r.
+    fn normal(&self, expansion: &Expansion, parameters: &Parameters) -> (Matrix4<f64>, Vector4<f64>) {
         let scales = self.deviations.of_parameters() / self.deviations.noise_n_m_s;
         let rows: Vec<(Vector3<f64>, Matrix3x4<f64>)> = expansion
             .at(parameters)
@@ -84,7 +77,7 @@ impl Problem<'_> {
                 ((measured - simulated) / self.deviations.noise_n_m_s, by * Matrix4::from_diagonal(&scales))
             })
             .collect();
-        let mut normal = Normal { information: Matrix4::zeros(), gradient: Vector4::zeros() };
+        let (mut information, mut gradient) = (Matrix4::zeros(), Vector4::zeros());
         for arc in self.arcs {
             let rows = &rows[arc.clone()];
             let share = 1.0 / rows.len() as f64;
@@ -93,11 +86,11 @@ impl Problem<'_> {
             });
             for (residual, by) in rows {
                 let by = (by - mean_by).transpose();
-                normal.information += by * by.transpose();
-                normal.gradient += by * (residual - mean);
+                information += by * by.transpose();
+                gradient += by * (residual - mean);
             }
         }
-        normal
+        (information, gradient)
     }
 }
 

@@ -8,10 +8,10 @@
 use nalgebra::{Matrix3x4, Vector3};
 
 use super::{
-    failure::Failure,
     flights::{Flights, History},
     parameters::Parameters,
 };
+use crate::Failure;
 
 /// Steps from the centre, far above a flight's tolerance: of the centre of mass, in m, and of the factor, as a part of it.
 const CENTER_STEP_M: f64 = 0.02;

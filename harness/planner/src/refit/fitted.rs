@@ -9,11 +9,11 @@ use super::{
     directions::Direction,
     estimate::{Problem, residuals_n_m_s},
     expansion::{Expansion, FLIGHTS},
-    failure::Failure,
     flights::Flights,
     parameters::{Deviations, Parameters},
     telemetry::{LEAST_ROWS, Telemetry, arcs},
 };
+use crate::Failure;
 
 /// Expansions at most.
 const MOST_ROUNDS: u64 = 5;

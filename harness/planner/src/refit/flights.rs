@@ -2,7 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::{failure::Failure, parameters::Parameters};
+use super::parameters::Parameters;
+use crate::Failure;
 
 /// What a flight gives at the requested times.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,14 +3,13 @@
 mod directions;
 mod estimate;
 mod expansion;
-mod failure;
 mod fitted;
 mod flights;
 mod parameters;
 mod telemetry;
 
+pub use crate::Failure;
 pub use directions::Direction;
-pub use failure::Failure;
 pub use fitted::{Fitted, Requested, fit};
 pub use flights::{Flights, History};
 pub use parameters::{Deviations, FITTED, Parameters};

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 
-use super::failure::Failure;
+use crate::Failure;
 
 const TIME: &str = "time";
 /// Total momentum, EME2000, in N m s.

@@ -8,6 +8,7 @@ use super::{
     PlanError, Row, Task,
     flight::Flight,
     limit_checks::LimitCheck,
+    options::RightAscensionDeclination,
     start_values::{self, Setting},
     timing_label,
     turn_geometry::{Way, right_ascension_declination_deg},
@@ -46,17 +47,9 @@ struct Line<'a> {
     earth_angle_deg: Option<f64>,
 }
 
-#[derive(Serialize)]
-struct Place {
-    right_ascension_deg: f64,
-    declination_deg: f64,
-}
-
-impl Place {
-    fn of(direction: &Vector3<f64>) -> Self {
-        let (right_ascension_deg, declination_deg) = right_ascension_declination_deg(direction);
-        Self { right_ascension_deg, declination_deg }
-    }
+fn place(direction: &Vector3<f64>) -> RightAscensionDeclination {
+    let (right_ascension_deg, declination_deg) = right_ascension_declination_deg(direction);
+    RightAscensionDeclination { right_ascension_deg, declination_deg }
 }
 
 #[derive(Serialize)]
@@ -84,12 +77,12 @@ struct Document<'a> {
     spin_rate_rpm: f64,
     timing: &'a str,
     train: String,
-    start: Place,
-    target: Place,
-    end: Place,
+    start: RightAscensionDeclination,
+    target: RightAscensionDeclination,
+    end: RightAscensionDeclination,
     miss_deg: f64,
-    sun: Place,
-    earth: Option<Place>,
+    sun: RightAscensionDeclination,
+    earth: Option<RightAscensionDeclination>,
     great_circle: Course,
     rhumb_line: Option<Course>,
     propellant_kg: f64,
@@ -136,12 +129,12 @@ impl PlannedBurn {
             spin_rate_rpm: self.task.case.spin.rate_rad_s / RPM_RAD_S,
             timing: timing_label(self.task.case.timing),
             train: self.row.label(),
-            start: Place::of(&self.flight.start_axis_inertial),
-            target: Place::of(&geometry.target_inertial),
-            end: Place::of(&self.flight.end_axis_inertial()),
+            start: place(&self.flight.start_axis_inertial),
+            target: place(&geometry.target_inertial),
+            end: place(&self.flight.end_axis_inertial()),
             miss_deg: self.flight.miss_rad(&self.task).to_degrees(),
-            sun: Place::of(&geometry.sun_inertial),
-            earth: geometry.earth_inertial.as_ref().map(Place::of),
+            sun: place(&geometry.sun_inertial),
+            earth: geometry.earth_inertial.as_ref().map(place),
             great_circle: Course::of(&geometry.great_circle()),
             rhumb_line: geometry.rhumb_line().as_ref().map(Course::of),
             propellant_kg: self.row.propellant_kg,

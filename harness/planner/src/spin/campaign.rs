@@ -56,20 +56,15 @@ fn point(spinner: &Spinner, phases: &L1Phases, start_s: f64, end_s: f64) -> Poin
     let (first, last) = (at(0.0), at(1.0));
     // The antenna points midway between where the Earth is at both ends: neither is farther than half the way.
     let antenna = (first.earth_inertial + last.earth_inertial).normalize();
-    let mut pointing = Pointing {
-        antenna_inertial: antenna,
-        sun_at_start_inertial: first.sun_inertial,
-        earth_angle_rad: 0.0,
-        sun_angle_rad: 0.0,
-    };
-    for k in 0..=SAMPLES {
-        let now = at(f64::from(k) / f64::from(SAMPLES));
-        let earth_rad = angle_between_rad(&antenna, &now.earth_inertial);
-        let sun_rad = angle_between_rad(&-antenna, &now.sun_inertial);
-        pointing.earth_angle_rad = pointing.earth_angle_rad.max(earth_rad);
-        pointing.sun_angle_rad = pointing.sun_angle_rad.max(sun_rad);
-    }
-    pointing
+    let samples = (0..=SAMPLES).map(|k| at(f64::from(k) / f64::from(SAMPLES)));
+    let [earth_angle_rad, sun_angle_rad] = samples.fold([0.0_f64; 2], |[earth_rad, sun_rad], now| {
+        [
+            earth_rad.max(angle_between_rad(&antenna, &now.earth_inertial)),
+            sun_rad.max(angle_between_rad(&-antenna, &now.sun_inertial)),
+        ]
+    });
+    let sun_at_start_inertial = first.sun_inertial;
+    Pointing { antenna_inertial: antenna, sun_at_start_inertial, earth_angle_rad, sun_angle_rad }
 }
 
 /// All stretches of a campaign.
@@ -160,11 +155,7 @@ pub fn longest_interval_s(spinner: &Spinner, phases: &L1Phases, duration_s: f64)
     }
     while high_s - low_s > 0.01 * DAY_S {
         let middle_s = 0.5 * (low_s + high_s);
-        if holds(middle_s) {
-            low_s = middle_s;
-        } else {
-            high_s = middle_s;
-        }
+        if holds(middle_s) { low_s = middle_s } else { high_s = middle_s }
     }
     Some(low_s)
 }

@@ -42,7 +42,13 @@ impl LimitCheck {
 /// The limits that the spacecraft's file and the flags give, each checked on the flight, and on the worst of the range where
 /// the plan knows it.
 pub(super) fn check_limits(spinner: &Spinner, task: &Task, row: &Row, flight: &Flight) -> Vec<LimitCheck> {
-    let (limits, sun) = (&spinner.limits, task.geometry.sun_inertial);
+    let (limits, sun, earth) = (&spinner.limits, task.geometry.sun_inertial, task.geometry.earth_inertial);
+    let of_earth = over_time(
+        flight,
+        ("Earth angle", "limits.earth_angle_deg", "deg"),
+        (0.0, limits.earth_angle_deg.0),
+        |axis, _| earth.map_or(f64::NAN, |earth| angle_between_rad(&-axis, &earth).to_degrees()),
+    );
     let mut checks = vec![
         over_time(
             flight,
@@ -50,22 +56,9 @@ pub(super) fn check_limits(spinner: &Spinner, task: &Task, row: &Row, flight: &F
             (0.0, limits.sun_angle_deg.0),
             |axis, _| angle_between_rad(axis, &sun).to_degrees(),
         ),
-        match task.geometry.earth_inertial {
-            Some(earth) => over_time(
-                flight,
-                ("Earth angle", "limits.earth_angle_deg", "deg"),
-                (0.0, limits.earth_angle_deg.0),
-                |axis, _| angle_between_rad(&-axis, &earth).to_degrees(),
-            ),
-            None => LimitCheck {
-                limit: "Earth angle",
-                given_by: "limits.earth_angle_deg",
-                found: f64::NAN,
-                allowed: (0.0, limits.earth_angle_deg.0),
-                unit: "deg",
-                kept: None,
-                remark: "no --date, no --earth".to_owned(),
-            },
+        match earth {
+            Some(_) => of_earth,
+            None => LimitCheck { kept: None, remark: "no --date, no --earth".to_owned(), ..of_earth },
         },
         over_time(
             flight,

@@ -19,8 +19,8 @@ pub enum TimingOption {
     Phase,
 }
 
-/// A direction in EME2000, as it was written.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A direction in EME2000.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct RightAscensionDeclination {
     /// In deg.
     pub right_ascension_deg: f64,

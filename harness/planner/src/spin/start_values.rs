@@ -20,19 +20,28 @@ pub enum Setting {
     Vector(Vec<f64>),
 }
 
-/// Everything that the flight depends on and that the spacecraft's file does not say by itself.
-pub(super) fn start_values(task: &Task, row: &Row) -> Vec<(&'static str, Setting)> {
-    let train = &row.train;
-    let (plan, order) = match train.shape() {
+/// The item of `burn.plan` that a shape is, and the order of a taper.
+pub(super) fn plan_item(shape: Shape) -> (&'static str, Option<u32>) {
+    match shape {
         Shape::Uniform => ("uniform", None),
         Shape::Tapered { order } => ("tapered", Some(order)),
         Shape::Split => ("split", None),
-    };
-    let timing = match task.case.timing {
+    }
+}
+
+/// The item of `burn.timing`.
+pub(super) fn timing_item(timing: Timing) -> &'static str {
+    match timing {
         Timing::Clock => "clock",
         Timing::SunCrossing => "sunCrossing",
         Timing::TruePhase => "truePhase",
-    };
+    }
+}
+
+/// Everything that the flight depends on and that the spacecraft's file does not say by itself.
+pub(super) fn start_values(task: &Task, row: &Row) -> Vec<(&'static str, Setting)> {
+    let train = &row.train;
+    let (plan, order) = plan_item(train.shape());
     let whole = |count: u32| Setting::Integer(i32::try_from(count).unwrap_or(i32::MAX));
     let vector = |values: &[f64]| Setting::Vector(values.to_vec());
     let mut values = vec![
@@ -45,7 +54,7 @@ pub(super) fn start_values(task: &Task, row: &Row) -> Vec<(&'static str, Setting
         ("burn.plan", Setting::Text(plan.to_owned())),
     ];
     values.extend(order.map(|order| ("burn.taperOrder", whole(order))));
-    values.push(("burn.timing", Setting::Text(timing.to_owned())));
+    values.push(("burn.timing", Setting::Text(timing_item(task.case.timing).to_owned())));
     values.push(("burn.start", Setting::Real(0.0)));
     match &task.firing {
         Firing::Group(name) => values.push(("burn.group", Setting::Text(name.clone()))),

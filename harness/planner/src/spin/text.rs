@@ -69,10 +69,10 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
     let broken = broken(&checks);
     let mut text = String::new();
     let spin = &task.case.spin;
-    let mut line = |line: String| {
+    let mut line = |line: &str| {
         let _ = writeln!(text, "{line}");
     };
-    line(format!(
+    line(&format!(
         "Turn by {:.4} deg with {} ({:.3} N m), pulses by {}, ratio {:.4} +- {:.4}, {:.3} +- {:.3} rpm",
         task.angle_rad.to_degrees(),
         task.thruster,
@@ -83,7 +83,7 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
         spin.rate_rad_s / RPM_RAD_S,
         task.range.rate_rad_s / RPM_RAD_S,
     ));
-    line(format!(
+    line(&format!(
         "From {} to {}, Sun at {}{}: {}",
         place(&task.geometry.axis_inertial),
         place(&task.geometry.target_inertial),
@@ -93,7 +93,7 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
             .map_or_else(String::new, |earth| format!(", Earth at {}", place(&earth))),
         task.geometry.origin,
     ));
-    line(format!(
+    line(&format!(
         "Science bears {:.5} deg of nutation at a Sun angle of {:.4} deg",
         task.allowed_nutation_rad.to_degrees(),
         task.sun_angle_rad.to_degrees(),
@@ -105,14 +105,14 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
     let keeps =
         |row: &Row| row.fits && broken_limits(spinner, &task, row).is_ok_and(|broken| broken.is_empty());
     if let Some(table) = tables::trade(&shown, &uniform, options.rows, &checks, keeps) {
-        line(table);
+        line(&table);
     }
-    line(format!(
+    line(&format!(
         "Of {} trains {} are not beaten in final nutation, peak and time at once.",
         rows.len(),
         beaten_by_none.len()
     ));
-    line(format!(
+    line(&format!(
         "Least final nutation{}: {}, {} pulses, {:.2} min; moves {:.4} of {:.4} deg ({:+.1} %), peak nutation \
          {:.5} deg ({:.1} times the uniform plan's)",
         if broken.is_empty() { " within the limits" } else { ", with the fewest limits broken" },
@@ -126,21 +126,21 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
         chosen.peak_rad / uniform.peak_rad,
     ));
     if !broken.is_empty() {
-        line(format!(
+        line(&format!(
             "No train keeps every limit of the spacecraft's file; this one breaks: {}",
             broken.join(", ")
         ));
     }
-    simulations.into_iter().for_each(&mut line);
-    line(format!(
+    simulations.iter().for_each(|simulation| line(simulation));
+    line(&format!(
         "Simulated pulse by pulse it ends at {}, {:.4} deg from the target, with {:.5} deg of nutation",
         place(&flight.end_axis_inertial()),
         flight.miss_rad(&task).to_degrees(),
         flight.samples.last().map_or(f64::NAN, |sample| sample.nutation_rad).to_degrees(),
     ));
     let great_circle = task.geometry.great_circle();
-    line(format!("Great circle, as simulated: {}", way(&great_circle)));
-    line(match task.geometry.rhumb_line() {
+    line(&format!("Great circle, as simulated: {}", way(&great_circle)));
+    line(&match task.geometry.rhumb_line() {
         Some(rhumb_line) => format!(
             "Rhumb line about the Sun, with one delay after each Sun crossing: {}, {:+.2} % of way and propellant",
             way(&rhumb_line),
@@ -148,11 +148,8 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
         ),
         None => "No rhumb line: the Sun stands on the spin axis".to_owned(),
     });
-    line(
-        "Limits of the spacecraft's file, as simulated, and of the flags, at their worst over the range:"
-            .to_owned(),
-    );
-    line(tables::limits(&checks));
+    line("Limits of the spacecraft's file, as simulated, and of the flags, at their worst over the range:");
+    line(&tables::limits(&checks));
     let burn = PlannedBurn {
         name: spinner.name.clone(),
         epoch_s: options.date,
@@ -162,16 +159,10 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
         checks,
     };
     if options.output.is_none() {
-        line(
-            "--output FOLDER writes the burn pulse by pulse, the start values as [start], and a picture"
-                .to_owned(),
-        );
+        line("--output FOLDER writes the burn pulse by pulse, the start values as [start], and a picture");
     }
-    line(
-        "Start values, for `heliotorque run` of the spacecraft's SpinPlant and for `heliotorque pack`:"
-            .to_owned(),
-    );
-    line(start_values::options(&burn.start_values()));
+    line("Start values, for `heliotorque run` of the spacecraft's SpinPlant and for `heliotorque pack`:");
+    line(&start_values::options(&burn.start_values()));
     Ok(Answer { text, burn: Some(burn), broken })
 }
 

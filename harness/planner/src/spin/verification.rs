@@ -7,10 +7,12 @@ use model_description::labels;
 use physics::spin::{
     forecast::{ForecastCase, Timing},
     nutation::Spin,
-    train::Shape,
 };
 
-use super::{Firing, PlanError, Row, Task};
+use super::{
+    Firing, PlanError, Row, Task,
+    start_values::{plan_item, timing_item},
+};
 
 /// What the FMU computes for a plan.
 #[derive(Clone, Copy, Debug)]
@@ -161,19 +163,11 @@ fn simulate(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Simulated,
 /// Everything the simulation depends on, whatever the FMU's own start values are: the momentum starts along +Z and turns toward
 /// +X, the Sun stands across that plane.
 fn sets(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Vec<(String, Value)>, PlanError> {
-    let (plan, order) = match row.train.shape() {
-        Shape::Uniform => (1, 1),
-        Shape::Tapered { order } => (2, order as i32),
-        Shape::Split => (3, 1),
-    };
-    let timing = match task.case.timing {
-        Timing::Clock => 1,
-        Timing::SunCrossing => 2,
-        Timing::TruePhase => 3,
-    };
+    let (plan, order) = plan_item(row.train.shape());
     let (assumed, transverse) = (&task.case.spin, spin.inertia_kg_m2 / spin.ratio);
     let real = |name: &str, value: f64| (name.to_owned(), Value::Real(value));
     let integer = |name: &str, value: i32| (name.to_owned(), Value::Integer(value));
+    let text = |name: &str, value: &str| (name.to_owned(), Value::Text(value.to_owned()));
     let mut sets = vec![
         real("spin.initialRate", spin.rate_rad_s),
         real("start.nutation", 0.0),
@@ -190,9 +184,9 @@ fn sets(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Vec<(String, V
         real("burn.pulseWidth", row.train.width_s(0)),
         integer("massProperties.source", 1),
         integer("geometry.source", 1),
-        integer("burn.plan", plan),
-        integer("burn.taperOrder", order),
-        integer("burn.timing", timing),
+        text("burn.plan", plan),
+        integer("burn.taperOrder", order.unwrap_or(1) as i32),
+        text("burn.timing", timing_item(task.case.timing)),
         integer("burn.count", row.train.count() as i32),
     ];
     // A burn goes no farther than its target, and steers best with the target well away: it stands as far beyond the end of
@@ -207,10 +201,10 @@ fn sets(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Vec<(String, V
     }
     sets.extend((1..).zip([0.0, 0.0, 0.0, 1.0]).map(|(i, value)| real(&format!("start.q[{i}]"), value)));
     match &task.firing {
-        Firing::Group(name) => sets.push(("burn.group".to_owned(), Value::Text(name.clone()))),
+        Firing::Group(name) => sets.push(text("burn.group", name)),
         Firing::Thruster { number, opposite } => {
             check_name(fmu, task, *number)?;
-            sets.push(("burn.group".to_owned(), Value::Text(String::new())));
+            sets.push(text("burn.group", ""));
             sets.push(integer("burn.thruster", *number));
             sets.push(integer("burn.oppositeThruster", opposite.unwrap_or(0)));
         }

@@ -1,10 +1,9 @@
 //! Loads on a regular grid of the Sun's azimuth and elevation.
 
-use std::{panic::resume_unwind, thread};
-
 use loader::Error;
 use nalgebra::Vector3;
 use physics::attitude::{SunAngles, direction_from_angles};
+use rayon::prelude::*;
 
 use super::sunlight::{LitSpacecraft, Load, Sunlight};
 
@@ -49,26 +48,20 @@ impl Grid {
     ///
     /// # Errors
     /// A call that failed.
-    pub fn new(spacecraft: &LitSpacecraft, limits_deg: Angles, steps: [usize; 2]) -> Result<Self, Error> {
+    pub fn new<'a>(
+        spacecraft: &'a LitSpacecraft,
+        limits_deg: Angles,
+        steps: [usize; 2],
+    ) -> Result<Self, Error> {
         let empty = Self { limits_deg, steps, loads: Vec::new() };
-        let threads = thread::available_parallelism().map_or(1, usize::from).min(steps[1]);
-        // Rows in turns, as directions differ in what they cost.
-        let rows = thread::scope(|scope| {
-            let requested = |first: usize| {
-                let empty = &empty;
-                scope.spawn(move || -> Result<Vec<Vec<Load>>, Error> {
-                    let mut sunlight = Sunlight::new(spacecraft)?;
-                    (first..=steps[1]).step_by(threads).map(|row| empty.row(&mut sunlight, row)).collect()
-                })
-            };
-            let workers: Vec<_> = (0..threads).map(requested).collect();
-            let joined =
-                workers.into_iter().map(|worker| worker.join().unwrap_or_else(|panic| resume_unwind(panic)));
-            joined.collect::<Result<Vec<_>, Error>>()
-        })?;
-        let loads =
-            (0..=steps[1]).flat_map(|row| rows[row % threads][row / threads].iter().copied()).collect();
-        Ok(Self { loads, ..empty })
+        let row = |sunlight: &mut Option<Sunlight<'a>>, row: usize| {
+            let mut own = sunlight.take().map_or_else(|| Sunlight::new(spacecraft), Ok)?;
+            let loads = empty.row(&mut own, row);
+            *sunlight = Some(own);
+            loads
+        };
+        let rows = (0..=steps[1]).into_par_iter().map_init(|| None, row);
+        Ok(Self { loads: rows.collect::<Result<Vec<_>, Error>>()?.concat(), ..empty })
     }
 
     fn row(&self, sunlight: &mut Sunlight<'_>, row: usize) -> Result<Vec<Load>, Error> {

@@ -1,8 +1,7 @@
 //! A rectangle of the Sun's directions and what is found in it.
 
-use std::{panic::resume_unwind, thread};
-
 use loader::Error;
+use rayon::join;
 
 use super::{
     balance::{self, Balance},
@@ -28,17 +27,9 @@ impl Mapped {
     /// A call that failed.
     pub fn new(spacecraft: &LitSpacecraft, limits_deg: Angles, steps: [usize; 2]) -> Result<Self, Error> {
         let grid = Grid::new(spacecraft, limits_deg, steps)?;
-        let requested = &grid;
-        let (lines, balances) = thread::scope(|scope| {
-            let of = |axis: usize| {
-                scope.spawn(move || zero_lines::find(&mut Sunlight::new(spacecraft)?, requested, axis))
-            };
-            let workers = [of(0), of(1), of(2)];
-            let balances =
-                Sunlight::new(spacecraft).and_then(|mut sunlight| balance::find(&mut sunlight, requested));
-            (workers.map(|worker| worker.join().unwrap_or_else(|panic| resume_unwind(panic))), balances)
-        });
-        let [x, y, z] = lines;
-        Ok(Self { grid, lines: [x?, y?, z?], balances: balances? })
+        let lines = |axis: usize| zero_lines::find(&mut Sunlight::new(spacecraft)?, &grid, axis);
+        let balances = || balance::find(&mut Sunlight::new(spacecraft)?, &grid);
+        let ((x, y), (z, balances)) = join(|| join(|| lines(0), || lines(1)), || join(|| lines(2), balances));
+        Ok(Self { lines: [x?, y?, z?], balances: balances?, grid })
     }
 }

@@ -1,7 +1,8 @@
 //! A loop that is wired means what it says: options that read the connected inputs, the same thruster sets on both sides.
 
 use loader::{Fmu, Value};
-use systems::{Experiment, System, Wired, Wiring, to_parameter_set, to_xml, wire};
+use model_description::DefaultExperiment;
+use systems::{System, Wired, Wiring, to_parameter_set, to_xml, wire};
 
 use crate::support::{description, fmu, write};
 
@@ -40,7 +41,7 @@ fn components(folder: &std::path::Path, guidance: &str, plant: &str) -> [(String
 
 fn wired(components: &[(String, Fmu)], sets: &[&str]) -> Wired {
     let sets = sets.iter().map(|set| (*set).to_owned()).collect();
-    wire("Loop", components, Experiment::default(), &Wiring { sets, ..Wiring::default() }).unwrap()
+    wire("Loop", components, DefaultExperiment::default(), &Wiring { sets, ..Wiring::default() }).unwrap()
 }
 
 #[test]
@@ -109,8 +110,11 @@ fn thrusters_are_requested_from_the_same_sets_alone() {
     let same = components(folder.path(), &guidance(&sets(["none", "main"])), &takes(["none", "main"]));
     assert_eq!(wired(&same, &[]).structure.connections.len(), 1);
     let other = components(folder.path(), &guidance(&sets(["none", "lva"])), &takes(["none", "main"]));
-    let refused = wire("Loop", &other, Experiment::default(), &Wiring::default()).unwrap_err().to_string();
+    let refused =
+        wire("Loop", &other, DefaultExperiment::default(), &Wiring::default()).unwrap_err().to_string();
     assert!(refused.contains("guidance has none (0), lva (1), plant has none (0), main (1)"), "{refused}");
     let wiring = Wiring { without_enumerations: true, ..Wiring::default() };
-    assert!(wire("Loop", &other, Experiment::default(), &wiring).unwrap().structure.connections.is_empty());
+    assert!(
+        wire("Loop", &other, DefaultExperiment::default(), &wiring).unwrap().structure.connections.is_empty()
+    );
 }

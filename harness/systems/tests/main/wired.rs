@@ -1,9 +1,9 @@
 //! What is wired, written and read again; units on the way.
 
 use loader::Fmu;
+use model_description::DefaultExperiment;
 use systems::{
-    Experiment, Kind, Linear, System, Wired, Wiring, component_name, read_structure, to_parameter_set,
-    to_xml, wire,
+    Kind, Linear, System, Wired, Wiring, component_name, read_structure, to_parameter_set, to_xml, wire,
 };
 
 use crate::support::{ITEMS, Ssd, description, fmu, giver, ssp, taker};
@@ -38,7 +38,8 @@ fn enumerations_that_are_left_out_say_what_they_stand_at() {
     let components = pair(folder.path());
     let wiring =
         |sets: &[&str]| Wiring { without_enumerations: true, sets: owned(sets), ..Wiring::default() };
-    let wired = |sets: &[&str]| wire("Pair", &components, Experiment::default(), &wiring(sets)).unwrap();
+    let wired =
+        |sets: &[&str]| wire("Pair", &components, DefaultExperiment::default(), &wiring(sets)).unwrap();
     let why =
         |wired: &Wired| wired.left.iter().find(|it| it.input == "colour").map(|it| it.why.clone()).unwrap();
     let plain = wired(&[]);
@@ -56,7 +57,7 @@ fn what_is_set_stands_at_the_component_in_its_own_unit() {
     let components = pair(folder.path());
     let wiring = |set: &str| Wiring { sets: vec![set.to_owned()], ..Wiring::default() };
     let wired =
-        wire("Pair", &components, Experiment::default(), &wiring("taker.angle=3.141592653589793 rad"))
+        wire("Pair", &components, DefaultExperiment::default(), &wiring("taker.angle=3.141592653589793 rad"))
             .unwrap();
     let binding = &wired.structure.components[1].bindings[0];
     assert_eq!(binding.source.as_deref(), Some("resources/taker.ssv"));
@@ -69,7 +70,8 @@ fn what_is_set_stands_at_the_component_in_its_own_unit() {
         ("angle=1", "found no component"),
         ("taker.angel=1", "angle"),
     ] {
-        let refused = wire("Pair", &components, Experiment::default(), &wiring(set)).unwrap_err().to_string();
+        let refused =
+            wire("Pair", &components, DefaultExperiment::default(), &wiring(set)).unwrap_err().to_string();
         assert!(refused.contains(expected) && refused.contains(set), "{set}: {refused}");
     }
 }
@@ -79,20 +81,20 @@ fn what_is_set_stands_at_the_component_in_its_own_unit() {
 fn the_step_is_written_for_omsimulator_too() {
     let folder = tempfile::tempdir().unwrap();
     let components = [opened(folder.path(), "giver", &giver())];
-    let experiment = Experiment { step_s: Some(0.25), ..Experiment::default() };
+    let experiment = DefaultExperiment { step_size: Some(0.25), ..DefaultExperiment::default() };
     let wired = wire("One", &components, experiment, &Wiring::default()).unwrap();
     let text = to_xml(&wired.structure);
     let system = &text[..text.find("</ssd:System>").unwrap()];
     assert!(system.contains("<ssc:Annotation type=\"org.openmodelica\">"), "{text}");
     assert!(system.contains("<oms:FixedStepMaster description=\"oms-ma\" stepSize=\"0.25\""), "{text}");
-    assert_eq!(read_structure(text.as_bytes()).unwrap().experiment.step_s, Some(0.25));
+    assert_eq!(read_structure(text.as_bytes()).unwrap().experiment.step_size, Some(0.25));
 }
 
 #[test]
 fn equal_names_types_and_units_are_connected_and_the_rest_is_left_with_its_reason() {
     let folder = tempfile::tempdir().unwrap();
     let components = pair(folder.path());
-    let wired = wire("Pair", &components, Experiment::default(), &listed(&["giver.angle"])).unwrap();
+    let wired = wire("Pair", &components, DefaultExperiment::default(), &listed(&["giver.angle"])).unwrap();
     assert_eq!(
         joined(&wired),
         [
@@ -117,7 +119,7 @@ fn equal_names_types_and_units_are_connected_and_the_rest_is_left_with_its_reaso
     let of_giver: Vec<&str> =
         wired.structure.components[0].connectors.iter().map(|it| it.name.as_str()).collect();
     assert_eq!(of_giver, ["push", "position[1]", "position[2]", "angle", "count", "flag", "colour"]);
-    assert_eq!(wired.structure.experiment.step_s, Some(0.5));
+    assert_eq!(wired.structure.experiment.step_size, Some(0.5));
     // What other tools look for: the kind of model, where it is drawn, whose annotation it is.
     let text = to_xml(&wired.structure);
     for (part, count) in [
@@ -165,7 +167,7 @@ fn positions_of_sun_and_earth_and_panels_have_their_other_names() {
         ],
     );
     let components = [opened(folder.path(), "one", &one), opened(folder.path(), "two", &two)];
-    let wired = wire("Pair", &components, Experiment::default(), &Wiring::default()).unwrap();
+    let wired = wire("Pair", &components, DefaultExperiment::default(), &Wiring::default()).unwrap();
     assert_eq!(wired.structure.connections.len(), 4);
     let left: Vec<&str> = wired.left.iter().map(|it| it.input.as_str()).collect();
     assert_eq!(left, ["earth.velocity[1]", "sun.positionBody[2]"]);
@@ -179,7 +181,8 @@ fn positions_of_sun_and_earth_and_panels_have_their_other_names() {
     // The same output twice is no choice of ours.
     let three = opened(folder.path(), "three", &one);
     let [one, two] = components;
-    let wired = wire("Three", &[one.clone(), two, three], Experiment::default(), &Wiring::default()).unwrap();
+    let wired =
+        wire("Three", &[one.clone(), two, three], DefaultExperiment::default(), &Wiring::default()).unwrap();
     assert_eq!(
         joined(&wired),
         [
@@ -194,9 +197,9 @@ fn positions_of_sun_and_earth_and_panels_have_their_other_names() {
     );
     // Names.
     assert_eq!(component_name(std::path::Path::new("dist/MomentumPlant.fmu")), "momentumPlant");
-    let twice = wire("Twice", &[one.clone(), one.clone()], Experiment::default(), &Wiring::default());
+    let twice = wire("Twice", &[one.clone(), one.clone()], DefaultExperiment::default(), &Wiring::default());
     assert!(twice.unwrap_err().to_string().contains("two components are named \"one\""));
-    let dotted = wire("Dot", &[("a.b".to_owned(), one.1)], Experiment::default(), &Wiring::default());
+    let dotted = wire("Dot", &[("a.b".to_owned(), one.1)], DefaultExperiment::default(), &Wiring::default());
     assert!(dotted.unwrap_err().to_string().contains("\"a.b\""));
 }
 
@@ -265,7 +268,7 @@ fn exported_variables_are_connectors_of_the_system() {
     let components = [opened(folder.path(), "one", &giver()), opened(folder.path(), "two", &taker())];
     let exported = |exports: &[&str]| {
         let wiring = Wiring { exports: owned(exports), ..Wiring::default() };
-        wire("Pair", &components, Experiment::default(), &wiring)
+        wire("Pair", &components, DefaultExperiment::default(), &wiring)
     };
     let wired = exported(&["one.angle", "two.duration", "one.size"]).unwrap();
     let kinds: Vec<_> = wired.structure.connectors.iter().map(|it| (it.name.as_str(), it.kind)).collect();

@@ -53,9 +53,7 @@ pub(super) fn state_from(
     while last != ancestor
         && let Some((file, segment)) = segment(files, last, at_s)
     {
-        let state = file.state(segment, at_s)?;
-        sum.position_m += state.position_m;
-        sum.velocity_m_s += state.velocity_m_s;
+        sum = sum + file.state(segment, at_s)?;
         last = segment.center();
     }
     Ok(sum)

@@ -71,11 +71,7 @@ impl Kernels {
         let [up, down] = ids.map(|id| chain::ancestors(files, id, at_s));
         let common = chain::common(&up, &down).ok_or_else(|| format!("--kernel: {target} is not placed"))?;
         let [target, center] = ids.map(|id| chain::state_from(files, id, common, at_s));
-        let (target, center) = (target?, center?);
-        Ok(CartesianState {
-            position_m: target.position_m - center.position_m,
-            velocity_m_s: target.velocity_m_s - center.velocity_m_s,
-        })
+        Ok(target? - center?)
     }
 }
 

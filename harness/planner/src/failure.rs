@@ -1,4 +1,4 @@
-//! Why there is no refit.
+//! Why there is no result.
 
 /// Why something could not be done.
 pub type Failure = Box<dyn std::error::Error>;

@@ -1,0 +1,21 @@
+//! Copies of an FMU's folders.
+
+use std::{fs, path::Path};
+
+use crate::Error;
+
+/// Copies what stands below a folder into another one, which is made.
+pub fn copy_folder(from: &Path, to: &Path) -> Result<(), Error> {
+    let failed = |path: &Path, source| Error::File { path: path.to_owned(), source };
+    fs::create_dir_all(to).map_err(|source| failed(to, source))?;
+    for entry in fs::read_dir(from).map_err(|source| failed(from, source))? {
+        let path = entry.map_err(|source| failed(from, source))?.path();
+        let target = to.join(path.file_name().unwrap_or_default());
+        if path.is_dir() {
+            copy_folder(&path, &target)?;
+        } else {
+            fs::copy(&path, &target).map_err(|source| failed(&target, source))?;
+        }
+    }
+    Ok(())
+}
