@@ -36,12 +36,14 @@ pub struct DisturbanceVariables {
     pub laws: LawVariables,
     #[group]
     pub atmosphere: AtmosphereVariables,
-    #[group]
-    pub magnetic_field: MagneticFieldVariables,
+    /// Field where the spacecraft is, body frame.
+    #[input(name = "magneticField.body", unit = "T", display = "nT", start = [0.0; 3])]
+    pub magnetic_field_body: RealVector<3>,
     #[group]
     pub spacecraft: SpacecraftVariables,
-    #[group]
-    pub sunshade: SunshadeVariables,
+    /// Which model of the shade takes the light; without a shade it does not count.
+    #[parameter(name = "sunshade.shape", start = SunshadeShape::of(&setup.spacecraft))]
+    pub sunshade_shape: Choice<SunshadeShape>,
     #[group]
     pub solver: WorkLimit,
     #[group]
@@ -63,7 +65,7 @@ impl DisturbanceVariables {
             center_of_mass_m: vector(self.spacecraft.center_of_mass),
             air: [self.atmosphere.density, self.atmosphere.temperature, self.atmosphere.molar_mass],
             air_velocity_m_s: vector(self.atmosphere.velocity_body),
-            field_t: vector(self.magnetic_field.body),
+            field_t: vector(self.magnetic_field_body),
             panel_angles_rad: self.panel.iter().map(|panel| panel.angle).collect(),
         }
     }
@@ -150,14 +152,6 @@ pub struct AtmosphereVariables {
     pub velocity_body: RealVector<3>,
 }
 
-/// The planet's magnetic field.
-#[derive(Variables)]
-pub struct MagneticFieldVariables {
-    /// Field where the spacecraft is, body frame.
-    #[input(unit = "T", display = "nT", start = [0.0; 3])]
-    pub body: RealVector<3>,
-}
-
 /// One solar panel.
 #[derive(Variables)]
 #[variables(setup = DisturbanceSetup)]
@@ -203,15 +197,6 @@ pub struct SpacecraftVariables {
     /// Inertia about the centre of mass, body frame.
     #[parameter(unit = "kg.m2", min = -1e15, max = 1e15, start = setup.spacecraft.mass_properties.inertia_body_kg_m2.transpose().into())]
     pub inertia: RealMatrix<3, 3>,
-}
-
-/// Sunshade.
-#[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
-pub struct SunshadeVariables {
-    /// Which model of the shade takes the light; without a shade it does not count.
-    #[parameter(start = SunshadeShape::of(&setup.spacecraft))]
-    pub shape: Choice<SunshadeShape>,
 }
 
 /// Torque about the centre of mass by source, body frame.

@@ -241,7 +241,7 @@ pub(super) fn settings<'a>(
             gimbal,
             antennas: &context.setup.antennas.all,
             default_downlink: &context.setup.antennas.default_downlink,
-            subsolar: values.choice(v.subsolar.method).0,
+            subsolar: values.choice(v.subsolar_method).0,
             scans: scans(context, values),
         },
         modes: ModeSettings {
@@ -250,7 +250,7 @@ pub(super) fn settings<'a>(
                 hot_pole,
             },
             safe_hold: Constraints {
-                keep_in: Some(zone(v.safe_hold.keep_in.azimuth, v.safe_hold.keep_in.elevation)),
+                keep_in: Some(zone(v.safe_hold.azimuth, v.safe_hold.elevation)),
                 hot_pole,
             },
             watches_hot_pole: true,
@@ -263,7 +263,7 @@ pub(super) fn settings<'a>(
                 persistence_s: real(v.ephemeris.persistence),
             }),
             boresight_body: axis_body,
-            earth_acquisition_rate_rad_s: real(v.earth_acquisition.rate),
+            earth_acquisition_rate_rad_s: real(v.earth_acquisition_rate),
             sun_search_rate_rad_s: real(v.sun_search.rate),
             sun_search_duration_s: real(v.sun_search.duration),
         },

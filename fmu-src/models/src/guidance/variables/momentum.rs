@@ -7,26 +7,8 @@ use physics::momentum::Convention;
 
 use super::super::setup::GuidanceSetup;
 use super::choices::DumpReinitTo;
-use crate::common::choices::{MomentumConvention, PanelTilt, SunshadeShape};
+use crate::common::choices::{MomentumConvention, PanelTilt};
 use crate::common::management::{MomentumStrategy, TargetingVariables};
-
-/// Mass properties.
-#[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
-pub struct SpacecraftVariables {
-    /// Centre of mass in the body frame, with every panel at angle 0; panels that have a mass move it by the file's masses.
-    #[parameter(tunable, unit = "m", display = "cm", min = -1e4, max = 1e4, start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
-    pub center_of_mass: RealVector<3>,
-}
-
-/// Sunshade.
-#[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
-pub struct SunshadeVariables {
-    /// Which model of the shade takes the light; without a shade it does not count.
-    #[parameter(start = SunshadeShape::of(&setup.spacecraft))]
-    pub shape: Choice<SunshadeShape>,
-}
 
 /// One solar panel.
 #[derive(Variables)]

@@ -48,7 +48,7 @@ pub(super) fn read(
     let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
     let data = &center.data;
     let encounter = n_body::check(context, values, center)?;
-    let switches = [variables.planet_light.enabled, variables.thermal.recoil.enabled];
+    let switches = [variables.planet_light.enabled, variables.thermal.enabled];
     let inertia_body_kg_m2 = inertia_body_kg_m2(values, variables.spacecraft.inertia)?;
     let orbit = orbit(center, variables, values, state, epoch_minus_time_s)?;
     let limit_m = data.radius_m;
@@ -61,7 +61,7 @@ pub(super) fn read(
         )));
     }
     let epoch_s = values.real(variables.start.epoch);
-    if !matches!(values.choice(variables.ephemeris.source), EphemerisSource::Inputs) {
+    if !matches!(values.choice(variables.ephemeris_source), EphemerisSource::Inputs) {
         ephemeris::check_start(epoch_s)?;
     }
     let corridor = variables.articulation.read(values)?;
@@ -127,7 +127,7 @@ pub(super) fn read(
         light: variables.solar.read(values),
         shadow: variables.eclipse.read(values, center.planet.radius_m, values.real(variables.sun.radius))?,
         light_and_heat: RadiationSettings {
-            storage: values.boolean(variables.thermal.storage),
+            storage: values.boolean(variables.thermal_storage),
             shadowing: values.boolean(variables.shadowing.enabled),
             sun_disc: values.boolean(variables.shadowing.sun_disc),
             grid_s: values.real(variables.solver.disturbance_step),
@@ -149,7 +149,7 @@ pub(super) fn read(
             magnitude_error: values.real(variables.maneuver.magnitude_error),
             direction_error_rad: values.real(variables.maneuver.direction_error),
             center_of_mass_shift_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass_shift)),
-            seed: values.integer(variables.noise.seed).unsigned_abs().into(),
+            seed: values.integer(variables.noise_seed).unsigned_abs().into(),
             requested_body_n_m_s: Vector3::from(values.vector(variables.dump.target)),
         },
     })
@@ -236,7 +236,7 @@ fn ephemeris_source(
 ) -> Result<plant::EphemerisSource, Failure> {
     let variables = context.variables;
     let epoch_s = values.real(variables.start.epoch);
-    Ok(match values.choice(variables.ephemeris.source) {
+    Ok(match values.choice(variables.ephemeris_source) {
         EphemerisSource::Inputs => {
             let sun_m = Vector3::from(values.vector(variables.sun.position));
             let at_the_planet = center.data.body.is_planet() && sun_m == Vector3::from([0.0; 3]);
@@ -256,7 +256,7 @@ fn ephemeris_source(
             }
         }
         EphemerisSource::Kepler => {
-            let ellipse = &variables.ephemeris.ellipse;
+            let ellipse = &variables.ephemeris;
             plant::EphemerisSource::Kepler(ellipse.planet(context, values, center, epoch_s)?)
         }
         EphemerisSource::Chebyshev => match ephemeris::precise(context.setup.ephemeris.as_ref()) {
@@ -347,11 +347,10 @@ fn attitude(
         if !state.waiting {
             check_windows_have_antenna(&law.schedule, &context.setup.antennas.all)?;
         }
-        let management = &variables.momentum.management;
-        let (managed, choice) =
-            (values.choice(management.strategy).0 != Strategy::DumpsOnly, state.flight.sun_choice());
+        let (strategy, choice) = (values.choice(variables.momentum.strategy).0, state.flight.sun_choice());
+        let managed = strategy != Strategy::DumpsOnly;
         variables.guided.check_unload(values, managed)?;
-        check_strategy_has_antenna(values.choice(management.strategy).0, &context.setup.antennas.all)?;
+        check_strategy_has_antenna(strategy, &context.setup.antennas.all)?;
         if managed && !state.waiting {
             check_windows(&law.schedule)?;
         }

@@ -81,7 +81,7 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     values.set_vector(variables.sun.velocity_inertial, sun.velocity_m_s.into());
     values.set_vector(variables.earth.position_inertial, earth.position_m.into());
     values.set_vector(variables.earth.velocity_inertial, earth.velocity_m_s.into());
-    values.set_vector(variables.heliocentric.position, instant.geometry.heliocentric_position_m().into());
+    values.set_vector(variables.heliocentric_position, instant.geometry.heliocentric_position_m().into());
     values.set_real(variables.orbit.time_since_periapsis, report.since_periapsis_s);
     values.set_choice(variables.orbit.current_center, OrbitCenter(report.integration_center));
     write_encounter(&variables.encounter, values, report);
@@ -255,7 +255,7 @@ fn write_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>)
         values.set_real(variables.pressure_actual, tank.pressure_pa(used_kg));
         values.set_boolean(variables.feeds, tank.feeds(used_kg));
     }
-    values.set_real(v.propellant.used, propellant.total_used_kg(time_s));
+    values.set_real(v.propellant_used, propellant.total_used_kg(time_s));
 }
 
 /// Writes the faces that are reported one by one; those of panels that are left out stay 0, and all while the flight waits.

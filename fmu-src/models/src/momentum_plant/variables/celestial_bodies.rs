@@ -1,24 +1,11 @@
 //! Planet, Sun and Earth.
 
-use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
-use physics::constants::RADIUS_SUN_M;
-use physics::constants::{HALF_TURNS_RAD, QUARTER_TURNS_RAD};
+use fmi_export::{Boolean, Real, RealVector, Variables};
+use physics::constants::{HALF_TURNS_RAD, QUARTER_TURNS_RAD, RADIUS_SUN_M};
 
 use super::super::setup::PlantSetup;
-use super::choices::EphemerisSource;
 use crate::common::orientation::RotationVariables;
-use crate::common::variables::{EllipseVariables, SurfaceVariables};
-
-/// Positions of the Sun, the orbit's centre and the Earth.
-#[derive(Variables)]
-#[variables(setup = PlantSetup)]
-pub struct EphemerisVariables {
-    /// Where the positions of Sun and Earth come from.
-    #[parameter(start = EphemerisSource::Vsop87)]
-    pub source: Choice<EphemerisSource>,
-    #[group(name = "", setup = &setup.center)]
-    pub ellipse: EllipseVariables,
-}
+use crate::common::variables::SurfaceVariables;
 
 /// The planet the spacecraft orbits.
 #[derive(Variables)]
@@ -127,13 +114,4 @@ pub struct EarthVariables {
     /// Elevation of the Earth in the body frame, positive toward -Z.
     #[output(unit = "rad", display = "deg", min = QUARTER_TURNS_RAD[0], max = QUARTER_TURNS_RAD[1])]
     pub elevation: Real,
-}
-
-/// Position about the Sun.
-#[derive(Variables)]
-#[variables(setup = PlantSetup)]
-pub struct HeliocentricVariables {
-    /// Position about the Sun in EME2000.
-    #[output(unit = "m", display = "AU", nominal = 1e11)]
-    pub position: RealVector<3>,
 }

@@ -1,6 +1,6 @@
 //! Attitude dynamics and control: controller, sensors, what they estimate.
 
-use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
+use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 use physics::attitude::control::Allocation;
 
 use super::super::setup::PlantSetup;
@@ -132,13 +132,4 @@ pub struct SunSensorVariables {
     /// Standard deviation of the Sun's angle about each of two axes across.
     #[parameter(unit = "rad", display = "deg", min = 0.0, max = 0.1, start = 0.0)]
     pub noise: Real,
-}
-
-/// Random numbers.
-#[derive(Variables)]
-#[variables(setup = PlantSetup)]
-pub struct NoiseVariables {
-    /// Seed of all random numbers; each is a function of this and of the number of its sample.
-    #[parameter(min = 0, max = i32::MAX, start = 1)]
-    pub seed: Integer,
 }

@@ -2,28 +2,16 @@
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
+use physics::management::Strategy;
 use physics::momentum::Convention;
 
 use super::super::setup::PlantSetup;
 use super::choices::DumpReinitTo;
 use crate::common::choices::MomentumConvention;
-use crate::common::effects::RecoilVariables;
 use crate::common::loads::{self, BySource};
-use crate::common::management::ManagementVariables;
+use crate::common::management::{MomentumStrategy, TargetingVariables};
 use crate::common::spacecraft::dump_threshold_n_m_s;
 use crate::common::variables::WorkLimit;
-
-/// Heat the spacecraft radiates.
-#[derive(Variables)]
-#[variables(setup = PlantSetup)]
-pub struct ThermalVariables {
-    #[group(name = "")]
-    pub recoil: RecoilVariables,
-    /// Whether surfaces whose file gives a heat capacity store heat, and stay warm into an eclipse; otherwise every surface
-    /// is in balance with its light.
-    #[parameter(start = true)]
-    pub storage: Boolean,
-}
 
 /// Torque about the centre of mass by source, body frame.
 #[derive(Variables)]
@@ -93,8 +81,12 @@ pub struct SolverVariables {
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct MomentumVariables {
+    /// What sunlight is used for during downlinks, and in science with guided.scienceUnload. It acts where the attitude is guided, in
+    /// controlled flight with command.source = guidance too.
+    #[parameter(start = MomentumStrategy(Strategy::DumpsOnly))]
+    pub strategy: Choice<MomentumStrategy>,
     #[group(name = "")]
-    pub management: ManagementVariables,
+    pub targeting: TargetingVariables,
     /// What momentum.body and the dump thresholds mean.
     #[parameter(start = MomentumConvention(Convention::Inertial))]
     pub convention: Choice<MomentumConvention>,

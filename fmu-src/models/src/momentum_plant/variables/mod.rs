@@ -11,38 +11,31 @@ mod flexibility;
 pub(super) mod motion;
 mod propulsion;
 
-use fmi_export::{Real, RealVector, Variables};
+use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
 use air_and_field::{AtmosphereVariables, GeodeticVariables, MagneticFieldVariables, SpaceWeatherVariables};
 use body::{
     ArticulationVariables, KeepInVariables, PanelVariables, SpacecraftVariables, SunshadeVariables,
     WheelVariables,
 };
-use celestial_bodies::{
-    EarthVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables, SunVariables,
-};
-use control::{
-    ControlVariables, EstimateVariables, GyroVariables, NoiseVariables, StarTrackerVariables,
-    SunSensorVariables,
-};
-use effects::{
-    DumpVariables, ForceVariables, MomentumVariables, SolverVariables, ThermalVariables, TorqueVariables,
-};
+use celestial_bodies::{EarthVariables, PlanetVariables, SunVariables};
+use choices::EphemerisSource;
+use control::{ControlVariables, EstimateVariables, GyroVariables, StarTrackerVariables, SunSensorVariables};
+use effects::{DumpVariables, ForceVariables, MomentumVariables, SolverVariables, TorqueVariables};
 use flexibility::{FlexibleModeVariables, SloshVariables};
 use motion::{
     AttitudeVariables, CommandVariables, EncounterVariables, OrbitVariables, PredictionVariables,
     StartVariables, TimelineVariables,
 };
 use propulsion::{
-    AccelerometerVariables, ManeuverVariables, PropellantVariables, TankVariables, ThrustVariables,
-    ThrusterVariables,
+    AccelerometerVariables, ManeuverVariables, TankVariables, ThrustVariables, ThrusterVariables,
 };
 
 use super::setup::PlantSetup;
 use crate::common::downlink::DownlinkVariables;
-use crate::common::effects::{LawVariables, PlanetLightVariables, ShadowingVariables};
+use crate::common::effects::{LawVariables, PlanetLightVariables, RecoilVariables, ShadowingVariables};
 use crate::common::loads::PlateVariables;
-use crate::common::variables::{EclipseVariables, GuidedVariables, SolarVariables};
+use crate::common::variables::{EclipseVariables, EllipseVariables, GuidedVariables, SolarVariables};
 
 /// Every variable of the plant, in the order of the XML.
 #[derive(Variables)]
@@ -68,8 +61,11 @@ pub struct PlantVariables {
     pub prediction: PredictionVariables,
     #[group]
     pub planet: PlanetVariables,
-    #[group]
-    pub ephemeris: EphemerisVariables,
+    /// Where the positions of Sun and Earth come from.
+    #[parameter(name = "ephemeris.source", start = EphemerisSource::Vsop87)]
+    pub ephemeris_source: Choice<EphemerisSource>,
+    #[group(setup = &setup.center)]
+    pub ephemeris: EllipseVariables,
     #[group]
     pub solar: SolarVariables,
     #[group]
@@ -77,7 +73,11 @@ pub struct PlantVariables {
     #[group]
     pub planet_light: PlanetLightVariables,
     #[group]
-    pub thermal: ThermalVariables,
+    pub thermal: RecoilVariables,
+    /// Whether surfaces whose file gives a heat capacity store heat, and stay warm into an eclipse; otherwise every surface
+    /// is in balance with its light.
+    #[parameter(name = "thermal.storage", start = true)]
+    pub thermal_storage: Boolean,
     #[group]
     pub shadowing: ShadowingVariables,
     #[group(name = "", setup = &setup.center)]
@@ -120,14 +120,16 @@ pub struct PlantVariables {
     pub thruster: Vec<ThrusterVariables>,
     #[group(count = setup.spacecraft.tanks.len())]
     pub tank: Vec<TankVariables>,
-    #[group]
-    pub propellant: PropellantVariables,
+    /// Propellant used since the start.
+    #[output(name = "propellant.used", unit = "kg", nominal = 1.0)]
+    pub propellant_used: Real,
     #[group]
     pub thrust: ThrustVariables,
     #[group]
     pub maneuver: ManeuverVariables,
-    #[group]
-    pub noise: NoiseVariables,
+    /// Seed of all random numbers; each is a function of this and of the number of its sample.
+    #[parameter(name = "noise.seed", min = 0, max = i32::MAX, start = 1)]
+    pub noise_seed: Integer,
     #[group]
     pub keep_in: KeepInVariables,
     #[group]
@@ -142,8 +144,9 @@ pub struct PlantVariables {
     pub sun: SunVariables,
     #[group]
     pub earth: EarthVariables,
-    #[group]
-    pub heliocentric: HeliocentricVariables,
+    /// Position about the Sun in EME2000.
+    #[output(name = "heliocentric.position", unit = "m", display = "AU", nominal = 1e11)]
+    pub heliocentric_position: RealVector<3>,
     #[group]
     pub solver: SolverVariables,
     /// Present epoch, seconds past J2000 TDB.

@@ -8,14 +8,11 @@ mod observation;
 use fmi_export::{Integer, Real, RealVector, Variables};
 
 use body::{
-    AttitudeVariables, ConingVariables, DamperVariables, MassVariables, MomentumVariables, NutationVariables,
-    PropellantVariables, SpinAxisVariables, SpinRateVariables, StartVariables,
+    AttitudeVariables, MassVariables, MomentumVariables, NutationVariables, PropellantVariables,
+    SpinAxisVariables, SpinRateVariables, StartVariables,
 };
-use burn::{BurnVariables, ForceVariables, PulseVariables, ThrusterVariables, TorqueVariables};
-use observation::{
-    EarthVariables, GeometryVariables, LimitVariables, StarTrackerVariables, StarVariables,
-    SunSensorVariables, SunVariables,
-};
+use burn::{BurnVariables, ThrusterVariables, TorqueVariables};
+use observation::{EarthVariables, GeometryVariables, LimitVariables, StarTrackerVariables, SunVariables};
 
 use crate::common::variables::WorkLimit;
 use physics::spin::spinner::Spinner;
@@ -42,40 +39,48 @@ pub struct SpinVariables {
     pub spin: SpinRateVariables,
     #[group]
     pub start: StartVariables,
-    #[group]
-    pub damper: DamperVariables,
+    /// Time in which the nutation angle falls to 1/e about the axis of greatest inertia, and grows by e about another; 0
+    /// = no damper. It conserves angular momentum.
+    #[parameter(name = "damper.timeConstant", unit = "s", display = "h", min = 0.0, max = 1e12, start = setup.damper_time_constant_s)]
+    pub damper_time_constant: Real,
     #[group]
     pub burn: BurnVariables,
-    #[group]
-    pub pulse: PulseVariables,
+    /// Step to which thruster[k].onDelay and onTime are rounded, and the widths of a taper; 0 = not rounded.
+    #[parameter(name = "pulse.resolution", unit = "s", display = "ms", min = 0.0, start = setup.resolution_s)]
+    pub pulse_resolution: Real,
     #[group(count = setup.thrusters.len(), setup = &setup.thrusters[index])]
     pub thruster: Vec<ThrusterVariables>,
     #[group]
     pub torque: TorqueVariables,
-    #[group]
-    pub force: ForceVariables,
+    /// Force of the thrusters, body frame.
+    #[output(name = "force.thruster", unit = "N", nominal = 1.0)]
+    pub force_thruster: RealVector<3>,
     #[group]
     pub geometry: GeometryVariables,
     #[group]
     pub sun: SunVariables,
     #[group]
     pub earth: EarthVariables,
-    #[group]
-    pub star: StarVariables,
+    /// Direction of the star in EME2000, of any length; 0 = not known yet, nothing is seen.
+    #[input(name = "star.direction", unit = "1", start = [0.3, 0.95, 0.02])]
+    pub star_direction: RealVector<3>,
     #[group]
     pub limit: LimitVariables,
     #[group]
     pub attitude: AttitudeVariables,
     #[group]
     pub nutation: NutationVariables,
-    #[group]
-    pub coning: ConingVariables,
+    // Coning: +Z goes round the spin axis where it is no principal axis.
+    /// Angle from +Z to the spin axis, the principal axis nearest to it; 0 without products of inertia.
+    #[output(name = "coning.angle", unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, nominal = 1e-2)]
+    pub coning_angle: Real,
     #[group]
     pub momentum: MomentumVariables,
     #[group]
     pub spin_axis: SpinAxisVariables,
-    #[group]
-    pub sun_sensor: SunSensorVariables,
+    /// Sun angle measured at the last crossing, with noise; 0 before any.
+    #[output(name = "sunSensor.angle", discrete, unit = "rad", display = "deg", nominal = 0.1)]
+    pub sun_sensor_angle: Real,
     #[group]
     pub star_tracker: StarTrackerVariables,
     /// Velocity change by the thrusters since the start, in EME2000.
