@@ -174,7 +174,6 @@ pub enum PlanetMethod {
 
 /// Light of the planet.
 #[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
 pub struct PlanetLightVariables {
     #[group(name = "")]
     pub rings: effects::PlanetLightVariables,
@@ -201,7 +200,6 @@ pub struct SpacecraftVariables {
 
 /// Torque about the centre of mass by source, body frame.
 #[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
 pub struct TorqueVariables {
     #[group(name = "", setup = &loads::TORQUE)]
     pub by_source: BySource,
@@ -212,7 +210,6 @@ pub struct TorqueVariables {
 
 /// Force by source, body frame.
 #[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
 pub struct ForceVariables {
     #[group(name = "", setup = &loads::FORCE)]
     pub by_source: BySource,

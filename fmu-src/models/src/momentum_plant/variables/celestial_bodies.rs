@@ -44,7 +44,6 @@ pub struct PlanetVariables {
 
 /// The Sun as seen from the spacecraft.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct SunVariables {
     /// Radius of the Sun (IAU 2015 nominal): width of the penumbra, and of shadows of parts by shadowing.sunDisc. Others use
     /// 695,000 or 696,000 km, which moves an edge of a shadow by some 2 ms.
@@ -91,7 +90,6 @@ pub struct SunVariables {
 
 /// The Earth as seen from the spacecraft.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct EarthVariables {
     /// UT1 minus UTC, for the Earth's orientation iau.
     #[parameter(tunable, unit = "s", min = -1e3, max = 1e3, start = 0.0)]

@@ -15,7 +15,6 @@ use crate::common::variables::WorkLimit;
 
 /// Torque about the centre of mass by source, body frame.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct TorqueVariables {
     /// Torque from outside this model, body frame.
     #[input(unit = "N.m", display = "uN.m", start = [0.0; 3])]
@@ -32,7 +31,6 @@ pub struct TorqueVariables {
 
 /// Force by source, body frame unless said otherwise.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct ForceVariables {
     /// Force from outside this model, body frame, through the centre of mass.
     #[input(unit = "N", display = "uN", start = [0.0; 3])]
@@ -52,7 +50,6 @@ pub struct ForceVariables {
 
 /// How the accumulation is carried out.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct SolverVariables {
     /// Longest internal step; steps end at its multiples, at attitude changes and at dumps.
     #[parameter(unit = "s", min = 1e-3, max = 86_400.0, start = 600.0)]
@@ -79,7 +76,6 @@ pub struct SolverVariables {
 
 /// System momentum.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct MomentumVariables {
     /// What sunlight is used for during downlinks, and in science with guided.scienceUnload. It acts where the attitude is guided, in
     /// controlled flight with command.source = guidance too.

@@ -13,7 +13,6 @@ use crate::common::choices::{CommandKind, OrbitCenter};
 
 /// Attitude: where it comes from, and what it is.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct AttitudeVariables {
     /// Where the attitude comes from.
     #[parameter(start = AttitudeSource::Guided)]
@@ -28,7 +27,6 @@ pub struct AttitudeVariables {
 
 /// The command followed when attitude.source is commanded, tracked when it is controlled.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct CommandVariables {
     /// Where commands come from in commanded and controlled flight.
     #[parameter(start = CommandSource::Inputs)]
@@ -52,7 +50,6 @@ pub struct CommandVariables {
 
 /// Where the flight starts.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct StartVariables {
     /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.
     #[parameter(unit = "s", display = "d", min = defaults::EARLIEST_EPOCH_S, max = defaults::VALID_EPOCH_S, start = defaults::EPOCH_TDB_S)]
@@ -202,7 +199,6 @@ impl AttractionVariables {
 
 /// The planet that the spacecraft is on its way to, with orbit.dynamics nBody.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct EncounterVariables {
     /// The planet of the encounter, another than orbit.center. Where it is given, planet.*, shadow, light, heat and gravity gradient are
     /// that planet's.
@@ -248,7 +244,6 @@ pub struct EncounterVariables {
 /// Predictions of the encounter: the flight simulated on to the next closest approach within the sphere of influence of
 /// encounter.body, along the present timeline, inputs held.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct PredictionVariables {
     /// The encounter is predicted at whole multiples of this time; 0: never. Each prediction costs a flight of the orbit up to the
     /// encounter, also of solver.workLimit. It is made in the step that begins there or goes over it, with that step's inputs.
@@ -286,7 +281,6 @@ pub struct PredictionVariables {
 
 /// Commands over time.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct TimelineVariables {
     /// Whether guided flight, and controlled flight with command.source guidance, follow the FMU's timeline.toml. Where it commands
     /// nothing guided.* rules.
