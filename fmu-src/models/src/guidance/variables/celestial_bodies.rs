@@ -43,12 +43,6 @@ pub struct PlanetVariables {
     /// Radii of the ellipsoid along the planet's x, y and z.
     #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.target.radii_m)]
     pub radii: RealVector<3>,
-    /// Right ascension of the planet's north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.target.data.pole_right_ascension_rad)]
-    pub pole_right_ascension: Real,
-    /// Declination of the planet's north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.target.data.pole_declination_rad)]
-    pub pole_declination: Real,
     #[group(name = "", setup = &setup.target)]
     pub rotation: RotationVariables,
     /// Gravitational parameter of the planet: by the acceleration it gives, the rate of a frame that follows the velocity.

@@ -24,12 +24,6 @@ pub struct PlanetVariables {
     /// Radius to which planet.j2 refers.
     #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.center.data.j2_radius_m)]
     pub j2_radius: Real,
-    /// Right ascension of the planet's north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.center.data.pole_right_ascension_rad)]
-    pub pole_right_ascension: Real,
-    /// Declination of the planet's north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.center.data.pole_declination_rad)]
-    pub pole_declination: Real,
     #[group(name = "", setup = &setup.center)]
     pub rotation: RotationVariables,
     #[group(name = "", setup = &setup.center)]
