@@ -165,7 +165,7 @@ pub(crate) const NO_GIMBAL: &str = "no instrument of the spacecraft has a gimbal
 const LATEST_WINDOW_S: f64 = 1e9;
 
 /// Start values of the downlink windows by a spacecraft's file; without any in it there is no downlink.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct WindowDefaults {
     /// Begin after periapsis, in s.
     pub start_s: f64,
@@ -184,13 +184,7 @@ impl WindowDefaults {
     pub fn of(spacecraft: &Spacecraft, center: &CenterBody) -> Self {
         let antennas_and_cruise = [!spacecraft.antennas.is_empty(), center.data.body == Body::Sun];
         let Some(windows) = &spacecraft.downlinks else {
-            return Self {
-                start_s: 0.0,
-                end_s: 0.0,
-                every: 0,
-                period_shares: [None; 2],
-                antennas_and_cruise,
-            };
+            return Self { antennas_and_cruise, ..Self::default() };
         };
         let axis_m = center.elements().semi_major_axis_m;
         let period_s = orbit::period_s(center.data.gm_m3_s2, axis_m);

@@ -107,7 +107,7 @@ pub struct MomentumVariables {
 pub struct DumpVariables {
     /// Magnitude of a body component of momentum that triggers a dump; a very large value means never, and in free flight, where
     /// the master controls, none is triggered unless this is set.
-    #[parameter(tunable, unit = "N.m.s", min = 1e-6, start = dump_threshold_n_m_s(&setup.spacecraft, setup.wheel_array.as_ref()))]
+    #[parameter(tunable, unit = "N.m.s", min = 1e-6, start = dump_threshold_n_m_s(&setup.spacecraft))]
     pub threshold: RealVector<3>,
     /// Where a component goes that exceeded its threshold.
     #[parameter(start = DumpReinitTo::Opposite)]

@@ -5,7 +5,6 @@ pub(super) mod body;
 mod celestial_bodies;
 pub(super) mod choices;
 mod control;
-pub(super) mod defaults;
 mod effects;
 mod flexibility;
 pub(super) mod motion;

@@ -4,12 +4,11 @@ use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Values, Variables};
 
 use super::super::setup::PlantSetup;
 use physics::bodies::Body;
+use physics::environment::{ephemeris, time};
 use physics::guidance::modes::guidance_command;
 
 use super::choices::{AttitudeSource, CommandSource, EncounterBody, OrbitDynamics, OrbitFrame, OrbitSource};
-use super::defaults;
-use crate::common::choices::custom_body;
-use crate::common::choices::{CommandKind, OrbitCenter};
+use crate::common::choices::{CommandKind, OrbitCenter, custom_body};
 
 /// Attitude: where it comes from, and what it is.
 #[derive(Variables)]
@@ -52,7 +51,7 @@ pub struct CommandVariables {
 #[derive(Variables)]
 pub struct StartVariables {
     /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.
-    #[parameter(unit = "s", display = "d", min = defaults::EARLIEST_EPOCH_S, max = defaults::VALID_EPOCH_S, start = defaults::EPOCH_TDB_S)]
+    #[parameter(unit = "s", display = "d", min = ephemeris::EARLIEST_EPOCH_S, max = ephemeris::VALID_EPOCH_S, start = time::MOMENTUM_STUDY_START_S)]
     pub epoch: Real,
     /// Attitude quaternion at the start, scalar last, from EME2000 to body; used until a command changes it. Unless this is set, be
     /// it to the identity, a controlled flight starts in the first attitude that command.q or the internal guidance commands, and a
