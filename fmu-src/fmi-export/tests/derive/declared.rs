@@ -89,7 +89,6 @@ struct PanelVariables {
     /// Panel angle.
     #[input(unit = "rad", start = setup.panel_angles_rad[index])]
     angle: Real,
-    #[group]
     optics: OpticsVariables,
 }
 

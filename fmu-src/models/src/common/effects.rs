@@ -81,9 +81,7 @@ pub struct AerodynamicVariables {
 #[derive(Variables)]
 #[variables(setup = CenterBody)]
 pub struct LawVariables {
-    #[group]
     pub gravity_gradient: GravityGradientVariables,
-    #[group]
     pub aerodynamics: AerodynamicVariables,
     /// Whether the planet's magnetic field acts on dipole.residual; by default about the Earth alone.
     #[parameter(name = "magnetics.enabled", start = setup.data.body == Body::Earth)]

@@ -16,39 +16,27 @@ use crate::common::variables::{EclipseVariables, SolarFluxVariables, SurfaceVari
 #[derive(Variables)]
 #[variables(setup = DisturbanceSetup)]
 pub struct DisturbanceVariables {
-    #[group]
     pub sun: SunVariables,
-    #[group]
     pub planet: PlanetVariables,
     #[group(count = setup.spacecraft.panels.len())]
     pub panel: Vec<PanelVariables>,
-    #[group]
     pub solar: SolarFluxVariables,
-    #[group]
     pub eclipse: EclipseVariables,
-    #[group]
     pub planet_light: PlanetLightVariables,
-    #[group]
     pub thermal: RecoilVariables,
-    #[group]
     pub shadowing: ShadowingVariables,
     #[group(name = "", setup = &setup.center)]
     pub laws: LawVariables,
-    #[group]
     pub atmosphere: AtmosphereVariables,
     /// Field where the spacecraft is, body frame.
     #[input(name = "magneticField.body", unit = "T", display = "nT", start = [0.0; 3])]
     pub magnetic_field_body: RealVector<3>,
-    #[group]
     pub spacecraft: SpacecraftVariables,
     /// Which model of the shade takes the light; without a shade it does not count.
     #[parameter(name = "sunshade.shape", start = SunshadeShape::of(&setup.spacecraft))]
     pub sunshade_shape: Choice<SunshadeShape>,
-    #[group]
     pub solver: WorkLimit,
-    #[group]
     pub torque: TorqueVariables,
-    #[group]
     pub force: ForceVariables,
     #[group(count = setup.reported_faces.len(), setup = &setup.reported_faces)]
     pub plate: Vec<PlateVariables>,

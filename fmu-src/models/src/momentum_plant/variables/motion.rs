@@ -95,7 +95,6 @@ pub struct OrbitVariables {
     /// Longest integration step of a disturbed orbit; 300 s keep a revolution of the default orbit to 0.1 mm.
     #[parameter(unit = "s", min = 1.0, max = 86_400.0, start = 300.0)]
     pub step: Real,
-    #[group]
     pub attraction: AttractionVariables,
     /// Whether the Sun's relativity acts with orbit.dynamics nBody: some 100 m in 200 days at 0.5 AU.
     #[parameter(start = false)]
