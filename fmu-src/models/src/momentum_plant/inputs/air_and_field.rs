@@ -143,13 +143,9 @@ impl Followed {
         let (laws, planet) = (&context.variables.laws, &context.variables.planet);
         let rotation = &planet.rotation;
         // Importers that write every start value write the planet too; the others set alone are a user's choice.
-        let written = [planet.gravitational_parameter, planet.radius].map(Elements::from);
-        let mut elements = [Elements::from(rotation.orientation); PLANET_SWITCHES + 3];
-        elements[1..3].copy_from_slice(&written);
-        for (element, (_, switch)) in elements[3..].iter_mut().zip(laws.planet_switches()) {
-            *element = switch.into();
-        }
-        let given = context.given(values, &elements);
+        let [gm, radius] = [planet.gravitational_parameter, planet.radius].map(Elements::from);
+        let [air, field] = laws.planet_switches().map(|(_, switch)| Elements::from(switch));
+        let given = context.given(values, &[rotation.orientation.into(), gm, radius, air, field]);
         let switches = laws.planet_switches().map(|(_, switch)| {
             let is_set = given.has(switch);
             (switch, if is_set { values.boolean(switch) } else { body == Body::Earth }, is_set)
