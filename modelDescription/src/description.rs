@@ -122,18 +122,14 @@ impl Default for BaseUnit {
 }
 
 impl BaseUnit {
+    fn exponents_mut(&mut self) -> [(&'static str, &mut i32); 8] {
+        let Self { kg, m, s, a, k, mol, cd, rad, .. } = self;
+        [("kg", kg), ("m", m), ("s", s), ("A", a), ("K", k), ("mol", mol), ("cd", cd), ("rad", rad)]
+    }
+
     /// The SI base units' symbols with their exponents.
-    pub fn exponents(&self) -> [(&'static str, i32); 8] {
-        [
-            ("kg", self.kg),
-            ("m", self.m),
-            ("s", self.s),
-            ("A", self.a),
-            ("K", self.k),
-            ("mol", self.mol),
-            ("cd", self.cd),
-            ("rad", self.rad),
-        ]
+    pub fn exponents(mut self) -> [(&'static str, i32); 8] {
+        self.exponents_mut().map(|(symbol, exponent)| (symbol, *exponent))
     }
 
     /// Of exponents that are read by their symbols.
@@ -142,18 +138,11 @@ impl BaseUnit {
         factor: f64,
         offset: f64,
     ) -> Result<Self, E> {
-        Ok(Self {
-            kg: exponent("kg")?,
-            m: exponent("m")?,
-            s: exponent("s")?,
-            a: exponent("A")?,
-            k: exponent("K")?,
-            mol: exponent("mol")?,
-            cd: exponent("cd")?,
-            rad: exponent("rad")?,
-            factor,
-            offset,
-        })
+        let mut unit = Self { factor, offset, ..Self::default() };
+        for (symbol, power) in unit.exponents_mut() {
+            *power = exponent(symbol)?;
+        }
+        Ok(unit)
     }
 }
 

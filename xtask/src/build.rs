@@ -1,6 +1,7 @@
 //! Building the library and the command line.
 
-use std::path::PathBuf;
+use std::env::consts::{DLL_PREFIX, DLL_SUFFIX, EXE_SUFFIX};
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::shell::{self, cargo, root, run, target};
@@ -18,6 +19,17 @@ pub(crate) struct Built {
 }
 
 impl Built {
+    /// What a build for one platform leaves below `folder`, by prefix and suffix of its libraries and the suffix of its programs.
+    pub(crate) fn below(folder: &Path, (prefix, suffix): (&str, &str), program_suffix: &str) -> Self {
+        let library = |name: &str| folder.join("fmu").join(format!("{prefix}{name}{suffix}"));
+        Self {
+            heliotorque: folder.join("release").join(format!("heliotorque{program_suffix}")),
+            library: library("heliotorque"),
+            probe: library("probe"),
+            others: Vec::new(),
+        }
+    }
+
     /// The build for the host, then those for other platforms.
     pub(crate) fn each(&self) -> impl Iterator<Item = &Built> {
         std::iter::once(self).chain(&self.others)
@@ -36,17 +48,7 @@ pub(crate) fn build() -> Result<Built, String> {
 
 /// Where a build leaves what it made.
 pub(crate) fn built() -> Built {
-    let folder = target();
-    let library = |name: &str| {
-        let file = format!("{}{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
-        folder.join("fmu").join(file)
-    };
-    Built {
-        heliotorque: folder.join("release").join(format!("heliotorque{}", std::env::consts::EXE_SUFFIX)),
-        library: library("heliotorque"),
-        probe: library("probe"),
-        others: Vec::new(),
-    }
+    Built::below(&target(), (DLL_PREFIX, DLL_SUFFIX), EXE_SUFFIX)
 }
 
 /// Builds the shared library and the probe's, whole-program optimised.

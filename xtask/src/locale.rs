@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::shell::{command, need, run, target};
+use crate::shell::{command, lacks, need, run, target};
 
 /// Its name, as `setlocale` takes it.
 const NAME: &str = "de_DE.UTF-8";
@@ -19,16 +19,12 @@ pub(crate) fn environment() -> Result<Option<(&'static str, PathBuf)>, String> {
     }
     let folder = target().join("locale");
     if !is_in(&folder) {
-        if !need("localedef", "the simulation under a comma locale")? {
+        let what_for = "the simulation under a comma locale";
+        if !need("localedef", what_for)? {
             return Ok(None);
         }
         if !Path::new(SOURCE).exists() {
-            return if std::env::var_os("CI").is_some() {
-                Err(format!("`{SOURCE}` is missing, needed for the simulation under a comma locale"))
-            } else {
-                eprintln!("skipped: the simulation under a comma locale (no `{SOURCE}` on this machine)");
-                Ok(None)
-            };
+            return lacks(SOURCE, what_for).map(|()| None);
         }
         std::fs::create_dir_all(&folder)
             .map_err(|error| format!("cannot create {}: {error}", folder.display()))?;

@@ -7,7 +7,7 @@ use std::process::Command;
 
 use crate::build::{self, Built, TESTS};
 use crate::shell::{Outcome, available, cargo, command, root, run, target};
-use crate::test::{self, compile_c_with};
+use crate::test::{self, CCompiler, compile_c_for};
 use crate::{dist, guide, shell};
 
 /// Fuzz targets, in `tests/fuzz/targets`.
@@ -160,12 +160,9 @@ fn sanitizers() -> Outcome {
             continue;
         }
         let name = sanitizer.replace(',', "-");
-        let client = compile_c_with(
-            &scratch,
-            "client",
-            &format!("client-{name}"),
-            &[&flag, "-fno-omit-frame-pointer"],
-        )?;
+        let called = format!("client-{name}");
+        let flags = [flag.as_str(), "-fno-omit-frame-pointer"];
+        let client = compile_c_for(&CCompiler::HERE, &scratch, ("client", &called), &flags)?;
         // Older thread sanitizers do not work with addresses as random as newer kernels make them.
         let mut launched = command(&client);
         if available("setarch") {
@@ -196,7 +193,7 @@ fn allocations() -> Outcome {
     }
     let built = build::build()?;
     let scratch = build::scratch("allocations")?;
-    let client = compile_c_with(&scratch, "allocation", "allocation", &["-rdynamic"])?;
+    let client = compile_c_for(&CCompiler::HERE, &scratch, ("allocation", "allocation"), &["-rdynamic"])?;
     for (model, step_s) in FAILING {
         run(command(&client).arg(&built.library).args([model, step_s, ALLOCATIONS]).current_dir(&scratch))?;
     }

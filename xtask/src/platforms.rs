@@ -59,14 +59,7 @@ impl Platform {
     /// Files of a build.
     pub(crate) fn built(&self) -> Built {
         let folder = self.target_folder().join(self.target);
-        let (prefix, suffix) = self.library_affixes;
-        let library = |name: &str| folder.join("fmu").join(format!("{prefix}{name}{suffix}"));
-        Built {
-            heliotorque: folder.join("release").join(format!("heliotorque{}", self.program_suffix)),
-            library: library("heliotorque"),
-            probe: library("probe"),
-            others: Vec::new(),
-        }
+        Built::below(&folder, self.library_affixes, self.program_suffix)
     }
 
     /// Folder of its builds. Windows has one of its own: macros and build scripts depend on `RUSTC_BOOTSTRAP`, so that builds with and

@@ -1,12 +1,20 @@
 //! Pinned Python environments under `target/`: the tests', Basilisk's, and the linker's for an older glibc.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use crate::shell::{self, command, output, root, run};
 
 /// Python interpreter of the tests' environment, set up on first use and again when the pins change.
 pub(crate) fn interpreter() -> Result<PathBuf, String> {
     environment("python", &root().join("tests/python/requirements.txt"))
+}
+
+/// `pytest` in that environment, which leaves no compiled files beside the tests.
+pub(crate) fn pytest() -> Result<Command, String> {
+    let mut pytest = command(interpreter()?);
+    pytest.args(["-m", "pytest", "-q"]).env("PYTHONDONTWRITEBYTECODE", "1");
+    Ok(pytest)
 }
 
 /// Python interpreter with Basilisk, which the benchmarks alone need; its packages conflict with the tests'.

@@ -72,11 +72,8 @@ fn run_selected(
             .envs(more.iter().copied()))?;
     }
     let Some(name) = in_python else { return Ok(()) };
-    run(command(python::interpreter()?)
-        .args(["-m", "pytest", "-q", "tests/python", "-k", name])
-        .env("PYTHONDONTWRITEBYTECODE", "1")
-        .envs(environment)
-        .envs(more.iter().copied()))
+    let mut tests = python::pytest()?;
+    run(tests.args(["tests/python", "-k", name]).envs(environment).envs(more.iter().copied()))
 }
 
 /// The programs that have a test with `name` in its name.
@@ -115,9 +112,7 @@ fn test_program(line: &str) -> Option<TestProgram> {
 fn collects(name: &str) -> Result<bool, String> {
     /// What pytest ends with where it collects nothing.
     const NOTHING: i32 = 5;
-    let mut collect = command(python::interpreter()?);
-    collect.args(["-m", "pytest", "-q", "--collect-only", "tests/python", "-k", name]);
-    let ended = collect.env("PYTHONDONTWRITEBYTECODE", "1").output();
+    let ended = python::pytest()?.args(["--collect-only", "tests/python", "-k", name]).output();
     let ended = ended.map_err(|error| format!("cannot start pytest: {error}"))?;
     match ended.status.code() {
         Some(0) => Ok(true),

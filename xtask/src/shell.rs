@@ -111,14 +111,16 @@ pub(crate) fn available(program: &str) -> bool {
 
 /// In CI everything must be there; elsewhere a missing tool is named and its tests are left out.
 pub(crate) fn need(program: &str, what_for: &str) -> Result<bool, String> {
-    if available(program) {
-        return Ok(true);
-    }
+    if available(program) { Ok(true) } else { lacks(program, what_for).map(|()| false) }
+}
+
+/// The same of what was found missing.
+pub(crate) fn lacks(what: &str, what_for: &str) -> Outcome {
     if std::env::var_os("CI").is_some() {
-        return Err(format!("`{program}` is missing, needed for {what_for}"));
+        return Err(format!("`{what}` is missing, needed for {what_for}"));
     }
-    eprintln!("skipped: {what_for} (no `{program}` on this machine)");
-    Ok(false)
+    eprintln!("skipped: {what_for} (no `{what}` on this machine)");
+    Ok(())
 }
 
 fn show(command: &Command) -> String {

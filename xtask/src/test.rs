@@ -72,11 +72,8 @@ pub(crate) fn print_environment() -> Outcome {
 
 /// Runs the tests in Python of a mark on up to four processes.
 pub(crate) fn python(environment: Vec<(&'static str, PathBuf)>, mark: &str) -> Outcome {
-    run(command(python::interpreter()?)
-        .args(["-m", "pytest", "-q", "--numprocesses=auto", "--maxprocesses=4", "--dist=loadgroup"])
-        .args(["-m", mark, "tests/python"])
-        .env("PYTHONDONTWRITEBYTECODE", "1")
-        .envs(environment))
+    let processes = ["--numprocesses=auto", "--maxprocesses=4", "--dist=loadgroup"];
+    run(python::pytest()?.args(processes).args(["-m", mark, "tests/python"]).envs(environment))
 }
 
 /// Runs the tests of one file in Python, with more in the environment.
@@ -84,11 +81,7 @@ pub(crate) fn python_file(
     name: &str,
     environment: impl IntoIterator<Item = (&'static str, OsString)>,
 ) -> Outcome {
-    run(command(python::interpreter()?)
-        .args(["-m", "pytest", "-q"])
-        .arg(Path::new("tests/python").join(name))
-        .env("PYTHONDONTWRITEBYTECODE", "1")
-        .envs(environment))
+    run(python::pytest()?.arg(Path::new("tests/python").join(name)).envs(environment))
 }
 
 /// An FMU whose library others built: FMPy's container around our plant.
@@ -133,17 +126,7 @@ pub(crate) fn c_client(built: &Built, is_long: bool) -> Outcome {
 
 /// Compiles `tests/c/<name>.c` into the scratch folder.
 pub(crate) fn compile_c(scratch: &Path, name: &str) -> Result<PathBuf, String> {
-    compile_c_with(scratch, name, name, &[])
-}
-
-/// The same with more flags, under a name of its own.
-pub(crate) fn compile_c_with(
-    scratch: &Path,
-    name: &str,
-    called: &str,
-    flags: &[&str],
-) -> Result<PathBuf, String> {
-    compile_c_for(&CCompiler::HERE, scratch, (name, called), flags)
+    compile_c_for(&CCompiler::HERE, scratch, (name, name), &[])
 }
 
 /// A compiler of C and how it links.
@@ -157,7 +140,7 @@ impl CCompiler {
     pub(crate) const HERE: Self = Self { program: "gcc", libraries: &["-ldl", "-lm", "-pthread"] };
 }
 
-/// The same by another compiler.
+/// The same by another compiler, with more flags, under a name of its own.
 pub(crate) fn compile_c_for(
     compiler: &CCompiler,
     scratch: &Path,

@@ -3,8 +3,11 @@
 use model_description::{Causality, Initial, Variability};
 use proc_macro2::Span;
 use syn::{
-    Attribute, Expr, Ident, LitStr, Meta, Type, meta::ParseNestedMeta, parenthesized, spanned::Spanned, token,
+    Attribute, Expr, Field, Ident, LitStr, Meta, Type, meta::ParseNestedMeta, parenthesized,
+    spanned::Spanned, token,
 };
+
+use crate::field::Kind;
 
 /// `#[parameter(...)]`, `#[input(...)]` and so on.
 pub(crate) struct Declaration {
@@ -24,6 +27,7 @@ pub(crate) struct Declaration {
 }
 
 /// `#[group(...)]`.
+#[derive(Default)]
 pub(crate) struct Group {
     pub name: Option<LitStr>,
     pub count: Option<Expr>,
@@ -39,10 +43,11 @@ pub(crate) enum FieldAttribute {
 const DECLARATION_ITEMS: &str = "constant, fixed, tunable, discrete, continuous, \
     initial = exact|approx|calculated, start, unit, display, min, max, nominal, name, items";
 
-/// The one declaring attribute of a field; others (`doc`, `cfg`, ...) are none of our business.
-pub(crate) fn of_field(name: &Ident, attributes: &[Attribute]) -> syn::Result<FieldAttribute> {
+/// The one declaring attribute of a field; others (`doc`, `cfg`, ...) are none of our business. Without one, a type that no
+/// variable has is a group.
+pub(crate) fn of_field(name: &Ident, field: &Field) -> syn::Result<FieldAttribute> {
     let mut found = None;
-    for attribute in attributes {
+    for attribute in &field.attrs {
         let Some(word) = attribute.path().get_ident() else { continue };
         let causality = match word.to_string().as_str() {
             "parameter" => Some(Causality::Parameter),
@@ -61,7 +66,8 @@ pub(crate) fn of_field(name: &Ident, attributes: &[Attribute]) -> syn::Result<Fi
             return Err(syn::Error::new_spanned(word, format!("`{name}` is declared twice")));
         }
     }
-    found.ok_or_else(|| {
+    let of_type = || Kind::of(&field.ty).is_err().then(|| FieldAttribute::Group(Box::default()));
+    found.or_else(of_type).ok_or_else(|| {
         let problem = format!(
             "`{name}` needs one of #[parameter], #[calculated_parameter], #[input], #[output], #[local], #[group]"
         );
@@ -105,7 +111,7 @@ fn declaration(attribute: &Attribute, causality: Causality) -> syn::Result<Decla
 }
 
 fn group(attribute: &Attribute) -> syn::Result<Group> {
-    let mut all = Group { name: None, count: None, setup: None };
+    let mut all = Group::default();
     each_item(attribute, |item, word| match word {
         "name" => once(&mut all.name, item, value),
         "count" => once(&mut all.count, item, value),

@@ -34,7 +34,8 @@ use syn::{DeriveInput, parse_macro_input};
 /// | `nominal` | nominal value of a Real |
 /// | `name = "a.b"` | name within the group; the default is the field's in lowerCamelCase |
 ///
-/// `#[group]` nests a struct that derives `Variables` under its name; `name = ""` adds no prefix.
+/// A struct that derives `Variables` is nested under the field's name; `#[group(name = "a.b")]` gives another, and `name = ""`
+/// adds no prefix.
 /// `#[group(count = expression)]` on a `Vec` declares as many groups `name[1].`, `name[2].`, and
 /// `setup = expression` hands the group another setup, in which `index` counts the elements.
 #[proc_macro_derive(

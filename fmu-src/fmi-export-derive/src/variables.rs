@@ -23,7 +23,7 @@ pub(crate) fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
     let mut parts = Vec::new();
     for (position, (ident, field)) in fields.iter().enumerate() {
         let binding = Ident::new(&format!("field_{position}"), Span::mixed_site());
-        let Some(attribute) = errors.take(attribute::of_field(ident, &field.attrs)) else { continue };
+        let Some(attribute) = errors.take(attribute::of_field(ident, field)) else { continue };
         let call = match &attribute {
             FieldAttribute::Declaration(declared) => {
                 declare(declared, ident, field, &scope, &mut names, &mut errors)

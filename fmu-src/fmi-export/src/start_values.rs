@@ -205,26 +205,18 @@ fn targets(
         let found = format!("the {} {}", first.causality, entry.name);
         return Err(Misfit::new(found, "a parameter or an input"));
     }
-    if scalar.is_some() {
-        return Ok(vec![(elements[0], converted(description, first, &entry.value)?)]);
-    }
     let given = shaped(&entry.name, &entry.value);
     let by_name = |name: &str| given.iter().find(|(element, _)| element == name).map(|(_, given)| *given);
     let variables: Vec<_> = elements.iter().filter_map(|index| Some((*index, own(index)?))).collect();
     let shape = || Misfit::new(entry.value.shown(), shape_of(&entry.name, &variables));
     let is_matrix = variables.iter().any(|(_, variable)| names::is_of_matrix(&variable.name));
-    if !is_matrix && !matches!(entry.value, SetupValue::List(_)) {
-        // One value is that of every element of a vector.
-        return variables
-            .iter()
-            .map(|(index, variable)| Ok((*index, converted(description, variable, &entry.value)?)))
-            .collect();
-    }
-    if given.len() != variables.len() {
+    // One value is that of every element of a vector.
+    let is_one = scalar.is_some() || !(is_matrix || matches!(entry.value, SetupValue::List(_)));
+    if !is_one && given.len() != variables.len() {
         return Err(shape());
     }
     let value_of = |(index, variable): &(usize, &ScalarVariable)| {
-        let given = by_name(&variable.name).ok_or_else(shape)?;
+        let given = if is_one { &entry.value } else { by_name(&variable.name).ok_or_else(shape)? };
         Ok((*index, converted(description, variable, given)?))
     };
     variables.iter().map(value_of).collect()

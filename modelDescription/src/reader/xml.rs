@@ -53,7 +53,7 @@ impl<'a> Xml<'a> {
         if let Some((at, c)) = text.char_indices().find(|&(_, c)| !is_xml_char(c)) {
             let line = 1 + newlines(&text.as_bytes()[..at]);
             let message = format!("the character U+{:04X} is not allowed in XML 1.0", u32::from(c));
-            return Err(ReadError::new(Code::Malformed, line, "", message));
+            return Err(malformed(line, "", message));
         }
         let mut reader = Reader::from_str(text);
         reader.config_mut().check_comments = true;
@@ -73,14 +73,8 @@ impl<'a> Xml<'a> {
                 Event::Empty(tag) => return self.start(line, &tag, true),
                 Event::Comment(_) | Event::PI(_) | Event::DocType(_) => {}
                 Event::Text(text) if text.trim_ascii().is_empty() => {}
-                Event::Eof => {
-                    let message = "the file ends before its first element".to_owned();
-                    return Err(ReadError::new(Code::Malformed, line, "", message));
-                }
-                _ => {
-                    let message = "text stands before the first element".to_owned();
-                    return Err(ReadError::new(Code::Malformed, line, "", message));
-                }
+                Event::Eof => return Err(malformed(line, "", "the file ends before its first element")),
+                _ => return Err(malformed(line, "", "text stands before the first element")),
             }
         }
     }
@@ -107,10 +101,7 @@ impl<'a> Xml<'a> {
                     let message = "text inside the element is ignored; allowed are elements".to_owned();
                     self.warn(Code::UnexpectedText, line, &parent.name, message);
                 }
-                Event::Eof => {
-                    let message = format!("the file ends inside <{}>", parent.name);
-                    return Err(ReadError::new(Code::Malformed, line, &parent.name, message));
-                }
+                Event::Eof => return Err(ends_inside(line, parent)),
                 Event::Comment(_) | Event::PI(_) | Event::DocType(_) | Event::Decl(_) => {}
             }
         }
@@ -134,10 +125,7 @@ impl<'a> Xml<'a> {
                 }
                 Event::Empty(tag) => check_name(tag.name().as_ref(), line, &start.name)?,
                 Event::End(_) => self.depth -= 1,
-                Event::Eof => {
-                    let message = format!("the file ends inside <{}>", start.name);
-                    return Err(ReadError::new(Code::Malformed, line, &start.name, message));
-                }
+                Event::Eof => return Err(ends_inside(line, start)),
                 _ => {}
             }
         }
@@ -155,10 +143,7 @@ impl<'a> Xml<'a> {
                 Event::Eof => return Ok(self.warnings),
                 Event::Comment(_) | Event::PI(_) => {}
                 Event::Text(text) if text.trim_ascii().is_empty() => {}
-                _ => {
-                    let message = "something follows the end of the root element".to_owned();
-                    return Err(ReadError::new(Code::Malformed, line, "", message));
-                }
+                _ => return Err(malformed(line, "", "something follows the end of the root element")),
             }
         }
     }
@@ -176,7 +161,7 @@ impl<'a> Xml<'a> {
             Ok(event) => Ok((line, event)),
             Err(error) => {
                 let line = self.line_at(self.reader.error_position());
-                Err(ReadError::new(Code::Malformed, line, element, error.to_string()))
+                Err(malformed(line, element, error.to_string()))
             }
         }
     }
@@ -212,7 +197,7 @@ impl<'a> Xml<'a> {
         let mut attributes: Vec<(String, String)> = Vec::new();
         // The library's own check for duplicates takes quadratic time before the limit is seen.
         for attribute in tag.attributes().with_checks(false) {
-            let malformed = |message: String| ReadError::new(Code::Malformed, line, &name, message);
+            let malformed = |message: String| malformed(line, &name, message);
             let attribute = attribute.map_err(|error| malformed(error.to_string()))?;
             let key = attribute.key.as_ref().to_owned();
             check_name(&key, line, &name)?;
@@ -258,7 +243,7 @@ fn check_name(name: &str, line: u32, element: &str) -> Result<(), ReadError> {
         return Ok(());
     }
     let shown: String = name.chars().take(40).collect();
-    Err(ReadError::new(Code::Malformed, line, element, format!("`{shown}` is no XML name")))
+    Err(malformed(line, element, format!("`{shown}` is no XML name")))
 }
 
 fn decode(bytes: &[u8]) -> Result<&str, ReadError> {
@@ -278,6 +263,14 @@ fn decode(bytes: &[u8]) -> Result<&str, ReadError> {
             error(1 + newlines(good), format!("byte 0x{byte:02X} is not UTF-8; allowed is UTF-8 only"))
         }
     }
+}
+
+fn malformed(line: u32, element: &str, message: impl Into<String>) -> ReadError {
+    ReadError::new(Code::Malformed, line, element, message.into())
+}
+
+fn ends_inside(line: u32, element: &Start) -> ReadError {
+    malformed(line, &element.name, format!("the file ends inside <{}>", element.name))
 }
 
 fn newlines(bytes: &[u8]) -> u32 {

@@ -153,6 +153,14 @@ fn declared_type(kind: &VariableKind) -> Option<&str> {
     }
 }
 
+/// The index of the variable that this one differentiates.
+fn derivative_of(variable: &ScalarVariable) -> Option<u32> {
+    match variable.kind {
+        VariableKind::Real { derivative, .. } => derivative,
+        _ => None,
+    }
+}
+
 /// Some of many names, for a message.
 fn some_of<'n>(names: impl Iterator<Item = &'n str>) -> String {
     const SHOWN: usize = 8;

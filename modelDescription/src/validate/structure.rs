@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Check, Place, some_of};
+use super::{Check, Place, derivative_of, some_of};
 use crate::finding::Code;
 use crate::rules;
 use crate::{Causality, DependencyKind, Initial, ScalarVariable, Unknown, VariableKind};
@@ -63,7 +63,7 @@ impl Check<'_> {
     fn derivatives(&mut self) {
         let all = self.description;
         for (at, unknown) in all.structure.derivatives.iter().enumerate() {
-            if self.variable(unknown.index).is_some_and(|variable| !has_derivative(variable)) {
+            if self.variable(unknown.index).is_some_and(|variable| derivative_of(variable).is_none()) {
                 let message = "has no attribute `derivative`; allowed are derivatives of states".to_owned();
                 self.add(Code::DerivativeEntry, Place::Derivative(at), message);
             }
@@ -73,7 +73,7 @@ impl Check<'_> {
         }
         let listed: BTreeSet<u32> = all.structure.derivatives.iter().map(|unknown| unknown.index).collect();
         for (index, at) in (1..).zip(0..all.variables.len()) {
-            if has_derivative(&all.variables[at]) && !listed.contains(&index) {
+            if derivative_of(&all.variables[at]).is_some() && !listed.contains(&index) {
                 let message =
                     format!("is a derivative (index {index}) but not in ModelStructure/Derivatives");
                 self.add(Code::DerivativeUnlisted, Place::Variable(at), message);
@@ -119,13 +119,7 @@ impl Check<'_> {
     fn dependencies(&mut self) {
         let structure = &self.description.structure;
         let variables = &self.description.variables;
-        let states: BTreeSet<u32> = variables
-            .iter()
-            .filter_map(|v| match v.kind {
-                VariableKind::Real { derivative, .. } => derivative,
-                _ => None,
-            })
-            .collect();
+        let states: BTreeSet<u32> = variables.iter().filter_map(derivative_of).collect();
         let from_outside =
             |v: &ScalarVariable| matches!(v.causality, Causality::Input | Causality::Independent);
         let at_steps = |index: u32, v: &ScalarVariable| from_outside(v) || states.contains(&index);
@@ -210,8 +204,4 @@ impl Check<'_> {
             self.add(Code::DependencyKindReal, place, message);
         }
     }
-}
-
-fn has_derivative(variable: &ScalarVariable) -> bool {
-    matches!(variable.kind, VariableKind::Real { derivative: Some(_), .. })
 }

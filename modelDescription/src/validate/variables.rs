@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Check, Place, declared_type, some_of};
+use super::{Check, Place, declared_type, derivative_of, some_of};
 use crate::finding::Code;
 use crate::lexical::double;
 use crate::rules::{self, StartRule};
@@ -261,13 +261,6 @@ impl Check<'_> {
             );
             self.add(Code::DerivativeKind, place, message);
         }
-    }
-}
-
-fn derivative_of(variable: &ScalarVariable) -> Option<u32> {
-    match variable.kind {
-        VariableKind::Real { derivative, .. } => derivative,
-        _ => None,
     }
 }
 

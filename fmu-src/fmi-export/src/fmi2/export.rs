@@ -1,5 +1,22 @@
 //! The macro that makes a shared library of models.
 
+/// Declares a C function that runs its body in [`fmi2`](crate::fmi2) over the models of the library.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __symbol {
+    ($(#[$doc:meta])* $symbol:ident: $type:ty = $body:ident($($argument:ident: $of:ty),*) -> $result:ty) => {
+        $(#[$doc])*
+        #[unsafe(no_mangle)]
+        unsafe extern "C" fn $symbol($($argument: $of),*) -> $result {
+            $crate::fmi2::silence_panics();
+            // SAFETY: the caller keeps the contract of the function's type.
+            unsafe { $crate::fmi2::$body(&super::LIBRARY, $($argument),*) }
+        }
+
+        const _: $type = $symbol;
+    };
+}
+
 /// Makes the calling crate (of type cdylib) an FMI 2.0 co-simulation library of these models.
 ///
 /// ```ignore
@@ -22,69 +39,30 @@ macro_rules! export {
             use ::core::ffi::{c_char, c_int, c_void};
             use $crate::model_description::{describe, functions::types};
 
-            /// See [`instantiate`]($crate::fmi2::instantiate).
-            #[unsafe(no_mangle)]
-            unsafe extern "C" fn fmi2Instantiate(
-                instance_name: *const c_char,
-                fmu_type: c_int,
-                guid: *const c_char,
-                resource_location: *const c_char,
-                functions: *const types::CallbackFunctions,
-                visible: c_int,
-                logging_on: c_int,
-            ) -> types::Component {
-                $crate::fmi2::silence_panics();
-                // SAFETY: the importer keeps the standard's contract.
-                unsafe {
-                    $crate::fmi2::instantiate(
-                        &super::LIBRARY, instance_name, fmu_type, guid, resource_location, functions, visible, logging_on,
-                    )
-                }
+            $crate::__symbol! {
+                /// See [`instantiate`]($crate::fmi2::instantiate).
+                fmi2Instantiate: types::fmi2Instantiate = instantiate(
+                    instance_name: *const c_char, fmu_type: c_int, guid: *const c_char, resource_location: *const c_char,
+                    functions: *const types::CallbackFunctions, visible: c_int, logging_on: c_int
+                ) -> types::Component
             }
 
-            const _: types::fmi2Instantiate = fmi2Instantiate;
-
-            /// See [`Describe`](describe::Describe).
-            #[unsafe(no_mangle)]
-            unsafe extern "C" fn fmi_export_describe(
-                model: *const c_char,
-                setup_file: *const c_char,
-                setup_text: *const c_char,
-                context: *mut c_void,
-                receive: Option<describe::Receive>,
-            ) -> c_int {
-                $crate::fmi2::silence_panics();
-                // SAFETY: the caller keeps the contract of `Describe`.
-                unsafe {
-                    $crate::fmi2::describe(&super::LIBRARY, model, setup_file, setup_text, context, receive)
-                }
+            $crate::__symbol! {
+                /// See [`Describe`](describe::Describe).
+                fmi_export_describe: describe::Describe = describe(
+                    model: *const c_char, setup_file: *const c_char, setup_text: *const c_char, context: *mut c_void,
+                    receive: Option<describe::Receive>
+                ) -> c_int
             }
 
-            const _: describe::Describe = fmi_export_describe;
-
-            /// See [`CheckSchedule`](describe::CheckSchedule).
-            #[unsafe(no_mangle)]
-            unsafe extern "C" fn fmi_export_check_schedule_file(
-                model: *const c_char,
-                setup_file: *const c_char,
-                setup_text: *const c_char,
-                schedule: *const c_char,
-                schedule_file: *const c_char,
-                schedule_text: *const c_char,
-                context: *mut c_void,
-                receive: Option<describe::Receive>,
-            ) -> c_int {
-                $crate::fmi2::silence_panics();
-                // SAFETY: the caller keeps the contract of `CheckSchedule`.
-                unsafe {
-                    $crate::fmi2::check_schedule(
-                        &super::LIBRARY, model, setup_file, setup_text, schedule, schedule_file, schedule_text, context,
-                        receive,
-                    )
-                }
+            $crate::__symbol! {
+                /// See [`CheckSchedule`](describe::CheckSchedule).
+                fmi_export_check_schedule_file: describe::CheckSchedule = check_schedule(
+                    model: *const c_char, setup_file: *const c_char, setup_text: *const c_char, schedule: *const c_char,
+                    schedule_file: *const c_char, schedule_text: *const c_char, context: *mut c_void,
+                    receive: Option<describe::Receive>
+                ) -> c_int
             }
-
-            const _: describe::CheckSchedule = fmi_export_check_schedule_file;
         }
     };
 }

@@ -5,7 +5,7 @@
 
 use model_description::BaseType;
 
-use crate::variables::Element;
+use crate::variables::{Element, Elements};
 
 /// Most elements of one base type.
 pub const MOST: u32 = 1_000_000;
@@ -26,9 +26,9 @@ pub const fn index(base: BaseType, reference: u32) -> usize {
     reference.wrapping_sub(first(base)) as usize
 }
 
-/// The value reference of an element.
-pub fn of(element: impl Into<Element>) -> u32 {
-    let Element { base, place } = element.into();
+/// The value reference of a variable, of an array that of its first element.
+pub fn of(variable: impl Into<Elements>) -> u32 {
+    let Element { base, place } = variable.into().first;
     first(base) + place
 }
 

@@ -44,18 +44,11 @@ elements! {
     [const R: usize, const C: usize] RealMatrix<R, C>: Real R * C;
 }
 
-/// Handles of one element.
-macro_rules! scalars {
-    ($([$($generics:tt)*] $handle:ty;)*) => { $(
-        impl<$($generics)*> From<$handle> for Element {
-            fn from(handle: $handle) -> Self {
-                Elements::from(handle).first
-            }
-        }
-    )* };
+impl From<Element> for Elements {
+    fn from(first: Element) -> Self {
+        Self { first, count: 1 }
+    }
 }
-
-scalars! { [] Real; [] Integer; [] Boolean; [] Text; [E] Choice<E>; }
 
 /// A Real variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]

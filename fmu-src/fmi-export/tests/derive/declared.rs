@@ -4,8 +4,8 @@ use fmi_export::variables::{Causality, Initial, Variability};
 use std::collections::BTreeSet;
 
 use fmi_export::{
-    BaseType, Boolean, Choice, Declare, DeclareError, Enumeration, Integer, Interface, Real, RealMatrix,
-    RealVector, Text, Variables,
+    BaseType, Boolean, Choice, Declare, DeclareError, Elements, Enumeration, Integer, Interface, Real,
+    RealMatrix, RealVector, Text, Variables,
     fmi2::{references, scalar_variables},
 };
 use model_description::{ScalarVariable, VariableKind};
@@ -89,7 +89,6 @@ struct PanelVariables {
     /// Panel angle.
     #[input(unit = "rad", start = setup.panel_angles_rad[index])]
     angle: Real,
-    #[group]
     optics: OpticsVariables,
 }
 
@@ -241,8 +240,11 @@ fn an_array_is_one_variable() {
         (find("centerOfMass").dimensions.as_slice(), find("inertia").dimensions.as_slice()),
         (&[3][..], &[2, 3][..])
     );
-    let last = find("inertia").elements().last().unwrap();
-    assert_eq!(last, ("inertia[2,3]".to_owned(), variables.inertia.element(1, 2).into()));
+    let (name, last) = find("inertia").elements().last().unwrap();
+    assert_eq!(
+        (name.as_str(), Elements::from(last)),
+        ("inertia[2,3]", variables.inertia.element(1, 2).into())
+    );
     assert_eq!(variables.center_of_mass.index_of(variables.center_of_mass.element(2)), Some(2));
     assert_eq!(variables.center_of_mass.index_of(variables.inertia.element(0, 0)), None);
 }

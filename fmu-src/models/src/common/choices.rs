@@ -227,10 +227,7 @@ impl Enumeration for ThrustRequest {
     };
 
     fn from_value(value: i32) -> Option<Self> {
-        match u16::try_from(value).ok()?.checked_sub(1) {
-            None => Some(Self(None)),
-            Some(index) => Some(Self(Some(ThrusterSet(index)))),
-        }
+        Some(Self(u16::try_from(value).ok()?.checked_sub(1).map(ThrusterSet)))
     }
 
     fn value(self) -> i32 {

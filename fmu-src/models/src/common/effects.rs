@@ -77,35 +77,18 @@ pub struct AerodynamicVariables {
     pub shadowing: Boolean,
 }
 
-/// Torque of the planet's magnetic field.
-#[derive(Variables)]
-#[variables(setup = CenterBody)]
-pub struct MagneticVariables {
-    /// Whether the planet's magnetic field acts on dipole.residual; by default about the Earth alone.
-    #[parameter(start = setup.data.body == Body::Earth)]
-    pub enabled: Boolean,
-}
-
-/// The spacecraft's magnetic dipole.
-#[derive(Variables)]
-pub struct DipoleVariables {
-    /// Dipole that stays in the spacecraft, body frame.
-    #[parameter(tunable, unit = "A.m2", min = -1e9, max = 1e9, start = [0.0; 3])]
-    pub residual: RealVector<3>,
-}
-
 /// Effects in closed form.
 #[derive(Variables)]
 #[variables(setup = CenterBody)]
 pub struct LawVariables {
-    #[group]
     pub gravity_gradient: GravityGradientVariables,
-    #[group]
     pub aerodynamics: AerodynamicVariables,
-    #[group]
-    pub magnetics: MagneticVariables,
-    #[group]
-    pub dipole: DipoleVariables,
+    /// Whether the planet's magnetic field acts on dipole.residual; by default about the Earth alone.
+    #[parameter(name = "magnetics.enabled", start = setup.data.body == Body::Earth)]
+    pub magnetics_enabled: Boolean,
+    /// Dipole that stays in the spacecraft, body frame.
+    #[parameter(name = "dipole.residual", tunable, unit = "A.m2", min = -1e9, max = 1e9, start = [0.0; 3])]
+    pub dipole_residual: RealVector<3>,
 }
 
 /// Number of switches whose default depends on the planet.
@@ -114,12 +97,12 @@ pub(crate) const PLANET_SWITCHES: usize = 2;
 impl LawVariables {
     /// Switches that are on by default about the Earth only, with their names.
     pub(crate) fn planet_switches(&self) -> [(&'static str, Boolean); PLANET_SWITCHES] {
-        [("aerodynamics.enabled", self.aerodynamics.enabled), ("magnetics.enabled", self.magnetics.enabled)]
+        [("aerodynamics.enabled", self.aerodynamics.enabled), ("magnetics.enabled", self.magnetics_enabled)]
     }
 
     /// Tunable parameters, in the order of [`Laws::tunable_mut`].
     pub fn tunable(&self) -> [Real; TUNABLE_COUNT] {
-        core::array::from_fn(|i| self.dipole.residual.element(i))
+        core::array::from_fn(|i| self.dipole_residual.element(i))
     }
 
     /// Parameters of the laws about a planet with this gravitational parameter, J2 and its reference radius, each read by `read`.
@@ -133,7 +116,7 @@ impl LawVariables {
         Laws {
             gm_m3_s2: read(gravitational_parameter),
             flattening: Some([j2, j2_radius].map(&read)).filter(|_| flattened),
-            dipole_body_a_m2: Vector3::from_fn(|i, _| read(self.dipole.residual.element(i))),
+            dipole_body_a_m2: Vector3::from_fn(|i, _| read(self.dipole_residual.element(i))),
         }
     }
 
@@ -145,7 +128,7 @@ impl LawVariables {
                 Switch::Recoil => recoil,
                 Switch::GravityGradient => self.gravity_gradient.enabled,
                 Switch::Aerodynamics => self.aerodynamics.enabled,
-                Switch::Magnetics => self.magnetics.enabled,
+                Switch::Magnetics => self.magnetics_enabled,
             })
         })
     }

@@ -77,17 +77,6 @@ impl TargetingVariables {
     }
 }
 
-/// Parameters of momentum management.
-#[derive(Variables)]
-pub struct ManagementVariables {
-    /// What sunlight is used for during downlinks, and in science with guided.scienceUnload. It acts where the attitude is guided, in
-    /// controlled flight with command.source = guidance too.
-    #[parameter(start = MomentumStrategy(Strategy::DumpsOnly))]
-    pub strategy: Choice<MomentumStrategy>,
-    #[group(name = "")]
-    pub targeting: TargetingVariables,
-}
-
 /// What is lacking for a downlink.
 pub(crate) const NO_ANTENNA: &str = "the spacecraft has no antenna ([[antennas]])";
 

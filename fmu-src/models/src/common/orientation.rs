@@ -7,10 +7,16 @@ use physics::environment::orientation::Orientation;
 use super::center::CenterBody;
 use super::choices::PlanetOrientation;
 
-/// Rotation of a planet.
+/// Pole and rotation of a planet.
 #[derive(Variables)]
 #[variables(setup = CenterBody)]
 pub struct RotationVariables {
+    /// Right ascension of the planet's north pole in EME2000 (IAU 2015).
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.data.pole_right_ascension_rad)]
+    pub pole_right_ascension: Real,
+    /// Declination of the planet's north pole in EME2000 (IAU 2015).
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.data.pole_declination_rad)]
+    pub pole_declination: Real,
     /// Prime meridian at J2000 (IAU 2015).
     #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.data.prime_meridian_rad)]
     pub prime_meridian: Real,

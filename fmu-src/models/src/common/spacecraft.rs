@@ -77,12 +77,17 @@ impl PreparedAntennas {
     }
 }
 
+/// Distribution of momentum over the wheels of a file; `None` unless they span all directions.
+pub(crate) fn wheel_array(spacecraft: &Spacecraft) -> Option<WheelArray> {
+    WheelArray::new(&spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect::<Vec<_>>())
+}
+
 /// The dump threshold; without one in the file what its wheels guarantee, and without wheels in all directions paper
 /// 000's for small wheels.
-pub(crate) fn dump_threshold_n_m_s(spacecraft: &Spacecraft, wheel_array: Option<&WheelArray>) -> [f64; 3] {
+pub(crate) fn dump_threshold_n_m_s(spacecraft: &Spacecraft) -> [f64; 3] {
     let smallest_n_m_s = spacecraft::PAPER_DUMP_THRESHOLDS_N_M_S[0].1;
     let capacities_n_m_s = spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s);
-    let guaranteed_n_m_s = wheel_array.map(|it| it.guaranteed_threshold_n_m_s(capacities_n_m_s));
+    let guaranteed_n_m_s = wheel_array(spacecraft).map(|it| it.guaranteed_threshold_n_m_s(capacities_n_m_s));
     spacecraft.dump_threshold_n_m_s.map_or([guaranteed_n_m_s.unwrap_or(smallest_n_m_s); 3], Into::into)
 }
 

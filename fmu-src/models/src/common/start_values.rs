@@ -5,7 +5,7 @@ use physics::{
     bodies::Body,
     enumeration::Enumerated,
     environment::dates,
-    spacecraft::{StartEntry, StartValue as FileValue},
+    spacecraft::{Spacecraft, StartEntry, StartValue as FileValue},
     toml::nearest,
 };
 
@@ -23,6 +23,15 @@ const BURN: &str = "burn.start";
 const DOWNLINKS: [&str; 2] = ["guided.downlinkStart", "guided.downlinkEnd"];
 /// From where downlinks are counted.
 const REFERENCE: &str = "guided.downlinkReference";
+
+/// Those of a spacecraft's file, which may describe a body of its own.
+pub(crate) fn of_spacecraft(
+    spacecraft: &Spacecraft,
+    model: &str,
+    default_epoch_s: Option<f64>,
+) -> Vec<StartValue> {
+    start_values(&spacecraft.start, model, default_epoch_s, spacecraft.body.is_some())
+}
 
 /// The entries of a file's `[start]` and `[fixed]` as start values of variables of `model`, in which times count from
 /// `default_epoch_s` unless the file says another epoch; `None`: the model has none.

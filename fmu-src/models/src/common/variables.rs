@@ -19,8 +19,8 @@ use physics::spacecraft::{Spacecraft, TimeAfterPeriapsis};
 
 use super::center::CenterBody;
 use super::choices::{DayTemperature, DownlinkReference, EclipseMethod, GuidedPhase, ScienceRule};
-use super::elements::ElementHandles;
 use super::ephemeris;
+use super::numbers::Numbers;
 
 /// What a planet's surface does with sunlight; Mercury's fits paper 004, which prints none.
 #[derive(Variables)]
@@ -44,42 +44,33 @@ pub struct SurfaceVariables {
 }
 
 impl SurfaceVariables {
-    /// All of them.
-    pub fn group(&self) -> [Elements; 5] {
-        [
-            self.absorptivity.into(),
-            self.diffuse_reflectivity.into(),
-            self.emissivity.into(),
-            self.night_temperature.into(),
-            self.day_temperature.into(),
-        ]
+    fn numbers(&self) -> Numbers<PlanetSurface, 4> {
+        Numbers([
+            (self.absorptivity, |it| &mut it.absorptivity),
+            (self.diffuse_reflectivity, |it| &mut it.diffuse_reflectivity),
+            (self.emissivity, |it| &mut it.emissivity),
+            (self.night_temperature, |it| &mut it.night_temperature_k),
+        ])
     }
 
-    /// The surface of a planet of this radius, of what is not given `own`.
-    pub fn read_or(
-        &self,
-        values: &Values,
-        given: Given<'_>,
-        radius_m: f64,
-        own: &PlanetSurface,
-    ) -> PlanetSurface {
-        let day_temperature = given.has(self.day_temperature).then(|| values.choice(self.day_temperature).0);
-        PlanetSurface {
-            radius_m,
-            absorptivity: given.real_or(self.absorptivity, own.absorptivity),
-            diffuse_reflectivity: given.real_or(self.diffuse_reflectivity, own.diffuse_reflectivity),
-            emissivity: given.real_or(self.emissivity, own.emissivity),
-            night_temperature_k: given.real_or(self.night_temperature, own.night_temperature_k),
-            day_temperature: day_temperature.unwrap_or(own.day_temperature),
+    /// All of them.
+    pub fn group(&self) -> [Elements; 5] {
+        let [a, b, c, d] = self.numbers().group();
+        [a, b, c, d, self.day_temperature.into()]
+    }
+
+    /// The surface, of what is not given `own`.
+    pub fn read_or(&self, values: &Values, given: Given<'_>, own: &PlanetSurface) -> PlanetSurface {
+        let mut surface = self.numbers().read_or(given, own);
+        if given.has(self.day_temperature) {
+            surface.day_temperature = values.choice(self.day_temperature).0;
         }
+        surface
     }
 
     /// Writes this surface, but for its radius.
     pub fn write(&self, values: &mut Values, surface: &PlanetSurface) {
-        values.set_real(self.absorptivity, surface.absorptivity);
-        values.set_real(self.diffuse_reflectivity, surface.diffuse_reflectivity);
-        values.set_real(self.emissivity, surface.emissivity);
-        values.set_real(self.night_temperature, surface.night_temperature_k);
+        self.numbers().write(values, *surface);
         values.set_choice(self.day_temperature, DayTemperature(surface.day_temperature));
     }
 
@@ -174,7 +165,7 @@ pub(crate) const NO_GIMBAL: &str = "no instrument of the spacecraft has a gimbal
 const LATEST_WINDOW_S: f64 = 1e9;
 
 /// Start values of the downlink windows by a spacecraft's file; without any in it there is no downlink.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct WindowDefaults {
     /// Begin after periapsis, in s.
     pub start_s: f64,
@@ -193,13 +184,7 @@ impl WindowDefaults {
     pub fn of(spacecraft: &Spacecraft, center: &CenterBody) -> Self {
         let antennas_and_cruise = [!spacecraft.antennas.is_empty(), center.data.body == Body::Sun];
         let Some(windows) = &spacecraft.downlinks else {
-            return Self {
-                start_s: 0.0,
-                end_s: 0.0,
-                every: 0,
-                period_shares: [None; 2],
-                antennas_and_cruise,
-            };
+            return Self { antennas_and_cruise, ..Self::default() };
         };
         let axis_m = center.elements().semi_major_axis_m;
         let period_s = orbit::period_s(center.data.gm_m3_s2, axis_m);
@@ -289,14 +274,14 @@ pub struct EllipseVariables {
 }
 
 impl EllipseVariables {
-    fn handles(&self) -> ElementHandles {
-        ElementHandles([
-            self.semi_major_axis,
-            self.eccentricity,
-            self.inclination,
-            self.ascending_node,
-            self.periapsis_argument,
-            self.true_anomaly,
+    fn numbers(&self) -> Numbers<KeplerElements, 6> {
+        Numbers([
+            (self.semi_major_axis, |it| &mut it.semi_major_axis_m),
+            (self.eccentricity, |it| &mut it.eccentricity),
+            (self.inclination, |it| &mut it.inclination_rad),
+            (self.ascending_node, |it| &mut it.ascending_node_rad),
+            (self.periapsis_argument, |it| &mut it.periapsis_argument_rad),
+            (self.true_anomaly, |it| &mut it.true_anomaly_rad),
         ])
     }
 
@@ -307,8 +292,8 @@ impl EllipseVariables {
         values: &Values,
         body: &CenterBody,
     ) -> KeplerElements {
-        let handles = self.handles();
-        handles.read_or(context.given(values, &handles.group()), &body.ellipse())
+        let numbers = self.numbers();
+        numbers.read_or(context.given(values, &numbers.group()), &body.ellipse())
     }
 
     /// The planet on the ellipse of `ephemeris.source` kepler; a body of the file's own of which nothing is given here, as that file
@@ -323,7 +308,7 @@ impl EllipseVariables {
         body: &CenterBody,
         epoch_s: f64,
     ) -> Result<KeplerPlanet, Failure> {
-        let handles = self.handles().group();
+        let handles = self.numbers().group();
         let given = context.given(values, &handles);
         if body.data.body == Body::Custom && !handles.iter().any(|handle| given.has(*handle)) {
             return ephemeris::custom(body, "kepler");
@@ -333,7 +318,7 @@ impl EllipseVariables {
 
     /// Writes these elements.
     pub fn write(&self, values: &mut Values, elements: &KeplerElements) {
-        self.handles().write(values, elements);
+        self.numbers().write(values, *elements);
     }
 }
 

@@ -12,13 +12,13 @@ pub(super) fn table(_setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Depe
     let places = &knowns![v.sun.position_body, v.planet.position_body];
     let lit = &knowns![places, v.planet.pole, &v.panel];
     let eclipse = &knowns![&v.planet, v.sun.radius, &v.eclipse];
-    let light = &knowns![eclipse, &v.solar, &v.planet_light, &v.thermal, &v.shadowing, &v.sunshade];
+    let light = &knowns![eclipse, &v.solar, &v.planet_light, &v.thermal, &v.shadowing, v.sunshade_shape];
     let laws = &knowns![&v.planet, &v.laws, &v.spacecraft];
     let planet_geometry = &knowns![places, v.planet.pole];
     // Surfaces in air are as warm as light makes them.
     let aerodynamic = &knowns![lit, v.spacecraft.center_of_mass, &v.atmosphere];
     let air = &knowns![light, laws];
-    let field = &knowns![&v.magnetic_field];
+    let field = &knowns![v.magnetic_field_body];
     let on_torque = (&knowns![lit, v.spacecraft.center_of_mass], &knowns![light, laws]);
 
     let mut table = Dependencies::new();

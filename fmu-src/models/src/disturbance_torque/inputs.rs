@@ -63,7 +63,7 @@ fn method(
 /// A setting that cannot have any.
 pub(super) fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), Failure> {
     let (variables, spacecraft) = (context.variables, &context.setup.spacecraft);
-    let shape = values.choice(variables.sunshade.shape).0;
+    let shape = values.choice(variables.sunshade_shape).0;
     let shadows = variables.shadowing.check(values, spacecraft, shape)?;
     let light = &variables.planet_light;
     let maps = values.boolean(light.rings.enabled) && values.choice(light.method) == PlanetMethod::Map;
@@ -86,7 +86,7 @@ impl Prepared {
         let present = values.boolean(planet.present);
         let parameters = variables.parameters(values, |parameter| values.real(parameter));
         let surface = parameters.planet;
-        let sunshade_model = values.choice(variables.sunshade.shape).0;
+        let sunshade_model = values.choice(variables.sunshade_shape).0;
         let options = Options {
             planet: present.then_some(surface),
             planet_light: method(values, light, spacecraft)?,

@@ -17,6 +17,7 @@ use physics::numerics::scalar::Dual64;
 use physics::plant::{Parameters, Positions, TUNABLE_COUNT, Workspaces};
 use serde::{Deserialize, Serialize};
 
+use crate::common::start_values::of_spacecraft;
 use inputs::Prepared;
 use setup::Plan;
 pub use setup::{DisturbanceSetup, DisturbanceTorque};
@@ -56,12 +57,7 @@ impl Model for DisturbanceTorque {
     }
 
     fn start_values(setup: &DisturbanceSetup) -> Vec<StartValue> {
-        crate::common::start_values::start_values(
-            &setup.spacecraft.start,
-            Self::NAME,
-            None,
-            setup.spacecraft.body.is_some(),
-        )
+        of_spacecraft(&setup.spacecraft, Self::NAME, None)
     }
 
     fn about(setup: &DisturbanceSetup) -> About {

@@ -16,37 +16,27 @@ use crate::common::variables::{EclipseVariables, SolarFluxVariables, SurfaceVari
 #[derive(Variables)]
 #[variables(setup = DisturbanceSetup)]
 pub struct DisturbanceVariables {
-    #[group]
     pub sun: SunVariables,
-    #[group]
     pub planet: PlanetVariables,
     #[group(count = setup.spacecraft.panels.len())]
     pub panel: Vec<PanelVariables>,
-    #[group]
     pub solar: SolarFluxVariables,
-    #[group]
     pub eclipse: EclipseVariables,
-    #[group]
     pub planet_light: PlanetLightVariables,
-    #[group]
     pub thermal: RecoilVariables,
-    #[group]
     pub shadowing: ShadowingVariables,
     #[group(name = "", setup = &setup.center)]
     pub laws: LawVariables,
-    #[group]
     pub atmosphere: AtmosphereVariables,
-    #[group]
-    pub magnetic_field: MagneticFieldVariables,
-    #[group]
+    /// Field where the spacecraft is, body frame.
+    #[input(name = "magneticField.body", unit = "T", display = "nT", start = [0.0; 3])]
+    pub magnetic_field_body: RealVector<3>,
     pub spacecraft: SpacecraftVariables,
-    #[group]
-    pub sunshade: SunshadeVariables,
-    #[group]
+    /// Which model of the shade takes the light; without a shade it does not count.
+    #[parameter(name = "sunshade.shape", start = SunshadeShape::of(&setup.spacecraft))]
+    pub sunshade_shape: Choice<SunshadeShape>,
     pub solver: WorkLimit,
-    #[group]
     pub torque: TorqueVariables,
-    #[group]
     pub force: ForceVariables,
     #[group(count = setup.reported_faces.len(), setup = &setup.reported_faces)]
     pub plate: Vec<PlateVariables>,
@@ -63,7 +53,7 @@ impl DisturbanceVariables {
             center_of_mass_m: vector(self.spacecraft.center_of_mass),
             air: [self.atmosphere.density, self.atmosphere.temperature, self.atmosphere.molar_mass],
             air_velocity_m_s: vector(self.atmosphere.velocity_body),
-            field_t: vector(self.magnetic_field.body),
+            field_t: vector(self.magnetic_field_body),
             panel_angles_rad: self.panel.iter().map(|panel| panel.angle).collect(),
         }
     }
@@ -150,14 +140,6 @@ pub struct AtmosphereVariables {
     pub velocity_body: RealVector<3>,
 }
 
-/// The planet's magnetic field.
-#[derive(Variables)]
-pub struct MagneticFieldVariables {
-    /// Field where the spacecraft is, body frame.
-    #[input(unit = "T", display = "nT", start = [0.0; 3])]
-    pub body: RealVector<3>,
-}
-
 /// One solar panel.
 #[derive(Variables)]
 #[variables(setup = DisturbanceSetup)]
@@ -180,7 +162,6 @@ pub enum PlanetMethod {
 
 /// Light of the planet.
 #[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
 pub struct PlanetLightVariables {
     #[group(name = "")]
     pub rings: effects::PlanetLightVariables,
@@ -205,18 +186,8 @@ pub struct SpacecraftVariables {
     pub inertia: RealMatrix<3, 3>,
 }
 
-/// Sunshade.
-#[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
-pub struct SunshadeVariables {
-    /// Which model of the shade takes the light; without a shade it does not count.
-    #[parameter(start = SunshadeShape::of(&setup.spacecraft))]
-    pub shape: Choice<SunshadeShape>,
-}
-
 /// Torque about the centre of mass by source, body frame.
 #[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
 pub struct TorqueVariables {
     #[group(name = "", setup = &loads::TORQUE)]
     pub by_source: BySource,
@@ -227,7 +198,6 @@ pub struct TorqueVariables {
 
 /// Force by source, body frame.
 #[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
 pub struct ForceVariables {
     #[group(name = "", setup = &loads::FORCE)]
     pub by_source: BySource,

@@ -19,12 +19,12 @@ pub(super) fn table(_setup: &GuidanceSetup, v: &GuidanceVariables) -> Dependenci
     let zones = knowns![&v.keep_in, &v.safe_hold, &v.hot_pole, &v.monitor];
     let judged = &knowns![body, zones];
     table.output(knowns![v.mode.active, v.mode.reason, v.ephemeris.valid, v.ephemeris.active], mode, judged);
-    let measured = knowns![mode, v.pointing.scenario, v.accelerometer.delta_v];
+    let measured = knowns![mode, v.pointing_scenario, v.accelerometer_delta_v];
     table.output(knowns![&v.thrust, &v.burn], measured, knowns![judged, &v.burn]);
 
     let all = &v.section();
     let command = knowns![&v.command, v.sun.azimuth, v.sun.elevation, v.earth.sun_separation];
-    let status = knowns![&v.geometry, v.target.reachable, &v.constraint, v.scan.active];
+    let status = knowns![v.geometry_degenerate, v.target.reachable, &v.constraint, v.scan.active];
     let devices = knowns![&v.gimbal, &v.antenna, &v.link, &v.downlink, v.momentum.target_clamped];
     table.output(knowns![command, status, devices], all, all);
     table

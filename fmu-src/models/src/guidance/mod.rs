@@ -29,6 +29,7 @@ use physics::numerics::work::Work;
 use crate::common::downlink::TIMELINE_FILE;
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
 use crate::common::management::window_warning;
+use crate::common::start_values::of_spacecraft;
 use inputs::reader::Reader;
 use inputs::{Fixed, management};
 pub use setup::Guidance;
@@ -68,12 +69,7 @@ impl Model for Guidance {
     }
 
     fn start_values(setup: &GuidanceSetup) -> Vec<StartValue> {
-        crate::common::start_values::start_values(
-            &setup.spacecraft.start,
-            Self::NAME,
-            Some(time::MOMENTUM_STUDY_START_S),
-            setup.spacecraft.body.is_some(),
-        )
+        of_spacecraft(&setup.spacecraft, Self::NAME, Some(time::MOMENTUM_STUDY_START_S))
     }
 
     fn about(setup: &GuidanceSetup) -> About {

@@ -52,7 +52,7 @@ pub(super) fn write(
     values.set_real(v.earth.sun_separation, status.sun_separation_rad);
     values.set_boolean(v.link.available, status.link_available);
     values.set_boolean(v.target.reachable, status.reachable);
-    values.set_boolean(v.geometry.degenerate, status.degenerate);
+    values.set_boolean(v.geometry_degenerate, status.degenerate);
     values.set_boolean(v.scan.active, status.scan_active);
     values.set_boolean(v.constraint.sun_keep_in, status.sun_keep_in);
     values.set_boolean(v.constraint.hot_pole, status.hot_pole);

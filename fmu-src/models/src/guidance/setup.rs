@@ -7,13 +7,12 @@ use physics::environment::ephemeris::EphemerisCache;
 use physics::environment::onboard::OnboardEphemeris;
 use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::timeline::Timeline;
-use physics::momentum::WheelArray;
 use physics::plant::ControlDefaults;
 use physics::spacecraft::{HotPoleZone, Spacecraft, SunKeepIn};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use crate::common::center::{CenterBodies, CenterBody, target_of};
-use crate::common::spacecraft::{PreparedAntennas, PreparedShapes, dump_threshold_n_m_s};
+use crate::common::spacecraft::{PreparedAntennas, PreparedShapes, wheel_array};
 use crate::common::variables::WindowDefaults;
 
 /// Guidance.
@@ -23,34 +22,33 @@ pub struct Guidance;
 pub(super) type Plan<'a> = Context<'a, Guidance>;
 
 /// The spacecraft of an instance.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
 pub struct GuidanceSetup {
     /// As read from the file.
     pub spacecraft: Spacecraft,
     /// The planet that is observed by the file, and the defaults of the parameters go by.
-    #[serde(skip)]
     pub target: CenterBody,
     /// Bodies with what the file gives of one.
-    #[serde(skip)]
     pub bodies: CenterBodies,
     /// Start values of the downlink windows.
-    #[serde(skip)]
     pub windows: WindowDefaults,
     /// The antennas, and the default downlink with them.
-    #[serde(skip)]
     pub antennas: PreparedAntennas,
     /// Prepared for sunlight.
-    #[serde(skip)]
     pub shapes: PreparedShapes,
     /// Planets' segments, kept over a reset.
-    #[serde(skip)]
     pub ephemeris_cache: EphemerisCache,
     /// Positions over time, if there is a file of them; they do not enter the GUID.
-    #[serde(skip)]
     pub ephemeris: Option<Arc<OnboardEphemeris>>,
     /// Commands over time, if there is a file of them; it does not enter the GUID.
-    #[serde(skip)]
     pub timeline: Option<Timeline>,
+}
+
+/// The file enters the GUID; all else follows from it, or is a schedule.
+impl Serialize for GuidanceSetup {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.spacecraft.serialize(serializer)
+    }
 }
 
 impl GuidanceSetup {
@@ -72,16 +70,9 @@ impl GuidanceSetup {
         })
     }
 
-    /// The dump threshold, as MomentumPlant has it.
-    pub fn dump_threshold_n_m_s(&self) -> [f64; 3] {
-        let axes: Vec<_> = self.spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
-        dump_threshold_n_m_s(&self.spacecraft, WheelArray::new(&axes).as_ref())
-    }
-
     /// How far beyond a boundary the controller may take an ordinary scan, in rad.
     pub fn monitor_margin_rad(&self) -> f64 {
-        let axes: Vec<_> = self.spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
-        ControlDefaults::of(&self.spacecraft, WheelArray::new(&axes).as_ref()).monitor_margin_rad
+        ControlDefaults::of(&self.spacecraft, wheel_array(&self.spacecraft).as_ref()).monitor_margin_rad
     }
 
     /// Takes the commands of a timeline.

@@ -33,7 +33,7 @@ fn turned(v: &PlantVariables) -> Knowns {
     let seen = knowns![&v.attitude, sun, others, v.sunshade.polynomial_valid, &v.panel, &v.downlink];
     let sensed = knowns![&v.estimate, v.sun.sensed, v.sun.sensed_valid, &v.control];
     let loads = knowns![&v.torque, &v.force, &v.plate, v.acceleration, v.delta_v, v.accelerometer.delta_v];
-    let spent = knowns![v.mass, &v.propellant, &v.tank, v.center_of_mass, &v.dump];
+    let spent = knowns![v.mass, v.propellant_used, &v.tank, v.center_of_mass, &v.dump];
     let moved = knowns![&v.momentum, &v.wheel, &v.thrust, &v.thruster, &v.flexible_mode, &v.slosh];
     knowns![seen, sensed, loads, spent, moved]
 }
@@ -98,9 +98,18 @@ struct Parameters {
 impl Parameters {
     fn of(choice: OpenChoices, v: &PlantVariables) -> Self {
         // A maneuver of the timeline at the start puts it on another orbit.
-        let maneuver = knowns![&v.timeline, &v.maneuver, &v.noise].only_if(choice.ideal);
+        let maneuver = knowns![&v.timeline, &v.maneuver, v.noise_seed].only_if(choice.ideal);
         let between = knowns![&v.encounter, maneuver];
-        let orbit = knowns![&v.start, &v.orbit, &v.planet, &v.ephemeris, v.sun.radius, &v.eclipse, between];
+        let orbit = knowns![
+            &v.start,
+            &v.orbit,
+            &v.planet,
+            v.ephemeris_source,
+            &v.ephemeris,
+            v.sun.radius,
+            &v.eclipse,
+            between
+        ];
         let wheels = v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.start_momentum]);
         // Guidance balances torques against the momentum.
         let air = &knowns![&v.atmosphere, &v.space_weather, &v.magnetic_field, v.earth.ut1_offset];
@@ -117,7 +126,7 @@ impl Parameters {
         let followed = knowns![&v.attitude, &v.command, &v.timeline, &v.keep_in];
         let turned = knowns![&orbit, followed, &v.sunshade, panels];
         let attitude = knowns![turned, solution.clone().only_if(choice.guided || choice.begins_guided)];
-        let sensors = knowns![&v.star_tracker, &v.gyro, &v.sun_sensor, &v.noise, v.control.rate];
+        let sensors = knowns![&v.star_tracker, &v.gyro, &v.sun_sensor, v.noise_seed, v.control.rate];
         // In free flight they are fitted along the torque-free turn ahead, which goes by the rotors' inertia.
         let rotors = v.wheel.iter().map(|wheel| wheel.inertia).collect::<Knowns>();
         let light = knowns![
@@ -125,6 +134,7 @@ impl Parameters {
             rotors,
             &v.planet_light,
             &v.thermal,
+            v.thermal_storage,
             &v.shadowing,
             &v.laws,
             air,
@@ -136,7 +146,7 @@ impl Parameters {
         let momentum = knowns![&attitude, solution, &v.dump];
         Self {
             // A dump at once takes propellant, which moves the centre of mass, and may move it at random.
-            light: knowns![light, knowns![&momentum, &v.thruster, &v.noise].only_if(choice.ideal)],
+            light: knowns![light, knowns![&momentum, &v.thruster, v.noise_seed].only_if(choice.ideal)],
             actuators: knowns![&momentum, &sensors, &v.control, &v.wheel, &v.thruster, &v.tank, &v.thrust],
             sensors: knowns![&attitude, sensors],
             orbit,
@@ -151,7 +161,7 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramet
     table.output(v.epoch, knowns![], v.start.epoch);
     let sun = knowns![v.sun.position_inertial, v.sun.velocity_inertial, v.sun.distance, v.sun.lit_fraction];
     let earth = knowns![v.earth.position_inertial, v.earth.velocity_inertial];
-    let orbit = knowns![v.position, v.velocity, v.heliocentric.position, v.orbit.time_since_periapsis];
+    let orbit = knowns![v.position, v.velocity, v.heliocentric_position, v.orbit.time_since_periapsis];
     let between = knowns![v.orbit.current_center, &v.encounter];
     table.output(knowns![sun, earth, orbit, between], &inputs.places, &parameters.orbit);
     predicted(table, v, inputs, parameters);
@@ -210,11 +220,11 @@ fn momentum(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, param
     table.output(&v.momentum.by_source, knowns![dumped, &v.dump, v.torque.applied], momentum);
     let target = knowns![&inputs.attitude, &v.panel, &v.dump];
     table.output(knowns![v.momentum.target_clamped], &target, momentum);
-    let spent = knowns![v.mass, &v.propellant, &v.tank, v.center_of_mass];
+    let spent = knowns![v.mass, v.propellant_used, &v.tank, v.center_of_mass];
     let moved = knowns![v.delta_v, v.accelerometer.delta_v];
     table.output(knowns![spent, moved], dumped, &parameters.actuators);
     table.output(&v.dump, target, &parameters.actuators);
-    let executed = knowns![&v.maneuver, &v.noise, &v.timeline, &v.start];
+    let executed = knowns![&v.maneuver, v.noise_seed, &v.timeline, &v.start];
     table.output(&v.maneuver, knowns![&inputs.attitude, &v.maneuver], executed);
     table.calculated(v.dump.guaranteed_threshold, &v.wheel);
 }

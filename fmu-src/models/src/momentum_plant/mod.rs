@@ -13,9 +13,11 @@ use fmi_export::{
     About, Dependencies, Extensions, Failure, Manual, Model, OutputRates, Real, SetupError, StartValue, Step,
     StepEnd, Values,
 };
+use physics::environment::time;
 
 use crate::common::downlink::TIMELINE_FILE;
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
+use crate::common::start_values::of_spacecraft;
 use setup::Plan;
 pub use setup::{MomentumPlant, PlantSetup};
 use state::PlantState;
@@ -53,12 +55,7 @@ impl Model for MomentumPlant {
     }
 
     fn start_values(setup: &PlantSetup) -> Vec<StartValue> {
-        crate::common::start_values::start_values(
-            &setup.spacecraft.start,
-            Self::NAME,
-            Some(physics::environment::time::MOMENTUM_STUDY_START_S),
-            setup.spacecraft.body.is_some(),
-        )
+        of_spacecraft(&setup.spacecraft, Self::NAME, Some(time::MOMENTUM_STUDY_START_S))
     }
 
     fn about(setup: &PlantSetup) -> About {

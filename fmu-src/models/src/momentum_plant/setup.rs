@@ -11,15 +11,16 @@ use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::pointing::scan::ScanCompatibility;
 use physics::guidance::pointing::scenario::GuidanceHardware;
 use physics::guidance::timeline::{Timeline, TimelineLaw};
-use physics::momentum::WheelArray;
 use physics::plant::{ControlDefaults, PanelStep, PreparedSpacecraft};
-use physics::spacecraft::{Spacecraft, SunshadeModel};
-use serde::Serialize;
+use physics::spacecraft::{Spacecraft, SunKeepIn, SunshadeModel};
+use serde::{Serialize, Serializer};
 
 use super::variables::choices::{AttitudeSource, CommandSource, EphemerisSource, OrbitSource};
 use crate::common::center::{CenterBodies, CenterBody, center_of};
 use crate::common::effects::check_start;
-use crate::common::spacecraft::{PreparedAntennas, PreparedShapes, ReportedFace, reported_faces};
+use crate::common::spacecraft::{
+    PreparedAntennas, PreparedShapes, ReportedFace, reported_faces, wheel_array,
+};
 use crate::common::start_values::{entry_of, fixed_item, item};
 use crate::common::variables::WindowDefaults;
 
@@ -30,49 +31,41 @@ pub struct MomentumPlant;
 pub(super) type Plan<'a> = Context<'a, MomentumPlant>;
 
 /// The spacecraft of an instance.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
 pub struct PlantSetup {
     /// As read from the file.
     pub spacecraft: Spacecraft,
     /// The centre of its orbit by its file, by which the defaults of the parameters go.
-    #[serde(skip)]
     pub center: CenterBody,
     /// Bodies with what the file gives of one.
-    #[serde(skip)]
     pub bodies: CenterBodies,
     /// Start values of the downlink windows.
-    #[serde(skip)]
     pub windows: WindowDefaults,
     /// The antennas, and the default downlink with them.
-    #[serde(skip)]
     pub antennas: PreparedAntennas,
     /// Prepared for sunlight.
-    #[serde(skip)]
     shapes: PreparedShapes,
     /// The faces reported one by one, with the panel each belongs to; empty unless the file asks for that.
-    #[serde(skip)]
     pub reported_faces: Vec<ReportedFace>,
-    /// Distribution of momentum over the wheels; absent unless they span all directions.
-    #[serde(skip)]
-    pub wheel_array: Option<WheelArray>,
     /// Limits of turns and dumps that the wheels allow.
-    #[serde(skip)]
     pub control: ControlDefaults,
     /// Positions of Sun and planets over time, if there is a file of them; they do not enter the GUID.
-    #[serde(skip)]
     pub ephemeris: Option<Arc<OnboardEphemeris>>,
     /// Commands over time, if there is a file of them; it does not enter the GUID.
-    #[serde(skip)]
     pub timeline: Option<Arc<Timeline>>,
     /// Its panels, one by one; empty where there is none.
-    #[serde(skip)]
     pub panel_steps: Vec<Arc<[PanelStep]>>,
     /// How disturbed orbits are integrated.
-    #[serde(skip)]
     orbit_method: OrbitMethod,
     /// Planets' segments, kept over a reset.
-    #[serde(skip)]
     pub ephemeris_cache: EphemerisCache,
+}
+
+/// The file enters the GUID; all else follows from it, or is a schedule.
+impl Serialize for PlantSetup {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.spacecraft.serialize(serializer)
+    }
 }
 
 impl PlantSetup {
@@ -80,19 +73,16 @@ impl PlantSetup {
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
         check_start(file, &spacecraft, MomentumPlant::NAME)?;
-        let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
-        let wheel_array = WheelArray::new(&axes);
         let bodies = CenterBodies::of(file, &spacecraft)?;
         let center = bodies.body(center_of(&spacecraft));
         Ok(Self {
             center,
             bodies,
             windows: WindowDefaults::of(&spacecraft, &center),
-            control: ControlDefaults::of(&spacecraft, wheel_array.as_ref()),
+            control: ControlDefaults::of(&spacecraft, wheel_array(&spacecraft).as_ref()),
             reported_faces: reported_faces(file, &spacecraft)?,
             antennas: PreparedAntennas::of(&spacecraft),
             shapes: PreparedShapes::of(&spacecraft),
-            wheel_array,
             ephemeris: None,
             timeline: None,
             panel_steps: Vec::new(),
@@ -111,6 +101,14 @@ impl PlantSetup {
             panels.map(|(k, panel)| PanelStep::of_timeline(timeline.panels(), k, panel)).collect();
         self.timeline = Some(Arc::new(timeline));
         Ok(())
+    }
+
+    /// The keep-in zone; without one in the file every direction is allowed.
+    pub fn keep_in(&self) -> SunKeepIn {
+        use core::f64::consts::{FRAC_PI_2, PI};
+        let everywhere =
+            SunKeepIn { azimuth_rad: PI, elevation_rad: FRAC_PI_2, distance_m: SunKeepIn::FARTHEST_M };
+        self.spacecraft.sun_keep_in.unwrap_or(everywhere)
     }
 
     /// Whether the file asks for controlled or free flight.

@@ -30,7 +30,7 @@ pub(super) fn start(context: &Plan<'_>, values: &Values) -> Start {
         attitude: values.vector(v.start.q),
         nutation_rad: values.real(v.start.nutation),
         nutation_phase_rad: values.real(v.start.nutation_phase),
-        damper_time_constant_s: values.real(v.damper.time_constant),
+        damper_time_constant_s: values.real(v.damper_time_constant),
         burn: burn(context, values),
         l1: match values.choice(v.geometry.source) {
             GeometrySource::L1Orbit => {
@@ -90,7 +90,7 @@ fn burn(context: &Plan<'_>, values: &Values) -> Option<BurnRequest> {
         turns_per_pulse: values.real(v.turns_per_pulse),
         count: values.integer(v.count),
         angle_rad: values.real(v.angle),
-        resolution_s: values.real(context.variables.pulse.resolution),
+        resolution_s: values.real(context.variables.pulse_resolution),
         target_inertial: values.vector(v.target_direction).into(),
         spin_rate_error: values.real(v.spin_rate_error),
         ratio_error: values.real(v.ratio_error),
@@ -103,7 +103,7 @@ fn burn(context: &Plan<'_>, values: &Values) -> Option<BurnRequest> {
 /// What the master commands from now on.
 pub(super) fn commands(context: &Plan<'_>, values: &Values) -> Commands {
     let v = context.variables;
-    let resolution_s = values.real(v.pulse.resolution);
+    let resolution_s = values.real(v.pulse_resolution);
     let mut commands =
         Commands { torque: BodyTorque::constant(values.vector(v.torque.applied).into()), ..Commands::none() };
     for (k, (thruster, pulse)) in v.thruster.iter().zip(&mut commands.pulses).enumerate() {
@@ -161,6 +161,6 @@ pub(super) fn directions(
     Ok(Directions {
         sun_inertial: unless_orbit("sun.direction", v.sun.direction)?,
         earth_inertial: unless_orbit("earth.direction", v.earth.direction)?,
-        star_inertial: unit("star.direction", v.star.direction)?,
+        star_inertial: unit("star.direction", v.star_direction)?,
     })
 }

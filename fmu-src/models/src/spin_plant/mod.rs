@@ -18,6 +18,7 @@ use physics::spin::{
     spinner::Spinner,
 };
 
+use crate::common::start_values::start_values;
 use setup::Plan;
 pub use setup::SpinPlant;
 use variables::SpinVariables;
@@ -40,7 +41,7 @@ impl Model for SpinPlant {
     }
 
     fn start_values(setup: &Spinner) -> Vec<StartValue> {
-        crate::common::start_values::start_values(&setup.start, Self::NAME, None, false)
+        start_values(&setup.start, Self::NAME, None, false)
     }
 
     fn about(setup: &Spinner) -> About {

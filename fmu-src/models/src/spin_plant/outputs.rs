@@ -40,7 +40,7 @@ pub(super) fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     values.set_real(v.spin_axis.displacement, seen.spin_axis_displacement_rad);
     values.set_real(v.nutation.angle, seen.nutation_rad);
     values.set_real(v.nutation.phase, seen.nutation_phase_rad);
-    values.set_real(v.coning.angle, seen.coning_rad);
+    values.set_real(v.coning_angle, seen.coning_rad);
     values.set_real(v.nutation.predicted, seen.predicted_nutation_rad);
     values.set_real(v.spin.rate, seen.spin_rate_rad_s);
     values.set_real(v.spin.period, seen.period_s);
@@ -52,7 +52,7 @@ pub(super) fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     values.set_real(v.sun.angle, seen.sun_angle_rad);
     values.set_vector(v.earth.inertial, seen.earth_inertial.into());
     values.set_real(v.earth.angle, seen.earth_angle_rad);
-    values.set_real(v.sun_sensor.angle, seen.sun_angle_measured_rad);
+    values.set_real(v.sun_sensor_angle, seen.sun_angle_measured_rad);
     values.set_real(v.star_tracker.declination, seen.sample.declination_rad);
     values.set_real(v.star_tracker.declination_true, seen.declination_rad);
     values.set_real(v.star_tracker.sample_time, seen.sample.time_s);
@@ -69,7 +69,7 @@ pub(super) fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
         values.set_boolean(thruster.active, seen.thrusters_on >> k & 1 == 1);
         values.set_boolean(thruster.too_short, seen.too_short >> k & 1 == 1);
     }
-    values.set_vector(v.force.thruster, seen.force_body_n.into());
+    values.set_vector(v.force_thruster, seen.force_body_n.into());
     values.set_vector(v.torque.thruster, seen.torque_body_n_m.into());
     values.set_vector(v.delta_v, seen.delta_v_inertial_m_s.into());
     values.set_real(v.propellant.used, seen.propellant_used_kg);
@@ -108,7 +108,7 @@ pub(super) fn derivative(context: &Plan<'_>, plant: &Plant, output: Real) -> Opt
         .or_else(|| of_vector(v.momentum.body, &rates.momentum_body_n_m))
         .or_else(|| of_vector(v.spin_axis.inertial, &rates.spin_axis_1_s))
         .or_else(|| of_vector(v.delta_v, &rates.delta_v_m_s2))
-        .or_else(|| of_vector(v.force.thruster, &rates.force_body_n_s))
+        .or_else(|| of_vector(v.force_thruster, &rates.force_body_n_s))
         .or_else(|| of_vector(v.torque.thruster, &rates.torque_body_n_m_s))
         .or_else(|| of(v.spin.rate, rates.spin_rate_rad_s2))
         .or_else(|| of(v.nutation.angle, rates.nutation_rad_s))

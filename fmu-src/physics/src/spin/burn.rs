@@ -144,11 +144,12 @@ impl Burn {
                 "one that turns the body",
             ));
         }
-        if !(request.spin_rate_error > -0.5 && request.spin_rate_error < 0.5) {
-            return Err(parameter("burn.spinRateError", request.spin_rate_error, "allowed is -0.5 to 0.5"));
-        }
-        if !(request.ratio_error > -0.5 && request.ratio_error < 0.5) {
-            return Err(parameter("burn.ratioError", request.ratio_error, "allowed is -0.5 to 0.5"));
+        for (name, error) in
+            [("burn.spinRateError", request.spin_rate_error), ("burn.ratioError", request.ratio_error)]
+        {
+            if !(error > -0.5 && error < 0.5) {
+                return Err(parameter(name, error, "allowed is -0.5 to 0.5"));
+            }
         }
         if !request.start_s.is_finite() {
             return Err(parameter("burn.start", request.start_s, "it must be a time"));
@@ -158,7 +159,7 @@ impl Burn {
             let allowed = format!(
                 "an attitude pulse is at most half a turn, {half_turn_s} s: beyond, it works against itself"
             );
-            return Err(parameter("burn.pulseWidth", format!("{} s", request.pulse_width_s), &allowed));
+            return Err(refused_width(request, &allowed));
         }
         let mut target_inertial = Vector3::zeros();
         if points {
@@ -181,7 +182,7 @@ impl Burn {
                 "the plan's widest pulse is {} s, an attitude pulse at most half a turn",
                 train.widest_s()
             );
-            return Err(parameter("burn.pulseWidth", format!("{} s", request.pulse_width_s), &allowed));
+            return Err(refused_width(request, &allowed));
         }
         if points && train.alternates() {
             let opposite = opposite_torque_body_n_m.unwrap_or_else(Vector3::zeros);
@@ -280,12 +281,11 @@ impl Burn {
                 if on_s > 0.0 && on_s >= least_s * (1.0 - 1e-12) && on_s <= greatest_s {
                     continue;
                 }
-                let found = format!("{} s", request.pulse_width_s);
                 let allowed = format!(
                     "a pulse of {width_s} s at full thrust opens its valve for {on_s} s: allowed is what opens it for at \
                      least thruster[k].minOnTime and riseTime ({least_s} s), with rise and tail-off within half a turn"
                 );
-                return Err(parameter("burn.pulseWidth", found, &allowed));
+                return Err(refused_width(request, &allowed));
             }
         }
         Ok(())
@@ -321,6 +321,10 @@ fn one_timing(
 
 fn parameter(name: &'static str, found: impl ToString, allowed: &str) -> BurnError {
     ParameterError::new(name, found, allowed).into()
+}
+
+fn refused_width(request: &BurnRequest, allowed: &str) -> BurnError {
+    parameter("burn.pulseWidth", format!("{} s", request.pulse_width_s), allowed)
 }
 
 /// The momentum is moved toward a point: there must be a way to it, and no plan goes beyond.

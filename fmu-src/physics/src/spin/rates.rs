@@ -80,8 +80,7 @@ impl Rates {
         let law = &plant.propulsion().valves.law;
         let force_body_n = law.force_at_n(time_s);
         let flow_kg_s = law.flow_at_kg_s(time_s);
-        let mass_kg = spinner.mass_properties.dry_mass_kg
-            + (plant.propulsion().initial_propellant_kg - plant.propulsion().used_at(time_s)).max(0.0);
+        let mass_kg = plant.propulsion().mass_at_kg(spinner, time_s);
         let ratio = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
         let across_dot = ratio(h.x * h_dot.x + h.y * h_dot.y, across);
         Self {

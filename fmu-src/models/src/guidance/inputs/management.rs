@@ -43,7 +43,7 @@ pub(crate) fn manager<'a>(
 ) -> Result<SampledManager<'a>, Failure> {
     let v = context.variables;
     let spacecraft = &context.setup.spacecraft;
-    let sunshade = values.choice(v.sunshade.shape).0;
+    let sunshade = values.choice(v.sunshade_shape).0;
     let strategy = values.choice(v.momentum.strategy).0;
     v.guided.check_unload(values, strategy != Strategy::DumpsOnly)?;
     check_strategy_has_antenna(strategy, &context.setup.antennas.all)?;
@@ -67,7 +67,7 @@ pub(crate) fn manager<'a>(
             panels: &spacecraft.panels,
             settings: panels,
             mass_at_zero: MassProperties {
-                center_of_mass_body_m: Vector3::from(values.vector(v.spacecraft.center_of_mass)),
+                center_of_mass_body_m: Vector3::from(values.vector(v.spacecraft_center_of_mass)),
                 ..spacecraft.mass_properties
             },
             // The panels are held at their offsets, whenever and however far from the Sun.

@@ -3,7 +3,7 @@
 pub(super) mod management;
 pub(super) mod reader;
 
-use fmi_export::{Failure, Real, Values};
+use fmi_export::{Failure, Values};
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::bodies::{Body, BodyData};
@@ -28,11 +28,13 @@ use physics::guidance::pointing::scenario::GuidanceHardware;
 use physics::plant::PanelSetting;
 
 use super::setup::Plan;
+use super::variables::celestial_bodies::PlanetVariables;
 use super::variables::choices::EphemerisSource;
 use crate::common::choices::PlanetOrientation;
 use crate::common::downlink::ZERO_KEEP_IN_AXIS;
 use crate::common::ephemeris;
 use crate::common::management::{NO_ANTENNA, check_windows_have_antenna};
+use crate::common::numbers::Numbers;
 use crate::common::variables::NO_GIMBAL;
 
 /// What parameters fix for a whole flight.
@@ -100,36 +102,29 @@ struct Target {
     orientation: PlanetOrientation,
 }
 
+/// Pole, rotation and gravity.
+fn planet(v: &PlanetVariables) -> Numbers<BodyData, 5> {
+    Numbers([
+        (v.rotation.pole_right_ascension, |it| &mut it.pole_right_ascension_rad),
+        (v.rotation.pole_declination, |it| &mut it.pole_declination_rad),
+        (v.rotation.prime_meridian, |it| &mut it.prime_meridian_rad),
+        (v.rotation.rotation_rate, |it| &mut it.rotation_rate_rad_s),
+        (v.gravitational_parameter, |it| &mut it.gm_m3_s2),
+    ])
+}
+
 impl Target {
     /// What is given of `planet.*`, else the body's own.
     fn read(context: &Plan<'_>, values: &Values) -> Self {
         let v = &context.variables.planet;
         let own = context.setup.bodies.body(values.choice(context.variables.target.planet).0);
-        let given = context.given(
-            values,
-            &[
-                v.radii.into(),
-                v.pole_right_ascension.into(),
-                v.pole_declination.into(),
-                v.rotation.prime_meridian.into(),
-                v.rotation.rotation_rate.into(),
-                v.rotation.orientation.into(),
-                v.gravitational_parameter.into(),
-            ],
-        );
-        let real = |parameter: Real, own: f64| given.real_or(parameter, own);
-        let data = own.data;
+        let [a, b, c, d, e] = planet(v).group();
+        let given = context.given(values, &[v.radii.into(), a, b, c, d, e, v.rotation.orientation.into()]);
+        let radius_m = |i| given.real_or(v.radii.element(i), own.radii_m[i]);
         Self {
-            radii_m: Vector3::from([0, 1, 2].map(|i| real(v.radii.element(i), own.radii_m[i]))),
-            orientation: v.rotation.choice(&given, values, data.body),
-            data: BodyData {
-                pole_right_ascension_rad: real(v.pole_right_ascension, data.pole_right_ascension_rad),
-                pole_declination_rad: real(v.pole_declination, data.pole_declination_rad),
-                prime_meridian_rad: real(v.rotation.prime_meridian, data.prime_meridian_rad),
-                rotation_rate_rad_s: real(v.rotation.rotation_rate, data.rotation_rate_rad_s),
-                gm_m3_s2: real(v.gravitational_parameter, data.gm_m3_s2),
-                ..data
-            },
+            radii_m: Vector3::from([0, 1, 2].map(radius_m)),
+            orientation: v.rotation.choice(&given, values, own.data.body),
+            data: planet(v).read_or(given, &own.data),
         }
     }
 
@@ -154,12 +149,8 @@ pub(super) fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     let elements = ellipse.read(context, values, &context.setup.bodies.body(data.body));
     ellipse.write(values, &elements);
     values.set_vector(v.radii, radii_m.into());
-    values.set_real(v.pole_right_ascension, data.pole_right_ascension_rad);
-    values.set_real(v.pole_declination, data.pole_declination_rad);
-    values.set_real(v.rotation.prime_meridian, data.prime_meridian_rad);
-    values.set_real(v.rotation.rotation_rate, data.rotation_rate_rad_s);
+    planet(v).write(values, data);
     values.set_choice(v.rotation.orientation, orientation);
-    values.set_real(v.gravitational_parameter, data.gm_m3_s2);
     let guided = &context.variables.guided;
     let phase = guided.phase(context, values, &context.setup.windows, data.body == Body::Sun);
     values.set_choice(guided.phase, phase);
@@ -241,7 +232,7 @@ pub(super) fn settings<'a>(
             gimbal,
             antennas: &context.setup.antennas.all,
             default_downlink: &context.setup.antennas.default_downlink,
-            subsolar: values.choice(v.subsolar.method).0,
+            subsolar: values.choice(v.subsolar_method).0,
             scans: scans(context, values),
         },
         modes: ModeSettings {
@@ -250,7 +241,7 @@ pub(super) fn settings<'a>(
                 hot_pole,
             },
             safe_hold: Constraints {
-                keep_in: Some(zone(v.safe_hold.keep_in.azimuth, v.safe_hold.keep_in.elevation)),
+                keep_in: Some(zone(v.safe_hold.azimuth, v.safe_hold.elevation)),
                 hot_pole,
             },
             watches_hot_pole: true,
@@ -263,7 +254,7 @@ pub(super) fn settings<'a>(
                 persistence_s: real(v.ephemeris.persistence),
             }),
             boresight_body: axis_body,
-            earth_acquisition_rate_rad_s: real(v.earth_acquisition.rate),
+            earth_acquisition_rate_rad_s: real(v.earth_acquisition_rate),
             sun_search_rate_rad_s: real(v.sun_search.rate),
             sun_search_duration_s: real(v.sun_search.duration),
         },

@@ -77,7 +77,7 @@ impl<'a> Reader<'a> {
         let (boresight, body_roll, external_roll) = (&v.boresight, &v.body_roll, &v.external_roll);
         let (limb, scan) = (&v.limb, &v.scan);
         PointingCommand {
-            scenario: self.item(v.pointing.scenario, |it| it.0),
+            scenario: self.item(v.pointing_scenario, |it| it.0),
             boresight: BoresightCommand {
                 option: self.item(boresight.option, |it| it.0),
                 vector: self.vector(boresight.vector),
@@ -176,7 +176,7 @@ impl<'a> Reader<'a> {
 
     /// Sum of the accelerometers' increments.
     pub(crate) fn delta_v_body_m_s(&self) -> Vector3<f64> {
-        self.vector(self.context.variables.accelerometer.delta_v)
+        self.vector(self.context.variables.accelerometer_delta_v)
     }
 
     /// System momentum along the body axes.

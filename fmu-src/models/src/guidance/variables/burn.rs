@@ -81,11 +81,3 @@ pub struct ThrustVariables {
     #[output(discrete, unit = "s", nominal = 1e3)]
     pub stop: Real,
 }
-
-/// The accelerometers.
-#[derive(Variables)]
-pub struct AccelerometerVariables {
-    /// Sum of their increments along the body axes since some start. Read together with estimate.q.
-    #[input(unit = "m/s", display = "mm/s", min = -1e9, max = 1e9, start = [0.0; 3])]
-    pub delta_v: RealVector<3>,
-}

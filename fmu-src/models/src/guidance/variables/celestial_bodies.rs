@@ -5,13 +5,10 @@ use core::f64::consts::PI;
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 use physics::constants::{HALF_TURNS_RAD, QUARTER_TURNS_RAD};
 use physics::environment::{ephemeris, time};
-use physics::guidance::geometry::lighting;
 use physics::guidance::pointing::command;
 
 use super::super::setup::GuidanceSetup;
-use super::choices::SubsolarMethod;
-use crate::common::choices::OrbitCenter;
-use crate::common::choices::custom_body;
+use crate::common::choices::{OrbitCenter, custom_body};
 use crate::common::orientation::RotationVariables;
 
 /// Where the flight starts.
@@ -46,25 +43,11 @@ pub struct PlanetVariables {
     /// Radii of the ellipsoid along the planet's x, y and z.
     #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.target.radii_m)]
     pub radii: RealVector<3>,
-    /// Right ascension of the planet's north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.target.data.pole_right_ascension_rad)]
-    pub pole_right_ascension: Real,
-    /// Declination of the planet's north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.target.data.pole_declination_rad)]
-    pub pole_declination: Real,
     #[group(name = "", setup = &setup.target)]
     pub rotation: RotationVariables,
     /// Gravitational parameter of the planet: by the acceleration it gives, the rate of a frame that follows the velocity.
     #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, max = 1e21, start = setup.target.data.gm_m3_s2)]
     pub gravitational_parameter: Real,
-}
-
-/// The subsolar point.
-#[derive(Variables)]
-pub struct SubsolarVariables {
-    /// Which point of the ellipsoid it is.
-    #[parameter(start = SubsolarMethod(lighting::SubsolarMethod::Normal))]
-    pub method: Choice<SubsolarMethod>,
 }
 
 /// The Sun.

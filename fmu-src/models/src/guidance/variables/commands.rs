@@ -9,17 +9,8 @@ use physics::guidance::pointing::scan::DEFAULT_COMPATIBILITY;
 use super::super::setup::GuidanceSetup;
 use super::choices::{
     ActiveMode, AimpointBody, AimpointOption, AzimuthReference, BodyRollOption, BoresightOption,
-    ExternalRollOption, ModeReason, ModeRequest, PointingScenario, ScanFrame,
+    ExternalRollOption, ModeReason, ModeRequest, ScanFrame,
 };
-
-/// The scenario.
-#[derive(Variables)]
-pub struct PointingVariables {
-    /// What is pointed at what. This and every input of a command is read once a second; one that is not 0 overrides the
-    /// timeline's.
-    #[input(start = PointingScenario(None))]
-    pub scenario: Choice<PointingScenario>,
-}
 
 /// The boresight.
 #[derive(Variables)]

@@ -42,21 +42,13 @@ pub struct KeepInVariables {
 /// The zone of Safe Hold.
 #[derive(Variables)]
 #[variables(setup = GuidanceSetup)]
-pub struct SafeHoldZoneVariables {
+pub struct SafeHoldVariables {
     /// Largest Sun azimuth either way in Safe Hold.
     #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = FRAC_PI_2, start = setup.keep_in().azimuth_rad)]
     pub azimuth: Real,
     /// Largest Sun elevation either way in Safe Hold.
     #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = FRAC_PI_2, start = setup.keep_in().elevation_rad)]
     pub elevation: Real,
-}
-
-/// Safe Hold.
-#[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
-pub struct SafeHoldVariables {
-    #[group]
-    pub keep_in: SafeHoldZoneVariables,
 }
 
 /// Hot-pole keep-out, by the file's [hot_pole].
@@ -138,14 +130,6 @@ pub struct LinkVariables {
     /// Whether an antenna covers the Earth, neither behind the planet nor near the Sun.
     #[output]
     pub available: Boolean,
-}
-
-/// Earth Acquisition.
-#[derive(Variables)]
-pub struct EarthAcquisitionVariables {
-    /// Rate about the boresight keepIn.axis (assumed; paper 001: slow).
-    #[parameter(tunable, unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = transitions::EARTH_ACQUISITION_RATE_RAD_S)]
-    pub rate: Real,
 }
 
 /// Search for the Sun.

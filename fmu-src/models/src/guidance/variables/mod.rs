@@ -9,116 +9,97 @@ pub(super) mod limits;
 pub(super) mod momentum;
 pub(super) mod outputs;
 
-use fmi_export::{Real, RealVector, Variables};
+use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
+use physics::guidance::geometry::lighting;
+use physics::guidance::modes::transitions;
 use physics::guidance::pointing::scan::DEFAULT_COMPATIBILITY;
 
 use super::setup::GuidanceSetup;
+use crate::common::choices::SunshadeShape;
 use crate::common::downlink::DownlinkVariables;
 use crate::common::variables::{GuidedVariables, SolarVariables, WorkLimit};
-use burn::{AccelerometerVariables, BurnVariables, ThrustVariables};
+use burn::{BurnVariables, ThrustVariables};
 use celestial_bodies::{
-    EarthVariables, EstimateVariables, PlanetVariables, StartVariables, SubsolarVariables, SunVariables,
-    TargetVariables,
+    EarthVariables, EstimateVariables, PlanetVariables, StartVariables, SunVariables, TargetVariables,
 };
+use choices::{PointingScenario, SubsolarMethod};
 use commands::{
     AimpointVariables, BodyRollVariables, BoresightVariables, ExternalRollVariables, LimbVariables,
-    ModeVariables, PointingVariables, ScanCompatibilityVariables, ScanVariables,
+    ModeVariables, ScanCompatibilityVariables, ScanVariables,
 };
 use ephemeris::EphemerisVariables;
 use limits::{
-    AntennaVariables, EarthAcquisitionVariables, GimbalVariables, HotPoleVariables, KeepInVariables,
-    LinkVariables, MonitorVariables, SafeHoldVariables, SunSearchVariables,
+    AntennaVariables, GimbalVariables, HotPoleVariables, KeepInVariables, LinkVariables, MonitorVariables,
+    SafeHoldVariables, SunSearchVariables,
 };
-use momentum::{DumpVariables, MomentumVariables, PanelVariables, SpacecraftVariables, SunshadeVariables};
-use outputs::{CommandVariables, ConstraintVariables, GeometryVariables};
+use momentum::{DumpVariables, MomentumVariables, PanelVariables};
+use outputs::{CommandVariables, ConstraintVariables};
 
 /// Every variable of guidance, in the order of the XML.
 #[derive(Variables)]
 #[variables(setup = GuidanceSetup)]
 pub struct GuidanceVariables {
-    #[group]
     pub command: CommandVariables,
-    #[group]
     pub mode: ModeVariables,
-    #[group]
     pub start: StartVariables,
-    #[group]
     pub target: TargetVariables,
-    #[group]
     pub planet: PlanetVariables,
-    #[group]
     pub ephemeris: EphemerisVariables,
-    #[group]
-    pub subsolar: SubsolarVariables,
-    #[group]
+    /// Which point of the ellipsoid it is.
+    #[parameter(name = "subsolar.method", start = SubsolarMethod(lighting::SubsolarMethod::Normal))]
+    pub subsolar_method: Choice<SubsolarMethod>,
     pub keep_in: KeepInVariables,
-    #[group]
+    #[group(name = "safeHold.keepIn")]
     pub safe_hold: SafeHoldVariables,
-    #[group]
     pub hot_pole: HotPoleVariables,
-    #[group]
     pub monitor: MonitorVariables,
-    #[group]
     pub gimbal: GimbalVariables,
-    #[group]
     pub antenna: AntennaVariables,
-    #[group]
     pub link: LinkVariables,
-    #[group]
-    pub earth_acquisition: EarthAcquisitionVariables,
-    #[group]
+    /// Rate about the boresight keepIn.axis (assumed; paper 001: slow).
+    #[parameter(name = "earthAcquisition.rate", tunable, unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = transitions::EARTH_ACQUISITION_RATE_RAD_S)]
+    pub earth_acquisition_rate: Real,
     pub sun_search: SunSearchVariables,
     #[group(setup = &setup.windows)]
     pub guided: GuidedVariables,
-    #[group]
     pub downlink: DownlinkVariables,
-    #[group]
-    pub pointing: PointingVariables,
-    #[group]
+    /// What is pointed at what. This and every input of a command is read once a second; one that is not 0 overrides the
+    /// timeline's.
+    #[input(name = "pointing.scenario", start = PointingScenario(None))]
+    pub pointing_scenario: Choice<PointingScenario>,
     pub boresight: BoresightVariables,
-    #[group]
     pub aimpoint: AimpointVariables,
-    #[group]
     pub second_aimpoint: AimpointVariables,
-    #[group]
     pub body_roll: BodyRollVariables,
-    #[group]
     pub external_roll: ExternalRollVariables,
-    #[group]
     pub limb: LimbVariables,
-    #[group]
     pub scan: ScanVariables,
     #[group(count = DEFAULT_COMPATIBILITY.len())]
     pub scan_compatibility: Vec<ScanCompatibilityVariables>,
-    #[group]
     pub sun: SunVariables,
-    #[group]
     pub earth: EarthVariables,
-    #[group]
     pub estimate: EstimateVariables,
-    #[group]
-    pub accelerometer: AccelerometerVariables,
-    #[group]
+    /// Sum of their increments along the body axes since some start. Read together with estimate.q.
+    #[input(name = "accelerometer.deltaV", unit = "m/s", display = "mm/s", min = -1e9, max = 1e9, start = [0.0; 3])]
+    pub accelerometer_delta_v: RealVector<3>,
     pub burn: BurnVariables,
-    #[group]
     pub thrust: ThrustVariables,
-    #[group]
-    pub spacecraft: SpacecraftVariables,
-    #[group]
-    pub sunshade: SunshadeVariables,
-    #[group]
+    /// Centre of mass in the body frame, with every panel at angle 0; panels that have a mass move it by the file's masses.
+    #[parameter(name = "spacecraft.centerOfMass", tunable, unit = "m", display = "cm", min = -1e4, max = 1e4, start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
+    pub spacecraft_center_of_mass: RealVector<3>,
+    /// Which model of the shade takes the light; without a shade it does not count.
+    #[parameter(name = "sunshade.shape", start = SunshadeShape::of(&setup.spacecraft))]
+    pub sunshade_shape: Choice<SunshadeShape>,
     pub solar: SolarVariables,
     #[group(count = setup.spacecraft.panels.len())]
     pub panel: Vec<PanelVariables>,
-    #[group]
     pub momentum: MomentumVariables,
-    #[group]
     pub dump: DumpVariables,
-    #[group]
-    pub geometry: GeometryVariables,
-    #[group]
+    /// Whether a roll vector lies along its primary vector, so that a fallback stands in for it, or there is no command at
+    /// all for lack of a direction.
+    #[output(name = "geometry.degenerate")]
+    pub geometry_degenerate: Boolean,
     pub constraint: ConstraintVariables,
-    #[group]
     pub solver: WorkLimit,
     /// Position of the spacecraft about the target planet in EME2000; zero: not connected yet.
     #[input(unit = "m", display = "km", start = [0.0; 3])]

@@ -7,26 +7,9 @@ use physics::momentum::Convention;
 
 use super::super::setup::GuidanceSetup;
 use super::choices::DumpReinitTo;
-use crate::common::choices::{MomentumConvention, PanelTilt, SunshadeShape};
+use crate::common::choices::{MomentumConvention, PanelTilt};
 use crate::common::management::{MomentumStrategy, TargetingVariables};
-
-/// Mass properties.
-#[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
-pub struct SpacecraftVariables {
-    /// Centre of mass in the body frame, with every panel at angle 0; panels that have a mass move it by the file's masses.
-    #[parameter(tunable, unit = "m", display = "cm", min = -1e4, max = 1e4, start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
-    pub center_of_mass: RealVector<3>,
-}
-
-/// Sunshade.
-#[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
-pub struct SunshadeVariables {
-    /// Which model of the shade takes the light; without a shade it does not count.
-    #[parameter(start = SunshadeShape::of(&setup.spacecraft))]
-    pub shape: Choice<SunshadeShape>,
-}
+use crate::common::spacecraft::dump_threshold_n_m_s;
 
 /// One solar panel.
 #[derive(Variables)]
@@ -77,7 +60,7 @@ pub struct MomentumVariables {
 #[variables(setup = GuidanceSetup)]
 pub struct DumpVariables {
     /// Magnitude of a body component of momentum that triggers a dump, here a request of one; a very large value means never.
-    #[parameter(tunable, unit = "N.m.s", min = 1e-6, start = setup.dump_threshold_n_m_s())]
+    #[parameter(tunable, unit = "N.m.s", min = 1e-6, start = dump_threshold_n_m_s(&setup.spacecraft))]
     pub threshold: RealVector<3>,
     /// Where a component goes that exceeded its threshold; the others stay.
     #[parameter(start = DumpReinitTo::Opposite)]

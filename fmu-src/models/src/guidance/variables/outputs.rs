@@ -21,15 +21,6 @@ pub struct CommandVariables {
     pub error: RealVector<4>,
 }
 
-/// Geometry of the command.
-#[derive(Variables)]
-pub struct GeometryVariables {
-    /// Whether a roll vector lies along its primary vector, so that a fallback stands in for it, or there is no command at
-    /// all for lack of a direction.
-    #[output]
-    pub degenerate: Boolean,
-}
-
 /// Constraints in force.
 #[derive(Variables)]
 pub struct ConstraintVariables {

@@ -42,7 +42,7 @@ pub(super) fn read(
 ) -> Result<PlanetEnvironment, Failure> {
     let (v, planet) = (context.variables, &center.planet);
     let followed = Followed::read(context, values, planet.body);
-    let switches = [v.planet_light.enabled, v.thermal.recoil.enabled];
+    let switches = [v.planet_light.enabled, v.thermal.enabled];
     let effects = v.laws.active(switches, |switch| followed.is_on(values, switch));
     let [rotation, of_planet] = [&center.data, planet].map(|body| orientation(context, values, body));
     let (rotation, of_planet) = (rotation?, of_planet?);
@@ -156,13 +156,9 @@ impl Followed {
         let (laws, planet) = (&context.variables.laws, &context.variables.planet);
         let rotation = &planet.rotation;
         // Importers that write every start value write the planet too; the others set alone are a user's choice.
-        let written = [planet.gravitational_parameter, planet.radius].map(Elements::from);
-        let mut elements = [Elements::from(rotation.orientation); PLANET_SWITCHES + 3];
-        elements[1..3].copy_from_slice(&written);
-        for (element, (_, switch)) in elements[3..].iter_mut().zip(laws.planet_switches()) {
-            *element = switch.into();
-        }
-        let given = context.given(values, &elements);
+        let [gm, radius] = [planet.gravitational_parameter, planet.radius].map(Elements::from);
+        let [air, field] = laws.planet_switches().map(|(_, switch)| Elements::from(switch));
+        let given = context.given(values, &[rotation.orientation.into(), gm, radius, air, field]);
         let switches = laws.planet_switches().map(|(_, switch)| {
             let is_set = given.has(switch);
             (switch, if is_set { values.boolean(switch) } else { body == Body::Earth }, is_set)

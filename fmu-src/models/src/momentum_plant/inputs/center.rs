@@ -1,6 +1,6 @@
 //! What follows `orbit.center`: a parameter that nobody gave takes the centre's own value.
 
-use fmi_export::{Elements, Values};
+use fmi_export::Values;
 use physics::bodies::air::ExponentialAir;
 use physics::bodies::surface::PlanetSurface;
 use physics::bodies::{Body, BodyData};
@@ -8,8 +8,7 @@ use physics::enumeration::Enumerated;
 use physics::environment::frames::Frame;
 use physics::environment::orbit::Elements as KeplerElements;
 
-use crate::common::center::CenterBody;
-use crate::common::elements::ElementHandles;
+use crate::common::numbers::Numbers;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::choices::OrbitFrame;
@@ -31,71 +30,64 @@ pub(super) struct Center {
     pub frame: Frame,
 }
 
-fn handles(variables: &PlantVariables) -> ElementHandles {
+/// Elements of the orbit.
+fn elements(variables: &PlantVariables) -> Numbers<KeplerElements, 6> {
     let orbit = &variables.orbit;
-    ElementHandles([
-        orbit.semi_major_axis,
-        orbit.eccentricity,
-        orbit.inclination,
-        orbit.ascending_node,
-        orbit.periapsis_argument,
-        orbit.true_anomaly,
+    Numbers([
+        (orbit.semi_major_axis, |it| &mut it.semi_major_axis_m),
+        (orbit.eccentricity, |it| &mut it.eccentricity),
+        (orbit.inclination, |it| &mut it.inclination_rad),
+        (orbit.ascending_node, |it| &mut it.ascending_node_rad),
+        (orbit.periapsis_argument, |it| &mut it.periapsis_argument_rad),
+        (orbit.true_anomaly, |it| &mut it.true_anomaly_rad),
     ])
 }
 
-/// Values of the exponential model: what is given of `atmosphere.reference*` and `scaleHeight`, else the body's own.
-fn exponential(context: &Plan<'_>, values: &Values, body: &CenterBody) -> ExponentialAir {
-    let v = &context.variables.atmosphere;
-    let own = body.air();
-    let group = [v.reference_density, v.reference_height, v.scale_height].map(Elements::from);
-    let given = context.given(values, &group);
-    ExponentialAir {
-        reference_density_kg_m3: given.real_or(v.reference_density, own.reference_density_kg_m3),
-        reference_height_m: given.real_or(v.reference_height, own.reference_height_m),
-        scale_height_m: given.real_or(v.scale_height, own.scale_height_m),
-        ..own
-    }
+/// Gravity, figure, pole and rotation.
+fn planet(variables: &PlantVariables) -> Numbers<BodyData, 8> {
+    let (planet, rotation) = (&variables.planet, &variables.planet.rotation);
+    Numbers([
+        (planet.gravitational_parameter, |it| &mut it.gm_m3_s2),
+        (planet.radius, |it| &mut it.radius_m),
+        (planet.j2, |it| &mut it.j2),
+        (planet.j2_radius, |it| &mut it.j2_radius_m),
+        (rotation.pole_right_ascension, |it| &mut it.pole_right_ascension_rad),
+        (rotation.pole_declination, |it| &mut it.pole_declination_rad),
+        (rotation.prime_meridian, |it| &mut it.prime_meridian_rad),
+        (rotation.rotation_rate, |it| &mut it.rotation_rate_rad_s),
+    ])
+}
+
+/// The exponential model of the air.
+fn air(variables: &PlantVariables) -> Numbers<ExponentialAir, 3> {
+    let atmosphere = &variables.atmosphere;
+    Numbers([
+        (atmosphere.reference_density, |it| &mut it.reference_density_kg_m3),
+        (atmosphere.reference_height, |it| &mut it.reference_height_m),
+        (atmosphere.scale_height, |it| &mut it.scale_height_m),
+    ])
 }
 
 impl Center {
     /// The centre that `orbit.center` names.
     pub(super) fn read(context: &Plan<'_>, values: &Values) -> Self {
-        let (planet, orbit) = (&context.variables.planet, &context.variables.orbit);
+        let variables = context.variables;
+        let (orbit, surface) = (&variables.orbit, &variables.planet.surface);
         let body = context.setup.bodies.body(values.choice(orbit.center).0);
-        let encounter = context.variables.encounter.body(orbit, values);
+        let encounter = variables.encounter.body(orbit, values);
         let near = encounter.map_or(body, |encounter| context.setup.bodies.body(encounter));
-        let (own, own_surface) = (near.data, near.surface());
-        let numbers = [
-            planet.gravitational_parameter,
-            planet.radius,
-            planet.j2,
-            planet.j2_radius,
-            planet.pole_right_ascension,
-            planet.pole_declination,
-            planet.rotation.prime_meridian,
-            planet.rotation.rotation_rate,
-        ];
-        let [a, b, c, d, e, f, g, h] = numbers.map(Elements::from);
-        let [i, j, k, l, m] = planet.surface.group();
+        let numbers = planet(variables);
+        let [a, b, c, d, e, f, g, h] = numbers.group();
+        let [i, j, k, l, m] = surface.group();
         let given = context.given(values, &[a, b, c, d, e, f, g, h, i, j, k, l, m]);
-        let radius_m = given.real_or(planet.radius, own_surface.radius_m);
-        let surface = planet.surface.read_or(values, given, radius_m, &own_surface);
-        let planet = BodyData {
-            gm_m3_s2: given.real_or(planet.gravitational_parameter, own.gm_m3_s2),
-            radius_m: given.real_or(planet.radius, own.radius_m),
-            j2: given.real_or(planet.j2, own.j2),
-            j2_radius_m: given.real_or(planet.j2_radius, own.j2_radius_m),
-            pole_right_ascension_rad: given
-                .real_or(planet.pole_right_ascension, own.pole_right_ascension_rad),
-            pole_declination_rad: given.real_or(planet.pole_declination, own.pole_declination_rad),
-            prime_meridian_rad: given.real_or(planet.rotation.prime_meridian, own.prime_meridian_rad),
-            rotation_rate_rad_s: given.real_or(planet.rotation.rotation_rate, own.rotation_rate_rad_s),
-            surface: Some(surface),
-            ..own
-        };
-        let air = exponential(context, values, &near);
-        let handles = handles(context.variables);
-        let [a, b, c, d, e, _] = handles.group();
+        let planet = numbers.read_or(given, &near.data);
+        let own = PlanetSurface { radius_m: planet.radius_m, ..near.surface() };
+        let surface = surface.read_or(values, given, &own);
+        let planet = BodyData { surface: Some(surface), ..planet };
+        let numbers = air(variables);
+        let air = numbers.read_or(context.given(values, &numbers.group()), &near.air());
+        let elements = elements(variables);
+        let [a, b, c, d, e, _] = elements.group();
         let given = context.given(values, &[a, b, c, d, e, orbit.frame.into()]);
         let has_frame = given.has(orbit.frame);
         // The true anomaly follows no centre.
@@ -106,29 +98,18 @@ impl Center {
             planet,
             surface,
             air,
-            elements: handles.read_or(given, &own),
+            elements: elements.read_or(given, &own),
             frame: if has_frame { values.choice(orbit.frame).0 } else { body.frame() },
         }
     }
 
     /// Writes the parameters as they act.
     pub(super) fn write(&self, variables: &PlantVariables, values: &mut Values) {
-        let (planet, data) = (&variables.planet, &self.planet);
-        values.set_real(planet.gravitational_parameter, data.gm_m3_s2);
-        values.set_real(planet.radius, data.radius_m);
-        values.set_real(planet.j2, data.j2);
-        values.set_real(planet.j2_radius, data.j2_radius_m);
-        values.set_real(planet.pole_right_ascension, data.pole_right_ascension_rad);
-        values.set_real(planet.pole_declination, data.pole_declination_rad);
-        values.set_real(planet.rotation.prime_meridian, data.prime_meridian_rad);
-        values.set_real(planet.rotation.rotation_rate, data.rotation_rate_rad_s);
-        let atmosphere = &variables.atmosphere;
-        values.set_real(atmosphere.reference_density, self.air.reference_density_kg_m3);
-        values.set_real(atmosphere.reference_height, self.air.reference_height_m);
-        values.set_real(atmosphere.scale_height, self.air.scale_height_m);
-        planet.surface.write(values, &self.surface);
+        planet(variables).write(values, self.planet);
+        air(variables).write(values, self.air);
+        variables.planet.surface.write(values, &self.surface);
         if !values.choice(variables.orbit.source).is_given() {
-            handles(variables).write(values, &self.elements);
+            elements(variables).write(values, self.elements);
             values.set_choice(variables.orbit.frame, OrbitFrame(self.frame));
         }
     }

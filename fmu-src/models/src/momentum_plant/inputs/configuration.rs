@@ -28,7 +28,7 @@ pub(super) fn read(
     let epoch_s = values.real(variables.start.epoch);
     let epoch_minus_time_s = time::epoch_minus_time_s(epoch_s, state.start_s);
     let momentum = settings(context, values);
-    if !matches!(values.choice(variables.ephemeris.source), EphemerisSource::Inputs) {
+    if !matches!(values.choice(variables.ephemeris_source), EphemerisSource::Inputs) {
         ephemeris::check_start(epoch_s)?;
     }
     let inertia_body_kg_m2 = inertia_body_kg_m2(values, variables.spacecraft.inertia)?;
@@ -91,7 +91,7 @@ pub(super) fn read(
         light: variables.solar.read(values),
         shadow: variables.eclipse.read(values, center.planet.radius_m, values.real(variables.sun.radius))?,
         light_and_heat: RadiationSettings {
-            storage: values.boolean(variables.thermal.storage),
+            storage: values.boolean(variables.thermal_storage),
             shadowing: values.boolean(variables.shadowing.enabled),
             sun_disc: values.boolean(variables.shadowing.sun_disc),
             grid_s: values.real(variables.solver.disturbance_step),
@@ -113,7 +113,7 @@ pub(super) fn read(
             magnitude_error: values.real(variables.maneuver.magnitude_error),
             direction_error_rad: values.real(variables.maneuver.direction_error),
             center_of_mass_shift_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass_shift)),
-            seed: values.integer(variables.noise.seed).unsigned_abs().into(),
+            seed: values.integer(variables.noise_seed).unsigned_abs().into(),
             requested_body_n_m_s: Vector3::from(values.vector(variables.dump.target)),
         },
     })

@@ -96,7 +96,7 @@ pub(super) fn dynamic(
     } else {
         None
     };
-    let seed = values.integer(v.noise.seed).unsigned_abs().into();
+    let seed = values.integer(v.noise_seed).unsigned_abs().into();
     let controller = controller(context, values);
     Ok(DynamicsSettings {
         gyrostat,
@@ -212,7 +212,7 @@ pub(super) fn ideal(context: &Plan<'_>, values: &Values) -> Result<IdealSettings
         wheels: v.wheel.iter().map(|it| [it.inertia, it.capacity].map(|it| values.real(it))).collect(),
         sun_sensors: sun_sensors(context, values)?,
         rate_hz: values.real(v.control.rate),
-        seed: values.integer(v.noise.seed).unsigned_abs().into(),
+        seed: values.integer(v.noise_seed).unsigned_abs().into(),
         start_momentum_body_n_m_s: Vector3::from(values.vector(v.start.momentum)),
     })
 }

@@ -21,7 +21,7 @@ pub(super) fn read(
 ) -> Result<plant::EphemerisSource, Failure> {
     let (variables, center) = (context.variables, &context.setup.bodies.body(center));
     let epoch_s = values.real(variables.start.epoch);
-    Ok(match values.choice(variables.ephemeris.source) {
+    Ok(match values.choice(variables.ephemeris_source) {
         EphemerisSource::Inputs => {
             let sun_m = Vector3::from(values.vector(variables.sun.position));
             let at_the_planet = center.data.body.is_planet() && sun_m == Vector3::from([0.0; 3]);
@@ -41,7 +41,7 @@ pub(super) fn read(
             }
         }
         EphemerisSource::Kepler => {
-            let ellipse = &variables.ephemeris.ellipse;
+            let ellipse = &variables.ephemeris;
             plant::EphemerisSource::Kepler(ellipse.planet(context, values, center, epoch_s)?)
         }
         EphemerisSource::Chebyshev => match ephemeris::precise(context.setup.ephemeris.as_ref()) {

@@ -99,7 +99,7 @@ fn managed_law(
     let keep_in = zone(variables, values)?;
     let law = law(context, values, orbit)?;
     let antennas = &context.setup.antennas.all;
-    let strategy = values.choice(variables.momentum.management.strategy).0;
+    let strategy = values.choice(variables.momentum.strategy).0;
     let managed = strategy != Strategy::DumpsOnly;
     if !state.waiting {
         check_windows_have_antenna(&law.schedule, antennas)?;

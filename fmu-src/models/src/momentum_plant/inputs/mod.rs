@@ -107,8 +107,8 @@ pub(super) fn read<'a>(
     state.waiting &= !begins;
     let sunshade = values.choice(variables.sunshade.shape).0;
     let limits_rad = [variables.keep_in.azimuth, variables.keep_in.elevation].map(|limit| values.real(limit));
-    let (management, spacecraft) = (&variables.momentum.management, &context.setup.spacecraft);
-    let strategy = values.choice(management.strategy).0;
+    let (momentum, spacecraft) = (&variables.momentum, &context.setup.spacecraft);
+    let strategy = values.choice(momentum.strategy).0;
     let is_dynamic = state.inputs.source.is_dynamic && !state.waiting;
     let is_complete = begins || !state.flight.is_configured() || (state.waiting && changes.is_some());
     let is_changed = changes.is_some_and(|it| !is_dynamic || it.orbit || it.light || it.tunables);
@@ -118,7 +118,7 @@ pub(super) fn read<'a>(
         is_reconfigured: is_complete || is_changed,
         is_complete,
         applied: state.inputs.applied_load(variables, step.inputs),
-        manager: management.targeting.manager(
+        manager: momentum.targeting.manager(
             values,
             strategy,
             limits_rad,
@@ -197,7 +197,7 @@ pub(super) fn check_effects(context: &Plan<'_>, values: &Values, start_s: f64) -
 
 /// Writes the parameters that follow `orbit.center` as they act.
 pub(super) fn resolve_start(context: &Plan<'_>, values: &mut Values) {
-    let ellipse = &context.variables.ephemeris.ellipse;
+    let ellipse = &context.variables.ephemeris;
     let center = Center::read(context, values);
     let elements = ellipse.read(context, values, &context.setup.bodies.body(center.data.body));
     ellipse.write(values, &elements);
@@ -216,7 +216,7 @@ pub(super) fn check_span(
     end_s: f64,
 ) -> Result<(), Failure> {
     let variables = context.variables;
-    let is_onboard = matches!(values.choice(variables.ephemeris.source), EphemerisSource::Chebyshev);
+    let is_onboard = matches!(values.choice(variables.ephemeris_source), EphemerisSource::Chebyshev);
     let Some(carried) = ephemeris::precise(context.setup.ephemeris.as_ref()).filter(|_| is_onboard) else {
         return Ok(());
     };

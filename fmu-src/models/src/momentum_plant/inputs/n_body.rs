@@ -54,7 +54,7 @@ pub(super) fn read(
     if !variables.orbit.is_n_body(values) {
         return Ok((None, None));
     }
-    let source = match values.choice(variables.ephemeris.source) {
+    let source = match values.choice(variables.ephemeris_source) {
         EphemerisSource::Kepler => Some("kepler (2)"),
         EphemerisSource::Inputs => Some("inputs (3)"),
         EphemerisSource::Vsop87 | EphemerisSource::Chebyshev => None,
@@ -108,7 +108,7 @@ fn gravity(variables: &PlantVariables, values: &Values, center: &Center) -> NBod
 /// Until when the ephemerides place all that attracts, in s past J2000 TDB.
 fn last_epoch_s(context: &Plan<'_>, values: &Values) -> f64 {
     let variables = context.variables;
-    let is_onboard = matches!(values.choice(variables.ephemeris.source), EphemerisSource::Chebyshev);
+    let is_onboard = matches!(values.choice(variables.ephemeris_source), EphemerisSource::Chebyshev);
     let carried = precise(context.setup.ephemeris.as_ref()).filter(|_| is_onboard);
     let spans_s = carried.into_iter().flat_map(|carried| {
         placed(variables, values).filter_map(|(target, from)| carried.span_s(target, from))

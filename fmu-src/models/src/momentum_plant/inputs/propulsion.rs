@@ -36,7 +36,7 @@ pub(crate) fn reaction_control(
             misalignment_rad: values.real(v.thrust.misalignment),
             drift_rad_s: values.real(v.thrust.drift),
             jitter_rad: values.real(v.thrust.jitter),
-            seed: values.integer(v.noise.seed).unsigned_abs().into(),
+            seed: values.integer(v.noise_seed).unsigned_abs().into(),
         },
         dump_torque_n_m: values.real(v.dump.torque),
         dump_period_s: values.real(v.dump.pulse_period),

@@ -177,7 +177,7 @@ impl StepInputs {
 
         let orbit_source = values.choice(v.orbit.source);
         let is_unset = |place: RealVector<3>| values.vector(place) == [0.0; 3];
-        let is_sun_given = matches!(values.choice(v.ephemeris.source), EphemerisSource::Inputs);
+        let is_sun_given = matches!(values.choice(v.ephemeris_source), EphemerisSource::Inputs);
         // About the Sun, the Sun is at zero.
         let is_planet = !matches!(values.choice(v.orbit.center), OrbitCenter(Body::Sun));
         self.orbit_is_given = orbit_source.is_given();

@@ -9,7 +9,6 @@ use physics::spacecraft::SunKeepIn;
 
 use super::super::setup::PlantSetup;
 use super::choices::PanelControl;
-use super::defaults;
 use crate::common::choices::{KeepInMethod, PanelTilt, SunshadeShape};
 
 /// Mass properties.
@@ -20,7 +19,7 @@ pub struct SpacecraftVariables {
     #[parameter(tunable, unit = "kg", min = 1e-3, max = 1e12, start = setup.spacecraft.mass_properties.mass_kg)]
     pub mass: Real,
     /// Inertia about the centre of mass, body frame.
-    #[parameter(unit = "kg.m2", min = -1e15, max = 1e15, start = defaults::inertia_kg_m2(setup))]
+    #[parameter(unit = "kg.m2", min = -1e15, max = 1e15, start = setup.spacecraft.mass_properties.inertia_body_kg_m2.transpose().into())]
     pub inertia: RealMatrix<3, 3>,
     /// Centre of mass in the body frame, with every panel at angle 0; panels that have a mass move it by the file's masses.
     #[parameter(tunable, unit = "m", display = "cm", min = -1e4, max = 1e4, start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
@@ -187,16 +186,16 @@ pub struct KeepInVariables {
     #[parameter(unit = "1", start = [0.0, -1.0, 0.0])]
     pub axis: RealVector<3>,
     /// Greatest distance from the Sun at which the zone counts; for scenarios of the timeline.
-    #[parameter(unit = "m", display = "AU", min = 0.0, max = SunKeepIn::FARTHEST_M, start = defaults::keep_in(setup).distance_m)]
+    #[parameter(unit = "m", display = "AU", min = 0.0, max = SunKeepIn::FARTHEST_M, start = setup.keep_in().distance_m)]
     pub distance: Real,
     /// Where a Sun outside is put; by scenarios of the timeline.
     #[parameter(start = KeepInMethod(keep_in::KeepInMethod::Nearest))]
     pub method: Choice<KeepInMethod>,
     /// Largest Sun azimuth either way.
-    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = defaults::keep_in(setup).azimuth_rad)]
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = setup.keep_in().azimuth_rad)]
     pub azimuth: Real,
     /// Largest Sun elevation either way; guided attitudes stay within.
-    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::FRAC_PI_2, start = defaults::keep_in(setup).elevation_rad)]
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::FRAC_PI_2, start = setup.keep_in().elevation_rad)]
     pub elevation: Real,
     /// How far inside the zone the Sun stands; negative outside.
     #[output(unit = "rad", display = "deg")]

@@ -1,24 +1,11 @@
 //! Planet, Sun and Earth.
 
-use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
-use physics::constants::RADIUS_SUN_M;
-use physics::constants::{HALF_TURNS_RAD, QUARTER_TURNS_RAD};
+use fmi_export::{Boolean, Real, RealVector, Variables};
+use physics::constants::{HALF_TURNS_RAD, QUARTER_TURNS_RAD, RADIUS_SUN_M};
 
 use super::super::setup::PlantSetup;
-use super::choices::EphemerisSource;
 use crate::common::orientation::RotationVariables;
-use crate::common::variables::{EllipseVariables, SurfaceVariables};
-
-/// Positions of the Sun, the orbit's centre and the Earth.
-#[derive(Variables)]
-#[variables(setup = PlantSetup)]
-pub struct EphemerisVariables {
-    /// Where the positions of Sun and Earth come from.
-    #[parameter(start = EphemerisSource::Vsop87)]
-    pub source: Choice<EphemerisSource>,
-    #[group(name = "", setup = &setup.center)]
-    pub ellipse: EllipseVariables,
-}
+use crate::common::variables::SurfaceVariables;
 
 /// The planet the spacecraft orbits.
 #[derive(Variables)]
@@ -37,12 +24,6 @@ pub struct PlanetVariables {
     /// Radius to which planet.j2 refers.
     #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.center.data.j2_radius_m)]
     pub j2_radius: Real,
-    /// Right ascension of the planet's north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.center.data.pole_right_ascension_rad)]
-    pub pole_right_ascension: Real,
-    /// Declination of the planet's north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.center.data.pole_declination_rad)]
-    pub pole_declination: Real,
     #[group(name = "", setup = &setup.center)]
     pub rotation: RotationVariables,
     #[group(name = "", setup = &setup.center)]
@@ -57,7 +38,6 @@ pub struct PlanetVariables {
 
 /// The Sun as seen from the spacecraft.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct SunVariables {
     /// Radius of the Sun (IAU 2015 nominal): width of the penumbra, and of shadows of parts by shadowing.sunDisc. Others use
     /// 695,000 or 696,000 km, which moves an edge of a shadow by some 2 ms.
@@ -104,7 +84,6 @@ pub struct SunVariables {
 
 /// The Earth as seen from the spacecraft.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct EarthVariables {
     /// UT1 minus UTC, for the Earth's orientation iau.
     #[parameter(tunable, unit = "s", min = -1e3, max = 1e3, start = 0.0)]
@@ -127,13 +106,4 @@ pub struct EarthVariables {
     /// Elevation of the Earth in the body frame, positive toward -Z.
     #[output(unit = "rad", display = "deg", min = QUARTER_TURNS_RAD[0], max = QUARTER_TURNS_RAD[1])]
     pub elevation: Real,
-}
-
-/// Position about the Sun.
-#[derive(Variables)]
-#[variables(setup = PlantSetup)]
-pub struct HeliocentricVariables {
-    /// Position about the Sun in EME2000.
-    #[output(unit = "m", display = "AU", nominal = 1e11)]
-    pub position: RealVector<3>,
 }

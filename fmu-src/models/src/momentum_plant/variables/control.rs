@@ -1,6 +1,6 @@
 //! Attitude dynamics and control: controller, sensors, what they estimate.
 
-use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
+use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 use physics::attitude::control::Allocation;
 
 use super::super::setup::PlantSetup;
@@ -63,7 +63,6 @@ pub struct ControlVariables {
 /// Attitude and rate as star tracker and gyros give them, at the last sample and propagated by the rate. In guided and
 /// commanded flight they are the true ones.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct EstimateVariables {
     /// Estimated attitude quaternion, scalar last, from EME2000 to the body frame; the scalar is never negative.
     #[output(unit = "1", nominal = 1.0)]
@@ -79,7 +78,6 @@ pub struct EstimateVariables {
 
 /// Star tracker, and a spare one of the same kind that takes over where it has failed.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct StarTrackerVariables {
     /// Whether it gives no attitude: the spare does, unless it has failed too.
     #[input(start = false)]
@@ -100,7 +98,6 @@ pub struct StarTrackerVariables {
 
 /// Gyros.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct GyroVariables {
     /// Whether they give no rate.
     #[input(start = false)]
@@ -132,13 +129,4 @@ pub struct SunSensorVariables {
     /// Standard deviation of the Sun's angle about each of two axes across.
     #[parameter(unit = "rad", display = "deg", min = 0.0, max = 0.1, start = 0.0)]
     pub noise: Real,
-}
-
-/// Random numbers.
-#[derive(Variables)]
-#[variables(setup = PlantSetup)]
-pub struct NoiseVariables {
-    /// Seed of all random numbers; each is a function of this and of the number of its sample.
-    #[parameter(min = 0, max = i32::MAX, start = 1)]
-    pub seed: Integer,
 }

@@ -2,32 +2,19 @@
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
+use physics::management::Strategy;
 use physics::momentum::Convention;
 
 use super::super::setup::PlantSetup;
 use super::choices::DumpReinitTo;
 use crate::common::choices::MomentumConvention;
-use crate::common::effects::RecoilVariables;
 use crate::common::loads::{self, BySource};
-use crate::common::management::ManagementVariables;
+use crate::common::management::{MomentumStrategy, TargetingVariables};
 use crate::common::spacecraft::dump_threshold_n_m_s;
 use crate::common::variables::WorkLimit;
 
-/// Heat the spacecraft radiates.
-#[derive(Variables)]
-#[variables(setup = PlantSetup)]
-pub struct ThermalVariables {
-    #[group(name = "")]
-    pub recoil: RecoilVariables,
-    /// Whether surfaces whose file gives a heat capacity store heat, and stay warm into an eclipse; otherwise every surface
-    /// is in balance with its light.
-    #[parameter(start = true)]
-    pub storage: Boolean,
-}
-
 /// Torque about the centre of mass by source, body frame.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct TorqueVariables {
     /// Torque from outside this model, body frame.
     #[input(unit = "N.m", display = "uN.m", start = [0.0; 3])]
@@ -44,7 +31,6 @@ pub struct TorqueVariables {
 
 /// Force by source, body frame unless said otherwise.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct ForceVariables {
     /// Force from outside this model, body frame, through the centre of mass.
     #[input(unit = "N", display = "uN", start = [0.0; 3])]
@@ -64,7 +50,6 @@ pub struct ForceVariables {
 
 /// How the accumulation is carried out.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct SolverVariables {
     /// Longest internal step; steps end at its multiples, at attitude changes and at dumps.
     #[parameter(unit = "s", min = 1e-3, max = 86_400.0, start = 600.0)]
@@ -91,10 +76,13 @@ pub struct SolverVariables {
 
 /// System momentum.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct MomentumVariables {
+    /// What sunlight is used for during downlinks, and in science with guided.scienceUnload. It acts where the attitude is guided, in
+    /// controlled flight with command.source = guidance too.
+    #[parameter(start = MomentumStrategy(Strategy::DumpsOnly))]
+    pub strategy: Choice<MomentumStrategy>,
     #[group(name = "")]
-    pub management: ManagementVariables,
+    pub targeting: TargetingVariables,
     /// What momentum.body and the dump thresholds mean.
     #[parameter(start = MomentumConvention(Convention::Inertial))]
     pub convention: Choice<MomentumConvention>,
@@ -119,7 +107,7 @@ pub struct MomentumVariables {
 pub struct DumpVariables {
     /// Magnitude of a body component of momentum that triggers a dump; a very large value means never, and in free flight, where
     /// the master controls, none is triggered unless this is set.
-    #[parameter(tunable, unit = "N.m.s", min = 1e-6, start = dump_threshold_n_m_s(&setup.spacecraft, setup.wheel_array.as_ref()))]
+    #[parameter(tunable, unit = "N.m.s", min = 1e-6, start = dump_threshold_n_m_s(&setup.spacecraft))]
     pub threshold: RealVector<3>,
     /// Where a component goes that exceeded its threshold.
     #[parameter(start = DumpReinitTo::Opposite)]

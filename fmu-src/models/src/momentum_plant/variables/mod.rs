@@ -5,98 +5,76 @@ pub(super) mod body;
 mod celestial_bodies;
 pub(super) mod choices;
 mod control;
-pub(super) mod defaults;
 mod effects;
 mod flexibility;
 pub(super) mod motion;
 mod propulsion;
 
-use fmi_export::{Real, RealVector, Variables};
+use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
 use air_and_field::{AtmosphereVariables, GeodeticVariables, MagneticFieldVariables, SpaceWeatherVariables};
 use body::{
     ArticulationVariables, KeepInVariables, PanelVariables, SpacecraftVariables, SunshadeVariables,
     WheelVariables,
 };
-use celestial_bodies::{
-    EarthVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables, SunVariables,
-};
-use control::{
-    ControlVariables, EstimateVariables, GyroVariables, NoiseVariables, StarTrackerVariables,
-    SunSensorVariables,
-};
-use effects::{
-    DumpVariables, ForceVariables, MomentumVariables, SolverVariables, ThermalVariables, TorqueVariables,
-};
+use celestial_bodies::{EarthVariables, PlanetVariables, SunVariables};
+use choices::EphemerisSource;
+use control::{ControlVariables, EstimateVariables, GyroVariables, StarTrackerVariables, SunSensorVariables};
+use effects::{DumpVariables, ForceVariables, MomentumVariables, SolverVariables, TorqueVariables};
 use flexibility::{FlexibleModeVariables, SloshVariables};
 use motion::{
     AttitudeVariables, CommandVariables, EncounterVariables, OrbitVariables, PredictionVariables,
     StartVariables, TimelineVariables,
 };
 use propulsion::{
-    AccelerometerVariables, ManeuverVariables, PropellantVariables, TankVariables, ThrustVariables,
-    ThrusterVariables,
+    AccelerometerVariables, ManeuverVariables, TankVariables, ThrustVariables, ThrusterVariables,
 };
 
 use super::setup::PlantSetup;
 use crate::common::downlink::DownlinkVariables;
-use crate::common::effects::{LawVariables, PlanetLightVariables, ShadowingVariables};
+use crate::common::effects::{LawVariables, PlanetLightVariables, RecoilVariables, ShadowingVariables};
 use crate::common::loads::PlateVariables;
-use crate::common::variables::{EclipseVariables, GuidedVariables, SolarVariables};
+use crate::common::variables::{EclipseVariables, EllipseVariables, GuidedVariables, SolarVariables};
 
 /// Every variable of the plant, in the order of the XML.
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct PlantVariables {
-    #[group]
     pub attitude: AttitudeVariables,
-    #[group]
     pub command: CommandVariables,
     #[group(setup = &setup.windows)]
     pub guided: GuidedVariables,
-    #[group]
     pub downlink: DownlinkVariables,
-    #[group]
     pub timeline: TimelineVariables,
-    #[group]
     pub start: StartVariables,
-    #[group]
     pub orbit: OrbitVariables,
-    #[group]
     pub encounter: EncounterVariables,
-    #[group]
     pub prediction: PredictionVariables,
-    #[group]
     pub planet: PlanetVariables,
-    #[group]
-    pub ephemeris: EphemerisVariables,
-    #[group]
+    /// Where the positions of Sun and Earth come from.
+    #[parameter(name = "ephemeris.source", start = EphemerisSource::Vsop87)]
+    pub ephemeris_source: Choice<EphemerisSource>,
+    #[group(setup = &setup.center)]
+    pub ephemeris: EllipseVariables,
     pub solar: SolarVariables,
-    #[group]
     pub eclipse: EclipseVariables,
-    #[group]
     pub planet_light: PlanetLightVariables,
-    #[group]
-    pub thermal: ThermalVariables,
-    #[group]
+    pub thermal: RecoilVariables,
+    /// Whether surfaces whose file gives a heat capacity store heat, and stay warm into an eclipse; otherwise every surface
+    /// is in balance with its light.
+    #[parameter(name = "thermal.storage", start = true)]
+    pub thermal_storage: Boolean,
     pub shadowing: ShadowingVariables,
     #[group(name = "", setup = &setup.center)]
     pub laws: LawVariables,
-    #[group]
     pub atmosphere: AtmosphereVariables,
-    #[group]
     pub space_weather: SpaceWeatherVariables,
-    #[group]
     pub magnetic_field: MagneticFieldVariables,
-    #[group]
     pub geodetic: GeodeticVariables,
-    #[group]
     pub spacecraft: SpacecraftVariables,
-    #[group]
     pub sunshade: SunshadeVariables,
     #[group(count = setup.spacecraft.panels.len())]
     pub panel: Vec<PanelVariables>,
-    #[group]
     pub articulation: ArticulationVariables,
     #[group(count = setup.spacecraft.wheels.len())]
     pub wheel: Vec<WheelVariables>,
@@ -104,47 +82,35 @@ pub struct PlantVariables {
     pub flexible_mode: Vec<FlexibleModeVariables>,
     #[group(count = setup.spacecraft.sloshes.len())]
     pub slosh: Vec<SloshVariables>,
-    #[group]
     pub control: ControlVariables,
-    #[group]
     pub estimate: EstimateVariables,
-    #[group]
     pub star_tracker: StarTrackerVariables,
-    #[group]
     pub gyro: GyroVariables,
     #[group(count = setup.spacecraft.sun_sensors.len())]
     pub sun_sensor: Vec<SunSensorVariables>,
-    #[group]
     pub accelerometer: AccelerometerVariables,
     #[group(count = setup.spacecraft.thrusters.len())]
     pub thruster: Vec<ThrusterVariables>,
     #[group(count = setup.spacecraft.tanks.len())]
     pub tank: Vec<TankVariables>,
-    #[group]
-    pub propellant: PropellantVariables,
-    #[group]
+    /// Propellant used since the start.
+    #[output(name = "propellant.used", unit = "kg", nominal = 1.0)]
+    pub propellant_used: Real,
     pub thrust: ThrustVariables,
-    #[group]
     pub maneuver: ManeuverVariables,
-    #[group]
-    pub noise: NoiseVariables,
-    #[group]
+    /// Seed of all random numbers; each is a function of this and of the number of its sample.
+    #[parameter(name = "noise.seed", min = 0, max = i32::MAX, start = 1)]
+    pub noise_seed: Integer,
     pub keep_in: KeepInVariables,
-    #[group]
     pub momentum: MomentumVariables,
-    #[group]
     pub dump: DumpVariables,
-    #[group]
     pub torque: TorqueVariables,
-    #[group]
     pub force: ForceVariables,
-    #[group]
     pub sun: SunVariables,
-    #[group]
     pub earth: EarthVariables,
-    #[group]
-    pub heliocentric: HeliocentricVariables,
-    #[group]
+    /// Position about the Sun in EME2000.
+    #[output(name = "heliocentric.position", unit = "m", display = "AU", nominal = 1e11)]
+    pub heliocentric_position: RealVector<3>,
     pub solver: SolverVariables,
     /// Present epoch, seconds past J2000 TDB.
     #[output(unit = "s", display = "d", nominal = 1e8)]

@@ -4,16 +4,14 @@ use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Values, Variables};
 
 use super::super::setup::PlantSetup;
 use physics::bodies::Body;
+use physics::environment::{ephemeris, time};
 use physics::guidance::modes::guidance_command;
 
 use super::choices::{AttitudeSource, CommandSource, EncounterBody, OrbitDynamics, OrbitFrame, OrbitSource};
-use super::defaults;
-use crate::common::choices::custom_body;
-use crate::common::choices::{CommandKind, OrbitCenter};
+use crate::common::choices::{CommandKind, OrbitCenter, custom_body};
 
 /// Attitude: where it comes from, and what it is.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct AttitudeVariables {
     /// Where the attitude comes from.
     #[parameter(start = AttitudeSource::Guided)]
@@ -28,7 +26,6 @@ pub struct AttitudeVariables {
 
 /// The command followed when attitude.source is commanded, tracked when it is controlled.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct CommandVariables {
     /// Where commands come from in commanded and controlled flight.
     #[parameter(start = CommandSource::Inputs)]
@@ -52,10 +49,9 @@ pub struct CommandVariables {
 
 /// Where the flight starts.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct StartVariables {
     /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.
-    #[parameter(unit = "s", display = "d", min = defaults::EARLIEST_EPOCH_S, max = defaults::VALID_EPOCH_S, start = defaults::EPOCH_TDB_S)]
+    #[parameter(unit = "s", display = "d", min = ephemeris::EARLIEST_EPOCH_S, max = ephemeris::VALID_EPOCH_S, start = time::MOMENTUM_STUDY_START_S)]
     pub epoch: Real,
     /// Attitude quaternion at the start, scalar last, from EME2000 to body; used until a command changes it. Unless this is set, be
     /// it to the identity, a controlled flight starts in the first attitude that command.q or the internal guidance commands, and a
@@ -99,7 +95,6 @@ pub struct OrbitVariables {
     /// Longest integration step of a disturbed orbit; 300 s keep a revolution of the default orbit to 0.1 mm.
     #[parameter(unit = "s", min = 1.0, max = 86_400.0, start = 300.0)]
     pub step: Real,
-    #[group]
     pub attraction: AttractionVariables,
     /// Whether the Sun's relativity acts with orbit.dynamics nBody: some 100 m in 200 days at 0.5 AU.
     #[parameter(start = false)]
@@ -202,7 +197,6 @@ impl AttractionVariables {
 
 /// The planet that the spacecraft is on its way to, with orbit.dynamics nBody.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct EncounterVariables {
     /// The planet of the encounter, another than orbit.center. Where it is given, planet.*, shadow, light, heat and gravity gradient are
     /// that planet's.
@@ -248,7 +242,6 @@ pub struct EncounterVariables {
 /// Predictions of the encounter: the flight simulated on to the next closest approach within the sphere of influence of
 /// encounter.body, along the present timeline, inputs held.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct PredictionVariables {
     /// The encounter is predicted at whole multiples of this time; 0: never. Each prediction costs a flight of the orbit up to the
     /// encounter, also of solver.workLimit. It is made in the step that begins there or goes over it, with that step's inputs.
@@ -286,7 +279,6 @@ pub struct PredictionVariables {
 
 /// Commands over time.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct TimelineVariables {
     /// Whether guided flight, and controlled flight with command.source guidance, follow the FMU's timeline.toml. Where it commands
     /// nothing guided.* rules.

@@ -150,11 +150,3 @@ pub struct AccelerometerVariables {
     #[output(unit = "m/s", display = "mm/s", nominal = 1e-3)]
     pub delta_v: RealVector<3>,
 }
-
-/// Propellant.
-#[derive(Variables)]
-pub struct PropellantVariables {
-    /// Propellant used since the start.
-    #[output(unit = "kg", nominal = 1.0)]
-    pub used: Real,
-}

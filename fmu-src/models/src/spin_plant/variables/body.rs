@@ -81,16 +81,6 @@ pub struct StartVariables {
     pub nutation_phase: Real,
 }
 
-/// The passive nutation damper.
-#[derive(Variables)]
-#[variables(setup = Spinner)]
-pub struct DamperVariables {
-    /// Time in which the nutation angle falls to 1/e about the axis of greatest inertia, and grows by e about another; 0
-    /// = no damper. It conserves angular momentum.
-    #[parameter(unit = "s", display = "h", min = 0.0, max = 1e12, start = setup.damper_time_constant_s)]
-    pub time_constant: Real,
-}
-
 /// Attitude.
 #[derive(Variables)]
 pub struct AttitudeVariables {
@@ -124,14 +114,6 @@ pub struct NutationVariables {
     /// Greatest nutation of a uniform train of such pulses: kick / |sin(phi/2)|.
     #[calculated_parameter(unit = "rad", display = "deg")]
     pub envelope: Real,
-}
-
-/// Coning: +Z goes round the spin axis where it is no principal axis.
-#[derive(Variables)]
-pub struct ConingVariables {
-    /// Angle from +Z to the spin axis, the principal axis nearest to it; 0 without products of inertia.
-    #[output(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, nominal = 1e-2)]
-    pub angle: Real,
 }
 
 /// Angular momentum.

@@ -104,15 +104,6 @@ fn plan(setup: &Spinner) -> BurnPlan {
     if setup.steering_pair().is_some() { BurnPlan::Uniform } else { BurnPlan::Commanded }
 }
 
-/// Pulses commanded from outside.
-#[derive(Variables)]
-#[variables(setup = Spinner)]
-pub struct PulseVariables {
-    /// Step to which thruster[k].onDelay and onTime are rounded, and the widths of a taper; 0 = not rounded.
-    #[parameter(unit = "s", display = "ms", min = 0.0, start = setup.resolution_s)]
-    pub resolution: Real,
-}
-
 /// One thruster; descriptions begin with its name in the setup.
 #[derive(Variables)]
 #[variables(setup = Thruster, label = setup.name)]
@@ -158,13 +149,5 @@ pub struct TorqueVariables {
     pub applied: RealVector<3>,
     /// Torque of the thrusters, body frame.
     #[output(unit = "N.m", nominal = 1.0)]
-    pub thruster: RealVector<3>,
-}
-
-/// Forces on the body.
-#[derive(Variables)]
-pub struct ForceVariables {
-    /// Force of the thrusters, body frame.
-    #[output(unit = "N", nominal = 1.0)]
     pub thruster: RealVector<3>,
 }

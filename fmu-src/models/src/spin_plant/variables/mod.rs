@@ -8,14 +8,11 @@ mod observation;
 use fmi_export::{Integer, Real, RealVector, Variables};
 
 use body::{
-    AttitudeVariables, ConingVariables, DamperVariables, MassVariables, MomentumVariables, NutationVariables,
-    PropellantVariables, SpinAxisVariables, SpinRateVariables, StartVariables,
+    AttitudeVariables, MassVariables, MomentumVariables, NutationVariables, PropellantVariables,
+    SpinAxisVariables, SpinRateVariables, StartVariables,
 };
-use burn::{BurnVariables, ForceVariables, PulseVariables, ThrusterVariables, TorqueVariables};
-use observation::{
-    EarthVariables, GeometryVariables, LimitVariables, StarTrackerVariables, StarVariables,
-    SunSensorVariables, SunVariables,
-};
+use burn::{BurnVariables, ThrusterVariables, TorqueVariables};
+use observation::{EarthVariables, GeometryVariables, LimitVariables, StarTrackerVariables, SunVariables};
 
 use crate::common::variables::WorkLimit;
 use physics::spin::spinner::Spinner;
@@ -34,49 +31,42 @@ pub struct SpinVariables {
     /// I3/IT with IT = sqrt(I1 I2) of the principal moments, paper 002 eq 11.
     #[output(unit = "1", nominal = 1.0)]
     pub inertia_ratio: Real,
-    #[group]
     pub mass_properties: MassVariables,
-    #[group]
     pub propellant: PropellantVariables,
-    #[group]
     pub spin: SpinRateVariables,
-    #[group]
     pub start: StartVariables,
-    #[group]
-    pub damper: DamperVariables,
-    #[group]
+    /// Time in which the nutation angle falls to 1/e about the axis of greatest inertia, and grows by e about another; 0
+    /// = no damper. It conserves angular momentum.
+    #[parameter(name = "damper.timeConstant", unit = "s", display = "h", min = 0.0, max = 1e12, start = setup.damper_time_constant_s)]
+    pub damper_time_constant: Real,
     pub burn: BurnVariables,
-    #[group]
-    pub pulse: PulseVariables,
+    /// Step to which thruster[k].onDelay and onTime are rounded, and the widths of a taper; 0 = not rounded.
+    #[parameter(name = "pulse.resolution", unit = "s", display = "ms", min = 0.0, start = setup.resolution_s)]
+    pub pulse_resolution: Real,
     #[group(count = setup.thrusters.len(), setup = &setup.thrusters[index])]
     pub thruster: Vec<ThrusterVariables>,
-    #[group]
     pub torque: TorqueVariables,
-    #[group]
-    pub force: ForceVariables,
-    #[group]
+    /// Force of the thrusters, body frame.
+    #[output(name = "force.thruster", unit = "N", nominal = 1.0)]
+    pub force_thruster: RealVector<3>,
     pub geometry: GeometryVariables,
-    #[group]
     pub sun: SunVariables,
-    #[group]
     pub earth: EarthVariables,
-    #[group]
-    pub star: StarVariables,
-    #[group]
+    /// Direction of the star in EME2000, of any length; 0 = not known yet, nothing is seen.
+    #[input(name = "star.direction", unit = "1", start = [0.3, 0.95, 0.02])]
+    pub star_direction: RealVector<3>,
     pub limit: LimitVariables,
-    #[group]
     pub attitude: AttitudeVariables,
-    #[group]
     pub nutation: NutationVariables,
-    #[group]
-    pub coning: ConingVariables,
-    #[group]
+    // Coning: +Z goes round the spin axis where it is no principal axis.
+    /// Angle from +Z to the spin axis, the principal axis nearest to it; 0 without products of inertia.
+    #[output(name = "coning.angle", unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, nominal = 1e-2)]
+    pub coning_angle: Real,
     pub momentum: MomentumVariables,
-    #[group]
     pub spin_axis: SpinAxisVariables,
-    #[group]
-    pub sun_sensor: SunSensorVariables,
-    #[group]
+    /// Sun angle measured at the last crossing, with noise; 0 before any.
+    #[output(name = "sunSensor.angle", discrete, unit = "rad", display = "deg", nominal = 0.1)]
+    pub sun_sensor_angle: Real,
     pub star_tracker: StarTrackerVariables,
     /// Velocity change by the thrusters since the start, in EME2000.
     #[output(unit = "m/s", display = "mm/s", nominal = 1e-2)]
@@ -90,6 +80,5 @@ pub struct SpinVariables {
     /// Seed of all sensor noise and of the scatter of pulses; the same seed gives the same draws.
     #[parameter(start = 1)]
     pub seed: Integer,
-    #[group]
     pub solver: WorkLimit,
 }

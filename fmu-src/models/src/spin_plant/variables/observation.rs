@@ -63,14 +63,6 @@ pub struct EarthVariables {
     pub inertial: RealVector<3>,
 }
 
-/// The star that the tracker follows.
-#[derive(Variables)]
-pub struct StarVariables {
-    /// Direction of the star in EME2000, of any length; 0 = not known yet, nothing is seen.
-    #[input(unit = "1", start = [0.3, 0.95, 0.02])]
-    pub direction: RealVector<3>,
-}
-
 /// Mission limits and whether they are violated.
 #[derive(Variables)]
 #[variables(setup = Spinner)]
@@ -111,14 +103,6 @@ pub struct LimitVariables {
     /// Any of them.
     #[output]
     pub any_violated: Boolean,
-}
-
-/// The Sun sensor.
-#[derive(Variables)]
-pub struct SunSensorVariables {
-    /// Sun angle measured at the last crossing, with noise; 0 before any.
-    #[output(discrete, unit = "rad", display = "deg", nominal = 0.1)]
-    pub angle: Real,
 }
 
 /// The star tracker.

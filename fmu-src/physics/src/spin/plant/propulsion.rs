@@ -164,7 +164,7 @@ impl Propulsion {
     }
 
     /// Mass at `time_s`, in kg.
-    fn mass_at_kg(&self, spinner: &Spinner, time_s: f64) -> f64 {
+    pub fn mass_at_kg(&self, spinner: &Spinner, time_s: f64) -> f64 {
         let left_kg = self.initial_propellant_kg - self.used_at(time_s);
         spinner.mass_properties.dry_mass_kg + left_kg.max(0.0)
     }

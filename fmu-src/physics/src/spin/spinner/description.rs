@@ -1,53 +1,47 @@
 //! What a spinner's file says: its tables and keys, and what stands for those that are left out.
 
-use serde::Deserialize;
-
 use super::hardware::{Limits, MassTable, StarTracker, SunSensor};
 use crate::environment::frames::OBLIQUITY_J2000_RAD;
 use crate::spacecraft::StartTable;
 use crate::toml::{
     AtLeastOne, Deviation, Distance, FieldOfView, Finite, Fraction, NotNegative, Positive, SpecificImpulse,
+    tables,
 };
 use crate::{constants::ASTRONOMICAL_UNIT_M, spin::geometry::L1Orbit};
 
+tables! {
 /// A spin-stabilised spacecraft: the file that SpinPlant is packed with. +Z is the spin axis, the origin the centre of mass.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(title = "heliotorque spinner"))]
-pub(super) struct Description {
+struct Description {
     /// Name of the spacecraft.
-    pub name: String,
+    name: String,
     /// Mass and inertia as functions of the propellant on board.
-    pub mass_properties: MassEntry,
+    mass_properties: MassEntry,
     /// Passive nutation damper; otherwise there is none.
-    pub damper: Option<DamperEntry>,
+    damper: Option<DamperEntry>,
     /// What all thrusters have in common.
-    pub thrusters: ThrustersEntry,
+    thrusters: ThrustersEntry,
     /// The thrusters.
     #[cfg_attr(feature = "schema", schemars(length(min = 1, max = crate::toml::MOST_THRUSTERS)))]
-    pub thruster: Vec<ThrusterEntry>,
+    thruster: Vec<ThrusterEntry>,
     /// Thrusters that fire together.
-    pub group: Option<Vec<GroupEntry>>,
+    group: Option<Vec<GroupEntry>>,
     /// Star tracker; what is left out is that of paper 002, without noise.
-    pub star_tracker: Option<StarTrackerEntry>,
+    star_tracker: Option<StarTrackerEntry>,
     /// Sun sensor, from which spins are timed; what is left out is a slit in the XZ plane, without noise.
-    pub sun_sensor: Option<SunSensorEntry>,
+    sun_sensor: Option<SunSensorEntry>,
     /// Mission limits.
-    pub limits: Limits,
+    limits: Limits,
     /// Orbit about the Sun-Earth L1 point, where geometry.source asks for it; what is left out is the point itself.
-    pub l1_orbit: Option<L1OrbitEntry>,
+    l1_orbit: Option<L1OrbitEntry>,
     /// Start values of SpinPlant's parameters and inputs by their names.
-    pub start: Option<StartTable>,
+    start: Option<StartTable>,
     /// Variables that are local constants of this FMU, with their values; `heliotorque pack --fix` writes them.
-    pub fixed: Option<StartTable>,
+    fixed: Option<StartTable>,
 }
 
 /// Mass and inertia as functions of the propellant on board.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(super) struct MassEntry {
+struct MassEntry {
     /// I3 at each point, in kg m2.
     #[cfg_attr(feature = "schema", schemars(length(min = 2)))]
     spin_inertia_kg_m2: Vec<f64>,
@@ -67,6 +61,98 @@ pub(super) struct MassEntry {
     products_of_inertia_kg_m2: Option<Vec<[f64; 3]>>,
 }
 
+/// Passive nutation damper.
+struct DamperEntry {
+    /// 1/e time of the nutation angle, in s; 0 without a damper.
+    time_constant_s: NotNegative,
+}
+
+/// What all thrusters have in common.
+struct ThrustersEntry {
+    /// Smallest pulse, and the step to which its width and thruster[k].onDelay are rounded, in s.
+    resolution_s: Positive,
+    /// Specific impulse, in s.
+    specific_impulse_s: SpecificImpulse,
+}
+
+/// One thruster.
+struct ThrusterEntry {
+    /// A name of its own.
+    name: String,
+    /// Force at full thrust, in N.
+    force_n: Positive,
+    /// Where it stands from the centre of mass, body axes, in m.
+    position_m: [f64; 3],
+    /// Direction of the force on the spacecraft, a unit vector in body axes.
+    direction: [f64; 3],
+    /// Shortest time for which its valve opens, in s; otherwise 0.
+    min_on_time_s: Option<NotNegative>,
+    /// Time over which the thrust rises after the valve opens, in s; otherwise 0.
+    rise_time_s: Option<NotNegative>,
+    /// Time over which the thrust falls after the valve closes, in s; otherwise 0.
+    tail_off_time_s: Option<NotNegative>,
+    /// Standard deviation of the thrust from pulse to pulse, as a share of it; otherwise 0.
+    scatter: Option<Fraction>,
+}
+
+/// Thrusters that fire together.
+struct GroupEntry {
+    /// A name of its own.
+    name: String,
+    /// Names of the thrusters.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    thrusters: Vec<String>,
+    /// Name of the group that pushes the other way half a turn later.
+    opposite: Option<String>,
+}
+
+/// Star tracker that searches pickets of sky.
+#[derive(Default)]
+struct StarTrackerEntry {
+    /// Boresight azimuth from body X toward Y, in deg; otherwise 90.
+    azimuth_deg: Option<Finite>,
+    /// Full width of the field in declination, in deg; otherwise 20.
+    field_of_view_deg: Option<FieldOfView>,
+    /// Pickets in a turn, a multiple of 4; otherwise 900.
+    #[cfg_attr(feature = "schema", schemars(range(min = 4)))]
+    pickets: Option<u32>,
+    /// One in so many is searched in a turn; otherwise 8.
+    every: Option<AtLeastOne>,
+    /// Standard deviation of a declination, in deg; otherwise 0.
+    noise_deg: Option<Deviation>,
+}
+
+/// Sun sensor with a slit, from which spins are timed.
+#[derive(Default)]
+struct SunSensorEntry {
+    /// Azimuth of the slit from body X toward Y, in deg; otherwise 0.
+    azimuth_deg: Option<Finite>,
+    /// Standard deviation of a Sun angle, in deg; otherwise 0.
+    noise_deg: Option<Deviation>,
+    /// Sectors into which science data of one spin are sorted; otherwise 16384.
+    sectors: Option<AtLeastOne>,
+}
+
+/// Orbit about the Sun-Earth L1 point.
+#[derive(Default)]
+struct L1OrbitEntry {
+    /// Rate of the Earth-Sun line, in deg/day; otherwise the Earth's mean, 0.98561.
+    line_rate_deg_day: Option<Finite>,
+    /// Sun to Earth, in m; otherwise 1 AU.
+    sun_earth_distance_m: Option<Distance>,
+    /// Earth to L1, in m; otherwise 1.4976e9.
+    earth_l1_distance_m: Option<Distance>,
+    /// Lissajous amplitudes along the line, in the ecliptic across it, normal to the ecliptic, in m; otherwise 0.
+    amplitude_m: Option<[f64; 3]>,
+    /// In-plane frequency over the line's rate; otherwise 2.0864.
+    in_plane_frequency: Option<Finite>,
+    /// Out-of-plane frequency over the line's rate; otherwise 2.0152.
+    out_of_plane_frequency: Option<Finite>,
+    /// Ecliptic to equator, in deg; otherwise that of J2000.
+    obliquity_deg: Option<Finite>,
+}
+}
+
 impl MassEntry {
     /// With what is left out.
     pub(super) fn table(self) -> MassTable {
@@ -83,81 +169,6 @@ impl MassEntry {
     }
 }
 
-/// Passive nutation damper.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(super) struct DamperEntry {
-    /// 1/e time of the nutation angle, in s; 0 without a damper.
-    pub time_constant_s: NotNegative,
-}
-
-/// What all thrusters have in common.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(super) struct ThrustersEntry {
-    /// Smallest pulse, and the step to which its width and thruster[k].onDelay are rounded, in s.
-    pub resolution_s: Positive,
-    /// Specific impulse, in s.
-    pub specific_impulse_s: SpecificImpulse,
-}
-
-/// One thruster.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(super) struct ThrusterEntry {
-    /// A name of its own.
-    pub name: String,
-    /// Force at full thrust, in N.
-    pub force_n: Positive,
-    /// Where it stands from the centre of mass, body axes, in m.
-    pub position_m: [f64; 3],
-    /// Direction of the force on the spacecraft, a unit vector in body axes.
-    pub direction: [f64; 3],
-    /// Shortest time for which its valve opens, in s; otherwise 0.
-    pub min_on_time_s: Option<NotNegative>,
-    /// Time over which the thrust rises after the valve opens, in s; otherwise 0.
-    pub rise_time_s: Option<NotNegative>,
-    /// Time over which the thrust falls after the valve closes, in s; otherwise 0.
-    pub tail_off_time_s: Option<NotNegative>,
-    /// Standard deviation of the thrust from pulse to pulse, as a share of it; otherwise 0.
-    pub scatter: Option<Fraction>,
-}
-
-/// Thrusters that fire together.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(super) struct GroupEntry {
-    /// A name of its own.
-    pub name: String,
-    /// Names of the thrusters.
-    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
-    pub thrusters: Vec<String>,
-    /// Name of the group that pushes the other way half a turn later.
-    pub opposite: Option<String>,
-}
-
-/// Star tracker that searches pickets of sky.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(super) struct StarTrackerEntry {
-    /// Boresight azimuth from body X toward Y, in deg; otherwise 90.
-    azimuth_deg: Option<Finite>,
-    /// Full width of the field in declination, in deg; otherwise 20.
-    field_of_view_deg: Option<FieldOfView>,
-    /// Pickets in a turn, a multiple of 4; otherwise 900.
-    #[cfg_attr(feature = "schema", schemars(range(min = 4)))]
-    pickets: Option<u32>,
-    /// One in so many is searched in a turn; otherwise 8.
-    every: Option<AtLeastOne>,
-    /// Standard deviation of a declination, in deg; otherwise 0.
-    noise_deg: Option<Deviation>,
-}
-
 impl StarTrackerEntry {
     /// With what is left out.
     pub(super) fn tracker(&self) -> StarTracker {
@@ -169,19 +180,6 @@ impl StarTrackerEntry {
             noise_deg: self.noise_deg.map_or(0.0, f64::from),
         }
     }
-}
-
-/// Sun sensor with a slit, from which spins are timed.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(super) struct SunSensorEntry {
-    /// Azimuth of the slit from body X toward Y, in deg; otherwise 0.
-    azimuth_deg: Option<Finite>,
-    /// Standard deviation of a Sun angle, in deg; otherwise 0.
-    noise_deg: Option<Deviation>,
-    /// Sectors into which science data of one spin are sorted; otherwise 16384.
-    sectors: Option<AtLeastOne>,
 }
 
 impl SunSensorEntry {
@@ -201,27 +199,6 @@ const LINE_RATE_DEG_DAY: f64 = 360.0 / 365.256_363;
 const EARTH_L1_AU: f64 = 0.010_010_9;
 /// Linear frequencies about it in units of the mean motion, from the same root.
 const L1_FREQUENCIES: [f64; 2] = [2.0864, 2.0152];
-
-/// Orbit about the Sun-Earth L1 point.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(super) struct L1OrbitEntry {
-    /// Rate of the Earth-Sun line, in deg/day; otherwise the Earth's mean, 0.98561.
-    line_rate_deg_day: Option<Finite>,
-    /// Sun to Earth, in m; otherwise 1 AU.
-    sun_earth_distance_m: Option<Distance>,
-    /// Earth to L1, in m; otherwise 1.4976e9.
-    earth_l1_distance_m: Option<Distance>,
-    /// Lissajous amplitudes along the line, in the ecliptic across it, normal to the ecliptic, in m; otherwise 0.
-    amplitude_m: Option<[f64; 3]>,
-    /// In-plane frequency over the line's rate; otherwise 2.0864.
-    in_plane_frequency: Option<Finite>,
-    /// Out-of-plane frequency over the line's rate; otherwise 2.0152.
-    out_of_plane_frequency: Option<Finite>,
-    /// Ecliptic to equator, in deg; otherwise that of J2000.
-    obliquity_deg: Option<Finite>,
-}
 
 impl L1OrbitEntry {
     /// With what is left out.

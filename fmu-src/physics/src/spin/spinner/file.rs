@@ -151,20 +151,14 @@ impl Builder<'_> {
             for (i, &value) in values.iter().enumerate() {
                 self.check.positive(&list.item(i), value);
             }
-            if values.len() != count {
-                let allowed = format!("{count} of them, one for each of propellant_kg");
-                self.check.report_across(at, &list, format_args!("a list of {}", values.len()), allowed);
-            }
+            self.check_length(at, &list, values.len(), count);
         }
         if let Some(products) = &mass.products_of_inertia_kg_m2 {
             let list = at.key("products_of_inertia_kg_m2");
             for (i, product) in products.iter().enumerate() {
                 self.check.vector(&list.item(i), *product);
             }
-            if products.len() != count {
-                let allowed = format!("{count} of them, one for each of propellant_kg");
-                self.check.report_across(at, &list, format_args!("a list of {}", products.len()), allowed);
-            }
+            self.check_length(at, &list, products.len(), count);
         }
         let most_kg = mass.propellant_kg.last().copied().unwrap_or(0.0);
         if !(0.0..=most_kg).contains(&mass.initial_propellant_kg) {
@@ -198,6 +192,14 @@ impl Builder<'_> {
                     "a ratio that a body can have: at most 2, less with products of inertia",
                 );
             }
+        }
+    }
+
+    /// Reports a list of `at` without one item for each of the `count` points.
+    fn check_length(&mut self, at: &Place, list: &Place, length: usize, count: usize) {
+        if length != count {
+            let allowed = format!("{count} of them, one for each of propellant_kg");
+            self.check.report_across(at, list, format_args!("a list of {length}"), allowed);
         }
     }
 
@@ -270,11 +272,10 @@ impl Builder<'_> {
 
     /// Reports a name that is empty or that `other` has too.
     fn own_name(&mut self, at: &Place, name: &str, other: Option<Place>) {
-        if let Some(other) = other {
-            let found = format!("{name:?}, which is the name of {other} too");
+        let too = other.map(|other| format!(", which is the name of {other} too"));
+        if too.is_some() || name.is_empty() {
+            let found = format!("{name:?}{}", too.unwrap_or_default());
             self.check.report(&at.key("name"), found, "a name of its own");
-        } else if name.is_empty() {
-            self.check.report(&at.key("name"), format_args!("{name:?}"), "a name of its own");
         }
     }
 

@@ -12,15 +12,15 @@ use physics::plant::{
 use physics::propulsion::surface_in_plume;
 use physics::radiation::{TorquePolynomial, polynomial_valid};
 
-use super::super::inputs::wheel_array;
-use super::super::setup::Plan;
-use super::super::state::PlantState;
+use super::inputs::wheel_array;
+use super::setup::Plan;
+use super::state::PlantState;
 use crate::common::choices::OrbitCenter;
 use crate::common::loads;
 use crate::momentum_plant::variables::motion::{EncounterVariables, PredictionVariables};
 
 /// Writes every output but those of single faces, and what follows from parameters where these are others.
-pub(crate) fn write(context: &Plan<'_>, values: &mut Values, report: &Report<'_>, is_reconfigured: bool) {
+pub(super) fn write(context: &Plan<'_>, values: &mut Values, report: &Report<'_>, is_reconfigured: bool) {
     if is_reconfigured {
         write_polynomial(context, values, report.configuration);
     }
@@ -81,7 +81,7 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     values.set_vector(variables.sun.velocity_inertial, sun.velocity_m_s.into());
     values.set_vector(variables.earth.position_inertial, earth.position_m.into());
     values.set_vector(variables.earth.velocity_inertial, earth.velocity_m_s.into());
-    values.set_vector(variables.heliocentric.position, instant.geometry.heliocentric_position_m().into());
+    values.set_vector(variables.heliocentric_position, instant.geometry.heliocentric_position_m().into());
     values.set_real(variables.orbit.time_since_periapsis, report.since_periapsis_s);
     values.set_choice(variables.orbit.current_center, OrbitCenter(report.integration_center));
     write_encounter(&variables.encounter, values, report);
@@ -255,11 +255,11 @@ fn write_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>)
         values.set_real(variables.pressure_actual, tank.pressure_pa(used_kg));
         values.set_boolean(variables.feeds, tank.feeds(used_kg));
     }
-    values.set_real(v.propellant.used, propellant.total_used_kg(time_s));
+    values.set_real(v.propellant_used, propellant.total_used_kg(time_s));
 }
 
 /// Writes the faces that are reported one by one; those of panels that are left out stay 0, and all while the flight waits.
-pub(crate) fn write_faces(
+pub(super) fn write_faces(
     context: &Plan<'_>,
     values: &mut Values,
     flight: &mut Flight,
@@ -290,7 +290,7 @@ fn write_polynomial(context: &Plan<'_>, values: &mut Values, configuration: &Con
 }
 
 /// Writes what dump thresholds the wheels guarantee, which follows from parameters alone.
-pub(crate) fn write_guaranteed(context: &Plan<'_>, values: &mut Values) {
+pub(super) fn write_guaranteed(context: &Plan<'_>, values: &mut Values) {
     let capacities_n_m_s = context.variables.wheel.iter().map(|wheel| values.real(wheel.capacity));
     let array = wheel_array(context, values);
     let guaranteed_n_m_s = array.map_or(0.0, |it| it.guaranteed_threshold_n_m_s(capacities_n_m_s));
@@ -298,7 +298,7 @@ pub(crate) fn write_guaranteed(context: &Plan<'_>, values: &mut Values) {
 }
 
 /// First derivative of what the plant integrates, from the rates at the same time.
-pub(crate) fn derivative(
+pub(super) fn derivative(
     context: &Plan<'_>,
     values: &Values,
     state: &PlantState,
@@ -347,7 +347,7 @@ pub(crate) fn derivative(
 }
 
 /// Why a flight ends, with the variables to look at.
-pub(crate) fn failure(error: PlantError) -> Failure {
+pub(super) fn failure(error: PlantError) -> Failure {
     let hint = match &error {
         PlantError::WithoutPosition { .. } | PlantError::Light { .. } => {
             "; see orbit.*, sun.position and planet.radius"
@@ -388,7 +388,7 @@ pub(crate) fn failure(error: PlantError) -> Failure {
 }
 
 /// Refuses a place where there is no flight: inside the planet or the Sun, or without position.
-pub(crate) fn flyable(report: &Report<'_>) -> Result<(), Failure> {
+pub(super) fn flyable(report: &Report<'_>) -> Result<(), Failure> {
     let time_s = report.time_s;
     if !report.shown.totals.is_finite() {
         return Err(Failure::new(format!(
@@ -400,7 +400,7 @@ pub(crate) fn flyable(report: &Report<'_>) -> Result<(), Failure> {
 }
 
 /// Reports a dump or a maneuver.
-pub(crate) fn log_event(context: &Plan<'_>, event: &ThrusterEvent) {
+pub(super) fn log_event(context: &Plan<'_>, event: &ThrusterEvent) {
     if !context.log.events_enabled() {
         return;
     }
