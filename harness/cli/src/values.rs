@@ -54,6 +54,12 @@ pub(crate) fn angle(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "an angle carries its unit: 60deg, 1.2rad".to_owned())
 }
 
+/// A finite number for which something holds; `allowed` tells what.
+pub(crate) fn number(text: &str, is_allowed: impl Fn(f64) -> bool, allowed: &str) -> Result<f64, String> {
+    let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite() && is_allowed(*number));
+    number.ok_or_else(|| format!("allowed is {allowed}"))
+}
+
 /// A number in the SI unit of this name, or with one of the units that it is shown in.
 pub(crate) fn quantity(text: &str, unit: &str) -> Option<f64> {
     let text = text.trim();
