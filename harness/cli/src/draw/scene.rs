@@ -101,7 +101,7 @@ impl Scene {
         // Surfaces count plates; rows of the legend may have several.
         for surface in &mut surfaces {
             let row = rows.iter().position(|(_, members)| members.contains(&surface.part));
-            surface.part = row.unwrap_or(surface.part + rows.len() - plates.len());
+            surface.part = row.unwrap_or_else(|| surface.part + rows.len() - plates.len());
         }
         let axes = panels.iter().enumerate().filter_map(|(k, panel)| {
             let of_panel =
