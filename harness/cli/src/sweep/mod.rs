@@ -6,7 +6,6 @@ mod options;
 mod origin;
 mod pool;
 mod resolved;
-#[cfg(feature = "schema")]
 mod schema;
 mod series;
 mod table;
