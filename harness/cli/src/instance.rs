@@ -1,6 +1,7 @@
 //! An instance whose parameters and outputs can be read.
 
 use loader::{Error, Fmu, Instance, InstanceOptions, Value};
+use nalgebra::Vector3;
 
 /// An instance just initialised with these values: from then on parameters can be read too.
 pub(crate) fn started(
@@ -25,4 +26,10 @@ pub(crate) fn started(
     }
     instance.exit_initialization_mode()?;
     Ok(instance)
+}
+
+/// Three parameters or outputs of an instance.
+pub(crate) fn vector(instance: &mut Instance, name: &str) -> Result<Vector3<f64>, Error> {
+    let [x, y, z] = [1, 2, 3].map(|axis| instance.get_real(&format!("{name}[{axis}]")));
+    Ok(Vector3::new(x?, y?, z?))
 }

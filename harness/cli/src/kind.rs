@@ -5,8 +5,6 @@ use std::{fmt, path::Path};
 use physics::toml::nearest;
 use toml::de::DeTable;
 
-use crate::carried::ephemeris;
-
 /// A kind of file that people write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FileKind {
@@ -28,61 +26,70 @@ pub(crate) enum FileKind {
 
 /// The table that every spacecraft and spinner has.
 const OF_SPACECRAFT: &str = "mass_properties";
-/// Tables that only spacecraft and spinners have, where that one is missing or misspelt.
-const OF_PARTS: [&str; 12] = [
-    "optics",
-    "plates",
-    "boxes",
-    "cylinders",
-    "discs",
-    "dishes",
-    "sunshade",
-    "panels",
-    "wheels",
-    "tanks",
-    "thrusters",
-    "groups",
-];
 /// Lists that only timelines have.
 const OF_TIMELINE: [&str; 2] = ["command", "event"];
 /// The list that timelines share with spacecraft, and the keys of its items that only timelines have.
 const PANELS: (&str, [&str; 3]) = ("panels", ["at", "sunOffset", "windmill"]);
-/// Keys that plans have, and legs at most.
-const OF_PLAN: [&str; 13] = [
-    "mission",
-    "freeze",
-    "window",
-    "windmill",
-    "alternation",
-    "sunOffset",
-    "tilt",
-    "contactShare",
-    "activity",
-    "flyby",
-    "update",
-    "compare",
-    "montecarlo",
-];
-/// Tables that only legs have.
-const OF_LEG: [&str; 2] = ["depart", "arrive"];
-/// Keys that only campaigns have.
-const OF_CAMPAIGN: [&str; 5] = ["vary", "keep", "sampling", "runs", "correlation"];
-/// Keys that only missions have.
-const OF_MISSION: [&str; 14] = [
-    "spacecraft",
-    "model",
-    "fmu",
-    "timeline",
-    "ephemeris",
-    "stop",
-    "step",
-    "every",
-    "record",
-    "output",
-    "plot",
-    "set",
-    "inputs",
-    "limits",
+/// Keys that only one kind has but for those below it: of spacecraft and spinners tables, where that of every one is missing or
+/// misspelt; a leg has some of a plan's.
+const BY_KEYS: [(FileKind, &[&str]); 6] = [
+    (
+        FileKind::Spacecraft,
+        &[
+            "optics",
+            "plates",
+            "boxes",
+            "cylinders",
+            "discs",
+            "dishes",
+            "sunshade",
+            "panels",
+            "wheels",
+            "tanks",
+            "thrusters",
+            "groups",
+        ],
+    ),
+    (FileKind::Ephemeris, &["frame", "body", "coarse"]),
+    (FileKind::Campaign, &["vary", "keep", "sampling", "runs", "correlation"]),
+    (FileKind::Leg, &["depart", "arrive"]),
+    (
+        FileKind::Plan,
+        &[
+            "mission",
+            "freeze",
+            "window",
+            "windmill",
+            "alternation",
+            "sunOffset",
+            "tilt",
+            "contactShare",
+            "activity",
+            "flyby",
+            "update",
+            "compare",
+            "montecarlo",
+        ],
+    ),
+    (
+        FileKind::Mission,
+        &[
+            "spacecraft",
+            "model",
+            "fmu",
+            "timeline",
+            "ephemeris",
+            "stop",
+            "step",
+            "every",
+            "record",
+            "output",
+            "plot",
+            "set",
+            "inputs",
+            "limits",
+        ],
+    ),
 ];
 
 impl FileKind {
@@ -92,22 +99,13 @@ impl FileKind {
         let root = root.get_ref();
         let has = |key: &str| root.contains_key(key);
         let is_like = |key: &str| root.keys().any(|found| nearest(found.get_ref(), &[key]).is_some());
+        let by_keys = BY_KEYS.into_iter().find(|(_, keys)| keys.iter().any(|key| has(key)));
         if has(OF_SPACECRAFT) {
             Some(Self::Spacecraft)
         } else if panels_have_times(root) {
             Some(Self::Timeline)
-        } else if OF_PARTS.into_iter().any(has) {
-            Some(Self::Spacecraft)
-        } else if ephemeris::is_meant(text) {
-            Some(Self::Ephemeris)
-        } else if OF_CAMPAIGN.into_iter().any(has) {
-            Some(Self::Campaign)
-        } else if OF_LEG.into_iter().any(has) {
-            Some(Self::Leg)
-        } else if OF_PLAN.into_iter().any(has) {
-            Some(Self::Plan)
-        } else if OF_MISSION.into_iter().any(has) {
-            Some(Self::Mission)
+        } else if let Some((kind, _)) = by_keys {
+            Some(kind)
         } else if OF_TIMELINE.into_iter().any(is_like) {
             Some(Self::Timeline)
         } else {
@@ -147,15 +145,7 @@ impl FileKind {
 
     /// What `heliotorque new` calls it.
     fn word(self) -> &'static str {
-        match self {
-            Self::Spacecraft => "spacecraft",
-            Self::Mission => "mission",
-            Self::Timeline => "timeline",
-            Self::Ephemeris => "ephemeris",
-            Self::Plan => "plan",
-            Self::Leg => "leg",
-            Self::Campaign => "campaign",
-        }
+        ["spacecraft", "mission", "timeline", "ephemeris", "plan", "leg", "campaign"][self as usize]
     }
 
     /// What is done with a file of this kind.

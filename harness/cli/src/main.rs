@@ -29,6 +29,7 @@ mod patience;
 mod plan;
 mod plot;
 mod pointing;
+mod reading;
 mod refit;
 mod run;
 mod schema;

@@ -24,6 +24,21 @@ pub(crate) fn written(destination: Destination, content: &[u8], report: &str) ->
     Ok(ExitCode::SUCCESS)
 }
 
+/// Writes files, and notes their names.
+pub(crate) fn write_all(
+    files: impl IntoIterator<Item = (Destination, String)>,
+    is_quiet: bool,
+) -> Result<(), String> {
+    for (destination, content) in files {
+        let path = destination.path().to_owned();
+        destination.fill(|file| file.write_all(content.as_bytes()))?;
+        if !is_quiet {
+            terminal::note(&format!("wrote {}", path.display()));
+        }
+    }
+    Ok(())
+}
+
 /// Prints the problems of a file and counts them; `kind` is what the file was read as.
 pub(crate) fn refused(file: &str, problems: &str, kind: &str) -> Outcome {
     terminal::print(problems)?;

@@ -26,10 +26,25 @@ pub(crate) enum Instant {
     Epoch(f64),
 }
 
+impl Instant {
+    /// Its time in a flight whose time 0 has this epoch; `None` for a date where it has none.
+    pub(crate) fn time_s(self, zero_epoch_s: Option<f64>) -> Option<f64> {
+        match self {
+            Self::Time(time_s) => Some(time_s),
+            Self::Epoch(epoch_s) => zero_epoch_s.map(|zero_s| dates::span_s(zero_s, epoch_s)),
+        }
+    }
+}
+
+/// Whether a text is meant as a date.
+pub(crate) fn is_date(text: &str) -> bool {
+    let ends = ["UTC", "TDB"].iter().any(|scale| text.trim_end().ends_with(scale));
+    ends || dates::looks_like_date(text)
+}
+
 /// A time or a date.
 pub(crate) fn instant(text: &str) -> Result<Instant, String> {
-    let ends = ["UTC", "TDB"].iter().any(|scale| text.trim_end().ends_with(scale));
-    if !ends && !dates::looks_like_date(text) {
+    if !is_date(text) {
         return Ok(Instant::Time(duration(text)?));
     }
     dates::epoch_s(text)
@@ -52,6 +67,12 @@ pub(crate) fn angle(text: &str) -> Result<f64, String> {
     angle_rad
         .filter(|angle_rad| angle_rad.is_finite())
         .ok_or_else(|| "an angle carries its unit: 60deg, 1.2rad".to_owned())
+}
+
+/// A finite number for which something holds; `allowed` tells what.
+pub(crate) fn number(text: &str, is_allowed: impl Fn(f64) -> bool, allowed: &str) -> Result<f64, String> {
+    let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite() && is_allowed(*number));
+    number.ok_or_else(|| format!("allowed is {allowed}"))
 }
 
 /// A number in the SI unit of this name, or with one of the units that it is shown in.

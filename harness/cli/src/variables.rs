@@ -1,8 +1,9 @@
 //! Variables by what people write of them: start values, settings, selections.
 
-use loader::{Error, Value};
+use loader::{Error, Recording, Value};
 pub(crate) use model_description::start_values::{item, real, start};
 use model_description::{Description, ScalarVariable, VariableKind};
+use nalgebra::Vector3;
 
 use crate::epoch::Dates;
 
@@ -31,6 +32,28 @@ pub(crate) fn assigned_by(
         sets.extend(loader::parse_assignment(description, &dates.in_seconds(setting)?)?);
     }
     Ok(sets)
+}
+
+/// A momentum that no component reaches, in N m s: `dump.threshold` of flights without dumps.
+pub(crate) const NEVER_N_M_S: f64 = 1e9;
+
+/// Values of the elements of a vector.
+pub(crate) fn elements(name: &str, vector: Vector3<f64>) -> impl Iterator<Item = (String, Value)> + use<> {
+    let names = [1, 2, 3].map(|axis| format!("{name}[{axis}]"));
+    names.into_iter().zip(<[f64; 3]>::from(vector).map(Value::Real))
+}
+
+/// The numbers of a recorded variable.
+pub(crate) fn numbers(recording: &Recording, name: &str) -> Result<Vec<f64>, String> {
+    let column = recording.column(name).ok_or_else(|| format!("the FMU has no output {name}"))?;
+    Ok(column.numbers())
+}
+
+/// A recorded vector, row by row.
+pub(crate) fn vectors(recording: &Recording, name: &str) -> Result<Vec<Vector3<f64>>, String> {
+    let [x, y, z] = [1, 2, 3].map(|axis| numbers(recording, &format!("{name}[{axis}]")));
+    let (x, y, z) = (x?, y?, z?);
+    Ok((0..x.len()).map(|row| Vector3::new(x[row], y[row], z[row])).collect())
 }
 
 /// A warning for each name that is set more than once; `option` is where.

@@ -46,6 +46,11 @@ impl Destination {
         Ok(destination)
     }
 
+    /// As it was named.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Whether it is the standard output.
     pub fn is_stdout(&self) -> bool {
         self.target.is_none()
@@ -299,8 +304,17 @@ fn check_place(target: &Path, inputs: &[&Path]) -> Result<(), String> {
 
 /// Where the recording of a file in progress grows.
 pub fn part_of(target: &Path) -> PathBuf {
-    let mut name = target.as_os_str().to_owned();
-    name.push(".part");
+    with_ending(target, ".part")
+}
+
+/// The file beside a table that tells of it.
+pub fn sidecar_of(table: &Path) -> PathBuf {
+    with_ending(table, ".toml")
+}
+
+fn with_ending(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(ending);
     PathBuf::from(name)
 }
 

@@ -14,7 +14,7 @@ mod input;
 mod system;
 mod temporary;
 
-pub use destination::{Destination, Growing, part_of};
+pub use destination::{Destination, Growing, part_of, sidecar_of};
 pub use entries::Entries;
 pub use input::{MOST_TABLE_BYTES, MOST_TEXT_BYTES, kind, open, open_at_most, read, read_at_most, read_text};
 pub use system::canonical;

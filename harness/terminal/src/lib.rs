@@ -159,6 +159,11 @@ pub fn short(value: f64) -> String {
     trim(&format!("{value:.digits$}")).to_owned()
 }
 
+/// A number for people: four significant digits, what is lost in the rounding of larger numbers as 0.
+pub fn rounded(value: f64) -> String {
+    short(if value.abs() < 1e-9 { 0.0 } else { format!("{value:.3e}").parse().unwrap_or(value) })
+}
+
 /// Without the zeros behind the point.
 fn trim(digits: &str) -> &str {
     if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }

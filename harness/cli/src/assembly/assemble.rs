@@ -76,8 +76,8 @@ impl<'a> Parts<'a> {
         }
         let near = nearest(&model.it, &names).map(|near| format!(" (did you mean {near:?}?)"));
         let (found, near) = (&model.it, near.unwrap_or_default());
-        Err(mission.problem(
-            model,
+        Err(model.problem(
+            &mission.file,
             &format!("found the unknown model {found:?}{near}, allowed: {}", names.join(", ")),
         ))
     }
@@ -124,7 +124,7 @@ pub(crate) fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, 
         && start::has_dates(&setup)
     {
         // Dates in the file count from the epoch that the mission starts at.
-        let at = parts.origin.map(|mission| mission.place(epoch)).unwrap_or_default();
+        let at = parts.origin.map(|mission| epoch.place(&mission.file)).unwrap_or_default();
         settings.push((at, format!("{}={}", crate::epoch::START, epoch.it)));
     }
     settings.extend(parts.sets.iter().map(|set| (format!("--set {set}"), set.clone())));

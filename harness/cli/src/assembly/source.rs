@@ -103,10 +103,7 @@ impl Source {
 
     /// The host's library, or the template.
     pub(crate) fn path(&self) -> &Path {
-        match &self.from {
-            From::Libraries(platforms, _) => &platforms[0].path,
-            From::Template(fmu) => fmu.source(),
-        }
+        self.paths()[0]
     }
 
     /// The libraries or the template.
@@ -285,26 +282,24 @@ fn which(models: &[Described]) -> String {
 
 /// Every file below a folder with its path relative to it; nothing if there is no such folder.
 fn files_below(folder: &Path) -> Result<Vec<(String, Vec<u8>)>, String> {
-    let mut found = Vec::new();
-    collect(folder, "", &mut found)?;
-    Ok(found)
-}
-
-fn collect(folder: &Path, prefix: &str, found: &mut Vec<(String, Vec<u8>)>) -> Result<(), String> {
     let failed = |path: &Path, error: std::io::Error| format!("{}: {error}", path.display());
-    let entries = match fs::read_dir(folder) {
-        Ok(entries) => entries,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(()),
-        Err(error) => return Err(failed(folder, error)),
-    };
-    for entry in entries {
-        let path = entry.map_err(|error| failed(folder, error))?.path();
-        let name = format!("{prefix}{}", path.file_name().unwrap_or_default().to_string_lossy());
-        if path.is_dir() {
-            collect(&path, &format!("{name}/"), found)?;
-        } else {
-            found.push((name, files::read(&path).map_err(|error| failed(&path, error))?));
+    let mut found = Vec::new();
+    let mut folders = vec![(folder.to_owned(), String::new())];
+    while let Some((folder, prefix)) = folders.pop() {
+        let entries = match fs::read_dir(&folder) {
+            Ok(entries) => entries,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => continue,
+            Err(error) => return Err(failed(&folder, error)),
+        };
+        for entry in entries {
+            let path = entry.map_err(|error| failed(&folder, error))?.path();
+            let name = format!("{prefix}{}", path.file_name().unwrap_or_default().to_string_lossy());
+            if path.is_dir() {
+                folders.push((path, format!("{name}/")));
+            } else {
+                found.push((name, files::read(&path).map_err(|error| failed(&path, error))?));
+            }
         }
     }
-    Ok(())
+    Ok(found)
 }

@@ -9,7 +9,6 @@ use physics::{
         onboard::{FittedBody, OnboardEphemeris, OnboardTarget},
     },
 };
-use toml::de::DeTable;
 
 /// Its name in the resources.
 pub(crate) const FILE: &str = "ephemeris.toml";
@@ -18,13 +17,6 @@ pub(crate) const FILE: &str = "ephemeris.toml";
 pub(crate) fn read(resources: &Path) -> Result<String, String> {
     let read = OnboardEphemeris::from_toml(FILE, &files::read_text(&resources.join(FILE))?);
     read.map(|ephemeris| summary(&ephemeris)).map_err(|error| error.to_string())
-}
-
-/// Whether a text is meant as an ephemeris: one whose tables have its names. What can be read of a damaged file shows its kind
-/// too.
-pub(crate) fn is_meant(text: &str) -> bool {
-    let (root, _) = DeTable::parse_recoverable(text);
-    ["frame", "body", "coarse"].into_iter().any(|key| root.get_ref().contains_key(key))
 }
 
 /// Which bodies, in a line.

@@ -7,7 +7,7 @@ use physics::{
     spacecraft::{Instrument, MountedSunSensor, NamedAntenna, Spacecraft},
     spin::spinner::Spinner,
 };
-use terminal::short;
+use terminal::rounded as number;
 
 const AXES: [&str; 3] = ["X", "Y", "Z"];
 
@@ -186,18 +186,9 @@ fn both_ways(torque: &TorqueBothWays) -> String {
     format!("{} N m at most", axes.collect::<Vec<_>>().join("; "))
 }
 
-fn number(value: f64) -> String {
-    short(rounded(value))
-}
-
 fn triple(vector: &Vector3<f64>) -> String {
     let [x, y, z]: [f64; 3] = (*vector).into();
     format!("({}, {}, {})", number(x), number(y), number(z))
-}
-
-/// To four significant digits; what is lost in the rounding of larger numbers is 0.
-fn rounded(value: f64) -> f64 {
-    if value.abs() < 1e-9 { 0.0 } else { format!("{value:.3e}").parse().unwrap_or(value) }
 }
 
 #[cfg(test)]

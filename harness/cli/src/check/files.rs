@@ -22,47 +22,38 @@ pub(super) fn run(arguments: &Check) -> Outcome {
         let allowed = "a spacecraft, a spinner, a mission, a timeline, an ephemeris, a plan, a leg or a campaign: see `heliotorque new`";
         return Err(format!("{file}: found an empty file, allowed: {allowed}").into());
     }
-    match FileKind::of(&text) {
-        None | Some(FileKind::Spacecraft) => spacecraft::run(arguments, &file, &text),
-        Some(FileKind::Mission) => mission::run(arguments, &file),
-        Some(FileKind::Timeline) => of_timeline(&file, &text),
-        Some(FileKind::Plan) => match momentum::checked(&arguments.subject) {
-            Ok(summary) => outcome::printed(&format!("{file}: ok: {summary}")),
-            Err(problems) => outcome::refused(&file, &problems, "a plan"),
-        },
-        Some(FileKind::Leg) => match leg::checked(&arguments.subject) {
-            Ok(summary) => outcome::printed(&format!("{file}: ok: {summary}")),
-            Err(problems) => outcome::refused(&file, &problems, "a leg"),
-        },
-        Some(FileKind::Campaign) => match sweep::checked(&arguments.subject) {
-            Ok(summary) => outcome::printed(&format!("{file}: ok: {summary}")),
-            Err(problems) => outcome::refused(&file, &problems, "a campaign"),
-        },
-        Some(FileKind::Ephemeris) => match OnboardEphemeris::from_toml(&file, &text) {
-            Ok(read) => outcome::printed(&format!("{file}: ok: {}", ephemeris::table(&read, text.len()))),
-            Err(problems) => outcome::refused(&file, &problems.to_string(), "an ephemeris"),
-        },
+    let kind = FileKind::of(&text).unwrap_or(FileKind::Spacecraft);
+    let read = match kind {
+        FileKind::Spacecraft => return spacecraft::run(arguments, &file, &text),
+        FileKind::Mission => mission::checked(arguments),
+        FileKind::Timeline => of_timeline(&file, &text),
+        FileKind::Plan => momentum::checked(&arguments.subject),
+        FileKind::Leg => leg::checked(&arguments.subject),
+        FileKind::Campaign => sweep::checked(&arguments.subject),
+        FileKind::Ephemeris => OnboardEphemeris::from_toml(&file, &text)
+            .map(|read| ephemeris::table(&read, text.len()))
+            .map_err(|problems| problems.to_string()),
+    };
+    match read {
+        Ok(summary) => outcome::printed(&format!("{file}: ok: {summary}")),
+        Err(problems) => outcome::refused(&file, &problems, &kind.to_string()),
     }
 }
 
 /// Whether Guidance and MomentumPlant can carry it out, read with instruments, sets of thrusters and panels of their own spacecraft.
-fn of_timeline(file: &str, text: &str) -> Outcome {
+fn of_timeline(file: &str, text: &str) -> Result<String, String> {
     let spacecraft =
         Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).map_err(|error| error.to_string())?;
     let instruments: Vec<&str> = spacecraft.instruments.iter().map(|it| it.name.as_str()).collect();
-    match Timeline::from_toml(file, text, &spacecraft) {
-        Ok(read) => {
-            let of_one = timeline::of_one_model(file, text, &spacecraft, &read);
-            outcome::printed(&format!(
-                "{file}: ok: {}; with the models' own spacecraft, its instruments {}, its sets of thrusters {} and its {} panels; \
-                 `pack --timeline` judges it for yours{}",
-                timeline::summary(&read),
-                instruments.join(", "),
-                spacecraft.thruster_sets.join(", "),
-                spacecraft.panels.len(),
-                of_one.iter().map(|line| format!("\n{line}")).collect::<String>()
-            ))
-        }
-        Err(problems) => outcome::refused(file, &problems.to_string(), "a timeline"),
-    }
+    let read = Timeline::from_toml(file, text, &spacecraft).map_err(|problems| problems.to_string())?;
+    let of_one = timeline::of_one_model(file, text, &spacecraft, &read);
+    Ok(format!(
+        "{}; with the models' own spacecraft, its instruments {}, its sets of thrusters {} and its {} panels; \
+         `pack --timeline` judges it for yours{}",
+        timeline::summary(&read),
+        instruments.join(", "),
+        spacecraft.thruster_sets.join(", "),
+        spacecraft.panels.len(),
+        of_one.iter().map(|line| format!("\n{line}")).collect::<String>()
+    ))
 }

@@ -6,19 +6,14 @@ use loader::Collector;
 
 use super::options::Check;
 use crate::{
-    carried, epoch,
-    outcome::{self, Outcome},
-    pointing,
+    carried, epoch, pointing,
     run::{Prepared, Run, Settings, long_step},
 };
 
 /// Reads the file, packs what it names, finds every name and value in it and opens what it writes, as `run` does; then flies the
 /// first step in this process.
-pub(super) fn run(arguments: &Check, file: &str) -> Outcome {
-    match summary(arguments) {
-        Ok(summary) => outcome::printed(&format!("{file}: ok: {summary}")),
-        Err(error) => outcome::refused(file, &loader::Error::chain(error.as_ref()), "a mission"),
-    }
+pub(super) fn checked(arguments: &Check) -> Result<String, String> {
+    summary(arguments).map_err(|error| loader::Error::chain(error.as_ref()))
 }
 
 fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::values;
+
 /// Shown with the help.
 const EXAMPLE: &str = "\
 Rows belong together by their first column: time of a recording, run of a campaign, or any number that does not fall; of several rows at
@@ -41,10 +43,7 @@ pub(crate) struct Compare {
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(value) if value >= 0.0 && value.is_finite() => Ok(value),
-        _ => Err("allowed is a number from 0 up".to_owned()),
-    }
+    values::number(text, |value| value >= 0.0, "a number from 0 up")
 }
 
 #[cfg(test)]

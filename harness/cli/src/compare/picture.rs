@@ -5,13 +5,10 @@ use reference::{Cell, Difference};
 
 use super::pairing::Pairing;
 use crate::{
-    output::TimeAxis,
+    output::{TimeAxis, leave_out},
     table::{Sidecar, TIME, Table},
     variables::vector,
 };
-
-/// Panels drawn at most; more would not be readable.
-const PANELS: usize = 10;
 
 /// As SVG text; `found` is what differs, `sidecar` that of the first table.
 ///
@@ -62,10 +59,7 @@ pub(super) fn svg(
             None => panels.push((name, Panel::new(y_label).with([series]))),
         }
     }
-    if let Some(beyond) = panels.len().checked_sub(PANELS).filter(|beyond| *beyond > 0) {
-        terminal::note(&format!("the picture shows the first {PANELS} panels and leaves out {beyond}"));
-        panels.truncate(PANELS);
-    }
+    leave_out(&mut panels, "panels", "");
     let [one, other] = [first, second].map(|table| table.path.display());
     let chart = Chart {
         x_names: axis.names,

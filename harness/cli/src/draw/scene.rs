@@ -101,7 +101,7 @@ impl Scene {
         // Surfaces count plates; rows of the legend may have several.
         for surface in &mut surfaces {
             let row = rows.iter().position(|(_, members)| members.contains(&surface.part));
-            surface.part = row.unwrap_or(surface.part + rows.len() - plates.len());
+            surface.part = row.unwrap_or_else(|| surface.part + rows.len() - plates.len());
         }
         let axes = panels.iter().enumerate().filter_map(|(k, panel)| {
             let of_panel =
@@ -249,6 +249,7 @@ fn plate_rows(plates: &[Plate]) -> Vec<(String, Vec<usize>)> {
 }
 
 /// Thrusters, wheels, tanks, instruments, antennas and Sun sensors.
+#[derive(Default)]
 struct Devices {
     parts: Vec<Part>,
     nozzles: Vec<Surface>,
@@ -259,8 +260,7 @@ struct Devices {
 impl Devices {
     /// Of a spacecraft with these surfaces; the first is part `first`.
     fn of(spacecraft: &Spacecraft, surfaces: &[Surface], first: usize) -> Self {
-        let mut devices =
-            Self { parts: Vec::new(), nozzles: Vec::new(), arrows: Vec::new(), remarks: Vec::new() };
+        let mut devices = Self::default();
         let Some([low_m, high_m]) = box_of(surfaces.iter()) else { return devices };
         let size_m = (high_m - low_m).max();
         let greatest_n = spacecraft.thrusters.iter().map(|it| it.force_body_n.norm()).fold(0.0, f64::max);

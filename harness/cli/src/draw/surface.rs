@@ -5,7 +5,7 @@
 
 use drawing::{Finish, Surface, Vector};
 use nalgebra::{Rotation3, Unit};
-use physics::spacecraft::{Panel, Polygon, Spacecraft, SunshadeModel};
+use physics::spacecraft::{Panel, PanelControl, Polygon, Spacecraft, SunshadeModel};
 
 /// The direction to the Sun that the shipped files and Guidance take.
 pub(super) const TO_SUN: Vector = Vector::new(0.0, -1.0, 0.0);
@@ -61,13 +61,8 @@ pub(super) fn surfaces(spacecraft: &Spacecraft, angle_rad: impl Fn(usize) -> f64
 /// The angle at which a panel stands with the Sun along -Y, as its file says.
 pub(super) fn angle_of_file_rad(panel: &Panel) -> f64 {
     match panel.control {
-        physics::spacecraft::PanelControl::Angle => panel.angle_rad,
-        physics::spacecraft::PanelControl::SunOffset
-        | physics::spacecraft::PanelControl::Command
-        | physics::spacecraft::PanelControl::Timeline
-        | physics::spacecraft::PanelControl::Distance => {
-            panel.angle_for_sun_offset(&TO_SUN, panel.sun_offset_rad, panel.tilt_sign)
-        }
+        PanelControl::Angle => panel.angle_rad,
+        _ => panel.angle_for_sun_offset(&TO_SUN, panel.sun_offset_rad, panel.tilt_sign),
     }
 }
 

@@ -60,7 +60,7 @@ impl Flight {
         }
         sets.extend(loader::parse_assignment(description, &format!("{START_EPOCH}={start_s:e}"))?);
         let mut source = Self { fmu, shown, sets, start_s, center: Body::Mercury };
-        let mut instance = source.started()?;
+        let mut instance = source.started(&source.sets)?;
         let center = instance.get(CENTER)?.to_string();
         source.center = Body::ITEMS
             .iter()
@@ -70,11 +70,7 @@ impl Flight {
         Ok(source)
     }
 
-    fn started(&self) -> Result<Instance, Failure> {
-        self.started_with(&self.sets)
-    }
-
-    fn started_with(&self, sets: &[(String, Value)]) -> Result<Instance, Failure> {
+    fn started(&self, sets: &[(String, Value)]) -> Result<Instance, Failure> {
         instance::started(&self.fmu, "ephemeris", 0.0, sets).map_err(|error| self.in_fmu(&error).into())
     }
 
@@ -133,7 +129,7 @@ impl Source for Flight {
             }
             outputs.push(references);
         }
-        let mut instance = self.started_with(&self.sets_for(targets)?)?;
+        let mut instance = self.started(&self.sets_for(targets)?)?;
         let mut time_s = 0.0;
         let mut states = vec![Vec::with_capacity(epochs_s.len()); targets.len()];
         for epoch_s in epochs_s {

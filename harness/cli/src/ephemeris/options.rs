@@ -7,7 +7,11 @@ use physics::environment::{dates, onboard::OnboardTarget};
 
 #[cfg(feature = "spk")]
 use super::kernel_options::KernelOptions;
-use crate::{home, patience::Patience, values::span};
+use crate::{
+    home,
+    patience::Patience,
+    values::{number, span},
+};
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -173,8 +177,5 @@ fn epoch_s(option: &str, written: &str) -> Result<f64, String> {
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(tolerance_m) if tolerance_m > 0.0 && tolerance_m.is_finite() => Ok(tolerance_m),
-        _ => Err("allowed is a number of metres above 0".to_owned()),
-    }
+    number(text, |tolerance_m| tolerance_m > 0.0, "a number of metres above 0")
 }

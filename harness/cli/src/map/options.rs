@@ -4,7 +4,11 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::{home, patience::Patience, values::angle};
+use crate::{
+    home,
+    patience::Patience,
+    values::{angle, number},
+};
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -109,12 +113,9 @@ impl SourceKind {
 pub(crate) struct Steps(pub u32);
 
 fn distance(text: &str) -> Result<f64, String> {
-    let number = text.trim();
-    let number = number.strip_suffix("AU").unwrap_or(number).trim_end();
-    match number.parse::<f64>() {
-        Ok(distance_au) if (0.01..=1000.0).contains(&distance_au) => Ok(distance_au),
-        _ => Err("allowed is a number of AU from 0.01 to 1000: 0.3".to_owned()),
-    }
+    let text = text.trim();
+    let is_allowed = |distance_au| (0.01..=1000.0).contains(&distance_au);
+    number(text.strip_suffix("AU").unwrap_or(text), is_allowed, "a number of AU from 0.01 to 1000: 0.3")
 }
 
 fn offset(text: &str) -> Result<f64, String> {

@@ -57,7 +57,7 @@ pub(super) fn svg(spacecraft: &MappedSpacecraft, found: &Found) -> String {
         let sphere = frame(&found.sphere, (LEFT, top), [2.0 * height, height]);
         torque(&mut pen, &found.sphere, sphere, axis, [60.0, 30.0]);
         let (Some(limits_rad), Some(zone)) = (spacecraft.zone_rad, &found.zone) else {
-            least(&mut pen, sphere, found);
+            cross(&mut pen, sphere.at(found.least.0));
             continue;
         };
         outline(&mut pen, sphere, limits_rad);
@@ -65,7 +65,7 @@ pub(super) fn svg(spacecraft: &MappedSpacecraft, found: &Found) -> String {
         let in_zone = frame(zone, (ZONE_LEFT, top), [ZONE_WIDTH, height]);
         let steps = zone.grid.limits_deg.map(|limit_deg| round_up(limit_deg / 3.5));
         torque(&mut pen, zone, in_zone, axis, steps);
-        least(&mut pen, in_zone, found);
+        cross(&mut pen, in_zone.at(found.least.0));
     }
     if has_downlinks {
         downlinks(&mut pen, HEAD + 3.0 * row, spacecraft, found);
@@ -108,10 +108,6 @@ fn outline(pen: &mut Pen, frame: Frame, limits_rad: [f64; 2]) {
 }
 
 /// A cross where the whole torque is least.
-fn least(pen: &mut Pen, frame: Frame, found: &Found) {
-    cross(pen, frame.at(found.least.0));
-}
-
 fn cross(pen: &mut Pen, (x, y): Pixel) {
     let strokes = [[(x - 5.0, y - 5.0), (x + 5.0, y + 5.0)], [(x - 5.0, y + 5.0), (x + 5.0, y - 5.0)]];
     pen.lines(strokes.iter().map(|stroke| &stroke[..]), LEAST);

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use super::written::Written;
+use super::schema::{Inputs, Number, Time};
+use crate::reading::{Written, WrittenAs};
 
 /// A flight: what flies, when, with which values, and what is kept of it. Paths are relative to the file.
 #[derive(Debug, Deserialize)]
@@ -25,19 +26,15 @@ pub(super) struct Description {
     pub ephemeris: Option<String>,
     /// When the flight begins: a date that ends in UTC or TDB ("2011-04-06T00:00:00 UTC"), which is then simulation time 0; or
     /// simulation time, in s or with a unit ("10 d").
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Time>"))]
-    pub start: Option<Written>,
+    pub start: Option<WrittenAs<Time>>,
     /// When it ends: a date, if `start` is one; or simulation time.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Time>"))]
-    pub stop: Option<Written>,
+    pub stop: Option<WrittenAs<Time>>,
     /// Communication step, in s or with a unit ("60 s").
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Time>"))]
-    pub step: Option<Written>,
+    pub step: Option<WrittenAs<Time>>,
     /// Variables to record: names, vectors, patterns with * for outputs; otherwise every output.
     pub record: Option<Vec<String>>,
     /// Record the step nearest to each multiple of this time, in s or with a unit; otherwise every step.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Time>"))]
-    pub every: Option<Written>,
+    pub every: Option<WrittenAs<Time>>,
     /// The CSV file of what is recorded.
     pub output: Option<String>,
     /// Pictures.
@@ -46,8 +43,7 @@ pub(super) struct Description {
     pub set: Option<BTreeMap<String, Written>>,
     /// Inputs over time: a CSV file as `run --input` takes; or a table of names, in quotes, each with a value that stays, or rows
     /// of a time and a value (for a vector, all of its values). Between rows continuous inputs are interpolated and others held.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Inputs>"))]
-    pub inputs: Option<Written>,
+    pub inputs: Option<WrittenAs<Inputs>>,
     /// Bounds by name, in quotes, judged at every time that is recorded; a run that breaks one ends with status 1.
     pub limits: Option<BTreeMap<String, LimitDescription>>,
 }
@@ -69,9 +65,7 @@ pub(super) struct PlotDescription {
 #[serde(deny_unknown_fields)]
 pub(super) struct LimitDescription {
     /// The smallest value that is kept, in SI or with a unit.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub min: Option<Written>,
+    pub min: Option<WrittenAs<Number>>,
     /// The largest.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub max: Option<Written>,
+    pub max: Option<WrittenAs<Number>>,
 }

@@ -4,28 +4,19 @@ use std::path::{Path, PathBuf};
 
 use physics::{
     environment::dates::{self, ALLOWED_DATE},
-    toml::{Checker, Document, Place},
+    toml::Place,
 };
 
-use super::{
-    description::{Description, LimitDescription, PlotDescription},
-    written::Written,
+use super::description::{Description, LimitDescription, PlotDescription};
+use crate::{
+    kind::FileKind,
+    output::is_svg_path,
+    reading::{self, At, Builder, Written},
+    values,
 };
-use crate::{kind::FileKind, output::is_svg_path, values};
 
 /// What a duration looks like, for messages.
 const ALLOWED_TIME: &str = "a number of s or one with a unit: 600, \"10 min\", \"0.5 h\", \"90 d\"";
-
-/// Something with the key and line that it stands in.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct At<T> {
-    /// What it is.
-    pub it: T,
-    /// The key with its tables.
-    pub key: String,
-    /// Line from 1.
-    pub line: usize,
-}
 
 /// The FMU or spacecraft.
 #[derive(Clone, Debug, PartialEq)]
@@ -122,17 +113,7 @@ impl Mission {
                 file.display()
             ));
         }
-        Self::parse(file, &text)
-    }
-
-    fn parse(file: &Path, text: &str) -> Result<Self, String> {
-        let shown = file.display().to_string();
-        let document = Document::parse(&shown, text).map_err(|error| error.to_string())?;
-        let (description, findings) = document.read::<Description>().map_err(|error| error.to_string())?;
-        let folder = file.parent().unwrap_or(Path::new(""));
-        let mut builder = Builder { check: Checker::new(&document, findings), folder, epoch_s: None };
-        let mission = builder.mission(file, description);
-        builder.check.finish(mission).map_err(|error| error.to_string())
+        reading::parse(file, &text, |builder, it| builder.mission(file, it))
     }
 
     /// The files that it names and reads.
@@ -152,79 +133,50 @@ impl Mission {
             .chain([self.file.as_path()])
             .collect()
     }
-
-    /// A problem at a place of the file.
-    pub(crate) fn problem<T>(&self, at: &At<T>, what: &str) -> String {
-        format!("{}: {what}", self.place(at))
-    }
-
-    /// A place of the file.
-    pub(crate) fn place<T>(&self, at: &At<T>) -> String {
-        format!("{}:{}: {}", self.file.display(), at.line, at.key)
-    }
-}
-
-struct Builder<'d> {
-    check: Checker<'d>,
-    folder: &'d Path,
-    /// Of time 0, where `start` is a date.
-    epoch_s: Option<f64>,
 }
 
 impl Builder<'_> {
     fn mission(&mut self, file: &Path, description: Description) -> Mission {
         let root = Place::root();
         let spacecraft_source = self.spacecraft_source(&description);
-        let (start, stop) = (root.key("start"), root.key("stop"));
-        let mut epoch_s = None;
-        let mut start_s = None;
-        if let Some(written) = &description.start {
-            match date(written) {
-                Some(read) => {
-                    self.epoch_s = self.checked_date(&start, written, read);
-                    epoch_s = self.epoch_s.map(|epoch_s| self.at(&start, epoch_s));
-                    start_s = Some(0.0);
-                }
-                None => start_s = self.time(&start, written),
-            }
-        }
-        let stop_s = description.stop.as_ref().and_then(|written| self.time(&stop, written));
-        if let (Some(begin_s), Some(end_s), Some(written)) = (start_s, stop_s, &description.stop)
+        let [start, stop, step, every] = ["start", "stop", "step", "every"].map(|key| root.key(key));
+        let (begin, end) = (description.start.as_deref(), description.stop.as_deref());
+        let (epoch_s, start_s) = match begin.and_then(Written::date) {
+            Some(date) => (self.checked_date(&start, date), Some(0.0)),
+            None => (None, begin.and_then(|written| self.time(&start, written, None))),
+        };
+        let stop_s = end.and_then(|written| self.time(&stop, written, epoch_s));
+        if let (Some(begin_s), Some(end_s), Some(begin), Some(end)) = (start_s, stop_s, begin, end)
             && end_s <= begin_s
         {
-            let begin = description.start.as_ref().map(Written::to_string).unwrap_or_default();
-            self.check.report(
-                &stop,
-                format_args!("{written}, not after `start`"),
-                format_args!("a time after {begin}"),
-            );
+            let found = format_args!("{end}, not after `start`");
+            self.check.report(&stop, found, format_args!("a time after {begin}"));
         }
+        let allowed_span = format!("a time above 0: {ALLOWED_TIME}");
         let plots = description.plot.unwrap_or_default().into_iter().enumerate();
         let sets = description.set.unwrap_or_default().into_iter();
         let limits = description.limits.unwrap_or_default().into_iter();
         Mission {
             file: file.to_owned(),
             spacecraft_source,
-            epoch_s,
+            epoch_s: epoch_s.map(|epoch_s| self.at(&start, epoch_s)),
             start_s,
             stop_s,
-            step_s: self.span(&root.key("step"), description.step.as_ref()),
-            every_s: self.span(&root.key("every"), description.every.as_ref()),
+            step_s: self.read(&step, description.step.as_deref(), Written::span_s, &allowed_span),
+            every_s: self.read(&every, description.every.as_deref(), Written::span_s, &allowed_span),
             record: description.record.map(|names| self.names(&root.key("record"), names)),
-            output: description.output.map(|path| self.path(&root.key("output"), path)),
+            output: description.output.map(|path| self.written_path(&root.key("output"), path)),
             plots: plots.map(|(i, plot)| self.plot(&root.key("plot").item(i), plot)).collect(),
             sets: sets
-                .filter_map(|(name, written)| self.set(&root.key("set").key(&name), name, &written))
+                .filter_map(|(name, written)| {
+                    self.set(&root.key("set").key(&name), name, &written, epoch_s.is_some())
+                })
                 .collect(),
-            inputs: description.inputs.and_then(|written| self.inputs(&root.key("inputs"), written)),
+            inputs: description.inputs.and_then(|it| self.inputs(&root.key("inputs"), it.0, epoch_s)),
             limits: limits
                 .map(|(name, limit)| self.limit(&root.key("limits").key(&name), name, limit))
                 .collect(),
         }
-    }
-
-    fn at<T>(&self, place: &Place, it: T) -> At<T> {
-        At { it, key: place.to_string(), line: self.check.line(place) }
     }
 
     fn spacecraft_source(&mut self, description: &Description) -> SpacecraftSource {
@@ -259,18 +211,14 @@ impl Builder<'_> {
     }
 
     fn input_file(&mut self, place: &Place, path: &str) -> PathBuf {
-        let path = self.path(place, path.to_owned());
-        if !path.as_os_str().is_empty() && std::fs::metadata(&path).is_err() {
-            self.check.report(
-                place,
-                format_args!("{}, which is not there", path.display()),
-                "a file; paths are relative to this one's folder",
-            );
+        let path = self.written_path(place, path.to_owned());
+        if !path.as_os_str().is_empty() && !path.exists() {
+            self.report_missing(place, &path);
         }
         path
     }
 
-    fn path(&mut self, place: &Place, path: String) -> PathBuf {
+    fn written_path(&mut self, place: &Place, path: String) -> PathBuf {
         if path.is_empty() {
             self.check.report(place, "an empty string", "the path of a file");
         }
@@ -282,21 +230,27 @@ impl Builder<'_> {
         if names.is_empty() {
             self.check.report(place, "an empty list", "at least one name, or no such key: then every output");
         }
-        names.into_iter().enumerate().map(|(i, name)| self.at(&place.item(i), name)).collect()
+        self.each(place, names)
     }
 
     fn plot(&mut self, place: &Place, plot: PlotDescription) -> Plot {
         let key = place.key("file");
-        let file = self.path(&key, plot.file);
-        if !self.check.has_stand_in(&key) && !is_svg_path(&file) {
+        let file = self.written_path(&key, plot.file);
+        if !is_svg_path(&file) {
             let found = format!("{}, no SVG file's name", file.display());
             self.check.report(&key, found, "one that ends in .svg, or -");
         }
         Plot { file, names: plot.names.map(|names| self.names(&place.key("names"), names)) }
     }
 
-    fn set(&mut self, place: &Place, name: String, written: &Written) -> Option<At<(String, String)>> {
-        if name.eq_ignore_ascii_case("start.epoch") && self.epoch_s.is_some() {
+    fn set(
+        &mut self,
+        place: &Place,
+        name: String,
+        written: &Written,
+        is_dated: bool,
+    ) -> Option<At<(String, String)>> {
+        if name.eq_ignore_ascii_case("start.epoch") && is_dated {
             self.check.report(place, "start.epoch beside a date in `start`", "one of them");
         }
         let value = self.value(place, written)?;
@@ -313,7 +267,7 @@ impl Builder<'_> {
         value
     }
 
-    fn inputs(&mut self, place: &Place, written: Written) -> Option<Inputs> {
+    fn inputs(&mut self, place: &Place, written: Written, zero_epoch_s: Option<f64>) -> Option<Inputs> {
         let table = match written {
             Written::Text(path) => return Some(Inputs::File(self.input_file(place, &path))),
             Written::Table(table) => table,
@@ -327,7 +281,7 @@ impl Builder<'_> {
             let at = place.key(&name);
             let rows = match &written {
                 Written::List(rows) if rows.iter().any(|row| matches!(row, Written::List(_))) => {
-                    self.rows(&at, rows)
+                    self.rows(&at, rows, zero_epoch_s)
                 }
                 constant => vec![(0.0, self.value(&at, constant).unwrap_or_default())],
             };
@@ -336,7 +290,7 @@ impl Builder<'_> {
         Some(Inputs::Rows(inputs))
     }
 
-    fn rows(&mut self, place: &Place, written: &[Written]) -> InputRows {
+    fn rows(&mut self, place: &Place, written: &[Written], zero_epoch_s: Option<f64>) -> InputRows {
         let mut rows = InputRows::new();
         for (i, row) in written.iter().enumerate() {
             let at = place.item(i);
@@ -348,13 +302,10 @@ impl Builder<'_> {
                 self.check.report(&at, "an empty list", "a list of a time and a value: [\"10 min\", 0.5]");
                 continue;
             };
-            let Some(time_s) = self.time(&at.item(0), time) else { continue };
+            let Some(time_s) = self.time(&at.item(0), time, zero_epoch_s) else { continue };
             if rows.last().is_some_and(|(before_s, _)| time_s < *before_s) {
-                self.check.report(
-                    &at.item(0),
-                    format_args!("{time}, before the row above"),
-                    "a time that does not fall",
-                );
+                let found = format_args!("{time}, before the row above");
+                self.check.report(&at.item(0), found, "a time that does not fall");
             }
             let values = Written::List(values.to_vec());
             if let Some(value) = self.value(&at, &values) {
@@ -365,70 +316,35 @@ impl Builder<'_> {
     }
 
     fn limit(&mut self, place: &Place, name: String, limit: LimitDescription) -> At<Bounds> {
-        if limit.min.is_none() && limit.max.is_none() && !self.check.has_stand_in(place) {
+        if limit.min.is_none() && limit.max.is_none() {
             self.check.report(place, "no bound", "min, max or both");
         }
-        let mut bound = |key: &str, written: &Option<Written>| match written.as_ref()? {
-            number @ (Written::Number(_) | Written::Integer(_) | Written::Text(_)) => number.setting(),
-            other => {
-                self.check.report(&place.key(key), other, "a number in SI, or a string with a unit");
-                None
-            }
+        let mut bound = |key: &str, written: Option<&Written>| {
+            let allowed = "a number in SI, or a string with a unit";
+            self.read(&place.key(key), written, Written::scalar, allowed)
         };
-        let (min, max) = (bound("min", &limit.min), bound("max", &limit.max));
+        let (min, max) = (bound("min", limit.min.as_deref()), bound("max", limit.max.as_deref()));
         self.at(place, Bounds { name, min, max })
     }
 
-    /// A time that passes.
-    fn span(&mut self, place: &Place, written: Option<&Written>) -> Option<f64> {
-        let written = written?;
-        let span_s = written.setting().and_then(|text| values::span(&text).ok());
-        if span_s.is_none() {
-            self.check.report(place, written, format_args!("a time above 0: {ALLOWED_TIME}"));
-        }
-        span_s
-    }
-
-    /// Simulation time, or a date where `start` is one.
-    fn time(&mut self, place: &Place, written: &Written) -> Option<f64> {
-        if let Some(read) = date(written) {
-            let epoch_s = self.checked_date(place, written, read)?;
-            if self.epoch_s.is_none() {
+    /// Simulation time; or a date, where `start` is one, the epoch of time 0.
+    fn time(&mut self, place: &Place, written: &Written, zero_epoch_s: Option<f64>) -> Option<f64> {
+        if let Some(date) = written.date() {
+            let epoch_s = self.checked_date(place, date)?;
+            if zero_epoch_s.is_none() {
+                let found = format_args!("the date {written}");
                 let allowed = format!("simulation time, {ALLOWED_TIME}; or a date, where `start` is one");
-                self.check.report_across(
-                    &Place::root().key("start"),
-                    place,
-                    format_args!("the date {written}"),
-                    allowed,
-                );
+                self.check.report_across(&Place::root().key("start"), place, found, allowed);
             }
-            return self.epoch_s.map(|zero_s| dates::span_s(zero_s, epoch_s));
+            return zero_epoch_s.map(|zero_s| dates::span_s(zero_s, epoch_s));
         }
-        let number = matches!(written, Written::Number(_) | Written::Integer(_) | Written::Text(_));
-        let time_s = written.setting().filter(|_| number).and_then(|text| values::duration(&text).ok());
-        if time_s.is_none() {
-            self.check.report(
-                place,
-                written,
-                format_args!("{ALLOWED_DATE}; or simulation time, {ALLOWED_TIME}"),
-            );
-        }
-        time_s
+        let time_s = |written: &Written| values::duration(&written.scalar()?).ok();
+        let allowed = format_args!("{ALLOWED_DATE}; or simulation time, {ALLOWED_TIME}");
+        self.read(place, Some(written), time_s, allowed)
     }
 
-    fn checked_date(
-        &mut self,
-        place: &Place,
-        written: &Written,
-        read: Result<f64, dates::DateError>,
-    ) -> Option<f64> {
-        read.map_err(|error| self.check.report(place, format_args!("{written}, {error}"), ALLOWED_DATE)).ok()
+    fn checked_date(&mut self, place: &Place, date: &str) -> Option<f64> {
+        let read = dates::epoch_s(date);
+        read.map_err(|error| self.check.report(place, format_args!("{date:?}, {error}"), ALLOWED_DATE)).ok()
     }
-}
-
-/// The epoch, if it looks like a date.
-fn date(written: &Written) -> Option<Result<f64, dates::DateError>> {
-    let Written::Text(text) = written else { return None };
-    let ends = ["UTC", "TDB"].iter().any(|scale| text.trim_end().ends_with(scale));
-    (ends || dates::looks_like_date(text)).then(|| dates::epoch_s(text))
 }

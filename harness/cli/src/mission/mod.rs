@@ -3,10 +3,7 @@
 mod description;
 mod file;
 mod resolved;
-#[cfg(feature = "schema")]
 mod schema;
-mod written;
 
-pub(crate) use file::{At, Inputs, Mission, Plot, SpacecraftSource};
+pub(crate) use file::{Inputs, Mission, Plot, SpacecraftSource};
 pub(crate) use resolved::{Resolved, in_file};
-pub(crate) use written::Written;

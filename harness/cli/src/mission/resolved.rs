@@ -6,10 +6,11 @@ use loader::{InputTable, Value};
 use model_description::{Causality, Description, ScalarVariable, VariableKind, value};
 use physics::toml::MOST_PROBLEMS;
 
-use super::file::{At, Bounds, Inputs, Mission};
+use super::file::{Bounds, Inputs, Mission};
 use crate::{
     epoch::{self, Dates},
     output::Limit,
+    reading::At,
 };
 
 /// What a mission means in an FMU.
@@ -58,9 +59,9 @@ impl Mission {
     pub(crate) fn settings(&self, described: &Description) -> Vec<(String, String)> {
         let epochs = self.epoch_s.iter().flat_map(|at| {
             let names = described.variables.iter().map(|it| &it.name).filter(|name| epoch::is_start(name));
-            names.map(move |name| (self.place(at), format!("{name}={}", at.it)))
+            names.map(move |name| (at.place(&self.file), format!("{name}={}", at.it)))
         });
-        let sets = self.sets.iter().map(|at| (self.place(at), format!("{}={}", at.it.0, at.it.1)));
+        let sets = self.sets.iter().map(|at| (at.place(&self.file), format!("{}={}", at.it.0, at.it.1)));
         epochs.chain(sets).collect()
     }
 }
@@ -92,7 +93,7 @@ struct Resolver<'m, 's> {
 
 impl<'m> Resolver<'m, '_> {
     fn report<T>(&mut self, at: &At<T>, what: &str) {
-        self.problems.push((at.line, self.mission.problem(at, what)));
+        self.problems.push((at.line, at.problem(&self.mission.file, what)));
     }
 
     fn refuse<T>(&mut self, at: &At<T>, error: loader::Error) {
@@ -210,7 +211,7 @@ impl<'m> Resolver<'m, '_> {
                 let [low, high] = [&at.it.min, &at.it.max].map(|it| it.as_deref().unwrap_or_default());
                 self.report(at, &format!("found min {low} above max {high}, allowed: a min up to max"));
             }
-            limits.push(Limit { name: name.clone(), min, max, at: self.mission.place(at) });
+            limits.push(Limit { name: name.clone(), min, max, at: at.place(&self.mission.file) });
         }
         limits
     }

@@ -19,6 +19,7 @@ written!(
 );
 
 #[cfg(test)]
+#[cfg(feature = "schema")]
 mod tests {
     //! The committed schema is the one that the types give.
     use crate::{mission::description::Description, schema::written::assert_in_step};

@@ -31,7 +31,8 @@ pub(crate) struct Known {
     names: BTreeMap<String, String>,
     bounds: BTreeMap<String, (&'static str, f64)>,
     limits: BTreeMap<String, Vec<f64>>,
-    zero_epoch_s: Option<f64>,
+    /// Epoch of time 0 in s past J2000 TDB, where the flight has dates.
+    pub zero_epoch_s: Option<f64>,
 }
 
 impl Known {
@@ -72,11 +73,6 @@ impl Known {
     #[must_use]
     pub(crate) fn dated(self, zero_epoch_s: Option<f64>) -> Self {
         Self { zero_epoch_s, ..self }
-    }
-
-    /// That epoch.
-    pub(crate) fn zero_epoch_s(&self) -> Option<f64> {
-        self.zero_epoch_s
     }
 
     /// The name in the file of what a variable belongs to, such as that of `wheel[2]` for `wheel[2].speed`.

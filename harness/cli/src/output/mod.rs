@@ -19,7 +19,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use files::Destination;
+use files::{Destination, sidecar_of};
 use loader::Recording;
 use model_description::Description;
 
@@ -33,7 +33,7 @@ pub(crate) use file::OutputFile;
 pub(crate) use known::Known;
 pub(crate) use limits::{Limit, LimitChecks};
 pub(crate) use origin::Origin;
-pub(crate) use svg::{chart, is_lit_fraction, panel, shade_eclipses};
+pub(crate) use svg::{chart, is_lit_fraction, leave_out, panel, shade_eclipses};
 pub(crate) use svg_path::{check_path as check_svg_path, is_svg_path};
 pub(crate) use time_axis::TimeAxis;
 
@@ -90,9 +90,7 @@ impl Outputs {
         let csv = table.as_ref().map(|file| open(file, Kind::Table(&header))).transpose()?;
         // Nothing stands beside the standard output.
         let beside = table.as_ref().zip(csv.as_ref().filter(|csv| !csv.is_stdout())).map(|(table, _)| {
-            let mut path = table.path.clone().into_os_string();
-            path.push(".toml");
-            let file = OutputFile { path: path.into(), ..table.clone() };
+            let file = OutputFile { path: sidecar_of(&table.path), ..table.clone() };
             let names = &empty.names[..(*columns).min(empty.names.len())];
             Ok::<_, String>((open(&file, Kind::Origin)?, origin.to_toml(names)))
         });

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use loader::{Times, Value};
-use model_description::{Description, ScalarVariable, value};
+use model_description::{Description, value};
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table};
 
+use super::shown::find;
 use crate::{epoch, variables};
 
 /// The first line.
@@ -85,15 +86,11 @@ impl Origin<'_> {
         table
     }
 
-    fn variable(&self, name: &str) -> Option<&ScalarVariable> {
-        self.described.variables.iter().find(|variable| variable.name == name)
-    }
-
     fn value(&self, name: &str, given: &Value) -> toml_edit::Value {
         match given {
             Value::Real(number) => (*number).into(),
             Value::Integer(number) => {
-                let items = self.variable(name).map_or(&[][..], |it| value::items(self.described, it));
+                let items = find(self.described, name).map_or(&[][..], |it| value::items(self.described, it));
                 let item = items.iter().find(|item| item.value == *number);
                 item.map_or_else(|| i64::from(*number).into(), |item| item.name.as_str().into())
             }
@@ -104,7 +101,7 @@ impl Origin<'_> {
 
     fn column(&self, name: &str) -> InlineTable {
         let mut column = InlineTable::new();
-        let Some(variable) = self.variable(name) else { return column };
+        let Some(variable) = find(self.described, name) else { return column };
         if let Some(unit) = loader::unit(self.described, variable) {
             column.insert("unit", unit.into());
         }

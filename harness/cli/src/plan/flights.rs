@@ -8,8 +8,8 @@ use std::{
 
 use files::Scratch;
 use loader::{Fmu, InputTable, Instance, InstanceOptions, Options, Recording, Value};
+use nalgebra::Vector3;
 use physics::{
-    environment::dates,
     guidance::timeline::{Timeline, simulation_time_s},
     momentum::Convention,
     spacecraft::{Articulation, Spacecraft},
@@ -24,9 +24,9 @@ use crate::{
     assembly::spacecraft_of,
     interrupt,
     mission::{Inputs, Mission, SpacecraftSource},
-    run::{Run, Settings, Simulated, Subject},
+    run::{Run, Settings, Simulated},
     values,
-    variables::{item, selected},
+    variables::{NEVER_N_M_S, elements, item, selected},
 };
 
 /// Why something could not be done.
@@ -40,19 +40,8 @@ const STEP_S: f64 = 3600.0;
 const ORBIT_STEP_S: f64 = 600.0;
 /// A flight whose last row is nearer to its planet came to it: farther than any goes in such a step.
 const NEAR_M: f64 = 1e8;
-/// A component of momentum that is never reached.
-const NEVER_N_M_S: f64 = 1e9;
 /// A mission's momentum is the physical one.
 const CONVENTION: Convention = Convention::Inertial;
-/// By which thresholds a flight dumps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Thresholds {
-    /// The mission's.
-    Own,
-    /// None.
-    Never,
-}
-
 /// What of a mission is simulated and recorded.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Requested<'a> {
@@ -99,11 +88,7 @@ impl SimulatedMission {
         let Some(mission) = simulated.mission.clone() else {
             return Err(format!("{}: found no mission, allowed: one (.toml)", file.display()).into());
         };
-        let (subject, folder) = simulated.open()?;
-        let settings = Settings::of(&subject, &simulated, None)?;
-        let Subject::Fmu(fmu) = subject else {
-            return Err(format!("{}: found a system, allowed: {MODEL}", file.display()).into());
-        };
+        let (fmu, settings, folder) = Settings::of_fmu(&simulated, MODEL)?;
         if item(fmu.description(), &settings.sets, "attitude.source").is_none() {
             let (shown, found) = (file.display(), &fmu.description().model_name);
             return Err(format!(
@@ -141,7 +126,7 @@ impl SimulatedMission {
             && let Some(at) = rows.iter().find(|at| at.it.0.starts_with("downlink."))
         {
             let what = "found an input that the plan commands, allowed: none of downlink.*: inputs rule over timelines";
-            return Err(self.mission.problem(at, what).into());
+            return Err(at.problem(&self.mission.file, what).into());
         }
         for (name, allowed) in [("attitude.source", "guided"), ("momentum.strategy", "dumpsOnly")] {
             let found = item(self.fmu.description(), &self.sets, name).unwrap_or("none");
@@ -154,15 +139,7 @@ impl SimulatedMission {
 
     /// Its time of an instant, in s; `None` for a date where the mission has none.
     pub(super) fn time_s(&self, instant: values::Instant) -> Option<f64> {
-        match instant {
-            values::Instant::Time(time_s) => Some(time_s),
-            values::Instant::Epoch(epoch_s) => self.zero_epoch_s.map(|zero_s| dates::span_s(zero_s, epoch_s)),
-        }
-    }
-
-    /// The spacecraft that its FMU holds.
-    pub(super) fn spacecraft(&self) -> Result<Spacecraft, Failure> {
-        spacecraft_of(&self.fmu)
+        instant.time_s(self.zero_epoch_s)
     }
 
     /// The text of its timeline and what it says; `None` without one.
@@ -178,8 +155,12 @@ impl SimulatedMission {
 
     /// What turns the clock of a timeline into times of the flight, in s to be subtracted.
     pub(super) fn clock_minus_time_s(&self, timeline: &Timeline) -> f64 {
-        let zero_s = self.zero_epoch_s.unwrap_or_else(|| self.values().real("start.epoch") - self.start_s);
-        timeline.clock_minus_time_s(zero_s)
+        timeline.clock_minus_time_s(self.zero_s())
+    }
+
+    /// Epoch of time 0 in s past J2000 TDB, by the mission's start or its own.
+    pub(super) fn zero_s(&self) -> f64 {
+        self.zero_epoch_s.unwrap_or_else(|| self.values().real("start.epoch") - self.start_s)
     }
 
     /// Its values at the start.
@@ -214,7 +195,7 @@ impl SimulatedMission {
 
     /// The spacecraft in sunlight with the mission's values, the centre of mass as it is at each time.
     pub(super) fn sunlit(&self, timeline: Option<&Timeline>) -> Result<SunlitSpacecraft, Failure> {
-        let mut sunlit = plant::sunlit(self.spacecraft()?, &self.values(), CONVENTION)?;
+        let mut sunlit = plant::sunlit(spacecraft_of(&self.fmu)?, &self.values(), CONVENTION)?;
         if let Some(timeline) = timeline {
             let clock_minus_time_s = self.clock_minus_time_s(timeline);
             let moved = timeline.events().iter().filter_map(|event| {
@@ -225,12 +206,8 @@ impl SimulatedMission {
         Ok(sunlit)
     }
 
-    /// Simulates it.
-    pub(super) fn simulate(
-        &self,
-        thresholds: Thresholds,
-        seed: Option<u32>,
-    ) -> Result<SimulatedFlight, Failure> {
+    /// Simulates it without dumps by thresholds; with a seed, by its own.
+    pub(super) fn simulate(&self, seed: Option<u32>) -> Result<SimulatedFlight, Failure> {
         let description = self.fmu.description();
         let panels = (0..).map(plant::panel);
         let panels = panels.take_while(|name| description.variables.iter().any(|it| it.name == *name));
@@ -241,9 +218,8 @@ impl SimulatedMission {
             patterns.extend(plant::RECORDED_MOTION.map(str::to_owned));
         }
         let mut sets = Vec::new();
-        if thresholds == Thresholds::Never {
-            let axes = 1..=3;
-            sets.extend(axes.map(|axis| (format!("dump.threshold[{axis}]"), Value::Real(NEVER_N_M_S))));
+        if seed.is_none() {
+            sets.extend(elements("dump.threshold", Vector3::repeat(NEVER_N_M_S)));
         }
         if let Some(seed) = seed.and_then(|seed| i32::try_from(seed).ok()) {
             sets.push(("noise.seed".to_owned(), Value::Integer(seed)));

@@ -6,7 +6,6 @@ pub(crate) mod leg;
 mod mission_text;
 pub(crate) mod momentum;
 mod picture;
-mod reading;
 
 use std::{path::Path, process::ExitCode};
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use drawing::{Band, Chart, Envelope, Panel, Series};
 
 use crate::{
-    output::TimeAxis,
+    output::{TimeAxis, leave_out},
     table::{Sidecar, Table},
 };
 
@@ -14,8 +14,6 @@ const MEDIAN: &str = ".p50";
 const BANDS: [(u32, u32); 3] = [(1, 99), (5, 95), (25, 75)];
 /// What a campaign's table of percentiles has behind the name of the campaign's runs.
 const BEHIND: &str = "-percentiles";
-/// Panels drawn at most; more would not be readable.
-const PANELS: usize = 10;
 
 /// Whether a table has percentiles.
 pub(super) fn is_of_percentiles(table: &Table) -> bool {
@@ -39,11 +37,7 @@ pub(super) fn chart(table: &Table, sidecar: &Sidecar, patterns: &[String]) -> Re
         ..Table::default()
     };
     let mut names = medians.selected(patterns)?;
-    if let Some(beyond) = names.len().checked_sub(PANELS).filter(|beyond| *beyond > 0) {
-        let limit = format!("the picture shows the first {PANELS} variables");
-        terminal::note(&format!("{limit} and leaves out {beyond}: see --names"));
-        names.truncate(PANELS);
-    }
+    leave_out(&mut names, "variables", ": see --names");
     let ends = [table.keys.first(), table.keys.last()].map(|time_s| time_s.copied().unwrap_or_default());
     let axis = TimeAxis::over(ends, sidecar.zero_epoch_s);
     let edge = |name: &str, percent: u32| -> Option<Vec<(f64, f64)>> {

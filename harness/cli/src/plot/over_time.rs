@@ -3,12 +3,9 @@
 use drawing::{Chart, Panel, Series};
 
 use crate::{
-    output::{Known, TimeAxis, chart, panel, shade_eclipses},
+    output::{Known, TimeAxis, chart, leave_out, panel, shade_eclipses},
     table::{Described, Sidecar, Table},
 };
-
-/// Panels drawn at most; more would not be readable.
-const PANELS: usize = 10;
 
 /// The chart of a table; of these variables, otherwise of all.
 ///
@@ -51,12 +48,7 @@ pub(super) fn overlaid(tables: &[(Table, Sidecar)], patterns: &[String]) -> Resu
         check_units(tables, name)?;
         panels.extend(of_variable(tables, &described, (name, axis.seconds)));
     }
-    if let Some(beyond) = panels.len().checked_sub(PANELS).filter(|beyond| *beyond > 0) {
-        terminal::note(&format!(
-            "the picture shows the first {PANELS} variables and leaves out {beyond}: see --names"
-        ));
-        panels.truncate(PANELS);
-    }
+    leave_out(&mut panels, "variables", ": see --names");
     let legend = legend(tables);
     let title = tables.iter().find_map(|(_, sidecar)| sidecar.title.clone()).unwrap_or_default();
     Ok(Chart { title, x_label: axis.label, panels, legend, x_names: axis.names })

@@ -4,10 +4,11 @@ use drawing::{Chart, Panel, Series};
 use reference::Cell;
 
 use super::cells::edges;
-use crate::table::{Sidecar, Table};
+use crate::{
+    output::leave_out,
+    table::{Sidecar, Table},
+};
 
-/// Panels of histograms at most.
-const PANELS: usize = 10;
 /// Percentiles that are marked.
 const MARKED: [f64; 3] = [5.0, 50.0, 95.0];
 /// How runs end.
@@ -28,12 +29,7 @@ pub(super) fn histograms(
     patterns: &[String],
 ) -> Result<Vec<Chart>, String> {
     let mut names = table.selected(patterns)?;
-    if let Some(beyond) = names.len().checked_sub(PANELS).filter(|beyond| *beyond > 0) {
-        terminal::note(&format!(
-            "the picture shows the first {PANELS} columns and leaves out {beyond}: see --histogram"
-        ));
-        names.truncate(PANELS);
-    }
+    leave_out(&mut names, "columns", ": see --histogram");
     names.iter().map(|name| histogram(table, sidecar, name)).collect()
 }
 

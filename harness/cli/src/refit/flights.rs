@@ -13,8 +13,8 @@ use terminal::ProgressBar;
 use super::options::Refit;
 use crate::{
     assembly::spacecraft_of,
-    run::{Run, Settings, Simulated, Subject},
-    variables::{item, real, selected},
+    run::{Run, Settings, Simulated},
+    variables::{NEVER_N_M_S, elements, item, numbers, real, selected},
 };
 
 /// The model that is simulated.
@@ -31,8 +31,6 @@ const DRAWN: [&str; 5] = [
     "maneuver.magnitudeError",
     "maneuver.directionError",
 ];
-/// A component that is never reached.
-const NEVER_N_M_S: f64 = 1e9;
 
 /// A mission ready to be simulated.
 pub(super) struct RefitMission {
@@ -62,11 +60,8 @@ impl RefitMission {
         let template = arguments.template.clone();
         let run = Run { fmu: arguments.mission.clone(), template, ..Run::default() };
         let simulated = Simulated::of(&run)?;
-        let (subject, folder) = simulated.open()?;
-        let Settings { times, mut sets, inputs, .. } = Settings::of(&subject, &simulated, None)?;
-        let Subject::Fmu(fmu) = subject else {
-            return Err(format!("{file}: found a system, allowed: a {MODEL}").into());
-        };
+        let (fmu, Settings { times, mut sets, inputs, .. }, folder) =
+            Settings::of_fmu(&simulated, &format!("a {MODEL}"))?;
         check_plant(&file, fmu.description(), &sets)?;
         check_inputs(&file, fmu.description(), inputs.as_ref())?;
         let is_drawn = |name: &str| fmu.variable(name).is_ok_and(|it| loader::set_early(it).is_ok());
@@ -126,7 +121,7 @@ impl Flights for RefitMission {
         let mut sets = self.sets.clone();
         let values: [f64; 4] = parameters.values().into();
         sets.extend(FITTED.iter().zip(values).map(|(name, value)| ((*name).to_owned(), Value::Real(value))));
-        sets.extend((1..=3).map(|axis| (format!("{THRESHOLD}[{axis}]"), Value::Real(NEVER_N_M_S))));
+        sets.extend(elements(THRESHOLD, Vector3::repeat(NEVER_N_M_S)));
         let names: Vec<String> = MOMENTUM.iter().chain(&[DUMPS]).map(|name| (*name).to_owned()).collect();
         let last_s = times_s.last().copied().unwrap_or(self.stop_s);
         let before_s = self.simulated_s.get();
@@ -153,14 +148,11 @@ impl Flights for RefitMission {
             )
             .into());
         }
-        let column = |name: &str| -> Result<Vec<f64>, Failure> {
-            Ok(recording.column(name).ok_or_else(|| format!("the FMU has no output {name}"))?.numbers())
-        };
-        let [x, y, z] = MOMENTUM.map(column);
+        let [x, y, z] = MOMENTUM.map(|name| numbers(&recording, name));
         let (x, y, z) = (x?, y?, z?);
         Ok(History {
             momentum_inertial_n_m_s: (0..x.len()).map(|row| Vector3::new(x[row], y[row], z[row])).collect(),
-            dumps: column(DUMPS)?.into_iter().map(|count| count as i32).collect(),
+            dumps: numbers(&recording, DUMPS)?.into_iter().map(|count| count as i32).collect(),
         })
     }
 }

@@ -5,15 +5,12 @@ mod options;
 mod picture;
 mod table;
 
-use std::{
-    path::{Path, PathBuf},
-    process::ExitCode,
-};
+use std::{path::Path, process::ExitCode};
 
 use files::Destination;
 use planner::refit::{Deviations, Requested, Telemetry, fit};
 
-use crate::outcome::Outcome;
+use crate::outcome::{self, Outcome};
 use flights::RefitMission;
 pub(crate) use options::Refit;
 use table::Found;
@@ -22,7 +19,7 @@ use table::Found;
 pub(crate) fn run(arguments: &Refit) -> Outcome {
     let telemetry = Telemetry::read(&arguments.telemetry)?;
     let (mut mission, simulated) = RefitMission::open(arguments)?;
-    let [table_file, json_file, picture_file] = destinations(arguments, &simulated.reads())?;
+    let destinations = destinations(arguments, &simulated.reads())?;
     let telemetry_file = arguments.telemetry.display().to_string();
     mission.check_times(&telemetry_file, &telemetry)?;
     let deviations = Deviations {
@@ -51,22 +48,17 @@ pub(crate) fn run(arguments: &Refit) -> Outcome {
     if !arguments.quiet {
         terminal::print(&found.text())?;
     }
-    for ((destination, path), content) in [table_file, json_file, picture_file].into_iter().zip(contents) {
-        destination.fill(|file| file.write_all(content.as_bytes()))?;
-        if !arguments.quiet {
-            terminal::note(&format!("wrote {}", path.display()));
-        }
-    }
+    outcome::write_all(destinations.into_iter().zip(contents), arguments.quiet)?;
     Ok(ExitCode::SUCCESS)
 }
 
 /// TOML, JSON and picture, looked at before anything is simulated.
-fn destinations(arguments: &Refit, reads: &[&Path]) -> Result<[(Destination, PathBuf); 3], String> {
+fn destinations(arguments: &Refit, reads: &[&Path]) -> Result<[Destination; 3], String> {
     let output = &arguments.output;
     if output.extension().is_none_or(|it| !it.eq_ignore_ascii_case("toml")) {
         return Err(format!("{}: found another ending, allowed: .toml: see --output", output.display()));
     }
     let inputs = [reads, &[arguments.telemetry.as_path()]].concat();
-    let open = |path: PathBuf| Ok::<_, String>((Destination::open(&path, "--output", &inputs)?, path));
-    Ok([open(output.clone())?, open(output.with_extension("json"))?, open(output.with_extension("svg"))?])
+    let open = |path: &Path| Destination::open(path, "--output", &inputs);
+    Ok([open(output)?, open(&output.with_extension("json"))?, open(&output.with_extension("svg"))?])
 }

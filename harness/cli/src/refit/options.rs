@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::patience::Patience;
+use crate::{patience::Patience, values};
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -54,10 +54,7 @@ pub(crate) struct Refit {
 
 /// A standard deviation: nothing is known for certain.
 fn deviation(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
-        _ => Err("allowed is a number above 0".to_owned()),
-    }
+    values::number(text, |value| value > 0.0, "a number above 0")
 }
 
 #[cfg(test)]

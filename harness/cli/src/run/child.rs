@@ -135,34 +135,6 @@ impl Inbox<'_> {
     }
 }
 
-/// A row as it was sent.
-struct SentRow {
-    time_s: f64,
-    reals: Vec<f64>,
-    integers: Vec<i32>,
-    booleans: Vec<i32>,
-    texts: Vec<String>,
-}
-
-impl SentRow {
-    /// Of so many values of each base type.
-    fn of(payload: &mut Payload<'_>, [reals, integers, booleans, texts]: [usize; 4]) -> Option<Self> {
-        let whole = |words: &[u64]| words.iter().map(|word| *word as u32 as i32).collect();
-        Some(Self {
-            time_s: f64::from_bits(payload.word()?),
-            reals: payload.words(reals)?.iter().map(|word| f64::from_bits(*word)).collect(),
-            integers: whole(payload.words(integers)?),
-            booleans: whole(payload.words(booleans)?),
-            texts: (0..texts).map(|_| payload.text()).collect::<Option<_>>()?,
-        })
-    }
-
-    fn row(&self) -> Row<'_> {
-        let Self { time_s, reals, integers, booleans, texts } = self;
-        Row { time_s: *time_s, reals, integers, booleans, texts }
-    }
-}
-
 fn message(payload: &mut Payload<'_>) -> Option<LogMessage> {
     let status = Status::from_code(payload.word()? as u32 as i32).unwrap_or(Status::Error);
     let category = if payload.word()? == 0 { None } else { Some(payload.text()?) };
@@ -193,9 +165,16 @@ pub(crate) fn push_row(payload: &mut Vec<u64>, row: &Row<'_>) {
 /// # Errors
 /// A row that the collector does not wait for, more than memory is given for.
 pub(crate) fn take_row(payload: &mut Payload<'_>, collector: &mut Collector) -> Result<(), String> {
-    let sent = SentRow::of(payload, collector.widths());
-    let sent = sent.filter(|_| payload.is_empty()).ok_or(NOT_REQUESTED)?;
-    collector.take(&sent.row()).map_err(|error| error.to_string())
+    let [reals, integers, booleans, texts] = collector.widths();
+    let time_s = f64::from_bits(payload.word().ok_or(NOT_REQUESTED)?);
+    let mut words = |count: usize| payload.words(count).ok_or(NOT_REQUESTED);
+    let whole = |words: &[u64]| words.iter().map(|word| *word as u32 as i32).collect::<Vec<i32>>();
+    let reals: Vec<f64> = words(reals)?.iter().map(|word| f64::from_bits(*word)).collect();
+    let (integers, booleans) = (whole(words(integers)?), whole(words(booleans)?));
+    let texts = (0..texts).map(|_| payload.text()).collect::<Option<Vec<String>>>();
+    let texts = texts.filter(|_| payload.is_empty()).ok_or(NOT_REQUESTED)?;
+    let row = Row { time_s, reals: &reals, integers: &integers, booleans: &booleans, texts: &texts };
+    collector.take(&row).map_err(|error| error.to_string())
 }
 
 /// Runs in this process and sends the parent what comes of it.

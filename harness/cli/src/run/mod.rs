@@ -75,7 +75,7 @@ impl Prepared {
         let collector = Collector::new(described, &settings.positions);
         let origin = Origin {
             file: arguments.fmu.clone(),
-            fmus: subject.fmus(),
+            fmus: subject.fmus().into_iter().map(|(prefix, fmu)| (prefix, fmu.description())).collect(),
             described,
             times: settings.times,
             sets: &settings.sets,

@@ -2,7 +2,8 @@
 
 use std::{path::Path, sync::atomic::AtomicBool};
 
-use loader::{Ended, InputTable, InstanceOptions, LogMessage, Options, Rows, Times};
+use files::Scratch;
+use loader::{Ended, Fmu, InputTable, InstanceOptions, LogMessage, Options, Rows, Times};
 use model_description::Description;
 
 use systems::{FirstExchange, Master};
@@ -113,6 +114,23 @@ impl Settings {
             requested: Requested { table, plots, columns, is_quiet: arguments.quiet },
             limits: resolved.limits,
         })
+    }
+
+    /// The same with the FMU, and the folder that it was packed in, as long as it is in use.
+    ///
+    /// # Errors
+    /// A system too; `allowed` is said instead.
+    pub(crate) fn of_fmu(
+        simulated: &Simulated,
+        allowed: &str,
+    ) -> Result<(Fmu, Self, Option<Scratch>), Box<dyn std::error::Error>> {
+        let (subject, folder) = simulated.open()?;
+        let settings = Self::of(&subject, simulated, None)?;
+        let Subject::Fmu(fmu) = subject else {
+            let file = simulated.run.fmu.display();
+            return Err(format!("{file}: found a system, allowed: {allowed}").into());
+        };
+        Ok((fmu, settings, folder))
     }
 
     /// Runs it in this process, telling the time in s after every step, until a word says that it shall end.

@@ -58,22 +58,15 @@ impl Subject {
 
     /// What the variables of each FMU begin with, and the folder it is unpacked in.
     pub(crate) fn parts(&self) -> Vec<(String, PathBuf)> {
-        match self {
-            Self::Fmu(fmu) => vec![(String::new(), fmu.folder().to_owned())],
-            Self::System(system) => {
-                let parts = system.parts().iter();
-                parts.map(|part| (format!("{}.", part.name), part.fmu.folder().to_owned())).collect()
-            }
-        }
+        self.fmus().into_iter().map(|(prefix, fmu)| (prefix, fmu.folder().to_owned())).collect()
     }
 
-    /// What the variables of each FMU begin with, and its description.
-    pub(crate) fn fmus(&self) -> Vec<(String, &Description)> {
+    /// What the variables of each FMU begin with.
+    pub(crate) fn fmus(&self) -> Vec<(String, &Fmu)> {
         match self {
-            Self::Fmu(fmu) => vec![(String::new(), fmu.description())],
+            Self::Fmu(fmu) => vec![(String::new(), fmu)],
             Self::System(system) => {
-                let parts = system.parts().iter();
-                parts.map(|part| (format!("{}.", part.name), part.fmu.description())).collect()
+                system.parts().iter().map(|part| (format!("{}.", part.name), &part.fmu)).collect()
             }
         }
     }

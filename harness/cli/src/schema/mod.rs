@@ -1,6 +1,5 @@
 //! `heliotorque schema`: the JSON Schemas of files, kept in step with their readers by tests of `physics` and of the mission.
 
-#[cfg(feature = "schema")]
 pub(crate) mod written;
 
 use clap::{Args, ValueEnum};

@@ -4,8 +4,10 @@
 macro_rules! written {
     ($(#[$doc:meta])* $name:ident, $schema:tt) => {
         $(#[$doc])*
+        #[derive(Debug)]
         pub(crate) struct $name;
 
+        #[cfg(feature = "schema")]
         impl schemars::JsonSchema for $name {
             fn schema_name() -> std::borrow::Cow<'static, str> {
                 stringify!($name).into()
@@ -21,6 +23,7 @@ pub(crate) use written;
 
 /// Whether `fmu-src/resources` holds this schema under a name; `cargo xtask bless schema` writes it anew.
 #[cfg(test)]
+#[cfg(feature = "schema")]
 pub(crate) fn assert_in_step(name: &str, schema: &schemars::Schema) {
     let requested = format!("{:#}", schema.as_value());
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fmu-src/resources").join(name);

@@ -5,14 +5,16 @@ use std::{
     time::{Duration, Instant},
 };
 
-use loader::{Options, Recording, Value};
+use loader::{Options, Recording};
 use nalgebra::Vector3;
 
-use super::sized::{Failure, SizedSpacecraft, vector};
-use crate::{interrupt, variables::selected};
+use super::sized::{Failure, SizedSpacecraft};
+use crate::{
+    instance::vector,
+    interrupt,
+    variables::{NEVER_N_M_S, elements, numbers, selected, vectors},
+};
 
-/// A component that is never reached.
-const NEVER_N_M_S: f64 = 1e9;
 /// Communication points of an orbit at least, and the longest step, in s.
 const POINTS_OF_ORBIT: f64 = 48.0;
 const LONGEST_STEP_S: f64 = 600.0;
@@ -79,21 +81,17 @@ fn dumped(sized: &SizedSpacecraft, threshold_n_m_s: Vector3<f64>, strategy: &str
     let patterns = ["dump.count", "dump.impulse", "propellant.used"].map(str::to_owned);
     let record = selected(sized.fmu.description(), &patterns, loader::select_outputs)?;
     let simulated = simulated(sized, (threshold_n_m_s, strategy), record, &mut |_| {})?;
-    let column = |name: &str| -> Result<Vec<f64>, Failure> {
-        Ok(simulated.column(name).ok_or_else(|| format!("the FMU has no output {name}"))?.numbers())
-    };
-    let count = column("dump.count")?;
-    let [x, y, z] = [1, 2, 3].map(|axis| column(&format!("dump.impulse[{axis}]")));
-    let (x, y, z) = (x?, y?, z?);
+    let count = numbers(&simulated, "dump.count")?;
+    let impulses_n_m_s = vectors(&simulated, "dump.impulse")?;
     let dumps = count.windows(2).enumerate().filter(|(_, pair)| pair[1] > pair[0]);
-    let impulses_n_m_s = dumps.map(|(k, _)| Vector3::new(x[k + 1], y[k + 1], z[k + 1]).norm());
+    let impulses_n_m_s = dumps.map(|(k, _)| impulses_n_m_s[k + 1].norm());
     let last = |values: &[f64]| values.last().copied().unwrap_or(0.0);
     Ok(Dumped {
         strategy: strategy.to_owned(),
         threshold_n_m_s,
         dumps: sized.per_year(last(&count)),
         impulse_n_m_s: sized.per_year(impulses_n_m_s.sum()),
-        propellant_kg: sized.per_year(last(&column("propellant.used")?)),
+        propellant_kg: sized.per_year(last(&numbers(&simulated, "propellant.used")?)),
     })
 }
 
@@ -106,9 +104,7 @@ fn simulated(
 ) -> Result<Recording, Failure> {
     let description = sized.fmu.description();
     let mut sets = sized.sets.clone();
-    for axis in 0..3 {
-        sets.push((format!("dump.threshold[{}]", axis + 1), Value::Real(threshold_n_m_s[axis])));
-    }
+    sets.extend(elements("dump.threshold", threshold_n_m_s));
     sets.extend(loader::parse_assignment(description, &format!("momentum.strategy={strategy}"))?);
     let position = |name: &str| description.variables.iter().position(|variable| variable.name == name);
     let counts_dumps = record.iter().any(|at| Some(*at) == position("dump.count"));

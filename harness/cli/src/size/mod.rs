@@ -9,14 +9,14 @@ mod picture;
 mod sized;
 mod table;
 
-use std::{
-    path::{Path, PathBuf},
-    process::ExitCode,
-};
+use std::{path::Path, process::ExitCode};
 
 use files::Destination;
 
-use crate::{interrupt, outcome::Outcome};
+use crate::{
+    interrupt,
+    outcome::{self, Outcome},
+};
 use needs::{SlewLimits, Wheels};
 pub(crate) use options::Size;
 use sized::{SizedSpacecraft, YEAR_S};
@@ -45,24 +45,17 @@ pub(crate) fn run(arguments: &Size) -> Outcome {
     if !arguments.quiet {
         terminal::print(&table::text(&sized, &found))?;
     }
-    for ((destination, path), content) in [(picture, svg), (table_file, csv)] {
-        destination.fill(|file| file.write_all(content.as_bytes()))?;
-        if !arguments.quiet {
-            terminal::note(&format!("wrote {}", path.display()));
-        }
-    }
+    outcome::write_all([(picture, svg), (table_file, csv)], arguments.quiet)?;
     Ok(ExitCode::SUCCESS)
 }
 
 /// Picture and table, looked at before anything is simulated.
-fn destinations(arguments: &Size) -> Result<[(Destination, PathBuf); 2], String> {
+fn destinations(arguments: &Size) -> Result<[Destination; 2], String> {
     let stem = arguments.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let folder = arguments.output.as_deref().unwrap_or(Path::new(""));
     let inputs = [arguments.file.as_path()];
-    let open = |ending: &str| {
-        let path = folder.join(format!("{stem}-size.{ending}"));
-        Ok::<_, String>((Destination::open(&path, "--output", &inputs)?, path))
-    };
+    let open =
+        |ending: &str| Destination::open(&folder.join(format!("{stem}-size.{ending}")), "--output", &inputs);
     if let Some(folder) = &arguments.output {
         std::fs::create_dir_all(folder)
             .map_err(|error| format!("{}: {error}: see --output", folder.display()))?;

@@ -6,7 +6,7 @@
 use loader::Recording;
 
 /// Momentum by source and axis, in N m s.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct SourceRow {
     /// Of `momentum.*`.
     pub source: String,
@@ -25,13 +25,7 @@ pub(super) fn by_source(simulated: &Recording, period_s: f64, years: f64) -> Vec
     let sources =
         simulated.names.iter().filter_map(|name| name.strip_prefix("momentum.")?.strip_suffix("[1]"));
     let rows = sources.map(|source| {
-        let mut row = SourceRow {
-            source: source.to_owned(),
-            secular_per_orbit_n_m_s: [0.0; 3],
-            cyclic_per_orbit_n_m_s: [0.0; 3],
-            secular_per_year_n_m_s: [0.0; 3],
-            cyclic_per_year_n_m_s: [0.0; 3],
-        };
+        let mut row = SourceRow { source: source.to_owned(), ..SourceRow::default() };
         for axis in 0..3 {
             let Some(column) = simulated.column(&format!("momentum.{source}[{}]", axis + 1)) else {
                 continue;

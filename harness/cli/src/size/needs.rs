@@ -7,8 +7,8 @@ use physics::{
     spacecraft::{Spacecraft, Thruster},
 };
 
-use super::sized::{SizedSpacecraft, vector};
-use crate::variables::item;
+use super::sized::SizedSpacecraft;
+use crate::{instance::vector, variables::item};
 
 const NAMES: [&str; 3] = ["X", "Y", "Z"];
 

@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::{
     patience::Patience,
-    values::{duration, span},
+    values::{duration, number, span},
 };
 
 /// Shown with the help.
@@ -53,10 +53,7 @@ pub(crate) struct Size {
 }
 
 fn margin(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(margin) if (0.0..=10.0).contains(&margin) => Ok(margin),
-        _ => Err("allowed is a share from 0 to 10: 0.3".to_owned()),
-    }
+    number(text, |margin| (0.0..=10.0).contains(&margin), "a share from 0 to 10: 0.3")
 }
 
 #[cfg(test)]

@@ -3,16 +3,15 @@
 use files::Scratch;
 use loader::{Fmu, InputTable, Instance, Value};
 use model_description::Description;
-use nalgebra::Vector3;
 use physics::{bodies::Body, constants::DAY_S, spacecraft::Spacecraft};
 
 use super::options::Size;
 use crate::{
-    assembly::{Parts, Source, assemble, model_of},
+    assembly::{Parts, Source, assemble, spacecraft_of},
     instance,
     kind::FileKind,
     mission::{Inputs, SpacecraftSource as Given},
-    run::{Run, Settings, Simulated, Subject},
+    run::{Run, Settings, Simulated},
     variables::{assigned, item, start},
 };
 
@@ -63,8 +62,7 @@ impl SizedSpacecraft {
                 let template = arguments.template.clone();
                 let run = Run { fmu: arguments.file.clone(), template, ..Run::default() };
                 let simulated = Simulated::of(&run)?;
-                let (subject, folder) = simulated.open()?;
-                let settings = Settings::of(&subject, &simulated, None)?;
+                let (fmu, settings, folder) = Settings::of_fmu(&simulated, "a spacecraft or an FMU")?;
                 let is_of_its_time = simulated.mission.as_ref().is_some_and(|mission| {
                     let Given::Files { timeline, ephemeris, .. } = &mission.spacecraft_source else {
                         return false;
@@ -74,9 +72,6 @@ impl SizedSpacecraft {
                 });
                 let start_s = settings.times.start_s;
                 let stop_s = if is_of_its_time { settings.times.stop_s } else { start_s + YEAR_S };
-                let Subject::Fmu(fmu) = subject else {
-                    return Err(format!("{file}: found a system, allowed: a spacecraft or an FMU").into());
-                };
                 (fmu, settings.sets, settings.inputs, [start_s, stop_s], [folder, None])
             }
         };
@@ -91,7 +86,7 @@ impl SizedSpacecraft {
         let phase: Vec<_> = phase.into_iter().map(|value| (PHASE.to_owned(), value)).collect();
         let is_in_cruise = item(description, &phase, PHASE) == Some("cruise");
         drop(started);
-        let spacecraft = spacecraft(&fmu)?;
+        let spacecraft = spacecraft_of(&fmu)?;
         let has_fan = spacecraft.antennas.iter().any(|named| named.antenna.fan().is_some());
         let strategies = strategies(description, &sets, period_s, has_fan && !is_in_cruise);
         Ok(Self {
@@ -120,17 +115,14 @@ impl SizedSpacecraft {
 
 /// A plant whose momentum is guided; in controlled and free flight a year takes too long.
 fn check_plant(file: &str, description: &Description, sets: &[(String, Value)]) -> Result<(), Failure> {
-    if item(description, sets, "attitude.source").is_none() {
-        let found = &description.model_name;
-        return Err(format!("{file}: found the model {found}, allowed: {MODEL}").into());
-    }
     match item(description, sets, "attitude.source") {
+        None => Err(format!("{file}: found the model {}, allowed: {MODEL}", description.model_name).into()),
         Some(source @ ("controlled" | "free")) => Err(format!(
             "{file}: attitude.source: found {source}, allowed: guided, commanded (a year of wheels at 50 Hz takes hours): \
              --set attitude.source=guided"
         )
         .into()),
-        _ => Ok(()),
+        Some(_) => Ok(()),
     }
 }
 
@@ -161,20 +153,4 @@ fn strategies(
         &["dumpsOnly"]
     };
     names.iter().map(|name| (*name).to_owned()).collect()
-}
-
-/// The spacecraft that the FMU holds.
-fn spacecraft(fmu: &Fmu) -> Result<Spacecraft, Failure> {
-    let binary = fmu.binary()?;
-    let model = model_of(fmu, binary.as_ref())?;
-    let setup = binary.models()?.into_iter().find(|it| it.model == model).and_then(|it| it.setup_file);
-    let setup = setup.ok_or_else(|| format!("{model} holds no spacecraft"))?;
-    let text = files::read_text(&fmu.folder().join("resources").join(&setup))?;
-    Ok(Spacecraft::from_toml(&setup, &text).map_err(|error| error.to_string())?)
-}
-
-/// Three parameters or outputs of an instance.
-pub(super) fn vector(instance: &mut Instance, name: &str) -> Result<Vector3<f64>, loader::Error> {
-    let [x, y, z] = [1, 2, 3].map(|axis| instance.get_real(&format!("{name}[{axis}]")));
-    Ok(Vector3::new(x?, y?, z?))
 }

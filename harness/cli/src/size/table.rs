@@ -2,6 +2,7 @@
 
 use loader::csv::Real;
 use physics::constants::DAY_S;
+use terminal::rounded;
 
 use super::{
     flights::{Dumped, Sweep},
@@ -76,10 +77,10 @@ fn dumps(sized: &SizedSpacecraft, sweep: &Sweep) -> String {
         table.add_row([
             it.strategy.clone(),
             triple(it.threshold_n_m_s.into()),
-            short(capacity(sized, it)),
-            short(it.dumps),
-            short(it.impulse_n_m_s),
-            short(it.propellant_kg),
+            rounded(capacity(sized, it)),
+            rounded(it.dumps),
+            rounded(it.impulse_n_m_s),
+            rounded(it.propellant_kg),
         ]);
     }
     let left_out = match sweep.left_out {
@@ -100,18 +101,18 @@ fn wheels(sized: &SizedSpacecraft, found: &Found) -> String {
     let wheels = &found.wheels;
     let mut table = terminal::table(&["wheels", "capacity of each [N.m.s]", "torque of each [N.m]"]);
     for it in &wheels.geometries {
-        table.add_row([it.name.clone(), short(it.capacity_n_m_s), short(it.torque_n_m)]);
+        table.add_row([it.name.clone(), rounded(it.capacity_n_m_s), rounded(it.torque_n_m)]);
     }
     let own = sized.spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s).reduce(f64::min);
-    let own = own.map_or_else(|| "none".to_owned(), |capacity| format!("{} N.m.s each", short(capacity)));
+    let own = own.map_or_else(|| "none".to_owned(), |capacity| format!("{} N.m.s each", rounded(capacity)));
     format!(
         "Wheels for {} N.m.s and {} N.m about every axis at once: {} N.m.s gathered in {} (dump.requiredSpacing, at least an \
          orbit) in the room between dumps, a slew, and a margin of {}; the file has {own}\n{table}",
-        short(wheels.needed_n_m_s),
-        short(wheels.needed_n_m),
+        rounded(wheels.needed_n_m_s),
+        rounded(wheels.needed_n_m),
         triple(wheels.gathered_n_m_s),
         time(wheels.spacing_s),
-        short(found.margin)
+        rounded(found.margin)
     )
 }
 
@@ -119,12 +120,13 @@ fn slews(slews: &[Slew; 3]) -> String {
     let mut table =
         terminal::table(&["slew about", "torque [N.m]", "momentum [N.m.s]", "90 deg [s]", "180 deg [s]"]);
     for slew in slews {
-        let [quarter, half] =
-            slew.times_s.map(|time_s| if time_s.is_finite() { short(time_s) } else { "no limit".to_owned() });
+        let [quarter, half] = slew
+            .times_s
+            .map(|time_s| if time_s.is_finite() { rounded(time_s) } else { "no limit".to_owned() });
         table.add_row([
             slew.axis.to_owned(),
-            short(slew.torque_n_m),
-            short(slew.momentum_n_m_s),
+            rounded(slew.torque_n_m),
+            rounded(slew.momentum_n_m_s),
             quarter,
             half,
         ]);
@@ -145,12 +147,12 @@ fn allocations(found: &Result<Vec<Allocation>, String>) -> String {
         "seconds of full thrust for 1 N.m.s",
     ]);
     for row in rows {
-        let shares = row.shares.iter().map(|(name, on_time_s)| format!("{name} {}", short(*on_time_s)));
+        let shares = row.shares.iter().map(|(name, on_time_s)| format!("{name} {}", rounded(*on_time_s)));
         table.add_row([
             row.sense.clone(),
-            short(row.lever_m),
-            short(row.least_impulse_n_m_s),
-            short(row.propellant_g_per_n_m_s),
+            rounded(row.lever_m),
+            rounded(row.least_impulse_n_m_s),
+            rounded(row.propellant_g_per_n_m_s),
             shares.collect::<Vec<_>>().join(", "),
         ]);
     }
@@ -174,16 +176,8 @@ pub(super) fn csv(sized: &SizedSpacecraft, sweep: &Sweep) -> String {
     text
 }
 
-/// Four significant digits, rounding noise as 0.
-fn short(value: f64) -> String {
-    if value.abs() < 1e-9 {
-        return "0".to_owned();
-    }
-    terminal::short(format!("{value:.3e}").parse().unwrap_or(value))
-}
-
 fn triple(values: [f64; 3]) -> String {
-    values.map(short).join(", ")
+    values.map(rounded).join(", ")
 }
 
 /// In the largest unit that it has more than two of.
@@ -191,5 +185,5 @@ fn time(span_s: f64) -> String {
     const UNITS: [(f64, &str); 3] = [(DAY_S, "d"), (3600.0, "h"), (60.0, "min")];
     let unit = UNITS.into_iter().find(|(unit_s, _)| span_s >= 2.0 * unit_s);
     let (unit_s, unit) = unit.unwrap_or((1.0, "s"));
-    format!("{} {unit}", short(span_s / unit_s))
+    format!("{} {unit}", rounded(span_s / unit_s))
 }

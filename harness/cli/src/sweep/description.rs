@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use crate::mission::Written;
+use super::schema::{Correlation, List, Number};
+use crate::reading::{Written, WrittenAs};
 
 /// Many runs of a mission or an FMU: what varies and what is kept of each run. Paths are relative to the file.
 #[derive(Debug, Deserialize)]
@@ -17,27 +18,21 @@ pub(super) struct Description {
     /// An FMU that is packed already, instead of a mission.
     pub fmu: Option<String>,
     /// Where its runs begin, in s or with a unit; otherwise its default.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub start: Option<Written>,
+    pub start: Option<WrittenAs<Number>>,
     /// Where its runs end; otherwise its default.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub stop: Option<Written>,
+    pub stop: Option<WrittenAs<Number>>,
     /// Communication step; the mission's or the FMU's default unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub step: Option<Written>,
+    pub step: Option<WrittenAs<Number>>,
     /// How many runs; grid, oneAtATime and file have a number of their own.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<u64>"))]
-    pub runs: Option<Written>,
+    pub runs: Option<WrittenAs<u64>>,
     /// Seed of the draws; 0 unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<u64>"))]
-    pub seed: Option<Written>,
+    pub seed: Option<WrittenAs<u64>>,
     /// How runs are spread over what varies; random unless given.
     pub sampling: Option<SamplingWord>,
     /// The values of every run with sampling file: a CSV file whose columns are named as variables.
     pub file: Option<String>,
     /// Correlations of normal variables: two names and a coefficient each.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<Vec<super::schema::Correlation>>"))]
-    pub correlation: Option<Vec<Written>>,
+    pub correlation: Option<Vec<WrittenAs<Correlation>>>,
     /// What varies, by names of variables in quotes.
     pub vary: Option<BTreeMap<String, VaryDescription>>,
     /// What is kept of each run; the final values of all outputs unless given.
@@ -70,23 +65,17 @@ pub(super) enum SamplingWord {
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub(super) struct VaryDescription {
     /// Mean and standard deviation.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::List>"))]
-    pub normal: Option<Vec<Written>>,
+    pub normal: Option<WrittenAs<List, Vec<Written>>>,
     /// The smallest and the largest value.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::List>"))]
-    pub uniform: Option<Vec<Written>>,
+    pub uniform: Option<WrittenAs<List, Vec<Written>>>,
     /// The smallest and the largest value, both above 0, between which the logarithm is uniform.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::List>"))]
-    pub log_uniform: Option<Vec<Written>>,
+    pub log_uniform: Option<WrittenAs<List, Vec<Written>>>,
     /// The smallest value, the most likely one, the largest one.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::List>"))]
-    pub triangular: Option<Vec<Written>>,
+    pub triangular: Option<WrittenAs<List, Vec<Written>>>,
     /// A list of values, each as likely as any other.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::List>"))]
-    pub values: Option<Vec<Written>>,
+    pub values: Option<WrittenAs<List, Vec<Written>>>,
     /// From, to and how many values, evenly spaced.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::List>"))]
-    pub steps: Option<Vec<Written>>,
+    pub steps: Option<WrittenAs<List, Vec<Written>>>,
 }
 
 /// What is kept of each run: names of variables, vectors, patterns with * for outputs.
@@ -102,8 +91,7 @@ pub(super) struct KeepDescription {
     /// Percentiles of all runs over time, in a table beside the one of the runs.
     pub percentiles: Option<Vec<String>>,
     /// Time between their rows, in s or with a unit; every communication point unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub every: Option<Written>,
+    pub every: Option<WrittenAs<Number>>,
     /// A folder that takes a table of every run over time: what the mission records, otherwise every output.
     pub histories: Option<String>,
 }

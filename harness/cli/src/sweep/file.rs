@@ -2,14 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use physics::toml::{Checker, Document, Place};
+use physics::toml::Place;
 
 use super::description::{Description, KeepDescription, SamplingWord, VaryDescription};
 use crate::{
     home,
     kind::FileKind,
-    mission::{At, Written},
-    values,
+    reading::{self, At, Builder, Written},
 };
 
 const ALLOWED_SPAN: &str = "a time above 0, a number of s or one with a unit: 600, \"10 d\"";
@@ -79,30 +78,15 @@ impl CampaignFile {
     /// # Errors
     /// A file that cannot be read; everything wrong in it with line, key, what was found and what is allowed.
     pub(super) fn read(file: &Path) -> Result<Self, String> {
-        Self::parse(file, FileKind::Campaign.read(file)?)
-    }
-
-    pub(super) fn parse(file: &Path, text: String) -> Result<Self, String> {
-        let shown = file.display().to_string();
-        let document = Document::parse(&shown, &text).map_err(|error| error.to_string())?;
-        let (description, findings) = document.read::<Description>().map_err(|error| error.to_string())?;
-        let folder = file.parent().unwrap_or(Path::new(""));
-        let mut builder = Builder { check: Checker::new(&document, findings), folder };
-        let mut campaign = builder.campaign(file, description);
-        campaign = builder.check.finish(campaign).map_err(|error| error.to_string())?;
-        campaign.text = text;
-        Ok(campaign)
+        let text = FileKind::Campaign.read(file)?;
+        let campaign = reading::parse(file, &text, |builder, it| builder.campaign(file, it))?;
+        Ok(Self { text, ..campaign })
     }
 
     /// A problem at a place of the file.
     pub(super) fn problem<T>(&self, at: &At<T>, what: &str) -> String {
-        format!("{}:{}: {}: {what}", self.file.display(), at.line, at.key)
+        at.problem(&self.file, what)
     }
-}
-
-struct Builder<'d> {
-    check: Checker<'d>,
-    folder: &'d Path,
 }
 
 impl Builder<'_> {
@@ -110,7 +94,7 @@ impl Builder<'_> {
         let root = Place::root();
         let simulated = self.simulated(&description);
         let sampling = description.sampling.unwrap_or_default();
-        let table = description.file.as_ref().map(|path| self.path(&root.key("file"), path));
+        let table = description.file.as_ref().map(|path| self.path(&root.key("file"), path, Path::exists));
         self.one_sampling(&description, sampling);
         let vary = description.vary.unwrap_or_default().into_iter();
         let vary =
@@ -120,36 +104,24 @@ impl Builder<'_> {
         let correlations = correlations
             .filter_map(|(k, it)| self.correlation(&root.key("correlation").item(k), it))
             .collect();
-        let runs = description.runs.as_ref().map(|written| self.count(&root.key("runs"), written, 1));
-        let seed = description.seed.as_ref().map_or(0, |written| self.count(&root.key("seed"), written, 0));
+        let [start, stop, step, runs] = ["start", "stop", "step", "runs"].map(|key| root.key(key));
+        let count = self.count(&runs, description.runs.as_deref(), 1);
+        let seed = self.count(&root.key("seed"), description.seed.as_deref(), 0);
         CampaignFile {
             file: file.to_owned(),
             text: String::new(),
             simulated,
-            start_s: description.start.as_ref().map(|written| self.time(&root.key("start"), written)),
-            stop_s: description.stop.as_ref().map(|written| self.time(&root.key("stop"), written)),
-            step_s: self.span(&root.key("step"), description.step.as_ref()),
-            runs: runs.map(|runs| self.at(&root.key("runs"), runs)),
-            seed,
+            start_s: self.read(&start, description.start.as_deref(), Written::duration_s, ALLOWED_TIME),
+            stop_s: self.read(&stop, description.stop.as_deref(), Written::duration_s, ALLOWED_TIME),
+            step_s: self.read(&step, description.step.as_deref(), Written::span_s, ALLOWED_SPAN),
+            runs: count.map(|count| self.at(&runs, count)),
+            seed: seed.unwrap_or(0),
             sampling: self.at(&root.key("sampling"), sampling),
             table,
             correlations,
             vary,
             keep: self.keep(description.keep),
         }
-    }
-
-    fn at<T>(&self, place: &Place, it: T) -> At<T> {
-        At { it, key: place.to_string(), line: self.check.line(place) }
-    }
-
-    fn path(&mut self, place: &Place, path: &str) -> PathBuf {
-        let found = self.folder.join(path);
-        if !found.exists() {
-            let shown = format!("{}, which is not there", found.display());
-            self.check.report(place, shown, "a file; paths are relative to this one's folder");
-        }
-        found
     }
 
     fn simulated(&mut self, description: &Description) -> PathBuf {
@@ -162,12 +134,12 @@ impl Builder<'_> {
                         self.check.report(&root.key(key), found, "the mission's own");
                     }
                 }
-                self.path(&root.key("mission"), mission)
+                self.path(&root.key("mission"), mission, Path::exists)
             }
             (None, Some(fmu)) => {
                 // A shipped FMU, wherever the file is.
                 let found = home::found(self.folder.join(fmu));
-                if found.exists() { found } else { self.path(&root.key("fmu"), fmu) }
+                if found.exists() { found } else { self.path(&root.key("fmu"), fmu, Path::exists) }
             }
             (None, None) => {
                 let allowed = "mission = \"mission.toml\", or fmu = \"My.fmu\" with stop and step";
@@ -236,44 +208,13 @@ impl Builder<'_> {
     fn correlation(&mut self, place: &Place, written: &Written) -> Option<At<([String; 2], f64)>> {
         if let Written::List(items) = written
             && let [Written::Text(one), Written::Text(other), coefficient] = &items[..]
+            && let Some(coefficient) = coefficient.number().filter(|it| it.abs() <= 1.0)
         {
-            let coefficient = match coefficient {
-                Written::Number(number) => Some(*number),
-                Written::Integer(number) => Some(*number as f64),
-                _ => None,
-            };
-            if let Some(coefficient) = coefficient.filter(|it| it.abs() <= 1.0) {
-                return Some(self.at(place, ([one.clone(), other.clone()], coefficient)));
-            }
+            return Some(self.at(place, ([one.clone(), other.clone()], coefficient)));
         }
         let allowed = "two names and a coefficient from -1 to 1: [\"a\", \"b\", 0.5]";
         self.check.report(place, written, allowed);
         None
-    }
-
-    fn count(&mut self, place: &Place, written: &Written, least: u64) -> u64 {
-        let number = if let Written::Integer(number) = written { u64::try_from(*number).ok() } else { None };
-        number.filter(|number| *number >= least).unwrap_or_else(|| {
-            self.check.report(place, written, format_args!("a whole number from {least} on"));
-            least
-        })
-    }
-
-    fn time(&mut self, place: &Place, written: &Written) -> f64 {
-        let time_s = written.setting().and_then(|text| values::duration(&text).ok());
-        time_s.unwrap_or_else(|| {
-            self.check.report(place, written, ALLOWED_TIME);
-            0.0
-        })
-    }
-
-    fn span(&mut self, place: &Place, written: Option<&Written>) -> Option<f64> {
-        let written = written?;
-        let span_s = written.setting().and_then(|text| values::span(&text).ok());
-        if span_s.is_none() {
-            self.check.report(place, written, ALLOWED_SPAN);
-        }
-        span_s
     }
 
     fn keep(&mut self, description: Option<KeepDescription>) -> WrittenKeep {
@@ -281,21 +222,18 @@ impl Builder<'_> {
         let is_given = description.is_some();
         let KeepDescription { r#final, extremes, percentiles, every, histories } =
             description.unwrap_or_default();
-        if let (Some(written), None) = (&every, &percentiles) {
+        if let (Some(written), None) = (every.as_deref(), &percentiles) {
             self.check.report(&place.key("every"), written, "`every` beside `percentiles`");
         }
-        let names = |key: &str, names: Option<Vec<String>>| -> Vec<At<String>> {
-            let place = place.key(key);
-            let names = names.unwrap_or_default().into_iter().enumerate();
-            names.map(|(k, name)| self.at(&place.item(k), name)).collect()
-        };
+        let names =
+            |key: &str, names: Option<Vec<String>>| self.each(&place.key(key), names.unwrap_or_default());
         let finals = is_given.then(|| names("final", r#final));
         let (extremes, percentiles) = (names("extremes", extremes), names("percentiles", percentiles));
         WrittenKeep {
             finals,
             extremes,
             percentiles,
-            every_s: self.span(&place.key("every"), every.as_ref()),
+            every_s: self.read(&place.key("every"), every.as_deref(), Written::span_s, ALLOWED_SPAN),
             histories: histories.map(|path| self.at(&place.key("histories"), self.folder.join(path))),
         }
     }

@@ -6,7 +6,6 @@ mod options;
 mod origin;
 mod pool;
 mod resolved;
-#[cfg(feature = "schema")]
 mod schema;
 mod series;
 mod table;
@@ -26,7 +25,7 @@ use std::{
     time::Instant,
 };
 
-use files::{Destination, Growing, part_of};
+use files::{Destination, Growing, part_of, sidecar_of};
 use loader::csv;
 use model_description::Description;
 
@@ -91,11 +90,6 @@ struct Started<'a> {
 #[derive(Default)]
 struct Counts([u64; 4]);
 
-/// The file beside a table.
-fn beside(path: &Path) -> PathBuf {
-    PathBuf::from(format!("{}.toml", path.display()))
-}
-
 impl Started<'_> {
     /// The table of the runs' values.
     fn print_values(&self, folder: &Path) -> Outcome {
@@ -111,7 +105,7 @@ impl Started<'_> {
             runs.clone().try_for_each(|run| writeln!(to, "{}", table::values(campaign, run)))
         })?;
         if !is_stdout {
-            self.write_beside(&beside(output), &Digests::of(file, campaign, folder)?)?;
+            self.write_beside(&sidecar_of(output), &Digests::of(file, campaign, folder)?)?;
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -125,12 +119,12 @@ impl Started<'_> {
         let destination = Destination::open(output, OPTION, &inputs)?;
         let is_stdout = destination.is_stdout();
         if arguments.resume && !is_stdout && !part.exists() && output.exists() {
-            self.check_digests(&beside(output), &digests)?;
+            self.check_digests(&sidecar_of(output), &digests)?;
             return outcome::printed(&format!("{}: complete already", output.display()));
         }
         let header = table::header(campaign, described);
         let (done, bytes) = if arguments.resume && !is_stdout && part.exists() {
-            self.check_digests(&beside(&part), &digests)?;
+            self.check_digests(&sidecar_of(&part), &digests)?;
             table::whole_rows(&part, &header, (campaign, runs.start))?
         } else {
             (0, 0)
@@ -139,7 +133,7 @@ impl Started<'_> {
         let series = self.series(is_stdout, done > 0)?;
         let histories = self.histories()?;
         if !is_stdout {
-            self.write_beside(&beside(&part), &digests)?;
+            self.write_beside(&sidecar_of(&part), &digests)?;
         }
         if bytes > 0 {
             growing.keep(bytes)?;
@@ -149,7 +143,7 @@ impl Started<'_> {
             table.begin(described)?;
         }
         let is_over = AtomicBool::new(false);
-        let left = table.next()..runs.end;
+        let left = table.next..runs.end;
         let cores = || thread::available_parallelism().map_or(1, |it| it.get() as u64);
         let workers = arguments.workers.map_or_else(cores, u64::from).min((left.end - left.start).max(1));
         let pool = Pool {
@@ -166,18 +160,18 @@ impl Started<'_> {
         };
         let began = Instant::now();
         let counts = self.simulate(&pool, &mut table)?;
-        let next = table.next();
-        if table.has_lost_reader() {
+        let next = table.next;
+        if table.file.has_lost_reader() {
             return Ok(ExitCode::SUCCESS);
         }
-        let growing = table.into_file();
+        let growing = table.file;
         if next < runs.end {
             return self.interrupted(growing, next);
         }
         growing.finish()?;
         if !is_stdout {
-            self.write_beside(&beside(output), &digests)?;
-            let _ = fs::remove_file(beside(&part));
+            self.write_beside(&sidecar_of(output), &digests)?;
+            let _ = fs::remove_file(sidecar_of(&part));
         }
         self.finish_series(series, is_stdout)?;
         if !arguments.quiet {
@@ -201,7 +195,7 @@ impl Started<'_> {
         let mut counts = Counts::default();
         let total = self.runs.end - self.runs.start;
         let progress = terminal::progress(total, "runs", self.arguments.quiet);
-        progress.set_position(table.next() - self.runs.start);
+        progress.set_position(table.next - self.runs.start);
         let outcome = thread::scope(|scope| {
             let (sender, results) = mpsc::channel();
             let followed: Vec<_> = (0..pool.workers)
@@ -221,7 +215,7 @@ impl Started<'_> {
             for result in results {
                 counts.0[result.status as usize] += 1;
                 written = written.and_then(|()| table.take(&result));
-                if written.is_err() || table.has_lost_reader() {
+                if written.is_err() || table.file.has_lost_reader() {
                     pool.is_over.store(true, Ordering::Relaxed);
                 }
                 progress.inc(1);

@@ -13,8 +13,9 @@ use super::{
 };
 use crate::{
     epoch::Dates,
-    mission::{At, in_file},
+    mission::in_file,
     output::Limit,
+    reading::At,
     run::{Run, Settings, Simulated, Subject},
     values::Instant,
 };
@@ -23,6 +24,7 @@ use crate::{
 const MOST_NUMBERS: u64 = 100_000_000;
 
 /// What is recorded of a run. Columns are positions in `positions`.
+#[derive(Default)]
 pub(super) struct Kept {
     /// Recorded variables, those of histories first.
     pub positions: Vec<usize>,
@@ -159,7 +161,7 @@ impl Campaign {
                     let at = file.vary.iter().find(|at| at.it.name == variable.name);
                     let place = at.map_or_else(
                         || format!("{}: {}", file.file.display(), variable.name),
-                        |at| format!("{}:{}: {}", file.file.display(), at.line, at.key),
+                        |at| at.place(&file.file),
                     );
                     return Err(format!("{place}: run {run}: {misfit}"));
                 }
@@ -389,14 +391,7 @@ impl Reader<'_> {
             (Some(_), Some(_)) => settings.positions.clone(),
             (Some(_), None) => loader::outputs(self.described),
         };
-        let mut kept = Kept {
-            histories: histories.len(),
-            positions: histories,
-            finals: Vec::new(),
-            extremes: Vec::new(),
-            percentiles: Vec::new(),
-            limits: Vec::new(),
-        };
+        let mut kept = Kept { histories: histories.len(), positions: histories, ..Kept::default() };
         let is_number =
             |position: &usize| self.described.variables[*position].kind.base_type() != BaseType::String;
         let finals = match &keep.finals {

@@ -30,6 +30,7 @@ written!(
 );
 
 #[cfg(test)]
+#[cfg(feature = "schema")]
 mod tests {
     //! The committed schema is the one that the types give.
     use crate::{schema::written::assert_in_step, sweep::description::Description};

@@ -11,8 +11,9 @@ use super::{pool::RunResult, resolved::Campaign};
 /// Rows in order.
 pub(super) struct RunTable<'a> {
     campaign: &'a Campaign,
-    file: Growing,
-    next: u64,
+    pub file: Growing,
+    /// The first run that is not written.
+    pub next: u64,
     /// Runs that ended before those in front of them.
     waiting: BTreeMap<u64, String>,
 }
@@ -62,21 +63,6 @@ impl<'a> RunTable<'a> {
             self.next += 1;
         }
         if rows.is_empty() { Ok(()) } else { self.file.append(rows.as_bytes()) }
-    }
-
-    /// The first run that is not written.
-    pub(super) fn next(&self) -> u64 {
-        self.next
-    }
-
-    /// Whether the reader of the standard output is gone.
-    pub(super) fn has_lost_reader(&self) -> bool {
-        self.file.has_lost_reader()
-    }
-
-    /// The file.
-    pub(super) fn into_file(self) -> Growing {
-        self.file
     }
 }
 

@@ -111,7 +111,7 @@ fn simulate_all(arguments: &SweepInChild, link: &mut Link) -> Result<(), Box<dyn
             Ok(Ended::Cancelled) => return Ok(()),
             Ok(ended) => rows.end(ended)?,
             Err(error) => {
-                rows.fail(&Error::chain(&error))?;
+                rows.send(RunStatus::Failed, &Error::chain(&error))?;
                 if error.status() == Some(Status::Fatal) {
                     // No instance of a library may be used after it: the parent starts another process.
                     return Ok(());
@@ -215,23 +215,14 @@ impl<'a> KeptRows<'a> {
         self.send(status, &reason)
     }
 
-    fn fail(&mut self, why: &str) -> Result<(), String> {
-        self.finals.fill(f64::NAN);
-        self.extremes.fill(Extremes {
-            min: f64::NAN,
-            max: f64::NAN,
-            largest: f64::NAN,
-            time_of_largest_s: f64::NAN,
-        });
-        self.send(RunStatus::Failed, why)
-    }
-
+    /// Sends what is kept; of a run that failed nothing is.
     fn send(&mut self, status: RunStatus, reason: &str) -> Result<(), String> {
         let (finals, extremes) = (&self.finals, &self.extremes);
         self.link.send(ENDED, |payload| {
             payload.push(status as u64);
             let extremes = extremes.iter().flat_map(|it| [it.min, it.max, it.largest, it.time_of_largest_s]);
-            payload.extend(finals.iter().copied().chain(extremes).map(f64::to_bits));
+            let kept = |number: f64| if status == RunStatus::Failed { f64::NAN } else { number };
+            payload.extend(finals.iter().copied().chain(extremes).map(|number| kept(number).to_bits()));
             push_text(payload, reason);
         })
     }

@@ -36,14 +36,11 @@ impl Sidecar {
     /// # Errors
     /// A file beside it that cannot be read, or is no TOML.
     pub(crate) fn beside(table: &Path) -> Result<Self, String> {
-        let mut path = table.as_os_str().to_owned();
-        path.push(".toml");
-        let path = Path::new(&path);
-        match std::fs::metadata(path) {
-            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Self::default()),
-            _ => {}
+        let path = files::sidecar_of(table);
+        if std::fs::metadata(&path).is_err_and(|error| error.kind() == ErrorKind::NotFound) {
+            return Ok(Self::default());
         }
-        let text = files::read_text(path)?;
+        let text = files::read_text(&path)?;
         let parsed: toml::Table = text.parse().map_err(|error: toml::de::Error| {
             let line = 1 + text[..error.span().map_or(0, |span| span.start)].matches('\n').count();
             format!("{}:{line}: {}", path.display(), error.message())

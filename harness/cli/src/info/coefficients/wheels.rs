@@ -1,8 +1,9 @@
 //! What wheels hold: inscribed sphere, guaranteed box, and the box of least-norm sharing, as the FMU shares momentum.
 
 use loader::{Error, Fmu, Instance};
-use nalgebra::Vector3;
 use physics::momentum::WheelCapacity;
+
+use crate::instance::vector;
 
 /// What the wheels guarantee.
 pub(super) fn table(fmu: &Fmu, instance: &mut Instance) -> Result<String, Error> {
@@ -41,9 +42,4 @@ pub(super) fn table(fmu: &Fmu, instance: &mut Instance) -> Result<String, Error>
          In use: dump.threshold = {} N.m.s, {verdict}.\n{table}",
         thresholds_n_m_s.as_slice().iter().copied().map(terminal::short).collect::<Vec<_>>().join(", "),
     ))
-}
-
-fn vector(instance: &mut Instance, name: &str) -> Result<Vector3<f64>, Error> {
-    let [x, y, z] = [1, 2, 3].map(|axis| instance.get_real(&format!("{name}[{axis}]")));
-    Ok(Vector3::new(x?, y?, z?))
 }

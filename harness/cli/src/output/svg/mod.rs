@@ -21,6 +21,14 @@ use crate::variables::vector;
 /// Panels drawn at most; more would not be readable.
 const PANELS: usize = 10;
 
+/// Leaves out what a picture has no panels for, with a note; `what` panels are of, `see` what chooses them.
+pub(crate) fn leave_out<T>(panels: &mut Vec<T>, what: &str, see: &str) {
+    if let Some(beyond) = panels.len().checked_sub(PANELS).filter(|beyond| *beyond > 0) {
+        terminal::note(&format!("the picture shows the first {PANELS} {what} and leaves out {beyond}{see}"));
+        panels.truncate(PANELS);
+    }
+}
+
 /// Eclipses shaded at most; more would be stripes.
 const ECLIPSES: usize = 60;
 
@@ -100,10 +108,8 @@ pub(crate) fn chart(
     option: &str,
 ) -> (Chart, f64) {
     let ends_s = recording.times_s.first().zip(recording.times_s.last());
-    let axis = TimeAxis::over(
-        ends_s.map_or([0.0; 2], |(first_s, last_s)| [*first_s, *last_s]),
-        known.zero_epoch_s(),
-    );
+    let axis =
+        TimeAxis::over(ends_s.map_or([0.0; 2], |(first_s, last_s)| [*first_s, *last_s]), known.zero_epoch_s);
     let mut groups = groups(described, recording, known, axis.seconds);
     let constant = leave_out_constants(&mut groups);
     if !constant.is_empty() {

@@ -2,7 +2,8 @@
 
 use serde::Deserialize;
 
-use crate::mission::Written;
+use super::schema::{Number, Vector};
+use crate::reading::WrittenAs;
 
 /// A leg: the place and date at which it begins, and the encounter with a planet that it leads to. Lengths, speeds and angles are SI
 /// numbers or strings with a unit.
@@ -26,15 +27,12 @@ pub(super) struct Description {
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub(super) struct DepartDescription {
     /// The date; the mission's start unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub at: Option<Written>,
+    pub at: Option<WrittenAs<Number>>,
     /// The place from the Sun, EME2000.
-    #[cfg_attr(feature = "schema", schemars(with = "super::schema::Vector"))]
-    pub position: Written,
+    pub position: WrittenAs<Vector>,
     /// The velocity before the departure, EME2000: the delta-v of the departure is reported. It says, too, in which sense the leg goes
     /// around the Sun; as planets do unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Vector>"))]
-    pub velocity: Option<Written>,
+    pub velocity: Option<WrittenAs<Vector>>,
 }
 
 /// The encounter.
@@ -45,23 +43,17 @@ pub(super) struct ArriveDescription {
     /// The planet, the mission's encounter.body.
     pub body: ArrivalBody,
     /// When the closest approach shall be: a date or simulation time.
-    #[cfg_attr(feature = "schema", schemars(with = "super::schema::Number"))]
-    pub at: Written,
+    pub at: WrittenAs<Number>,
     /// Altitude of the closest approach, as it is simulated; beside `angle`, instead of `bT` and `bR`.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub altitude: Option<Written>,
+    pub altitude: Option<WrittenAs<Number>>,
     /// Angle of B from T toward R.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub angle: Option<Written>,
+    pub angle: Option<WrittenAs<Number>>,
     /// Component of B along T, of the hyperbola that osculates encounter.leadTime (6 h) before the closest approach.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub b_t: Option<Written>,
+    pub b_t: Option<WrittenAs<Number>>,
     /// Component of B along R.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub b_r: Option<Written>,
+    pub b_r: Option<WrittenAs<Number>>,
     /// Whole revolutions about the Sun; 0 unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<u32>"))]
-    pub revolutions: Option<Written>,
+    pub revolutions: Option<WrittenAs<u32>>,
     /// Which of the two arcs with so many revolutions.
     pub branch: Option<ArcBranch>,
 }

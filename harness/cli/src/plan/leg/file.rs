@@ -12,9 +12,8 @@ use planner::leg::FlybyAimpoint;
 use super::description::{ArcBranch, ArriveDescription, Description};
 use crate::{
     kind::FileKind,
-    mission::{At, Written},
-    plan::reading::{self, ALLOWED_LENGTH, Builder, quantity},
-    values::{self, Instant},
+    reading::{self, ALLOWED_LENGTH, At, Builder, Written},
+    values::Instant,
 };
 
 const ALLOWED_SPEED: &str = "a number of m/s or one with a unit: \"38.2 km/s\"";
@@ -50,7 +49,7 @@ impl LegFile {
 
     /// A problem at a place of the file.
     pub(super) fn problem<T>(&self, at: &At<T>, what: &str) -> String {
-        reading::problem(&self.file, at, what)
+        at.problem(&self.file, what)
     }
 }
 
@@ -59,7 +58,7 @@ impl Builder<'_> {
         let root = Place::root();
         let [mission, depart, arrive] = ["mission", "depart", "arrive"].map(|key| root.key(key));
         let Description { depart: from, arrive: to, .. } = description;
-        let path = self.path(&mission, &description.mission);
+        let path = self.path(&mission, &description.mission, Path::is_file);
         let at = depart.key("at");
         let departure = from.at.as_ref().and_then(|written| self.date(&at, written));
         let position = depart.key("position");
@@ -85,46 +84,38 @@ impl Builder<'_> {
     }
 
     fn required(&mut self, place: &Place, written: &Written, (unit, allowed): (&str, &str)) -> f64 {
-        quantity(written, unit).unwrap_or_else(|| {
-            self.check.report(place, written, allowed);
-            0.0
-        })
+        self.read(place, Some(written), |written| written.quantity(unit), allowed).unwrap_or(0.0)
     }
 
     fn vector(&mut self, place: &Place, written: &Written, (unit, allowed): (&str, &str)) -> Vector3<f64> {
-        let items = if let Written::List(items) = written { items.as_slice() } else { &[] };
-        let read: Vec<f64> = items.iter().filter_map(|item| quantity(item, unit)).collect();
-        let vector = <[f64; 3]>::try_from(read).ok().filter(|_| items.len() == 3).map(Vector3::from);
-        let vector = vector.filter(|vector| vector.norm() > 0.0);
-        vector.unwrap_or_else(|| {
-            self.check.report(place, written, format_args!("a list of three, not all 0, each {allowed}"));
-            Vector3::x()
-        })
+        let vector = |written: &Written| {
+            let Written::List(items) = written else { return None };
+            let parts = items.iter().map(|item| item.quantity(unit)).collect::<Option<Vec<f64>>>()?;
+            let vector = <[f64; 3]>::try_from(parts).ok().map(Vector3::from);
+            vector.filter(|vector| vector.norm() > 0.0)
+        };
+        let allowed = format_args!("a list of three, not all 0, each {allowed}");
+        self.read(place, Some(written), vector, allowed).unwrap_or_else(Vector3::x)
     }
 
     fn date(&mut self, place: &Place, written: &Written) -> Option<(f64, String)> {
-        if let Written::Text(text) = written
-            && let Ok(Instant::Epoch(epoch_s)) = values::instant(text)
-        {
-            return Some((epoch_s, text.clone()));
-        }
-        self.check.report(place, written, dates::ALLOWED_DATE);
-        None
+        let date = |written: &Written| {
+            let text = written.date()?;
+            Some((dates::epoch_s(text).ok()?, text.to_owned()))
+        };
+        self.read(place, Some(written), date, dates::ALLOWED_DATE)
     }
 
     /// With the key that it stands in.
     fn aimpoint(&mut self, arrive: &Place, to: &ArriveDescription) -> (Place, FlybyAimpoint) {
         let [altitude, angle, b_t, b_r] = ["altitude", "angle", "bT", "bR"].map(|key| arrive.key(key));
-        match (&to.altitude, &to.angle, &to.b_t, &to.b_r) {
+        match (to.altitude.as_deref(), to.angle.as_deref(), to.b_t.as_deref(), to.b_r.as_deref()) {
             (Some(above), Some(toward), None, None) => {
                 let altitude_m = self.required(&altitude, above, ("m", ALLOWED_LENGTH));
                 if altitude_m <= 0.0 && !self.check.has_reported(&altitude) {
                     let found = format!("{above}, inside the planet");
-                    self.check.report(
-                        &altitude,
-                        found,
-                        format_args!("an altitude above 0: {ALLOWED_LENGTH}"),
-                    );
+                    let allowed = format_args!("an altitude above 0: {ALLOWED_LENGTH}");
+                    self.check.report(&altitude, found, allowed);
                 }
                 let angle_rad = self.required(&angle, toward, ("rad", ALLOWED_ANGLE));
                 if angle_rad.abs() > core::f64::consts::TAU {
@@ -150,32 +141,26 @@ impl Builder<'_> {
 
     fn revolutions(&mut self, arrive: &Place, to: &ArriveDescription) -> Option<(u32, LambertBranch)> {
         let [key, branch] = ["revolutions", "branch"].map(|key| arrive.key(key));
-        let number = match &to.revolutions {
-            None => Some(0),
-            Some(Written::Integer(number)) => {
-                u32::try_from(*number).ok().filter(|it| *it <= MOST_REVOLUTIONS)
-            }
-            Some(_) => None,
+        let number = |written: &Written| {
+            let Written::Integer(number) = written else { return None };
+            u32::try_from(*number).ok().filter(|it| *it <= MOST_REVOLUTIONS)
+        };
+        let allowed = format_args!("a whole number from 0 to {MOST_REVOLUTIONS}");
+        let number = match to.revolutions.as_deref() {
+            None => 0,
+            written => self.read(&key, written, number, allowed)?,
         };
         match (number, to.branch) {
-            (None, _) => {
-                let found = to.revolutions.as_ref().map(Written::to_string).unwrap_or_default();
-                self.check.report(&key, found, format_args!("a whole number from 0 to {MOST_REVOLUTIONS}"));
-                None
-            }
-            (Some(0), None) => None,
-            (Some(0), Some(_)) => {
+            (0, None) => None,
+            (0, Some(_)) => {
                 self.check.report(&branch, "it without revolutions", "revolutions = 1 or more, or no branch");
                 None
             }
-            (Some(number), Some(ArcBranch::Left)) => Some((number, LambertBranch::Left)),
-            (Some(number), Some(ArcBranch::Right)) => Some((number, LambertBranch::Right)),
-            (Some(_), None) => {
-                self.check.report_lack(
-                    arrive,
-                    "branch",
-                    "branch = \"left\" or \"right\", of two arcs that go around so often",
-                );
+            (number, Some(ArcBranch::Left)) => Some((number, LambertBranch::Left)),
+            (number, Some(ArcBranch::Right)) => Some((number, LambertBranch::Right)),
+            (_, None) => {
+                let allowed = "branch = \"left\" or \"right\", of two arcs that go around so often";
+                self.check.report_lack(arrive, "branch", allowed);
                 None
             }
         }

@@ -9,7 +9,7 @@ use physics::{
 use planner::leg::{Approach, ApproachRow, Failure, SimulatesLeg};
 
 use super::super::flights::{Requested, SimulatedMission};
-use crate::interrupt;
+use crate::{interrupt, variables::elements};
 
 /// Distance of rows about the arrival, in s.
 const ROW_S: f64 = 600.0;
@@ -113,12 +113,8 @@ impl<'a> LegFlights<'a> {
         more: Vec<(String, Value)>,
     ) -> Result<(Recording, Option<String>), Failure> {
         let outputs: Vec<String> = outputs.iter().map(|name| (*name).to_owned()).collect();
-        let of = |name: &str, vector: &Vector3<f64>| -> Vec<(String, Value)> {
-            let parts = vector.iter().zip(1..);
-            parts.map(|(part, axis)| (format!("{name}[{axis}]"), Value::Real(*part))).collect()
-        };
-        let sets =
-            [of("orbit.position", &self.position_m), of("orbit.velocity", velocity_m_s), more].concat();
+        let position = elements("orbit.position", self.position_m);
+        let sets: Vec<_> = position.chain(elements("orbit.velocity", *velocity_m_s)).chain(more).collect();
         // Inputs change at the mission's steps alone; without any, a flight does not depend on them.
         let step_s = if self.mission.inputs.is_some() { self.mission.step_s } else { DAY_S };
         self.mission.record_until(&Requested {

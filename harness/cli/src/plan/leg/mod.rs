@@ -5,7 +5,6 @@ mod file;
 mod flights;
 mod options;
 mod picture;
-#[cfg(feature = "schema")]
 mod schema;
 
 use std::{cell::RefCell, path::Path, process::ExitCode, time::Instant};
@@ -26,6 +25,7 @@ use super::{
     mission_text,
 };
 use crate::{
+    assembly::spacecraft_of,
     interrupt,
     mission::{Inputs, Mission},
     outcome::Outcome,
@@ -86,8 +86,6 @@ fn aimpoint(aimpoint: &FlybyAimpoint) -> String {
 /// The mission's text with the leg's start, and with the velocity there once it is known.
 struct LegMission<'a> {
     file: &'a LegFile,
-    /// Epoch and time of the arrival, where the flight has one.
-    arrival: values::Instant,
     mission: Mission,
 }
 
@@ -98,7 +96,7 @@ impl<'a> LegMission<'a> {
             && let Some(at) = rows.iter().find(|at| STARTS.iter().any(|name| at.it.0.starts_with(name)))
         {
             let what = "found an input that the leg gives, allowed: none of orbit.position, orbit.velocity";
-            return Err(mission.problem(at, what).into());
+            return Err(at.problem(&mission.file, what).into());
         }
         if let (Some(at), None) = (&file.depart, &mission.epoch_s) {
             let what = "found a date, allowed: no such key, as the mission does not start at a date";
@@ -108,17 +106,12 @@ impl<'a> LegMission<'a> {
             let what = "found a date, allowed: simulation time, as the mission does not start at a date";
             return Err(file.problem(&file.arrive, what).into());
         }
-        Ok(Self { file, arrival: file.arrive.it, mission })
+        Ok(Self { file, mission })
     }
 
     /// Time of the arrival of a flight whose time 0 has this epoch, in s.
     fn arrival_s(&self, zero_epoch_s: Option<f64>) -> f64 {
-        match self.arrival {
-            values::Instant::Time(time_s) => time_s,
-            values::Instant::Epoch(epoch_s) => {
-                zero_epoch_s.map_or(f64::NAN, |zero_s| dates::span_s(zero_s, epoch_s))
-            }
-        }
+        self.file.arrive.it.time_s(zero_epoch_s).unwrap_or(f64::NAN)
     }
 
     fn text(&self, folder: &Path, velocity_m_s: &[f64]) -> Result<String, Failure> {
@@ -231,7 +224,7 @@ pub(crate) fn run(options: &LegOptions) -> Outcome {
         }
         let leg = found.map_err(|error| refusal(&file, &error, &in_mission))?;
         let paths = flights.paths(&leg.velocity_m_s).map_err(in_mission)?;
-        let names = [mission.spacecraft()?.name, capitalised(file.body.it)];
+        let names = [spacecraft_of(&mission.fmu)?.name, capitalised(file.body.it)];
         let picture = picture::svg([&names[0], &names[1]], (&task, &leg), &paths)?;
         (leg, task, picture)
     };

@@ -20,6 +20,7 @@ written!(
 );
 
 #[cfg(test)]
+#[cfg(feature = "schema")]
 mod tests {
     //! The committed schema is the one that the types give.
     use crate::{plan::leg::description::Description, schema::written::assert_in_step};

@@ -2,7 +2,8 @@
 
 use serde::Deserialize;
 
-use crate::mission::Written;
+use super::schema::{Command, Number};
+use crate::reading::WrittenAs;
 
 /// What is planned: a mission, how far arrays and attitude may go in its free windows (in an orbit phase: the Sun's place in its
 /// downlinks), and what its momentum is kept below. Times,
@@ -15,28 +16,23 @@ pub(super) struct Description {
     /// The mission: spacecraft, times, values, timeline. The path is relative to this file.
     pub mission: String,
     /// How long from its start the mission stays as it is; "14 d" unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub freeze: Option<Written>,
+    pub freeze: Option<WrittenAs<Number>>,
     /// Length of a window; "3 d" unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub window: Option<Written>,
+    pub window: Option<WrittenAs<Number>>,
     /// What the momentum is kept below.
     pub momentum: Option<MomentumDescription>,
     /// Offsets of the arrays from the Sun.
     pub sun_offset: Option<SunOffsetDescription>,
     /// Largest windmill angle of the arrays, either way; "2 deg" unless given, 0 for none.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub windmill: Option<Written>,
+    pub windmill: Option<WrittenAs<Number>>,
     /// Largest tilt of the Sun off -Y in downlinks; none unless given, in an orbit phase that of the keep-in zone.
     pub tilt: Option<TiltDescription>,
     /// Largest share of a window in the attitude turned by 180 deg about the Sun line; 0.5 unless given, 0 for none.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub alternation: Option<Written>,
+    pub alternation: Option<WrittenAs<Number>>,
     /// Ground contacts, in the order of time: no alternate attitude in them.
     pub contact: Option<Vec<ContactDescription>>,
     /// Share of every window that contacts take, where none is listed; 0 unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub contact_share: Option<Written>,
+    pub contact_share: Option<WrittenAs<Number>>,
     /// Activities whose price is reported.
     pub activity: Option<Vec<ActivityDescription>>,
     /// Where the mission is to pass a planet; for `plan flyby` alone.
@@ -55,16 +51,13 @@ pub(super) struct Description {
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub(super) struct MomentumDescription {
     /// Greatest length of the angular momentum; the least `dump.threshold` unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub limit: Option<Written>,
+    pub limit: Option<WrittenAs<Number>>,
     /// Share of the limit that is left; 0 unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub margin: Option<Written>,
+    pub margin: Option<WrittenAs<Number>>,
     /// The file of a refit (JSON): its centre of mass and scale of sunlight are simulated, three sigma of its covariance are left.
     pub refit: Option<String>,
     /// Dumps that the plan may have; 0 unless given. A plan that needs more ends with status 1.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<u32>"))]
-    pub dumps: Option<Written>,
+    pub dumps: Option<WrittenAs<u32>>,
 }
 
 /// Offsets of the arrays.
@@ -75,8 +68,7 @@ pub(super) struct SunOffsetDescription {
     /// Whether windows may leave the baseline, the fewest steps that keep the light on the cells in its corridor; false unless given.
     pub change: Option<bool>,
     /// Largest change off the baseline; "5 deg" unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub largest: Option<Written>,
+    pub largest: Option<WrittenAs<Number>>,
 }
 
 /// Largest tilt, either way.
@@ -85,11 +77,9 @@ pub(super) struct SunOffsetDescription {
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub(super) struct TiltDescription {
     /// Of the Sun's azimuth, from -Y toward +X.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub azimuth: Option<Written>,
+    pub azimuth: Option<WrittenAs<Number>>,
     /// Of the Sun's elevation, positive toward -Z.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub elevation: Option<Written>,
+    pub elevation: Option<WrittenAs<Number>>,
 }
 
 /// A ground contact.
@@ -98,11 +88,9 @@ pub(super) struct TiltDescription {
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub(super) struct ContactDescription {
     /// When it begins: a date or simulation time.
-    #[cfg_attr(feature = "schema", schemars(with = "super::schema::Number"))]
-    pub start: Written,
+    pub start: WrittenAs<Number>,
     /// When it ends.
-    #[cfg_attr(feature = "schema", schemars(with = "super::schema::Number"))]
-    pub stop: Written,
+    pub stop: WrittenAs<Number>,
 }
 
 /// An activity that might be added.
@@ -113,14 +101,11 @@ pub(super) struct ActivityDescription {
     /// What it is called.
     pub name: String,
     /// When it begins: a date or simulation time.
-    #[cfg_attr(feature = "schema", schemars(with = "super::schema::Number"))]
-    pub start: Written,
+    pub start: WrittenAs<Number>,
     /// When it ends.
-    #[cfg_attr(feature = "schema", schemars(with = "super::schema::Number"))]
-    pub stop: Written,
+    pub stop: WrittenAs<Number>,
     /// Its command, with the keys of `[[command]]` in a timeline but at and until.
-    #[cfg_attr(feature = "schema", schemars(with = "super::schema::Command"))]
-    pub command: Written,
+    pub command: WrittenAs<Command>,
 }
 
 /// Where the mission is to pass a planet: `bT` and `bR`, or `altitude` and `angle`, where B is that of the
@@ -132,28 +117,21 @@ pub(super) struct FlybyDescription {
     /// The planet: the mission's `encounter.body`.
     pub body: String,
     /// Component of B along T.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub b_t: Option<Written>,
+    pub b_t: Option<WrittenAs<Number>>,
     /// Component of B along R.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub b_r: Option<Written>,
+    pub b_r: Option<WrittenAs<Number>>,
     /// Altitude of the closest approach.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub altitude: Option<Written>,
+    pub altitude: Option<WrittenAs<Number>>,
     /// Angle of B from T toward R.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub angle: Option<Written>,
+    pub angle: Option<WrittenAs<Number>>,
     /// When the spacecraft arrives: a date or simulation time; for a fixed arrival.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub time: Option<Written>,
+    pub time: Option<WrittenAs<Number>>,
     /// Whether the time of arrival is a goal too: free (the default) or fixed.
     pub arrival: Option<String>,
     /// From when on the plan may change the mission: a date or simulation time; `freeze` where it is not given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub from: Option<Written>,
+    pub from: Option<WrittenAs<Number>>,
     /// Greatest miss; "1 km" unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub tolerance: Option<Written>,
+    pub tolerance: Option<WrittenAs<Number>>,
 }
 
 /// State from orbit determination, EME2000 from `orbit.center`.
@@ -162,8 +140,7 @@ pub(super) struct FlybyDescription {
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub(super) struct UpdateDescription {
     /// When it holds: a date or simulation time; the mission of the plan starts there.
-    #[cfg_attr(feature = "schema", schemars(with = "super::schema::Number"))]
-    pub at: Written,
+    pub at: WrittenAs<Number>,
     /// Position in m; that of the mission unless given.
     pub position: Option<[f64; 3]>,
     /// Velocity in m/s; that of the mission unless given.
@@ -178,20 +155,15 @@ pub(super) struct UpdateDescription {
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub(super) struct CompareDescription {
     /// Standard deviation of their direction about each axis across; "0.2 deg" unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub direction_error: Option<Written>,
+    pub direction_error: Option<WrittenAs<Number>>,
     /// Standard deviation of their size, as a share; 0.001 unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub magnitude_error: Option<Written>,
+    pub magnitude_error: Option<WrittenAs<Number>>,
     /// When approach manoeuvres are, before the arrival; ["-42 d"] unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<Vec<super::schema::Number>>"))]
-    pub approach: Option<Vec<Written>>,
+    pub approach: Option<Vec<WrittenAs<Number>>>,
     /// When the departure manoeuvre is, behind the arrival; "30 d" unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub departure: Option<Written>,
+    pub departure: Option<WrittenAs<Number>>,
     /// When that leads back to where the flight through the aim is: a date or simulation time.
-    #[cfg_attr(feature = "schema", schemars(with = "super::schema::Number"))]
-    pub next: Written,
+    pub next: WrittenAs<Number>,
 }
 
 /// Flights of the plan with errors.
@@ -200,15 +172,11 @@ pub(super) struct CompareDescription {
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub(super) struct MonteCarloDescription {
     /// How many; 200 unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<u32>"))]
-    pub runs: Option<Written>,
+    pub runs: Option<WrittenAs<u32>>,
     /// Seed of the draws; 1 unless given. Manoeuvres of run n have `noise.seed` n.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<u32>"))]
-    pub seed: Option<Written>,
+    pub seed: Option<WrittenAs<u32>>,
     /// Standard deviation of each coordinate of the centre of mass; 0 unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub center_of_mass: Option<Written>,
+    pub center_of_mass: Option<WrittenAs<Number>>,
     /// Standard deviation of `solar.scale`; 0 unless given.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
-    pub scale: Option<Written>,
+    pub scale: Option<WrittenAs<Number>>,
 }

@@ -4,17 +4,19 @@ pub(in crate::plan) mod encounter;
 
 use std::path::{Path, PathBuf};
 
-use physics::toml::Place;
+use physics::{constants::DAY_S, toml::Place};
 
 use self::encounter::{Compare, Flyby, MonteCarlo, Update};
 use super::description::{ActivityDescription, ContactDescription, Description};
-pub(super) use crate::mission::At;
 use crate::{
     kind::FileKind,
-    mission::Written,
-    plan::reading::{self, Builder, DAY_S},
+    plan::flights::SimulatedMission,
+    reading::{self, At, Builder, Written},
     values,
 };
+
+/// What is wrong with a time before or behind the mission.
+pub(super) const OUTSIDE: &str = "found a time outside of the mission, allowed: from its start to its stop";
 
 /// An activity that might be added.
 #[derive(Clone, Debug)]
@@ -67,32 +69,52 @@ impl PlanFile {
 
     /// A problem at a place of the file.
     pub(super) fn problem<T>(&self, at: &At<T>, what: &str) -> String {
-        reading::problem(&self.file, at, what)
+        at.problem(&self.file, what)
+    }
+
+    /// A time of the mission that the file gives, in s.
+    pub(super) fn time_s<T>(
+        &self,
+        at: &At<T>,
+        instant: values::Instant,
+        mission: &SimulatedMission,
+    ) -> Result<f64, String> {
+        mission.time_s(instant).ok_or_else(|| {
+            let what = "found a date, allowed: simulation time: the mission does not start at a date";
+            self.problem(at, what)
+        })
+    }
+
+    /// The same, refused outside of the mission.
+    pub(super) fn time_in_mission_s(
+        &self,
+        at: &At<values::Instant>,
+        mission: &SimulatedMission,
+    ) -> Result<f64, String> {
+        let time_s = self.time_s(at, at.it, mission)?;
+        if !(time_s >= mission.start_s && time_s < mission.stop_s) {
+            return Err(self.problem(at, OUTSIDE));
+        }
+        Ok(time_s)
     }
 }
 
 impl Builder<'_> {
     fn plan(&mut self, file: &Path, description: Description) -> PlanFile {
         let root = Place::root();
-        let written = [
-            ("window", description.window.is_some()),
-            ("windmill", description.windmill.is_some()),
-            ("alternation", description.alternation.is_some()),
-            ("sunOffset", description.sun_offset.is_some()),
-            ("contact", description.contact.is_some()),
-            ("contactShare", description.contact_share.is_some()),
-        ];
-        let of_cruise = written.into_iter().filter(|(_, is)| *is).map(|(key, _)| self.at(&root.key(key), ()));
+        let of_cruise = ["window", "windmill", "alternation", "sunOffset", "contact", "contactShare"];
+        let of_cruise = of_cruise.map(|key| root.key(key)).into_iter();
+        let of_cruise = of_cruise.filter(|key| self.check.is_written(key)).map(|key| self.at(&key, ()));
         let of_cruise = of_cruise.collect();
         let momentum = description.momentum.unwrap_or_default();
         let sun_offset = description.sun_offset.unwrap_or_default();
         let tilt = description.tilt.unwrap_or_default();
         let [of_momentum, of_offset, of_tilt] = ["momentum", "sunOffset", "tilt"].map(|key| root.key(key));
-        let mission = self.path(&root.key("mission"), &description.mission);
+        let mission = self.path(&root.key("mission"), &description.mission, Path::is_file);
         let largest_rad =
-            self.angle(&of_offset.key("largest"), sun_offset.largest.as_ref()).unwrap_or(LARGEST_RAD);
+            self.angle(&of_offset.key("largest"), sun_offset.largest.as_deref()).unwrap_or(LARGEST_RAD);
         let windmill = root.key("windmill");
-        let windmill_rad = self.angle(&windmill, description.windmill.as_ref());
+        let windmill_rad = self.angle(&windmill, description.windmill.as_deref());
         let share = root.key("contactShare");
         if description.contact_share.is_some() && description.contact.is_some() {
             self.check.report(&share, "contactShare beside [[contact]]", "one of them");
@@ -101,8 +123,8 @@ impl Builder<'_> {
         if momentum.margin.is_some() && momentum.refit.is_some() {
             self.check.report(&margin, "margin beside refit", "one of them");
         }
-        let freeze_s = self.span(&root.key("freeze"), description.freeze.as_ref(), 14.0 * DAY_S, 0.0);
-        let window_s = self.span(&root.key("window"), description.window.as_ref(), 3.0 * DAY_S, 3600.0);
+        let freeze_s = self.span(&root.key("freeze"), description.freeze.as_deref(), 14.0 * DAY_S, 0.0);
+        let window_s = self.span(&root.key("window"), description.window.as_deref(), 3.0 * DAY_S, 3600.0);
         let contacts = description.contact.unwrap_or_default();
         let contacts = self.contacts(&root.key("contact"), &contacts);
         let activities = description.activity.unwrap_or_default().into_iter().enumerate();
@@ -121,24 +143,24 @@ impl Builder<'_> {
             mission: self.at(&root.key("mission"), mission),
             freeze_s: self.at(&root.key("freeze"), freeze_s),
             window_s: self.at(&root.key("window"), window_s),
-            limit_n_m_s: self.momentum(&of_momentum.key("limit"), momentum.limit.as_ref()),
-            margin: self.share(&margin, momentum.margin.as_ref(), 0.0, 0.99),
+            limit_n_m_s: self.momentum(&of_momentum.key("limit"), momentum.limit.as_deref()),
+            margin: self.share(&margin, momentum.margin.as_deref(), 0.0, 0.99),
             refit: momentum.refit.map(|path| {
                 let key = of_momentum.key("refit");
-                let path = self.path(&key, &path);
+                let path = self.path(&key, &path, Path::is_file);
                 self.at(&key, path)
             }),
-            dumps: self.count(&of_momentum.key("dumps"), momentum.dumps.as_ref()),
+            dumps: self.count(&of_momentum.key("dumps"), momentum.dumps.as_deref(), 0).unwrap_or(0) as usize,
             offset_rad: if sun_offset.change == Some(true) { largest_rad } else { 0.0 },
             windmill_rad: (
                 windmill_rad.unwrap_or(WINDMILL_RAD),
                 windmill_rad.map(|_| self.at(&windmill, ())),
             ),
-            azimuth_rad: self.angle(&of_tilt.key("azimuth"), tilt.azimuth.as_ref()),
-            elevation_rad: self.angle(&of_tilt.key("elevation"), tilt.elevation.as_ref()),
-            alternation: self.share(&root.key("alternation"), description.alternation.as_ref(), 0.5, 1.0),
+            azimuth_rad: self.angle(&of_tilt.key("azimuth"), tilt.azimuth.as_deref()),
+            elevation_rad: self.angle(&of_tilt.key("elevation"), tilt.elevation.as_deref()),
+            alternation: self.share(&root.key("alternation"), description.alternation.as_deref(), 0.5, 1.0),
             contacts,
-            contact_share: self.share(&share, description.contact_share.as_ref(), 0.0, 1.0),
+            contact_share: self.share(&share, description.contact_share.as_deref(), 0.0, 1.0),
             activities: activities
                 .filter_map(|(index, it)| self.activity(&root.key("activity").item(index), it))
                 .collect(),
@@ -157,12 +179,9 @@ impl Builder<'_> {
                 _ => false,
             });
             if overlaps {
-                let found = format!("{}, before the contact above ends", contact.start);
-                self.check.report(
-                    &place.key("start"),
-                    found,
-                    "contacts in the order of time, none overlapping",
-                );
+                let found = format!("{}, before the contact above ends", *contact.start);
+                let allowed = "contacts in the order of time, none overlapping";
+                self.check.report(&place.key("start"), found, allowed);
             }
             found.push(self.at(&place, span));
         }
@@ -172,14 +191,9 @@ impl Builder<'_> {
     fn activity(&mut self, place: &Place, activity: ActivityDescription) -> Option<At<Activity>> {
         let span = self.spanned(place, &activity.start, &activity.stop);
         let key = place.key("command");
-        let Written::Table(table) = &activity.command else {
-            if !self.check.has_stand_in(&key) {
-                self.check.report(
-                    &key,
-                    &activity.command,
-                    "a table with the keys of a command in a timeline",
-                );
-            }
+        let command = &*activity.command;
+        let Written::Table(table) = command else {
+            self.check.report(&key, command, "a table with the keys of a command in a timeline");
             return None;
         };
         for clock in ["at", "until"].into_iter().filter(|clock| table.contains_key(*clock)) {
@@ -196,9 +210,8 @@ const WINDMILL_RAD: f64 = 2.0 * core::f64::consts::PI / 180.0;
 /// As TOML has it in one line.
 fn inline(written: &Written) -> String {
     match written {
-        Written::Integer(number) => number.to_string(),
+        Written::Integer(_) | Written::Boolean(_) => written.to_string(),
         Written::Number(number) => format!("{number:?}"),
-        Written::Boolean(truth) => truth.to_string(),
         Written::Text(text) => toml_edit::Value::from(text.as_str()).to_string(),
         Written::List(items) => {
             format!("[{}]", items.iter().map(inline).collect::<Vec<_>>().join(", "))

@@ -7,13 +7,11 @@ use planner::{
         BPlaneAimpoint, ForceModel, Sensitivity,
         aimpoint::{b_of_periapsis_m, periapsis_of_b_m},
     },
+    leg::FlybyAimpoint,
     momentum::{simulated::SimulatedFlight, target::Target, torque::SunlitSpacecraft},
 };
 
-use super::file::{
-    PlanFile,
-    encounter::{Flyby, GivenAimpoint},
-};
+use super::file::{PlanFile, encounter::Flyby};
 use crate::plan::flights::{Failure, SimulatedMission};
 
 /// Where a plan's flights are to meet a planet.
@@ -55,8 +53,8 @@ impl FlybyTask {
         let excess_m_s = first.encounter.plane.excess_speed_m_s;
         let gm_m3_s2 = force_model.gm_m3_s2;
         let b_m = match flyby.aimpoint.it {
-            GivenAimpoint::BPlane(b_m) => b_m,
-            GivenAimpoint::Altitude([altitude_m, angle_rad]) => {
+            FlybyAimpoint::Plane { b_t_m, b_r_m } => [b_t_m, b_r_m],
+            FlybyAimpoint::Altitude { altitude_m, angle_rad } => {
                 // From the osculation on tides change B: by as much as in the flight of the mission as it is.
                 let simulated_m = first.encounter.plane.b_t_m.hypot(first.encounter.plane.b_r_m);
                 let [aimed_m, passed_m] = [radius_m + altitude_m, first.encounter.closest.position_m.norm()]
@@ -77,14 +75,7 @@ impl FlybyTask {
             );
             return Err(file.problem(&flyby.aimpoint, &what).into());
         }
-        let arrival_s = flyby.time.as_ref().map(|at| {
-            mission.time_s(at.it).ok_or_else(|| {
-                file.problem(
-                    at,
-                    "found a date, allowed: simulation time: the mission does not start at a date",
-                )
-            })
-        });
+        let arrival_s = flyby.time.as_ref().map(|at| file.time_s(at, at.it, mission));
         let aimpoint = BPlaneAimpoint { b_m, arrival_s: arrival_s.transpose()? };
         Ok(Self { force_model, aimpoint, tolerance_m: flyby.tolerance_m, radius_m, first })
     }

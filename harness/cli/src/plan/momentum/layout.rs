@@ -2,18 +2,18 @@
 
 use std::path::PathBuf;
 
-use nalgebra::Matrix4;
 use planner::momentum::{
+    refit_file::{self, RefitValues},
     simulated::SimulatedFlight,
     torque::SunlitSpacecraft,
     windows::{ControlBounds, Layout},
 };
 
-use super::{
-    file::{self, PlanFile},
-    timeline::MissionTimeline,
+use super::{file::PlanFile, timeline::MissionTimeline};
+use crate::{
+    plan::flights::{Failure, SimulatedMission},
+    reading::At,
 };
-use crate::plan::flights::{Failure, SimulatedMission};
 
 /// Most windows of a plan.
 const MOST_WINDOWS: f64 = 1000.0;
@@ -115,12 +115,8 @@ pub(super) fn layout(
     let arrays_are_frozen = controls.into_iter().all(|it| matches!(it, Some("sunOffset" | "timeline")));
     let mut contacts_s: Vec<[f64; 2]> = Vec::new();
     for at in &file.contacts {
-        let span = at.it.map(|instant| mission.time_s(instant));
-        let [Some(from_s), Some(to_s)] = span else {
-            return Err(file
-                .problem(at, "found a date, allowed: simulation time: the mission does not start at a date")
-                .into());
-        };
+        let [from_s, to_s] = at.it.map(|instant| file.time_s(at, instant, mission));
+        let (from_s, to_s) = (from_s?, to_s?);
         // Dates and simulation times compare here alone.
         if contacts_s.last().is_some_and(|[_, before_s]| from_s < *before_s) {
             let what = "found it before the contact above ends, allowed: contacts in the order of time, none overlapping";
@@ -158,37 +154,22 @@ pub(super) fn layout(
     })
 }
 
-/// What a refit found.
-pub(super) struct Refit {
-    pub spacecraft: Option<String>,
-    center_of_mass_m: [f64; 3],
-    scale: f64,
-    pub covariance: Matrix4<f64>,
-}
-
-impl Refit {
-    pub(super) fn sets(&self) -> Vec<(String, Vec<f64>)> {
-        vec![
-            ("spacecraft.centerOfMass".to_owned(), self.center_of_mass_m.to_vec()),
-            ("solar.scale".to_owned(), vec![self.scale]),
-        ]
-    }
+/// Values of the mission that a refit gives.
+pub(super) fn sets_of(refit: &RefitValues) -> Vec<(String, Vec<f64>)> {
+    vec![
+        ("spacecraft.centerOfMass".to_owned(), refit.center_of_mass_m.to_vec()),
+        ("solar.scale".to_owned(), vec![refit.scale]),
+    ]
 }
 
 /// Reads the file of a refit.
-pub(super) fn refit(plan: &PlanFile, at: &file::At<PathBuf>) -> Result<Refit, Failure> {
+pub(super) fn refit(plan: &PlanFile, at: &At<PathBuf>) -> Result<RefitValues, String> {
     // Beside the values for missions stands what was found.
     let is_toml = at.it.extension().is_some_and(|it| it.eq_ignore_ascii_case("toml"));
     let path = if is_toml { at.it.with_extension("json") } else { at.it.clone() };
-    let found = ::files::read_text(&path).and_then(|text| planner::momentum::refit_file::read(&text));
-    let found = found.map_err(|error| {
+    let found = ::files::read_text(&path).and_then(|text| refit_file::read(&text));
+    found.map_err(|error| {
         let allowed = "allowed: the JSON that `heliotorque refit` writes";
         plan.problem(at, &format!("found {}: {error}, {allowed}", path.display()))
-    })?;
-    Ok(Refit {
-        spacecraft: found.spacecraft,
-        center_of_mass_m: found.center_of_mass_m,
-        scale: found.scale,
-        covariance: Matrix4::from(found.covariance).transpose(),
     })
 }

@@ -9,7 +9,6 @@ mod options;
 mod picture;
 mod planned;
 mod prices;
-#[cfg(feature = "schema")]
 mod schema;
 mod timeline;
 mod written;
@@ -17,7 +16,7 @@ mod written;
 use std::{cell::RefCell, path::Path, process::ExitCode, time::Instant};
 
 use drawing::{Chart, DrawingError, Picture};
-use nalgebra::Vector3;
+use nalgebra::{Matrix4, Vector3};
 use physics::guidance::timeline::Timeline;
 use planner::flyby::report::FlybyReport;
 use planner::momentum::{
@@ -32,15 +31,15 @@ pub(crate) use self::options::MomentumOptions;
 use self::{
     file::PlanFile,
     flyby_task::FlybyTask,
-    layout::{check_arrays, check_spans, layout, orbit_layout, refit},
+    layout::{check_arrays, check_spans, layout, orbit_layout, refit, sets_of},
     planned::{NAMES, Planned},
     timeline::MissionTimeline,
 };
 use super::{
     files::write_all,
-    flights::{Failure, SimulatedMission, Thresholds},
+    flights::{Failure, SimulatedMission},
 };
-use crate::{interrupt, outcome::Outcome};
+use crate::{assembly::spacecraft_of, interrupt, outcome::Outcome, reading::At};
 
 /// What is planned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,31 +53,21 @@ pub(crate) enum PlanKind {
 impl PlanKind {
     /// Refuses a plan file that is for the other one.
     fn check(self, file: &PlanFile) -> Result<(), String> {
-        let at = &file.mission;
-        let place = |key: &str, line: usize| format!("{}:{line}: {key}", file.file.display());
         match (self, &file.flyby) {
-            (Self::Flyby, None) => Err(format!(
-                "{}: flyby: found none, allowed: [flyby] with the aim, for `plan flyby`; `plan momentum` plans without",
-                place(&at.key, at.line)
-            )),
-            (Self::Momentum, Some(flyby)) => Err(format!(
-                "{}: found it, allowed with `plan flyby {}`",
-                place(&flyby.key, flyby.line),
-                file.file.display()
-            )),
+            (Self::Flyby, None) => {
+                let what = "flyby: found none, allowed: [flyby] with the aim, for `plan flyby`; `plan momentum` plans without";
+                Err(file.problem(&file.mission, what))
+            }
+            (Self::Momentum, Some(flyby)) => {
+                let what = format!("found it, allowed with `plan flyby {}`", file.file.display());
+                Err(file.problem(flyby, &what))
+            }
             (Self::Momentum, None) => {
-                let others = [
-                    file.update.as_ref().map(|at| (&at.key, at.line)),
-                    file.compare.as_ref().map(|at| (&at.key, at.line)),
-                    file.monte_carlo.as_ref().map(|at| (&at.key, at.line)),
-                ];
-                let other = others.into_iter().flatten().next();
-                other.map_or(Ok(()), |(key, line)| {
-                    Err(format!(
-                        "{}: found it without [flyby], allowed with it, for `plan flyby`",
-                        place(key, line)
-                    ))
-                })
+                let what = "found it without [flyby], allowed with it, for `plan flyby`";
+                let other = file.update.as_ref().map(|at| file.problem(at, what));
+                let other = other.or_else(|| Some(file.problem(file.compare.as_ref()?, what)));
+                let other = other.or_else(|| Some(file.problem(file.monte_carlo.as_ref()?, what)));
+                other.map_or(Ok(()), Err)
             }
             (Self::Flyby, Some(_)) => Ok(()),
         }
@@ -89,7 +78,7 @@ impl PlanKind {
 fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> Result<Planned<'a>, Failure> {
     let template = options.template.as_deref();
     let refit = file.refit.as_ref().map(|at| refit(file, at)).transpose()?;
-    let sets: Vec<(String, Vec<f64>)> = refit.iter().flat_map(|it| it.sets()).collect();
+    let sets: Vec<(String, Vec<f64>)> = refit.iter().flat_map(sets_of).collect();
     let settings = sets.iter().map(|(name, values)| {
         let values: Vec<String> = values.iter().map(f64::to_string).collect();
         format!("{name}={}", values.join(","))
@@ -114,7 +103,7 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
             "found it, allowed: none in an orbit phase, whose downlinks' places of the Sun alone are planned";
         return Err(file.problem(at, what).into());
     }
-    let spacecraft = mission.spacecraft()?;
+    let spacecraft = spacecraft_of(&mission.fmu)?;
     if let (Some(at), Some(refit)) = (&file.refit, &refit)
         && let Some(other) = refit.spacecraft.as_ref().filter(|other| **other != spacecraft.name)
     {
@@ -126,15 +115,11 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
     let timeline = MissionTimeline::of(&mission, found.as_ref())?;
     let own: Option<&Timeline> = found.as_ref().map(|(_, timeline)| timeline);
     let sunlit = mission.sunlit(own)?;
-    let mut simulated = mission.simulate(Thresholds::Never, None)?;
-    let flyby_task = match &file.flyby {
-        Some(at) => {
-            let flyby_task = FlybyTask::of(file, &at.it, (&mission, &sunlit), &simulated)?;
-            simulated.encountered = Some(flyby_task.aimpoint.encountered(&flyby_task.first, &simulated.rows));
-            Some(flyby_task)
-        }
-        None => None,
-    };
+    let mut simulated = mission.simulate(None)?;
+    let flyby_task =
+        file.flyby.as_ref().map(|at| FlybyTask::of(file, &at.it, (&mission, &sunlit), &simulated));
+    let flyby_task = flyby_task.transpose()?;
+    simulated.encountered = flyby_task.as_ref().map(|it| it.aimpoint.encountered(&it.first, &simulated.rows));
     let layout = match is_in_orbit {
         true => orbit_layout(file, &mission, &timeline, &simulated)?,
         false => layout(file, &mission, &timeline, &sunlit)?,
@@ -144,7 +129,7 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
         momentum_n_m_s,
         size: MomentumSize::Length,
         margin: file.margin,
-        covariance: refit.map(|it| it.covariance),
+        covariance: refit.map(|it| Matrix4::from(it.covariance).transpose()),
     };
     let least = if is_in_orbit { Least::Momentum } else { Least::Tilt };
     let target = flyby_task.as_ref().map(FlybyTask::target);
@@ -169,16 +154,8 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
 fn frozen_until_from(file: &PlanFile, mission: &SimulatedMission) -> Result<PlanFile, Failure> {
     let mut file = file.clone();
     let Some(from) = file.flyby.as_ref().and_then(|flyby| flyby.it.from.clone()) else { return Ok(file) };
-    let Some(from_s) = mission.time_s(from.it) else {
-        let what = "found a date, allowed: simulation time: the mission does not start at a date";
-        return Err(file.problem(&from, what).into());
-    };
-    let frozen_s = from_s - mission.start_s;
-    if !(frozen_s >= 0.0 && from_s < mission.stop_s) {
-        let what = "found a time outside of the mission, allowed: from its start to its stop";
-        return Err(file.problem(&from, what).into());
-    }
-    file.freeze_s = file::At { it: frozen_s, key: from.key, line: from.line };
+    let frozen_s = file.time_in_mission_s(&from, mission)? - mission.start_s;
+    file.freeze_s = At { it: frozen_s, key: from.key, line: from.line };
     Ok(file)
 }
 
@@ -215,13 +192,10 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     std::fs::create_dir_all(&options.output)
         .map_err(|error| format!("{}: {error}: see --output", options.output.display()))?;
     let planned = opened(options, &file, began)?;
-    let mut encounter = match &planned.flyby_task {
-        Some(flyby_task) => Some(flyby::before(&planned, flyby_task)?),
-        None => None,
-    };
-    if let (Some(report), Some(flyby_task)) = (&encounter, &planned.flyby_task)
-        && report.is_out_of_reach
-    {
+    let encounter =
+        planned.flyby_task.as_ref().map(|it| Ok::<_, Failure>((flyby::before(&planned, it)?, it)));
+    let mut encounter = encounter.transpose()?;
+    if let Some((report, flyby_task)) = encounter.as_ref().filter(|(report, _)| report.is_out_of_reach) {
         return refuse(&planned, (report, flyby_task));
     }
     let mut simulates = &planned;
@@ -258,7 +232,7 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     let windows = report::windows_csv(&found, &timeline::shown_deg)?;
     let seeds = planned.simulate_seeds(&found.windows, &found.dumps)?;
     let mut of_flyby = Vec::new();
-    if let (Some(report), Some(flyby_task)) = (&mut encounter, &planned.flyby_task) {
+    if let Some((report, flyby_task)) = &mut encounter {
         let sensitivity = flyby::complete(report, &file, (&planned, flyby_task), &found)?;
         of_flyby = vec![
             (flyby::NAMES[0], String::from_utf8(report.desired_csv()?)?),
@@ -266,8 +240,8 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
         ];
     }
     let chart = picture::chart(&planned.sunlit.spacecraft.name, &found, &planned.task);
-    let picture = drawn(Some(&chart), encounter.as_ref().zip(planned.flyby_task.as_ref()))?;
-    let more = encounter.as_ref().map(FlybyReport::members).unwrap_or_default();
+    let picture = drawn(Some(&chart), encounter.as_ref().map(|(report, it)| (report, *it)))?;
+    let more = encounter.as_ref().map(|(report, _)| report.members()).unwrap_or_default();
     let json = report::json(&found, &planned.task, &events, (&prices, &seeds), more)?;
     let [timeline, mission] = planned.write_into(&options.output, (&found.windows, &found.dumps), None)?;
     let mut contents = vec![
@@ -290,7 +264,7 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     }
     if !options.quiet {
         terminal::print(&summary(&planned, &found, (&prices, &seeds)))?;
-        if let (Some(report), Some(flyby_task)) = (&encounter, &planned.flyby_task) {
+        if let Some((report, flyby_task)) = &encounter {
             terminal::print(&flyby::summary(report, flyby_task).join("\n"))?;
         }
         for (name, _) in &contents {
@@ -318,7 +292,8 @@ fn refuse(planned: &Planned<'_>, (report, flyby_task): (&FlybyReport, &FlybyTask
 
 /// `plan.svg`.
 fn drawn(chart: Option<&Chart>, flyby: Option<(&FlybyReport, &FlybyTask)>) -> Result<String, DrawingError> {
-    let of_flyby = flyby.map(|(report, flyby_task)| flyby::charts(report, flyby_task));
+    let of_flyby =
+        flyby.map(|(report, flyby_task)| (flyby::plane(report, flyby_task), flyby::desired(report)));
     let mut all: Vec<&dyn Picture> = chart.iter().map(|chart| *chart as &dyn Picture).collect();
     if let Some((plane, desired)) = &of_flyby {
         all.push(plane);

@@ -12,7 +12,7 @@ use planner::momentum::{
     windows::{Window, WindowKind},
 };
 
-use super::super::flights::{Failure, SimulatedMission, Thresholds};
+use super::super::flights::{Failure, SimulatedMission};
 use super::{
     file::Activity, flyby_task::FlybyTask, options::MomentumOptions, timeline::MissionTimeline, written,
 };
@@ -75,6 +75,20 @@ impl Planned<'_> {
         Some(inertial_from_body.inverse() * row.momentum_n_m_s)
     }
 
+    /// The mission of a plan, in a folder that lasts as long as it is in use.
+    pub(super) fn open_plan(
+        &self,
+        plan: (&[Window], &[PlannedDump]),
+        activity: Option<(&Activity, [f64; 2])>,
+    ) -> Result<(SimulatedMission, Scratch), Failure> {
+        let folder = Scratch::new()?;
+        for (name, text) in self.write_into(folder.path(), plan, activity)? {
+            std::fs::write(folder.path().join(name), text)?;
+        }
+        let template = self.options.template.as_deref();
+        Ok((SimulatedMission::open(&folder.path().join(NAMES[1]), template, &[])?, folder))
+    }
+
     /// Simulates a plan.
     pub(super) fn simulate_plan(
         &self,
@@ -82,13 +96,8 @@ impl Planned<'_> {
         dumps: &[PlannedDump],
         activity: Option<(&Activity, [f64; 2])>,
     ) -> Result<SimulatedFlight, Failure> {
-        let folder = Scratch::new()?;
-        for (name, text) in self.write_into(folder.path(), (windows, dumps), activity)? {
-            std::fs::write(folder.path().join(name), text)?;
-        }
-        let mission =
-            SimulatedMission::open(&folder.path().join(NAMES[1]), self.options.template.as_deref(), &[])?;
-        let mut flight = mission.simulate(Thresholds::Never, None)?;
+        let (mission, _folder) = self.open_plan((windows, dumps), activity)?;
+        let mut flight = mission.simulate(None)?;
         if let Some(flyby_task) = &self.flyby_task {
             flyby_task.judge(&mut flight, &self.sunlit)?;
         }
@@ -104,15 +113,10 @@ impl Planned<'_> {
         if self.options.seeds == 0 {
             return Ok(Vec::new());
         }
-        let folder = Scratch::new()?;
-        for (name, text) in self.write_into(folder.path(), (windows, dumps), None)? {
-            std::fs::write(folder.path().join(name), text)?;
-        }
-        let mission =
-            SimulatedMission::open(&folder.path().join(NAMES[1]), self.options.template.as_deref(), &[])?;
+        let (mission, _folder) = self.open_plan((windows, dumps), None)?;
         let bar = terminal::progress(self.options.seeds.into(), "seeds", self.options.quiet);
         let flights = (1..=self.options.seeds).map(|seed| {
-            let flight = mission.simulate(Thresholds::Own, Some(seed))?;
+            let flight = mission.simulate(Some(seed))?;
             bar.inc(1);
             Ok((flight.greatest_momentum().0, flight.rows.last().map_or(0, |row| row.dumps)))
         });

@@ -10,7 +10,10 @@ use planner::momentum::{
 };
 
 use super::super::flights::Failure;
-use super::{file::PlanFile, planned::Planned};
+use super::{
+    file::{OUTSIDE, PlanFile},
+    planned::Planned,
+};
 
 /// All of them.
 pub(super) fn all(
@@ -51,15 +54,10 @@ pub(super) fn all(
     }
     for at in &file.activities {
         let activity = &at.it;
-        let span = activity.span.map(|instant| planned.mission.time_s(instant));
-        let [Some(from_s), Some(to_s)] = span else {
-            let what = "found a date, allowed: simulation time: the mission does not start at a date";
-            return Err(file.problem(at, what).into());
-        };
+        let [from_s, to_s] = activity.span.map(|instant| file.time_s(at, instant, &planned.mission));
+        let (from_s, to_s) = (from_s?, to_s?);
         if from_s < planned.mission.start_s || to_s > planned.mission.stop_s {
-            return Err(file
-                .problem(at, "found a time outside of the mission, allowed: from its start to its stop")
-                .into());
+            return Err(file.problem(at, OUTSIDE).into());
         }
         let touches = |window: &&Window| window.start_s < to_s && window.stop_s > from_s;
         if found.windows.iter().filter(touches).any(|window| window.kind != WindowKind::Free) {

@@ -14,6 +14,7 @@ written!(
 );
 
 #[cfg(test)]
+#[cfg(feature = "schema")]
 mod tests {
     //! The committed schema is the one that the types give.
     use crate::{plan::momentum::description::Description, schema::written::assert_in_step};

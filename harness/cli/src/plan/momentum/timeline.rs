@@ -21,6 +21,7 @@ use toml_edit::{DocumentMut, Item};
 
 use super::super::flights::{Failure, SimulatedMission};
 use super::file::Activity;
+use crate::assembly::spacecraft_of;
 
 /// Angles are written so fine, as parts of a deg.
 const PARTS_OF_DEG: f64 = 1e4;
@@ -44,8 +45,9 @@ struct Kept {
 #[derive(Clone, Debug, Default)]
 pub(super) struct MissionTimeline {
     commands: Vec<Kept>,
-    panels: Vec<Kept>,
-    events: Vec<Kept>,
+    /// Times in s with the texts of the tables.
+    panels: Vec<(f64, String)>,
+    events: Vec<(f64, String)>,
     /// Offset and windmill angle of the arrays over time, in rad, where the timeline says so: time in s, each panel's angle.
     pub arrays_rad: Vec<(f64, Vec<f64>)>,
     /// Sun's place in its downlinks by its commands: time in s, azimuth and elevation in rad, whether turned about the Sun line.
@@ -53,7 +55,6 @@ pub(super) struct MissionTimeline {
     /// Its events and their times, in s.
     pub thruster_events: Vec<(f64, TimelineEvent)>,
     is_dated: bool,
-    is_in_orbit: bool,
 }
 
 /// In deg as it is written.
@@ -107,27 +108,22 @@ impl MissionTimeline {
         found: Option<&(String, Timeline)>,
     ) -> Result<Self, Failure> {
         let Some((text, timeline)) = found else {
-            let is_dated = mission.zero_epoch_s.is_some();
-            return Ok(Self { is_dated, is_in_orbit: mission.is_in_orbit(), ..Self::default() });
+            return Ok(Self { is_dated: mission.zero_epoch_s.is_some(), ..Self::default() });
         };
         let document: DocumentMut = text.parse()?;
         let clock_minus_time_s = mission.clock_minus_time_s(timeline);
         let time = |at_s: f64| simulation_time_s(at_s, clock_minus_time_s);
-        let commands = timeline.entries().iter().map(|it| (it.at_s, it.until_s, it.status));
-        let panels = timeline.panels().iter().map(|it| (it.at_s, None, PlanStatus::Fixed));
-        let events = timeline.events().iter().map(|it| (it.at_s, None, PlanStatus::Fixed));
-        let kept = |name: &str, list: Vec<(f64, Option<f64>, PlanStatus)>| -> Vec<Kept> {
-            let texts = tables(&document, name);
-            let list = list.into_iter().zip(texts);
-            list.map(|((at_s, until_s, status), text)| Kept {
-                at_s: time(at_s),
-                until_s: until_s.map(time),
-                text,
-                status,
-            })
-            .collect()
-        };
-        let sides: Vec<f64> = mission.spacecraft()?.panels.iter().map(|panel| panel.windmill_side).collect();
+        let commands = timeline.entries().iter().zip(tables(&document, "command"));
+        let commands = commands.map(|(it, text)| Kept {
+            at_s: time(it.at_s),
+            until_s: it.until_s.map(time),
+            text,
+            status: it.status,
+        });
+        let panels = timeline.panels().iter().map(|it| time(it.at_s));
+        let events = timeline.events().iter().map(|it| time(it.at_s));
+        let sides: Vec<f64> =
+            spacecraft_of(&mission.fmu)?.panels.iter().map(|panel| panel.windmill_side).collect();
         let arrays = timeline.panels().iter().map(|step| {
             let angles = step.sun_offsets_rad.iter().zip(&sides);
             (
@@ -148,11 +144,10 @@ impl MissionTimeline {
             arrays_rad: arrays.collect(),
             sun_places,
             thruster_events: timeline.events().iter().map(|event| (time(event.at_s), *event)).collect(),
-            commands: kept("command", commands.collect()),
-            panels: kept("panels", panels.collect()),
-            events: kept("event", events.collect()),
+            commands: commands.collect(),
+            panels: panels.zip(tables(&document, "panels")).collect(),
+            events: events.zip(tables(&document, "event")).collect(),
             is_dated: timeline.clock() == TimelineClock::Epoch,
-            is_in_orbit: mission.is_in_orbit(),
         })
     }
 
@@ -219,6 +214,7 @@ impl MissionTimeline {
         activity: Option<(&Activity, [f64; 2])>,
     ) -> String {
         let clock = |time_s: f64| self.clock(mission, time_s);
+        let is_in_orbit = mission.is_in_orbit();
         let mut commands: Vec<(f64, String)> = Vec::new();
         for kept in &self.commands {
             let is_frozen = kept.at_s < frozen_s - CLOCK_S;
@@ -235,7 +231,7 @@ impl MissionTimeline {
             for (index, stretch) in all.iter().enumerate() {
                 let until_s = all.get(index + 1).map_or(window.stop_s, |next| next.at_s);
                 // In an orbit phase science follows.
-                let ends = |to_s: f64| self.is_in_orbit.then(|| clock(to_s));
+                let ends = |to_s: f64| is_in_orbit.then(|| clock(to_s));
                 let text =
                     |at_s: f64, to_s: f64| command(&clock(at_s), ends(to_s), window, stretch.alternate);
                 match spans {
@@ -257,10 +253,9 @@ impl MissionTimeline {
         }
         let mut panels: Vec<(f64, String)> = Vec::new();
         let arrays_are_frozen = windows.first().is_some_and(|window| window.kind == WindowKind::Frozen);
-        if arrays_are_frozen || self.is_in_orbit {
-            let is_kept = |kept: &&Kept| self.is_in_orbit || kept.at_s < frozen_s - CLOCK_S;
-            let frozen = self.panels.iter().filter(is_kept);
-            panels.extend(frozen.map(|kept| (kept.at_s, kept.text.clone())));
+        if arrays_are_frozen || is_in_orbit {
+            let is_kept = |(at_s, _): &&(f64, String)| is_in_orbit || *at_s < frozen_s - CLOCK_S;
+            panels.extend(self.panels.iter().filter(is_kept).cloned());
         }
         for step in array_steps(windows) {
             let mut text =
@@ -270,8 +265,7 @@ impl MissionTimeline {
             }
             panels.push((step.at_s, text));
         }
-        let mut events: Vec<(f64, String)> =
-            self.events.iter().map(|kept| (kept.at_s, kept.text.clone())).collect();
+        let mut events = self.events.clone();
         for dump in dumps {
             let after = bodies(dump);
             let text = format!("[[event]]\nat = {}\ndump = {:?}\n", clock(dump.at_s), shown_n_m_s(&after));
@@ -289,12 +283,9 @@ impl MissionTimeline {
     }
 
     fn clock(&self, mission: &SimulatedMission, time_s: f64) -> String {
-        match mission.zero_epoch_s.filter(|_| self.is_dated) {
-            Some(zero_s) => format!("{:?}", dates::utc(zero_s + time_s)),
-            None if self.is_dated => {
-                format!("{:?}", dates::utc(mission.values().real("start.epoch") - mission.start_s + time_s))
-            }
-            None => format!("{time_s:?}"),
+        match self.is_dated {
+            true => format!("{:?}", dates::utc(mission.zero_s() + time_s)),
+            false => format!("{time_s:?}"),
         }
     }
 }

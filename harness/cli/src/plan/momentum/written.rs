@@ -1,13 +1,13 @@
 //! The files of a plan: the mission that simulates it, and its arrays and places of the Sun as an input table.
 
-use std::path::Path;
+use std::{fmt, path::Path};
 
 use nalgebra::Vector3;
 use physics::plant::ThrusterEventSettings;
 use planner::momentum::{
     plan::{MomentumPlan, PlannedDump},
     torque::Control,
-    windows::{Window, WindowKind},
+    windows::WindowKind,
 };
 use toml_edit::value;
 
@@ -41,26 +41,47 @@ pub(super) fn mission(
 /// How long a request of a dump is held, in s: seen by steps of a minute.
 const HELD_S: f64 = 60.0;
 
-/// Values of the inputs over a stretch.
-#[derive(Clone, Debug, PartialEq)]
-struct Inputs {
-    panels_rad: Vec<f64>,
-    azimuth_rad: f64,
-    elevation_rad: f64,
-    alternate: bool,
-    dump: bool,
-    target_n_m_s: Vector3<f64>,
-    maneuver: bool,
-    delta_v_m_s: Vector3<f64>,
-    center_of_mass_m: Vector3<f64>,
+/// A value of an input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Cell {
+    Real(f64),
+    Truth(bool),
 }
 
-/// Which groups of columns there are.
-#[derive(Clone, Copy)]
-struct Columns {
-    dumps: bool,
-    maneuvers: bool,
-    centers_of_mass: bool,
+impl fmt::Display for Cell {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Real(number) => write!(f, "{number:?}"),
+            Self::Truth(truth) => truth.fmt(f),
+        }
+    }
+}
+
+/// Groups of columns that change together, with their names but for those of panels.
+const GROUPS: [&str; 5] = [
+    "",
+    ",downlink.sunAzimuth,downlink.sunElevation,downlink.alternate",
+    ",maneuver.request,maneuver.deltaV[1],maneuver.deltaV[2],maneuver.deltaV[3]",
+    ",dump.request,dump.target[1],dump.target[2],dump.target[3]",
+    ",spacecraft.centerOfMass[1],spacecraft.centerOfMass[2],spacecraft.centerOfMass[3]",
+];
+/// Their places there; those behind the Sun's are in the table where they change.
+const PANELS: usize = 0;
+const SUN: usize = 1;
+const MANEUVER: usize = 2;
+const DUMP: usize = 3;
+const CENTER_OF_MASS: usize = 4;
+
+fn reals<'n>(numbers: impl IntoIterator<Item = &'n f64>) -> Vec<Cell> {
+    numbers.into_iter().map(|number| Cell::Real(*number)).collect()
+}
+
+fn sun_place(angles_rad: [f64; 2], alternate: bool) -> Vec<Cell> {
+    [reals(&angles_rad), vec![Cell::Truth(alternate)]].concat()
+}
+
+fn requested(request: bool, vector: &Vector3<f64>) -> Vec<Cell> {
+    [vec![Cell::Truth(request)], reals(vector)].concat()
 }
 
 /// The input table: a row before and one behind every jump.
@@ -71,55 +92,51 @@ pub(super) fn inputs(
     sides: &[f64],
     bodies: &dyn Fn(&PlannedDump) -> Vector3<f64>,
 ) -> String {
-    let count = sides.len();
-    let mut now = Inputs {
-        panels_rad: (1..=count)
-            .map(|number| planned.values().real(&format!("panel[{number}].sunOffset")))
-            .collect(),
-        azimuth_rad: 0.0,
-        elevation_rad: 0.0,
-        alternate: false,
-        dump: false,
-        target_n_m_s: Vector3::zeros(),
-        maneuver: false,
-        delta_v_m_s: Vector3::zeros(),
-        center_of_mass_m: planned.values().vector("spacecraft.centerOfMass"),
-    };
-    // What changes, by time.
-    let mut changes: Vec<(f64, Change<'_>)> = Vec::new();
+    let panels = 1..=sides.len();
+    let offsets_rad = panels.clone().map(|number| format!("panel[{number}].sunOffset"));
+    let offsets_rad: Vec<f64> = offsets_rad.map(|name| planned.values().real(&name)).collect();
+    let mut now: [Vec<Cell>; GROUPS.len()] = [
+        reals(&offsets_rad),
+        sun_place([0.0; 2], false),
+        requested(false, &Vector3::zeros()),
+        requested(false, &Vector3::zeros()),
+        reals(&planned.values().vector("spacecraft.centerOfMass")),
+    ];
+    // What changes, by time: the group and its new values.
+    let mut changes: Vec<(f64, usize, Vec<Cell>)> = Vec::new();
     let is_frozen = plan.windows.first().is_some_and(|window| window.kind == WindowKind::Frozen);
     let frozen_s = plan.windows.first().filter(|_| is_frozen).map_or(planned.start_s, |window| window.stop_s);
     for (at_s, angles_rad) in timeline.arrays_rad.iter().filter(|(at_s, _)| *at_s < frozen_s) {
-        changes.push((*at_s, Change::Arrays(angles_rad.clone())));
+        changes.push((*at_s, PANELS, reals(angles_rad)));
     }
     if is_frozen {
         for (at_s, sun_rad, alternate) in timeline.sun_places.iter().filter(|it| it.0 < frozen_s) {
-            changes.push((at_s.max(planned.start_s), Change::Place(*sun_rad, *alternate)));
+            changes.push((at_s.max(planned.start_s), SUN, sun_place(*sun_rad, *alternate)));
         }
     }
     for step in array_steps(&plan.windows) {
         let [offset_rad, windmill_rad] = [step.offset_deg, step.windmill_deg].map(f64::to_radians);
-        changes.push((
-            step.at_s,
-            Change::Arrays(sides.iter().map(|side| offset_rad + windmill_rad * side).collect()),
-        ));
+        let angles_rad: Vec<f64> = sides.iter().map(|side| offset_rad + windmill_rad * side).collect();
+        changes.push((step.at_s, PANELS, reals(&angles_rad)));
     }
     // What is frozen first is the timeline's, above.
     for window in plan.windows.iter().skip(usize::from(is_frozen && !timeline.sun_places.is_empty())) {
         if window.kind != WindowKind::Free {
-            changes.push((window.start_s, Change::Sun(None, false)));
+            changes.push((window.start_s, SUN, sun_place([0.0; 2], false)));
             continue;
         }
+        let angles_rad = [Control::Azimuth, Control::Elevation]
+            .map(|control| shown_deg(window.controls.get(control)).to_radians());
         for stretch in stretches(window) {
-            changes.push((stretch.at_s, Change::Sun(Some(window), stretch.alternate)));
+            changes.push((stretch.at_s, SUN, sun_place(angles_rad, stretch.alternate)));
         }
     }
-    let mut dump = |at_s: f64, target_n_m_s: Vector3<f64>| {
-        changes.push((at_s, Change::Dump(true, target_n_m_s)));
-        changes.push((at_s + HELD_S, Change::Dump(false, target_n_m_s)));
+    let mut request = |at_s: f64, group: usize, vector: &Vector3<f64>| {
+        changes.push((at_s, group, requested(true, vector)));
+        changes.push((at_s + HELD_S, group, requested(false, vector)));
     };
     for planned in &plan.dumps {
-        dump(planned.at_s, shown_n_m_s(&bodies(planned)).into());
+        request(planned.at_s, DUMP, &shown_n_m_s(&bodies(planned)).into());
     }
     let settings = ThrusterEventSettings {
         dumps: planned.values().is_true("maneuver.dump"),
@@ -128,56 +145,41 @@ pub(super) fn inputs(
     };
     for (at_s, event) in &timeline.thruster_events {
         if let Some(target_n_m_s) = settings.dump_target_body_n_m_s(event) {
-            dump(*at_s, target_n_m_s);
+            request(*at_s, DUMP, &target_n_m_s);
         }
-    }
-    for (at_s, event) in &timeline.thruster_events {
         if let Some(maneuver) = event.maneuver {
-            let delta_v_m_s = maneuver.delta_v_inertial_m_s;
-            changes.push((*at_s, Change::Maneuver(true, delta_v_m_s)));
-            changes.push((*at_s + HELD_S, Change::Maneuver(false, delta_v_m_s)));
-        }
-        if let Some(center_of_mass_m) = event.center_of_mass_body_m {
-            changes.push((*at_s, Change::CenterOfMass(center_of_mass_m)));
+            request(*at_s, MANEUVER, &maneuver.delta_v_inertial_m_s);
         }
     }
+    let moved = timeline.thruster_events.iter();
+    changes.extend(
+        moved.filter_map(|(at_s, it)| Some((*at_s, CENTER_OF_MASS, reals(&it.center_of_mass_body_m?)))),
+    );
     changes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let is_there: [bool; GROUPS.len()] =
+        std::array::from_fn(|group| group <= SUN || changes.iter().any(|(_, changed, _)| *changed == group));
     let mut text = String::from("time");
-    for number in 1..=count {
-        text.push_str(&format!(",panel[{number}].sunOffsetCommand"));
-    }
-    text.push_str(",downlink.sunAzimuth,downlink.sunElevation,downlink.alternate");
-    let has = |is: fn(&Change<'_>) -> bool| changes.iter().any(|(_, change)| is(change));
-    let columns = Columns {
-        dumps: has(|it| matches!(it, Change::Dump(..))),
-        maneuvers: has(|it| matches!(it, Change::Maneuver(..))),
-        centers_of_mass: has(|it| matches!(it, Change::CenterOfMass(_))),
-    };
-    if columns.maneuvers {
-        text.push_str(",maneuver.request,maneuver.deltaV[1],maneuver.deltaV[2],maneuver.deltaV[3]");
-    }
-    if columns.dumps {
-        text.push_str(",dump.request,dump.target[1],dump.target[2],dump.target[3]");
-    }
-    if columns.centers_of_mass {
-        let axes = [1, 2, 3].map(|axis| format!(",spacecraft.centerOfMass[{axis}]"));
-        text.push_str(&axes.concat());
-    }
+    text.extend(panels.map(|number| format!(",panel[{number}].sunOffsetCommand")));
+    text.extend(GROUPS.iter().zip(is_there).filter(|(_, is_there)| *is_there).map(|(names, _)| *names));
     text.push('\n');
+    let row = |time_s: f64, now: &[Vec<Cell>; GROUPS.len()]| {
+        let there = now.iter().zip(is_there).filter(|(_, is_there)| *is_there).flat_map(|(cells, _)| cells);
+        let cells: String = there.map(|cell| format!(",{cell}")).collect();
+        format!("{time_s:?}{cells}\n")
+    };
     let mut started = false;
     let mut index = 0;
     while index < changes.len() {
         let at_s = changes[index].0;
         if started || at_s > planned.start_s {
             if !started {
-                text.push_str(&row(planned.start_s, &now, columns));
+                text.push_str(&row(planned.start_s, &now));
             }
-            text.push_str(&row(at_s, &now, columns));
+            text.push_str(&row(at_s, &now));
         }
         let before = now.clone();
-        while let Some((next_s, change)) = changes.get(index).filter(|(next_s, _)| *next_s == at_s) {
-            let _ = next_s;
-            change.apply(&mut now);
+        while let Some((_, group, cells)) = changes.get(index).filter(|(next_s, ..)| *next_s == at_s) {
+            now[*group].clone_from(cells);
             index += 1;
         }
         if started && now == before {
@@ -186,10 +188,10 @@ pub(super) fn inputs(
             text.truncate(last);
             continue;
         }
-        text.push_str(&row(at_s.max(planned.start_s), &now, columns));
+        text.push_str(&row(at_s.max(planned.start_s), &now));
         started = true;
     }
-    text.push_str(&row(planned.stop_s, &now, columns));
+    text.push_str(&row(planned.stop_s, &now));
     text
 }
 
@@ -207,55 +209,4 @@ pub(super) fn beyond_inputs(planned: &SimulatedMission, timeline: &MissionTimeli
         Some(format!("warning: plan.csv: the maneuver of day {day} {what}"))
     });
     printed.collect()
-}
-
-enum Change<'w> {
-    Arrays(Vec<f64>),
-    Sun(Option<&'w Window>, bool),
-    Place([f64; 2], bool),
-    Dump(bool, Vector3<f64>),
-    Maneuver(bool, Vector3<f64>),
-    CenterOfMass(Vector3<f64>),
-}
-
-impl Change<'_> {
-    fn apply(&self, inputs: &mut Inputs) {
-        match self {
-            Self::Arrays(angles_rad) => inputs.panels_rad.clone_from(angles_rad),
-            Self::Sun(window, alternate) => {
-                let angle = |control| {
-                    window.map_or(0.0, |window| shown_deg(window.controls.get(control)).to_radians())
-                };
-                (inputs.azimuth_rad, inputs.elevation_rad) =
-                    (angle(Control::Azimuth), angle(Control::Elevation));
-                inputs.alternate = *alternate;
-            }
-            Self::Place([azimuth_rad, elevation_rad], alternate) => {
-                (inputs.azimuth_rad, inputs.elevation_rad) = (*azimuth_rad, *elevation_rad);
-                inputs.alternate = *alternate;
-            }
-            Self::Maneuver(request, delta_v) => (inputs.maneuver, inputs.delta_v_m_s) = (*request, *delta_v),
-            Self::CenterOfMass(center_of_mass_m) => inputs.center_of_mass_m = *center_of_mass_m,
-            Self::Dump(request, target) => (inputs.dump, inputs.target_n_m_s) = (*request, *target),
-        }
-    }
-}
-
-fn row(time_s: f64, inputs: &Inputs, columns: Columns) -> String {
-    let mut cells = vec![format!("{time_s:?}")];
-    cells.extend(inputs.panels_rad.iter().map(|angle| format!("{angle:?}")));
-    cells.extend([inputs.azimuth_rad, inputs.elevation_rad].map(|angle| format!("{angle:?}")));
-    cells.push(inputs.alternate.to_string());
-    if columns.maneuvers {
-        cells.push(inputs.maneuver.to_string());
-        cells.extend(inputs.delta_v_m_s.iter().map(|component| format!("{component:?}")));
-    }
-    if columns.dumps {
-        cells.push(inputs.dump.to_string());
-        cells.extend(inputs.target_n_m_s.iter().map(|component| format!("{component:?}")));
-    }
-    if columns.centers_of_mass {
-        cells.extend(inputs.center_of_mass_m.iter().map(|component| format!("{component:?}")));
-    }
-    format!("{}\n", cells.join(","))
 }

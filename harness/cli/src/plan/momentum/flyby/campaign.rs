@@ -1,9 +1,12 @@
 //! Flights of a plan with dispersed state, centre of mass, sunlight and manoeuvres, on all cores.
 
 use nalgebra::{Matrix6, Vector3};
-use planner::flyby::{
-    dispersion::{Dispersions, Draw, Outcome, miss_of},
-    report::Campaign,
+use planner::{
+    flyby::{
+        dispersion::{Dispersions, Draw, Outcome, miss_of},
+        report::Campaign,
+    },
+    momentum::plant::StartValues,
 };
 use rayon::prelude::*;
 
@@ -15,6 +18,7 @@ use crate::{
         flights::{Failure, Requested, SimulatedMission},
         momentum::{file::encounter::MonteCarlo, flyby_task::FlybyTask, planned::Planned},
     },
+    variables::{elements, numbers, vectors},
 };
 
 /// Recorded: B of the hyperbola that osculates now, closest approach, momentum.
@@ -49,11 +53,10 @@ pub(super) fn simulated(
     };
     let lead_s = flyby_task.force_model.lead_s;
     let times_s = rows_s([mission.start_s, mission.stop_s], arrival_s - lead_s);
-    let starts = Starts::of(mission)?;
     let bar = terminal::progress(table.runs as u64, "runs", planned.options.quiet);
     let of = |run: u64| {
         let draw = spread.draw(table.seed, run);
-        let sets = starts.dispersed(&draw, run);
+        let sets = dispersed(&mission.values(), &draw, run);
         let outputs = OUTPUTS.map(str::to_owned);
         let recording = mission.record(&Requested {
             sets: &sets,
@@ -98,52 +101,25 @@ fn rows_s([start_s, stop_s]: [f64; 2], epoch_s: f64) -> Vec<f64> {
     all
 }
 
-/// Values of the mission that are dispersed.
-struct Starts {
-    position_m: [f64; 3],
-    velocity_m_s: [f64; 3],
-    center_of_mass_m: [f64; 3],
-    scale: f64,
-    is_cartesian: bool,
-}
-
-impl Starts {
-    fn of(mission: &SimulatedMission) -> Result<Self, Failure> {
-        let values = mission.values();
-        let vector = |name: &str| -> [f64; 3] { values.vector(name).into() };
-        Ok(Self {
-            position_m: vector("orbit.position"),
-            velocity_m_s: vector("orbit.velocity"),
-            center_of_mass_m: vector("spacecraft.centerOfMass"),
-            scale: values.real("solar.scale"),
-            is_cartesian: values.item("orbit.source") == Some("inputs"),
-        })
+/// Values of a run.
+fn dispersed(values: &StartValues<'_>, draw: &Draw, run: u64) -> Vec<(String, Value)> {
+    let moved = |name: &'static str, off: &Vector3<f64>| elements(name, values.vector(name) + off);
+    let mut sets: Vec<(String, Value)> = moved("spacecraft.centerOfMass", &draw.center_of_mass_m).collect();
+    if values.item("orbit.source") == Some("inputs") {
+        sets.extend(moved("orbit.position", &draw.position_m));
+        sets.extend(moved("orbit.velocity", &draw.velocity_m_s));
     }
-
-    fn dispersed(&self, draw: &Draw, run: u64) -> Vec<(String, Value)> {
-        let vector = |name: &str, at: [f64; 3], off: &Vector3<f64>| -> Vec<(String, Value)> {
-            (0..3).map(|axis| (format!("{name}[{}]", axis + 1), Value::Real(at[axis] + off[axis]))).collect()
-        };
-        let mut sets = vector("spacecraft.centerOfMass", self.center_of_mass_m, &draw.center_of_mass_m);
-        if self.is_cartesian {
-            sets.extend(vector("orbit.position", self.position_m, &draw.position_m));
-            sets.extend(vector("orbit.velocity", self.velocity_m_s, &draw.velocity_m_s));
-        }
-        sets.push(("solar.scale".to_owned(), Value::Real((self.scale + draw.scale).max(0.0))));
-        sets.push(("noise.seed".to_owned(), Value::Integer(i32::try_from(run).unwrap_or(i32::MAX))));
-        sets
-    }
+    let scale = (values.real("solar.scale") + draw.scale).max(0.0);
+    sets.push(("solar.scale".to_owned(), Value::Real(scale)));
+    sets.push(("noise.seed".to_owned(), Value::Integer(i32::try_from(run).unwrap_or(i32::MAX))));
+    sets
 }
 
 /// What a flight came to.
 fn outcome(recording: &Recording, lead_s: f64, aimpoint_m: [f64; 2]) -> Result<Outcome, String> {
-    let column = |name: &str| {
-        recording
-            .column(name)
-            .map(|column| column.numbers())
-            .ok_or_else(|| format!("the FMU has no output {name}"))
+    let last = |name: &str| -> Result<f64, String> {
+        Ok(numbers(recording, name)?.last().copied().unwrap_or(f64::NAN))
     };
-    let last = |name: &str| -> Result<f64, String> { Ok(column(name)?.last().copied().unwrap_or(f64::NAN)) };
     if last(OUTPUTS[2])? < 1.0 {
         return Err("no closest approach".to_owned());
     }
@@ -151,7 +127,7 @@ fn outcome(recording: &Recording, lead_s: f64, aimpoint_m: [f64; 2]) -> Result<O
     let epoch_s = arrival_s - lead_s;
     let after = recording.times_s.partition_point(|time_s| *time_s <= epoch_s);
     let at = |name: &str| -> Result<f64, String> {
-        let values = column(name)?;
+        let values = numbers(recording, name)?;
         let (Some(to_s), Some(from_s)) =
             (recording.times_s.get(after), recording.times_s.get(after.wrapping_sub(1)))
         else {
@@ -160,10 +136,8 @@ fn outcome(recording: &Recording, lead_s: f64, aimpoint_m: [f64; 2]) -> Result<O
         let share = (epoch_s - from_s) / (to_s - from_s);
         Ok(values[after - 1] + share * (values[after] - values[after - 1]))
     };
-    let momentum: Vec<Vec<f64>> =
-        (1..=3).map(|axis| column(&format!("{}[{axis}]", OUTPUTS[5]))).collect::<Result<_, _>>()?;
-    let sizes = (0..recording.times_s.len())
-        .map(|row| momentum.iter().map(|column| column[row].powi(2)).sum::<f64>().sqrt());
+    let momentum_n_m_s = vectors(recording, OUTPUTS[5])?;
+    let sizes = momentum_n_m_s.iter().map(Vector3::norm);
     Ok(Outcome {
         miss_m: [at(OUTPUTS[0])? - aimpoint_m[0], at(OUTPUTS[1])? - aimpoint_m[1]],
         arrival_s,

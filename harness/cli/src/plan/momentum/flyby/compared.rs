@@ -8,7 +8,6 @@ use planner::flyby::{
     report::Compared,
 };
 
-use super::update::time_s;
 use crate::plan::{
     flights::Failure,
     momentum::{
@@ -26,7 +25,7 @@ pub(super) fn compared(
     after: &Sensitivity,
 ) -> Result<Compared, Failure> {
     let arrival_s = flyby_task.first.encounter.time_s;
-    let next_s = time_s(file, &compare.next, compare.next.it, &planned.mission)?;
+    let next_s = file.time_s(&compare.next, compare.next.it, &planned.mission)?;
     let departure_s = arrival_s + compare.departure_s;
     if next_s <= departure_s {
         let what = "found a date before the departure manoeuvre, allowed: a later one";

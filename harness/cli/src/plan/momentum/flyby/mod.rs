@@ -5,7 +5,6 @@ mod compared;
 mod picture;
 mod update;
 
-use ::files::Scratch;
 use nalgebra::Vector2;
 use planner::{
     flyby::{
@@ -15,9 +14,12 @@ use planner::{
     momentum::{attainable::reachable, plan::MomentumPlan},
 };
 
-pub(super) use self::{picture::charts, update::updated};
+pub(super) use self::{
+    picture::{desired, plane},
+    update::updated,
+};
 use super::{file::PlanFile, flyby_task::FlybyTask, planned::Planned};
-use crate::plan::flights::{Failure, SimulatedMission};
+use crate::plan::flights::Failure;
 
 /// Between the times of desired velocity changes, in s.
 const DESIRED_S: f64 = 86_400.0;
@@ -82,12 +84,7 @@ pub(super) fn complete(
         report.compared = Some(compared::compared(file, &at.it, (planned, flyby_task), &after)?);
     }
     if let Some(at) = &file.monte_carlo {
-        let folder = Scratch::new()?;
-        for (name, text) in planned.write_into(folder.path(), (&found.windows, &found.dumps), None)? {
-            std::fs::write(folder.path().join(name), text)?;
-        }
-        let template = planned.options.template.as_deref();
-        let mission = SimulatedMission::open(&folder.path().join(super::NAMES[1]), template, &[])?;
+        let (mission, _folder) = planned.open_plan((&found.windows, &found.dumps), None)?;
         let covariance = file.update.as_ref().and_then(|it| it.it.covariance);
         let arrival_s = after.encounter.time_s;
         report.campaign =

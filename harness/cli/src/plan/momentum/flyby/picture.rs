@@ -13,16 +13,8 @@ const DAY_S: f64 = 86_400.0;
 /// Deviations of the ellipse that is drawn.
 const SIGMAS: f64 = 3.0;
 
-/// B-plane and desired velocity changes.
-pub(in crate::plan::momentum) fn charts(
-    report: &FlybyReport,
-    flyby_task: &FlybyTask,
-) -> (PlaneChart, Option<Chart>) {
-    (plane(report, flyby_task), desired(report))
-}
-
-/// In km from the planet's centre; the picture has T to the right and R down, as seen along the asymptote.
-fn plane(report: &FlybyReport, flyby_task: &FlybyTask) -> PlaneChart {
+/// The B-plane, in km from the planet's centre; the picture has T to the right and R down, as seen along the asymptote.
+pub(in crate::plan::momentum) fn plane(report: &FlybyReport, flyby_task: &FlybyTask) -> PlaneChart {
     let km = |[t_m, r_m]: [f64; 2]| (t_m / 1e3, -r_m / 1e3);
     let aimpoint = report.aimpoint_m;
     let place = |miss: &Option<nalgebra::Vector3<f64>>| {
@@ -90,7 +82,8 @@ fn ring(campaign: &Campaign, aimpoint_m: [f64; 2]) -> Vec<(f64, f64)> {
     ellipse(middle, axes_m.map(|axis_m| SIGMAS * axis_m / 1e3), -angle_rad)
 }
 
-fn desired(report: &FlybyReport) -> Option<Chart> {
+/// Desired velocity changes, where there are any.
+pub(in crate::plan::momentum) fn desired(report: &FlybyReport) -> Option<Chart> {
     let arrival_s = report.encounter[0];
     let day = |at_s: f64| (at_s - arrival_s) / DAY_S;
     let first = report.desired.first()?;

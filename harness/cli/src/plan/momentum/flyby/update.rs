@@ -3,7 +3,6 @@
 //! Momentum there is that of the mission's flight; so are position or velocity, where the plan gives one alone.
 
 use ::files::Scratch;
-use loader::{Recording, Value};
 use nalgebra::Vector3;
 use physics::environment::dates;
 use toml_edit::value;
@@ -12,14 +11,14 @@ use crate::{
     plan::{
         flights::{Failure, Requested, SimulatedMission},
         mission_text,
-        momentum::file::{At, PlanFile, encounter::Update},
+        momentum::file::{PlanFile, encounter::Update},
     },
-    values,
+    reading::At,
+    variables::{NEVER_N_M_S, elements, vectors},
 };
 
 /// What is recorded up to the date.
 const STATE: [&str; 3] = ["position", "velocity", "momentum.body"];
-const NEVER_N_M_S: f64 = 1e9;
 
 /// A plan whose mission begins with the state of `[update]`, in a folder that lasts as long as it is in use.
 pub(in crate::plan::momentum) fn updated(
@@ -28,14 +27,7 @@ pub(in crate::plan::momentum) fn updated(
     mission: &SimulatedMission,
 ) -> Result<(PlanFile, Scratch), Failure> {
     let update = &at.it;
-    let Some(at_s) = mission.time_s(update.at.it) else {
-        let what = "found a date, allowed: simulation time: the mission does not start at a date";
-        return Err(file.problem(&update.at, what).into());
-    };
-    if !(at_s >= mission.start_s && at_s < mission.stop_s) {
-        let what = "found a time outside of the mission, allowed: from its start to its stop";
-        return Err(file.problem(&update.at, what).into());
-    }
+    let at_s = file.time_in_mission_s(&update.at, mission)?;
     let [position_m, velocity_m_s, momentum_n_m_s] = state_at(mission, at_s)?;
     let position_m = update.position_m.unwrap_or(position_m);
     let velocity_m_s = update.velocity_m_s.unwrap_or(velocity_m_s);
@@ -73,8 +65,7 @@ fn state_at(mission: &SimulatedMission, at_s: f64) -> Result<[Vector3<f64>; 3], 
     if at_s <= mission.start_s && mission.values().item("orbit.source") == Some("inputs") {
         return Ok([start("orbit.position"), start("orbit.velocity"), start("start.momentum")]);
     }
-    let sets: Vec<(String, Value)> =
-        (1..=3).map(|axis| (format!("dump.threshold[{axis}]"), Value::Real(NEVER_N_M_S))).collect();
+    let sets: Vec<_> = elements("dump.threshold", Vector3::repeat(NEVER_N_M_S)).collect();
     let outputs = STATE.map(str::to_owned);
     let stop_s = at_s.max(mission.start_s + 1.0);
     let recording = mission.record(&Requested {
@@ -86,27 +77,8 @@ fn state_at(mission: &SimulatedMission, at_s: f64) -> Result<[Vector3<f64>; 3], 
     // The first row where the mission starts there, else the last.
     let row = if at_s <= mission.start_s { 0 } else { recording.times_s.len().saturating_sub(1) };
     let vector = |name: &str| -> Result<Vector3<f64>, Failure> {
-        let of = |axis: usize| number(&recording, &format!("{name}[{axis}]"), row);
-        Ok(Vector3::new(of(1)?, of(2)?, of(3)?))
+        let found = vectors(&recording, name)?.get(row).copied();
+        found.ok_or_else(|| format!("the FMU has no output {name}").into())
     };
     Ok([vector(STATE[0])?, vector(STATE[1])?, vector(STATE[2])?])
-}
-
-fn number(recording: &Recording, name: &str, row: usize) -> Result<f64, Failure> {
-    let column = recording.column(name).map(|column| column.numbers());
-    let found = column.and_then(|numbers| numbers.get(row).copied());
-    found.ok_or_else(|| format!("the FMU has no output {name}").into())
-}
-
-/// A time of the mission that a table of the plan gives.
-pub(super) fn time_s<T>(
-    file: &PlanFile,
-    at: &At<T>,
-    instant: values::Instant,
-    mission: &SimulatedMission,
-) -> Result<f64, Failure> {
-    mission.time_s(instant).ok_or_else(|| {
-        let what = "found a date, allowed: simulation time: the mission does not start at a date";
-        file.problem(at, what).into()
-    })
 }
