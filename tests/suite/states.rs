@@ -15,14 +15,14 @@ const STEPS: u64 = 50;
 
 /// Where a state was saved.
 #[derive(Clone, Copy)]
-struct Place {
+struct SavedPoint {
     step_number: u64,
     time_s: f64,
 }
 
 /// All that a master can see after each of the steps that follow a restored state, as text.
-fn onward(instance: InProcess, scenario: Scenario, place: Place) -> (String, InProcess) {
-    let Place { step_number, time_s } = place;
+fn onward(instance: InProcess, scenario: Scenario, place: SavedPoint) -> (String, InProcess) {
+    let SavedPoint { step_number, time_s } = place;
     let mut simulation =
         Simulation { instance, names: names(scenario.model()), scenario, step_number, time_s };
     let mut seen = String::new();
@@ -59,7 +59,7 @@ fn saved_simulations_go_on(scenario: Scenario, child_test: &str) {
         while simulation.time_s < *until_s {
             simulation.step();
         }
-        let place = Place { step_number: simulation.step_number, time_s: simulation.time_s };
+        let place = SavedPoint { step_number: simulation.step_number, time_s: simulation.time_s };
         let mut state = StatePointer::null();
         ok(simulation.instance.get_state(&mut state));
         let (status, bytes) = simulation.instance.serialize(&state);
@@ -98,7 +98,7 @@ fn child(scenario: Scenario, folder: &Path) {
         let read = |kind: &str| std::fs::read(folder.join(format!("{number}.{kind}"))).unwrap();
         let place = String::from_utf8(read("place")).unwrap();
         let (step_number, time_s) = place.split_once(' ').unwrap();
-        let place = Place { step_number: step_number.parse().unwrap(), time_s: time_s.parse().unwrap() };
+        let place = SavedPoint { step_number: step_number.parse().unwrap(), time_s: time_s.parse().unwrap() };
         let (seen, _) = onward(restored(fresh(scenario.model()), &read("state")), scenario, place);
         std::fs::write(folder.join(format!("{number}.seen")), seen).unwrap();
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::build::{self, Built, TESTS};
 use crate::shell::{Beside, Outcome, cargo, command, need, root, run};
-use crate::{dist, guide, locale, python, shell};
+use crate::{dist, guide, locale, python};
 
 /// Seed of the property tests: the same draws in every run, so that what turns red was changed; set it for others.
 const DRAWS: &str = "PROPTEST_RNG_SEED";

@@ -7,7 +7,7 @@ use syn::{
     spanned::Spanned, token,
 };
 
-use crate::field::Kind;
+use crate::field::FieldType;
 
 /// `#[parameter(...)]`, `#[input(...)]` and so on.
 pub(crate) struct Declaration {
@@ -66,7 +66,7 @@ pub(crate) fn of_field(name: &Ident, field: &Field) -> syn::Result<FieldAttribut
             return Err(syn::Error::new_spanned(word, format!("`{name}` is declared twice")));
         }
     }
-    let of_type = || Kind::of(&field.ty).is_err().then(|| FieldAttribute::Group(Box::default()));
+    let of_type = || FieldType::of(&field.ty).is_err().then(|| FieldAttribute::Group(Box::default()));
     found.or_else(of_type).ok_or_else(|| {
         let problem = format!(
             "`{name}` needs one of #[parameter], #[calculated_parameter], #[input], #[output], #[local], #[group]"

@@ -8,21 +8,21 @@ use model_description::{
 use syn::{Expr, Ident, LitStr, spanned::Spanned};
 
 use crate::attribute::Declaration;
-use crate::field::Kind;
+use crate::field::FieldType;
 use crate::source::{Errors, literal_numbers};
 
 /// Checks one declaration; `field` is where an error without a place of its own points to.
-pub(crate) fn declaration(declared: &Declaration, kind: Kind, field: &Ident, errors: &mut Errors) {
+pub(crate) fn declaration(declared: &Declaration, kind: FieldType, field: &Ident, errors: &mut Errors) {
     errors.take(role(declared, kind, field));
     errors.take(unit(declared, kind, field));
     errors.take(limits(declared, kind));
-    if let Some(items) = declared.items.as_ref().filter(|_| kind != Kind::Choice) {
+    if let Some(items) = declared.items.as_ref().filter(|_| kind != FieldType::Choice) {
         errors.push(syn::Error::new_spanned(items, "only a Choice has items"));
     }
 }
 
 /// The variability given, or the causality's usual one.
-pub(crate) fn variability(declared: &Declaration, kind: Kind) -> Variability {
+pub(crate) fn variability(declared: &Declaration, kind: FieldType) -> Variability {
     declared.variability.unwrap_or(match declared.causality {
         Causality::Parameter | Causality::CalculatedParameter => Variability::Fixed,
         _ if kind.is_real() => Variability::Continuous,
@@ -30,7 +30,7 @@ pub(crate) fn variability(declared: &Declaration, kind: Kind) -> Variability {
     })
 }
 
-fn role(declared: &Declaration, kind: Kind, field: &Ident) -> syn::Result<()> {
+fn role(declared: &Declaration, kind: FieldType, field: &Ident) -> syn::Result<()> {
     let variability = variability(declared, kind);
     let Declaration { causality, initial, start, .. } = declared;
     let is_real = kind.is_real();
@@ -45,7 +45,7 @@ fn role(declared: &Declaration, kind: Kind, field: &Ident) -> syn::Result<()> {
     )
 }
 
-fn unit(declared: &Declaration, kind: Kind, field: &Ident) -> syn::Result<()> {
+fn unit(declared: &Declaration, kind: FieldType, field: &Ident) -> syn::Result<()> {
     let only_real = |place: proc_macro2::Span, item: &str| {
         Err(syn::Error::new(place, format!("only a Real has a {item}")))
     };
@@ -82,10 +82,10 @@ fn unit(declared: &Declaration, kind: Kind, field: &Ident) -> syn::Result<()> {
     }
 }
 
-fn limits(declared: &Declaration, kind: Kind) -> syn::Result<()> {
+fn limits(declared: &Declaration, kind: FieldType) -> syn::Result<()> {
     let Declaration { min, max, nominal, start, .. } = declared;
     if let Some(limit) = min.as_ref().or(max.as_ref())
-        && !(kind.is_real() || kind == Kind::Integer)
+        && !(kind.is_real() || kind == FieldType::Integer)
     {
         return Err(syn::Error::new_spanned(limit, "only a Real or an Integer has limits"));
     }

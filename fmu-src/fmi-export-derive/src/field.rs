@@ -4,7 +4,7 @@ use syn::{GenericArgument, PathArguments, Type};
 
 /// What a field's type says.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum FieldType {
     Real,
     RealVector,
     RealMatrix,
@@ -14,7 +14,7 @@ pub(crate) enum Kind {
     Choice,
 }
 
-impl Kind {
+impl FieldType {
     /// The kind of a type, by the last segment of its path.
     pub(crate) fn of(ty: &Type) -> syn::Result<Self> {
         let name = match ty {

@@ -7,7 +7,7 @@ use syn::{Data, DeriveInput, Expr, Field, Fields, Ident, Type, spanned::Spanned}
 
 use crate::attribute::{self, Declaration, FieldAttribute, Group};
 use crate::check;
-use crate::field::{Kind, element_of_vec};
+use crate::field::{FieldType, element_of_vec};
 use crate::source::{Errors, camel_from_snake, description};
 
 /// Expands the derive.
@@ -99,7 +99,7 @@ fn declare(
     names: &mut Vec<String>,
     errors: &mut Errors,
 ) -> Option<TokenStream> {
-    let kind = errors.take(Kind::of(&field.ty))?;
+    let kind = errors.take(FieldType::of(&field.ty))?;
     check::declaration(declared, kind, ident, errors);
     let name = check::name_or(declared.name.as_ref(), || camel_from_snake(&ident.to_string()));
     errors.take(match &declared.name {
@@ -118,13 +118,13 @@ fn declare(
         &::fmi_export::variables::ScalarSpec { name: #name, description: #description, role: #role }
     };
     Some(match kind {
-        Kind::Real | Kind::RealVector | Kind::RealMatrix => {
+        FieldType::Real | FieldType::RealVector | FieldType::RealMatrix => {
             let unit = declared.unit.as_ref().map(syn::LitStr::value);
             let display = option(declared.display.as_ref());
             let nominal = option(declared.nominal.as_ref());
             let method = match kind {
-                Kind::RealVector => quote! { real_vector },
-                Kind::RealMatrix => quote! { real_matrix },
+                FieldType::RealVector => quote! { real_vector },
+                FieldType::RealMatrix => quote! { real_matrix },
                 _ => quote! { real },
             };
             quote! {
@@ -143,13 +143,13 @@ fn declare(
                 )
             }
         }
-        Kind::Integer => quote! { #scope.integer(#spec, #start, #min, #max) },
-        Kind::Boolean => quote! { #scope.boolean(#spec, #start) },
-        Kind::Choice => match &declared.items {
+        FieldType::Integer => quote! { #scope.integer(#spec, #start, #min, #max) },
+        FieldType::Boolean => quote! { #scope.boolean(#spec, #start) },
+        FieldType::Choice => match &declared.items {
             Some(items) => quote_spanned! { items.span()=> #scope.choice_with(#spec, #start, #items) },
             None => quote! { #scope.choice(#spec, #start) },
         },
-        Kind::Text => {
+        FieldType::Text => {
             let start = option(declared.start.as_ref().map(borrowed).as_ref());
             quote! { #scope.text(#spec, #start) }
         }

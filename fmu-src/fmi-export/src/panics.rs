@@ -7,18 +7,18 @@ use std::sync::Once;
 
 /// Where the last panic of a thread was.
 #[derive(Clone, Copy)]
-struct Place {
+struct PanicLocation {
     file: [u8; Self::LONGEST],
     line: u32,
 }
 
-impl Place {
+impl PanicLocation {
     const LONGEST: usize = 96;
 }
 
 thread_local! {
     // Without a destructor, which would keep the library in memory after it is unloaded.
-    static PLACE: Cell<Option<Place>> = const { Cell::new(None) };
+    static PLACE: Cell<Option<PanicLocation>> = const { Cell::new(None) };
 }
 
 /// For a shared library, whose every panic is contained: nothing goes to standard error. The standard hook, if RUST_BACKTRACE
@@ -31,12 +31,12 @@ pub fn silence() {
 
 fn note(info: &PanicHookInfo<'_>) {
     let place = info.location().map(|location| {
-        let mut file = [0; Place::LONGEST];
+        let mut file = [0; PanicLocation::LONGEST];
         // The end of a long path identifies the file better than its beginning.
         let bytes = location.file().as_bytes();
-        let end = &bytes[bytes.len().saturating_sub(Place::LONGEST)..];
+        let end = &bytes[bytes.len().saturating_sub(PanicLocation::LONGEST)..];
         file[..end.len()].copy_from_slice(end);
-        Place { file, line: location.line() }
+        PanicLocation { file, line: location.line() }
     });
     PLACE.set(place);
 }
@@ -58,7 +58,7 @@ fn text_of(payload: Box<dyn Any + Send>) -> String {
         (_, Some(text)) => text.clone(),
         _ => "a payload that is no text".to_owned(),
     };
-    if let Some(Place { file, line }) = PLACE.take() {
+    if let Some(PanicLocation { file, line }) = PLACE.take() {
         let file = String::from_utf8_lossy(&file);
         text.push_str(&format!(" ({}, line {line})", file.trim_end_matches('\0')));
     }

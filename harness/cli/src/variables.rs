@@ -92,10 +92,10 @@ pub(crate) fn selected(
 }
 
 /// Elements of one vector or matrix, which differ in their start values alone; or one variable.
-pub(crate) struct Row<'d>(&'d [&'d ScalarVariable]);
+pub(crate) struct VariableRow<'d>(&'d [&'d ScalarVariable]);
 
 /// Variables in rows.
-pub(crate) fn rows<'d>(variables: &'d [&'d ScalarVariable]) -> impl Iterator<Item = Row<'d>> {
+pub(crate) fn rows<'d>(variables: &'d [&'d ScalarVariable]) -> impl Iterator<Item = VariableRow<'d>> {
     let without_start = |kind: &VariableKind| {
         let mut kind = kind.clone();
         match &mut kind {
@@ -113,10 +113,10 @@ pub(crate) fn rows<'d>(variables: &'d [&'d ScalarVariable]) -> impl Iterator<Ite
             && one.description == other.description
             && without_start(&one.kind) == without_start(&other.kind)
     };
-    variables.chunk_by(is_alike).map(Row)
+    variables.chunk_by(is_alike).map(VariableRow)
 }
 
-impl<'d> Row<'d> {
+impl<'d> VariableRow<'d> {
     /// The first of them.
     pub(crate) fn first(&self) -> &'d ScalarVariable {
         self.0[0]

@@ -13,7 +13,7 @@ use crate::{Error, foreign};
 
 /// How much an archive may hold.
 #[derive(Clone, Copy, Debug)]
-pub struct Limits {
+pub struct ArchiveLimits {
     /// Entries, folders included.
     pub entries: usize,
     /// Bytes of all unpacked files together.
@@ -22,7 +22,7 @@ pub struct Limits {
     pub description_bytes: u64,
 }
 
-impl Default for Limits {
+impl Default for ArchiveLimits {
     /// 10,000 entries and 4 GiB: far above any sane FMU, far below a full disk.
     fn default() -> Self {
         Self { entries: 10_000, total_bytes: 4 << 30, description_bytes: MAX_BYTES as u64 }
@@ -36,7 +36,7 @@ impl Default for Limits {
 /// anything is unpacked; an entry that holds more than the list says; a damaged or corrupted archive.
 ///
 /// Gives the paths of the entries as the archive writes them.
-pub fn unpack(archive: &Path, into: &Path, limits: Limits) -> Result<Vec<String>, Error> {
+pub fn unpack(archive: &Path, into: &Path, limits: ArchiveLimits) -> Result<Vec<String>, Error> {
     let refuse = |what: String| Error::Archive { path: archive.to_owned(), what };
     let file = files::open(archive).map_err(|source| Error::File { path: archive.to_owned(), source })?;
     let mut zip = ZipArchive::new(io::BufReader::new(file))

@@ -53,7 +53,7 @@ impl Fmu {
         } else {
             let temporary =
                 Scratch::new().map_err(|error| Error::File { path: std::env::temp_dir(), source: error })?;
-            let entries = archive::unpack(&source, temporary.path(), archive::Limits::default())?;
+            let entries = archive::unpack(&source, temporary.path(), archive::ArchiveLimits::default())?;
             (temporary.path().to_owned(), entries, Some(temporary))
         };
         let xml_path = folder.join("modelDescription.xml");

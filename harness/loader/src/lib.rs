@@ -28,7 +28,7 @@ mod uri;
 mod values;
 
 pub use abi::{Binary, Callbacks, Described, SharedWords, set_locale};
-pub use archive::{Limits, path_inside, unpack};
+pub use archive::{ArchiveLimits, path_inside, unpack};
 pub use call_record::{
     CALL_RECORD_WORDS, CallRecord, RecordedCalls, call_in_progress, record_calls, record_instance,
     recorded_calls, step_begin_s,

@@ -9,7 +9,7 @@ mod record;
 mod replay;
 
 pub use compare::{Cell, Compared, Difference, differences};
-pub use manifest::{Flight, Manifest, Related};
+pub use manifest::{Manifest, ReferenceSimulation, Related};
 pub use record::{RecordError, record};
 pub use replay::{Replay, replays};
 

@@ -24,12 +24,12 @@ pub struct Related {
     /// In words.
     pub description: String,
     /// How its results were simulated.
-    pub flight: Option<Flight>,
+    pub flight: Option<ReferenceSimulation>,
 }
 
 /// How results were simulated and how near they are met.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Flight {
+pub struct ReferenceSimulation {
     /// Greatest deviation, as a fraction of the largest magnitude of a vector or scalar.
     pub tolerance: f64,
     /// The table of inputs, from the manifest.
@@ -110,7 +110,7 @@ fn related(xml: &mut Xml<'_>, start: &Start) -> Result<Related, String> {
 }
 
 /// Our annotation somewhere inside an element.
-fn flight(xml: &mut Xml<'_>, start: &Start) -> Result<Option<Flight>, String> {
+fn flight(xml: &mut Xml<'_>, start: &Start) -> Result<Option<ReferenceSimulation>, String> {
     let mut found = None;
     while let Some(child) = xml.child(start).map_err(|error| error.to_string())? {
         let is_foreign = local(&child) == "Annotation" && attribute(&child, "type") != Some(ANNOTATION);
@@ -126,12 +126,12 @@ fn flight(xml: &mut Xml<'_>, start: &Start) -> Result<Option<Flight>, String> {
     Ok(found)
 }
 
-fn terms(start: &Start) -> Result<Flight, String> {
+fn terms(start: &Start) -> Result<ReferenceSimulation, String> {
     let text = attribute(start, "tolerance").unwrap_or_default();
     let tolerance = text.parse().ok().filter(|it: &f64| it.is_finite() && *it >= 0.0).ok_or_else(|| {
         format!("line {}: found tolerance {text:?}, allowed: a number from 0 up", start.line)
     })?;
-    Ok(Flight { tolerance, inputs: attribute(start, "inputs").map(str::to_owned) })
+    Ok(ReferenceSimulation { tolerance, inputs: attribute(start, "inputs").map(str::to_owned) })
 }
 
 fn attribute<'a>(start: &'a Start, name: &str) -> Option<&'a str> {
@@ -155,7 +155,7 @@ mod tests {
             source: "My_out.csv".to_owned(),
             role: "result".to_owned(),
             description: "a < b & \"c\"".to_owned(),
-            flight: Some(Flight { tolerance: 1e-9, inputs: Some("My_in.csv".to_owned()) }),
+            flight: Some(ReferenceSimulation { tolerance: 1e-9, inputs: Some("My_in.csv".to_owned()) }),
         };
         let plain = Related { flight: None, ..result.clone() };
         let manifest = Manifest { related: vec![plain, result] };

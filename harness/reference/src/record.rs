@@ -5,7 +5,7 @@ use model_description::{Causality, ScalarVariable, VariableKind, value};
 
 use crate::{
     FOLDER, MANIFEST,
-    manifest::{Flight, Manifest, Related},
+    manifest::{Manifest, ReferenceSimulation, Related},
 };
 
 /// Communication steps of a reference flight.
@@ -74,7 +74,7 @@ pub fn record(fmu: &Fmu, inputs: &str) -> Result<Vec<(String, Vec<u8>)>, RecordE
              the largest magnitude of each vector or scalar",
             times.start_s, stop_s, times.step_s
         ),
-        flight: Some(Flight { tolerance: TOLERANCE, inputs: table.is_some().then_some(inputs_name) }),
+        flight: Some(ReferenceSimulation { tolerance: TOLERANCE, inputs: table.is_some().then_some(inputs_name) }),
     });
     files.push((format!("{FOLDER}/{outputs_name}"), csv(&recording)));
     files.push((format!("{FOLDER}/{MANIFEST}"), manifest.to_xml().into_bytes()));

@@ -83,9 +83,9 @@ impl Recorded {
     }
 
     /// The values of one point from a column on.
-    pub(crate) fn row(&self, row: usize, column: usize) -> Row<'_> {
+    pub(crate) fn row(&self, row: usize, column: usize) -> RowReader<'_> {
         let time_s = self.times_s.get(row).copied().unwrap_or(f64::NAN);
-        Row { time_s, row, columns: self.columns[column..].iter() }
+        RowReader { time_s, row, columns: self.columns[column..].iter() }
     }
 
     /// The values of the first point.
@@ -94,7 +94,7 @@ impl Recorded {
     }
 
     /// Those of the last point.
-    pub(crate) fn last_row(&self) -> Row<'_> {
+    pub(crate) fn last_row(&self) -> RowReader<'_> {
         self.row(self.times_s.len().saturating_sub(1), 0)
     }
 
@@ -105,14 +105,14 @@ impl Recorded {
 }
 
 /// The values of one point, one after the other.
-pub(crate) struct Row<'a> {
+pub(crate) struct RowReader<'a> {
     /// When, in s.
     pub time_s: f64,
     row: usize,
     columns: std::slice::Iter<'a, Vec<f64>>,
 }
 
-impl Row<'_> {
+impl RowReader<'_> {
     /// The next.
     pub(crate) fn read<T: Recordable>(&mut self) -> T {
         T::read(self)
@@ -122,42 +122,42 @@ impl Row<'_> {
 /// What stands in one column, or in several beside each other.
 pub(crate) trait Recordable {
     /// Takes its columns; not a number beyond the last.
-    fn read(row: &mut Row<'_>) -> Self;
+    fn read(row: &mut RowReader<'_>) -> Self;
 }
 
 impl Recordable for f64 {
-    fn read(row: &mut Row<'_>) -> Self {
+    fn read(row: &mut RowReader<'_>) -> Self {
         row.columns.next().and_then(|column| column.get(row.row)).copied().unwrap_or(f64::NAN)
     }
 }
 
 impl Recordable for i32 {
-    fn read(row: &mut Row<'_>) -> Self {
+    fn read(row: &mut RowReader<'_>) -> Self {
         row.read::<f64>() as i32
     }
 }
 
 impl Recordable for bool {
-    fn read(row: &mut Row<'_>) -> Self {
+    fn read(row: &mut RowReader<'_>) -> Self {
         row.read::<f64>() != 0.0
     }
 }
 
 impl<const N: usize> Recordable for SVector<f64, N> {
-    fn read(row: &mut Row<'_>) -> Self {
+    fn read(row: &mut RowReader<'_>) -> Self {
         Self::from_fn(|_, _| row.read())
     }
 }
 
 impl<T: Recordable, const N: usize> Recordable for [T; N] {
-    fn read(row: &mut Row<'_>) -> Self {
+    fn read(row: &mut RowReader<'_>) -> Self {
         std::array::from_fn(|_| row.read())
     }
 }
 
 /// All that are left.
 impl<T: Recordable> Recordable for Vec<T> {
-    fn read(row: &mut Row<'_>) -> Self {
+    fn read(row: &mut RowReader<'_>) -> Self {
         let mut all = Self::new();
         while row.columns.len() > 0 {
             all.push(row.read());
@@ -167,13 +167,13 @@ impl<T: Recordable> Recordable for Vec<T> {
 }
 
 impl<A: Recordable, B: Recordable> Recordable for (A, B) {
-    fn read(row: &mut Row<'_>) -> Self {
+    fn read(row: &mut RowReader<'_>) -> Self {
         (row.read(), row.read())
     }
 }
 
 impl Recordable for Attitude {
-    fn read(row: &mut Row<'_>) -> Self {
+    fn read(row: &mut RowReader<'_>) -> Self {
         Self::new_unchecked(row.read::<SVector<f64, 4>>().into())
     }
 }
@@ -198,7 +198,7 @@ macro_rules! recorded {
         }
 
         impl $crate::case::Recordable for $name {
-            fn read(row: &mut $crate::case::Row<'_>) -> Self {
+            fn read(row: &mut $crate::case::RowReader<'_>) -> Self {
                 Self { $($time: row.time_s,)? $($field: row.read(),)+ }
             }
         }
@@ -210,7 +210,7 @@ pub(crate) use recorded;
 struct Steered<'a> {
     recorded: Recorded,
     types: Vec<BaseType>,
-    steer: &'a mut dyn FnMut(Row<'_>) -> Settings,
+    steer: &'a mut dyn FnMut(RowReader<'_>) -> Settings,
 }
 
 impl Rows for Steered<'_> {
@@ -309,7 +309,7 @@ impl Case {
         &self,
         model: &dyn Model,
         names: &[S],
-        steer: &mut dyn FnMut(Row<'_>) -> Settings,
+        steer: &mut dyn FnMut(RowReader<'_>) -> Settings,
     ) -> Result<Recorded, StudyError> {
         let failed = |error| StudyError::Simulation { case: self.label.clone(), source: Box::new(error) };
         self.run(model, names, steer).map_err(failed)
@@ -319,7 +319,7 @@ impl Case {
         &self,
         model: &dyn Model,
         names: &[S],
-        steer: &mut dyn FnMut(Row<'_>) -> Settings,
+        steer: &mut dyn FnMut(RowReader<'_>) -> Settings,
     ) -> Result<Recorded, loader::Error> {
         let record = positions(model, names)?;
         let base_type = |position: &usize| model.description().variables[*position].kind.base_type();

@@ -6,7 +6,7 @@ use planner::{
     momentum::{Convention, plant, simulated::SimulatedFlight},
 };
 
-use crate::case::{Case, Row};
+use crate::case::{Case, RowReader};
 use crate::settings::Settings;
 
 /// What of a flight is recorded.
@@ -28,7 +28,7 @@ impl FlightKind {
     pub(crate) fn simulate(
         self,
         (case, fmu): (&Case, &Fmu),
-        steer: &mut dyn FnMut(Row<'_>) -> Settings,
+        steer: &mut dyn FnMut(RowReader<'_>) -> Settings,
     ) -> Result<SimulatedFlight, Failure> {
         let panels: Vec<String> = (0..self.panels).map(plant::panel).collect();
         let mut names: Vec<&str> = plant::recorded(self.convention).to_vec();

@@ -5,7 +5,7 @@ use model_description::{Description, EnumerationItem, ScalarVariable, Unit, Vari
 
 use crate::{
     joint::is_same_item,
-    structure::{Connection, Connector, End, Enumeration, Kind, Signal, Structure},
+    structure::{Connection, Connector, ConnectorKind, End, Enumeration, Signal, Structure},
 };
 
 /// With nothing on the way.
@@ -18,7 +18,7 @@ pub(crate) fn add_connector(
     structure: &mut Structure,
     components: &[(String, Fmu)],
     (number, variable): (usize, &ScalarVariable),
-    kind: Kind,
+    kind: ConnectorKind,
 ) {
     let connectors = &structure.components[number].connectors;
     if connectors.iter().any(|it| it.name == variable.name) {

@@ -4,7 +4,7 @@ use loader::Fmu;
 use model_description::{Causality, EnumerationItem, ScalarVariable, names::similar, value};
 
 use crate::{
-    structure::{Connection, Connector, End, Kind, Linear, Signal, Structure},
+    structure::{Connection, Connector, ConnectorKind, End, Linear, Signal, Structure},
     units::{self, base, conversion, is_same_dimension},
 };
 
@@ -25,12 +25,12 @@ pub(crate) enum Link {
     /// From variable to variable.
     Joint(Joint),
     /// Between one of the system's own connectors, by its name, and a variable.
-    Own(String, Place),
+    Own(String, ConnectedVariable),
 }
 
 /// A variable that one of the system's own connectors stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct ConnectedVariable {
     /// Component and position in its `ModelVariables`.
     pub at: (usize, usize),
     /// From the connector's number to the variable's, of an output from the variable's to the connector's.
@@ -54,11 +54,11 @@ pub(crate) fn check_connector(structure: &Structure, fmu: &Fmu, connector: &Conn
         return Err(format!("{model} has no variable of that name, near it: {}", near(name, names)));
     };
     let expected = match connector.kind {
-        Kind::Input => Causality::Input,
-        Kind::Output => Causality::Output,
-        Kind::Parameter => Causality::Parameter,
-        Kind::CalculatedParameter => Causality::CalculatedParameter,
-        Kind::Inout => return Err("found kind inout, allowed for an FMU: input, output".to_owned()),
+        ConnectorKind::Input => Causality::Input,
+        ConnectorKind::Output => Causality::Output,
+        ConnectorKind::Parameter => Causality::Parameter,
+        ConnectorKind::CalculatedParameter => Causality::CalculatedParameter,
+        ConnectorKind::Inout => return Err("found kind inout, allowed for an FMU: input, output".to_owned()),
     };
     if variable.causality != expected {
         let word = connector.kind.word();
@@ -111,7 +111,8 @@ fn find_own<'a>(structure: &'a Structure, end: &End, gives: bool) -> Result<&'a 
         let near = near(name, structure.connectors.iter().map(|it| it.name.as_str()));
         return Err(format!("the system has no connector {name:?} of its own, near it: {near}"));
     };
-    let allowed: &[Kind] = if gives { &[Kind::Input, Kind::Parameter] } else { &[Kind::Output] };
+    let allowed: &[ConnectorKind] =
+        if gives { &[ConnectorKind::Input, ConnectorKind::Parameter] } else { &[ConnectorKind::Output] };
     if !allowed.contains(&own.kind) {
         let (place, found) = (if gives { "start" } else { "end" }, own.kind.word());
         let allowed: Vec<&str> = allowed.iter().map(|kind| kind.word()).collect();
@@ -123,7 +124,12 @@ fn find_own<'a>(structure: &'a Structure, end: &End, gives: bool) -> Result<&'a 
     Ok(own)
 }
 
-fn find<'a>(structure: &'a Structure, fmus: &'a [Fmu], end: &End, kind: Kind) -> Result<Joined<'a>, String> {
+fn find<'a>(
+    structure: &'a Structure,
+    fmus: &'a [Fmu],
+    end: &End,
+    kind: ConnectorKind,
+) -> Result<Joined<'a>, String> {
     let name = end.component.as_deref().unwrap_or_default();
     let Some(number) = structure.components.iter().position(|component| component.name == name) else {
         let all = structure.components.iter().map(|component| component.name.as_str());
@@ -138,7 +144,7 @@ fn find<'a>(structure: &'a Structure, fmus: &'a [Fmu], end: &End, kind: Kind) ->
     };
     if connector.kind != kind {
         let (found, allowed) = (connector.kind.word(), kind.word());
-        let place = if kind == Kind::Output { "start" } else { "end" };
+        let place = if kind == ConnectorKind::Output { "start" } else { "end" };
         return Err(format!("at its {place} found {end} of kind {found}, allowed: {allowed}"));
     }
     let position = fmu.position(&end.connector).unwrap_or_default();
@@ -154,9 +160,9 @@ pub(crate) fn link(structure: &Structure, fmus: &[Fmu], connection: &Connection)
             let inwards = start.component.is_none();
             let (outer, inner) = if inwards { (start, end) } else { (end, start) };
             let own = find_own(structure, outer, inwards)?;
-            let inner = find(structure, fmus, inner, if inwards { own.kind } else { Kind::Output })?;
+            let inner = find(structure, fmus, inner, if inwards { own.kind } else { ConnectorKind::Output })?;
             let linear = own_linear(structure, connection, (own, &inner), inwards)?;
-            Ok(Link::Own(own.name.clone(), Place { at: inner.at, linear }))
+            Ok(Link::Own(own.name.clone(), ConnectedVariable { at: inner.at, linear }))
         }
         (None, None) => {
             Err("found the system's own connectors at both ends, allowed: a component's at one".to_owned())
@@ -186,8 +192,8 @@ fn own_linear(
 
 /// Holds a connection of two components against their FMUs.
 fn joint(structure: &Structure, fmus: &[Fmu], connection: &Connection) -> Result<Joint, String> {
-    let start = find(structure, fmus, &connection.start, Kind::Output)?;
-    let end = find(structure, fmus, &connection.end, Kind::Input)?;
+    let start = find(structure, fmus, &connection.start, ConnectorKind::Output)?;
+    let end = find(structure, fmus, &connection.end, ConnectorKind::Input)?;
     let (one, other) = (start.variable.kind.name(), end.variable.kind.name());
     if one != other {
         return Err(format!("found type {one} at its start and {other} at its end, allowed: one type"));

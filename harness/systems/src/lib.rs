@@ -26,15 +26,15 @@ mod wire;
 mod writer;
 
 pub use error::Error;
-pub use joint::{Joint, Place};
+pub use joint::{ConnectedVariable, Joint};
 pub use master::{FirstExchange, Master};
 pub use own::Own;
 pub use package::{MOST_BYTES, is_system};
 pub use reader::{MOST_COMPONENTS, read as read_structure};
 pub use simulate::simulate_into;
 pub use structure::{
-    Binding, Component, Connection, Connector, End, Enumeration, Kind, Linear, Parameter, ParameterSet,
-    SSD_FILE, Signal, Structure, Written,
+    Binding, Component, Connection, Connector, ConnectorKind, End, Enumeration, Linear, Parameter,
+    ParameterSet, SSD_FILE, Signal, Structure, Written,
 };
 pub use system::{Part, System};
 pub use unread::Unread;

@@ -5,7 +5,7 @@ use loader::{Fmu, Value};
 use model_description::VariableKind;
 
 use crate::{
-    joint::Place,
+    joint::ConnectedVariable,
     merged::{Merged, add_unit},
     structure::{Connector, Linear, Signal, Structure},
 };
@@ -16,7 +16,7 @@ pub struct Own {
     /// The connector.
     pub connector: Connector,
     /// The variables.
-    pub places: Vec<Place>,
+    pub places: Vec<ConnectedVariable>,
     /// Line of the last connection.
     line: u32,
 }
@@ -28,7 +28,7 @@ impl Own {
     }
 
     /// Connects it; of an output that is connected already the line where.
-    pub fn join(&mut self, place: Place, line: u32) -> Option<u32> {
+    pub fn join(&mut self, place: ConnectedVariable, line: u32) -> Option<u32> {
         let taken = !self.gives() && !self.places.is_empty();
         self.places.push(place);
         let before = std::mem::replace(&mut self.line, line);
@@ -37,7 +37,7 @@ impl Own {
 
     /// Whether it gives values to components.
     pub fn gives(&self) -> bool {
-        self.connector.kind != crate::structure::Kind::Output
+        self.connector.kind != crate::structure::ConnectorKind::Output
     }
 
     /// Whether it gives values to this variable.
@@ -46,7 +46,7 @@ impl Own {
     }
 }
 
-impl Place {
+impl ConnectedVariable {
     /// A value on its way to the variable, or from it.
     pub fn of(self, value: &Value) -> Value {
         match value {

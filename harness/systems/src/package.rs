@@ -6,7 +6,7 @@ use std::{
 };
 
 use files::Scratch;
-use loader::Limits;
+use loader::ArchiveLimits;
 use percent_encoding::percent_decode_str;
 
 use crate::{error::Error, structure::SSD_FILE};
@@ -40,7 +40,7 @@ impl Package {
         }
         let temporary =
             Scratch::new().map_err(|source| loader::Error::File { path: std::env::temp_dir(), source })?;
-        loader::unpack(path, temporary.path(), Limits::default()).map_err(|error| match error {
+        loader::unpack(path, temporary.path(), ArchiveLimits::default()).map_err(|error| match error {
             loader::Error::Archive { path, what } => Error::Archive { path, what },
             other => other.into(),
         })?;
@@ -87,7 +87,7 @@ impl Package {
             move |source| loader::Error::File { path, source }
         };
         std::fs::create_dir(&into).map_err(failed(&into))?;
-        loader::unpack(&path, &into, Limits::default())
+        loader::unpack(&path, &into, ArchiveLimits::default())
             .map_err(|error| refuse(format!("{source:?}: {}", reason(&error))))?;
         std::fs::remove_file(&path).map_err(failed(&path))?;
         std::fs::rename(&into, &path).map_err(failed(&into))?;

@@ -4,7 +4,7 @@ use loader::{Fmu, Value};
 use model_description::{ScalarVariable, Unit, value};
 
 use crate::{
-    joint::{Place, near},
+    joint::{ConnectedVariable, near},
     own::Own,
     structure::{Parameter, ParameterSet, Structure, Written},
     units::{base, conversion, is_same_dimension, shown},
@@ -56,7 +56,7 @@ pub(crate) fn values(
 }
 
 /// A parameter of one of the system's own connectors at a variable: a number without a unit is in the connector's.
-fn in_variables_unit(parameter: &Parameter, place: Place) -> Parameter {
+fn in_variables_unit(parameter: &Parameter, place: ConnectedVariable) -> Parameter {
     let value = match parameter.value {
         Written::Real { value, unit: None } => Written::Real { value: place.linear.of(value), unit: None },
         ref other => other.clone(),

@@ -9,7 +9,7 @@ use crate::{
         unknown,
     },
     parameter_set,
-    structure::{Binding, Component, Connection, Connector, End, Kind, Linear, Signal, Structure},
+    structure::{Binding, Component, Connection, Connector, ConnectorKind, End, Linear, Signal, Structure},
 };
 
 /// Most components of a system: each is an instance of its FMU.
@@ -127,8 +127,8 @@ fn component(xml: &mut Xml<'_>, start: &Start) -> Result<Component, ReadError> {
 fn connector(xml: &mut Xml<'_>, start: &Start) -> Result<Connector, ReadError> {
     let name = required(start, "name")?;
     let word = required(start, "kind")?;
-    let Some((kind, _)) = Kind::WORDS.into_iter().find(|(_, known)| *known == word) else {
-        let allowed = Kind::WORDS.map(|(_, word)| word).join(", ");
+    let Some((kind, _)) = ConnectorKind::WORDS.into_iter().find(|(_, known)| *known == word) else {
+        let allowed = ConnectorKind::WORDS.map(|(_, word)| word).join(", ");
         let message = format!("connector {name:?}: found kind {word:?}, allowed: {allowed}");
         return Err(refuse(start, message));
     };

@@ -3,7 +3,7 @@
 use loader::{Error, Instance, Row, Rows};
 use model_description::Causality;
 
-use crate::{joint::Place, structure::Linear, system::System};
+use crate::{joint::ConnectedVariable, structure::Linear, system::System};
 
 /// Recorded variables of one component and base type: references, and where their values stand in a row.
 #[derive(Debug, Default)]
@@ -33,7 +33,9 @@ impl Recorder {
         for &position in positions {
             let variable = &system.description().variables[position];
             let base = variable.kind.base_type() as usize;
-            let Some(&Place { at: (number, _), linear }) = system.places(position).first() else { continue };
+            let Some(&ConnectedVariable { at: (number, _), linear }) = system.places(position).first() else {
+                continue;
+            };
             let group = &mut groups[number][base];
             group.references.push(variable.value_reference);
             // Of an input of the system the value is what it was given: back from the variable's unit.

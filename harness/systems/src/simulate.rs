@@ -5,7 +5,7 @@ use std::sync::atomic::Ordering;
 use loader::{Ended, Error, InputTable, LogMessage, Options, Rows, Value};
 
 use crate::{
-    joint::Place,
+    joint::ConnectedVariable,
     master::{FirstExchange, Master, Running, Stepped},
     recorder::Recorder,
     system::System,
@@ -116,7 +116,7 @@ fn refuse_connected(system: &System, input: (usize, usize), name: &str) -> Resul
 struct HeldInputs<'a> {
     table: &'a InputTable,
     /// Column of the table and a variable that it goes to.
-    columns: Vec<(usize, Place)>,
+    columns: Vec<(usize, ConnectedVariable)>,
     names: Vec<String>,
     last: Vec<Option<Value>>,
 }
@@ -138,7 +138,7 @@ impl<'a> HeldInputs<'a> {
     /// The values of the start, which initialization takes.
     fn at_start(&mut self, time_s: f64) -> Vec<(usize, String, Value)> {
         let columns = self.columns.iter().zip(&self.names);
-        let at = |(column, place): (usize, Place)| place.of(&self.table.value(column, time_s));
+        let at = |(column, place): (usize, ConnectedVariable)| place.of(&self.table.value(column, time_s));
         columns.map(|(column, name)| (column.1.at.0, name.clone(), at(*column))).collect()
     }
 

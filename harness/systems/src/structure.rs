@@ -47,7 +47,7 @@ pub struct Connector {
     /// The variable's name.
     pub name: String,
     /// Its role.
-    pub kind: Kind,
+    pub kind: ConnectorKind,
     /// Its type, where it is reported.
     pub signal: Option<Signal>,
     /// Line in the file.
@@ -57,7 +57,7 @@ pub struct Connector {
 /// The role of a connector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "the standard's own words")]
-pub enum Kind {
+pub enum ConnectorKind {
     Input,
     Output,
     Parameter,
@@ -65,7 +65,7 @@ pub enum Kind {
     Inout,
 }
 
-impl Kind {
+impl ConnectorKind {
     /// All with the standard's words.
     pub const WORDS: [(Self, &'static str); 5] = [
         (Self::Input, "input"),

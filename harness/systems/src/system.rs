@@ -8,7 +8,7 @@ use model_description::{Causality, Description, value};
 use crate::{
     error::Error,
     experiment::complete,
-    joint::{Joint, Link, Place, check_connector, link},
+    joint::{ConnectedVariable, Joint, Link, check_connector, link},
     merged::{Merged, merge},
     own::{Own, describe},
     package::Package,
@@ -183,9 +183,9 @@ impl System {
 
     /// What a variable of [`System::description`] stands for: one variable of a component, or for an input of the system itself
     /// all that it is connected to.
-    pub fn places(&self, position: usize) -> Vec<Place> {
+    pub fn places(&self, position: usize) -> Vec<ConnectedVariable> {
         match self.merged.origins.get(position) {
-            Some(&at) => vec![Place { at, linear: Linear::IDENTITY }],
+            Some(&at) => vec![ConnectedVariable { at, linear: Linear::IDENTITY }],
             None => self.own[position - self.merged.origins.len()].places.clone(),
         }
     }

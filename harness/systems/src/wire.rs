@@ -13,7 +13,9 @@ use crate::{
     experiment::complete,
     joint::foreign_item,
     merged::{Merged, merge},
-    structure::{Binding, Component, Connector, End, Kind, Parameter, ParameterSet, Structure, Written},
+    structure::{
+        Binding, Component, Connector, ConnectorKind, End, Parameter, ParameterSet, Structure, Written,
+    },
     units::shown,
     unread::{Unread, unread},
 };
@@ -153,7 +155,7 @@ pub fn wire(
     list_outputs(&mut wired.structure, components, wiring, &merged)?;
     export(&mut wired, components, wiring, &merged)?;
     for (component, (_, fmu)) in wired.structure.components.iter_mut().zip(components) {
-        component.connectors.sort_by_key(|it| (it.kind == Kind::Output, fmu.position(&it.name)));
+        component.connectors.sort_by_key(|it| (it.kind == ConnectorKind::Output, fmu.position(&it.name)));
     }
     Ok(wired)
 }
@@ -360,8 +362,8 @@ fn connect(
     (from, output): (usize, &ScalarVariable),
     (to, input): (usize, &ScalarVariable),
 ) {
-    add_connector(structure, components, (from, output), Kind::Output);
-    add_connector(structure, components, (to, input), Kind::Input);
+    add_connector(structure, components, (from, output), ConnectorKind::Output);
+    add_connector(structure, components, (to, input), ConnectorKind::Input);
     let end = |number: usize, variable: &ScalarVariable| End {
         component: Some(components[number].0.clone()),
         connector: variable.name.clone(),
@@ -386,7 +388,7 @@ fn list_outputs(
             }
             let is_enumeration = matches!(variable.kind, VariableKind::Enumeration { .. });
             if !(is_enumeration && wiring.without_enumerations) {
-                add_connector(structure, components, (number, variable), Kind::Output);
+                add_connector(structure, components, (number, variable), ConnectorKind::Output);
             }
         }
     }
@@ -413,9 +415,9 @@ fn export(
         let refuse =
             |what: &str| Error::Wire(format!("--export {}: {what}", description.variables[position].name));
         let kind = match variable.causality {
-            Causality::Output => Kind::Output,
-            Causality::Input => Kind::Input,
-            Causality::Parameter => Kind::Parameter,
+            Causality::Output => ConnectorKind::Output,
+            Causality::Input => ConnectorKind::Input,
+            Causality::Parameter => ConnectorKind::Parameter,
             _ => return Err(refuse("it is internal, allowed: outputs, inputs, parameters")),
         };
         if matches!(variable.kind, VariableKind::String { .. }) {
@@ -426,7 +428,7 @@ fn export(
         }
         let structure = &mut wired.structure;
         let inner = End { component: Some(components[number].0.clone()), connector: variable.name.clone() };
-        if kind == Kind::Input && structure.connections.iter().any(|it| it.end == inner) {
+        if kind == ConnectorKind::Input && structure.connections.iter().any(|it| it.end == inner) {
             return Err(refuse("it is connected already, allowed: open inputs"));
         }
         let name = identifier(&variable.name);
@@ -439,7 +441,7 @@ fn export(
         let known = structure.components[number].connectors.iter().find(|it| it.name == variable.name);
         structure.connectors.extend(known.map(|it| Connector { name: name.clone(), ..it.clone() }));
         let outer = End { component: None, connector: name };
-        let (start, end) = if kind == Kind::Output { (inner, outer) } else { (outer, inner) };
+        let (start, end) = if kind == ConnectorKind::Output { (inner, outer) } else { (outer, inner) };
         wired
             .left
             .retain(|left| end.component.as_ref() != Some(&left.component) || left.input != end.connector);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Check, Place, some_of};
+use super::{Check, ElementLocation, some_of};
 use crate::finding::Code;
 use crate::rules;
 use crate::value;
@@ -23,7 +23,7 @@ impl<'a> Check<'a> {
         let all = &self.description.variables;
         let set: Vec<&ScalarVariable> = members.iter().filter_map(|&index| all.get(index)).collect();
         let Some(&last) = members.last() else { return };
-        let place = Place::Variable(last);
+        let place = ElementLocation::Variable(last);
         let reference = set.first().map_or(0, |variable| variable.value_reference);
         let names = some_of(set.iter().map(|variable| variable.name.as_str()));
         let count = |is: &dyn Fn(&ScalarVariable) -> bool| set.iter().filter(|v| is(v)).count();

@@ -1,6 +1,6 @@
 //! Units, types and log categories.
 
-use super::{Check, Place, some_of};
+use super::{Check, ElementLocation, some_of};
 use crate::finding::Code;
 use crate::lexical::double;
 use crate::{RealAttributes, SimpleTypeKind};
@@ -8,10 +8,10 @@ use crate::{RealAttributes, SimpleTypeKind};
 impl Check<'_> {
     pub(super) fn units(&mut self) {
         let units = &self.description.units;
-        self.unique(Code::DuplicateUnit, units.iter().map(|unit| unit.name.as_str()), Place::Unit);
+        self.unique(Code::DuplicateUnit, units.iter().map(|unit| unit.name.as_str()), ElementLocation::Unit);
         for (index, unit) in units.iter().enumerate() {
             let displays = unit.display_units.iter().map(|display| display.name.as_str());
-            self.unique(Code::DuplicateDisplayUnit, displays, |_| Place::Unit(index));
+            self.unique(Code::DuplicateDisplayUnit, displays, |_| ElementLocation::Unit(index));
             let base = unit.base.iter().map(|base| ("BaseUnit".to_owned(), base.factor, base.offset));
             let displays = unit.display_units.iter();
             let displays = displays.map(|d| (format!("display unit `{}`", d.name), d.factor, d.offset));
@@ -23,7 +23,7 @@ impl Check<'_> {
                         double(factor),
                         double(offset)
                     );
-                    self.add(Code::UnitConversion, Place::Unit(index), message);
+                    self.add(Code::UnitConversion, ElementLocation::Unit(index), message);
                 }
             }
         }
@@ -31,9 +31,13 @@ impl Check<'_> {
 
     pub(super) fn types(&mut self) {
         let types = &self.description.types;
-        self.unique(Code::DuplicateType, types.iter().map(|known| known.name.as_str()), Place::Type);
+        self.unique(
+            Code::DuplicateType,
+            types.iter().map(|known| known.name.as_str()),
+            ElementLocation::Type,
+        );
         for (index, known) in types.iter().enumerate() {
-            let place = Place::Type(index);
+            let place = ElementLocation::Type(index);
             match &known.kind {
                 SimpleTypeKind::Real(attributes) => {
                     self.real_attributes(place, attributes, None);
@@ -59,13 +63,13 @@ impl Check<'_> {
 
     pub(super) fn categories(&mut self) {
         let names = self.description.log_categories.iter().map(|category| category.name.as_str());
-        self.unique(Code::DuplicateCategory, names, Place::Category);
+        self.unique(Code::DuplicateCategory, names, ElementLocation::Category);
     }
 
     /// Attributes shared by Real types and variables; `inherited` are those of the variable's declared type.
     pub(super) fn real_attributes(
         &mut self,
-        place: Place,
+        place: ElementLocation,
         attributes: &RealAttributes,
         inherited: Option<&RealAttributes>,
     ) {
@@ -96,7 +100,7 @@ impl Check<'_> {
         }
     }
 
-    fn display_unit(&mut self, place: Place, display: &str, unit: Option<&str>) {
+    fn display_unit(&mut self, place: ElementLocation, display: &str, unit: Option<&str>) {
         let Some(name) = unit else {
             let message = format!("displayUnit `{display}` is given without a unit; a unit is required");
             self.add(Code::DisplayUnitWithoutUnit, place, message);
@@ -115,7 +119,7 @@ impl Check<'_> {
 
     pub(super) fn limits<T: PartialOrd + Copy + Into<f64>>(
         &mut self,
-        place: Place,
+        place: ElementLocation,
         min: Option<T>,
         max: Option<T>,
     ) {

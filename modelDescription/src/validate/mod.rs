@@ -39,7 +39,7 @@ pub fn with_lines(description: &Description, lines: &Lines) -> Vec<Finding> {
 
 /// Which element a finding is about; list elements by 0-based position.
 #[derive(Clone, Copy)]
-enum Place {
+enum ElementLocation {
     Root,
     ModelExchange,
     CoSimulation,
@@ -73,14 +73,14 @@ impl<'a> Check<'a> {
         }
     }
 
-    fn add(&mut self, code: Code, place: Place, message: String) {
+    fn add(&mut self, code: Code, place: ElementLocation, message: String) {
         let (subject, line) = self.locate(place);
         let line = line.copied().filter(|line| *line > 0);
         self.findings.push(Finding { code, subject, line, message });
     }
 
     /// The element in words, and its line.
-    fn locate(&self, place: Place) -> (String, Option<&'a u32>) {
+    fn locate(&self, place: ElementLocation) -> (String, Option<&'a u32>) {
         let (all, lines) = (self.description, self.lines);
         let named = |what: &str, name: Option<&String>| format!("{what} `{}`", name.map_or("", |it| it));
         let entry = |list: &str, unknowns: &[Unknown], at: usize| {
@@ -90,25 +90,29 @@ impl<'a> Check<'a> {
         };
         let structure = &all.structure;
         match place {
-            Place::Root => ("fmiModelDescription".to_owned(), Some(&lines.root)),
-            Place::ModelExchange => ("ModelExchange".to_owned(), Some(&lines.model_exchange)),
-            Place::CoSimulation => ("CoSimulation".to_owned(), Some(&lines.co_simulation)),
-            Place::Experiment => ("DefaultExperiment".to_owned(), Some(&lines.default_experiment)),
-            Place::Variables => ("ModelVariables".to_owned(), Some(&lines.model_variables)),
-            Place::Unit(at) => (named("unit", all.units.get(at).map(|it| &it.name)), lines.units.get(at)),
-            Place::Type(at) => (named("type", all.types.get(at).map(|it| &it.name)), lines.types.get(at)),
-            Place::Category(at) => {
+            ElementLocation::Root => ("fmiModelDescription".to_owned(), Some(&lines.root)),
+            ElementLocation::ModelExchange => ("ModelExchange".to_owned(), Some(&lines.model_exchange)),
+            ElementLocation::CoSimulation => ("CoSimulation".to_owned(), Some(&lines.co_simulation)),
+            ElementLocation::Experiment => ("DefaultExperiment".to_owned(), Some(&lines.default_experiment)),
+            ElementLocation::Variables => ("ModelVariables".to_owned(), Some(&lines.model_variables)),
+            ElementLocation::Unit(at) => {
+                (named("unit", all.units.get(at).map(|it| &it.name)), lines.units.get(at))
+            }
+            ElementLocation::Type(at) => {
+                (named("type", all.types.get(at).map(|it| &it.name)), lines.types.get(at))
+            }
+            ElementLocation::Category(at) => {
                 let name = all.log_categories.get(at).map(|it| &it.name);
                 (named("log category", name), lines.log_categories.get(at))
             }
-            Place::Variable(at) => {
+            ElementLocation::Variable(at) => {
                 (named("variable", all.variables.get(at).map(|it| &it.name)), lines.variables.get(at))
             }
-            Place::Output(at) => (entry("Outputs", &structure.outputs, at), lines.outputs.get(at)),
-            Place::Derivative(at) => {
+            ElementLocation::Output(at) => (entry("Outputs", &structure.outputs, at), lines.outputs.get(at)),
+            ElementLocation::Derivative(at) => {
                 (entry("Derivatives", &structure.derivatives, at), lines.derivatives.get(at))
             }
-            Place::InitialUnknown(at) => {
+            ElementLocation::InitialUnknown(at) => {
                 (entry("InitialUnknowns", &structure.initial_unknowns, at), lines.initial_unknowns.get(at))
             }
         }
@@ -129,7 +133,7 @@ impl<'a> Check<'a> {
         &mut self,
         code: Code,
         names: impl Iterator<Item = &'n str>,
-        place: impl Fn(usize) -> Place,
+        place: impl Fn(usize) -> ElementLocation,
     ) {
         let mut seen = BTreeMap::new();
         for (index, name) in names.enumerate() {

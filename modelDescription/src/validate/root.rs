@@ -1,6 +1,6 @@
 //! The root element's attributes, the interfaces and the default experiment.
 
-use super::{Check, Place};
+use super::{Check, ElementLocation};
 use crate::finding::Code;
 use crate::lexical::double;
 use crate::names::is_c_identifier;
@@ -11,7 +11,11 @@ impl Check<'_> {
         let all = self.description;
         for (name, text) in [("modelName", &all.model_name), ("guid", &all.guid)] {
             if text.trim().is_empty() {
-                self.add(Code::EmptyText, Place::Root, format!("{name} is empty; it should name something"));
+                self.add(
+                    Code::EmptyText,
+                    ElementLocation::Root,
+                    format!("{name} is empty; it should name something"),
+                );
             }
         }
         if let Some(text) = &all.generation_date_and_time
@@ -20,18 +24,18 @@ impl Check<'_> {
             let message = format!(
                 "generationDateAndTime is `{text}`; allowed is an xs:dateTime such as 2026-01-02T03:04:05Z"
             );
-            self.add(Code::DateTime, Place::Root, message);
+            self.add(Code::DateTime, ElementLocation::Root, message);
         }
         if all.co_simulation.is_none() && all.model_exchange.is_none() {
             let message = "has neither CoSimulation nor ModelExchange; at least one is required".to_owned();
-            self.add(Code::NoInterface, Place::Root, message);
+            self.add(Code::NoInterface, ElementLocation::Root, message);
         }
         for (element, name, c) in illegal_characters(all) {
             let message = format!(
                 "attribute `{name}` of <{element}> holds U+{:04X}; allowed are tab, line breaks and characters from U+0020",
                 u32::from(c)
             );
-            self.add(Code::IllegalCharacter, Place::Root, message);
+            self.add(Code::IllegalCharacter, ElementLocation::Root, message);
         }
     }
 
@@ -39,11 +43,11 @@ impl Check<'_> {
         let all = self.description;
         let model_exchange = all.model_exchange.as_ref().map(|it| {
             let states = (it.can_get_and_set_fmu_state, it.can_serialize_fmu_state);
-            (Place::ModelExchange, &it.model_identifier, states, &it.source_files)
+            (ElementLocation::ModelExchange, &it.model_identifier, states, &it.source_files)
         });
         let co_simulation = all.co_simulation.as_ref().map(|it| {
             let states = (it.can_get_and_set_fmu_state, it.can_serialize_fmu_state);
-            (Place::CoSimulation, &it.model_identifier, states, &it.source_files)
+            (ElementLocation::CoSimulation, &it.model_identifier, states, &it.source_files)
         });
         for (place, identifier, states, source_files) in model_exchange.into_iter().chain(co_simulation) {
             if !is_c_identifier(identifier) {
@@ -66,14 +70,14 @@ impl Check<'_> {
         for (name, time) in [("startTime", experiment.start_time), ("stopTime", experiment.stop_time)] {
             if let Some(time) = time.filter(|time| !time.is_finite()) {
                 let message = format!("{name} is {}; allowed is a finite time in s", double(time));
-                self.add(Code::ExperimentTime, Place::Experiment, message);
+                self.add(Code::ExperimentTime, ElementLocation::Experiment, message);
             }
         }
         let start = experiment.start_time.unwrap_or(0.0);
         if let Some(stop) = experiment.stop_time.filter(|stop| *stop < start) {
             let message =
                 format!("stopTime {stop} s lies before startTime {start} s; allowed is startTime or later");
-            self.add(Code::StopBeforeStart, Place::Experiment, message);
+            self.add(Code::StopBeforeStart, ElementLocation::Experiment, message);
         }
         let above_zero = [
             ("stepSize", experiment.step_size, Code::StepSize),
@@ -82,7 +86,7 @@ impl Check<'_> {
         for (name, value, code) in above_zero {
             if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
                 let message = format!("{name} is {}; allowed is a finite number above 0", double(value));
-                self.add(code, Place::Experiment, message);
+                self.add(code, ElementLocation::Experiment, message);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Check, Place, derivative_of, some_of};
+use super::{Check, ElementLocation, derivative_of, some_of};
 use crate::finding::Code;
 use crate::rules;
 use crate::{Causality, DependencyKind, Initial, ScalarVariable, Unknown, VariableKind};
@@ -11,14 +11,14 @@ use crate::{Causality, DependencyKind, Initial, ScalarVariable, Unknown, Variabl
 type Known<'k> = &'k dyn Fn(u32, &ScalarVariable) -> bool;
 
 /// A list of unknowns: where each stands, what it may depend on, and that in words.
-type List<'l> = (&'l [Unknown], fn(usize) -> Place, Known<'l>, &'l str);
+type List<'l> = (&'l [Unknown], fn(usize) -> ElementLocation, Known<'l>, &'l str);
 
 impl Check<'_> {
     pub(super) fn structure(&mut self) {
         let structure = &self.description.structure;
-        self.entries(&structure.outputs, Place::Output);
-        self.entries(&structure.derivatives, Place::Derivative);
-        self.entries(&structure.initial_unknowns, Place::InitialUnknown);
+        self.entries(&structure.outputs, ElementLocation::Output);
+        self.entries(&structure.derivatives, ElementLocation::Derivative);
+        self.entries(&structure.initial_unknowns, ElementLocation::InitialUnknown);
         self.outputs();
         self.derivatives();
         self.initial_unknowns();
@@ -26,7 +26,7 @@ impl Check<'_> {
     }
 
     /// Index range and duplicates of one list.
-    fn entries(&mut self, unknowns: &[Unknown], place: impl Fn(usize) -> Place) {
+    fn entries(&mut self, unknowns: &[Unknown], place: impl Fn(usize) -> ElementLocation) {
         let mut seen = BTreeSet::new();
         let count = self.description.variables.len();
         for (at, unknown) in unknowns.iter().enumerate() {
@@ -47,7 +47,7 @@ impl Check<'_> {
         for index in rules::outputs(&all.variables) {
             if !listed.contains(&index) {
                 let message = format!("is an output (index {index}) but not in ModelStructure/Outputs");
-                self.add(Code::OutputMissing, Place::Variable(index as usize - 1), message);
+                self.add(Code::OutputMissing, ElementLocation::Variable(index as usize - 1), message);
             }
         }
         for (at, unknown) in all.structure.outputs.iter().enumerate() {
@@ -55,7 +55,7 @@ impl Check<'_> {
                 && variable.causality != Causality::Output
             {
                 let message = format!("has causality {}; allowed are outputs", variable.causality);
-                self.add(Code::OutputExtra, Place::Output(at), message);
+                self.add(Code::OutputExtra, ElementLocation::Output(at), message);
             }
         }
     }
@@ -65,7 +65,7 @@ impl Check<'_> {
         for (at, unknown) in all.structure.derivatives.iter().enumerate() {
             if self.variable(unknown.index).is_some_and(|variable| derivative_of(variable).is_none()) {
                 let message = "has no attribute `derivative`; allowed are derivatives of states".to_owned();
-                self.add(Code::DerivativeEntry, Place::Derivative(at), message);
+                self.add(Code::DerivativeEntry, ElementLocation::Derivative(at), message);
             }
         }
         if all.model_exchange.is_none() {
@@ -76,7 +76,7 @@ impl Check<'_> {
             if derivative_of(&all.variables[at]).is_some() && !listed.contains(&index) {
                 let message =
                     format!("is a derivative (index {index}) but not in ModelStructure/Derivatives");
-                self.add(Code::DerivativeUnlisted, Place::Variable(at), message);
+                self.add(Code::DerivativeUnlisted, ElementLocation::Variable(at), message);
             }
         }
     }
@@ -90,7 +90,7 @@ impl Check<'_> {
             let message = format!(
                 "is an unknown of initialization (index {index}) but not in ModelStructure/InitialUnknowns"
             );
-            self.add(Code::InitialUnknownMissing, Place::Variable(*index as usize - 1), message);
+            self.add(Code::InitialUnknownMissing, ElementLocation::Variable(*index as usize - 1), message);
         }
         for (at, unknown) in list.iter().enumerate() {
             let Some(variable) = self.variable(unknown.index) else { continue };
@@ -101,7 +101,7 @@ impl Check<'_> {
                      calculated parameters, and listed derivatives and their states with approx or calculated",
                     variable.causality
                 );
-                self.add(Code::InitialUnknownExtra, Place::InitialUnknown(at), message);
+                self.add(Code::InitialUnknownExtra, ElementLocation::InitialUnknown(at), message);
             }
         }
         for at in 1..list.len() {
@@ -111,7 +111,7 @@ impl Check<'_> {
                     list[at].index,
                     list[at - 1].index
                 );
-                self.add(Code::InitialUnknownOrder, Place::InitialUnknown(at), message);
+                self.add(Code::InitialUnknownOrder, ElementLocation::InitialUnknown(at), message);
             }
         }
     }
@@ -129,9 +129,9 @@ impl Check<'_> {
         let step_rule = "inputs, continuous states and the independent variable";
         let start_rule = "inputs, variables with initial exact and the independent variable";
         let lists: [List<'_>; 3] = [
-            (&structure.outputs, Place::Output, &at_steps, step_rule),
-            (&structure.derivatives, Place::Derivative, &at_steps, step_rule),
-            (&structure.initial_unknowns, Place::InitialUnknown, &at_start, start_rule),
+            (&structure.outputs, ElementLocation::Output, &at_steps, step_rule),
+            (&structure.derivatives, ElementLocation::Derivative, &at_steps, step_rule),
+            (&structure.initial_unknowns, ElementLocation::InitialUnknown, &at_start, start_rule),
         ];
         for (unknowns, place, known, rule) in lists {
             for (at, unknown) in unknowns.iter().enumerate() {
@@ -144,12 +144,12 @@ impl Check<'_> {
                 kinds.find(|kind| !matches!(kind, DependencyKind::Dependent | DependencyKind::Constant))
             {
                 let message = format!("dependenciesKind has {bad}; allowed are dependent and constant");
-                self.add(Code::DependencyKindInitial, Place::InitialUnknown(at), message);
+                self.add(Code::DependencyKindInitial, ElementLocation::InitialUnknown(at), message);
             }
         }
     }
 
-    fn unknown(&mut self, unknown: &Unknown, place: Place, known: Known<'_>, rule: &str) {
+    fn unknown(&mut self, unknown: &Unknown, place: ElementLocation, known: Known<'_>, rule: &str) {
         let Some(dependencies) = &unknown.dependencies else {
             if unknown.dependencies_kind.is_some() {
                 let message =
@@ -180,7 +180,7 @@ impl Check<'_> {
         self.dependency_kinds(unknown, dependencies, place);
     }
 
-    fn dependency_kinds(&mut self, unknown: &Unknown, dependencies: &[u32], place: Place) {
+    fn dependency_kinds(&mut self, unknown: &Unknown, dependencies: &[u32], place: ElementLocation) {
         let Some(kinds) = &unknown.dependencies_kind else { return };
         if kinds.len() != dependencies.len() {
             let message = format!(

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Check, Place, declared_type, derivative_of, some_of};
+use super::{Check, ElementLocation, declared_type, derivative_of, some_of};
 use crate::finding::Code;
 use crate::lexical::double;
 use crate::rules::{self, StartRule};
@@ -16,12 +16,12 @@ impl Check<'_> {
         let all = self.description;
         if all.variables.is_empty() {
             let message = "has no variables; the schema requires at least one".to_owned();
-            self.add(Code::NoVariables, Place::Variables, message);
+            self.add(Code::NoVariables, ElementLocation::Variables, message);
         }
         let states: BTreeSet<u32> = all.variables.iter().filter_map(derivative_of).collect();
         let mut independent = None;
         for (index, variable) in all.variables.iter().enumerate() {
-            let place = Place::Variable(index);
+            let place = ElementLocation::Variable(index);
             self.role(place, variable);
             self.declared_type(place, variable);
             self.kind(place, variable);
@@ -38,7 +38,7 @@ impl Check<'_> {
         }
     }
 
-    fn role(&mut self, place: Place, variable: &ScalarVariable) {
+    fn role(&mut self, place: ElementLocation, variable: &ScalarVariable) {
         let ScalarVariable { causality, variability, initial, .. } = *variable;
         let is_real = matches!(variable.kind, VariableKind::Real { .. });
         if variability == Variability::Continuous && !is_real {
@@ -90,7 +90,7 @@ impl Check<'_> {
         }
     }
 
-    fn declared_type(&mut self, place: Place, variable: &ScalarVariable) {
+    fn declared_type(&mut self, place: ElementLocation, variable: &ScalarVariable) {
         let Some(name) = declared_type(&variable.kind) else { return };
         let Some(kind) = self.declared(variable) else {
             let defined = some_of(self.types.keys().copied());
@@ -107,7 +107,7 @@ impl Check<'_> {
         }
     }
 
-    fn kind(&mut self, place: Place, variable: &ScalarVariable) {
+    fn kind(&mut self, place: ElementLocation, variable: &ScalarVariable) {
         let checked = rules::start_required(variable);
         match (&variable.kind, self.declared(variable)) {
             (VariableKind::Real { start, attributes, .. }, declared) => {
@@ -153,7 +153,7 @@ impl Check<'_> {
 
     fn integer(
         &mut self,
-        place: Place,
+        place: ElementLocation,
         start: Option<i32>,
         own: (Option<i32>, Option<i32>),
         inherited: (Option<i32>, Option<i32>),
@@ -170,7 +170,7 @@ impl Check<'_> {
 
     fn real_start(
         &mut self,
-        place: Place,
+        place: ElementLocation,
         start: f64,
         own: &RealAttributes,
         inherited: Option<&RealAttributes>,
@@ -190,7 +190,7 @@ impl Check<'_> {
         self.range(place, start, min, max);
     }
 
-    fn range(&mut self, place: Place, start: f64, min: Option<f64>, max: Option<f64>) {
+    fn range(&mut self, place: ElementLocation, start: f64, min: Option<f64>, max: Option<f64>) {
         let reversed = matches!((min, max), (Some(min), Some(max)) if min > max);
         if !reversed && (min.is_some_and(|min| start < min) || max.is_some_and(|max| start > max)) {
             let text = |limit: Option<f64>| limit.map_or("unlimited".to_owned(), double);
@@ -202,7 +202,7 @@ impl Check<'_> {
 
     fn beyond_type<T: PartialOrd + Copy + Into<f64>>(
         &mut self,
-        place: Place,
+        place: ElementLocation,
         own: (Option<T>, Option<T>),
         inherited: (Option<T>, Option<T>),
     ) {
@@ -221,7 +221,7 @@ impl Check<'_> {
         }
     }
 
-    fn model_exchange_only(&mut self, place: Place, variable: &ScalarVariable, is_state: bool) {
+    fn model_exchange_only(&mut self, place: ElementLocation, variable: &ScalarVariable, is_state: bool) {
         let has_model_exchange = self.description.model_exchange.is_some();
         if let VariableKind::Real { reinit: Some(_), .. } = variable.kind
             && !(has_model_exchange && is_state)
@@ -242,7 +242,7 @@ impl Check<'_> {
         }
     }
 
-    fn derivative(&mut self, place: Place, index: usize, variable: &ScalarVariable) {
+    fn derivative(&mut self, place: ElementLocation, index: usize, variable: &ScalarVariable) {
         let Some(target) = derivative_of(variable) else { return };
         let count = self.description.variables.len();
         let Some(state) = self.variable(target).filter(|_| target as usize != index + 1) else {

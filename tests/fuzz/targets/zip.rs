@@ -5,9 +5,9 @@ use std::fs;
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use loader::{Limits, unpack};
+use loader::{ArchiveLimits, unpack};
 
-const LIMITS: Limits = Limits { entries: 20, total_bytes: 1 << 20 };
+const LIMITS: ArchiveLimits = ArchiveLimits { entries: 20, total_bytes: 1 << 20 };
 
 /// Files and bytes below a folder, in which there is nothing but files and folders.
 fn held(folder: &Path) -> (usize, u64) {

@@ -11,7 +11,7 @@ static LIBRARY: Library =
     Library { entries: &[Entry::of::<MomentumPlant>(), Entry::of::<SpinPlant>(), Entry::of::<Guidance>()] };
 
 /// A simulation.
-pub struct Flight {
+pub struct DigestCase {
     /// What is simulated.
     pub name: &'static str,
     /// Simulates it.
@@ -19,18 +19,18 @@ pub struct Flight {
 }
 
 /// What is compared.
-pub const FLIGHTS: &[Flight] = &[
-    Flight {
+pub const FLIGHTS: &[DigestCase] = &[
+    DigestCase {
         name: "MomentumPlant, 10 days with planet light, heat, dumps and a disturbed orbit",
         digest: plant_with_all,
     },
-    Flight { name: "MomentumPlant, 90 days with dumps", digest: plant_with_dumps },
-    Flight {
+    DigestCase { name: "MomentumPlant, 90 days with dumps", digest: plant_with_dumps },
+    DigestCase {
         name: "MomentumPlant, 90 days with planet light, heat and dumps",
         digest: plant_with_light_and_heat,
     },
-    Flight { name: "SpinPlant, manoeuvre", digest: manoeuvre },
-    Flight { name: "Guidance, a day of the orbit phase", digest: guidance },
+    DigestCase { name: "SpinPlant, manoeuvre", digest: manoeuvre },
+    DigestCase { name: "Guidance, a day of the orbit phase", digest: guidance },
 ];
 
 const DAY_S: f64 = 86_400.0;

@@ -12,7 +12,7 @@ pub struct Panicking;
 /// Where the setup makes [`Panicking`] panic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "camelCase")]
-enum Place {
+enum PanicCallback {
     Nowhere,
     ParseSetup,
     About,
@@ -24,7 +24,7 @@ enum Place {
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Setup {
-    panic_in: Place,
+    panic_in: PanicCallback,
 }
 
 /// Where and how the model goes wrong.
@@ -120,19 +120,19 @@ impl Drop for PanicsOnDrop {
 }
 
 impl Setup {
-    fn panic_if(&self, place: Place) {
+    fn panic_if(&self, place: PanicCallback) {
         panic_if(self.panic_in == place, &format!("{place:?}"));
     }
 
     fn fault_at_start(&self) -> Fault {
-        self.panic_if(Place::Declare);
+        self.panic_if(PanicCallback::Declare);
         Fault::Nowhere
     }
 }
 
 impl Serialize for Setup {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.panic_if(Place::SerializeSetup);
+        self.panic_if(PanicCallback::SerializeSetup);
         serializer.serialize_unit()
     }
 }
@@ -193,12 +193,12 @@ impl Model for Panicking {
 
     fn parse_setup(file: &str, text: &str) -> Result<Setup, SetupError> {
         let setup: Setup = toml::from_str(text).map_err(|error| SetupError(format!("{file}: {error}")))?;
-        setup.panic_if(Place::ParseSetup);
+        setup.panic_if(PanicCallback::ParseSetup);
         Ok(setup)
     }
 
     fn about(setup: &Setup) -> About {
-        setup.panic_if(Place::About);
+        setup.panic_if(PanicCallback::About);
         About {
             description: "Panics or fails where `fault` says.".to_owned(),
             stop_time_s: 1.0,

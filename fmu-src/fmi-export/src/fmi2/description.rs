@@ -18,7 +18,8 @@ use crate::model::{About, Model, SetupError};
 use crate::runtime::{Runtime, Typed};
 use crate::start_values::{self, OtherReaders, Readers};
 use crate::variables::{
-    Declare, DeclareError, DeclaredEnumeration, Element, Interface, Kind, Real, Values, Variable, Variables,
+    Declare, DeclareError, DeclaredEnumeration, DeclaredType, Element, Interface, Real, Values, Variable,
+    Variables,
 };
 
 /// Name space of the GUIDs of this exporter.
@@ -154,7 +155,7 @@ fn kind(variable: &Variable, element: Element, start: &Values) -> VariableKind {
     let at = Some(element.place as usize).filter(|_| has_start);
     let integer = at.and_then(|at| start.integers.get(at).copied());
     match &variable.kind {
-        Kind::Real { unit, display_unit, min, max, nominal } => VariableKind::Real {
+        DeclaredType::Real { unit, display_unit, min, max, nominal } => VariableKind::Real {
             start: at.and_then(|at| start.reals.get(at).copied()),
             declared_type: None,
             attributes: RealAttributes {
@@ -168,22 +169,22 @@ fn kind(variable: &Variable, element: Element, start: &Values) -> VariableKind {
             derivative: None,
             reinit: None,
         },
-        Kind::Integer { min, max } => VariableKind::Integer {
+        DeclaredType::Integer { min, max } => VariableKind::Integer {
             start: integer,
             declared_type: None,
             quantity: None,
             min: *min,
             max: *max,
         },
-        Kind::Boolean => VariableKind::Boolean {
+        DeclaredType::Boolean => VariableKind::Boolean {
             start: at.and_then(|at| start.booleans.get(at).copied()),
             declared_type: None,
         },
-        Kind::Text => VariableKind::String {
+        DeclaredType::Text => VariableKind::String {
             start: at.and_then(|at| start.strings.get(at).cloned()),
             declared_type: None,
         },
-        Kind::Enumeration(name) => VariableKind::Enumeration {
+        DeclaredType::Enumeration(name) => VariableKind::Enumeration {
             start: integer,
             declared_type: (*name).to_owned(),
             quantity: None,

@@ -8,7 +8,7 @@ use model_description::{BaseType, Causality, labels::LABEL_END, units};
 use super::check;
 use super::handle::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
 use super::interface::Interface;
-use super::variable::{DeclaredEnumeration, DeclaredItem, Element, Kind, Role, Variable};
+use super::variable::{DeclaredEnumeration, DeclaredItem, DeclaredType, Element, Role, Variable};
 
 /// Magnitude up to which every Real may be set that declares no limit itself, in its unit. Beyond, products of what was set are
 /// soon no finite numbers, and saved states would hold what no simulation can go on with.
@@ -150,7 +150,7 @@ impl Declare {
             spec,
             &[],
             Element { base: BaseType::Integer, place: at },
-            Kind::Integer { min, max },
+            DeclaredType::Integer { min, max },
             start.is_some(),
         )?;
         self.interface.start.integers.push(start.unwrap_or(0));
@@ -160,7 +160,13 @@ impl Declare {
     /// Declares a Boolean.
     pub fn boolean(&mut self, spec: &ScalarSpec<'_>, start: Option<bool>) -> Result<Boolean, DeclareError> {
         let at = self.interface.start.booleans.len() as u32;
-        self.push(spec, &[], Element { base: BaseType::Boolean, place: at }, Kind::Boolean, start.is_some())?;
+        self.push(
+            spec,
+            &[],
+            Element { base: BaseType::Boolean, place: at },
+            DeclaredType::Boolean,
+            start.is_some(),
+        )?;
         self.interface.start.booleans.push(start.unwrap_or(false));
         Ok(Boolean(at))
     }
@@ -169,7 +175,13 @@ impl Declare {
     pub fn text(&mut self, spec: &ScalarSpec<'_>, start: Option<&str>) -> Result<Text, DeclareError> {
         let at = self.interface.start.strings.len() as u32;
         self.checked(spec.name, check::text("start", start.unwrap_or_default()))?;
-        self.push(spec, &[], Element { base: BaseType::String, place: at }, Kind::Text, start.is_some())?;
+        self.push(
+            spec,
+            &[],
+            Element { base: BaseType::String, place: at },
+            DeclaredType::Text,
+            start.is_some(),
+        )?;
         self.interface.start.strings.push(start.unwrap_or_default().to_owned());
         Ok(Text(at))
     }
@@ -199,7 +211,7 @@ impl Declare {
             spec,
             &[],
             Element { base: BaseType::Integer, place: at },
-            Kind::Enumeration(E::TYPE.name),
+            DeclaredType::Enumeration(E::TYPE.name),
             start.is_some(),
         )?;
         self.interface.start.integers.push(start.map_or(first, E::value));
@@ -265,7 +277,7 @@ impl Declare {
             return Err(self.error(&first, format!("nominal is {nominal}; it must be above 0")));
         }
         let at = self.interface.start.reals.len() as u32;
-        let kind = Kind::Real {
+        let kind = DeclaredType::Real {
             unit: unit.to_owned(),
             display_unit: display_unit.map(str::to_owned),
             min,
@@ -293,14 +305,20 @@ impl Declare {
         spec: &ScalarSpec<'_>,
         dimensions: &[usize],
         first: Element,
-        kind: Kind,
+        kind: DeclaredType,
         has_start: bool,
     ) -> Result<(), DeclareError> {
         let variable = self.variable(spec, dimensions, first, kind);
         self.add(variable, has_start)
     }
 
-    fn variable(&self, spec: &ScalarSpec<'_>, dimensions: &[usize], first: Element, kind: Kind) -> Variable {
+    fn variable(
+        &self,
+        spec: &ScalarSpec<'_>,
+        dimensions: &[usize],
+        first: Element,
+        kind: DeclaredType,
+    ) -> Variable {
         Variable {
             name: format!("{}{}", self.prefix, spec.name),
             description: format!("{}{}", self.label, spec.description),
@@ -312,7 +330,7 @@ impl Declare {
     }
 
     fn add(&mut self, variable: Variable, has_start: bool) -> Result<(), DeclareError> {
-        let is_real = matches!(variable.kind, Kind::Real { .. });
+        let is_real = matches!(variable.kind, DeclaredType::Real { .. });
         let of_all = check::role(variable.role, is_real, has_start)
             .and_then(|()| check::text("description", &variable.description))
             .and_then(|()| match variable.description.trim().is_empty() {

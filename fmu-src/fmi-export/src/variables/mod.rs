@@ -17,7 +17,9 @@ pub use handle::{Boolean, Choice, Elements, Enumeration, Integer, Real, RealMatr
 pub use interface::Interface;
 pub(crate) use values::SetBits;
 pub use values::{Given, Values};
-pub use variable::{DeclaredEnumeration, DeclaredItem, Element, EnumerationType, Item, Kind, Role, Variable};
+pub use variable::{
+    DeclaredEnumeration, DeclaredItem, DeclaredType, Element, EnumerationType, Item, Role, Variable,
+};
 
 /// A group of declared variables; derived with `#[derive(Variables)]`.
 pub trait Variables<Setup>: Sized {

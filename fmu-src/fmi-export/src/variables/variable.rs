@@ -38,12 +38,12 @@ pub struct Variable {
     /// The first element; the others follow it.
     pub first: Element,
     /// Type with its attributes.
-    pub kind: Kind,
+    pub kind: DeclaredType,
 }
 
 /// Type of a variable.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub enum Kind {
+pub enum DeclaredType {
     /// A floating-point number.
     Real {
         /// Unit from the unit table.

@@ -9,7 +9,7 @@ use super::{Random, fresh, reference};
 
 /// States as the text of 4.2.4 names them; those that we never reach are left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Place {
+enum SpecifiedState {
     Instantiated,
     Initializing,
     Complete,
@@ -19,15 +19,15 @@ enum Place {
 }
 
 /// What the text of 4.2.4 lists under each state, in its own order; common to all: `COMMON`.
-fn listed(place: Place) -> &'static [&'static str] {
+fn listed(place: SpecifiedState) -> &'static [&'static str] {
     match place {
-        Place::Instantiated => {
+        SpecifiedState::Instantiated => {
             &["SetupExperiment", "EnterInitializationMode", "Set", "GetFMUstate", "InputDerivatives"]
         }
-        Place::Initializing => {
+        SpecifiedState::Initializing => {
             &["ExitInitializationMode", "Get", "Set", "GetFMUstate", "Directional", "InputDerivatives"]
         }
-        Place::Complete => &[
+        SpecifiedState::Complete => &[
             "DoStep",
             "Terminate",
             "Get",
@@ -38,13 +38,15 @@ fn listed(place: Place) -> &'static [&'static str] {
             "OutputDerivatives",
             "Status",
         ],
-        Place::Failed => &["Terminate", "Get", "GetFMUstate", "Directional", "OutputDerivatives", "Status"],
-        Place::Terminated => &["Get", "GetFMUstate", "Directional", "OutputDerivatives", "Status"],
-        Place::Erroneous => &["Get", "GetFMUstate", "Directional", "OutputDerivatives"],
+        SpecifiedState::Failed => {
+            &["Terminate", "Get", "GetFMUstate", "Directional", "OutputDerivatives", "Status"]
+        }
+        SpecifiedState::Terminated => &["Get", "GetFMUstate", "Directional", "OutputDerivatives", "Status"],
+        SpecifiedState::Erroneous => &["Get", "GetFMUstate", "Directional", "OutputDerivatives"],
     }
 }
 
-fn legal(place: Place, call: &str) -> bool {
+fn legal(place: SpecifiedState, call: &str) -> bool {
     COMMON.contains(&call) || listed(place).contains(&call)
 }
 
@@ -75,14 +77,14 @@ const CALLS: &[&str] = &[
 /// What an observer who knows only the standard keeps in mind.
 #[derive(Clone, Copy)]
 struct Expected {
-    place: Place,
+    place: SpecifiedState,
     experiment: bool,
     computed: bool,
     time_s: f64,
 }
 
 const FRESH: Expected =
-    Expected { place: Place::Instantiated, experiment: false, computed: false, time_s: 0.0 };
+    Expected { place: SpecifiedState::Instantiated, experiment: false, computed: false, time_s: 0.0 };
 
 struct Walk {
     instance: InProcess,
@@ -103,7 +105,7 @@ impl Walk {
         match call {
             "SetupExperiment" => {
                 let status = instance.setup_experiment(0.0, None);
-                expected.experiment |= expected.place == Place::Instantiated;
+                expected.experiment |= expected.place == SpecifiedState::Instantiated;
                 (status, Ok)
             }
             "EnterInitializationMode" => {
@@ -113,7 +115,7 @@ impl Walk {
             "DoStep" => {
                 let ends = self.random.below(4) == 0;
                 let fault = if ends { Fault::TerminateStep } else { Fault::Nowhere };
-                if expected.place == Place::Complete {
+                if expected.place == SpecifiedState::Complete {
                     assert_eq!(instance.set_integer(&[self.fault], &[fault.value()]), Ok);
                 }
                 (instance.do_step(expected.time_s, 0.5), if ends { Discard } else { Ok })
@@ -122,7 +124,7 @@ impl Walk {
             "CancelStep" => (instance.cancel_step(), Ok),
             "Get" => match self.random.below(4) {
                 0 => {
-                    expected.computed |= expected.place == Place::Initializing;
+                    expected.computed |= expected.place == SpecifiedState::Initializing;
                     (instance.get_real(&[self.output], &mut [0.0]), Ok)
                 }
                 1 => (instance.get_integer(&[], &mut []), Ok),
@@ -149,7 +151,7 @@ impl Walk {
             }
             "Directional" | "OutputDerivatives" => {
                 // In Initialization Mode asking for it computes it.
-                expected.computed |= expected.place == Place::Initializing && call == "Directional";
+                expected.computed |= expected.place == SpecifiedState::Initializing && call == "Directional";
                 let computed = expected.computed;
                 let status = match call {
                     "Directional" => {
@@ -187,12 +189,14 @@ impl Walk {
             ("Reset", _) => *expected = FRESH,
             ("SetFMUstate", Ok) => *expected = self.saved.unwrap(),
             ("GetFMUstate", Ok) => self.saved = Some(before),
-            (_, Error) => expected.place = Place::Erroneous,
-            ("DoStep", Discard) => expected.place = Place::Failed,
+            (_, Error) => expected.place = SpecifiedState::Erroneous,
+            ("DoStep", Discard) => expected.place = SpecifiedState::Failed,
             ("DoStep", Ok) => expected.time_s += 0.5,
-            ("EnterInitializationMode", _) => expected.place = Place::Initializing,
-            ("ExitInitializationMode", _) => (expected.place, expected.computed) = (Place::Complete, true),
-            ("Terminate", _) => expected.place = Place::Terminated,
+            ("EnterInitializationMode", _) => expected.place = SpecifiedState::Initializing,
+            ("ExitInitializationMode", _) => {
+                (expected.place, expected.computed) = (SpecifiedState::Complete, true)
+            }
+            ("Terminate", _) => expected.place = SpecifiedState::Terminated,
             _ => {}
         }
     }
@@ -218,12 +222,12 @@ fn two_hundred_thousand_random_calls() {
         match CALLS[walk.random.below(CALLS.len())] {
             // The legal way on, or pure chance would seldom leave the error state.
             "Advance" => match walk.expected.place {
-                Place::Instantiated => {
+                SpecifiedState::Instantiated => {
                     walk.go("SetupExperiment");
                     walk.go("EnterInitializationMode");
                 }
-                Place::Initializing => walk.go("ExitInitializationMode"),
-                Place::Complete => walk.go("DoStep"),
+                SpecifiedState::Initializing => walk.go("ExitInitializationMode"),
+                SpecifiedState::Complete => walk.go("DoStep"),
                 _ => walk.go("Reset"),
             },
             // Most illegal calls are left out, for each costs the way back.

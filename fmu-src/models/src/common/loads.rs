@@ -3,7 +3,7 @@
 use fmi_export::variables::{Causality, RealSpec, Role, Variability};
 use fmi_export::{Declare, DeclareError, Knowns, Real, RealVector, Section, Variables};
 use nalgebra::Vector3;
-use physics::loads::{Effect, Loads, Row};
+use physics::loads::{Effect, EffectRow, Loads};
 use physics::numerics::scalar::Scalar;
 
 use super::spacecraft::ReportedFace;
@@ -16,7 +16,7 @@ pub struct Quantity {
     unit: &'static str,
     display_unit: Option<&'static str>,
     has: fn(Effect) -> bool,
-    nominal: fn(&Row) -> f64,
+    nominal: fn(&EffectRow) -> f64,
 }
 
 /// Torque about the centre of mass.
@@ -24,7 +24,7 @@ pub(crate) const TORQUE: Quantity = Quantity {
     unit: "N.m",
     display_unit: Some("uN.m"),
     has: Effect::is_disturbance,
-    nominal: Row::usual_torque_n_m,
+    nominal: EffectRow::usual_torque_n_m,
 };
 
 /// Force.
@@ -32,7 +32,7 @@ pub(crate) const FORCE: Quantity = Quantity {
     unit: "N",
     display_unit: Some("uN"),
     has: |effect| effect.is_disturbance() && effect.row().exerts_force,
-    nominal: Row::usual_force_n,
+    nominal: EffectRow::usual_force_n,
 };
 
 /// What an effect did to the momentum since the last dump, by momentum.convention. All of them add up to what the momentum

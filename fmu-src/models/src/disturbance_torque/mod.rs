@@ -32,7 +32,7 @@ pub struct DisturbanceState {
     /// Tunable parameters of the laws.
     tunable: [f64; TUNABLE_COUNT],
     /// Whether the warning was given which inputs are not set yet.
-    said_unset: bool,
+    has_warned_unset: bool,
     #[serde(skip)]
     prepared: Option<Arc<Prepared>>,
     #[serde(skip)]
@@ -90,7 +90,7 @@ impl Model for DisturbanceTorque {
             positions: prepared.inputs.map(|input| values.real(*input)),
             solar_scale: prepared.parameters.solar_scale,
             tunable: context.variables.laws.tunable().map(|it| values.real(it)),
-            said_unset: false,
+            has_warned_unset: false,
             prepared: Some(prepared.clone()),
             workspaces: Workspaces::default(),
         };
@@ -113,10 +113,10 @@ impl Model for DisturbanceTorque {
         }
         state.solar_scale = values.real(context.variables.solar.scale);
         state.tunable = context.variables.laws.tunable().map(|it| values.real(it));
-        if !state.said_unset {
+        if !state.has_warned_unset {
             let unset = prepared.unset(&state.positions);
-            state.said_unset = !unset.is_empty();
-            if state.said_unset {
+            state.has_warned_unset = !unset.is_empty();
+            if state.has_warned_unset {
                 context.log.warning(&format!(
                     "inputs that are all zero count as not set yet: {}; without a Sun nothing acts, without a planet none of its light \
                      and gravity does (planet.present = false: there is none)",

@@ -3,7 +3,7 @@
 use fmi_export::Failure;
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
-use physics::guidance::modes::guidance_command::CommandKind as Kind;
+use physics::guidance::modes::guidance_command::CommandKind as GuidanceCommandKind;
 use physics::plant::{Changes, Command, Flight, Thrusters, Tracked};
 use physics::spacecraft::Spacecraft;
 use serde::{Deserialize, Serialize};
@@ -179,7 +179,7 @@ impl PlantState {
     /// The command by inputs, where it gives an attitude.
     pub fn attitude_command(&self) -> Option<Command> {
         let given = &self.last.command;
-        let is_given = matches!(given.kind(), Kind::Attitude) && !is_zero(&given.q);
+        let is_given = matches!(given.kind(), GuidanceCommandKind::Attitude) && !is_zero(&given.q);
         (self.inputs.source.is_commanded && is_given).then_some(self.command)
     }
 
@@ -187,7 +187,7 @@ impl PlantState {
     fn track(&mut self) {
         self.inputs.dynamics.tracked = match self.last.command.kind() {
             _ if self.inputs.source.guides_itself => Tracked::Guidance,
-            Kind::RateOnly => Tracked::Rate(self.command.rate_body_rad_s),
+            GuidanceCommandKind::RateOnly => Tracked::Rate(self.command.rate_body_rad_s),
             _ => Tracked::Attitude(self.command),
         };
     }
@@ -200,16 +200,16 @@ impl PlantState {
         let estimate = self.flight.estimate_at(time_s).map(|estimate| estimate.attitude);
         let held = estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
         let (attitude, rate) = match self.last.command.kind() {
-            Kind::None => (held, [0.0; 3]),
-            Kind::RateOnly => (held, rate),
-            Kind::ErrorQuaternion if self.last.error_is_applied => (held, rate),
-            Kind::ErrorQuaternion if is_zero(&error) => (held, [0.0; 3]),
-            Kind::ErrorQuaternion => {
+            GuidanceCommandKind::None => (held, [0.0; 3]),
+            GuidanceCommandKind::RateOnly => (held, rate),
+            GuidanceCommandKind::ErrorQuaternion if self.last.error_is_applied => (held, rate),
+            GuidanceCommandKind::ErrorQuaternion if is_zero(&error) => (held, [0.0; 3]),
+            GuidanceCommandKind::ErrorQuaternion => {
                 self.last.error_is_applied = estimate.is_none();
                 (held.then(&quaternion("command.error", error)?.inverse()), rate)
             }
-            Kind::Attitude if is_zero(&q) => (held, [0.0; 3]),
-            Kind::Attitude => (quaternion("command.q", q)?, rate),
+            GuidanceCommandKind::Attitude if is_zero(&q) => (held, [0.0; 3]),
+            GuidanceCommandKind::Attitude => (quaternion("command.q", q)?, rate),
         };
         self.command = Command { attitude, rate_body_rad_s: Vector3::from(rate), since_s: time_s };
         Ok(())
@@ -224,9 +224,11 @@ impl PlantState {
         let CommandInputs { q, error, .. } = &self.last.command;
         let command = match self.last.command.kind() {
             _ if !self.inputs.source.is_commanded => None,
-            Kind::None => Some("command.kind"),
-            Kind::Attitude if is_zero(q) => Some("command.q"),
-            Kind::ErrorQuaternion if !self.last.error_is_applied && is_zero(error) => Some("command.error"),
+            GuidanceCommandKind::None => Some("command.kind"),
+            GuidanceCommandKind::Attitude if is_zero(q) => Some("command.q"),
+            GuidanceCommandKind::ErrorQuaternion if !self.last.error_is_applied && is_zero(error) => {
+                Some("command.error")
+            }
             _ => None,
         };
         let places = self.inputs.unset_places.iter().copied();

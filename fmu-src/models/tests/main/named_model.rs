@@ -56,7 +56,7 @@ pub(crate) struct NamedModel<M: Model> {
 
 struct Named {
     name: String,
-    kind: Kind,
+    kind: NamedType,
     reference: usize,
     output: bool,
     /// Whether the master may set it, and within which limits.
@@ -65,7 +65,7 @@ struct Named {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind {
+enum NamedType {
     Real,
     Integer,
     Boolean,
@@ -87,10 +87,10 @@ impl<M: Model> NamedModel<M> {
         let variables = scalar_variables(&interface);
         let names = variables.iter().map(|variable| {
             let (kind, base) = match variable.kind {
-                VariableKind::Real { .. } => (Kind::Real, BaseType::Real),
-                VariableKind::Boolean { .. } => (Kind::Boolean, BaseType::Boolean),
-                VariableKind::String { .. } => (Kind::Text, BaseType::String),
-                _ => (Kind::Integer, BaseType::Integer),
+                VariableKind::Real { .. } => (NamedType::Real, BaseType::Real),
+                VariableKind::Boolean { .. } => (NamedType::Boolean, BaseType::Boolean),
+                VariableKind::String { .. } => (NamedType::Text, BaseType::String),
+                _ => (NamedType::Integer, BaseType::Integer),
             };
             let items = |name: &str| {
                 let found = interface.enumerations.iter().find(|it| it.name == name);
@@ -110,8 +110,8 @@ impl<M: Model> NamedModel<M> {
                 }
                 _ => (0.0, 1.0),
             };
-            let given =
-                kind != Kind::Text && matches!(variable.causality, Causality::Input | Causality::Parameter);
+            let given = kind != NamedType::Text
+                && matches!(variable.causality, Causality::Input | Causality::Parameter);
             Named {
                 given: given.then_some(limits),
                 input: variable.causality == Causality::Input,
@@ -146,7 +146,7 @@ impl<M: Model> NamedModel<M> {
     /// What a master may set, with its limits and whether it is a whole number.
     pub(crate) fn given(&self) -> Vec<(&str, (f64, f64), bool)> {
         let given = |it: &Named| it.given.is_some();
-        let shown = |it: &'_ Named| (it.given.unwrap_or_default(), it.kind != Kind::Real);
+        let shown = |it: &'_ Named| (it.given.unwrap_or_default(), it.kind != NamedType::Real);
         self.names
             .iter()
             .filter(|it| given(it))
@@ -156,7 +156,11 @@ impl<M: Model> NamedModel<M> {
 
     /// All inputs.
     pub(crate) fn inputs(&self) -> Vec<&str> {
-        self.names.iter().filter(|it| it.input && it.kind != Kind::Text).map(|it| it.name.as_str()).collect()
+        self.names
+            .iter()
+            .filter(|it| it.input && it.kind != NamedType::Text)
+            .map(|it| it.name.as_str())
+            .collect()
     }
 
     /// The warnings of all flights so far.
@@ -169,7 +173,7 @@ impl<M: Model> NamedModel<M> {
         &self.names[*at]
     }
 
-    fn find(&self, name: &str, kind: Kind) -> usize {
+    fn find(&self, name: &str, kind: NamedType) -> usize {
         let found = self.named(name);
         assert_eq!(found.kind, kind, "{name}");
         found.reference
@@ -198,10 +202,10 @@ impl<M: Model> NamedModel<M> {
     fn set(&self, tables: &mut Tables, name: &str, value: f64) {
         let found = self.named(name);
         match found.kind {
-            Kind::Real => tables.reals[found.reference] = value,
-            Kind::Integer => tables.integers[found.reference] = value as i32,
-            Kind::Boolean => tables.booleans[found.reference] = value != 0.0,
-            Kind::Text => panic!("{name} is text"),
+            NamedType::Real => tables.reals[found.reference] = value,
+            NamedType::Integer => tables.integers[found.reference] = value as i32,
+            NamedType::Boolean => tables.booleans[found.reference] = value != 0.0,
+            NamedType::Text => panic!("{name} is text"),
         }
         tables.mark(found);
     }
@@ -317,7 +321,8 @@ impl<M: Model> NamedInstance<'_, M> {
             .iter()
             .map(|(name, value)| {
                 let bytes =
-                    postcard::to_stdvec(&(self.named.find(name, Kind::Real) as u32, 1_u32, value)).unwrap();
+                    postcard::to_stdvec(&(self.named.find(name, NamedType::Real) as u32, 1_u32, value))
+                        .unwrap();
                 postcard::from_bytes(&bytes).unwrap()
             })
             .collect();
@@ -361,17 +366,17 @@ impl<M: Model> NamedInstance<'_, M> {
 
     /// A Real.
     pub(crate) fn real(&self, name: &str) -> f64 {
-        self.tables().reals[self.named.find(name, Kind::Real)]
+        self.tables().reals[self.named.find(name, NamedType::Real)]
     }
 
     /// An Integer.
     pub(crate) fn integer(&self, name: &str) -> i32 {
-        self.tables().integers[self.named.find(name, Kind::Integer)]
+        self.tables().integers[self.named.find(name, NamedType::Integer)]
     }
 
     /// A Boolean.
     pub(crate) fn boolean(&self, name: &str) -> bool {
-        self.tables().booleans[self.named.find(name, Kind::Boolean)]
+        self.tables().booleans[self.named.find(name, NamedType::Boolean)]
     }
 
     /// `name[1]`..`name[3]`.
@@ -393,10 +398,10 @@ impl<M: Model> NamedInstance<'_, M> {
     pub(crate) fn output_bits(&self) -> Vec<(&str, u64)> {
         let tables = self.tables();
         let bits = |it: &Named| match it.kind {
-            Kind::Real => Some(tables.reals[it.reference].to_bits()),
-            Kind::Integer => Some(tables.integers[it.reference] as u64),
-            Kind::Boolean => Some(u64::from(tables.booleans[it.reference])),
-            Kind::Text => None,
+            NamedType::Real => Some(tables.reals[it.reference].to_bits()),
+            NamedType::Integer => Some(tables.integers[it.reference] as u64),
+            NamedType::Boolean => Some(u64::from(tables.booleans[it.reference])),
+            NamedType::Text => None,
         };
         let outputs = self.named.names.iter().filter(|it| it.output);
         outputs.filter_map(|it| Some((it.name.as_str(), bits(it)?))).collect()
@@ -405,7 +410,7 @@ impl<M: Model> NamedInstance<'_, M> {
     /// The first output that is no finite number.
     pub(crate) fn not_finite(&self) -> Option<String> {
         let tables = self.tables();
-        let outputs = self.named.names.iter().filter(|it| it.kind == Kind::Real && it.output);
+        let outputs = self.named.names.iter().filter(|it| it.kind == NamedType::Real && it.output);
         let bad = outputs.into_iter().find(|it| !tables.reals[it.reference].is_finite());
         bad.map(|it| format!("{} = {}", it.name, tables.reals[it.reference]))
     }

@@ -9,7 +9,7 @@ use super::spacecraft::{SIMPLE, couples, thruster};
 pub(crate) const WHEELS: usize = 4;
 const INERTIA_KG_M2: f64 = 8e-3;
 
-type Flight<'a> = NamedInstance<'a, MomentumPlant>;
+type PlantInstance<'a> = NamedInstance<'a, MomentumPlant>;
 
 /// Rotors of a known inertia without friction, and no dumps.
 fn with(more: &[(&str, f64)]) -> Vec<(String, f64)> {
@@ -21,14 +21,17 @@ fn with(more: &[(&str, f64)]) -> Vec<(String, f64)> {
     wheels.chain(thresholds).chain(more.iter().map(|(name, value)| ((*name).to_owned(), *value))).collect()
 }
 
-pub(crate) fn initialize<'a>(named: &'a NamedModel<MomentumPlant>, more: &[(&str, f64)]) -> Flight<'a> {
+pub(crate) fn initialize<'a>(
+    named: &'a NamedModel<MomentumPlant>,
+    more: &[(&str, f64)],
+) -> PlantInstance<'a> {
     let sets = with(more);
     let sets: Vec<_> = sets.iter().map(|(name, value)| (name.as_str(), *value)).collect();
     named.initialize(0.0, &sets).unwrap()
 }
 
 /// h + I a.w of each wheel.
-pub(crate) fn axial(flight: &Flight<'_>) -> [f64; WHEELS] {
+pub(crate) fn axial(flight: &PlantInstance<'_>) -> [f64; WHEELS] {
     let rate = flight.vector("attitude.rate");
     core::array::from_fn(|k| {
         let axis: Vector3<f64> = flight.vector(&format!("wheel[{}].axis", k + 1)).normalize();
@@ -36,7 +39,7 @@ pub(crate) fn axial(flight: &Flight<'_>) -> [f64; WHEELS] {
     })
 }
 
-pub(crate) fn torques(flight: &Flight<'_>) -> [f64; WHEELS] {
+pub(crate) fn torques(flight: &PlantInstance<'_>) -> [f64; WHEELS] {
     core::array::from_fn(|k| {
         let of = |name: &str| flight.real(&format!("wheel[{}].{name}", k + 1));
         assert!((of("power") - of("torque") * of("speed")).abs() <= 1e-15 * of("power").abs());

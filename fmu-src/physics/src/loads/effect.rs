@@ -30,7 +30,7 @@ pub enum Switch {
 
 /// A row of the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub struct EffectRow {
     /// Name under which loads and momentum are reported, in lower camel case.
     pub name: &'static str,
     /// What it is, in a sentence.
@@ -47,7 +47,7 @@ pub struct Row {
     pub usual_momentum_n_m_s: f64,
 }
 
-impl Row {
+impl EffectRow {
     /// Its usual torque in N m: momentum is gathered over hours.
     pub fn usual_torque_n_m(&self) -> f64 {
         self.usual_momentum_n_m_s / 1e4
@@ -72,9 +72,9 @@ macro_rules! effects {
             pub const ALL: [Self; [$(Self::$effect),+].len()] = [$(Self::$effect),+];
 
             /// Its row.
-            pub const fn row(self) -> &'static Row {
+            pub const fn row(self) -> &'static EffectRow {
                 match self {
-                    $(Self::$effect => &Row {
+                    $(Self::$effect => &EffectRow {
                         name: $name,
                         about: $about,
                         switch: $switch,

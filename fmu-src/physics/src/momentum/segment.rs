@@ -12,7 +12,7 @@ use crate::numerics::or_infinite;
 use super::by_source::{SourceMomenta, SourceSegments, rate};
 use super::dump::DumpPolicy;
 use super::excess::{Excess, Watched};
-use super::torque_model::{Effort, Sample, TorqueModel, after_event_s};
+use super::torque_model::{Effort, TorqueModel, TorqueSample, after_event_s};
 use super::totals::{Convention, RATES, Totals, pack};
 
 /// Chebyshev nodes a segment.
@@ -157,7 +157,7 @@ impl MomentumSegment {
         (self.rate_body_rad_s, self.structure_body_n_m_s) = (Some(rate_body_rad_s), structure_body_n_m_s);
         self.at_threshold = [false; 3];
         for effect in Effect::ALL {
-            let of = |sample: &Sample| {
+            let of = |sample: &TorqueSample| {
                 let torque_body_n_m = sample.by_source_body_n_m[effect]?;
                 Some(rate(settings.convention, &sample.inertial_from_body, &torque_body_n_m))
             };
@@ -233,7 +233,7 @@ impl MomentumSegment {
         flight: &mut F,
         settings: &Settings,
         nodes: &[f64; NODES],
-        samples: &[Sample; NODES],
+        samples: &[TorqueSample; NODES],
     ) -> Option<Excess> {
         let totals = self.totals.as_ref()?;
         let (row, rate_rad_s) = match settings.convention {

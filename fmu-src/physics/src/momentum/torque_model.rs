@@ -16,7 +16,7 @@ pub fn after_event_s(start_s: f64) -> f64 {
 
 /// What a flight gives at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+pub struct TorqueSample {
     /// Matrix that takes body components to inertial components.
     pub inertial_from_body: Rotation3<f64>,
     /// Angular rate of the body in the inertial frame, body components, in rad/s.
@@ -70,7 +70,7 @@ pub trait TorqueModel {
     }
 
     /// Sample at `time_s`; a pure function of time within what was prepared.
-    fn sample(&mut self, time_s: f64) -> Sample;
+    fn sample(&mut self, time_s: f64) -> TorqueSample;
 
     /// Matrix of the sample alone that takes body components to inertial components.
     fn inertial_from_body(&mut self, time_s: f64) -> Rotation3<f64>;

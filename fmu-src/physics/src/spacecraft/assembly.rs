@@ -9,7 +9,7 @@ use super::body::CustomBody;
 use super::downlinks::DownlinkWindows;
 use super::file::antennas::antenna;
 use super::file::body::body;
-use super::file::description::Description;
+use super::file::description::SpacecraftDescription;
 use super::file::devices::{check_gimbals, instrument, sun_sensor, wheel};
 use super::file::mass::{mass, parts_fit};
 use super::file::materials::Materials;
@@ -33,7 +33,7 @@ use super::swinging::{NamedMode, NamedSlosh};
 use super::tank::Tank;
 use super::thruster::{Thruster, ThrusterSet};
 use super::wheels::Wheel;
-use crate::toml::{Checker, Document, FileError, Place};
+use crate::toml::{Checker, Document, FileError, KeyPath};
 
 /// A validated spacecraft.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -126,14 +126,14 @@ impl Spacecraft {
     /// with line, key, what was found and what is allowed.
     pub fn from_toml(file_name: &str, text: &str) -> Result<Self, FileError> {
         let document = Document::parse(file_name, text)?;
-        let (description, findings) = document.read::<Description>()?;
+        let (description, findings) = document.read::<SpacecraftDescription>()?;
         let mut check = Checker::new(&document, findings);
         let spacecraft = Self::read(&mut check, &description);
         check.finish(spacecraft)
     }
 
-    fn read(check: &mut Checker<'_>, description: &Description) -> Self {
-        let root = Place::root();
+    fn read(check: &mut Checker<'_>, description: &SpacecraftDescription) -> Self {
+        let root = KeyPath::root();
         if description.name.trim().is_empty() {
             check.report(&root.key("name"), "an empty name", "a name");
         }

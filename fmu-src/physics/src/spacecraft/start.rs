@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use crate::toml::{Checker, Place};
+use crate::toml::{Checker, KeyPath};
 
 /// A start value of a model's variable, as the file gives it.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,7 +67,7 @@ pub(crate) fn start_entries(
 }
 
 fn entries(check: &mut Checker<'_>, table_name: &str, table: Option<&StartTable>) -> Vec<StartEntry> {
-    let at = Place::root().key(table_name);
+    let at = KeyPath::root().key(table_name);
     let mut entries = Vec::new();
     for (key, item) in table.into_iter().flat_map(|table| &table.0) {
         let place = at.key(key);
@@ -86,7 +86,7 @@ fn entries(check: &mut Checker<'_>, table_name: &str, table: Option<&StartTable>
 fn push(
     check: &mut Checker<'_>,
     entries: &mut Vec<StartEntry>,
-    at: &Place,
+    at: &KeyPath,
     model: Option<&str>,
     name: &str,
     item: &Item,
@@ -98,7 +98,7 @@ fn push(
     }
 }
 
-fn value(check: &mut Checker<'_>, at: &Place, item: &Item) -> Option<StartValue> {
+fn value(check: &mut Checker<'_>, at: &KeyPath, item: &Item) -> Option<StartValue> {
     match item {
         Item::Value(value) => Some(value.clone()),
         Item::List(items) => {

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::document::Document;
 use super::error::{FileError, Problem};
-use super::place::Place;
+use super::place::KeyPath;
 use super::ranges::{GREATEST, TurnEither, short};
 use super::reader::{Findings, MOST_KEPT};
 
@@ -24,8 +24,8 @@ pub struct Checker<'d> {
     problems: Vec<Problem>,
     /// How many more were found than are kept.
     unlisted: usize,
-    reported: BTreeSet<Place>,
-    stand_ins: BTreeSet<Place>,
+    reported: BTreeSet<KeyPath>,
+    stand_ins: BTreeSet<KeyPath>,
 }
 
 impl<'d> Checker<'d> {
@@ -57,41 +57,47 @@ impl<'d> Checker<'d> {
     }
 
     /// Reports one problem, unless what is judged was not written.
-    pub fn report(&mut self, at: &Place, found: impl Display, allowed: impl Display) {
+    pub fn report(&mut self, at: &KeyPath, found: impl Display, allowed: impl Display) {
         self.report_across(at, at, found, allowed);
     }
 
     /// Reports at one place what several values of a table come to together, unless one of them was not written.
-    pub fn report_across(&mut self, table: &Place, at: &Place, found: impl Display, allowed: impl Display) {
+    pub fn report_across(
+        &mut self,
+        table: &KeyPath,
+        at: &KeyPath,
+        found: impl Display,
+        allowed: impl Display,
+    ) {
         if !has_inside(&self.stand_ins, table) && !self.is_stand_in(at) {
             self.push(at, found, allowed);
         }
     }
 
     /// Reports that a table lacks a key, unless it was misspelt or written wrongly.
-    pub fn report_lack(&mut self, table: &Place, key: &str, allowed: impl Display) {
+    pub fn report_lack(&mut self, table: &KeyPath, key: &str, allowed: impl Display) {
         if !self.is_stand_in(&table.key(key)) {
             self.push(table, format_args!("no key `{key}`"), allowed);
         }
     }
 
     /// The line, from 1, of a place.
-    pub fn line(&self, at: &Place) -> usize {
+    pub fn line(&self, at: &KeyPath) -> usize {
         self.document.line(at)
     }
 
     /// Whether somebody wrote what is at this place.
-    pub fn is_written(&self, at: &Place) -> bool {
+    pub fn is_written(&self, at: &KeyPath) -> bool {
         self.document.is_written(at)
     }
 
     /// Whether nobody wrote what is at this place.
-    pub fn is_stand_in(&self, at: &Place) -> bool {
+    pub fn is_stand_in(&self, at: &KeyPath) -> bool {
         !self.stand_ins.is_empty() && at.around().any(|place| self.stand_ins.contains(&place))
     }
 
     /// Reports one problem whatever else was found.
-    pub fn push(&mut self, at: &Place, found: impl Display, allowed: impl Display) {
+    pub fn push(&mut self, at: &KeyPath, found: impl Display, allowed: impl Display) {
         self.reported.insert(at.clone());
         if self.problems.len() >= MOST_KEPT {
             self.unlisted += 1;
@@ -106,32 +112,32 @@ impl<'d> Checker<'d> {
     }
 
     /// Whether something was reported at this place or inside of it.
-    pub fn has_reported(&self, at: &Place) -> bool {
+    pub fn has_reported(&self, at: &KeyPath) -> bool {
         has_inside(&self.reported, at)
     }
 
     /// Whether nobody wrote this value or one inside of it.
-    pub fn has_stand_in(&self, at: &Place) -> bool {
+    pub fn has_stand_in(&self, at: &KeyPath) -> bool {
         self.is_stand_in(at) || has_inside(&self.stand_ins, at)
     }
 
     /// A number, not NaN, infinite or beyond all measure.
-    pub fn finite(&mut self, at: &Place, value: f64) -> f64 {
+    pub fn finite(&mut self, at: &KeyPath, value: f64) -> f64 {
         self.within(at, value, -GREATEST, GREATEST, "a finite number up to 1e12 in magnitude")
     }
 
     /// A finite number above zero.
-    pub fn positive(&mut self, at: &Place, value: f64) -> f64 {
+    pub fn positive(&mut self, at: &KeyPath, value: f64) -> f64 {
         self.within(at, value, f64::MIN_POSITIVE, GREATEST, "a number above 0 and at most 1e12")
     }
 
     /// A finite number from zero.
-    pub fn not_negative(&mut self, at: &Place, value: f64) -> f64 {
+    pub fn not_negative(&mut self, at: &KeyPath, value: f64) -> f64 {
         self.within(at, value, 0.0, GREATEST, "a number from 0 to 1e12")
     }
 
     /// A number between two bounds, both included; NaN is outside.
-    pub fn within(&mut self, at: &Place, value: f64, low: f64, high: f64, allowed: &str) -> f64 {
+    pub fn within(&mut self, at: &KeyPath, value: f64, low: f64, high: f64, allowed: &str) -> f64 {
         if !(low..=high).contains(&value) {
             self.report(at, short(value), allowed);
         }
@@ -139,7 +145,7 @@ impl<'d> Checker<'d> {
     }
 
     /// Three finite numbers.
-    pub fn vector(&mut self, at: &Place, value: [f64; 3]) -> Vector3<f64> {
+    pub fn vector(&mut self, at: &KeyPath, value: [f64; 3]) -> Vector3<f64> {
         for (i, component) in value.into_iter().enumerate() {
             self.finite(&at.item(i), component);
         }
@@ -147,7 +153,7 @@ impl<'d> Checker<'d> {
     }
 
     /// A direction: refused when its length is off 1 by more than 1e-3, renormalised otherwise.
-    pub fn unit_vector(&mut self, at: &Place, value: [f64; 3]) -> Vector3<f64> {
+    pub fn unit_vector(&mut self, at: &KeyPath, value: [f64; 3]) -> Vector3<f64> {
         let vector = Vector3::from(value);
         let norm = vector.norm();
         if (norm - 1.0).abs() <= UNIT_TOLERANCE {
@@ -172,7 +178,7 @@ impl<'d> Checker<'d> {
     /// A direction perpendicular to another: refused when off by more than 1e-3 rad, squared up otherwise.
     pub fn perpendicular(
         &mut self,
-        at: &Place,
+        at: &KeyPath,
         value: [f64; 3],
         to: &Vector3<f64>,
         to_key: &str,
@@ -202,7 +208,7 @@ impl<'d> Checker<'d> {
     /// frame to components in the body frame.
     pub fn rotation(
         &mut self,
-        at: &Place,
+        at: &KeyPath,
         (angles_key, angles_deg): (&str, Option<[TurnEither; 3]>),
         (matrix_key, matrix): (&str, Option<[[f64; 3]; 3]>),
     ) -> Matrix3<f64> {
@@ -229,7 +235,7 @@ impl<'d> Checker<'d> {
         }
     }
 
-    fn rotation_matrix(&mut self, at: &Place, rows: [[f64; 3]; 3]) -> Matrix3<f64> {
+    fn rotation_matrix(&mut self, at: &KeyPath, rows: [[f64; 3]; 3]) -> Matrix3<f64> {
         let [x, y, z] = rows.map(Vector3::from);
         let square = [x.dot(&y), y.dot(&z), z.dot(&x)].iter().all(|dot| dot.abs() <= UNIT_TOLERANCE);
         let unit = [x, y, z].iter().all(|row| (row.norm() - 1.0).abs() <= UNIT_TOLERANCE);
@@ -248,7 +254,7 @@ impl<'d> Checker<'d> {
 }
 
 /// Whether one of the places is this one or inside of it.
-fn has_inside(places: &BTreeSet<Place>, at: &Place) -> bool {
+fn has_inside(places: &BTreeSet<KeyPath>, at: &KeyPath) -> bool {
     places.range(at..).next().is_some_and(|place| place.is_in(at))
 }
 

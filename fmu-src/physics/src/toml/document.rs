@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::{FileError, Problem};
 use super::limits::{MOST_PROBLEMS, MOST_TEXT_BYTES};
-use super::place::{Part, Place};
+use super::place::{KeyPath, Part};
 use super::reader::{Findings, Reader};
 
 /// A parsed text with its file name.
@@ -69,18 +69,18 @@ impl<'t> Document<'t> {
     }
 
     /// The line, from 1, of a place, or of the innermost table around it that exists.
-    pub fn line(&self, place: &Place) -> usize {
+    pub fn line(&self, place: &KeyPath) -> usize {
         let (start, _) = self.find(place);
         self.line_ends.partition_point(|end| *end < start) + 1
     }
 
     /// Whether somebody wrote what is at a place.
-    pub fn is_written(&self, place: &Place) -> bool {
+    pub fn is_written(&self, place: &KeyPath) -> bool {
         self.find(place).1
     }
 
     /// Where the text of a place begins, or of the innermost table around it that exists, and whether the place does.
-    fn find(&self, place: &Place) -> (usize, bool) {
+    fn find(&self, place: &KeyPath) -> (usize, bool) {
         let mut start = self.root.span().start;
         let mut table = self.root.get_ref().as_table();
         let mut value: Option<&DeValue<'_>> = None;
@@ -149,8 +149,8 @@ mod tests {
     #[test]
     fn a_key_has_the_line_it_stands_in() {
         let document = Document::parse("a.toml", TEXT).unwrap();
-        let plates = Place::root().key("plates");
-        assert_eq!(document.line(&Place::root().key("mass").key("m_kg")), 3);
+        let plates = KeyPath::root().key("plates");
+        assert_eq!(document.line(&KeyPath::root().key("mass").key("m_kg")), 3);
         assert_eq!(document.line(&plates.item(1).key("area")), 8);
         assert_eq!(document.line(&plates.item(1).key("at").item(1)), 10);
         assert_eq!(document.line(&plates.item(1).key("missing")), 7);

@@ -3,7 +3,7 @@
 //! A file beyond a limit is refused before anything is computed from it, so that no file costs more than a second and
 //! 200 MB.
 
-use super::place::Place;
+use super::place::KeyPath;
 
 /// Longest text of a file, in bytes.
 pub const MOST_TEXT_BYTES: usize = 4 << 20;
@@ -47,7 +47,7 @@ pub const TIMELINE_LIMITS: &[(&str, usize)] = &[("panels", 10_000)];
 pub const MOST_ITEMS: usize = 20_000;
 
 /// Most items of the list or names of the table at a place, `own` limits of the kind of file going first.
-pub(super) fn most_items(at: &Place, own: &[(&str, usize)]) -> usize {
+pub(super) fn most_items(at: &KeyPath, own: &[(&str, usize)]) -> usize {
     let key = at.last_key().unwrap_or_default();
     own.iter().chain(LIMITS).find(|(name, _)| *name == key).map_or(MOST_ITEMS, |(_, most)| *most)
 }

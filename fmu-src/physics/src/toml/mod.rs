@@ -21,7 +21,7 @@ pub use error::{FileError, Problem};
 pub use limits::{
     LIMITS, MOST_ANTENNAS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES, MOST_THRUSTERS, TIMELINE_LIMITS,
 };
-pub use place::Place;
+pub use place::KeyPath;
 pub use ranges::{
     AtLeastOne, BodyRadius, Copies, Corners, Deviation, Distance, Emissivity, FieldOfView, Finite, Fraction,
     Frequency, GravitationalParameter, HalfTurn, HalfTurnEither, Kelvin, NotNegative, OrbitAxis, Orbits,

@@ -1,12 +1,12 @@
-//! Place of a value in a TOML file: the keys and list items that lead to it.
+//! Key path of a value in a TOML file: the keys and list items that lead to it.
 
 use core::fmt;
 
 /// A key with the tables and lists around it.
 ///
-/// Places inside of another one follow it in their order, before all others.
+/// Key paths inside of another one follow it in their order, before all others.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Place(pub(super) Vec<Part>);
+pub struct KeyPath(pub(super) Vec<Part>);
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Part {
@@ -14,7 +14,7 @@ pub(super) enum Part {
     Item(usize),
 }
 
-impl Place {
+impl KeyPath {
     /// The whole file.
     pub fn root() -> Self {
         Self::default()
@@ -63,7 +63,7 @@ impl Place {
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for KeyPath {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, part) in self.0.iter().enumerate() {
             match part {
@@ -86,10 +86,10 @@ mod tests {
 
     #[test]
     fn places_contain_each_other_by_whole_keys() {
-        let plates = Place::root().key("plates");
+        let plates = KeyPath::root().key("plates");
         let area = plates.item(1).key("area");
-        assert!(area.is_in(&plates) && area.is_in(&area) && area.is_in(&Place::root()));
-        assert!(!plates.is_in(&area) && !Place::root().key("plates2").is_in(&plates));
+        assert!(area.is_in(&plates) && area.is_in(&area) && area.is_in(&KeyPath::root()));
+        assert!(!plates.is_in(&area) && !KeyPath::root().key("plates2").is_in(&plates));
         assert_eq!(area.split(), (plates.item(1), "area".to_owned()));
     }
 }

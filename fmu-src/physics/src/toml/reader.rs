@@ -9,7 +9,7 @@ use serde::forward_to_deserialize_any;
 use toml::de::{DeTable, DeValue};
 
 use super::limits::{MOST_PROBLEMS, most_items};
-use super::place::Place;
+use super::place::KeyPath;
 use super::ranges::{Range, short};
 use super::spelling::{hint, nearest};
 
@@ -20,11 +20,11 @@ pub(super) const MOST_KEPT: usize = 10 * MOST_PROBLEMS;
 #[derive(Default)]
 pub struct Findings {
     /// Place, what was found there and what is allowed.
-    pub problems: Vec<(Place, String, String)>,
+    pub problems: Vec<(KeyPath, String, String)>,
     /// How many more were found than are kept.
     pub unlisted: usize,
     /// Where a value stands in that nobody wrote.
-    pub stand_ins: Vec<Place>,
+    pub stand_ins: Vec<KeyPath>,
 }
 
 /// A value, or the lack of one, at a place.
@@ -34,7 +34,7 @@ pub(super) struct Reader<'r> {
     is_expected: bool,
     /// Where a number must lie.
     range: Option<&'static Range>,
-    place: Place,
+    place: KeyPath,
     findings: &'r RefCell<Findings>,
     /// Of this kind of file.
     own_limits: &'static [(&'static str, usize)],
@@ -47,7 +47,14 @@ impl<'r> Reader<'r> {
         findings: &'r RefCell<Findings>,
         own_limits: &'static [(&'static str, usize)],
     ) -> Self {
-        Self { value: Some(root), is_expected: true, range: None, place: Place::root(), findings, own_limits }
+        Self {
+            value: Some(root),
+            is_expected: true,
+            range: None,
+            place: KeyPath::root(),
+            findings,
+            own_limits,
+        }
     }
 
     /// The value if it is what is allowed; otherwise the problem is noted and something else will stand in.
@@ -71,7 +78,7 @@ impl<'r> Reader<'r> {
     }
 
     /// Notes a problem; beyond [`MOST_KEPT`] it is counted alone, for its words cost time and memory.
-    fn note(&self, problem: impl FnOnce() -> (Place, String, String)) {
+    fn note(&self, problem: impl FnOnce() -> (KeyPath, String, String)) {
         let mut findings = self.findings.borrow_mut();
         if findings.problems.len() < MOST_KEPT {
             findings.problems.push(problem());
@@ -91,11 +98,11 @@ impl<'r> Reader<'r> {
         false
     }
 
-    fn stand_in(&self, place: Place) {
+    fn stand_in(&self, place: KeyPath) {
         self.findings.borrow_mut().stand_ins.push(place);
     }
 
-    fn inside(&self, place: Place, value: Option<&'r DeValue<'r>>, is_expected: bool) -> Self {
+    fn inside(&self, place: KeyPath, value: Option<&'r DeValue<'r>>, is_expected: bool) -> Self {
         let Self { findings, own_limits, .. } = *self;
         Self { value, is_expected, range: None, place, findings, own_limits }
     }

@@ -5,7 +5,7 @@ use loader::{Binary, Described};
 use crate::carried::ephemeris::FILE;
 
 /// A file that `pack` takes beside the spacecraft.
-pub(super) struct Kind {
+pub(super) struct CarriedFile {
     /// The option that names it.
     pub option: &'static str,
     /// Its name in an FMU's resources; `None`: whatever the model takes first.
@@ -13,12 +13,12 @@ pub(super) struct Kind {
 }
 
 /// Commands over time; models of other libraries may call theirs otherwise.
-pub(super) const TIMELINE: Kind = Kind { option: "--timeline", resource: None };
+pub(super) const TIMELINE: CarriedFile = CarriedFile { option: "--timeline", resource: None };
 
 /// Positions over time.
-pub(super) const EPHEMERIS: Kind = Kind { option: "--ephemeris", resource: Some(FILE) };
+pub(super) const EPHEMERIS: CarriedFile = CarriedFile { option: "--ephemeris", resource: Some(FILE) };
 
-impl Kind {
+impl CarriedFile {
     /// Its name in the resources of a model that takes it.
     fn of<'d>(&self, model: &'d Described) -> Option<&'d str> {
         let mut names = model.schedule_files.iter().map(String::as_str);

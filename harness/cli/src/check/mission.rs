@@ -10,8 +10,8 @@ use crate::{
     run::{Prepared, Run, Settings, long_step},
 };
 
-/// Reads the file, packs what it names, finds every name and value in it and opens what it writes, as `run` does; then flies the
-/// first step in this process.
+/// Reads the file, packs what it names, finds every name and value in it and opens what it writes, as `run` does; then simulates
+/// the first step in this process.
 pub(super) fn checked(arguments: &Check) -> Result<String, String> {
     summary(arguments).map_err(|error| loader::Error::chain(error.as_ref()))
 }
@@ -37,7 +37,7 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
         .collect::<String>();
     let count = |count: usize, of: &str| format!("{count} {of}{}", if count == 1 { "" } else { "s" });
     Ok(format!(
-        "{} flies from {begin} for {} in {} of {} s; {} recorded, {}, {}{warnings}",
+        "{} runs from {begin} for {} in {} of {} s; {} recorded, {}, {}{warnings}",
         subject.name(),
         span(times.stop_s - times.start_s),
         count(usize::try_from(times.steps()).unwrap_or(usize::MAX), "step"),

@@ -15,7 +15,7 @@ use terminal::{Relay, Screen};
 
 use super::{
     channel::{Link, NOT_REQUESTED, Payload, push_bytes, push_text},
-    limits::Limits,
+    limits::ResourceLimits,
     printed::Shown,
     supervisor::{Bounds, ChildProcess},
 };
@@ -48,7 +48,7 @@ pub(crate) struct Relayed {
     /// What it is ended for.
     pub bounds: Bounds,
     /// What its process may take of the computer.
-    pub limits: Limits,
+    pub limits: ResourceLimits,
 }
 
 impl Relayed {

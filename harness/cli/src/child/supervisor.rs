@@ -12,7 +12,7 @@ use loader::{CallRecord, RecordedCalls};
 
 use super::{
     channel::{Inbox, Payload, RING_WORDS},
-    limits::Limits,
+    limits::ResourceLimits,
     printed::Printed,
     system,
 };
@@ -143,7 +143,7 @@ impl ChildProcess {
     /// Starts this program with these arguments, its temporary files in a folder of their own if one is given.
     pub(crate) fn new(
         arguments: impl IntoIterator<Item = OsString>,
-        limits: Limits,
+        limits: ResourceLimits,
         temporary: Option<&Path>,
     ) -> io::Result<Self> {
         let (file, inbox) = Inbox::create(limits.memory, limits.files)?;

@@ -27,8 +27,8 @@ fn is_encounter(target: OnboardTarget) -> bool {
     matches!(target, Mercury | Venus | Mars | Jupiter)
 }
 
-/// A flight that can be repeated.
-pub(super) struct Flight {
+/// A simulation that can be repeated.
+pub(super) struct RepeatableSimulation {
     fmu: Fmu,
     shown: String,
     sets: Vec<(String, Value)>,
@@ -39,7 +39,7 @@ pub(super) struct Flight {
 /// Positions and velocities in the order of the outputs: x, y, z of each.
 type Outputs = [u32; 6];
 
-impl Flight {
+impl RepeatableSimulation {
     /// An FMU with these settings, its flight starting at an epoch.
     pub(super) fn open(path: &Path, settings: &[String], start_s: f64) -> Result<Self, Failure> {
         let fmu = Fmu::open(path)?;
@@ -92,7 +92,7 @@ impl Flight {
     }
 }
 
-impl Source for Flight {
+impl Source for RepeatableSimulation {
     fn center(&self) -> Body {
         self.center
     }

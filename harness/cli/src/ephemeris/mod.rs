@@ -1,4 +1,4 @@
-//! `heliotorque ephemeris`: Chebyshev fits and coarse elements of what an FMU flies or SPICE kernels place, as an ephemeris
+//! `heliotorque ephemeris`: Chebyshev fits and coarse elements of what an FMU simulates or SPICE kernels hold, as an ephemeris
 //! file that others carry.
 
 mod flight;
@@ -25,7 +25,7 @@ use crate::{
     interrupt,
     outcome::{self, Outcome},
 };
-use flight::Flight;
+use flight::RepeatableSimulation;
 pub(crate) use options::Ephemeris;
 use shown::Shown;
 
@@ -84,5 +84,5 @@ fn source(arguments: &Ephemeris, span_s: [f64; 2]) -> Result<Box<dyn Source>, Fa
             span_s,
         )?));
     }
-    Ok(Box::new(Flight::open(&arguments.simulated(), &arguments.set, span_s[0])?))
+    Ok(Box::new(RepeatableSimulation::open(&arguments.simulated(), &arguments.set, span_s[0])?))
 }

@@ -21,7 +21,7 @@ Example:
       --tolerance 10 --coarse --coarse-until '2015-04-30 UTC' --output messenger-ephemeris.toml
   heliotorque check messenger-ephemeris.toml                                   bodies, spans and errors
   heliotorque pack --template dist/Guidance.fmu --ephemeris messenger-ephemeris.toml \\
-      --set ephemeris.source=chebyshev --set 'start.epoch=2011-04-06 UTC'      flies by it, from within its span";
+      --set ephemeris.source=chebyshev --set 'start.epoch=2011-04-06 UTC'      uses it, from within its span";
 
 /// `heliotorque ephemeris`.
 #[derive(Debug, Args)]
@@ -66,7 +66,7 @@ pub(crate) struct Ephemeris {
     /// Last epoch of the coarse models, a date; otherwise --stop
     #[arg(long, value_name = "DATE", requires = "coarse")]
     pub coarse_until: Option<String>,
-    /// Set a parameter of the FMU before it flies; repeatable, written as for `run`: orbit.center=venus
+    /// Set a parameter of the FMU before it is simulated; repeatable, written as for `run`: orbit.center=venus
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
     /// The file to write; otherwise ephemeris.toml, in this folder; - is the standard output

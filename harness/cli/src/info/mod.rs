@@ -17,7 +17,7 @@ use crate::{
     carried, epoch, kind,
     outcome::{self, Outcome},
     patience::Patience,
-    variables::{Row, rows, selected, warn_of_repeated},
+    variables::{VariableRow, rows, selected, warn_of_repeated},
 };
 use experiment::times;
 
@@ -237,11 +237,11 @@ const INDENT: usize = 4;
 fn variables(description: &Description, positions: &[usize]) -> String {
     let chosen: Vec<&ScalarVariable> =
         positions.iter().map(|&position| &description.variables[position]).collect();
-    let cells = |row: &Row<'_>| {
+    let cells = |row: &VariableRow<'_>| {
         let unit = loader::unit(description, row.first()).unwrap_or_default();
         [row.name(), causality(row.first()), row.joined(|it| start(description, it)), unit.to_owned()]
     };
-    let says = |row: &Row<'_>| row.first().description.clone().unwrap_or_default();
+    let says = |row: &VariableRow<'_>| row.first().description.clone().unwrap_or_default();
     if let Some(columns) = terminal::screen().output_columns.filter(|columns| *columns < WIDE) {
         let lines = rows(&chosen).map(|row| below(&cells(&row), &says(&row), usize::from(columns)));
         return lines.collect::<Vec<_>>().join("\n");

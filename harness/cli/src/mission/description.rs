@@ -7,12 +7,12 @@ use serde::Deserialize;
 use super::schema::{Inputs, Number, Time};
 use crate::reading::{Written, WrittenAs};
 
-/// A flight: what flies, when, with which values, and what is kept of it. Paths are relative to the file.
+/// A mission: what is simulated, when, with which values, and what is recorded. Paths are relative to the file.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(title = "heliotorque mission"))]
 #[serde(deny_unknown_fields)]
-pub(super) struct Description {
+pub(super) struct MissionDescription {
     /// The spacecraft's or spinner's file, which is packed for the run.
     pub spacecraft: Option<String>,
     /// The model: MomentumPlant, SpinPlant, Guidance, DisturbanceTorque; otherwise MomentumPlant, or the one that takes the

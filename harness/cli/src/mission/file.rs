@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use physics::{
     environment::dates::{self, ALLOWED_DATE},
-    toml::Place,
+    toml::KeyPath,
 };
 
-use super::description::{Description, LimitDescription, PlotDescription};
+use super::description::{LimitDescription, MissionDescription, PlotDescription};
 use crate::{
     kind::FileKind,
     output::is_svg_path,
@@ -136,8 +136,8 @@ impl Mission {
 }
 
 impl Builder<'_> {
-    fn mission(&mut self, file: &Path, description: Description) -> Mission {
-        let root = Place::root();
+    fn mission(&mut self, file: &Path, description: MissionDescription) -> Mission {
+        let root = KeyPath::root();
         let spacecraft_source = self.spacecraft_source(&description);
         let [start, stop, step, every] = ["start", "stop", "step", "every"].map(|key| root.key(key));
         let (begin, end) = (description.start.as_deref(), description.stop.as_deref());
@@ -179,9 +179,9 @@ impl Builder<'_> {
         }
     }
 
-    fn spacecraft_source(&mut self, description: &Description) -> SpacecraftSource {
-        let root = Place::root();
-        let Description { fmu, spacecraft, model, timeline, ephemeris, .. } = description;
+    fn spacecraft_source(&mut self, description: &MissionDescription) -> SpacecraftSource {
+        let root = KeyPath::root();
+        let MissionDescription { fmu, spacecraft, model, timeline, ephemeris, .. } = description;
         let Some(fmu) = fmu else {
             if spacecraft.is_none() && model.is_none() {
                 self.check.report_lack(
@@ -210,7 +210,7 @@ impl Builder<'_> {
         SpacecraftSource::Fmu(self.input_file(&root.key("fmu"), fmu))
     }
 
-    fn input_file(&mut self, place: &Place, path: &str) -> PathBuf {
+    fn input_file(&mut self, place: &KeyPath, path: &str) -> PathBuf {
         let path = self.written_path(place, path.to_owned());
         if !path.as_os_str().is_empty() && !path.exists() {
             self.report_missing(place, &path);
@@ -218,7 +218,7 @@ impl Builder<'_> {
         path
     }
 
-    fn written_path(&mut self, place: &Place, path: String) -> PathBuf {
+    fn written_path(&mut self, place: &KeyPath, path: String) -> PathBuf {
         if path.is_empty() {
             self.check.report(place, "an empty string", "the path of a file");
         }
@@ -226,14 +226,14 @@ impl Builder<'_> {
         if path == "-" { PathBuf::from(path) } else { self.folder.join(path) }
     }
 
-    fn names(&mut self, place: &Place, names: Vec<String>) -> Vec<At<String>> {
+    fn names(&mut self, place: &KeyPath, names: Vec<String>) -> Vec<At<String>> {
         if names.is_empty() {
             self.check.report(place, "an empty list", "at least one name, or no such key: then every output");
         }
         self.each(place, names)
     }
 
-    fn plot(&mut self, place: &Place, plot: PlotDescription) -> Plot {
+    fn plot(&mut self, place: &KeyPath, plot: PlotDescription) -> Plot {
         let key = place.key("file");
         let file = self.written_path(&key, plot.file);
         if !is_svg_path(&file) {
@@ -245,7 +245,7 @@ impl Builder<'_> {
 
     fn set(
         &mut self,
-        place: &Place,
+        place: &KeyPath,
         name: String,
         written: &Written,
         is_dated: bool,
@@ -258,7 +258,7 @@ impl Builder<'_> {
     }
 
     /// What `--set` would take.
-    fn value(&mut self, place: &Place, written: &Written) -> Option<String> {
+    fn value(&mut self, place: &KeyPath, written: &Written) -> Option<String> {
         let value = written.setting();
         if value.is_none() {
             let allowed = "a number, a string, true or false, a list; the name of a variable stands in quotes as a whole";
@@ -267,7 +267,7 @@ impl Builder<'_> {
         value
     }
 
-    fn inputs(&mut self, place: &Place, written: Written, zero_epoch_s: Option<f64>) -> Option<Inputs> {
+    fn inputs(&mut self, place: &KeyPath, written: Written, zero_epoch_s: Option<f64>) -> Option<Inputs> {
         let table = match written {
             Written::Text(path) => return Some(Inputs::File(self.input_file(place, &path))),
             Written::Table(table) => table,
@@ -290,7 +290,7 @@ impl Builder<'_> {
         Some(Inputs::Rows(inputs))
     }
 
-    fn rows(&mut self, place: &Place, written: &[Written], zero_epoch_s: Option<f64>) -> InputRows {
+    fn rows(&mut self, place: &KeyPath, written: &[Written], zero_epoch_s: Option<f64>) -> InputRows {
         let mut rows = InputRows::new();
         for (i, row) in written.iter().enumerate() {
             let at = place.item(i);
@@ -315,7 +315,7 @@ impl Builder<'_> {
         rows
     }
 
-    fn limit(&mut self, place: &Place, name: String, limit: LimitDescription) -> At<Bounds> {
+    fn limit(&mut self, place: &KeyPath, name: String, limit: LimitDescription) -> At<Bounds> {
         if limit.min.is_none() && limit.max.is_none() {
             self.check.report(place, "no bound", "min, max or both");
         }
@@ -328,13 +328,13 @@ impl Builder<'_> {
     }
 
     /// Simulation time; or a date, where `start` is one, the epoch of time 0.
-    fn time(&mut self, place: &Place, written: &Written, zero_epoch_s: Option<f64>) -> Option<f64> {
+    fn time(&mut self, place: &KeyPath, written: &Written, zero_epoch_s: Option<f64>) -> Option<f64> {
         if let Some(date) = written.date() {
             let epoch_s = self.checked_date(place, date)?;
             if zero_epoch_s.is_none() {
                 let found = format_args!("the date {written}");
                 let allowed = format!("simulation time, {ALLOWED_TIME}; or a date, where `start` is one");
-                self.check.report_across(&Place::root().key("start"), place, found, allowed);
+                self.check.report_across(&KeyPath::root().key("start"), place, found, allowed);
             }
             return zero_epoch_s.map(|zero_s| dates::span_s(zero_s, epoch_s));
         }
@@ -343,7 +343,7 @@ impl Builder<'_> {
         self.read(place, Some(written), time_s, allowed)
     }
 
-    fn checked_date(&mut self, place: &Place, date: &str) -> Option<f64> {
+    fn checked_date(&mut self, place: &KeyPath, date: &str) -> Option<f64> {
         let read = dates::epoch_s(date);
         read.map_err(|error| self.check.report(place, format_args!("{date:?}, {error}"), ALLOWED_DATE)).ok()
     }

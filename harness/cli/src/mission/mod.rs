@@ -1,4 +1,4 @@
-//! Mission files: what flies, when, with which values, what is kept of it and what it is judged by.
+//! Mission files: what is simulated, when, with which values, what is recorded and what it is judged by.
 
 mod description;
 mod file;

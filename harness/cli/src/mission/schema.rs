@@ -22,10 +22,10 @@ written!(
 #[cfg(feature = "schema")]
 mod tests {
     //! The committed schema is the one that the types give.
-    use crate::{mission::description::Description, schema::written::assert_in_step};
+    use crate::{mission::description::MissionDescription, schema::written::assert_in_step};
 
     #[test]
     fn the_schema_of_the_mission_is_in_step() {
-        assert_in_step("mission.schema.json", &schemars::schema_for!(Description));
+        assert_in_step("mission.schema.json", &schemars::schema_for!(MissionDescription));
     }
 }

@@ -30,7 +30,7 @@ pub(crate) enum NewKind {
     Spacecraft,
     /// A spin-stabilised spacecraft, for `check`, `pack`, `plan spin`
     Spinner,
-    /// What flies, when, with which values, and what is kept of it; for `run`, `check`, `pack --mission`
+    /// What is simulated, when, with which values, and what is recorded; for `run`, `check`, `pack --mission`
     Mission,
     /// Commands, positions of panels and events over time, for `pack --timeline`
     Timeline,

@@ -25,7 +25,7 @@ use model_description::Description;
 
 use csv::Csv;
 use exporter::Exporter;
-use standing::Kind;
+use standing::OutputKind;
 use summary::Summary;
 use svg::Svg;
 
@@ -80,24 +80,24 @@ impl Outputs {
         (origin, inputs): (&Origin<'_>, &[&Path]),
     ) -> Result<Self, String> {
         let Requested { table, plots, columns, is_quiet } = requested;
-        let open = |file: &OutputFile, kind: Kind<'_>| {
+        let open = |file: &OutputFile, kind: OutputKind<'_>| {
             let destination = Destination::open(&file.path, file.option, inputs)?;
             standing::check(file, &destination, kind)?;
             Ok::<_, String>(destination)
         };
         let mut header = Vec::new();
         loader::csv::write_header(empty, *columns, &mut header).map_err(|error| error.to_string())?;
-        let csv = table.as_ref().map(|file| open(file, Kind::Table(&header))).transpose()?;
+        let csv = table.as_ref().map(|file| open(file, OutputKind::Table(&header))).transpose()?;
         // Nothing stands beside the standard output.
         let beside = table.as_ref().zip(csv.as_ref().filter(|csv| !csv.is_stdout())).map(|(table, _)| {
             let file = OutputFile { path: sidecar_of(&table.path), ..table.clone() };
             let names = &empty.names[..(*columns).min(empty.names.len())];
-            Ok::<_, String>((open(&file, Kind::Origin)?, origin.to_toml(names)))
+            Ok::<_, String>((open(&file, OutputKind::Origin)?, origin.to_toml(names)))
         });
         let beside = beside.transpose()?;
         let mut pictures: Vec<Destination> = Vec::new();
         for Plot { file, .. } in plots {
-            let svg = open(file, Kind::Picture)?;
+            let svg = open(file, OutputKind::Picture)?;
             if csv.as_ref().is_some_and(|csv| csv.is_same(&svg)) {
                 return Err(format!("one file cannot take both: see --output and {}", file.option));
             }

@@ -11,7 +11,7 @@ const HEAD: u64 = 1 << 16;
 
 /// A kind of output.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Kind<'a> {
+pub(super) enum OutputKind<'a> {
     /// A table that begins with this line.
     Table(&'a [u8]),
     /// A picture.
@@ -25,7 +25,11 @@ pub(super) enum Kind<'a> {
 ///
 /// # Errors
 /// What was found, and what is allowed.
-pub(super) fn check(file: &OutputFile, destination: &Destination, kind: Kind<'_>) -> Result<(), String> {
+pub(super) fn check(
+    file: &OutputFile,
+    destination: &Destination,
+    kind: OutputKind<'_>,
+) -> Result<(), String> {
     let OutputFile { path, option, home } = file;
     let Some(home) = home else { return Ok(()) };
     let (path, instead) = (path.display(), kind.option());
@@ -60,7 +64,7 @@ enum Standing {
     Other,
 }
 
-impl Kind<'_> {
+impl OutputKind<'_> {
     /// The option that gives it a place instead.
     fn option(self) -> &'static str {
         match self {
@@ -103,7 +107,7 @@ mod tests {
 
     #[test]
     fn tables_and_pictures_of_runs_are_reported_from_other_files() {
-        let table = Kind::Table(b"time,a,b\n");
+        let table = OutputKind::Table(b"time,a,b\n");
         for (text, expected) in [
             ("", Standing::Same),
             ("time,a,b\n", Standing::Same),
@@ -122,9 +126,9 @@ mod tests {
         };
         let chart = drawing::Chart { panels: vec![panel], ..drawing::Chart::default() };
         let svg = drawing::svg(&[&chart]).unwrap();
-        assert!(Kind::Picture.standing_of(svg.as_bytes()) == Standing::Same, "{svg}");
+        assert!(OutputKind::Picture.standing_of(svg.as_bytes()) == Standing::Same, "{svg}");
         for text in ["<svg xmlns=\"http://www.w3.org/2000/svg\"><path/></svg>", "time,a,b\n0,1,2\n"] {
-            assert_eq!(Kind::Picture.standing_of(text.as_bytes()), Standing::Other, "{text:?}");
+            assert_eq!(OutputKind::Picture.standing_of(text.as_bytes()), Standing::Other, "{text:?}");
         }
     }
 }

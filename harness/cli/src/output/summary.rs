@@ -29,7 +29,7 @@ pub(super) fn beside_files(described: &Description, recording: &Recording) -> St
 }
 
 /// A row: name, unit, and the texts of each component's least, greatest and last value.
-struct Row<'a> {
+struct SummaryRow<'a> {
     name: &'a str,
     unit: &'a str,
     components: Vec<[String; 3]>,
@@ -38,7 +38,7 @@ struct Row<'a> {
 fn table(described: &Description, recording: &Recording, most: usize) -> String {
     let rows = rows(described, recording);
     let mut table = terminal::table(&["variable", "unit", "least", "greatest", "last"]);
-    for Row { name, unit, components } in rows.iter().take(most) {
+    for SummaryRow { name, unit, components } in rows.iter().take(most) {
         let joined =
             |k: usize| components.iter().map(|texts| texts[k].as_str()).collect::<Vec<_>>().join(", ");
         table.add_row([*name, *unit, &joined(0), &joined(1), &joined(2)]);
@@ -49,8 +49,8 @@ fn table(described: &Description, recording: &Recording, most: usize) -> String 
     }
 }
 
-fn rows<'a>(described: &'a Description, recording: &'a Recording) -> Vec<Row<'a>> {
-    let mut rows: Vec<Row<'a>> = Vec::new();
+fn rows<'a>(described: &'a Description, recording: &'a Recording) -> Vec<SummaryRow<'a>> {
+    let mut rows: Vec<SummaryRow<'a>> = Vec::new();
     let columns: Vec<(&String, &Column)> = recording.names.iter().zip(&recording.columns).collect();
     for group in columns.chunk_by(|one, other| vector(one.0).is_some() && vector(one.0) == vector(other.0)) {
         // What is less than this part of the greatest component at any time is rounding.
@@ -62,7 +62,7 @@ fn rows<'a>(described: &'a Description, recording: &'a Recording) -> Vec<Row<'a>
         let name = vector(first).filter(|_| group.len() > 1).unwrap_or(first);
         let unit = Shown::of(described, first).unit;
         let components = group.iter().map(|(name, column)| texts(&Shown::of(described, name), column, size));
-        rows.push(Row { name, unit, components: components.collect() });
+        rows.push(SummaryRow { name, unit, components: components.collect() });
     }
     rows
 }

@@ -198,7 +198,7 @@ fn nutation(burn: &PlannedBurn) -> Chart {
     };
     let simulated = samples.iter().map(|sample| (minutes(sample.time_s), sample.nutation_rad.to_degrees()));
     let mut series = vec![
-        Series::line("as flown", simulated.collect()),
+        Series::line("simulated", simulated.collect()),
         level("worst at any time", burn.row.peak_rad, 0.0),
         level("worst after the last pulse", burn.row.final_rad, last_min),
         level("science bears", burn.task.allowed_nutation_rad, 0.0),

@@ -9,7 +9,7 @@ use std::{
 
 use physics::{
     environment::dates,
-    toml::{Checker, Document, Place},
+    toml::{Checker, Document, KeyPath},
 };
 use serde::de::DeserializeOwned;
 
@@ -82,19 +82,19 @@ pub(crate) struct Builder<'d> {
 }
 
 impl Builder<'_> {
-    pub(crate) fn at<T>(&self, place: &Place, it: T) -> At<T> {
+    pub(crate) fn at<T>(&self, place: &KeyPath, it: T) -> At<T> {
         At { it, key: place.to_string(), line: self.check.line(place) }
     }
 
     /// Values with their places in a list.
-    pub(crate) fn each<T>(&self, list: &Place, values: Vec<T>) -> Vec<At<T>> {
+    pub(crate) fn each<T>(&self, list: &KeyPath, values: Vec<T>) -> Vec<At<T>> {
         values.into_iter().enumerate().map(|(index, it)| self.at(&list.item(index), it)).collect()
     }
 
     /// What `read` gives of what is written; reported where it gives nothing.
     pub(crate) fn read<T>(
         &mut self,
-        place: &Place,
+        place: &KeyPath,
         written: Option<&Written>,
         read: impl FnOnce(&Written) -> Option<T>,
         allowed: impl Display,
@@ -108,7 +108,7 @@ impl Builder<'_> {
     }
 
     /// A file that is read; reported unless it `is_there`.
-    pub(crate) fn path(&mut self, place: &Place, path: &str, is_there: fn(&Path) -> bool) -> PathBuf {
+    pub(crate) fn path(&mut self, place: &KeyPath, path: &str, is_there: fn(&Path) -> bool) -> PathBuf {
         let found = self.folder.join(path);
         if !is_there(&found) {
             self.report_missing(place, &found);
@@ -116,14 +116,14 @@ impl Builder<'_> {
         found
     }
 
-    pub(crate) fn report_missing(&mut self, place: &Place, path: &Path) {
+    pub(crate) fn report_missing(&mut self, place: &KeyPath, path: &Path) {
         let found = format_args!("{}, which is not there", path.display());
         self.check.report(place, found, "a file; paths are relative to this one's folder");
     }
 
     pub(crate) fn span(
         &mut self,
-        place: &Place,
+        place: &KeyPath,
         written: Option<&Written>,
         default_s: f64,
         least_s: f64,
@@ -134,12 +134,12 @@ impl Builder<'_> {
         self.read(place, written, span_s, allowed).unwrap_or(default_s)
     }
 
-    pub(crate) fn length(&mut self, place: &Place, written: Option<&Written>) -> Option<f64> {
+    pub(crate) fn length(&mut self, place: &KeyPath, written: Option<&Written>) -> Option<f64> {
         self.read(place, written, |written| written.quantity("m"), ALLOWED_LENGTH)
     }
 
     /// An angle from 0 to 90 deg.
-    pub(crate) fn angle(&mut self, place: &Place, written: Option<&Written>) -> Option<f64> {
+    pub(crate) fn angle(&mut self, place: &KeyPath, written: Option<&Written>) -> Option<f64> {
         let angle_rad = |written: &Written| {
             let angle_rad = match written {
                 Written::Number(angle_rad) => Some(*angle_rad),
@@ -152,7 +152,7 @@ impl Builder<'_> {
         self.read(place, written, angle_rad, format_args!("an angle from 0 to 90 deg: {ALLOWED_ANGLE}"))
     }
 
-    pub(crate) fn momentum(&mut self, place: &Place, written: Option<&Written>) -> Option<f64> {
+    pub(crate) fn momentum(&mut self, place: &KeyPath, written: Option<&Written>) -> Option<f64> {
         let momentum_n_m_s = |written: &Written| {
             let number = match written {
                 Written::Text(text) => {
@@ -166,12 +166,18 @@ impl Builder<'_> {
         self.read(place, written, momentum_n_m_s, ALLOWED_MOMENTUM)
     }
 
-    pub(crate) fn share(&mut self, place: &Place, written: Option<&Written>, default: f64, most: f64) -> f64 {
+    pub(crate) fn share(
+        &mut self,
+        place: &KeyPath,
+        written: Option<&Written>,
+        default: f64,
+        most: f64,
+    ) -> f64 {
         let share = |written: &Written| written.number().filter(|number| (0.0..=most).contains(number));
         self.read(place, written, share, format_args!("a share from 0 to {most}")).unwrap_or(default)
     }
 
-    pub(crate) fn count(&mut self, place: &Place, written: Option<&Written>, least: u64) -> Option<u64> {
+    pub(crate) fn count(&mut self, place: &KeyPath, written: Option<&Written>, least: u64) -> Option<u64> {
         let count = |written: &Written| {
             let Written::Integer(number) = written else { return None };
             u64::try_from(*number).ok().filter(|number| *number >= least)
@@ -179,19 +185,24 @@ impl Builder<'_> {
         self.read(place, written, count, format_args!("a whole number from {least} on"))
     }
 
-    pub(crate) fn instant(&mut self, place: &Place, written: &Written) -> Option<Instant> {
+    pub(crate) fn instant(&mut self, place: &KeyPath, written: &Written) -> Option<Instant> {
         let instant = |written: &Written| values::instant(&written.scalar()?).ok();
         let allowed = format_args!("{}; or simulation time, {ALLOWED_SPAN}", dates::ALLOWED_DATE);
         self.read(place, Some(written), instant, allowed)
     }
 
     /// The same with its place.
-    pub(crate) fn instant_at(&mut self, place: &Place, written: &Written) -> Option<At<Instant>> {
+    pub(crate) fn instant_at(&mut self, place: &KeyPath, written: &Written) -> Option<At<Instant>> {
         let instant = self.instant(place, written)?;
         Some(self.at(place, instant))
     }
 
-    pub(crate) fn spanned(&mut self, place: &Place, start: &Written, stop: &Written) -> Option<[Instant; 2]> {
+    pub(crate) fn spanned(
+        &mut self,
+        place: &KeyPath,
+        start: &Written,
+        stop: &Written,
+    ) -> Option<[Instant; 2]> {
         let span = [self.instant(&place.key("start"), start)?, self.instant(&place.key("stop"), stop)?];
         let is_ordered = match span {
             [Instant::Time(a), Instant::Time(b)] | [Instant::Epoch(a), Instant::Epoch(b)] => a < b,

@@ -64,7 +64,7 @@ pub(crate) struct Run {
     /// Draw what was recorded as SVG; - is the standard output
     #[arg(long, value_name = "SVG")]
     pub plot: Option<PathBuf>,
-    /// For a mission with a spacecraft only: the FMU whose library shall fly it, as for `pack`; otherwise the installed
+    /// For a mission with a spacecraft only: the FMU whose library shall simulate it, as for `pack`; otherwise the installed
     /// program's own, or dist/MomentumPlant.fmu
     #[arg(long, value_name = "FMU")]
     pub template: Option<PathBuf>,

@@ -12,7 +12,7 @@ use crate::reading::{Written, WrittenAs};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(title = "heliotorque campaign"))]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
-pub(super) struct Description {
+pub(super) struct CampaignDescription {
     /// The mission: spacecraft or FMU, times, values, inputs, limits.
     pub mission: Option<String>,
     /// An FMU that is packed already, instead of a mission.

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use physics::toml::Place;
+use physics::toml::KeyPath;
 
-use super::description::{Description, KeepDescription, SamplingWord, VaryDescription};
+use super::description::{CampaignDescription, KeepDescription, SamplingWord, VaryDescription};
 use crate::{
     home,
     kind::FileKind,
@@ -90,8 +90,8 @@ impl CampaignFile {
 }
 
 impl Builder<'_> {
-    fn campaign(&mut self, file: &Path, description: Description) -> CampaignFile {
-        let root = Place::root();
+    fn campaign(&mut self, file: &Path, description: CampaignDescription) -> CampaignFile {
+        let root = KeyPath::root();
         let simulated = self.simulated(&description);
         let sampling = description.sampling.unwrap_or_default();
         let table = description.file.as_ref().map(|path| self.path(&root.key("file"), path, Path::exists));
@@ -124,8 +124,8 @@ impl Builder<'_> {
         }
     }
 
-    fn simulated(&mut self, description: &Description) -> PathBuf {
-        let root = Place::root();
+    fn simulated(&mut self, description: &CampaignDescription) -> PathBuf {
+        let root = KeyPath::root();
         match (&description.mission, &description.fmu) {
             (Some(mission), None) => {
                 for (key, it) in [("start", &description.start), ("stop", &description.stop)] {
@@ -154,8 +154,8 @@ impl Builder<'_> {
     }
 
     /// Values come from `vary` or from a file.
-    fn one_sampling(&mut self, description: &Description, sampling: SamplingWord) {
-        let root = Place::root();
+    fn one_sampling(&mut self, description: &CampaignDescription, sampling: SamplingWord) {
+        let root = KeyPath::root();
         if sampling == SamplingWord::File {
             if description.file.is_none() {
                 self.check.report_lack(&root, "file", "file = \"table.csv\" with sampling file");
@@ -176,7 +176,7 @@ impl Builder<'_> {
 
     fn varied(
         &mut self,
-        place: &Place,
+        place: &KeyPath,
         name: String,
         description: &VaryDescription,
     ) -> Option<At<WrittenDistribution>> {
@@ -205,7 +205,7 @@ impl Builder<'_> {
         Some(self.at(&place.key(key), WrittenDistribution { name, key, values }))
     }
 
-    fn correlation(&mut self, place: &Place, written: &Written) -> Option<At<([String; 2], f64)>> {
+    fn correlation(&mut self, place: &KeyPath, written: &Written) -> Option<At<([String; 2], f64)>> {
         if let Written::List(items) = written
             && let [Written::Text(one), Written::Text(other), coefficient] = &items[..]
             && let Some(coefficient) = coefficient.number().filter(|it| it.abs() <= 1.0)
@@ -218,7 +218,7 @@ impl Builder<'_> {
     }
 
     fn keep(&mut self, description: Option<KeepDescription>) -> WrittenKeep {
-        let place = Place::root().key("keep");
+        let place = KeyPath::root().key("keep");
         let is_given = description.is_some();
         let KeepDescription { r#final, extremes, percentiles, every, histories } =
             description.unwrap_or_default();

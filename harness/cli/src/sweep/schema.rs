@@ -33,10 +33,10 @@ written!(
 #[cfg(feature = "schema")]
 mod tests {
     //! The committed schema is the one that the types give.
-    use crate::{schema::written::assert_in_step, sweep::description::Description};
+    use crate::{schema::written::assert_in_step, sweep::description::CampaignDescription};
 
     #[test]
     fn the_schema_of_the_campaign_is_in_step() {
-        assert_in_step("campaign.schema.json", &schemars::schema_for!(Description));
+        assert_in_step("campaign.schema.json", &schemars::schema_for!(CampaignDescription));
     }
 }

@@ -9,7 +9,7 @@ const RESOURCES: &str = "../../fmu-src/resources";
 /// Unpacks the FMU and changes its XML.
 fn changed(fmu: &Path, from: &str, to: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    loader::unpack(fmu, folder.path(), loader::Limits::default()).unwrap();
+    loader::unpack(fmu, folder.path(), loader::ArchiveLimits::default()).unwrap();
     let path = folder.path().join("modelDescription.xml");
     let xml = fs::read_to_string(&path).unwrap();
     assert!(xml.contains(from), "the XML has no {from}");
@@ -243,7 +243,7 @@ fn an_fmu_that_dies_is_a_finding() {
 fn shipped(model: &str, spacecraft: &str) -> Option<tempfile::TempDir> {
     let toml = format!("{RESOURCES}/{spacecraft}");
     let (scratch, fmu) = packed_from(&library()?, model, "x.fmu", &["--spacecraft", &toml])?;
-    loader::unpack(&fmu, &scratch.path().join("x"), loader::Limits::default()).unwrap();
+    loader::unpack(&fmu, &scratch.path().join("x"), loader::ArchiveLimits::default()).unwrap();
     Some(scratch)
 }
 

@@ -11,7 +11,7 @@ use crate::{heliotorque, library, packed_from, run, says, shown, text, words};
 const MESSENGER: &str = "../../fmu-src/resources/messenger.toml";
 const AU_M: f64 = 149_597_870_700.0;
 
-type Row = HashMap<String, f64>;
+type MapRow = HashMap<String, f64>;
 
 /// Packs DisturbanceTorque of a file; maps can take its library too.
 fn packed(spacecraft: &str) -> Option<(TempDir, PathBuf)> {
@@ -25,7 +25,7 @@ fn mapped(arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-fn rows(csv: &str) -> Vec<Row> {
+fn rows(csv: &str) -> Vec<MapRow> {
     let mut lines = csv.lines();
     let names: Vec<&str> = lines.next().unwrap().split(',').collect();
     lines
@@ -262,7 +262,7 @@ fn torque_goes_with_the_inverse_square_and_follows_the_options() {
             "{near:?} {far:?}"
         );
     }
-    let ahead = |rows: &[Row]| {
+    let ahead = |rows: &[MapRow]| {
         rows.iter().find(|row| row["sun_azimuth_deg"] == 0.0 && row["sun_elevation_deg"] == 0.0).unwrap()["panel_1_angle_deg"]
     };
     assert!((ahead(&near) - 65.0).abs() < 1e-9);

@@ -214,7 +214,7 @@ fn a_plant_takes_a_timeline_without_burns_and_modes() {
     let check = ["check", shown(&mission), "--template", shown(&plain)];
     says(
         &run(&check, 0),
-        &["ok: timed flies", "without effect: found panel[k].control = sunOffset, sunOffset"],
+        &["ok: timed runs", "without effect: found panel[k].control = sunOffset, sunOffset"],
     );
     let set = format!("{text}[set]\n\"panel[1].control\" = \"timeline\"\n");
     fs::write(&mission, set).unwrap();

@@ -34,7 +34,7 @@ pub(crate) fn probe(fmu: &Fmu) -> Findings {
 }
 
 /// One call to make.
-struct Case<'a> {
+struct CallCase<'a> {
     function: Function,
     state: State,
     variable: Option<&'a ScalarVariable>,
@@ -53,8 +53,8 @@ enum Expected {
 
 /// The calls of one function in one state: for conditional access one with a variable that meets the condition
 /// and one with a variable that does not.
-fn cases(fmu: &Fmu, function: Function, state: State) -> Vec<Case<'_>> {
-    let case = |variable, expected| Case { function, state, variable, expected };
+fn cases(fmu: &Fmu, function: Function, state: State) -> Vec<CallCase<'_>> {
+    let case = |variable, expected| CallCase { function, state, variable, expected };
     let Some((base, sets)) = variable_function(function) else {
         return match allowed(function, state) {
             Access::Forbidden => vec![case(None, Expected::Refused)],
@@ -112,7 +112,7 @@ fn lenient(function: Function, state: State, variable: &ScalarVariable) -> Expec
     }
 }
 
-fn compare(case: &Case<'_>, status: Status) -> Option<Finding> {
+fn compare(case: &CallCase<'_>, status: Status) -> Option<Finding> {
     let subject = case.variable.map_or_else(String::new, |variable| format!(" of {}", variable.name));
     let call = format!("{}{subject} in state {}", case.function.symbol(), case.state.name());
     let wants_status = case.function.symbol().ends_with("Status");
@@ -129,7 +129,7 @@ fn compare(case: &Case<'_>, status: Status) -> Option<Finding> {
 }
 
 /// Makes the call in a fresh instance; none where it cannot be made with this FMU.
-fn call(fmu: &Fmu, case: &Case<'_>) -> Result<Option<Status>, Error> {
+fn call(fmu: &Fmu, case: &CallCase<'_>) -> Result<Option<Status>, Error> {
     let flags = fmu.co_simulation()?;
     let mut instance = Instance::new(fmu, "probe", &experiment::unchecked())?;
     let needs_saved = matches!(
@@ -172,7 +172,7 @@ fn call(fmu: &Fmu, case: &Case<'_>) -> Result<Option<Status>, Error> {
 
 type Made = Result<Option<Result<(), Error>>, Error>;
 
-fn make(instance: &mut Instance, case: &Case<'_>, saved: Option<Saved>, bytes: &[u8]) -> Made {
+fn make(instance: &mut Instance, case: &CallCase<'_>, saved: Option<Saved>, bytes: &[u8]) -> Made {
     let fmu = instance.fmu().clone();
     let flags = fmu.co_simulation()?;
     let times = experiment::times(&fmu)?;

@@ -2,7 +2,7 @@
 
 use std::{fs, io::Write, path::Path};
 
-use loader::{Error, Fmu, Limits, unpack};
+use loader::{ArchiveLimits, Error, Fmu, unpack};
 use zip::{ZipWriter, write::SimpleFileOptions};
 
 fn archive(path: &Path, entries: &[(&str, &[u8])]) {
@@ -15,14 +15,14 @@ fn archive(path: &Path, entries: &[(&str, &[u8])]) {
 }
 
 /// Unpacks into `scratch/inner`, and checks that nothing else in `scratch` changed.
-fn try_unpack(entries: &[(&str, &[u8])], limits: Limits) -> Result<Vec<String>, String> {
+fn try_unpack(entries: &[(&str, &[u8])], limits: ArchiveLimits) -> Result<Vec<String>, String> {
     let scratch = tempfile::tempdir().unwrap();
     let path = scratch.path().join("a.fmu");
     archive(&path, entries);
     unpack_in(scratch.path(), &path, limits)
 }
 
-fn unpack_in(scratch: &Path, path: &Path, limits: Limits) -> Result<Vec<String>, String> {
+fn unpack_in(scratch: &Path, path: &Path, limits: ArchiveLimits) -> Result<Vec<String>, String> {
     let inner = scratch.join("inner");
     fs::create_dir_all(&inner).unwrap();
     let outcome = unpack(path, &inner, limits).map_err(|error| error.to_string());
@@ -52,14 +52,14 @@ fn list(root: &Path, folder: &Path, files: &mut Vec<String>) {
 fn plain_archives_unpack() {
     let files = try_unpack(
         &[("modelDescription.xml", b"<x/>"), ("resources/a/b.txt", b"b"), ("./binaries//l.so", b"")],
-        Limits::default(),
+        ArchiveLimits::default(),
     );
     assert_eq!(files.unwrap(), ["binaries/l.so", "modelDescription.xml", "resources/a/b.txt"]);
 }
 
 #[test]
 fn backslashes_of_windows_packers_are_folders() {
-    let files = try_unpack(&[("resources\\deep\\a.txt", b"a")], Limits::default());
+    let files = try_unpack(&[("resources\\deep\\a.txt", b"a")], ArchiveLimits::default());
     assert_eq!(files.unwrap(), ["resources/deep/a.txt"]);
 }
 
@@ -68,7 +68,7 @@ fn paths_that_leave_the_folder_are_refused() {
     let slashes = "../evil.txt a/../../evil.txt a/.. /etc/evil .. file.txt:stream";
     let backslashes = r"..\evil.txt a\..\..\evil C:\evil C:evil \\server\share\evil";
     for name in slashes.split(' ').chain(backslashes.split(' ')) {
-        let error = try_unpack(&[(name, b"evil")], Limits::default()).unwrap_err();
+        let error = try_unpack(&[(name, b"evil")], ArchiveLimits::default()).unwrap_err();
         assert!(error.contains("leaves the folder") && error.contains(&format!("{name:?}")), "{error}");
     }
 }
@@ -81,21 +81,21 @@ fn links_are_refused() {
     zip.add_symlink("resources", "/etc", SimpleFileOptions::default()).unwrap();
     zip.start_file("resources/passwd", SimpleFileOptions::default()).unwrap();
     zip.finish().unwrap();
-    let error = unpack_in(scratch.path(), &path, Limits::default()).unwrap_err();
+    let error = unpack_in(scratch.path(), &path, ArchiveLimits::default()).unwrap_err();
     assert!(error.contains("symbolic link"), "{error}");
 }
 
 #[test]
 fn bombs_stop_at_the_limit() {
     let zeros = vec![0; 1 << 20];
-    let limits = Limits { total_bytes: 100_000, ..Limits::default() };
+    let limits = ArchiveLimits { total_bytes: 100_000, ..ArchiveLimits::default() };
     let error = try_unpack(&[("small", b"x"), ("bomb", &zeros)], limits).unwrap_err();
     assert!(error.contains("100000 bytes") && error.contains("bomb"), "{error}");
 
     // Exactly the limit is allowed.
-    let limits = Limits { total_bytes: 1 << 20, ..Limits::default() };
+    let limits = ArchiveLimits { total_bytes: 1 << 20, ..ArchiveLimits::default() };
     assert!(try_unpack(&[("bomb", &zeros)], limits).is_ok());
-    let limits = Limits { total_bytes: (1 << 20) - 1, ..Limits::default() };
+    let limits = ArchiveLimits { total_bytes: (1 << 20) - 1, ..ArchiveLimits::default() };
     assert!(try_unpack(&[("bomb", &zeros)], limits).is_err());
 }
 
@@ -111,7 +111,7 @@ fn a_size_that_lies_gains_nothing() {
         bytes[at + offset..at + offset + 4].copy_from_slice(&10u32.to_le_bytes());
     }
     fs::write(&path, bytes).unwrap();
-    let limits = Limits { total_bytes: 100_000, ..Limits::default() };
+    let limits = ArchiveLimits { total_bytes: 100_000, ..ArchiveLimits::default() };
     assert!(unpack_in(scratch.path(), &path, limits).is_err());
     let written = fs::metadata(scratch.path().join("inner/bomb")).map_or(0, |metadata| metadata.len());
     assert!(written <= 100_001, "{written} bytes were written");
@@ -121,7 +121,7 @@ fn a_size_that_lies_gains_nothing() {
 fn too_many_entries_are_refused() {
     let names: Vec<String> = (0..20).map(|k| format!("f{k}")).collect();
     let entries: Vec<(&str, &[u8])> = names.iter().map(|name| (name.as_str(), &b""[..])).collect();
-    let error = try_unpack(&entries, Limits { entries: 19, ..Limits::default() }).unwrap_err();
+    let error = try_unpack(&entries, ArchiveLimits { entries: 19, ..ArchiveLimits::default() }).unwrap_err();
     assert!(error.contains("20 entries, at most 19"), "{error}");
 }
 

@@ -5,8 +5,8 @@ use physics::{attitude::angle_between_rad, constants::RPM_RAD_S, environment::da
 use serde::Serialize;
 
 use super::{
-    PlanError, Row, Task,
-    flight::Flight,
+    PlanError, Task, TrainForecast,
+    flight::SimulatedPlan,
     limit_checks::LimitCheck,
     options::RightAscensionDeclination,
     start_values::{self, Setting},
@@ -24,9 +24,9 @@ pub struct PlannedBurn {
     /// What was requested.
     pub task: Task,
     /// The train.
-    pub row: Row,
+    pub row: TrainForecast,
     /// How it is simulated.
-    pub flight: Flight,
+    pub flight: SimulatedPlan,
     /// Its limits.
     pub checks: Vec<LimitCheck>,
 }

@@ -162,7 +162,8 @@ fn limits_are_named_and_checked() {
 fn the_plan_is_the_best_that_keeps_the_files_limits() {
     let task = super::tests::task("--angle 2");
     let rows = super::trade(&task).unwrap();
-    let varies_s = |row: &super::Row| 2.0 * row.peak_rad.to_degrees() / (30.0 * 10_f64.to_radians().tan());
+    let varies_s =
+        |row: &super::TrainForecast| 2.0 * row.peak_rad.to_degrees() / (30.0 * 10_f64.to_radians().tan());
     for limit_s in [0.007, 0.01, 0.02, 0.05] {
         let file = ACE.replace("period_variation_s = 0.007", &format!("period_variation_s = {limit_s}"));
         let spinner = Spinner::parse("my.toml", &file).unwrap();

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use physics::attitude::angle_between_rad;
 use physics::spin::{geometry::L1Phases, nutation::allowed_nutation_rad, spinner::Spinner, train::Shape};
 
-use super::{PlanError, Row, Task, best, evaluate, uniform_plan};
+use super::{PlanError, Task, TrainForecast, best, evaluate, uniform_plan};
 
 const DAY_S: f64 = 86_400.0;
 /// Samples of Sun and Earth between two manoeuvres.
@@ -130,9 +130,9 @@ pub fn campaign(
 
 /// The train of 32 ms units, once a turn, that keeps the limits and costs science the least; of equals the one that ends
 /// the quietest.
-fn least_nutation(task: &Task, uniform: &Row) -> Result<Row, PlanError> {
+fn least_nutation(task: &Task, uniform: &TrainForecast) -> Result<TrainForecast, PlanError> {
     let tapered = (1..=3).filter_map(|order| evaluate(task, Shape::Tapered { order }, 1, 1.0));
-    let mut rows: Vec<Row> = core::iter::once(uniform.clone()).chain(tapered).collect();
+    let mut rows: Vec<TrainForecast> = core::iter::once(uniform.clone()).chain(tapered).collect();
     rows.sort_by(|a, b| {
         a.science_lost_s.total_cmp(&b.science_lost_s).then(a.final_rad.total_cmp(&b.final_rad))
     });

@@ -3,7 +3,7 @@
 use physics::spin::spinner::Spinner;
 
 use super::{
-    PlanError, Row, Task,
+    PlanError, Task, TrainForecast,
     flight::simulated,
     limit_checks::{broken, check_limits},
 };
@@ -15,7 +15,7 @@ use super::{
 pub(super) fn broken_limits(
     spinner: &Spinner,
     task: &Task,
-    row: &Row,
+    row: &TrainForecast,
 ) -> Result<Vec<&'static str>, PlanError> {
     let flight = simulated(spinner, task, row)?;
     Ok(broken(&check_limits(spinner, task, row, &flight)))
@@ -29,9 +29,9 @@ pub(super) fn broken_limits(
 pub(super) fn by_all_limits<'a>(
     spinner: &Spinner,
     task: &Task,
-    rows: &'a [Row],
+    rows: &'a [TrainForecast],
     most: usize,
-) -> Result<Vec<&'a Row>, PlanError> {
+) -> Result<Vec<&'a TrainForecast>, PlanError> {
     let (mut simulated, mut failed, mut keeping) = (Vec::new(), None, 0);
     for row in rows.iter().filter(|row| row.fits) {
         match broken_limits(spinner, task, row) {

@@ -14,7 +14,7 @@ use physics::{
     },
 };
 
-use super::{Firing, PlanError, Row, Task};
+use super::{Firing, PlanError, Task, TrainForecast};
 
 /// Samples of a turn.
 const SAMPLES: f64 = 16.0;
@@ -44,7 +44,7 @@ pub struct Pulse {
 
 /// What is seen between and in pulses.
 #[derive(Clone, Copy, Debug)]
-pub struct Sample {
+pub struct SpinSample {
     /// In s.
     pub time_s: f64,
     /// In rad.
@@ -57,16 +57,16 @@ pub struct Sample {
 
 /// A simulated plan.
 #[derive(Clone, Debug)]
-pub struct Flight {
+pub struct SimulatedPlan {
     /// Where the axis stands before the first.
     pub start_axis_inertial: Vector3<f64>,
     /// The pulses.
     pub pulses: Vec<Pulse>,
     /// Over the whole flight.
-    pub samples: Vec<Sample>,
+    pub samples: Vec<SpinSample>,
 }
 
-impl Flight {
+impl SimulatedPlan {
     /// Where the axis stands after the last pulse.
     pub fn end_axis_inertial(&self) -> Vector3<f64> {
         self.pulses.last().map_or(self.start_axis_inertial, |pulse| pulse.axis_inertial)
@@ -79,7 +79,7 @@ impl Flight {
 }
 
 /// How the plant starts.
-fn start(spinner: &Spinner, task: &Task, row: &Row) -> Start {
+fn start(spinner: &Spinner, task: &Task, row: &TrainForecast) -> Start {
     let (train, case) = (&row.train, &task.case);
     let (thruster, opposite_thruster, group) = match &task.firing {
         Firing::Group(name) => (1, 0, name.clone()),
@@ -127,7 +127,11 @@ fn start(spinner: &Spinner, task: &Task, row: &Row) -> Start {
 ///
 /// # Errors
 /// A burn that the plant refuses, or that does not end.
-pub(super) fn simulated(spinner: &Spinner, task: &Task, row: &Row) -> Result<Flight, PlanError> {
+pub(super) fn simulated(
+    spinner: &Spinner,
+    task: &Task,
+    row: &TrainForecast,
+) -> Result<SimulatedPlan, PlanError> {
     let directions = Directions {
         sun_inertial: task.geometry.sun_inertial,
         earth_inertial: task.geometry.earth_inertial.unwrap_or_else(Vector3::zeros),
@@ -141,7 +145,7 @@ pub(super) fn simulated(spinner: &Spinner, task: &Task, row: &Row) -> Result<Fli
         spinner,
         task,
         period_s,
-        flight: Flight {
+        flight: SimulatedPlan {
             start_axis_inertial: plant.state().momentum_inertial.normalize(),
             pulses: Vec::new(),
             samples: Vec::new(),
@@ -174,7 +178,7 @@ struct Flyer<'a> {
     task: &'a Task,
     period_s: f64,
     plant: Plant,
-    flight: Flight,
+    flight: SimulatedPlan,
     /// The pulse under way.
     opened: Option<Pulse>,
 }
@@ -267,7 +271,7 @@ impl Flyer<'_> {
 
     fn sample(&mut self) {
         let (state, inertia) = (self.plant.state(), self.plant.motion().inertia());
-        self.flight.samples.push(Sample {
+        self.flight.samples.push(SpinSample {
             time_s: self.plant.time_s(),
             nutation_rad: state.nutation_rad(inertia),
             spin_axis_inertial: state.attitude.spin_axis_inertial(),

@@ -6,7 +6,7 @@ use physics::{
     spin::{nutation::period_variation_s, spinner::Spinner},
 };
 
-use super::{Row, Task, flight::Flight};
+use super::{Task, TrainForecast, flight::SimulatedPlan};
 
 /// One limit.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -41,7 +41,12 @@ impl LimitCheck {
 
 /// The limits that the spacecraft's file and the flags give, each checked on the flight, and on the worst of the range where
 /// the plan knows it.
-pub(super) fn check_limits(spinner: &Spinner, task: &Task, row: &Row, flight: &Flight) -> Vec<LimitCheck> {
+pub(super) fn check_limits(
+    spinner: &Spinner,
+    task: &Task,
+    row: &TrainForecast,
+    flight: &SimulatedPlan,
+) -> Vec<LimitCheck> {
     let (limits, sun, earth) = (&spinner.limits, task.geometry.sun_inertial, task.geometry.earth_inertial);
     let of_earth = over_time(
         flight,
@@ -102,10 +107,10 @@ pub(super) fn broken(checks: &[LimitCheck]) -> Vec<&'static str> {
 
 /// A limit that holds all the time.
 fn over_time(
-    flight: &Flight,
+    flight: &SimulatedPlan,
     (limit, given_by, unit): (&'static str, &'static str, &'static str),
     allowed: (f64, f64),
-    value: impl Fn(&nalgebra::Vector3<f64>, &super::flight::Sample) -> f64,
+    value: impl Fn(&nalgebra::Vector3<f64>, &super::flight::SpinSample) -> f64,
 ) -> LimitCheck {
     // None of these is below 0.
     let least = if allowed.0 > 0.0 { allowed.0 } else { f64::NEG_INFINITY };

@@ -30,7 +30,7 @@ mod verification_tests;
 pub use burn_table::PlannedBurn;
 pub use campaign::{Cadence, campaign, longest_interval_s, windows};
 pub use error::PlanError;
-pub use flight::{Flight, Pulse, Sample};
+pub use flight::{Pulse, SimulatedPlan, SpinSample};
 pub use limit_checks::LimitCheck;
 #[cfg(test)]
 use options::ACE;
@@ -38,6 +38,6 @@ pub use options::{Options, TimingOption};
 pub use start_values::toml as start_table;
 pub use task::{Firing, Task, TaskLimits};
 pub use text::{Answer, plan};
-pub use trade::{Row, best, evaluate, frontier, timing_label, trade, uniform_plan};
+pub use trade::{TrainForecast, best, evaluate, frontier, timing_label, trade, uniform_plan};
 pub use turn_geometry::{MOST_ANGLE_DEG, TurnGeometry, Way, right_ascension_declination_deg};
 pub use verification::{Verification, verify};

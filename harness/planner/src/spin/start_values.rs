@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use physics::spin::{forecast::Timing, train::Shape};
 
-use super::{Firing, Row, Task};
+use super::{Firing, Task, TrainForecast};
 
 /// The value of a variable, or of all elements of a vector.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -39,7 +39,7 @@ pub(super) fn timing_item(timing: Timing) -> &'static str {
 }
 
 /// Everything that the flight depends on and that the spacecraft's file does not say by itself.
-pub(super) fn start_values(task: &Task, row: &Row) -> Vec<(&'static str, Setting)> {
+pub(super) fn start_values(task: &Task, row: &TrainForecast) -> Vec<(&'static str, Setting)> {
     let train = &row.train;
     let (plan, order) = plan_item(train.shape());
     let whole = |count: u32| Setting::Integer(i32::try_from(count).unwrap_or(i32::MAX));

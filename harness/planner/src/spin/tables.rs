@@ -2,7 +2,7 @@
 
 use terminal::Table;
 
-use super::{Row, limit_checks::LimitCheck};
+use super::{TrainForecast, limit_checks::LimitCheck};
 
 /// A table whose columns stand one space apart.
 pub(super) fn narrow(header: &[&str]) -> Table {
@@ -12,11 +12,11 @@ pub(super) fn narrow(header: &[&str]) -> Table {
 /// `count` rows of a trade: the best trains, and the uniform plan as the last; `None` for no rows. `keeps` says which keep the
 /// limits of the flags and those of the file in `checks`.
 pub(super) fn trade(
-    rows: &[&Row],
-    uniform: &Row,
+    rows: &[&TrainForecast],
+    uniform: &TrainForecast,
     count: usize,
     checks: &[LimitCheck],
-    keeps: impl Fn(&Row) -> bool,
+    keeps: impl Fn(&TrainForecast) -> bool,
 ) -> Option<String> {
     let with_uniform = count > 1;
     let trains = if with_uniform { count - 1 } else { count };
@@ -26,8 +26,9 @@ pub(super) fn trade(
     let mut table = narrow(&[
         "train", "n", "ms", "min", "left deg", "peak deg", "moved", "g", "saved h", "lost h", "limits",
     ]);
-    let is_uniform = |row: &Row| row.train == uniform.train;
-    let others: Vec<&Row> = rows.iter().copied().filter(|row| !(with_uniform && is_uniform(row))).collect();
+    let is_uniform = |row: &TrainForecast| row.train == uniform.train;
+    let others: Vec<&TrainForecast> =
+        rows.iter().copied().filter(|row| !(with_uniform && is_uniform(row))).collect();
     for row in others.iter().take(trains) {
         table.add_row(cells(row, keeps(row), ""));
     }
@@ -49,7 +50,7 @@ pub(super) fn trade(
     Some(text)
 }
 
-fn cells(row: &Row, keeps: bool, mark: &str) -> Vec<String> {
+fn cells(row: &TrainForecast, keeps: bool, mark: &str) -> Vec<String> {
     let hours =
         |time_s: f64| if time_s.is_finite() { format!("{:.2}", time_s / 3600.0) } else { "endless".into() };
     vec![

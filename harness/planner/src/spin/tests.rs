@@ -5,7 +5,8 @@ use physics::attitude::Inertia;
 use physics::spin::{damper::Damper, geometry::L1Phases, spinner::Spinner, train::Shape};
 
 use super::{
-    ACE, Options, Row, Task, best, campaign, frontier, longest_interval_s, plan, trade, uniform_plan,
+    ACE, Options, Task, TrainForecast, best, campaign, frontier, longest_interval_s, plan, trade,
+    uniform_plan,
 };
 
 #[derive(Parser)]
@@ -38,7 +39,7 @@ pub(super) fn refused(arguments: &str, parts: &[&str]) {
     assert_has(&plan(&options(arguments)).unwrap_err().to_string(), parts);
 }
 
-fn chosen(task: &Task) -> Row {
+fn chosen(task: &Task) -> TrainForecast {
     best(&trade(task).unwrap()).unwrap().clone()
 }
 

@@ -6,7 +6,7 @@ use loader::Fmu;
 use physics::{constants::RPM_RAD_S, spin::spinner::Spinner};
 
 use super::{
-    Options, PlanError, PlannedBurn, Row, Task, Verification, best,
+    Options, PlanError, PlannedBurn, Task, TrainForecast, Verification, best,
     choice::{broken_limits, by_all_limits},
     flight::simulated,
     frontier,
@@ -101,9 +101,10 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
     let uniform = uniform_plan(&task)?;
     let beaten_by_none = frontier(&rows);
     let others = beaten_by_none.iter().copied().filter(|row| row.train != chosen.train);
-    let shown: Vec<&Row> = std::iter::once(chosen).chain(others).collect();
-    let keeps =
-        |row: &Row| row.fits && broken_limits(spinner, &task, row).is_ok_and(|broken| broken.is_empty());
+    let shown: Vec<&TrainForecast> = std::iter::once(chosen).chain(others).collect();
+    let keeps = |row: &TrainForecast| {
+        row.fits && broken_limits(spinner, &task, row).is_ok_and(|broken| broken.is_empty())
+    };
     if let Some(table) = tables::trade(&shown, &uniform, options.rows, &checks, keeps) {
         line(&table);
     }
@@ -193,8 +194,8 @@ fn way(way: &Way) -> String {
 fn simulated_again<'a>(
     options: &Options,
     task: &Task,
-    rows: &[&'a Row],
-) -> Result<(&'a Row, Vec<String>), PlanError> {
+    rows: &[&'a TrainForecast],
+) -> Result<(&'a TrainForecast, Vec<String>), PlanError> {
     let first =
         || rows.first().copied().ok_or_else(|| PlanError::Flight("no train was simulated".to_owned()));
     let not_simulated = |why: String| Ok((first()?, vec![format!("Not re-simulated: {why}")]));
@@ -233,7 +234,7 @@ fn simulated_again<'a>(
 }
 
 /// What came out of a simulation that kept everything, beside what was predicted.
-fn kept(task: &Task, row: &Row, simulated: &Verification) -> String {
+fn kept(task: &Task, row: &TrainForecast, simulated: &Verification) -> String {
     let rates =
         if simulated.rates > 1 { format!(" at {} spin rates", simulated.rates) } else { String::new() };
     format!(

@@ -15,7 +15,7 @@ const UNITS: [u32; 9] = [1, 2, 3, 4, 6, 8, 12, 16, 32];
 
 /// One train and what it does.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct TrainForecast {
     /// The train.
     pub train: Train,
     /// Worst nutation after the last pulse, in rad.
@@ -45,7 +45,7 @@ pub struct Row {
     pub fits: bool,
 }
 
-impl Row {
+impl TrainForecast {
     /// The same in a few letters, for a table.
     pub fn short_label(&self) -> String {
         let shape = match self.train.shape() {
@@ -74,7 +74,7 @@ impl Row {
 ///
 /// # Errors
 /// A thruster too coarse or too weak for the angle.
-pub fn trade(task: &Task) -> Result<Vec<Row>, PlanError> {
+pub fn trade(task: &Task) -> Result<Vec<TrainForecast>, PlanError> {
     let reference = uniform_plan(task)?;
     let mut rows = Vec::new();
     for turns in [0.5_f64, 1.0, 1.5, 2.0] {
@@ -108,8 +108,8 @@ pub fn trade(task: &Task) -> Result<Vec<Row>, PlanError> {
 }
 
 /// Those of `rows` that no other beats in final nutation, peak and duration at once, in their order.
-pub fn frontier(rows: &[Row]) -> Vec<&Row> {
-    let beats = |a: &Row, b: &Row| {
+pub fn frontier(rows: &[TrainForecast]) -> Vec<&TrainForecast> {
+    let beats = |a: &TrainForecast, b: &TrainForecast| {
         let no_worse = a.final_rad <= b.final_rad && a.peak_rad <= b.peak_rad && a.duration_s <= b.duration_s;
         no_worse && (a.final_rad < b.final_rad || a.peak_rad < b.peak_rad || a.duration_s < b.duration_s)
     };
@@ -117,8 +117,8 @@ pub fn frontier(rows: &[Row]) -> Vec<&Row> {
 }
 
 /// The train of least worst final nutation that keeps the limits, of a [`trade`].
-pub fn best(rows: &[Row]) -> Result<&Row, PlanError> {
-    let least = |value: fn(&Row) -> f64| rows.iter().map(value).fold(f64::INFINITY, f64::min);
+pub fn best(rows: &[TrainForecast]) -> Result<&TrainForecast, PlanError> {
+    let least = |value: fn(&TrainForecast) -> f64| rows.iter().map(value).fold(f64::INFINITY, f64::min);
     rows.iter().find(|row| row.fits).ok_or_else(|| {
         PlanError::Refused(format!(
             "no plan keeps the limits: over all plans the least peak nutation is {:.5} deg, the least final nutation {:.6} deg, \
@@ -136,10 +136,10 @@ pub fn best(rows: &[Row]) -> Result<&Row, PlanError> {
 ///
 /// # Errors
 /// A step of the thruster that is longer than half a turn, or too weak.
-pub fn uniform_plan(task: &Task) -> Result<Row, PlanError> {
+pub fn uniform_plan(task: &Task) -> Result<TrainForecast, PlanError> {
     let (pulse_s, half_turn_s) = (task.resolution_s, 0.5 * task.case.spin.period_s());
     evaluate(&task.with_angle(task.angle_rad), Shape::Uniform, 1, 1.0)
-        .map(|row| Row { fits: row.fits && task.meets_angle(row.moved_rad), ..row })
+        .map(|row| TrainForecast { fits: row.fits && task.meets_angle(row.moved_rad), ..row })
         .ok_or_else(|| {
             let why = if pulse_s > half_turn_s {
                 format!(
@@ -154,7 +154,7 @@ pub fn uniform_plan(task: &Task) -> Result<Row, PlanError> {
 }
 
 /// One train for the task; `None` where there is none of this kind.
-pub fn evaluate(task: &Task, shape: Shape, unit: u32, turns: f64) -> Option<Row> {
+pub fn evaluate(task: &Task, shape: Shape, unit: u32, turns: f64) -> Option<TrainForecast> {
     let spin = &task.case.spin;
     let width_s = f64::from(unit) * task.resolution_s;
     let pulses =
@@ -181,7 +181,7 @@ pub fn evaluate(task: &Task, shape: Shape, unit: u32, turns: f64) -> Option<Row>
     let limits = &task.limits;
     let damping_s = damping_s(task, worst.final_nutation_rad);
     let disturbed = worst.peak_nutation_rad > task.allowed_nutation_rad;
-    Some(Row {
+    Some(TrainForecast {
         train,
         final_rad: worst.final_nutation_rad,
         nominal_final_rad: nominal.final_nutation_rad,

@@ -10,7 +10,7 @@ use physics::spin::{
 };
 
 use super::{
-    Firing, PlanError, Row, Task,
+    Firing, PlanError, Task, TrainForecast,
     start_values::{plan_item, timing_item},
 };
 
@@ -65,7 +65,7 @@ struct Simulated {
 ///
 /// # Errors
 /// An FMU that refuses the simulation, has other thrusters, or does not end the burn.
-pub fn verify(fmu: &Fmu, task: &Task, row: &Row, ratios: u32) -> Result<Verification, PlanError> {
+pub fn verify(fmu: &Fmu, task: &Task, row: &TrainForecast, ratios: u32) -> Result<Verification, PlanError> {
     let ratios = ratios.max(1);
     let rates: &[f64] = if task.range.rate_rad_s > 0.0 { &[-1.0, 0.0, 1.0] } else { &[0.0] };
     let mut seen = Verification {
@@ -106,7 +106,7 @@ pub fn verify(fmu: &Fmu, task: &Task, row: &Row, ratios: u32) -> Result<Verifica
 }
 
 /// Runs `row` once with the body `spin`; the burn goes by what the task assumes.
-fn simulate(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Simulated, PlanError> {
+fn simulate(fmu: &Fmu, task: &Task, row: &TrainForecast, spin: &Spin) -> Result<Simulated, PlanError> {
     let stop_s = row.train.duration_s(spin.period_s()) + 4.0 * spin.period_s();
     let names = [
         "nutation.angle",
@@ -162,7 +162,7 @@ fn simulate(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Simulated,
 
 /// Everything the simulation depends on, whatever the FMU's own start values are: the momentum starts along +Z and turns toward
 /// +X, the Sun stands across that plane.
-fn sets(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Vec<(String, Value)>, PlanError> {
+fn sets(fmu: &Fmu, task: &Task, row: &TrainForecast, spin: &Spin) -> Result<Vec<(String, Value)>, PlanError> {
     let (plan, order) = plan_item(row.train.shape());
     let (assumed, transverse) = (&task.case.spin, spin.inertia_kg_m2 / spin.ratio);
     let real = |name: &str, value: f64| (name.to_owned(), Value::Real(value));

@@ -6,7 +6,7 @@ use loader::Fmu;
 use physics::spin::train::Shape;
 
 use super::tests::{ace, assert_has, options, task};
-use super::{Firing, Options, Row, Task, evaluate, verify};
+use super::{Firing, Options, Task, TrainForecast, evaluate, verify};
 
 /// The shipped FMU; `None` where `cargo xtask test` does not say where it is.
 fn shipped() -> Option<Fmu> {
@@ -23,7 +23,7 @@ fn assert_near(found: f64, expected: f64, tolerance: f64, seen: &dyn std::fmt::D
     assert!((found / expected - 1.0).abs() < tolerance, "{seen:?}");
 }
 
-fn row(task: &Task, shape: Shape, turns: f64) -> Row {
+fn row(task: &Task, shape: Shape, turns: f64) -> TrainForecast {
     evaluate(task, shape, 1, turns).unwrap()
 }
 

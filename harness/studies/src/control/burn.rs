@@ -1,6 +1,6 @@
 //! Figures 10 and 11 of paper 001: a burn of 10 m/s with each correction of its direction, over seeds.
 
-use super::burn_flight::{DELTA_V_M_S, Kind, START_S, Sample, Simulated};
+use super::burn_flight::{BurnKind, BurnSample, DELTA_V_M_S, START_S, Simulated};
 use super::guided_loop::Loop;
 use crate::attitude::{Vector, across, angle_rad};
 use crate::cells::row;
@@ -17,16 +17,16 @@ const BOTH_DEG: f64 = 0.03;
 /// Of the pictures.
 const SHOWN_SEED: i32 = 1;
 
-const fn kind(label: &'static str, predictive: bool, reactive: bool) -> Kind {
-    Kind { label, predictive, reactive, bias_m_s2: BIAS_M_S2 }
+const fn kind(label: &'static str, predictive: bool, reactive: bool) -> BurnKind {
+    BurnKind { label, predictive, reactive, bias_m_s2: BIAS_M_S2 }
 }
 
-const KINDS: [Kind; 5] = [
+const KINDS: [BurnKind; 5] = [
     kind("none", false, false),
     kind("theta", true, false),
     kind("beta", false, true),
     kind("both", true, true),
-    Kind { bias_m_s2: GREAT_BIAS_M_S2, ..kind("both, bias 1e-4 m/s2", true, true) },
+    BurnKind { bias_m_s2: GREAT_BIAS_M_S2, ..kind("both, bias 1e-4 m/s2", true, true) },
 ];
 
 /// A flight's end.
@@ -60,19 +60,19 @@ fn rms(values: impl Iterator<Item = f64>) -> f64 {
 pub(crate) fn burn(run: &mut Run<'_>) -> Outcome {
     let kinds = run.chosen(KINDS, |kind| kind.label.to_owned())?;
     let both = Loop::open(run.options)?;
-    let cases: Vec<(Kind, i32)> =
+    let cases: Vec<(BurnKind, i32)> =
         kinds.iter().flat_map(|kind| (1..=SEEDS).map(|seed| (*kind, seed))).collect();
     let step_s = run.options.step_s;
     let simulated = run.all(&cases, |(kind, seed)| kind.simulated(&both, *seed, step_s))?;
     run.line("A burn of 10 m/s at 0.088 m/s2 with the thrust 0.75 deg off (paper 001, Figures 10 and 11)\n");
-    let each: Vec<(Kind, &[Simulated])> =
+    let each: Vec<(BurnKind, &[Simulated])> =
         kinds.iter().copied().zip(simulated.chunks(SEEDS as usize)).collect();
     let rows: Vec<_> = each.iter().map(|(kind, simulated)| shown(kind, simulated)).collect();
     let header = "corrections | direction rms | direction worst | magnitude rms | allowed | verdict";
     run.table(header, &rows);
     run.line(&remark(&each));
     write(run, &each)?;
-    let shown: Vec<(Kind, &Simulated)> = each
+    let shown: Vec<(BurnKind, &Simulated)> = each
         .iter()
         .filter(|(kind, _)| kind.bias_m_s2 == BIAS_M_S2)
         .filter_map(|(kind, simulated)| Some((*kind, simulated.get(SHOWN_SEED as usize - 1)?)))
@@ -88,7 +88,7 @@ fn direction_deg(simulated: &[Simulated]) -> f64 {
     rms(simulated.iter().map(|simulated| Errors::of(simulated).direction_deg))
 }
 
-fn shown(kind: &Kind, simulated: &[Simulated]) -> Vec<String> {
+fn shown(kind: &BurnKind, simulated: &[Simulated]) -> Vec<String> {
     let errors: Vec<Errors> = simulated.iter().map(Errors::of).collect();
     let direction_deg = direction_deg(simulated);
     let worst_deg = errors.iter().map(|it| it.direction_deg).fold(0.0, f64::max);
@@ -114,7 +114,7 @@ fn shown(kind: &Kind, simulated: &[Simulated]) -> Vec<String> {
     ]
 }
 
-fn remark(each: &[(Kind, &[Simulated])]) -> String {
+fn remark(each: &[(BurnKind, &[Simulated])]) -> String {
     let of = |label: &str| {
         each.iter().find(|(kind, _)| kind.label == label).map(|(_, simulated)| direction_deg(simulated))
     };
@@ -133,7 +133,7 @@ fn remark(each: &[(Kind, &[Simulated])]) -> String {
     )
 }
 
-fn write(run: &mut Run<'_>, each: &[(Kind, &[Simulated])]) -> Outcome {
+fn write(run: &mut Run<'_>, each: &[(BurnKind, &[Simulated])]) -> Outcome {
     let rows = each.iter().flat_map(|(kind, simulated)| {
         (1..=SEEDS).zip(simulated.iter()).map(|(seed, simulated)| {
             let Errors { direction_deg, magnitude_mm_s, .. } = Errors::of(simulated);
@@ -146,7 +146,7 @@ fn write(run: &mut Run<'_>, each: &[(Kind, &[Simulated])]) -> Outcome {
     let first = each.iter().filter_map(|(kind, simulated)| Some((kind, simulated.first()?)));
     let rows = first.flat_map(|(kind, simulated)| {
         simulated.samples.iter().map(|sample| {
-            let Sample { time_s, command_q, estimate_q, delta_v_m_s, .. } = *sample;
+            let BurnSample { time_s, command_q, estimate_q, delta_v_m_s, .. } = *sample;
             let off_path_m_s = off_path_m_s(simulated, sample);
             row![kind.label, time_s, command_q, estimate_q, delta_v_m_s, off_path_m_s]
         })
@@ -159,12 +159,12 @@ fn write(run: &mut Run<'_>, each: &[(Kind, &[Simulated])]) -> Outcome {
 }
 
 /// Distance of the true velocity from the straight path, in m/s.
-fn off_path_m_s(simulated: &Simulated, sample: &Sample) -> f64 {
+fn off_path_m_s(simulated: &Simulated, sample: &BurnSample) -> f64 {
     across(&sample.delta_v_m_s, &simulated.commanded_m_s.normalize()).norm()
 }
 
 fn quaternion_chart(simulated: &Simulated) -> Chart {
-    let points = |of: &dyn Fn(&Sample) -> f64| -> Vec<(f64, f64)> {
+    let points = |of: &dyn Fn(&BurnSample) -> f64| -> Vec<(f64, f64)> {
         // Before its first sample Guidance holds what it starts with.
         let commanded = simulated.samples.iter().filter(|sample| sample.time_s >= 0.5 * START_S);
         commanded.map(|sample| (sample.time_s, of(sample))).collect()
@@ -180,8 +180,8 @@ fn quaternion_chart(simulated: &Simulated) -> Chart {
         .with((0..4).map(panel))
 }
 
-fn velocity_chart(shown: &[(Kind, &Simulated)]) -> Chart {
-    let from_start = |simulated: &Simulated, of: &dyn Fn(&Sample) -> f64| -> Vec<(f64, f64)> {
+fn velocity_chart(shown: &[(BurnKind, &Simulated)]) -> Chart {
+    let from_start = |simulated: &Simulated, of: &dyn Fn(&BurnSample) -> f64| -> Vec<(f64, f64)> {
         let burning = simulated.samples.iter().filter(|sample| sample.time_s >= START_S);
         burning.map(|sample| (sample.time_s, 1e3 * of(sample))).collect()
     };

@@ -28,7 +28,7 @@ const SAMPLE_S: f64 = 1.0;
 
 /// Burns with the same corrections and accelerometers.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Kind {
+pub(super) struct BurnKind {
     /// For messages and tables.
     pub label: &'static str,
     /// Whether theta is corrected.
@@ -41,7 +41,7 @@ pub(super) struct Kind {
 
 recorded! {
     /// What is kept of a second.
-    pub(super) struct Sample {
+    pub(super) struct BurnSample {
         @time_s,
         /// True velocity added, EME2000, in m/s.
         pub delta_v_m_s: Vector = "plant.deltaV",
@@ -69,12 +69,12 @@ recorded! {
 #[derive(Clone, Debug)]
 pub(super) struct Simulated {
     /// One a second.
-    pub samples: Vec<Sample>,
+    pub samples: Vec<BurnSample>,
     /// Velocity to add, EME2000, in m/s.
     pub commanded_m_s: Vector,
 }
 
-impl Kind {
+impl BurnKind {
     /// Simulates one from the attitude that is commanded first, in steps of `step_s`, otherwise of a second.
     pub(super) fn simulated(
         &self,
@@ -84,9 +84,9 @@ impl Kind {
     ) -> Result<Simulated, StudyError> {
         let step_s = whole_part_of_a_second(step_s)?;
         let label = format!("{}, seed {seed}", self.label);
-        let samples = |case: Case, commanded_m_s: &Vector| -> Result<Vec<Sample>, StudyError> {
+        let samples = |case: Case, commanded_m_s: &Vector| -> Result<Vec<BurnSample>, StudyError> {
             let case = self.set(case, seed).set("guidance.burn.deltaV", *commanded_m_s);
-            Ok(both.simulate(case, Sample::NAMES, &mut |_| Settings::new())?.all(0))
+            Ok(both.simulate(case, BurnSample::NAMES, &mut |_| Settings::new())?.all(0))
         };
         let short = Case::new(label.as_str(), SAMPLE_S, SAMPLE_S);
         // Along the orbit's plane or across it makes no difference; the Sun has to stand on -Y, so across the Sun line.

@@ -42,13 +42,13 @@ fn dumps() -> Vec<Dump> {
 /// A dump in controlled flight and as an impulse.
 struct Simulated {
     dump: Dump,
-    controlled: Vec<Sample>,
-    ideal: Sample,
+    controlled: Vec<DumpSample>,
+    ideal: DumpSample,
 }
 
 recorded! {
     /// What is kept of a point.
-    struct Sample {
+    struct DumpSample {
         @time_s,
         momentum_n_m_s: Vector = "momentum.body",
         impulse_n_m_s: Vector = "dump.impulse",
@@ -79,10 +79,10 @@ impl Dump {
 fn simulated(fmu: &Fmu, dump: &Dump) -> Result<Simulated, StudyError> {
     let [one, two] = HELD_N_M_S;
     let controlled = dump.case("controlled").set("wheel[1].startMomentum", one);
-    let controlled = controlled.set("wheel[2].startMomentum", two).simulate(fmu, Sample::NAMES)?;
-    let controlled: Vec<Sample> = controlled.all(0);
+    let controlled = controlled.set("wheel[2].startMomentum", two).simulate(fmu, DumpSample::NAMES)?;
+    let controlled: Vec<DumpSample> = controlled.all(0);
     let ideal = dump.case("commanded").set("start.momentum", controlled[0].momentum_n_m_s);
-    let ideal = ideal.grid(10.0, 1.0).simulate(fmu, Sample::NAMES)?.last_row().read();
+    let ideal = ideal.grid(10.0, 1.0).simulate(fmu, DumpSample::NAMES)?.last_row().read();
     Ok(Simulated { dump: dump.clone(), controlled, ideal })
 }
 
@@ -97,7 +97,7 @@ impl Simulated {
         let last = &controlled[controlled.len() - 1];
         let left = last.momentum_n_m_s - dump.target_n_m_s;
         let apart = last.impulse_n_m_s - ideal.impulse_n_m_s;
-        let most = |of: fn(&Sample) -> f64| controlled.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+        let most = |of: fn(&DumpSample) -> f64| controlled.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
         vec![
             dump.label.to_owned(),
             format!("{:.3}", ideal.impulse_n_m_s.norm()),
@@ -143,12 +143,12 @@ pub(crate) fn dump(run: &mut Run<'_>) -> Outcome {
 /// The dump over time, until a while after its end.
 fn figure(simulated: &Simulated) -> Chart {
     let end_s = simulated.duration_s() + 60.0;
-    let line = |label: &str, value: &dyn Fn(&Sample) -> f64| {
+    let line = |label: &str, value: &dyn Fn(&DumpSample) -> f64| {
         let shown = simulated.controlled.iter().filter(|sample| sample.time_s <= end_s);
         Series::line(label, shown.map(|sample| (sample.time_s, value(sample))).collect())
     };
     let components =
-        |of: fn(&Sample) -> Vector| [0, 1, 2].map(|i| line(["x", "y", "z"][i], &|sample| of(sample)[i]));
+        |of: fn(&DumpSample) -> Vector| [0, 1, 2].map(|i| line(["x", "y", "z"][i], &|sample| of(sample)[i]));
     let wheels = (0..4).map(|k| line(&format!("wheel {}", k + 1), &|sample| sample.wheels_n_m[k]));
     Chart::new(format!("Dump by pulses: {}", simulated.dump.label), "time [s]").with([
         Panel::new("momentum [N m s]")

@@ -3,7 +3,7 @@
 use systems::System;
 
 use crate::attitude::{Attitude, Vector};
-use crate::case::{Case, Recordable, Recorded, Row, at_start, recorded};
+use crate::case::{Case, Recordable, Recorded, RowReader, at_start, recorded};
 use crate::settings::{Settings, set};
 use crate::{Options, StudyError};
 
@@ -12,7 +12,7 @@ const SAMPLE_S: f64 = 1.0;
 
 recorded! {
     /// Where the plant is and what it does, and what is commanded, at one second; directions and attitudes from EME2000.
-    pub(super) struct Sample {
+    pub(super) struct LoopSample {
         @time_s,
         /// From the planet's centre, in m.
         position_m: Vector = "plant.position",
@@ -51,7 +51,7 @@ recorded! {
     }
 }
 
-impl Sample {
+impl LoopSample {
     /// From the spacecraft to the planet's centre, EME2000, in m.
     pub(super) fn to_planet_m(self) -> Vector {
         -self.position_m
@@ -74,7 +74,7 @@ impl Sample {
 }
 
 /// What is simulated in the loop.
-pub(super) struct Flight<'a> {
+pub(super) struct LoopCase<'a> {
     /// For messages and tables.
     pub label: &'a str,
     /// Past J2000 TDB, in s.
@@ -86,7 +86,7 @@ pub(super) struct Flight<'a> {
     /// Values besides, by `component.variable`.
     pub settings: Settings,
     /// What is set at a second.
-    pub inputs: &'a (dyn Fn(&Sample) -> Settings + Sync),
+    pub inputs: &'a (dyn Fn(&LoopSample) -> Settings + Sync),
 }
 
 /// The system.
@@ -117,7 +117,7 @@ impl Loop {
         &self,
         case: Case,
         names: &[&str],
-        inputs: &mut dyn FnMut(Row<'_>) -> Settings,
+        inputs: &mut dyn FnMut(RowReader<'_>) -> Settings,
     ) -> Result<Recorded, StudyError> {
         let held = case.set("guidance.start.q", Attitude::identity());
         held.set("guidance.ephemeris.source", "inputs").every(SAMPLE_S).steer(&self.0, names, inputs)
@@ -127,18 +127,18 @@ impl Loop {
     /// that is commanded first.
     pub(super) fn simulated(
         &self,
-        flight: &Flight<'_>,
+        flight: &LoopCase<'_>,
         step_s: Option<f64>,
-    ) -> Result<Vec<Sample>, StudyError> {
+    ) -> Result<Vec<LoopSample>, StudyError> {
         let step_s = whole_part_of_a_second(step_s)?;
-        let samples = |case: Case| -> Result<Vec<Sample>, StudyError> {
+        let samples = |case: Case| -> Result<Vec<LoopSample>, StudyError> {
             let case = case
                 .set("guidance.start.epoch", flight.epoch_s)
                 .set("plant.start.epoch", flight.epoch_s)
                 .set("plant.orbit.trueAnomaly", flight.true_anomaly_deg.to_radians())
                 .with(flight.settings.clone());
-            let mut inputs = |mut row: Row<'_>| (flight.inputs)(&row.read());
-            Ok(self.simulate(case, Sample::NAMES, &mut inputs)?.all(0))
+            let mut inputs = |mut row: RowReader<'_>| (flight.inputs)(&row.read());
+            Ok(self.simulate(case, LoopSample::NAMES, &mut inputs)?.all(0))
         };
         let first = samples(Case::new(flight.label, SAMPLE_S, SAMPLE_S))?;
         let start = first.last().map_or(Settings::new(), |last| {

@@ -1,6 +1,6 @@
 //! Attitude jitter of a flexible spacecraft by a wheel out of balance: lines at the wheel's speed and at the modes.
 
-use super::jitter_flight::{COUNT, FASTEST_HZ, Flight, LOWEST_HZ, RATE_HZ, Shaken, run_up};
+use super::jitter_flight::{COUNT, FASTEST_HZ, JitterCase, LOWEST_HZ, RATE_HZ, Shaken, run_up};
 use super::jitter_theory::Structure;
 use super::spectrum::Spectrum;
 use crate::cells::row;
@@ -15,10 +15,10 @@ const HEADER: &str = "\
     case | wheel [Hz] | line at [Hz] | amplitude [urad] | in closed form [urad] | ratio | \
     greatest at a mode [urad] | rms [urad]";
 
-fn flights(structure: &Structure) -> Vec<Flight> {
+fn flights(structure: &Structure) -> Vec<JitterCase> {
     let flight = |wheel_hz: f64, controlled: bool, at: String| {
         let how = if controlled { "controlled" } else { "free" };
-        Flight {
+        JitterCase {
             label: format!("{how}, {at}"),
             wheel_hz: Spectrum::nearest_hz(COUNT, RATE_HZ, wheel_hz),
             controlled,
@@ -30,7 +30,7 @@ fn flights(structure: &Structure) -> Vec<Flight> {
         .iter()
         .enumerate()
         .map(|(k, mode)| flight(structure.resonance_hz(mode), false, format!("wheel at mode {}", k + 1)));
-    let mut all: Vec<Flight> = beside.into_iter().chain(at_modes).collect();
+    let mut all: Vec<JitterCase> = beside.into_iter().chain(at_modes).collect();
     all.sort_by(|a, b| a.wheel_hz.total_cmp(&b.wheel_hz));
     all.push(flight(0.0, true, "wheel stands".to_owned()));
     all.push(flight(CONTROLLED_HZ, true, format!("wheel at {CONTROLLED_HZ} Hz")));

@@ -24,7 +24,7 @@ const NOISE: [f64; 2] = [2e-5, 1e-6];
 
 /// What is simulated.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Flight {
+pub(super) struct JitterCase {
     /// For tables and pictures.
     pub label: String,
     /// Speed of the first wheel, in Hz; the others stand.
@@ -36,7 +36,7 @@ pub(super) struct Flight {
 /// The attitude's spectrum, in rad.
 pub(super) struct Shaken {
     /// What was simulated.
-    pub flight: Flight,
+    pub flight: JitterCase,
     /// All axes together.
     pub spectrum: Spectrum,
 }
@@ -46,7 +46,7 @@ fn dark(label: &str, stop_s: f64) -> Case {
     Case::new(label, stop_s, 1.0 / RATE_HZ).set("solar.flux", 0.0).set("gravityGradient.enabled", false)
 }
 
-impl Flight {
+impl JitterCase {
     /// Simulates it.
     pub(super) fn simulated(&self, fmu: &Fmu, structure: &Structure) -> Result<Shaken, StudyError> {
         let stop_s = SETTLED_S + COUNT as f64 / RATE_HZ;

@@ -1,6 +1,6 @@
 //! Safe modes of paper 001 in a loop of Guidance and the controlled plant: every one is reached and does what the paper says.
 
-use super::guided_loop::{Loop, Sample};
+use super::guided_loop::{Loop, LoopSample};
 use super::safe_mode_checks::{Parameters, attitude_lost, zone_violated};
 use super::safe_mode_flight::{Chain, sun_angle_deg};
 use crate::cells::row;
@@ -47,7 +47,7 @@ zone is put in force at 300 s, Operational is requested at 2400 s. All times, th
 how long the monitor waits are assumed: the paper prints none.";
 
 /// Everything of every second.
-fn history(run: &mut Run<'_>, simulated: &[(Chain, Vec<Sample>)]) -> Outcome {
+fn history(run: &mut Run<'_>, simulated: &[(Chain, Vec<LoopSample>)]) -> Outcome {
     let header = "\
         case | time_s | q1 | q2 | q3 | q4 | rate_x_rad_s | rate_y_rad_s | rate_z_rad_s | sun_x | sun_y | \
         sun_z | earth_x | earth_y | earth_z | sun_angle_deg | command_x_rad_s | command_y_rad_s | \
@@ -78,14 +78,14 @@ fn history(run: &mut Run<'_>, simulated: &[(Chain, Vec<Sample>)]) -> Outcome {
 }
 
 /// Mode, Sun, rates and flags over time.
-fn figure(chain: Chain, parameters: &Parameters, samples: &[Sample]) -> Chart {
-    let line = |label: &str, value: &dyn Fn(&Sample) -> f64| {
+fn figure(chain: Chain, parameters: &Parameters, samples: &[LoopSample]) -> Chart {
+    let line = |label: &str, value: &dyn Fn(&LoopSample) -> f64| {
         // The first second has no command yet.
         let points = samples.iter().skip(1).map(|sample| (sample.time_s, value(sample)));
         Series::line(label, points.collect())
     };
     let flag = |is: bool| f64::from(u8::from(is));
-    let rate = |i: usize| move |sample: &Sample| sample.rate_rad_s[i].to_degrees();
+    let rate = |i: usize| move |sample: &LoopSample| sample.rate_rad_s[i].to_degrees();
     let mut rates = vec![line("X", &rate(0)), line("Y", &rate(1)), line("Z", &rate(2))];
     if chain == Chain::AttitudeLost {
         rates.extend(parameters.commanded_rates());

@@ -1,6 +1,6 @@
 //! What paper 001 says of its safe modes, looked for in a flight.
 
-use super::guided_loop::{Loop, Sample};
+use super::guided_loop::{Loop, LoopSample};
 use super::safe_mode_flight::{
     BORESIGHT, OPERATIONAL_S, OUTAGE_S, PARDONED_S, SAFE_HOLD_S, SUN_BACK_S, SUN_LOST_S, TRACKER_BACK_S,
     TRACKER_FAILS_S, ZONE_ON_S, sun_angle_deg,
@@ -26,7 +26,7 @@ type Check = (&'static str, (bool, String));
 
 recorded! {
     /// Limits and rates of Guidance, as the FMU has them.
-    pub(super) struct Limits {
+    pub(super) struct SafeModeLimits {
         earth_acquisition_rad_s: f64 = "guidance.earthAcquisition.rate",
         search_rad_s: f64 = "guidance.sunSearch.rate",
         search_s: f64 = "guidance.sunSearch.duration",
@@ -46,7 +46,7 @@ pub(super) struct Parameters {
     attitude: i32,
     error_quaternion: i32,
     rate_only: i32,
-    limits: Limits,
+    limits: SafeModeLimits,
     zone_deg: Vector2<f64>,
     safe_hold_deg: Vector2<f64>,
 }
@@ -54,7 +54,7 @@ pub(super) struct Parameters {
 impl Parameters {
     /// As the FMU has them.
     pub(super) fn read(both: &Loop) -> Result<Self, StudyError> {
-        let limits: Limits = both.parameters(Limits::NAMES)?;
+        let limits: SafeModeLimits = both.parameters(SafeModeLimits::NAMES)?;
         let mode = |item: &str| both.number("guidance.mode.active", item);
         let kind = |item: &str| both.number("guidance.command.kind", item);
         Ok(Self {
@@ -86,38 +86,38 @@ impl Parameters {
 }
 
 /// Part of a flight.
-struct Phase<'a>(Vec<&'a Sample>);
+struct Phase<'a>(Vec<&'a LoopSample>);
 
 impl<'a> Phase<'a> {
-    fn between(samples: &'a [Sample], from_s: f64, to_s: f64) -> Self {
+    fn between(samples: &'a [LoopSample], from_s: f64, to_s: f64) -> Self {
         Self(samples.iter().filter(|sample| (from_s..=to_s).contains(&sample.time_s)).collect())
     }
 
-    fn greatest(&self, value: impl Fn(&Sample) -> f64) -> f64 {
+    fn greatest(&self, value: impl Fn(&LoopSample) -> f64) -> f64 {
         self.0.iter().map(|sample| value(sample)).fold(f64::NAN, f64::max)
     }
 
-    fn least(&self, value: impl Fn(&Sample) -> f64) -> f64 {
+    fn least(&self, value: impl Fn(&LoopSample) -> f64) -> f64 {
         self.0.iter().map(|sample| value(sample)).fold(f64::NAN, f64::min)
     }
 
-    fn all(&self, is: impl Fn(&Sample) -> bool) -> bool {
+    fn all(&self, is: impl Fn(&LoopSample) -> bool) -> bool {
         !self.0.is_empty() && self.0.iter().all(|sample| is(sample))
     }
 
-    fn first(&self, is: impl Fn(&Sample) -> bool) -> Option<f64> {
+    fn first(&self, is: impl Fn(&LoopSample) -> bool) -> Option<f64> {
         self.0.iter().find(|sample| is(sample)).map(|sample| sample.time_s)
     }
 }
 
 /// How long after `since_s` something was first so.
-fn after(samples: &[Sample], since_s: f64, is: impl Fn(&Sample) -> bool) -> f64 {
+fn after(samples: &[LoopSample], since_s: f64, is: impl Fn(&LoopSample) -> bool) -> f64 {
     let phase = Phase::between(samples, since_s, f64::INFINITY);
     phase.first(is).map_or(f64::NAN, |time_s| time_s - since_s)
 }
 
 /// How far outside a zone the Sun is, in deg; negative within.
-fn beyond_deg(sample: &Sample, zone_deg: &Vector2<f64>) -> f64 {
+fn beyond_deg(sample: &LoopSample, zone_deg: &Vector2<f64>) -> f64 {
     outside_deg(&sample.sun_body_m(), zone_deg)
 }
 
@@ -143,7 +143,7 @@ fn turns_about(phase: &Phase<'_>, axis: &Vector, commanded_rad_s: f64) -> (bool,
 }
 
 /// The Sun on the boresight at the end of a phase, and since when.
-fn acquired(samples: &[Sample], from_s: f64, to_s: f64) -> (bool, String) {
+fn acquired(samples: &[LoopSample], from_s: f64, to_s: f64) -> (bool, String) {
     let off_deg = Phase::between(samples, to_s - SETTLED_S, to_s).greatest(sun_angle_deg);
     let start_deg = Phase::between(samples, from_s, from_s).greatest(sun_angle_deg);
     let last = samples.iter().rposition(|it| it.time_s <= to_s && sun_angle_deg(it) > ANGLE_DEG);
@@ -154,7 +154,7 @@ fn acquired(samples: &[Sample], from_s: f64, to_s: f64) -> (bool, String) {
 }
 
 /// Inertial reference, then the Sun, are lost and found.
-pub(super) fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> {
+pub(super) fn attitude_lost(parameters: &Parameters, samples: &[LoopSample]) -> Vec<Check> {
     let limits = &parameters.limits;
     let mut checks = Vec::new();
     let mut check = |statement, found| checks.push((statement, found));
@@ -193,7 +193,7 @@ pub(super) fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<
     {
         let from_s = search_from_s + round as f64 * limits.search_s;
         let to_s = from_s + limits.search_s;
-        let commanded = |sample: &Sample| sample.command_rate_rad_s.dot(&axis) == limits.search_rad_s;
+        let commanded = |sample: &LoopSample| sample.command_rate_rad_s.dot(&axis) == limits.search_rad_s;
         let seconds = Phase::between(samples, SUN_LOST_S, search_to_s - 1.0);
         let seconds = seconds.0.iter().filter(|sample| commanded(sample)).count();
         let whole = Phase::between(samples, from_s, to_s - 1.0).all(commanded);
@@ -219,7 +219,8 @@ pub(super) fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<
     let inside_deg = -end.greatest(|sample| beyond_deg(sample, &parameters.safe_hold_deg));
     let holds = held.all(|it| it.mode == parameters.safe_hold) && inside_deg >= 0.0;
     check("Safe Hold: strict Sun safety", (holds, format!("{inside_deg:.2} deg inside its zone")));
-    let earth_deg = |it: &Sample| body_angles_deg(&it.q.inverse_transform_vector(&it.to_earth_m()))[1].abs();
+    let earth_deg =
+        |it: &LoopSample| body_angles_deg(&it.q.inverse_transform_vector(&it.to_earth_m()))[1].abs();
     let (off_deg, links) = (end.greatest(earth_deg), end.all(|sample| sample.has_link));
     let link = if links { "kept" } else { "lost" };
     let found = format!("Earth within {off_deg:.1e} deg of the antennas' plane, link {link}");
@@ -234,12 +235,12 @@ pub(super) fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<
     checks
 }
 
-fn plus_z_from_sun_deg(sample: &Sample) -> f64 {
+fn plus_z_from_sun_deg(sample: &LoopSample) -> f64 {
     angle_rad(&Vector::z(), &sample.sun_body_m()).to_degrees()
 }
 
 /// The keep-in zone is put in force while the Sun is outside.
-pub(super) fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> {
+pub(super) fn zone_violated(parameters: &Parameters, samples: &[LoopSample]) -> Vec<Check> {
     let Parameters { limits, zone_deg, safe_hold_deg, .. } = parameters;
     let mut checks = Vec::new();
     let mut check = |statement, found| checks.push((statement, found));
@@ -259,7 +260,7 @@ pub(super) fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<
     let holds = least_deg > limits.margin_rad.to_degrees() && in_time && !lowest;
     let found = format!("Sun {sun_deg:.1} deg from -Y, Safe Hold {demoted_s:.0} s later");
     check("a violation that persists demotes to the next lowest mode", (holds, found));
-    let inside = |sample: &Sample| beyond_deg(sample, safe_hold_deg) <= 0.0;
+    let inside = |sample: &LoopSample| beyond_deg(sample, safe_hold_deg) <= 0.0;
     let back_s = after(samples, ZONE_ON_S, inside);
     let end = Phase::between(samples, PARDONED_S - SETTLED_S, PARDONED_S);
     let inside_deg = -end.greatest(|sample| beyond_deg(sample, safe_hold_deg));
@@ -270,7 +271,7 @@ pub(super) fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<
     let holds = kept.all(|it| it.mode == parameters.safe_hold);
     check("promotion only by ground command", (holds, format!("Safe Hold to {PARDONED_S:.0} s")));
     let end = Phase::between(samples, stop_s - SETTLED_S, stop_s);
-    let beyond = |sample: &Sample| beyond_deg(sample, zone_deg);
+    let beyond = |sample: &LoopSample| beyond_deg(sample, zone_deg);
     let boundary_deg = end.least(beyond).abs().max(end.greatest(beyond).abs());
     let off_deg = end.least(plus_z_from_sun_deg);
     let held = end.all(|it| it.mode == parameters.operational && it.is_constrained);

@@ -1,6 +1,6 @@
 //! Two chains of safe modes in the loop: inertial reference and Sun are lost and come back; the keep-in zone is violated.
 
-use super::guided_loop::{Flight, Loop, Sample};
+use super::guided_loop::{Loop, LoopCase, LoopSample};
 use crate::StudyError;
 use crate::attitude::{Vector, angle_rad};
 use crate::settings::{Settings, of, set};
@@ -38,7 +38,7 @@ const VIOLATED_END_S: f64 = 4000.0;
 pub(super) const BORESIGHT: Vector = Vector::new(0.0, -1.0, 0.0);
 
 /// Angle between the boresight and the Sun, in deg.
-pub(super) fn sun_angle_deg(sample: &Sample) -> f64 {
+pub(super) fn sun_angle_deg(sample: &LoopSample) -> f64 {
     angle_rad(&BORESIGHT, &sample.sun_body_m()).to_degrees()
 }
 
@@ -88,9 +88,9 @@ impl Chain {
     }
 
     /// Simulates it.
-    pub(super) fn simulated(self, both: &Loop, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
+    pub(super) fn simulated(self, both: &Loop, step_s: Option<f64>) -> Result<Vec<LoopSample>, StudyError> {
         let events = self.events();
-        let inputs = |sample: &Sample| {
+        let inputs = |sample: &LoopSample| {
             let due = events.iter().filter(|(at_s, _)| (at_s - sample.time_s).abs() < 0.25);
             due.flat_map(|(_, settings)| settings.clone()).collect()
         };
@@ -99,7 +99,7 @@ impl Chain {
             Self::ZoneViolated => VIOLATED_END_S,
         };
         both.simulated(
-            &Flight {
+            &LoopCase {
                 label: self.label(),
                 epoch_s: EPOCH_S,
                 true_anomaly_deg: TRUE_ANOMALY_DEG,

@@ -1,7 +1,7 @@
 //! Large slews under the plant's own controller: how they settle, a saturation that a dump ends, a wheel that fails.
 
 use super::slew_figures::figure;
-use super::slew_flight::{BodySample, Event, Plant, SLEW_S, Sample, Simulated, Slew, Wheel, WheelSample};
+use super::slew_flight::{BodySample, Event, Plant, SLEW_S, Simulated, Slew, SlewSample, Wheel, WheelSample};
 use crate::attitude::{Vector, greatest};
 use crate::cells::row;
 use crate::report::{Outcome, Run};
@@ -52,7 +52,7 @@ struct Measures {
 impl Measures {
     fn of(simulated: &Simulated) -> Self {
         let Simulated { slew, limits, samples } = simulated;
-        let error_deg = |sample: &Sample| sample.left_rad.norm().to_degrees();
+        let error_deg = |sample: &SlewSample| sample.left_rad.norm().to_degrees();
         let after = || samples.iter().filter(|sample| sample.body.time_s >= SLEW_S);
         let small_from =
             samples.iter().rposition(|sample| error_deg(sample) > SETTLED_DEG).map_or(0, |k| k + 1);
@@ -61,7 +61,7 @@ impl Measures {
             let each = samples.iter().flat_map(|sample| sample.wheels.iter().zip(&limits.wheels));
             greatest(each.map(|(wheel, limit)| of(wheel) / most(limit)))
         };
-        let is_full = |sample: &&Sample| sample.wheels.iter().any(|wheel| wheel.is_saturated);
+        let is_full = |sample: &&SlewSample| sample.wheels.iter().any(|wheel| wheel.is_saturated);
         let full = || samples.iter().filter(is_full).map(|sample| sample.body.time_s);
         Self {
             settled_s: samples.get(small_from).map(|sample| sample.body.time_s - SLEW_S),

@@ -1,15 +1,15 @@
 //! Pictures of slews: error angle, rate, torques and momenta of the wheels over time, with their limits.
 
-use super::slew_flight::{Event, SLEW_S, Sample, Simulated, Wheel};
+use super::slew_flight::{Event, SLEW_S, Simulated, SlewSample, Wheel};
 use drawing::{Chart, Panel, Series};
 
 /// A slew over time.
 pub(super) fn figure(simulated: &Simulated) -> Chart {
     let Simulated { slew, limits, samples } = simulated;
-    let line = |label: &str, value: &dyn Fn(&Sample) -> f64| {
+    let line = |label: &str, value: &dyn Fn(&SlewSample) -> f64| {
         Series::line(label, samples.iter().map(|sample| (sample.body.time_s, value(sample))).collect())
     };
-    let wheels = |value: &dyn Fn(&Sample, usize) -> f64| -> Vec<Series> {
+    let wheels = |value: &dyn Fn(&SlewSample, usize) -> f64| -> Vec<Series> {
         (0..limits.wheels.len())
             .map(|k| line(&format!("wheel {}", k + 1), &|sample| value(sample, k)))
             .collect()
@@ -37,7 +37,8 @@ pub(super) fn figure(simulated: &Simulated) -> Chart {
             .with(wheels(&|sample, k| sample.wheels[k].momentum_n_m_s)),
     ];
     if matches!(slew.event, Event::Dumped(..) | Event::Threshold(..)) {
-        let full = |sample: &Sample| sample.wheels.iter().filter(|wheel| wheel.is_saturated).count() as f64;
+        let full =
+            |sample: &SlewSample| sample.wheels.iter().filter(|wheel| wheel.is_saturated).count() as f64;
         panels.push(Panel::new("number").range(-0.3, limits.wheels.len() as f64 + 0.3).whole().with([
             line("wheels at capacity", &full),
             line("dump active", &|sample| f64::from(u8::from(sample.body.is_dumping))),
@@ -48,7 +49,7 @@ pub(super) fn figure(simulated: &Simulated) -> Chart {
 }
 
 /// A limit from the slew's begin on.
-fn dashed(label: &str, value: f64, samples: &[Sample]) -> Series {
+fn dashed(label: &str, value: f64, samples: &[SlewSample]) -> Series {
     let end_s = samples.last().map_or(SLEW_S, |sample| sample.body.time_s);
     Series::dashed(label, vec![(SLEW_S, value), (end_s, value)])
 }

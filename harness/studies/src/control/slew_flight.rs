@@ -4,7 +4,7 @@ use loader::Fmu;
 
 use super::slew_limits::SlewLimits;
 use crate::attitude::{Attitude, Vector};
-use crate::case::{Case, Row, at_start, numbered, recorded};
+use crate::case::{Case, RowReader, at_start, numbered, recorded};
 use crate::settings::{Settings, set};
 use crate::{Options, StudyError};
 
@@ -58,7 +58,7 @@ recorded! {
 
 /// Limits of slew and wheels, as the FMU has them.
 #[derive(Clone, Debug)]
-pub(super) struct Limits {
+pub(super) struct PlantLimits {
     /// `control.slewRate` and `control.slewAcceleration`.
     pub slew: SlewLimits,
     /// `control.bandwidth`, in rad/s.
@@ -67,7 +67,7 @@ pub(super) struct Limits {
     pub wheels: Vec<Wheel>,
 }
 
-impl Limits {
+impl PlantLimits {
     fn read(fmu: &Fmu) -> Result<Self, StudyError> {
         let mut wheels: Vec<Wheel> = at_start(fmu, &numbered(fmu, "wheel", Wheel::NAMES))?.first();
         wheels.iter_mut().for_each(|wheel| wheel.axis = wheel.axis.normalize());
@@ -112,7 +112,7 @@ recorded! {
 
 /// Everything at one time.
 #[derive(Clone, Debug)]
-pub(super) struct Sample {
+pub(super) struct SlewSample {
     /// The body.
     pub body: BodySample,
     /// Rotation from the attitude to the one after the slew, body frame, in rad.
@@ -121,7 +121,7 @@ pub(super) struct Sample {
     pub wheels: Vec<WheelSample>,
 }
 
-impl Sample {
+impl SlewSample {
     /// How far the body still is from the commanded attitude along the slew's axis, in rad; negative beyond it.
     pub(super) fn ahead_rad(&self, slew: &Slew) -> f64 {
         self.left_rad.dot(&slew.axis)
@@ -133,15 +133,15 @@ pub(super) struct Simulated {
     /// What was simulated.
     pub slew: Slew,
     /// By the FMU's parameters.
-    pub limits: Limits,
+    pub limits: PlantLimits,
     /// Every [`SAMPLE_S`].
-    pub samples: Vec<Sample>,
+    pub samples: Vec<SlewSample>,
 }
 
 /// The plant and what of it every slew needs.
 pub(super) struct Plant {
     fmu: Fmu,
-    limits: Limits,
+    limits: PlantLimits,
     /// Attitude that the plant's own guidance has at the start.
     q: Attitude,
     /// Body rows of the start values of `dump.threshold`.
@@ -153,7 +153,7 @@ impl Plant {
     pub(super) fn open(options: &Options) -> Result<Self, StudyError> {
         let fmu = options.fmu("MessengerFull.fmu")?;
         let (q, threshold_n_m_s) = at_start(&fmu, &["attitude.q", "dump.threshold"])?.first();
-        Ok(Self { limits: Limits::read(&fmu)?, q, threshold_n_m_s, fmu })
+        Ok(Self { limits: PlantLimits::read(&fmu)?, q, threshold_n_m_s, fmu })
     }
 
     /// Simulates it.
@@ -164,7 +164,7 @@ impl Plant {
         let ideal_s = self.limits.slew.least_s(slew.angle_rad.abs());
         let stop_s = slew.stop_s.unwrap_or_else(|| (SLEW_S + 1.4 * ideal_s + 100.0).ceil());
         let mut events = self.events(slew, &target, ideal_s).into_iter().peekable();
-        let mut inputs = |row: Row<'_>| {
+        let mut inputs = |row: RowReader<'_>| {
             let mut due = Settings::new();
             while let Some((_, settings)) = events.next_if(|(at_s, _)| *at_s <= row.time_s + 1e-9) {
                 due.extend(settings);
@@ -173,7 +173,7 @@ impl Plant {
         };
         let case = Case::new(slew.label, stop_s, step_s.unwrap_or(SAMPLE_S)).every(SAMPLE_S);
         let recorded = self.start(case, slew).steer(&self.fmu, &outputs, &mut inputs)?;
-        let sample = |(body, wheels): (BodySample, Vec<WheelSample>)| Sample {
+        let sample = |(body, wheels): (BodySample, Vec<WheelSample>)| SlewSample {
             body,
             left_rad: (body.q.inverse() * target).scaled_axis(),
             wheels,

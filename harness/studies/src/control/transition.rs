@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::guided_loop::{Flight, Loop, Sample};
+use super::guided_loop::{Loop, LoopCase, LoopSample};
 use super::slew_limits::SlewLimits;
 use crate::StudyError;
 use crate::attitude::{Attitude, Vector, angle_rad, body_angles_deg};
@@ -30,17 +30,21 @@ const DRIFT_RAD_S_SQRT_S: f64 = 0.1 * core::f64::consts::PI / 180.0 / 3600.0 / 2
 const ARC_SECOND: f64 = core::f64::consts::PI / 648_000.0;
 
 /// What is simulated: a label, and whether star tracker and gyros have noise.
-type Case = (&'static str, bool);
+type NoiseCase = (&'static str, bool);
 
-const CASES: [Case; 2] = [("with noise", true), ("without noise", false)];
+const CASES: [NoiseCase; 2] = [("with noise", true), ("without noise", false)];
 
-fn simulated((label, is_noisy): Case, both: &Loop, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
+fn simulated(
+    (label, is_noisy): NoiseCase,
+    both: &Loop,
+    step_s: Option<f64>,
+) -> Result<Vec<LoopSample>, StudyError> {
     // The camera stands as far sunward of +Z as nadir does with the Sun on -Y.
-    let camera = |sample: &Sample| {
+    let camera = |sample: &LoopSample| {
         let sun_nadir_rad = angle_rad(&sample.to_sun_m(), &sample.to_planet_m());
         set("boresight.angle", core::f64::consts::FRAC_PI_2 - sun_nadir_rad)
     };
-    let inputs = |sample: &Sample| {
+    let inputs = |sample: &LoopSample| {
         let mut settings = Settings::new();
         if sample.time_s == 0.0 {
             settings.extend(set("pointing.scenario", "downlink"));
@@ -62,7 +66,7 @@ fn simulated((label, is_noisy): Case, both: &Loop, step_s: Option<f64>) -> Resul
         of("plant", noise.concat())
     };
     both.simulated(
-        &Flight {
+        &LoopCase {
             label,
             epoch_s: TRANSITION_EPOCH_S,
             true_anomaly_deg: TRANSITION_TRUE_ANOMALY_DEG,
@@ -75,22 +79,22 @@ fn simulated((label, is_noisy): Case, both: &Loop, step_s: Option<f64>) -> Resul
 }
 
 /// Azimuth and elevation in the estimated body frame, in deg.
-fn estimated_deg(sample: &Sample, inertial: &Vector) -> [f64; 2] {
+fn estimated_deg(sample: &LoopSample, inertial: &Vector) -> [f64; 2] {
     body_angles_deg(&sample.estimate_q.inverse_transform_vector(inertial))
 }
 
 /// Angle between the estimated and the commanded attitude, in deg.
-fn error_deg(sample: &Sample) -> f64 {
+fn error_deg(sample: &LoopSample) -> f64 {
     (sample.estimate_q.inverse() * sample.command_q).scaled_axis().norm().to_degrees()
 }
 
 /// Angle between the true rate and the commanded one, in deg/s.
-fn rate_error_deg_s(sample: &Sample) -> f64 {
+fn rate_error_deg_s(sample: &LoopSample) -> f64 {
     (sample.rate_rad_s - sample.command_rate_rad_s).norm().to_degrees()
 }
 
 /// Limits of the plant's slews, and the keep-in zone in rad.
-type Limits = (SlewLimits, Vector2<f64>);
+type TransitionLimits = (SlewLimits, Vector2<f64>);
 
 /// The estimated curves of Figures 7 and 8.
 pub(crate) fn transition(run: &mut Run<'_>) -> Outcome {
@@ -98,7 +102,7 @@ pub(crate) fn transition(run: &mut Run<'_>) -> Outcome {
     let both = Loop::open(run.options)?;
     let names = SlewLimits::NAMES.iter().map(|name| format!("plant.{name}"));
     let zone = ["azimuth", "elevation"].map(|name| format!("guidance.keepIn.{name}"));
-    let limits: Limits = both.parameters(&names.chain(zone).collect::<Vec<_>>())?;
+    let limits: TransitionLimits = both.parameters(&names.chain(zone).collect::<Vec<_>>())?;
     let step_s = run.options.step_s;
     let simulated = run.all(&cases, |case| Ok((*case, simulated(*case, &both, step_s)?)))?;
     run.line(
@@ -127,17 +131,17 @@ axis at 10 Hz, gyros 0.005 deg a root hour and a drift of 0.1 deg/h in a day. Th
 and Guidance takes it as fixed in between, so that the commanded rate has 0.0015 deg/s about X that the sequence of commanded
 attitudes lacks; the slew follows it, which is how far the Sun leaves -Y.";
 
-fn rows(label: &str, (slew, zone_rad): &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
+fn rows(label: &str, (slew, zone_rad): &TransitionLimits, samples: &[LoopSample]) -> Vec<Vec<String>> {
     let at = |second: f64| samples.iter().find(|sample| sample.time_s == second);
     // The command of the sample at 500 s stands one second later.
     let (Some(before), Some(after)) = (at(SLEW_S), at(SLEW_S + 1.0)) else { return Vec::new() };
-    let greatest = |value: &dyn Fn(&Sample) -> f64| samples.iter().skip(1).map(value).fold(0.0, f64::max);
+    let greatest = |value: &dyn Fn(&LoopSample) -> f64| samples.iter().skip(1).map(value).fold(0.0, f64::max);
     let slew_rad = (before.command_q.inverse() * after.command_q).scaled_axis().norm();
     let is_off =
-        |sample: &Sample| error_deg(sample) > SETTLED_DEG || rate_error_deg_s(sample) > SETTLED_DEG_S;
+        |sample: &LoopSample| error_deg(sample) > SETTLED_DEG || rate_error_deg_s(sample) > SETTLED_DEG_S;
     let settled_s =
         samples.iter().rposition(is_off).and_then(|k| samples.get(k + 1)).map(|it| it.time_s - SLEW_S);
-    let off_sun = |frame: &dyn Fn(&Sample) -> Attitude| {
+    let off_sun = |frame: &dyn Fn(&LoopSample) -> Attitude| {
         greatest(&|it| {
             angle_rad(&-Vector::y(), &frame(it).inverse_transform_vector(&it.to_sun_m())).to_degrees()
         })
@@ -184,7 +188,7 @@ fn rows(label: &str, (slew, zone_rad): &Limits, samples: &[Sample]) -> Vec<Vec<S
     ]
 }
 
-fn history(run: &mut Run<'_>, simulated: &[(Case, Vec<Sample>)]) -> Outcome {
+fn history(run: &mut Run<'_>, simulated: &[(NoiseCase, Vec<LoopSample>)]) -> Outcome {
     let header = "\
         case | time_s | command_q1 | command_q2 | command_q3 | command_q4 | estimate_q1 | estimate_q2 | \
         estimate_q3 | estimate_q4 | q1 | q2 | q3 | q4 | rate_x_rad_s | rate_y_rad_s | rate_z_rad_s | \
@@ -214,7 +218,7 @@ fn history(run: &mut Run<'_>, simulated: &[(Case, Vec<Sample>)]) -> Outcome {
 }
 
 /// A line over time from the first command on, interrupted where the command jumps if `jumps`.
-fn over_time(label: &str, samples: &[Sample], jumps: bool, value: impl Fn(&Sample) -> f64) -> Series {
+fn over_time(label: &str, samples: &[LoopSample], jumps: bool, value: impl Fn(&LoopSample) -> f64) -> Series {
     let mut points = Vec::new();
     for sample in samples.iter().skip(1) {
         if jumps && sample.time_s == SLEW_S + 1.0 {
@@ -226,11 +230,11 @@ fn over_time(label: &str, samples: &[Sample], jumps: bool, value: impl Fn(&Sampl
 }
 
 /// The sign of a quaternion that leaves it closest to the commanded one at the end of the flight.
-fn sign(samples: &[Sample], q: &Attitude) -> f64 {
+fn sign(samples: &[LoopSample], q: &Attitude) -> f64 {
     if samples.last().is_some_and(|last| q.dot(&last.command_q) < 0.0) { -1.0 } else { 1.0 }
 }
 
-fn quaternion_chart(label: &str, samples: &[Sample]) -> Chart {
+fn quaternion_chart(label: &str, samples: &[LoopSample]) -> Chart {
     let signed = |q: &Attitude, i: usize| sign(samples, q) * q[i];
     let mut panels: Vec<Panel> = (0..4)
         .map(|i| {
@@ -254,7 +258,7 @@ fn quaternion_chart(label: &str, samples: &[Sample]) -> Chart {
         .with(panels)
 }
 
-fn angle_chart(label: &str, samples: &[Sample]) -> Chart {
+fn angle_chart(label: &str, samples: &[LoopSample]) -> Chart {
     let panel = |name: &str, i: usize| {
         Panel::new(format!("{name} [deg]")).with([
             over_time("Mercury", samples, false, |it| estimated_deg(it, &it.to_planet_m())[i]),

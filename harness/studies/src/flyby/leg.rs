@@ -141,7 +141,7 @@ impl<'a> Leg<'a> {
     }
 
     /// The case with a plan's windows from its start on, and what they set later; none: arrays as the mission has them.
-    fn by(&self, windows: &[Window]) -> (Case, impl FnMut(crate::case::Row<'_>) -> Settings) {
+    fn by(&self, windows: &[Window]) -> (Case, impl FnMut(crate::case::RowReader<'_>) -> Settings) {
         let commanded = |number| set(&format!("panel[{number}].control"), "command");
         let start = windows.first().map_or_else(Settings::new, |first| {
             let panels = (1..=self.kind.panels).flat_map(commanded);
@@ -149,7 +149,7 @@ impl<'a> Leg<'a> {
         });
         let by_window: Vec<(f64, Settings)> =
             windows.iter().map(|window| (window.start_s, self.inputs(window))).collect();
-        let steer = move |row: crate::case::Row<'_>| {
+        let steer = move |row: crate::case::RowReader<'_>| {
             let now = by_window.iter().rfind(|(start_s, _)| *start_s <= row.time_s + SAME_S);
             now.map_or_else(Settings::new, |(_, inputs)| inputs.clone())
         };

@@ -9,7 +9,7 @@ use nalgebra::Unit;
 use super::variant::Variant;
 use crate::StudyError;
 use crate::attitude::{Attitude, Vector, across, body_direction};
-use crate::case::{Case, Row, numbered};
+use crate::case::{Case, RowReader, numbered};
 use crate::cells::{Cells, row};
 use crate::options::Cause;
 use crate::report::{Outcome, Run};
@@ -369,7 +369,7 @@ impl StudiedSpacecraft {
             .set("orbit.velocity", [0.0, speed_m_s, 0.0]);
         let mut ahead = plant.points.iter();
         let mut inputs =
-            |_: Row<'_>| ahead.next().map_or_else(Settings::new, |point| point.settings(self.center_m));
+            |_: RowReader<'_>| ahead.next().map_or_else(Settings::new, |point| point.settings(self.center_m));
         let momentum_n_m_s: Vec<Vector> =
             case.steer(&plant.variant.fmu, &["momentum.inertial"], &mut inputs)?.all(0);
         // By the body axes, in N m s a day.

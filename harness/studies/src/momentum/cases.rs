@@ -166,7 +166,7 @@ impl Choice {
 
 /// One simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Case {
+pub(super) struct MomentumCase {
     /// What sunlight is used for.
     pub strategy: Strategy,
     /// Dump threshold of all axes, in N m s.
@@ -183,7 +183,7 @@ pub(super) struct Case {
     pub choice: Choice,
 }
 
-impl Case {
+impl MomentumCase {
     /// What it is called in files and filters.
     pub(super) fn label(&self) -> String {
         format!(
@@ -237,7 +237,7 @@ impl Case {
     pub(super) fn simulate(
         &self,
         fmu: &Fmu,
-        steer: &mut dyn FnMut(case::Row<'_>) -> Settings,
+        steer: &mut dyn FnMut(case::RowReader<'_>) -> Settings,
     ) -> Result<Simulated, StudyError> {
         Ok(Simulated::of(*self, &self.settings().apart(APART).steer(fmu, &NAMES, steer)?))
     }
@@ -275,7 +275,7 @@ pub(super) struct Dump {
 #[derive(Clone, Debug)]
 pub(super) struct Simulated {
     /// What was simulated.
-    pub case: Case,
+    pub case: MomentumCase,
     /// Communication points, in days.
     pub times_d: Vec<f64>,
     /// X momentum in the body frame, in N m s.
@@ -287,7 +287,7 @@ pub(super) struct Simulated {
 }
 
 impl Simulated {
-    fn of(case: Case, recorded: &case::Recorded) -> Self {
+    fn of(case: MomentumCase, recorded: &case::Recorded) -> Self {
         Self {
             case,
             times_d: recorded.times_s.iter().map(|time_s| time_s / DAY_S).collect(),

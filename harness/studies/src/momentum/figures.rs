@@ -1,6 +1,6 @@
 //! Paper 000, Figures 4 and 5: X momentum over 90 days.
 
-use super::cases::{Case, Convention, Simulated, Strategy};
+use super::cases::{Convention, MomentumCase, Simulated, Strategy};
 use super::lists;
 use super::optimum::simulate_all;
 use crate::report::{Outcome, Run};
@@ -43,12 +43,12 @@ fn figure(run: &mut Run<'_>, figure: &Figure, number: &str) -> Outcome {
 /// The figure's strategies, one panel an offset as in the paper: the cylinder with the paper's dumps at the lowest threshold
 /// simulated.
 pub(super) fn draw(run: &mut Run<'_>, simulated: &[Simulated], figure: &Figure) -> Outcome {
-    let in_figure = |case: &Case| {
+    let in_figure = |case: &MomentumCase| {
         case.convention == Convention::BodyIntegral && figure.strategies.contains(&case.strategy)
     };
     let Some(first) = simulated.iter().find(|simulation| in_figure(&simulation.case)) else { return Ok(()) };
-    let selected = |case: &Case| {
-        let same = Case { strategy: case.strategy, offset_in: case.offset_in, ..first.case };
+    let selected = |case: &MomentumCase| {
+        let same = MomentumCase { strategy: case.strategy, offset_in: case.offset_in, ..first.case };
         in_figure(case) && *case == same
     };
     let chosen: Vec<&Simulated> = simulated.iter().filter(|simulation| selected(&simulation.case)).collect();

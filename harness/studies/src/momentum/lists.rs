@@ -1,6 +1,6 @@
 //! Which simulations each of paper 000's tables has.
 
-use super::cases::{Case, Choice, Convention, DumpsTo, Shade, Strategy};
+use super::cases::{Choice, Convention, DumpsTo, MomentumCase, Shade, Strategy};
 
 /// Tables 2 and 3: nothing, one and two inches along -Z.
 pub(super) const ALONG_Z: [[i8; 3]; 3] = [[0, 0, 0], [0, 0, -1], [0, 0, -2]];
@@ -15,17 +15,17 @@ const RULES: [(DumpsTo, Convention); 3] = [
 ];
 
 /// Table 2: the paper's own dumps first, then the FMU's default ones, then these under the physical momentum.
-pub(super) fn cylinder() -> Vec<Case> {
+pub(super) fn cylinder() -> Vec<MomentumCase> {
     by_rules(Shade::Cylinder, &[4.0, 7.0], &ALONG_Z)
 }
 
 /// Table 4, in the same order.
-pub(super) fn panels() -> Vec<Case> {
+pub(super) fn panels() -> Vec<MomentumCase> {
     by_rules(Shade::PlatesAndPanels, &[5.5], &ALL_OFFSETS)
 }
 
 /// Every strategy by every rule, then the optimum of each threshold and offset under both momenta.
-fn by_rules(shade: Shade, thresholds_n_m_s: &[f64], offsets_in: &[[i8; 3]]) -> Vec<Case> {
+fn by_rules(shade: Shade, thresholds_n_m_s: &[f64], offsets_in: &[[i8; 3]]) -> Vec<MomentumCase> {
     let groups = RULES.map(|(dumps_to, convention)| (dumps_to, shade, convention));
     let mut cases = with_strategies(&Strategy::ALL, &groups, thresholds_n_m_s, offsets_in);
     let groups = [Convention::BodyIntegral, Convention::Inertial];
@@ -35,18 +35,18 @@ fn by_rules(shade: Shade, thresholds_n_m_s: &[f64], offsets_in: &[[i8; 3]]) -> V
 }
 
 /// Tables 3 and 5: what the paper's momentum gives of Tables 2 and 4.
-pub(super) fn in_papers_convention(mut cases: Vec<Case>) -> Vec<Case> {
+pub(super) fn in_papers_convention(mut cases: Vec<MomentumCase>) -> Vec<MomentumCase> {
     cases.retain(is_in_papers_convention);
     cases
 }
 
 /// Whether a case is one that the paper's tables have.
-pub(super) fn is_in_papers_convention(case: &Case) -> bool {
+pub(super) fn is_in_papers_convention(case: &MomentumCase) -> bool {
     case.convention == Convention::BodyIntegral && case.strategy != Strategy::Optimum
 }
 
 /// Dumps that the paper's tables do not have: the plates alone, dumps to zero, and for small wheels dumps to one side of X.
-pub(super) fn other_dumps() -> Vec<Case> {
+pub(super) fn other_dumps() -> Vec<MomentumCase> {
     let (cylinder, plates) = (Shade::Cylinder, Shade::Plates);
     let both = [(DumpsTo::OWN, plates), (DumpsTo::ZERO, cylinder)];
     let small = [(DumpsTo::AlongX(0.9), cylinder), (DumpsTo::AlongX(-0.9), cylinder)];
@@ -57,19 +57,19 @@ pub(super) fn other_dumps() -> Vec<Case> {
 }
 
 /// Figures 4 and 5: small wheels.
-pub(super) fn figure(strategies: &[Strategy]) -> Vec<Case> {
+pub(super) fn figure(strategies: &[Strategy]) -> Vec<MomentumCase> {
     let group = (DumpsTo::PAPER, Shade::Cylinder, Convention::BodyIntegral);
     with_strategies(strategies, &[group], &[4.0], &ALONG_Z)
 }
 
 /// Simulations over what the paper leaves open: start date and orbit frame, and the senses of the panels' tilts.
-pub(super) fn open() -> Vec<Case> {
+pub(super) fn open() -> Vec<MomentumCase> {
     let mut cases = Vec::new();
     for dumps_to in [DumpsTo::PAPER, DumpsTo::OWN] {
         let mut extend = |threshold_n_m_s, shade, choice| {
             let group = (dumps_to, shade, Convention::BodyIntegral);
             let own = with_strategies(&[Strategy::DumpsOnly], &[group], &[threshold_n_m_s], &ALONG_Z);
-            cases.extend(own.into_iter().map(|case| Case { choice, ..case }));
+            cases.extend(own.into_iter().map(|case| MomentumCase { choice, ..case }));
         };
         for threshold_n_m_s in [4.0, 7.0] {
             for choice in [Choice::Study, Choice::Later, Choice::OrbitPlane, Choice::Ecliptic] {
@@ -89,12 +89,12 @@ pub(super) fn with_strategies(
     groups: &[(DumpsTo, Shade, Convention)],
     thresholds_n_m_s: &[f64],
     offsets_in: &[[i8; 3]],
-) -> Vec<Case> {
+) -> Vec<MomentumCase> {
     let mut cases = Vec::new();
     for &(dumps_to, shade, convention) in groups {
         for &threshold_n_m_s in thresholds_n_m_s {
             for &strategy in strategies {
-                cases.extend(offsets_in.iter().map(|&offset_in| Case {
+                cases.extend(offsets_in.iter().map(|&offset_in| MomentumCase {
                     strategy,
                     threshold_n_m_s,
                     dumps_to,

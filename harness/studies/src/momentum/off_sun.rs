@@ -35,7 +35,7 @@ const KNOWN: [&str; 10] = [
 
 recorded! {
     /// The whole spacecraft at one point.
-    struct Sample {
+    struct OffSunSample {
         @time_s,
         momentum_n_m_s: Vector = "momentum.inertial",
         force_n: Vector = "force.solar",
@@ -48,7 +48,7 @@ struct Simulated {
     /// Names of the surfaces that are reported one by one.
     surfaces: Vec<String>,
     /// Every point, with the force on each of these surfaces.
-    samples: Vec<(Sample, Vec<Vector>)>,
+    samples: Vec<(OffSunSample, Vec<Vector>)>,
 }
 
 impl Simulated {
@@ -159,7 +159,7 @@ fn within_the_zone(run: &mut Run<'_>, few: &Simulated, whole: &Simulated) -> Out
         .zip(&whole.samples)
         .map(|((few, _), (whole, _))| row![few.time_s / DAY_S, few.momentum_n_m_s, whole.momentum_n_m_s]);
     run.csv("off-sun-momentum.csv", header, rows)?;
-    let days = |(sample, _): &(Sample, Vec<Vector>)| sample.time_s / DAY_S;
+    let days = |(sample, _): &(OffSunSample, Vec<Vector>)| sample.time_s / DAY_S;
     let lines = |of: &dyn Fn(usize) -> Vector| {
         [0, 1, 2].map(|axis| {
             let points = whole.samples.iter().enumerate().map(|(k, it)| (days(it), of(k)[axis]));
@@ -186,7 +186,8 @@ from 10.5 deg of azimuth on.";
 fn simulated(fmu: &Fmu, label: &str) -> Result<Simulated, StudyError> {
     let surfaces = surfaces(fmu);
     let forces = (1..=surfaces.len()).map(|number| format!("plate[{number}].force"));
-    let names: Vec<String> = Sample::NAMES.iter().map(|name| (*name).to_owned()).chain(forces).collect();
+    let names: Vec<String> =
+        OffSunSample::NAMES.iter().map(|name| (*name).to_owned()).chain(forces).collect();
     let recorded = Case::new(label, STOP_S, STEP_S)
         .set("attitude.source", "guided")
         .set("gravityGradient.enabled", false)

@@ -16,11 +16,11 @@ use planner::momentum::{
     windows::{ControlBounds, Layout, Window, WindowKind},
 };
 
-use super::cases::{Case, Convention, Simulated, Strategy};
+use super::cases::{Convention, MomentumCase, Simulated, Strategy};
 use super::variant::Variant;
 use crate::StudyError;
 use crate::attitude::Vector;
-use crate::case::{self, Row};
+use crate::case::{self, RowReader};
 use crate::flight::FlightKind;
 use crate::report::Run;
 use crate::settings::{Setting, Settings, set};
@@ -31,8 +31,8 @@ const NEVER_N_M_S: f64 = 1e9;
 const EVERY_S: f64 = 1800.0;
 
 /// Simulates those of `cases` that the options leave, optima by their plans.
-pub(super) fn simulate_all(run: &Run<'_>, cases: Vec<Case>) -> Result<Vec<Simulated>, StudyError> {
-    let cases = run.chosen(cases, Case::label)?;
+pub(super) fn simulate_all(run: &Run<'_>, cases: Vec<MomentumCase>) -> Result<Vec<Simulated>, StudyError> {
+    let cases = run.chosen(cases, MomentumCase::label)?;
     let fmu = run.options.fmu("MomentumPlant.fmu")?;
     run.all(&cases, |case| match case.strategy {
         Strategy::Optimum => optimum(case, &fmu),
@@ -40,7 +40,7 @@ pub(super) fn simulate_all(run: &Run<'_>, cases: Vec<Case>) -> Result<Vec<Simula
     })
 }
 
-fn optimum(case: &Case, fmu: &Fmu) -> Result<Simulated, StudyError> {
+fn optimum(case: &MomentumCase, fmu: &Fmu) -> Result<Simulated, StudyError> {
     let failed = |why: String| StudyError::Plan { case: case.label(), why };
     let mut sought = Sought::of(case, fmu).map_err(|error| failed(error.to_string()))?;
     let task = sought.task(case);
@@ -63,7 +63,7 @@ struct Sought<'a> {
 }
 
 impl<'a> Sought<'a> {
-    fn of(case: &Case, fmu: &'a Fmu) -> Result<Self, Failure> {
+    fn of(case: &MomentumCase, fmu: &'a Fmu) -> Result<Self, Failure> {
         let (convention, settings) = (case.convention, case.settings());
         let values = StartValues { description: fmu.description(), sets: settings.sets() };
         let text = Variant::text_of(fmu).map_err(|error| error.to_string())?;
@@ -84,7 +84,7 @@ impl<'a> Sought<'a> {
         Ok(sought)
     }
 
-    fn task(&self, case: &Case) -> PlanTask {
+    fn task(&self, case: &MomentumCase) -> PlanTask {
         PlanTask {
             layout: Layout::of_downlinks(
                 self.simulated.downlinks_s(),
@@ -108,7 +108,7 @@ impl<'a> Sought<'a> {
     }
 
     /// The inputs at every point: the place of the present downlink or the next one, and dumps.
-    fn steer(&self, windows: &[Window], dumps: &[PlannedDump]) -> impl FnMut(Row<'_>) -> Settings {
+    fn steer(&self, windows: &[Window], dumps: &[PlannedDump]) -> impl FnMut(RowReader<'_>) -> Settings {
         let downlinks = windows.iter().filter(|window| window.kind == WindowKind::Free);
         let places: Vec<(f64, [f64; 2])> = downlinks
             .map(|window| {

@@ -1,6 +1,6 @@
 //! What paper 000 prints: its Tables 2 to 5.
 
-use super::cases::{Case, Convention, DumpsTo, Shade, Strategy};
+use super::cases::{Convention, DumpsTo, MomentumCase, Shade, Strategy};
 use super::spacing::Spacing;
 
 /// Counts may differ from the paper's by this much: its pointing rules, epoch and windows are unpublished.
@@ -85,7 +85,7 @@ pub(super) enum Published {
 impl Published {
     /// Of a case; the paper prints nothing for plates alone, for the physical momentum, nor for dumps to anything but what its
     /// text says. Dumps to 0.9 of the threshold are compared all the same, as the nearest that is well conditioned.
-    pub(super) fn of(case: &Case) -> Option<Self> {
+    pub(super) fn of(case: &MomentumCase) -> Option<Self> {
         let is_papers = matches!(case.dumps_to, DumpsTo::PAPER | DumpsTo::OWN);
         if case.convention != Convention::BodyIntegral || !is_papers {
             return None;

@@ -2,7 +2,7 @@
 
 use loader::Fmu;
 
-use super::cases::{Case, Choice, Convention, DAY_S, DumpsTo, SPAN_D, Shade, Strategy};
+use super::cases::{Choice, Convention, DAY_S, DumpsTo, MomentumCase, SPAN_D, Shade, Strategy};
 use super::variant::{Edit, Variant};
 use crate::StudyError;
 use crate::attitude::Vector;
@@ -11,7 +11,7 @@ use crate::report::{Outcome, Run};
 /// Above all that gathers.
 const NO_DUMP_N_M_S: f64 = 1e6;
 /// The paper's plates and panels without targets; what changes and the campaign differ from it.
-const CASE: Case = Case {
+const CASE: MomentumCase = MomentumCase {
     strategy: Strategy::DumpsOnly,
     threshold_n_m_s: 5.5,
     dumps_to: DumpsTo::OWN,

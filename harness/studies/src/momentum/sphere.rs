@@ -6,7 +6,7 @@ use loader::Fmu;
 
 use crate::StudyError;
 use crate::attitude::{Vector, body_direction};
-use crate::case::{Case, Row};
+use crate::case::{Case, RowReader};
 use crate::settings::{Settings, set};
 use drawing::{PlaneChart, PlanePanel, Shading};
 
@@ -41,7 +41,7 @@ pub(super) fn map(fmu: &Fmu) -> Result<Vec<Lit>, StudyError> {
         .set("panel[1].angle", PANEL_RAD)
         .set("panel[2].angle", PANEL_RAD);
     let mut ahead = at.iter();
-    let mut inputs = |_: Row<'_>| {
+    let mut inputs = |_: RowReader<'_>| {
         ahead.next().map_or(Settings::new(), |at| set("sun.positionBody", direction(*at) * DISTANCE_M))
     };
     let found: Vec<(Vector, Vector)> = case.steer(fmu, &["force.solar", "torque.solar"], &mut inputs)?.all(0);

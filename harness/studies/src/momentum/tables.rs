@@ -1,6 +1,6 @@
 //! Paper 000, Tables 2 to 5: how many dumps in 90 days, and how long apart.
 
-use super::cases::{Case, Dump, Shade, Simulated, convention_label};
+use super::cases::{Dump, MomentumCase, Shade, Simulated, convention_label};
 use super::figures::{FIGURE_4, draw};
 use super::lists;
 use super::optimum::simulate_all;
@@ -131,7 +131,7 @@ fn by_setting(simulated: &[Simulated]) -> impl Iterator<Item = &[Simulated]> {
     simulated.chunk_by(|a, b| a.case.differs_only_in_offset(&b.case))
 }
 
-fn setting_cells(case: &Case) -> Vec<String> {
+fn setting_cells(case: &MomentumCase) -> Vec<String> {
     vec![
         format!("{} N.m.s", case.threshold_n_m_s),
         case.dumps_to.label(),

@@ -1,6 +1,6 @@
 //! What must hold whatever the paper leaves open: looking ahead saves dumps, so do large wheels and small offsets.
 
-use super::cases::{Case, DumpsTo, Simulated, Strategy};
+use super::cases::{DumpsTo, MomentumCase, Simulated, Strategy};
 
 /// Comparisons of two simulations that differ in one thing.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -12,7 +12,7 @@ pub(super) struct Trends {
 }
 
 /// Whether a trend orders the first case before the second.
-type Orders = fn(&Case, &Case) -> bool;
+type Orders = fn(&MomentumCase, &MomentumCase) -> bool;
 
 /// What a comparison is about.
 const KINDS: [(&str, Orders); 4] = [
@@ -20,25 +20,27 @@ const KINDS: [(&str, Orders); 4] = [
     ("optimum", is_the_optimum_of),
     ("threshold", |more, fewer| {
         more.threshold_n_m_s < fewer.threshold_n_m_s
-            && *fewer == Case { threshold_n_m_s: fewer.threshold_n_m_s, ..*more }
+            && *fewer == MomentumCase { threshold_n_m_s: fewer.threshold_n_m_s, ..*more }
     }),
     ("offset", is_an_inch_closer),
 ];
 
-fn has_next_strategy(more: &Case, fewer: &Case) -> bool {
+fn has_next_strategy(more: &MomentumCase, fewer: &MomentumCase) -> bool {
     let next = Strategy::ALL.windows(2).any(|pair| pair == [more.strategy, fewer.strategy]);
-    next && *fewer == Case { strategy: fewer.strategy, ..*more }
+    next && *fewer == MomentumCase { strategy: fewer.strategy, ..*more }
 }
 
-fn is_the_optimum_of(more: &Case, fewer: &Case) -> bool {
-    let optimum = Case { strategy: Strategy::Optimum, dumps_to: DumpsTo::Planned, ..*more };
+fn is_the_optimum_of(more: &MomentumCase, fewer: &MomentumCase) -> bool {
+    let optimum = MomentumCase { strategy: Strategy::Optimum, dumps_to: DumpsTo::Planned, ..*more };
     more.strategy != Strategy::Optimum && *fewer == optimum
 }
 
-fn is_an_inch_closer(more: &Case, fewer: &Case) -> bool {
+fn is_an_inch_closer(more: &MomentumCase, fewer: &MomentumCase) -> bool {
     let ([_, _, far], [_, _, near]) = (more.offset_in, fewer.offset_in);
     let both_along_z = more.is_along_z() && fewer.is_along_z() && far != 0;
-    both_along_z && near == far - far.signum() && *fewer == Case { offset_in: fewer.offset_in, ..*more }
+    both_along_z
+        && near == far - far.signum()
+        && *fewer == MomentumCase { offset_in: fewer.offset_in, ..*more }
 }
 
 /// The trends among `simulated`.
@@ -82,10 +84,10 @@ mod tests {
     use super::super::lists::{ALL_OFFSETS, with_strategies};
     use super::*;
 
-    fn with_counts(count: impl Fn(&Case) -> i64) -> Vec<Simulated> {
+    fn with_counts(count: impl Fn(&MomentumCase) -> i64) -> Vec<Simulated> {
         let group = [(DumpsTo::OWN, Shade::Cylinder, Convention::BodyIntegral)];
         let cases = with_strategies(&Strategy::ALL, &group, &[4.0, 7.0], &ALL_OFFSETS);
-        let simulated = |case: Case| Simulated {
+        let simulated = |case: MomentumCase| Simulated {
             case,
             times_d: Vec::new(),
             momentum_x_n_m_s: Vec::new(),

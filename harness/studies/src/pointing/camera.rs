@@ -1,6 +1,6 @@
 //! A square field of view: what it sees of the planet, and how much two fields share.
 
-use super::flight::Sample;
+use super::flight::PointingSample;
 use super::planet::{Ellipsoid, Planet};
 use crate::attitude::Vector;
 
@@ -18,7 +18,7 @@ pub(super) struct Camera {
 /// One frame: the field at one sample.
 pub(super) struct Frame<'a> {
     /// When and from where.
-    pub sample: &'a Sample,
+    pub sample: &'a PointingSample,
     half_tangent: f64,
     /// Boresight, across toward +X, across sunward; body frame.
     axes: [Vector; 3],
@@ -32,7 +32,7 @@ const LATTICE: u32 = 60;
 
 impl Camera {
     /// Its frame at a sample.
-    pub(super) fn frame<'a>(&self, sample: &'a Sample, planet: &'a Planet) -> Frame<'a> {
+    pub(super) fn frame<'a>(&self, sample: &'a PointingSample, planet: &'a Planet) -> Frame<'a> {
         let angle = if self.on_platform { sample.mdis_angle_rad } else { 0.0 };
         let (sine, cosine) = angle.sin_cos();
         Frame {

@@ -1,6 +1,6 @@
 //! The planet's disc as the spacecraft sees it: angles from nadir, limb, night side, terminator.
 
-use super::flight::Place;
+use super::flight::PointingGeometry;
 use super::planet::Ellipsoid;
 use crate::attitude::{Vector, across};
 use drawing::{PlaneChart, PlanePanel, Series};
@@ -24,7 +24,7 @@ const POINTS: u32 = 720;
 
 impl View {
     /// From where the spacecraft is.
-    pub(super) fn at(place: &Place) -> Self {
+    pub(super) fn at(place: &PointingGeometry) -> Self {
         let nadir = place.nadir_m().normalize();
         let right = across(&place.velocity_m_s, &nadir).normalize();
         // Seen along nadir: right, up and the direction to the viewer are right-handed.

@@ -4,7 +4,7 @@ use loader::Fmu;
 
 use super::planet::Planet;
 use crate::attitude::{Attitude, Vector, body_angles_deg, body_direction};
-use crate::case::{Case, Row, recorded};
+use crate::case::{Case, RowReader, recorded};
 use crate::cells::row;
 use crate::settings::{Settings, set};
 use crate::{Options, StudyError};
@@ -47,7 +47,7 @@ recorded! {
 
 /// Where everything is at one second, in EME2000.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct PointingGeometry {
     /// Time from the start, in s.
     pub time_s: f64,
     /// Past J2000 TDB, in s.
@@ -64,9 +64,9 @@ pub(super) struct Place {
 
 /// What was commanded at that second.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sample {
+pub(super) struct PointingSample {
     /// Where everything was.
-    pub place: Place,
+    pub place: PointingGeometry,
     /// Commanded attitude: EME2000 to body, scalar last.
     pub q: Attitude,
     /// Commanded rate, body frame, in rad/s.
@@ -86,10 +86,10 @@ pub(super) const GEOMETRY: &str = "\
     time_s | epoch_s | q1 | q2 | q3 | q4 | x_m | y_m | z_m | vx_m_s | vy_m_s | vz_m_s | sun_x_m | sun_y_m | \
     sun_z_m";
 
-impl Sample {
+impl PointingSample {
     /// The cells of [`GEOMETRY`].
     pub(super) fn geometry(&self) -> Vec<String> {
-        let Place { time_s, epoch_s, position_m, velocity_m_s, .. } = &self.place;
+        let PointingGeometry { time_s, epoch_s, position_m, velocity_m_s, .. } = &self.place;
         let sun_m = self.place.sun_m();
         row![*time_s, *epoch_s, self.q, *position_m, *velocity_m_s, sun_m]
     }
@@ -106,7 +106,7 @@ impl Sample {
 }
 
 /// What is simulated.
-pub(super) struct Flight<'a> {
+pub(super) struct PointingCase<'a> {
     /// For messages and tables.
     pub label: &'a str,
     /// Past J2000 TDB, in s.
@@ -118,13 +118,13 @@ pub(super) struct Flight<'a> {
     /// Parameters of `Guidance`.
     pub parameters: Settings,
     /// What is commanded from the place of each second on; nothing new where empty.
-    pub command: &'a (dyn Fn(&Place) -> Settings + Sync),
+    pub command: &'a (dyn Fn(&PointingGeometry) -> Settings + Sync),
 }
 
 /// The samples of a flight, one a second, and the planet it is over.
 pub(super) struct Simulated {
     /// One a second from 0 on.
-    pub samples: Vec<Sample>,
+    pub samples: Vec<PointingSample>,
     /// By the parameters of `Guidance`.
     pub planet: Planet,
 }
@@ -136,15 +136,16 @@ impl Fmus {
     }
 
     /// Simulates it. The plant's orbit does not depend on commands: it goes first.
-    pub(super) fn simulated(&self, flight: &Flight<'_>) -> Result<Simulated, StudyError> {
+    pub(super) fn simulated(&self, flight: &PointingCase<'_>) -> Result<Simulated, StudyError> {
         let case = Case::new(flight.label, f64::from(flight.seconds + 1), 1.0);
         let case = case.set("start.epoch", flight.epoch_s);
         let anomaly_rad = flight.true_anomaly_deg.to_radians();
         let moving = case.clone().set("orbit.trueAnomaly", anomaly_rad);
         let seen: Vec<Seen> = moving.simulate(&self.plant, Seen::NAMES)?.all(0);
-        let places: Vec<Place> = seen.iter().map(|seen| Place::of(seen, flight.epoch_s)).collect();
+        let places: Vec<PointingGeometry> =
+            seen.iter().map(|seen| PointingGeometry::of(seen, flight.epoch_s)).collect();
         let mut ahead = places.iter();
-        let mut inputs = |_: Row<'_>| {
+        let mut inputs = |_: RowReader<'_>| {
             ahead.next().map_or(Settings::new(), |place| {
                 let motion = [set("position", place.position_m), set("velocity", place.velocity_m_s)];
                 [motion.concat(), (flight.command)(place)].concat()
@@ -155,14 +156,14 @@ impl Fmus {
             case.steer(&self.guidance, &[Commanded::NAMES, Planet::NAMES].concat(), &mut inputs)?;
         let commanded: Vec<(Commanded, Planet)> = commanded.all(0);
         let samples = places.into_iter().zip(&commanded[1..]);
-        let samples = samples.map(|(place, (commanded, _))| Sample::of(place, commanded)).collect();
+        let samples = samples.map(|(place, (commanded, _))| PointingSample::of(place, commanded)).collect();
         Ok(Simulated { samples, planet: commanded[0].1 })
     }
 }
 
-impl Sample {
+impl PointingSample {
     /// What guidance commanded a second ago, at `place`: since then it has turned by its constant rate.
-    fn of(place: Place, commanded: &Commanded) -> Self {
+    fn of(place: PointingGeometry, commanded: &Commanded) -> Self {
         let Commanded { q, rate_rad_s, mdis_angle_rad, reachable, scan_active, .. } = *commanded;
         let q = q * Attitude::from_scaled_axis(rate_rad_s * -1.0);
         let constrained = commanded.keep_in || commanded.hot_pole || commanded.clamped;
@@ -170,7 +171,7 @@ impl Sample {
     }
 }
 
-impl Place {
+impl PointingGeometry {
     fn of(seen: &Seen, start_epoch_s: f64) -> Self {
         let to_earth = body_direction(seen.earth_azimuth_rad, seen.earth_elevation_rad);
         Self {

@@ -1,7 +1,7 @@
 //! Limb points at azimuths, and the scan of the limb's height, where the Sun stays in its zone.
 
 use super::disc::{View, disc_chart};
-use super::flight::{DEFAULT_EPOCH_S, Flight, Fmus, GEOMETRY, Place, Simulated};
+use super::flight::{DEFAULT_EPOCH_S, Fmus, GEOMETRY, PointingCase, PointingGeometry, Simulated};
 use super::limb_orbit;
 use super::limb_point::{Found, PLUS_Z, triaxial};
 use crate::StudyError;
@@ -22,13 +22,13 @@ const SCAN_S: u32 = 300;
 
 /// What one case simulates.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Case {
+enum LimbCase {
     Azimuth(f64),
     Scan,
     Terminator,
 }
 
-impl Case {
+impl LimbCase {
     fn label(&self) -> String {
         match self {
             Self::Azimuth(azimuth_deg) => format!("azimuth {azimuth_deg} deg"),
@@ -43,7 +43,7 @@ impl Case {
             Self::Scan => (SCAN_AZIMUTH_DEG, HEIGHT_RATE_M_S, SCAN_S),
             Self::Terminator => return limb_orbit::simulated(fmus),
         };
-        let command = move |_: &Place| {
+        let command = move |_: &PointingGeometry| {
             [
                 set("pointing.scenario", "limbGeneric"),
                 set("limb.azimuth", f64::to_radians(azimuth_deg)),
@@ -51,7 +51,7 @@ impl Case {
             ]
             .concat()
         };
-        fmus.simulated(&Flight {
+        fmus.simulated(&PointingCase {
             label: &self.label(),
             epoch_s: EPOCH_S,
             true_anomaly_deg: TRUE_ANOMALY_DEG,
@@ -64,28 +64,28 @@ impl Case {
 
 /// Limb points at azimuths, on the terminator over an orbit, and a scan of the limb's height.
 pub(crate) fn limb(run: &mut Run<'_>) -> Outcome {
-    let all = AZIMUTHS_DEG.map(Case::Azimuth).into_iter().chain([Case::Scan, Case::Terminator]);
-    let cases = run.chosen(all, Case::label)?;
+    let all = AZIMUTHS_DEG.map(LimbCase::Azimuth).into_iter().chain([LimbCase::Scan, LimbCase::Terminator]);
+    let cases = run.chosen(all, LimbCase::label)?;
     let fmus = Fmus::open(run.options)?;
     let simulated = run.all(&cases, |case| Ok((*case, case.simulated(&fmus)?)))?;
     run.line("Limb pointing (paper 001, eqs 20 to 22 and Figure 6)\n");
     let azimuths: Vec<(f64, &Simulated)> = simulated
         .iter()
         .filter_map(|(case, simulated)| match case {
-            Case::Azimuth(azimuth_deg) => Some((*azimuth_deg, simulated)),
+            LimbCase::Azimuth(azimuth_deg) => Some((*azimuth_deg, simulated)),
             _ => None,
         })
         .collect();
-    let of = |requested: Case| {
+    let of = |requested: LimbCase| {
         simulated.iter().find(|(case, _)| *case == requested).map(|(_, simulated)| simulated)
     };
     if !azimuths.is_empty() {
         print_azimuths(run, &azimuths)?;
     }
-    if let Some(scan) = of(Case::Scan) {
+    if let Some(scan) = of(LimbCase::Scan) {
         print_scan(run, scan)?;
     }
-    if let Some(orbit) = of(Case::Terminator) {
+    if let Some(orbit) = of(LimbCase::Terminator) {
         limb_orbit::print(run, orbit)?;
     }
     run.line(REMARK);

@@ -1,7 +1,9 @@
 //! The limb point on the terminator once round an orbit over noon and midnight: how many there are, and which is taken.
 
 use super::disc::{View, disc_chart};
-use super::flight::{DEFAULT_EPOCH_S, Flight, Fmus, GEOMETRY, Place, Sample, Simulated};
+use super::flight::{
+    DEFAULT_EPOCH_S, Fmus, GEOMETRY, PointingCase, PointingGeometry, PointingSample, Simulated,
+};
 use super::limb_point::{Found, PLUS_Z, triaxial};
 use crate::StudyError;
 use crate::attitude::{Vector, across, angle_rad, greatest};
@@ -21,19 +23,19 @@ const ZONE_DEG: [f64; 2] = [15.0, 13.0];
 /// Simulates it without constraints: on this orbit the Sun would leave its zone.
 pub(super) fn simulated(fmus: &Fmus) -> Result<Simulated, StudyError> {
     let off = ["keepIn.enabled", "hotPole.enabled", "monitor.enabled"].map(|name| set(name, false));
-    fmus.simulated(&Flight {
+    fmus.simulated(&PointingCase {
         label: "terminator",
         epoch_s: EPOCH_S,
         true_anomaly_deg: 0.0,
         seconds: ORBIT_S,
         parameters: [triaxial(), off.concat()].concat(),
-        command: &|_: &Place| set("pointing.scenario", "limbTerminator"),
+        command: &|_: &PointingGeometry| set("pointing.scenario", "limbTerminator"),
     })
 }
 
 /// One sample and the solutions found along the terminator.
 struct Point<'a> {
-    sample: &'a Sample,
+    sample: &'a PointingSample,
     solutions: Vec<Vector>,
     /// Of the solutions the nearer to the downtrack direction; none where there is none.
     nearer: Option<Vector>,
@@ -91,7 +93,7 @@ pub(super) fn print(run: &mut Run<'_>, simulated: &Simulated) -> Outcome {
     draw_discs(run, simulated, &points)
 }
 
-fn point<'a>(sample: &'a Sample, simulated: &Simulated) -> Point<'a> {
+fn point<'a>(sample: &'a PointingSample, simulated: &Simulated) -> Point<'a> {
     let (place, ellipsoid) = (&sample.place, simulated.planet.at(sample.place.epoch_s));
     let solutions = ellipsoid.terminator_limb_points(&place.position_m, &place.sun_m());
     let up = place.position_m.normalize();

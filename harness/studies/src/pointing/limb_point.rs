@@ -1,7 +1,7 @@
 //! Where +Z passes the limb of a triaxial planet, found from the attitude alone.
 
 use super::disc::View;
-use super::flight::Sample;
+use super::flight::PointingSample;
 use super::planet::Ellipsoid;
 use crate::attitude::Vector;
 use crate::settings::{Settings, set};
@@ -30,7 +30,7 @@ pub(super) struct Found {
 }
 
 impl Found {
-    pub(super) fn of(sample: &Sample, ellipsoid: &Ellipsoid) -> Option<Self> {
+    pub(super) fn of(sample: &PointingSample, ellipsoid: &Ellipsoid) -> Option<Self> {
         let boresight = sample.inertial(&PLUS_Z);
         let view = View::at(&sample.place);
         let (foot_m, height_m) = ellipsoid.height_over_limb_m(&sample.place.position_m, &boresight)?;

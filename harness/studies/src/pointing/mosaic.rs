@@ -3,7 +3,7 @@
 use super::camera::Frame;
 use super::disc::{View, disc_chart};
 use super::flight::{Fmus, GEOMETRY, Simulated};
-use super::scans::{CASES, Case};
+use super::scans::{CASES, ScanCase};
 use crate::attitude::{Vector, angle_rad, greatest};
 use crate::cells::row;
 use crate::report::{Outcome, Run};
@@ -11,7 +11,7 @@ use drawing::{PlaneChart, Series};
 
 /// A mosaic that was simulated.
 struct Mosaic {
-    case: Case,
+    case: ScanCase,
     simulated: Simulated,
     numbers: Numbers,
 }
@@ -32,7 +32,7 @@ struct Numbers {
 }
 
 impl Numbers {
-    fn of(case: &Case, simulated: &Simulated) -> Self {
+    fn of(case: &ScanCase, simulated: &Simulated) -> Self {
         let frames = case.frames(simulated);
         let overlap = |pair: &[Frame<'_>]| {
             let (surface, _) = pair[0].surface_m();

@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 
 use super::camera::{Camera, Frame};
-use super::flight::{DEFAULT_EPOCH_S, Flight, Fmus, Place, Simulated};
+use super::flight::{DEFAULT_EPOCH_S, Fmus, PointingCase, PointingGeometry, Simulated};
 use crate::StudyError;
 use crate::attitude::Vector;
 use crate::settings::{Settings, set};
@@ -28,7 +28,7 @@ struct Motion {
 
 /// By which frame the scan goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum ScanReference {
     /// `scan.frame` inertialTranslation.
     Inertial,
     /// body.
@@ -39,14 +39,14 @@ enum Kind {
 
 /// One scan.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Case {
+pub(super) struct ScanCase {
     /// Its name.
     pub label: &'static str,
     /// Of its picture.
     pub title: &'static str,
     /// What takes the frames.
     pub camera: Camera,
-    kind: Kind,
+    kind: ScanReference,
     /// Days from the default start.
     day: f64,
     /// The camera's angle, in deg.
@@ -61,12 +61,12 @@ pub(super) struct Case {
 }
 
 /// The scans of the study.
-pub(super) const CASES: [Case; 3] = [
-    Case {
+pub(super) const CASES: [ScanCase; 3] = [
+    ScanCase {
         label: "inertial",
         title: "MDIS wide-angle, inertial scan",
         camera: WIDE,
-        kind: Kind::Inertial,
+        kind: ScanReference::Inertial,
         day: 12.0,
         mdis_deg: -19.0,
         fast: Motion { step: 2.0e6, duration_s: 60.0, pause_s: 40.0, segments: 6, reverse: true },
@@ -75,11 +75,11 @@ pub(super) const CASES: [Case; 3] = [
         every_s: 0.0,
         per_motion: 1,
     },
-    Case {
+    ScanCase {
         label: "body",
         title: "+Z instrument, body scan",
         camera: PLUS_Z,
-        kind: Kind::Body,
+        kind: ScanReference::Body,
         day: 6.0,
         mdis_deg: 0.0,
         fast: Motion { step: 15.0, duration_s: 120.0, pause_s: 20.0, segments: 3, reverse: true },
@@ -88,11 +88,11 @@ pub(super) const CASES: [Case; 3] = [
         every_s: 10.0,
         per_motion: 12,
     },
-    Case {
+    ScanCase {
         label: "planet",
         title: "MDIS narrow-angle, planet-fixed scan",
         camera: NARROW,
-        kind: Kind::PlanetFixed,
+        kind: ScanReference::PlanetFixed,
         day: 12.0,
         mdis_deg: -19.0,
         fast: Motion { step: 3.7e5, duration_s: 40.0, pause_s: 20.0, segments: 10, reverse: true },
@@ -131,7 +131,7 @@ impl Motion {
     }
 }
 
-impl Case {
+impl ScanCase {
     fn seconds(&self) -> u32 {
         self.fast.end_s().max(self.slow.end_s()) as u32
     }
@@ -149,11 +149,11 @@ impl Case {
     }
 
     /// What is commanded from the first place on.
-    fn settings(&self, place: &Place, axes: &Matrix3<f64>, radius_m: f64) -> Settings {
+    fn settings(&self, place: &PointingGeometry, axes: &Matrix3<f64>, radius_m: f64) -> Settings {
         let nadir = place.nadir_m().normalize();
         let degree = f64::to_radians(1.0);
         match self.kind {
-            Kind::Body => {
+            ScanReference::Body => {
                 // Rows about Y, from row to row about X; the boresight begins where the scan turns it to +Z midway.
                 let (about_y, about_x) = (degree * self.fast.start(), degree * self.slow.start());
                 let (sin_y, cos_y) = about_y.sin_cos();
@@ -173,12 +173,12 @@ impl Case {
                 ];
                 settings.concat()
             }
-            Kind::Inertial | Kind::PlanetFixed => {
+            ScanReference::Inertial | ScanReference::PlanetFixed => {
                 let [fast, slow] = Self::across(axes, &nadir);
                 let mut start = Vector::zeros();
                 (start[fast], start[slow]) = (self.fast.start(), self.slow.start());
                 let (option, frame) = match self.kind {
-                    Kind::PlanetFixed => {
+                    ScanReference::PlanetFixed => {
                         // About the point below the spacecraft.
                         start += axes.tr_mul(&nadir) * -radius_m;
                         ("planetFixed", "planetTranslation")
@@ -202,23 +202,23 @@ impl Case {
     /// Simulates it.
     pub(super) fn simulated(&self, fmus: &Fmus) -> Result<Simulated, StudyError> {
         // A flight of one second shows where the planet's axes are.
-        let flight = Flight {
+        let flight = PointingCase {
             label: self.label,
             epoch_s: self.epoch_s(),
             true_anomaly_deg: TRUE_ANOMALY_DEG,
             seconds: 0,
             parameters: Vec::new(),
-            command: &|_: &Place| Vec::new(),
+            command: &|_: &PointingGeometry| Vec::new(),
         };
         let planet = fmus.simulated(&flight)?.planet;
         let axes = match self.kind {
-            Kind::PlanetFixed => *planet.at(self.epoch_s()).axes(),
-            Kind::Inertial | Kind::Body => Matrix3::identity(),
+            ScanReference::PlanetFixed => *planet.at(self.epoch_s()).axes(),
+            ScanReference::Inertial | ScanReference::Body => Matrix3::identity(),
         };
-        let command = |place: &Place| {
+        let command = |place: &PointingGeometry| {
             if place.time_s == 0.0 { self.settings(place, &axes, planet.radii_m[0]) } else { Vec::new() }
         };
-        fmus.simulated(&Flight { seconds: self.seconds(), command: &command, ..flight })
+        fmus.simulated(&PointingCase { seconds: self.seconds(), command: &command, ..flight })
     }
 
     /// Its frames; none while the axis from row to row moves.

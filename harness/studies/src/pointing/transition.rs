@@ -1,6 +1,8 @@
 //! Figures 7 and 8: from downlink to the camera at nadir, as commanded.
 
-use super::flight::{DEFAULT_EPOCH_S, Flight, Fmus, GEOMETRY, Place, Sample, Simulated};
+use super::flight::{
+    DEFAULT_EPOCH_S, Fmus, GEOMETRY, PointingCase, PointingGeometry, PointingSample, Simulated,
+};
 use crate::StudyError;
 use crate::attitude::{angle_rad, greatest};
 use crate::cells::row;
@@ -25,7 +27,7 @@ type Case = (&'static str, bool);
 const CASES: [Case; 2] = [("camera follows", true), ("camera held", false)];
 
 fn simulated((label, is_followed): Case, fmus: &Fmus) -> Result<Simulated, StudyError> {
-    let command = |place: &Place| -> Settings {
+    let command = |place: &PointingGeometry| -> Settings {
         let camera = || {
             // -Y at the Sun and the camera at nadir: the camera stands as far sunward of +Z as nadir does.
             let sun_nadir_rad = angle_rad(&place.to_sun_m, &place.nadir_m());
@@ -41,7 +43,7 @@ fn simulated((label, is_followed): Case, fmus: &Fmus) -> Result<Simulated, Study
             Vec::new()
         }
     };
-    fmus.simulated(&Flight {
+    fmus.simulated(&PointingCase {
         label,
         epoch_s: EPOCH_S,
         true_anomaly_deg: TRUE_ANOMALY_DEG,
@@ -52,7 +54,7 @@ fn simulated((label, is_followed): Case, fmus: &Fmus) -> Result<Simulated, Study
 }
 
 /// What the figures show at one second: azimuth and elevation of Sun, Earth and Mercury in the body frame, in deg.
-fn angles_deg(sample: &Sample) -> [[f64; 2]; 3] {
+fn angles_deg(sample: &PointingSample) -> [[f64; 2]; 3] {
     let place = &sample.place;
     [place.to_sun_m, place.to_earth, place.nadir_m()].map(|to| sample.body_angles_deg(&to))
 }
@@ -141,7 +143,7 @@ fn write(run: &mut Run<'_>, simulated: &[(Case, Simulated)]) -> Outcome {
 }
 
 /// A line over time, interrupted at the slew.
-fn over_time(label: &str, simulated: &Simulated, value: impl Fn(&Sample) -> f64) -> Series {
+fn over_time(label: &str, simulated: &Simulated, value: impl Fn(&PointingSample) -> f64) -> Series {
     let mut points = Vec::new();
     for sample in &simulated.samples {
         if sample.place.time_s == SLEW_S {

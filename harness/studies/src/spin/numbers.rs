@@ -25,7 +25,7 @@ const AXIAL_OPPOSITE: i32 = 4;
 /// Marks rows in which nothing was simulated.
 const ARITHMETIC: &str = "agrees (arithmetic, not simulated)";
 
-type Row = Vec<String>;
+type ComparisonRow = Vec<String>;
 
 /// Every number.
 pub(crate) fn numbers(run: &mut Run<'_>) -> Outcome {
@@ -41,7 +41,7 @@ pub(crate) fn numbers(run: &mut Run<'_>) -> Outcome {
 }
 
 /// Section II: sizes, counts, durations.
-fn pulses(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
+fn pulses(fmu: &Fmu) -> Result<Vec<ComparisonRow>, StudyError> {
     let names = [
         "burn.pulseAngle",
         "burn.plannedDuration",
@@ -166,7 +166,7 @@ fn printed_envelope_rad(per_pulse_rad: f64, ratio: f64, turns_per_pulse: f64) ->
 }
 
 /// Section II: envelopes, by eq 9 and 10 as printed and exactly.
-fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
+fn envelopes(fmu: &Fmu) -> Result<Vec<ComparisonRow>, StudyError> {
     let envelope = |thruster: i32, turns: f64, count: f64| -> Result<(f64, f64), StudyError> {
         let arm_m = if thruster == AXIAL { AXIAL_ARM_M } else { RADIAL_ARM_M };
         // Pulses of exactly 2 deg / n.
@@ -212,7 +212,7 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
 }
 
 /// Section IV and eq 1.
-fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
+fn observation(fmu: &Fmu) -> Result<Vec<ComparisonRow>, StudyError> {
     let tracker = paper_case("observation", 1.0, 1.0)
         .set("starTracker.sampling", "clock")
         .simulate(fmu, &["starTracker.observationTimeNominal", "starTracker.observationTime"])?;
@@ -316,7 +316,7 @@ impl Worst {
 }
 
 /// Beyond the paper: trains that end with little nutation.
-fn beyond(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
+fn beyond(fmu: &Fmu) -> Result<Vec<ComparisonRow>, StudyError> {
     let (uniform, tapered) = (Worst::of(fmu, "uniform", 1, 114)?, Worst::of(fmu, "tapered", 1, 58)?);
     let (second, fourth) = (Worst::of(fmu, "tapered", 2, 30)?, Worst::of(fmu, "tapered", 4, 11)?);
     let as_stated = tapered.turns() && tapered.final_deg < 0.0033 && tapered.duration_min < 11.45;

@@ -16,7 +16,7 @@ const IMPULSES: u32 = 20;
 /// What that part comes to, in deg: 4e-4 of 0.1 deg a pulse.
 const EQ8_DEG: f64 = 5e-5;
 
-struct Row {
+struct NutationRow {
     count: u32,
     width_s: f64,
     printed_rad: f64,
@@ -52,7 +52,7 @@ fn figure(run: &mut Run<'_>, file: &str, turns: f64, paper_envelope_deg: f64) ->
             .set("burn.pulseWidth", width_s)
             .simulate(&fmu, &["nutation.angle"])?;
         let printed_rad = eq8(per_pulse, phase, f64::from(count));
-        Ok(Row { count, width_s, printed_rad, simulated_rad: simulated.last(0) })
+        Ok(NutationRow { count, width_s, printed_rad, simulated_rad: simulated.last(0) })
     })?;
     run.line(&format!(
         "Nutation after a 2 deg manoeuvre in n pulses, one every {turns} turns, ratio {RATIO} (paper 002, {file})"
@@ -124,10 +124,11 @@ fn envelope_deg(count: f64, phase: f64) -> f64 {
     MANOEUVRE_RAD.to_degrees() / count / (0.5 * phase).sin().abs()
 }
 
-fn chart(rows: &[Row], turns: f64, phase: f64) -> Chart {
+fn chart(rows: &[NutationRow], turns: f64, phase: f64) -> Chart {
     let shown = || rows.iter().filter(|row| row.count >= FEWEST_SHOWN);
-    let at_counts =
-        |value: fn(&Row) -> f64| shown().map(|row| (f64::from(row.count), value(row).to_degrees())).collect();
+    let at_counts = |value: fn(&NutationRow) -> f64| {
+        shown().map(|row| (f64::from(row.count), value(row).to_degrees())).collect()
+    };
     let envelope = (FEWEST_SHOWN..=MOST).map(f64::from).map(|n| (n, envelope_deg(n, phase))).collect();
     Chart::new(
         format!(

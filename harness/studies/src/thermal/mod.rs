@@ -13,8 +13,8 @@ use crate::report::{Outcome, Run};
 use crate::verdict::{agrees, compared};
 use drawing::{Chart, Panel, Series};
 
-use orbit::{Case, EFFECTS, Fmus, Planet, Sample};
-use paper::{Row, TABLE_7, TABLE_8};
+use orbit::{AccelerationSample, EFFECTS, Fmus, Planet, ThermalCase};
+use paper::{PrintedAccelerations, TABLE_7, TABLE_8};
 use table::Simulated;
 pub(crate) use year::figure13;
 
@@ -67,8 +67,9 @@ pub(crate) fn figure12(run: &mut Run<'_>) -> Outcome {
     let rows: Vec<Vec<String>> = simulated
         .iter()
         .map(|Simulated { row, samples, .. }| {
-            let lit: Vec<&Sample> = samples.iter().filter(|sample| sample.lit).collect();
-            let share = |sample: &&Sample| sample.effects[1..].iter().sum::<f64>() / sample.effects[0];
+            let lit: Vec<&AccelerationSample> = samples.iter().filter(|sample| sample.lit).collect();
+            let share =
+                |sample: &&AccelerationSample| sample.effects[1..].iter().sum::<f64>() / sample.effects[0];
             let mean = lit.iter().map(share).sum::<f64>() / lit.len().max(1) as f64;
             let verdict = agrees((0.195..=0.305).contains(&mean));
             compared(&format!("{} | 20-30 %", row.case), format!("{:.1} %", mean * 100.0), verdict)
@@ -93,15 +94,15 @@ all cases: 1365 W/m2 at 1 AU, planet absorptivity 0.88, diffuse reflectivity 0.1
 cells: the paper's way to sum, here on 45 belts of 90; an odd number has a meridian of cells right on the terminator,
 and these count as lit.";
 
-fn series(effect: usize, suffix: &str, samples: &[Sample]) -> Series {
-    let point = |sample: &Sample| (sample.time_s / 3600.0, sample.effects[effect] * 1e7);
+fn series(effect: usize, suffix: &str, samples: &[AccelerationSample]) -> Series {
+    let point = |sample: &AccelerationSample| (sample.time_s / 3600.0, sample.effects[effect] * 1e7);
     Series::line(format!("{}{suffix}", EFFECTS[effect]), samples.iter().map(point).collect())
 }
 
 /// Runs the rows that the options leave, on all cores.
 fn simulate_rows(
     run: &Run<'_>,
-    rows: &[Row],
+    rows: &[PrintedAccelerations],
     planet: Planet,
     belts: Option<i32>,
 ) -> Result<Vec<Simulated>, StudyError> {
@@ -110,7 +111,13 @@ fn simulate_rows(
     run.all(&rows, |row| {
         let true_anomaly_deg = row.true_anomaly_deg;
         let simulate = |belts| {
-            fmus.simulate(&Case { true_anomaly_deg, planet, duration_s: DURATION_S, step_s: STEP_S, belts })
+            fmus.simulate(&ThermalCase {
+                true_anomaly_deg,
+                planet,
+                duration_s: DURATION_S,
+                step_s: STEP_S,
+                belts,
+            })
         };
         let by_cells = belts.map(|belts| simulate(Some(belts))).transpose()?;
         Ok(Simulated { row: *row, samples: simulate(None)?, by_cells })

@@ -3,7 +3,7 @@
 use loader::Fmu;
 
 use crate::attitude::{Attitude, Vector, angle_rad};
-use crate::case::{self, Row, recorded};
+use crate::case::{self, RowReader, recorded};
 use crate::settings::{Settings, set};
 use crate::{Options, StudyError};
 
@@ -24,7 +24,7 @@ pub(super) enum Planet {
 
 /// What is simulated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Case {
+pub(super) struct ThermalCase {
     /// Mercury's true anomaly at the start, in deg.
     pub true_anomaly_deg: f64,
     /// The planet.
@@ -37,7 +37,7 @@ pub(super) struct Case {
     pub belts: Option<i32>,
 }
 
-impl Case {
+impl ThermalCase {
     /// How `MomentumPlant` runs along the orbit.
     fn trajectory(&self) -> case::Case {
         let label = format!("Mercury at {} deg", self.true_anomaly_deg);
@@ -64,7 +64,7 @@ impl Case {
 
 /// Accelerations at one time, in m/s2.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Sample {
+pub(super) struct AccelerationSample {
     /// Time from the start, in s.
     pub time_s: f64,
     /// Mercury's true anomaly, in deg, counted on beyond 360.
@@ -79,7 +79,7 @@ pub(super) struct Sample {
     pub without_solar: f64,
 }
 
-/// Names of the effects in [`Sample::effects`].
+/// Names of the effects in [`AccelerationSample::effects`].
 pub(super) const EFFECTS: [&str; 4] = ["solar", "albedo", "infrared", "thermal"];
 
 /// Both FMUs.
@@ -98,22 +98,22 @@ impl Fmus {
     }
 
     /// Runs one case.
-    pub(super) fn simulate(&self, case: &Case) -> Result<Vec<Sample>, StudyError> {
+    pub(super) fn simulate(&self, case: &ThermalCase) -> Result<Vec<AccelerationSample>, StudyError> {
         let trajectory = self.trajectory(case)?;
         let mut ahead = trajectory.iter();
-        let mut inputs = |_: Row<'_>| ahead.next().map_or(Settings::new(), TrajectoryPoint::inputs);
+        let mut inputs = |_: RowReader<'_>| ahead.next().map_or(Settings::new(), TrajectoryPoint::inputs);
         let forces = case.disturbance(trajectory.len());
         let forces: Vec<Forces> = forces.steer(&self.disturbance, Forces::NAMES, &mut inputs)?.all(0);
         let mut revolution = PlanetRevolution::default();
         let sample = |(point, forces): (&TrajectoryPoint, &Forces)| {
             let revolution_deg = revolution.to(&point.planet_m).to_degrees();
-            Sample::of(point, case.true_anomaly_deg + revolution_deg, forces)
+            AccelerationSample::of(point, case.true_anomaly_deg + revolution_deg, forces)
         };
         Ok(trajectory.iter().zip(&forces[1..]).map(sample).collect())
     }
 
     /// Where everything is at every communication point.
-    fn trajectory(&self, case: &Case) -> Result<Vec<TrajectoryPoint>, StudyError> {
+    fn trajectory(&self, case: &ThermalCase) -> Result<Vec<TrajectoryPoint>, StudyError> {
         let recorded = case.trajectory().simulate(&self.plant, TrajectoryPoint::NAMES)?;
         let mut points: Vec<TrajectoryPoint> = recorded.all(0);
         points.iter_mut().for_each(|point| point.planet_m -= point.position_m);
@@ -158,7 +158,7 @@ impl TrajectoryPoint {
     }
 }
 
-impl Sample {
+impl AccelerationSample {
     fn of(point: &TrajectoryPoint, true_anomaly_deg: f64, forces: &Forces) -> Self {
         let effects = forces.effects_n.map(|force_n| force_n / point.mass_kg);
         let without_solar: Vector = effects[1..].iter().sum();

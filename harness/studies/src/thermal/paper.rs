@@ -2,7 +2,7 @@
 
 /// One row: solar acceleration in 1e-7 m/s2, the rest in % of it; (greatest, least).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Row {
+pub(super) struct PrintedAccelerations {
     /// Case number.
     pub case: u32,
     /// Mercury's true anomaly at the start, in deg.
@@ -18,14 +18,14 @@ const fn row(
     albedo: (f64, f64),
     infrared: (f64, f64),
     thermal: (f64, f64),
-) -> Row {
+) -> PrintedAccelerations {
     let [albedo, infrared, thermal] =
         [(albedo.0, Some(albedo.1)), (infrared.0, Some(infrared.1)), (thermal.0, Some(thermal.1))];
-    Row { case, true_anomaly_deg, extremes: [(solar, None), albedo, infrared, thermal] }
+    PrintedAccelerations { case, true_anomaly_deg, extremes: [(solar, None), albedo, infrared, thermal] }
 }
 
 /// Table 7, the analytical model.
-pub(super) const TABLE_7: [Row; 4] = [
+pub(super) const TABLE_7: [PrintedAccelerations; 4] = [
     row(1, 10.0, 8.45, (0.32, 0.02), (6.68, 0.18), (25.60, 23.44)),
     row(2, 98.0, 5.51, (2.37, 0.00), (14.10, 0.01), (23.24, 18.80)),
     row(3, 189.0, 3.71, (0.95, 0.01), (19.24, 0.14), (19.99, 18.81)),
@@ -33,7 +33,7 @@ pub(super) const TABLE_7: [Row; 4] = [
 ];
 
 /// Table 8, the numerical model; the solar column's maximum.
-pub(super) const TABLE_8: [Row; 4] = [
+pub(super) const TABLE_8: [PrintedAccelerations; 4] = [
     row(1, 10.0, 8.45, (0.20, 0.00), (3.66, 0.17), (23.78, 23.31)),
     row(2, 98.0, 5.51, (4.40, 0.00), (25.22, 0.02), (20.43, 18.46)),
     row(3, 189.0, 3.72, (0.77, 0.01), (17.56, 0.08), (18.97, 16.89)),

@@ -1,23 +1,23 @@
 //! Tables 7 and 8: extremes around the orbit beside the paper's.
 
-use super::orbit::{EFFECTS, Sample};
-use super::paper::Row;
+use super::orbit::{AccelerationSample, EFFECTS};
+use super::paper::PrintedAccelerations;
 use crate::report::{Outcome, Run};
 use drawing::{BarChart, BarPanel};
 
 /// One row of the paper, simulated.
 pub(super) struct Simulated {
-    pub(super) row: Row,
-    pub(super) samples: Vec<Sample>,
+    pub(super) row: PrintedAccelerations,
+    pub(super) samples: Vec<AccelerationSample>,
     /// By the planet's cells, where requested.
-    pub(super) by_cells: Option<Vec<Sample>>,
+    pub(super) by_cells: Option<Vec<AccelerationSample>>,
 }
 
 /// How far the greatest of solar, albedo, infrared and recoil may be off the printed one, relative to it.
 pub(super) type Tolerances = [f64; 4];
 
 /// Greatest and least of an effect; solar and recoil are taken in the light only.
-fn extremes(samples: &[Sample], effect: usize) -> (f64, f64) {
+fn extremes(samples: &[AccelerationSample], effect: usize) -> (f64, f64) {
     let in_light_only = effect == 0 || effect == 3;
     samples
         .iter()
@@ -27,7 +27,7 @@ fn extremes(samples: &[Sample], effect: usize) -> (f64, f64) {
 }
 
 /// Solar in 1e-7 m/s2, the others in % of the greatest solar; greatest and least.
-fn as_printed(samples: &[Sample]) -> [(f64, f64); 4] {
+fn as_printed(samples: &[AccelerationSample]) -> [(f64, f64); 4] {
     let solar_m_s2 = extremes(samples, 0).0;
     [0, 1, 2, 3].map(|effect| {
         let (greatest, least) = extremes(samples, effect);
@@ -77,7 +77,7 @@ pub(super) fn print(
 fn chart(simulated: &[Simulated]) -> BarChart {
     let has_cells = simulated.iter().any(|it| it.by_cells.is_some());
     let panel = |effect: usize| {
-        let greatest = |samples: &[Sample]| as_printed(samples)[effect].0;
+        let greatest = |samples: &[AccelerationSample]| as_printed(samples)[effect].0;
         let by_cells = |it: &Simulated| it.by_cells.as_deref().map_or(f64::NAN, greatest);
         let mut values: Vec<Vec<f64>> = vec![
             simulated.iter().map(|it| it.row.extremes[effect].0).collect(),

@@ -5,7 +5,7 @@ use crate::report::{Outcome, Run};
 use crate::verdict::{agrees, compared};
 use drawing::{Chart, Panel, Series};
 
-use super::orbit::{Case, EFFECTS, Fmus, MERCURY_YEAR_S, ORBIT_S, Planet, Sample};
+use super::orbit::{AccelerationSample, EFFECTS, Fmus, MERCURY_YEAR_S, ORBIT_S, Planet, ThermalCase};
 
 /// Time between samples, in s.
 const STEP_S: f64 = 60.0;
@@ -40,9 +40,9 @@ struct Orbit {
 }
 
 impl Orbit {
-    fn of(samples: &[Sample]) -> Self {
+    fn of(samples: &[AccelerationSample]) -> Self {
         let lit = || samples.iter().filter(|sample| sample.lit);
-        let share = |sample: &Sample| sample.effects[1..].iter().sum::<f64>() / sample.effects[0];
+        let share = |sample: &AccelerationSample| sample.effects[1..].iter().sum::<f64>() / sample.effects[0];
         Self {
             true_anomaly_deg: samples.first().map_or(0.0, |sample| sample.true_anomaly_deg),
             effects: [0, 1, 2, 3].map(|k| Range::of(samples.iter().map(|sample| sample.effects[k]))),
@@ -58,7 +58,7 @@ fn row(what: &str, ours: String, holds: bool) -> Vec<String> {
 /// Figure 13: accelerations over a Mercury year; least, mean and greatest of every orbit.
 pub(crate) fn figure13(run: &mut Run<'_>) -> Outcome {
     let fmus = Fmus::open(run.options)?;
-    let case = Case {
+    let case = ThermalCase {
         true_anomaly_deg: 0.0,
         planet: Planet::Moving,
         duration_s: MERCURY_YEAR_S,
@@ -66,11 +66,11 @@ pub(crate) fn figure13(run: &mut Run<'_>) -> Outcome {
         belts: None,
     };
     let samples = fmus.simulate(&case)?;
-    let orbit_of = |sample: &Sample| (sample.time_s / ORBIT_S) as u64;
+    let orbit_of = |sample: &AccelerationSample| (sample.time_s / ORBIT_S) as u64;
     let orbits: Vec<Orbit> = samples.chunk_by(|a, b| orbit_of(a) == orbit_of(b)).map(Orbit::of).collect();
     run.line("A whole Mercury year (paper 004, Figure 13)\n");
     let lit = || samples.iter().filter(|sample| sample.lit);
-    let greatest = |value: &dyn Fn(&Sample) -> f64| lit().map(value).fold(0.0, f64::max);
+    let greatest = |value: &dyn Fn(&AccelerationSample) -> f64| lit().map(value).fold(0.0, f64::max);
     let shares = orbits.iter().map(|orbit| orbit.mean_thermal_share);
     let mean_share = Range::of(shares);
     let infrared = greatest(&|sample| sample.effects[2] / sample.effects[0]);

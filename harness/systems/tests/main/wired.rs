@@ -3,7 +3,8 @@
 use loader::Fmu;
 use model_description::DefaultExperiment;
 use systems::{
-    Kind, Linear, System, Wired, Wiring, component_name, read_structure, to_parameter_set, to_xml, wire,
+    ConnectorKind, Linear, System, Wired, Wiring, component_name, read_structure, to_parameter_set, to_xml,
+    wire,
 };
 
 use crate::support::{ITEMS, Ssd, description, fmu, giver, ssp, taker};
@@ -272,7 +273,14 @@ fn exported_variables_are_connectors_of_the_system() {
     };
     let wired = exported(&["one.angle", "two.duration", "one.size"]).unwrap();
     let kinds: Vec<_> = wired.structure.connectors.iter().map(|it| (it.name.as_str(), it.kind)).collect();
-    assert_eq!(kinds, [("angle", Kind::Output), ("duration", Kind::Input), ("size", Kind::Parameter)]);
+    assert_eq!(
+        kinds,
+        [
+            ("angle", ConnectorKind::Output),
+            ("duration", ConnectorKind::Input),
+            ("size", ConnectorKind::Parameter)
+        ]
+    );
     let joined = joined(&wired);
     assert_eq!(joined[joined.len() - 3..], ["one.angle angle", "duration two.duration", "size one.size"]);
     assert!(!wired.left.iter().any(|left| left.input == "duration"));

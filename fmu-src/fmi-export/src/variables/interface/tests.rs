@@ -7,7 +7,7 @@ use super::*;
 use crate::dependencies::Dependencies;
 use crate::knowns;
 use crate::variables::{
-    Declare, EnumerationType, Integer, Item, Kind, Real, RealSpec, RealVector, Role, ScalarSpec,
+    Declare, DeclaredType, EnumerationType, Integer, Item, Real, RealSpec, RealVector, Role, ScalarSpec,
 };
 
 struct Handles {
@@ -62,16 +62,16 @@ fn every_fact_enters() {
         ("dimensions", |it, _, _| it.variables[0].dimensions = vec![1, 2]),
         ("place", |it, _, _| it.variables[0].first.place = 1),
         ("limit", |it, _, _| {
-            if let Kind::Real { max, .. } = &mut it.variables[0].kind {
+            if let DeclaredType::Real { max, .. } = &mut it.variables[0].kind {
                 *max = max.map(f64::next_up);
             }
         }),
         ("unit", |it, _, _| {
-            if let Kind::Real { display_unit, .. } = &mut it.variables[0].kind {
+            if let DeclaredType::Real { display_unit, .. } = &mut it.variables[0].kind {
                 *display_unit = None;
             }
         }),
-        ("type", |it, _, _| it.variables[2].kind = Kind::Enumeration("E")),
+        ("type", |it, _, _| it.variables[2].kind = DeclaredType::Enumeration("E")),
         ("enumeration", |it, _, _| {
             it.enumerations.push(EnumerationType { name: "E", description: "D", items: &[] }.into());
         }),

@@ -3,7 +3,7 @@
 use fmi_export::{Integer, Real, RealMatrix, RealVector, Variables};
 
 #[derive(Variables)]
-struct Limits {
+struct UnorderedLimits {
     /// Start below min.
     #[parameter(unit = "kg", min = 0.0, start = -1.0)]
     below: Real,

@@ -4,7 +4,7 @@ use fmi_export::{Enumeration, InputsOverTime, Real, RealVector, Values};
 use nalgebra::Vector3;
 use physics::attitude::control::SensorHealth;
 use physics::bodies::Body;
-use physics::guidance::modes::guidance_command::CommandKind as Kind;
+use physics::guidance::modes::guidance_command::CommandKind as GuidanceCommandKind;
 use physics::loads::ForceTorque;
 use physics::plant::{DynamicsInputs, Maneuver, ThrustCommand};
 use physics::propulsion::PulseCommand;
@@ -88,7 +88,7 @@ pub struct CommandInputs {
 
 impl CommandInputs {
     /// What a command gives.
-    pub fn kind(&self) -> Kind {
+    pub fn kind(&self) -> GuidanceCommandKind {
         CommandKind::from_value(self.kind).unwrap_or(CommandKind::FIRST).0
     }
 
@@ -96,11 +96,11 @@ impl CommandInputs {
     pub fn given(self, error_is_applied: bool) -> Self {
         let (no_q, no_rate) = ([0.0; 4], [0.0; 3]);
         match self.kind() {
-            Kind::None => Self { q: no_q, rate: no_rate, error: no_q, ..self },
-            Kind::RateOnly => Self { q: no_q, error: no_q, ..self },
-            Kind::ErrorQuaternion if error_is_applied => Self { q: no_q, error: no_q, ..self },
-            Kind::ErrorQuaternion => Self { q: no_q, ..self },
-            Kind::Attitude => Self { error: no_q, ..self },
+            GuidanceCommandKind::None => Self { q: no_q, rate: no_rate, error: no_q, ..self },
+            GuidanceCommandKind::RateOnly => Self { q: no_q, error: no_q, ..self },
+            GuidanceCommandKind::ErrorQuaternion if error_is_applied => Self { q: no_q, error: no_q, ..self },
+            GuidanceCommandKind::ErrorQuaternion => Self { q: no_q, ..self },
+            GuidanceCommandKind::Attitude => Self { error: no_q, ..self },
         }
     }
 }

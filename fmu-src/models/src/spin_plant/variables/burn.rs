@@ -8,7 +8,7 @@ use super::choices::{BurnPlan, BurnTiming};
 use physics::spacecraft::Thruster;
 use physics::spin::{forecast::Timing, spinner::Spinner};
 
-/// The burn the spacecraft flies by itself.
+/// The burn the spacecraft makes without commands.
 #[derive(Variables)]
 #[variables(setup = Spinner)]
 pub struct BurnVariables {

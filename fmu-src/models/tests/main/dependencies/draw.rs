@@ -21,13 +21,13 @@ pub(super) enum Draw {
 }
 
 /// A variable, with `*` for every index of a group, how it is drawn and how often; otherwise it stays at its default.
-pub(super) type Row = (&'static str, Draw, f64);
+pub(super) type DrawRule = (&'static str, Draw, f64);
 
 /// Which enumerations and flags stay as they are, by the beginning of their names.
 pub(super) type Kept = &'static [&'static str];
 
 /// Draws options and numbers.
-pub(super) fn draw<M: Model>(bench: &mut Bench<M>, kept: Kept, rows: &[Row]) -> Tables {
+pub(super) fn draw<M: Model>(bench: &mut Bench<M>, kept: Kept, rows: &[DrawRule]) -> Tables {
     let mut random = bench.random.clone();
     let mut values = bench.defaults();
     for at in 0..bench.variables.len() {
@@ -54,7 +54,7 @@ pub(super) fn draw<M: Model>(bench: &mut Bench<M>, kept: Kept, rows: &[Row]) -> 
 pub(super) fn redraw<M: Model>(
     bench: &Bench<M>,
     random: &mut RandomNumbers,
-    rows: &[Row],
+    rows: &[DrawRule],
     values: &mut Tables,
 ) {
     for (name, variation, share) in rows {

@@ -8,19 +8,19 @@ use super::super::named_model::Tables;
 use super::super::spacecraft::{ALL, RADIATING};
 use super::bench::Bench;
 use super::draw::Draw::{Between, Flag, Rotation, Vector, Whole};
-use super::draw::{Kept, Row, draw, redraw};
+use super::draw::{DrawRule, Kept, draw, redraw};
 
 /// In a long search there are so many times as many states.
 const LONG: usize = 200;
 
 /// Forces and torques are fitted so closely that nothing is left of what lies ahead.
-const CLOSE: &[Row] = &[
+const CLOSE: &[DrawRule] = &[
     ("solver.disturbanceStep", Between(5.0, 5.0), 1.0),
     ("solver.disturbanceTolerance", Between(1e-10, 1e-10), 1.0),
     ("solver.dynamicsStep", Between(1e-3, 1e-3), 1.0),
 ];
 
-const PLANT: &[Row] = &[
+const PLANT: &[DrawRule] = &[
     ("attitude.source", Whole(1, 4), 1.0),
     // The theory of the planets costs most.
     ("ephemeris.source", Whole(2, 3), 1.0),
@@ -69,7 +69,7 @@ const PLANT: &[Row] = &[
 ];
 const PLANT_KEPT: Kept = &["orbit.center"];
 
-const DISTURBANCE: &[Row] = &[
+const DISTURBANCE: &[DrawRule] = &[
     ("sun.positionBody", Vector(5.8e10, 5.8e10), 0.95),
     ("planet.positionBody", Vector(2.5e6, 7e6), 1.0),
     ("planet.pole", Vector(1.0, 1.0), 1.0),
@@ -79,7 +79,7 @@ const DISTURBANCE: &[Row] = &[
     ("panel[*].angle", Between(-3.0, 3.0), 1.0),
 ];
 
-const SPIN: &[Row] = &[
+const SPIN: &[DrawRule] = &[
     ("start.q", Rotation, 1.0),
     ("start.nutation", Between(0.0, 0.05), 0.5),
     ("burn.count", Whole(2, 12), 1.0),
@@ -104,7 +104,7 @@ const SPIN: &[Row] = &[
     ("limit.spinRate", Between(0.5, 0.6), 1.0),
 ];
 
-const GUIDANCE: &[Row] = &[
+const GUIDANCE: &[DrawRule] = &[
     ("ephemeris.source", Whole(2, 3), 1.0),
     ("momentum.strategy", Whole(1, 2), 1.0),
     ("guided.downlinkEvery", Whole(1, 2), 1.0),
@@ -147,14 +147,14 @@ const GUIDANCE: &[Row] = &[
 struct Search<M: Model> {
     bench: Bench<M>,
     kept: Kept,
-    rows: &'static [Row],
+    rows: &'static [DrawRule],
     /// Longest time to the communication point, in s.
     longest_s: f64,
     prepare: fn(&Bench<M>, &mut Tables),
 }
 
 impl<M: Model> Search<M> {
-    fn new(text: &str, rows: &'static [Row]) -> Self {
+    fn new(text: &str, rows: &'static [DrawRule]) -> Self {
         Self { bench: Bench::new(text, 11), kept: &[], rows, longest_s: 30.0, prepare: |_, _| {} }
     }
 

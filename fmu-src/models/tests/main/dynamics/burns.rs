@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Quaternion, SVector, UnitQuaternion, Vector3};
 
 use super::super::named_model::{NamedModel, assert_cuts_change_nothing};
 use super::super::spacecraft::{EXHAUST_M_S, SIMPLE, couples, thruster};
-use super::{DARK, FREE, Flight, Start, initialize, to_inertial};
+use super::{DARK, FREE, PlantInstance, Start, initialize, to_inertial};
 
 const MU_M3_S2: f64 = 3.986_004_355_07e14;
 const J2: f64 = 1.082_635_9e-3;
@@ -139,7 +139,7 @@ fn simulated<'a>(
     at: &State,
     rate_rad_s: [f64; 3],
     more: Start<'_>,
-) -> Flight<'a> {
+) -> PlantInstance<'a> {
     let place: Vec<(String, f64)> = (0..3)
         .flat_map(|i| {
             [
@@ -166,7 +166,7 @@ fn simulated<'a>(
 }
 
 /// Position in m and velocity in m/s off an integration.
-fn off(flight: &Flight<'_>, y: &State) -> [f64; 2] {
+fn off(flight: &PlantInstance<'_>, y: &State) -> [f64; 2] {
     let at = |i: usize| Vector3::new(y[i], y[i + 1], y[i + 2]);
     [(flight.vector("position") - at(0)).norm(), (flight.vector("velocity") - at(3)).norm()]
 }

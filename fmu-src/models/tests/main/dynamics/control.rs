@@ -5,16 +5,17 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::super::named_model::NamedModel;
 use super::{
-    CONTROLLED, DARK, FREE, Flight, Start, formed_momentum, inertia, initialize, set_quaternion, to_inertial,
+    CONTROLLED, DARK, FREE, PlantInstance, Start, formed_momentum, inertia, initialize, set_quaternion,
+    to_inertial,
 };
 
 const WHEELS: std::ops::RangeInclusive<usize> = 1..=4;
 
-fn any_wheel(flight: &Flight<'_>, what: &str) -> bool {
+fn any_wheel(flight: &PlantInstance<'_>, what: &str) -> bool {
     WHEELS.clone().any(|k| flight.boolean(&format!("wheel[{k}].{what}")))
 }
 
-fn off(flight: &Flight<'_>, attitude: &UnitQuaternion<f64>) -> f64 {
+fn off(flight: &PlantInstance<'_>, attitude: &UnitQuaternion<f64>) -> f64 {
     to_inertial(flight).angle_to(attitude)
 }
 

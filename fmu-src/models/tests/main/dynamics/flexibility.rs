@@ -45,10 +45,11 @@ fn torque_and_force_reported_are_what_momentum_and_velocity_change_by() {
     let pushed: Start<'_> =
         &[("force.applied[1]", 4.0), ("force.applied[3]", -60.0), ("torque.applied[2]", 0.2)];
     let mut flight = initialize(&named, &[FREE, DARK, UNBALANCED, spinning, pushed]);
-    let reported = |flight: &super::Flight<'_>| {
+    let reported = |flight: &super::PlantInstance<'_>| {
         [to_inertial(flight) * flight.vector("torque.total"), flight.vector("acceleration")]
     };
-    let reached = |flight: &super::Flight<'_>| [flight.vector("momentum.inertial"), flight.vector("deltaV")];
+    let reached =
+        |flight: &super::PlantInstance<'_>| [flight.vector("momentum.inertial"), flight.vector("deltaV")];
     let start = reached(&flight);
     let mut sums = [Vector3::zeros(); 2];
     // Simpson's rule over steps of 2 ms; the rotors turn at up to 63 rad/s.

@@ -15,7 +15,7 @@ use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use super::named_model::{NamedInstance, NamedModel};
 
-type Flight<'a> = NamedInstance<'a, MomentumPlant>;
+type PlantInstance<'a> = NamedInstance<'a, MomentumPlant>;
 type Start<'a> = &'a [(&'a str, f64)];
 
 /// Nothing acts.
@@ -36,7 +36,7 @@ fn with<'a>(parts: &[Start<'a>]) -> Vec<(&'a str, f64)> {
 }
 
 /// Body to inertial, from the output quaternion.
-fn to_inertial(flight: &Flight<'_>) -> UnitQuaternion<f64> {
+fn to_inertial(flight: &PlantInstance<'_>) -> UnitQuaternion<f64> {
     flight.to_inertial("attitude.q")
 }
 
@@ -45,24 +45,24 @@ fn inertia() -> Matrix3<f64> {
 }
 
 /// Spin axes of the shipped spacecraft.
-fn axes(flight: &Flight<'_>) -> Vec<Vector3<f64>> {
+fn axes(flight: &PlantInstance<'_>) -> Vec<Vector3<f64>> {
     (1..=4).map(|k| flight.vector(&format!("wheel[{k}].axis")).normalize()).collect()
 }
 
-fn held_momentum(flight: &Flight<'_>) -> Vector3<f64> {
+fn held_momentum(flight: &PlantInstance<'_>) -> Vector3<f64> {
     let wheels = (1..).zip(axes(flight));
     wheels.map(|(k, axis)| axis * flight.real(&format!("wheel[{k}].momentum"))).sum()
 }
 
 /// C(q) transposed applied to J w + sum of h a, from the outputs.
-fn formed_momentum(flight: &Flight<'_>) -> Vector3<f64> {
+fn formed_momentum(flight: &PlantInstance<'_>) -> Vector3<f64> {
     to_inertial(flight) * (inertia() * flight.vector("attitude.rate") + held_momentum(flight))
 }
 
-fn set_quaternion(flight: &mut Flight<'_>, name: &str, attitude: &UnitQuaternion<f64>) {
+fn set_quaternion(flight: &mut PlantInstance<'_>, name: &str, attitude: &UnitQuaternion<f64>) {
     flight.set_elements(name, attitude.coords.iter());
 }
 
-fn initialize<'a>(named: &'a NamedModel<MomentumPlant>, parts: &[Start<'_>]) -> Flight<'a> {
+fn initialize<'a>(named: &'a NamedModel<MomentumPlant>, parts: &[Start<'_>]) -> PlantInstance<'a> {
     named.initialize(0.0, &with(parts)).unwrap()
 }

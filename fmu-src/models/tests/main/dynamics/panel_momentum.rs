@@ -7,7 +7,7 @@ use physics::numerics::quadrature::Rule;
 
 use super::super::named_model::{NamedModel, assert_cuts_change_nothing};
 use super::super::wheel_torque::{self, WHEELS, axial, most_off, torques};
-use super::{DARK, FREE, Flight, Start, axes, held_momentum, initialize, to_inertial};
+use super::{DARK, FREE, PlantInstance, Start, axes, held_momentum, initialize, to_inertial};
 
 const MASS_KG: f64 = 700.0;
 const LOCKED: Start<'_> =
@@ -194,7 +194,12 @@ fn a_pair_of_panels_turns_the_body_back() {
 }
 
 /// J w + h from outputs, the panels at these angles and rates.
-fn formed(flight: &Flight<'_>, spacecraft: &Spacecraft, angles: [f64; 2], rates: [f64; 2]) -> Vector3<f64> {
+fn formed(
+    flight: &PlantInstance<'_>,
+    spacecraft: &Spacecraft,
+    angles: [f64; 2],
+    rates: [f64; 2],
+) -> Vector3<f64> {
     let (_, inertia, momenta) = spacecraft.at(angles);
     let panels = momenta[0] * rates[0] + momenta[1] * rates[1];
     to_inertial(flight) * (inertia * flight.vector("attitude.rate") + panels)
@@ -294,7 +299,7 @@ fn panels_that_keep_to_the_sun_turn_a_spinning_body_back() {
 const COMMANDED: Start<'_> = &[("attitude.source", 2.0), ("start.momentum[2]", 1.5)];
 
 /// The flight with a command that turns about X and Z.
-fn turning_as_commanded(mut flight: Flight<'_>) -> Flight<'_> {
+fn turning_as_commanded(mut flight: PlantInstance<'_>) -> PlantInstance<'_> {
     flight.set("command.q[4]", 1.0);
     flight.set("command.rate[1]", 2e-3);
     flight.set("command.rate[3]", -1e-3);
@@ -316,7 +321,11 @@ fn ideal_wheels_hold_what_the_panels_do_not() {
 
 /// The wheels' torques over time from `start_s` on by Gauss-Legendre quadrature, beside what it makes of their momenta; how far
 /// it is off, relative to the greatest change.
-fn torques_off(flight: &mut Flight<'_>, start_s: f64, mut step: impl FnMut(&mut Flight<'_>, f64)) -> f64 {
+fn torques_off(
+    flight: &mut PlantInstance<'_>,
+    start_s: f64,
+    mut step: impl FnMut(&mut PlantInstance<'_>, f64),
+) -> f64 {
     const PIECE_S: f64 = 15.0;
     let rule = Rule::<8>::gauss_legendre();
     step(flight, start_s);
@@ -396,7 +405,7 @@ fn light_turns_the_body_about_its_moved_centre() {
     let start: Start<'_> =
         &[("attitude.source", 2.0), ("panel[1].control", 2.0), ("gravityGradient.enabled", 0.0)];
     let mut flight = initialize(&named, &[start]);
-    let torque_about_origin = |flight: &Flight<'_>| {
+    let torque_about_origin = |flight: &PlantInstance<'_>| {
         let force = flight.vector("force.solar");
         (flight.vector("torque.solar") + flight.vector("centerOfMass").cross(&force), force)
     };

@@ -4,9 +4,9 @@ use models::MomentumPlant;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::super::named_model::{NamedModel, assert_same};
-use super::{CONTROLLED, FREE, Flight, GUIDANCE, Start, initialize, to_inertial};
+use super::{CONTROLLED, FREE, GUIDANCE, PlantInstance, Start, initialize, to_inertial};
 
-fn estimate(flight: &Flight<'_>) -> UnitQuaternion<f64> {
+fn estimate(flight: &PlantInstance<'_>) -> UnitQuaternion<f64> {
     flight.to_inertial("estimate.q")
 }
 

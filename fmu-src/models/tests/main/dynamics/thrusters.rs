@@ -7,7 +7,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::super::named_model::{NamedModel, assert_cuts_change_nothing};
 use super::super::spacecraft::{EXHAUST_M_S, SIMPLE, couples, thruster};
-use super::{CONTROLLED, DARK, FREE, Flight, Start, initialize, set_quaternion, to_inertial};
+use super::{CONTROLLED, DARK, FREE, PlantInstance, Start, initialize, set_quaternion, to_inertial};
 
 const FULL: &str = include_str!("../../../../resources/messenger-full.toml");
 
@@ -15,7 +15,7 @@ fn with_thrusters(thrusters: &str) -> NamedModel<MomentumPlant> {
     NamedModel::<MomentumPlant>::with("simple.toml", &format!("{SIMPLE}{thrusters}"))
 }
 
-fn momentum(flight: &Flight<'_>) -> Vector3<f64> {
+fn momentum(flight: &PlantInstance<'_>) -> Vector3<f64> {
     flight.vector("momentum.inertial")
 }
 
@@ -186,7 +186,7 @@ fn a_dump_in_controlled_flight_is_that_of_guided_flight() {
     let mut simulated = initialize(&named, &[CONTROLLED, quiet, held, &exact]);
     simulated.step_to(10.0).unwrap();
     let before = momentum(&simulated);
-    let ask = |flight: &mut Flight<'_>| {
+    let ask = |flight: &mut PlantInstance<'_>| {
         flight.set_elements("dump.target", target.iter());
         flight.set("dump.request", 1.0);
     };
@@ -230,7 +230,7 @@ fn the_momentum_is_the_integral_of_all_torques() {
     let (mut sum, mut most) = (Vector3::zeros(), 0.0_f64);
     // Steps far shorter than the valves' ramps, the torque taken as linear over each.
     let step_s = 2e-4;
-    let inertial = |flight: &Flight<'_>| to_inertial(flight) * flight.vector("torque.total");
+    let inertial = |flight: &PlantInstance<'_>| to_inertial(flight) * flight.vector("torque.total");
     let mut before = inertial(&flight);
     for k in 1..=30_000 {
         flight.step_to(1.0 + f64::from(k) * step_s).unwrap();
@@ -254,7 +254,8 @@ fn thrusters_hold_the_attitude_of_a_large_burn() {
     flight.step_to(5.0).unwrap();
     flight.set("thrust.request", 1.0);
     flight.set("thrust.command", 1.0);
-    let angle = |flight: &Flight<'_>| to_inertial(flight).angle_to(&UnitQuaternion::identity()).to_degrees();
+    let angle =
+        |flight: &PlantInstance<'_>| to_inertial(flight).angle_to(&UnitQuaternion::identity()).to_degrees();
     let (mut greatest, mut late) = (0.0_f64, 0.0_f64);
     for k in 1..=600 {
         flight.step_to(5.0 + 0.1 * f64::from(k)).unwrap();
@@ -397,7 +398,7 @@ fn a_dump_without_thrusters_after_the_centre_of_mass_moved_is_reported() {
     for start in [ideal, free] {
         let named = with_thrusters(&one_sided);
         let mut flight = initialize(&named, &[start, DARK]);
-        let dump = |flight: &mut Flight<'_>| {
+        let dump = |flight: &mut PlantInstance<'_>| {
             flight.set("dump.request", 1.0);
             let end_s = flight.time_s() + 200.0;
             flight.simulate_to(end_s, 1.0).unwrap();

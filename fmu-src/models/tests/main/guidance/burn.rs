@@ -4,7 +4,7 @@ use models::Guidance;
 use nalgebra::Vector3;
 
 use super::super::named_model::{NamedModel, assert_same};
-use super::{FREE, Flight, PLACED, with};
+use super::{FREE, GuidanceInstance, PLACED, with};
 
 const BURN: &[(&str, f64)] = &[
     ("pointing.scenario", 9.0),
@@ -23,14 +23,14 @@ fn thrust_body() -> Vector3<f64> {
 }
 
 /// What a master's exchange leaves at a second: the spacecraft follows the command, thrust has acted for `on_s` so far.
-fn exchange(flight: &mut Flight<'_>, on_s: f64) {
+fn exchange(flight: &mut GuidanceInstance<'_>, on_s: f64) {
     let q = flight.quaternion("command.q");
     flight.set_elements("estimate.q", &q);
     flight.set_elements("accelerometer.deltaV", &(thrust_body() * (ACCELERATION_M_S2 * on_s)));
 }
 
 /// For how long of the second that begins at `time_s` thrusters obey what they are reported at its beginning.
-fn on_s(flight: &Flight<'_>, time_s: f64) -> f64 {
+fn on_s(flight: &GuidanceInstance<'_>, time_s: f64) -> f64 {
     let until_s = if flight.boolean("thrust.command") { flight.real("thrust.stop") } else { time_s };
     (until_s - time_s).clamp(0.0, 1.0)
 }
@@ -42,7 +42,7 @@ fn simulate<'a>(
     sets: &[(&str, f64)],
     cuts: u32,
     saves: bool,
-    mut each: impl FnMut(u32, &Flight<'a>),
+    mut each: impl FnMut(u32, &GuidanceInstance<'a>),
 ) -> f64 {
     let mut flight = named.initialize(0.0, sets).unwrap();
     let mut thrust_s = 0.0;

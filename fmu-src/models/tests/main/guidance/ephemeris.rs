@@ -6,7 +6,7 @@ use physics::bodies::Body;
 
 use super::super::named_model::{NamedModel, assert_cuts_change_nothing, assert_same};
 use super::super::onboard_ephemeris::{FILE, START_S, file, from_mercury};
-use super::{FREE, Flight, to_inertial, with};
+use super::{FREE, GuidanceInstance, to_inertial, with};
 
 const OPERATIONAL: i32 = 1;
 const SAFE_HOLD: i32 = 2;
@@ -38,7 +38,7 @@ fn with_file(span_s: f64, turned_rad: f64) -> NamedModel<Guidance> {
 }
 
 /// What sensors measure of an attitude that is the commanded one: estimate and Sun.
-fn sense(flight: &mut Flight<'_>) {
+fn sense(flight: &mut GuidanceInstance<'_>) {
     let to_body = to_inertial(flight).inverse();
     let sun_m = from_mercury(Body::Sun, START_S + flight.time_s()).position_m - position_m();
     let q = flight.quaternion("command.q");
@@ -47,12 +47,12 @@ fn sense(flight: &mut Flight<'_>) {
     flight.set("sun.sensedValid", 1.0);
 }
 
-fn seen(flight: &Flight<'_>) -> (i32, bool, i32) {
+fn seen(flight: &GuidanceInstance<'_>) -> (i32, bool, i32) {
     (flight.integer("mode.active"), flight.boolean("ephemeris.valid"), flight.integer("ephemeris.active"))
 }
 
 /// Angle between the true Sun and -Y of the commanded frame.
-fn sun_from_minus_y_rad(flight: &Flight<'_>) -> f64 {
+fn sun_from_minus_y_rad(flight: &GuidanceInstance<'_>) -> f64 {
     let sun_m = from_mercury(Body::Sun, START_S + flight.time_s()).position_m - position_m();
     (to_inertial(flight).inverse() * sun_m).angle(&-Vector3::y())
 }

@@ -20,7 +20,7 @@ use nalgebra::UnitQuaternion;
 
 use super::named_model::NamedInstance;
 
-type Flight<'a> = NamedInstance<'a, Guidance>;
+type GuidanceInstance<'a> = NamedInstance<'a, Guidance>;
 
 /// Above Mercury, with Sun and Earth as inputs.
 pub(crate) const PLACED: &[(&str, f64)] = &[
@@ -47,6 +47,6 @@ fn with<'a>(lists: &[&[(&'a str, f64)]]) -> Vec<(&'a str, f64)> {
 }
 
 /// From body to inertial components.
-fn to_inertial(flight: &Flight<'_>) -> UnitQuaternion<f64> {
+fn to_inertial(flight: &GuidanceInstance<'_>) -> UnitQuaternion<f64> {
     flight.to_inertial("command.q")
 }

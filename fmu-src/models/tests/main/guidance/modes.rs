@@ -4,7 +4,7 @@ use models::Guidance;
 use nalgebra::Vector3;
 
 use super::super::named_model::{NamedModel, assert_same};
-use super::{Flight, PLACED, to_inertial, with};
+use super::{GuidanceInstance, PLACED, to_inertial, with};
 
 const OPERATIONAL: i32 = 1;
 const SAFE_HOLD: i32 = 2;
@@ -15,7 +15,7 @@ const RATE_ONLY: i32 = 3;
 
 const DOWN: &[(&str, f64)] = &[("pointing.scenario", 3.0)];
 
-fn step(flight: &mut Flight<'_>, sets: &[(&str, f64)]) -> [i32; 2] {
+fn step(flight: &mut GuidanceInstance<'_>, sets: &[(&str, f64)]) -> [i32; 2] {
     for (name, value) in sets {
         flight.set(name, *value);
     }
@@ -98,7 +98,7 @@ fn the_monitor_demotes_after_its_persistence_and_watches_no_estimate_of_zero() {
 fn every_demotion_says_why_in_mode_reason_and_in_the_log() {
     let named = NamedModel::<Guidance>::shipped();
     let at_once = [("monitor.persistence", 0.0), ("monitor.margin", 0.01)];
-    let reason_of = |flight: &mut Flight<'_>, sets: &[(&str, f64)]| {
+    let reason_of = |flight: &mut GuidanceInstance<'_>, sets: &[(&str, f64)]| {
         let before = named.warnings().len();
         step(flight, sets);
         (flight.integer("mode.active"), flight.integer("mode.reason"), named.warnings()[before..].to_vec())

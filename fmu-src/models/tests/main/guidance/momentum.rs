@@ -5,7 +5,7 @@ use models::{Guidance, MomentumPlant};
 use nalgebra::Vector3;
 
 use super::super::named_model::{NamedInstance, NamedModel};
-use super::{Flight, PLACED, with};
+use super::{GuidanceInstance, PLACED, with};
 
 const HOUR_S: f64 = 3600.0;
 const SPAN_S: f64 = 8.0 * HOUR_S;
@@ -59,7 +59,7 @@ const FOLLOWS: &[(&str, f64)] = &[
     ("panel[2].control", 3.0),
 ];
 
-fn follow(plant: &mut NamedInstance<'_, MomentumPlant>, guidance: &Flight<'_>) {
+fn follow(plant: &mut NamedInstance<'_, MomentumPlant>, guidance: &GuidanceInstance<'_>) {
     plant.set_elements("command.q", &guidance.quaternion("command.q"));
     for k in 1..=2 {
         let offset_rad = guidance.real(&format!("panel[{k}].sunOffset"));
@@ -179,7 +179,7 @@ fn a_component_beyond_its_threshold_asks_once() {
     let limits = [("dump.threshold[1]", 4.0), ("dump.threshold[2]", 5.0), ("dump.threshold[3]", 6.0)];
     let mut flight = named.initialize(0.0, &with(&[PLACED, &limits])).unwrap();
     let mut end_s = 0.0;
-    let mut sample = |flight: &mut Flight<'_>, momentum: [f64; 3]| {
+    let mut sample = |flight: &mut GuidanceInstance<'_>, momentum: [f64; 3]| {
         flight.set_elements("momentum.body", &momentum);
         end_s += 1.0;
         flight.step_to(end_s).unwrap();

@@ -4,7 +4,7 @@ use models::Guidance;
 use nalgebra::Vector3;
 
 use super::super::named_model::{NamedModel, assert_same};
-use super::{FREE, Flight, PLACED, to_inertial, with};
+use super::{FREE, GuidanceInstance, PLACED, to_inertial, with};
 
 const AT_VECTOR: &[(&str, f64)] =
     &[("pointing.scenario", 2.0), ("aimpoint.option", 1.0), ("aimpoint.vector[3]", 1.0)];
@@ -75,7 +75,7 @@ fn a_scan_starts_at_the_sample_where_its_frame_is_commanded() {
     let sets = with(&[PLACED, FREE, AT_VECTOR, &scan]);
     let mut flight = named.initialize(0.0, &sets).unwrap();
     let mut basic = named.initialize(0.0, &sets).unwrap();
-    let mut step = |flight: &mut super::Flight<'_>, end_s: f64| {
+    let mut step = |flight: &mut super::GuidanceInstance<'_>, end_s: f64| {
         flight.step_to(end_s).unwrap();
         basic.step_to(end_s).unwrap();
         let angle_rad = to_inertial(&basic).angle_to(&to_inertial(flight));
@@ -149,7 +149,9 @@ fn camera_and_antenna_stop_at_their_bounds() {
 fn camera_and_beam_follow_their_targets_where_the_zone_moved_the_attitude() {
     let named = NamedModel::<Guidance>::shipped();
     let off = [("hotPole.enabled", 0.0)];
-    let toward = |flight: &Flight<'_>, place: Vector3<f64>| to_inertial(flight).inverse() * place.normalize();
+    let toward = |flight: &GuidanceInstance<'_>, place: Vector3<f64>| {
+        to_inertial(flight).inverse() * place.normalize()
+    };
     let spacecraft = Vector3::new(3e6, 1e6, 2e6);
     // The Earth is 157 deg from the Sun: requested at 100 deg it leaves the Sun outside the zone.
     let antenna =

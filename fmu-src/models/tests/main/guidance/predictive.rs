@@ -4,7 +4,7 @@ use client::short_or_long;
 use models::{Guidance, MomentumPlant};
 
 use super::super::named_model::{NamedInstance, NamedModel};
-use super::{Flight, with};
+use super::{GuidanceInstance, with};
 
 const HOUR_S: f64 = 3600.0;
 const CYCLE_S: f64 = 24.0 * HOUR_S;
@@ -44,7 +44,7 @@ const GUIDANCE: &[(&str, f64)] = &[
 ];
 
 /// Tells guidance what a plant does.
-fn observe(guidance: &mut Flight<'_>, plant: &NamedInstance<'_, MomentumPlant>) {
+fn observe(guidance: &mut GuidanceInstance<'_>, plant: &NamedInstance<'_, MomentumPlant>) {
     for (input, output) in
         [("position", "position"), ("velocity", "velocity"), ("momentum.body", "momentum.body")]
     {
@@ -78,7 +78,7 @@ fn a_sample_chooses_what_a_plant_chooses() {
                 guidance.step_to(1e-3).unwrap();
                 guidance
             };
-            let off_rad = |guidance: &Flight<'_>| {
+            let off_rad = |guidance: &GuidanceInstance<'_>| {
                 let off = ["sun.azimuth", "sun.elevation"].map(|it| guidance.real(it) - plant.real(it));
                 off[0].abs().max(off[1].abs())
             };

@@ -9,11 +9,11 @@ use crate::environment::geodetic::Geodetic;
 
 /// A published case: its number; day, seconds, height in km, latitude, longitude, local time in h, mean flux, flux, Ap; whether by the
 /// history of Ap, 100 throughout; He, O, N2, O2, Ar in 1/cm3, mass in g/cm3, H, N, anomalous O in 1/cm3; temperature in K.
-type Case = (i32, [f64; 9], bool, [f64; 9], f64);
+type PublishedCase = (i32, [f64; 9], bool, [f64; 9], f64);
 
 /// The test cases that the model's authors distribute with it.
 #[rustfmt::skip]
-const PUBLISHED: [Case; 17] = [
+const PUBLISHED: [PublishedCase; 17] = [
     (0, [172.0, 29000.0, 400.0, 60.0, -70.0, 16.0, 150.0, 150.0, 4.0], false, [6.665177e+05, 1.138806e+08, 1.998211e+07, 4.022764e+05, 3.557465e+03, 4.074714e-15, 3.475312e+04, 4.095913e+06, 2.667273e+04], 1.241416e+03),
     (1, [81.0, 29000.0, 400.0, 60.0, -70.0, 16.0, 150.0, 150.0, 4.0], false, [3.407293e+06, 1.586333e+08, 1.391117e+07, 3.262560e+05, 1.559618e+03, 5.001846e-15, 4.854208e+04, 4.380967e+06, 6.956682e+03], 1.161710e+03),
     (2, [172.0, 75000.0, 1000.0, 60.0, -70.0, 16.0, 150.0, 150.0, 4.0], false, [1.123767e+05, 6.934130e+04, 4.247105e+01, 1.322750e-01, 2.618848e-05, 2.756772e-18, 2.016750e+04, 5.741256e+03, 2.374394e+04], 1.239891e+03),

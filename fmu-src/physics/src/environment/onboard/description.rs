@@ -18,7 +18,7 @@ pub(crate) enum Frame {
 tables! {
 /// Positions of bodies over time, as a spacecraft carries them.
 #[cfg_attr(feature = "schema", schemars(title = "heliotorque ephemeris"))]
-struct Description {
+struct EphemerisDescription {
     /// The axes of all coordinates.
     frame: Frame,
     /// Where the positions come from, for people.

@@ -5,7 +5,9 @@ use core::ops::{Add, Sub};
 use nalgebra::{SMatrix, Vector3};
 
 use super::coarse::{COARSE_TERMS, CoarseElements};
-use super::description::{BodyDescription, CoarseDescription, Description, Frame, SegmentDescription};
+use super::description::{
+    BodyDescription, CoarseDescription, EphemerisDescription, Frame, SegmentDescription,
+};
 use super::fit::{FitError, GREATEST_DEGREE};
 use super::table::{EphemerisSegment, SegmentTable};
 use super::target::OnboardTarget;
@@ -13,7 +15,7 @@ use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::ephemeris::VALID_EPOCH_S;
 use crate::numerics::chebyshev::Segment;
-use crate::toml::{Checker, Document, FileError, Place};
+use crate::toml::{Checker, Document, FileError, KeyPath};
 
 /// A model of a body's motion with the error it was made with.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,10 +50,10 @@ impl OnboardEphemeris {
     /// bodies that have no place, each with line, key, what was found and what is allowed.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, FileError> {
         let document = Document::parse(file, text)?;
-        let (description, findings) = document.read::<Description>()?;
+        let (description, findings) = document.read::<EphemerisDescription>()?;
         let Frame::Eme2000 = description.frame;
         let mut check = Checker::new(&document, findings);
-        let root = Place::root();
+        let root = KeyPath::root();
         let bodies = description.body.as_deref().unwrap_or_default();
         let coarse_bodies = description.coarse.as_deref().unwrap_or_default();
         if bodies.is_empty() && coarse_bodies.is_empty() {
@@ -218,7 +220,7 @@ impl OnboardEphemeris {
 }
 
 /// A target that is not its own centre and stands here for the first time.
-fn check_target(check: &mut Checker<'_>, at: &Place, target: OnboardTarget, center: Body, is_new: bool) {
+fn check_target(check: &mut Checker<'_>, at: &KeyPath, target: OnboardTarget, center: Body, is_new: bool) {
     if target == OnboardTarget::from(center) {
         check.report_across(at, &at.key("center"), target, "another body than the one that is placed");
     }
@@ -227,7 +229,7 @@ fn check_target(check: &mut Checker<'_>, at: &Place, target: OnboardTarget, cent
     }
 }
 
-fn error(check: &mut Checker<'_>, at: &Place, position_m: f64, velocity_m_s: f64) -> FitError {
+fn error(check: &mut Checker<'_>, at: &KeyPath, position_m: f64, velocity_m_s: f64) -> FitError {
     FitError {
         position_m: check.not_negative(&at.key("error_m"), position_m),
         velocity_m_s: check.not_negative(&at.key("error_m_s"), velocity_m_s),
@@ -235,7 +237,7 @@ fn error(check: &mut Checker<'_>, at: &Place, position_m: f64, velocity_m_s: f64
 }
 
 /// Epochs within the years that a body can be placed in, one after the other.
-fn span(check: &mut Checker<'_>, at: &Place, [start_s, end_s]: [f64; 2]) -> [f64; 2] {
+fn span(check: &mut Checker<'_>, at: &KeyPath, [start_s, end_s]: [f64; 2]) -> [f64; 2] {
     for (key, epoch_s) in [("start_s", start_s), ("end_s", end_s)] {
         let allowed = "s past J2000 TDB, within 4000 years of it";
         check.within(&at.key(key), epoch_s, -VALID_EPOCH_S, VALID_EPOCH_S, allowed);
@@ -247,7 +249,7 @@ fn span(check: &mut Checker<'_>, at: &Place, [start_s, end_s]: [f64; 2]) -> [f64
 }
 
 /// The polynomials of a body; `None` where they leave a gap or something was reported.
-fn table(check: &mut Checker<'_>, at: &Place, body: &BodyDescription) -> Option<SegmentTable> {
+fn table(check: &mut Checker<'_>, at: &KeyPath, body: &BodyDescription) -> Option<SegmentTable> {
     let place = at.key("segment");
     if body.segment.is_empty() {
         check.report(&place, "an empty list", "at least one segment");
@@ -281,7 +283,7 @@ const CERTAINLY_GOOD: f64 = 1e11;
 
 fn segment(
     check: &mut Checker<'_>,
-    at: &Place,
+    at: &KeyPath,
     described: &SegmentDescription,
     degree: usize,
 ) -> EphemerisSegment {
@@ -308,7 +310,7 @@ fn segment(
 /// Epochs at which elements are looked at.
 const LOOKS: u32 = 400;
 
-fn coarse(check: &mut Checker<'_>, at: &Place, body: &CoarseDescription) -> CoarseElements {
+fn coarse(check: &mut Checker<'_>, at: &KeyPath, body: &CoarseDescription) -> CoarseElements {
     let [start_s, end_s] = span(check, at, [body.start_s, body.end_s]);
     let rows = [
         ("semi_major_axis_m", &body.semi_major_axis_m),

@@ -1,8 +1,8 @@
 //! JSON Schema of the ephemeris file, made from the very types that read it.
 
-use super::description::Description;
+use super::description::EphemerisDescription;
 
 /// The schema as indented JSON text (draft 2020-12): point an editor with TOML support at it.
 pub fn schema() -> String {
-    format!("{:#}", schemars::schema_for!(Description).as_value())
+    format!("{:#}", schemars::schema_for!(EphemerisDescription).as_value())
 }

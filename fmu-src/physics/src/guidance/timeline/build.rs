@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::burn::{Span, burn as burn_of};
 use super::commands::{Commands, Reader};
-use super::description::Description;
+use super::description::TimelineDescription;
 use super::entry::{
     Slot, TimelineClock, TimelineEntry, TimelineEvent, TimelinePanels, begun, simulation_time_s,
 };
@@ -14,7 +14,7 @@ use super::scans::scan;
 use super::times::Times;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use crate::spacecraft::Spacecraft;
-use crate::toml::{Checker, Document, FileError, Place, TIMELINE_LIMITS};
+use crate::toml::{Checker, Document, FileError, KeyPath, TIMELINE_LIMITS};
 
 /// Commands, panels and events one after the other; of each list the times grow, and one list at least is not empty.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,16 +48,16 @@ impl Timeline {
 
     fn read(file: &str, text: &str, spacecraft: &Spacecraft, reader: Reader) -> Result<Self, FileError> {
         let document = Document::parse(file, text)?.limited(TIMELINE_LIMITS);
-        let (description, findings) = document.read::<Description>()?;
+        let (description, findings) = document.read::<TimelineDescription>()?;
         let mut commands = Commands::new(Checker::new(&document, findings), spacecraft, reader);
         let [place, panels_place, events_place] =
-            ["command", "panels", "event"].map(|list| Place::root().key(list));
+            ["command", "panels", "event"].map(|list| KeyPath::root().key(list));
         let list = description.command.as_deref().unwrap_or_default();
         let panels_list = description.panels.as_deref().unwrap_or_default();
         let events_list = description.event.as_deref().unwrap_or_default();
         if list.is_empty() && panels_list.is_empty() && events_list.is_empty() {
             let allowed = "at least one [[command]], [[panels]] or [[event]]";
-            commands.check.report(&Place::root(), "an empty timeline", allowed);
+            commands.check.report(&KeyPath::root(), "an empty timeline", allowed);
         }
         let mut times = Times::new(&mut commands.check);
         let spans = times.spans(&place, list.iter().map(|command| (&command.at, command.until.as_ref())));

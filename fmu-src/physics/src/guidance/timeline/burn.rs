@@ -10,7 +10,7 @@ use super::quantity::{SPEED, TIME};
 use crate::guidance::burn::nominal_thrust::NominalThrust;
 use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::spacecraft::ThrusterSet;
-use crate::toml::{Place, hint};
+use crate::toml::{KeyPath, hint};
 
 /// When a command begins and ends, in s of a clock; without end infinite.
 #[derive(Clone, Copy)]
@@ -23,7 +23,7 @@ pub(super) struct Span {
 /// The burn of the command at `at`, within its span.
 pub(super) fn burn(
     commands: &mut Commands<'_, '_>,
-    at: &Place,
+    at: &KeyPath,
     given: &BurnDescription,
     span: Span,
 ) -> TimelineBurn {
@@ -87,7 +87,7 @@ fn shown(given: &BurnDescription) -> String {
 }
 
 /// When the burn begins, in s of the clock; `None` when the attitude is reached.
-fn start(commands: &mut Commands<'_, '_>, at: &Place, given: &BurnDescription, span: Span) -> Option<f64> {
+fn start(commands: &mut Commands<'_, '_>, at: &KeyPath, given: &BurnDescription, span: Span) -> Option<f64> {
     let (place, written) = (at.key("start"), given.start.as_ref()?);
     if !is_date(written) {
         return Some(span.at_s + commands.quantity(&place, written, &TIME));
@@ -102,7 +102,7 @@ fn start(commands: &mut Commands<'_, '_>, at: &Place, given: &BurnDescription, s
 }
 
 /// The set of this name.
-pub(super) fn thruster_set(commands: &mut Commands<'_, '_>, at: &Place, name: &str) -> Option<ThrusterSet> {
+pub(super) fn thruster_set(commands: &mut Commands<'_, '_>, at: &KeyPath, name: &str) -> Option<ThrusterSet> {
     let spacecraft = commands.spacecraft;
     let found = spacecraft.thruster_set(name);
     if found.is_none() && !commands.check.is_stand_in(at) {

@@ -8,7 +8,7 @@ use super::description::{
     ExternalRollDescription, KeepInDescription, LimbDescription,
 };
 use super::entry::{DownlinkOverride, KeepInOverride};
-use super::quantity::{Kind, LATITUDE, LENGTH, QUARTER_TURN, Quantity, SPEED, TURN};
+use super::quantity::{LATITUDE, LENGTH, QUARTER_TURN, Quantity, QuantityKind, SPEED, TURN};
 use super::reads::{
     Keys, NOTHING, TABLES, aimpoint_keys, body_roll_keys, boresight_keys, external_roll_keys, keys,
     limb_keys, own_aimpoint, tables,
@@ -22,7 +22,7 @@ use crate::guidance::pointing::command::{
     PointingCommand, Scenario,
 };
 use crate::spacecraft::Spacecraft;
-use crate::toml::{Checker, Place, nearest};
+use crate::toml::{Checker, KeyPath, nearest};
 
 const BORESIGHT: &[&str] = &["option", "vector", "azimuth", "elevation", "angle", "instrument"];
 const AIMPOINT: &[&str] = &[
@@ -63,7 +63,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// Where a command points, without its scan.
-    pub(super) fn pointing(&mut self, at: &Place, given: &CommandDescription) -> PointingCommand {
+    pub(super) fn pointing(&mut self, at: &KeyPath, given: &CommandDescription) -> PointingCommand {
         let scenario_place = at.key("scenario");
         self.check_reader(at, given);
         let Some(scenario) = given.scenario else {
@@ -113,7 +113,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// Reports what Guidance alone does.
-    fn check_reader(&mut self, at: &Place, given: &CommandDescription) {
+    fn check_reader(&mut self, at: &KeyPath, given: &CommandDescription) {
         if self.reader != Reader::Plant {
             return;
         }
@@ -129,7 +129,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// Where the Sun stands in a downlink.
-    pub(super) fn downlink(&mut self, at: &Place, given: &CommandDescription) -> DownlinkOverride {
+    pub(super) fn downlink(&mut self, at: &KeyPath, given: &CommandDescription) -> DownlinkOverride {
         let alternate = given.alternate.unwrap_or_default();
         let (place, is_written) = (at.key("sun"), |it: &Self, key| it.check.is_written(&at.key(key)));
         for key in ["sun", "alternate"] {
@@ -147,7 +147,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// Changes of the Sun keep-in zone.
-    pub(super) fn keep_in(&mut self, at: &Place, given: Option<&KeepInDescription>) -> KeepInOverride {
+    pub(super) fn keep_in(&mut self, at: &KeyPath, given: Option<&KeepInDescription>) -> KeepInOverride {
         let Some(given) = given else { return KeepInOverride::default() };
         let place = at.key("keepIn");
         if given.enabled.is_none() && given.azimuth.is_none() && given.elevation.is_none() {
@@ -163,7 +163,7 @@ impl<'d, 'i> Commands<'d, 'i> {
         }
     }
 
-    fn report_lack_of_scenario(&mut self, at: &Place, given: &CommandDescription) {
+    fn report_lack_of_scenario(&mut self, at: &KeyPath, given: &CommandDescription) {
         if let Some(table) = TABLES.iter().find(|table| self.check.is_written(&at.key(table))) {
             self.check.report_lack(at, "scenario", format_args!("a scenario, which `{table}` is for"));
         } else if given.keep_in.is_none() && given.mode.is_none() {
@@ -177,7 +177,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     /// Reports keys among the `known` ones that are given and not read, and keys that lack.
     pub(super) fn check_keys(
         &mut self,
-        at: &Place,
+        at: &KeyPath,
         known: &[&str],
         Keys { needed, optional }: Keys,
         reader: &str,
@@ -195,12 +195,12 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// The same where the scenario reads them.
-    fn check_scenario_keys(&mut self, at: &Place, known: &[&str], read: Keys) {
+    fn check_scenario_keys(&mut self, at: &KeyPath, known: &[&str], read: Keys) {
         self.check_keys(at, known, read, &self.scenario.clone());
     }
 
     /// The same where an option reads them, unless nobody wrote the option.
-    fn check_option_keys(&mut self, at: &Place, known: &[&str], read: Keys, option: impl Serialize) {
+    fn check_option_keys(&mut self, at: &KeyPath, known: &[&str], read: Keys, option: impl Serialize) {
         if !self.check.is_stand_in(&at.key("option")) {
             self.check_keys(at, known, read, &named("the option", option));
         }
@@ -208,7 +208,7 @@ impl<'d, 'i> Commands<'d, 'i> {
 
     fn boresight(
         &mut self,
-        at: &Place,
+        at: &KeyPath,
         given: &BoresightDescription,
         scenario: Scenario,
     ) -> BoresightCommand {
@@ -258,7 +258,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// Reports what points the instrument on the gimbal where none has one.
-    fn needs_gimbal(&mut self, at: &Place, found: String) {
+    fn needs_gimbal(&mut self, at: &KeyPath, found: String) {
         if !self.spacecraft.instruments.iter().any(|instrument| instrument.gimbal.is_some()) {
             let allowed =
                 "what needs no gimbal: no instrument of the spacecraft has one ([[instruments]] gimbal)";
@@ -267,7 +267,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// Reports what points an antenna that is steered where none is.
-    fn needs_fan(&mut self, at: &Place, found: String) {
+    fn needs_fan(&mut self, at: &KeyPath, found: String) {
         if !self.spacecraft.antennas.iter().any(|named| named.antenna.fan().is_some()) {
             let allowed = "another option, or none in a downlink: no antenna of the spacecraft is steered in the XY plane \
                            ([[antennas]] azimuth_deg)";
@@ -276,7 +276,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// The number of an instrument given by name or number.
-    fn instrument(&mut self, at: &Place, given: &Quantity) -> u32 {
+    fn instrument(&mut self, at: &KeyPath, given: &Quantity) -> u32 {
         let names: Vec<&str> =
             self.spacecraft.instruments.iter().map(|instrument| instrument.name.as_str()).collect();
         let (found, hint) = match given {
@@ -302,7 +302,7 @@ impl<'d, 'i> Commands<'d, 'i> {
         found.and_then(|index| u32::try_from(index).ok()).unwrap_or_default()
     }
 
-    fn aimpoint(&mut self, at: &Place, given: &AimpointDescription, scenario: Scenario) -> AimpointCommand {
+    fn aimpoint(&mut self, at: &KeyPath, given: &AimpointDescription, scenario: Scenario) -> AimpointCommand {
         match own_aimpoint(scenario).filter(|own| *own != given.option) {
             Some(own) => {
                 let allowed = named("no aimpoint, or this scenario's own:", own);
@@ -327,7 +327,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// A known body, or the one that the spacecraft's file describes.
-    fn body(&mut self, at: &Place, given: Option<Body>) -> Option<Body> {
+    fn body(&mut self, at: &KeyPath, given: Option<Body>) -> Option<Body> {
         if given == Some(Body::Custom) && self.spacecraft.body.is_none() {
             let known = Body::ALL.map(Enumerated::name).join(", ");
             let allowed = format!("{known}, and custom where the spacecraft's file has a table [body]");
@@ -336,7 +336,7 @@ impl<'d, 'i> Commands<'d, 'i> {
         given
     }
 
-    fn body_roll(&mut self, at: &Place, given: &BodyRollDescription) -> BodyRollCommand {
+    fn body_roll(&mut self, at: &KeyPath, given: &BodyRollDescription) -> BodyRollCommand {
         let known = &["vector", "azimuth", "elevation"];
         self.check_option_keys(at, known, body_roll_keys(given.option), given.option);
         BodyRollCommand {
@@ -347,7 +347,7 @@ impl<'d, 'i> Commands<'d, 'i> {
         }
     }
 
-    fn external_roll(&mut self, at: &Place, given: &ExternalRollDescription) -> ExternalRollCommand {
+    fn external_roll(&mut self, at: &KeyPath, given: &ExternalRollDescription) -> ExternalRollCommand {
         let known = &["vector", "rightAscension", "declination"];
         self.check_option_keys(at, known, external_roll_keys(given.option), given.option);
         ExternalRollCommand {
@@ -358,7 +358,7 @@ impl<'d, 'i> Commands<'d, 'i> {
         }
     }
 
-    fn limb(&mut self, at: &Place, given: &LimbDescription, scenario: Scenario) -> LimbCommand {
+    fn limb(&mut self, at: &KeyPath, given: &LimbDescription, scenario: Scenario) -> LimbCommand {
         self.check_scenario_keys(at, &["azimuth", "reference", "height", "heightRate"], limb_keys(scenario));
         LimbCommand {
             azimuth_rad: self.or_zero(&at.key("azimuth"), &given.azimuth, &TURN),
@@ -369,7 +369,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// A quantity, in SI.
-    pub(super) fn quantity(&mut self, at: &Place, given: &Quantity, kind: &Kind) -> f64 {
+    pub(super) fn quantity(&mut self, at: &KeyPath, given: &Quantity, kind: &QuantityKind) -> f64 {
         let Some(value) = given.si(kind) else {
             self.check.report(at, given, kind);
             return 0.0;
@@ -389,18 +389,23 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// A quantity in SI, 0 unless given.
-    fn or_zero(&mut self, at: &Place, given: &Option<Quantity>, kind: &Kind) -> f64 {
+    fn or_zero(&mut self, at: &KeyPath, given: &Option<Quantity>, kind: &QuantityKind) -> f64 {
         given.as_ref().map_or(0.0, |quantity| self.quantity(at, quantity, kind))
     }
 
     /// Three quantities in SI, 0 unless given.
-    pub(super) fn three(&mut self, at: &Place, given: &Option<[Quantity; 3]>, kind: &Kind) -> [f64; 3] {
+    pub(super) fn three(
+        &mut self,
+        at: &KeyPath,
+        given: &Option<[Quantity; 3]>,
+        kind: &QuantityKind,
+    ) -> [f64; 3] {
         let Some(given) = given else { return [0.0; 3] };
         [0, 1, 2].map(|index| self.quantity(&at.item(index), &given[index], kind))
     }
 
     /// A vector that has a direction, if one is given.
-    fn direction(&mut self, at: &Place, given: Option<[f64; 3]>) -> Vector3<f64> {
+    fn direction(&mut self, at: &KeyPath, given: Option<[f64; 3]>) -> Vector3<f64> {
         let Some(given) = given else { return Vector3::zeros() };
         let vector = self.check.vector(at, given);
         if vector == Vector3::zeros() {

@@ -37,7 +37,7 @@ pub(crate) enum DumpDescription {
 tables! {
 /// What is commanded over time: attitudes, panels, events. A file has one of the three lists at least.
 #[cfg_attr(feature = "schema", schemars(title = "heliotorque timeline"))]
-struct Description {
+struct TimelineDescription {
     /// The commands in the order of their times. Each lasts until the next one or until its own `until`.
     command: Option<Vec<CommandDescription>>,
     /// How the panels stand, in the order of the times, where MomentumPlant's `panel[k].control` is timeline. Each lasts until

@@ -7,12 +7,12 @@ use super::commands::Commands;
 use super::description::{DumpDescription, EventDescription, ManeuverDescription};
 use super::entry::{TimelineDump, TimelineEvent, TimelineManeuver};
 use super::quantity::{LENGTH, MOMENTUM, Quantity, SPEED};
-use crate::toml::Place;
+use crate::toml::KeyPath;
 
 /// The event of the list's item at `at`, at `at_s` of the clock.
 pub(super) fn event(
     commands: &mut Commands<'_, '_>,
-    at: &Place,
+    at: &KeyPath,
     given: &EventDescription,
     at_s: f64,
 ) -> TimelineEvent {
@@ -35,7 +35,7 @@ pub(super) fn event(
     }
 }
 
-fn dump(commands: &mut Commands<'_, '_>, at: &Place, given: &DumpDescription) -> Option<TimelineDump> {
+fn dump(commands: &mut Commands<'_, '_>, at: &KeyPath, given: &DumpDescription) -> Option<TimelineDump> {
     match given {
         DumpDescription::Is(true) => Some(TimelineDump::Requested),
         DumpDescription::Is(false) => {
@@ -54,7 +54,7 @@ fn dump(commands: &mut Commands<'_, '_>, at: &Place, given: &DumpDescription) ->
     }
 }
 
-fn maneuver(commands: &mut Commands<'_, '_>, at: &Place, given: &ManeuverDescription) -> TimelineManeuver {
+fn maneuver(commands: &mut Commands<'_, '_>, at: &KeyPath, given: &ManeuverDescription) -> TimelineManeuver {
     let place = at.key("deltaV");
     let delta_v = Vector3::from(commands.three(&place, &Some(given.delta_v.clone()), &SPEED));
     if delta_v == Vector3::zeros() && !commands.check.has_reported(&place) {

@@ -3,12 +3,12 @@
 use super::entry::TimelineClock;
 use super::quantity::{Quantity, TIME};
 use crate::environment::dates::{self, ALLOWED_DATE};
-use crate::toml::{Checker, Place};
+use crate::toml::{Checker, KeyPath};
 
 /// A date or FMI time.
 pub(super) fn instant(
     check: &mut Checker<'_>,
-    at: &Place,
+    at: &KeyPath,
     quantity: &Quantity,
 ) -> Option<(TimelineClock, f64)> {
     if let Some(text) = date(quantity) {

@@ -4,12 +4,12 @@ use super::commands::Commands;
 use super::description::{AnglesDescription, PanelsDescription};
 use super::entry::TimelinePanels;
 use super::quantity::HALF_TURN;
-use crate::toml::Place;
+use crate::toml::KeyPath;
 
 /// The panels of the list's item at `at`, from `at_s` of the clock on.
 pub(super) fn panels(
     commands: &mut Commands<'_, '_>,
-    at: &Place,
+    at: &KeyPath,
     given: &PanelsDescription,
     at_s: f64,
 ) -> TimelinePanels {

@@ -29,7 +29,7 @@ pub(crate) enum Quantity {
 
 /// A kind of quantity with the units that it can be given in, the SI unit first.
 #[derive(Debug)]
-pub(super) struct Kind {
+pub(super) struct QuantityKind {
     /// With its article.
     name: &'static str,
     /// Names and how much of the SI unit they are.
@@ -38,39 +38,44 @@ pub(super) struct Kind {
     pub range_rad: Option<(RangeInclusive<f64>, &'static str)>,
 }
 
-const fn kind(name: &'static str, units: &'static [(&'static str, f64)]) -> Kind {
-    Kind { name, units, range_rad: None }
+const fn kind(name: &'static str, units: &'static [(&'static str, f64)]) -> QuantityKind {
+    QuantityKind { name, units, range_rad: None }
 }
 
-const fn angle(range_rad: RangeInclusive<f64>, allowed: &'static str) -> Kind {
-    Kind { range_rad: Some((range_rad, allowed)), ..kind("an angle", &[("rad", 1.0), ("deg", DEG_RAD)]) }
+const fn angle(range_rad: RangeInclusive<f64>, allowed: &'static str) -> QuantityKind {
+    QuantityKind {
+        range_rad: Some((range_rad, allowed)),
+        ..kind("an angle", &[("rad", 1.0), ("deg", DEG_RAD)])
+    }
 }
 
 /// Azimuths, longitudes and right ascensions.
-pub(super) const TURN: Kind = angle(BACK_TURN_RAD..=FULL_TURN_RAD, "an angle from -360 to 360 deg");
+pub(super) const TURN: QuantityKind = angle(BACK_TURN_RAD..=FULL_TURN_RAD, "an angle from -360 to 360 deg");
 /// Elevations, latitudes and declinations.
-pub(super) const LATITUDE: Kind = angle(DOWN_ANGLE_RAD..=RIGHT_ANGLE_RAD, "an angle from -90 to 90 deg");
+pub(super) const LATITUDE: QuantityKind =
+    angle(DOWN_ANGLE_RAD..=RIGHT_ANGLE_RAD, "an angle from -90 to 90 deg");
 /// Offsets of panels from the Sun.
-pub(super) const HALF_TURN: Kind =
+pub(super) const HALF_TURN: QuantityKind =
     angle(BACK_HALF_TURN_RAD..=core::f64::consts::PI, "an angle from -180 to 180 deg");
 /// Half widths of a zone.
-pub(super) const QUARTER_TURN: Kind = angle(0.0..=RIGHT_ANGLE_RAD, "an angle from 0 to 90 deg");
+pub(super) const QUARTER_TURN: QuantityKind = angle(0.0..=RIGHT_ANGLE_RAD, "an angle from 0 to 90 deg");
 /// Rates of rotations.
-pub(super) const RATE: Kind = kind("a rate", &[("rad/s", 1.0), ("deg/s", DEG_RAD), ("rpm", RPM_RAD_S)]);
+pub(super) const RATE: QuantityKind =
+    kind("a rate", &[("rad/s", 1.0), ("deg/s", DEG_RAD), ("rpm", RPM_RAD_S)]);
 /// Lengths.
-pub(super) const LENGTH: Kind =
+pub(super) const LENGTH: QuantityKind =
     kind("a length", &[("m", 1.0), ("km", 1e3), ("cm", 1e-2), ("mm", 1e-3), ("AU", ASTRONOMICAL_UNIT_M)]);
 /// Speeds.
-pub(super) const SPEED: Kind = kind("a speed", &[("m/s", 1.0), ("km/s", 1e3), ("mm/s", 1e-3)]);
+pub(super) const SPEED: QuantityKind = kind("a speed", &[("m/s", 1.0), ("km/s", 1e3), ("mm/s", 1e-3)]);
 /// Angular momentum.
-pub(super) const MOMENTUM: Kind = kind("an angular momentum", &[("N.m.s", 1.0), ("mN.m.s", 1e-3)]);
+pub(super) const MOMENTUM: QuantityKind = kind("an angular momentum", &[("N.m.s", 1.0), ("mN.m.s", 1e-3)]);
 /// Times.
-pub(super) const TIME: Kind =
+pub(super) const TIME: QuantityKind =
     kind("a time", &[("s", 1.0), ("ms", 1e-3), ("min", 60.0), ("h", 3600.0), ("d", DAY_S)]);
 
 impl Quantity {
     /// The value in the SI unit; `None` where this is no quantity of this kind.
-    pub(super) fn si(&self, kind: &Kind) -> Option<f64> {
+    pub(super) fn si(&self, kind: &QuantityKind) -> Option<f64> {
         let text = match self {
             Self::Number(number) => return Some(*number),
             Self::Text(text) => text.trim(),
@@ -102,7 +107,7 @@ impl fmt::Display for Quantity {
     }
 }
 
-impl fmt::Display for Kind {
+impl fmt::Display for QuantityKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [(si, _), others @ ..] = self.units else { return f.write_str(self.name) };
         let others: Vec<&str> = others.iter().map(|(name, _)| *name).collect();
@@ -134,7 +139,7 @@ mod tests {
 
     #[test]
     fn units_are_converted() {
-        let si = |text: &str, kind: &Kind| Quantity::Text(text.to_owned()).si(kind);
+        let si = |text: &str, kind: &QuantityKind| Quantity::Text(text.to_owned()).si(kind);
         for (text, kind, requested) in [
             ("90 deg", &TURN, FRAC_PI_2),
             ("-360deg", &TURN, -TAU),

@@ -7,7 +7,7 @@ use super::reads::{scan_keys, tables};
 use crate::guidance::pointing::aimpoint::{self, AimpointKind};
 use crate::guidance::pointing::command::{AimpointOption, PointingCommand, ScanCommand, Scenario};
 use crate::guidance::pointing::scan::ScanCompatibility;
-use crate::toml::Place;
+use crate::toml::KeyPath;
 
 /// Greatest number of segments.
 const MOST_SEGMENTS: u32 = 1_000_000;
@@ -15,7 +15,7 @@ const MOST_SEGMENTS: u32 = 1_000_000;
 /// The scan of a command; none where there is none or its scenario has none, which is reported elsewhere.
 pub(super) fn scan(
     commands: &mut Commands<'_, '_>,
-    at: &Place,
+    at: &KeyPath,
     description: &CommandDescription,
     command: &PointingCommand,
 ) -> ScanCommand {
@@ -47,7 +47,7 @@ pub(super) fn scan(
 }
 
 /// An axis moves, every axis that does for a time, and no time is negative.
-fn check_motions(commands: &mut Commands<'_, '_>, at: &Place, given: &ScanDescription, scan: &ScanCommand) {
+fn check_motions(commands: &mut Commands<'_, '_>, at: &KeyPath, given: &ScanDescription, scan: &ScanCommand) {
     let check = &mut commands.check;
     for (key, times_s) in [("duration", scan.duration_s), ("pause", scan.pause_s)] {
         for (axis, time_s) in times_s.into_iter().enumerate().filter(|(_, time_s)| *time_s < 0.0) {

@@ -1,10 +1,10 @@
 //! JSON Schema of the timeline file, made from the very types that read it.
 
-use super::description::Description;
+use super::description::TimelineDescription;
 
 /// The schema as indented JSON text (draft 2020-12): point an editor with TOML support at it.
 pub fn schema() -> String {
-    format!("{:#}", schemars::schema_for!(Description).as_value())
+    format!("{:#}", schemars::schema_for!(TimelineDescription).as_value())
 }
 
 #[cfg(test)]
@@ -17,7 +17,7 @@ mod tests {
 
     #[test]
     fn every_table_is_closed_and_every_key_described() {
-        let root = Value::try_from(schemars::schema_for!(Description).as_value()).unwrap();
+        let root = Value::try_from(schemars::schema_for!(TimelineDescription).as_value()).unwrap();
         let definitions = root["$defs"].as_table().unwrap();
         for (name, node) in definitions.iter().chain([(&"timeline".to_owned(), &root)]) {
             let Some(properties) = node.get("properties").and_then(Value::as_table) else { continue };

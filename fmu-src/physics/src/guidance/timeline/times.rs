@@ -3,7 +3,7 @@
 use super::entry::TimelineClock;
 use super::instant::instant;
 use super::quantity::Quantity;
-use crate::toml::{Checker, Place};
+use crate::toml::{Checker, KeyPath};
 
 /// Reads the times of the lists one after the other.
 pub(super) struct Times<'c, 'd> {
@@ -22,7 +22,7 @@ impl<'c, 'd> Times<'c, 'd> {
         self.clock.unwrap_or(TimelineClock::FmiTime)
     }
 
-    fn read(&mut self, place: &Place, quantity: &Quantity) -> Option<f64> {
+    fn read(&mut self, place: &KeyPath, quantity: &Quantity) -> Option<f64> {
         let (counted_by, time_s) = instant(self.check, place, quantity)?;
         if counted_by == *self.clock.get_or_insert(counted_by) {
             return Some(time_s);
@@ -38,7 +38,7 @@ impl<'c, 'd> Times<'c, 'd> {
     /// Times of a list of what has no end; NaN where they are reported.
     pub(super) fn instants<'q>(
         &mut self,
-        place: &Place,
+        place: &KeyPath,
         list: impl Iterator<Item = &'q Quantity>,
     ) -> Vec<f64> {
         let spans = self.spans(place, list.map(|at| (at, None)));
@@ -48,7 +48,7 @@ impl<'c, 'd> Times<'c, 'd> {
     /// Begin and end of each item where they are given and not reported.
     pub(super) fn spans<'q>(
         &mut self,
-        place: &Place,
+        place: &KeyPath,
         list: impl Iterator<Item = (&'q Quantity, Option<&'q Quantity>)>,
     ) -> Vec<[Option<f64>; 2]> {
         let list: Vec<_> = list.collect();

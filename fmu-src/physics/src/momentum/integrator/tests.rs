@@ -2,7 +2,7 @@
 use super::*;
 use crate::loads::ByEffect;
 use crate::momentum::dump::{DUMP_WINDOW_S, DumpPolicy, Reinitialise, TooManyDumps};
-use crate::momentum::torque_model::{EventValues, Sample};
+use crate::momentum::torque_model::{EventValues, TorqueSample};
 use approx::assert_relative_eq;
 use nalgebra::Rotation3;
 
@@ -19,8 +19,8 @@ impl TorqueModel for Known {
         Ok((f64::INFINITY, self.inertial_from_body(start_s)))
     }
 
-    fn sample(&mut self, time_s: f64) -> Sample {
-        Sample {
+    fn sample(&mut self, time_s: f64) -> TorqueSample {
+        TorqueSample {
             inertial_from_body: self.inertial_from_body(time_s),
             rate_body_rad_s: Vector3::new(1e-3, 0.0, 0.0),
             structure_body_n_m_s: None,
@@ -106,10 +106,10 @@ impl TorqueModel for Spinning {
         Ok((f64::INFINITY, self.inertial_from_body(start_s)))
     }
 
-    fn sample(&mut self, time_s: f64) -> Sample {
+    fn sample(&mut self, time_s: f64) -> TorqueSample {
         let inertial_from_body = self.inertial_from_body(time_s);
         let torque_body_n_m = inertial_from_body.inverse() * Vector3::x() * self.torque_inertial_n_m;
-        Sample {
+        TorqueSample {
             inertial_from_body,
             rate_body_rad_s: Vector3::z() * self.rate_rad_s,
             structure_body_n_m_s: None,

@@ -13,7 +13,7 @@ use crate::aerodynamics::AirFlow;
 use crate::attitude::MovingFrame;
 use crate::constants::RADIUS_SUN_M;
 use crate::loads::{Effect, ForceTorque, Loads};
-use crate::momentum::{Effort, EventValues, Sample, TorqueModel, torques_body_n_m};
+use crate::momentum::{Effort, EventValues, TorqueModel, TorqueSample, torques_body_n_m};
 use crate::numerics::chebyshev::Segment;
 use crate::radiation::Beam;
 use crate::spacecraft::MassProperties;
@@ -440,10 +440,10 @@ impl TorqueModel for Plant<'_> {
         }
     }
 
-    fn sample(&mut self, time_s: f64) -> Sample {
+    fn sample(&mut self, time_s: f64) -> TorqueSample {
         let evaluation = self.evaluate(time_s);
         let [_, acceleration_inertial_m_s2] = evaluation.force_and_acceleration_inertial();
-        Sample {
+        TorqueSample {
             inertial_from_body: evaluation.instant.frame.inertial_from_body,
             rate_body_rad_s: evaluation.instant.frame.rate_body_rad_s,
             structure_body_n_m_s: self.has_panel_mass().then(|| evaluation.structure_body_n_m_s()),

@@ -26,7 +26,7 @@ use crate::toml::{
 tables! {
 /// A spacecraft: what light falls on, what it weighs, what stores its momentum.
 #[cfg_attr(feature = "schema", schemars(title = "heliotorque spacecraft"))]
-struct Description {
+struct SpacecraftDescription {
     /// Name of the spacecraft.
     name: String,
     /// Whether models that can report temperature and force of every plate.

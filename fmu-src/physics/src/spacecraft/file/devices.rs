@@ -8,7 +8,7 @@ use super::part_reader::PartReader;
 use crate::spacecraft::instruments::{GimbalMount, Instrument};
 use crate::spacecraft::sun_sensors::MountedSunSensor;
 use crate::spacecraft::wheels::{SPEED_AT_CAPACITY_RAD_S, TIME_TO_CAPACITY_S, Wheel};
-use crate::toml::{Checker, Place};
+use crate::toml::{Checker, KeyPath};
 
 pub(crate) fn wheel(part: &mut PartReader<'_, '_>, description: &WheelDescription) -> Wheel {
     let capacity_n_m_s = description.capacity_n_m_s.0;
@@ -68,7 +68,7 @@ fn gimbal(
 }
 
 /// At most one instrument has a gimbal.
-pub(crate) fn check_gimbals(check: &mut Checker<'_>, at: &Place, instruments: &[Instrument]) {
+pub(crate) fn check_gimbals(check: &mut Checker<'_>, at: &KeyPath, instruments: &[Instrument]) {
     let mut with_gimbal =
         instruments.iter().enumerate().filter(|(_, instrument)| instrument.gimbal.is_some());
     let Some((_, first)) = with_gimbal.next() else { return };

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::description::{MassDescription, PanelDescription};
 use super::part_reader::PartReader;
 use crate::spacecraft::mass::{MassProperties, PanelMass, check_inertia};
-use crate::toml::{Checker, Place, Positive};
+use crate::toml::{Checker, KeyPath, Positive};
 
 pub(crate) fn mass(part: &mut PartReader<'_, '_>, description: &MassDescription) -> MassProperties {
     MassProperties {
@@ -27,7 +27,7 @@ pub(crate) fn parts_fit(
         let Some(mass_kg) = mass_kg else { continue };
         sum_kg += mass_kg;
         if sum_kg >= whole_kg {
-            let at = Place::root().key(kind).item(index).key(key);
+            let at = KeyPath::root().key(kind).item(index).key(key);
             let found = format!("{mass_kg}, with the {kind} before it {sum_kg}");
             let allowed = format!("less than mass_properties.mass_kg = {whole_kg}, of which it is a part");
             check.report(&at, found, allowed);

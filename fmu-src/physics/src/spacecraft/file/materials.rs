@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::describe_thermal::SurroundingsDescription;
-use super::description::{Description, OpticsDescription};
+use super::description::{OpticsDescription, SpacecraftDescription};
 use crate::spacecraft::gas_surface::GasSurface;
 use crate::spacecraft::optics::Optics;
 use crate::spacecraft::thermal::{Emission, FaceThermal};
-use crate::toml::{Checker, Fraction, Place, hint, rounded};
+use crate::toml::{Checker, Fraction, KeyPath, hint, rounded};
 
 /// What a file says of a material.
 #[derive(Clone, Copy)]
@@ -47,7 +47,7 @@ pub(crate) struct Materials {
 
 impl Materials {
     /// Those of a file.
-    pub(crate) fn read(check: &mut Checker<'_>, description: &Description) -> Self {
+    pub(crate) fn read(check: &mut Checker<'_>, description: &SpacecraftDescription) -> Self {
         let none = SurroundingsDescription::default();
         let thermal = description.thermal.as_ref().unwrap_or(&none);
         let environment = ThermalEnvironment {
@@ -55,7 +55,7 @@ impl Materials {
             bus_temperature_k: thermal.bus_temperature_k.map(f64::from),
         };
         let materials = description.optics.iter().map(|(name, description)| {
-            let at = Place::root().key("optics").key(name);
+            let at = KeyPath::root().key("optics").key(name);
             let optics = optics(check, &at, description);
             let thermal = face_thermal(check, &at, description, &optics);
             (name.clone(), Material { optics, thermal, gas_surface: gas_surface(description) })
@@ -64,11 +64,11 @@ impl Materials {
     }
 
     /// The material of this name; an unknown one is reported.
-    pub(crate) fn find(&self, check: &mut Checker<'_>, at: &Place, name: &str) -> Material {
+    pub(crate) fn find(&self, check: &mut Checker<'_>, at: &KeyPath, name: &str) -> Material {
         if let Some(material) = self.by_name.get(name) {
             return *material;
         }
-        if check.is_stand_in(&Place::root().key("optics")) {
+        if check.is_stand_in(&KeyPath::root().key("optics")) {
             return Material::BLACK;
         }
         let known: Vec<&str> = self.by_name.keys().map(String::as_str).collect();
@@ -81,7 +81,7 @@ impl Materials {
 /// How far absorptivity + specular + diffuse may be off 1.
 const OPTICS_SUM_TOLERANCE: f64 = 1e-9;
 
-fn optics(check: &mut Checker<'_>, at: &Place, description: &OpticsDescription) -> Optics {
+fn optics(check: &mut Checker<'_>, at: &KeyPath, description: &OpticsDescription) -> Optics {
     let (specular, diffuse) = (description.specular.0, description.diffuse.0);
     let reflected = specular + diffuse;
     let Some(Fraction(absorptivity)) = description.absorptivity else {
@@ -112,7 +112,7 @@ fn gas_surface(description: &OpticsDescription) -> GasSurface {
 
 fn face_thermal(
     check: &mut Checker<'_>,
-    at: &Place,
+    at: &KeyPath,
     description: &OpticsDescription,
     sunlight: &Optics,
 ) -> FaceThermal {

@@ -3,10 +3,10 @@
 use super::describe_shapes::{BoxDescription, DiscDescription, DishDescription, FacetedCylinderDescription};
 use super::describe_swinging::{FlexibleModeDescription, SloshDescription};
 use super::description::{
-    AntennaDescription, Description, InstrumentDescription, PanelDescription, PlateDescription,
+    AntennaDescription, InstrumentDescription, PanelDescription, PlateDescription, SpacecraftDescription,
     SunSensorDescription, TankDescription, ThrusterDescription, WheelDescription,
 };
-use crate::toml::{Checker, Place};
+use crate::toml::{Checker, KeyPath};
 use std::collections::BTreeMap;
 
 /// A part that has a name, or the name of its kind and its number from 1.
@@ -68,9 +68,9 @@ always_named! {
 }
 
 /// Where a part stands, what it is called, and whether the file says so.
-type Name = (Place, String, bool);
+type Name = (KeyPath, String, bool);
 
-fn names<D: Named>(at: Place, items: Option<&[D]>) -> Vec<Name> {
+fn names<D: Named>(at: KeyPath, items: Option<&[D]>) -> Vec<Name> {
     let items = items.unwrap_or_default().iter().enumerate();
     items.map(|(i, item)| (at.item(i), item.called(i), item.name().is_some())).collect()
 }
@@ -78,14 +78,14 @@ fn names<D: Named>(at: Place, items: Option<&[D]>) -> Vec<Name> {
 /// Names of the lists of these keys.
 macro_rules! names_of {
     ($description:ident: $($key:ident),+) => {
-        [$(names(Place::root().key(stringify!($key)), $description.$key.as_deref())),+]
+        [$(names(KeyPath::root().key(stringify!($key)), $description.$key.as_deref())),+]
     };
 }
 
 /// Two parts of one kind with one name could not be distinguished; all plates are one kind, the shade's among them.
-pub(crate) fn check_names(check: &mut Checker<'_>, description: &Description) {
+pub(crate) fn check_names(check: &mut Checker<'_>, description: &SpacecraftDescription) {
     let of_shade = description.sunshade.as_ref().map_or_else(Vec::new, |shade| {
-        names(Place::root().key("sunshade").key("plates"), shade.plates.as_deref())
+        names(KeyPath::root().key("sunshade").key("plates"), shade.plates.as_deref())
     });
     let plates = names_of!(description: plates, boxes, cylinders, discs, dishes);
     let others = names_of!(
@@ -178,7 +178,7 @@ const MODELICA_KEYWORDS: &[&str] = &[
 const ALLOWED: &str = "letters and digits, the first a letter; not `none` and no keyword of Modelica";
 
 /// Refuses a name that no item of an enumeration can have.
-pub(crate) fn check_item_name(check: &mut Checker<'_>, at: &Place, name: &str) {
+pub(crate) fn check_item_name(check: &mut Checker<'_>, at: &KeyPath, name: &str) {
     let begins = name.starts_with(|first: char| first.is_ascii_alphabetic());
     let is_word = begins && name.chars().all(|letter| letter.is_ascii_alphanumeric());
     if !is_word || name == "none" || MODELICA_KEYWORDS.contains(&name) {

@@ -5,7 +5,7 @@ use core::fmt::Display;
 use nalgebra::Vector3;
 
 use super::materials::{Material, Materials};
-use crate::toml::{Checker, Place};
+use crate::toml::{Checker, KeyPath};
 
 /// A table of the file, or an item of one of its lists.
 pub(crate) struct PartReader<'p, 'd> {
@@ -14,7 +14,7 @@ pub(crate) struct PartReader<'p, 'd> {
     /// Those of the file.
     pub materials: &'p Materials,
     /// Where the part stands.
-    pub at: Place,
+    pub at: KeyPath,
     /// Its number in its list, from 0.
     pub index: usize,
 }

@@ -2,7 +2,7 @@
 
 use super::copies::{check_apart, motions, plate_copies};
 use super::description::{
-    CylinderDescription, Description, PanelDescription, PlateDescription, SunshadeDescription,
+    CylinderDescription, PanelDescription, PlateDescription, SpacecraftDescription, SunshadeDescription,
 };
 use super::mass::panel_mass;
 use super::materials::Material;
@@ -13,12 +13,12 @@ use super::shapes::{box_plates, cylinder_plates, disc_plates, dish_plates, disti
 use super::thermal::thermal;
 use crate::spacecraft::panel::Panel;
 use crate::spacecraft::surface::{Cylinder, MOST_SURFACES, Plate, Sunshade, SunshadeModel};
-use crate::toml::Place;
+use crate::toml::KeyPath;
 
 /// The plates that the file lists, then those of its shapes; none beyond the most that a spacecraft may have.
-pub(crate) fn body_plates(file: &mut PartReader<'_, '_>, description: &Description) -> Vec<Plate> {
+pub(crate) fn body_plates(file: &mut PartReader<'_, '_>, description: &SpacecraftDescription) -> Vec<Plate> {
     let mut found = Vec::new();
-    let Description { plates: listed, boxes, cylinders, discs, dishes, .. } = description;
+    let SpacecraftDescription { plates: listed, boxes, cylinders, discs, dishes, .. } = description;
     shaped(file, &mut found, ("plates", listed.as_deref()), plates);
     shaped(file, &mut found, ("boxes", boxes.as_deref()), box_plates);
     shaped(file, &mut found, ("cylinders", cylinders.as_deref()), cylinder_plates);
@@ -33,7 +33,7 @@ pub(crate) fn body_plates(file: &mut PartReader<'_, '_>, description: &Descripti
 }
 
 /// Where items stand, with the plates of each.
-type Found = Vec<(Place, Vec<Plate>)>;
+type Found = Vec<(KeyPath, Vec<Plate>)>;
 
 fn surfaces(found: &Found) -> usize {
     found.iter().map(|(_, plates)| plates.len()).sum()

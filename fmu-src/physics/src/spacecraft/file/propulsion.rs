@@ -7,7 +7,7 @@ use super::thruster_sets::set_of;
 use crate::constants::STANDARD_GRAVITY_M_S2;
 use crate::spacecraft::tank::{Blowdown, Tank};
 use crate::spacecraft::thruster::{Thruster, ValveTiming};
-use crate::toml::{Place, hint};
+use crate::toml::{KeyPath, hint};
 
 /// A tank that holds a part of `mass_kg`.
 pub(crate) fn tank(part: &mut PartReader<'_, '_>, description: &TankDescription) -> Tank {
@@ -74,7 +74,7 @@ pub(crate) fn thruster(
 /// Index of the tank of this name, the first without one.
 fn tank_of(part: &mut PartReader<'_, '_>, tanks: &[Tank], name: Option<&str>) -> usize {
     if tanks.is_empty() {
-        if !part.check.is_stand_in(&Place::root().key("tanks")) {
+        if !part.check.is_stand_in(&KeyPath::root().key("tanks")) {
             part.check.report(&part.at, "a thruster without a tank", "at least one of [[tanks]] in the file");
         }
         return 0;

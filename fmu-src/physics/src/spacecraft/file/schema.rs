@@ -1,10 +1,10 @@
 //! JSON Schema of the spacecraft file, made from the very types that read it.
 
-use super::description::Description;
+use super::description::SpacecraftDescription;
 
 /// The schema as indented JSON text (draft 2020-12): point an editor with TOML support at it.
 pub fn schema() -> String {
-    format!("{:#}", schemars::schema_for!(Description).as_value())
+    format!("{:#}", schemars::schema_for!(SpacecraftDescription).as_value())
 }
 
 #[cfg(test)]
@@ -49,13 +49,13 @@ mod tests {
 
     #[test]
     fn the_shipped_file_uses_known_keys_only() {
-        let root = Value::try_from(schemars::schema_for!(Description).as_value()).unwrap();
+        let root = Value::try_from(schemars::schema_for!(SpacecraftDescription).as_value()).unwrap();
         assert_allowed(&root, &root, &toml::from_str(MESSENGER_TOML).unwrap(), "");
     }
 
     #[test]
     fn every_table_is_closed_and_every_key_described() {
-        let root = Value::try_from(schemars::schema_for!(Description).as_value()).unwrap();
+        let root = Value::try_from(schemars::schema_for!(SpacecraftDescription).as_value()).unwrap();
         let definitions = root["$defs"].as_table().unwrap();
         for (name, node) in definitions.iter().chain([(&"spacecraft".to_owned(), &root)]) {
             let Some(properties) = node.get("properties").and_then(Value::as_table) else { continue };

@@ -17,7 +17,7 @@ use super::thermal::thermal;
 use crate::spacecraft::polygon::Polygon;
 use crate::spacecraft::surface::Plate;
 use crate::spacecraft::thermal::Thermal;
-use crate::toml::{Checker, Place, hint};
+use crate::toml::{Checker, KeyPath, hint};
 
 /// What all shapes have.
 struct Shape<'s> {
@@ -131,8 +131,8 @@ pub(crate) fn dish_plates(part: &mut PartReader<'_, '_>, description: &DishDescr
 }
 
 /// Two plates of one name, made by different items of the file, could not be distinguished.
-pub(crate) fn distinct_plates(check: &mut Checker<'_>, found: &[(Place, Vec<Plate>)]) {
-    let mut known: BTreeMap<&str, &Place> = BTreeMap::new();
+pub(crate) fn distinct_plates(check: &mut Checker<'_>, found: &[(KeyPath, Vec<Plate>)]) {
+    let mut known: BTreeMap<&str, &KeyPath> = BTreeMap::new();
     for (at, plates) in found {
         for plate in plates {
             let other = *known.entry(&plate.name).or_insert(at);

@@ -6,7 +6,7 @@ use super::part_reader::PartReader;
 use crate::attitude::{Appendages, FlexibleMode, Gyrostat, GyrostatError, SloshPendulum};
 use crate::spacecraft::mass::MassProperties;
 use crate::spacecraft::swinging::{NamedMode, NamedSlosh};
-use crate::toml::{Checker, Place};
+use crate::toml::{Checker, KeyPath};
 
 /// A flexible mode.
 pub(crate) fn mode(part: &mut PartReader<'_, '_>, description: &FlexibleModeDescription) -> NamedMode {
@@ -42,7 +42,7 @@ pub(crate) fn swinging_fits(
     sloshes: &[NamedSlosh],
     mass: &MassProperties,
 ) {
-    let root = Place::root();
+    let root = KeyPath::root();
     let appendages = Appendages {
         modes: modes.iter().map(|it| it.mode).collect(),
         sloshes: sloshes.iter().map(|it| it.pendulum).collect(),

@@ -1,14 +1,14 @@
 //! Sets of thrusters, by the file's own names.
 
-use super::description::Description;
+use super::description::SpacecraftDescription;
 use super::names::check_item_name;
 use crate::spacecraft::thruster::ThrusterSet;
-use crate::toml::{Checker, Place};
+use crate::toml::{Checker, KeyPath};
 
 /// The names of the sets: those that `sets` lists, then others in the order of their first thruster.
-pub(crate) fn thruster_sets(check: &mut Checker<'_>, description: &Description) -> Vec<String> {
+pub(crate) fn thruster_sets(check: &mut Checker<'_>, description: &SpacecraftDescription) -> Vec<String> {
     let mut sets: Vec<String> = Vec::new();
-    let place = Place::root().key("sets");
+    let place = KeyPath::root().key("sets");
     for (index, name) in description.sets.iter().flat_map(|sets| sets.iter()).enumerate() {
         let at = place.item(index);
         check_item_name(check, &at, name);
@@ -18,7 +18,7 @@ pub(crate) fn thruster_sets(check: &mut Checker<'_>, description: &Description) 
             sets.push(name.clone());
         }
     }
-    let place = Place::root().key("thrusters");
+    let place = KeyPath::root().key("thrusters");
     for (index, thruster) in description.thrusters.iter().flat_map(|list| list.iter()).enumerate() {
         let Some(name) = thruster.set.as_ref().filter(|name| !sets.contains(name)) else { continue };
         check_item_name(check, &place.item(index).key("set"), name);

@@ -12,7 +12,7 @@ use crate::{constants::ASTRONOMICAL_UNIT_M, spin::geometry::L1Orbit};
 tables! {
 /// A spin-stabilised spacecraft: the file that SpinPlant is packed with. +Z is the spin axis, the origin the centre of mass.
 #[cfg_attr(feature = "schema", schemars(title = "heliotorque spinner"))]
-struct Description {
+struct SpinnerDescription {
     /// Name of the spacecraft.
     name: String,
     /// Mass and inertia as functions of the propellant on board.

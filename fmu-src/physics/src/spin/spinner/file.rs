@@ -4,12 +4,12 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use super::description::{Description, GroupEntry, ThrusterEntry};
+use super::description::{GroupEntry, SpinnerDescription, ThrusterEntry};
 use super::hardware::{Group, Limits, MassTable, StarTracker, SunSensor};
 use crate::constants::STANDARD_GRAVITY_M_S2;
 use crate::spacecraft::{MOST_THRUSTERS, StartEntry, Thrust, Thruster, ValveTiming, start_entries};
 use crate::spin::geometry::L1Orbit;
-use crate::toml::{Checker, Document, FileError, Place, nearest};
+use crate::toml::{Checker, Document, FileError, KeyPath, nearest};
 
 /// The whole setup, validated.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -48,7 +48,7 @@ impl Spinner {
     /// line, key, what was found and what is allowed.
     pub fn parse(file: &str, text: &str) -> Result<Self, FileError> {
         let document = Document::parse(file, text)?;
-        let (raw, findings) = document.read::<Description>()?;
+        let (raw, findings) = document.read::<SpinnerDescription>()?;
         let mut builder = Builder { check: Checker::new(&document, findings) };
         let spinner = builder.spinner(raw);
         builder.check.finish(spinner)
@@ -104,8 +104,8 @@ struct Builder<'d> {
 }
 
 impl Builder<'_> {
-    fn spinner(&mut self, raw: Description) -> Spinner {
-        let root = Place::root();
+    fn spinner(&mut self, raw: SpinnerDescription) -> Spinner {
+        let root = KeyPath::root();
         let mass_properties = raw.mass_properties.table();
         self.mass_properties(&root.key("mass_properties"), &mass_properties);
         let exhaust_m_s = raw.thrusters.specific_impulse_s.0 * STANDARD_GRAVITY_M_S2;
@@ -134,7 +134,7 @@ impl Builder<'_> {
         }
     }
 
-    fn mass_properties(&mut self, at: &Place, mass: &MassTable) {
+    fn mass_properties(&mut self, at: &KeyPath, mass: &MassTable) {
         let points = at.key("propellant_kg");
         let count = mass.propellant_kg.len();
         for (i, &propellant_kg) in mass.propellant_kg.iter().enumerate() {
@@ -196,14 +196,14 @@ impl Builder<'_> {
     }
 
     /// Reports a list of `at` without one item for each of the `count` points.
-    fn check_length(&mut self, at: &Place, list: &Place, length: usize, count: usize) {
+    fn check_length(&mut self, at: &KeyPath, list: &KeyPath, length: usize, count: usize) {
         if length != count {
             let allowed = format!("{count} of them, one for each of propellant_kg");
             self.check.report_across(at, list, format_args!("a list of {length}"), allowed);
         }
     }
 
-    fn thrusters(&mut self, at: &Place, entries: Vec<ThrusterEntry>, exhaust_m_s: f64) -> Vec<Thruster> {
+    fn thrusters(&mut self, at: &KeyPath, entries: Vec<ThrusterEntry>, exhaust_m_s: f64) -> Vec<Thruster> {
         if entries.is_empty() {
             self.check.report(at, "an empty list", format_args!("1 to {MOST_THRUSTERS} of them"));
         }
@@ -241,7 +241,7 @@ impl Builder<'_> {
         thrusters
     }
 
-    fn groups(&mut self, at: &Place, entries: Vec<GroupEntry>, thrusters: &[Thruster]) -> Vec<Group> {
+    fn groups(&mut self, at: &KeyPath, entries: Vec<GroupEntry>, thrusters: &[Thruster]) -> Vec<Group> {
         let names: Vec<&str> = entries.iter().map(|entry| entry.name.as_str()).collect();
         let thruster_names: Vec<&str> = thrusters.iter().map(|thruster| thruster.name.as_str()).collect();
         let mut groups = Vec::with_capacity(entries.len());
@@ -250,7 +250,7 @@ impl Builder<'_> {
             let (at, name) = (list.item(i), entry.name.as_str());
             let group = names.iter().take(i).position(|other| *other == name).map(|other| list.item(other));
             let thruster = thruster_names.iter().position(|other| *other == name);
-            let other = group.or(thruster.map(|other| Place::root().key("thruster").item(other)));
+            let other = group.or(thruster.map(|other| KeyPath::root().key("thruster").item(other)));
             self.own_name(&at, name, other);
             let place = at.key("thrusters");
             if entry.thrusters.is_empty() {
@@ -258,12 +258,13 @@ impl Builder<'_> {
             }
             let mut mask = 0_u32;
             for (k, name) in entry.thrusters.iter().enumerate() {
-                let known = self.known(&Place::root().key("thruster"), &place.item(k), name, &thruster_names);
+                let known =
+                    self.known(&KeyPath::root().key("thruster"), &place.item(k), name, &thruster_names);
                 mask |= known.filter(|k| *k < MOST_THRUSTERS).map_or(0, |k| 1 << k);
             }
             let other = entry.opposite.as_deref();
             let opposite = other.and_then(|other| {
-                self.known(&Place::root().key("group"), &at.key("opposite"), other, &names)
+                self.known(&KeyPath::root().key("group"), &at.key("opposite"), other, &names)
             });
             groups.push(Group { name: entry.name.clone(), mask, opposite });
         }
@@ -271,7 +272,7 @@ impl Builder<'_> {
     }
 
     /// Reports a name that is empty or that `other` has too.
-    fn own_name(&mut self, at: &Place, name: &str, other: Option<Place>) {
+    fn own_name(&mut self, at: &KeyPath, name: &str, other: Option<KeyPath>) {
         let too = other.map(|other| format!(", which is the name of {other} too"));
         if too.is_some() || name.is_empty() {
             let found = format!("{name:?}{}", too.unwrap_or_default());
@@ -280,7 +281,7 @@ impl Builder<'_> {
     }
 
     /// Which of the names in `list` this is.
-    fn known(&mut self, list: &Place, at: &Place, name: &str, names: &[&str]) -> Option<usize> {
+    fn known(&mut self, list: &KeyPath, at: &KeyPath, name: &str, names: &[&str]) -> Option<usize> {
         let index = names.iter().position(|known| *known == name);
         if index.is_none() {
             let meant = nearest(name, names).map(|meant| format!(" (did you mean {meant:?}?)"));
@@ -295,7 +296,7 @@ impl Builder<'_> {
         index
     }
 
-    fn orbit(&mut self, at: &Place, orbit: &L1Orbit) {
+    fn orbit(&mut self, at: &KeyPath, orbit: &L1Orbit) {
         let amplitude = at.key("amplitude_m");
         self.check.vector(&amplitude, orbit.amplitude_m);
         if orbit.amplitude_m[0].abs() >= orbit.earth_l1_distance_m {

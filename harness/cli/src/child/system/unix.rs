@@ -20,7 +20,7 @@ use rustix::process::{
     Pid, Resource, Rlimit, Signal, WaitId, WaitIdOptions, getrlimit, kill_process_group, setrlimit, waitid,
 };
 
-use crate::child::limits::Limits;
+use crate::child::limits::ResourceLimits;
 
 /// How long the end of what a child left behind is waited for.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -33,7 +33,7 @@ fn groups() -> MutexGuard<'static, Vec<u32>> {
 }
 
 /// Starts a child as the first of a process group of its own; it takes its limits itself, by [`restrict`].
-pub(crate) fn spawn(command: &mut Command, _limits: Limits) -> io::Result<Child> {
+pub(crate) fn spawn(command: &mut Command, _limits: ResourceLimits) -> io::Result<Child> {
     command.process_group(0);
     // Held meanwhile, so that a signal finds every child.
     let mut groups = groups();

@@ -49,7 +49,7 @@ use windows_sys::Win32::{
     },
 };
 
-use crate::child::limits::Limits;
+use crate::child::limits::ResourceLimits;
 
 /// How long the end of what a child left behind is waited for, and the time between two looks.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -200,7 +200,7 @@ fn resume(process: u32) -> io::Result<()> {
 }
 
 /// Starts a child in a job of its own, which bounds its memory. Its process group keeps the console's Ctrl-C from it.
-pub(crate) fn spawn(command: &mut Command, limits: Limits) -> io::Result<Child> {
+pub(crate) fn spawn(command: &mut Command, limits: ResourceLimits) -> io::Result<Child> {
     let job = Job::new(limits.memory)?;
     command.creation_flags(CREATE_NEW_PROCESS_GROUP | CREATE_SUSPENDED);
     // Held meanwhile, so that a signal finds every child.

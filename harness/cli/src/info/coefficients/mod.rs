@@ -9,7 +9,7 @@ use model_description::{Causality, ScalarVariable};
 use crate::{instance::started, variables::assigned};
 
 /// One row of a table: the elements of a vector, or of one row of a matrix.
-struct Row {
+struct CoefficientRow {
     name: String,
     unit: String,
     values: Vec<String>,
@@ -38,7 +38,7 @@ fn others(fmu: &Fmu, instance: &mut Instance) -> Result<Option<String>, Error> {
     if calculated.is_empty() {
         return Ok(None);
     }
-    let mut rows: Vec<Row> = Vec::new();
+    let mut rows: Vec<CoefficientRow> = Vec::new();
     for variable in calculated {
         let value = match instance.get_variable(variable)? {
             Value::Real(value) => terminal::short(value),
@@ -48,7 +48,7 @@ fn others(fmu: &Fmu, instance: &mut Instance) -> Result<Option<String>, Error> {
         let unit = loader::unit(fmu.description(), variable).unwrap_or_default();
         match rows.last_mut() {
             Some(row) if row.name == name => row.values.push(value),
-            _ => rows.push(Row { name, unit: unit.to_owned(), values: vec![value] }),
+            _ => rows.push(CoefficientRow { name, unit: unit.to_owned(), values: vec![value] }),
         }
     }
     let mut table = terminal::table(&["calculated parameter", "unit", "value"]);

@@ -26,7 +26,7 @@ pub(super) fn section(description: &Description) -> Option<Section> {
     );
     let content = format!(
         "<p>The FMU carries a short flight in <code>{}</code>, in the layout of FMI-LS-REF: inputs and outputs as CSV, with the tolerance \
-         in the manifest. <code>heliotorque check</code> flies it again, and so does FMPy:</p>\n<pre><code>{}</code></pre>\n",
+         in the manifest. <code>heliotorque check</code> simulates it again, and so does FMPy:</p>\n<pre><code>{}</code></pre>\n",
         reference::FOLDER,
         escape(&code)
     );

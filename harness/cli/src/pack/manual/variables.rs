@@ -5,7 +5,7 @@ use model_description::{Causality, Description, ScalarVariable, SimpleTypeKind, 
 use super::section::{Section, list};
 use crate::{
     info,
-    variables::{self, Row},
+    variables::{self, VariableRow},
 };
 
 /// The sections that list variables, in reading order.
@@ -33,7 +33,7 @@ pub(super) fn sections(description: &Description) -> Vec<Section> {
     listed.chain(options(description)).collect()
 }
 
-fn row(description: &Description, row: &Row<'_>) -> String {
+fn row(description: &Description, row: &VariableRow<'_>) -> String {
     let variable = row.first();
     let start = match variable.causality {
         Causality::Output => String::new(),

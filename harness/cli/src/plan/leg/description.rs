@@ -11,7 +11,7 @@ use crate::reading::WrittenAs;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(title = "heliotorque leg"))]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
-pub(super) struct Description {
+pub(super) struct LegDescription {
     /// The mission: spacecraft, values, timeline, with orbit.center sun, orbit.dynamics nBody and encounter.body. The path is relative to
     /// this file.
     pub mission: String,

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use nalgebra::Vector3;
 use physics::{
     environment::{dates, orbit::LambertBranch},
-    toml::Place,
+    toml::KeyPath,
 };
 use planner::leg::FlybyAimpoint;
 
-use super::description::{ArcBranch, ArriveDescription, Description};
+use super::description::{ArcBranch, ArriveDescription, LegDescription};
 use crate::{
     kind::FileKind,
     reading::{self, ALLOWED_LENGTH, At, Builder, Written},
@@ -44,7 +44,7 @@ impl LegFile {
     /// # Errors
     /// A file that cannot be read; everything wrong in it with line, key, what was found and what is allowed.
     pub(super) fn read(file: &Path) -> Result<Self, String> {
-        reading::read(FileKind::Leg, file, |builder, it: Description| builder.leg(file, &it))
+        reading::read(FileKind::Leg, file, |builder, it: LegDescription| builder.leg(file, &it))
     }
 
     /// A problem at a place of the file.
@@ -54,10 +54,10 @@ impl LegFile {
 }
 
 impl Builder<'_> {
-    fn leg(&mut self, file: &Path, description: &Description) -> LegFile {
-        let root = Place::root();
+    fn leg(&mut self, file: &Path, description: &LegDescription) -> LegFile {
+        let root = KeyPath::root();
         let [mission, depart, arrive] = ["mission", "depart", "arrive"].map(|key| root.key(key));
-        let Description { depart: from, arrive: to, .. } = description;
+        let LegDescription { depart: from, arrive: to, .. } = description;
         let path = self.path(&mission, &description.mission, Path::is_file);
         let at = depart.key("at");
         let departure = from.at.as_ref().and_then(|written| self.date(&at, written));
@@ -83,11 +83,11 @@ impl Builder<'_> {
         }
     }
 
-    fn required(&mut self, place: &Place, written: &Written, (unit, allowed): (&str, &str)) -> f64 {
+    fn required(&mut self, place: &KeyPath, written: &Written, (unit, allowed): (&str, &str)) -> f64 {
         self.read(place, Some(written), |written| written.quantity(unit), allowed).unwrap_or(0.0)
     }
 
-    fn vector(&mut self, place: &Place, written: &Written, (unit, allowed): (&str, &str)) -> Vector3<f64> {
+    fn vector(&mut self, place: &KeyPath, written: &Written, (unit, allowed): (&str, &str)) -> Vector3<f64> {
         let vector = |written: &Written| {
             let Written::List(items) = written else { return None };
             let parts = items.iter().map(|item| item.quantity(unit)).collect::<Option<Vec<f64>>>()?;
@@ -98,7 +98,7 @@ impl Builder<'_> {
         self.read(place, Some(written), vector, allowed).unwrap_or_else(Vector3::x)
     }
 
-    fn date(&mut self, place: &Place, written: &Written) -> Option<(f64, String)> {
+    fn date(&mut self, place: &KeyPath, written: &Written) -> Option<(f64, String)> {
         let date = |written: &Written| {
             let text = written.date()?;
             Some((dates::epoch_s(text).ok()?, text.to_owned()))
@@ -107,7 +107,7 @@ impl Builder<'_> {
     }
 
     /// With the key that it stands in.
-    fn aimpoint(&mut self, arrive: &Place, to: &ArriveDescription) -> (Place, FlybyAimpoint) {
+    fn aimpoint(&mut self, arrive: &KeyPath, to: &ArriveDescription) -> (KeyPath, FlybyAimpoint) {
         let [altitude, angle, b_t, b_r] = ["altitude", "angle", "bT", "bR"].map(|key| arrive.key(key));
         match (to.altitude.as_deref(), to.angle.as_deref(), to.b_t.as_deref(), to.b_r.as_deref()) {
             (Some(above), Some(toward), None, None) => {
@@ -139,7 +139,7 @@ impl Builder<'_> {
         }
     }
 
-    fn revolutions(&mut self, arrive: &Place, to: &ArriveDescription) -> Option<(u32, LambertBranch)> {
+    fn revolutions(&mut self, arrive: &KeyPath, to: &ArriveDescription) -> Option<(u32, LambertBranch)> {
         let [key, branch] = ["revolutions", "branch"].map(|key| arrive.key(key));
         let number = |written: &Written| {
             let Written::Integer(number) = written else { return None };

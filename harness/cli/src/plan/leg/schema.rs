@@ -23,10 +23,10 @@ written!(
 #[cfg(feature = "schema")]
 mod tests {
     //! The committed schema is the one that the types give.
-    use crate::{plan::leg::description::Description, schema::written::assert_in_step};
+    use crate::{plan::leg::description::LegDescription, schema::written::assert_in_step};
 
     #[test]
     fn the_schema_of_the_leg_is_in_step() {
-        assert_in_step("leg.schema.json", &schemars::schema_for!(Description));
+        assert_in_step("leg.schema.json", &schemars::schema_for!(LegDescription));
     }
 }

@@ -12,7 +12,7 @@ use crate::reading::WrittenAs;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(title = "heliotorque plan"))]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
-pub(super) struct Description {
+pub(super) struct MomentumPlanDescription {
     /// The mission: spacecraft, times, values, timeline. The path is relative to this file.
     pub mission: String,
     /// How long from its start the mission stays as it is; "14 d" unless given.

@@ -4,10 +4,10 @@ pub(in crate::plan) mod encounter;
 
 use std::path::{Path, PathBuf};
 
-use physics::{constants::DAY_S, toml::Place};
+use physics::{constants::DAY_S, toml::KeyPath};
 
 use self::encounter::{Compare, Flyby, MonteCarlo, Update};
-use super::description::{ActivityDescription, ContactDescription, Description};
+use super::description::{ActivityDescription, ContactDescription, MomentumPlanDescription};
 use crate::{
     kind::FileKind,
     plan::flights::SimulatedMission,
@@ -100,8 +100,8 @@ impl PlanFile {
 }
 
 impl Builder<'_> {
-    fn plan(&mut self, file: &Path, description: Description) -> PlanFile {
-        let root = Place::root();
+    fn plan(&mut self, file: &Path, description: MomentumPlanDescription) -> PlanFile {
+        let root = KeyPath::root();
         let of_cruise = ["window", "windmill", "alternation", "sunOffset", "contact", "contactShare"];
         let of_cruise = of_cruise.map(|key| root.key(key)).into_iter();
         let of_cruise = of_cruise.filter(|key| self.check.is_written(key)).map(|key| self.at(&key, ()));
@@ -168,7 +168,7 @@ impl Builder<'_> {
         }
     }
 
-    fn contacts(&mut self, list: &Place, contacts: &[ContactDescription]) -> Vec<At<[values::Instant; 2]>> {
+    fn contacts(&mut self, list: &KeyPath, contacts: &[ContactDescription]) -> Vec<At<[values::Instant; 2]>> {
         let mut found: Vec<At<[values::Instant; 2]>> = Vec::new();
         for (index, contact) in contacts.iter().enumerate() {
             let place = list.item(index);
@@ -188,7 +188,7 @@ impl Builder<'_> {
         found
     }
 
-    fn activity(&mut self, place: &Place, activity: ActivityDescription) -> Option<At<Activity>> {
+    fn activity(&mut self, place: &KeyPath, activity: ActivityDescription) -> Option<At<Activity>> {
         let span = self.spanned(place, &activity.start, &activity.stop);
         let key = place.key("command");
         let command = &*activity.command;

@@ -17,10 +17,10 @@ written!(
 #[cfg(feature = "schema")]
 mod tests {
     //! The committed schema is the one that the types give.
-    use crate::{plan::momentum::description::Description, schema::written::assert_in_step};
+    use crate::{plan::momentum::description::MomentumPlanDescription, schema::written::assert_in_step};
 
     #[test]
     fn the_schema_of_the_plan_is_in_step() {
-        assert_in_step("plan.schema.json", &schemars::schema_for!(Description));
+        assert_in_step("plan.schema.json", &schemars::schema_for!(MomentumPlanDescription));
     }
 }

@@ -117,7 +117,7 @@ fn commands_that_load(scratch: &TempDir) -> Option<Vec<Vec<String>>> {
     for name in ["MomentumPlant", "SpinPlant"] {
         let folder = at(&format!("{name}.fmu"));
         fs::create_dir(&folder).unwrap();
-        loader::unpack(&dist.join(format!("{name}.fmu")), &folder, loader::Limits::default()).unwrap();
+        loader::unpack(&dist.join(format!("{name}.fmu")), &folder, loader::ArchiveLimits::default()).unwrap();
         fs::copy(library("fmu", "Hostile"), library(&format!("{name}.fmu"), name)).unwrap();
     }
     run(&["new", "spacecraft", shown(&at("my.toml"))], 0);

@@ -6,23 +6,23 @@ use super::*;
 use crate::flyby::test_flight::{DAY_S, Intercept, LONG_S, Law, Leg, fixed_in_the_body, force_model, packed};
 use crate::momentum::test_spacecraft::sunlit;
 
-struct Flight {
+struct LinearizedLeg {
     leg: Leg,
     recorded: SimulatedFlight,
     sensitivity: Sensitivity,
     intercept: Intercept,
 }
 
-fn flight(law: Law, flips: bool) -> Flight {
+fn flight(law: Law, flips: bool) -> LinearizedLeg {
     let mut leg = Leg::new(law, flips);
     let start = leg.start();
     let intercept = leg.intercept(start, 0.0, LONG_S);
     let recorded = leg.recorded(start, intercept.z);
     let sensitivity = Sensitivity::new(&recorded, &force_model(), &sunlit([0.0; 3])).unwrap();
-    Flight { leg, recorded, sensitivity, intercept }
+    LinearizedLeg { leg, recorded, sensitivity, intercept }
 }
 
-impl Flight {
+impl LinearizedLeg {
     fn state(&self, row: usize) -> SVector<f64, 6> {
         packed(&self.recorded.rows[row].motion.unwrap().from_sun)
     }

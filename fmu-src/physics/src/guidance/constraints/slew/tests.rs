@@ -38,7 +38,7 @@ fn sun_body(zone: &KeepIn, random: &mut Random, at_bound: bool) -> Vector3<f64> 
 }
 
 /// A turn between two attitudes at rest, and how far the Sun comes out of the zone about the eigenaxis.
-struct Case {
+struct SlewCase {
     zone: KeepIn,
     from: MovingFrame,
     to: MovingFrame,
@@ -46,7 +46,7 @@ struct Case {
     eigenaxis_excess_rad: f64,
 }
 
-fn case(random: &mut Random) -> Case {
+fn case(random: &mut Random) -> SlewCase {
     let zone = zone(random);
     let to_sun = random.direction();
     let [from, to] = [(); 2].map(|()| {
@@ -61,7 +61,7 @@ fn case(random: &mut Random) -> Case {
         zone.excess_rad(&(attitude.inverse() * to_sun)).unwrap()
     };
     let eigenaxis_excess_rad = (0..=2000).map(|k| excess(f64::from(k) / 2000.0)).fold(f64::MIN, f64::max);
-    Case {
+    SlewCase {
         zone,
         from,
         to,
@@ -70,7 +70,7 @@ fn case(random: &mut Random) -> Case {
     }
 }
 
-fn slew(case: &Case) -> Slew {
+fn slew(case: &SlewCase) -> Slew {
     let start =
         SlewStart { from: &case.from, to: &case.to, to_sun: case.to_sun.direction, sun_drift_rad_s: 0.0 };
     Slew::between(&start, Some(&case.zone), RATE_RAD_S)

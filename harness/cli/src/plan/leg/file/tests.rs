@@ -6,7 +6,7 @@ fn parsed(text: &str) -> Result<LegFile, String> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("mission.toml"), "stop = 1\n").unwrap();
     let file = folder.path().join("leg.toml");
-    reading::parse(&file, text, |builder, it: Description| builder.leg(&file, &it))
+    reading::parse(&file, text, |builder, it: LegDescription| builder.leg(&file, &it))
 }
 
 const FULL: &str = "mission = \"mission.toml\"

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use nalgebra::{Matrix6, SymmetricEigen, Vector3};
-use physics::{constants::DAY_S, toml::Place};
+use physics::{constants::DAY_S, toml::KeyPath};
 use planner::leg::FlybyAimpoint;
 
 use crate::{
@@ -62,7 +62,7 @@ pub(in crate::plan) struct MonteCarlo {
 }
 
 impl Builder<'_> {
-    pub(super) fn flyby(&mut self, place: &Place, flyby: FlybyDescription) -> Option<Flyby> {
+    pub(super) fn flyby(&mut self, place: &KeyPath, flyby: FlybyDescription) -> Option<Flyby> {
         let [b_t_m, b_r_m, altitude_m] =
             [("bT", &flyby.b_t), ("bR", &flyby.b_r), ("altitude", &flyby.altitude)]
                 .map(|(key, written)| self.length(&place.key(key), written.as_deref()));
@@ -122,7 +122,7 @@ impl Builder<'_> {
         })
     }
 
-    pub(super) fn update(&mut self, place: &Place, update: UpdateDescription) -> Option<Update> {
+    pub(super) fn update(&mut self, place: &KeyPath, update: UpdateDescription) -> Option<Update> {
         let at = self.instant_at(&place.key("at"), &update.at);
         let [position_m, velocity_m_s] =
             [("position", update.position), ("velocity", update.velocity)].map(|(key, vector)| {
@@ -142,7 +142,7 @@ impl Builder<'_> {
         Some(Update { at: at?, position_m, velocity_m_s, covariance })
     }
 
-    pub(super) fn compare(&mut self, place: &Place, compare: CompareDescription) -> Option<Compare> {
+    pub(super) fn compare(&mut self, place: &KeyPath, compare: CompareDescription) -> Option<Compare> {
         let direction = place.key("directionError");
         let direction_error_rad = self.angle(&direction, compare.direction_error.as_deref());
         let magnitude = place.key("magnitudeError");
@@ -172,7 +172,7 @@ impl Builder<'_> {
         })
     }
 
-    pub(super) fn monte_carlo(&mut self, place: &Place, table: MonteCarloDescription) -> MonteCarlo {
+    pub(super) fn monte_carlo(&mut self, place: &KeyPath, table: MonteCarloDescription) -> MonteCarlo {
         let runs = place.key("runs");
         let count = match table.runs.as_deref() {
             None => 200,
