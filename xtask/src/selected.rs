@@ -79,7 +79,7 @@ fn run_selected(
 /// The programs that have a test with `name` in its name.
 fn with_tests(name: &str) -> Result<Vec<TestProgram>, String> {
     let build = output(
-        cargo(&format!("test --no-run --message-format=json-render-diagnostics {TESTS}"))
+        cargo(&format!("test --tests --no-run --message-format=json-render-diagnostics {TESTS}"))
             .stderr(Stdio::inherit()),
     )?;
     let mut found = Vec::new();

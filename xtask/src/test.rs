@@ -23,8 +23,9 @@ pub(crate) fn all() -> Outcome {
     let in_rust = std::thread::scope(|scope| {
         // The client waits for one core, as some of the tests do.
         let client = scope.spawn(|| c_client(&built, false));
-        let tests =
-            run(cargo(&format!("test --no-fail-fast {TESTS}")).envs(environment.clone()).envs(locale));
+        let tests = run(cargo(&format!("test --tests --no-fail-fast {TESTS}"))
+            .envs(environment.clone())
+            .envs(locale));
         [client.join().unwrap_or_else(|_| Err("the thread of the C client panicked".to_owned())), tests]
     });
     let outcomes = in_rust.into_iter().chain([python(environment, "not long")]);
@@ -37,7 +38,7 @@ fn build() -> Result<Built, String> {
     // Most of it is optimised on one core: the tests' own build runs beside it.
     let library = Beside::start(&mut build::libraries())?;
     let interpreter = std::thread::spawn(python::interpreter);
-    run(&mut cargo(&format!("test --no-run {TESTS}")))?;
+    run(&mut cargo(&format!("test --tests --no-run {TESTS}")))?;
     library.finish()?;
     interpreter.join().unwrap_or_else(|_| Err("the thread of the Python environment panicked".to_owned()))?;
     Ok(build::built())
@@ -56,7 +57,7 @@ pub(crate) fn environment(built: &Built) -> Result<Vec<(&'static str, PathBuf)>,
 /// The same, after building and packing what is stale.
 pub(crate) fn current_environment() -> Result<Vec<(&'static str, PathBuf)>, String> {
     run(&mut build::libraries())?;
-    run(&mut cargo(&format!("test --no-run --quiet {TESTS}")))?;
+    run(&mut cargo(&format!("test --tests --no-run --quiet {TESTS}")))?;
     let built = build::built();
     dist::pack_stale(&built)?;
     environment(&built)

@@ -273,7 +273,7 @@ fn csv(run: &mut Run<'_>, worths: &[Worth]) -> Outcome {
 /// Of every control the worth by offset, a line each distance; where there are no panels by distance.
 fn chart(studied: &StudiedSpacecraft, worths: &[Worth]) -> Chart {
     type Of = fn(Vector) -> f64;
-    type Place = fn(&Worth) -> f64;
+    type Abscissa = fn(&Worth) -> f64;
     let along: (&str, &str, Control, Of) =
         ("windmill, along the light", "/deg", Control::Windmill, Worth::along);
     let others = CONTROLS.map(|(control, _, title, per)| {
@@ -282,7 +282,7 @@ fn chart(studied: &StudiedSpacecraft, worths: &[Worth]) -> Chart {
     });
     let rows = [along].into_iter().chain(others);
     let rows = rows.filter(|(_, _, control, _)| studied.controls.contains(control));
-    let (x_label, place, lines): (&str, Place, Vec<Option<f64>>) = match studied.panels {
+    let (x_label, place, lines): (&str, Abscissa, Vec<Option<f64>>) = match studied.panels {
         0 => ("distance from the Sun [AU]", |it| it.distance_au, vec![None]),
         _ => {
             let is_there = |au: &f64| worths.iter().any(|it| it.distance_au == *au);

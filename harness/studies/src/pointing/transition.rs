@@ -22,11 +22,11 @@ const END_S: u32 = 1000;
 
 /// A label, and whether the camera's angle is commanded anew every second after the slew, so that the Sun stays on -Y;
 /// otherwise the angle of the slew stays.
-type Case = (&'static str, bool);
+type CameraCase = (&'static str, bool);
 
-const CASES: [Case; 2] = [("camera follows", true), ("camera held", false)];
+const CASES: [CameraCase; 2] = [("camera follows", true), ("camera held", false)];
 
-fn simulated((label, is_followed): Case, fmus: &Fmus) -> Result<Simulated, StudyError> {
+fn simulated((label, is_followed): CameraCase, fmus: &Fmus) -> Result<Simulated, StudyError> {
     let command = |place: &PointingGeometry| -> Settings {
         let camera = || {
             // -Y at the Sun and the camera at nadir: the camera stands as far sunward of +Z as nadir does.
@@ -129,7 +129,7 @@ fn rows(label: &str, simulated: &Simulated) -> Vec<Vec<String>> {
     ]
 }
 
-fn write(run: &mut Run<'_>, simulated: &[(Case, Simulated)]) -> Outcome {
+fn write(run: &mut Run<'_>, simulated: &[(CameraCase, Simulated)]) -> Outcome {
     let own = "\
         case | sun_azimuth_deg | sun_elevation_deg | earth_azimuth_deg | earth_elevation_deg | \
         mercury_azimuth_deg | mercury_elevation_deg | mdis_angle_deg";
