@@ -8,6 +8,11 @@ pub(crate) trait Cells {
     fn cells(&self) -> Vec<String>;
 }
 
+/// Numbers with seven digits.
+pub(crate) fn scientific(numbers: impl IntoIterator<Item = f64>) -> Vec<String> {
+    numbers.into_iter().map(|number| format!("{number:.6e}")).collect()
+}
+
 /// A row of cells.
 macro_rules! row {
     ($($cell:expr),+ $(,)?) => {
@@ -34,7 +39,7 @@ impl Cells for f64 {
     }
 }
 
-impl<const N: usize> Cells for [f64; N] {
+impl<T: Cells, const N: usize> Cells for [T; N] {
     fn cells(&self) -> Vec<String> {
         self.iter().flat_map(Cells::cells).collect()
     }

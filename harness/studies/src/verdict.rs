@@ -25,6 +25,11 @@ pub(crate) fn compared(what: &str, ours: String, verdict: &str) -> Vec<String> {
     what.split('|').map(|text| text.trim().to_owned()).chain([ours, verdict.to_owned()]).collect()
 }
 
+/// A row as by [`compared`] of a number that rounds to the paper's: ours, the paper's, a unit of its last digit.
+pub(crate) fn rounded(what: &str, shown: String, [ours, paper, digit]: [f64; 3]) -> Vec<String> {
+    compared(what, shown, verdict(rounds(ours, paper, digit)))
+}
+
 /// Whether `ours` is `paper` to half a unit of its last digit.
 pub(crate) fn rounds(ours: f64, paper: f64, digit: f64) -> bool {
     (ours - paper).abs() <= 0.5 * digit * (1.0 + 1e-9)

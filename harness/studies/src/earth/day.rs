@@ -2,28 +2,23 @@
 
 use drawing::{Chart, Panel, Series};
 
-use super::cubesat::{CUBESAT, EFFECTS, Torques};
+use super::cubesat::{CUBESAT, EFFECTS, Torques, by_effect};
 use crate::attitude::Vector;
 use crate::case::{Case, recorded};
+use crate::cells::scientific;
 use crate::report::{Outcome, Run};
 
 /// Duration, in s.
 const DAY_S: f64 = 86_400.0;
 /// Communication step, in s.
 const STEP_S: f64 = 60.0;
-/// Columns of a [`Point`]: seven vectors and two numbers.
-const POINT_COLUMNS: usize = 23;
 
 recorded! {
     /// What the day leaves at one communication point.
     struct Point {
         @time_s,
-        gravity_gradient_n_m_s: Vector = "momentum.gravityGradient",
-        air_n_m_s: Vector = "momentum.aerodynamic",
-        magnetic_n_m_s: Vector = "momentum.magnetic",
-        sunlight_n_m_s: Vector = "momentum.solar",
-        albedo_n_m_s: Vector = "momentum.albedo",
-        infrared_n_m_s: Vector = "momentum.infrared",
+        by_source_n_m_s: [Vector; 6] = "momentum.gravityGradient" "momentum.aerodynamic" "momentum.magnetic"
+            "momentum.solar" "momentum.albedo" "momentum.infrared",
         total_n_m_s: Vector = "momentum.body",
         density_kg_m3: f64 = "atmosphere.density",
         height_m: f64 = "geodetic.height",
@@ -32,9 +27,7 @@ recorded! {
 
 impl Point {
     fn momentum_n_m_s(&self) -> [f64; EFFECTS.len()] {
-        let planet_light = self.albedo_n_m_s + self.infrared_n_m_s;
-        [self.gravity_gradient_n_m_s, self.air_n_m_s, self.magnetic_n_m_s, self.sunlight_n_m_s, planet_light]
-            .map(|momentum| momentum.norm())
+        by_effect(self.by_source_n_m_s)
     }
 }
 
@@ -43,8 +36,7 @@ pub(crate) fn day(run: &mut Run<'_>) -> Outcome {
     let fmu = run.options.fmu(CUBESAT)?;
     let names = [Point::NAMES, Torques::NAMES].concat();
     let recorded = Case::new("a day at 500 km", DAY_S, STEP_S).simulate(&fmu, &names)?;
-    let torques: Vec<Torques> = recorded.all(POINT_COLUMNS);
-    let points: Vec<(Point, Torques)> = recorded.all(0).into_iter().zip(torques).collect();
+    let points: Vec<(Point, Torques)> = recorded.all(0);
     run.line("A 12U CubeSat for a day at 500 km, pointing to the nadir, its wheels taking everything\n");
     let (count, last) = (points.len().max(1) as f64, points.last());
     let rows: Vec<Vec<String>> = (0..EFFECTS.len())
@@ -73,12 +65,10 @@ pub(crate) fn day(run: &mut Run<'_>) -> Outcome {
     }
     let columns = EFFECTS.map(|it| format!("{it} torque [N m] | {it} momentum [N m s]")).join(" | ");
     let rows = points.iter().map(|(point, torques)| {
-        let mut cells = vec![format!("{}", point.time_s), format!("{:.6e}", point.density_kg_m3)];
         let pairs = torques.by_effect_n_m().into_iter().zip(point.momentum_n_m_s());
-        cells.extend(
-            pairs.flat_map(|(torque, momentum)| [format!("{torque:.6e}"), format!("{momentum:.6e}")]),
-        );
-        cells
+        let effects = pairs.flat_map(|(torque, momentum)| [torque, momentum]);
+        [vec![format!("{}", point.time_s)], scientific([point.density_kg_m3].into_iter().chain(effects))]
+            .concat()
     });
     run.csv("day.csv", &format!("time [s] | density [kg/m3] | {columns}"), rows)?;
     run.picture("day.svg", &chart(&points))

@@ -4,6 +4,7 @@ use drawing::{Chart, Panel, Series};
 
 use super::cubesat::{CUBESAT, EFFECTS, EQUATOR_M, Torques, period_s};
 use crate::case::Case;
+use crate::cells::scientific;
 use crate::report::{Outcome, Run};
 
 /// Lowest and highest orbit, in m.
@@ -58,9 +59,8 @@ pub(crate) fn torques(run: &mut Run<'_>) -> Outcome {
          orbit; air by NRLMSISE-00 at F10.7 150 and Ap 4, Sentman's law; field by IGRF-14, a residual dipole of 0.035 A m2\n",
     );
     let rows = found.iter().step_by(4).map(|orbit| {
-        let mut cells = vec![format!("{:.0}", orbit.height_m / 1e3)];
-        cells.extend(orbit.mean_n_m.map(|torque_n_m| format!("{torque_n_m:.1e}")));
-        cells
+        let means = orbit.mean_n_m.map(|torque_n_m| format!("{torque_n_m:.1e}"));
+        [&[format!("{:.0}", orbit.height_m / 1e3)][..], &means].concat()
     });
     let rows: Vec<_> = rows.collect();
     run.table(&format!("height [km] | {} [N m]", EFFECTS.join(" [N m] | ")), &rows);
@@ -69,10 +69,9 @@ pub(crate) fn torques(run: &mut Run<'_>) -> Outcome {
     }
     let columns = EFFECTS.map(|it| format!("{} mean [N m] | {} greatest [N m]", it, it)).join(" | ");
     let rows = found.iter().map(|orbit| {
-        let mut cells = vec![format!("{:.3}", orbit.height_m / 1e3)];
-        let pairs = orbit.mean_n_m.iter().zip(orbit.greatest_n_m);
-        cells.extend(pairs.flat_map(|(mean, greatest)| [format!("{mean:.6e}"), format!("{greatest:.6e}")]));
-        cells
+        let pairs = orbit.mean_n_m.into_iter().zip(orbit.greatest_n_m);
+        let numbers = scientific(pairs.flat_map(|(mean, greatest)| [mean, greatest]));
+        [vec![format!("{:.3}", orbit.height_m / 1e3)], numbers].concat()
     });
     run.csv("torques.csv", &format!("height [km] | {columns}"), rows)?;
     run.picture("torques.svg", &chart(&found))

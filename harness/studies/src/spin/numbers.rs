@@ -12,7 +12,7 @@ use crate::StudyError;
 use crate::attitude::Vector;
 use crate::report::{Outcome, Run};
 use crate::settings::{Settings, set};
-use crate::verdict::{compared, rounds, verdict, verdict_text};
+use crate::verdict::{compared, rounded, rounds, verdict, verdict_text};
 
 /// Number of ratios over 1.471 to 1.494 at which trains are simulated.
 const RATIOS: u32 = 24;
@@ -62,12 +62,15 @@ fn pulses(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
     };
     let (radial, half, axial) = (train(RADIAL, 1.0)?, train(RADIAL, 0.5)?, train(AXIAL, 1.0)?);
     let total_s = 6.0_f64.to_radians() / one.last(3);
+    let [radial_deg, axial_deg] = [&radial, &axial].map(|it| it.last(3).to_degrees());
+    let [once_min, twice_min] = [&radial, &half].map(|it| it.last(1) / 60.0);
+    let pulse_deg = radial_deg / radial.last(4);
     let (arc_deg, days) = (half_arc_deg(fmu)?, deadband_days(fmu)?);
     Ok(vec![
-        compared(
+        rounded(
             "axis moved by one 1 s pulse (eq 3) | 0.0095 rad",
             format!("{:.6} rad planned, {:.6} rad simulated", one.last(0), one.last(3)),
-            verdict(rounds(one.last(3), 0.0095, 1e-4)),
+            [one.last(3), 0.0095, 1e-4],
         ),
         compared(
             "thruster time for 6 deg | 11.02 s",
@@ -77,49 +80,34 @@ fn pulses(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
                 "paper divides by the rounded 0.0095 rad",
             ),
         ),
-        compared(
-            "half arc of a 32 ms pulse | 0.48 deg",
-            format!("{arc_deg:.2} deg"),
-            verdict(rounds(arc_deg, 0.48, 0.01)),
-        ),
-        compared(
+        rounded("half arc of a 32 ms pulse | 0.48 deg", format!("{arc_deg:.2} deg"), [arc_deg, 0.48, 0.01]),
+        rounded(
             "axis moved by one 32 ms pulse | 0.0176 deg",
-            format!("{:.5} deg", radial.last(3).to_degrees() / radial.last(4)),
-            verdict(rounds(radial.last(3).to_degrees() / radial.last(4), 0.0176, 1e-4)),
+            format!("{pulse_deg:.5} deg"),
+            [pulse_deg, 0.0176, 1e-4],
         ),
         compared(
             "32 ms pulses for 2 deg, lower radial | 114",
-            format!("{} (simulated {:.4} deg)", radial.last(4), radial.last(3).to_degrees()),
-            verdict(rounds(radial.last(4), 114.0, 1.0) && rounds(radial.last(3).to_degrees(), 2.0, 0.02)),
+            format!("{} (simulated {radial_deg:.4} deg)", radial.last(4)),
+            verdict(rounds(radial.last(4), 114.0, 1.0) && rounds(radial_deg, 2.0, 0.02)),
         ),
         compared(
             "32 ms pulses for 2 deg, upper axial | about 58",
-            format!("{} (simulated {:.4} deg)", axial.last(4), axial.last(3).to_degrees()),
-            verdict(rounds(axial.last(4), 58.0, 1.0) && rounds(axial.last(3).to_degrees(), 2.0, 0.04)),
+            format!("{} (simulated {axial_deg:.4} deg)", axial.last(4)),
+            verdict(rounds(axial.last(4), 58.0, 1.0) && rounds(axial_deg, 2.0, 0.04)),
         ),
-        compared(
-            "duration, once a turn | 22.6 min",
-            format!("{:.2} min", radial.last(1) / 60.0),
-            verdict(rounds(radial.last(1) / 60.0, 22.6, 0.1)),
-        ),
+        rounded("duration, once a turn | 22.6 min", format!("{once_min:.2} min"), [once_min, 22.6, 0.1]),
         compared(
             "duration, twice a turn | 11.6 min",
-            format!("{:.2} min", half.last(1) / 60.0),
-            verdict_text(
-                rounds(half.last(1) / 60.0, 11.3, 0.1),
-                "113 half turns are 11.3 min: a slip of the paper",
-            ),
+            format!("{twice_min:.2} min"),
+            verdict_text(rounds(twice_min, 11.3, 0.1), "113 half turns are 11.3 min: a slip of the paper"),
         ),
         compared(
             "simulation, end of the manoeuvre | 1368 s",
             format!("{:.0} s for 114 turns", 114.0 * PERIOD_S),
             verdict_text(rounds(114.0 * PERIOD_S, 1368.0, 1.0), ARITHMETIC),
         ),
-        compared(
-            "days in the 3 deg deadband | 6.1 d",
-            format!("{days:.2} d"),
-            verdict(rounds(days, 6.1, 0.1)),
-        ),
+        rounded("days in the 3 deg deadband | 6.1 d", format!("{days:.2} d"), [days, 6.1, 0.1]),
     ])
 }
 
@@ -135,14 +123,9 @@ fn half_arc_deg(fmu: &Fmu) -> Result<f64, StudyError> {
         .set("burn.count", 1)
         .simulate(fmu, &["burn.nextEdge", "thruster[8].active", "spin.rate"])?;
     let (mut on_s, mut off_s) = (f64::NAN, f64::NAN);
-    for (&edge_s, &active) in
-        simulated.columns[0].iter().zip(&simulated.columns[1]).filter(|(edge_s, _)| **edge_s >= 0.0)
-    {
-        if active == 1.0 {
-            off_s = edge_s;
-        } else {
-            on_s = edge_s;
-        }
+    let edges = simulated.columns[0].iter().zip(&simulated.columns[1]);
+    for (&edge_s, &active) in edges.filter(|(edge_s, _)| **edge_s >= 0.0) {
+        if active == 1.0 { off_s = edge_s } else { on_s = edge_s }
     }
     Ok((0.5 * (off_s - on_s) * simulated.columns[2][0]).to_degrees())
 }
@@ -215,22 +198,16 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         ));
     }
     let hours = 9.5 * (envelope(RADIAL, 0.5, 113.0)?.0 / envelope(RADIAL, 1.0, 113.0)?.0).ln();
-    rows.push(compared(
-        "damping time avoided by once a turn | 2 3/4 h",
-        format!("{hours:.2} h"),
-        verdict((hours - 2.75).abs() < 0.1),
-    ));
+    let holds = verdict((hours - 2.75).abs() < 0.1);
+    rows.push(compared("damping time avoided by once a turn | 2 3/4 h", format!("{hours:.2} h"), holds));
     let damped = paper_case("damping", 9.5 * 3600.0, 9.5 * 3600.0)
         .set("damper.timeConstant", 9.5 * 3600.0)
         .set("burn.plan", "commanded")
         .set("start.nutation", 0.02_f64.to_radians())
         .simulate(fmu, &["nutation.angle"])?;
     let left = damped.last(0) / 0.02_f64.to_radians();
-    rows.push(compared(
-        "nutation left after 9.5 h | 1/e = 0.3679",
-        format!("{left:.4}"),
-        verdict(rounds(left, (-1.0_f64).exp(), 1e-4)),
-    ));
+    let paper = (-1.0_f64).exp();
+    rows.push(rounded("nutation left after 9.5 h | 1/e = 0.3679", format!("{left:.4}"), [left, paper, 1e-4]));
     Ok(rows)
 }
 
@@ -279,7 +256,6 @@ fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
 }
 
 /// The worst of simulations over the range of ratios.
-#[derive(Clone, Copy, Default)]
 struct Worst {
     final_deg: f64,
     peak_deg: f64,
@@ -292,7 +268,7 @@ struct Worst {
 
 impl Worst {
     fn of(fmu: &Fmu, plan: &str, order: i32, count: i32) -> Result<Self, StudyError> {
-        let simulations: Vec<Self> = (0..RATIOS)
+        let simulations: Vec<[f64; 5]> = (0..RATIOS)
             .into_par_iter()
             .map(|i| {
                 let ratio = 1.471 + 0.023 * f64::from(i) / f64::from(RATIOS - 1);
@@ -305,34 +281,22 @@ impl Worst {
                     .set("burn.count", count)
                     .set("burn.pulseWidth", 0.032)
                     .simulate(fmu, &names)?;
-                let moved_deg = simulated.last(3).to_degrees();
-                Ok(Self {
-                    final_deg: simulated.last(0).to_degrees(),
-                    peak_deg: simulated.most(0).to_degrees(),
-                    duration_min: simulated.last(1) / 60.0,
-                    envelope_share: simulated.most(0) / simulated.last(2),
-                    moved_deg: (moved_deg, moved_deg),
-                })
+                let [left_deg, moved_deg] = [0, 3].map(|column| simulated.last(column).to_degrees());
+                let (peak_rad, duration_min) = (simulated.most(0), simulated.last(1) / 60.0);
+                let envelope_share = peak_rad / simulated.last(2);
+                Ok([left_deg, peak_rad.to_degrees(), duration_min, envelope_share, moved_deg])
             })
             .collect::<Result<_, StudyError>>()?;
-        let start = Self { moved_deg: (f64::INFINITY, 0.0), ..Self::default() };
-        Ok(simulations.iter().fold(start, |worst, simulation| Self {
-            final_deg: worst.final_deg.max(simulation.final_deg),
-            peak_deg: worst.peak_deg.max(simulation.peak_deg),
-            duration_min: worst.duration_min.max(simulation.duration_min),
-            envelope_share: worst.envelope_share.max(simulation.envelope_share),
-            moved_deg: (
-                worst.moved_deg.0.min(simulation.moved_deg.0),
-                worst.moved_deg.1.max(simulation.moved_deg.1),
-            ),
-        }))
+        let of = |k: usize| simulations.iter().map(move |simulation| simulation[k]);
+        let [final_deg, peak_deg, duration_min, envelope_share, most_deg] =
+            [0, 1, 2, 3, 4].map(|k| of(k).fold(0.0, f64::max));
+        let moved_deg = (of(4).fold(f64::INFINITY, f64::min), most_deg);
+        Ok(Self { final_deg, peak_deg, duration_min, envelope_share, moved_deg })
     }
 
     fn text(&self) -> String {
-        format!(
-            "final {:.5} deg, peak {:.4} deg, {:.2} min",
-            self.final_deg, self.peak_deg, self.duration_min
-        )
+        let Self { final_deg, peak_deg, duration_min, .. } = self;
+        format!("final {final_deg:.5} deg, peak {peak_deg:.4} deg, {duration_min:.2} min")
     }
 
     /// Whether the turn is 2 deg within whole pulses, 2 %.
@@ -360,6 +324,9 @@ fn beyond(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         .set("burn.plan", "split")
         .simulate(fmu, &["nutation.angle", "burn.plannedDuration", "burn.done", "momentum.displacement"])?;
     let (split_deg, split_moved_deg) = (split.last(0).to_degrees(), split.last(3).to_degrees());
+    let better = |train: &str, it: &Worst| {
+        compared(&format!("{train}, worst of 1.471 to 1.494 | -"), it.text(), &it.beyond(&uniform))
+    };
     Ok(vec![
         compared(
             "uniform train, worst of 1.471 to 1.494 | envelope 0.0177 deg, 22.6 min",
@@ -376,16 +343,8 @@ fn beyond(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
             tapered.text(),
             verdict_text(as_stated, "2 deg in 11.4 min under 0.0033 deg"),
         ),
-        compared(
-            "train 1 3 4 ... 4 3 1, worst of 1.471 to 1.494 | -",
-            second.text(),
-            &second.beyond(&uniform),
-        ),
-        compared(
-            "binomial train of order 4, worst of 1.471 to 1.494 | -",
-            fourth.text(),
-            &fourth.beyond(&uniform),
-        ),
+        better("train 1 3 4 ... 4 3 1", &second),
+        better("binomial train of order 4", &fourth),
         compared(
             "split train, ratio known | -",
             format!("final {split_deg:.6} deg, {:.2} min", split.last(1) / 60.0),

@@ -8,6 +8,7 @@ mod table;
 mod year;
 
 use crate::StudyError;
+use crate::cells::scientific;
 use crate::report::{Outcome, Run};
 use crate::verdict::{agrees, compared};
 use drawing::{Chart, Panel, Series};
@@ -78,9 +79,7 @@ pub(crate) fn figure12(run: &mut Run<'_>) -> Outcome {
     let header = "case | time_s | solar_m_s2 | albedo_m_s2 | infrared_m_s2 | thermal_m_s2";
     let rows = simulated.iter().flat_map(|Simulated { row, samples, .. }| {
         samples.iter().step_by(4).map(|sample| {
-            let mut cells = vec![row.case.to_string(), format!("{}", sample.time_s)];
-            cells.extend(sample.effects.iter().map(|a| format!("{a:.6e}")));
-            cells
+            [vec![row.case.to_string(), format!("{}", sample.time_s)], scientific(sample.effects)].concat()
         })
     });
     run.csv("figure12.csv", header, rows)

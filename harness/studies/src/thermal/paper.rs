@@ -7,22 +7,8 @@ pub(super) struct Row {
     pub case: u32,
     /// Mercury's true anomaly at the start, in deg.
     pub true_anomaly_deg: f64,
-    /// Solar.
-    pub solar: f64,
-    /// Albedo.
-    pub albedo: (f64, f64),
-    /// Infrared.
-    pub infrared: (f64, f64),
-    /// Thermal recoil.
-    pub thermal: (f64, f64),
-}
-
-impl Row {
-    /// By effect, in the order of the table; of solar it prints the greatest only.
-    pub(super) fn extremes(&self) -> [(f64, Option<f64>); 4] {
-        let both = |(greatest, least)| (greatest, Some(least));
-        [(self.solar, None), both(self.albedo), both(self.infrared), both(self.thermal)]
-    }
+    /// By effect, in the order of the table: solar, of which it prints the greatest only, albedo, infrared and recoil.
+    pub extremes: [(f64, Option<f64>); 4],
 }
 
 const fn row(
@@ -33,7 +19,9 @@ const fn row(
     infrared: (f64, f64),
     thermal: (f64, f64),
 ) -> Row {
-    Row { case, true_anomaly_deg, solar, albedo, infrared, thermal }
+    let [albedo, infrared, thermal] =
+        [(albedo.0, Some(albedo.1)), (infrared.0, Some(infrared.1)), (thermal.0, Some(thermal.1))];
+    Row { case, true_anomaly_deg, extremes: [(solar, None), albedo, infrared, thermal] }
 }
 
 /// Table 7, the analytical model.

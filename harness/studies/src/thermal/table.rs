@@ -51,7 +51,7 @@ pub(super) fn print(
         let ours = as_printed(samples);
         let cells = by_cells.as_deref().map(as_printed);
         for effect in 0..EFFECTS.len() {
-            let paper = row.extremes()[effect];
+            let paper = row.extremes[effect];
             let digits = if effect == 0 { 3 } else { 2 };
             let pair = |(greatest, least): (f64, f64)| format!("{greatest:.digits$} / {least:.digits$}");
             let off = |found: [(f64, f64); 4]| found[effect].0 / paper.0 - 1.0;
@@ -80,7 +80,7 @@ fn chart(simulated: &[Simulated]) -> BarChart {
         let greatest = |samples: &[Sample]| as_printed(samples)[effect].0;
         let by_cells = |it: &Simulated| it.by_cells.as_deref().map_or(f64::NAN, greatest);
         let mut values: Vec<Vec<f64>> = vec![
-            simulated.iter().map(|it| it.row.extremes()[effect].0).collect(),
+            simulated.iter().map(|it| it.row.extremes[effect].0).collect(),
             simulated.iter().map(|it| greatest(&it.samples)).collect(),
         ];
         if has_cells {

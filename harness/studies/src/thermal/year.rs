@@ -1,5 +1,6 @@
 //! Figure 13: a whole Mercury year, by orbit.
 
+use crate::cells::scientific;
 use crate::report::{Outcome, Run};
 use crate::verdict::{agrees, compared};
 use drawing::{Chart, Panel, Series};
@@ -106,14 +107,8 @@ pub(crate) fn figure13(run: &mut Run<'_>) -> Outcome {
     let columns = |it| format!(" | {it}_least_m_s2 | {it}_mean_m_s2 | {it}_greatest_m_s2");
     let header = format!("true_anomaly_deg{}", EFFECTS.map(columns).concat());
     let rows = orbits.iter().map(|orbit| {
-        let mut cells = vec![format!("{:.4}", orbit.true_anomaly_deg)];
-        cells.extend(
-            orbit
-                .effects
-                .iter()
-                .flat_map(|effect| [effect.least, effect.mean, effect.greatest].map(|a| format!("{a:.6e}"))),
-        );
-        cells
+        let effects = orbit.effects.iter().flat_map(|effect| [effect.least, effect.mean, effect.greatest]);
+        [vec![format!("{:.4}", orbit.true_anomaly_deg)], scientific(effects)].concat()
     });
     run.csv("figure13.csv", &header, rows)
 }
