@@ -1,7 +1,5 @@
 //! One simulation of a study: what is set, how long and how finely, and its recorded columns.
 
-use std::error::Error;
-
 use campaign::{Design, Distribution, Sampling, Varied};
 use loader::{Fmu, Rows, Value};
 use model_description::{BaseType, Description};
@@ -10,6 +8,7 @@ use systems::{FirstExchange, Master, System};
 
 use crate::StudyError;
 use crate::attitude::Attitude;
+use crate::options::Cause;
 use crate::settings::{Setting, Settings};
 
 /// One simulation: what is set, how long and how finely.
@@ -49,6 +48,12 @@ impl Model for System {
         let way = (Master::default(), FirstExchange::Separate);
         systems::simulate_into(self, way, options, rows).map(|_| ())
     }
+}
+
+/// Names of every member of a numbered group.
+pub(crate) fn numbered(fmu: &Fmu, group: &str, names: &[&str]) -> Vec<String> {
+    let all = (1..).map(|k| names.iter().map(move |name| format!("{group}[{k}].{name}")).collect::<Vec<_>>());
+    all.take_while(|member| fmu.position(&member[0]).is_some()).flatten().collect()
 }
 
 /// Positions of the variables that names of variables and vectors mean, in this order.
@@ -269,11 +274,7 @@ impl Case {
     }
 
     /// The runs of a campaign of it: every combination of these numbers, the last variable changing first.
-    pub(crate) fn campaign(
-        &self,
-        model: &dyn Model,
-        varied: &[(&str, &[f64])],
-    ) -> Result<Vec<Self>, Box<dyn Error + Send + Sync>> {
+    pub(crate) fn campaign(&self, model: &dyn Model, varied: &[(&str, &[f64])]) -> Result<Vec<Self>, Cause> {
         let of = |(name, values): &(&str, &[f64])| Varied {
             name: (*name).to_owned(),
             distribution: Distribution::Values(values.to_vec()),

@@ -59,7 +59,7 @@ impl Options {
 
     /// Opens an FMU of the folder.
     pub(crate) fn fmu(&self, file: &str) -> Result<Fmu, StudyError> {
-        Fmu::open(self.dist.join(file)).map_err(|error| StudyError::Fmu(Box::new(error)))
+        Fmu::open(self.dist.join(file)).map_err(|error| StudyError::Dist(Box::new(error)))
     }
 
     /// The start values by a model's description.
@@ -73,9 +73,12 @@ impl Options {
 
     /// Opens a system of the folder.
     pub(crate) fn system(&self, file: &str) -> Result<System, StudyError> {
-        System::open(self.dist.join(file)).map_err(|error| StudyError::System(Box::new(error)))
+        System::open(self.dist.join(file)).map_err(|error| StudyError::Dist(Box::new(error)))
     }
 }
+
+/// What made a step of a study fail.
+pub(crate) type Cause = Box<dyn std::error::Error + Send + Sync>;
 
 /// Why a study did not finish.
 #[derive(Debug, thiserror::Error)]
@@ -130,9 +133,9 @@ pub enum StudyError {
         /// The labels there are.
         known: String,
     },
-    /// An FMU could not be loaded; the error names its file.
+    /// An FMU or a system could not be opened; the error names its file.
     #[error("{0}: see --dist")]
-    Fmu(Box<loader::Error>),
+    Dist(Cause),
     /// No plan was found.
     #[error("{case}: {why}")]
     Plan {
@@ -141,16 +144,13 @@ pub enum StudyError {
         /// Why.
         why: String,
     },
-    /// A system could not be opened; the error names its file.
-    #[error("{0}: see --dist")]
-    System(Box<systems::Error>),
     /// An FMU could not be simulated.
     #[error("{case}: {source}")]
     Simulation {
         /// Which case.
         case: String,
         /// Why.
-        source: Box<dyn std::error::Error + Send + Sync>,
+        source: Cause,
     },
     /// A result file could not be written.
     #[error("cannot write {0}")]

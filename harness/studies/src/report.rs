@@ -7,6 +7,7 @@ use drawing::Picture;
 use files::Destination;
 use rayon::prelude::*;
 
+use crate::options::Cause;
 use crate::{Options, StudyError};
 
 fn columns(header: &str) -> Vec<&str> {
@@ -95,7 +96,7 @@ impl Run<'_> {
         header: &str,
         rows: impl IntoIterator<Item = Vec<String>>,
     ) -> Outcome {
-        let table = || -> Result<Vec<u8>, Box<dyn std::error::Error + Send + Sync>> {
+        let table = || -> Result<Vec<u8>, Cause> {
             let mut writer = csv::Writer::from_writer(Vec::new());
             writer.write_record(columns(header))?;
             for row in rows {

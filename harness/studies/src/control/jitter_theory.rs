@@ -8,7 +8,7 @@ use loader::Fmu;
 use nalgebra::{Complex, Matrix3, SVector, Vector3};
 
 use crate::StudyError;
-use crate::case::{at_start, recorded};
+use crate::case::{at_start, numbered, recorded};
 
 recorded! {
     /// One flexible mode.
@@ -94,10 +94,4 @@ impl Structure {
             self.carrier.try_inverse().map_or(0.0, |inverse| mode.coupling.dot(&(inverse * mode.coupling)));
         mode.frequency_hz / (1.0 - free).sqrt()
     }
-}
-
-/// Names of every member of a numbered group.
-fn numbered(fmu: &Fmu, group: &str, names: &[&str]) -> Vec<String> {
-    let all = (1..).map(|k| names.iter().map(move |name| format!("{group}[{k}].{name}")).collect::<Vec<_>>());
-    all.take_while(|member| fmu.position(&member[0]).is_some()).flatten().collect()
 }

@@ -5,6 +5,7 @@ use super::safe_mode_checks::{Parameters, attitude_lost, zone_violated};
 use super::safe_mode_flight::{Chain, sun_angle_deg};
 use crate::cells::row;
 use crate::report::{Outcome, Run};
+use crate::verdict::{agrees, compared};
 use drawing::{Chart, Mark, Panel, Series};
 
 /// Both chains of modes.
@@ -23,7 +24,9 @@ pub(crate) fn safe_mode(run: &mut Run<'_>) -> Outcome {
                 Chain::AttitudeLost => attitude_lost(&parameters, samples),
                 Chain::ZoneViolated => zone_violated(&parameters, samples),
             };
-            checks.into_iter().map(|check| check.row(chain.label()))
+            checks.into_iter().map(|(statement, (holds, found))| {
+                compared(&format!("{} | {statement}", chain.label()), found, agrees(holds))
+            })
         })
         .collect();
     run.table_and_csv("safe-mode.csv", "case | paper 001 | found | verdict", rows)?;

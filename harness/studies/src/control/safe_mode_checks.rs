@@ -10,7 +10,6 @@ use nalgebra::Vector2;
 use crate::StudyError;
 use crate::attitude::{Vector, across, angle_rad, body_angles_deg};
 use crate::case::recorded;
-use crate::verdict::{agrees, compared};
 use drawing::Series;
 
 /// Exchange and sample: what is seen at one second acts at the next and shows at the one after.
@@ -22,22 +21,8 @@ const ANGLE_DEG: f64 = 0.1;
 /// Largest error of a rate then, as a share of it.
 const RATE: f64 = 0.01;
 
-/// A statement of the paper and whether it holds.
-pub(super) struct Check {
-    /// The paper's, in short.
-    pub statement: &'static str,
-    /// What the flight shows.
-    pub found: String,
-    /// Whether it is so.
-    pub holds: bool,
-}
-
-impl Check {
-    /// Cells of the table.
-    pub(super) fn row(self, case: &str) -> Vec<String> {
-        compared(&format!("{case} | {}", self.statement), self.found, agrees(self.holds))
-    }
-}
+/// A statement of the paper, in short, whether it holds, and what the flight shows.
+type Check = (&'static str, (bool, String));
 
 recorded! {
     /// Limits and rates of Guidance, as the FMU has them.
@@ -172,8 +157,7 @@ fn acquired(samples: &[Sample], from_s: f64, to_s: f64) -> (bool, String) {
 pub(super) fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> {
     let limits = &parameters.limits;
     let mut checks = Vec::new();
-    let mut check =
-        |statement, (holds, found): (bool, String)| checks.push(Check { statement, found, holds });
+    let mut check = |statement, found| checks.push((statement, found));
     let operational = |phase: Phase<'_>| {
         let off_deg = phase.greatest(plus_z_from_sun_deg);
         let holds = phase.all(|it| it.mode == parameters.operational) && off_deg < ANGLE_DEG;
@@ -258,8 +242,7 @@ fn plus_z_from_sun_deg(sample: &Sample) -> f64 {
 pub(super) fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> {
     let Parameters { limits, zone_deg, safe_hold_deg, .. } = parameters;
     let mut checks = Vec::new();
-    let mut check =
-        |statement, (holds, found): (bool, String)| checks.push(Check { statement, found, holds });
+    let mut check = |statement, found| checks.push((statement, found));
 
     let stop_s = samples.last().map_or(f64::NAN, |sample| sample.time_s);
     let commanded = Phase::between(samples, ZONE_ON_S + DELAY_S, stop_s);

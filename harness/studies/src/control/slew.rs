@@ -1,7 +1,7 @@
 //! Large slews under the plant's own controller: how they settle, a saturation that a dump ends, a wheel that fails.
 
 use super::slew_figures::figure;
-use super::slew_flight::{BodySample, Event, Plant, SLEW_S, Sample, Simulated, Slew, WheelSample};
+use super::slew_flight::{BodySample, Event, Plant, SLEW_S, Sample, Simulated, Slew, Wheel, WheelSample};
 use crate::attitude::{Vector, greatest};
 use crate::cells::row;
 use crate::report::{Outcome, Run};
@@ -57,9 +57,9 @@ impl Measures {
         let small_from =
             samples.iter().rposition(|sample| error_deg(sample) > SETTLED_DEG).map_or(0, |k| k + 1);
         let sense = slew.angle_rad.signum();
-        let share = |of: fn(&WheelSample) -> f64, most: &[f64]| {
-            let each = samples.iter().flat_map(|sample| sample.wheels.iter().zip(most));
-            greatest(each.map(|(wheel, most)| of(wheel) / most))
+        let share = |of: fn(&WheelSample) -> f64, most: fn(&Wheel) -> f64| {
+            let each = samples.iter().flat_map(|sample| sample.wheels.iter().zip(&limits.wheels));
+            greatest(each.map(|(wheel, limit)| of(wheel) / most(limit)))
         };
         let is_full = |sample: &&Sample| sample.wheels.iter().any(|wheel| wheel.is_saturated);
         let full = || samples.iter().filter(is_full).map(|sample| sample.body.time_s);
@@ -76,8 +76,8 @@ impl Measures {
             .to_degrees(),
             rate_deg_s: greatest(samples.iter().map(|sample| sample.body.rate_rad_s.dot(&slew.axis)))
                 .to_degrees(),
-            torque: share(|wheel| wheel.torque_n_m, &limits.torque_n_m),
-            momentum: share(|wheel| wheel.momentum_n_m_s, &limits.capacity_n_m_s),
+            torque: share(|wheel| wheel.torque_n_m, |limit| limit.torque_n_m),
+            momentum: share(|wheel| wheel.momentum_n_m_s, |limit| limit.capacity_n_m_s),
             full_s: full().next().zip(full().next_back()),
             is_torque_limited: samples.iter().any(|sample| sample.body.is_torque_limited),
             dumps: samples.last().map_or(0, |sample| sample.body.dumps),
@@ -113,7 +113,7 @@ impl Measures {
                 let stands =
                     simulated.samples.last().is_some_and(|last| last.wheels[wheel - 1].torque_n_m == 0.0);
                 match (stands, free) {
-                    (true, true) => format!("survived with {} wheels", simulated.limits.axes.len() - 1),
+                    (true, true) => format!("survived with {} wheels", simulated.limits.wheels.len() - 1),
                     (true, false) => "saturates".to_owned(),
                     (false, _) => format!("wheel {wheel} still gives torque"),
                 }
@@ -159,8 +159,8 @@ pub(crate) fn slew(run: &mut Run<'_>) -> Outcome {
             "Limits: {:.4} deg/s and {:.5} deg/s2 (control.slewRate and control.slewAcceleration), wheels of {} N m and {} N m s.",
             limits.slew.rate_rad_s.to_degrees(),
             limits.slew.acceleration_rad_s2.to_degrees(),
-            limits.torque_n_m[0],
-            limits.capacity_n_m_s[0],
+            limits.wheels[0].torque_n_m,
+            limits.wheels[0].capacity_n_m_s,
         ));
     }
     run.line(REMARK);
@@ -187,7 +187,7 @@ fn history(run: &mut Run<'_>, simulated: &[Simulated]) -> Outcome {
         left_x_rad | left_y_rad | left_z_rad | momentum_x_n_m_s | momentum_y_n_m_s | momentum_z_n_m_s | \
         torque_limited | dumping | dumps"
         .to_owned();
-    let wheels = simulated.first().map_or(0, |simulated| simulated.limits.axes.len());
+    let wheels = simulated.first().map_or(0, |simulated| simulated.limits.wheels.len());
     for k in 1..=wheels {
         header += &format!(" | wheel{k}_torque_n_m | wheel{k}_momentum_n_m_s | wheel{k}_full");
     }

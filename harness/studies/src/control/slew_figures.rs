@@ -1,6 +1,6 @@
 //! Pictures of slews: error angle, rate, torques and momenta of the wheels over time, with their limits.
 
-use super::slew_flight::{Event, SLEW_S, Sample, Simulated};
+use super::slew_flight::{Event, SLEW_S, Sample, Simulated, Wheel};
 use drawing::{Chart, Panel, Series};
 
 /// A slew over time.
@@ -10,15 +10,15 @@ pub(super) fn figure(simulated: &Simulated) -> Chart {
         Series::line(label, samples.iter().map(|sample| (sample.body.time_s, value(sample))).collect())
     };
     let wheels = |value: &dyn Fn(&Sample, usize) -> f64| -> Vec<Series> {
-        (0..limits.axes.len())
+        (0..limits.wheels.len())
             .map(|k| line(&format!("wheel {}", k + 1), &|sample| value(sample, k)))
             .collect()
     };
     let either_way = |limit: f64| vec![-limit, limit];
     let sense = slew.angle_rad.signum();
     let limit = sense * limits.slew.rate_rad_s.to_degrees();
-    let torque_n_m = limits.torque_n_m.iter().copied().fold(f64::INFINITY, f64::min);
-    let capacity_n_m_s = limits.capacity_n_m_s.iter().copied().fold(f64::INFINITY, f64::min);
+    let least = |of: fn(&Wheel) -> f64| limits.wheels.iter().map(of).fold(f64::INFINITY, f64::min);
+    let [torque_n_m, capacity_n_m_s] = [least(|wheel| wheel.torque_n_m), least(|wheel| wheel.capacity_n_m_s)];
     let mut panels = vec![
         Panel::new("error [deg]").with([line("angle from the attitude commanded at 10 s", &|sample| {
             sample.left_rad.norm().to_degrees()
@@ -38,7 +38,7 @@ pub(super) fn figure(simulated: &Simulated) -> Chart {
     ];
     if matches!(slew.event, Event::Dumped(..) | Event::Threshold(..)) {
         let full = |sample: &Sample| sample.wheels.iter().filter(|wheel| wheel.is_saturated).count() as f64;
-        panels.push(Panel::new("number").range(-0.3, limits.axes.len() as f64 + 0.3).whole().with([
+        panels.push(Panel::new("number").range(-0.3, limits.wheels.len() as f64 + 0.3).whole().with([
             line("wheels at capacity", &full),
             line("dump active", &|sample| f64::from(u8::from(sample.body.is_dumping))),
         ]));

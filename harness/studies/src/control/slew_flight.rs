@@ -4,7 +4,7 @@ use loader::Fmu;
 
 use super::slew_limits::SlewLimits;
 use crate::attitude::{Attitude, Vector};
-use crate::case::{Case, Row, at_start, recorded};
+use crate::case::{Case, Row, at_start, numbered, recorded};
 use crate::settings::{Settings, set};
 use crate::{Options, StudyError};
 
@@ -44,6 +44,18 @@ pub(super) struct Slew {
     pub stop_s: Option<f64>,
 }
 
+recorded! {
+    /// Limits of a wheel.
+    pub(super) struct Wheel {
+        /// In N m.
+        pub torque_n_m: f64 = "maxTorque",
+        /// In N m s.
+        pub capacity_n_m_s: f64 = "capacity",
+        /// A unit vector.
+        pub axis: Vector = "axis",
+    }
+}
+
 /// Limits of slew and wheels, as the FMU has them.
 #[derive(Clone, Debug)]
 pub(super) struct Limits {
@@ -51,28 +63,18 @@ pub(super) struct Limits {
     pub slew: SlewLimits,
     /// `control.bandwidth`, in rad/s.
     pub bandwidth_rad_s: f64,
-    /// `wheel[k].maxTorque`, in N m.
-    pub torque_n_m: Vec<f64>,
-    /// `wheel[k].capacity`, in N m s.
-    pub capacity_n_m_s: Vec<f64>,
-    /// `wheel[k].axis`: unit vectors.
-    pub axes: Vec<Vector>,
+    /// `wheel[k]`.
+    pub wheels: Vec<Wheel>,
 }
 
 impl Limits {
     fn read(fmu: &Fmu) -> Result<Self, StudyError> {
-        let wheels = (1..).take_while(|k| fmu.find(&format!("wheel[{k}].torque")).is_some()).count();
-        let of_wheels = |name: &str| -> Result<Vec<f64>, StudyError> {
-            let each: Vec<String> = (1..=wheels).map(|k| format!("wheel[{k}].{name}")).collect();
-            Ok(at_start(fmu, &each)?.first())
-        };
-        let axes = of_wheels("axis")?;
+        let mut wheels: Vec<Wheel> = at_start(fmu, &numbered(fmu, "wheel", Wheel::NAMES))?.first();
+        wheels.iter_mut().for_each(|wheel| wheel.axis = wheel.axis.normalize());
         Ok(Self {
             slew: at_start(fmu, SlewLimits::NAMES)?.first(),
             bandwidth_rad_s: at_start(fmu, &["control.bandwidth"])?.first(),
-            torque_n_m: of_wheels("maxTorque")?,
-            capacity_n_m_s: of_wheels("capacity")?,
-            axes: axes.chunks_exact(3).map(|axis| Vector::from_row_slice(axis).normalize()).collect(),
+            wheels,
         })
     }
 }
@@ -158,9 +160,7 @@ impl Plant {
     pub(super) fn simulated(&self, slew: &Slew, step_s: Option<f64>) -> Result<Simulated, StudyError> {
         let target = self.q * Attitude::from_scaled_axis(slew.axis * slew.angle_rad);
         let mut outputs: Vec<String> = BodySample::NAMES.iter().map(|name| (*name).to_owned()).collect();
-        for k in 1..=self.limits.axes.len() {
-            outputs.extend(WheelSample::NAMES.iter().map(|name| format!("wheel[{k}].{name}")));
-        }
+        outputs.extend(numbered(&self.fmu, "wheel", WheelSample::NAMES));
         let ideal_s = self.limits.slew.least_s(slew.angle_rad.abs());
         let stop_s = slew.stop_s.unwrap_or_else(|| (SLEW_S + 1.4 * ideal_s + 100.0).ceil());
         let mut events = self.events(slew, &target, ideal_s).into_iter().peekable();
@@ -191,11 +191,10 @@ impl Plant {
             .set("command.q", self.q);
         if let Event::Dumped(share, _) | Event::Threshold(share, _) = slew.event {
             case = case.set("dump.threshold", [NEVER_N_M_S; 3]);
-            for (k, (capacity, axis)) in self.limits.capacity_n_m_s.iter().zip(&self.limits.axes).enumerate()
-            {
+            for (k, Wheel { capacity_n_m_s, axis, .. }) in (1..).zip(&self.limits.wheels) {
                 // The wheels take up the opposite of the body's momentum.
                 let sense = -axis.dot(&slew.axis).signum() * slew.angle_rad.signum();
-                case = case.set(&format!("wheel[{}].startMomentum", k + 1), sense * share * capacity);
+                case = case.set(&format!("wheel[{k}].startMomentum"), sense * share * capacity_n_m_s);
             }
         }
         case

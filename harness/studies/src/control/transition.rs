@@ -29,62 +29,49 @@ const GYRO_RAD_SQRT_S: f64 = 0.005 * core::f64::consts::PI / 180.0 / 60.0;
 const DRIFT_RAD_S_SQRT_S: f64 = 0.1 * core::f64::consts::PI / 180.0 / 3600.0 / 294.0;
 const ARC_SECOND: f64 = core::f64::consts::PI / 648_000.0;
 
-/// What is simulated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Case {
-    /// Star tracker and gyros with noise.
-    Noise,
-    /// Without.
-    NoNoise,
-}
+/// What is simulated: a label, and whether star tracker and gyros have noise.
+type Case = (&'static str, bool);
 
-impl Case {
-    fn label(self) -> &'static str {
-        match self {
-            Self::Noise => "with noise",
-            Self::NoNoise => "without noise",
+const CASES: [Case; 2] = [("with noise", true), ("without noise", false)];
+
+fn simulated((label, is_noisy): Case, both: &Loop, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
+    // The camera stands as far sunward of +Z as nadir does with the Sun on -Y.
+    let camera = |sample: &Sample| {
+        let sun_nadir_rad = angle_rad(&sample.to_sun_m(), &sample.to_planet_m());
+        set("boresight.angle", core::f64::consts::FRAC_PI_2 - sun_nadir_rad)
+    };
+    let inputs = |sample: &Sample| {
+        let mut settings = Settings::new();
+        if sample.time_s == 0.0 {
+            settings.extend(set("pointing.scenario", "downlink"));
+        } else if sample.time_s == SLEW_S {
+            settings.extend(set("pointing.scenario", "gimbal"));
+            settings.extend(set("aimpoint.option", "nadir"));
         }
-    }
-
-    fn simulated(self, both: &Loop, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
-        // The camera stands as far sunward of +Z as nadir does with the Sun on -Y.
-        let camera = |sample: &Sample| {
-            let sun_nadir_rad = angle_rad(&sample.to_sun_m(), &sample.to_planet_m());
-            set("boresight.angle", core::f64::consts::FRAC_PI_2 - sun_nadir_rad)
-        };
-        let inputs = |sample: &Sample| {
-            let mut settings = Settings::new();
-            if sample.time_s == 0.0 {
-                settings.extend(set("pointing.scenario", "downlink"));
-            } else if sample.time_s == SLEW_S {
-                settings.extend(set("pointing.scenario", "gimbal"));
-                settings.extend(set("aimpoint.option", "nadir"));
-            }
-            if sample.time_s >= SLEW_S {
-                settings.extend(camera(sample));
-            }
-            of("guidance", settings)
-        };
-        let noise = || {
-            let noise = [
-                set("starTracker.noise", [TRACKER_RAD; 3]),
-                set("gyro.noise", GYRO_RAD_SQRT_S),
-                set("gyro.drift", DRIFT_RAD_S_SQRT_S),
-            ];
-            of("plant", noise.concat())
-        };
-        both.simulated(
-            &Flight {
-                label: self.label(),
-                epoch_s: TRANSITION_EPOCH_S,
-                true_anomaly_deg: TRANSITION_TRUE_ANOMALY_DEG,
-                stop_s: END_S,
-                settings: if self == Self::Noise { noise() } else { Settings::new() },
-                inputs: &inputs,
-            },
-            step_s,
-        )
-    }
+        if sample.time_s >= SLEW_S {
+            settings.extend(camera(sample));
+        }
+        of("guidance", settings)
+    };
+    let noise = || {
+        let noise = [
+            set("starTracker.noise", [TRACKER_RAD; 3]),
+            set("gyro.noise", GYRO_RAD_SQRT_S),
+            set("gyro.drift", DRIFT_RAD_S_SQRT_S),
+        ];
+        of("plant", noise.concat())
+    };
+    both.simulated(
+        &Flight {
+            label,
+            epoch_s: TRANSITION_EPOCH_S,
+            true_anomaly_deg: TRANSITION_TRUE_ANOMALY_DEG,
+            stop_s: END_S,
+            settings: if is_noisy { noise() } else { Settings::new() },
+            inputs: &inputs,
+        },
+        step_s,
+    )
 }
 
 /// Azimuth and elevation in the estimated body frame, in deg.
@@ -102,39 +89,29 @@ fn rate_error_deg_s(sample: &Sample) -> f64 {
     (sample.rate_rad_s - sample.command_rate_rad_s).norm().to_degrees()
 }
 
-/// Limits of the plant's slews.
-struct Limits {
-    slew: SlewLimits,
-    zone_deg: Vector2<f64>,
-}
-
-impl Limits {
-    fn read(both: &Loop) -> Result<Self, StudyError> {
-        let names: Vec<String> = SlewLimits::NAMES.iter().map(|name| format!("plant.{name}")).collect();
-        let slew = both.parameters(&names)?;
-        let zone: Vector2<f64> =
-            both.parameters(&["guidance.keepIn.azimuth", "guidance.keepIn.elevation"])?;
-        Ok(Self { slew, zone_deg: zone.map(f64::to_degrees) })
-    }
-}
+/// Limits of the plant's slews, and the keep-in zone in rad.
+type Limits = (SlewLimits, Vector2<f64>);
 
 /// The estimated curves of Figures 7 and 8.
 pub(crate) fn transition(run: &mut Run<'_>) -> Outcome {
-    let cases = run.chosen([Case::Noise, Case::NoNoise], |case| case.label().to_owned())?;
+    let cases = run.chosen(CASES, |(label, _)| (*label).to_owned())?;
     let both = Loop::open(run.options)?;
-    let limits = Limits::read(&both)?;
+    let names = SlewLimits::NAMES.iter().map(|name| format!("plant.{name}"));
+    let zone = ["azimuth", "elevation"].map(|name| format!("guidance.keepIn.{name}"));
+    let limits: Limits = both.parameters(&names.chain(zone).collect::<Vec<_>>())?;
     let step_s = run.options.step_s;
-    let simulated = run.all(&cases, |case| Ok((*case, case.simulated(&both, step_s)?)))?;
+    let simulated = run.all(&cases, |case| Ok((*case, simulated(*case, &both, step_s)?)))?;
     run.line(
         "Downlink until 500 s, then the camera at nadir (paper 001, Figures 7 and 8), under the plant's own controller\n",
     );
-    let rows: Vec<_> = simulated.iter().flat_map(|(case, samples)| rows(*case, &limits, samples)).collect();
+    let rows: Vec<_> =
+        simulated.iter().flat_map(|((label, _), samples)| rows(label, &limits, samples)).collect();
     run.table_and_csv("transition.csv", "case | quantity | paper | ours | verdict", rows)?;
     run.line(REMARK);
     history(run, &simulated)?;
-    if let Some((case, samples)) = simulated.first() {
-        run.picture("transition-quaternion.svg", &quaternion_chart(*case, samples))?;
-        run.picture("transition-angles.svg", &angle_chart(*case, samples))?;
+    if let Some(((label, _), samples)) = simulated.first() {
+        run.picture("transition-quaternion.svg", &quaternion_chart(label, samples))?;
+        run.picture("transition-angles.svg", &angle_chart(label, samples))?;
     }
     Ok(())
 }
@@ -150,7 +127,7 @@ axis at 10 Hz, gyros 0.005 deg a root hour and a drift of 0.1 deg/h in a day. Th
 and Guidance takes it as fixed in between, so that the commanded rate has 0.0015 deg/s about X that the sequence of commanded
 attitudes lacks; the slew follows it, which is how far the Sun leaves -Y.";
 
-fn rows(case: Case, limits: &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
+fn rows(label: &str, (slew, zone_rad): &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
     let at = |second: f64| samples.iter().find(|sample| sample.time_s == second);
     // The command of the sample at 500 s stands one second later.
     let (Some(before), Some(after)) = (at(SLEW_S), at(SLEW_S + 1.0)) else { return Vec::new() };
@@ -165,15 +142,14 @@ fn rows(case: Case, limits: &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
             angle_rad(&-Vector::y(), &frame(it).inverse_transform_vector(&it.to_sun_m())).to_degrees()
         })
     };
+    let zone_deg = zone_rad.map(f64::to_degrees);
     let outside = samples.iter().skip(1).filter(|sample| {
         let [azimuth, elevation] = estimated_deg(sample, &sample.to_sun_m());
-        azimuth.abs() > limits.zone_deg[0] || elevation.abs() > limits.zone_deg[1]
+        azimuth.abs() > zone_deg[0] || elevation.abs() > zone_deg[1]
     });
     let [outside, limited] = [outside.count(), samples.iter().filter(|it| it.is_torque_limited).count()];
     let last_deg = samples.iter().rev().take(300).map(error_deg).fold(0.0, f64::max);
-    let row = |what: &str, ours: String, verdict: &str| {
-        compared(&format!("{} | {what}", case.label()), ours, verdict)
-    };
+    let row = |what: &str, ours: String, verdict: &str| compared(&format!("{label} | {what}"), ours, verdict);
     let [estimated_deg, true_deg] = [off_sun(&|sample| sample.estimate_q), off_sun(&|sample| sample.q)];
     vec![
         row("slew angle | not printed", format!("{:.2} deg", slew_rad.to_degrees()), "-"),
@@ -182,17 +158,13 @@ fn rows(case: Case, limits: &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
             settled_s.map_or_else(|| "does not".to_owned(), |time_s| format!("{time_s:.0} s")),
             agrees(settled_s.is_some_and(|time_s| (PAPER_S[0]..=PAPER_S[1]).contains(&time_s))),
         ),
-        row(
-            "the same by the limits alone | not printed",
-            format!("{:.0} s", limits.slew.least_s(slew_rad)),
-            "-",
-        ),
+        row("the same by the limits alone | not printed", format!("{:.0} s", slew.least_s(slew_rad)), "-"),
         row(
             "slew angles that take 70 to 100 s by the limits | not printed",
             format!(
                 "{:.1} to {:.1} deg",
-                limits.slew.angle_rad(PAPER_S[0]).to_degrees(),
-                limits.slew.angle_rad(PAPER_S[1]).to_degrees()
+                slew.angle_rad(PAPER_S[0]).to_degrees(),
+                slew.angle_rad(PAPER_S[1]).to_degrees()
             ),
             "-",
         ),
@@ -219,10 +191,10 @@ fn history(run: &mut Run<'_>, simulated: &[(Case, Vec<Sample>)]) -> Outcome {
         command_x_rad_s | command_y_rad_s | command_z_rad_s | sun_x_m | sun_y_m | sun_z_m | earth_x_m | \
         earth_y_m | earth_z_m | planet_x_m | planet_y_m | planet_z_m | mdis_angle_deg | torque_limited | \
         constrained";
-    let rows = simulated.iter().flat_map(|(case, samples)| {
+    let rows = simulated.iter().flat_map(|((label, _), samples)| {
         samples.iter().map(|sample| {
             row![
-                case.label(),
+                *label,
                 sample.time_s,
                 sample.command_q,
                 sample.estimate_q,
@@ -258,7 +230,7 @@ fn sign(samples: &[Sample], q: &Attitude) -> f64 {
     if samples.last().is_some_and(|last| q.dot(&last.command_q) < 0.0) { -1.0 } else { 1.0 }
 }
 
-fn quaternion_chart(case: Case, samples: &[Sample]) -> Chart {
+fn quaternion_chart(label: &str, samples: &[Sample]) -> Chart {
     let signed = |q: &Attitude, i: usize| sign(samples, q) * q[i];
     let mut panels: Vec<Panel> = (0..4)
         .map(|i| {
@@ -278,14 +250,11 @@ fn quaternion_chart(case: Case, samples: &[Sample]) -> Chart {
         false,
         error_deg,
     )]));
-    Chart::new(
-        format!("Commanded and estimated quaternion over the transition, {}", case.label()),
-        "time [s]",
-    )
-    .with(panels)
+    Chart::new(format!("Commanded and estimated quaternion over the transition, {label}"), "time [s]")
+        .with(panels)
 }
 
-fn angle_chart(case: Case, samples: &[Sample]) -> Chart {
+fn angle_chart(label: &str, samples: &[Sample]) -> Chart {
     let panel = |name: &str, i: usize| {
         Panel::new(format!("{name} [deg]")).with([
             over_time("Mercury", samples, false, |it| estimated_deg(it, &it.to_planet_m())[i]),
@@ -294,6 +263,6 @@ fn angle_chart(case: Case, samples: &[Sample]) -> Chart {
             over_time("Sun", samples, false, |it| estimated_deg(it, &it.to_sun_m())[i]).drawn(Mark::Dashed),
         ])
     };
-    Chart::new(format!("Sun, Earth and Mercury in the estimated body frame, {}", case.label()), "time [s]")
+    Chart::new(format!("Sun, Earth and Mercury in the estimated body frame, {label}"), "time [s]")
         .with([panel("azimuth", 0), panel("elevation", 1)])
 }

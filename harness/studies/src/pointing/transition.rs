@@ -18,84 +18,55 @@ pub(crate) const TRUE_ANOMALY_DEG: f64 = 215.0;
 pub(crate) const SLEW_S: f64 = 500.0;
 const END_S: u32 = 1000;
 
-/// How the camera's angle is commanded after the slew.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Angle {
-    /// Every second the one that leaves the Sun on -Y.
-    Followed,
-    /// The one of the slew.
-    Held,
-}
+/// A label, and whether the camera's angle is commanded anew every second after the slew, so that the Sun stays on -Y;
+/// otherwise the angle of the slew stays.
+type Case = (&'static str, bool);
 
-impl Angle {
-    fn label(self) -> &'static str {
-        match self {
-            Self::Followed => "camera follows",
-            Self::Held => "camera held",
-        }
-    }
+const CASES: [Case; 2] = [("camera follows", true), ("camera held", false)];
 
-    fn simulated(self, fmus: &Fmus) -> Result<Simulated, StudyError> {
-        let command = |place: &Place| -> Settings {
-            let camera = || {
-                // -Y at the Sun and the camera at nadir: the camera stands as far sunward of +Z as nadir does.
-                let sun_nadir_rad = angle_rad(&place.to_sun_m, &place.nadir_m());
-                set("boresight.angle", core::f64::consts::FRAC_PI_2 - sun_nadir_rad)
-            };
-            if place.time_s == 0.0 {
-                set("pointing.scenario", "downlink")
-            } else if place.time_s == SLEW_S {
-                [set("pointing.scenario", "gimbal"), set("aimpoint.option", "nadir"), camera()].concat()
-            } else if place.time_s > SLEW_S && self == Self::Followed {
-                camera()
-            } else {
-                Vec::new()
-            }
+fn simulated((label, is_followed): Case, fmus: &Fmus) -> Result<Simulated, StudyError> {
+    let command = |place: &Place| -> Settings {
+        let camera = || {
+            // -Y at the Sun and the camera at nadir: the camera stands as far sunward of +Z as nadir does.
+            let sun_nadir_rad = angle_rad(&place.to_sun_m, &place.nadir_m());
+            set("boresight.angle", core::f64::consts::FRAC_PI_2 - sun_nadir_rad)
         };
-        fmus.simulated(&Flight {
-            label: self.label(),
-            epoch_s: EPOCH_S,
-            true_anomaly_deg: TRUE_ANOMALY_DEG,
-            seconds: END_S,
-            parameters: Vec::new(),
-            command: &command,
-        })
-    }
-}
-
-/// What the figures show at one second, in deg.
-struct Angles {
-    sun: [f64; 2],
-    earth: [f64; 2],
-    planet: [f64; 2],
-}
-
-impl Angles {
-    fn of(sample: &Sample) -> Self {
-        let place = &sample.place;
-        Self {
-            sun: sample.body_angles_deg(&place.to_sun_m),
-            earth: sample.body_angles_deg(&place.to_earth),
-            planet: sample.body_angles_deg(&place.nadir_m()),
+        if place.time_s == 0.0 {
+            set("pointing.scenario", "downlink")
+        } else if place.time_s == SLEW_S {
+            [set("pointing.scenario", "gimbal"), set("aimpoint.option", "nadir"), camera()].concat()
+        } else if place.time_s > SLEW_S && is_followed {
+            camera()
+        } else {
+            Vec::new()
         }
-    }
+    };
+    fmus.simulated(&Flight {
+        label,
+        epoch_s: EPOCH_S,
+        true_anomaly_deg: TRUE_ANOMALY_DEG,
+        seconds: END_S,
+        parameters: Vec::new(),
+        command: &command,
+    })
 }
 
-/// Rotation angle from one attitude to another, in deg.
-fn slew_deg(from: &Sample, to: &Sample) -> f64 {
-    from.q.angle_to(&to.q).to_degrees()
+/// What the figures show at one second: azimuth and elevation of Sun, Earth and Mercury in the body frame, in deg.
+fn angles_deg(sample: &Sample) -> [[f64; 2]; 3] {
+    let place = &sample.place;
+    [place.to_sun_m, place.to_earth, place.nadir_m()].map(|to| sample.body_angles_deg(&to))
 }
 
 /// The commanded curves of Figures 7 and 8.
 pub(crate) fn transition(run: &mut Run<'_>) -> Outcome {
-    let angles = [Angle::Followed, Angle::Held];
-    let cases = run.chosen(angles, |angle| angle.label().to_owned())?;
+    let cases = run.chosen(CASES, |(label, _)| (*label).to_owned())?;
     let fmus = Fmus::open(run.options)?;
-    let simulated = run.all(&cases, |angle| Ok((*angle, angle.simulated(&fmus)?)))?;
+    let simulated = run.all(&cases, |case| Ok((*case, simulated(*case, &fmus)?)))?;
     run.line(
         "Downlink until 500 s, then the camera at nadir (paper 001, Figures 7 and 8, commanded curves)\n",
     );
-    let rows = simulated.iter().flat_map(|(angle, simulated)| rows(*angle, simulated)).collect::<Vec<_>>();
+    let rows =
+        simulated.iter().flat_map(|((label, _), simulated)| rows(label, simulated)).collect::<Vec<_>>();
     run.table("case | quantity | paper | ours | verdict", &rows);
     run.line(REMARK);
     write(run, &simulated)?;
@@ -115,23 +86,19 @@ start, where the paper's eight hours of downlink about apoapsis end; elsewhere o
 estimated curves are those of control/transition. Camera follows: its angle is commanded anew every second, so that
 the Sun stays on -Y; camera held: the angle of 500 s stays, and the Sun's elevation takes up how nadir moves.";
 
-fn rows(angle: Angle, simulated: &Simulated) -> Vec<Vec<String>> {
+fn rows(label: &str, simulated: &Simulated) -> Vec<Vec<String>> {
     let at = |second: f64| simulated.samples.iter().find(|sample| sample.place.time_s == second);
     let (Some(before), Some(after)) = (at(SLEW_S - 1.0), at(SLEW_S)) else { return Vec::new() };
-    let all = || simulated.samples.iter().map(Angles::of);
-    let before_slew = || {
-        simulated.samples.iter().filter(|sample| sample.place.time_s < SLEW_S).map(|s| Angles::of(s).earth)
-    };
-    let sun = [0, 1].map(|i| greatest(all().map(|angles| angles.sun[i])));
-    let elevation = greatest(before_slew().map(|earth| earth[1]));
-    let azimuth = Angles::of(before).earth[0];
+    let sun = [0, 1].map(|i| greatest(simulated.samples.iter().map(|sample| angles_deg(sample)[0][i])));
+    let before_slew = simulated.samples.iter().filter(|sample| sample.place.time_s < SLEW_S);
+    let elevation = greatest(before_slew.map(|sample| angles_deg(sample)[1][1]));
+    let azimuth = angles_deg(before)[1][0];
     // Adding zero takes the sign from a zero.
-    let planet = Angles::of(after).planet.map(|x| (100.0 * x).round() / 100.0 + 0.0);
+    let planet = angles_deg(after)[2].map(|x| (100.0 * x).round() / 100.0 + 0.0);
+    let slew_deg = before.q.angle_to(&after.q).to_degrees();
     let mdis_deg = after.mdis_angle_rad.to_degrees();
     let constrained = simulated.samples.iter().filter(|sample| sample.constrained).count();
-    let row = |what: &str, ours: String, verdict: &str| {
-        compared(&format!("{} | {what}", angle.label()), ours, verdict)
-    };
+    let row = |what: &str, ours: String, verdict: &str| compared(&format!("{label} | {what}"), ours, verdict);
     vec![
         row(
             "Earth azimuth before the slew | -33 deg",
@@ -145,7 +112,7 @@ fn rows(angle: Angle, simulated: &Simulated) -> Vec<Vec<String>> {
         ),
         row("Sun azimuth, greatest | 0 deg", format!("{:.1e} deg", sun[0]), agrees(sun[0] < 1e-9)),
         row("Sun elevation, greatest | 0 deg", format!("{:.1e} deg", sun[1]), agrees(sun[1] < 1e-9)),
-        row("slew angle | not printed", format!("{:.3} deg", slew_deg(before, after)), "-"),
+        row("slew angle | not printed", format!("{slew_deg:.3} deg"), "-"),
         row(
             "Mercury azimuth / elevation after the slew | not printed",
             format!("{:.2} / {:.2} deg", planet[0], planet[1]),
@@ -160,15 +127,14 @@ fn rows(angle: Angle, simulated: &Simulated) -> Vec<Vec<String>> {
     ]
 }
 
-fn write(run: &mut Run<'_>, simulated: &[(Angle, Simulated)]) -> Outcome {
+fn write(run: &mut Run<'_>, simulated: &[(Case, Simulated)]) -> Outcome {
     let own = "\
         case | sun_azimuth_deg | sun_elevation_deg | earth_azimuth_deg | earth_elevation_deg | \
         mercury_azimuth_deg | mercury_elevation_deg | mdis_angle_deg";
-    let rows = simulated.iter().flat_map(|(angle, simulated)| {
+    let rows = simulated.iter().flat_map(|((label, _), simulated)| {
         simulated.samples.iter().map(|sample| {
-            let Angles { sun, earth, planet } = Angles::of(sample);
             let mdis_deg = sample.mdis_angle_rad.to_degrees();
-            row![angle.label(), sun, earth, planet, mdis_deg, sample.geometry()]
+            row![*label, angles_deg(sample), mdis_deg, sample.geometry()]
         })
     });
     run.csv("transition.csv", &format!("{own} | {GEOMETRY}"), rows)
@@ -200,10 +166,10 @@ fn quaternion_chart(simulated: &Simulated) -> Chart {
 fn angle_chart(simulated: &Simulated) -> Chart {
     let panel = |name: &str, i: usize| {
         Panel::new(format!("{name} [deg]")).with([
-            over_time("Mercury", simulated, |sample| Angles::of(sample).planet[i]),
-            over_time("Earth", simulated, |sample| Angles::of(sample).earth[i]),
+            over_time("Mercury", simulated, |sample| angles_deg(sample)[2][i]),
+            over_time("Earth", simulated, |sample| angles_deg(sample)[1][i]),
             // Dashed, as it lies on one of the others all the time.
-            over_time("Sun", simulated, |sample| Angles::of(sample).sun[i]).drawn(Mark::Dashed),
+            over_time("Sun", simulated, |sample| angles_deg(sample)[0][i]).drawn(Mark::Dashed),
         ])
     };
     Chart::new("Sun, Earth and Mercury in the commanded body frame", "time [s]")
