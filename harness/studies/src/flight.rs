@@ -1,9 +1,10 @@
 //! Cases simulated through MomentumPlant as flights that the planner reads.
 
-use std::error::Error;
-
 use loader::Fmu;
-use planner::momentum::{Convention, plant, simulated::SimulatedFlight};
+use planner::{
+    Failure,
+    momentum::{Convention, plant, simulated::SimulatedFlight},
+};
 
 use crate::case::{Case, Row};
 use crate::settings::Settings;
@@ -28,7 +29,7 @@ impl FlightKind {
         self,
         (case, fmu): (&Case, &Fmu),
         steer: &mut dyn FnMut(Row<'_>) -> Settings,
-    ) -> Result<SimulatedFlight, Box<dyn Error>> {
+    ) -> Result<SimulatedFlight, Failure> {
         let panels: Vec<String> = (0..self.panels).map(plant::panel).collect();
         let mut names: Vec<&str> = plant::recorded(self.convention).to_vec();
         names.extend(plant::RECORDED_MOTION.iter().filter(|_| self.has_encounter));

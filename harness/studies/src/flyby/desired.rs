@@ -4,12 +4,11 @@ use drawing::{Chart, Panel, Series};
 use planner::flyby::sensitivity::DesiredDeltaV;
 
 use super::leg::{Failure, Leg, planned};
-use super::mission::FLYBY_2;
+use super::mission::{DAY_S, FLYBY_2};
 use crate::cells::row;
 use crate::report::{Outcome, Run};
 use crate::verdict::{compared, verdict};
 
-const DAY_S: f64 = 86_400.0;
 /// What is to be taken away: along T and R, in m; the direction is assumed.
 const MISS_M: [f64; 2] = [-170e3, 0.0];
 /// Between times, in days, and from when on before the flyby.
@@ -37,15 +36,13 @@ pub(crate) fn figure5(run: &mut Run<'_>) -> Outcome {
     let least = all.iter().min_by(|a, b| a.1.size_m_s().total_cmp(&b.1.size_m_s()));
     let (least_d, least_mm_s) =
         least.map_or((f64::NAN, f64::NAN), |(day, desired)| (*day, 1e3 * desired.size_m_s()));
-    let near = |ours: f64, paper: f64| verdict((ours / paper - 1.0).abs() < 0.05);
+    let near = |what: &str, ours: f64, digits: usize, paper: f64| {
+        compared(what, format!("{ours:.digits$}"), verdict((ours / paper - 1.0).abs() < 0.05))
+    };
     let rows = vec![
-        compared(
-            "118 d before [mm/s] | 9.2, the least",
-            format!("{:.2}", mm_s(118.0)),
-            near(mm_s(118.0), 9.2),
-        ),
-        compared("4 d before [mm/s] | 480", format!("{:.0}", mm_s(4.0)), near(mm_s(4.0), 480.0)),
-        compared("the least [mm/s] | 9.2", format!("{least_mm_s:.2}"), near(least_mm_s, 9.2)),
+        near("118 d before [mm/s] | 9.2, the least", mm_s(118.0), 2, 9.2),
+        near("4 d before [mm/s] | 480", mm_s(4.0), 0, 480.0),
+        near("the least [mm/s] | 9.2", least_mm_s, 2, 9.2),
         compared(
             "its time [d before] | 118",
             format!("{least_d:.1}"),
@@ -59,9 +56,8 @@ pub(crate) fn figure5(run: &mut Run<'_>) -> Outcome {
          Near 130 d before the flyby no velocity moves both components of B: how far from 118 d that is depends on the place of departure, \
          which is not published.",
     );
-    let day = |before_d: f64| -before_d;
     let line = |of: &dyn Fn(&DesiredDeltaV) -> f64| -> Vec<(f64, f64)> {
-        all.iter().map(|(before_d, it)| (day(*before_d), of(it))).collect()
+        all.iter().map(|(before_d, it)| (-before_d, of(it))).collect()
     };
     let published = vec![(-118.0, 9.2e-3_f64.log10()), (-4.0, 0.48_f64.log10())];
     let size = Panel::new("log10 of m/s")

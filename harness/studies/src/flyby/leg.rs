@@ -4,6 +4,7 @@
 //! planet is one like others. [`Leg::passed`] simulates it to the end.
 
 use loader::Fmu;
+pub(super) use planner::Failure;
 use planner::{
     flyby::{BPlaneAimpoint, ForceModel, Sensitivity},
     momentum::{
@@ -19,8 +20,7 @@ use planner::{
     },
 };
 
-pub(super) use super::mission::Failure;
-use super::mission::Mission;
+use super::mission::{DAY_S, Mission};
 use crate::StudyError;
 use crate::attitude::Vector;
 use crate::case::Case;
@@ -28,7 +28,6 @@ use crate::flight::FlightKind;
 use crate::report::Run;
 use crate::settings::{Settings, set};
 
-const DAY_S: f64 = 86_400.0;
 /// How near a plan comes to its aimpoint, in m.
 const TOLERANCE_M: f64 = 1e3;
 /// Between points at which plans command, in s; windows begin and end at them.
@@ -296,8 +295,6 @@ impl Simulates for Sought<'_, '_> {
         }
         Ok(flight)
     }
-
-    fn progress(&mut self, _: &str) {}
 }
 
 /// What a study found, or why it has no plan.

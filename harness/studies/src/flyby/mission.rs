@@ -1,15 +1,12 @@
 //! Shipped missions to the flybys of Mercury: what they set, and the dates of their legs.
 
 use model_description::Description;
-use planner::flyby::epoch_s;
+use planner::{Failure, flyby::epoch_s};
 use toml::{Table, Value};
 
 use crate::settings::{Settings, set};
 
-/// Why a leg cannot be simulated or planned.
-pub(super) type Failure = Box<dyn std::error::Error>;
-
-const DAY_S: f64 = 86_400.0;
+pub(super) const DAY_S: f64 = 86_400.0;
 
 /// A shipped mission to a flyby.
 pub(super) struct Mission {

@@ -10,11 +10,10 @@ use planner::flyby::{
 };
 
 use super::leg::{Failure, Leg, Met};
-use super::mission::Mission;
+use super::mission::{DAY_S, Mission};
 use crate::cells::row;
 use crate::report::{Outcome, Run};
 
-const DAY_S: f64 = 86_400.0;
 /// The departure manoeuvre, behind the flyby, in s.
 const DEPARTURE_S: f64 = 30.0 * DAY_S;
 /// Deviations of the ellipses that are drawn.

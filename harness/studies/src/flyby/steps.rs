@@ -5,13 +5,12 @@ use planner::flyby::BPlaneAimpoint;
 use planner::momentum::windows::{ControlBounds, Window};
 
 use super::leg::{Failure, Leg, Met, Room, STEP_S, planned, windows_from};
-use super::mission::FLYBY_2;
+use super::mission::{DAY_S, FLYBY_2};
 use super::plane::{Intercept, Plane, SIGMAS, Target, covariance_m2};
 use crate::StudyError;
 use crate::report::{Outcome, Run};
 use crate::verdict::{compared, verdict};
 
-const DAY_S: f64 = 86_400.0;
 const DEG: f64 = core::f64::consts::PI / 180.0;
 /// Miss behind the departure, along T and R, in m; its direction is assumed.
 const DEPARTURE_MISS_M: [f64; 2] = [-170e3, 0.0];

@@ -8,11 +8,10 @@ use planner::flyby::{
 };
 
 use super::leg::{Failure, Leg};
-use super::mission::FLYBY_2;
+use super::mission::{DAY_S, FLYBY_2};
 use super::plane::{POSITION_M, Target, VELOCITY_M_S};
 use crate::attitude::Vector;
 
-const DAY_S: f64 = 86_400.0;
 /// Errors of execution, about each axis across in rad and as a share of the size: printed.
 const DIRECTION_RAD: f64 = 0.2 * core::f64::consts::PI / 180.0;
 const MAGNITUDE: f64 = 1e-3;
