@@ -4,14 +4,14 @@
 //! `STEP_S` under each change both ways; half of what both leave apart, over the change, is its worth (central difference, off by
 //! a share of `TURN_RAD` squared). Momentum is inertial, by the body axes of the attitude that has the Sun on -Y.
 
-use loader::Fmu;
 use nalgebra::Unit;
 
 use super::variant::Variant;
 use crate::StudyError;
 use crate::attitude::{Attitude, Vector, across, body_direction};
-use crate::case::{Case, Row};
-use crate::cells::Cells;
+use crate::case::{Case, Row, numbered};
+use crate::cells::{Cells, row};
+use crate::options::Cause;
 use crate::report::{Outcome, Run};
 use crate::settings::{Settings, set};
 use drawing::{Chart, Panel, Series};
@@ -53,28 +53,6 @@ enum Control {
 }
 
 impl Control {
-    const ALL: [Self; 8] = [
-        Self::Windmill,
-        Self::Offset,
-        Self::Azimuth,
-        Self::Elevation,
-        Self::Center(0),
-        Self::Center(1),
-        Self::Center(2),
-        Self::Alternation,
-    ];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Windmill => "windmill",
-            Self::Offset => "offset",
-            Self::Azimuth => "azimuth",
-            Self::Elevation => "elevation",
-            Self::Center(axis) => ["center_x", "center_y", "center_z"][axis],
-            Self::Alternation => "alternation",
-        }
-    }
-
     fn is_of_panels(self) -> bool {
         matches!(self, Self::Windmill | Self::Offset)
     }
@@ -89,6 +67,18 @@ impl Control {
         }
     }
 }
+
+/// Every control with its name in the CSV and in the picture, and what it is worth per.
+const CONTROLS: [(Control, &str, &str, &str); 8] = [
+    (Control::Windmill, "windmill", "windmill, across the light", "/deg"),
+    (Control::Offset, "offset", "offset", "/deg"),
+    (Control::Azimuth, "azimuth", "azimuth of the Sun", "/deg"),
+    (Control::Elevation, "elevation", "elevation of the Sun", "/deg"),
+    (Control::Center(0), "center_x", "centre of mass along X", "/cm"),
+    (Control::Center(1), "center_y", "centre of mass along Y", "/cm"),
+    (Control::Center(2), "center_z", "centre of mass along Z", "/cm"),
+    (Control::Alternation, "alternation", "alternation", ""),
+];
 
 /// What holds while momentum gathers once.
 #[derive(Clone, Copy, Debug)]
@@ -181,7 +171,7 @@ pub(crate) fn authority(run: &mut Run<'_>) -> Outcome {
     let row = |worth: &Worth| {
         let windmill = worth.of(Control::Windmill);
         let size = |control| worth.of(control).map(|it| it.norm());
-        let sizes = Control::ALL[1..].iter().map(|control| cell(size(*control)));
+        let sizes = CONTROLS[1..].iter().map(|(control, ..)| cell(size(*control)));
         let head = [
             worth.distance_au.to_string(),
             if studied.panels == 0 { "-".to_owned() } else { worth.offset_deg.to_string() },
@@ -266,23 +256,16 @@ fn interpolated(points: &[(f64, f64)], x: f64) -> f64 {
 }
 
 fn csv(run: &mut Run<'_>, worths: &[Worth]) -> Outcome {
-    let per = |control: Control| match control {
-        Control::Center(_) => "n_m_s_d_cm",
-        Control::Alternation => "n_m_s_d",
-        _ => "n_m_s_d_deg",
+    let own = |(_, name, _, per): (Control, &str, &str, &str)| {
+        ["x", "y", "z"].map(|axis| format!("{name}_{axis}_n_m_s_d{}", per.replace('/', "_")))
     };
-    let mut header =
-        "distance_au | offset_deg | still_x_n_m_s_d | still_y_n_m_s_d | still_z_n_m_s_d".to_owned();
-    for control in Control::ALL {
-        let name = control.name();
-        ["x", "y", "z"]
-            .iter()
-            .for_each(|axis| header.push_str(&format!(" | {name}_{axis}_{}", per(control))));
-    }
+    let still = ["distance_au", "offset_deg", "still_x_n_m_s_d", "still_y_n_m_s_d", "still_z_n_m_s_d"];
+    let header = [still.map(str::to_owned).to_vec(), CONTROLS.map(own).concat()].concat().join(" | ");
     let row = |worth: &Worth| {
-        let of = |control| worth.of(control).map_or_else(|| vec![String::new(); 3], |it| it.cells());
-        let head = [worth.distance_au.cells(), worth.offset_deg.cells(), worth.still.cells()].concat();
-        head.into_iter().chain(Control::ALL.into_iter().flat_map(of)).collect::<Vec<String>>()
+        let of = |(control, ..): (Control, &str, &str, &str)| {
+            worth.of(control).map_or_else(|| vec![String::new(); 3], |it| it.cells())
+        };
+        row![worth.distance_au, worth.offset_deg, worth.still, CONTROLS.map(of)]
     };
     run.csv("authority.csv", &header, worths.iter().map(row))
 }
@@ -290,43 +273,33 @@ fn csv(run: &mut Run<'_>, worths: &[Worth]) -> Outcome {
 /// Of every control the worth by offset, a line each distance; where there are no panels by distance.
 fn chart(studied: &StudiedSpacecraft, worths: &[Worth]) -> Chart {
     type Of = fn(Vector) -> f64;
-    let size: Of = |it| it.norm();
-    let rows: [(&str, &str, Control, Of); 9] = [
-        ("windmill, along the light", "N.m.s/d/deg", Control::Windmill, Worth::along),
-        ("windmill, across the light", "N.m.s/d/deg", Control::Windmill, Worth::across),
-        ("offset", "N.m.s/d/deg", Control::Offset, size),
-        ("azimuth of the Sun", "N.m.s/d/deg", Control::Azimuth, size),
-        ("elevation of the Sun", "N.m.s/d/deg", Control::Elevation, size),
-        ("centre of mass along X", "N.m.s/d/cm", Control::Center(0), size),
-        ("centre of mass along Y", "N.m.s/d/cm", Control::Center(1), size),
-        ("centre of mass along Z", "N.m.s/d/cm", Control::Center(2), size),
-        ("alternation", "N.m.s/d", Control::Alternation, size),
-    ];
-    let rows = rows.into_iter().filter(|(_, _, control, _)| studied.controls.contains(control));
-    let title = "What a change is worth in momentum a day";
-    if studied.panels == 0 {
-        let line = |control, of: Of| {
-            Series::line(
-                "",
-                worths.iter().filter_map(|it| Some((it.distance_au, of(it.of(control)?)))).collect(),
-            )
-        };
-        let panels = rows.map(|(title, unit, control, of)| {
-            Panel::new(format!("[{unit}]")).titled(title).with([line(control, of)])
-        });
-        return Chart::new(title, "distance from the Sun [AU]").with(panels);
-    }
-    let line = |distance_au: f64, control, of: Of, label: String| {
-        let there = worths.iter().filter(|it| it.distance_au == distance_au);
-        Series::line(label, there.filter_map(|it| Some((it.offset_deg, of(it.of(control)?)))).collect())
-    };
-    let panels = rows.enumerate().map(|(k, (title, unit, control, of))| {
-        let label = |distance_au: f64| if k == 0 { format!("{distance_au} AU") } else { String::new() };
-        let distances = DISTANCES_AU.into_iter().filter(|au| worths.iter().any(|it| it.distance_au == *au));
-        let lines = distances.map(|distance_au| line(distance_au, control, of, label(distance_au)));
-        Panel::new(format!("[{unit}]")).titled(title).with(lines.collect::<Vec<_>>())
+    type Place = fn(&Worth) -> f64;
+    let along: (&str, &str, Control, Of) =
+        ("windmill, along the light", "/deg", Control::Windmill, Worth::along);
+    let others = CONTROLS.map(|(control, _, title, per)| {
+        let of: Of = if control == Control::Windmill { Worth::across } else { |it| it.norm() };
+        (title, per, control, of)
     });
-    Chart::new(title, "offset of the panels from the Sun [deg]").with(panels)
+    let rows = [along].into_iter().chain(others);
+    let rows = rows.filter(|(_, _, control, _)| studied.controls.contains(control));
+    let (x_label, place, lines): (&str, Place, Vec<Option<f64>>) = match studied.panels {
+        0 => ("distance from the Sun [AU]", |it| it.distance_au, vec![None]),
+        _ => {
+            let is_there = |au: &f64| worths.iter().any(|it| it.distance_au == *au);
+            let lines = DISTANCES_AU.into_iter().filter(is_there).map(Some).collect();
+            ("offset of the panels from the Sun [deg]", |it| it.offset_deg, lines)
+        }
+    };
+    let panels = rows.enumerate().map(|(k, (title, per, control, of))| {
+        let line = |distance_au: &Option<f64>| {
+            let there = worths.iter().filter(|it| distance_au.is_none_or(|au| it.distance_au == au));
+            let label = distance_au.filter(|_| k == 0).map(|au| format!("{au} AU"));
+            let points = there.filter_map(|it| Some((place(it), of(it.of(control)?))));
+            Series::line(label.unwrap_or_default(), points.collect())
+        };
+        Panel::new(format!("[N.m.s/d{per}]")).titled(title).with(lines.iter().map(line))
+    });
+    Chart::new("What a change is worth in momentum a day", x_label).with(panels)
 }
 
 impl StudiedSpacecraft {
@@ -334,17 +307,13 @@ impl StudiedSpacecraft {
     fn of(run: &Run<'_>) -> Result<Self, StudyError> {
         let template = run.options.fmu("MomentumPlant.fmu")?;
         let failed = |source| StudyError::Simulation { case: "the spacecraft".to_owned(), source };
-        let text = match &run.options.spacecraft {
-            Some(path) => files::read_text(path).map_err(|error| failed(error.into()))?,
-            None => Variant::text_of(&template).map_err(failed)?,
+        let (file, text) = match &run.options.spacecraft {
+            Some(path) => (path.display().to_string(), files::read_text(path).map_err(Cause::from)),
+            None => ("spacecraft.toml".to_owned(), Variant::text_of(&template)),
         };
-        let file = run
-            .options
-            .spacecraft
-            .as_ref()
-            .map_or_else(|| "spacecraft.toml".into(), |it| it.display().to_string());
+        let text = text.map_err(failed)?;
         let plain = Variant::of_text(&template, &file, &text, None).map_err(failed)?;
-        let panels = count_of_panels(&plain.fmu);
+        let panels = numbered(&plain.fmu, "panel", &["control"]).len();
         let has_sides = panels > 0
             && Variant::takes(
                 &template,
@@ -355,7 +324,7 @@ impl StudiedSpacecraft {
             Control::Windmill => has_sides,
             _ => panels > 0 || !control.is_of_panels(),
         };
-        let controls: Vec<Control> = Control::ALL.into_iter().filter(is_there).collect();
+        let controls: Vec<Control> = CONTROLS.iter().map(|(control, ..)| *control).filter(is_there).collect();
         let plant = |offset_deg: f64| {
             let offset_rad = offset_deg * DEG;
             let changes = controls
@@ -427,11 +396,6 @@ impl StudiedSpacecraft {
 fn offsets_deg(panels: usize) -> impl Iterator<Item = f64> {
     let count = if panels == 0 { 1 } else { usize::MAX };
     OFFSETS_DEG.step_by(SPACING_DEG).map(f64::from).take(count)
-}
-
-fn count_of_panels(fmu: &Fmu) -> usize {
-    let has = |name: &str| fmu.description().variables.iter().any(|it| it.name == name);
-    (1..).take_while(|number| has(&format!("panel[{number}].control"))).count()
 }
 
 /// How the panels stand at each point, as a timeline.

@@ -1,13 +1,14 @@
 //! The simulations of paper 000's study and how one is simulated.
 
 use loader::Fmu;
+pub(super) use planner::momentum::Convention;
 
 use super::spacing::Spacing;
 use crate::StudyError;
 use crate::attitude::Vector;
 use crate::case;
 use crate::report::Run;
-use crate::settings::Settings;
+use crate::settings::{Settings, set};
 
 pub(super) const DAY_S: f64 = 86_400.0;
 const STEP_S: f64 = 600.0;
@@ -41,22 +42,11 @@ impl Shade {
     }
 }
 
-/// Meaning of momentum in the body frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Convention {
-    /// The paper's.
-    BodyIntegral,
-    /// The physical one.
-    Inertial,
-}
-
-impl Convention {
-    /// For tables.
-    pub(super) fn label(self) -> &'static str {
-        match self {
-            Self::BodyIntegral => "paper's",
-            Self::Inertial => "inertial",
-        }
+/// The paper's momentum or the physical one, for tables.
+pub(super) fn convention_label(convention: Convention) -> &'static str {
+    match convention {
+        Convention::BodyIntegral => "paper's",
+        Convention::Inertial => "inertial",
     }
 }
 
@@ -152,31 +142,26 @@ pub(super) enum Choice {
 }
 
 impl Choice {
-    /// For tables.
-    pub(super) fn label(self) -> &'static str {
+    /// The label of tables, and what is set.
+    fn parts(self) -> (&'static str, Settings) {
+        let tilts = |plus_x: &str, minus_x: &str| {
+            [set("panel[1].tilt", plus_x), set("panel[2].tilt", minus_x)].concat()
+        };
         match self {
-            Self::Study => "study's own",
-            Self::Later => "start 40 days later",
-            Self::OrbitPlane => "Mercury's orbit plane",
-            Self::Ecliptic => "ecliptic",
-            Self::Tilts(true, true) => "panel tilts + +",
-            Self::Tilts(true, false) => "panel tilts + -",
-            Self::Tilts(false, true) => "panel tilts - +",
-            Self::Tilts(false, false) => "panel tilts - -",
+            Self::Study => ("study's own", Settings::new()),
+            Self::Later => ("start 40 days later", set("start.epoch", START_S + 40.0 * DAY_S)),
+            Self::OrbitPlane => ("Mercury's orbit plane", set("orbit.frame", "planetOrbit")),
+            Self::Ecliptic => ("ecliptic", set("orbit.frame", "ecliptic")),
+            Self::Tilts(true, true) => ("panel tilts + +", tilts("positive", "positive")),
+            Self::Tilts(true, false) => ("panel tilts + -", tilts("positive", "negative")),
+            Self::Tilts(false, true) => ("panel tilts - +", tilts("negative", "positive")),
+            Self::Tilts(false, false) => ("panel tilts - -", tilts("negative", "negative")),
         }
     }
 
-    fn set(self, case: case::Case) -> case::Case {
-        let tilt = |positive| if positive { "positive" } else { "negative" };
-        match self {
-            Self::Study => case,
-            Self::Later => case.set("start.epoch", START_S + 40.0 * DAY_S),
-            Self::OrbitPlane => case.set("orbit.frame", "planetOrbit"),
-            Self::Ecliptic => case.set("orbit.frame", "ecliptic"),
-            Self::Tilts(plus_x, minus_x) => {
-                case.set("panel[1].tilt", tilt(plus_x)).set("panel[2].tilt", tilt(minus_x))
-            }
-        }
+    /// For tables.
+    pub(super) fn label(self) -> &'static str {
+        self.parts().0
     }
 }
 
@@ -208,7 +193,7 @@ impl Case {
             self.threshold_n_m_s,
             self.dumps_to.label(),
             self.shade.label(),
-            self.convention.label(),
+            convention_label(self.convention),
             if self.choice == Choice::Study { String::new() } else { format!(", {}", self.choice.label()) },
             if self.is_along_z() { "Z " } else { "" },
             self.offset_label()
@@ -246,7 +231,7 @@ impl Case {
             .set("momentum.strategy", self.strategy.item())
             .set("spacecraft.centerOfMass", self.offset_in.map(|it| INCH_M * f64::from(it)))
             .set("dump.threshold", [self.threshold_n_m_s; 3]);
-        self.choice.set(self.dumps_to.set(case, self.threshold_n_m_s))
+        self.dumps_to.set(case, self.threshold_n_m_s).with(self.choice.parts().1)
     }
 
     /// Simulates it, what `steer` answers to a recorded point being set there.
@@ -319,13 +304,6 @@ impl Simulated {
     pub(super) fn spacing(&self) -> Spacing {
         Spacing::of(&self.dumps.iter().map(|dump| dump.time_d).collect::<Vec<f64>>())
     }
-}
-
-/// Simulates those of `cases` that the options leave.
-pub(super) fn simulate_all(run: &Run<'_>, cases: Vec<Case>) -> Result<Vec<Simulated>, StudyError> {
-    let cases = run.chosen(cases, Case::label)?;
-    let fmu = run.options.fmu("MomentumPlant.fmu")?;
-    run.all(&cases, |case| case.simulate(&fmu, &mut |_| Settings::new()))
 }
 
 /// Simulates cases with offsets along Z, one campaign per setting.

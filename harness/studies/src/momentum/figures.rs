@@ -1,7 +1,8 @@
 //! Paper 000, Figures 4 and 5: X momentum over 90 days.
 
-use super::cases::{Case, Convention, Simulated, Strategy, simulate_all};
+use super::cases::{Case, Convention, Simulated, Strategy};
 use super::lists;
+use super::optimum::simulate_all;
 use crate::report::{Outcome, Run};
 use drawing::{Chart, Panel, Series};
 
@@ -24,21 +25,19 @@ pub(super) const FIGURE_5: Figure = Figure {
 
 /// Figure 4.
 pub(crate) fn figure4(run: &mut Run<'_>) -> Outcome {
-    figure(run, &FIGURE_4)?;
-    run.line("X momentum over 90 days (paper 000, Figure 4)");
-    Ok(())
+    figure(run, &FIGURE_4, "4")
 }
 
 /// Figure 5.
 pub(crate) fn figure5(run: &mut Run<'_>) -> Outcome {
-    figure(run, &FIGURE_5)?;
-    run.line("X momentum over 90 days (paper 000, Figure 5)");
-    Ok(())
+    figure(run, &FIGURE_5, "5")
 }
 
-fn figure(run: &mut Run<'_>, figure: &Figure) -> Outcome {
+fn figure(run: &mut Run<'_>, figure: &Figure, number: &str) -> Outcome {
     let simulated = simulate_all(run, lists::figure(figure.strategies))?;
-    draw(run, &simulated, figure)
+    draw(run, &simulated, figure)?;
+    run.line(&format!("X momentum over 90 days (paper 000, Figure {number})"));
+    Ok(())
 }
 
 /// The figure's strategies, one panel an offset as in the paper: the cylinder with the paper's dumps at the lowest threshold

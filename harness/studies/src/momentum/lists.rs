@@ -16,31 +16,33 @@ const RULES: [(DumpsTo, Convention); 3] = [
 
 /// Table 2: the paper's own dumps first, then the FMU's default ones, then these under the physical momentum.
 pub(super) fn cylinder() -> Vec<Case> {
-    let groups = RULES.map(|(dumps_to, convention)| (dumps_to, Shade::Cylinder, convention));
-    let mut cases = with_every_strategy(&groups, &[4.0, 7.0], &ALONG_Z);
-    cases.extend(optima(Shade::Cylinder, &[4.0, 7.0], &ALONG_Z));
-    cases
+    by_rules(Shade::Cylinder, &[4.0, 7.0], &ALONG_Z)
 }
 
 /// Table 4, in the same order.
 pub(super) fn panels() -> Vec<Case> {
-    let groups = RULES.map(|(dumps_to, convention)| (dumps_to, Shade::PlatesAndPanels, convention));
-    let mut cases = with_every_strategy(&groups, &[5.5], &ALL_OFFSETS);
-    cases.extend(optima(Shade::PlatesAndPanels, &[5.5], &ALL_OFFSETS));
-    cases
+    by_rules(Shade::PlatesAndPanels, &[5.5], &ALL_OFFSETS)
 }
 
-/// The optimum of each threshold and offset under both momenta.
-fn optima(shade: Shade, thresholds_n_m_s: &[f64], offsets_in: &[[i8; 3]]) -> Vec<Case> {
+/// Every strategy by every rule, then the optimum of each threshold and offset under both momenta.
+fn by_rules(shade: Shade, thresholds_n_m_s: &[f64], offsets_in: &[[i8; 3]]) -> Vec<Case> {
+    let groups = RULES.map(|(dumps_to, convention)| (dumps_to, shade, convention));
+    let mut cases = with_strategies(&Strategy::ALL, &groups, thresholds_n_m_s, offsets_in);
     let groups = [Convention::BodyIntegral, Convention::Inertial];
     let groups = groups.map(|convention| (DumpsTo::Planned, shade, convention));
-    with_strategies(&[Strategy::Optimum], &groups, thresholds_n_m_s, offsets_in)
+    cases.extend(with_strategies(&[Strategy::Optimum], &groups, thresholds_n_m_s, offsets_in));
+    cases
 }
 
 /// Tables 3 and 5: what the paper's momentum gives of Tables 2 and 4.
 pub(super) fn in_papers_convention(mut cases: Vec<Case>) -> Vec<Case> {
-    cases.retain(|case| case.convention == Convention::BodyIntegral && case.strategy != Strategy::Optimum);
+    cases.retain(is_in_papers_convention);
     cases
+}
+
+/// Whether a case is one that the paper's tables have.
+pub(super) fn is_in_papers_convention(case: &Case) -> bool {
+    case.convention == Convention::BodyIntegral && case.strategy != Strategy::Optimum
 }
 
 /// Dumps that the paper's tables do not have: the plates alone, dumps to zero, and for small wheels dumps to one side of X.
@@ -49,17 +51,15 @@ pub(super) fn other_dumps() -> Vec<Case> {
     let both = [(DumpsTo::OWN, plates), (DumpsTo::ZERO, cylinder)];
     let small = [(DumpsTo::AlongX(0.9), cylinder), (DumpsTo::AlongX(-0.9), cylinder)];
     let group = |(dumps_to, shade)| (dumps_to, shade, Convention::BodyIntegral);
-    let mut cases = with_every_strategy(&both.map(group), &[4.0, 7.0], &ALONG_Z);
-    cases.extend(with_every_strategy(&small.map(group), &[4.0], &ALONG_Z));
+    let mut cases = with_strategies(&Strategy::ALL, &both.map(group), &[4.0, 7.0], &ALONG_Z);
+    cases.extend(with_strategies(&Strategy::ALL, &small.map(group), &[4.0], &ALONG_Z));
     cases
 }
 
 /// Figures 4 and 5: small wheels.
 pub(super) fn figure(strategies: &[Strategy]) -> Vec<Case> {
-    let mut cases =
-        with_every_strategy(&[(DumpsTo::PAPER, Shade::Cylinder, Convention::BodyIntegral)], &[4.0], &ALONG_Z);
-    cases.retain(|case| strategies.contains(&case.strategy));
-    cases
+    let group = (DumpsTo::PAPER, Shade::Cylinder, Convention::BodyIntegral);
+    with_strategies(strategies, &[group], &[4.0], &ALONG_Z)
 }
 
 /// Simulations over what the paper leaves open: start date and orbit frame, and the senses of the panels' tilts.
@@ -67,16 +67,9 @@ pub(super) fn open() -> Vec<Case> {
     let mut cases = Vec::new();
     for dumps_to in [DumpsTo::PAPER, DumpsTo::OWN] {
         let mut extend = |threshold_n_m_s, shade, choice| {
-            let convention = Convention::BodyIntegral;
-            cases.extend(ALONG_Z.map(|offset_in| Case {
-                strategy: Strategy::DumpsOnly,
-                threshold_n_m_s,
-                dumps_to,
-                shade,
-                convention,
-                offset_in,
-                choice,
-            }));
+            let group = (dumps_to, shade, Convention::BodyIntegral);
+            let own = with_strategies(&[Strategy::DumpsOnly], &[group], &[threshold_n_m_s], &ALONG_Z);
+            cases.extend(own.into_iter().map(|case| Case { choice, ..case }));
         };
         for threshold_n_m_s in [4.0, 7.0] {
             for choice in [Choice::Study, Choice::Later, Choice::OrbitPlane, Choice::Ecliptic] {
@@ -91,15 +84,7 @@ pub(super) fn open() -> Vec<Case> {
 }
 
 /// Every group with every threshold, strategy and offset, in this order.
-pub(super) fn with_every_strategy(
-    groups: &[(DumpsTo, Shade, Convention)],
-    thresholds_n_m_s: &[f64],
-    offsets_in: &[[i8; 3]],
-) -> Vec<Case> {
-    with_strategies(&Strategy::ALL, groups, thresholds_n_m_s, offsets_in)
-}
-
-fn with_strategies(
+pub(super) fn with_strategies(
     strategies: &[Strategy],
     groups: &[(DumpsTo, Shade, Convention)],
     thresholds_n_m_s: &[f64],

@@ -161,14 +161,10 @@ fn within_the_zone(run: &mut Run<'_>, few: &Simulated, whole: &Simulated) -> Out
     run.csv("off-sun-momentum.csv", header, rows)?;
     let days = |(sample, _): &(Sample, Vec<Vector>)| sample.time_s / DAY_S;
     let lines = |of: &dyn Fn(usize) -> Vector| {
-        ["X", "Y", "Z"]
-            .into_iter()
-            .enumerate()
-            .map(|(axis, name)| {
-                let points = whole.samples.iter().enumerate().map(|(k, it)| (days(it), of(k)[axis]));
-                Series::line(name, points.collect())
-            })
-            .collect::<Vec<_>>()
+        [0, 1, 2].map(|axis| {
+            let points = whole.samples.iter().enumerate().map(|(k, it)| (days(it), of(k)[axis]));
+            Series::line(["X", "Y", "Z"][axis], points.collect())
+        })
     };
     let momentum = |simulated: &Simulated, k: usize| {
         simulated.samples.get(k).map_or(Vector::repeat(f64::NAN), |(it, _)| it.momentum_n_m_s)

@@ -5,11 +5,10 @@
 //! sought, by the case's own thresholds in the end: a dump that the plan does not have would be counted. In the paper's momentum, whose
 //! body components are integrated, each stays below the threshold, the physical one by its length.
 
-use std::error::Error;
-
 use loader::Fmu;
+use planner::Failure;
 use planner::momentum::{
-    self, Limit,
+    Limit,
     plan::{Least, PlanTask, PlannedDump, Simulates, body_momentum_n_m_s, plan},
     plant::{self, StartValues},
     simulated::{MomentumSize, SAME_S, SimulatedFlight},
@@ -55,8 +54,7 @@ struct Sought<'a> {
     fmu: &'a Fmu,
     /// Without thresholds.
     case: case::Case,
-    convention: momentum::Convention,
-    panels: usize,
+    kind: FlightKind,
     sunlit: SunlitSpacecraft,
     /// As it is without a plan.
     simulated: SimulatedFlight,
@@ -65,14 +63,9 @@ struct Sought<'a> {
 }
 
 impl<'a> Sought<'a> {
-    fn of(case: &Case, fmu: &'a Fmu) -> Result<Self, Box<dyn Error>> {
-        let convention = match case.convention {
-            Convention::BodyIntegral => momentum::Convention::BodyIntegral,
-            Convention::Inertial => momentum::Convention::Inertial,
-        };
-        let settings = case.settings();
-        let description = fmu.description();
-        let values = StartValues { description, sets: settings.sets() };
+    fn of(case: &Case, fmu: &'a Fmu) -> Result<Self, Failure> {
+        let (convention, settings) = (case.convention, case.settings());
+        let values = StartValues { description: fmu.description(), sets: settings.sets() };
         let text = Variant::text_of(fmu).map_err(|error| error.to_string())?;
         let spacecraft = plant::spacecraft("spacecraft.toml", &text)?;
         let sunlit = plant::sunlit(spacecraft, &values, convention)?;
@@ -80,10 +73,9 @@ impl<'a> Sought<'a> {
         let control_bounds = ControlBounds { azimuth_rad, elevation_rad, ..ControlBounds::default() };
         let mut sought = Self {
             fmu,
-            panels: sunlit.panels.len(),
+            kind: FlightKind { convention, panels: sunlit.panels.len(), has_encounter: false },
             sun_offset_rad: if sunlit.panels.is_empty() { 0.0 } else { values.real("panel[1].sunOffset") },
             case: settings.set("dump.threshold", [NEVER_N_M_S; 3]).every(EVERY_S),
-            convention,
             sunlit,
             simulated: SimulatedFlight::default(),
             control_bounds,
@@ -142,14 +134,7 @@ impl<'a> Sought<'a> {
 }
 
 impl Simulates for Sought<'_> {
-    fn simulate(
-        &mut self,
-        windows: &[Window],
-        dumps: &[PlannedDump],
-    ) -> Result<SimulatedFlight, Box<dyn Error>> {
-        let kind = FlightKind { convention: self.convention, panels: self.panels, has_encounter: false };
-        kind.simulate((&self.case, self.fmu), &mut self.steer(windows, dumps))
+    fn simulate(&mut self, windows: &[Window], dumps: &[PlannedDump]) -> Result<SimulatedFlight, Failure> {
+        self.kind.simulate((&self.case, self.fmu), &mut self.steer(windows, dumps))
     }
-
-    fn progress(&mut self, _: &str) {}
 }

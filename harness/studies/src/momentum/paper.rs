@@ -12,9 +12,7 @@ pub(super) struct PaperRow {
     strategy: Strategy,
     threshold_n_m_s: f64,
     offset_in: [i8; 3],
-    /// Tables 2 and 4.
-    dumps: i64,
-    /// Tables 3 and 5.
+    /// The number of Tables 2 and 4, the gaps of Tables 3 and 5.
     spacing: Spacing,
 }
 
@@ -56,8 +54,8 @@ const fn cylinder(
     extremes_d: Option<(f64, f64)>,
     typical_d: Option<(f64, f64)>,
 ) -> PaperRow {
-    let spacing = Spacing::stated(dumps as usize, extremes_d, typical_d);
-    PaperRow { shade: Shade::Cylinder, strategy, threshold_n_m_s, offset_in: [0, 0, z_in], dumps, spacing }
+    let spacing = Spacing { dumps, extremes_d, typical_d };
+    PaperRow { shade: Shade::Cylinder, strategy, threshold_n_m_s, offset_in: [0, 0, z_in], spacing }
 }
 
 /// A cell of Tables 4 and 5.
@@ -67,15 +65,8 @@ const fn panels(
     extremes_d: (f64, f64),
     typical_d: Option<(f64, f64)>,
 ) -> PaperRow {
-    let spacing = Spacing::stated(dumps as usize, Some(extremes_d), typical_d);
-    PaperRow {
-        shade: Shade::PlatesAndPanels,
-        strategy: Reactive,
-        threshold_n_m_s: 5.5,
-        offset_in,
-        dumps,
-        spacing,
-    }
+    let row = cylinder(Reactive, 5.5, 0, dumps, Some(extremes_d), typical_d);
+    PaperRow { shade: Shade::PlatesAndPanels, offset_in, ..row }
 }
 
 /// What the paper prints of a case.
@@ -109,14 +100,14 @@ impl Published {
         if own.is_some() || case.shade != Shade::PlatesAndPanels {
             return own.map(Self::Row);
         }
-        let counts: Vec<i64> = with(Shade::Cylinder).map(|row| row.dumps).collect();
+        let counts: Vec<i64> = with(Shade::Cylinder).map(|row| row.spacing.dumps).collect();
         Some(Self::Comparable { fewest: *counts.iter().min()?, most: *counts.iter().max()? })
     }
 
     /// For tables.
     pub(super) fn dumps(&self) -> String {
         match self {
-            Self::Row(row) => row.dumps.to_string(),
+            Self::Row(row) => row.spacing.dumps.to_string(),
             Self::Comparable { fewest, most } => format!("{fewest} to {most}"),
         }
     }
@@ -124,7 +115,7 @@ impl Published {
     /// How a number of dumps compares.
     pub(super) fn against(&self, dumps: i64) -> &'static str {
         match self {
-            Self::Row(row) if (dumps - row.dumps).abs() <= COUNT_TOLERANCE => "within 2",
+            Self::Row(row) if (dumps - row.spacing.dumps).abs() <= COUNT_TOLERANCE => "within 2",
             Self::Comparable { fewest, most } if (*fewest..=*most).contains(&dumps) => "comparable",
             Self::Row(_) | Self::Comparable { .. } => "off",
         }

@@ -89,25 +89,12 @@ const CHANGES: &[Change] = &[
     set("turns at 0.01 deg/s", &[("guided.slewRate", 0.01 * DEG)]),
 ];
 
-/// What one change does.
-struct Found {
-    what: &'static str,
-    /// Dumps by convention, then by strategy.
-    dumps: [[i64; 3]; 2],
-    /// Mean magnitude of what a day without dumps and targets adds, by convention, in N m s.
-    daily_n_m_s: [f64; 2],
-}
-
 /// Study `momentum/sensitivity`.
 pub(crate) fn sensitivity(run: &mut Run<'_>) -> Outcome {
     let changes = run.chosen(CHANGES, |change| change.what.to_owned())?;
     let template = run.options.fmu("MomentumPlant.fmu")?;
-    let found = run.all(&changes, |change| simulated(change, &template))?;
+    let rows = run.all(&changes, |change| simulated(change, &template))?;
     run.line("Small changes of the spacecraft: dumps in 90 days and momentum a day (paper 000, plates and panels)\n");
-    let join = |dumps: &[i64; 3]| dumps.map(|count| count.to_string()).join(" / ");
-    let cells = |it: &Found, k: usize| [join(&it.dumps[k]), format!("{:.4}", it.daily_n_m_s[k])];
-    let row = |it: &Found| [&[it.what.to_owned()][..], &cells(it, 0), &cells(it, 1)].concat();
-    let rows: Vec<Vec<String>> = found.iter().map(row).collect();
     let header = "change | dumps, paper's | paper's a day [N.m.s] | dumps, inertial | inertial a day [N.m.s]";
     run.table_and_csv("sensitivity.csv", header, rows)?;
     run.line(REMARK);
@@ -119,22 +106,27 @@ Dumps: with dumps only / reactive / predictive targets; 5.5 N.m.s, to 0.9 of the
 Z = -2.54 cm. Momentum a day: mean magnitude of what each of the 90 days adds without dumps or targets. Unchanged: panels at
 65 deg, shade cloth of specular 0.15, turns at once. An axis of a panel is turned with its cell side.";
 
-fn simulated(change: &Change, template: &Fmu) -> Result<Found, StudyError> {
+/// What one change does, as a row.
+fn simulated(change: &Change, template: &Fmu) -> Result<Vec<String>, StudyError> {
     let failed = |source| StudyError::Simulation { case: change.what.to_owned(), source };
     let variant = Variant::of(template, change.edits).map_err(failed)?;
     let fmu = &variant.fmu;
     let case = change.sets.iter().fold(CASE.settings(), |case, (name, value)| case.set(name, *value));
-    let mut found = Found { what: change.what, dumps: [[0; 3]; 2], daily_n_m_s: [f64::NAN; 2] };
+    // By convention dumps by strategy, and the mean magnitude of what a day without dumps and targets adds.
+    let (mut dumps, mut daily_n_m_s) = ([[0_i64; 3]; 2], [f64::NAN; 2]);
     let runs = case.campaign(fmu, &[CONVENTIONS, STRATEGIES]).map_err(failed)?;
-    for (count, run) in found.dumps.as_flattened_mut().iter_mut().zip(&runs) {
+    for (count, run) in dumps.as_flattened_mut().iter_mut().zip(&runs) {
         *count = run.simulate(fmu, &["dump.count"])?.last(0) as i64;
     }
     let undumped =
         case.set("dump.threshold", [NO_DUMP_N_M_S; 3]).campaign(fmu, &[CONVENTIONS]).map_err(failed)?;
     let names = ["momentum.body", "momentum.inertial"];
-    for ((daily_n_m_s, run), name) in found.daily_n_m_s.iter_mut().zip(&undumped).zip(names) {
+    for ((daily_n_m_s, run), name) in daily_n_m_s.iter_mut().zip(&undumped).zip(names) {
         let ends = run.clone().every(DAY_S).simulate(fmu, &[name])?.all::<Vector>(0);
         *daily_n_m_s = ends.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum::<f64>() / SPAN_D;
     }
-    Ok(found)
+    let cells = dumps.iter().zip(daily_n_m_s).flat_map(|(dumps, daily_n_m_s)| {
+        [dumps.map(|count| count.to_string()).join(" / "), format!("{daily_n_m_s:.4}")]
+    });
+    Ok([change.what.to_owned()].into_iter().chain(cells).collect())
 }

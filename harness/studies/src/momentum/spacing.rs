@@ -5,48 +5,32 @@ use std::fmt;
 /// Gaps between consecutive dumps, in days.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Spacing {
-    /// Shortest gap.
-    pub closest_d: Option<f64>,
-    /// Longest gap.
-    pub farthest_d: Option<f64>,
-    /// Where the middle half of the gaps lies.
+    /// How many dumps.
+    pub dumps: i64,
+    /// Shortest and longest gap, unless there is none.
+    pub extremes_d: Option<(f64, f64)>,
+    /// Where the middle half of the gaps lies, or what a paper states as typical.
     pub typical_d: Option<(f64, f64)>,
-    /// Whether the mission's five days are violated.
-    pub closer_than_five_days: bool,
-    dumps: usize,
 }
 
 impl Spacing {
-    /// As somebody states it: the closest and the farthest, unless there is no gap, and what is typical where it is stated.
-    pub(super) const fn stated(
-        dumps: usize,
-        extremes_d: Option<(f64, f64)>,
-        typical_d: Option<(f64, f64)>,
-    ) -> Self {
-        let (closest_d, farthest_d, closer_than_five_days) = match extremes_d {
-            Some((closest_d, farthest_d)) => (Some(closest_d), Some(farthest_d), closest_d < 5.0),
-            None => (None, None, false),
-        };
-        Self { closest_d, farthest_d, typical_d, closer_than_five_days, dumps }
+    /// Whether the mission's five days are violated.
+    pub(super) fn is_closer_than_five_days(&self) -> bool {
+        self.extremes_d.is_some_and(|(closest_d, _)| closest_d < 5.0)
     }
 
     /// Whether the mission's five days are kept, for tables.
     pub(super) fn five_days(&self) -> &'static str {
-        if self.closer_than_five_days { "broken" } else { "kept" }
+        if self.is_closer_than_five_days() { "broken" } else { "kept" }
     }
 
     /// How this compares with what a paper states, whose "typical" is not defined.
     pub(super) fn against(&self, stated: &Self) -> &'static str {
-        if self.closest_d.is_none() && stated.closest_d.is_none() {
-            return "no gap, as in the paper";
-        }
-        if stated.closest_d.is_none() {
-            return "off";
-        }
-        let near = |ours: Option<f64>, theirs: Option<f64>| {
-            ours.zip(theirs).is_some_and(|(ours, theirs)| (ours / theirs - 1.0).abs() <= 0.25)
+        let Some((stated_closest_d, _)) = stated.extremes_d else {
+            return if self.extremes_d.is_none() { "no gap, as in the paper" } else { "off" };
         };
-        let closest_is_near = near(self.closest_d, stated.closest_d);
+        let closest_is_near =
+            self.extremes_d.is_some_and(|(closest_d, _)| (closest_d / stated_closest_d - 1.0).abs() <= 0.25);
         if self.has_one_gap() && stated.has_one_gap() {
             return if closest_is_near { "gap within 25 %" } else { "off" };
         }
@@ -77,27 +61,21 @@ impl Spacing {
             Some(below + (gaps_d[at.ceil() as usize] - below) * at.fract())
         };
         Self {
-            closest_d: gaps_d.first().copied(),
-            farthest_d: gaps_d.last().copied(),
+            dumps: dumps_d.len() as i64,
+            extremes_d: gaps_d.first().copied().zip(gaps_d.last().copied()),
             typical_d: quantile(0.25).zip(quantile(0.75)),
-            closer_than_five_days: gaps_d.first().is_some_and(|&gap_d| gap_d < 5.0),
-            dumps: dumps_d.len(),
         }
     }
 }
 
 impl fmt::Display for Spacing {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self.closest_d, self.farthest_d, self.typical_d) {
-            (Some(closest), Some(farthest), Some((low, high))) if self.dumps > 2 => {
-                write!(f, "closest {closest:.1} d, farthest {farthest:.1} d, typical {low:.0}-{high:.0} d")
-            }
-            (Some(closest), Some(farthest), None) if self.dumps > 2 => {
-                write!(f, "closest {closest:.1} d, farthest {farthest:.1} d")
-            }
-            (Some(closest), ..) => write!(f, "2, {closest:.1} d apart"),
-            _ => write!(f, "{} in 90 d", self.dumps),
+        let Some((closest, farthest)) = self.extremes_d else { return write!(f, "{} in 90 d", self.dumps) };
+        if self.dumps <= 2 {
+            return write!(f, "2, {closest:.1} d apart");
         }
+        write!(f, "closest {closest:.1} d, farthest {farthest:.1} d")?;
+        self.typical_d.map_or(Ok(()), |(low, high)| write!(f, ", typical {low:.0}-{high:.0} d"))
     }
 }
 
@@ -109,12 +87,15 @@ mod tests {
     #[test]
     fn gaps_of_a_known_list() {
         let spacing = Spacing::of(&[1.0, 5.0, 15.0, 17.0, 37.0, 43.0]);
-        assert_eq!(spacing.closest_d, Some(2.0));
-        assert_eq!(spacing.farthest_d, Some(20.0));
+        assert_eq!(spacing.extremes_d, Some((2.0, 20.0)));
         assert_eq!(spacing.typical_d, Some((4.0, 10.0)));
-        assert!(spacing.closer_than_five_days);
+        assert!(spacing.is_closer_than_five_days());
         assert_eq!(spacing.to_string(), "closest 2.0 d, farthest 20.0 d, typical 4-10 d");
-        let stated = |closest_d, typical_d| Spacing::stated(9, Some((closest_d, 30.0)), Some(typical_d));
+        let stated = |closest_d, typical_d| Spacing {
+            dumps: 9,
+            extremes_d: Some((closest_d, 30.0)),
+            typical_d: Some(typical_d),
+        };
         let overlapping = "typical gaps overlap, closest within 25 %";
         assert_eq!(spacing.against(&stated(2.5, (9.0, 30.0))), overlapping);
         assert_eq!(spacing.against(&stated(2.7, (9.0, 30.0))), "typical gaps overlap, closest off");
@@ -125,7 +106,7 @@ mod tests {
 
     #[test]
     fn a_single_gap_is_compared_with_a_single_gap() {
-        let stated = Spacing::stated(2, Some((55.0, 55.0)), None);
+        let stated = Spacing { dumps: 2, extremes_d: Some((55.0, 55.0)), typical_d: None };
         assert_eq!(Spacing::of(&[3.0, 59.0]).against(&stated), "gap within 25 %");
         assert_eq!(Spacing::of(&[3.0, 33.0]).against(&stated), "off");
         // Three dumps have a closest and a typical gap of their own.
@@ -137,7 +118,7 @@ mod tests {
         assert_eq!(Spacing::of(&[]).to_string(), "0 in 90 d");
         assert_eq!(Spacing::of(&[3.0]).to_string(), "1 in 90 d");
         assert_eq!(Spacing::of(&[3.0, 58.0]).to_string(), "2, 55.0 d apart");
-        let none = Spacing::stated(1, None, None);
+        let none = Spacing { dumps: 1, extremes_d: None, typical_d: None };
         assert_eq!(Spacing::of(&[3.0]).against(&none), "no gap, as in the paper");
         assert_eq!(Spacing::of(&[3.0, 58.0]).against(&none), "off");
         assert_eq!(Spacing::of(&[3.0, 58.0, 62.0]).against(&none), "off");

@@ -1,6 +1,6 @@
 //! Paper 000, Tables 2 to 5: how many dumps in 90 days, and how long apart.
 
-use super::cases::{Case, Convention, Dump, Shade, Simulated, Strategy, simulate_campaigns};
+use super::cases::{Case, Dump, Shade, Simulated, convention_label, simulate_campaigns};
 use super::figures::{FIGURE_4, draw};
 use super::lists;
 use super::optimum::simulate_all;
@@ -14,11 +14,8 @@ pub(crate) fn tables(run: &mut Run<'_>) -> Outcome {
     let cases = [lists::cylinder(), lists::panels()].concat();
     let simulated = simulate_all(run, cases)?;
     let of = |shade: Shade, papers: bool| -> Vec<Simulated> {
-        let is_requested = |it: &&Simulated| {
-            let is_papers =
-                it.case.convention == Convention::BodyIntegral && it.case.strategy != Strategy::Optimum;
-            it.case.shade == shade && (!papers || is_papers)
-        };
+        let is_requested =
+            |it: &&Simulated| it.case.shade == shade && (!papers || lists::is_in_papers_convention(&it.case));
         simulated.iter().filter(is_requested).cloned().collect()
     };
     counts(run, "table2.csv", &of(Shade::Cylinder, false), TABLE_2)?;
@@ -139,7 +136,7 @@ fn setting_cells(case: &Case) -> Vec<String> {
         format!("{} N.m.s", case.threshold_n_m_s),
         case.dumps_to.label(),
         case.shade.label().to_owned(),
-        case.convention.label().to_owned(),
+        convention_label(case.convention).to_owned(),
         case.strategy.label().to_owned(),
     ]
 }
@@ -170,8 +167,7 @@ fn count_row(simulation: &Simulated) -> Vec<String> {
     let spacing = simulation.spacing();
     let paper = Published::of(&simulation.case);
     let gaps = paper.as_ref().and_then(Published::spacing);
-    let mut row = setting_cells(&simulation.case);
-    row.extend([
+    let cells = [
         simulation.case.offset_label(),
         paper.as_ref().map_or("-".to_owned(), Published::dumps),
         simulation.count.to_string(),
@@ -179,23 +175,22 @@ fn count_row(simulation: &Simulated) -> Vec<String> {
         gaps.map_or("-".to_owned(), Spacing::to_string),
         spacing.to_string(),
         spacing.five_days().to_owned(),
-    ]);
-    row
+    ];
+    [&setting_cells(&simulation.case)[..], &cells].concat()
 }
 
 fn gap_row(simulation: &Simulated) -> Vec<String> {
     let spacing = simulation.spacing();
     let paper = Published::of(&simulation.case).and_then(|published| published.spacing());
-    let mut row = setting_cells(&simulation.case);
-    row.extend([
+    let cells = [
         simulation.case.offset_label(),
         paper.map_or("-".to_owned(), Spacing::to_string),
         spacing.to_string(),
         paper.map_or("", |paper| spacing.against(paper)).to_owned(),
         paper.map_or("", Spacing::five_days).to_owned(),
         spacing.five_days().to_owned(),
-    ]);
-    row
+    ];
+    [&setting_cells(&simulation.case)[..], &cells].concat()
 }
 
 const TABLE_2: &str = "paper 000, Table 2";

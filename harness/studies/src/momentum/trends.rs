@@ -66,16 +66,12 @@ pub(super) fn trends(simulated: &[Simulated]) -> Trends {
 impl Trends {
     /// For a report.
     pub(super) fn text(&self) -> String {
-        let mut text = format!(
-            "Trends (dumps only >= reactive >= predictive, each >= optimum, fewer with the threshold, more with the offset along Z): {} of {} comparisons hold.",
+        let exceptions: String = self.exceptions.iter().map(|exception| format!("\n  {exception}")).collect();
+        format!(
+            "Trends (dumps only >= reactive >= predictive, each >= optimum, fewer with the threshold, more with the offset along Z): {} of {} comparisons hold.{exceptions}",
             self.compared - self.exceptions.len(),
             self.compared
-        );
-        for exception in &self.exceptions {
-            text.push_str("\n  ");
-            text.push_str(exception);
-        }
-        text
+        )
     }
 }
 
@@ -83,12 +79,12 @@ impl Trends {
 mod tests {
     //! Comparisons counted by hand.
     use super::super::cases::{Convention, DumpsTo, Shade};
-    use super::super::lists::{ALL_OFFSETS, with_every_strategy};
+    use super::super::lists::{ALL_OFFSETS, with_strategies};
     use super::*;
 
     fn with_counts(count: impl Fn(&Case) -> i64) -> Vec<Simulated> {
         let group = [(DumpsTo::OWN, Shade::Cylinder, Convention::BodyIntegral)];
-        let cases = with_every_strategy(&group, &[4.0, 7.0], &ALL_OFFSETS);
+        let cases = with_strategies(&Strategy::ALL, &group, &[4.0, 7.0], &ALL_OFFSETS);
         let simulated = |case: Case| Simulated {
             case,
             times_d: Vec::new(),

@@ -1,10 +1,11 @@
 //! An FMU of a shipped spacecraft with a few lines of its file changed.
 
 use std::fs;
-use std::path::Path;
 
 use files::Scratch;
-use loader::Fmu;
+use loader::{Fmu, copy_folder};
+
+use crate::options::Cause;
 
 /// Names in an FMU's resources.
 const FILE: &str = "spacecraft.toml";
@@ -50,10 +51,7 @@ impl Variant {
     ///
     /// # Errors
     /// An edit that does not apply, a file that the model refuses, a folder that cannot be written.
-    pub(super) fn of(
-        template: &Fmu,
-        edits: &[Edit],
-    ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
+    pub(super) fn of(template: &Fmu, edits: &[Edit]) -> Result<Self, Cause> {
         Self::of_text(template, FILE, &edited(&Self::text_of(template)?, edits)?, None)
     }
 
@@ -61,7 +59,7 @@ impl Variant {
     ///
     /// # Errors
     /// A file that cannot be read.
-    pub(super) fn text_of(template: &Fmu) -> Result<String, Box<dyn std::error::Error + Send + Sync>> {
+    pub(super) fn text_of(template: &Fmu) -> Result<String, Cause> {
         Ok(files::read_text(&template.folder().join("resources").join(FILE))?)
     }
 
@@ -74,12 +72,12 @@ impl Variant {
         file: &str,
         text: &str,
         timeline: Option<&str>,
-    ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
+    ) -> Result<Self, Cause> {
         let model = template.co_simulation()?.model_identifier.clone();
         let described = template.binary()?.describe(&model, Some(file), Some(text))?;
         let folder = Scratch::new()?;
         let resources = folder.path().join("resources");
-        copy(&template.folder().join("binaries"), &folder.path().join("binaries"))?;
+        copy_folder(&template.folder().join("binaries"), &folder.path().join("binaries"))?;
         fs::create_dir(&resources)?;
         fs::write(resources.join(FILE), text)?;
         if let Some(timeline) = timeline {
@@ -96,27 +94,9 @@ impl Variant {
     }
 }
 
-fn check_timeline(
-    template: &Fmu,
-    text: &str,
-    timeline: &str,
-) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+fn check_timeline(template: &Fmu, text: &str, timeline: &str) -> Result<(), Cause> {
     let model = &template.co_simulation()?.model_identifier;
     Ok(template.binary()?.check_schedule(model, Some(FILE), Some(text), TIMELINE, (TIMELINE, timeline))?)
-}
-
-fn copy(from: &Path, to: &Path) -> std::io::Result<()> {
-    fs::create_dir(to)?;
-    for entry in fs::read_dir(from)? {
-        let entry = entry?;
-        let target = to.join(entry.file_name());
-        if entry.file_type()?.is_dir() {
-            copy(&entry.path(), &target)?;
-        } else {
-            fs::copy(entry.path(), &target)?;
-        }
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -2,8 +2,9 @@
 
 use loader::Fmu;
 
-use super::cases::{Convention, DumpsTo, Shade, Simulated, Strategy, simulate_all};
-use super::lists::with_every_strategy;
+use super::cases::{Convention, DumpsTo, Shade, Simulated, Strategy, convention_label};
+use super::lists::with_strategies;
+use super::optimum::simulate_all;
 use crate::StudyError;
 use crate::case::Case;
 use crate::report::{Outcome, Run};
@@ -34,7 +35,8 @@ pub(crate) fn wheels(run: &mut Run<'_>) -> Outcome {
     });
     let groups = [Convention::BodyIntegral, Convention::Inertial]
         .map(|convention| (DumpsTo::OWN, Shade::PlatesAndPanels, convention));
-    let cases = with_every_strategy(&groups, &wheels.map(|(.., threshold)| threshold), &OFFSETS_IN);
+    let thresholds_n_m_s = wheels.map(|(.., threshold_n_m_s)| threshold_n_m_s);
+    let cases = with_strategies(&Strategy::ALL, &groups, &thresholds_n_m_s, &OFFSETS_IN);
     let simulated = simulate_all(run, cases)?;
     let guaranteed = guaranteed_thresholds(&run.options.fmu("MomentumPlant.fmu")?)?;
     run.line("Thruster dumps in 90 days over the storage of the wheels (paper 000), plates and panels\n");
@@ -42,11 +44,7 @@ pub(crate) fn wheels(run: &mut Run<'_>) -> Outcome {
     for (&(capacity_n_m_s, mass_kg, threshold_n_m_s), guaranteed) in wheels.iter().zip(&guaranteed) {
         for &(.., convention) in &groups {
             let here = |strategy| {
-                let of = |it: &&Simulated| {
-                    it.case.strategy == strategy
-                        && it.case.convention == convention
-                        && it.case.threshold_n_m_s == threshold_n_m_s
-                };
+                let of = is_of(strategy, threshold_n_m_s, convention);
                 let join = simulated.iter().filter(of).map(dumps).collect::<Vec<_>>();
                 if join.is_empty() { "-".to_owned() } else { join.join(" / ") }
             };
@@ -56,7 +54,7 @@ pub(crate) fn wheels(run: &mut Run<'_>) -> Outcome {
                 format!("{mass_kg:.2}"),
                 format!("{threshold_n_m_s:.3}"),
                 format!("{guaranteed:.3}"),
-                convention.label().to_owned(),
+                convention_label(convention).to_owned(),
                 alone,
                 reactive,
                 predictive,
@@ -77,9 +75,16 @@ Centre of mass at Z = -2.54 / -5.08 cm; a star where two dumps are less than the
 between. The paper does not print the wheels' axes: up to which threshold no wheel saturates holds for messenger.toml's
 pyramid.";
 
+fn is_of(strategy: Strategy, threshold_n_m_s: f64, convention: Convention) -> impl Fn(&&Simulated) -> bool {
+    move |it| {
+        (it.case.strategy, it.case.threshold_n_m_s, it.case.convention)
+            == (strategy, threshold_n_m_s, convention)
+    }
+}
+
 /// Their number, with a star where they break the mission's requirement.
 fn dumps(simulation: &Simulated) -> String {
-    let star = if simulation.spacing().closer_than_five_days { "*" } else { "" };
+    let star = if simulation.spacing().is_closer_than_five_days() { "*" } else { "" };
     format!("{}{star}", simulation.count)
 }
 
@@ -96,16 +101,9 @@ fn guaranteed_thresholds(fmu: &Fmu) -> Result<Vec<f64>, StudyError> {
 
 fn draw(run: &mut Run<'_>, simulated: &[Simulated], wheels: &[(f64, f64, f64)]) -> Outcome {
     let line = |strategy: Strategy, offset_in: [i8; 3], convention: Convention| {
-        let of = |threshold_n_m_s: f64| {
-            move |it: &&Simulated| {
-                it.case.strategy == strategy
-                    && it.case.offset_in == offset_in
-                    && it.case.convention == convention
-                    && it.case.threshold_n_m_s == threshold_n_m_s
-            }
-        };
+        let there = || simulated.iter().filter(|it| it.case.offset_in == offset_in);
         let points = wheels.iter().filter_map(|&(_, mass_kg, threshold_n_m_s)| {
-            Some((mass_kg, simulated.iter().find(of(threshold_n_m_s))?.count as f64))
+            Some((mass_kg, there().find(is_of(strategy, threshold_n_m_s, convention))?.count as f64))
         });
         Series::line(strategy.label(), points.collect())
     };
@@ -118,15 +116,12 @@ fn draw(run: &mut Run<'_>, simulated: &[Simulated], wheels: &[(f64, f64, f64)]) 
             series.retain(|series| !series.points.is_empty());
             let most = series.iter().flat_map(|it| &it.points).map(|(_, count)| *count).fold(1.0, f64::max);
             let centimetres = 2.54 * f64::from(offset_in[2]);
-            Panel::new(format!("{}, Z {centimetres:.2} cm", convention.label()))
+            Panel::new(format!("{}, Z {centimetres:.2} cm", convention_label(convention)))
                 .range(-0.5, 1.15 * most)
                 .with(series)
         })
         .filter(|panel| !panel.series.is_empty())
         .collect();
-    if panels.is_empty() {
-        return Ok(());
-    }
     let chart = Chart::new(
         "Thruster dumps in 90 days over the mass of four wheels, by momentum and offset",
         "mass of four wheels [kg]: 12 kg store 4 N.m.s a wheel, 17 kg 8, 20 kg 12",
