@@ -7,6 +7,7 @@ use super::spacing::Spacing;
 use crate::StudyError;
 use crate::attitude::Vector;
 use crate::case;
+use crate::report::Run;
 use crate::settings::{Settings, set};
 
 pub(super) const DAY_S: f64 = 86_400.0;
@@ -250,6 +251,8 @@ impl MomentumCase {
 
 /// Counter whose every increment is recorded.
 const APART: &str = "dump.count";
+/// Parameter that campaigns vary.
+const OFFSET_Z: &str = "spacecraft.centerOfMass[3]";
 /// What is recorded.
 const NAMES: [&str; 4] = ["momentum.body[1]", "dump.count", "dump.lastTime", "dump.impulse"];
 
@@ -301,4 +304,25 @@ impl Simulated {
     pub(super) fn spacing(&self) -> Spacing {
         Spacing::of(&self.dumps.iter().map(|dump| dump.time_d).collect::<Vec<f64>>())
     }
+}
+
+/// Simulates cases with offsets along Z, one campaign per setting.
+pub(super) fn simulate_campaigns(
+    run: &Run<'_>,
+    cases: Vec<MomentumCase>,
+) -> Result<Vec<Simulated>, StudyError> {
+    let cases = run.chosen(cases, MomentumCase::label)?;
+    let fmu = run.options.fmu("MomentumPlant.fmu")?;
+    let settings: Vec<&[MomentumCase]> = cases.chunk_by(MomentumCase::differs_only_in_offset).collect();
+    let simulated = run.all(&settings, |cases| {
+        let offsets_m: Vec<f64> = cases.iter().map(|case| INCH_M * f64::from(case.offset_in[2])).collect();
+        let campaign = cases[0].settings().apart(APART).campaign(&fmu, &[(OFFSET_Z, &offsets_m)]);
+        let runs = campaign.map_err(|source| StudyError::Simulation { case: cases[0].label(), source })?;
+        let simulated = cases.iter().zip(runs).map(|(case, mut run)| {
+            run.label = case.label();
+            Ok(Simulated::of(*case, &run.simulate(&fmu, &NAMES)?))
+        });
+        simulated.collect::<Result<Vec<_>, StudyError>>()
+    })?;
+    Ok(simulated.concat())
 }

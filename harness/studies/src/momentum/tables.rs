@@ -1,6 +1,6 @@
 //! Paper 000, Tables 2 to 5: how many dumps in 90 days, and how long apart.
 
-use super::cases::{Dump, MomentumCase, Shade, Simulated, convention_label};
+use super::cases::{Dump, MomentumCase, Shade, Simulated, convention_label, simulate_campaigns};
 use super::figures::{FIGURE_4, draw};
 use super::lists;
 use super::optimum::simulate_all;
@@ -65,7 +65,7 @@ pub(crate) fn dump_targets(run: &mut Run<'_>) -> Outcome {
 
 /// How the counts of Table 2 move with what the paper leaves open.
 pub(crate) fn assumptions(run: &mut Run<'_>) -> Outcome {
-    let simulated = simulate_all(run, lists::open())?;
+    let simulated = simulate_campaigns(run, lists::open())?;
     run.line(
         "Thruster dumps in 90 days over what paper 000 leaves open: start date, orbit frame, panel tilts\n",
     );
