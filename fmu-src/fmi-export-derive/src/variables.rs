@@ -26,7 +26,7 @@ pub(crate) fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
         let Some(attribute) = errors.take(attribute::of_field(ident, field)) else { continue };
         let call = match &attribute {
             FieldAttribute::Declaration(declared) => {
-                declare(declared, ident, field, &scope, &mut names, &mut errors)
+                declare(declared, (ident, field), &scope, &mut names, &mut errors)
             }
             FieldAttribute::Group(group) => declare_group(group, ident, field, &scope, &mut errors),
         };
@@ -93,8 +93,7 @@ fn named_fields(input: &DeriveInput) -> syn::Result<Vec<(&Ident, &Field)>> {
 
 fn declare(
     declared: &Declaration,
-    ident: &Ident,
-    field: &Field,
+    (ident, field): (&Ident, &Field),
     scope: &Ident,
     names: &mut Vec<String>,
     errors: &mut Errors,

@@ -125,6 +125,7 @@ impl Library {
     }
 
     /// Whether a model takes a schedule with this setup.
+    #[allow(clippy::too_many_arguments, reason = "the signature of `CheckSchedule`")]
     pub(crate) fn check_schedule(
         &self,
         entry: &Entry,

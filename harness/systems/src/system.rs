@@ -104,11 +104,11 @@ impl System {
         let of_components = structure.components.iter().enumerate();
         for (number, component) in of_components {
             for binding in &component.bindings {
-                bind(&package, &structure, (&fmus, &own), Some(number), binding, &mut parts)?;
+                bind(&package, &structure, (&fmus, &own), (Some(number), binding), &mut parts)?;
             }
         }
         for binding in &structure.bindings {
-            bind(&package, &structure, (&fmus, &own), None, binding, &mut parts)?;
+            bind(&package, &structure, (&fmus, &own), (None, binding), &mut parts)?;
         }
         let named = || parts.iter().map(|part| (part.name.as_str(), &part.fmu));
         let mut merged = merge(&structure.name, complete(structure.experiment, fmus.iter()), named());
@@ -269,8 +269,7 @@ fn bind(
     package: &Package,
     structure: &Structure,
     (fmus, own): (&[Fmu], &[Own]),
-    component: Option<usize>,
-    binding: &Binding,
+    (component, binding): (Option<usize>, &Binding),
     parts: &mut [Part],
 ) -> Result<(), Error> {
     let mut sets: Vec<_> = binding.sets.iter().map(|set| (SSD_FILE, set.clone())).collect();

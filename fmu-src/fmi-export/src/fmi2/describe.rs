@@ -59,7 +59,7 @@ impl Sender {
     }
 }
 
-/// `fmi_export_describe` over the models of a library.
+/// `fmi_export_describe` over the models of a library, with the arguments of that C function.
 ///
 /// # Safety
 /// Every pointer is NULL or a NUL-terminated string that is valid during the call; `receive` may be called with

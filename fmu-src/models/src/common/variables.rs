@@ -397,9 +397,7 @@ impl GuidedVariables {
     pub fn read(
         &self,
         values: &Values,
-        periapsis_s: f64,
-        period_s: f64,
-        start_epoch_s: f64,
+        [periapsis_s, period_s, start_epoch_s]: [f64; 3],
         keep_in: KeepIn,
         gimbal: Option<Gimbal>,
     ) -> Result<Guided, Failure> {

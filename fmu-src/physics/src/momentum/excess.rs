@@ -72,7 +72,7 @@ impl Watched {
                 false => Segment::<6, N>::nodes(from_s, to_s).map(|at_s| below(&momentum(at_s))),
             };
             let values = |at_s: f64| below(&momentum(at_s));
-            found = first_event(from_s, from_s, to_s, rounding_s, &samples, values);
+            found = first_event([from_s, from_s, to_s], rounding_s, &samples, values);
             piece += 1.0;
         }
         let beyond_s = found?;

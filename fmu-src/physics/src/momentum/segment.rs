@@ -117,7 +117,7 @@ impl MomentumSegment {
                 let after_s = after_event_s(start_s);
                 let rounding_s = flight.time_rounding_s(end_s);
                 let event_s =
-                    first_event(after_s, start_s, end_s, rounding_s, &values, |at_s| flight.events(at_s));
+                    first_event([after_s, start_s, end_s], rounding_s, &values, |at_s| flight.events(at_s));
                 if let Some(event_s) = event_s {
                     flight.spend(Effort::Search, start_s)?;
                     interval.end_at(event_s);

@@ -38,9 +38,7 @@ const LOCATED: f64 = 1e-10;
 /// together, from left to right up to the first event, so that a dip between two nodes is not overlooked. A function that is not finite is not watched. `after` lies a little behind `from`, for an interval may begin
 /// at an event. The functions see their argument rounded to `rounding`: what they gain over that is no misfit.
 pub fn first_event<const K: usize, const N: usize>(
-    after: f64,
-    from: f64,
-    to: f64,
+    [after, from, to]: [f64; 3],
     rounding: f64,
     samples: &[SVector<f64, K>; N],
     mut values: impl FnMut(f64) -> SVector<f64, K>,

@@ -235,7 +235,7 @@ fn strips(cylinder: &Cylinder) -> impl Iterator<Item = Plate> + '_ {
         let name = format!("shade strip {}", i + 1);
         let area_m2 = cylinder.radius_m * width_rad * cylinder.height_m;
         let center_m = normal * cylinder.radius_m;
-        let plate = Plate::insulated(name, area_m2, center_m, normal, cylinder.optics, None);
+        let plate = Plate::insulated(name, area_m2, center_m, normal, (cylinder.optics, None));
         Plate { gas_surface: [cylinder.gas_surface; 2], ..plate }
     })
 }

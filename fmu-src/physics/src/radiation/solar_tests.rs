@@ -25,8 +25,7 @@ fn crooked() -> Spacecraft {
         1.7,
         Vector3::new(0.1, 0.6, -0.2),
         Vector3::new(0.48, 0.6, -0.64),
-        white,
-        Some(Optics::from_reflectivities(0.4, 0.1)),
+        (white, Some(Optics::from_reflectivities(0.4, 0.1))),
     ));
     let shade = spacecraft.sunshade.as_mut().unwrap();
     shade.dcm_body_from_shade = Rotation3::from_euler_angles(0.02, -0.05, 0.1).into_inner();
@@ -111,7 +110,7 @@ fn a_black_box_is_pushed_by_the_light_its_shadow_lacks() {
             let normal = Vector3::ith(axis, if i % 2 == 0 { 1.0 } else { -1.0 });
             let (area_m2, center_m) = (sizes.product() / sizes[axis], normal * (sizes[axis] / 2.0));
             let black = Optics::from_reflectivities(0.0, 0.0);
-            Plate::insulated(format!("side {i}"), area_m2, center_m, normal, black, None)
+            Plate::insulated(format!("side {i}"), area_m2, center_m, normal, (black, None))
         })
         .collect();
     let model = SolarModel::new(&spacecraft, None).unwrap();

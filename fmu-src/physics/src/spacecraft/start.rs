@@ -74,10 +74,10 @@ fn entries(check: &mut Checker<'_>, table_name: &str, table: Option<&StartTable>
         match item {
             Item::Table(items) => {
                 for (name, item) in items {
-                    push(check, &mut entries, &place.key(name), Some(key), name, item);
+                    push(check, &mut entries, &place.key(name), (Some(key), name), item);
                 }
             }
-            item => push(check, &mut entries, &place, None, key, item),
+            item => push(check, &mut entries, &place, (None, key), item),
         }
     }
     entries
@@ -87,8 +87,7 @@ fn push(
     check: &mut Checker<'_>,
     entries: &mut Vec<StartEntry>,
     at: &KeyPath,
-    model: Option<&str>,
-    name: &str,
+    (model, name): (Option<&str>, &str),
     item: &Item,
 ) {
     if let Some(value) = value(check, at, item) {

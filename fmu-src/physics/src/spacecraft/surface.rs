@@ -42,8 +42,7 @@ impl Plate {
         area_m2: f64,
         center_m: Vector3<f64>,
         normal: Vector3<f64>,
-        optics: Optics,
-        rear_optics: Option<Optics>,
+        (optics, rear_optics): (Optics, Option<Optics>),
     ) -> Self {
         let thermal = Thermal::insulated(&optics, rear_optics.as_ref());
         let gas_surface = [GasSurface::ASSUMED; 2];

@@ -62,13 +62,12 @@ pub(super) fn start(subject: &Subject, input_copy: Option<&Path>) -> io::Result<
     ChildProcess::new(own.chain(std::env::args_os().skip(2)), LARGE, None)
 }
 
-/// Takes what the child process sends, each FMI call within its bounds. `tick` is shown the recording so far and the beginning of
+/// Takes what the child process sends for so many points, each FMI call within its bounds. `tick` is shown the recording so far and the beginning of
 /// the step in progress.
 pub(super) fn simulate(
     child: ChildProcess,
     subject: &Subject,
-    bounds: Bounds,
-    points: u64,
+    (bounds, points): (Bounds, u64),
     collector: &mut Collector,
     mut tick: impl FnMut(&Recording, Option<f64>) -> Result<(), String>,
 ) -> SimulationResult {

@@ -135,7 +135,7 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
 
     let progress = terminal::progress((times.stop_s - times.start_s) as u64, "s", arguments.quiet);
     let began = Instant::now();
-    let result = child::simulate(child, &subject, bounds, points, &mut collector, |recording, time_s| {
+    let result = child::simulate(child, &subject, (bounds, points), &mut collector, |recording, time_s| {
         if let Some(time_s) = time_s {
             progress.set_position((time_s - times.start_s).max(0.0) as u64);
         }

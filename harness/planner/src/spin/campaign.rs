@@ -89,8 +89,7 @@ pub fn campaign(
     spinner: &Spinner,
     task: &Task,
     phases: &L1Phases,
-    duration_s: f64,
-    interval_s: f64,
+    [duration_s, interval_s]: [f64; 2],
     passed: &mut dyn FnMut(),
 ) -> Result<Cadence, PlanError> {
     let mut seen = Cadence { interval_s, ..Cadence::default() };

@@ -28,7 +28,7 @@ pub(super) fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String
         "every", "turns", "mean", "most", "Earth", "Sun", "kg", "turning", "lost", "uniform", "limits",
     ]);
     for interval_s in intervals {
-        let row = campaign(spinner, task, &phases, duration_s, interval_s, &mut || bar.inc(1))?;
+        let row = campaign(spinner, task, &phases, [duration_s, interval_s], &mut || bar.inc(1))?;
         let deg = |angle: f64| format!("{:.3}", angle.to_degrees());
         let hours = |time_s: f64| format!("{:.1}", time_s / 3600.0);
         table.add_row([

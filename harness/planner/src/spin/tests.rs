@@ -195,7 +195,7 @@ fn without_a_lissajous_the_deadband_lasts_the_papers_6_1_days() {
     let (phases, duration_s) = (L1Phases::default(), 60.0 * 86_400.0);
     let longest = longest_interval_s(&spinner, &phases, duration_s).unwrap();
     assert!((longest / 86_400.0 - 6.1).abs() < 0.02, "{}", longest / 86_400.0);
-    let row = campaign(&spinner, &task, &phases, duration_s, 2.0 * 86_400.0, &mut || ()).unwrap();
+    let row = campaign(&spinner, &task, &phases, [duration_s, 2.0 * 86_400.0], &mut || ()).unwrap();
     assert_eq!(row.count, 29);
     assert!((row.mean_rad.to_degrees() - 2.0 * 0.9829).abs() < 1e-6);
     assert!(row.holds && row.science_lost_s <= row.science_lost_uniform_s);
@@ -207,7 +207,7 @@ fn a_campaign_keeps_its_limits_and_its_days() {
     refused("--campaign 20 --max-nutation 0.001", &["no plan keeps the limits"]);
     let (spinner, phases, days) = (ace(), L1Phases::default(), 30.0 * 86_400.0);
     let cadence = |arguments: &str| {
-        campaign(&spinner, &task(arguments), &phases, days, 2.0 * 86_400.0, &mut || ()).unwrap()
+        campaign(&spinner, &task(arguments), &phases, [days, 2.0 * 86_400.0], &mut || ()).unwrap()
     };
     let (free, bound) = (cadence(""), cadence("--max-nutation 0.02"));
     assert!(bound.manoeuvring_s > free.manoeuvring_s && bound.largest_rad == free.largest_rad);
@@ -221,7 +221,7 @@ fn a_campaign_keeps_its_limits_and_its_days() {
         refused(&format!("--campaign={days}"), &["--campaign is", "above 0 to 3653 days"]);
     }
     let mut passed = 0;
-    campaign(&spinner, &task(""), &phases, days, 2.5 * 86_400.0, &mut || passed += 1).unwrap();
+    campaign(&spinner, &task(""), &phases, [days, 2.5 * 86_400.0], &mut || passed += 1).unwrap();
     assert_eq!(passed, super::windows(days, 2.5 * 86_400.0));
 }
 

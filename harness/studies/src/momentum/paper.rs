@@ -45,7 +45,7 @@ const ROWS: &[PaperRow] = &[
     panels([-1, -1, -1], 5, (5.0, 38.0), None),
 ];
 
-/// A cell of Tables 2 and 3: the closest and the farthest gap, and the typical range, in days.
+/// A cell of Tables 2 and 3: the closest and the farthest gap, and the typical range, in days. Six arguments, as it is printed.
 const fn cylinder(
     strategy: Strategy,
     threshold_n_m_s: f64,

@@ -11,6 +11,7 @@ pub(super) struct PrintedAccelerations {
     pub extremes: [(f64, Option<f64>); 4],
 }
 
+/// A row of the table. Six arguments, as it is printed.
 const fn row(
     case: u32,
     true_anomaly_deg: f64,

@@ -265,7 +265,7 @@ pub(super) fn settings<'a>(
             coverage_rad: beam.has(v.link.beam).then(|| real(v.link.beam)),
         },
         orbit_phase: {
-            let law = v.guided.read(values, 0.0, f64::INFINITY, real(v.start.epoch), keep_in, gimbal)?;
+            let law = v.guided.read(values, [0.0, f64::INFINITY, real(v.start.epoch)], keep_in, gimbal)?;
             v.guided.in_phase(
                 context,
                 values,

@@ -65,7 +65,7 @@ fn law(context: &Plan<'_>, values: &Values, orbit: &TwoBodyOrbit) -> Result<Guid
     };
     let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
     let gimbal = Gimbal::of(&context.setup.spacecraft.instruments);
-    let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in, gimbal)?;
+    let law = variables.guided.read(values, [periapsis_s, period_s, start_s], keep_in, gimbal)?;
     Ok(variables.guided.in_phase(context, values, &context.setup.windows, (law, !is_planet)))
 }
 

@@ -38,7 +38,7 @@ fn sphere(radius_m: f64, center_m: Vector3<f64>) -> Vec<Plate> {
             let area_m2 = weight * 2.0 * PI / f64::from(LONGITUDES) * radius_m * radius_m;
             let optics = Optics::from_reflectivities(0.0, 0.0);
             let center_m = center_m + normal * radius_m;
-            let plate = Plate::insulated("part".to_owned(), area_m2, center_m, normal, optics, None);
+            let plate = Plate::insulated("part".to_owned(), area_m2, center_m, normal, (optics, None));
             Plate { gas_surface: [SURFACE; 2], ..plate }
         })
     });
@@ -98,7 +98,7 @@ fn off_a_cylinder(text: &str, half_angle_rad: f64) -> f64 {
         let normal = Vector3::new(angle_rad.sin(), -angle_rad.cos(), 0.0);
         let area_m2 = 4.0 * half_angle_rad / f64::from(STRIPS);
         let optics = Optics::from_reflectivities(0.0, 0.0);
-        Plate::insulated("strip".to_owned(), area_m2, normal, normal, optics, None)
+        Plate::insulated("strip".to_owned(), area_m2, normal, normal, (optics, None))
     };
     let (with, without) = (spacecraft(&format!("{PLATE}{text}")), spacecraft(PLATE));
     let strips = Spacecraft { plates: (0..STRIPS).map(strip).collect(), ..without.clone() };

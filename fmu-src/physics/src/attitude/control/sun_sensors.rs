@@ -47,14 +47,13 @@ impl SunSensor {
 }
 
 /// Unit mean of what those sensors measure that work and see the Sun; `None` where none does, or the Sun is eclipsed
-/// entirely. `sun_body` is a unit vector.
+/// entirely. `sun_body` is a unit vector, noise the draw of that sample by the seed.
 pub fn sensed_sun(
     sensors: &[SunSensor],
     failed: impl Fn(usize) -> bool,
     sun_body: &Vector3<f64>,
     lit_fraction: f64,
-    seed: u64,
-    sample: u64,
+    (seed, sample): (u64, u64),
 ) -> Option<Vector3<f64>> {
     if lit_fraction <= 0.0 {
         return None;

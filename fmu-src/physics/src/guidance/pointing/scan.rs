@@ -72,9 +72,8 @@ pub fn scanned(
     boresight_body: &MovingVector,
     aimpoint: &Aimpoint,
     command: &ScanCommand,
-    ephemeris: &EphemerisAtTime,
     compatibility: &ScanCompatibility,
-    time: ScanTime,
+    (ephemeris, time): (&EphemerisAtTime, ScanTime),
 ) -> Option<Scanned> {
     let frame = command.frame.filter(|frame| compatibility.allows(*frame, aimpoint.kind))?;
     let mut moved = Scanned { boresight_body: *boresight_body, toward: aimpoint.toward };

@@ -186,7 +186,7 @@ impl Reading<'_> {
     fn sunward(&self, boresight: Boresight, aimpoint: Aimpoint) -> PointingSolution {
         let scan = self.progress.scan.and_then(|time| {
             let (scan, scans) = (&self.command.scan, &self.hardware.scans);
-            scanned(&boresight.body, &aimpoint, scan, self.ephemeris, scans, time)
+            scanned(&boresight.body, &aimpoint, scan, scans, (self.ephemeris, time))
         });
         let vectors = self.rolled_sunward(
             scan.map_or(boresight.body, |scan| scan.boresight_body),

@@ -15,7 +15,7 @@ fn a_function_of_nothing_but_rounding_ends_the_search() {
         Vector1::new(1e-16 * (bits as f64 / f64::from(1 << 24) - 0.5))
     };
     let samples = Segment::<1, 8>::nodes(0.0, 600.0).map(&mut noise);
-    first_event(0.0, 0.0, 600.0, 0.0, &samples, &mut noise);
+    first_event([0.0, 0.0, 600.0], 0.0, &samples, &mut noise);
     assert!(evaluations <= 16 * 2 * MOST_FITS, "{evaluations}");
 }
 
@@ -29,12 +29,12 @@ fn the_first_event_is_found_between_the_nodes_and_to_the_last_bit() {
         };
         let samples = Segment::<3, 8>::nodes(from, to).map(values);
         assert!(samples.iter().all(|sample| sample[1] > 0.0), "the nodes see the dip");
-        let edge = first_event(from + 1e-6, from, to, 0.0, &samples, values).unwrap();
+        let edge = first_event([from + 1e-6, from, to], 0.0, &samples, values).unwrap();
         assert!((edge - (center - 0.5e-3)).abs() < 1e-7, "{edge}");
         assert!(values(edge)[1] <= 0.0 && values(edge.next_down())[1] > 0.0);
         // From within the dip on the next event is its end.
         let samples = Segment::<3, 8>::nodes(edge, to).map(values);
-        let end = first_event(edge + 1e-6, edge, to, 0.0, &samples, values).unwrap();
+        let end = first_event([edge + 1e-6, edge, to], 0.0, &samples, values).unwrap();
         assert!((end - (center + 0.5e-3)).abs() < 1e-7, "{end}");
     }
 }
@@ -51,7 +51,7 @@ fn rounded_time_costs_no_halving() {
         Vector1::new(1e-2 * (1e-3 * (at - 31.0)).sin() * (2.0 + (0.01 * at).cos()))
     };
     let samples = Segment::<1, 8>::nodes(0.0, 45.0).map(&mut values);
-    let edge = first_event(1e-4, 0.0, 45.0, rounding, &samples, &mut values).unwrap();
+    let edge = first_event([1e-4, 0.0, 45.0], rounding, &samples, &mut values).unwrap();
     assert!((edge - 31.0).abs() <= rounding, "{edge}");
     assert!(values(edge)[0] * values(edge.next_down())[0] <= 0.0);
     assert!(evaluations < 8 + 16 + 80, "{evaluations}");
@@ -60,7 +60,7 @@ fn rounded_time_costs_no_halving() {
 #[test]
 fn without_an_event_only_the_samples_are_used() {
     let samples = Segment::<1, 8>::nodes(0.0, 1.0).map(|t| Vector1::new(2.0 + t.sin()));
-    let found = first_event(0.0, 0.0, 1.0, 0.0, &samples, |_| panic!("evaluated"));
+    let found = first_event([0.0, 0.0, 1.0], 0.0, &samples, |_| panic!("evaluated"));
     assert_eq!(found, None);
 }
 
@@ -73,7 +73,7 @@ proptest! {
         let half = (depth / 2.0).sqrt().asin() / 4.0;
         let built_in = if center > half { center - half } else { center + half };
         let samples = Segment::<1, 8>::nodes(0.0, 1.0).map(values);
-        let found = first_event(0.0, 0.0, 1.0, 0.0, &samples, values).unwrap();
+        let found = first_event([0.0, 0.0, 1.0], 0.0, &samples, values).unwrap();
         prop_assert!((found - built_in).abs() < 1e-11 / half, "{} {}", found, built_in);
     }
 }

@@ -136,7 +136,7 @@ impl AirAndFieldBuilder<'_, '_> {
             SVector::<f64, BREAKS>::from(breaks_m.map(|edge_m| height_m - edge_m))
         };
         let samples = Series::nodes(start_s, limit_s).map(&mut over);
-        first_event(after_s, start_s, limit_s, rounding_s, &samples, over).unwrap_or(limit_s)
+        first_event([after_s, start_s, limit_s], rounding_s, &samples, over).unwrap_or(limit_s)
     }
 
     /// The series over an interval, and their greatest last term relative to the tolerance's measure.

@@ -105,7 +105,7 @@ impl DownlinkForecast<'_> {
         // Default attitudes.
         let law = Guided { managed: false, ..self.law.with_sun_places(None, None) };
         let attitude = AttitudeSource::Guided(law);
-        let mut fork = Fork::new(self.prepared, self.context, self.propagator, attitude, held, begin);
+        let mut fork = Fork::new(self.prepared, self.context, self.propagator, (attitude, held), begin);
         fork.coarsen(self.time_s, step_s);
         times_s.try_for_each(|at_s| {
             fork.advance(at_s)?;

@@ -65,7 +65,7 @@ impl EncounterPrediction {
         if let AttitudeSource::Guided(law) = &mut attitude {
             law.managed = false;
         }
-        let mut fork = Fork::new(given.prepared, context, propagator, attitude, held, begin);
+        let mut fork = Fork::new(given.prepared, context, propagator, (attitude, held), begin);
         if is_another || slope != ForceTorque::zero() {
             fork.cut(time_s);
         }

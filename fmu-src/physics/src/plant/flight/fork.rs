@@ -72,8 +72,7 @@ impl<'f> Fork<'f> {
         prepared: PreparedSpacecraft<'f>,
         context: &'f mut SimulationContext,
         propagator: &PropagatorState,
-        attitude: AttitudeSource,
-        applied: [ForceTorque<f64>; 2],
+        (attitude, applied): (AttitudeSource, [ForceTorque<f64>; 2]),
         (time_s, totals): (f64, Totals),
     ) -> Self {
         let [mut own, first, second] = core::mem::take(&mut context.fork_room);

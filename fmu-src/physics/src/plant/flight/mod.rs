@@ -431,8 +431,7 @@ impl Flight {
                     |k| inputs.sun_sensor_failed.get(k).is_some_and(|failed| *failed),
                     sun_body,
                     *lit_fraction,
-                    settings.seed,
-                    sample_number(time_s, settings.rate_hz),
+                    (settings.seed, sample_number(time_s, settings.rate_hz)),
                 );
                 (evaluation, shown)
             }

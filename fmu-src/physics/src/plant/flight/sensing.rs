@@ -88,8 +88,7 @@ impl Sensing {
             |k| inputs.sun_sensor_failed.get(k).is_some_and(|failed| *failed),
             &body.attitude.body_from_inertial(&to_sun),
             lit_fraction,
-            settings.sensors.seed,
-            number,
+            (settings.sensors.seed, number),
         );
         sample
     }

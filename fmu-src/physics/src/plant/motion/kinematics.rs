@@ -185,7 +185,7 @@ impl Kinematics<'_> {
         let commanded = slot.entry.filter(|_| slot.scenario().is_some());
         if let Some(entry) = commanded
             && let Some(found) =
-                self.commanded(&law, &settings, entry, time_s, geometry, (guided.sun_place, requested))
+                self.commanded((&law, &settings, entry), time_s, geometry, (guided.sun_place, requested))
         {
             let activity = match slot.scenario() {
                 Some(Scenario::Downlink) => Activity::Downlink,
@@ -219,9 +219,7 @@ impl Kinematics<'_> {
     /// The attitude of a command of the timeline.
     fn commanded(
         &mut self,
-        law: &TimelineLaw<'_>,
-        settings: &TimelineSettings,
-        entry: &TimelineEntry,
+        (law, settings, entry): (&TimelineLaw<'_>, &TimelineSettings, &TimelineEntry),
         time_s: f64,
         geometry: &Geometry,
         sun: (Option<SunPlace>, SunRequest),
@@ -371,7 +369,7 @@ impl Kinematics<'_> {
         let limit_s = self.laws_until_s(after_s, &first, limit_s);
         let samples = Segment::<4, NODES>::nodes(start_s, limit_s).map(|at_s| self.instant(at_s).events);
         let rounding_s = self.time_rounding_s(limit_s);
-        first_event(after_s, start_s, limit_s, rounding_s, &samples, |at_s| self.events(at_s))
+        first_event([after_s, start_s, limit_s], rounding_s, &samples, |at_s| self.events(at_s))
             .unwrap_or(limit_s)
     }
 }

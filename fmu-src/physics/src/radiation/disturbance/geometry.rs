@@ -68,7 +68,7 @@ impl<'a, T: Scalar> Geometry<'a, T> {
 
     /// Geometry from positions: fluxes follow the inverse square of the distance (paper 004 eq 22).
     ///
-    /// `sun_position_body_m` and `planet_position_body_m` point from the spacecraft to the centres. The planet's pole is
+    /// Six arguments, which belong to flux, Sun, planet, shadow, panels and mass. `sun_position_body_m` and `planet_position_body_m` point from the spacecraft to the centres. The planet's pole is
     /// body -Z, as in paper 004.
     ///
     /// # Errors

@@ -35,7 +35,7 @@ fn bare(plates: Vec<Plate>) -> Spacecraft {
 }
 
 fn plate(normal: Vector3<f64>, center_m: Vector3<f64>, area_m2: f64, optics: Optics) -> Plate {
-    Plate::insulated("plate".to_owned(), area_m2, center_m, normal, optics, None)
+    Plate::insulated("plate".to_owned(), area_m2, center_m, normal, (optics, None))
 }
 
 /// A closed crooked body: a tetrahedron with a different material on each face.

@@ -127,7 +127,7 @@ fn moved(
     command.rate_rad_s[axis] = amount;
     command.speed_m_s[axis] = amount;
     let compatibility = ScanCompatibility::default();
-    scanned(&fixed(Vector3::z()), aimpoint, &command, ephemeris, &compatibility, exact(5.0))
+    scanned(&fixed(Vector3::z()), aimpoint, &command, &compatibility, (ephemeris, exact(5.0)))
 }
 
 #[test]
@@ -166,7 +166,7 @@ fn rotations_follow_each_other_about_fixed_axes() {
     };
     // Y about X is Z; Z about the fixed Y is X. About turned axes it would be Z.
     let turned =
-        scanned(&fixed(Vector3::z()), &y, &command, &s, &ScanCompatibility::default(), exact(2.0)).unwrap();
+        scanned(&fixed(Vector3::z()), &y, &command, &ScanCompatibility::default(), (&s, exact(2.0))).unwrap();
     assert_relative_eq!(value(&turned.toward), Vector3::x(), epsilon = 1e-15);
 }
 
