@@ -52,7 +52,7 @@ impl Plate {
     /// One of this outline whose faces are insulated.
     pub fn outlined(name: String, outline: Polygon, optics: Optics, rear_optics: Option<Optics>) -> Self {
         let (area_m2, center_m, normal) = (outline.area_m2(), outline.centroid_m(), outline.normal());
-        let plate = Self::insulated(name, area_m2, center_m, normal, optics, rear_optics);
+        let plate = Self::insulated(name, area_m2, center_m, normal, (optics, rear_optics));
         Self { polygon: Some(outline), ..plate }
     }
 
