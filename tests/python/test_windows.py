@@ -62,7 +62,7 @@ def fmus(built, dist, tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
-def holder(tmp_path_factory):
+def holder(built, tmp_path_factory):
     """A program of Windows that keeps a file open."""
     return compile_c(windows.ROOT / "tests/c/hold.c", tmp_path_factory.mktemp("hold") / "hold.exe", "-municode")
 

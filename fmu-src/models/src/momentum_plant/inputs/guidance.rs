@@ -129,8 +129,9 @@ pub(super) fn start_pointing(
     state: &PlantState,
 ) -> Result<Option<StartPointing>, Failure> {
     let start = &context.variables.start;
+    let given = context.given(values, &[start.q.into(), start.rate.into()]);
     Ok(match configuration.attitude.guided() {
-        _ if context.given(values, &[start.q.into()]).has(start.q) => None,
+        _ if given.has(start.q) => None,
         Some(law) => Some(StartPointing::Guidance(Box::new(*law))),
         None if state.inputs.source.is_commanded => state.attitude_command().map(StartPointing::Command),
         None => Some(StartPointing::Guidance(Box::new(law(context, values, &configuration.orbit)?))),
