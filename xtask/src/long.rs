@@ -66,19 +66,16 @@ fn python() -> Outcome {
     test::python(environment, "rebuilds")
 }
 
-/// What clippy says of everything, the guide's builder too.
+/// Lints of all crates, including the guide's builder.
 fn lints() -> Outcome {
-    if shell::output(&mut cargo("clippy --version")).is_ok() {
-        run(&mut cargo(&format!("clippy {TESTS} --all-targets --quiet -- -D warnings")))?;
-        guide::lint()
-    } else if std::env::var_os("CI").is_some() {
-        Err("`cargo clippy` is missing".to_owned())
-    } else {
-        skipped("lints", "`cargo clippy`")
+    if shell::output(&mut cargo("clippy --version")).is_err() {
+        return shell::lacks("cargo clippy", "lints");
     }
+    run(&mut cargo(&format!("clippy {TESTS} --all-targets --quiet -- -D warnings")))?;
+    guide::lint()
 }
 
-/// The guide: its links, its commands, what it leaves out.
+/// Tests of the guide: links, commands, completeness.
 fn guide() -> Outcome {
     guide::test(test::current_environment()?)
 }

@@ -114,7 +114,7 @@ pub(crate) fn need(program: &str, what_for: &str) -> Result<bool, String> {
     if available(program) { Ok(true) } else { lacks(program, what_for).map(|()| false) }
 }
 
-/// The same of what was found missing.
+/// Skips a part because of a missing program, or fails in CI.
 pub(crate) fn lacks(what: &str, what_for: &str) -> Outcome {
     if std::env::var_os("CI").is_some() {
         return Err(format!("`{what}` is missing, needed for {what_for}"));

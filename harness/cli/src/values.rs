@@ -69,7 +69,7 @@ pub(crate) fn angle(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "an angle carries its unit: 60deg, 1.2rad".to_owned())
 }
 
-/// A finite number for which something holds; `allowed` tells what.
+/// A finite number that satisfies a condition, which `allowed` states.
 pub(crate) fn number(text: &str, is_allowed: impl Fn(f64) -> bool, allowed: &str) -> Result<f64, String> {
     let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite() && is_allowed(*number));
     number.ok_or_else(|| format!("allowed is {allowed}"))

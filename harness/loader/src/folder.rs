@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 
 use crate::Error;
 
-/// Copies what stands below a folder into another one, which is made.
+/// Copies the contents of a folder into another one, which it creates.
 pub fn copy_folder(from: &Path, to: &Path) -> Result<(), Error> {
     let failed = |path: &Path, source| Error::File { path: path.to_owned(), source };
     fs::create_dir_all(to).map_err(|source| failed(to, source))?;

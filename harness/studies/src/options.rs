@@ -77,7 +77,7 @@ impl Options {
     }
 }
 
-/// What made a step of a study fail.
+/// Cause of a failed step of a study.
 pub(crate) type Cause = Box<dyn std::error::Error + Send + Sync>;
 
 /// Why a study did not finish.

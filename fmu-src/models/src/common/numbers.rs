@@ -1,11 +1,11 @@
-//! Parameters that are numbers of a body or an orbit, and follow it where they are not given.
+//! Parameters with defaults taken from a body or an orbit.
 
 use fmi_export::{Elements, Given, Real, Values};
 
 /// A parameter with the number of a `T` that it is.
 type Number<T> = (Real, fn(&mut T) -> &mut f64);
 
-/// Parameters that follow a body together.
+/// Group of parameters with defaults from one body.
 pub(crate) struct Numbers<T, const N: usize>(pub [Number<T>; N]);
 
 impl<T: Copy, const N: usize> Numbers<T, N> {
@@ -14,7 +14,7 @@ impl<T: Copy, const N: usize> Numbers<T, N> {
         self.0.map(|(parameter, _)| parameter.into())
     }
 
-    /// Those that are given, else `own`.
+    /// Values set by the importer, otherwise those of `own`.
     pub(crate) fn read_or(&self, given: Given<'_>, own: &T) -> T {
         let mut read = *own;
         for (parameter, number) in self.0 {

@@ -24,7 +24,7 @@ const ALLOWED_SPAN: &str = "a number of s or one with a unit: 600, \"12 h\", \"3
 pub(crate) const ALLOWED_ANGLE: &str = "a number of rad or one with a unit: \"2 deg\"";
 const ALLOWED_MOMENTUM: &str = "a number of N.m.s above 0, or one with that unit: 5.5, \"5.5 N.m.s\"";
 
-/// Something with the key and line that it stands in.
+/// A value with its key and line.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct At<T> {
     /// What it is.
@@ -91,7 +91,7 @@ impl Builder<'_> {
         values.into_iter().enumerate().map(|(index, it)| self.at(&list.item(index), it)).collect()
     }
 
-    /// What `read` gives of what is written; reported where it gives nothing.
+    /// Converts a written value by `read`; reports a value that `read` rejects.
     pub(crate) fn read<T>(
         &mut self,
         place: &KeyPath,

@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use crate::values;
 
-/// What stands behind a key.
+/// Value of a key.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Written {

@@ -215,7 +215,7 @@ impl<'a> KeptRows<'a> {
         self.send(status, &reason)
     }
 
-    /// Sends what is kept; of a run that failed nothing is.
+    /// Sends the recorded values; a failed run has none.
     fn send(&mut self, status: RunStatus, reason: &str) -> Result<(), String> {
         let (finals, extremes) = (&self.finals, &self.extremes);
         self.link.send(ENDED, |payload| {

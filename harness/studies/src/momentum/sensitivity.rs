@@ -106,7 +106,7 @@ Dumps: with dumps only / reactive / predictive targets; 5.5 N.m.s, to 0.9 of the
 Z = -2.54 cm. Momentum a day: mean magnitude of what each of the 90 days adds without dumps or targets. Unchanged: panels at
 65 deg, shade cloth of specular 0.15, turns at once. An axis of a panel is turned with its cell side.";
 
-/// What one change does, as a row.
+/// Effect of one change, as a row.
 fn simulated(change: &Change, template: &Fmu) -> Result<Vec<String>, StudyError> {
     let failed = |source| StudyError::Simulation { case: change.what.to_owned(), source };
     let variant = Variant::of(template, change.edits).map_err(failed)?;

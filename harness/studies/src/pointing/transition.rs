@@ -20,7 +20,7 @@ pub(crate) const TRUE_ANOMALY_DEG: f64 = 215.0;
 pub(crate) const SLEW_S: f64 = 500.0;
 const END_S: u32 = 1000;
 
-/// A label, and whether the camera's angle is commanded anew every second after the slew, so that the Sun stays on -Y;
+/// A label, and whether the camera's angle is commanded again every second after the slew, so that the Sun stays on -Y;
 /// otherwise the angle of the slew stays.
 type CameraCase = (&'static str, bool);
 
@@ -85,7 +85,7 @@ quaternions of Figure 7 and the azimuth and elevation of Mercury in Figure 8 can
 unspecified. Chosen: 2009-04-09 03:36 TDB, when the Earth is 33 deg from the Sun, and a true anomaly of 215 deg at the
 start, where the paper's eight hours of downlink about apoapsis end; elsewhere on this orbit the slew is anything up to
 180 deg. The paper puts azimuth -33 deg into the +X,+Y quadrant; by its own angles it is in the -X,-Y quadrant. The
-estimated curves are those of control/transition. Camera follows: its angle is commanded anew every second, so that
+estimated curves are those of control/transition. Camera follows: its angle is commanded again every second, so that
 the Sun stays on -Y; camera held: the angle of 500 s stays, and the Sun's elevation takes up how nadir moves.";
 
 fn rows(label: &str, simulated: &Simulated) -> Vec<Vec<String>> {

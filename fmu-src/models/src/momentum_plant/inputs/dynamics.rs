@@ -5,12 +5,10 @@ use nalgebra::Vector3;
 use physics::attitude::control::{
     AccelerometerSettings, ControllerSettings, Gyro, SensorSettings, StarTracker, SunSensor, WheelAllocator,
 };
-use physics::attitude::{
-    Appendages, Attitude, FlexibleMode, Gyrostat, ReactionWheel, RotorImbalance, SloshPendulum,
-};
+use physics::attitude::{Appendages, FlexibleMode, Gyrostat, ReactionWheel, RotorImbalance, SloshPendulum};
 use physics::momentum::{Convention, WheelArray};
 use physics::plant::{
-    Configuration, Control, DynamicsSettings, IdealSettings, StartMotion, StartPointing, ThrusterControl,
+    Configuration, Control, DynamicsSettings, IdealSettings, StartMotion, ThrusterControl,
     WheelControlSettings,
 };
 
@@ -27,9 +25,8 @@ pub(super) fn dynamic(
     context: &Plan<'_>,
     values: &Values,
     configuration: &Configuration,
-    pointing: Option<StartPointing>,
+    start: StartMotion,
 ) -> Result<DynamicsSettings, Failure> {
-    let start = start_motion(context, values, pointing)?;
     let v = context.variables;
     let real = |handle: Real| values.real(handle);
     if configuration.momentum.convention == Convention::BodyIntegral {
@@ -254,25 +251,5 @@ fn appendages(context: &Plan<'_>, values: &Values) -> Result<Appendages, Failure
                 position_body_m: Vector3::from(values.vector(wheel.position)),
             })
             .collect(),
-    })
-}
-
-/// What start.q, start.rate and wheel[k].startMomentum say of the motion at the start. Left alone they are those of the internal
-/// guidance, in free flight too, or of the command.
-fn start_motion(
-    context: &Plan<'_>,
-    values: &Values,
-    pointing: Option<StartPointing>,
-) -> Result<StartMotion, Failure> {
-    let start = &context.variables.start;
-    let q = values.vector(start.q);
-    let attitude = Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
-    let given = context.given(values, &[start.q.into(), start.rate.into()]);
-    Ok(StartMotion {
-        attitude,
-        rate_body_rad_s: Vector3::from(values.vector(start.rate)),
-        pointing,
-        rate_is_pointed: !given.has(start.rate),
-        wheels_n_m_s: context.variables.wheel.iter().map(|it| values.real(it.start_momentum)).collect(),
     })
 }

@@ -2,6 +2,7 @@
 
 use fmi_export::{Failure, Values};
 use nalgebra::Vector3;
+use physics::attitude::Attitude;
 use physics::bodies::BodyData;
 use physics::environment::orbit::TwoBodyOrbit;
 use physics::environment::orientation::Orientation;
@@ -11,7 +12,7 @@ use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::timeline::TimelineSettings;
 use physics::guidance::{Guided, TargetPlanet};
 use physics::management::Strategy;
-use physics::plant::{self, Configuration, DynamicAttitude, StartPointing};
+use physics::plant::{self, Configuration, DynamicAttitude, StartMotion, StartPointing};
 
 use crate::common::downlink::ZERO_KEEP_IN_AXIS;
 use crate::common::management::{check_strategy_has_antenna, check_windows, check_windows_have_antenna};
@@ -34,7 +35,7 @@ fn zone(variables: &PlantVariables, values: &Values) -> Result<KeepIn, Failure> 
     })
 }
 
-/// What the timeline goes by about a centre of this rotation.
+/// Settings of the timeline about a centre of this rotation.
 pub(super) fn timeline(
     variables: &PlantVariables,
     values: &Values,
@@ -121,19 +122,29 @@ fn managed_law(
     Ok(Guided { managed, requested, ..law })
 }
 
-/// What a body that turns by its dynamics points by at its start; `None` by `start.q`.
-pub(super) fn start_pointing(
+/// Initial motion by start.q, start.rate and wheel[k].startMomentum. A value that is not set is that of the internal guidance, in
+/// free flight too, or of the command.
+pub(super) fn start_motion(
     context: &Plan<'_>,
     values: &Values,
     configuration: &Configuration,
     state: &PlantState,
-) -> Result<Option<StartPointing>, Failure> {
+) -> Result<StartMotion, Failure> {
     let start = &context.variables.start;
+    let q = values.vector(start.q);
+    let attitude = Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
     let given = context.given(values, &[start.q.into(), start.rate.into()]);
-    Ok(match configuration.attitude.guided() {
+    let pointing = match configuration.attitude.guided() {
         _ if given.has(start.q) => None,
         Some(law) => Some(StartPointing::Guidance(Box::new(*law))),
         None if state.inputs.source.is_commanded => state.attitude_command().map(StartPointing::Command),
         None => Some(StartPointing::Guidance(Box::new(law(context, values, &configuration.orbit)?))),
+    };
+    Ok(StartMotion {
+        attitude,
+        rate_body_rad_s: Vector3::from(values.vector(start.rate)),
+        pointing,
+        rate_is_pointed: !given.has(start.rate),
+        wheels_n_m_s: context.variables.wheel.iter().map(|it| values.real(it.start_momentum)).collect(),
     })
 }

@@ -143,8 +143,8 @@ pub(super) fn configured(
     let moving = (over_time, state.flight.take_panels());
     let configuration = configuration::read(context, values, state, &center, moving)?;
     let settings = if is_dynamic {
-        let pointing = guidance::start_pointing(context, values, &configuration, state)?;
-        let settings = dynamics::dynamic(context, values, &configuration, pointing)?;
+        let start = guidance::start_motion(context, values, &configuration, state)?;
+        let settings = dynamics::dynamic(context, values, &configuration, start)?;
         Some(ModeSettings::Dynamic(settings.into()))
     } else if is_complete {
         Some(ModeSettings::Ideal(dynamics::ideal(context, values)?))

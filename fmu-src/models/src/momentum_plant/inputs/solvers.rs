@@ -22,7 +22,7 @@ pub(super) fn air(
     solver.map(Some).map_err(|error| Failure::new(format!("aerodynamics.*, sunshade.shape: {error}")))
 }
 
-/// What light and heat need beyond the configuration; `None` where direct sunlight is all there is.
+/// Solver of planet light, heat and loads per plate; `None` if direct sunlight alone acts.
 pub(super) fn light(
     context: &Plan<'_>,
     values: &Values,

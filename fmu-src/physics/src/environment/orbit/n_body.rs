@@ -187,7 +187,7 @@ impl NBodyGravity {
     }
 }
 
-/// The bodies that attract, as they stand from the one that a path is integrated about.
+/// Attracting bodies relative to the centre of integration.
 pub(super) struct BodiesAbout<'a, E> {
     /// Which they are.
     pub gravity: &'a NBodyGravity,

@@ -50,11 +50,11 @@ pub(crate) struct AttitudeDynamics {
 
 /// A step of a flight by torque.
 pub(super) struct DynamicStep<'s, 'f> {
-    /// What it is set to; its body follows the mass.
+    /// Settings; the gyrostat's mass properties are those of the current mass.
     pub settings: &'s mut DynamicsSettings,
-    /// What takes it.
+    /// The flight that advances.
     pub flight: &'s mut ConfiguredFlight<'f>,
-    /// What comes from outside.
+    /// Inputs of the step.
     pub inputs: &'s DynamicsInputs,
 }
 

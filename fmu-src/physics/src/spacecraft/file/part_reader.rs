@@ -1,4 +1,4 @@
-//! A part of a spacecraft file while it is read: where it stands, what it may be made of, and the file's checker.
+//! Reader of one part of a spacecraft file: its key path, the materials and the file's checker.
 
 use core::fmt::Display;
 
@@ -9,11 +9,11 @@ use crate::toml::{Checker, KeyPath};
 
 /// A table of the file, or an item of one of its lists.
 pub(crate) struct PartReader<'p, 'd> {
-    /// Reports what is wrong with it.
+    /// Reports an invalid value of the part.
     pub check: &'p mut Checker<'d>,
     /// Those of the file.
     pub materials: &'p Materials,
-    /// Where the part stands.
+    /// Key path of the part.
     pub at: KeyPath,
     /// Its number in its list, from 0.
     pub index: usize,

@@ -15,7 +15,7 @@ use crate::{
     values,
 };
 
-/// What is wrong with a time before or behind the mission.
+/// Error text for a time outside the mission.
 pub(super) const OUTSIDE: &str = "found a time outside of the mission, allowed: from its start to its stop";
 
 /// An activity that might be added.
