@@ -18,8 +18,8 @@ from systems import connectors, loop_of, simulated, simulated_by_fmpy, simulated
 
 # File, stop and step of a flight; DisturbanceLoop's is its default experiment.
 SYSTEMS = {
-    "MessengerLoop": (3_600.0, 1.0),
-    "MessengerLoopPlain": (3_600.0, 1.0),
+    "MessengerLoop": (1_200.0, 1.0),
+    "MessengerLoopPlain": (1_200.0, 1.0),
     "DisturbanceLoop": (43_200.0, 10.0),
 }
 # The same with stops of their own, further ones in `cargo xtask test --long`.

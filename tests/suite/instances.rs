@@ -137,7 +137,7 @@ fn memory_stays_flat_over_many_instances() {
     }
     let scratch = tempfile::tempdir().unwrap();
     for (model, cycles) in CYCLES {
-        let cycles = short_or_long(cycles / 5, cycles);
+        let cycles = short_or_long(cycles / 10, cycles);
         let fmu = match model {
             "Empty" => crate::shared_library::folder(scratch.path(), model, &probe),
             _ => Fmu::open(dist.join(format!("{model}.fmu"))).unwrap(),

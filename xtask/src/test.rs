@@ -28,7 +28,7 @@ pub(crate) fn all() -> Outcome {
             .envs(locale));
         [client.join().unwrap_or_else(|_| Err("the thread of the C client panicked".to_owned())), tests]
     });
-    let outcomes = in_rust.into_iter().chain([python(environment, "not long")]);
+    let outcomes = in_rust.into_iter().chain([python(environment, "not long and not slow")]);
     let failures: Vec<String> = outcomes.filter_map(Outcome::err).collect();
     if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
 }
@@ -104,7 +104,7 @@ pub(crate) fn c_client(built: &Built, is_long: bool) -> Outcome {
     let scratch = build::scratch("c-client")?;
     let has_valgrind = need("valgrind", "the memory check of the C client")?;
     // Further arguments of each program, alone and under valgrind.
-    let simulations = if is_long { "1000" } else { "200" };
+    let simulations = if is_long { "1000" } else { "100" };
     let programs = [("unload", &[simulations][..], is_long.then_some("3")), ("client", &[], Some("--short"))];
     for (name, whole, short) in programs {
         let program = compile_c(&scratch, name)?;

@@ -270,8 +270,8 @@ searches! {
     momentum_plant, 3: plant(MomentumPlant::DEFAULT_SETUP);
     momentum_plant_per_plate, 2: plant(RADIATING);
     momentum_plant_with_everything, 3: plant(ALL);
-    momentum_plant_with_thrusters, 3: plant(FULL);
-    momentum_plant_controlled, 2: plant(&controlled());
+    momentum_plant_with_thrusters, 1: plant(FULL);
+    momentum_plant_controlled, 1: plant(&controlled());
     disturbance_torque, 4:
         Search::<DisturbanceTorque>::new(DisturbanceTorque::DEFAULT_SETUP, DISTURBANCE);
     disturbance_torque_per_plate, 4:
