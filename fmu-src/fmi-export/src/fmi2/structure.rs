@@ -29,22 +29,25 @@ pub(crate) fn structure(
     };
     let is_exact_parameter = variables.iter().map(is_exact_parameter).collect();
     let lists = Lists { variables, keys: &keys, index_of: &index_of, is_input, is_exact_parameter };
+    let (mut inputs_of_last, mut parameters_of_last) = (LastList::default(), LastList::default());
     let mut structure = rules::structure(variables);
     for unknown in &mut structure.outputs {
         let inputs = lists.row(unknown, dependencies.at_steps())?;
-        unknown.dependencies = Some(lists.indices(inputs, &lists.is_input)?);
+        unknown.dependencies = Some(lists.indices(inputs, &lists.is_input, &mut inputs_of_last)?);
     }
     for unknown in &mut structure.initial_unknowns {
         let parameters = lists.row(unknown, dependencies.at_start())?;
-        let mut indices = lists.indices(parameters, &lists.is_exact_parameter)?;
+        let mut indices = lists.indices(parameters, &lists.is_exact_parameter, &mut parameters_of_last)?;
         if variables[unknown.index as usize - 1].causality == Causality::Output {
             let at_once = lists.row(unknown, dependencies.at_steps())?;
             let inputs = match lists.keys[unknown.index as usize - 1] {
                 Some(key) => dependencies.inputs_at_start().get(&key).map(|more| more.clone().and(at_once)),
                 None => None,
             };
-            indices.extend(lists.indices(inputs.as_ref().unwrap_or(at_once), &lists.is_input)?);
-            indices.sort_unstable();
+            let inputs = inputs.as_ref().unwrap_or(at_once);
+            indices.extend(lists.indices(inputs, &lists.is_input, &mut inputs_of_last)?);
+            // Two ascending runs, which the stable sort merges.
+            indices.sort();
         }
         unknown.dependencies = Some(indices);
     }
@@ -63,6 +66,9 @@ struct Lists<'a> {
 
 const NOTHING: &Knowns = &Knowns::NONE;
 
+/// The last set and its indices: neighbours mostly share their set.
+type LastList = Option<(Knowns, Vec<u32>)>;
+
 impl Lists<'_> {
     /// The row of an unknown, nothing for a constant.
     fn row<'r>(&self, unknown: &Unknown, rows: &'r BTreeMap<Element, Knowns>) -> Result<&'r Knowns, String> {
@@ -74,7 +80,17 @@ impl Lists<'_> {
     }
 
     /// The indices of what of a set is admitted, ascending. `dependenciesKind` stays absent, which stands for `dependent`.
-    fn indices(&self, knowns: &Knowns, is_admitted: &[bool]) -> Result<Vec<u32>, String> {
+    fn indices(
+        &self,
+        knowns: &Knowns,
+        is_admitted: &[bool],
+        last: &mut LastList,
+    ) -> Result<Vec<u32>, String> {
+        if let Some((set, indices)) = last
+            && set == knowns
+        {
+            return Ok(indices.clone());
+        }
         let mut indices = Vec::with_capacity(knowns.len());
         for known in knowns.elements() {
             let index = self.index(known)?;
@@ -84,6 +100,7 @@ impl Lists<'_> {
         }
         // Ascending within each table already, which the stable sort makes use of.
         indices.sort();
+        *last = Some((knowns.clone(), indices.clone()));
         Ok(indices)
     }
 
