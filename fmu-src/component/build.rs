@@ -3,7 +3,7 @@
 use std::{env, error::Error, fs, path::PathBuf};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // A file that every package with this script has: a missing one would run the script in each build.
+    // Each package with this script has this file; cargo repeats a script whose file is missing.
     println!("cargo:rerun-if-changed=Cargo.toml");
     if env::var("CARGO_CFG_TARGET_OS")? == "linux" && env::var("CARGO_CFG_TARGET_ENV")? == "gnu" {
         // The standard library asks for libgcc_s by name: the linker finds this script of that name first, and so

@@ -32,7 +32,6 @@ def _path(variable):
 
 def pytest_configure(config):
     config.addinivalue_line("markers", "long: runs in `cargo xtask test --long` alone")
-    config.addinivalue_line("markers", "slow: takes many seconds, runs in the part `slow` of `cargo xtask test --long`")
     config.addinivalue_line("markers", "rebuilds: of these, builds and packs anew what the others read")
 
 

@@ -120,7 +120,6 @@ def module(*arguments, **environment):
     )
 
 
-@pytest.mark.slow
 def test_the_command_uses_a_scheduler_or_its_own_processes(client, stand_in, tmp_path):
     program, expected = stand_in
     output = tmp_path / "runs.csv"

@@ -113,7 +113,6 @@ def test_parameter_study(run, momentum_plant):
     assert last[1] == pytest.approx(0.5 * slope, rel=1e-3)
 
 
-@pytest.mark.slow
 def test_sobol_indices(run, momentum_plant, heliotorque, monkeypatch):
     """Of a nearly linear output the indices are the shares of the squared slopes times variances."""
     monkeypatch.setenv("HELIOTORQUE", str(heliotorque))
@@ -238,7 +237,6 @@ def telescope(heliotorque, dist, tmp_path_factory):
     return folder
 
 
-@pytest.mark.slow
 def test_check_calls_the_telescope_right(heliotorque, telescope):
     # The plant by what stands in it: shipped ones are run through every call elsewhere.
     for file, *options in ((TELESCOPE,), (telescope / "SunshieldTelescope.fmu",), (telescope / "plant.fmu", "--static")):

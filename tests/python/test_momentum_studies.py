@@ -223,7 +223,6 @@ def test_figure_4_draws_the_momentum_that_fmpy_simulates(simulated, dumps_alone,
     assert files["figure4.svg"] == dumps_alone[1]["figure4.svg"]
 
 
-@pytest.mark.slow
 def test_figure_5_draws_both_strategies(simulated, momentum_plant):
     _, files = simulated["figure5"]
     cases = {row["case"] for row in table(files, "figure5.csv")}

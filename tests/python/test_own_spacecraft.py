@@ -42,7 +42,6 @@ def assert_torque_is_the_sum_over_the_file(fmu, text, panels):
     assert np.abs(torque - expected).max() < 1e-12 * np.abs(expected).max()
 
 
-@pytest.mark.slow
 def test_the_example_runs_with_its_own_three_panels_and_no_shade(sailer):
     assert validate_fmu(sailer) == []
     description = read_model_description(sailer, validate=True)

@@ -270,7 +270,6 @@ def test_the_slews_are_those_of_the_study(studied):
     ) in VALIDATION
 
 
-@pytest.mark.slow
 def test_the_burn_is_that_of_the_study(studied):
     def rms(case, column):
         values = [float(row[column]) for row in rows_of(studied, "pointing/burn") if row["case"] == case]
@@ -287,7 +286,6 @@ def test_the_burn_is_that_of_the_study(studied):
     ) in VALIDATION
 
 
-@pytest.mark.slow
 def test_the_dump_and_the_jitter_are_those_of_the_studies(studied):
     dump = {row["case"]: row for row in rows_of(studied, "control/dump")}["to zero"]
     assert line(

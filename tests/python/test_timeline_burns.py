@@ -113,7 +113,6 @@ def test_three_burns_of_a_weeks_timeline_add_their_velocities(heliotorque, dist,
     judge(result["time"], delta_v, result["plant.mass"], begins_s, lasts_s)
 
 
-@pytest.mark.slow
 def test_both_masters_fly_three_burns_of_a_timeline(heliotorque, dist, tmp_path):
     begins_s, lasts_s = [600.0, 2400.0, 4200.0], 1200.0
     ssp = wired(heliotorque, dist, tmp_path, timeline(begins_s, lasts_s))

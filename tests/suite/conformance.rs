@@ -19,7 +19,6 @@ fn shortcomings(fmu: &Fmu) -> Vec<String> {
 }
 
 #[test]
-#[ignore = "slow"]
 fn every_shipped_fmu_passes_every_probe() {
     let Some(dist) = built("HELIOTORQUE_DIST") else { return };
     for model in SHIPPED {

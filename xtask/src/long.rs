@@ -1,4 +1,4 @@
-//! `cargo xtask test --long`: lints, the guide, slow tests, fuzzing, sanitizers, Miri, failing allocations, failing writes, long tests of
+//! `cargo xtask test --long`: lints, the guide, fuzzing, sanitizers, Miri, failing allocations, failing writes, long tests of
 //! the models, of the shared library and in Python.
 
 use std::fs;
@@ -32,7 +32,6 @@ type Part = (&'static str, fn() -> Outcome);
 const PARTS: &[Part] = &[
     ("lints", lints),
     ("guide", guide),
-    ("slow", slow),
     ("fuzz", fuzz),
     ("sanitizers", sanitizers),
     ("miri", miri),
@@ -81,26 +80,15 @@ fn guide() -> Outcome {
     guide::test(test::current_environment()?)
 }
 
-/// The tests, in Rust and in Python, that take many seconds each.
-fn slow() -> Outcome {
-    let environment = test::current_environment()?;
-    // In their short extent, also where the variable names this part.
-    let mut tests = cargo(&format!("test --tests --no-fail-fast {TESTS} -- --ignored"));
-    run(tests.envs(environment.clone()).env_remove(VARIABLE))?;
-    test::python(environment, "slow")
-}
-
 /// Tests of the physics and of the models in their long extent.
 fn models() -> Outcome {
-    run(cargo(&format!("test {TESTS} --lib --test models -- --include-ignored")).env(VARIABLE, "models"))
+    run(cargo(&format!("test {TESTS} --lib --test models")).env(VARIABLE, "models"))
 }
 
 /// Tests of the shared library and of the command line in their long extent, and the C client.
 fn suite() -> Outcome {
     let environment = test::current_environment()?;
-    run(cargo(&format!("test {TESTS} --test suite --test main -- --include-ignored"))
-        .envs(environment)
-        .env(VARIABLE, "suite"))?;
+    run(cargo(&format!("test {TESTS} --test suite --test main")).envs(environment).env(VARIABLE, "suite"))?;
     test::c_client(&build::built(), true)
 }
 

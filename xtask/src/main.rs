@@ -32,11 +32,11 @@ cargo xtask <task>
   demo    build the library, pack dist/MomentumPlant.fmu, simulate paper 000's 90 days, compare with its Table 2
   test    everything that must hold: format, Rust tests, FMPy, C client
   test --long
-          the same, then lints, the guide, slow tests, long tests of the models, of the shared library and in Python, and the
+          the same, then lints, the guide, long tests of the models, of the shared library and in Python, and the
           longer searches for faults: each fuzz target of tests/fuzz for a minute
           (cargo-fuzz, nightly), the C client under the address and thread sanitizers, the exporter's unit tests in Miri, a failing n-th
           allocation, a full disk from the n-th write on; what this machine lacks is named and skipped.
-          HELIOTORQUE_LONG picks parts alone (lints,guide,slow,fuzz,sanitizers,miri,allocations,writes,models,suite,python);
+          HELIOTORQUE_LONG picks parts alone (lints,guide,fuzz,sanitizers,miri,allocations,writes,models,suite,python);
           HELIOTORQUE_FUZZ_SECONDS is another time per target
   test NAME
           the tests in Rust and Python that have NAME in their name, with what they need built first

@@ -28,7 +28,7 @@ pub(crate) fn all() -> Outcome {
             .envs(locale));
         [client.join().unwrap_or_else(|_| Err("the thread of the C client panicked".to_owned())), tests]
     });
-    let outcomes = in_rust.into_iter().chain([python(environment, "not long and not slow")]);
+    let outcomes = in_rust.into_iter().chain([python(environment, "not long")]);
     let failures: Vec<String> = outcomes.filter_map(Outcome::err).collect();
     if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
 }

@@ -46,7 +46,7 @@ pub(crate) fn structure(
             };
             let inputs = inputs.as_ref().unwrap_or(at_once);
             indices.extend(lists.indices(inputs, &lists.is_input, &mut inputs_of_last)?);
-            // Two ascending runs, which the stable sort merges.
+            // The stable sort merges two ascending runs.
             indices.sort();
         }
         unknown.dependencies = Some(indices);
@@ -66,7 +66,7 @@ struct Lists<'a> {
 
 const NOTHING: &Knowns = &Knowns::NONE;
 
-/// The last set and its indices: neighbours mostly share their set.
+/// The last set and its indices; most consecutive unknowns share a set.
 type LastList = Option<(Knowns, Vec<u32>)>;
 
 impl Lists<'_> {

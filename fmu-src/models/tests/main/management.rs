@@ -160,7 +160,6 @@ fn mission(strategy: f64) -> Sets {
 }
 
 #[test]
-#[ignore = "slow"]
 fn targets_save_dumps_and_looking_ahead_saves_more() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let dumps = [1.0, 2.0, 3.0].map(|strategy| {
@@ -220,7 +219,6 @@ fn dumps_of(named: &NamedModel<MomentumPlant>, mission: &Sets, strategy: f64) ->
 }
 
 #[test]
-#[ignore = "slow"]
 fn predictive_targets_cost_no_dumps_in_any_mission() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let (mut saved, mut worse) = (0, Vec::new());
@@ -266,7 +264,6 @@ fn looking_ahead_under_a_turning_body_costs_no_dumps() {
 }
 
 #[test]
-#[ignore = "slow"]
 fn cutting_and_saving_change_no_bit() {
     let named = NamedModel::<MomentumPlant>::shipped();
     for strategy in [2.0, 3.0] {

@@ -156,7 +156,6 @@ fn departed(folder: &Path, template: &Path, flyby: &str) {
 }
 
 #[test]
-#[ignore = "slow"]
 fn the_steps_of_the_paper_lead_back_to_the_aim() {
     let Some((_packed, template)) = template() else { return };
     let folder = tempfile::tempdir().unwrap();
@@ -291,7 +290,6 @@ const MOST: f64 = 1.281_55;
 /// From ten days before the encounter on: the ellipse and the spread of |H| are those of the flights that each column of the covariance's
 /// root leads to, and each coordinate of the centre of mass; the percentiles are alike for one thread and two.
 #[test]
-#[ignore = "slow"]
 fn dispersed_flights_spread_as_the_covariance_says_on_any_number_of_threads() {
     let Some((_packed, template)) = template() else { return };
     let folder = tempfile::tempdir().unwrap();
@@ -376,7 +374,6 @@ fn dispersed_flights_spread_as_the_covariance_says_on_any_number_of_threads() {
 
 /// On the baseline without tilt, no limit on |H|, 111 d before: 170 km along +R is refused with what is in reach, along -R it is not.
 #[test]
-#[ignore = "slow"]
 fn what_is_out_of_reach_is_refused_with_the_polygon() {
     let Some((_packed, template)) = template() else { return };
     let folder = tempfile::tempdir().unwrap();

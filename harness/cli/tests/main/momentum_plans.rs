@@ -116,7 +116,6 @@ const OFF: &str = "mission = \"cruise.toml\"\nwindmill = 0\nalternation = 0\n[mo
 
 /// The mission left alone comes to 43 N m s; planned it stays below 5.5 at every hour, with arrays in their corridor.
 #[test]
-#[ignore = "slow"]
 fn a_cruise_is_planned_and_simulated_below_its_limit() {
     let Some((scratch, template)) = template() else { return };
     let folder = scratch.path();
@@ -188,7 +187,6 @@ fn a_cruise_is_planned_and_simulated_below_its_limit() {
 }
 
 #[test]
-#[ignore = "slow"]
 fn without_controls_the_least_dumps_and_the_first_day_are_reported() {
     let Some((scratch, template)) = template() else { return };
     let folder = scratch.path();

@@ -69,7 +69,6 @@ fn a_spacecraft_is_sized_by_flights_of_its_fmu() {
 }
 
 #[test]
-#[ignore = "slow"]
 fn more_capacity_takes_fewer_dumps_and_more_margin_larger_wheels() {
     let Some(dist) = built("HELIOTORQUE_DIST") else { return };
     let template = dist.join("MomentumPlant.fmu");

@@ -68,7 +68,6 @@ fn spacecraft() -> String {
 }
 
 #[test]
-#[ignore = "slow"]
 fn each_burn_of_a_timeline_adds_its_velocity() {
     let spacecraft = spacecraft();
     let plants = NamedModel::<MomentumPlant>::with("own.toml", &spacecraft);

@@ -123,7 +123,6 @@ impl Loop {
 }
 
 #[test]
-#[ignore = "slow"]
 fn nadir_pointing_holds_without_a_keep_in_zone() {
     for (planet, axis_km) in [("venus", 6551.8), ("earth", 6878.0), ("mars", 3796.0)] {
         let mut wired = Loop::begin(&spacecraft(planet, axis_km, ""), NADIR);
@@ -138,7 +137,6 @@ fn nadir_pointing_holds_without_a_keep_in_zone() {
 }
 
 #[test]
-#[ignore = "slow"]
 fn the_link_is_there_in_its_windows() {
     let windows = r#"
 downlinks = { start = "20 %", stop = "70 %", every = 1 }

@@ -113,7 +113,6 @@ fn dumps_by_samples(strategy: f64) -> i32 {
 }
 
 #[test]
-#[ignore = "slow"]
 fn samples_that_look_ahead_save_as_many_dumps_as_a_plant_that_does() {
     let plants = NamedModel::<MomentumPlant>::shipped();
     let [reactive, predictive] = [2.0, 3.0].map(|strategy| {

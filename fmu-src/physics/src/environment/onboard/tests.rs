@@ -199,7 +199,6 @@ fn coarse_error(body: Body) -> (f64, FitError) {
 }
 
 #[test]
-#[ignore = "slow"]
 fn coarse_planets_stay_within_the_stated_error_of_vsop87() {
     let cases = [
         (Body::Mercury, 1.1e-4, 4.6),

@@ -59,7 +59,6 @@ fn a_step_to_where_a_longer_one_came_ends_well() {
 
 /// Plans are made in bounded time whatever they ask for.
 #[test]
-#[ignore = "slow"]
 fn the_longest_trains_are_planned_in_time() {
     let spinner = ace();
     for (shape, count, angle_rad) in [(Shape::Uniform, 1_000_000, 0.0), (Shape::Split, 114, 0.5)] {

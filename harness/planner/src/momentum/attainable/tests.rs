@@ -134,7 +134,6 @@ fn the_reach_of_one_control_is_what_its_bounds_do() {
 
 /// What lies inside of the polygon is met within all limits, what lies outside is not.
 #[test]
-#[ignore = "slow"]
 fn a_target_in_reach_is_met_and_one_beyond_is_not() {
     let task = targeting(LIMIT_N_M_S, tilts());
     let reach = reached(&task);
