@@ -139,16 +139,17 @@ impl AccessTable {
     /// The first Real that is no finite number, with its reference; `None` costs one pass without branches.
     #[inline]
     pub(crate) fn first_not_finite(&self, values: &Values) -> Option<(u32, f64)> {
-        // A finite number times 0 is 0, all else is NaN; in lanes, so that it becomes vector code.
+        // A sum with a NaN or an infinity is not finite. Finite numbers may overflow too, so the search decides. In lanes, so
+        // that it becomes vector code.
         let (chunks, rest) = values.reals.as_chunks::<8>();
         let mut lanes = [0.0; 8];
         for chunk in chunks {
             for (lane, value) in lanes.iter_mut().zip(chunk) {
-                *lane += value * 0.0;
+                *lane += value;
             }
         }
-        let sum = lanes.iter().sum::<f64>() + rest.iter().map(|value| value * 0.0).sum::<f64>();
-        if sum == 0.0 { None } else { Self::find_not_finite(values) }
+        let sum = lanes.iter().sum::<f64>() + rest.iter().sum::<f64>();
+        if sum.is_finite() { None } else { Self::find_not_finite(values) }
     }
 
     #[cold]

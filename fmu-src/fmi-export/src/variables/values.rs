@@ -37,6 +37,15 @@ impl SetBits {
         word >> (place % u64::BITS as usize) & 1 == 1
     }
 
+    /// The places that are set.
+    fn places(&self) -> impl Iterator<Item = usize> {
+        self.0.iter().enumerate().flat_map(|(word, &bits)| {
+            let left = core::iter::successors(Some(bits), |bits| bits.checked_sub(1).map(|less| bits & less));
+            left.take_while(|bits| *bits != 0)
+                .map(move |bits| word * u64::BITS as usize + bits.trailing_zeros() as usize)
+        })
+    }
+
     #[inline]
     pub(crate) fn mark(&mut self, place: usize) {
         if let Some(word) = self.0.get_mut(place / u64::BITS as usize) {
@@ -75,14 +84,27 @@ impl Values {
 
     /// Whether the importer set every element of the variable to what it is in `start`.
     fn repeats(&self, start: &Self, elements: Elements) -> bool {
-        let table = elements.first.table();
-        let is_start = |place: usize| match elements.first.base {
-            BaseType::Real => self.reals[place].to_bits() == start.reals[place].to_bits(),
-            BaseType::Integer => self.integers[place] == start.integers[place],
-            BaseType::Boolean => self.booleans[place] == start.booleans[place],
-            BaseType::String => self.strings[place] == start.strings[place],
-        };
-        elements.places().all(|place| self.set[table].is_set(place) && is_start(place))
+        let (base, table) = (elements.first.base, elements.first.table());
+        elements.places().all(|place| self.set[table].is_set(place) && self.is_same(start, base, place))
+    }
+
+    /// Whether the value at a place is the same to the bit.
+    fn is_same(&self, other: &Self, base: BaseType, place: usize) -> bool {
+        match base {
+            BaseType::Real => {
+                let bits = |values: &Self| values.reals.get(place).map(|value| value.to_bits());
+                bits(self) == bits(other)
+            }
+            BaseType::Integer => self.integers.get(place) == other.integers.get(place),
+            BaseType::Boolean => self.booleans.get(place) == other.booleans.get(place),
+            BaseType::String => self.strings.get(place) == other.strings.get(place),
+        }
+    }
+
+    /// Whether no value that the importer ever set differs from `before`, to the bit. Between steps no other value changes.
+    pub(crate) fn repeats_what_is_set(&self, before: &Self) -> bool {
+        let mut tables = BaseType::ALL.into_iter().zip(&self.set);
+        tables.all(|(base, set)| set.places().all(|place| self.is_same(before, base, place)))
     }
 
     /// Writes the value that a setup gives at a place in the table of its type.

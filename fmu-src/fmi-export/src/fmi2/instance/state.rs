@@ -101,7 +101,7 @@ impl InstanceState {
     /// Whether an input or tunable parameter differs from what the last step used. One that was set and set back does
     /// not: values agree to the bit, so the model continues as if nothing had been set.
     pub(crate) fn differs(&self) -> bool {
-        self.at_last_step.as_ref().is_some_and(|before| !same_values(before, &self.values))
+        self.at_last_step.as_ref().is_some_and(|before| !self.values.repeats_what_is_set(before))
     }
 
     /// Whether decoded bytes make sense for a model with these variables. The error says what does not.
@@ -173,27 +173,6 @@ pub(crate) fn copy_values(to: &mut Values, from: &Values) {
     for (to, from) in to.set.iter_mut().zip(&from.set) {
         to.copy_from(from);
     }
-}
-
-/// Whether two sets of values agree to the bit; who set them is no matter.
-fn same_values(a: &Values, b: &Values) -> bool {
-    a.integers == b.integers
-        && a.booleans == b.booleans
-        && a.strings == b.strings
-        && same_bits(&a.reals, &b.reals)
-}
-
-fn same_bits(a: &[f64], b: &[f64]) -> bool {
-    // In lanes, so that it becomes vector code.
-    let difference = |a: &f64, b: &f64| a.to_bits() ^ b.to_bits();
-    let ((chunks_a, rest_a), (chunks_b, rest_b)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
-    let mut lanes = [0; 8];
-    for (a, b) in chunks_a.iter().zip(chunks_b) {
-        for (lane, (a, b)) in lanes.iter_mut().zip(a.iter().zip(b)) {
-            *lane |= difference(a, b);
-        }
-    }
-    a.len() == b.len() && lanes == [0; 8] && rest_a.iter().zip(rest_b).all(|(a, b)| difference(a, b) == 0)
 }
 
 fn check_values(values: &Values, access: &AccessTable) -> Result<(), Failure> {
