@@ -49,7 +49,7 @@ fn sun(i: usize) -> Vector3<f64> {
 
 fn total<T: Scalar>(model: &SolarModel, i: usize) -> f64 {
     let beam = Beam { source_body: constant_vector::<T>(&sun(i)), pressure_pa: T::constant(5e-5) };
-    let result = model.load(&beam, |_| Some(T::constant(1.1)), &Vector3::zeros());
+    let result = model.load(&beam, |_, panel| Some(panel.normal_body(T::constant(1.1))), &Vector3::zeros());
     result.torque_body_n_m.x.value() + result.force_body_n.y.value()
 }
 

@@ -11,8 +11,11 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::flat_plate::Beam;
 use crate::loads::ForceTorque;
-use crate::numerics::scalar::{Scalar, sin_cos};
+use crate::math;
+use crate::numerics::scalar::Scalar;
 use crate::spacecraft::Cylinder;
+
+const THIRD: f64 = 1.0 / 3.0;
 
 /// A cylindrical section with its orientation in the body.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +39,8 @@ impl CylinderFace {
 
 /// How much of the section's angle a Sun in this direction (shade frame) lights, in rad.
 pub fn lit_angle_rad(cylinder: &Cylinder, sun_shade: &Vector3<f64>) -> f64 {
-    lit_arcs::<f64>(cylinder.half_angle_rad, sun_shade).iter().flatten().map(|[from, to]| to - from).sum()
+    let arcs = lit_arcs::<f64>(cylinder.half_angle_rad, sun_shade);
+    arcs.iter().flatten().map(|[from, to]| to.angle_rad - from.angle_rad).sum()
 }
 
 /// Force and torque about the shade frame's origin, both in the shade frame, as is the beam.
@@ -45,7 +49,7 @@ pub fn cylinder_force_torque<T: Scalar>(cylinder: &Cylinder, beam: &Beam<T>) -> 
     let moments = lit_arcs(cylinder.half_angle_rad, sun)
         .iter()
         .flatten()
-        .map(|[from, to]| Moments::over(*from, *to, sun))
+        .map(|[from, to]| Moments::over(from, to, sun))
         .fold(Moments::zero(), Moments::plus);
     let optics = &cylinder.optics;
     // P times the area of a strip of one radian.
@@ -61,22 +65,38 @@ pub fn cylinder_force_torque<T: Scalar>(cylinder: &Cylinder, beam: &Beam<T>) -> 
     }
 }
 
-/// The lit angles from -Y, within +-`half_angle`: the Sun lights the half turn about its own azimuth, which a section of
+/// An end of an arc.
+#[derive(Clone, Copy)]
+struct ArcEnd<T: Scalar> {
+    /// From -Y, in rad.
+    angle_rad: T,
+    sin: T,
+    cos: T,
+}
+
+/// The lit arcs within +-`half_angle` of -Y: the Sun lights the half turn about its own azimuth, which a section of
 /// more than half a turn can meet twice.
-fn lit_arcs<T: Scalar>(half_angle_rad: f64, sun: &Vector3<T>) -> [Option<[T; 2]>; 3] {
+fn lit_arcs<T: Scalar>(half_angle_rad: f64, sun: &Vector3<T>) -> [Option<[ArcEnd<T>; 2]>; 3] {
     if sun.x.value() == 0.0 && sun.y.value() == 0.0 {
         return [None; 3];
     }
     let azimuth = T::polar_angle(sun.x, -sun.y);
+    let across = (sun.x * sun.x + sun.y * sun.y).sqrt();
+    let (sin, cos) = (sun.x / across, -sun.y / across);
+    let (sin_half, cos_half) = math::sin_cos(half_angle_rad);
+    // The edge of the section at +-`side`.
+    let edge = |side: f64| ArcEnd {
+        angle_rad: T::constant(side * half_angle_rad),
+        sin: T::constant(side * sin_half),
+        cos: T::constant(cos_half),
+    };
     [-TAU, 0.0, TAU].map(|turn| {
-        let from = later(azimuth + (turn - FRAC_PI_2), -half_angle_rad);
-        let to = -later(-(azimuth + (turn + FRAC_PI_2)), -half_angle_rad);
-        (from.value() < to.value()).then_some([from, to])
+        let from = ArcEnd { angle_rad: azimuth + (turn - FRAC_PI_2), sin: -cos, cos: sin };
+        let to = ArcEnd { angle_rad: azimuth + (turn + FRAC_PI_2), sin: cos, cos: -sin };
+        let from = if from.angle_rad.value() > -half_angle_rad { from } else { edge(-1.0) };
+        let to = if to.angle_rad.value() < half_angle_rad { to } else { edge(1.0) };
+        (from.angle_rad.value() < to.angle_rad.value()).then_some([from, to])
     })
-}
-
-fn later<T: Scalar>(angle: T, bound: f64) -> T {
-    if angle.value() > bound { angle } else { T::constant(bound) }
 }
 
 /// Integrals over an arc of angles.
@@ -107,25 +127,23 @@ impl<T: Scalar> Moments<T> {
         }
     }
 
-    fn over(from: T, to: T, sun: &Vector3<T>) -> Self {
-        let (sin_to, cos_to) = sin_cos(to);
-        let (sin_from, cos_from) = sin_cos(from);
+    fn over(from: &ArcEnd<T>, to: &ArcEnd<T>, sun: &Vector3<T>) -> Self {
         // c = u sin + v cos
         let u = sun.x;
         let v = -sun.y;
         let between = |antiderivative: fn(T, T) -> T| {
-            antiderivative(sin_to, cos_to) - antiderivative(sin_from, cos_from)
+            antiderivative(to.sin, to.cos) - antiderivative(from.sin, from.cos)
         };
         let sin = between(|_, c| -c);
         let cos = between(|s, _| s);
-        let half = (to - from) / 2.0;
-        let sin_sin = half - between(|s, c| s * c / 2.0);
-        let sin_cos = between(|s, _| s * s / 2.0);
-        let cos_cos = half + between(|s, c| s * c / 2.0);
-        let sin_sin_sin = between(|_, c| c * c * c / 3.0 - c);
-        let sin_sin_cos = between(|s, _| s * s * s / 3.0);
-        let sin_cos_cos = between(|_, c| -c * c * c / 3.0);
-        let cos_cos_cos = between(|s, _| s - s * s * s / 3.0);
+        let half = (to.angle_rad - from.angle_rad) * 0.5;
+        let sin_sin = half - between(|s, c| s * c * 0.5);
+        let sin_cos = between(|s, _| s * s * 0.5);
+        let cos_cos = half + between(|s, c| s * c * 0.5);
+        let sin_sin_sin = between(|_, c| c * c * c * THIRD - c);
+        let sin_sin_cos = between(|s, _| s * s * s * THIRD);
+        let sin_cos_cos = between(|_, c| -c * c * c * THIRD);
+        let cos_cos_cos = between(|s, _| s - s * s * s * THIRD);
         let zero = T::constant(0.0);
         let normal = |along_sin: T, along_cos: T| Vector3::new(along_sin, -along_cos, zero);
         Self {

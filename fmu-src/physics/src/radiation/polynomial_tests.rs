@@ -109,7 +109,7 @@ proptest! {
             let beam = |source_body| Beam { source_body, pressure_pa: 0.7 };
             let direct = SolarModel::new(&spacecraft, Some(model))
                 .unwrap()
-                .load(&beam(sun_body), |_| None, &center_of_mass)
+                .load(&beam(sun_body), |_, _| None, &center_of_mass)
                 .torque_body_n_m;
             let in_shade = polynomial.torque_n_m(&beam(shade.dcm_body_from_shade.transpose() * sun_body));
             let miss = (shade.dcm_body_from_shade * in_shade - direct).norm();

@@ -59,13 +59,13 @@ impl SolarModel {
         self.fixed.len() + usize::from(self.cylinder.is_some()) + 2 * self.panels.len()
     }
 
-    /// On everything, about the centre of mass (body frame, m); `angle_rad` tells the angle of each panel (from 0) about its
-    /// axis, and none for one that takes no part.
+    /// On everything, about the centre of mass (body frame, m); `normal_body` tells the unit normal of each panel's cell side
+    /// (by number, from 0), and none for one that takes no part.
     #[inline]
     pub fn load<T: Scalar>(
         &self,
         beam: &Beam<T>,
-        angle_rad: impl Fn(usize) -> Option<T>,
+        normal_body: impl Fn(usize, &Panel) -> Option<Vector3<T>>,
         center_of_mass_body_m: &Vector3<T>,
     ) -> ForceTorque<T> {
         let mut sum = self.fixed_about_origin(beam);
@@ -74,9 +74,9 @@ impl SolarModel {
         }
         let mut sum = sum.about(center_of_mass_body_m);
         for (index, panel) in self.panels.iter().enumerate() {
-            if let Some(angle_rad) = angle_rad(index) {
+            if let Some(normal) = normal_body(index, panel) {
                 let arm_m = constant_vector::<T>(&panel.center_body_m) - center_of_mass_body_m;
-                sum += ForceTorque::at_arm(&arm_m, panel_force_n(panel, beam, angle_rad));
+                sum += ForceTorque::at_arm(&arm_m, panel_force_n(panel, beam, normal));
             }
         }
         sum
@@ -124,8 +124,7 @@ impl FixedFace {
 
 /// On the side of a panel that looks at the Sun, in N.
 #[inline]
-fn panel_force_n<T: Scalar>(panel: &Panel, beam: &Beam<T>, angle_rad: T) -> Vector3<T> {
-    let normal = panel.normal_body(angle_rad);
+fn panel_force_n<T: Scalar>(panel: &Panel, beam: &Beam<T>, normal: Vector3<T>) -> Vector3<T> {
     let is_front = normal.dot(&beam.source_body).value() > 0.0;
     let (normal, optics) =
         if is_front { (normal, Some(&panel.optics)) } else { (-normal, panel.rear_optics.as_ref()) };

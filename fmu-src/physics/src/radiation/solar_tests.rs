@@ -70,7 +70,7 @@ fn load<T: Scalar>(
     angles_rad: [T; 2],
     center_of_mass_body_m: &Vector3<T>,
 ) -> ForceTorque<T> {
-    model.load(beam, |k| Some(angles_rad[k]), center_of_mass_body_m)
+    model.load(beam, |k, panel| Some(panel.normal_body(angles_rad[k])), center_of_mass_body_m)
 }
 
 fn assert_close(found: &ForceTorque<f64>, expected: &ForceTorque<f64>, tolerance: f64) {
@@ -116,7 +116,7 @@ fn a_black_box_is_pushed_by_the_light_its_shadow_lacks() {
     let model = SolarModel::new(&spacecraft, None).unwrap();
     for sun in [direction(0.3, 0.2), direction(-2.0, -0.9), direction(1.6, 0.0)] {
         let shadow = sun.x.abs() * 6.0 + sun.y.abs() * 3.0 + sun.z.abs() * 2.0;
-        let found = model.load(&beam(sun), |_| None, &Vector3::zeros());
+        let found = model.load(&beam(sun), |_, _| None, &Vector3::zeros());
         assert_relative_eq!(found.force_body_n, -sun * shadow, epsilon = 1e-14);
         // By symmetry about its middle a uniform box feels no torque there.
         assert_relative_eq!(found.torque_body_n_m, Vector3::zeros(), epsilon = 1e-14);
@@ -129,7 +129,11 @@ fn a_panel_facing_the_sun_is_a_plate() {
     let model = SolarModel::new(&spacecraft, None).unwrap();
     let center_of_mass = Vector3::new(0.1, 0.2, -0.3);
     let at = |panel: usize, angle_rad: f64| {
-        model.load(&beam(-Vector3::y()), |k| (k == panel).then_some(angle_rad), &center_of_mass)
+        model.load(
+            &beam(-Vector3::y()),
+            |k, it| (k == panel).then(|| it.normal_body(angle_rad)),
+            &center_of_mass,
+        )
     };
     let found = at(0, 0.0);
     // P A (1 + C_s + 2/3 C_d) along +Y, 2.18 m outboard and 0.3 m above.
@@ -185,14 +189,14 @@ proptest! {
         let expected = face_by_face(&spacecraft.plates_body(SunshadeModel::Plates), &beam);
         let [model, _] = models(&spacecraft);
         let origin = Vector3::zeros();
-        assert_close(&model.load(&beam, |_| None, &origin), &expected, 1e-14);
+        assert_close(&model.load(&beam, |_, _| None, &origin), &expected, 1e-14);
     }
 
     #[test]
     fn a_mirrored_sun_mirrors_the_force(a in -PI..PI, z in -1.0..1.0_f64) {
         for model in models(&messenger()) {
             let sun = direction(a, z);
-            let on_shade = |sun| model.load(&beam(sun), |_| None, &Vector3::zeros());
+            let on_shade = |sun| model.load(&beam(sun), |_, _| None, &Vector3::zeros());
             let (shade, mirrored) = (on_shade(sun), on_shade(Vector3::new(-sun.x, sun.y, sun.z)));
             let (f, t) = (shade.force_body_n, shade.torque_body_n_m);
             let expected = ForceTorque {

@@ -93,6 +93,11 @@ impl Panel {
     /// Unit normal of the cell side at an angle about the axis (paper 000, eq 9, for any axis and zero direction).
     pub fn normal_body<T: Scalar>(&self, angle_rad: T) -> Vector3<T> {
         let (sin, cos) = sin_cos(angle_rad);
+        self.normal_toward([cos, sin])
+    }
+
+    /// The same by cosine and sine of the angle.
+    pub fn normal_toward<T: Scalar>(&self, [cos, sin]: [T; 2]) -> Vector3<T> {
         constant_vector::<T>(&self.zero_normal_body) * cos
             + constant_vector::<T>(&self.quarter_normal()) * sin
     }
@@ -111,29 +116,51 @@ impl Panel {
         sun_offset_rad: T,
         tilt_sign: f64,
     ) -> T {
+        let (sin, cos) = sin_cos(sun_offset_rad);
+        let [facing, tilt] =
+            self.facing_and_tilt(sun_body, [cos, sin]).map(|[cos, sin]| T::polar_angle(sin, cos));
+        facing + tilt * tilt_sign
+    }
+
+    /// The cell normal at that angle, by cosine and sine of the offset; `tilt_sign` must be +1 or -1.
+    pub fn normal_for_sun_offset<T: Scalar>(
+        &self,
+        sun_body: &Vector3<T>,
+        sun_offset: [T; 2],
+        tilt_sign: f64,
+    ) -> Vector3<T> {
+        let [facing, tilt] = self.facing_and_tilt(sun_body, sun_offset);
+        let ([cos, sin], [tilt_cos, tilt_sin]) = (facing, [tilt[0], tilt[1] * tilt_sign]);
+        let square = |[cos, sin]: [T; 2]| cos * cos + sin * sin;
+        let per_length = T::constant(1.0) / (square(facing) * square(tilt)).sqrt();
+        self.normal_toward([
+            (cos * tilt_cos - sin * tilt_sin) * per_length,
+            (sin * tilt_cos + cos * tilt_sin) * per_length,
+        ])
+    }
+
+    /// Cosine and sine, times any length, of the Sun-facing angle and of the tilt from it, by those of the offset.
+    fn facing_and_tilt<T: Scalar>(&self, sun_body: &Vector3<T>, [cos, sin]: [T; 2]) -> [[T; 2]; 2] {
         /// The axis is across the Sun but for the rounding of a unit vector.
         const ACROSS: f64 = 4.0 * f64::EPSILON;
-        let toward_zero = dot(&self.zero_normal_body, sun_body);
-        let toward_quarter = dot(&self.quarter_normal(), sun_body);
-        let in_plane_squared = toward_zero * toward_zero + toward_quarter * toward_quarter;
-        if in_plane_squared.value() == 0.0 {
-            return T::constant(0.0);
+        let [zero, one] = [0.0, 1.0].map(T::constant);
+        let facing = [dot(&self.zero_normal_body, sun_body), dot(&self.quarter_normal(), sun_body)];
+        if facing.iter().all(|it| it.value() == 0.0) {
+            return [[one, zero]; 2];
         }
-        let facing = T::polar_angle(toward_quarter, toward_zero);
         let along_axis = dot(&self.axis_body, sun_body);
-        let (sin, cos) = sin_cos(sun_offset_rad);
         let (along, across) = (along_axis.value().abs(), sin.value().abs());
         let tilt = if along <= ACROSS {
-            T::polar_angle(sin, cos)
+            [cos, sin]
         } else if across > along {
             let share = along_axis / sin;
-            T::polar_angle(sin * (T::constant(1.0) - share * share).sqrt(), cos)
+            [cos, sin * (one - share * share).sqrt()]
         } else if cos.value() >= 0.0 {
-            T::constant(0.0)
+            [one, zero]
         } else {
-            T::constant(core::f64::consts::PI.copysign(sin.value()))
+            [-one, T::constant(0.0_f64.copysign(sin.value()))]
         };
-        facing + tilt * tilt_sign
+        [facing, tilt]
     }
 
     /// Light on the cells in suns, at an angle about the axis and this far from the Sun, whose direction is a unit vector in the

@@ -28,7 +28,7 @@ fn shown_m2(plates: &[Plate], toward: &Vector3<f64>) -> f64 {
 /// Of light of a pressure of 1 Pa, about the origin.
 fn load(spacecraft: &Spacecraft, source_body: Vector3<f64>) -> ForceTorque<f64> {
     let beam = Beam { source_body, pressure_pa: 1.0 };
-    SolarModel::new(spacecraft, None).unwrap().load(&beam, |_| None, &Vector3::zeros())
+    SolarModel::new(spacecraft, None).unwrap().load(&beam, |_, _| None, &Vector3::zeros())
 }
 
 /// Directions in all octants.

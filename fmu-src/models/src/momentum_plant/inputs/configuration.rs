@@ -44,11 +44,8 @@ pub(super) fn read(
         if !values.boolean(panel.enabled) {
             return PanelSetting::Disabled;
         }
-        let ramp = |input: Real| Ramp {
-            angle_rad: values.real(input),
-            rate_rad_s: over_time.rate(input, over_time.start_s()),
-            since_s: over_time.start_s(),
-        };
+        let since_s = over_time.start_s();
+        let ramp = |input: Real| Ramp::since(since_s, values.real(input), over_time.rate(input, since_s));
         let tilt_sign = values.choice(panel.tilt).sign();
         let offset = |offset| PanelSetting::SunOffset { offset, tilt_sign };
         match values.choice(panel.control).0 {

@@ -8,7 +8,7 @@ use nalgebra::Rotation3;
 use super::*;
 use crate::guidance::pointing::antenna::tests::quadrants;
 use crate::radiation::{Beam, SolarModel, TorquePolynomial};
-use crate::spacecraft::{MESSENGER_TOML, Spacecraft};
+use crate::spacecraft::{MESSENGER_TOML, Panel, Spacecraft};
 
 const PRESSURE_PA: f64 = 5.0145e-5;
 const SPAN_S: f64 = 28_800.0;
@@ -43,8 +43,10 @@ impl TestSpacecraft {
 
     fn torque(&self, sun_body: &Vector3<f64>) -> Vector3<f64> {
         let beam = Beam { source_body: *sun_body, pressure_pa: PRESSURE_PA };
-        let angle_rad = |k: usize| Some(self.spacecraft.panels[k].angle_for_sun_offset(sun_body, 1.1, 1.0));
-        self.solar.load(&beam, angle_rad, &self.center_of_mass_m).torque_body_n_m
+        let normal_body = |_: usize, panel: &Panel| {
+            Some(panel.normal_for_sun_offset(sun_body, [1.1_f64.cos(), 1.1_f64.sin()], 1.0))
+        };
+        self.solar.load(&beam, normal_body, &self.center_of_mass_m).torque_body_n_m
     }
 
     fn linear(&self) -> LinearTorque {
@@ -183,7 +185,7 @@ fn the_linear_formula_falls_short_by_a_few_per_cent() {
     let test_spacecraft = TestSpacecraft::new(Vector3::new(0.0, 0.0, 0.0), 0.0);
     let shade = |sun: &Vector3<f64>| {
         let beam = Beam { source_body: *sun, pressure_pa: PRESSURE_PA };
-        test_spacecraft.solar.load(&beam, |_| None, &test_spacecraft.center_of_mass_m).torque_body_n_m
+        test_spacecraft.solar.load(&beam, |_, _| None, &test_spacecraft.center_of_mass_m).torque_body_n_m
     };
     let (to_sun, to_earth) = (Vector3::y(), earth(60.0));
     let linear = Some(test_spacecraft.linear());

@@ -27,19 +27,23 @@ pub struct SunlitConfiguration<'a> {
 impl SunlitConfiguration<'_> {
     /// Mass, centre of mass and inertia as the panels stand, the Sun being there (unit vector, body frame).
     pub fn mass_properties(&self, sun_body: &Vector3<f64>) -> MassProperties {
-        with_panels(&self.mass_at_zero, self.panels, |index| self.angle_rad(index, sun_body).unwrap_or(0.0))
+        let sun = self.sun_at(sun_body);
+        let angle_rad = |index: usize| {
+            let (panel, setting) = self.panels.get(index).zip(self.settings.get(index))?;
+            setting.angle_rad(panel, &sun)
+        };
+        with_panels(&self.mass_at_zero, self.panels, |index| angle_rad(index).unwrap_or(0.0))
     }
 
     /// Direct sunlight without self-shadows, about the centre of mass.
     pub fn load(&self, beam: &Beam<f64>, center_of_mass_body_m: &Vector3<f64>) -> ForceTorque<f64> {
-        self.solar.load(beam, |index| self.angle_rad(index, &beam.source_body), center_of_mass_body_m)
+        let sun = self.sun_at(&beam.source_body);
+        let normal_body = |index: usize, panel: &Panel| self.settings.get(index)?.normal_body(panel, &sun);
+        self.solar.load(beam, normal_body, center_of_mass_body_m)
     }
 
-    /// How a panel that takes part stands to the Sun.
-    fn angle_rad(&self, index: usize, sun_body: &Vector3<f64>) -> Option<f64> {
-        let (panel, setting) = self.panels.get(index).zip(self.settings.get(index))?;
-        let Self { time_s, sun_distance_m: distance_m, .. } = *self;
-        setting.angle_rad(panel, &SunAt { time_s, direction_body: *sun_body, distance_m })
+    fn sun_at(&self, direction_body: &Vector3<f64>) -> SunAt {
+        SunAt { time_s: self.time_s, direction_body: *direction_body, distance_m: self.sun_distance_m }
     }
 
     /// Its torque in N m, body frame, at this pressure in Pa, the Sun being there.

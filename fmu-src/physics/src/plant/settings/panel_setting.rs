@@ -6,7 +6,8 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use crate::guidance::timeline::{TimelinePanels, begun, simulation_time_s};
-use crate::numerics::scalar::{Dual64, Scalar};
+use crate::math;
+use crate::numerics::scalar::{Dual64, Scalar, sin_cos};
 use crate::spacecraft::{Panel, offset_for_suns};
 
 /// The Sun from the spacecraft at a time, which may move.
@@ -21,20 +22,25 @@ pub struct SunAt<T: Scalar = f64> {
 }
 
 /// An angle that is held or changes evenly.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ramp {
-    /// At `since_s`, in rad.
-    pub angle_rad: f64,
-    /// In rad/s.
-    pub rate_rad_s: f64,
-    /// In s.
-    pub since_s: f64,
+    since_s: f64,
+    angle_rad: f64,
+    rate_rad_s: f64,
+    /// Cosine and sine at `since_s`.
+    cos_sin: [f64; 2],
 }
 
 impl Ramp {
     /// An angle that stays, in rad.
     pub fn held(angle_rad: f64) -> Self {
-        Self { angle_rad, ..Self::default() }
+        Self::since(0.0, angle_rad, 0.0)
+    }
+
+    /// An angle in rad that changes at a rate in rad/s from a time in s on.
+    pub fn since(since_s: f64, angle_rad: f64, rate_rad_s: f64) -> Self {
+        let (sin, cos) = math::sin_cos(angle_rad);
+        Self { since_s, angle_rad, rate_rad_s, cos_sin: [cos, sin] }
     }
 
     /// The angle at `time_s`, in rad.
@@ -44,6 +50,16 @@ impl Ramp {
         }
         (time_s - self.since_s) * self.rate_rad_s + self.angle_rad
     }
+
+    /// Its cosine and sine at `time_s`.
+    fn cos_sin_at<T: Scalar>(&self, time_s: T) -> [T; 2] {
+        if self.rate_rad_s == 0.0 { self.cos_sin.map(T::constant) } else { cos_sin(self.at_rad(time_s)) }
+    }
+}
+
+fn cos_sin<T: Scalar>(angle_rad: T) -> [T; 2] {
+    let (sin, cos) = sin_cos(angle_rad);
+    [cos, sin]
 }
 
 /// One step of a timeline of a panel.
@@ -107,14 +123,34 @@ impl PanelSetting {
             Self::Disabled => return None,
             Self::Angle(angle) => return Some(angle.at_rad(sun.time_s)),
             Self::SunOffset { offset, tilt_sign } => (offset.at_rad(sun.time_s), tilt_sign),
-            Self::Timeline { steps, clock_minus_time_s, before_rad, tilt_sign } => {
-                let begun = begun_steps(steps, *clock_minus_time_s, sun.time_s.value());
-                let step = begun.checked_sub(1).and_then(|last| steps.get(last));
-                (T::constant(step.map_or(*before_rad, |step| step.offset_rad)), tilt_sign)
-            }
+            Self::Timeline { tilt_sign, .. } => (T::constant(self.timeline_offset_rad(sun)), tilt_sign),
             Self::Distance { suns, tilt_sign } => (offset_for_suns(*suns, sun.distance_m), tilt_sign),
         };
         Some(panel.angle_for_sun_offset(&sun.direction_body, offset_rad, *tilt_sign))
+    }
+
+    /// Unit normal of the cell side, body frame, with the Sun there; `None` when left out.
+    pub fn normal_body<T: Scalar>(&self, panel: &Panel, sun: &SunAt<T>) -> Option<Vector3<T>> {
+        let (offset, tilt_sign) = match self {
+            Self::Disabled => return None,
+            Self::Angle(angle) => return Some(panel.normal_toward(angle.cos_sin_at(sun.time_s))),
+            Self::SunOffset { offset, tilt_sign } => (offset.cos_sin_at(sun.time_s), tilt_sign),
+            Self::Timeline { tilt_sign, .. } => {
+                (cos_sin(self.timeline_offset_rad(sun)).map(T::constant), tilt_sign)
+            }
+            Self::Distance { suns, tilt_sign } => {
+                (cos_sin(offset_for_suns(*suns, sun.distance_m)), tilt_sign)
+            }
+        };
+        Some(panel.normal_for_sun_offset(&sun.direction_body, offset, *tilt_sign))
+    }
+
+    /// The offset that a timeline has at this time, in rad.
+    fn timeline_offset_rad<T: Scalar>(&self, sun: &SunAt<T>) -> f64 {
+        let Self::Timeline { steps, clock_minus_time_s, before_rad, .. } = self else { return 0.0 };
+        let begun = begun_steps(steps, *clock_minus_time_s, sun.time_s.value());
+        let step = begun.checked_sub(1).and_then(|last| steps.get(last));
+        step.map_or(*before_rad, |step| step.offset_rad)
     }
 
     /// That angle and its rate, in rad and rad/s, the Sun moving; 0 when left out.

@@ -54,7 +54,7 @@ fn a_step_holds_from_its_time_on() {
 #[test]
 fn the_rate_of_every_law_is_that_of_its_differences() {
     const H_S: f64 = 1e-2;
-    let ramp = Ramp { angle_rad: 0.4, rate_rad_s: -3e-4, since_s: 10.0 };
+    let ramp = Ramp::since(10.0, 0.4, -3e-4);
     let [before, after] = [-1.0, 1.0].map(|step| sun_at(50.0 + step * H_S));
     let now = sun_at(50.0);
     let rate = (after.direction_body - before.direction_body) / (2.0 * H_S);

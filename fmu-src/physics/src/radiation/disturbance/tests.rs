@@ -177,7 +177,11 @@ fn sunlight_is_that_of_the_solar_model() {
                     pressure_pa: geometry.sun_flux_w_m2 / SPEED_OF_LIGHT_M_S,
                 };
                 let com = geometry.center_of_mass_body_m;
-                let expected = alone.load(&beam, |k| geometry.panel_angles_rad.get(k).copied(), &com);
+                let expected = alone.load(
+                    &beam,
+                    |k, panel| geometry.panel_angles_rad.get(k).map(|it| panel.normal_body(*it)),
+                    &com,
+                );
                 assert_relative_eq!(found[SOLAR].force_body_n, expected.force_body_n, epsilon = 1e-17);
                 assert_relative_eq!(found[SOLAR].torque_body_n_m, expected.torque_body_n_m, epsilon = 1e-17);
             }

@@ -113,6 +113,8 @@ proptest! {
         let panel = panel();
         let angle = panel.angle_for_sun_offset(&sun, offset, sign);
         let normal = panel.normal_body(angle);
+        let by_sines = panel.normal_for_sun_offset(&sun, [offset.cos(), offset.sin()], sign);
+        prop_assert!((by_sines - normal).norm() < 1e-14);
         let met = normal.dot(&sun).clamp(-1.0, 1.0).acos();
         // Independent of the formula: scan all angles for the least miss.
         let least = (0..7200)
