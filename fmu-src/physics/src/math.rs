@@ -60,6 +60,13 @@ functions! {
     erfc(x) = erfc;
 }
 
+/// Cube root to 24 bits of a number within the range of `f32`.
+#[inline]
+#[must_use]
+pub fn cbrt_approximate(x: f64) -> f64 {
+    f64::from(libm::cbrtf(x as f32))
+}
+
 /// Sine and cosine of an angle in rad.
 #[inline]
 #[must_use]
@@ -67,11 +74,27 @@ pub fn sin_cos(angle_rad: f64) -> (f64, f64) {
     libm::sincos(angle_rad)
 }
 
+/// The greatest integer not above `x`, saturated at 64 bits. `f64::floor` is a function call on baseline x86-64.
+#[inline]
+#[must_use]
+pub fn floor(x: f64) -> i64 {
+    let whole = x as i64;
+    whole.saturating_sub(i64::from(x < whole as f64))
+}
+
+/// The nearest integer, ties upward. `f64::round` is a function call on baseline x86-64.
+#[inline]
+#[must_use]
+pub fn nearest_whole(x: f64) -> f64 {
+    // From 2^52 on there are integers alone.
+    if x.abs() < 4_503_599_627_370_496.0 { floor(x + 0.5) as f64 } else { x }
+}
+
 /// The angle in -pi..pi.
 #[inline]
 #[must_use]
 pub fn wrapped_rad(angle_rad: f64) -> f64 {
-    if angle_rad.abs() <= PI { angle_rad } else { angle_rad - TAU * (angle_rad / TAU).round() }
+    if angle_rad.abs() <= PI { angle_rad } else { angle_rad - TAU * nearest_whole(angle_rad / TAU) }
 }
 
 /// `base` to a whole power, by repeated squaring: the compiler's own leaves open in which order it multiplies.
@@ -101,6 +124,20 @@ mod tests {
             assert_eq!(powi(2.0, exponent).log2(), f64::from(exponent), "{exponent}");
         }
         assert_eq!([powi(-3.0, 3), powi(5.0, 0), powi(0.0, -1)], [-27.0, 1.0, f64::INFINITY]);
+    }
+
+    #[test]
+    fn floor_and_nearest_whole_are_those_of_the_standard_library() {
+        for x in
+            [0.0, 0.3, 0.7, 1.0, 1e6 + 0.4, 4_503_599_627_370_497.0, 1e18].map(|x| [x, -x]).as_flattened()
+        {
+            assert_eq!(floor(*x), x.floor() as i64, "{x}");
+            assert_eq!(nearest_whole(*x), x.round(), "{x}");
+        }
+        assert_eq!([-1.5, -0.5, 0.5, 1.5].map(nearest_whole), [-1.0, 0.0, 1.0, 2.0]);
+        let extremes = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY].map(floor);
+        assert_eq!(extremes, [0, i64::MAX, i64::MIN]);
+        assert!(nearest_whole(f64::NAN).is_nan());
     }
 
     #[test]

@@ -17,7 +17,7 @@ pub struct SunAngles {
 impl SunAngles {
     /// Of a body-frame direction of any length; along the Z axis the azimuth is 0.
     pub fn of(direction_body: &Vector3<f64>) -> Self {
-        let across = math::hypot(direction_body.x, direction_body.y);
+        let across = direction_body.xy().norm();
         let azimuth_rad = if across == 0.0 { 0.0 } else { math::atan2(direction_body.x, -direction_body.y) };
         Self { azimuth_rad, elevation_rad: math::atan2(-direction_body.z, across) }
     }

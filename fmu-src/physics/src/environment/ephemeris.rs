@@ -9,6 +9,7 @@
 //! carries the Moon's monthly swing, is fitted directly, 17 evaluations for 16 days. The Sun stands still.
 //! The Moon stands beyond the barycentre of Earth and Moon, as far as their masses say: the difference of two of VSOP87's
 //! rectangular series, 24 evaluations for 16 days.
+//! [`Ephemeris::state`] evaluates a last layer: series of 6 terms for 3 hours, which interpolate these segments.
 //!
 //! Error of the fit anywhere between 1900 and 2100 (tested): Mercury below 100 m, Venus below 10 m, Mars and Jupiter
 //! below 20 m, Earth below 1 m. Segments meet to 0.1 m and 1e-5 m/s. VSOP87 itself is good to about 1 km for Mercury, a few for
@@ -27,7 +28,7 @@ use nalgebra::{Matrix3, SVector, Vector3};
 
 use super::{
     CartesianState,
-    orbit::kepler::eccentric_anomaly_rad,
+    orbit::kepler::eccentric_anomaly,
     time::{julian_date, julian_date_rounding_s},
 };
 use crate::math;
@@ -55,6 +56,10 @@ const LONG_S: f64 = 32.0 * DAY_S;
 const MIDDLE_S: f64 = 16.0 * DAY_S;
 /// Length of a position segment of all other planets.
 const SHORT_S: f64 = 8.0 * DAY_S;
+/// Coefficients of an interpolation segment.
+const INTERPOLATION_TERMS: usize = 6;
+/// Length of an interpolation segment, of which all others are whole multiples. The next term would be 1e-6 m for Mercury.
+const INTERPOLATION_S: f64 = 0.125 * DAY_S;
 /// How far from the end of an element segment its rate is taken.
 const RATE_STEP_S: f64 = 0.1 * DAY_S;
 
@@ -144,12 +149,20 @@ impl EphemerisCache {
 /// start from the default.
 #[derive(Clone, Debug, Default)]
 pub struct Ephemeris {
+    fitted: FittedSegments,
+    interpolated: [Slots<3, INTERPOLATION_TERMS>; Body::COUNT],
+    moon_interpolated: Slots<3, INTERPOLATION_TERMS>,
+    entered: [Entered; Body::COUNT],
+    moon_entered: Entered,
+}
+
+/// Segments of positions fitted to VSOP87.
+#[derive(Clone, Debug, Default)]
+struct FittedSegments {
     planets: [Slots<3, PLANET_TERMS>; Body::COUNT],
     earth: Slots<3, EARTH_TERMS>,
     moon: Slots<3, MOON_TERMS>,
     cache: EphemerisCache,
-    entered: [Entered; Body::COUNT],
-    moon_entered: Entered,
 }
 
 /// The long segments that a count of work has seen, whatever is held of them.
@@ -162,7 +175,8 @@ struct Entered {
 }
 
 impl Entered {
-    fn enter(&mut self, number: i64) {
+    fn enter(&mut self, epoch_s: f64, length_s: f64) {
+        let number = math::floor(epoch_s / length_s);
         let is_first = self.numbers == [None; 2];
         let slot = &mut self.numbers[(number & 1) as usize];
         if *slot != Some(number) {
@@ -175,7 +189,8 @@ impl Entered {
 impl Ephemeris {
     /// Ephemeris that shares a cache with others.
     pub fn with_cache(cache: &EphemerisCache) -> Self {
-        Self { cache: cache.clone(), ..Self::default() }
+        let fitted = FittedSegments { cache: cache.clone(), ..FittedSegments::default() };
+        Self { fitted, ..Self::default() }
     }
 
     /// Heliocentric position and velocity in EME2000 at `epoch_s` past J2000 TDB, geometric (no light time).
@@ -183,22 +198,34 @@ impl Ephemeris {
     /// The velocity is the derivative of the position, within 0.01 m/s. Beyond [`VALID_EPOCH_S`] the series loses its meaning;
     /// an epoch that is not finite gives NaN, as does a body that it does not know.
     pub fn state(&mut self, body: Body, epoch_s: f64) -> CartesianState {
-        let (position_m, velocity_m_s) = match theory(body) {
-            None if body == Body::Custom => (Vector3::repeat(f64::NAN), Vector3::repeat(f64::NAN)),
-            None => (Vector3::repeat(0.0 * epoch_s), Vector3::zeros()),
-            Some(_) if body == Body::Earth => self.earth(epoch_s).value_and_derivative(epoch_s),
-            Some(theory) => self.planet(body, theory, epoch_s).value_and_derivative(epoch_s),
+        let Some(theory) = theory(body) else {
+            let unknown = if body == Body::Custom { f64::NAN } else { 0.0 };
+            return CartesianState {
+                position_m: Vector3::repeat(unknown * epoch_s),
+                velocity_m_s: Vector3::repeat(unknown),
+            };
         };
+        self.entered[body as usize].enter(epoch_s, FittedSegments::length_s(body));
+        let segment = self.interpolated[body as usize].segment(epoch_s, INTERPOLATION_S, |start_s, end_s| {
+            let span_s = [start_s, end_s];
+            match body {
+                Body::Earth => interpolation(self.fitted.earth(epoch_s), span_s),
+                _ => interpolation(self.fitted.planet(body, theory, epoch_s), span_s),
+            }
+        });
+        let (position_m, velocity_m_s) = segment.value_and_derivative(epoch_s);
         CartesianState { position_m, velocity_m_s }
     }
 
     /// The second derivative of the position in EME2000 at `epoch_s`, in m/s2: that of its segment, which errs by 1e-8 m/s2.
     pub fn acceleration_m_s2(&mut self, body: Body, epoch_s: f64) -> Vector3<f64> {
-        match theory(body) {
-            None if body == Body::Custom => Vector3::repeat(f64::NAN),
-            None => Vector3::zeros(),
-            Some(_) if body == Body::Earth => self.earth(epoch_s).second_derivative(epoch_s),
-            Some(theory) => self.planet(body, theory, epoch_s).second_derivative(epoch_s),
+        let Some(theory) = theory(body) else {
+            return Vector3::repeat(if body == Body::Custom { f64::NAN } else { 0.0 });
+        };
+        self.entered[body as usize].enter(epoch_s, FittedSegments::length_s(body));
+        match body {
+            Body::Earth => self.fitted.earth(epoch_s).second_derivative(epoch_s),
+            _ => self.fitted.planet(body, theory, epoch_s).second_derivative(epoch_s),
         }
     }
 
@@ -209,50 +236,12 @@ impl Ephemeris {
 
     /// Position and velocity of the Moon from the Earth in EME2000 at `epoch_s`, geometric; see [`Ephemeris::state`].
     pub fn moon_from_earth(&mut self, epoch_s: f64) -> CartesianState {
-        self.moon_entered.enter((epoch_s / MIDDLE_S).floor() as i64);
-        let segment = self.cache.of_places(
-            &mut self.moon,
-            |all| &mut all.moon,
-            epoch_s,
-            |date| {
-                let barycentre_m = from_rectangular(vsop87::vsop87a::earth_moon(date));
-                let earth_m = from_rectangular(vsop87::vsop87a::earth(date));
-                (barycentre_m - earth_m) * (1.0 + EARTH_TO_MOON_MASS)
-            },
-        );
+        self.moon_entered.enter(epoch_s, MIDDLE_S);
+        let segment = self.moon_interpolated.segment(epoch_s, INTERPOLATION_S, |start_s, end_s| {
+            interpolation(self.fitted.moon(epoch_s), [start_s, end_s])
+        });
         let (position_m, velocity_m_s) = segment.value_and_derivative(epoch_s);
         CartesianState { position_m, velocity_m_s }
-    }
-
-    fn earth(&mut self, epoch_s: f64) -> &Segment<3, EARTH_TERMS> {
-        self.entered[Body::Earth as usize].enter((epoch_s / MIDDLE_S).floor() as i64);
-        self.cache.of_places(
-            &mut self.earth,
-            |all| &mut all.earth,
-            epoch_s,
-            |date| from_rectangular(vsop87::vsop87a::earth(date)),
-        )
-    }
-
-    /// Segment of positions that contains `epoch_s`, computed from slowly varying elements.
-    fn planet(&mut self, body: Body, theory: &Theory, epoch_s: f64) -> &Segment<3, PLANET_TERMS> {
-        self.entered[body as usize].enter((epoch_s / LONG_S).floor() as i64);
-        let mean_motion_rad_s = theory.mean_motion_rad_s();
-        let cache = &self.cache;
-        self.planets[body as usize].segment(epoch_s, SHORT_S, |start_s, end_s| {
-            // Nodes lie inside the segment that `epoch_s` chose, and that inside one segment of elements.
-            let middle_s = ((epoch_s / LONG_S).floor() + 0.5) * LONG_S;
-            let slow = cache.segment(
-                |all| &mut all.elements[body as usize],
-                (epoch_s, LONG_S),
-                |start_s, end_s| fit_elements(theory, mean_motion_rad_s, [start_s, middle_s, end_s]),
-            );
-            Segment::fit(start_s, end_s, |node_s| {
-                let [[a, longitude_rad, k, h, q, p]] = slow.value(node_s).data.0;
-                let mean_longitude_rad = longitude_rad + mean_motion_rad_s * (node_s - middle_s);
-                from_elements([a, mean_longitude_rad, k, h, q, p])
-            })
-        })
     }
 
     /// Begins a count of work: of each body the segment that is requested first counts as held.
@@ -282,6 +271,55 @@ impl Ephemeris {
     }
 }
 
+impl FittedSegments {
+    /// Length of the segments of a planet for which VSOP87 is evaluated, in s.
+    fn length_s(body: Body) -> f64 {
+        if body == Body::Earth { MIDDLE_S } else { LONG_S }
+    }
+
+    fn earth(&mut self, epoch_s: f64) -> &Segment<3, EARTH_TERMS> {
+        self.cache.of_places(
+            &mut self.earth,
+            |all| &mut all.earth,
+            epoch_s,
+            |date| from_rectangular(vsop87::vsop87a::earth(date)),
+        )
+    }
+
+    fn moon(&mut self, epoch_s: f64) -> &Segment<3, MOON_TERMS> {
+        self.cache.of_places(
+            &mut self.moon,
+            |all| &mut all.moon,
+            epoch_s,
+            |date| {
+                let barycentre_m = from_rectangular(vsop87::vsop87a::earth_moon(date));
+                let earth_m = from_rectangular(vsop87::vsop87a::earth(date));
+                (barycentre_m - earth_m) * (1.0 + EARTH_TO_MOON_MASS)
+            },
+        )
+    }
+
+    /// Segment of positions that contains `epoch_s`, computed from slowly varying elements.
+    fn planet(&mut self, body: Body, theory: &Theory, epoch_s: f64) -> &Segment<3, PLANET_TERMS> {
+        let mean_motion_rad_s = theory.mean_motion_rad_s();
+        let cache = &self.cache;
+        self.planets[body as usize].segment(epoch_s, SHORT_S, |start_s, end_s| {
+            // Nodes lie inside the segment that `epoch_s` chose, and that inside one segment of elements.
+            let middle_s = ((epoch_s / LONG_S).floor() + 0.5) * LONG_S;
+            let slow = cache.segment(
+                |all| &mut all.elements[body as usize],
+                (epoch_s, LONG_S),
+                |start_s, end_s| fit_elements(theory, mean_motion_rad_s, [start_s, middle_s, end_s]),
+            );
+            Segment::fit(start_s, end_s, |node_s| {
+                let [[a, longitude_rad, k, h, q, p]] = slow.value(node_s).data.0;
+                let mean_longitude_rad = longitude_rad + mean_motion_rad_s * (node_s - middle_s);
+                from_elements([a, mean_longitude_rad, k, h, q, p])
+            })
+        })
+    }
+}
+
 /// Segments, each in the place that the remainder of its number says: two, one for even and one for odd numbers, or more.
 #[derive(Clone, Debug)]
 struct Slots<const D: usize, const N: usize> {
@@ -302,7 +340,11 @@ impl<const D: usize, const N: usize> Slots<D, N> {
     }
 
     fn place(&self, number: i64) -> usize {
-        number.rem_euclid(self.held.len() as i64) as usize
+        match self.held.len() {
+            // An integer division is slow.
+            2 => (number & 1) as usize,
+            count => number.rem_euclid(count as i64) as usize,
+        }
     }
 
     fn segment(
@@ -311,7 +353,7 @@ impl<const D: usize, const N: usize> Slots<D, N> {
         length_s: f64,
         fit: impl FnOnce(f64, f64) -> Segment<D, N>,
     ) -> &Segment<D, N> {
-        let number = (epoch_s / length_s).floor() as i64;
+        let number = math::floor(epoch_s / length_s);
         let place = self.place(number);
         let slot = &mut self.held[place];
         if slot.as_ref().is_some_and(|(held, _)| *held != number) {
@@ -323,6 +365,14 @@ impl<const D: usize, const N: usize> Slots<D, N> {
         });
         segment
     }
+}
+
+/// The same on a part of a segment.
+fn interpolation<const N: usize>(
+    fitted: &Segment<3, N>,
+    [start_s, end_s]: [f64; 2],
+) -> Segment<3, INTERPOLATION_TERMS> {
+    fitted.part::<{ INTERPOLATION_TERMS - 1 }, INTERPOLATION_TERMS>(start_s, end_s)
 }
 
 /// Elements with the slow remainder of the longitude, in segments that continue smoothly: their ends have values, and rates by
@@ -374,11 +424,10 @@ fn from_rectangular(p: vsop87::RectangularCoordinates) -> Vector3<f64> {
 fn from_elements([a, mean_longitude_rad, k, h, q, p]: [f64; 6]) -> Vector3<f64> {
     let e = math::hypot(k, h);
     let periapsis_longitude_rad = math::atan2(h, k);
-    let (sin_anomaly, cos_anomaly) =
-        math::sin_cos(eccentric_anomaly_rad(mean_longitude_rad - periapsis_longitude_rad, e));
+    let anomaly = eccentric_anomaly(mean_longitude_rad - periapsis_longitude_rad, e);
     // In the orbital plane, first axis toward periapsis, then toward the origin of longitudes.
-    let along = cos_anomaly - e;
-    let across = ((1.0 - e) * (1.0 + e)).sqrt() * sin_anomaly;
+    let along = anomaly.cos - e;
+    let across = ((1.0 - e) * (1.0 + e)).sqrt() * anomaly.sin;
     let (sin, cos) = math::sin_cos(periapsis_longitude_rad);
     let (x, y) = (along * cos - across * sin, along * sin + across * cos);
     let cos_half_inclination = (1.0 - q * q - p * p).sqrt();

@@ -72,6 +72,13 @@ impl<const D: usize, const N: usize> Segment<D, N> {
         Self::from_samples(start, end, &Self::nodes(start, end).map(function))
     }
 
+    /// The function on a part of its interval, as the antiderivative of an interpolation of its derivative by `K` terms:
+    /// interpolated values would put their rounding, over the part's length, into the derivative. `M` must be `K + 1`.
+    pub fn part<const K: usize, const M: usize>(&self, start: f64, end: f64) -> Segment<D, M> {
+        let derivative = Segment::<D, K>::fit(start, end, |at| self.value_and_derivative(at).1);
+        derivative.integral(self.value(start))
+    }
+
     /// The series with these coefficients, column k for `T_k`.
     pub fn from_coefficients(start: f64, end: f64, coefficients: SMatrix<f64, D, N>) -> Self {
         let (center, half_length) = center_and_half_length(start, end);
@@ -131,6 +138,12 @@ impl<const D: usize, const N: usize> Segment<D, N> {
     /// The coefficients, column k for `T_k`.
     pub fn coefficients(&self) -> &SMatrix<f64, D, N> {
         &self.coefficients
+    }
+
+    /// The greatest magnitude among the coefficients from this term on.
+    pub fn greatest_term(&self, from: usize) -> f64 {
+        let columns = self.coefficients.data.0.get(from..).unwrap_or_default();
+        greatest_magnitude(columns.iter().flatten())
     }
 
     /// The function at `at`.
@@ -218,6 +231,12 @@ pub fn series_at<const D: usize>(coefficients: &[[f64; D]], x: f64) -> ([f64; D]
     let value = core::array::from_fn(|i| x * b1[i] + (first[i] - b2[i]));
     let derivative = core::array::from_fn(|i| x * d1[i] + (b1[i] - d2[i]));
     (value, derivative)
+}
+
+/// The greatest magnitude, NaN ignored; faster than a fold by `f64::max`.
+#[inline]
+pub fn greatest_magnitude<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
+    values.into_iter().fold(0.0, |most, value| if value.abs() > most { value.abs() } else { most })
 }
 
 /// The coefficient of `T_0` and the others.

@@ -106,7 +106,8 @@ fn segments_meet_at_their_edges() {
         let (mut gap_m, mut gap_m_s) = (0.0_f64, 0.0_f64);
         for number in (-1140..1140).step_by(38) {
             let long_s = f64::from(number) * LONG_S;
-            for edge_s in [long_s, long_s + SHORT_S, long_s + MIDDLE_S] {
+            for offset_s in [0.0, SHORT_S, MIDDLE_S, INTERPOLATION_S] {
+                let edge_s = long_s + offset_s;
                 let before = ephemeris.state(body, edge_s.next_down());
                 let after = ephemeris.state(body, edge_s);
                 gap_m = gap_m.max((after.position_m - before.position_m).norm());

@@ -4,32 +4,54 @@ use core::f64::consts::{PI, TAU};
 
 use crate::math;
 
-/// Eccentric anomaly E of `M = E - e sin E` for `0 <= e < 1`, in rad, on the same revolution as M.
+/// An eccentric anomaly, in rad, with its sine and cosine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EccentricAnomaly {
+    /// In rad.
+    pub angle_rad: f64,
+    /// Its sine.
+    pub sin: f64,
+    /// Its cosine.
+    pub cos: f64,
+}
+
+/// Eccentric anomaly E of `M = E - e sin E` for `0 <= e < 1`, on the same revolution as M.
 ///
 /// Markley's method (Celestial Mechanics 63, 1995): a cubic start and one correction of fifth order, no iteration.
 /// The residual of Kepler's equation stays below 4e-15 + 1e-15 |M| with any good sine and cosine (tested for e up to 0.99).
-pub fn eccentric_anomaly_rad(mean_anomaly_rad: f64, eccentricity: f64) -> f64 {
+pub fn eccentric_anomaly(mean_anomaly_rad: f64, eccentricity: f64) -> EccentricAnomaly {
     let e = eccentricity;
-    let turns = (mean_anomaly_rad / TAU).round();
+    let turns = math::nearest_whole(mean_anomaly_rad * (1.0 / TAU));
     let m = mean_anomaly_rad - turns * TAU;
     if m == 0.0 {
-        return mean_anomaly_rad;
+        return EccentricAnomaly { angle_rad: mean_anomaly_rad, sin: 0.0, cos: 1.0 };
     }
-    let alpha = (3.0 * PI * PI + 1.6 * PI * (PI - m.abs()) / (1.0 + e)) / (PI * PI - 6.0);
+    let alpha = (3.0 * PI * PI + 1.6 * PI * (PI - m.abs()) * (1.0 / (1.0 + e))) * (1.0 / (PI * PI - 6.0));
     let d = 3.0 * (1.0 - e) + alpha * e;
     let q = 2.0 * alpha * d * (1.0 - e) - m * m;
     let r = 3.0 * alpha * d * (d - 1.0 + e) * m + m * m * m;
-    let cube_root = math::cbrt(r.abs() + (q * q * q + r * r).max(0.0).sqrt());
+    let cube_root = math::cbrt_approximate(r.abs() + (q * q * q + r * r).max(0.0).sqrt());
     let w = cube_root * cube_root;
-    let start = (2.0 * r * w / (w * w + w * q + q * q) + m) / d;
+    let divisor = w * w + w * q + q * q;
+    let start = (2.0 * r * w + m * divisor) / (divisor * d);
     let (sin, cos) = math::sin_cos(start);
     let f0 = start - e * sin - m;
     let f1 = 1.0 - e * cos;
     let (f2, f3) = (e * sin, e * cos);
     let d3 = -f0 / (f1 - 0.5 * f0 * f2 / f1);
-    let d4 = -f0 / (f1 + 0.5 * d3 * f2 + d3 * d3 * f3 / 6.0);
-    let d5 = -f0 / (f1 + 0.5 * d4 * f2 + d4 * d4 * f3 / 6.0 - d4 * d4 * d4 * f2 / 24.0);
-    start + d5 + turns * TAU
+    let (f3, f4) = (f3 * (1.0 / 6.0), f2 * (1.0 / 24.0));
+    let d4 = -f0 / (f1 + d3 * (0.5 * f2 + d3 * f3));
+    let d5 = -f0 / (f1 + d4 * (0.5 * f2 + d4 * (f3 - d4 * f4)));
+    let [sin, cos] = turned([sin, cos], d5);
+    EccentricAnomaly { angle_rad: start + d5 + turns * TAU, sin, cos }
+}
+
+/// Sine and cosine of an angle that is increased by a small one, in rad; at rounding below 0.01 rad.
+fn turned([sin, cos]: [f64; 2], by_rad: f64) -> [f64; 2] {
+    let square = by_rad * by_rad;
+    let by_sin = by_rad * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0 - square * (1.0 / 5040.0))));
+    let less_cos = square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)));
+    [sin + (cos * by_sin - sin * less_cos), cos - (sin * by_sin + cos * less_cos)]
 }
 
 /// Hyperbolic anomaly H of `M = e sinh H - H` for `e > 1`.

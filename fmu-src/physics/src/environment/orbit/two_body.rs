@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     elements::{Elements, OrbitError, check, check_mu},
-    kepler::{eccentric_anomaly_rad, hyperbolic_anomaly},
+    kepler::{EccentricAnomaly, eccentric_anomaly, hyperbolic_anomaly},
 };
 use crate::environment::CartesianState;
 use crate::math;
@@ -83,7 +83,7 @@ impl TwoBodyOrbit {
         // Coordinates in the plane over |a|, their derivative by the anomaly, and r / |a|.
         let (along, across, d_along, d_across, distance) = if e < 1.0 {
             let minor = ((1.0 - e) * (1.0 + e)).sqrt();
-            let (sin, cos) = math::sin_cos(eccentric_anomaly_rad(mean_anomaly, e));
+            let EccentricAnomaly { sin, cos, .. } = eccentric_anomaly(mean_anomaly, e);
             (cos - e, minor * sin, -sin, minor * cos, 1.0 - e * cos)
         } else {
             let minor = ((e - 1.0) * (e + 1.0)).sqrt();

@@ -381,7 +381,7 @@ impl Trajectory {
             Motion::Disturbed { gravity, .. } => {
                 let sun_m = |at_s: f64| {
                     let epoch_s = at_s + configuration.epoch_minus_time_s;
-                    geometry::sun_and_earth(configuration, ephemeris, epoch_s).0.position_m
+                    geometry::body(configuration, ephemeris, Body::Sun, epoch_s).position_m
                 };
                 orbit.advance_to(limit_s, method, gravity, sun_m, |at_s, _| extra_m_s2(at_s))?;
                 0
