@@ -107,10 +107,13 @@ impl MomentumSegment {
         flight.spend(Effort::Segment, start_s)?;
         let mut interval = AdaptiveInterval::new(start_s, settings.grid_s, longest_s, horizon_s, SHORTEST_S);
         let mut watched = false;
-        let (nodes, samples, totals, structure_body_n_m_s, next_longest_s) = loop {
+        // Written in place: arrays as the value of the loop would be copied.
+        let mut samples = [TorqueSample::default(); NODES];
+        let (mut nodes, mut totals, mut structure_body_n_m_s);
+        let next_longest_s = loop {
             let end_s = interval.end_s();
-            let nodes = Segment::<RATES, NODES>::nodes(start_s, end_s);
-            let samples = nodes.map(|at_s| flight.sample(at_s));
+            nodes = Segment::<RATES, NODES>::nodes(start_s, end_s);
+            samples.iter_mut().zip(nodes).for_each(|(sample, at_s)| *sample = flight.sample(at_s));
             // A shorter segment has no event that a longer one has not.
             if !core::mem::replace(&mut watched, true) {
                 let values = samples.each_ref().map(|sample| sample.events);
@@ -128,23 +131,22 @@ impl MomentumSegment {
                 let torque_inertial_n_m = s.inertial_from_body * s.torque_body_n_m;
                 pack(torque_inertial_n_m, s.torque_body_n_m, s.acceleration_inertial_m_s2)
             });
-            let totals: Segment<RATES, { NODES + 1 }> =
-                Segment::<RATES, NODES>::from_samples(start_s, end_s, &rates).integral(at_start.to_vector());
-            let structure_body_n_m_s: Option<Segment<3, NODES>> = samples[0].structure_body_n_m_s.map(|_| {
+            totals = Segment::<RATES, NODES>::from_samples(start_s, end_s, &rates)
+                .integral::<{ NODES + 1 }>(at_start.to_vector());
+            structure_body_n_m_s = samples[0].structure_body_n_m_s.map(|_| {
                 let momenta = samples.each_ref().map(|s| s.structure_body_n_m_s.unwrap_or_default());
-                Segment::from_samples(start_s, end_s, &momenta)
+                Segment::<3, NODES>::from_samples(start_s, end_s, &momenta)
             });
-            let terms = totals.coefficients();
-            let mut unresolved = terms.column(NODES).amax().max(terms.column(NODES - 1).amax());
-            let tolerance = settings.tolerance.max(ROUNDING * terms.amax());
-            if let Some(terms) = structure_body_n_m_s.as_ref().map(Segment::coefficients)
-                && terms.amax() > 0.0
+            let mut unresolved = totals.greatest_term(NODES - 1);
+            let tolerance = settings.tolerance.max(ROUNDING * totals.greatest_term(0));
+            if let Some(structure) = &structure_body_n_m_s
+                && structure.greatest_term(0) > 0.0
             {
-                let share = terms.columns(NODES - 2, 2).amax() / terms.amax();
+                let share = structure.greatest_term(NODES - 2) / structure.greatest_term(0);
                 unresolved = unresolved.max(share / STRUCTURE_TOLERANCE * tolerance);
             }
             if let Some(next_longest_s) = interval.accept(unresolved, tolerance, NODES) {
-                break (nodes, samples, totals, structure_body_n_m_s, next_longest_s);
+                break next_longest_s;
             }
             flight.spend(Effort::Refinement, start_s)?;
         };

@@ -15,7 +15,7 @@ pub fn after_event_s(start_s: f64) -> f64 {
 }
 
 /// What a flight gives at one time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TorqueSample {
     /// Matrix that takes body components to inertial components.
     pub inertial_from_body: Rotation3<f64>,

@@ -177,18 +177,12 @@ impl<'a> Plant<'a> {
 
     /// Everything at `time_s`, which the propagator must have reached ([`TorqueModel::prepare`]).
     pub fn evaluate(&mut self, time_s: f64) -> Evaluation {
-        // In place, for it is large.
-        let mut evaluation = Evaluation {
-            instant: self.kinematics.instant(time_s),
-            loads: Loads::zero(),
-            mass: self.kinematics.mass_at_zero,
-            panels_body_n_m_s: Vector3::zeros(),
-            air_and_field: self.air_and_field(time_s),
-        };
-        let Evaluation { instant, loads, mass, panels_body_n_m_s, air_and_field } = &mut evaluation;
+        let instant = self.kinematics.instant(time_s);
+        let air_and_field = self.air_and_field(time_s);
         let configuration = self.kinematics.configuration;
-        *mass = self.mass_properties(instant, time_s);
-        self.radiation(time_s, instant, &mass.center_of_mass_body_m, loads);
+        let mass = self.mass_properties(&instant, time_s);
+        let mut loads = Loads::zero();
+        self.radiation(time_s, &instant, &mass.center_of_mass_body_m, &mut loads);
         if let Some(planet_body_m) = instant.planet_body_m {
             let is_magnetic = configuration.effects.has(Effect::Magnetic);
             let at = LocalEnvironment {
@@ -199,13 +193,13 @@ impl<'a> Plant<'a> {
                     true => instant.to_body * air_and_field.field_inertial_t,
                     false => Vector3::zeros(),
                 },
-                air: self.air_load(time_s, instant, air_and_field, &mass.center_of_mass_body_m),
+                air: self.air_load(time_s, &instant, &air_and_field, &mass.center_of_mass_body_m),
             };
-            configuration.laws.exert(configuration.effects, &at, loads);
+            configuration.laws.exert(configuration.effects, &at, &mut loads);
         }
         [loads[Effect::Applied], _] = (self.external)(time_s);
-        *panels_body_n_m_s = self.panel_momentum_body_n_m_s(instant, mass, time_s);
-        evaluation
+        let panels_body_n_m_s = self.panel_momentum_body_n_m_s(&instant, &mass, time_s);
+        Evaluation { instant, loads, mass, panels_body_n_m_s, air_and_field }
     }
 
     /// Force and torque from outside at `time_s` and their slopes per second.
