@@ -60,6 +60,9 @@ const SHORT_S: f64 = 8.0 * DAY_S;
 const INTERPOLATION_TERMS: usize = 6;
 /// Length of an interpolation segment, of which all others are whole multiples. The next term would be 1e-6 m for Mercury.
 const INTERPOLATION_S: f64 = 0.125 * DAY_S;
+/// Span of time whose interpolation segments are held, in s: an iteration over a day of an n-body orbit comes back to each of its
+/// nodes.
+const INTERPOLATED_S: f64 = 14.0 * INTERPOLATION_S;
 /// How far from the end of an element segment its rate is taken.
 const RATE_STEP_S: f64 = 0.1 * DAY_S;
 
@@ -147,7 +150,7 @@ impl EphemerisCache {
 
 /// Planet positions, a cache over VSOP87: the same epoch always gives the same bits. It is no state: skip it when serialising and
 /// start from the default.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Ephemeris {
     fitted: FittedSegments,
     interpolated: [Slots<3, INTERPOLATION_TERMS>; Body::COUNT],
@@ -182,6 +185,19 @@ impl Entered {
         if *slot != Some(number) {
             *slot = Some(number);
             self.count += u64::from(!is_first);
+        }
+    }
+}
+
+impl Default for Ephemeris {
+    fn default() -> Self {
+        let interpolated = || Slots::spanning(INTERPOLATED_S, INTERPOLATION_S);
+        Self {
+            fitted: FittedSegments::default(),
+            interpolated: core::array::from_fn(|_| interpolated()),
+            moon_interpolated: interpolated(),
+            entered: Default::default(),
+            moon_entered: Entered::default(),
         }
     }
 }
@@ -340,11 +356,10 @@ impl<const D: usize, const N: usize> Slots<D, N> {
     }
 
     fn place(&self, number: i64) -> usize {
-        match self.held.len() {
-            // An integer division is slow.
-            2 => (number & 1) as usize,
-            count => number.rem_euclid(count as i64) as usize,
-        }
+        let count = self.held.len() as i64;
+        // An integer division is slow.
+        let place = if count & (count - 1) == 0 { number & (count - 1) } else { number.rem_euclid(count) };
+        place as usize
     }
 
     fn segment(
