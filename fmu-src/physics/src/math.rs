@@ -85,8 +85,8 @@ pub fn floor(x: f64) -> i64 {
 /// The nearest integer, ties upward. `f64::round` is a function call on baseline x86-64.
 #[inline]
 #[must_use]
-pub fn nearest_whole(x: f64) -> f64 {
-    // From 2^52 on there are integers alone.
+pub fn nearest_integer(x: f64) -> f64 {
+    // Doubles above 2^52 are integers.
     if x.abs() < 4_503_599_627_370_496.0 { floor(x + 0.5) as f64 } else { x }
 }
 
@@ -94,7 +94,7 @@ pub fn nearest_whole(x: f64) -> f64 {
 #[inline]
 #[must_use]
 pub fn wrapped_rad(angle_rad: f64) -> f64 {
-    if angle_rad.abs() <= PI { angle_rad } else { angle_rad - TAU * nearest_whole(angle_rad / TAU) }
+    if angle_rad.abs() <= PI { angle_rad } else { angle_rad - TAU * nearest_integer(angle_rad / TAU) }
 }
 
 /// `base` to a whole power, by repeated squaring: the compiler's own leaves open in which order it multiplies.
@@ -127,17 +127,17 @@ mod tests {
     }
 
     #[test]
-    fn floor_and_nearest_whole_are_those_of_the_standard_library() {
+    fn floor_and_nearest_integer_are_those_of_the_standard_library() {
         for x in
             [0.0, 0.3, 0.7, 1.0, 1e6 + 0.4, 4_503_599_627_370_497.0, 1e18].map(|x| [x, -x]).as_flattened()
         {
             assert_eq!(floor(*x), x.floor() as i64, "{x}");
-            assert_eq!(nearest_whole(*x), x.round(), "{x}");
+            assert_eq!(nearest_integer(*x), x.round(), "{x}");
         }
-        assert_eq!([-1.5, -0.5, 0.5, 1.5].map(nearest_whole), [-1.0, 0.0, 1.0, 2.0]);
+        assert_eq!([-1.5, -0.5, 0.5, 1.5].map(nearest_integer), [-1.0, 0.0, 1.0, 2.0]);
         let extremes = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY].map(floor);
         assert_eq!(extremes, [0, i64::MAX, i64::MIN]);
-        assert!(nearest_whole(f64::NAN).is_nan());
+        assert!(nearest_integer(f64::NAN).is_nan());
     }
 
     #[test]

@@ -139,8 +139,8 @@ impl AccessTable {
     /// The first Real that is no finite number, with its reference; `None` costs one pass without branches.
     #[inline]
     pub(crate) fn first_not_finite(&self, values: &Values) -> Option<(u32, f64)> {
-        // A sum with a NaN or an infinity is not finite. Finite numbers may overflow too, so the search decides. In lanes, so
-        // that it becomes vector code.
+        // A NaN or an infinity makes the sum not finite. So does an overflow of finite numbers, which the search excludes.
+        // Eight partial sums vectorize.
         let (chunks, rest) = values.reals.as_chunks::<8>();
         let mut lanes = [0.0; 8];
         for chunk in chunks {

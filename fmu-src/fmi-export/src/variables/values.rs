@@ -37,8 +37,8 @@ impl SetBits {
         word >> (place % u64::BITS as usize) & 1 == 1
     }
 
-    /// The places that are set.
-    fn places(&self) -> impl Iterator<Item = usize> {
+    /// Indices of the values that are set.
+    fn indices(&self) -> impl Iterator<Item = usize> {
         self.0.iter().enumerate().flat_map(|(word, &bits)| {
             let left = core::iter::successors(Some(bits), |bits| bits.checked_sub(1).map(|less| bits & less));
             left.take_while(|bits| *bits != 0)
@@ -88,7 +88,7 @@ impl Values {
         elements.places().all(|place| self.set[table].is_set(place) && self.is_same(start, base, place))
     }
 
-    /// Whether the value at a place is the same to the bit.
+    /// Whether two values are equal bit by bit.
     fn is_same(&self, other: &Self, base: BaseType, place: usize) -> bool {
         match base {
             BaseType::Real => {
@@ -101,10 +101,10 @@ impl Values {
         }
     }
 
-    /// Whether no value that the importer ever set differs from `before`, to the bit. Between steps no other value changes.
-    pub(crate) fn repeats_what_is_set(&self, before: &Self) -> bool {
+    /// Whether all values that the importer set equal those of `before`, bit by bit. No others change between steps.
+    pub(crate) fn set_values_equal(&self, before: &Self) -> bool {
         let mut tables = BaseType::ALL.into_iter().zip(&self.set);
-        tables.all(|(base, set)| set.places().all(|place| self.is_same(before, base, place)))
+        tables.all(|(base, set)| set.indices().all(|index| self.is_same(before, base, index)))
     }
 
     /// Writes the value that a setup gives at a place in the table of its type.

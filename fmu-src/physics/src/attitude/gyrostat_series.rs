@@ -11,7 +11,7 @@ use super::oscillator::OscillatorMotion;
 use super::rotor_motion::RotorMotion;
 use super::series::{ORDER, ROUNDING, RotationSeries, TERMS, exact_length_s};
 use super::wheel::{Motor, Rotor};
-use crate::numerics::chebyshev::greatest_magnitude;
+use crate::numerics::chebyshev::largest_magnitude;
 
 /// [`ROUNDING`] of cosine and sine of a rotor's phase, which act on the body through a small imbalance alone.
 const PHASE_ROUNDING: f64 = 1e-14;
@@ -107,9 +107,9 @@ impl GyrostatSeries<'_> {
     fn size(&self, scale_n_m_s: f64, j: usize) -> f64 {
         let turning = self.rotors.iter().filter(|it| matches!(it.rotor, Rotor::Turning { .. }));
         let momenta = turning.map(|it| &it.axial[j]).chain(&self.series.momentum[j]);
-        let momentum = greatest_magnitude(momenta).max(self.swing_n_m_s(j));
+        let momentum = largest_magnitude(momenta).max(self.swing_n_m_s(j));
         let phase = self.imbalances.iter().map(|it| it.size(j)).fold(0.0, f64::max);
-        greatest_magnitude(&self.series.attitude[j])
+        largest_magnitude(&self.series.attitude[j])
             .max(momentum / scale_n_m_s)
             .max(phase * (ROUNDING / PHASE_ROUNDING))
     }

@@ -9,7 +9,7 @@
 //! carries the Moon's monthly swing, is fitted directly, 17 evaluations for 16 days. The Sun stands still.
 //! The Moon stands beyond the barycentre of Earth and Moon, as far as their masses say: the difference of two of VSOP87's
 //! rectangular series, 24 evaluations for 16 days.
-//! [`Ephemeris::state`] evaluates a last layer: series of 6 terms for 3 hours, which interpolate these segments.
+//! A last layer interpolates these segments by 6 Chebyshev terms for 3 hours; [`Ephemeris::state`] evaluates it.
 //!
 //! Error of the fit anywhere between 1900 and 2100 (tested): Mercury below 100 m, Venus below 10 m, Mars and Jupiter
 //! below 20 m, Earth below 1 m. Segments meet to 0.1 m and 1e-5 m/s. VSOP87 itself is good to about 1 km for Mercury, a few for
@@ -58,10 +58,9 @@ const MIDDLE_S: f64 = 16.0 * DAY_S;
 const SHORT_S: f64 = 8.0 * DAY_S;
 /// Coefficients of an interpolation segment.
 const INTERPOLATION_TERMS: usize = 6;
-/// Length of an interpolation segment, of which all others are whole multiples. The next term would be 1e-6 m for Mercury.
+/// Length of an interpolation segment, a divisor of all other lengths.
 const INTERPOLATION_S: f64 = 0.125 * DAY_S;
-/// Span of time whose interpolation segments are held, in s: an iteration over a day of an n-body orbit comes back to each of its
-/// nodes.
+/// Span of the interpolation segments in memory, in s: an n-body step evaluates the same nodes several times.
 const INTERPOLATED_S: f64 = 14.0 * INTERPOLATION_S;
 /// How far from the end of an element segment its rate is taken.
 const RATE_STEP_S: f64 = 0.1 * DAY_S;
@@ -382,7 +381,7 @@ impl<const D: usize, const N: usize> Slots<D, N> {
     }
 }
 
-/// The same on a part of a segment.
+/// Interpolates a part of a fitted segment.
 fn interpolation<const N: usize>(
     fitted: &Segment<3, N>,
     [start_s, end_s]: [f64; 2],

@@ -107,7 +107,7 @@ impl MomentumSegment {
         flight.spend(Effort::Segment, start_s)?;
         let mut interval = AdaptiveInterval::new(start_s, settings.grid_s, longest_s, horizon_s, SHORTEST_S);
         let mut watched = false;
-        // Written in place: arrays as the value of the loop would be copied.
+        // Declared outside: a loop copies the arrays that it returns.
         let mut samples = [TorqueSample::default(); NODES];
         let (mut nodes, mut totals, mut structure_body_n_m_s);
         let next_longest_s = loop {
@@ -137,12 +137,12 @@ impl MomentumSegment {
                 let momenta = samples.each_ref().map(|s| s.structure_body_n_m_s.unwrap_or_default());
                 Segment::<3, NODES>::from_samples(start_s, end_s, &momenta)
             });
-            let mut unresolved = totals.greatest_term(NODES - 1);
-            let tolerance = settings.tolerance.max(ROUNDING * totals.greatest_term(0));
+            let mut unresolved = totals.largest_term(NODES - 1);
+            let tolerance = settings.tolerance.max(ROUNDING * totals.largest_term(0));
             if let Some(structure) = &structure_body_n_m_s
-                && structure.greatest_term(0) > 0.0
+                && structure.largest_term(0) > 0.0
             {
-                let share = structure.greatest_term(NODES - 2) / structure.greatest_term(0);
+                let share = structure.largest_term(NODES - 2) / structure.largest_term(0);
                 unresolved = unresolved.max(share / STRUCTURE_TOLERANCE * tolerance);
             }
             if let Some(next_longest_s) = interval.accept(unresolved, tolerance, NODES) {

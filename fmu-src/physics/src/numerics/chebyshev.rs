@@ -72,8 +72,8 @@ impl<const D: usize, const N: usize> Segment<D, N> {
         Self::from_samples(start, end, &Self::nodes(start, end).map(function))
     }
 
-    /// The function on a part of its interval, as the antiderivative of an interpolation of its derivative by `K` terms:
-    /// interpolated values would put their rounding, over the part's length, into the derivative. `M` must be `K + 1`.
+    /// The function on a part of its interval, by integrating `K` Chebyshev terms of its derivative. Interpolated values would
+    /// give a derivative with their rounding error over the part's length. `M` must be `K + 1`.
     pub fn part<const K: usize, const M: usize>(&self, start: f64, end: f64) -> Segment<D, M> {
         let derivative = Segment::<D, K>::fit(start, end, |at| self.value_and_derivative(at).1);
         derivative.integral(self.value(start))
@@ -140,10 +140,10 @@ impl<const D: usize, const N: usize> Segment<D, N> {
         &self.coefficients
     }
 
-    /// The greatest magnitude among the coefficients from this term on.
-    pub fn greatest_term(&self, from: usize) -> f64 {
+    /// Largest magnitude of the coefficients from this term on.
+    pub fn largest_term(&self, from: usize) -> f64 {
         let columns = self.coefficients.data.0.get(from..).unwrap_or_default();
-        greatest_magnitude(columns.iter().flatten())
+        largest_magnitude(columns.iter().flatten())
     }
 
     /// The function at `at`.
@@ -233,9 +233,9 @@ pub fn series_at<const D: usize>(coefficients: &[[f64; D]], x: f64) -> ([f64; D]
     (value, derivative)
 }
 
-/// The greatest magnitude, NaN ignored; faster than a fold by `f64::max`.
+/// Largest magnitude, NaN ignored; faster than a fold by `f64::max`.
 #[inline]
-pub fn greatest_magnitude<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
+pub fn largest_magnitude<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
     values.into_iter().fold(0.0, |most, value| if value.abs() > most { value.abs() } else { most })
 }
 

@@ -65,7 +65,7 @@ pub fn cylinder_force_torque<T: Scalar>(cylinder: &Cylinder, beam: &Beam<T>) -> 
     }
 }
 
-/// An end of an arc.
+/// End of a lit arc.
 #[derive(Clone, Copy)]
 struct ArcEnd<T: Scalar> {
     /// From -Y, in rad.
@@ -84,7 +84,7 @@ fn lit_arcs<T: Scalar>(half_angle_rad: f64, sun: &Vector3<T>) -> [Option<[ArcEnd
     let across = (sun.x * sun.x + sun.y * sun.y).sqrt();
     let (sin, cos) = (sun.x / across, -sun.y / across);
     let (sin_half, cos_half) = math::sin_cos(half_angle_rad);
-    // The edge of the section at +-`side`.
+    // Edge of the section on the side of this sign.
     let edge = |side: f64| ArcEnd {
         angle_rad: T::constant(side * half_angle_rad),
         sin: T::constant(side * sin_half),

@@ -59,8 +59,8 @@ impl SolarModel {
         self.fixed.len() + usize::from(self.cylinder.is_some()) + 2 * self.panels.len()
     }
 
-    /// On everything, about the centre of mass (body frame, m); `normal_body` tells the unit normal of each panel's cell side
-    /// (by number, from 0), and none for one that takes no part.
+    /// On all surfaces, about the centre of mass (body frame, m); `normal_body` gives the unit normal of each panel's cell side
+    /// (by index), `None` for a panel that is left out.
     #[inline]
     pub fn load<T: Scalar>(
         &self,

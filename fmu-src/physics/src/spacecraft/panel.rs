@@ -93,11 +93,11 @@ impl Panel {
     /// Unit normal of the cell side at an angle about the axis (paper 000, eq 9, for any axis and zero direction).
     pub fn normal_body<T: Scalar>(&self, angle_rad: T) -> Vector3<T> {
         let (sin, cos) = sin_cos(angle_rad);
-        self.normal_toward([cos, sin])
+        self.normal_by_cos_sin([cos, sin])
     }
 
-    /// The same by cosine and sine of the angle.
-    pub fn normal_toward<T: Scalar>(&self, [cos, sin]: [T; 2]) -> Vector3<T> {
+    /// Unit normal of the cell side by cosine and sine of the angle.
+    fn normal_by_cos_sin<T: Scalar>(&self, [cos, sin]: [T; 2]) -> Vector3<T> {
         constant_vector::<T>(&self.zero_normal_body) * cos
             + constant_vector::<T>(&self.quarter_normal()) * sin
     }
@@ -122,7 +122,7 @@ impl Panel {
         facing + tilt * tilt_sign
     }
 
-    /// The cell normal at that angle, by cosine and sine of the offset; `tilt_sign` must be +1 or -1.
+    /// Unit normal of the cell side at that angle; `sun_offset` is cosine and sine of the offset, `tilt_sign` +1 or -1.
     pub fn normal_for_sun_offset<T: Scalar>(
         &self,
         sun_body: &Vector3<T>,
@@ -133,13 +133,13 @@ impl Panel {
         let ([cos, sin], [tilt_cos, tilt_sin]) = (facing, [tilt[0], tilt[1] * tilt_sign]);
         let square = |[cos, sin]: [T; 2]| cos * cos + sin * sin;
         let per_length = T::constant(1.0) / (square(facing) * square(tilt)).sqrt();
-        self.normal_toward([
+        self.normal_by_cos_sin([
             (cos * tilt_cos - sin * tilt_sin) * per_length,
             (sin * tilt_cos + cos * tilt_sin) * per_length,
         ])
     }
 
-    /// Cosine and sine, times any length, of the Sun-facing angle and of the tilt from it, by those of the offset.
+    /// Unnormalised cosine and sine of the Sun-facing angle and of the tilt from it; the argument is those of the offset.
     fn facing_and_tilt<T: Scalar>(&self, sun_body: &Vector3<T>, [cos, sin]: [T; 2]) -> [[T; 2]; 2] {
         /// The axis is across the Sun but for the rounding of a unit vector.
         const ACROSS: f64 = 4.0 * f64::EPSILON;

@@ -101,7 +101,7 @@ impl InstanceState {
     /// Whether an input or tunable parameter differs from what the last step used. One that was set and set back does
     /// not: values agree to the bit, so the model continues as if nothing had been set.
     pub(crate) fn differs(&self) -> bool {
-        self.at_last_step.as_ref().is_some_and(|before| !self.values.repeats_what_is_set(before))
+        self.at_last_step.as_ref().is_some_and(|before| !self.values.set_values_equal(before))
     }
 
     /// Whether decoded bytes make sense for a model with these variables. The error says what does not.

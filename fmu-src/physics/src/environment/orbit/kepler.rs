@@ -21,7 +21,7 @@ pub struct EccentricAnomaly {
 /// The residual of Kepler's equation stays below 4e-15 + 1e-15 |M| with any good sine and cosine (tested for e up to 0.99).
 pub fn eccentric_anomaly(mean_anomaly_rad: f64, eccentricity: f64) -> EccentricAnomaly {
     let e = eccentricity;
-    let turns = math::nearest_whole(mean_anomaly_rad * (1.0 / TAU));
+    let turns = math::nearest_integer(mean_anomaly_rad * (1.0 / TAU));
     let m = mean_anomaly_rad - turns * TAU;
     if m == 0.0 {
         return EccentricAnomaly { angle_rad: mean_anomaly_rad, sin: 0.0, cos: 1.0 };
@@ -46,7 +46,7 @@ pub fn eccentric_anomaly(mean_anomaly_rad: f64, eccentricity: f64) -> EccentricA
     EccentricAnomaly { angle_rad: start + d5 + turns * TAU, sin, cos }
 }
 
-/// Sine and cosine of an angle that is increased by a small one, in rad; at rounding below 0.01 rad.
+/// Sine and cosine after a small increment of the angle, in rad; exact to rounding below 0.01 rad.
 fn turned([sin, cos]: [f64; 2], by_rad: f64) -> [f64; 2] {
     let square = by_rad * by_rad;
     let by_sin = by_rad * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0 - square * (1.0 / 5040.0))));

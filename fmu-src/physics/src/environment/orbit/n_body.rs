@@ -303,7 +303,7 @@ impl<E: BodyEphemeris> BodiesAbout<'_, E> {
         path: impl Fn(f64) -> CartesianState,
     ) -> Option<Reached> {
         let Self { gravity, about, .. } = *self;
-        // Over so short a span only rounding crosses an edge; `body_at_edge` decides where the next segment begins.
+        // On so short a span a crossing is a rounding error; the next segment's start decides (`body_at_edge`).
         let is_short = farthest_m(&path(span_s[0]), span_s) < EDGE_M;
         if !gravity.settings.changes_center || is_short {
             return None;

@@ -51,15 +51,10 @@ impl Ramp {
         (time_s - self.since_s) * self.rate_rad_s + self.angle_rad
     }
 
-    /// Its cosine and sine at `time_s`.
-    fn cos_sin_at<T: Scalar>(&self, time_s: T) -> [T; 2] {
-        if self.rate_rad_s == 0.0 { self.cos_sin.map(T::constant) } else { cos_sin(self.at_rad(time_s)) }
+    /// Cosine and sine of an angle that stays.
+    fn held_cos_sin(&self) -> Option<[f64; 2]> {
+        (self.rate_rad_s == 0.0).then_some(self.cos_sin)
     }
-}
-
-fn cos_sin<T: Scalar>(angle_rad: T) -> [T; 2] {
-    let (sin, cos) = sin_cos(angle_rad);
-    [cos, sin]
 }
 
 /// One step of a timeline of a panel.
@@ -119,38 +114,45 @@ pub enum PanelSetting {
 impl PanelSetting {
     /// Angle about the panel's axis, in rad, with the Sun there; `None` when left out.
     pub fn angle_rad<T: Scalar>(&self, panel: &Panel, sun: &SunAt<T>) -> Option<T> {
-        let (offset_rad, tilt_sign) = match self {
-            Self::Disabled => return None,
-            Self::Angle(angle) => return Some(angle.at_rad(sun.time_s)),
-            Self::SunOffset { offset, tilt_sign } => (offset.at_rad(sun.time_s), tilt_sign),
-            Self::Timeline { tilt_sign, .. } => (T::constant(self.timeline_offset_rad(sun)), tilt_sign),
-            Self::Distance { suns, tilt_sign } => (offset_for_suns(*suns, sun.distance_m), tilt_sign),
-        };
-        Some(panel.angle_for_sun_offset(&sun.direction_body, offset_rad, *tilt_sign))
+        Some(match self.commanded(sun)? {
+            Commanded::Angle(angle_rad) => angle_rad,
+            Commanded::SunOffset { offset_rad, tilt_sign, .. } => {
+                panel.angle_for_sun_offset(&sun.direction_body, offset_rad, tilt_sign)
+            }
+        })
     }
 
     /// Unit normal of the cell side, body frame, with the Sun there; `None` when left out.
     pub fn normal_body<T: Scalar>(&self, panel: &Panel, sun: &SunAt<T>) -> Option<Vector3<T>> {
-        let (offset, tilt_sign) = match self {
-            Self::Disabled => return None,
-            Self::Angle(angle) => return Some(panel.normal_toward(angle.cos_sin_at(sun.time_s))),
-            Self::SunOffset { offset, tilt_sign } => (offset.cos_sin_at(sun.time_s), tilt_sign),
-            Self::Timeline { tilt_sign, .. } => {
-                (cos_sin(self.timeline_offset_rad(sun)).map(T::constant), tilt_sign)
+        Some(match self.commanded(sun)? {
+            Commanded::Angle(angle_rad) => panel.normal_body(angle_rad),
+            Commanded::SunOffset { offset_rad, cos_sin, tilt_sign } => {
+                let of_angle = || {
+                    let (sin, cos) = sin_cos(offset_rad);
+                    [cos, sin]
+                };
+                let sun_offset = cos_sin.map_or_else(of_angle, |it| it.map(T::constant));
+                panel.normal_for_sun_offset(&sun.direction_body, sun_offset, tilt_sign)
             }
-            Self::Distance { suns, tilt_sign } => {
-                (cos_sin(offset_for_suns(*suns, sun.distance_m)), tilt_sign)
-            }
-        };
-        Some(panel.normal_for_sun_offset(&sun.direction_body, offset, *tilt_sign))
+        })
     }
 
-    /// The offset that a timeline has at this time, in rad.
-    fn timeline_offset_rad<T: Scalar>(&self, sun: &SunAt<T>) -> f64 {
-        let Self::Timeline { steps, clock_minus_time_s, before_rad, .. } = self else { return 0.0 };
-        let begun = begun_steps(steps, *clock_minus_time_s, sun.time_s.value());
-        let step = begun.checked_sub(1).and_then(|last| steps.get(last));
-        step.map_or(*before_rad, |step| step.offset_rad)
+    /// Commanded angle with the Sun there; `None` when left out.
+    fn commanded<T: Scalar>(&self, sun: &SunAt<T>) -> Option<Commanded<T>> {
+        let (offset_rad, cos_sin, tilt_sign) = match self {
+            Self::Disabled => return None,
+            Self::Angle(angle) => return Some(Commanded::Angle(angle.at_rad(sun.time_s))),
+            Self::SunOffset { offset, tilt_sign } => {
+                (offset.at_rad(sun.time_s), offset.held_cos_sin(), tilt_sign)
+            }
+            Self::Timeline { steps, clock_minus_time_s, before_rad, tilt_sign } => {
+                let begun = begun_steps(steps, *clock_minus_time_s, sun.time_s.value());
+                let step = begun.checked_sub(1).and_then(|last| steps.get(last));
+                (T::constant(step.map_or(*before_rad, |step| step.offset_rad)), None, tilt_sign)
+            }
+            Self::Distance { suns, tilt_sign } => (offset_for_suns(*suns, sun.distance_m), None, tilt_sign),
+        };
+        Some(Commanded::SunOffset { offset_rad, cos_sin, tilt_sign: *tilt_sign })
     }
 
     /// That angle and its rate, in rad and rad/s, the Sun moving; 0 when left out.
@@ -183,6 +185,21 @@ impl PanelSetting {
             Self::Disabled | Self::Angle(_) => false,
         }
     }
+}
+
+/// Angle that a setting commands at one time.
+enum Commanded<T> {
+    /// About the panel's axis, in rad.
+    Angle(T),
+    /// From the Sun.
+    SunOffset {
+        /// In rad.
+        offset_rad: T,
+        /// Cosine and sine of an offset that stays.
+        cos_sin: Option<[f64; 2]>,
+        /// +1 or -1: the sense of the tilt about the axis.
+        tilt_sign: f64,
+    },
 }
 
 /// How many of the steps have begun at `time_s`.
