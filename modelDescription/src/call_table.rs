@@ -189,31 +189,50 @@ const fn after_success(function: Function, state: State) -> Next {
     })
 }
 
-/// A call outside the table that our FMUs answer all the same, with one message in the log.
+/// A call outside the table that our FMUs answer all the same, with a message in the log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Leniency {
     /// The functions.
     pub functions: &'static [Function],
     /// The state.
     pub state: State,
+    /// The status of the answer.
+    pub answer: Status,
     /// For which variables.
     pub variables: &'static str,
     /// Why it is admitted.
     pub reason: &'static str,
 }
 
+const GETTERS: &[Function] =
+    &[Function::GetReal, Function::GetInteger, Function::GetBoolean, Function::GetString];
+
 /// Every leniency there is.
 pub const LENIENCIES: &[Leniency] = &[
     Leniency {
         functions: &[Function::SetReal, Function::SetInteger, Function::SetBoolean, Function::SetString],
         state: State::Instantiated,
+        answer: Status::Ok,
         variables: "inputs",
         reason: "FMPy sets inputs before Initialization Mode, and FMI 3.0 allows it",
     },
     Leniency {
-        functions: &[Function::GetReal, Function::GetInteger, Function::GetBoolean, Function::GetString],
+        functions: GETTERS,
+        state: State::Instantiated,
+        answer: Status::Warning,
+        variables: "variables with a start value",
+        reason: "many tools show values before a run, and FMI 3.0 allows it",
+    },
+    Leniency {
+        functions: GETTERS,
         state: State::InitializationMode,
+        answer: Status::Ok,
         variables: "inputs, parameters and locals",
         reason: "libcosim's observers read every variable in Initialization Mode, and FMI 3.0 allows it",
     },
 ];
+
+/// The leniency by which our FMUs answer `function` in `state`, if there is one.
+pub fn leniency(function: Function, state: State) -> Option<&'static Leniency> {
+    LENIENCIES.iter().find(|it| it.state == state && it.functions.contains(&function))
+}

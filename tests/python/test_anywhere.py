@@ -1,5 +1,6 @@
 """Files and pages hold on other machines too: neither GUIDs nor results depend on the host's mathematics, the README's commands run."""
 
+import ctypes
 import os
 import pathlib
 import re
@@ -8,7 +9,7 @@ import sys
 import zipfile
 
 import pytest
-from fmpy import read_model_description
+from fmpy import extract, fmi2, read_model_description
 
 from spacecraft import RESOURCES, call
 
@@ -41,6 +42,33 @@ def test_guid_and_results_are_the_same_on_every_processor(heliotorque, dist, tmp
         guids.append(read_model_description(str(fmu)).guid)
         results.append((tmp_path / f"{name}.csv").read_bytes())
     assert guids[0] == guids[1] and results[0] == results[1]
+
+
+@pytest.mark.parametrize("name", ["MomentumPlant", "Cubesat"])
+@pytest.mark.parametrize("location", [None, b""])
+def test_a_master_may_leave_the_resource_location_out(dist, tmp_path, name, location):
+    description = read_model_description(str(dist / f"{name}.fmu"))
+    folder = pathlib.Path(extract(str(dist / f"{name}.fmu"), unzipdir=str(tmp_path / "fmu")))
+
+    def instantiate():
+        slave = fmi2.FMU2Slave(
+            guid=description.guid, unzipDirectory=str(folder), instanceName="it",
+            modelIdentifier=description.coSimulation.modelIdentifier,
+        )
+        messages, callbacks = [], fmi2.fmi2CallbackFunctions()
+        callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(lambda *words: messages.append(words[-1].decode()))
+        guid, given = description.guid.encode(), ctypes.byref(callbacks)
+        slave.component = slave.fmi2Instantiate(b"it", fmi2.fmi2CoSimulation, guid, location, given, 0, 0)
+        if slave.component:
+            slave.freeInstance()
+        return bool(slave.component), messages
+
+    assert instantiate() == (True, [])
+    # The compiled-in spacecraft is MomentumPlant's own; another one's is named where it is missing.
+    os.rename(folder / "resources", tmp_path / "elsewhere")
+    lives, messages = instantiate()
+    assert lives == (name == "MomentumPlant")
+    assert lives or f"is NULL or empty, and there is no folder `{folder / 'resources'}`" in messages[0]
 
 
 def test_the_readmes_lines_for_fmpy_run(dist):

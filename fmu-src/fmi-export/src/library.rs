@@ -149,14 +149,43 @@ impl Library {
         self.entries.iter().map(|entry| entry.name).collect::<Vec<_>>().join(", ")
     }
 
-    /// The model whose GUID is `guid` for the setup at `resource_location`; the error names what was
-    /// compared.
+    /// The model whose GUID is `guid` for the setup at `resource_location`; where that is empty, for the setup beside the
+    /// library, or else for the compiled-in one. The error names what was compared.
     pub(crate) fn select(&self, guid: &str, resource_location: &[u8]) -> Result<Prepared, String> {
         let resources = location::resolve(resource_location);
+        if !matches!(resources, Ok(None)) {
+            let (entry, prepared) = self.matching(guid, &resources).map_err(|tried| refusal(guid, tried))?;
+            return entry.with_schedules_at(prepared, &resources);
+        }
+        let missing = "the resource location (fmuResourceLocation) is NULL or empty";
+        let beside = location::beside_library();
+        if let Some(folder) = beside.as_ref().filter(|folder| folder.is_dir()) {
+            let tried = match self.matching(guid, &Ok(Some(folder.clone()))) {
+                Ok((entry, prepared)) => return entry.with_schedules_at(prepared, &Ok(beside)),
+                Err(tried) => tried,
+            };
+            let compiled_in = self.matching(guid, &Ok(None));
+            return compiled_in.map(|(_, prepared)| prepared).map_err(|_| {
+                format!("{missing}; in `{}` beside the library: {}", folder.display(), refusal(guid, tried))
+            });
+        }
+        self.matching(guid, &Ok(None)).map(|(_, prepared)| prepared).map_err(|tried| {
+            let looked =
+                beside.as_ref().map(|folder| format!(", and there is no folder `{}`", folder.display()));
+            format!("{missing}{}; {}", looked.unwrap_or_default(), refusal(guid, tried))
+        })
+    }
+
+    /// The model whose GUID is `guid` for the setup in a folder, or for the compiled-in one; else what was compared.
+    fn matching(
+        &self,
+        guid: &str,
+        resources: &Result<Option<PathBuf>, String>,
+    ) -> Result<(&'static Entry, Prepared), Vec<Tried>> {
         let mut texts: BTreeMap<&str, Result<String, String>> = BTreeMap::new();
         let mut tried = Vec::new();
         for entry in self.entries {
-            let text = match (entry.setup_file, &resources) {
+            let text = match (entry.setup_file, resources) {
                 (None, _) | (_, Ok(None)) => Ok(None),
                 (Some(_), Err(problem)) => Err(problem.clone()),
                 (Some(file), Ok(Some(folder))) => texts
@@ -170,7 +199,7 @@ impl Library {
             let was_read = text.is_ok();
             let outcome = match text.map(|text| entry.prepare(None, text, self.entries)) {
                 Ok(Ok(prepared)) if prepared.description.guid == guid => {
-                    return entry.with_schedules_at(prepared, &resources);
+                    return Ok((entry, prepared));
                 }
                 Ok(Ok(prepared)) => Ok(prepared.description.guid),
                 Ok(Err(error)) => Err(error.to_string()),
@@ -178,7 +207,7 @@ impl Library {
             };
             tried.push(Tried { entry, file, was_read, outcome });
         }
-        Err(refusal(guid, tried))
+        Err(tried)
     }
 }
 

@@ -13,7 +13,8 @@ use percent_encoding::percent_decode;
 /// No file is larger than this.
 const MAX_BYTES: u64 = 64 << 20;
 
-/// The folder a resource location means, `None` where that is empty: the compiled-in setup is used then. The error shows the location and what is wrong with it.
+/// The folder a resource location means, `None` where that is empty: see [`beside_library`]. The error shows the location and
+/// what is wrong with it.
 pub(crate) fn resolve(location: &[u8]) -> Result<Option<PathBuf>, String> {
     if location.is_empty() {
         return Ok(None);
@@ -27,6 +28,12 @@ pub(crate) fn resolve(location: &[u8]) -> Result<Option<PathBuf>, String> {
             candidates.first().map(|path| path.display().to_string()).unwrap_or_default()
         )),
     }
+}
+
+/// The folder `resources` of the unpacked FMU that this library lies in, `binaries/<platform>/`; `None` where the system does
+/// not say where the library lies. Masters that leave the resource location out are answered from it.
+pub(crate) fn beside_library() -> Option<PathBuf> {
+    Some(own_path::of_library()?.parent()?.parent()?.parent()?.join("resources"))
 }
 
 /// The text of `file` in `folder`, if there is such a file.
@@ -145,6 +152,8 @@ fn to_path(bytes: Vec<u8>) -> Result<PathBuf, String> {
         .map(PathBuf::from)
         .map_err(|error| format!("the resource location is not UTF-8: {error}"))
 }
+
+mod own_path;
 
 #[cfg(test)]
 mod tests;

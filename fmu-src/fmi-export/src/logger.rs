@@ -9,7 +9,7 @@ use model_description::LogCategory;
 use crate::model::Log;
 use model_description::Status;
 
-/// A log category (2.2.4). Messages carry one of the first four; `logAll` stands for all of them.
+/// A log category (2.2.4). Messages carry one of the first five; `logAll` stands for all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Category {
     /// What happens in the model: dumps, eclipse edges, pulses.
@@ -20,13 +20,16 @@ pub enum Category {
     Discard,
     /// A call failed; always logged.
     Error,
+    /// The library cannot go on; always logged.
+    Fatal,
     /// All of these.
     All,
 }
 
 impl Category {
     /// Every category, in the order of the XML.
-    pub const ALL: [Self; 5] = [Self::Events, Self::Warning, Self::Discard, Self::Error, Self::All];
+    pub const ALL: [Self; 6] =
+        [Self::Events, Self::Warning, Self::Discard, Self::Error, Self::Fatal, Self::All];
 
     /// Name in the XML and at the C interface, and description.
     const fn row(self) -> (&'static CStr, &'static str) {
@@ -40,6 +43,7 @@ impl Category {
             }
             Self::Discard => (c"logStatusDiscard", "values or steps that were not accepted; logged always"),
             Self::Error => (c"logStatusError", "calls that failed; logged always"),
+            Self::Fatal => (c"logStatusFatal", "failures that no instance survives; logged always"),
             Self::All => (c"logAll", "all messages"),
         }
     }
@@ -78,7 +82,8 @@ impl Category {
             Status::Ok | Status::Pending => Self::Events,
             Status::Warning => Self::Warning,
             Status::Discard => Self::Discard,
-            Status::Error | Status::Fatal => Self::Error,
+            Status::Error => Self::Error,
+            Status::Fatal => Self::Fatal,
         }
     }
 }

@@ -69,6 +69,8 @@ pub(super) enum Answer {
     Error,
     /// OK with these values; `None` is not predicted.
     Values(Vec<Option<Value>>),
+    /// The same with a warning: a declared leniency.
+    Warned(Vec<Option<Value>>),
     /// OK with this number.
     Number(f64),
 }
@@ -193,7 +195,12 @@ impl Master {
     /// Makes the call; the answer is kept in `answer`.
     pub(super) fn call(&mut self, call: &Call) {
         let cell = self.cell(call);
-        self.answer = if cell == '.' { Answer::Error } else { self.allowed(call, cell) };
+        self.answer = match call {
+            // Declared leniency: start values before Initialization Mode.
+            Call::Get(_, picked) if cell == '.' && self.now.state == 'I' => self.start_values(picked),
+            _ if cell == '.' => Answer::Error,
+            _ => self.allowed(call, cell),
+        };
         if self.answer == Answer::Error {
             self.now.state = 'E';
         }
@@ -252,6 +259,8 @@ impl Master {
             }
             Call::GetOutputDerivative { known, order } => {
                 return match &now.computed {
+                    // Beyond maxOutputDerivativeOrder.
+                    _ if known && order > 1 => Answer::Warned(vec![Some(Value::Real(0.0))]),
                     Some(computed) if known && order == 1 => Answer::Number(computed.slope),
                     _ => Answer::Error,
                 };
@@ -292,6 +301,14 @@ impl Master {
             self.now.compute(0.0, &[]);
         }
         Answer::Values(rows.iter().map(|row| self.now.read(*row)).collect())
+    }
+
+    fn start_values(&self, picked: &[Picked]) -> Answer {
+        let value = |picked: &Picked| match *picked {
+            Picked::Row(row) if VARIABLES[row].has_start() => Some(self.now.read(row)),
+            _ => None,
+        };
+        picked.iter().map(value).collect::<Option<_>>().map_or(Answer::Error, Answer::Warned)
     }
 
     /// All or nothing; the first element that is wrong decides.

@@ -246,6 +246,7 @@ fn compare(
 ) -> Result<(), String> {
     let expected = match master.answer {
         Answer::Ok | Answer::Values(_) | Answer::Number(_) => Status::Ok,
+        Answer::Warned(_) => Status::Warning,
         Answer::Discard => Status::Discard,
         Answer::Error => Status::Error,
     };
@@ -254,7 +255,7 @@ fn compare(
         return complain(format!("{status:?} not {expected:?}"));
     }
     let wrong = match &master.answer {
-        Answer::Values(expected) => expected
+        Answer::Values(expected) | Answer::Warned(expected) => expected
             .iter()
             .zip(values)
             .any(|(expected, found)| expected.is_some_and(|expected| expected != *found)),
@@ -266,7 +267,8 @@ fn compare(
     }
     // 2.1.5: the logger is called before anything but OK is returned.
     let logged = messages.iter().any(|message| message.status == *status);
-    if (*status == Status::Error || (*status == Status::Discard && master.logging)) && !logged {
+    let must_log = matches!(status, Status::Warning | Status::Error);
+    if (must_log || (*status == Status::Discard && master.logging)) && !logged {
         return complain(format!("{status:?} without a message"));
     }
     if messages.iter().any(|message| message.text.contains("panic")) {

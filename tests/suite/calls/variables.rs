@@ -185,4 +185,9 @@ impl Variable {
     pub(super) fn is_input(&self) -> bool {
         self.role.0 == "input"
     }
+
+    /// Whether the description has a start value for it (2.2.7).
+    pub(super) fn has_start(&self) -> bool {
+        self.is_input() || matches!(self.role.2, "exact" | "approx")
+    }
 }

@@ -1,6 +1,6 @@
 //! Per variable, computed once: when it may be set and read, its limits, its name.
 //!
-//! The arrays run parallel to the flat value tables, so a get or set costs a subtraction, one byte and one pair of
+//! The arrays run parallel to the flat value tables, so a get or set costs a subtraction, two bytes and one pair of
 //! limits.
 
 use model_description::call_table::{Condition, State};
@@ -13,26 +13,28 @@ use super::references;
 use crate::variables::Values;
 
 /// Settable in `instantiated`.
-pub(crate) const SET_INSTANTIATED: u8 = 1;
+pub(crate) const SET_INSTANTIATED: u16 = 1;
 /// Settable in Initialization Mode.
-pub(crate) const SET_INITIALIZATION: u8 = 1 << 1;
+pub(crate) const SET_INITIALIZATION: u16 = 1 << 1;
 /// Settable between steps.
-pub(crate) const SET_STEP: u8 = 1 << 2;
+pub(crate) const SET_STEP: u16 = 1 << 2;
 /// Readable in Initialization Mode by the letter of the standard.
-pub(crate) const GET_INITIALIZATION: u8 = 1 << 3;
+pub(crate) const GET_INITIALIZATION: u16 = 1 << 3;
 /// An input.
-pub(crate) const INPUT: u8 = 1 << 4;
+pub(crate) const INPUT: u16 = 1 << 4;
 /// Written by the importer only: what is read is what was set.
-pub(crate) const SET_BY_IMPORTER: u8 = 1 << 5;
+pub(crate) const SET_BY_IMPORTER: u16 = 1 << 5;
 /// Continuous.
-pub(crate) const CONTINUOUS: u8 = 1 << 6;
+pub(crate) const CONTINUOUS: u16 = 1 << 6;
 /// An output.
-pub(crate) const OUTPUT: u8 = 1 << 7;
+pub(crate) const OUTPUT: u16 = 1 << 7;
+/// Has a start value, which is read before Initialization Mode.
+pub(crate) const HAS_START: u16 = 1 << 8;
 
 /// The access rules of every variable of one model.
 #[derive(Debug, Default)]
 pub(crate) struct AccessTable {
-    flags: [Vec<u8>; 4],
+    flags: [Vec<u16>; 4],
     names: [Vec<String>; 4],
     /// References in the order of the XML, for what the structure says.
     references: Vec<u32>,
@@ -120,7 +122,7 @@ impl AccessTable {
 
     /// The flags of every variable of a base type, by value reference.
     #[inline]
-    pub(crate) fn flags(&self, base: BaseType) -> &[u8] {
+    pub(crate) fn flags(&self, base: BaseType) -> &[u16] {
         &self.flags[base as usize]
     }
 
@@ -206,6 +208,16 @@ impl AccessTable {
         Problem::error(format_args!("{name} may not be set in the state {state}: it may be set {when}"))
     }
 
+    /// The refusal of a read before Initialization Mode of a variable that has no start value.
+    #[cold]
+    pub(crate) fn not_started(&self, base: BaseType, reference: u32) -> Problem {
+        let name = self.named(base, reference);
+        Problem::error(format_args!(
+            "{name} has no start value: it may be read from Initialization Mode on, before that only variables with a start \
+             value"
+        ))
+    }
+
     /// The refusal of a Real outside its limits, or not finite.
     #[cold]
     pub(crate) fn real_out_of_range(&self, reference: u32, value: f64) -> Problem {
@@ -246,7 +258,7 @@ impl AccessTable {
     }
 }
 
-fn flags_of(variable: &ScalarVariable, initial_unknown: bool) -> u8 {
+fn flags_of(variable: &ScalarVariable, initial_unknown: bool) -> u16 {
     let meets = |condition: Condition| condition.admits(variable, initial_unknown);
     let set_by_importer = matches!(variable.causality, Causality::Input | Causality::Parameter);
     [
@@ -258,6 +270,7 @@ fn flags_of(variable: &ScalarVariable, initial_unknown: bool) -> u8 {
         (SET_BY_IMPORTER, set_by_importer),
         (CONTINUOUS, variable.variability == Variability::Continuous),
         (OUTPUT, variable.causality == Causality::Output),
+        (HAS_START, value::start(variable).is_some()),
     ]
     .into_iter()
     .filter(|&(_, holds)| holds)

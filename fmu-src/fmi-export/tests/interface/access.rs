@@ -1,6 +1,6 @@
 //! A set is checked as a whole before anything is written, and values out of range are discarded by name.
 
-use fmi_export::model_description::Status::{Discard, Error, Ok};
+use fmi_export::model_description::Status::{Discard, Error, Ok, Warning};
 
 use client::InProcess;
 use fmi_export::model_description::Description;
@@ -102,6 +102,26 @@ fn leniencies_are_logged_once() {
     assert_eq!(real(&mut instance, input), 2.0);
     assert_eq!(real(&mut instance, reference(&description, "output.real")), 2.0);
     assert!(instance.take_messages().is_empty());
+}
+
+#[test]
+fn start_values_are_read_before_initialization_with_a_warning() {
+    let (mut instance, description) = fresh("AllTypes");
+    let (parameter, input) =
+        (reference(&description, "parameter.real"), reference(&description, "input.real"));
+    let mut values = [f64::NAN; 2];
+    assert_eq!(instance.set_real(&[input], &[4.0]), Ok);
+    instance.take_messages();
+    assert_eq!(instance.get_real(&[parameter, input], &mut values), Warning);
+    assert_eq!(values, [1.5, 4.0]);
+    assert!(only_message(&instance).contains("before Initialization Mode"));
+    assert_eq!(instance.setup_experiment(0.0, None), Ok);
+    assert_eq!(instance.enter_initialization_mode(), Ok);
+    // What has no start value is not known yet.
+    let (mut instance, _) = fresh("AllTypes");
+    let output = reference(&description, "output.real");
+    assert_eq!(instance.get_real(&[parameter, output], &mut values), Error);
+    assert!(only_message(&instance).contains("`output.real` (Real value reference"));
 }
 
 #[test]

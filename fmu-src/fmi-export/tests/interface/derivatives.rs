@@ -1,7 +1,7 @@
 //! Input derivatives are a Taylor polynomial for exactly one step; output derivatives belong to its end.
 
 use fmi_export::fmi2::MAX_INPUT_DERIVATIVE_ORDER;
-use fmi_export::model_description::Status::{Discard, Error, Ok};
+use fmi_export::model_description::Status::{Discard, Error, Ok, Warning};
 
 use super::{fresh, only_message, real, reference, started};
 
@@ -58,7 +58,7 @@ fn wrong_orders_and_variables_are_refused() {
         }
         assert_eq!(instance.do_step(0.0, 1.0) == Ok, status != Error);
     }
-    for (name, order) in [("output.real", 0), ("output.real", 2), ("input.real", 1)] {
+    for (name, order) in [("output.real", 0), ("output.real", -1), ("input.real", 1)] {
         let (mut instance, description) = started("AllTypes");
         let references = [reference(&description, name)];
         assert_eq!(
@@ -67,6 +67,18 @@ fn wrong_orders_and_variables_are_refused() {
             "{name} {order}"
         );
     }
+}
+
+#[test]
+fn output_derivatives_beyond_the_declared_order_are_zero_with_a_warning() {
+    let (mut instance, description) = started("AllTypes");
+    assert_eq!(description.co_simulation.as_ref().unwrap().max_output_derivative_order, 1);
+    let output = reference(&description, "output.real");
+    let mut values = [f64::NAN; 2];
+    assert_eq!(instance.get_output_derivatives(&[output; 2], &[2, 1], &mut values), Warning);
+    assert!(values[0] == 0.0 && values[1].is_finite(), "{values:?}");
+    assert!(only_message(&instance).contains("order 2 are answered with 0: maxOutputDerivativeOrder is 1"));
+    assert_eq!(instance.do_step(0.0, 1.0), Ok);
 }
 
 #[test]

@@ -69,7 +69,10 @@ fn refused(guid: &str, location: Option<&str>) -> String {
 #[test]
 fn an_unknown_guid_lists_what_is_known() {
     let text = refused("{nonsense}", None);
-    assert!(text.contains("{nonsense}"), "{text}");
+    assert!(
+        text.contains("{nonsense}") && text.contains("is NULL or empty, and there is no folder"),
+        "{text}"
+    );
     for model in ["Empty", "AllTypes", "Panicking"] {
         assert!(text.contains(&format!("{model} has GUID {}", described(model).guid)), "{text}");
     }

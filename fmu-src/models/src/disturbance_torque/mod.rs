@@ -63,8 +63,9 @@ impl Model for DisturbanceTorque {
     fn about(setup: &DisturbanceSetup) -> About {
         About {
             description: format!(
-                "{}: force and torque of sunlight, reflected and infrared planet light, the spacecraft's own heat and \
-                 the gravity gradient, by source, from where Sun and planet are; with exact partial derivatives",
+                "{}: force and torque of sunlight, reflected and infrared planet light, the spacecraft's own heat, air, \
+                 magnetic field and gravity gradient, by source, from where Sun and planet are; with exact partial \
+                 derivatives",
                 setup.spacecraft.name
             ),
             start_time_s: 0.0,

@@ -64,8 +64,8 @@ impl Model for MomentumPlant {
             if setup.starts_with_dynamics() { (86_400.0, 1.0) } else { (7_776_000.0, 600.0) };
         About {
             description: format!(
-                "{}: solar-radiation torque, planet light, thermal recoil, gravity gradient, system momentum and thruster \
-                 dumps of a three-axis spacecraft about a planet or the Sun",
+                "{}: torque of solar radiation, planet light, thermal recoil, air, magnetic field and gravity gradient, \
+                 system momentum and thruster dumps of a three-axis spacecraft about a planet or the Sun",
                 setup.spacecraft.name
             ),
             start_time_s: 0.0,

@@ -1,7 +1,7 @@
 //! Every function in every state, held against the call table.
 
 use loader::{Error, Fmu, Instance, State as Saved, Status};
-use model_description::call_table::{Access, Condition, Function, LENIENCIES, State, allowed};
+use model_description::call_table::{Access, Condition, Function, State, allowed, leniency};
 use model_description::{BaseType, Causality, ScalarVariable, value::start};
 
 use crate::{Finding, experiment, probe::Findings};
@@ -103,13 +103,13 @@ fn meets(fmu: &Fmu, condition: Condition, variable: &ScalarVariable) -> bool {
 
 /// What is beyond the table and yet common.
 fn lenient(function: Function, state: State, variable: &ScalarVariable) -> Expected {
-    let known = LENIENCIES.iter().any(|it| it.state == state && it.functions.contains(&function));
     let sets = matches!(variable_function(function), Some((_, true)));
-    if known && (!sets || variable.causality == Causality::Input) {
-        Expected::Either
-    } else {
-        Expected::Refused
-    }
+    let admits = match state {
+        State::Instantiated if sets => variable.causality == Causality::Input,
+        State::Instantiated => start(variable).is_some(),
+        _ => true,
+    };
+    if admits && leniency(function, state).is_some() { Expected::Either } else { Expected::Refused }
 }
 
 fn compare(case: &CallCase<'_>, status: Status) -> Option<Finding> {

@@ -40,7 +40,8 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2GetRealOutputDerivatives` at the last communication point.
+    /// `fmi2GetRealOutputDerivatives` at the last communication point. An order above the declared one has the value 0 and a
+    /// warning: the declared polynomial has no such term.
     pub(crate) fn get_output_derivatives(
         &mut self,
         references: &[u32],
@@ -49,13 +50,23 @@ impl Instance {
     ) -> Result<(), Problem> {
         for (&reference, &order) in references.iter().zip(orders) {
             self.require(reference, OUTPUT, OUTPUT, "Real output")?;
-            check_order(order, self.output_derivative_order)?;
+            check_order(order, i32::MAX.unsigned_abs())?;
         }
-        for (&reference, value) in references.iter().zip(values) {
+        let largest = self.output_derivative_order;
+        let mut highest = 0;
+        for ((&reference, &order), value) in references.iter().zip(orders).zip(values) {
+            highest = highest.max(order.unsigned_abs());
+            if order.unsigned_abs() > largest {
+                *value = 0.0;
+                continue;
+            }
             *value = self.runtime.output_rate(self.values_at_last_step(), real(reference), &self.logger)?;
             if !value.is_finite() {
                 return Err(self.slope_not_finite(reference, "", *value));
             }
+        }
+        if highest > largest {
+            return Err(Problem::beyond_output_derivatives(highest, largest));
         }
         Ok(())
     }
@@ -109,7 +120,7 @@ impl Instance {
     }
 
     /// Refuses a Real reference without any of the flags `any`, or without all of the flags `all`.
-    fn require(&self, reference: u32, any: u8, all: u8, role: &'static str) -> Result<(), Problem> {
+    fn require(&self, reference: u32, any: u16, all: u16, role: &'static str) -> Result<(), Problem> {
         let table = self.access.flags(BaseType::Real);
         match table.get(references::index(BaseType::Real, reference)) {
             Some(flags) if flags & any != 0 && flags & all == all => Ok(()),
@@ -139,9 +150,6 @@ fn real(reference: u32) -> Real {
 fn check_order(order: i32, largest: u32) -> Result<(), Problem> {
     match u32::try_from(order) {
         Ok(positive) if (1..=largest).contains(&positive) => Ok(()),
-        _ if largest == 0 => Err(Problem::error(format_args!(
-            "derivatives of order {order} were requested, this model offers none"
-        ))),
         _ => Err(Problem::error(format_args!("the derivative order is {order}, allowed are 1 to {largest}"))),
     }
 }

@@ -103,11 +103,15 @@ impl Instance {
         (self.logger, self.runtime)
     }
 
-    /// Refuses a call that the table forbids in this state. What is conditional is checked per variable.
+    /// Refuses a call that neither the table nor a leniency admits in this state. What is conditional is checked per
+    /// variable.
     #[inline]
     pub(crate) fn guard(&self, function: Function) -> Result<(), Problem> {
         match call_table::allowed(function, self.state.mode) {
-            Access::Forbidden => Err(Problem::illegal(function, self.state.mode)),
+            Access::Forbidden if call_table::leniency(function, self.state.mode).is_none() => {
+                Err(Problem::illegal(function, self.state.mode))
+            }
+            Access::Forbidden => Ok(()),
             Access::Allowed | Access::Conditional(_) => Ok(()),
         }
     }

@@ -2,7 +2,8 @@
 
 use super::{Instance, once};
 use crate::fmi2::access::{
-    AccessTable, GET_INITIALIZATION, INPUT, SET_BY_IMPORTER, SET_INITIALIZATION, SET_INSTANTIATED, SET_STEP,
+    AccessTable, GET_INITIALIZATION, HAS_START, INPUT, SET_BY_IMPORTER, SET_INITIALIZATION, SET_INSTANTIATED,
+    SET_STEP,
 };
 use crate::fmi2::instance::state::copy_values;
 use crate::fmi2::problem::Problem;
@@ -26,7 +27,7 @@ macro_rules! getter {
                         None => return Err(self.access.unknown(BaseType::$base, reference)),
                     }
                 }
-                Ok(())
+                self.conclude_reading()
             }
         }
     };
@@ -151,12 +152,21 @@ impl Instance {
                 None => return Err(self.access.unknown(BaseType::String, reference)),
             }
         }
-        Ok(())
+        self.conclude_reading()
+    }
+
+    /// The warning that goes with values read before Initialization Mode.
+    #[inline]
+    fn conclude_reading(&self) -> Result<(), Problem> {
+        match self.state.mode {
+            State::Instantiated => Err(Problem::read_before_initialization()),
+            _ => Ok(()),
+        }
     }
 
     /// Which flag a variable needs to be set now. The guard has admitted the state.
     #[inline]
-    fn settable_flag(&self) -> u8 {
+    fn settable_flag(&self) -> u16 {
         match self.state.mode {
             State::Instantiated => SET_INSTANTIATED,
             State::InitializationMode => SET_INITIALIZATION,
@@ -171,7 +181,7 @@ impl Instance {
             State::StepComplete => {
                 self.state.at_last_step.is_some() && self.reported & once::OUTPUT_AFTER_SET == 0
             }
-            State::InitializationMode => true,
+            State::Instantiated | State::InitializationMode => true,
             _ => false,
         }
     }
@@ -179,12 +189,19 @@ impl Instance {
     #[cold]
     fn prepare_reading(&mut self, base: BaseType, references: &[u32]) -> Result<(), Problem> {
         let flags = self.access.flags(base);
-        let mut all = u8::MAX;
+        let mut all = u16::MAX;
         for &reference in references {
             match flags.get(references::index(base, reference)) {
                 Some(flags) => all &= flags,
                 None => return Err(self.access.unknown(base, reference)),
             }
+        }
+        if self.state.mode == State::Instantiated {
+            let without = |it: &&u32| flags[references::index(base, **it)] & HAS_START == 0;
+            return references
+                .iter()
+                .find(without)
+                .map_or(Ok(()), |it| Err(self.access.not_started(base, *it)));
         }
         let only_given = all & SET_BY_IMPORTER != 0;
         if self.state.mode == State::StepComplete {

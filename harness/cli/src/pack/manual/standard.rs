@@ -118,10 +118,11 @@ pub(super) fn calls() -> Section {
         let functions: Vec<&str> = leniency.functions.iter().map(|function| function.symbol()).collect();
         let _ = writeln!(
             page,
-            "<p class=\"secondary\">Beyond the table: {} in state {} for {}, because {}.</p>",
+            "<p class=\"secondary\">Beyond the table: {} in state {} for {}, answered with <code>{}</code>, because {}.</p>",
             functions.join(", "),
             leniency.state.name(),
             leniency.variables,
+            leniency.answer,
             escape(leniency.reason)
         );
     }
