@@ -21,7 +21,7 @@ const LONGEST_STEP_S: f64 = 600.0;
 /// Step of a flight of which only dumps count, in s; one in which several fall is cut between them.
 const STEP_OF_DUMPS_S: f64 = 21_600.0;
 /// Rows that are kept of a flight at most.
-const ROWS: f64 = 60_000.0;
+const ROWS: f64 = 300_000.0;
 /// Thresholds that are simulated, as shares of the file's: its own first, then outward.
 const SCALES: [f64; 9] = [1.0, 2.0, 0.5, 1.41, 0.71, 4.0, 0.35, 2.83, 0.25];
 
@@ -45,7 +45,7 @@ pub(super) struct Sweep {
 
 /// Momentum by source and in the body frame, without dumps.
 pub(super) fn undumped(sized: &SizedSpacecraft, is_quiet: bool) -> Result<Recording, Failure> {
-    let patterns = ["momentum.*".to_owned()];
+    let patterns = ["momentum.*", "attitude.q"].map(str::to_owned);
     let record = selected(sized.fmu.description(), &patterns, loader::select_outputs)?;
     let bar = terminal::progress(sized.span_s as u64, "s without dumps", is_quiet);
     let recording = simulated(sized, (Vector3::repeat(NEVER_N_M_S), "dumpsOnly"), record, &mut |time_s| {
@@ -111,7 +111,9 @@ fn simulated(
     let step_s = if counts_dumps {
         STEP_OF_DUMPS_S
     } else {
-        LONGEST_STEP_S.min(sized.period_s / POINTS_OF_ORBIT).max(sized.span_s / ROWS)
+        let longest_s = LONGEST_STEP_S.min(sized.period_s / POINTS_OF_ORBIT).max(sized.span_s / ROWS);
+        // A whole number of steps between dumps, so that rows end the windows.
+        sized.spacing_s / (sized.spacing_s / longest_s).ceil()
     };
     let cancel = AtomicBool::new(false);
     let mut reported = |time_s: f64| {

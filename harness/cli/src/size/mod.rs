@@ -17,21 +17,23 @@ use crate::{
     interrupt,
     outcome::{self, Outcome},
 };
+use momentum::Histories;
 use needs::{SlewLimits, Wheels};
 pub(crate) use options::Size;
-use sized::{SizedSpacecraft, YEAR_S};
+use sized::SizedSpacecraft;
 use table::Found;
 
 /// Sizes a spacecraft.
 pub(crate) fn run(arguments: &Size) -> Outcome {
     let [picture, table_file] = destinations(arguments)?;
     let sized = SizedSpacecraft::open(arguments)?;
-    let simulated = flights::undumped(&sized, arguments.quiet)?;
     let slews = SlewLimits::of(&sized)?.slews();
-    let gathered = |span_s: f64| momentum::greatest_range_n_m_s(&simulated, span_s);
+    let simulated = flights::undumped(&sized, arguments.quiet)?;
+    let histories = Histories::new(&simulated, sized.is_body_integral)?;
+    let wheels = Wheels::needed(&sized, &histories, &slews, arguments.margin)?;
     let found = Found {
-        sources: momentum::by_source(&simulated, sized.period_s, sized.span_s / YEAR_S),
-        wheels: Wheels::needed(&sized, gathered, &slews, arguments.margin)?,
+        sources: histories.by_source(sized.period_s, sized.spacing_s),
+        wheels,
         slews,
         allocations: needs::allocations(&sized),
         sweep: flights::sweep(&sized, arguments.budget, arguments.quiet)?,

@@ -1,150 +1,181 @@
-//! Secular and cyclic momentum of a recorded flight.
+//! Momentum that windows of a recorded flight without dumps gather, in the body frame.
 //!
-//! Over a span the secular part is the slope of the straight line from its first to its last value, the cyclic part the
-//! greatest distance of the values from that line. Of an orbit it is the mean slope, and the greatest distance in any orbit.
+//! In a window from t0 on a source gathers G(t) = A(t) (H(t) - H(t0)), with A from EME2000 to the body: wheels that are
+//! empty at t0 hold it at t. Components in a turning frame are never compared over time: H is inertial, and A is that of
+//! one time. Over an orbit of period T the secular part is G at its end, the cyclic part the largest
+//! |A(t) (H(t) - H(t0) - (t - t0) (H(t0 + T) - H(t0)) / T)|, by component.
 
 use loader::Recording;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-/// Momentum by source and axis, in N m s.
-#[derive(Clone, Debug, Default, PartialEq)]
+use crate::variables::{numbers, vectors};
+
+/// Rows whose bounds are looked at before the rows themselves.
+const BLOCK: usize = 16;
+
+/// Momentum of one source by body axis, in N m s.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct SourceRow {
-    /// Of `momentum.*`.
+    /// Name below `momentum.`.
     pub source: String,
-    /// Gathered in an orbit in the mean, by axis.
-    pub secular_per_orbit_n_m_s: [f64; 3],
-    /// Greatest swing within an orbit.
-    pub cyclic_per_orbit_n_m_s: [f64; 3],
-    /// Gathered in a year.
-    pub secular_per_year_n_m_s: [f64; 3],
-    /// Greatest swing within the whole flight.
-    pub cyclic_per_year_n_m_s: [f64; 3],
+    /// Mean of the orbits.
+    pub secular_per_orbit_n_m_s: Vector3<f64>,
+    /// Largest of the orbits.
+    pub cyclic_in_orbit_n_m_s: Vector3<f64>,
+    /// Largest magnitude in any window as long as the time between dumps.
+    pub gathered_n_m_s: Vector3<f64>,
 }
 
-/// What each source gathers; `period_s` is an orbit's, `years` the length of the flight.
-pub(super) fn by_source(simulated: &Recording, period_s: f64, years: f64) -> Vec<SourceRow> {
-    let sources =
-        simulated.names.iter().filter_map(|name| name.strip_prefix("momentum.")?.strip_suffix("[1]"));
-    let rows = sources.map(|source| {
-        let mut row = SourceRow { source: source.to_owned(), ..SourceRow::default() };
-        for axis in 0..3 {
-            let Some(column) = simulated.column(&format!("momentum.{source}[{}]", axis + 1)) else {
-                continue;
+/// Momentum of a flight by source, as vectors of a frame that does not turn.
+pub(super) struct Histories {
+    times_s: Vec<f64>,
+    /// From EME2000 to the body.
+    to_body: Vec<UnitQuaternion<f64>>,
+    sources: Vec<Source>,
+}
+
+/// Momentum of one source over time.
+struct Source {
+    name: String,
+    momentum_n_m_s: Vec<Vector3<f64>>,
+    /// Whether a window's momentum is turned into the body.
+    is_turned: bool,
+}
+
+impl Histories {
+    /// The `momentum.*` of a flight. `is_body_integral` is whether its components are integrals of torque components
+    /// (`momentum.convention`), which stand in no frame: these are taken as they are.
+    ///
+    /// # Errors
+    /// A column that is not recorded.
+    pub(super) fn new(simulated: &Recording, is_body_integral: bool) -> Result<Self, String> {
+        let [x, y, z, w] = [1, 2, 3, 4].map(|k| numbers(simulated, &format!("attitude.q[{k}]")));
+        let (x, y, z, w) = (x?, y?, z?, w?);
+        // A(q) is the inverse of the rotation that q stands for in nalgebra.
+        let attitude =
+            |k: usize| UnitQuaternion::new_normalize(Quaternion::new(w[k], x[k], y[k], z[k])).inverse();
+        let to_body: Vec<_> = (0..w.len()).map(attitude).collect();
+        let names =
+            simulated.names.iter().filter_map(|name| name.strip_prefix("momentum.")?.strip_suffix("[1]"));
+        let sources = names.map(|name| {
+            let recorded = vectors(simulated, &format!("momentum.{name}"))?;
+            let is_turned = !is_body_integral && name != "inertial";
+            let inertial = |(momentum, to_body): (Vector3<f64>, &UnitQuaternion<f64>)| {
+                if is_turned { to_body.inverse_transform_vector(&momentum) } else { momentum }
             };
-            let values = column.numbers();
-            let span_s = simulated.times_s.last().zip(simulated.times_s.first()).map_or(0.0, |(a, b)| a - b);
-            let (gathered, swing) = parts(&simulated.times_s, &values);
-            row.secular_per_orbit_n_m_s[axis] = gathered * period_s / span_s;
-            row.cyclic_per_orbit_n_m_s[axis] = greatest_of_orbits(&simulated.times_s, &values, period_s);
-            row.secular_per_year_n_m_s[axis] = gathered / years;
-            row.cyclic_per_year_n_m_s[axis] = swing;
-        }
-        row
-    });
-    rows.collect()
-}
-
-/// The change from end to end, and the greatest distance from the line through both ends.
-fn parts(times_s: &[f64], values: &[f64]) -> (f64, f64) {
-    let (Some((first_s, last_s)), Some((first, last))) =
-        (times_s.first().zip(times_s.last()), values.first().zip(values.last()))
-    else {
-        return (0.0, 0.0);
-    };
-    let slope = if last_s > first_s { (last - first) / (last_s - first_s) } else { 0.0 };
-    let off =
-        times_s.iter().zip(values).map(|(time_s, value)| (value - first - slope * (time_s - first_s)).abs());
-    (last - first, off.fold(0.0, f64::max))
-}
-
-fn greatest_of_orbits(times_s: &[f64], values: &[f64], period_s: f64) -> f64 {
-    let mut greatest = 0.0_f64;
-    for window in windows(times_s, period_s) {
-        greatest = greatest.max(parts(&times_s[window.clone()], &values[window]).1);
+            let momentum_n_m_s = recorded.into_iter().zip(&to_body).map(inertial).collect();
+            Ok(Source { name: name.to_owned(), momentum_n_m_s, is_turned })
+        });
+        let sources = sources.collect::<Result<_, String>>()?;
+        Ok(Self { times_s: simulated.times_s.clone(), to_body, sources })
     }
-    greatest
+
+    /// The largest magnitude of the body's gathered momentum within any time of this length, by axis.
+    pub(super) fn gathered_n_m_s(&self, span_s: f64) -> Vector3<f64> {
+        let body = self.sources.iter().find(|source| source.name == "body");
+        body.map_or_else(Vector3::zeros, |body| self.largest_gathered_n_m_s(body, span_s))
+    }
+
+    /// A row a source; `period_s` is an orbit's, `spacing_s` the time between dumps.
+    pub(super) fn by_source(&self, period_s: f64, spacing_s: f64) -> Vec<SourceRow> {
+        let orbits = windows(&self.times_s, period_s);
+        let rows = self.sources.iter().map(|source| {
+            let (mut secular_n_m_s, mut cyclic_n_m_s) = (Vector3::zeros(), Vector3::zeros());
+            for orbit in &orbits {
+                let (secular, cyclic) = self.parts(source, orbit, period_s);
+                secular_n_m_s += secular / orbits.len() as f64;
+                cyclic_n_m_s = cyclic.sup(&cyclic_n_m_s);
+            }
+            SourceRow {
+                source: source.name.clone(),
+                secular_per_orbit_n_m_s: secular_n_m_s,
+                cyclic_in_orbit_n_m_s: cyclic_n_m_s,
+                gathered_n_m_s: self.largest_gathered_n_m_s(source, spacing_s),
+            }
+        });
+        rows.collect()
+    }
+
+    /// Momentum of a source that is a vector of the body's frame at a row.
+    fn in_body(&self, source: &Source, row: usize, momentum_n_m_s: Vector3<f64>) -> Vector3<f64> {
+        if source.is_turned { self.to_body[row] * momentum_n_m_s } else { momentum_n_m_s }
+    }
+
+    /// Secular and cyclic part of the orbit that these rows are, the former for a whole period.
+    fn parts(
+        &self,
+        source: &Source,
+        orbit: &core::ops::RangeInclusive<usize>,
+        period_s: f64,
+    ) -> (Vector3<f64>, Vector3<f64>) {
+        let (first, last) = (*orbit.start(), *orbit.end());
+        let (times_s, momentum_n_m_s) = (&self.times_s, &source.momentum_n_m_s);
+        let gathered_n_m_s = momentum_n_m_s[last] - momentum_n_m_s[first];
+        let span_s = times_s[last] - times_s[first];
+        let fraction = |row: usize| if span_s > 0.0 { (times_s[row] - times_s[first]) / span_s } else { 0.0 };
+        let off = |row: usize| momentum_n_m_s[row] - momentum_n_m_s[first] - gathered_n_m_s * fraction(row);
+        let cyclic = orbit.clone().map(|row| self.in_body(source, row, off(row)).abs());
+        let whole = if span_s > 0.0 { period_s / span_s } else { 0.0 };
+        (self.in_body(source, last, gathered_n_m_s * whole), cyclic.fold(Vector3::zeros(), |a, b| a.sup(&b)))
+    }
+
+    /// The largest |G(t)| over all windows of this length, by component. Blocks of rows whose bounds hold nothing larger are
+    /// passed over.
+    fn largest_gathered_n_m_s(&self, source: &Source, span_s: f64) -> Vector3<f64> {
+        let momentum_n_m_s = &source.momentum_n_m_s;
+        let bounds = |rows: &[Vector3<f64>]| {
+            rows.iter().fold((rows[0], rows[0]), |(low, high), it| (low.inf(it), high.sup(it)))
+        };
+        let blocks: Vec<_> = momentum_n_m_s.chunks(BLOCK).map(bounds).collect();
+        let mut largest_n_m_s = Vector3::zeros();
+        let mut first = 0;
+        for row in 0..momentum_n_m_s.len() {
+            // Times are rounded.
+            while self.times_s[row] - self.times_s[first] > span_s * (1.0 + 1e-9) {
+                first += 1;
+            }
+            for axis in 0..3 {
+                let unit = Vector3::ith(axis, 1.0);
+                let direction =
+                    if source.is_turned { self.to_body[row].inverse_transform_vector(&unit) } else { unit };
+                let now_n_m_s = direction.dot(&momentum_n_m_s[row]);
+                let mut begin = first;
+                while begin < row {
+                    if begin % BLOCK == 0 && begin + BLOCK <= row {
+                        let (low, high) = blocks[begin / BLOCK];
+                        let (center, half) = ((low + high) / 2.0, (high - low) / 2.0);
+                        let off_n_m_s = (now_n_m_s - direction.dot(&center)).abs();
+                        if off_n_m_s + direction.abs().dot(&half) <= largest_n_m_s[axis] {
+                            begin += BLOCK;
+                            continue;
+                        }
+                    }
+                    let gathered_n_m_s = (now_n_m_s - direction.dot(&momentum_n_m_s[begin])).abs();
+                    largest_n_m_s[axis] = gathered_n_m_s.max(largest_n_m_s[axis]);
+                    begin += 1;
+                }
+            }
+        }
+        largest_n_m_s
+    }
 }
 
 /// Rows of one whole span after another; all rows where there is no whole one.
-fn windows(times_s: &[f64], span_s: f64) -> Vec<core::ops::Range<usize>> {
+fn windows(times_s: &[f64], span_s: f64) -> Vec<core::ops::RangeInclusive<usize>> {
     let mut windows = Vec::new();
     let mut begin = 0;
     for end in 0..times_s.len() {
         // Times are rounded.
         if times_s[end] - times_s[begin] >= span_s * (1.0 - 1e-9) {
-            windows.push(begin..end + 1);
+            windows.push(begin..=end);
             begin = end;
         }
     }
-    let whole = 0..times_s.len();
-    if windows.is_empty() { Vec::from([whole]) } else { windows }
-}
-
-/// The greatest range that a component of the body's momentum has within any time of this length, by axis, in N m s.
-pub(super) fn greatest_range_n_m_s(simulated: &Recording, span_s: f64) -> [f64; 3] {
-    [1, 2, 3].map(|axis| {
-        let values =
-            simulated.column(&format!("momentum.body[{axis}]")).map(|it| it.numbers()).unwrap_or_default();
-        range_within(&simulated.times_s, &values, span_s)
-    })
-}
-
-/// By two queues of candidates for least and greatest: each row enters and leaves once.
-fn range_within(times_s: &[f64], values: &[f64], span_s: f64) -> f64 {
-    let mut queues = [std::collections::VecDeque::new(), std::collections::VecDeque::new()];
-    let mut greatest = 0.0_f64;
-    for (row, value) in values.iter().enumerate() {
-        for (queue, sign) in queues.iter_mut().zip([1.0, -1.0]) {
-            while queue.back().is_some_and(|last: &usize| sign * values[*last] <= sign * value) {
-                queue.pop_back();
-            }
-            queue.push_back(row);
-            while queue.front().is_some_and(|first| times_s[row] - times_s[*first] > span_s) {
-                queue.pop_front();
-            }
-        }
-        let [most, least] = [0, 1].map(|k: usize| queues[k].front().map_or(0.0, |first| values[*first]));
-        greatest = greatest.max(most - least);
+    if windows.is_empty() && !times_s.is_empty() {
+        windows.push(0..=times_s.len() - 1);
     }
-    greatest
+    windows
 }
 
 #[cfg(test)]
-mod tests {
-    //! A line with a swing on it comes apart again.
-    use core::f64::consts::TAU;
-
-    use loader::Column;
-
-    use super::*;
-
-    #[test]
-    fn a_line_and_a_swing_come_apart() {
-        let period_s = 100.0;
-        let times_s: Vec<f64> = (0..=4000).map(f64::from).collect();
-        let line = times_s.iter().map(|t| 0.02 * t + 0.3 * (TAU * t / period_s).sin()).collect();
-        let simulated = Recording {
-            times_s,
-            names: vec!["momentum.solar[1]".to_owned()],
-            units: vec![String::new()],
-            columns: vec![Column::Real(line)],
-        };
-        let row = by_source(&simulated, period_s, 0.5).remove(0);
-        assert_eq!(row.source, "solar");
-        assert!((row.secular_per_orbit_n_m_s[0] - 2.0).abs() < 1e-9);
-        assert!((row.cyclic_per_orbit_n_m_s[0] - 0.3).abs() < 1e-9);
-        assert!((row.secular_per_year_n_m_s[0] - 160.0).abs() < 1e-9);
-        assert!((row.cyclic_per_year_n_m_s[0] - 0.3).abs() < 1e-9);
-    }
-
-    #[test]
-    fn the_range_of_a_window_is_that_of_all_pairs() {
-        let times_s: Vec<f64> = (0..400).map(f64::from).collect();
-        let values: Vec<f64> = times_s.iter().map(|t| (0.37 * t).sin() * (1.0 + 0.01 * t)).collect();
-        for span_s in [0.0, 1.0, 7.5, 60.0, 1e4] {
-            let pairs = (0..400).flat_map(|a| (a..400).map(move |b| (a, b)));
-            let within = pairs.filter(|(a, b)| times_s[*b] - times_s[*a] <= span_s);
-            let expected = within.map(|(a, b)| (values[a] - values[b]).abs()).fold(0.0, f64::max);
-            assert_eq!(range_within(&times_s, &values, span_s), expected, "{span_s}");
-        }
-    }
-}
+mod tests;

@@ -7,7 +7,7 @@ use physics::{
     spacecraft::{Spacecraft, Thruster},
 };
 
-use super::sized::SizedSpacecraft;
+use super::{momentum::Histories, sized::SizedSpacecraft};
 use crate::{instance::vector, variables::item};
 
 const NAMES: [&str; 3] = ["X", "Y", "Z"];
@@ -34,8 +34,7 @@ pub(super) struct Geometry {
 /// What wheels have to take about each body axis, and which wheels do.
 pub(super) struct Wheels {
     /// Gathered within the longest time between dumps.
-    pub gathered_n_m_s: [f64; 3],
-    pub spacing_s: f64,
+    pub gathered_n_m_s: Vector3<f64>,
     /// With slews and margin.
     pub needed_n_m_s: f64,
     pub needed_n_m: f64,
@@ -108,15 +107,14 @@ impl Wheels {
     /// 1 + dump.reinitFraction thresholds.
     pub(super) fn needed(
         sized: &SizedSpacecraft,
-        gathered_n_m_s: impl FnOnce(f64) -> [f64; 3],
+        histories: &Histories,
         slews: &[Slew; 3],
         margin: f64,
     ) -> Result<Self, loader::Error> {
         let mut started = sized.started()?;
-        let spacing_s = started.get_real("dump.requiredSpacing")?.max(sized.period_s);
         let is_opposite = item(sized.fmu.description(), &sized.sets, "dump.reinitTo") == Some("opposite");
         let room = if is_opposite { 1.0 + started.get_real("dump.reinitFraction")? } else { 1.0 };
-        let gathered_n_m_s = gathered_n_m_s(spacing_s);
+        let gathered_n_m_s = histories.gathered_n_m_s(sized.spacing_s);
         let of_axis = |axis: usize| gathered_n_m_s[axis] / room + slews[axis].momentum_n_m_s;
         let needed_n_m_s = (1.0 + margin) * [0, 1, 2].map(of_axis).into_iter().fold(0.0, f64::max);
         let needed_n_m = (1.0 + margin) * slews.iter().map(|slew| slew.torque_n_m).fold(0.0, f64::max);
@@ -126,7 +124,7 @@ impl Wheels {
             Some(Geometry { name, capacity_n_m_s: needed_n_m_s / of_one, torque_n_m: needed_n_m / of_one })
         });
         let geometries = held.collect();
-        Ok(Self { gathered_n_m_s, spacing_s, needed_n_m_s, needed_n_m, geometries })
+        Ok(Self { gathered_n_m_s, needed_n_m_s, needed_n_m, geometries })
     }
 }
 

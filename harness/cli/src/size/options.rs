@@ -11,9 +11,10 @@ use crate::{
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
-Momentum is that of MomentumPlant, simulated without dumps for momentum by source, then at several thresholds, by strategy. Secular is
-the slope from end to end, cyclic the greatest distance from that line. Wheels are sized for the momentum of the longest
-dump.requiredSpacing, of a slew about every axis at control.slewRate, and the margin.
+Momentum is that of MomentumPlant, simulated without dumps for momentum by source, then at several thresholds, by strategy. A window
+gathers H(t) - H(its beginning), inertial, turned into the body at t: secular is that of an orbit, cyclic the largest distance from
+the line through its ends. Wheels are sized for the most gathered in dump.requiredSpacing, an orbit or, about the Sun, a day at least, for a slew
+about every axis at control.slewRate, and the margin.
 
 Example:
   heliotorque size my.toml                                   writes my-size.svg and my-size.csv, prints the tables

@@ -35,6 +35,10 @@ pub(super) struct SizedSpacecraft {
     pub span_s: f64,
     /// Period of the orbit at the start, in s.
     pub period_s: f64,
+    /// Longest time between dumps, an orbit or, about the Sun, a day at least, in s.
+    pub spacing_s: f64,
+    /// Whether `momentum.*` are integrals of body components.
+    pub is_body_integral: bool,
     /// What sunlight is used for where there are downlinks, by item; the first is dumps alone.
     pub strategies: Vec<String>,
     // The FMU's folder and a mission's packed FMU, as long as they are in use.
@@ -79,12 +83,16 @@ impl SizedSpacecraft {
         sets.extend(assigned(description, &arguments.set)?);
         check_plant(&file, description, &sets)?;
         let mut started = instance::started(&fmu, "size", start_s, &sets)?;
-        let period_s = period_s(item(description, &sets, "orbit.center") == Some("sun"), &mut started)?;
+        let is_about_sun = item(description, &sets, "orbit.center") == Some("sun");
+        let period_s = period_s(is_about_sun, &mut started)?;
         // As it acts: by default it follows the centre.
         let phase = description.variables.iter().find(|it| it.name == PHASE);
         let phase = phase.map(|it| started.get_variable(it)).transpose()?;
         let phase: Vec<_> = phase.into_iter().map(|value| (PHASE.to_owned(), value)).collect();
         let is_in_cruise = item(description, &phase, PHASE) == Some("cruise");
+        let shortest_s = if is_about_sun { DAY_S } else { period_s };
+        let spacing_s = started.get_real("dump.requiredSpacing")?.max(shortest_s);
+        let is_body_integral = item(description, &sets, "momentum.convention") == Some("bodyIntegral");
         drop(started);
         let spacecraft = spacecraft_of(&fmu)?;
         let has_fan = spacecraft.antennas.iter().any(|named| named.antenna.fan().is_some());
@@ -96,6 +104,8 @@ impl SizedSpacecraft {
             start_s,
             span_s: arguments.duration.unwrap_or(stop_s - start_s),
             period_s,
+            spacing_s,
+            is_body_integral,
             strategies,
             fmu,
             _folders: folders,

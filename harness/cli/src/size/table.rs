@@ -38,20 +38,19 @@ fn sources(sized: &SizedSpacecraft, rows: &[SourceRow]) -> String {
         "momentum.* [N.m.s]",
         "secular per orbit: X, Y, Z",
         "cyclic in an orbit",
-        "secular per year",
-        "cyclic in the flight",
+        &format!("most in {}", time(sized.spacing_s)),
     ]);
     for row in rows.iter().filter(|row| !is_nothing(row)) {
         table.add_row([
             row.source.clone(),
-            triple(row.secular_per_orbit_n_m_s),
-            triple(row.cyclic_per_orbit_n_m_s),
-            triple(row.secular_per_year_n_m_s),
-            triple(row.cyclic_per_year_n_m_s),
+            triple(row.secular_per_orbit_n_m_s.into()),
+            triple(row.cyclic_in_orbit_n_m_s.into()),
+            triple(row.gathered_n_m_s.into()),
         ]);
     }
     format!(
-        "{}: momentum without dumps, {} of flight, orbits of {}; body frame, by momentum.convention, momentum.inertial in EME2000\n{table}",
+        "{}: momentum without dumps, {} of flight, orbits of {}; gathered from the beginning of a window on, in the body frame at \
+         its end, momentum.inertial in EME2000\n{table}",
         sized.spacecraft.name,
         time(sized.span_s),
         time(sized.period_s)
@@ -60,8 +59,7 @@ fn sources(sized: &SizedSpacecraft, rows: &[SourceRow]) -> String {
 
 /// Sources that are off.
 fn is_nothing(row: &SourceRow) -> bool {
-    let all = row.secular_per_year_n_m_s.iter().chain(&row.cyclic_per_year_n_m_s);
-    all.chain(&row.cyclic_per_orbit_n_m_s).all(|part| *part == 0.0)
+    row.cyclic_in_orbit_n_m_s.iter().chain(&row.gathered_n_m_s).all(|part| *part == 0.0)
 }
 
 fn dumps(sized: &SizedSpacecraft, sweep: &Sweep) -> String {
@@ -107,11 +105,12 @@ fn wheels(sized: &SizedSpacecraft, found: &Found) -> String {
     let own = own.map_or_else(|| "none".to_owned(), |capacity| format!("{} N.m.s each", rounded(capacity)));
     format!(
         "Wheels for {} N.m.s and {} N.m about every axis at once: {} N.m.s gathered in {} (dump.requiredSpacing, at least an \
-         orbit) in the room between dumps, a slew, and a margin of {}; the file has {own}\n{table}",
+         orbit, about the Sun a day{}) in the room between dumps, a slew, and a margin of {}; the file has {own}\n{table}",
         rounded(wheels.needed_n_m_s),
         rounded(wheels.needed_n_m),
-        triple(wheels.gathered_n_m_s),
-        time(wheels.spacing_s),
+        triple(wheels.gathered_n_m_s.into()),
+        time(sized.spacing_s),
+        if sized.span_s < sized.spacing_s { "; the flight is shorter, see --duration" } else { "" },
         rounded(found.margin)
     )
 }
