@@ -7,7 +7,7 @@ import zipfile
 
 import numpy as np
 import pytest
-from fmpy import extract, read_model_description
+from fmpy import extract, read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
 
 from simulation import Stepped, simulate, stack, vector
@@ -236,3 +236,51 @@ def test_the_schema_of_a_spinner_is_the_committed_one_and_knows_the_shipped_file
     for optional in ("damper", "group", "star_tracker", "sun_sensor", "l1_orbit", "start"):
         assert optional not in schema["required"]
     check(schema, ace, "ace")
+
+
+STRONG_WHEELS = """\
+name = "Strong wheels"
+[mass_properties]
+mass_kg = 1.0
+center_of_mass_m = [0, 0, 0]
+inertia_kg_m2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+[optics.black]
+specular = 0
+diffuse = 0
+[[boxes]]
+name = "bus"
+center_m = [0, 0, 0]
+size_m = [1, 1, 1]
+optics = "black"
+[start]
+"orbit.center" = "sun"
+"attitude.source" = "free"
+"gravityGradient.enabled" = false
+""" + "".join(
+    f"[[wheels]]\naxis = {axis}\ncapacity_n_m_s = 50.0\nmax_torque_n_m = 1e6\ncoulomb_friction_n_m = 0.0\ninertia_kg_m2 = 0.159\n"
+    for axis in ([1, 0, 0], [0, 1, 0], [0, 0, 1])
+)
+
+
+def test_very_strong_wheels_pack_with_a_note_and_turn_the_body(heliotorque, dist, tmp_path):
+    (tmp_path / "Strong.toml").write_text(STRONG_WHEELS, encoding="utf-8")
+    template = (dist / "MomentumPlant.fmu").resolve()
+    packed = call(heliotorque, "pack", "--spacecraft", "Strong.toml", "--template", template, "--name", "Strong", folder=tmp_path)
+    assert packed.returncode == 0 and "control.slewAcceleration starts at 10 rad/s2" in packed.stderr, packed.stderr
+    torque_n_m, stop_s = 15.0, 2.0
+    result = simulate_fmu(
+        str(tmp_path / "Strong.fmu"), stop_time=stop_s, step_size=0.1, output_interval=0.1,
+        start_values={"wheel[1].torqueCommand": torque_n_m}, output=["attitude.rate[1]"],
+    )
+    # The rotor takes part in the body's rate: (J - I) domega/dt = -u.
+    assert result["attitude.rate[1]"][-1] == pytest.approx(-torque_n_m * stop_s / (1.0 - 0.159), rel=1e-5)
+
+
+def test_check_names_the_model_whose_keys_it_judges_by(heliotorque, dist, tmp_path):
+    # A parameter of MomentumPlant beside what only its own range refuses.
+    text = STRONG_WHEELS.replace("mass_kg = 1.0", "mass_kg = 1e-4")
+    (tmp_path / "light.toml").write_text(text, encoding="utf-8")
+    checked = call(heliotorque, "check", "light.toml", "--template", (dist / "MomentumPlant.fmu").resolve(), folder=tmp_path)
+    said = checked.stdout + checked.stderr
+    assert checked.returncode != 0 and "spacecraft.mass" in said and "MomentumPlant" in said, said
+    assert "unknown name" not in said, said

@@ -82,12 +82,16 @@ pub(crate) fn wheel_array(spacecraft: &Spacecraft) -> Option<WheelArray> {
     WheelArray::new(&spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect::<Vec<_>>())
 }
 
+/// Smallest dump threshold that may be set, in N m s.
+pub(crate) const LEAST_THRESHOLD_N_M_S: f64 = 1e-6;
+
 /// The dump threshold; without one in the file what its wheels guarantee, and without wheels in all directions paper
 /// 000's for small wheels.
 pub(crate) fn dump_threshold_n_m_s(spacecraft: &Spacecraft) -> [f64; 3] {
     let smallest_n_m_s = spacecraft::PAPER_DUMP_THRESHOLDS_N_M_S[0].1;
     let capacities_n_m_s = spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s);
-    let guaranteed_n_m_s = wheel_array(spacecraft).map(|it| it.guaranteed_threshold_n_m_s(capacities_n_m_s));
+    let guaranteed_n_m_s = wheel_array(spacecraft)
+        .map(|it| it.guaranteed_threshold_n_m_s(capacities_n_m_s).max(LEAST_THRESHOLD_N_M_S));
     spacecraft.dump_threshold_n_m_s.map_or([guaranteed_n_m_s.unwrap_or(smallest_n_m_s); 3], Into::into)
 }
 

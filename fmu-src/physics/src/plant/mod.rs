@@ -53,7 +53,9 @@ pub use settings::configuration::{
     AttitudeSource, Command, Configuration, DynamicAttitude, Encounter, EphemerisSource, LightSource, Motion,
     PredictionSettings, SunLight, orbit_from_elements,
 };
-pub use settings::control_defaults::ControlDefaults;
+pub use settings::control_defaults::{
+    ControlDefaults, DUMP_TORQUE_N_M, SLEW_ACCELERATION_RAD_S2, SLEW_RATE_RAD_S,
+};
 pub use settings::dynamics_settings::{
     Control, DynamicsInputs, DynamicsSettings, StartMotion, StartPointing, ThrusterControl, Tracked,
 };

@@ -13,4 +13,4 @@ mod tests;
 pub use figures::Figures;
 pub use hull::is_outside;
 pub use thrusters::{ThrusterFigures, TorqueBothWays};
-pub use warnings::warnings;
+pub use warnings::{defaults_at_their_bounds, warnings};

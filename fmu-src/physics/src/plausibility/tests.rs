@@ -201,6 +201,59 @@ fn each_slip_has_its_warning() {
     assert_eq!(judged(&format!("{SOLID}{}", lid(1))), [""; 0]);
 }
 
+/// A square of 80 m2 in the XZ plane, as `more` has its corners and sides.
+fn sail(more: &str) -> String {
+    format!(
+        "name = 'Sail'\n[mass_properties]\nmass_kg = 16\ncenter_of_mass_m = [0.02, 0, -0.05]\n\
+         inertia_kg_m2 = [[60, 0, 0], [0, 110, 0], [0, 0, 60]]\n[optics.front]\nspecular = 0.83\ndiffuse = 0.05\n{more}"
+    )
+}
+
+#[test]
+fn a_membrane_of_one_side_is_warned_of_whichever_way_it_faces() {
+    let corners = ["[4.472, 0, -4.472]", "[-4.472, 0, -4.472]", "[-4.472, 0, 4.472]", "[4.472, 0, 4.472]"];
+    let plate = |corners: [&str; 4], rear: &str| {
+        sail(&format!(
+            "[[plates]]\nname = 'sail'\npolygon_m = [{}]\noptics = 'front'\n{rear}",
+            corners.join(", ")
+        ))
+    };
+    let mut turned = corners;
+    turned.reverse();
+    for corners in [corners, turned] {
+        let found = judged(&plate(corners, ""));
+        assert!(found.iter().any(|it| it.contains("`sail` has one side and nothing behind it")), "{found:?}");
+        assert_eq!(judged(&plate(corners, "rear_optics = 'front'\n")), [""; 0]);
+    }
+    // Four quarters in a plane hide nothing behind one another either.
+    let quarter = |x: i32, z: i32| {
+        format!(
+            "[[plates]]\nname = 'q{x}{z}'\nnormal = [0, -1, 0]\narea_m2 = 20\ncenter_m = [{x}, 0, {z}]\noptics = 'front'\n"
+        )
+    };
+    let quarters: String = [(-2, -2), (-2, 2), (2, -2), (2, 2)].map(|(x, z)| quarter(x, z)).concat();
+    assert_eq!(judged(&sail(&quarters)).iter().filter(|it| it.contains("nothing behind it")).count(), 4);
+}
+
+#[test]
+fn defaults_at_their_bounds_are_said() {
+    let wheels = |torque_n_m: f64| {
+        let wheel = |axis: &str| {
+            format!(
+                "[[wheels]]\naxis = {axis}\ncapacity_n_m_s = 50\nmax_torque_n_m = {torque_n_m}\ninertia_kg_m2 = 0.159\n"
+            )
+        };
+        SOLID.split("[[wheels]]").next().unwrap().to_owned()
+            + &["[1, 0, 0]", "[0, 1, 0]", "[0, 0, 1]"].map(wheel).concat()
+    };
+    // The largest inertia is 650 kg m2: half of 13,000 N m gives 10 rad/s2.
+    assert_eq!(defaults_at_their_bounds(&spacecraft(&wheels(12_999.0))), [""; 0]);
+    let said = defaults_at_their_bounds(&spacecraft(&wheels(1e7)));
+    let [acceleration, torque] = said.as_slice() else { panic!("{said:?}") };
+    assert!(acceleration.starts_with("control.slewAcceleration starts at 10 rad/s2"), "{acceleration}");
+    assert!(torque.starts_with("dump.torque starts at 1000000 N.m"), "{torque}");
+}
+
 proptest! {
     #[test]
     fn a_point_is_outside_of_a_turned_box_by_its_distance(

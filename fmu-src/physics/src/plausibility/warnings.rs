@@ -4,6 +4,8 @@ use nalgebra::Vector3;
 
 use super::figures::Figures;
 use super::surfaces::{Surface, surfaces};
+use crate::momentum::WheelArray;
+use crate::plant::{ControlDefaults, DUMP_TORQUE_N_M, SLEW_ACCELERATION_RAD_S2};
 use crate::spacecraft::{Spacecraft, SunshadeModel, Thruster};
 
 /// Extents of a spacecraft, in m.
@@ -46,7 +48,8 @@ pub fn warnings(spacecraft: &Spacecraft, figures: &Figures) -> Vec<String> {
     lengths(figures, &mut found);
     masses(figures, &mut found);
     center_of_mass(figures, &mut found);
-    inward(&surfaces, figures, &mut found);
+    one_sided(&surfaces, figures, &mut found);
+    found.extend(defaults_at_their_bounds(spacecraft));
     areas(spacecraft, &surfaces, &mut found);
     jets(spacecraft, figures, &mut found);
     if spacecraft.wheels.len() >= 3 && figures.wheels.is_none() {
@@ -212,8 +215,40 @@ fn center_of_mass(figures: &Figures, found: &mut Vec<String>) {
     }
 }
 
-/// One-sided surfaces that have everything else in front of them.
-fn inward(surfaces: &[Surface], figures: &Figures, found: &mut Vec<String>) {
+/// A sentence for what starts at the bound of what may be set, as the file gives more or less.
+pub fn defaults_at_their_bounds(spacecraft: &Spacecraft) -> Vec<String> {
+    let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
+    let defaults = ControlDefaults::of(spacecraft, WheelArray::new(&axes).as_ref());
+    let rows = [
+        (
+            "control.slewAcceleration",
+            defaults.slew_acceleration_rad_s2,
+            SLEW_ACCELERATION_RAD_S2,
+            "rad/s2",
+            "wheels",
+        ),
+        (
+            "control.thrusterAcceleration",
+            defaults.thruster_acceleration_rad_s2,
+            SLEW_ACCELERATION_RAD_S2,
+            "rad/s2",
+            "thrusters",
+        ),
+        ("dump.torque", defaults.dump_torque_n_m, DUMP_TORQUE_N_M, "N.m", "wheels"),
+    ];
+    let at_bound = rows.into_iter().filter_map(|(name, start, [min, max], unit, of)| {
+        let (bound, than) = if start >= max { (max, "more") } else { (min, "less") };
+        (start == bound && start > 0.0).then(|| {
+            format!(
+                "{name} starts at {bound} {unit}, as far as it may be set: the {of} of the file give {than}"
+            )
+        })
+    });
+    at_bound.collect()
+}
+
+/// One-sided surfaces that have everything else in front of them, or nothing behind.
+fn one_sided(surfaces: &[Surface], figures: &Figures, found: &mut Vec<String>) {
     let slack_m = BEHIND * extents_m(figures).norm();
     for (index, surface) in surfaces.iter().enumerate().filter(|(_, surface)| !surface.is_two_sided) {
         let Some(origin_m) = surface.corners_m.first() else { continue };
@@ -227,6 +262,11 @@ fn inward(surfaces: &[Surface], figures: &Figures, found: &mut Vec<String>) {
         if lowest_m >= -slack_m && highest_m > slack_m {
             found.push(format!(
                 "`{}` faces inward: everything else lies in front of it, and light reaches it from there alone",
+                surface.name
+            ));
+        } else if lowest_m >= -slack_m {
+            found.push(format!(
+                "`{}` has one side and nothing behind it: light on its back meets nothing; a membrane has `rear_optics`",
                 surface.name
             ));
         }

@@ -51,7 +51,14 @@ pub(super) fn run(arguments: &Check, file: &str, text: &str) -> Outcome {
     let of_start = |model: &Described| {
         rest.as_ref().is_some_and(|rest| binary.describe(&model.model, None, Some(rest)).is_ok())
     };
-    if let Some((model, problems)) = refusals.iter().find(|(model, _)| of_start(model)) {
+    // The kinds of file are far apart: what the other models miss in it would hide what is wrong.
+    let is_own = |model: &Described| Some(&model.model) == own.as_ref();
+    let rank = |model: &Described| (common_keys(text, &model.default_setup), is_own(model));
+    let fittest = refusals.iter().max_by_key(|(model, _)| rank(model));
+    let of_start = refusals.iter().filter(|(model, _)| of_start(model)).max_by_key(|(model, _)| rank(model));
+    // One that fits better and fails without its start values too has the reason.
+    let has_reason = |model: &Described| fittest.is_none_or(|(best, _)| rank(model) >= rank(best));
+    if let Some((model, problems)) = of_start.filter(|(model, _)| taken.is_some() || has_reason(model)) {
         return refused(file, model, problems);
     }
     // Each model takes its own kind of file; one that takes this one is enough.
@@ -78,10 +85,7 @@ pub(super) fn run(arguments: &Check, file: &str, text: &str) -> Outcome {
                 .map_or_else(|_| levers(text), |it| figures::report(&it, sunlight(&description)))
         ));
     }
-    // The kinds of file are far apart: what the other models miss in it would hide what is wrong.
-    let is_own = |model: &Described| Some(&model.model) == own.as_ref();
-    let rank = |model: &Described| (common_keys(text, &model.default_setup), is_own(model));
-    let Some(fittest) = refusals.iter().max_by_key(|(model, _)| rank(model)) else {
+    let Some(fittest) = fittest else {
         return Err(format!("{}: none of its models reads a file", source.path().display()).into());
     };
     let takes_the_same =

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use files::Destination;
+use physics::{plausibility::defaults_at_their_bounds, spacecraft::Spacecraft};
 
 use crate::{
     assembly::{Assembled, Parts, Source, assemble, reference_flight, unused_map},
@@ -125,7 +126,10 @@ pub(crate) fn run(arguments: &Pack) -> Outcome {
     let windows = pointing::warnings(&description, &[], pointing::windows_of(&setup).as_slice());
     let timeline = parts.timeline.map(files::read_text).transpose()?;
     let panels = timeline.and_then(|text| panels_without_effect(&text, &description, &[], ""));
-    for warning in unused_map(&setup, &described.model, &description).iter().chain(&windows).chain(&panels) {
+    let bounds =
+        Spacecraft::from_toml("", &setup).map_or_else(|_| Vec::new(), |it| defaults_at_their_bounds(&it));
+    let map = unused_map(&setup, &described.model, &description);
+    for warning in map.iter().chain(&windows).chain(&panels).chain(&bounds) {
         terminal::note(&format!("warning: {warning}"));
     }
     let destination = Destination::open(&path, "--output", &inputs)?;

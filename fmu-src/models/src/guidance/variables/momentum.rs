@@ -9,7 +9,7 @@ use super::super::setup::GuidanceSetup;
 use super::choices::DumpReinitTo;
 use crate::common::choices::{MomentumConvention, PanelTilt};
 use crate::common::management::{MomentumStrategy, TargetingVariables};
-use crate::common::spacecraft::dump_threshold_n_m_s;
+use crate::common::spacecraft::{LEAST_THRESHOLD_N_M_S, dump_threshold_n_m_s};
 
 /// One solar panel.
 #[derive(Variables)]
@@ -60,7 +60,7 @@ pub struct MomentumVariables {
 #[variables(setup = GuidanceSetup)]
 pub struct DumpVariables {
     /// Magnitude of a body component of momentum that triggers a dump, here a request of one; a very large value means never.
-    #[parameter(tunable, unit = "N.m.s", min = 1e-6, start = dump_threshold_n_m_s(&setup.spacecraft))]
+    #[parameter(tunable, unit = "N.m.s", min = LEAST_THRESHOLD_N_M_S, start = dump_threshold_n_m_s(&setup.spacecraft))]
     pub threshold: RealVector<3>,
     /// Where a component goes that exceeded its threshold; the others stay.
     #[parameter(start = DumpReinitTo::Opposite)]

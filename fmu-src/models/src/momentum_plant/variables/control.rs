@@ -2,6 +2,7 @@
 
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 use physics::attitude::control::Allocation;
+use physics::plant::{SLEW_ACCELERATION_RAD_S2, SLEW_RATE_RAD_S};
 
 use super::super::setup::PlantSetup;
 use super::choices::WheelAllocation;
@@ -25,17 +26,17 @@ pub struct ControlVariables {
     pub integral: Real,
     /// Greatest rate relative to the command about the eigenaxis while the attitude follows a command that jumped; 0 = no
     /// limit.
-    #[parameter(unit = "rad/s", display = "deg/s", min = 0.0, max = 10.0, start = setup.control.slew_rate_rad_s)]
+    #[parameter(unit = "rad/s", display = "deg/s", min = SLEW_RATE_RAD_S[0], max = SLEW_RATE_RAD_S[1], start = setup.control.slew_rate_rad_s)]
     pub slew_rate: Real,
     /// Greatest angular acceleration in such a turn; 0 = no limit. The default leaves half of the wheels' torque to other
     /// uses.
-    #[parameter(unit = "rad/s2", display = "deg/s2", min = 0.0, max = 10.0, start = setup.control.slew_acceleration_rad_s2)]
+    #[parameter(unit = "rad/s2", display = "deg/s2", min = SLEW_ACCELERATION_RAD_S2[0], max = SLEW_ACCELERATION_RAD_S2[1], start = setup.control.slew_acceleration_rad_s2)]
     pub slew_acceleration: Real,
     /// Bandwidth where thrusters control the attitude: during a delta-v, and where wheels fail.
     #[parameter(unit = "rad/s", min = 1e-5, max = 1e3, start = 3.0)]
     pub thruster_bandwidth: Real,
     /// Greatest angular acceleration of a turn by thrusters; 0 = no limit.
-    #[parameter(unit = "rad/s2", display = "deg/s2", min = 0.0, max = 10.0, start = setup.control.thruster_acceleration_rad_s2)]
+    #[parameter(unit = "rad/s2", display = "deg/s2", min = SLEW_ACCELERATION_RAD_S2[0], max = SLEW_ACCELERATION_RAD_S2[1], start = setup.control.thruster_acceleration_rad_s2)]
     pub thruster_acceleration: Real,
     /// Time from one decision on the thrusters' pulses to the next; a whole number of samples.
     #[parameter(unit = "s", min = 1e-3, max = 1e3, start = 0.1)]

@@ -4,13 +4,14 @@ use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
 use physics::management::Strategy;
 use physics::momentum::Convention;
+use physics::plant::DUMP_TORQUE_N_M;
 
 use super::super::setup::PlantSetup;
 use super::choices::DumpReinitTo;
 use crate::common::choices::MomentumConvention;
 use crate::common::loads::{self, BySource};
 use crate::common::management::{MomentumStrategy, TargetingVariables};
-use crate::common::spacecraft::dump_threshold_n_m_s;
+use crate::common::spacecraft::{LEAST_THRESHOLD_N_M_S, dump_threshold_n_m_s};
 use crate::common::variables::WorkLimit;
 
 /// Torque about the centre of mass by source, body frame.
@@ -107,7 +108,7 @@ pub struct MomentumVariables {
 pub struct DumpVariables {
     /// Magnitude of a body component of momentum that triggers a dump; a very large value means never, and in free flight, where
     /// the master controls, none is triggered unless this is set.
-    #[parameter(tunable, unit = "N.m.s", min = 1e-6, start = dump_threshold_n_m_s(&setup.spacecraft))]
+    #[parameter(tunable, unit = "N.m.s", min = LEAST_THRESHOLD_N_M_S, start = dump_threshold_n_m_s(&setup.spacecraft))]
     pub threshold: RealVector<3>,
     /// Where a component goes that exceeded its threshold.
     #[parameter(start = DumpReinitTo::Opposite)]
@@ -131,7 +132,7 @@ pub struct DumpVariables {
     pub guaranteed_threshold: Real,
     /// Greatest component of the thrusters' mean torque in controlled and free flight, where a dump lasts as long as this takes;
     /// the default is half of what the wheels can hold against.
-    #[parameter(unit = "N.m", min = 1e-9, max = 1e6, start = setup.control.dump_torque_n_m)]
+    #[parameter(unit = "N.m", min = DUMP_TORQUE_N_M[0], max = DUMP_TORQUE_N_M[1], start = setup.control.dump_torque_n_m)]
     pub torque: Real,
     /// Shortest time from pulse to pulse of a dump.
     #[parameter(unit = "s", min = 1e-3, max = 1e4, start = 2.0)]

@@ -16,7 +16,14 @@ const REVERSAL_LAG: f64 = 1.25;
 /// Torque of a dump of a spacecraft without wheels, in N m, assumed.
 const TORQUE_WITHOUT_WHEELS_N_M: f64 = 0.05;
 
-/// Limits of turns and dumps.
+/// Rate of a turn that may be set, in rad/s.
+pub const SLEW_RATE_RAD_S: [f64; 2] = [0.0, 10.0];
+/// Acceleration of a turn that may be set, in rad/s2.
+pub const SLEW_ACCELERATION_RAD_S2: [f64; 2] = [0.0, 10.0];
+/// Torque of a dump that may be set, in N m.
+pub const DUMP_TORQUE_N_M: [f64; 2] = [1e-9, 1e6];
+
+/// Limits of turns and dumps, each within what may be set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ControlDefaults {
     /// Rate of a turn in rad/s: half a degree a second, less where it would take more than a quarter of what the wheels hold.
@@ -63,10 +70,21 @@ impl ControlDefaults {
             } else {
                 GREATEST_SLEW_RATE_RAD_S
             },
-            slew_acceleration_rad_s2: acceleration_rad_s2,
+            slew_acceleration_rad_s2: within(acceleration_rad_s2, SLEW_ACCELERATION_RAD_S2),
             monitor_margin_rad: reversal_rad.clamp(MARGIN_RAD, core::f64::consts::FRAC_PI_2),
-            thruster_acceleration_rad_s2: 0.5 * by_thrusters / largest_kg_m2,
-            dump_torque_n_m: if torque_n_m > 0.0 { 0.5 * torque_n_m } else { TORQUE_WITHOUT_WHEELS_N_M },
+            thruster_acceleration_rad_s2: within(
+                0.5 * by_thrusters / largest_kg_m2,
+                SLEW_ACCELERATION_RAD_S2,
+            ),
+            dump_torque_n_m: if torque_n_m > 0.0 {
+                within(0.5 * torque_n_m, DUMP_TORQUE_N_M)
+            } else {
+                TORQUE_WITHOUT_WHEELS_N_M
+            },
         }
     }
+}
+
+fn within(value: f64, [min, max]: [f64; 2]) -> f64 {
+    value.max(min).min(max)
 }
