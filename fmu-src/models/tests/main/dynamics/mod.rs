@@ -8,6 +8,7 @@ mod panel_momentum;
 mod refusals;
 mod sensors;
 mod spin_light;
+mod tanks;
 mod thrusters;
 
 use models::MomentumPlant;

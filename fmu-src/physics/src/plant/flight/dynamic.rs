@@ -379,8 +379,9 @@ impl AttitudeDynamics {
     fn begin_dump(&mut self, flight: &mut ConfiguredFlight<'_>, before: &Vector3<f64>, after: Vector3<f64>) {
         let time_s = self.motion.end_s();
         let event = DumpEvent { time_s, before_body_n_m_s: *before, after_body_n_m_s: after };
-        self.dumps.begin(event, flight.thrusters, &self.motion, &self.mass.known);
-        (flight.log)(&ThrusterEvent::Dump(event));
+        if self.dumps.begin(event, flight.thrusters, &self.motion, &self.mass.known) {
+            (flight.log)(&ThrusterEvent::Dump(event));
+        }
     }
 
     /// What acts from `time_s` on.
@@ -447,9 +448,10 @@ impl AttitudeDynamics {
             let field_body_t = instant.to_body * field_inertial_t;
             loads[Effect::Magnetic].torque_body_n_m = dipole.dipole_body_a_m2.cross(&field_body_t);
         }
-        let [torque_body_n_m, force_body_n] = self.motion.swinging_load(&settings.gyrostat, time_s, body);
-        let [external, _] = (flight.given.external)(time_s);
-        loads[Effect::Applied] = external + ForceTorque { force_body_n, torque_body_n_m };
+        let [torque_body_n_m, force_body_n] = self.motion.imbalance_load(&settings.gyrostat, time_s, body);
+        loads[Effect::Imbalance] = ForceTorque { force_body_n, torque_body_n_m };
+        loads[Effect::Slosh].torque_body_n_m = self.motion.swing_torque_n_m(time_s);
+        [loads[Effect::Applied], _] = (flight.given.external)(time_s);
         let thrusters = flight.thrusters.load();
         loads[Effect::Thrusters] = ForceTorque {
             force_body_n: thrusters.law.force_at_n(time_s),

@@ -16,6 +16,7 @@ use super::downlink_forecast::StartMomentum;
 use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::thruster_events::{Maneuver, ThrusterEvent};
+use crate::plant::thrusters::at_once::DumpAtOnce;
 
 /// Maneuvers so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -102,8 +103,8 @@ impl IdealFlight {
     /// Dumps to this momentum, body frame, in N m s, at `time_s` on request.
     fn dump_to(&mut self, flight: &mut ConfiguredFlight<'_>, time_s: f64, target_body_n_m_s: Vector3<f64>) {
         let settings = flight.context.configuration.momentum;
-        let event = self.integrator.dump_to(&mut flight.plant(), &settings, time_s, target_body_n_m_s);
-        self.dumped(flight, &event);
+        let event = self.integrator.request(&mut flight.plant(), &settings, time_s, target_body_n_m_s);
+        self.dump(flight, &event);
     }
 
     /// The maneuver, at `time_s`.
@@ -123,7 +124,7 @@ impl IdealFlight {
         let executed_m_s = configuration.thruster_events.executed_m_s(&found_m_s, number);
         if let Some(set) = maneuver.thrusters {
             let mass_kg = flight.context.mass_at_zero.mass_kg;
-            let given = flight.thrusters.give_at_once(set, executed_m_s.norm(), mass_kg, time_s);
+            let given = flight.thrusters.at_once(time_s).delta_v(set, executed_m_s.norm(), mass_kg);
             given.map_err(refused)?;
         }
         let moved = flight.propagator.maneuver(configuration, time_s, &executed_m_s);
@@ -181,7 +182,8 @@ impl IdealFlight {
                     at_s
                 }
                 Stop::Dump(event) => {
-                    self.dumped(flight, &event);
+                    self.dump(flight, &event);
+                    self.integrator.dumps().check()?;
                     dumped_s = Some(event.time_s);
                     event.time_s
                 }
@@ -192,16 +194,40 @@ impl IdealFlight {
         }
     }
 
-    /// Counts a dump; propellant, push and mass properties after it.
-    fn dumped(&mut self, flight: &mut ConfiguredFlight<'_>, event: &DumpEvent) {
-        self.spacing.dumped(event);
+    /// Dumps as far as the tanks feed the thrusters: momentum, propellant, push and mass properties after it. A dump that nothing
+    /// feeds is none.
+    fn dump(&mut self, flight: &mut ConfiguredFlight<'_>, due: &DumpEvent) {
+        let time_s = due.time_s;
+        let mut dump = DumpAtOnce { event: *due, push_body_n_s: None };
+        let mut pushed = None;
         if !flight.thrusters.settings.thrusters.is_empty() {
-            self.push(flight, event);
+            let mut plant = flight.plant();
+            let instant = plant.instant(time_s);
+            let mass = plant.mass_properties(&instant, time_s);
+            let given = flight.thrusters.at_once(time_s).dump(due, &mass.center_of_mass_body_m);
+            let Some(given) = given else { return };
+            dump = given;
+            let inertial_from_body = instant.frame.inertial_from_body;
+            pushed =
+                dump.push_body_n_s.map(|push_body_n_s| inertial_from_body * push_body_n_s / mass.mass_kg);
+            self.dump_delta_v_inertial_m_s = pushed.unwrap_or_default();
         }
-        if self.move_center_of_mass(flight, event.time_s) {
-            self.set_mass(flight, event.time_s);
+        self.integrator.dump(&mut flight.plant(), &dump.event);
+        self.spacing.dumped(&dump.event);
+        if let Some(delta_v_inertial_m_s) = &pushed {
+            self.integrator.push(delta_v_inertial_m_s);
+            self.set_mass(flight, time_s);
+            flight.propagator.cut_with_jump(
+                &flight.context.configuration,
+                time_s,
+                true,
+                delta_v_inertial_m_s,
+            );
         }
-        (flight.log)(&ThrusterEvent::Dump(*event));
+        if self.move_center_of_mass(flight, time_s) {
+            self.set_mass(flight, time_s);
+        }
+        (flight.log)(&ThrusterEvent::Dump(dump.event));
     }
 
     /// A thruster event is over: the centre of mass is elsewhere, where that is simulated.
@@ -221,22 +247,5 @@ impl IdealFlight {
     fn set_mass(&self, flight: &mut ConfiguredFlight<'_>, time_s: f64) {
         let loaded = flight.propagator.center_of_mass.of(&flight.context.configuration);
         flight.context.mass_at_zero = flight.thrusters.left(&loaded, time_s).unwrap_or(loaded);
-    }
-
-    fn push(&mut self, flight: &mut ConfiguredFlight<'_>, event: &DumpEvent) {
-        let time_s = event.time_s;
-        let mut plant = flight.plant();
-        let instant = plant.instant(time_s);
-        let mass = plant.mass_properties(&instant, time_s);
-        let push_body_n_s = flight.thrusters.dump_at_once(event, &mass.center_of_mass_body_m);
-        let Some(push_body_n_s) = push_body_n_s else {
-            self.dump_delta_v_inertial_m_s = Vector3::zeros();
-            return;
-        };
-        let delta_v_inertial_m_s = instant.frame.inertial_from_body * push_body_n_s / mass.mass_kg;
-        self.dump_delta_v_inertial_m_s = delta_v_inertial_m_s;
-        self.integrator.push(&delta_v_inertial_m_s);
-        self.set_mass(flight, time_s);
-        flight.propagator.cut_with_jump(&flight.context.configuration, time_s, true, &delta_v_inertial_m_s);
     }
 }

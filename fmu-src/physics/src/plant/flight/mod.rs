@@ -122,7 +122,7 @@ impl Flight {
         let (wheels, oscillators) = (spacecraft.wheels.len(), spacecraft.oscillator_count());
         self.propagator.is_valid()
             && self.prediction.as_ref().is_none_or(EncounterPrediction::is_valid)
-            && self.thrusters.is_valid(spacecraft.thrusters.len(), spacecraft.tanks.len())
+            && self.thrusters.is_valid(spacecraft)
             && match &self.mode {
                 Mode::Waiting => true,
                 Mode::Ideal(ideal) => ideal.is_valid(),
