@@ -1,7 +1,7 @@
 //! Against torques whose integrals and threshold crossings are known in closed form.
 use super::*;
-use crate::momentum::Convention;
 use crate::loads::ByEffect;
+use crate::momentum::Convention;
 use crate::momentum::dump::{DUMP_WINDOW_S, DumpPolicy, Reinitialise, TooManyDumps};
 use crate::momentum::torque_model::{EventValues, TorqueSample};
 use approx::assert_relative_eq;

@@ -79,7 +79,10 @@ fn a_tank_that_has_run_dry_feeds_no_more() {
                 used.add_flow(0, flow);
                 let end_s = used.depletion_time_s(0, &tank);
                 used.accumulate(core::slice::from_ref(&tank), end_s);
-                assert_eq!((used.used_kg(0, end_s + 9.0), tank.feeds(used.used_kg(0, end_s))), (usable_kg, false));
+                assert_eq!(
+                    (used.used_kg(0, end_s + 9.0), tank.feeds(used.used_kg(0, end_s))),
+                    (usable_kg, false)
+                );
             }
         }
         let mut used = PropellantState::new(1, 0.0);
