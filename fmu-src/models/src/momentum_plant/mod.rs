@@ -11,7 +11,7 @@ mod variables;
 
 use fmi_export::{
     About, Dependencies, Extensions, Failure, Manual, Model, OutputRates, Real, SetupError, StartValue, Step,
-    StepEnd, Values,
+    StepEnd, Values, checksum,
 };
 use physics::environment::time;
 
@@ -47,6 +47,7 @@ impl Model for MomentumPlant {
         file: &str,
         text: &str,
     ) -> Result<(), SetupError> {
+        setup.schedules = setup.schedules.rotate_left(1) ^ checksum(text.as_bytes());
         if schedule == EPHEMERIS_FILE {
             setup.ephemeris = Some(ephemeris::read(file, text)?);
             return Ok(());

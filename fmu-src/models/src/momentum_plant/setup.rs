@@ -53,6 +53,8 @@ pub struct PlantSetup {
     pub ephemeris: Option<Arc<OnboardEphemeris>>,
     /// Commands over time, if there is a file of them; it does not enter the GUID.
     pub timeline: Option<Arc<Timeline>>,
+    /// Digest of both files: a state continues by others, what was computed ahead does not.
+    pub schedules: u64,
     /// Its panels, one by one; empty where there is none.
     pub panel_steps: Vec<Arc<[PanelStep]>>,
     /// How disturbed orbits are integrated.
@@ -85,6 +87,7 @@ impl PlantSetup {
             shapes: PreparedShapes::of(&spacecraft),
             ephemeris: None,
             timeline: None,
+            schedules: 0,
             panel_steps: Vec::new(),
             orbit_method: OrbitMethod::default(),
             ephemeris_cache: EphemerisCache::default(),

@@ -25,6 +25,8 @@ pub struct PlantState {
     pub command: Command,
     /// Inputs and tunables at the last change.
     last: LastInputs,
+    /// Digest of the files of timeline and ephemeris that it goes by.
+    schedules: u64,
     /// `dump.request` at the last step.
     pub request: Request,
     /// `maneuver.request` at the last step.
@@ -94,7 +96,7 @@ impl PlantState {
         inputs: StepInputs,
         attitude: Attitude,
         thrusters: Thrusters,
-        start_s: f64,
+        (start_s, schedules): (f64, u64),
     ) -> Result<Self, Failure> {
         let mut state = Self {
             start_s,
@@ -111,6 +113,7 @@ impl PlantState {
                 tunables: inputs.tunables,
                 force: inputs.applied[0],
             },
+            schedules,
             request: Request::default(),
             maneuver_request: Request::default(),
             warned: Warned::default(),
@@ -162,6 +165,15 @@ impl PlantState {
             force: core::mem::replace(&mut last.force, force) != force,
             tunables: before != inputs.tunables,
         })
+    }
+
+    /// Goes by the files with this digest from `time_s` on; whether they are others, with which nothing computed ahead holds.
+    pub fn take_schedules(&mut self, schedules: u64, time_s: f64) -> bool {
+        let are_others = core::mem::replace(&mut self.schedules, schedules) != schedules;
+        if are_others {
+            self.flight.reschedule(time_s);
+        }
+        are_others
     }
 
     /// The command that stands at the start of a flight with dynamics; until one comes `attitude` is held.

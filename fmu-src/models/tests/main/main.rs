@@ -34,6 +34,7 @@ mod plant_tolerance;
 mod plant_unset;
 mod plant_work;
 mod random;
+mod restored_states;
 mod scheduled_events;
 mod science_unload;
 mod spacecraft;

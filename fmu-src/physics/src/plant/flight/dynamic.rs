@@ -27,7 +27,7 @@ use crate::plant::settings::dynamics_settings::{
     DynamicsInputs, DynamicsSettings, StartMotion, StartPointing, Tracked,
 };
 use crate::plant::settings::error::{ManeuverError, PlantError};
-use crate::plant::settings::thruster_events::ThrusterEvent;
+use crate::plant::settings::thruster_events::{SchedulePlace, ThrusterEvent};
 use crate::plant::settings::work::Cost;
 use crate::plant::thrusters::reaction_control::Thrusters;
 
@@ -44,8 +44,8 @@ pub(crate) struct AttitudeDynamics {
     pub sensing: Sensing,
     pub control: ControlLoop,
     pub dumps: MomentumDumps,
-    /// How many events of the schedule are over.
-    scheduled: usize,
+    /// How far the schedule is over.
+    pub scheduled: SchedulePlace,
 }
 
 /// A step of a flight by torque.
@@ -65,9 +65,8 @@ impl AttitudeDynamics {
         flight: &mut ConfiguredFlight<'_>,
         time_s: f64,
     ) -> Result<Self, PlantError> {
-        let events = &flight.context.configuration.thruster_events;
-        let scheduled = events.before(time_s);
-        events.check_for_dynamics(scheduled)?;
+        let scheduled = SchedulePlace::before(time_s);
+        flight.context.configuration.thruster_events.check_for_dynamics(scheduled)?;
         let StartMotion { mut attitude, mut rate_body_rad_s, rate_is_pointed, .. } = settings.start;
         if let Some(pointing) = &settings.start.pointing {
             let frame = match pointing {
@@ -227,7 +226,7 @@ impl AttitudeDynamics {
         if grid_due {
             self.begin_interval(step)?;
         }
-        self.dump_as_scheduled(step, due_s);
+        self.dump_as_scheduled(step, due_s)?;
         if sample_due {
             self.sample(step)?;
             step.flight.thrusters.process_valve_events(time_s);
@@ -365,15 +364,18 @@ impl AttitudeDynamics {
     }
 
     /// Begins the dumps of the schedule whose time has come.
-    fn dump_as_scheduled(&mut self, step: &mut DynamicStep<'_, '_>, due_s: f64) {
+    fn dump_as_scheduled(&mut self, step: &mut DynamicStep<'_, '_>, due_s: f64) -> Result<(), PlantError> {
         while let events = &step.flight.context.configuration.thruster_events
             && let Some(event) = events.next(self.scheduled).filter(|event| events.time_s(event) <= due_s)
         {
-            self.scheduled = self.scheduled.saturating_add(1);
+            // The schedule may be another than at the start.
+            events.check_for_dynamics(self.scheduled)?;
+            self.scheduled.take(events.time_s(event));
             if let Some(target_body_n_m_s) = events.dump_target_body_n_m_s(event) {
                 self.dump_to(step, target_body_n_m_s);
             }
         }
+        Ok(())
     }
 
     fn begin_dump(&mut self, flight: &mut ConfiguredFlight<'_>, before: &Vector3<f64>, after: Vector3<f64>) {

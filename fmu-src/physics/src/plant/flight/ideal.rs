@@ -15,7 +15,7 @@ use super::configured::ConfiguredFlight;
 use super::downlink_forecast::StartMomentum;
 use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::{ManeuverError, PlantError};
-use crate::plant::settings::thruster_events::{Maneuver, ThrusterEvent};
+use crate::plant::settings::thruster_events::{Maneuver, SchedulePlace, ThrusterEvent};
 
 /// Maneuvers so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -37,19 +37,19 @@ pub(crate) struct IdealFlight {
     pub dump_delta_v_inertial_m_s: Vector3<f64>,
     /// Maneuvers so far.
     pub maneuvers: Maneuvers,
-    /// How many events of the schedule are over.
-    scheduled: usize,
+    /// How far the schedule is over.
+    pub scheduled: SchedulePlace,
 }
 
 impl IdealFlight {
-    /// From `time_s` on with these totals, so many events of the schedule being over.
-    pub(super) fn new(time_s: f64, totals: Totals, scheduled: usize) -> Self {
+    /// From `time_s` on with these totals, what the schedule has before being over.
+    pub(super) fn new(time_s: f64, totals: Totals) -> Self {
         Self {
             integrator: MomentumIntegrator::new(time_s, totals),
             spacing: DumpSpacing::default(),
             dump_delta_v_inertial_m_s: Vector3::zeros(),
             maneuvers: Maneuvers::default(),
-            scheduled,
+            scheduled: SchedulePlace::before(time_s),
         }
     }
 
@@ -73,8 +73,7 @@ impl IdealFlight {
         plant.prepare(time_s, time_s)?;
         let frame = plant.instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-        let over = flight.context.configuration.thruster_events.before(time_s);
-        let mut begun = Self::new(time_s, totals, over);
+        let mut begun = Self::new(time_s, totals);
         flight.context.begin_work(flight.given.work_limit);
         begun.advance(flight, time_s)?;
         Ok(begun)
@@ -143,7 +142,7 @@ impl IdealFlight {
     fn scheduled_event(&mut self, flight: &mut ConfiguredFlight<'_>, time_s: f64) -> Result<(), PlantError> {
         let configuration = &flight.context.configuration;
         let Some(event) = configuration.thruster_events.next(self.scheduled).copied() else { return Ok(()) };
-        self.scheduled = self.scheduled.saturating_add(1);
+        self.scheduled.take(configuration.thruster_events.time_s(&event));
         if let Some(place_body_m) = event.center_of_mass_body_m {
             flight.propagator.center_of_mass.place(configuration, place_body_m);
             self.integrator.cut(time_s);

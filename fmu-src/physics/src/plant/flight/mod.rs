@@ -230,9 +230,6 @@ impl Flight {
             }
         }
         if let Some(configuration) = configuration {
-            if configuration.air_and_field != setup.context.configuration.air_and_field {
-                self.propagator.air_and_field.cut(time_s);
-            }
             setup.context.configuration = configuration;
             self.propagator.center_of_mass.reconfigured(&setup.context.configuration);
         }
@@ -244,6 +241,16 @@ impl Flight {
         }
         self.set_left();
         Ok(())
+    }
+
+    /// The schedule is another one from `time_s` on: what it has before is over, and a downlink of it is chosen anew.
+    pub fn reschedule(&mut self, time_s: f64) {
+        match &mut self.mode {
+            Mode::Waiting => {}
+            Mode::Ideal(ideal) => ideal.scheduled.skip_to(time_s),
+            Mode::Dynamic(dynamics) => dynamics.scheduled.skip_to(time_s),
+        }
+        self.propagator.sun_choice.row = 0;
     }
 
     /// The flight in one step, its settings and its mode.
@@ -440,7 +447,7 @@ impl Flight {
                 let evaluation = &*evaluation.insert(evaluated);
                 let momentum_body_n_m_s = settings.start_momentum_body_n_m_s;
                 let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-                let waiting = IdealFlight::new(time_s, totals, 0);
+                let waiting = IdealFlight::new(time_s, totals);
                 (evaluation, ideal(&waiting, settings, evaluation, inputs, time_s))
             }
             _ => return Err(PlantError::OtherMode),

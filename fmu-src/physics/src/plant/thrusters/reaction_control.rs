@@ -83,7 +83,7 @@ impl Thrusters {
             && self.propellant.is_valid(tanks)
             && self.valves.iter().all(Valve::is_valid)
             && self.schedule.iter().all(PulseSchedule::is_valid)
-            && self.burn.is_none_or(|it| it.stop_s > f64::NEG_INFINITY && self.has_thrusters(it.set))
+            && self.burn.is_none_or(|it| it.stop_s > f64::NEG_INFINITY)
             && self.dump.as_ref().is_none_or(PulsedDump::is_valid)
             && self.load.is_valid()
     }
