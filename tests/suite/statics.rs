@@ -45,12 +45,8 @@ const SET_LATER: [(&str, &str); 3] = [
     ("PAIRS", "[OnceLock<Pairs>;DEGREE+1]"),
 ];
 /// What is constant, or a cell of plain data.
-const CONSTANT: [(&str, &str); 4] = [
-    ("LIBRARY", "macro_rules"),
-    ("MARKS", "[u8;2]"),
-    ("ONCE", "Once"),
-    ("PLACE", "thread_local"),
-];
+const CONSTANT: [(&str, &str); 4] =
+    [("LIBRARY", "macro_rules"), ("MARKS", "[u8;2]"), ("ONCE", "Once"), ("PLACE", "thread_local")];
 
 #[test]
 fn no_static_of_the_library_holds_heap() {
@@ -74,6 +70,7 @@ fn no_static_of_the_library_holds_heap() {
             }
         }
     }
-    let expected = SET_LATER.into_iter().chain(CONSTANT).map(|(name, kind)| (name.to_owned(), kind.to_owned()));
+    let expected =
+        SET_LATER.into_iter().chain(CONSTANT).map(|(name, kind)| (name.to_owned(), kind.to_owned()));
     assert_eq!(found, expected.collect());
 }

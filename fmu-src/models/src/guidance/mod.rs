@@ -283,7 +283,8 @@ impl State {
         let timeline = context.setup.timeline.as_ref()?;
         let (clock_minus_time_s, events) =
             (timeline.clock_minus_time_s(self.epoch_minus_time_s), timeline.events());
-        let [before, now] = [since_s, time_s].map(|it| begun(events, clock_minus_time_s, it, |event| event.at_s));
+        let [before, now] =
+            [since_s, time_s].map(|it| begun(events, clock_minus_time_s, it, |event| event.at_s));
         events.get(before..now)?.iter().rev().find_map(|event| event.dump).map(|dump| match dump {
             TimelineDump::Requested => Vector3::zeros(),
             TimelineDump::To { momentum_body_n_m_s } => momentum_body_n_m_s,

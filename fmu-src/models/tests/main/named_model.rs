@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use fmi_export::fmi2::{references, scalar_variables};
 use fmi_export::model::InputDerivative;
-use fmi_export::model_description::{Causality, Description, VariableKind, Variability};
+use fmi_export::model_description::{Causality, Description, Variability, VariableKind};
 use fmi_export::{
     BaseType, Context, Declare, Entry, Failure, InputsOverTime, Library, Model, Step, Values, Variables,
 };
@@ -118,7 +118,8 @@ impl<M: Model> NamedModel<M> {
                 given: given.then_some(limits),
                 input: variable.causality == Causality::Input,
                 changes: given
-                    && (variable.causality == Causality::Input || variable.variability == Variability::Tunable),
+                    && (variable.causality == Causality::Input
+                        || variable.variability == Variability::Tunable),
                 name: variable.name.clone(),
                 kind,
                 reference: (variable.value_reference - references::first(base)) as usize,

@@ -115,7 +115,11 @@ fn in_air_and_field() {
         (plain.to_vec(), 130.0, 60.0),
         ([&plain[..], &FREE].concat(), 130.25, 2.0),
         ([&plain[..], &[CONTROLLED]].concat(), 30.25, 2.0),
-        ([&plain[..], &[("atmosphere.model", 1.0), ("atmosphere.givenDensity", 1e-12)]].concat(), 130.0, 60.0),
+        (
+            [&plain[..], &[("atmosphere.method", 3.0), ("atmosphere.givenDensity", 1e-12)]].concat(),
+            130.0,
+            60.0,
+        ),
     ] {
         let named = NamedModel::with("cubesat-12u.toml", CUBESAT);
         Mode { named, sets, on_the_way: &[], saved_s, onward_s, is_meant }.goes_on();
@@ -153,7 +157,8 @@ fn under_a_timeline() {
 
 #[test]
 fn between_predictions() {
-    let sets = [&cruise::sets(&cruise::start(2e5, 0.0), true)[..], &[("prediction.refresh", 3_600.0)]].concat();
+    let sets =
+        [&cruise::sets(&cruise::start(2e5, 0.0), true)[..], &[("prediction.refresh", 3_600.0)]].concat();
     let is_meant = |it: &NamedInstance<'_, MomentumPlant>| it.boolean("prediction.valid");
     let named = NamedModel::<MomentumPlant>::shipped();
     Mode { named, sets, on_the_way: &[], saved_s: 4_000.0, onward_s: 2_000.0, is_meant }.goes_on();

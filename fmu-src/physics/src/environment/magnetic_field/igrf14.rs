@@ -49,7 +49,9 @@ fn pairs(n: usize) -> &'static Pairs {
             let mut whole = || fields.next()?.parse::<i32>().ok();
             let (Some(degree), Some(order)) = (whole(), whole()) else { continue };
             let m = order.unsigned_abs() as usize;
-            let Some(pair) = pairs.get_mut(m).filter(|_| degree.unsigned_abs() as usize == n) else { continue };
+            let Some(pair) = pairs.get_mut(m).filter(|_| degree.unsigned_abs() as usize == n) else {
+                continue;
+            };
             let scale_t = schmidt(n, m) * 1e-9;
             for (value, column) in fields.filter_map(|it| it.parse::<f64>().ok()).zip(pair) {
                 column[usize::from(order < 0)] = value * scale_t;

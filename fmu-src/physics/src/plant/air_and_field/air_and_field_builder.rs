@@ -60,7 +60,8 @@ impl AirAndFieldBuilder<'_, '_> {
         start_s: f64,
         limit_s: f64,
     ) -> Result<f64, PlantError> {
-        let is_made = segment.span.contains(start_s) && segment.made_for == Some((self.settings, self.figure));
+        let is_made =
+            segment.span.contains(start_s) && segment.made_for == Some((self.settings, self.figure));
         if !is_made || (self.orbit_has_moved && self.orbit_differs(segment, limit_s)) {
             self.build(segment, start_s, limit_s)?;
         }

@@ -253,14 +253,7 @@ impl AttitudeDynamics {
         } else {
             flight.propagator.cut_light(time_s);
         }
-        // A controller's torque lasts for a sample, and holds the rate.
-        let rate_terms_body = match &settings.control {
-            Some(_) => [Vector3::zeros(); 2],
-            None => {
-                let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
-                settings.gyrostat.torque_free_rate_terms(&body.rate_body_rad_s, &momentum_body)
-            }
-        };
+        let rate_terms_body = self.predicted_rate_terms(settings, flight, &body);
         let has_thrusters = !flight.thrusters.settings.thrusters.is_empty();
         let mut plant = flight.turning_plant(time_s, &body, rate_terms_body);
         if settings.panels_have_mass
@@ -268,7 +261,8 @@ impl AttitudeDynamics {
         {
             plant = flight.turning_plant(time_s, &body, rate_terms_body);
         }
-        self.disturbance = self.disturbance.next(&mut plant, time_s, settings.grid_s)?;
+        let inverse_inertia = settings.gyrostat.inverse_carrier().filter(|_| settings.control.is_none());
+        self.disturbance = self.disturbance.next(&mut plant, time_s, settings.grid_s, inverse_inertia)?;
         self.disturbance.deviate(&mut plant)?;
         if settings.panels_have_mass || self.mass.left.is_some() || has_thrusters {
             let instant = plant.instant(time_s);
@@ -287,6 +281,44 @@ impl AttitudeDynamics {
             }
         }
         Ok(())
+    }
+
+    /// First and second term of the rate's series at the end of the motion, body frame, in rad/s2 and rad/s3: by what acts there,
+    /// the disturbances as the interval that ends has them.
+    fn predicted_rate_terms(
+        &self,
+        settings: &DynamicsSettings,
+        flight: &ConfiguredFlight<'_>,
+        body: &BodyMotion,
+    ) -> [Vector3<f64>; 2] {
+        // A controller's torque lasts for a sample, and holds the rate.
+        if settings.control.is_some() {
+            return [Vector3::zeros(); 2];
+        }
+        let (time_s, rate) = (self.motion.end_s(), &body.rate_body_rad_s);
+        let [_, [mut torque, mut slope]] = self.disturbance.total_at(time_s);
+        let [now, per_s] = (flight.given.external)(time_s);
+        torque += now.torque_body_n_m;
+        slope += per_s.torque_body_n_m;
+        // A pulse that ends before the interval says little of it.
+        let steady_until_s = flight.thrusters.next_edge_s().min(self.dumps.until_s());
+        if steady_until_s >= time_s + settings.grid_s {
+            let [turn, turn_slope] = flight.thrusters.load().law.torque_body_n_m;
+            torque += self.dumps.torque_body_n_m() + turn;
+            slope += turn_slope;
+        }
+        let dipole = self.dipole(flight).filter(|_| !self.disturbance.is_before());
+        if let Some(DipoleInField { dipole_body_a_m2, field_inertial_t }) = dipole {
+            let [field, per_s] = field_inertial_t.map(|it| body.attitude.body_from_inertial(&it));
+            torque += dipole_body_a_m2.cross(&field);
+            slope += dipole_body_a_m2.cross(&(per_s - rate.cross(&field)));
+        }
+        let gyrostat = &settings.gyrostat;
+        let motor_n_m = |k: usize| {
+            if gyrostat.wheels()[k].locked { 0.0 } else { self.control.wheels.motors()[k].torque_n_m }
+        };
+        let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
+        gyrostat.rate_terms(rate, &momentum_body, [torque, slope], &gyrostat.along_axes(motor_n_m))
     }
 
     /// The panels go where their laws have them at the end of the motion; the body after that, where they were elsewhere.
