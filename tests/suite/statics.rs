@@ -31,7 +31,8 @@ impl<'ast> Visit<'ast> for Statics {
     /// `thread_local!` and macros that declare statics.
     fn visit_macro(&mut self, item: &'ast syn::Macro) {
         let text = item.tokens.to_string();
-        for (at, _) in text.match_indices("static ") {
+        let declared = text.match_indices("static ").filter(|(at, _)| !text[..*at].ends_with('\''));
+        for (at, _) in declared {
             let name = text[at + 7..].split([' ', ':']).next().unwrap_or_default();
             self.0.push((name.to_owned(), item.path.to_token_stream().to_string().replace(' ', "")));
         }
