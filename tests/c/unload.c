@@ -55,10 +55,11 @@ static long anonymous_kb(void) {
 static void simulate(const Library *library, const char *xml, const char *model, fmi2Component c) {
     int panicking = strcmp(model, "Panicking") == 0;
     if (strcmp(model, "MomentumPlant") == 0) {
-        /* About the Earth, whose air and magnetic field come from tables. */
-        const fmi2ValueReference center = reference_of(xml, "orbit.center");
+        /* About the Earth, whose air (NRLMSISE-00) and magnetic field (IGRF) come from tables. */
+        const fmi2ValueReference choices[] = {
+            reference_of(xml, "orbit.center"), reference_of(xml, "atmosphere.method"), reference_of(xml, "magneticField.method")};
         const fmi2ValueReference circle[] = {reference_of(xml, "orbit.semiMajorAxis"), reference_of(xml, "orbit.eccentricity")};
-        CHECK(library->SetInteger(c, &center, 1, (const fmi2Integer[]){4}) == fmi2OK);
+        CHECK(library->SetInteger(c, choices, 3, (const fmi2Integer[]){4, 2, item_of(xml, "igrf14")}) == fmi2OK);
         CHECK(library->SetReal(c, circle, 2, (const fmi2Real[]){6.9e6, 0.0}) == fmi2OK);
     }
     CHECK(library->ExitInitializationMode(c) == fmi2OK);
