@@ -40,6 +40,7 @@ pub(super) fn force_model() -> ForceModel {
         gm_m3_s2: GM_MERCURY_M3_S2,
         attracting: BODIES.to_vec(),
         moon: false,
+        relativity: false,
         epoch_minus_time_s: FLYBY_S - LONG_S,
         lead_s: 21_600.0,
     }

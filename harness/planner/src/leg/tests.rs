@@ -30,10 +30,6 @@ impl BodyEphemeris for Sky {
         self.0.state(body, FLYBY_S + at_s)
     }
 
-    fn acceleration_m_s2(&mut self, body: Body, at_s: f64) -> Vector3<f64> {
-        self.0.acceleration_m_s2(body, FLYBY_S + at_s)
-    }
-
     fn smooth_until_s(&self, at_s: f64) -> f64 {
         Ephemeris::smooth_until_s(FLYBY_S + at_s) - FLYBY_S
     }

@@ -89,6 +89,9 @@ pub struct OrbitVariables {
     /// Whether the Sun's tide acts on a disturbed orbit.
     #[parameter(start = true)]
     pub sun_tide: Boolean,
+    /// Whether the Moon's tide acts on a disturbed orbit about the Earth.
+    #[parameter(start = true)]
+    pub moon_tide: Boolean,
     /// Whether light, heat, thrusters and force.applied move the spacecraft on a disturbed orbit.
     #[parameter(start = true)]
     pub radiation_feedback: Boolean,
@@ -96,11 +99,12 @@ pub struct OrbitVariables {
     #[parameter(unit = "s", min = 1.0, max = 86_400.0, start = 300.0)]
     pub step: Real,
     pub attraction: AttractionVariables,
-    /// Whether the Sun's relativity acts with orbit.dynamics nBody: some 100 m in 200 days at 0.5 AU.
-    #[parameter(start = false)]
+    /// Whether the Sun's relativity acts with orbit.dynamics nBody: some 60 km in 200 days at 0.5 AU.
+    #[parameter(start = true)]
     pub relativity: Boolean,
     /// Whether the path of orbit.dynamics nBody is integrated about the planet within whose sphere of influence it is, else about the
-    /// Sun; otherwise about orbit.center throughout. Positions count from orbit.center either way.
+    /// Sun; otherwise, and about the body of the spacecraft's file, about orbit.center throughout. Positions count from orbit.center
+    /// either way. Beyond the sphere of an orbit.center that bodies pull which orbit.attraction.* switches off, set it to false.
     #[parameter(start = true)]
     pub change_center: Boolean,
     /// Longest integration step of orbit.dynamics nBody; it is halved until orbit.nBodyTolerance holds.
@@ -145,7 +149,8 @@ pub struct OrbitVariables {
     pub current_center: Choice<OrbitCenter>,
 }
 
-/// Which bodies attract the spacecraft with orbit.dynamics nBody, beside the Sun and orbit.center.
+/// Which bodies attract the spacecraft and what its path is integrated about, with orbit.dynamics nBody, beside the Sun and
+/// orbit.center.
 #[derive(Variables)]
 pub struct AttractionVariables {
     /// Whether Mercury does.
