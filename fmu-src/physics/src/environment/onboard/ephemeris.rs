@@ -1,6 +1,6 @@
 //! The onboard ephemeris, from its file; every problem is reported by file, line, key, what was found and what is allowed.
 
-use nalgebra::{SMatrix, Vector3};
+use nalgebra::SMatrix;
 
 use super::coarse::{COARSE_TERMS, CoarseElements};
 use super::description::{
