@@ -36,9 +36,8 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let time_s = *time_s;
     let variables = context.variables;
     let Evaluation { instant, loads, mass, .. } = evaluation;
-    let rotation = &instant.frame.inertial_from_body;
     values.set_real(variables.epoch, time::epoch_at_s(time_s, configuration.epoch_minus_time_s));
-    values.set_vector(variables.attitude.q, Attitude::from_rotation(rotation).quaternion(None));
+    values.set_vector(variables.attitude.q, report.shown.attitude.unit_quaternion().0);
     values.set_vector(variables.attitude.rate, instant.frame.rate_body_rad_s.into());
 
     let total = loads.total();
@@ -219,7 +218,7 @@ fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) 
 fn write_sensors(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let v = context.variables;
     let shown = &report.shown;
-    values.set_vector(v.estimate.q, shown.estimate.attitude.quaternion(None));
+    values.set_vector(v.estimate.q, shown.estimate.attitude.unit_quaternion().0);
     values.set_vector(v.estimate.rate, shown.estimate.rate_body_rad_s.unwrap_or_default().into());
     values.set_boolean(v.estimate.valid, shown.estimate.is_valid);
     values.set_vector(v.sun.sensed, shown.sun_sensed_body.unwrap_or_default().into());

@@ -12,6 +12,9 @@ use super::inputs::propulsion::ThrusterWarnings;
 use super::inputs::step_inputs::{CommandInputs, StepInputs};
 use super::setup::Plan;
 
+/// A commanded quaternion whose norm is off 1 by more is warned of.
+const NORM_TOLERANCE: f64 = 0.05;
+
 /// State of one plant.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct PlantState {
@@ -43,6 +46,8 @@ pub struct Warned {
     pub thrusters: ThrusterWarnings,
     /// Which inputs are not set yet.
     unset_inputs: bool,
+    /// A commanded quaternion far from unit length.
+    command_norm: bool,
 }
 
 /// What was set at the last change.
@@ -211,8 +216,29 @@ impl PlantState {
             GuidanceCommandKind::Attitude if is_zero(&q) => (held, [0.0; 3]),
             GuidanceCommandKind::Attitude => (quaternion("command.q", q)?, rate),
         };
+        let attitude = attitude.continuing(&held.unit_quaternion());
         self.command = Command { attitude, rate_body_rad_s: Vector3::from(rate), since_s: time_s };
         Ok(())
+    }
+
+    /// Warns once of a commanded quaternion far from unit length, which is taken along its direction.
+    pub fn warn_command_norm(&mut self, context: &Plan<'_>, time_s: f64) {
+        let CommandInputs { q, error, .. } = self.last.command;
+        let (name, q) = match self.last.command.kind() {
+            GuidanceCommandKind::Attitude => ("command.q", q),
+            GuidanceCommandKind::ErrorQuaternion => ("command.error", error),
+            GuidanceCommandKind::None | GuidanceCommandKind::RateOnly => return,
+        };
+        let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let is_far = !is_zero(&q) && (norm - 1.0).abs() > NORM_TOLERANCE;
+        if !is_far || !self.inputs.source.is_commanded || self.warned.command_norm {
+            return;
+        }
+        self.warned.command_norm = true;
+        context.log.warning(&format!(
+            "{name} = {q:?} at {time_s} s has norm {norm:.4}: it is restored to 1, and points elsewhere where components were \
+             interpolated between quaternions of other signs or far apart"
+        ));
     }
 
     /// Warns once which inputs are not set yet, if any.

@@ -38,6 +38,7 @@ pub(super) fn step(
 ) -> Result<(), Failure> {
     let reading = inputs::read(context, values, state, step)?;
     state.warn_unset_inputs(context);
+    state.warn_command_norm(context, step.start_s);
     configure(context, values, state, (&reading, step))?;
     if reading.begins {
         let undo = begin(context, state, &reading, step.start_s)?;
@@ -97,7 +98,7 @@ fn begin(
     let (external, planner) = (reading.external(), reading.planner());
     let given = reading.given(&external, &planner);
     let log = &mut |event: &_| log_event(context, event);
-    state.flight.begin(given, time_s, log).map_err(failure)?;
+    state.flight.begin(given, &state.command, time_s, log).map_err(failure)?;
     if let Some(estimate) = state.flight.estimate_at(time_s) {
         state.take_first_command(estimate.attitude, time_s)?;
     }

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use serde::{Deserialize, Serialize};
 
+use crate::attitude::{Attitude, Quaternion};
 use crate::numerics::intervals::next_multiple_s;
 
 use super::by_source::SourceMomenta;
@@ -54,7 +55,12 @@ impl StopTimes {
 impl MomentumIntegrator {
     /// Begins at `time_s` with `totals`.
     pub fn new(time_s: f64, totals: Totals) -> Self {
-        let segment = MomentumSegment::point(time_s, totals, SourceMomenta::default());
+        Self::after(time_s, Quaternion::IDENTITY, totals)
+    }
+
+    /// The same where the quaternion of the attitude continues the sign of `attitude`.
+    pub fn after(time_s: f64, attitude: Quaternion, totals: Totals) -> Self {
+        let segment = MomentumSegment::point(time_s, attitude, totals, SourceMomenta::default());
         Self { segment, dumps: Dumps::default() }
     }
 
@@ -78,6 +84,12 @@ impl MomentumIntegrator {
         self.segment.by_source(time_s)
     }
 
+    /// The attitude of this frame, which the body has at a time inside the current segment, its quaternion continuous along the
+    /// flight; where the law jumps, the sign is the nearer one.
+    pub fn attitude(&self, inertial_from_body: &Rotation3<f64>, time_s: f64) -> Attitude {
+        Attitude::from_rotation(inertial_from_body).continuing(&self.segment.attitude(time_s))
+    }
+
     /// Angular acceleration of the body at a time inside the current segment, body frame, in rad/s2.
     pub fn acceleration_body_rad_s2(&self, time_s: f64) -> Vector3<f64> {
         self.segment.acceleration_body_rad_s2(time_s)
@@ -96,10 +108,7 @@ impl MomentumIntegrator {
 
     /// Forgets what was computed ahead of `time_s`: the flight changes there.
     pub fn cut(&mut self, time_s: f64) {
-        let longest_s = self.segment.next_longest_s();
-        let by_source = self.segment.by_source(time_s);
-        self.segment =
-            MomentumSegment::point(time_s, self.segment.totals(time_s), by_source).expecting(longest_s);
+        self.go_on(time_s, self.segment.totals(time_s));
     }
 
     /// Dumps at `time_s` on request: momentum goes to `target_body_n_m_s` in the watched convention.
@@ -172,18 +181,25 @@ impl MomentumIntegrator {
                 self.dumps.check()?;
                 return Ok(Stop::Dump(event));
             }
-            self.segment.advance(flight, settings, horizon_s, (totals, by_source))?;
+            let attitude = self.attitude(&inertial_from_body, start_s).unit_quaternion();
+            self.segment.advance(flight, settings, horizon_s, (attitude, totals, by_source))?;
         }
         Ok(Stop::Reached)
     }
 
     /// The velocity changes by `delta_v_inertial_m_s` where a dump just ended.
     pub fn push(&mut self, delta_v_inertial_m_s: &Vector3<f64>) {
-        let (time_s, longest_s) = (self.segment.end_s(), self.segment.next_longest_s());
+        let time_s = self.segment.end_s();
         let mut totals = self.segment.totals(time_s);
         totals.delta_v_inertial_m_s += delta_v_inertial_m_s;
-        let by_source = self.segment.by_source(time_s);
-        self.segment = MomentumSegment::point(time_s, totals, by_source).expecting(longest_s);
+        self.go_on(time_s, totals);
+    }
+
+    /// Goes on from `time_s`, inside the current segment, with these totals.
+    fn go_on(&mut self, time_s: f64, totals: Totals) {
+        let (longest_s, by_source) = (self.segment.next_longest_s(), self.segment.by_source(time_s));
+        let attitude = self.segment.attitude(time_s);
+        self.segment = MomentumSegment::point(time_s, attitude, totals, by_source).expecting(longest_s);
     }
 
     fn dump(
@@ -198,7 +214,8 @@ impl MomentumIntegrator {
         let event = DumpEvent { time_s, before_body_n_m_s, after_body_n_m_s: after(&before_body_n_m_s) };
         totals.torque_integral_body_n_m_s += event.impulse_body_n_m_s();
         totals.momentum_inertial_n_m_s += inertial_from_body * event.impulse_body_n_m_s();
-        self.segment = MomentumSegment::point(time_s, totals, SourceMomenta::default());
+        let attitude = self.segment.attitude(time_s);
+        self.segment = MomentumSegment::point(time_s, attitude, totals, SourceMomenta::default());
         self.dumps = self.dumps.with(event);
         event
     }

@@ -16,7 +16,8 @@ pub struct AttitudeVariables {
     /// Where the attitude comes from.
     #[parameter(start = AttitudeSource::Guided)]
     pub source: Choice<AttitudeSource>,
-    /// Attitude quaternion, scalar last, from EME2000 to the body frame; the scalar is never negative.
+    /// Attitude quaternion, scalar last, from EME2000 to the body frame. Of its two signs it begins with the one nearer to start.q and
+    /// then keeps it: it is continuous wherever the attitude is, and where that jumps the nearer one is taken.
     #[output(unit = "1", nominal = 1.0)]
     pub q: RealVector<4>,
     /// Angular rate of the body in EME2000, in body components.
@@ -34,7 +35,8 @@ pub struct CommandVariables {
     /// on. The attitude is held without rate while this is none, or while the quaternion it gives is all zero.
     #[input(start = CommandKind(guidance_command::CommandKind::Attitude))]
     pub kind: Choice<CommandKind>,
-    /// Commanded attitude quaternion, scalar last, from EME2000 to the body frame; a norm of 0.1 to 10 is restored to 1.
+    /// Commanded attitude quaternion, scalar last, from EME2000 to the body frame; a norm of 0.1 to 10 is restored to 1, with
+    /// a warning where it is off by more than 5 %. Its sign does not count.
     #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub q: RealVector<4>,
     /// Commanded angular rate in body components; the attitude is propagated with it.

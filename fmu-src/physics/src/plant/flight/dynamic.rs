@@ -59,11 +59,12 @@ pub(super) struct DynamicStep<'s, 'f> {
 }
 
 impl AttitudeDynamics {
-    /// At the start of a flight.
+    /// At the start of a flight in the attitude after `held`.
     pub(super) fn begin(
         settings: &mut DynamicsSettings,
         flight: &mut ConfiguredFlight<'_>,
         time_s: f64,
+        held: &Attitude,
     ) -> Result<Self, PlantError> {
         let events = &flight.context.configuration.thruster_events;
         let scheduled = events.before(time_s);
@@ -79,6 +80,7 @@ impl AttitudeDynamics {
                 rate_body_rad_s = frame.rate_body_rad_s;
             }
         }
+        attitude = attitude.continuing(&held.unit_quaternion());
         let unit = attitude.unit_quaternion();
         let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = [Vector3::zeros(); 2];
         let body =

@@ -9,6 +9,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::attitude::Attitude;
 use crate::momentum::{DumpEvent, DumpSpacing, MomentumIntegrator, Stop, StopTimes, TorqueModel, Totals};
 
 use super::configured::ConfiguredFlight;
@@ -42,10 +43,10 @@ pub(crate) struct IdealFlight {
 }
 
 impl IdealFlight {
-    /// From `time_s` on with these totals, so many events of the schedule being over.
-    pub(super) fn new(time_s: f64, totals: Totals, scheduled: usize) -> Self {
+    /// From `time_s` on with these totals, the quaternion continuing that of `attitude`, so many events of the schedule being over.
+    pub(super) fn new(time_s: f64, attitude: &Attitude, totals: Totals, scheduled: usize) -> Self {
         Self {
-            integrator: MomentumIntegrator::new(time_s, totals),
+            integrator: MomentumIntegrator::after(time_s, attitude.unit_quaternion(), totals),
             spacing: DumpSpacing::default(),
             dump_delta_v_inertial_m_s: Vector3::zeros(),
             maneuvers: Maneuvers::default(),
@@ -58,10 +59,11 @@ impl IdealFlight {
         self.integrator.is_valid() && self.spacing.is_valid() && self.maneuvers.count >= 0
     }
 
-    /// At the start of a flight, where the system has this momentum, body frame, in N m s.
+    /// At the start of a flight in the attitude after `held`, where the system has this momentum, body frame, in N m s.
     pub(super) fn begin(
         flight: &mut ConfiguredFlight<'_>,
         time_s: f64,
+        held: &Attitude,
         momentum_body_n_m_s: Vector3<f64>,
     ) -> Result<Self, PlantError> {
         flight.context.begin_work(flight.given.work_limit);
@@ -74,7 +76,7 @@ impl IdealFlight {
         let frame = plant.instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
         let over = flight.context.configuration.thruster_events.before(time_s);
-        let mut begun = Self::new(time_s, totals, over);
+        let mut begun = Self::new(time_s, held, totals, over);
         flight.context.begin_work(flight.given.work_limit);
         begun.advance(flight, time_s)?;
         Ok(begun)

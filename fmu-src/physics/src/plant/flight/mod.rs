@@ -259,24 +259,26 @@ impl Flight {
         Ok((ConfiguredFlight { given, context, propagator, thrusters, log }, settings, mode))
     }
 
-    /// Begins at `time_s`.
+    /// Begins at `time_s`, where the attitude was the one of `held`: the quaternion takes the sign nearer to that.
     ///
     /// # Errors
     /// What ends a flight.
     pub fn begin(
         &mut self,
         given: StepContext<'_>,
+        held: &Command,
         time_s: f64,
         log: &mut dyn FnMut(&ThrusterEvent),
     ) -> Result<(), PlantError> {
         let (mut flight, settings, mode) = self.parts(given, log)?;
         *flight.propagator = PropagatorState::new(&flight.context.configuration, time_s)?;
+        let held = held.attitude_at(time_s);
         *mode = match settings {
-            ModeSettings::Ideal(IdealSettings { start_momentum_body_n_m_s, .. }) => {
-                Mode::Ideal(Box::new(IdealFlight::begin(&mut flight, time_s, *start_momentum_body_n_m_s)?))
+            ModeSettings::Ideal(IdealSettings { start_momentum_body_n_m_s: momentum, .. }) => {
+                Mode::Ideal(Box::new(IdealFlight::begin(&mut flight, time_s, &held, *momentum)?))
             }
             ModeSettings::Dynamic(settings) => {
-                Mode::Dynamic(Box::new(AttitudeDynamics::begin(settings, &mut flight, time_s)?))
+                Mode::Dynamic(Box::new(AttitudeDynamics::begin(settings, &mut flight, time_s, &held)?))
             }
         };
         Ok(())
@@ -420,7 +422,7 @@ impl Flight {
                 let body = dynamics.motion.remembered_at(&settings.gyrostat, time_s);
                 let evaluation =
                     &*evaluation.insert(dynamics.evaluation(settings, &mut flight, &body, time_s));
-                (evaluation, dynamic(dynamics, settings, flight.thrusters, body, time_s))
+                (evaluation, dynamic(dynamics, settings, flight.thrusters, (body, evaluation), time_s))
             }
             (Mode::Ideal(simulated), ModeSettings::Ideal(settings)) => {
                 let evaluation = &*evaluation.insert(flight.plant().evaluate(time_s));
@@ -440,7 +442,7 @@ impl Flight {
                 let evaluation = &*evaluation.insert(evaluated);
                 let momentum_body_n_m_s = settings.start_momentum_body_n_m_s;
                 let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-                let waiting = IdealFlight::new(time_s, totals, 0);
+                let waiting = IdealFlight::new(time_s, &held.attitude_at(time_s), totals, 0);
                 (evaluation, ideal(&waiting, settings, evaluation, inputs, time_s))
             }
             _ => return Err(PlantError::OtherMode),

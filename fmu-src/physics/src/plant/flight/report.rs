@@ -92,6 +92,8 @@ pub struct Shown<'a> {
     pub dump_delta_v_inertial_m_s: Vector3<f64>,
     /// Maneuvers so far.
     pub maneuvers: Maneuvers,
+    /// Attitude, its quaternion continuous along the flight.
+    pub attitude: Attitude,
     /// Attitude and rate as sensors know them.
     pub estimate: Estimate,
     /// The Sun in the body frame as sensed.
@@ -199,6 +201,7 @@ pub(super) fn ideal<'a>(
     let (totals, dumps) = (simulated.integrator.totals(time_s), *simulated.integrator.dumps());
     let Evaluation { instant, loads, mass, .. } = evaluation;
     let frame = &instant.frame;
+    let attitude = simulated.integrator.attitude(&frame.inertial_from_body, time_s);
     let structure_rate_body_n_m =
         simulated.integrator.structure_rate_body_n_m(&mass.inertia_body_kg_m2, time_s);
     Shown {
@@ -211,8 +214,9 @@ pub(super) fn ideal<'a>(
         dump_impulse_body_n_m_s: impulse_body_n_m_s(&dumps),
         dump_delta_v_inertial_m_s: simulated.dump_delta_v_inertial_m_s,
         maneuvers: simulated.maneuvers,
+        attitude,
         estimate: Estimate {
-            attitude: Attitude::from_rotation(&frame.inertial_from_body),
+            attitude,
             is_valid: inputs.health.star_tracker,
             rate_body_rad_s: Some(frame.rate_body_rad_s),
         },
@@ -237,7 +241,7 @@ pub(super) fn dynamic<'a>(
     dynamics: &'a AttitudeDynamics,
     settings: &'a DynamicsSettings,
     thrusters: &Thrusters,
-    body: BodyMotion,
+    (body, evaluation): (BodyMotion, &Evaluation),
     time_s: f64,
 ) -> Shown<'a> {
     let AttitudeDynamics { motion, sensing, control, dumps, .. } = dynamics;
@@ -258,6 +262,8 @@ pub(super) fn dynamic<'a>(
             .map_or_else(|| impulse_body_n_m_s(&dumps.dumps), |[impulse, _]| impulse),
         dump_delta_v_inertial_m_s: dumped.map_or(Vector3::zeros(), |[_, delta_v]| delta_v),
         maneuvers: Maneuvers::default(),
+        attitude: Attitude::from_rotation(&evaluation.instant.frame.inertial_from_body)
+            .continuing(&body.attitude),
         estimate: sensing.estimate_at(time_s),
         sun_sensed_body: sensing.sun_sensed_body,
         accelerometer_body_m_s: *sensing.accelerometer.delta_v_body_m_s(),
