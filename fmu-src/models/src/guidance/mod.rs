@@ -117,6 +117,11 @@ impl Model for Guidance {
         shown.sample(context, values, &fixed, &settings, InputsOverTime::held())?;
         state.ephemeris = shown.ephemeris.clone();
         state.coarse = shown.coarse.clone();
+        if !Reader::new(context, values, InputsOverTime::held(), start_s).has_estimate() {
+            let message = "estimate.q is not set, or with estimate.valid to its start value: until it changes the commanded attitude \
+                           stands in for it";
+            context.log.event(start_s, message);
+        }
         let burn = shown.burn_settings(context, &fixed.burn);
         outputs::write(context, values, &shown, &burn, epoch_s);
         state.fixed = Some(fixed);

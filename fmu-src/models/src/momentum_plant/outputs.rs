@@ -99,11 +99,12 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let sun = instant.sun_at(time_s);
     // The corridor was checked where the flight began.
     let corridor = variables.articulation.read(values).unwrap_or_default();
-    for (panel, (body, setting)) in variables.panel.iter().zip(panels) {
+    for (index, (panel, (body, setting))) in variables.panel.iter().zip(panels).enumerate() {
         let angle_rad = setting.angle_rad(body, &sun);
         let lit = angle_rad.filter(|_| sun.distance_m > 0.0);
         let suns = lit.map(|angle_rad| body.suns(angle_rad, &sun.direction_body, sun.distance_m));
-        values.set_real(panel.angle_actual, angle_rad.unwrap_or(0.0));
+        let continued_rad = |angle_rad| report.panel_turns.continued_rad(index, angle_rad, time_s);
+        values.set_real(panel.angle_actual, angle_rad.map_or(0.0, continued_rad));
         values.set_real(panel.suns, suns.unwrap_or(0.0));
         values.set_real(panel.corridor_margin, suns.map_or(0.0, |suns| corridor.margin_suns(suns)));
     }

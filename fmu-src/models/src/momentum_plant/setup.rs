@@ -15,7 +15,7 @@ use physics::plant::{ControlDefaults, PanelStep, PreparedSpacecraft};
 use physics::spacecraft::{Spacecraft, SunKeepIn, SunshadeModel};
 use serde::{Serialize, Serializer};
 
-use super::variables::choices::{AttitudeSource, CommandSource, EphemerisSource, OrbitSource};
+use super::variables::choices::{AttitudeSource, CommandSource, EphemerisSource, OrbitSource, StartAttitude};
 use crate::common::center::{CenterBodies, CenterBody, center_of};
 use crate::common::effects::check_start;
 use crate::common::spacecraft::{
@@ -156,7 +156,11 @@ impl PlantSetup {
                 .filter(|it| it.model.as_deref().is_none_or(|model| model == MomentumPlant::NAME));
             for_this.into_iter().any(|it| it.name == name || it.name.starts_with(&format!("{name}[")))
         };
-        let begins_pointed = !is_given("start.q");
+        let begins_pointed = match fixed_item::<StartAttitude>(start, MomentumPlant::NAME, "start.attitude") {
+            None | Some(StartAttitude::Guided) => true,
+            Some(StartAttitude::Automatic) => !is_given("start.q") && !is_given("start.rate"),
+            Some(StartAttitude::Given) => false,
+        };
         OpenChoices {
             ideal: matches!(source, None | Some(Guided | Commanded)),
             guided: match source {

@@ -180,7 +180,13 @@ impl<M: Model> NamedModel<M> {
     }
 
     fn context(&self) -> Context<'_, M> {
-        Context { setup: &self.setup, variables: &self.handles, start: &self.start, log: &self.warnings }
+        Context {
+            setup: &self.setup,
+            variables: &self.handles,
+            start: &self.start,
+            sets_all_parameters: false,
+            log: &self.warnings,
+        }
     }
 
     /// A flight from `start_s` with these start values.

@@ -69,12 +69,7 @@ pub(super) struct MomentumSegment {
 
 impl MomentumSegment {
     /// A segment without length at `time_s`.
-    pub(super) fn point(
-        time_s: f64,
-        attitude: Quaternion,
-        totals: Totals,
-        by_source: SourceMomenta,
-    ) -> Self {
+    pub(super) fn point(time_s: f64, attitude: Quaternion, totals: Totals, by_source: SourceMomenta) -> Self {
         Self {
             start_s: time_s,
             end_s: time_s,

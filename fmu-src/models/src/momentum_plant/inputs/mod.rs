@@ -5,7 +5,7 @@ mod center;
 mod configuration;
 mod dynamics;
 mod ephemeris_source;
-mod guidance;
+pub(super) mod guidance;
 mod n_body;
 mod orbit;
 pub(super) mod propulsion;

@@ -7,7 +7,9 @@ use physics::bodies::Body;
 use physics::environment::{ephemeris, time};
 use physics::guidance::modes::guidance_command;
 
-use super::choices::{AttitudeSource, CommandSource, EncounterBody, OrbitDynamics, OrbitFrame, OrbitSource};
+use super::choices::{
+    AttitudeSource, CommandSource, EncounterBody, OrbitDynamics, OrbitFrame, OrbitSource, StartAttitude,
+};
 use crate::common::choices::{CommandKind, OrbitCenter, custom_body};
 
 /// Attitude: where it comes from, and what it is.
@@ -55,14 +57,17 @@ pub struct StartVariables {
     /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.
     #[parameter(unit = "s", display = "d", min = ephemeris::EARLIEST_EPOCH_S, max = ephemeris::VALID_EPOCH_S, start = time::MOMENTUM_STUDY_START_S)]
     pub epoch: Real,
-    /// Attitude quaternion at the start, scalar last, from EME2000 to body; used until a command changes it. Unless this is set, be
-    /// it to the identity, a controlled flight starts in the first attitude that command.q or the internal guidance commands, and a
-    /// free one as the internal guidance points (start.q and start.rate both set to their start values count as not set, as some
-    /// tools set everything).
+    /// Whether a controlled or free flight starts in start.q at start.rate (given), or in the first attitude and at the rate that
+    /// the command or, in free flight too, the internal guidance gives (guided). automatic is given where start.q or start.rate
+    /// stands in the file or is set, be it to its start value, else guided; also where every parameter of the FMU is set and both
+    /// have their start values, as some tools set everything. The log tells which.
+    #[parameter(start = StartAttitude::Automatic)]
+    pub attitude: Choice<StartAttitude>,
+    /// Attitude quaternion at the start, scalar last, from EME2000 to body; used until a command changes it, in controlled and free
+    /// flight by start.attitude.
     #[parameter(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub q: RealVector<4>,
-    /// Body rate at the start in controlled and free flight; that of the command or the internal guidance unless start.q or this
-    /// is set.
+    /// Body rate at the start in controlled and free flight by start.attitude; set, it also counts where that is guided.
     #[parameter(unit = "rad/s", display = "deg/s", min = -1e3, max = 1e3, start = [0.0; 3])]
     pub rate: RealVector<3>,
     /// System momentum at the start, body frame. In controlled and free flight it follows from start.rate and

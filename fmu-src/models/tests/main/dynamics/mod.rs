@@ -5,6 +5,7 @@ mod control;
 mod flexibility;
 mod momentum;
 mod panel_momentum;
+mod panel_turns;
 mod refusals;
 mod sensors;
 mod spin_light;

@@ -10,13 +10,13 @@ use super::super::wheel_torque::{self, WHEELS, axial, most_off, torques};
 use super::{DARK, FREE, PlantInstance, Start, axes, held_momentum, initialize, to_inertial};
 
 const MASS_KG: f64 = 700.0;
-const LOCKED: Start<'_> =
+pub(super) const LOCKED: Start<'_> =
     &[("wheel[1].locked", 1.0), ("wheel[2].locked", 1.0), ("wheel[3].locked", 1.0), ("wheel[4].locked", 1.0)];
-const BY_ANGLE: Start<'_> = &[("panel[1].control", 2.0), ("panel[2].control", 2.0)];
+pub(super) const BY_ANGLE: Start<'_> = &[("panel[1].control", 2.0), ("panel[2].control", 2.0)];
 const TUMBLING: Start<'_> = &[("start.rate[1]", 4e-3), ("start.rate[2]", -7e-3), ("start.rate[3]", 5e-3)];
 
 /// The shipped spacecraft with panels of these masses.
-fn text(panels: [&str; 2]) -> String {
+pub(super) fn text(panels: [&str; 2]) -> String {
     let shipped = include_str!("../../../../resources/messenger.toml");
     let mut parts = shipped.split("[[panels]]");
     let head = parts.next().unwrap();
@@ -25,7 +25,7 @@ fn text(panels: [&str; 2]) -> String {
 }
 
 const PAIR: [&str; 2] = ["mass_kg = 20.0", "mass_kg = 20.0"];
-const HINGED: [&str; 2] = [
+pub(super) const HINGED: [&str; 2] = [
     "mass_kg = 30.0\nmass_center_m = [2.0, 0.3, 0.5]\ninertia_kg_m2 = [[4.0, 0.0, 0.0], [0.0, 7.0, 0.0], [0.0, 0.0, 3.5]]",
     "mass_kg = 12.0\nmass_center_m = [-3.0, -0.2, 0.1]\ninertia_kg_m2 = [[1.0, 0.0, 0.0], [0.0, 1.5, 0.0], [0.0, 0.0, 1.2]]",
 ];

@@ -112,6 +112,7 @@ impl AttitudeDynamics {
             let internal = begun.panels.internal(flight.given.prepared.panels, &mass, begun.motion.end_s());
             begun.motion.add_hinges(internal);
         }
+        flight.propagator.panel_turns.restart();
         Ok(begun)
     }
 

@@ -78,6 +78,7 @@ impl IdealFlight {
         let over = flight.context.configuration.thruster_events.before(time_s);
         let mut begun = Self::new(time_s, held, totals, over);
         flight.context.begin_work(flight.given.work_limit);
+        flight.propagator.panel_turns.restart();
         begun.advance(flight, time_s)?;
         Ok(begun)
     }

@@ -471,6 +471,7 @@ impl Flight {
             evaluation,
             integration_center: propagator.trajectory.integration_center(configuration),
             approaches: propagator.trajectory.approaches_until(time_s),
+            panel_turns: &propagator.panel_turns,
             prediction: *prediction,
             shown,
         })

@@ -11,6 +11,7 @@ use crate::guidance::DownlinkStatus;
 use crate::momentum::{DumpSpacing, Dumps, SourceMomenta, Totals};
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::motion::approaches::Approach;
+use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
 use crate::plant::settings::ideal_settings::IdealSettings;
@@ -42,6 +43,8 @@ pub struct Report<'a> {
     pub integration_center: Body,
     /// Closest approaches to the encounter's body so far, and the last of them.
     pub approaches: (i32, Option<Approach>),
+    /// Whole turns of the panels.
+    pub panel_turns: &'a PanelTurns,
     /// The last prediction of the next one; `None` before any.
     pub prediction: Option<EncounterPrediction>,
     /// Momentum, dumps, sensors and control.
