@@ -51,7 +51,7 @@ fn angles_count_the_turns_of_a_flight_however_it_is_cut() {
     assert_cuts_change_nothing(initialize, [4_500.0, 9_000.0, 20_000.0], &[700.0, 61.0], |flight| {
         let turned_rad = (flight.real("panel[1].angleActual") - first_rad).abs();
         let expected_rad = 2e-3 * flight.time_s();
-        // The Sun moves by less than a degree.
-        assert!((turned_rad - expected_rad).abs() < 0.02, "{turned_rad} {expected_rad}");
+        // The Sun moves by a degree and a half.
+        assert!((turned_rad - expected_rad).abs() < 0.03, "{turned_rad} {expected_rad}");
     });
 }
