@@ -45,7 +45,7 @@ impl Written {
 
     /// A text that looks like a date.
     pub(crate) fn date(&self) -> Option<&str> {
-        if let Self::Text(text) = self { Some(text.as_str()).filter(|it| values::is_date(it)) } else { None }
+        if let Self::Text(text) = self { Some(text.as_str()).filter(|it| dates::looks_like_date(it)) } else { None }
     }
 
     /// A number without a unit.

@@ -26,7 +26,7 @@ use std::{
 };
 
 use files::{Destination, Growing, part_of, sidecar_of};
-use loader::csv;
+use loader::{InputTable, csv};
 use model_description::Description;
 
 use file::CampaignFile;
@@ -73,6 +73,10 @@ pub(crate) fn run(arguments: &Sweep) -> Outcome {
     let campaign = Campaign::resolve(&file, simulated, &subject)?;
     let runs = resolved::range(arguments, &campaign)?;
     campaign.check(&file, described, &runs)?;
+    if !arguments.quiet {
+        let warnings = campaign.settings.inputs.iter().flat_map(InputTable::coarse_turns);
+        warnings.for_each(|warning| terminal::note(&format!("warning: {warning}")));
+    }
     let sweep = Started { arguments, file: &file, campaign: &campaign, described, runs };
     if arguments.dry_run { sweep.print_values(fmu.folder()) } else { sweep.carry_out(fmu.folder()) }
 }

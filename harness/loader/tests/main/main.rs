@@ -3,6 +3,7 @@
 
 mod archives;
 mod instances;
+mod interpolation;
 mod names;
 mod simulations;
 mod tables;
