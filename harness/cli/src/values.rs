@@ -81,9 +81,30 @@ pub(crate) fn quantity(text: &str, unit: &str) -> Option<f64> {
     Some(number * factor).filter(|value| value.is_finite())
 }
 
+/// The names between commas; those between the indices of a matrix part none.
+pub(crate) fn names(text: &str) -> Vec<String> {
+    let mut depth = 0;
+    let names = text.split(|letter| {
+        depth += i32::from(letter == '[') - i32::from(letter == ']');
+        letter == ',' && depth == 0
+    });
+    names.map(|name| name.trim().to_owned()).collect()
+}
+
+/// The names of an option that may be given several times.
+pub(crate) fn all_names(texts: &[String]) -> Vec<String> {
+    texts.iter().flat_map(|text| names(text)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_are_split_outside_brackets() {
+        assert_eq!(names("a[1,2], b"), ["a[1,2]", "b"]);
+        assert_eq!(all_names(&["*[1,2].x,y".to_owned(), "z".to_owned()]), ["*[1,2].x", "y", "z"]);
+    }
 
     #[test]
     fn times_take_units() {

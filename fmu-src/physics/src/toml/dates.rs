@@ -72,13 +72,13 @@ pub fn looks_like_date(text: &str) -> bool {
         let before = text.strip_suffix(name).and_then(|it| it.chars().next_back());
         before.is_some_and(|last| last.is_ascii_digit() || last.is_whitespace())
     };
-    is_calendar || SCALES.iter().any(|(name, _)| ends(name)) || ends(JULIAN) || julian(text).is_some()
+    is_calendar || SCALES.iter().any(|(name, _)| ends(name)) || julian(text).is_some()
 }
 
-/// What stands beside `JD`.
+/// The number beside `JD`.
 fn julian(text: &str) -> Option<&str> {
-    let behind = text.strip_prefix(JULIAN).filter(|it| it.starts_with([' ', '.', '-']) || it.starts_with(|it: char| it.is_ascii_digit()));
-    behind.or_else(|| text.strip_suffix(JULIAN)).map(str::trim)
+    let number = text.strip_prefix(JULIAN).or_else(|| text.strip_suffix(JULIAN))?.trim();
+    number.starts_with(|first: char| first.is_ascii_digit()).then_some(number)
 }
 
 /// The epoch of a date, in s past J2000 TDB.

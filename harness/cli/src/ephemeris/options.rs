@@ -34,7 +34,7 @@ pub(crate) struct Ephemeris {
     #[cfg(feature = "spk")]
     #[command(flatten)]
     pub kernels: KernelOptions,
-    /// First epoch, a date in UTC or TDB: '2011-04-06T00:00:00 UTC'
+    /// First epoch, a date: '2011-04-06T00:00:00 UTC'
     #[arg(long, value_name = "DATE")]
     pub start: String,
     /// Last epoch, likewise

@@ -52,7 +52,7 @@ pub(crate) struct Run {
     pub slopes: bool,
     /// Record these variables: names, vectors, patterns with * such as 'plate*.force', which take outputs only; otherwise
     /// every output
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    #[arg(long, value_name = "NAMES")]
     pub record: Vec<String>,
     /// Record the step nearest to each multiple of this time, in s or with a unit, and the last one; otherwise every step
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
