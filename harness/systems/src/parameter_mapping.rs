@@ -138,6 +138,8 @@ pub(crate) fn mapped(
             all.push(Mapped { parameter, linear, is_number: false, is_mapped: false, is_optional });
         }
     }
+    // The later one of two wins: an entry over a parameter that has its target's name.
+    all.sort_by_key(|mapped| mapped.is_mapped);
     Ok(all)
 }
 

@@ -43,8 +43,9 @@ pub(crate) struct Run {
     /// otherwise initial
     #[arg(long, value_enum, value_name = "VALUES", hide_possible_values = true)]
     pub first_exchange: Option<FirstExchangeKind>,
-    /// Inputs over time, a CSV file: time,<input>,... with one row per time in s. Between rows continuous inputs are
-    /// interpolated linearly and discrete ones held; two rows at one time make a jump; - is the standard input
+    /// Inputs over time, a CSV file: time,<input>,... with one row per time in s. Between rows attitudes turn, by their rate
+    /// where it stands beside, angles take the nearest turn, positions follow their velocities, other continuous inputs are
+    /// linear and discrete ones held; two rows at one time make a jump; - is the standard input
     #[arg(long, value_name = "CSV")]
     pub input: Option<PathBuf>,
     /// Hand the slopes of the input table to the FMU too, so that inputs do not jump from step to step

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 mod loops;
+mod mapped;
 mod refused;
 mod support;
 mod wired;
