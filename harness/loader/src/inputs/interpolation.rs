@@ -24,12 +24,13 @@ impl Gap {
 
     /// The value, and its rate, of the cubic with these values and rates at both rows.
     pub(super) fn cubic(self, [left, right]: [f64; 2], [left_rate, right_rate]: [f64; 2]) -> (f64, f64) {
-        let Self { span_s, share } = self;
-        let slope = (right - left) / span_s;
-        let second = 3.0 * slope - 2.0 * left_rate - right_rate;
-        let third = left_rate + right_rate - 2.0 * slope;
-        let value = left + span_s * share * (left_rate + share * (second + share * third));
-        (value, left_rate + share * (2.0 * second + 3.0 * share * third))
+        let (share, slope) = (self.share, (right - left) / self.span_s);
+        let (at_left, at_right) = (left_rate - slope, right_rate - slope);
+        // Beside the straight line, whose bits stay where the rates are its slope.
+        let beside = at_left * (1.0 - share) - at_right * share;
+        let value = self.linear([left, right]) + self.span_s * share * (1.0 - share) * beside;
+        let bend = share * (1.0 - share) * (at_left + at_right);
+        (value, slope + (1.0 - 2.0 * share) * beside - bend)
     }
 
     /// The attitude on the turn of constant rate between two of one sign.

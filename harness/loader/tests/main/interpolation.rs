@@ -173,6 +173,13 @@ fn positions_beside_velocities_are_cubics_and_slopes_reach_them() {
         assert!((position - x(time_s)).abs() < 1e-12 && (velocity - v(time_s)).abs() < 1e-12, "{time_s}");
         assert_eq!(line == position, [0.0, 2.0, 5.0].contains(&time_s), "{time_s}");
     }
+    // Straight motion has the bits of a line, as masters have it that know no velocities.
+    let straight = |time_s: f64, x: f64| (time_s, vec![x, -200.0, x, -200.0]);
+    let line = self::table(&columns, &[straight(0.0, 1e8), straight(15.0, 1e8 - 3000.0)]);
+    for time_s in (0..150).map(|k| f64::from(k) * 0.1) {
+        let [cubic, velocity, linear, _] = values::<4>(&line, 0, time_s);
+        assert_eq!((cubic.to_bits(), velocity), (linear.to_bits(), -200.0), "{time_s}");
+    }
     for step_s in [[0.0, 0.5], [1.5, 2.5], [4.0, 6.0], [2.0, 5.0]] {
         for column in 0..4 {
             let [start, end] = step_s.map(|time_s| table.value(column, time_s).to_f64());
