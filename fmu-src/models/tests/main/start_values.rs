@@ -284,12 +284,12 @@ const REFUSALS: &[(&str, &str)] = &[
     (
         "[start]\n\"start.epoch\" = \"2026-02-29 UTC\"",
         "my.toml:+2: start.\"start.epoch\": found \"2026-02-29 UTC\", a day that no calendar has, allowed: a date such as \
-         \"2008-03-19T19:30:00 UTC\" or \"2008-03-19 TDB\"",
+         \"2008-03-19T19:30:00 UTC\" or \"JD 2454544.5 TDB\"",
     ),
     (
         "[start]\n\"start.epoch\" = \"2026-01-01T00:00:00\"",
         "my.toml:+2: start.\"start.epoch\": found \"2026-01-01T00:00:00\", which does not end in UTC, Z, TDB, TT or TAI, allowed: a date \
-         such as \"2008-03-19T19:30:00 UTC\" or \"2008-03-19 TDB\"",
+         such as \"2008-03-19T19:30:00 UTC\" or \"JD 2454544.5 TDB\"",
     ),
     (
         "[start]\n\"orbit.step\" = \"2026-01-01 UTC\"",

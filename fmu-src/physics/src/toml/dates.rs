@@ -13,8 +13,7 @@ use hifitime::{Epoch, TimeScale, Unit};
 use crate::constants::DAY_S;
 
 /// What a date looks like, for messages.
-pub const ALLOWED_DATE: &str = "a date such as \"2008-03-19T19:30:00 UTC\", \"2008-03-19T19:30:00Z\", \"2008-03-19 TDB\" (also TT, \
-                                TAI) or \"JD 2454544.5 TDB\"";
+pub const ALLOWED_DATE: &str = "a date such as \"2008-03-19T19:30:00 UTC\" or \"JD 2454544.5 TDB\"";
 
 /// Endings of a date and the time scales they name.
 const SCALES: [(&str, TimeScale); 5] = [
