@@ -9,13 +9,17 @@ pub const ANNOTATION: &str = "io.github.heliotorque";
 
 mod destination;
 mod entries;
+mod folder;
+mod growing;
 mod identity;
 mod input;
 mod system;
 mod temporary;
 
-pub use destination::{Destination, Growing, part_of, sidecar_of};
+pub use destination::{Destination, part_of, sidecar_of};
 pub use entries::Entries;
+pub use folder::{OutputFolder, leads_below, remove};
+pub use growing::{Growing, Part};
 pub use input::{MOST_TABLE_BYTES, MOST_TEXT_BYTES, kind, open, open_at_most, read, read_at_most, read_text};
 pub use system::canonical;
 pub use temporary::{Scratch, remove_temporaries};

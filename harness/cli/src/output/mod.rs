@@ -25,12 +25,12 @@ use model_description::Description;
 
 use csv::Csv;
 use exporter::Exporter;
-use standing::OutputKind;
 use summary::Summary;
 use svg::Svg;
 
 pub(crate) use file::OutputFile;
 pub(crate) use known::Known;
+pub(crate) use standing::{OutputKind, check as check_standing};
 pub(crate) use limits::{Limit, LimitChecks};
 pub(crate) use origin::Origin;
 pub(crate) use svg::{chart, is_lit_fraction, leave_out, panel, shade_eclipses};
