@@ -18,7 +18,7 @@ mod surface;
 mod tests;
 mod tornado;
 
-pub use axes::{round_up, tick_text, ticks};
+pub use axes::{is_drawable, round_up, tick_text, ticks};
 pub use bars::{BarChart, BarPanel};
 pub use camera::{Camera, contains};
 pub use chart::Chart;

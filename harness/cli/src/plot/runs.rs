@@ -135,7 +135,7 @@ pub(super) fn together<const N: usize>(table: &Table, names: [&str; N]) -> Resul
 /// Rows in which every column has a finite number.
 fn numbered(table: &Table, names: &[&str]) -> Vec<bool> {
     let columns: Vec<Vec<f64>> = names.iter().filter_map(|name| table.numbers(name)).collect();
-    (0..table.keys.len()).map(|row| columns.iter().all(|column| column[row].is_finite())).collect()
+    (0..table.keys.len()).map(|row| columns.iter().all(|column| drawing::is_drawable(column[row]))).collect()
 }
 
 /// Of sorted values, between neighbours linearly.

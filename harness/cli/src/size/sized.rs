@@ -25,6 +25,9 @@ const PHASE: &str = "guided.phase";
 /// A year, in s.
 pub(super) const YEAR_S: f64 = 365.25 * DAY_S;
 
+/// Longest flight, in years: its columns are in memory whole.
+const MOST_YEARS: f64 = 50.0;
+
 /// A spacecraft ready for simulation.
 pub(super) struct SizedSpacecraft {
     pub fmu: Fmu,
@@ -86,6 +89,11 @@ impl SizedSpacecraft {
         let phase: Vec<_> = phase.into_iter().map(|value| (PHASE.to_owned(), value)).collect();
         let is_in_cruise = item(description, &phase, PHASE) == Some("cruise");
         drop(started);
+        let span_s = arguments.duration.unwrap_or(stop_s - start_s);
+        if span_s > MOST_YEARS * YEAR_S {
+            let [found, option] = [span_s / YEAR_S, MOST_YEARS].map(terminal::short);
+            return Err(format!("{file}: found a flight of {found} years, allowed: up to {option}: --duration").into());
+        }
         let spacecraft = spacecraft_of(&fmu)?;
         let has_fan = spacecraft.antennas.iter().any(|named| named.antenna.fan().is_some());
         let strategies = strategies(description, &sets, period_s, has_fan && !is_in_cruise);
@@ -94,7 +102,7 @@ impl SizedSpacecraft {
             sets,
             inputs,
             start_s,
-            span_s: arguments.duration.unwrap_or(stop_s - start_s),
+            span_s,
             period_s,
             strategies,
             fmu,

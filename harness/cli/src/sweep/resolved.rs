@@ -329,6 +329,10 @@ impl Reader<'_> {
             .map(|(column, name)| Ok((column, self.variable(name)?)))
             .collect::<Result<_, String>>()
             .map_err(|what| format!("{shown}: {what}"))?;
+        let name = |at: usize| &columns[at].1.name;
+        if let Some(twice) = (1..columns.len()).find(|at| (0..*at).any(|other| name(other) == name(*at))) {
+            return Err(format!("{shown}: found the column {:?} twice, allowed: once", name(twice)));
+        }
         let mut table = Vec::with_capacity(rows.len());
         for (number, row) in rows.iter().enumerate() {
             let cell = |(column, variable): &(usize, &ScalarVariable)| {

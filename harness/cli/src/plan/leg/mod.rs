@@ -9,7 +9,7 @@ mod schema;
 
 use std::{cell::RefCell, path::Path, process::ExitCode, time::Instant};
 
-use ::files::Scratch;
+use ::files::{OutputFolder, Scratch};
 use physics::{
     constants::DAY_S,
     environment::{dates, orbit::LambertError},
@@ -20,7 +20,7 @@ use toml_edit::{DocumentMut, value};
 pub(crate) use self::options::LegOptions;
 use self::{file::LegFile, flights::LegFlights};
 use super::{
-    files::write_all,
+    files::{check_standing, write_all},
     flights::{Failure, SimulatedMission},
     mission_text,
 };
@@ -180,8 +180,8 @@ fn check(file: &LegFile, mission: &SimulatedMission, arrival_s: f64) -> Result<(
 pub(crate) fn run(options: &LegOptions) -> Outcome {
     let began = Instant::now();
     let file = LegFile::read(&options.leg)?;
-    std::fs::create_dir_all(&options.output)
-        .map_err(|error| format!("{}: {error}: see --output", options.output.display()))?;
+    check_standing(&options.output, NAMES)?;
+    let _folder = OutputFolder::create(&options.output, "--output")?;
     let of_leg = LegMission::read(&file)?;
     let last = RefCell::new(String::new());
     let say = |doing: &str| {
@@ -191,9 +191,8 @@ pub(crate) fn run(options: &LegOptions) -> Outcome {
         }
     };
     let scratch = Scratch::new()?;
-    let begun = scratch.path().join(NAMES[0]);
     // At rest it would fall into the Sun; every flight has a velocity of its own.
-    std::fs::write(&begun, of_leg.text(scratch.path(), &[0.0; 3])?)?;
+    let begun = scratch.write(NAMES[0], of_leg.text(scratch.path(), &[0.0; 3])?)?;
     let in_mission = |error: Failure| {
         let text =
             error.to_string().replace(&begun.display().to_string(), &file.mission.it.display().to_string());

@@ -15,6 +15,7 @@ mod written;
 
 use std::{cell::RefCell, path::Path, process::ExitCode, time::Instant};
 
+use ::files::OutputFolder;
 use drawing::{Chart, DrawingError, Picture};
 use nalgebra::{Matrix4, Vector3};
 use physics::guidance::timeline::Timeline;
@@ -36,7 +37,7 @@ use self::{
     timeline::MissionTimeline,
 };
 use super::{
-    files::write_all,
+    files::{check_standing, write_all},
     flights::{Failure, SimulatedMission},
 };
 use crate::{assembly::spacecraft_of, interrupt, outcome::Outcome, reading::At};
@@ -189,8 +190,8 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     let began = Instant::now();
     let file = PlanFile::read(&options.plan)?;
     kind.check(&file)?;
-    std::fs::create_dir_all(&options.output)
-        .map_err(|error| format!("{}: {error}: see --output", options.output.display()))?;
+    check_standing(&options.output, NAMES)?;
+    let _folder = OutputFolder::create(&options.output, "--output")?;
     let planned = opened(options, &file, began)?;
     let encounter =
         planned.flyby_task.as_ref().map(|it| Ok::<_, Failure>((flyby::before(&planned, it)?, it)));

@@ -83,7 +83,7 @@ impl Planned<'_> {
     ) -> Result<(SimulatedMission, Scratch), Failure> {
         let folder = Scratch::new()?;
         for (name, text) in self.write_into(folder.path(), plan, activity)? {
-            std::fs::write(folder.path().join(name), text)?;
+            folder.write(name, text)?;
         }
         let template = self.options.template.as_deref();
         Ok((SimulatedMission::open(&folder.path().join(NAMES[1]), template, &[])?, folder))

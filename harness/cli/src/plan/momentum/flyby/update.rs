@@ -47,8 +47,7 @@ pub(in crate::plan::momentum) fn updated(
         None => value(at_s),
     };
     document["stop"] = value(mission.stop_s - at_s);
-    let path = folder.path().join("updated.toml");
-    std::fs::write(&path, document.to_string())?;
+    let path = folder.write("updated.toml", document.to_string())?;
     let mut updated = file.clone();
     updated.mission.it = path;
     // The date of the mission's start moves, that up to which it is frozen does not.
