@@ -90,14 +90,14 @@ impl CampaignFiles {
         let is_stdout = destination.is_stdout();
         let percentiles = percentiles(started, is_stdout, &inputs)?;
         let complete = sidecar_of(output);
-        if arguments.resume
-            && destination.part_path().is_some_and(|part| !part.exists())
-            && destination.existing().is_some()
+        let part = destination.part_path();
+        let begun = part.as_deref().map(sidecar_of);
+        if let (true, Some(begun)) = (arguments.resume && destination.existing().is_some(), &begun)
+            && part.is_some_and(|part| !part.exists())
         {
             digests.check(&complete)?;
-            return completed(started, percentiles).map(Opened::Complete);
+            return completed(started, percentiles, begun).map(Opened::Complete);
         }
-        let begun = destination.part_path().map(|part| sidecar_of(&part));
         let complete = begun.as_ref().map(|_| Destination::open(&complete, OPTION, &inputs)).transpose()?;
         let mut growing = destination.grow(&inputs)?;
         let mut left = match &begun {
@@ -151,7 +151,11 @@ fn rows(
 }
 
 /// How the runs of a complete table ended; what a kill left beside it goes.
-fn completed(started: &Started<'_>, percentiles: Option<Destination>) -> Result<Counts, String> {
+fn completed(
+    started: &Started<'_>,
+    percentiles: Option<Destination>,
+    begun: &Path,
+) -> Result<Counts, String> {
     let Started { arguments, campaign, described, runs, .. } = started;
     let output = arguments.output.as_path();
     let anew = "with --fresh it begins anew";
@@ -167,6 +171,7 @@ fn completed(started: &Started<'_>, percentiles: Option<Destination>) -> Result<
     let mut counts = Counts::default();
     rows.statuses().for_each(|status| counts.add(status));
     percentiles.map(|it| it.part(&[])).transpose()?.flatten().map(files::Part::remove).transpose()?;
+    files::remove(begun)?;
     Ok(counts)
 }
 

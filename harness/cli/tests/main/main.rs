@@ -1,6 +1,7 @@
 //! Tests of the program as people run it: arguments in, text, files and exit status out.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
+mod campaigns;
 mod checks;
 mod compares;
 mod drawings;
