@@ -3,6 +3,7 @@
 //! Every file that a command writes goes through [`Destination`]: it is written beside its target and renamed. A
 //! recording in progress is a [`Growing`] file, `<name>.part`. Temporary files and folders are known to
 //! [`remove_temporaries`], which a signal handler calls.
+#![allow(clippy::disallowed_methods, reason = "what others shall use is made of these")]
 
 /// Type of what we add to files of other standards, which ask for a reversed domain name.
 pub const ANNOTATION: &str = "io.github.heliotorque";

@@ -1,5 +1,11 @@
 //! Tests of the program as people run it: arguments in, text, files and exit status out.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::disallowed_methods,
+    reason = "tests"
+)]
 
 mod campaigns;
 mod checks;
