@@ -49,7 +49,6 @@ impl Growing {
         read.map(|_| bytes).map_err(|error| part.message(&error))
     }
 
-
     /// Whether the reader of the standard output went away: what is appended then goes nowhere.
     pub fn has_lost_reader(&self) -> bool {
         self.lost_reader
@@ -99,8 +98,7 @@ impl Part {
 
     /// Opens and locks it; what it holds of an earlier recording stays until something is appended.
     pub(crate) fn open(path: &Path, option: &'static str, inputs: &[&Path]) -> Result<Self, String> {
-        Self::locked(path, option, inputs)
-            .map_err(|what| format!("{}: {what}: see {option}", path.display()))
+        Self::locked(path, option, inputs).map_err(|what| format!("{}: {what}: see {option}", path.display()))
     }
 
     fn locked(path: &Path, option: &'static str, inputs: &[&Path]) -> Result<Self, String> {
@@ -115,18 +113,17 @@ impl Part {
         };
         for _ in 0..Self::ATTEMPTS {
             check_place(path, inputs)?;
-            let (file, is_new) =
-                match system::open_exclusively(options().create_new(true), path) {
-                    Ok(file) => (file, true),
-                    Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                        match system::open_exclusively(&mut options(), path) {
-                            Ok(file) => (file, false),
-                            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
-                            Err(error) => return Err(text(error)),
-                        }
+            let (file, is_new) = match system::open_exclusively(options().create_new(true), path) {
+                Ok(file) => (file, true),
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+                    match system::open_exclusively(&mut options(), path) {
+                        Ok(file) => (file, false),
+                        Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+                        Err(error) => return Err(text(error)),
                     }
-                    Err(error) => return Err(text(error)),
-                };
+                }
+                Err(error) => return Err(text(error)),
+            };
             // Until it was locked, another run may have given it its name, and a link may lead elsewhere.
             if is_at(&file, path) {
                 return Ok(Self { path: path.to_owned(), option, file, is_new, is_begun: false });
@@ -156,8 +153,9 @@ impl Part {
     /// Writes bytes at a place; without [`Part::keep`] before, what an earlier run left goes first.
     pub fn write_at(&mut self, place: u64, bytes: &[u8]) -> Result<(), String> {
         let begun = if self.is_begun { Ok(()) } else { self.keep(0) };
-        let written =
-            begun.and_then(|()| self.file.seek(SeekFrom::Start(place))).and_then(|_| self.file.write_all(bytes));
+        let written = begun
+            .and_then(|()| self.file.seek(SeekFrom::Start(place)))
+            .and_then(|_| self.file.write_all(bytes));
         written.map_err(|error| self.message(&error))
     }
 

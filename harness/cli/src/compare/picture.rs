@@ -69,9 +69,7 @@ pub(super) fn svg(
     }
     leave_out(&mut panels, "panels", "");
     let [one, other] = [first, second].map(|table| table.path.display());
-    let chart = Chart {
-        x_names: axis.names,
-        ..Chart::new(format!("{other} less {one}"), axis.label).with(panels)
-    };
+    let chart =
+        Chart { x_names: axis.names, ..Chart::new(format!("{other} less {one}"), axis.label).with(panels) };
     drawing::svg(&[&chart])
 }

@@ -36,7 +36,9 @@ pub(crate) fn check(
     let Some(home) = home else { return Ok(()) };
     let path = path.display();
     let (owner, anywhere, any) = match kind.option() {
-        Some(instead) => ("mission", format!("; {instead} may lead anywhere"), format!("; {instead} replaces any")),
+        Some(instead) => {
+            ("mission", format!("; {instead} may lead anywhere"), format!("; {instead} replaces any"))
+        }
         None => ("campaign", String::new(), String::new()),
     };
     if !destination.is_within(home) {

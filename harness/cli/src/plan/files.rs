@@ -45,12 +45,18 @@ fn is_edited_by_people(name: &str) -> bool {
 ///
 /// # Errors
 /// The first such file.
-pub(super) fn check_standing<'n>(folder: &Path, names: impl IntoIterator<Item = &'n str>) -> Result<(), String> {
+pub(super) fn check_standing<'n>(
+    folder: &Path,
+    names: impl IntoIterator<Item = &'n str>,
+) -> Result<(), String> {
     for path in names.into_iter().filter(|name| is_edited_by_people(name)).map(|name| folder.join(name)) {
         let found = if path.exists() { ::files::read_text(&path)? } else { String::new() };
         if !found.is_empty() && !found.starts_with(HEAD) {
             let allowed = "allowed: none, or what a plan wrote; another folder takes a new one";
-            return Err(format!("{}: found a file that no plan wrote, {allowed}: see {OPTION}", path.display()));
+            return Err(format!(
+                "{}: found a file that no plan wrote, {allowed}: see {OPTION}",
+                path.display()
+            ));
         }
     }
     Ok(())

@@ -56,6 +56,7 @@ fn destinations(arguments: &Size) -> Result<([Destination; 2], Option<OutputFold
     let inputs = [arguments.file.as_path()];
     let open =
         |ending: &str| Destination::open(&folder.join(format!("{stem}-size.{ending}")), "--output", &inputs);
-    let made = arguments.output.as_deref().map(|folder| OutputFolder::create(folder, "--output")).transpose()?;
+    let made =
+        arguments.output.as_deref().map(|folder| OutputFolder::create(folder, "--output")).transpose()?;
     Ok(([open("svg")?, open("csv")?], made))
 }

@@ -92,22 +92,15 @@ impl SizedSpacecraft {
         let span_s = arguments.duration.unwrap_or(stop_s - start_s);
         if span_s > MOST_YEARS * YEAR_S {
             let [found, option] = [span_s / YEAR_S, MOST_YEARS].map(terminal::short);
-            return Err(format!("{file}: found a flight of {found} years, allowed: up to {option}: --duration").into());
+            return Err(format!(
+                "{file}: found a flight of {found} years, allowed: up to {option}: --duration"
+            )
+            .into());
         }
         let spacecraft = spacecraft_of(&fmu)?;
         let has_fan = spacecraft.antennas.iter().any(|named| named.antenna.fan().is_some());
         let strategies = strategies(description, &sets, period_s, has_fan && !is_in_cruise);
-        Ok(Self {
-            spacecraft,
-            sets,
-            inputs,
-            start_s,
-            span_s,
-            period_s,
-            strategies,
-            fmu,
-            _folders: folders,
-        })
+        Ok(Self { spacecraft, sets, inputs, start_s, span_s, period_s, strategies, fmu, _folders: folders })
     }
 
     /// An instance that has just been initialised.

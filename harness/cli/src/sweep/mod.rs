@@ -2,9 +2,9 @@
 
 mod description;
 mod file;
-mod outputs;
 mod options;
 mod origin;
+mod outputs;
 mod pool;
 mod repeated;
 mod resolved;
@@ -31,9 +31,9 @@ use loader::csv;
 use model_description::Description;
 
 use file::CampaignFile;
-use outputs::{Beside, CampaignFiles, Opened};
 pub(crate) use options::Sweep;
 use origin::Digests;
+use outputs::{Beside, CampaignFiles, Opened};
 use pool::{Attempt, Pool};
 use repeated::Sample;
 use resolved::Campaign;

@@ -73,7 +73,10 @@ impl Digests {
             Some(found) if found.fmu != self.fmu => refuse("another FMU", ours),
             Some(Self { runs, .. }) if runs != self.runs => {
                 let range = |runs: &Range<u64>| format!("{}..{}", runs.start, runs.end);
-                refuse(&format!("the runs {}", range(&runs)), &format!("those of this sweep, {}", range(&self.runs)))
+                refuse(
+                    &format!("the runs {}", range(&runs)),
+                    &format!("those of this sweep, {}", range(&self.runs)),
+                )
             }
             Some(_) => Ok(()),
         }

@@ -105,7 +105,8 @@ impl CampaignFiles {
             None => LeftRows::default(),
         };
         let per_run = started.campaign.numbers_per_run();
-        let series = percentiles.map(|it| Series::open(it, runs.start, per_run, &inputs)).transpose()?.flatten();
+        let series =
+            percentiles.map(|it| Series::open(it, runs.start, per_run, &inputs)).transpose()?.flatten();
         if let Some(series) = series.as_ref().filter(|_| left.count() > 0) {
             // Rows count as far as their numbers reach.
             left.truncate(series.keep(left.count())?);
@@ -160,7 +161,10 @@ fn completed(
     let output = arguments.output.as_path();
     let anew = "with --fresh it begins anew";
     if let Some(missing) = percentiles.as_ref().filter(|it| it.existing().is_none()) {
-        return Err(format!("{}: found no percentiles, allowed: those of the complete table: {anew}", missing.path().display()));
+        return Err(format!(
+            "{}: found no percentiles, allowed: those of the complete table: {anew}",
+            missing.path().display()
+        ));
     }
     let bytes = files::read(output).map_err(|error| format!("{}: {error}", output.display()))?;
     let rows = LeftRows::read(output, bytes, &table::header(campaign, described), (campaign, runs.start))?;

@@ -23,7 +23,8 @@ use super::{
 };
 use crate::{
     child::{
-        Bounds, ChildProcess, EndReason, NOT_REQUESTED, Payload, ResourceLimits, Shown, Supervised, path_option,
+        Bounds, ChildProcess, EndReason, NOT_REQUESTED, Payload, ResourceLimits, Shown, Supervised,
+        path_option,
     },
     interrupt,
     run::take_row,
@@ -259,11 +260,7 @@ impl Inbox<'_> {
     }
 }
 
-fn write_history(
-    destination: Destination,
-    recording: &Recording,
-    columns: usize,
-) -> Result<(), String> {
+fn write_history(destination: Destination, recording: &Recording, columns: usize) -> Result<(), String> {
     destination.fill(|file| {
         csv::write_header(recording, columns, file)?;
         csv::write_rows(recording, columns, 0..recording.times_s.len(), file)

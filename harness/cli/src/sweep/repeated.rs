@@ -29,7 +29,10 @@ impl Sample {
         let runs = &pool.runs;
         let count = runs.end - runs.start;
         let sampled = pool.workers.min(MOST).min(count);
-        Self { runs: (1..=sampled).map(|k| runs.start + count * k / sampled - 1).collect(), results: Vec::new() }
+        Self {
+            runs: (1..=sampled).map(|k| runs.start + count * k / sampled - 1).collect(),
+            results: Vec::new(),
+        }
     }
 
     /// Takes a run that ended; one whose instance was not reset, or that failed, says nothing.

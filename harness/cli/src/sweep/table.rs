@@ -119,7 +119,8 @@ impl LeftRows {
             let mut ending = row.splitn(numbers + 2, ',').skip(numbers);
             let word = ending.next().unwrap_or_default();
             let status = RunStatus::ALL.into_iter().find(|status| status.word() == word);
-            let status = status.ok_or_else(|| format!("{shown}: run {run}: found {word:?}, allowed: how it ended"))?;
+            let status =
+                status.ok_or_else(|| format!("{shown}: run {run}: found {word:?}, allowed: how it ended"))?;
             let reason = ending.next().unwrap_or_default().trim_start_matches('"');
             begin += length;
             left.rows.push((begin, status, status == RunStatus::Failed && reason.starts_with(KILLED)));

@@ -117,7 +117,9 @@ impl Table {
         let (mut found, mut known) = (Vec::new(), BTreeSet::new());
         for pattern in patterns {
             let positions = loader::select(&description, pattern).map_err(|_| self.unknown(pattern))?;
-            found.extend(positions.into_iter().filter(|at| known.insert(*at)).map(|at| self.names[at].clone()));
+            found.extend(
+                positions.into_iter().filter(|at| known.insert(*at)).map(|at| self.names[at].clone()),
+            );
         }
         Ok(found)
     }

@@ -63,7 +63,11 @@ fn campaigns_that_are_killed_and_resumed_have_the_bytes_of_undisturbed_ones() {
     for kill in 0..kills {
         let share = (f64::from(kill) * 0.618_033_988_75).fract();
         let resumed: &[&str] = if kill % 3 == 0 { &["--fresh"] } else { &["--resume"] };
-        count += u32::from(killed(&arguments(&file, &output, resumed), &part, (share * 1.02 * length as f64) as u64));
+        count += u32::from(killed(
+            &arguments(&file, &output, resumed),
+            &part,
+            (share * 1.02 * length as f64) as u64,
+        ));
         if kill % 3 == 2 || kill + 1 == kills {
             run(&arguments(&file, &output, &["--resume"]), 0);
             assert!(results(&output) == results(&whole), "{kill}");
@@ -133,7 +137,10 @@ fn files_of_a_campaign_follow_the_rules_of_all_others() {
     let away = tempfile::tempdir().unwrap();
     let with = |histories: &str| fs::write(&file, format!("{text}histories = {histories:?}\n")).unwrap();
     with(shown(&away.path().join("x")));
-    says(&run(&arguments(&file, &output, &[]), 1), &["keep.histories: found ", "allowed: a folder in the campaign's"]);
+    says(
+        &run(&arguments(&file, &output, &[]), 1),
+        &["keep.histories: found ", "allowed: a folder in the campaign's"],
+    );
     assert!(!away.path().join("x").exists());
     fs::create_dir(at("histories")).unwrap();
     fs::write(at("histories/run-3.csv"), "precious").unwrap();

@@ -273,6 +273,7 @@ pub(crate) fn available_bytes() -> Option<u64> {
         number(line.trim().strip_suffix("kB")?)?.checked_mul(1024)
     })?;
     let of_group = |file: &str| number(&std::fs::read_to_string(format!("/sys/fs/cgroup/{file}")).ok()?);
-    let left = of_group("memory.max").map(|most| most.saturating_sub(of_group("memory.current").unwrap_or(0)));
+    let left =
+        of_group("memory.max").map(|most| most.saturating_sub(of_group("memory.current").unwrap_or(0)));
     Some(left.map_or(of_host, |left| left.min(of_host)))
 }

@@ -111,7 +111,10 @@ fn a_run_whose_process_was_killed_is_simulated_again() {
     let Some(scratch) = hostile("DIES", "IN_STEP_IF") else { return };
     campaign(scratch.path());
     let (table, said) = swept(&scratch, &[], true, 1);
-    assert!(table.is_empty() && said.contains("runs.csv.part: run 1: its process was killed"), "{table}{said}");
+    assert!(
+        table.is_empty() && said.contains("runs.csv.part: run 1: its process was killed"),
+        "{table}{said}"
+    );
     assert!(said.contains("--resume simulates it again"), "{said}");
     let (table, said) = swept(&scratch, &["--resume"], false, 0);
     assert_eq!(table, UNDISTURBED);
