@@ -79,7 +79,7 @@ pub fn fewest_dumps(
     if refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), &mut Silent)? {
         return Ok(Some(0));
     }
-    Ok(counted::fewest_dumps(&model, GUARD, &mut || {}).map(|found| found.at_least))
+    Ok(counted::fewest_dumps(&model, GUARD, &mut || {}).map(|found| found.rows.len()))
 }
 
 /// Momentum that a downlink with the Sun on -Y would gather over a span, the arrays standing as in the windows, EME2000, in N m s.

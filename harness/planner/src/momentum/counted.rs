@@ -2,14 +2,16 @@
 //!
 //! **Dumps.** A dump leaves any momentum within the limit, so the flight falls into parts that do not know of one another, and a part of
 //! a feasible part is feasible: continuing as far as some choice of controls allows and dumping there gives the fewest (of the linear
-//! model). Of all ways with that number the one is taken that does with the smallest limit.
+//! model). Of all ways with that number the one is taken that does with the smallest limit. From below: the same without a guard, judged
+//! at instants alone.
 //!
 //! **Changes.** The arrays stand alike over groups of neighbouring windows. Steps of the baseline begin a group in any case. From below:
 //! windows that cannot share a windmill angle whatever the momentum before them have a change among them; such spans that share no edge
 //! are counted. From above: each group continues as long as a plan for the rest exists in which every later window is a group by itself.
 //! Where both differ, branch and bound over the places of the changes, depth first: a branch ends where even single windows
-//! behind it find no plan, or where the count from below exceeds what is left. It stops by the clock; the gap is reported. Controls stay
-//! within a range about the model's: the programmes are linear, and over a wide range their groups may not keep the limits.
+//! behind it find no plan, or where the count from below exceeds what is left. It stops by the clock; the gap is reported. Plans leave a
+//! guard; what counts from below does not, for a plan may need it: the same search without it proves that there are not fewer. Controls
+//! of plans stay within a range about the model's: the programmes are linear, and over a wide range their groups may not keep the limits.
 
 use std::{collections::HashMap, time::Instant};
 
@@ -29,18 +31,18 @@ const KEPT: f64 = 1e-4;
 pub(super) struct Dumps {
     /// Rows of the flight at which they are.
     pub rows: Vec<usize>,
-    /// No plan has fewer.
+    /// No plan has fewer, by the linear model.
     pub at_least: usize,
 }
 
 /// Which windows' arrays stand alike.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Groups {
     /// First window of the group of every window.
     pub leaders: Vec<usize>,
     /// Changes of the arrays.
     pub changes: usize,
-    /// No plan has fewer.
+    /// No plan has fewer, by the linear model with all of every control's range; 0 within a narrower one.
     pub at_least: usize,
 }
 
@@ -118,16 +120,18 @@ pub(super) fn fewest_dumps(model: &Model, guard: f64, progress: &mut dyn FnMut()
         }
     }
     best.pop();
+    let at_least = parts(model, 0.0, 1.0, count)?.len() - 1;
     let rows = best.into_iter().filter_map(|end| model.instants().get(end - 1).copied()).collect();
-    Some(Dumps { rows, at_least: count })
+    Some(Dumps { rows, at_least })
 }
 
-/// The end of the first step up to which no choice of controls keeps the limit without a dump, in s; `None` where one does throughout.
-pub(super) fn first_exceeded_s(model: &Model, guard: f64) -> Option<f64> {
+/// The end of the first step up to which no controls of the linear model keep the limit without a dump, in s; `None` where some do
+/// throughout. A flight with other controls may keep it longer.
+pub(super) fn first_exceeded_s(model: &Model) -> Option<f64> {
     let leaders = single(model);
     let count = model.instants().len();
     let kept = farthest(0, count, |to| {
-        is_kept(model, &leaders, Part { steps: [0, to], free: false }, [guard, WHOLE], 1.0)
+        is_kept(model, &leaders, Part { steps: [0, to], free: false }, [0.0, WHOLE], 1.0)
     });
     model.instants().get(kept).map(|row| model.simulated.rows[*row].time_s)
 }
@@ -275,7 +279,11 @@ pub(super) fn fewest_changes(
             steps[window] = step + 1;
         }
     }
-    let mut search = Search { model, ranges, forced, steps, until, reached: HashMap::new() };
+    let search = |ranges: [f64; 2]| {
+        let (forced, steps) = (forced.clone(), steps.clone());
+        Search { model, ranges, forced, steps, until, reached: HashMap::new() }
+    };
+    let (mut search, mut proof) = (search(ranges), search([0.0, WHOLE]));
     let moves = (0..windows.len())
         .any(|window| is_moved(window, Control::Windmill) || is_moved(window, Control::Offset));
     if !moves {
@@ -285,21 +293,32 @@ pub(super) fn fewest_changes(
     if !search.is_open(&[], 0) {
         return None;
     }
-    let mut at_least = search.at_least_from(0);
-    progress();
     let mut best = search.greedy(progress);
-    while at_least < best.len() {
-        match search.descend(&mut Vec::new(), at_least, progress) {
-            Some(found) => best = found,
-            None if Instant::now() >= until => break,
-            None => at_least += 1,
+    let is_over = || Instant::now() >= until;
+    for count in search.at_least_from(0)..best.len() {
+        match search.descend(&mut Vec::new(), count, progress) {
+            Some(found) => {
+                best = found;
+                break;
+            }
+            None if is_over() => break,
+            None => {}
         }
     }
-    Some(Groups {
-        leaders: search.leaders(&best, usize::MAX),
-        changes: base + best.len(),
-        at_least: base + at_least.min(best.len()),
-    })
+    let at_least = match ranges[1] < WHOLE {
+        true => 0,
+        false => {
+            let mut at_least = proof.at_least_from(0);
+            while at_least < best.len()
+                && proof.descend(&mut Vec::new(), at_least, progress).is_none()
+                && !is_over()
+            {
+                at_least += 1;
+            }
+            base + at_least.min(best.len())
+        }
+    };
+    Some(Groups { leaders: search.leaders(&best, usize::MAX), changes: base + best.len(), at_least })
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, SymmetricEigen, Vector3};
 
 use super::{
-    cell::{At, Cell, cell},
+    cell::{At, Cell, cell, guard_shares},
     program::{Begin, Program, Step},
     simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
     target::{LinearMiss, Target, Targeting},
@@ -206,8 +206,8 @@ impl Model {
         &self.instants
     }
 
-    /// Takes what a flight of the present controls gained, and how it missed the target.
-    pub(super) fn take(&mut self, sunlit: &SunlitSpacecraft, flight: &SimulatedFlight) {
+    /// Takes a share of what a flight of the present controls gained beyond the model, and how it missed the target.
+    pub(super) fn take(&mut self, sunlit: &SunlitSpacecraft, flight: &SimulatedFlight, share: f64) {
         let momentum = |row: &FlightRow| flight.momentum_n_m_s(row.time_s);
         let count_at = |time_s: f64| {
             let after = flight.rows.partition_point(|row| row.time_s <= time_s + SAME_S);
@@ -218,7 +218,8 @@ impl Model {
             if cell.reset.is_some() || count_at(from.time_s - 2.0 * SAME_S) != count_at(to.time_s) {
                 continue;
             }
-            self.corrections[index] = momentum(to) - momentum(from) - cell.gain;
+            let gained = momentum(to) - momentum(from) - cell.gain;
+            self.corrections[index] = self.corrections[index].lerp(&gained, share);
         }
         if let (Some(targeting), Some(encountered)) = (&mut self.targeting, &flight.encountered) {
             targeting.encountered = encountered.clone();
@@ -279,32 +280,29 @@ impl Model {
 
     /// By how much |H| exceeds what is allowed at the worst row, in N m s, and that row; the target's excess counts as at the last.
     pub(super) fn excess_n_m_s(&self) -> (f64, usize) {
-        let of_momentum = self.momentum_excess_n_m_s();
-        let limit_n_m_s = self.limit.momentum_n_m_s;
-        let of_target = self
-            .targeting
-            .as_ref()
-            .zip(self.miss())
-            .map(|(targeting, miss)| targeting.target.excess_n_m_s(&miss, limit_n_m_s));
-        match of_target {
-            Some(excess) if excess > of_momentum.0 => (excess, self.cells.len()),
-            _ => of_momentum,
-        }
+        self.excess_beyond_n_m_s(0.0)
     }
 
-    /// The same of the momentum alone.
-    fn momentum_excess_n_m_s(&self) -> (f64, usize) {
+    /// The same where this share of the limit is left too.
+    pub(super) fn excess_beyond_n_m_s(&self, guard: f64) -> (f64, usize) {
+        let limit_n_m_s = self.limit.momentum_n_m_s;
         let momentum = self.momentum_n_m_s();
-        let over = momentum
-            .iter()
-            .zip(self.allowed_n_m_s())
-            .map(|(momentum, allowed)| self.limit.size.of(momentum) - allowed);
-        over.enumerate().fold(
-            (f64::NEG_INFINITY, 0),
-            |(worst, at), (row, over)| {
-                if over > worst { (over, row) } else { (worst, at) }
-            },
-        )
+        let rows = momentum.iter().zip(self.allowed_n_m_s()).zip(self.guard_shares());
+        let over = rows.map(|((momentum, allowed), share)| {
+            self.limit.size.of(momentum) - allowed + share * guard * limit_n_m_s
+        });
+        let of_target =
+            self.targeting.as_ref().zip(self.miss()).map(|(targeting, miss)| {
+                targeting.target.excess_n_m_s(&miss, limit_n_m_s) + guard * limit_n_m_s
+            });
+        let all = over.enumerate().chain(of_target.map(|over| (self.cells.len(), over)));
+        let least = (f64::NEG_INFINITY, 0);
+        all.fold(least, |worst, (row, over)| if over > worst.0 { (over, row) } else { worst })
+    }
+
+    fn guard_shares(&self) -> Vec<f64> {
+        let is_dump = |row: usize| self.dumps.iter().any(|(at, _)| *at == row);
+        guard_shares(&self.cells, &self.windows, &self.simulated.rows, is_dump)
     }
 
     /// Looks at how far |H| goes between the instants.
@@ -354,7 +352,8 @@ impl Model {
     }
 
     /// The programme of a part, the arrays of every window standing as those of its leader; `guard` is a share of the limit that is
-    /// left, `trust` the share of each control's range by which it may leave its present value.
+    /// left (0: nothing is left at instants alone, and what that cannot keep no controls of the linear model keep), `trust` the share of
+    /// each control's range by which it may leave its present value.
     pub(super) fn program(&self, leaders: &[usize], part: Part, [guard, trust]: [f64; 2]) -> Program {
         let bounds = vec![[0.0, 0.0]; CONTROLS * self.windows.len()];
         let mut program = Program { size: self.limit.size, bounds, ..Program::default() };
@@ -397,7 +396,7 @@ impl Model {
     }
 
     fn add_steps(&self, program: &mut Program, leaders: &[usize], part: Part, guard: f64) {
-        let allowed = self.allowed_n_m_s();
+        let (allowed, shares) = (self.allowed_n_m_s(), self.guard_shares());
         let start = self.simulated.rows.first().map_or_else(Vector3::zeros, |row| row.momentum_n_m_s);
         for step in part.steps[0]..part.steps[1] {
             let from = step.checked_sub(1).map_or(0, |before| self.instants[before]);
@@ -435,7 +434,9 @@ impl Model {
                     }
                 }
             }
-            let limit = allowed[to] - guard * self.limit.momentum_n_m_s - self.between[step];
+            let share = if part.free { 1.0 } else { shares[to] };
+            let left_n_m_s = guard * share * self.limit.momentum_n_m_s;
+            let limit = allowed[to] - left_n_m_s - if guard > 0.0 { self.between[step] } else { 0.0 };
             program.steps.push(Step { begin, drift, terms, limit });
         }
     }

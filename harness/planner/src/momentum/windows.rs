@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, Unit};
 use physics::spacecraft::Articulation;
 
 use super::{
-    baseline::{NoOffset, OffsetStep, allowed_rad, baseline},
+    baseline::{NoOffset, OffsetStep, baseline, shared_rad},
     in_force::{InForce, mean},
     places::{PlaceSide, places},
     simulated::{FlightRow, SAME_S, SimulatedFlight},
@@ -198,6 +198,8 @@ pub struct Layout {
     pub control_bounds: ControlBounds,
     /// The plan that the mission has so far, in order: windows begin with its controls, those before it on the baseline without tilt.
     pub in_force: Vec<InForce>,
+    /// What the mission itself does, in order, whether that is a plan or not; none where its arrays are no offset and windmill angle.
+    pub own: Vec<InForce>,
     /// Corridor of the light on the cells.
     pub corridor: Articulation,
     /// Sign of the offsets.
@@ -225,6 +227,7 @@ impl Layout {
             contact_share: 0.0,
             control_bounds,
             in_force: Vec::new(),
+            own: Vec::new(),
             corridor: Articulation { min_suns: 0.0, max_suns: f64::INFINITY, target_suns: 1.0 },
             offset_sign: 1.0,
             frozen_offset_rad: sun_offset_rad,
@@ -241,32 +244,22 @@ impl Layout {
         sunlit: &SunlitSpacecraft,
         simulated: &SimulatedFlight,
     ) -> Result<(Vec<Window>, Vec<OffsetStep>), NoOffset> {
-        let (Some(first), Some(last)) = (simulated.rows.first(), simulated.rows.last()) else {
+        let spans = self.spans(simulated);
+        let Some(begin_s) = simulated.rows.first().map(|row| row.time_s) else {
             return Ok((Vec::new(), Vec::new()));
         };
-        let [begin_s, end_s] = [first.time_s, last.time_s];
-        let frozen_s = self.frozen_until_s.clamp(begin_s, end_s);
-        let mut spans = Vec::new();
-        if frozen_s > begin_s + SAME_S {
-            let kind = if self.arrays_are_frozen { WindowKind::Frozen } else { WindowKind::Fixed };
-            spans.push(([begin_s, frozen_s], kind, None));
-        }
-        let occupied = self.occupied.iter().map(|it| {
-            let kind = if it.planned { WindowKind::Planned } else { WindowKind::Fixed };
-            ([it.start_s, it.stop_s], kind, Some(it.command))
-        });
-        fill(&mut spans, [frozen_s, end_s], occupied, |spans, gap_s| self.cut(spans, gap_s));
-
-        let arrays_from_s = if self.arrays_are_frozen { frozen_s } else { begin_s };
+        let arrays_from_s = if self.arrays_are_frozen { self.frozen_until_s.max(begin_s) } else { begin_s };
         let places: Vec<(f64, f64)> = simulated
             .rows
             .iter()
             .filter(|row| row.time_s >= arrays_from_s - SAME_S)
             .map(|row| (row.time_s, row.to_sun_m.norm()))
             .collect();
-        let edges: Vec<f64> = spans.iter().map(|([start_s, _], ..)| *start_s).collect();
-        let steps =
-            if self.sides.is_empty() { Vec::new() } else { baseline(&self.corridor, &places, &edges)? };
+        let edges: Vec<f64> = spans.iter().map(|(span_s, ..)| span_s[0]).collect();
+        let steps = match self.sides.is_empty() {
+            true => Vec::new(),
+            false => baseline(&self.corridor, &places, &edges, &self.own_offsets(arrays_from_s))?,
+        };
         // A step inside a window splits it.
         let mut windows = Vec::new();
         for ([start_s, stop_s], kind, command) in spans {
@@ -281,6 +274,41 @@ impl Layout {
             }
         }
         Ok((windows, steps))
+    }
+
+    /// What the mission holds fixed, and the free time between in pieces.
+    pub(super) fn spans(&self, simulated: &SimulatedFlight) -> Vec<Span> {
+        let (Some(first), Some(last)) = (simulated.rows.first(), simulated.rows.last()) else {
+            return Vec::new();
+        };
+        let [begin_s, end_s] = [first.time_s, last.time_s];
+        let frozen_s = self.frozen_until_s.clamp(begin_s, end_s);
+        let mut spans = Vec::new();
+        if frozen_s > begin_s + SAME_S {
+            let kind = if self.arrays_are_frozen { WindowKind::Frozen } else { WindowKind::Fixed };
+            spans.push(([begin_s, frozen_s], kind, None));
+        }
+        let occupied = self.occupied.iter().map(|it| {
+            let kind = if it.planned { WindowKind::Planned } else { WindowKind::Fixed };
+            ([it.start_s, it.stop_s], kind, Some(it.command))
+        });
+        fill(&mut spans, [frozen_s, end_s], occupied, |spans, gap_s| self.cut(spans, gap_s));
+        spans
+    }
+
+    /// Offsets of the mission's own arrays from a time on, without their sign.
+    fn own_offsets(&self, from_s: f64) -> Vec<OffsetStep> {
+        let mut steps: Vec<OffsetStep> = Vec::new();
+        for (index, it) in self.own.iter().enumerate() {
+            if self.own.get(index + 1).is_some_and(|next| next.at_s <= from_s + SAME_S) {
+                continue;
+            }
+            let offset_rad = self.offset_sign * it.controls.get(Control::Offset);
+            if steps.last().is_none_or(|last| last.offset_rad != offset_rad) {
+                steps.push(OffsetStep { at_s: it.at_s.max(from_s), offset_rad });
+            }
+        }
+        steps
     }
 
     /// Free time in pieces; a last one of less than half a window joins the one before. In an orbit phase each downlink is one.
@@ -298,7 +326,7 @@ impl Layout {
         }
     }
 
-    fn window(
+    pub(super) fn window(
         &self,
         [start_s, stop_s]: [f64; 2],
         (kind, command): (WindowKind, Option<usize>),
@@ -311,10 +339,7 @@ impl Layout {
                 .iter()
                 .filter(move |row| (start_s - SAME_S..=stop_s + SAME_S).contains(&row.time_s))
         };
-        let mut offsets_rad = [0.0, core::f64::consts::PI];
-        for allowed in rows().filter_map(|row| allowed_rad(&self.corridor, row.to_sun_m.norm())) {
-            offsets_rad = [offsets_rad[0].max(allowed[0]), offsets_rad[1].min(allowed[1])];
-        }
+        let mut offsets_rad = shared_rad(&self.corridor, rows().map(|row| row.to_sun_m.norm()));
         let begun = steps.iter().rev().find(|step| step.at_s <= start_s + SAME_S);
         let offset_rad = match kind {
             WindowKind::Frozen => self.frozen_offset_rad,
@@ -410,7 +435,7 @@ impl Layout {
 }
 
 /// Times, kind and command of a window.
-type Span = ([f64; 2], WindowKind, Option<usize>);
+pub(super) type Span = ([f64; 2], WindowKind, Option<usize>);
 
 /// Adds what of `own` is within an interval, in its order, and what `between` makes of the gaps.
 fn fill(

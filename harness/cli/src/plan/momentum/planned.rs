@@ -52,9 +52,8 @@ impl Planned<'_> {
         (windows, dumps): (&[Window], &[PlannedDump]),
         activity: Option<(&Activity, [f64; 2])>,
     ) -> Result<[(&'static str, String); 2], Failure> {
-        let frozen_s = self.task.layout.frozen_until_s;
         let bodies = |dump: &PlannedDump| self.body(windows, dump);
-        let text = self.timeline.text(&self.mission, (windows, dumps, frozen_s), &bodies, activity);
+        let text = self.timeline.text(&self.mission, (windows, dumps, &self.task.layout), &bodies, activity);
         // In an orbit phase the arrays stay as they are.
         let panels = if self.mission.is_in_orbit() { 0 } else { self.sunlit.panels.len() };
         let start = self.start_momentum_body_n_m_s(windows);

@@ -4,9 +4,10 @@ use nalgebra::Vector3;
 
 use super::*;
 use crate::momentum::{
+    Limit,
     test_spacecraft::{DAY_S, simulated, sunlit, task},
     torque::{Attitude, Control},
-    windows::{ControlBounds, WindowKind},
+    windows::{ControlBounds, Layout},
 };
 
 /// Simulates windows with the alternate attitude as it is timed, in steps of ten minutes, and one more torque.

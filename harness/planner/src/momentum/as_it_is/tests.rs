@@ -1,0 +1,1 @@
+//! Plans that a mission has already.
