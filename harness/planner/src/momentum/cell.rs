@@ -76,6 +76,36 @@ impl At {
     }
 }
 
+/// Instants of a programme in a window, at least.
+const INSTANTS: usize = 8;
+const DAY_S: f64 = 86_400.0;
+/// Windows count as no longer than this where instants are chosen, in s.
+const LONGEST_WINDOW_S: f64 = 3.0 * DAY_S;
+/// Instants within a window of less than a day are no closer, in s: what goes on between them is looked at all the same.
+const CLOSEST_S: f64 = 8.0 * 3600.0;
+
+/// Last rows of a programme's steps; edges of windows and resets are among them.
+pub(crate) fn instants(cells: &[Cell], windows: &[Window], rows: &[FlightRow]) -> Vec<usize> {
+    let mut instants = Vec::new();
+    let mut since_s = rows.first().map_or(0.0, |row| row.time_s);
+    for (index, cell) in cells.iter().enumerate() {
+        let end_s = rows[index + 1].time_s;
+        let next = cells.get(index + 1);
+        let ends_window = next.is_none_or(|next| next.window != cell.window);
+        let meets_reset = cell.reset.is_some() || next.is_some_and(|next| next.reset.is_some());
+        let length_s = windows[cell.window].length_s();
+        let mut long_s = length_s.min(LONGEST_WINDOW_S) / INSTANTS as f64;
+        if length_s < DAY_S {
+            long_s = long_s.max(CLOSEST_S);
+        }
+        if ends_window || meets_reset || end_s - since_s >= long_s - SAME_S {
+            instants.push(index + 1);
+            since_s = end_s;
+        }
+    }
+    instants
+}
+
 /// Share of a guard that is left at every row: nothing while the flight is as the mission has it, growing to all over the first window
 /// that a plan moves, for what it cannot know grows with it; all behind a planned dump.
 pub(crate) fn guard_shares(

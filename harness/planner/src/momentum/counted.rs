@@ -2,22 +2,20 @@
 //!
 //! **Dumps.** A dump leaves any momentum within the limit, so the flight falls into parts that do not know of one another, and a part of
 //! a feasible part is feasible: continuing as far as some choice of controls allows and dumping there gives the fewest (of the linear
-//! model). Of all ways with that number the one is taken that does with the smallest limit. From below: the same without a guard, judged
-//! at instants alone.
+//! model). Of all ways with that number the one is taken that does with the smallest limit. From below: the same by relaxed programmes.
 //!
 //! **Changes.** The arrays stand alike over groups of neighbouring windows. Steps of the baseline begin a group in any case. From below:
 //! windows that cannot share a windmill angle whatever the momentum before them have a change among them; such spans that share no edge
 //! are counted. From above: each group continues as long as a plan for the rest exists in which every later window is a group by itself.
 //! Where both differ, branch and bound over the places of the changes, depth first: a branch ends where even single windows
 //! behind it find no plan, or where the count from below exceeds what is left. It stops by the clock; the gap is reported. Plans leave a
-//! guard; what counts from below does not, for a plan may need it: the same search without it proves that there are not fewer. Controls
-//! of plans stay within a range about the model's: the programmes are linear, and over a wide range their groups may not keep the limits.
+//! guard and follow a linear model; the same search by relaxed programmes proves that there are not fewer. Controls of plans stay within a range about the model's: the programmes are linear, and over a wide range their groups may not keep the limits.
 
 use std::{collections::HashMap, time::Instant};
 
 use super::{
     model::{Model, Part},
-    program::{Goal, WHOLE},
+    program::{GUARD, Goal, WHOLE},
     simulated::SAME_S,
     torque::Control,
     windows::WindowKind,
@@ -31,7 +29,7 @@ const KEPT: f64 = 1e-4;
 pub(super) struct Dumps {
     /// Rows of the flight at which they are.
     pub rows: Vec<usize>,
-    /// No plan has fewer, by the linear model.
+    /// No plan on the baseline has fewer.
     pub at_least: usize,
 }
 
@@ -42,7 +40,7 @@ pub(super) struct Groups {
     pub leaders: Vec<usize>,
     /// Changes of the arrays.
     pub changes: usize,
-    /// No plan has fewer, by the linear model with all of every control's range; 0 within a narrower one.
+    /// No plan on the baseline with these dumps has fewer; 0 within less than the whole range of the controls.
     pub at_least: usize,
 }
 
@@ -103,6 +101,24 @@ fn parts(model: &Model, guard: f64, scale: f64, most: usize) -> Option<Vec<usize
     Some(ends)
 }
 
+/// Dumps that no plan on the baseline can do without: each falls somewhere in the step that no relaxed programme reaches the end of.
+fn least_dumps(model: &Model) -> usize {
+    let leaders = single(model);
+    let count = model.instants().len();
+    let (mut from, mut dumps) = (0, 0);
+    while from < count {
+        let free = dumps > 0;
+        let to = farthest(from, count, |to| {
+            is_kept(model, &leaders, Part { steps: [from, to], free }, [0.0, WHOLE], 1.0)
+        });
+        if to >= count {
+            break;
+        }
+        (from, dumps) = (to + 1, dumps + 1);
+    }
+    dumps
+}
+
 /// The fewest dumps about the model's controls; `None` where dumps do not help.
 pub(super) fn fewest_dumps(model: &Model, guard: f64, progress: &mut dyn FnMut()) -> Option<Dumps> {
     let ends = parts(model, guard, 1.0, usize::MAX - 1)?;
@@ -120,18 +136,18 @@ pub(super) fn fewest_dumps(model: &Model, guard: f64, progress: &mut dyn FnMut()
         }
     }
     best.pop();
-    let at_least = parts(model, 0.0, 1.0, count)?.len() - 1;
+    let at_least = least_dumps(model).min(count);
     let rows = best.into_iter().filter_map(|end| model.instants().get(end - 1).copied()).collect();
     Some(Dumps { rows, at_least })
 }
 
-/// The end of the first step up to which no controls of the linear model keep the limit without a dump, in s; `None` where some do
-/// throughout. A flight with other controls may keep it longer.
+/// The end of the first step up to which no controls are found that keep the limit without a dump, in s; `None` where some do throughout.
+/// Other controls may keep it longer: the model is linear.
 pub(super) fn first_exceeded_s(model: &Model) -> Option<f64> {
     let leaders = single(model);
     let count = model.instants().len();
     let kept = farthest(0, count, |to| {
-        is_kept(model, &leaders, Part { steps: [0, to], free: false }, [0.0, WHOLE], 1.0)
+        is_kept(model, &leaders, Part { steps: [0, to], free: false }, [GUARD, WHOLE], 1.0)
     });
     model.instants().get(kept).map(|row| model.simulated.rows[*row].time_s)
 }

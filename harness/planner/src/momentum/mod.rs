@@ -16,6 +16,7 @@ pub mod plant;
 mod program;
 pub mod refit_file;
 mod region;
+mod relaxed;
 pub mod report;
 pub mod simulated;
 pub mod target;

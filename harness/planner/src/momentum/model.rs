@@ -7,16 +7,15 @@
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, SymmetricEigen, Vector3};
 
 use super::{
-    cell::{At, Cell, cell, guard_shares},
+    cell::{At, Cell, cell, guard_shares, instants},
     program::{Begin, Program, Step},
+    relaxed::{Placed, departures_n_m, relax},
     simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
     target::{LinearMiss, Target, Targeting},
     torque::{ALL, CONTROLS, Control, SunlitSpacecraft},
     windows::{Window, WindowKind},
 };
 
-/// Instants of the programme in a window, at least.
-const INSTANTS: usize = 8;
 /// Deviations of the refit's errors that the margin holds.
 const SIGMAS: f64 = 3.0;
 
@@ -54,6 +53,8 @@ pub(super) struct Model {
     instants: Vec<usize>,
     /// By how much |H| between instants exceeds that at them, by step.
     between: Vec<f64>,
+    /// By how much the torque of every window departs from the model at most, in N m; nothing unless it was looked at.
+    departures_n_m: Vec<Vector3<f64>>,
 }
 
 /// Which part of the flight a programme covers.
@@ -86,9 +87,11 @@ impl Model {
             cells: Vec::new(),
             instants: Vec::new(),
             between: Vec::new(),
+            departures_n_m: Vec::new(),
         };
         model.linearise(sunlit);
-        model.set_instants();
+        model.instants = instants(&model.cells, &model.windows, &model.simulated.rows);
+        model.between = vec![0.0; model.instants.len()];
         model
     }
 
@@ -170,30 +173,6 @@ impl Model {
             last = Some((window, index + 1, to));
         }
         self.cells = cells;
-    }
-
-    fn set_instants(&mut self) {
-        let mut instants = Vec::new();
-        let mut since_s = self.simulated.rows.first().map_or(0.0, |row| row.time_s);
-        for index in 0..self.cells.len() {
-            let cell = &self.cells[index];
-            let of = &self.windows[cell.window];
-            let end_s = self.simulated.rows[index + 1].time_s;
-            let next = self.cells.get(index + 1);
-            let ends_window = next.is_none_or(|next| next.window != cell.window);
-            let meets_reset = cell.reset.is_some() || next.is_some_and(|next| next.reset.is_some());
-            let length_s = of.stop_s - of.start_s;
-            let mut long_s = length_s.min(LONGEST_WINDOW_S) / INSTANTS as f64;
-            if length_s < DAY_S {
-                long_s = long_s.max(CLOSEST_S);
-            }
-            if ends_window || meets_reset || end_s - since_s >= long_s - SAME_S {
-                instants.push(index + 1);
-                since_s = end_s;
-            }
-        }
-        self.between = vec![0.0; instants.len()];
-        self.instants = instants;
     }
 
     /// The whole flight as a part.
@@ -352,7 +331,7 @@ impl Model {
     }
 
     /// The programme of a part, the arrays of every window standing as those of its leader; `guard` is a share of the limit that is
-    /// left (0: nothing is left at instants alone, and what that cannot keep no controls of the linear model keep), `trust` the share of
+    /// left (0: a relaxed programme, for bounds from below), `trust` the share of
     /// each control's range by which it may leave its present value.
     pub(super) fn program(&self, leaders: &[usize], part: Part, [guard, trust]: [f64; 2]) -> Program {
         let bounds = vec![[0.0, 0.0]; CONTROLS * self.windows.len()];
@@ -375,6 +354,11 @@ impl Model {
             self.add_target(&mut program, leaders);
         }
         self.add_corridor(&mut program, leaders);
+        if guard <= 0.0 {
+            let placed: Vec<Placed> = (part.steps[0]..part.steps[1]).map(|step| self.placed(step)).collect();
+            let unjudged_n_m_s = UNJUDGED * self.limit.momentum_n_m_s;
+            relax(&mut program, &placed, &self.windows, &self.departures_n_m, unjudged_n_m_s);
+        }
         for (index, window) in self.windows.iter().enumerate() {
             if window.kind != WindowKind::Free {
                 continue;
@@ -393,6 +377,23 @@ impl Model {
             }
         }
         program
+    }
+
+    /// Looks at what the model leaves out about the present controls.
+    pub(super) fn look_at_departures(&mut self, sunlit: &SunlitSpacecraft) {
+        self.departures_n_m = departures_n_m(sunlit, &self.simulated, &self.windows);
+    }
+
+    fn placed(&self, step: usize) -> Placed {
+        let [from, to] = [step.checked_sub(1).map_or(0, |before| self.instants[before]), self.instants[step]];
+        let window = self.cells[to - 1].window;
+        let is_other = |cell: Option<&Cell>| cell.is_none_or(|cell| cell.window != window);
+        Placed {
+            window,
+            begins: is_other(from.checked_sub(1).and_then(|before| self.cells.get(before))),
+            ends: is_other(self.cells.get(to)),
+            duration_s: self.simulated.rows[to].time_s - self.simulated.rows[from].time_s,
+        }
     }
 
     fn add_steps(&self, program: &mut Program, leaders: &[usize], part: Part, guard: f64) {
@@ -481,12 +482,8 @@ impl Model {
     }
 }
 
-/// Limits that nothing is judged by, where nothing is judged.
+/// Limits by which nothing is judged, of the limit.
 const UNJUDGED: f64 = 1e3;
-/// Windows count as no longer than this where instants are chosen, in s.
-const LONGEST_WINDOW_S: f64 = 3.0 * DAY_S;
-/// Instants within a window of less than a day are no closer, in s: what goes on between them is looked at all the same.
-const CLOSEST_S: f64 = 8.0 * 3600.0;
 const DAY_S: f64 = 86_400.0;
 /// Cost of a day in the alternate attitude or of a radian of windmilling, against a day with a radian of tilt.
 const SLIGHT: f64 = 1e-3;

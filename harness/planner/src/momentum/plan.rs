@@ -13,7 +13,7 @@ use physics::momentum::Convention;
 
 pub(super) use super::planned::greatest_n_m_s;
 pub use super::planned::{
-    Exceeded, Least, MomentumPlan, PlanError, PlanTask, PlannedDump, PlannedRow, Simulates,
+    AGREED, Exceeded, Least, MomentumPlan, PlanError, PlanTask, PlannedDump, PlannedRow, Simulates,
 };
 use super::{
     as_it_is::{array_changes, is_better, may_stay, own_windows},
@@ -26,8 +26,6 @@ use super::{
     windows::{Window, WindowKind},
 };
 
-/// Flight and plan agree where they differ by less than this share of the limit: nothing more is to be gained.
-pub const AGREED: f64 = 0.02;
 /// Rounds at most.
 const MOST_ROUNDS: usize = 8;
 /// Share of a flight's correction that a model takes where the last one did not bring both nearer by half.
@@ -162,6 +160,7 @@ fn structure(
             let excess_n_m_s = alone.excess_n_m_s().0;
             if excess_n_m_s > 0.0 {
                 simulates.progress("dumps");
+                alone.look_at_departures(sunlit);
                 let found = counted::fewest_dumps(&alone, GUARD, &mut || simulates.progress("dumps"));
                 let Some(found) = found else {
                     return Err(PlanError::Programme("the limit is exceeded between two instants"));
@@ -177,6 +176,7 @@ fn structure(
             }
         }
     }
+    model.look_at_departures(sunlit);
     let until = Instant::now() + Duration::from_secs_f64(task.budget_s.clamp(0.0, 1e6));
     let mut at_least = None;
     // Linear programmes count too few changes over wide ranges: count again in narrower ones about controls that keep the limits.

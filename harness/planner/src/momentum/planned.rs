@@ -12,6 +12,9 @@ use super::{
 };
 use crate::Failure;
 
+/// Flight and plan agree where they differ by less than this share of the limit: nothing more is to be gained.
+pub const AGREED: f64 = 0.02;
+
 /// What a plan has least of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Least {
@@ -76,7 +79,7 @@ pub struct PlannedRow {
 pub struct Exceeded {
     /// By which the limit is exceeded without dumps at the least that was found, in N m s.
     pub excess_n_m_s: f64,
-    /// Up to when no controls of the model that is linear about that plan keep the limit, in s of the flight; others may keep it longer.
+    /// Up to when the search found controls that keep the limit, in s of the flight; others may keep it longer.
     pub first_s: f64,
 }
 
@@ -89,11 +92,11 @@ pub struct MomentumPlan {
     pub baseline: Vec<OffsetStep>,
     /// Its dumps, in order.
     pub dumps: Vec<PlannedDump>,
-    /// No plan on the baseline has fewer, by the model that is linear about the plan.
+    /// No plan on the baseline has fewer.
     pub dumps_at_least: usize,
     /// Changes of the arrays.
     pub changes: usize,
-    /// No plan on the baseline has fewer, by the model that is linear about the plan.
+    /// No plan on the baseline with these dumps has fewer.
     pub changes_at_least: usize,
     /// Row by row.
     pub rows: Vec<PlannedRow>,

@@ -40,9 +40,23 @@ pub struct Price {
     pub dumps: i64,
 }
 
-/// The name of a plan's state.
+/// The name of a plan's state: found, proved not to exist on the baseline, or neither.
 pub fn status(plan: &MomentumPlan, task: &PlanTask) -> &'static str {
-    if plan.holds && plan.dumps.len() <= task.dumps { "planned" } else { "infeasible" }
+    match plan.holds && plan.dumps.len() <= task.dumps {
+        true => "planned",
+        false if plan.dumps_at_least > task.dumps => "infeasible",
+        false => "notFound",
+    }
+}
+
+/// Scope of each number that is no count of the plan.
+fn scopes() -> Value {
+    let bound = "no plan on this baseline has fewer, by the linear model and the most that it departs by";
+    json!({
+        "dumpsAtLeast": bound,
+        "changesAtLeast": format!("{bound}; with these dumps where it has any"),
+        "firstDay": "no bound: the search found no controls that keep the limit longer; others may",
+    })
 }
 
 /// What limits a plan, as JSON: what binds, when, by how much it is exceeded.
@@ -128,6 +142,8 @@ pub fn json(
         "dumpsAtLeast": plan.dumps_at_least,
         "changes": plan.changes,
         "changesAtLeast": plan.changes_at_least,
+        "scopes": scopes(),
+        "asTheMissionIs": plan.is_mission,
         "largestMomentum": { "planned": planned, "simulated": simulated },
         "largestDifference_n_m_s": plan.difference_n_m_s(),
         "binding": binding(plan),

@@ -82,7 +82,8 @@ impl Window {
         }
     }
 
-    fn attitude(&self) -> Attitude {
+    /// Its attitude.
+    pub(super) fn attitude(&self) -> Attitude {
         if self.kind == WindowKind::Free { Attitude::Downlink } else { Attitude::SimulatedFlight }
     }
 

@@ -177,7 +177,7 @@ pub(super) fn refit(plan: &PlanFile, at: &At<PathBuf>) -> Result<RefitValues, St
     let path = if is_toml { at.it.with_extension("json") } else { at.it.clone() };
     let found = ::files::read_text(&path).and_then(|text| refit_file::read(&text));
     found.map_err(|error| {
-        let allowed = "allowed: the JSON that `heliotorque refit` writes";
+        let allowed = "allowed: the JSON that `heliotorque refit` writes of a fit that is trusted";
         plan.problem(at, &format!("found {}: {error}, {allowed}", path.display()))
     })
 }

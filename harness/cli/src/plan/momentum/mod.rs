@@ -329,7 +329,7 @@ fn check_contacts(file: &PlanFile, planned: &Planned<'_>, found: &MomentumPlan) 
     let start_s = planned.mission.start_s;
     let [from_d, to_d] = [window.start_s, window.stop_s].map(|time_s| (time_s - start_s) / 86_400.0);
     let what = format!(
-        "found contacts that fill the window from day {from_d:.1} to {to_d:.1}, allowed: some time without contact: no plan holds without alternation there"
+        "found contacts that fill the window from day {from_d:.1} to {to_d:.1}, allowed: some time without contact: no plan was found without alternation there"
     );
     Err(file.problem(at, &what).into())
 }
@@ -371,9 +371,12 @@ fn summary(
         ),
     ];
     if let Some(exceeded) = &found.exceeded {
+        let bound = match found.dumps_at_least {
+            0 => "no plan without a dump was found".to_owned(),
+            count => format!("no plan holds without a dump: {count} at least on this baseline"),
+        };
         lines.push(format!(
-            "no plan holds without a dump: {} at least, the limit being exceeded by {:.3} N.m.s, first on day {:.1}; {} may be ([momentum] dumps)",
-            found.dumps_at_least,
+            "{bound}; the limit is exceeded by {:.3} N.m.s at the least that was found, first on day {:.1}; {} may be ([momentum] dumps)",
             exceeded.excess_n_m_s,
             day(exceeded.first_s),
             planned.task.dumps,
@@ -384,11 +387,17 @@ fn summary(
         lines.push("dumps: 0".to_owned());
     }
     if !found.holds {
-        lines.push("the last flight does not agree with the plan, or exceeds the limit".to_owned());
+        lines.push(
+            "no plan was found that holds: the best flight exceeds the limit, or misses its aim".to_owned(),
+        );
     }
-    let gap = match found.changes - found.changes_at_least {
-        0 => "no plan has fewer".to_owned(),
-        _ => format!("no plan has fewer than {}", found.changes_at_least),
+    if found.is_mission {
+        lines.push("the plan is the mission as it is: no better one was found".to_owned());
+    }
+    let gap = match (found.changes - found.changes_at_least, found.changes_at_least) {
+        (0, _) => "no plan on this baseline has fewer".to_owned(),
+        (_, 0) => "fewer are not excluded".to_owned(),
+        (_, least) => format!("no plan on this baseline has fewer than {least}"),
     };
     let free = found.windows.iter().filter(|window| window.kind == WindowKind::Free);
     lines.push(match planned.mission.is_in_orbit() {

@@ -1,1 +1,0 @@
-//! Plans that a mission has already.
