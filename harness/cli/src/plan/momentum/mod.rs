@@ -395,9 +395,9 @@ fn summary(
         lines.push("the plan is the mission as it is: no better one was found".to_owned());
     }
     let gap = match (found.changes - found.changes_at_least, found.changes_at_least) {
-        (0, _) => "no plan on this baseline has fewer".to_owned(),
+        (0, _) => "no plan has fewer on this baseline".to_owned(),
         (_, 0) => "fewer are not excluded".to_owned(),
-        (_, least) => format!("no plan on this baseline has fewer than {least}"),
+        (_, least) => format!("no plan has fewer than {least} on this baseline"),
     };
     let free = found.windows.iter().filter(|window| window.kind == WindowKind::Free);
     lines.push(match planned.mission.is_in_orbit() {

@@ -19,7 +19,7 @@ const DRIFTS: [[[f64; 3]; DAYS]; 4] = [
 fn choices() -> Vec<Controls> {
     let mut all = Vec::new();
     for windmill_rad in [-WINDMILL_RAD, 0.0, WINDMILL_RAD] {
-        for azimuth_rad in [-AZIMUTH_RAD, 0.0, AZIMUTH_RAD] {
+        for azimuth_rad in [-AZIMUTH_RAD, AZIMUTH_RAD] {
             for share in [0.0, 0.5] {
                 let offset = Controls::default().with(Control::Offset, core::f64::consts::FRAC_PI_4);
                 let placed = offset.with(Control::Windmill, windmill_rad).with(Control::Azimuth, azimuth_rad);
