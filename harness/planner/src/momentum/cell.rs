@@ -60,7 +60,7 @@ impl At {
     fn mean(&self, share: f64) -> Mean {
         let (solar, by_control) = self.load.mean(share);
         let (force, force_by_control) = self.load.mean_force_n(share);
-        let by_center = self.load.mix(share) * self.load.by_center;
+        let by_center = self.load.mean_by_center(share);
         let by_scale = if self.scale > 0.0 { solar / self.scale } else { Vector3::zeros() };
         let by_error = Matrix3x4::from_columns(&[
             by_center.column(0).into_owned(),

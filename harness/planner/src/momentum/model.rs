@@ -114,8 +114,9 @@ impl Model {
     fn recorded_moves(&self, sunlit: &SunlitSpacecraft) -> Vector3<f64> {
         let Some(targeting) = &self.targeting else { return Vector3::zeros() };
         let rows = self.simulated.rows.iter();
-        let rates: Vec<_> =
-            rows.map(|row| targeting.by_impulse(sunlit, row) * sunlit.simulated(row).force_n).collect();
+        let rates: Vec<_> = rows
+            .map(|row| targeting.by_impulse(sunlit, row) * sunlit.simulated(row).normal.force_n)
+            .collect();
         let cells = self.cells.iter().enumerate();
         let free = cells.filter(|(_, cell)| self.windows[cell.window].kind != WindowKind::Frozen);
         free.map(|(index, _)| {
@@ -328,7 +329,7 @@ impl Model {
     pub(super) fn index(leaders: &[usize], window: usize, control: Control) -> usize {
         let of = match control {
             Control::Offset | Control::Windmill => leaders[window],
-            Control::Azimuth | Control::Elevation | Control::Alternate => window,
+            _ => window,
         };
         CONTROLS * of + control as usize
     }
@@ -380,7 +381,16 @@ impl Model {
             if window.kind != WindowKind::Free {
                 continue;
             }
-            let weight = (window.stop_s - window.start_s) / DAY_S;
+            let days = (window.stop_s - window.start_s) / DAY_S;
+            let own = [Control::AlternateAzimuth, Control::AlternateElevation]
+                .map(|it| Self::index(leaders, index, it));
+            let is_apart = own.iter().any(|at| program.bounds[*at][0] < program.bounds[*at][1]);
+            // Both places by the middle of what the share may be.
+            let alternate = if is_apart { 0.5 * window.bounds[Control::Alternate as usize][1] } else { 0.0 };
+            if is_apart {
+                program.lengths.push((own, days * alternate));
+            }
+            let weight = days * (1.0 - alternate);
             let pair = [Control::Azimuth, Control::Elevation].map(|it| Self::index(leaders, index, it));
             let has_tilt = pair.iter().any(|at| program.bounds[*at][0] < program.bounds[*at][1]);
             if has_tilt {

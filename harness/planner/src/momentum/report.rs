@@ -194,11 +194,14 @@ pub fn windows_csv(plan: &MomentumPlan, shown_deg: &dyn Fn(f64) -> f64) -> Resul
         "azimuth_deg",
         "elevation_deg",
         "alternate_share",
+        "alternate_azimuth_deg",
+        "alternate_elevation_deg",
         "momentum_planned_n_m_s",
         "momentum_simulated_n_m_s",
     ])?;
     for window in &plan.windows {
         let angle = |control| shown_deg(window.controls.get(control)).to_string();
+        let own = window.sun_place_rad(true).map(|angle_rad| shown_deg(angle_rad).to_string());
         let [planned, simulated] = greatest_in(plan, window).map(|momentum| format!("{momentum:.6}"));
         writer.write_record([
             window.start_s.to_string(),
@@ -209,6 +212,8 @@ pub fn windows_csv(plan: &MomentumPlan, shown_deg: &dyn Fn(f64) -> f64) -> Resul
             angle(Control::Azimuth),
             angle(Control::Elevation),
             format!("{:.6}", window.controls.get(Control::Alternate)),
+            own[0].clone(),
+            own[1].clone(),
             planned,
             simulated,
         ])?;

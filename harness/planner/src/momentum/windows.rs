@@ -78,8 +78,22 @@ impl Window {
     pub fn linearised(&self, sunlit: &SunlitSpacecraft, row: &FlightRow) -> LinearTorque {
         match self.kind {
             WindowKind::Frozen => sunlit.simulated(row),
+            WindowKind::Free if self.is_apart() => sunlit.linearised_apart(row, &self.controls),
             _ => sunlit.linearised(row, self.attitude(), &self.controls),
         }
+    }
+
+    /// Whether the alternate attitude has a place of the Sun of its own.
+    fn is_apart(&self) -> bool {
+        let own = [Control::AlternateAzimuth, Control::AlternateElevation].map(|it| self.bounds[it as usize]);
+        own.iter().any(|[low, high]| low < high)
+    }
+
+    /// Azimuth and elevation of the Sun in the normal or the alternate attitude, in rad.
+    pub fn sun_place_rad(&self, is_alternate: bool) -> [f64; 2] {
+        let controls =
+            if is_alternate && self.is_apart() { self.controls.alternate() } else { self.controls };
+        [Control::Azimuth, Control::Elevation].map(|it| controls.get(it))
     }
 
     fn attitude(&self) -> Attitude {
@@ -93,9 +107,13 @@ impl Window {
         row: &FlightRow,
         at_s: f64,
     ) -> Rotation3<f64> {
-        let inertial_from_body = sunlit.inertial_from_body(row, self.attitude(), &self.controls);
-        let is_alternate = |[from_s, to_s]: &[f64; 2]| (*from_s..*to_s).contains(&at_s);
-        if self.kind != WindowKind::Free || !self.alternate_spans_s().iter().any(is_alternate) {
+        let is_inside = |[from_s, to_s]: &[f64; 2]| (*from_s..*to_s).contains(&at_s);
+        let is_alternate = self.kind == WindowKind::Free && self.alternate_spans_s().iter().any(is_inside);
+        let [azimuth_rad, elevation_rad] = self.sun_place_rad(is_alternate);
+        let controls =
+            self.controls.with(Control::Azimuth, azimuth_rad).with(Control::Elevation, elevation_rad);
+        let inertial_from_body = sunlit.inertial_from_body(row, self.attitude(), &controls);
+        if !is_alternate {
             return inertial_from_body;
         }
         let sun_line = Unit::new_normalize(row.to_sun_m);
@@ -162,6 +180,8 @@ pub struct ControlBounds {
     pub elevation_rad: f64,
     /// Largest share of a window in the alternate attitude.
     pub alternate: f64,
+    /// Whether the alternate attitude has a place of the Sun of its own, within the same bounds.
+    pub alternate_apart: bool,
 }
 
 /// A command of the mission's timeline that the plan does not change.
@@ -352,6 +372,10 @@ impl Layout {
             bounds[Control::Azimuth as usize] = [-azimuth_rad, azimuth_rad];
             bounds[Control::Elevation as usize] = [-elevation_rad, elevation_rad];
             bounds[Control::Alternate as usize] = [0.0, self.control_bounds.alternate.min(share)];
+            if self.control_bounds.alternate_apart && self.control_bounds.alternate.min(share) > 0.0 {
+                bounds[Control::AlternateAzimuth as usize] = bounds[Control::Azimuth as usize];
+                bounds[Control::AlternateElevation as usize] = bounds[Control::Elevation as usize];
+            }
         }
         let mut controls = Controls::default().with(Control::Offset, offset_rad);
         let in_force = (kind == WindowKind::Free).then(|| mean(&self.in_force, [start_s, stop_s])).flatten();

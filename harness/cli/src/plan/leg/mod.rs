@@ -14,7 +14,7 @@ use physics::{
     constants::DAY_S,
     environment::{dates, orbit::LambertError},
 };
-use planner::leg::{FlybyAimpoint, Leg, LegError, LegTask, report, shoot};
+use planner::leg::{FlybyAimpoint, Leg, LegError, LegTask, MOST_LEG_S, report, shoot};
 use toml_edit::{DocumentMut, value};
 
 pub(crate) use self::options::LegOptions;
@@ -166,6 +166,14 @@ fn check(file: &LegFile, mission: &SimulatedMission, arrival_s: f64) -> Result<(
             .problem(&file.arrive, "found a time that is not after the departure, allowed: a later one")
             .into());
     }
+    if arrival_s - mission.start_s > MOST_LEG_S {
+        let years = terminal::short((arrival_s - mission.start_s) / (365.25 * DAY_S));
+        let what = format!(
+            "found a time {years} years behind the departure, allowed: up to {} years behind it",
+            terminal::short(MOST_LEG_S / (365.25 * DAY_S))
+        );
+        return Err(file.problem(&file.arrive, &what).into());
+    }
     if let Some(table) = &mission.inputs {
         let variables = &mission.fmu.description().variables;
         let mut names = table.positions().map(|position| variables[position].name.as_str());
@@ -247,7 +255,9 @@ fn refusal(file: &LegFile, error: &LegError, in_mission: &dyn Fn(Failure) -> Str
     match error {
         LegError::Inside { .. } | LegError::Lost { .. } => file.problem(&file.aimpoint, &what),
         LegError::Lambert(LambertError::TooShort { .. }) => file.problem(&file.revolutions, &what),
-        LegError::Lambert(LambertError::Time { .. }) => file.problem(&file.arrive, &what),
+        LegError::Fast { .. } | LegError::Lambert(LambertError::Time { .. }) => {
+            file.problem(&file.arrive, &what)
+        }
         LegError::Lambert(_) | LegError::Orbit(_) => file.problem(&file.position_m, &what),
         LegError::Flight(_) => in_mission(what.into()),
     }

@@ -145,6 +145,7 @@ pub(super) fn layout(
             azimuth_rad: file.azimuth_rad.unwrap_or(0.0).min(zone_rad[0]),
             elevation_rad: file.elevation_rad.unwrap_or(0.0).min(zone_rad[1]),
             alternate: file.alternation,
+            alternate_apart: file.flyby.is_some(),
         },
         in_force: timeline.in_force(&all_sides),
         corridor: mission.corridor(),

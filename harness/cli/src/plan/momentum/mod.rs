@@ -92,6 +92,7 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
         let begun = PlanFile { update: None, ..updated };
         let mut planned = opened(options, &begun, began)?;
         planned.keeps = Some(folder);
+        planned.file.update = file.update.clone();
         return Ok(planned);
     }
     let file = &frozen_until_from(file, &mission)?;
@@ -137,6 +138,7 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
     let last = RefCell::new(String::new());
     Ok(Planned {
         options,
+        file: file.clone(),
         mission,
         timeline,
         sunlit,
@@ -192,6 +194,10 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     std::fs::create_dir_all(&options.output)
         .map_err(|error| format!("{}: {error}: see --output", options.output.display()))?;
     let planned = opened(options, &file, began)?;
+    let file = &planned.file;
+    if let Some(flyby_task) = &planned.flyby_task {
+        flyby::check(&planned, flyby_task)?;
+    }
     let encounter =
         planned.flyby_task.as_ref().map(|it| Ok::<_, Failure>((flyby::before(&planned, it)?, it)));
     let mut encounter = encounter.transpose()?;
@@ -223,7 +229,7 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
         }
         Err(error) => return Err(error.to_string().into()),
     };
-    let prices = prices::all(&file, &planned, &found)?;
+    let prices = prices::all(file, &planned, &found)?;
     let events = events(&planned, &found);
     let panels = planned.sunlit.spacecraft.panels.iter().map(|panel| panel.windmill_side);
     let sides: Vec<f64> = panels.filter(|_| !planned.mission.is_in_orbit()).collect();
@@ -233,7 +239,7 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     let seeds = planned.simulate_seeds(&found.windows, &found.dumps)?;
     let mut of_flyby = Vec::new();
     if let Some((report, flyby_task)) = &mut encounter {
-        let sensitivity = flyby::complete(report, &file, (&planned, flyby_task), &found)?;
+        let sensitivity = flyby::complete(report, file, (&planned, flyby_task), &found)?;
         of_flyby = vec![
             (flyby::NAMES[0], String::from_utf8(report.desired_csv()?)?),
             (flyby::NAMES[1], sensitivity),
@@ -272,7 +278,7 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
         }
     }
     if found.exceeded.is_some() {
-        check_contacts(&file, &planned, &found)?;
+        check_contacts(file, &planned, &found)?;
     }
     let is_planned = report::status(&found, &planned.task) == "planned";
     Ok(if is_planned { ExitCode::SUCCESS } else { ExitCode::FAILURE })

@@ -14,7 +14,11 @@ use planner::momentum::{
 
 use super::super::flights::{Failure, SimulatedMission};
 use super::{
-    file::Activity, flyby_task::FlybyTask, options::MomentumOptions, timeline::MissionTimeline, written,
+    file::{Activity, PlanFile},
+    flyby_task::FlybyTask,
+    options::MomentumOptions,
+    timeline::MissionTimeline,
+    written,
 };
 
 /// Names of the files.
@@ -24,6 +28,8 @@ pub(super) const NAMES: [&str; 6] =
 /// A mission with what a plan needs of it.
 pub(super) struct Planned<'a> {
     pub options: &'a MomentumOptions,
+    /// The plan file, its times by the clock of `mission`.
+    pub file: PlanFile,
     pub mission: SimulatedMission,
     pub timeline: MissionTimeline,
     pub sunlit: SunlitSpacecraft,

@@ -199,7 +199,14 @@ impl MissionTimeline {
         let at = |at_s: f64| {
             let ([offset_rad, windmill_rad], (_, sun_rad, alternate)) = (arrays(at_s)?, place(at_s)?);
             let share = if *alternate { 1.0 } else { 0.0 };
-            let controls = Controls([offset_rad, windmill_rad, sun_rad[0], sun_rad[1], share]);
+            // Between its times an attitude keeps its place of the Sun.
+            let of = |is_alternate: bool| {
+                let mut begun = self.sun_places.iter().filter(|it| it.0 <= at_s + CLOCK_S);
+                begun.rfind(|it| it.2 == is_alternate).map_or(*sun_rad, |it| it.1)
+            };
+            let ([azimuth, elevation], [own_azimuth, own_elevation]) = (of(false), of(true));
+            let controls =
+                Controls([offset_rad, windmill_rad, azimuth, elevation, share, own_azimuth, own_elevation]);
             Some(InForce { at_s, controls })
         };
         times_s.into_iter().filter_map(at).collect()
@@ -318,8 +325,7 @@ pub(super) fn array_steps(windows: &[Window]) -> Vec<ArrayStep> {
 
 /// A downlink of a window.
 fn command(at: &str, until: Option<String>, window: &Window, alternate: bool) -> String {
-    let [azimuth_deg, elevation_deg] =
-        [Control::Azimuth, Control::Elevation].map(|it| shown_deg(window.controls.get(it)));
+    let [azimuth_deg, elevation_deg] = window.sun_place_rad(alternate).map(shown_deg);
     let until = until.map_or(String::new(), |until| format!("until = {until}\n"));
     let mut text = format!("[[command]]\nat = {at}\n{until}scenario = \"downlink\"\n");
     if azimuth_deg != 0.0 || elevation_deg != 0.0 {
@@ -366,15 +372,15 @@ mod tests {
         let timeline = MissionTimeline {
             // Offset less and plus the windmill angle.
             arrays_rad: vec![(0.0, vec![0.5, 0.7]), (20.0, vec![0.9, 0.9])],
-            sun_places: vec![(5.0, [0.1, -0.2], false), (10.0, [0.1, -0.2], true)],
+            sun_places: vec![(5.0, [0.1, -0.2], false), (10.0, [-0.1, 0.3], true)],
             ..MissionTimeline::default()
         };
         let found: Vec<_> =
             timeline.in_force(&[-1.0, 1.0]).iter().map(|it| (it.at_s, it.controls.0)).collect();
         let expected = [
-            (5.0, [0.6, 0.1, 0.1, -0.2, 0.0]),
-            (10.0, [0.6, 0.1, 0.1, -0.2, 1.0]),
-            (20.0, [0.9, 0.0, 0.1, -0.2, 1.0]),
+            (5.0, [0.6, 0.1, 0.1, -0.2, 0.0, 0.1, -0.2]),
+            (10.0, [0.6, 0.1, 0.1, -0.2, 1.0, -0.1, 0.3]),
+            (20.0, [0.9, 0.0, 0.1, -0.2, 1.0, -0.1, 0.3]),
         ];
         assert_eq!(found.len(), expected.len());
         for ((at_s, controls), (expected_s, of)) in found.into_iter().zip(expected) {

@@ -126,7 +126,7 @@ fn the_reach_of_one_control_is_what_its_bounds_do() {
     let row = row(&encounters.sunlit, 0.0, 0.4, 0.3);
     let at = |elevation_rad: f64| {
         let controls = windows[0].controls.with(Control::Elevation, elevation_rad);
-        let force = encounters.sunlit.linearised(&row, Attitude::Downlink, &controls).force_n;
+        let force = encounters.sunlit.linearised(&row, Attitude::Downlink, &controls).normal.force_n;
         by_velocity() * force * (DAYS * DAY_S / encounters.sunlit.mass_at_zero.mass_kg)
     };
     let places = [0.1, -0.1].map(|elevation_rad| (at(elevation_rad) - at(0.0)).xy());

@@ -13,7 +13,7 @@ fn worth(offset_deg: f64, control: Control) -> Vector3<f64> {
     let row = row(&sunlit, 0.0, 0.35, 0.3);
     let controls = Controls::default().with(Control::Offset, offset_deg * DEG);
     let linear = sunlit.linearised(&row, Attitude::Downlink, &controls);
-    row.inertial_from_body.inverse() * linear.by_angle[control as usize] * (DAY_S * DEG)
+    row.inertial_from_body.inverse() * linear.normal.by_angle[control as usize] * (DAY_S * DEG)
 }
 
 /// Paper 003's authority at 0.35 AU and 1358 W/m2.
@@ -41,7 +41,7 @@ fn a_centimetre_is_worth_its_torque() {
         let mut moved = [0.01, 0.02, 0.03];
         moved[axis] += 0.01;
         let change = (at(moved).torque - here.torque) / 0.01;
-        assert_relative_eq!(change, here.by_center.column(axis).into_owned(), epsilon = 1e-12);
+        assert_relative_eq!(change, here.normal.by_center.column(axis).into_owned(), epsilon = 1e-12);
     }
 }
 
@@ -56,7 +56,7 @@ fn the_alternate_attitude_is_a_half_turn() {
     let about = nalgebra::Unit::new_normalize(row.to_sun_m);
     row.inertial_from_body = Rotation3::from_axis_angle(&about, core::f64::consts::PI) * attitude;
     let turned = sunlit.torque_n_m(&row, Attitude::SimulatedFlight, &controls);
-    assert_relative_eq!(linear.half_turn * linear.torque, turned, epsilon = 1e-14);
+    assert_relative_eq!(linear.half_turn * linear.normal.torque, turned, epsilon = 1e-14);
     // In equal parts nothing is left across the Sun line.
     let (mean, _) = linear.mean(0.5);
     assert!(mean.cross(&about).norm() < 1e-12 * linear.torque.norm());

@@ -40,6 +40,17 @@ fn holds(polygon_m: &[[f64; 2]], correction_m: Vector2<f64>) -> bool {
     polygon_m.len() > 2 && pairs.all(is_left)
 }
 
+/// Refuses times that the flight does not have, before anything is planned.
+pub(super) fn check(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<(), Failure> {
+    let file = &planned.file;
+    let from_s = planned.task.layout.frozen_until_s;
+    if from_s >= flyby_task.first.encounter.epoch_s {
+        let what = "found a time behind which no change moves the encounter, allowed: one before its hyperbola osculates";
+        return Err(file.problem(&file.freeze_s, what).into());
+    }
+    compared::check(planned, flyby_task)
+}
+
 /// What can be known before the plan.
 pub(super) fn before(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<FlybyReport, Failure> {
     let mut simulates = planned;
