@@ -58,7 +58,7 @@ pub struct FlybyReport {
     pub encounter: [f64; 4],
     /// Where the encounter can be moved to from where the mission meets it.
     pub reach: Reachable,
-    /// Whether no choice of arrays and attitudes reaches the aimpoint.
+    /// Whether no choice of arrays and attitudes that reaches the aimpoint was found.
     pub is_out_of_reach: bool,
     /// Least changes of velocity that would do the same, at times in s of the flight.
     pub desired: Vec<(f64, DesiredDeltaV)>,

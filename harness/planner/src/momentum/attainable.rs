@@ -212,14 +212,16 @@ impl Search<'_> {
         if self.model.excess_n_m_s().0 <= 0.0 { self.corner(&self.model) } else { None }
     }
 
-    /// The farthest place from the first controls on. Sought with the alternate attitude and without, for it takes away what tilt does.
+    /// The farthest place from the first controls on. Sought without the alternate attitude too, for it takes away what tilt does, and from
+    /// half of its greatest share on, for at none the place of the Sun in it moves nothing.
     fn first(&self, heading: Heading) -> Option<Corner> {
-        let found = [true, false].map(|alternates| {
+        let found = [None, Some(0.0), Some(0.5)].map(|share| {
             let mut model = self.model.clone();
-            if !alternates {
+            if let Some(share) = share {
                 for window in &mut model.windows {
-                    window.bounds[Control::Alternate as usize] = [0.0; 2];
-                    window.controls = window.controls.with(Control::Alternate, 0.0);
+                    let [_, most] = &mut window.bounds[Control::Alternate as usize];
+                    window.controls = window.controls.with(Control::Alternate, share * *most);
+                    *most = if share > 0.0 { *most } else { 0.0 };
                 }
                 model.linearise(self.sunlit);
             }

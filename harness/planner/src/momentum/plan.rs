@@ -158,6 +158,19 @@ pub enum PlanError {
     /// The corridor is empty somewhere.
     #[error("no offset keeps the light on the cells in its corridor {distance_au:.3} AU from the Sun", distance_au = .0.distance_au)]
     Corridor(NoOffset),
+    /// A limit that dumps do not help to keep.
+    #[error(
+        "found a momentum {excess_n_m_s:.3} N.m.s above the limit of {limit_n_m_s} N.m.s on day {day:.1} at best, between two instants at which \
+         a dump could be, allowed: a greater limit, or more room for the controls"
+    )]
+    Limit {
+        /// By which it is exceeded at best, in N m s.
+        excess_n_m_s: f64,
+        /// The limit, in N m s.
+        limit_n_m_s: f64,
+        /// When it is exceeded most, in d of the flight.
+        day: f64,
+    },
     /// A flight failed.
     #[error("{0}")]
     Flight(Failure),
@@ -297,7 +310,14 @@ fn structure(
                 simulates.progress("dumps");
                 let found = counted::fewest_dumps(&alone, GUARD, &mut || simulates.progress("dumps"));
                 let Some(found) = found else {
-                    return Err(PlanError::Programme("the limit is exceeded between two instants"));
+                    let (_, row) = alone.excess_n_m_s();
+                    let rows = &alone.simulated.rows;
+                    let day = (rows[row.min(rows.len() - 1)].time_s - rows[0].time_s) / 86_400.0;
+                    return Err(PlanError::Limit {
+                        excess_n_m_s,
+                        limit_n_m_s: alone.limit.momentum_n_m_s,
+                        day,
+                    });
                 };
                 dumps_at_least = found.at_least;
                 if let Some(row) = found.rows.first() {

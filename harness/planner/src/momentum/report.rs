@@ -143,12 +143,12 @@ pub fn json(
     serde_json::to_string_pretty(&all)
 }
 
-/// `plan.json` of a flyby whose aimpoint is out of reach; `more` are its members.
+/// `plan.json` of a flyby for which no controls that lead to its aimpoint were found; `more` are its members.
 ///
 /// # Errors
 /// What JSON does not take.
 pub fn out_of_reach_json(mut more: Map<String, Value>) -> Result<String, serde_json::Error> {
-    more.insert("status".to_owned(), json!("outOfReach"));
+    more.insert("status".to_owned(), json!("notFound"));
     serde_json::to_string_pretty(&more)
 }
 
