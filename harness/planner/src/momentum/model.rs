@@ -385,22 +385,18 @@ impl Model {
             let own = [Control::AlternateAzimuth, Control::AlternateElevation]
                 .map(|it| Self::index(leaders, index, it));
             let is_apart = own.iter().any(|at| program.bounds[*at][0] < program.bounds[*at][1]);
-            // Both places by the middle of what the share may be.
             let alternate = if is_apart { 0.5 * window.bounds[Control::Alternate as usize][1] } else { 0.0 };
-            if is_apart {
-                program.lengths.push((own, days * alternate));
-            }
-            let weight = days * (1.0 - alternate);
+            program.lengths.extend(is_apart.then_some((own, days * alternate)));
             let pair = [Control::Azimuth, Control::Elevation].map(|it| Self::index(leaders, index, it));
             let has_tilt = pair.iter().any(|at| program.bounds[*at][0] < program.bounds[*at][1]);
             if has_tilt {
-                program.lengths.push((pair, weight));
+                program.lengths.push((pair, days * (1.0 - alternate)));
                 let sides = window.places.iter();
                 program.sums.extend(sides.map(|side| (side.terms(pair), side.most)));
             }
             // Behind the tilt: a hundredth of a degree, not to alternate or windmill for nothing.
             for control in [Control::Alternate, Control::Windmill] {
-                program.magnitudes.push((Self::index(leaders, index, control), SLIGHT * weight));
+                program.magnitudes.push((Self::index(leaders, index, control), SLIGHT * days));
             }
         }
         program
