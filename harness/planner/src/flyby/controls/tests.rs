@@ -54,7 +54,7 @@ fn leg(window: &Window) -> (Leg, Rc<Cell<Option<Controls>>>) {
 
 #[test]
 fn controls_of_a_window_move_the_encounter_as_flights_show() {
-    let controls = Controls([35.0 * DEG, 1.0 * DEG, 2.0 * DEG, -DEG, 0.3, 2.5 * DEG, -1.5 * DEG]);
+    let controls = Controls([35.0 * DEG, 1.0 * DEG, 2.0 * DEG, -DEG, 0.3, 2.0 * DEG, -DEG]);
     let window = window(102.0 * DAY_S, controls);
     let (mut leg, put) = leg(&window);
     let start = leg.start();
