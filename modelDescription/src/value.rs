@@ -328,7 +328,7 @@ pub fn angle_misfit(
 }
 
 /// `min` and `max` of a Real, its own or its declared type's.
-fn limits(description: &Description, variable: &ScalarVariable) -> (Option<f64>, Option<f64>) {
+pub fn limits(description: &Description, variable: &ScalarVariable) -> (Option<f64>, Option<f64>) {
     let VariableKind::Real { declared_type, attributes, .. } = &variable.kind else { return (None, None) };
     let of_type = declared_type.as_deref().and_then(|name| real_type(description, name));
     (attributes.min.or_else(|| of_type?.min), attributes.max.or_else(|| of_type?.max))

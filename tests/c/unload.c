@@ -54,6 +54,14 @@ static long anonymous_kb(void) {
 /* Steps, a saved state, its bytes, and for the panicking model one panic after another. */
 static void simulate(const Library *library, const char *xml, const char *model, fmi2Component c) {
     int panicking = strcmp(model, "Panicking") == 0;
+    if (strcmp(model, "MomentumPlant") == 0) {
+        /* About the Earth, whose air (NRLMSISE-00) and magnetic field (IGRF) come from tables. */
+        const fmi2ValueReference choices[] = {
+            reference_of(xml, "orbit.center"), reference_of(xml, "atmosphere.method"), reference_of(xml, "magneticField.method")};
+        const fmi2ValueReference circle[] = {reference_of(xml, "orbit.semiMajorAxis"), reference_of(xml, "orbit.eccentricity")};
+        CHECK(library->SetInteger(c, choices, 3, (const fmi2Integer[]){4, 2, item_of(xml, "igrf14")}) == fmi2OK);
+        CHECK(library->SetReal(c, circle, 2, (const fmi2Real[]){6.9e6, 0.0}) == fmi2OK);
+    }
     CHECK(library->ExitInitializationMode(c) == fmi2OK);
     for (int i = 0; i < 3; i++) CHECK(library->DoStep(c, 60.0 * i, 60.0, fmi2True) == fmi2OK);
     fmi2FMUstate state = NULL;

@@ -9,8 +9,10 @@ in attitude and 6e-14 rad/s in the wheels' speeds.
 
 import numpy as np
 import pytest
+from fmpy import extract
 
 from simulation import QUATERNION, Stepped, basilisk_table, columns, vector
+from spacecraft import pack
 
 INERTIA_KG_M2 = np.array([[199.6, 12.0, -8.0], [12.0, 507.1, 20.0], [-8.0, 20.0, 484.9]])
 AXES = np.array([[1, 1, 1], [-1, 1, 1], [-1, 1, -1], [1, 1, -1]]) / np.sqrt(3.0)
@@ -92,3 +94,49 @@ def test_the_controlled_wheels_take_up_sunlight_as_basilisks(unpacked_plant):
         if time >= 1000.0:
             assert np.abs(plant.get(*SPEEDS) - expected).max() < 1e-7 * np.abs(speeds).max()
     plant.close()
+
+
+ONE_WING = """
+name = "One wing"
+[mass_properties]
+mass_kg = 1300.0
+center_of_mass_m = [0.0, 0.0, 0.0]
+inertia_kg_m2 = [[2600, 0, 0], [0, 1500, 0], [0, 0, 2500]]
+[optics.foil]
+specular = 0.2
+diffuse = 0.3
+[[boxes]]
+name = "bus"
+center_m = [0, 0, 0]
+size_m = [1.6, 1.6, 2.1]
+optics = "foil"
+[[panels]]
+name = "wing"
+control = "angle"
+mass_kg = 60.0
+inertia_kg_m2 = [[20, 0, 0], [0, 20, 0], [0, 0, 40]]
+area_m2 = 11.0
+center_m = [0, -4.8, 0]
+axis = [0, 1, 0]
+zero_normal = [-1, 0, 0]
+optics = "foil"
+rear_optics = "foil"
+[start]
+"orbit.center" = "sun"
+"attitude.source" = "free"
+"""
+
+
+def test_a_panel_at_180_deg_either_way_is_one_place(heliotorque, dist, tmp_path):
+    """Without momentum body and wing turn against one another: by 20 kg m2 of the wing's turn over 1500 kg m2 in all."""
+    folder = extract(pack(heliotorque, dist, tmp_path / "wing", ONE_WING, "OneWing"), unzipdir=str(tmp_path / "fmu"))
+    flight = Stepped(folder, {"panel[1].angle": np.radians(178.0), "start.q[4]": 1.0, "solar.flux": 0.0})
+    first = flight.get(*QUATERNION)
+    for step in range(1, 101):
+        angle = np.radians(178.0 + 0.05 * step)
+        flight.set(**{"panel[1].angle": (angle + np.pi) % (2.0 * np.pi) - np.pi})
+        flight.step(1.0)
+        turned = 2.0 * np.linalg.norm((flight.get(*QUATERNION) - first)[:3])
+        assert abs(turned / (np.radians(0.05 * step) * 20.0 / 1500.0) - 1.0) < 1e-2
+        assert abs(flight.get("panel[1].angleActual")[0] - angle) < 1e-12
+    flight.close()

@@ -37,7 +37,8 @@ arguments = sys.argv[1:]
 assert arguments[0] == "sweep" and arguments[arguments.index("--output") + 1] is not None
 runs, name = 23, os.path.basename(arguments[1])
 def row(run):
-    return f'{{run}},{{run * 0.1}},ok,"a, ""b""\\n{{run}}"\\n'
+    status = "failed" if name == "failing.toml" and run == 7 else "ok"
+    return f'{{run}},{{run * 0.1}},{{status}},"a, ""b""\\n{{run}}"\\n'
 def value(option):
     return arguments[arguments.index(option) + 1] if option in arguments else None
 if name == "refused.toml" and "--runs" in arguments and value("--runs").startswith("0.."):
@@ -56,6 +57,8 @@ if value("--output") == "-":
 else:
     open(value("--output"), "w").write(text)
     open(value("--output") + ".toml", "w").write(f"runs = {{runs}}\\n")
+if name == "failing.toml" and "--dry-run" not in arguments and begin <= 7 < end:
+    sys.exit(1)
 '''
 
 
@@ -94,6 +97,33 @@ def test_pieces_are_joined_in_order(client, stand_in, tmp_path, pieces):
     assert output.read_bytes() == expected
     assert (tmp_path / "runs.csv.toml").read_text(encoding="utf-8") == "runs = 23\n"
     assert not list(tmp_path.glob("runs.csv.part*"))
+
+
+def test_a_failed_run_is_a_row_and_what_is_not_made_is_said(client, stand_in, tmp_path):
+    program, expected = stand_in
+    output = tmp_path / "runs.csv"
+    campaign = tmp_path / "failing.toml"
+    campaign.write_text('[keep]\npercentiles = ["x"]\nhistories = "out"\n', encoding="utf-8")
+    failed = []
+    with pytest.warns(UserWarning) as said:
+        assert sweep(client, campaign, output, 4, str(program), failed=failed) == RUNS
+    assert [str(it.message).split(": ")[1] for it in said] == ["keep.percentiles", "keep.histories"]
+    assert failed == ["7"] and output.read_bytes() == expected.replace(b"\n7,0.7000000000000001,ok", b"\n7,0.7000000000000001,failed")
+    done = module(campaign, "--output", output, "--heliotorque", program, "--scheduler", client.scheduler.address)
+    assert done.returncode == 1 and "runs.csv: 23 runs, 1 failed" in done.stderr and "keep.histories: each worker" in done.stderr, done.stderr
+
+
+def test_rows_that_were_left_are_not_thrown_away(client, stand_in, tmp_path):
+    program, expected = stand_in
+    output = tmp_path / "runs.csv"
+    part = pathlib.Path(f"{output}.part")
+    part.write_bytes(expected[:200])
+    pathlib.Path(f"{part}.toml").write_text("runs = 23\n", encoding="utf-8")
+    with pytest.raises(SweepError, match="runs.csv.part: found runs of this campaign, allowed: .*--resume"):
+        sweep(client, tmp_path / "campaign.toml", output, 4, str(program))
+    assert part.read_bytes() == expected[:200]
+    assert sweep(client, tmp_path / "campaign.toml", output, 4, str(program), fresh=True) == RUNS
+    assert output.read_bytes() == expected
 
 
 @pytest.mark.parametrize(

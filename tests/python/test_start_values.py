@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from fmpy import read_model_description
 
-from simulation import simulate
+from simulation import QUATERNION, Stepped, simulate
 from spacecraft import RESOURCES, call
 
 # As the command line writes them, and as FMPy would set them.
@@ -47,3 +47,18 @@ def test_fmpy_reads_what_was_packed_and_runs_it_as_if_it_had_set_it(with_start_v
     from_file, unset = simulate(with_start_values, days=20.0), simulate(momentum_plant, days=20.0)
     assert from_file.tobytes() == by_master.tobytes()
     assert from_file.tobytes() != unset.tobytes()
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("with_rate", [False, True])
+def test_a_free_flight_starts_at_the_identity_where_that_is_set(unpacked_plant, sign, with_rate):
+    start = dict(zip(QUATERNION, [0.0, 0.0, 0.0, sign]))
+    if with_rate:
+        start |= {f"start.rate[{i}]": 0.0 for i in (1, 2, 3)}
+    start = {name.replace("attitude.q", "start.q"): value for name, value in start.items()}
+    flight = Stepped(unpacked_plant, {"attitude.source": 4} | start)
+    assert flight.get(*QUATERNION).tolist() == [0.0, 0.0, 0.0, sign]
+    flight.close()
+    guided = Stepped(unpacked_plant, {"attitude.source": 4, "start.attitude": 2} | start)
+    assert abs(guided.get(*QUATERNION)[3]) < 0.999
+    guided.close()

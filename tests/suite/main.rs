@@ -21,6 +21,7 @@ mod set_values;
 mod shared_library;
 mod sources;
 mod states;
+mod statics;
 mod support;
 
 #[global_allocator]

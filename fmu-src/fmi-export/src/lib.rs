@@ -34,6 +34,7 @@ pub use model::{
     OutputRates, SetupError, SetupValue, StartValue, Step, StepEnd,
 };
 pub use model_description::{self, BaseType, Status};
+pub use state_bytes::checksum;
 pub use variables::{
     Boolean, Choice, Declare, DeclareError, Element, Elements, Enumeration, Given, Integer, Interface, Real,
     RealMatrix, RealVector, Text, Values, Variables,

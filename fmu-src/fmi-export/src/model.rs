@@ -188,6 +188,8 @@ pub struct Context<'a, M: Model> {
     pub variables: &'a M::Variables,
     /// The start values of this FMU; what is set of them the setup gave.
     pub start: &'a Values,
+    /// Whether the importer set every parameter that it may set, as tools do that write all of them.
+    pub sets_all_parameters: bool,
     /// Where events (dumps, eclipse edges ...) are reported; off costs nothing.
     pub log: &'a dyn Log,
 }
@@ -196,6 +198,12 @@ impl<M: Model> Context<'_, M> {
     /// Which variables of a group the user gave a value.
     pub fn given<'v>(&'v self, values: &'v Values, group: &[Elements]) -> Given<'v> {
         Given::among(values, self.start, group)
+    }
+
+    /// The same, but sets of the importer count for nothing only where it set every parameter of the FMU, and these to their start
+    /// values.
+    pub fn given_deliberately<'v>(&'v self, values: &'v Values, group: &[Elements]) -> Given<'v> {
+        self.given(values, group).deliberately(self.sets_all_parameters)
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::bounded::check_finite;
 use crate::model::{Context, Failure, Log, Model, SetupError, Step, StepEnd};
-use crate::variables::{Real, Values};
+use crate::variables::{Element, Real, SetBits, Values};
 
 /// A model's state, its type erased: an `Option<M::State>`, `None` before initialization.
 pub(crate) type ErasedState = Box<dyn Any + Send>;
@@ -52,12 +52,15 @@ pub(crate) struct Typed<M: Model> {
     pub(crate) setup: M::Setup,
     pub(crate) variables: M::Variables,
     pub(crate) start: Arc<Values>,
+    /// Places of the parameters that an importer may set.
+    pub(crate) parameters: [SetBits; Element::TABLES],
     pub(crate) state: Option<M::State>,
 }
 
 impl<M: Model> Typed<M> {
-    fn context<'a>(&'a self, log: &'a dyn Log) -> Context<'a, M> {
-        Context { setup: &self.setup, variables: &self.variables, start: &self.start, log }
+    fn context<'a>(&'a self, values: &Values, log: &'a dyn Log) -> Context<'a, M> {
+        let Self { setup, variables, start, parameters, .. } = self;
+        Context { setup, variables, start, sets_all_parameters: values.are_all_set(parameters), log }
     }
 
     fn check_state(&self, state: &M::State) -> Result<(), Failure> {
@@ -76,23 +79,26 @@ impl<M: Model> Runtime for Typed<M> {
     }
 
     fn initialize(&mut self, values: &mut Values, start_s: f64, log: &dyn Log) -> Result<(), Failure> {
-        self.state = Some(M::initialize(&self.context(log), values, start_s)?);
+        self.state = Some(M::initialize(&self.context(values, log), values, start_s)?);
         Ok(())
     }
 
     fn resolve_parameters(&self, values: &mut Values, log: &dyn Log) {
-        M::resolve_parameters(&self.context(log), values);
+        M::resolve_parameters(&self.context(values, log), values);
     }
 
     fn step(&mut self, values: &mut Values, step: &Step<'_>, log: &dyn Log) -> Result<StepEnd, Failure> {
-        let context = Context { setup: &self.setup, variables: &self.variables, start: &self.start, log };
-        let state = self.state.as_mut().ok_or_else(not_initialized)?;
+        let Self { setup, variables, start, parameters, state } = self;
+        let sets_all_parameters = values.are_all_set(parameters);
+        let context = Context { setup, variables, start, sets_all_parameters, log };
+        let state = state.as_mut().ok_or_else(not_initialized)?;
         M::step(&context, values, state, step)
     }
 
     fn output_rate(&self, values: &Values, output: Real, log: &dyn Log) -> Result<f64, Failure> {
         let state = self.state.as_ref().ok_or_else(not_initialized)?;
-        let rate = M::EXTENSIONS.output_rate.and_then(|rate| rate(&self.context(log), values, state, output));
+        let context = self.context(values, log);
+        let rate = M::EXTENSIONS.output_rate.and_then(|rate| rate(&context, values, state, output));
         Ok(rate.unwrap_or(0.0))
     }
 
@@ -108,7 +114,7 @@ impl<M: Model> Runtime for Typed<M> {
         let Some(product) = M::EXTENSIONS.jacobian_vector_product else {
             return Err(Failure::new("this model provides no directional derivatives"));
         };
-        product(&self.context(log), values, state, unknowns, seeds, products)
+        product(&self.context(values, log), values, state, unknowns, seeds, products)
     }
 
     fn clear(&mut self) {

@@ -80,7 +80,7 @@ pub(crate) fn unsealed(bytes: &[u8], expected: Uuid) -> Result<&[u8], Failure> {
 }
 
 /// FNV-1a, 64 bits: guards against damage, not against intent.
-fn checksum(bytes: &[u8]) -> u64 {
+pub fn checksum(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xCBF2_9CE4_8422_2325, |hash, &byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3)
     })

@@ -10,7 +10,7 @@ use terminal::Screen;
 
 use crate::{
     check,
-    child::{self, Bounds, LARGE, Relayed, SMALL},
+    child::{self, Bounds, Relayed, SMALL, large},
     compare, completions, draw, ephemeris, home, info, interrupt, manual, map, new,
     outcome::Outcome,
     pack, plan, plot, refit, run as simulation, schema, size, study, sweep, wire,
@@ -133,15 +133,15 @@ fn loading(command: &Command) -> Option<Relayed> {
         }
         Command::Pack(it) => (of_template(it.library.first().or(it.template.as_ref())), it.patience, SMALL),
         Command::Map(it) => (shown(it.template.as_ref().unwrap_or(&it.spacecraft)), it.patience, SMALL),
-        Command::Size(it) => (of_template(it.template.as_ref()), it.patience, LARGE),
-        Command::Ephemeris(it) => (shown(&it.simulated()), it.patience, LARGE),
+        Command::Size(it) => (of_template(it.template.as_ref()), it.patience, large(1)),
+        Command::Ephemeris(it) => (shown(&it.simulated()), it.patience, large(1)),
         Command::Plan(plan::Plan::Momentum(it) | plan::Plan::Flyby(it)) => {
-            (of_template(it.template.as_ref()), it.patience, LARGE)
+            (of_template(it.template.as_ref()), it.patience, large(1))
         }
-        Command::Plan(plan::Plan::Leg(it)) => (of_template(it.template.as_ref()), it.patience, LARGE),
-        Command::Refit(it) => (of_template(it.template.as_ref()), it.patience, LARGE),
-        Command::Plan(plan::Plan::Spin(it)) => (of_template(it.options.fmu.as_ref()), it.patience, LARGE),
-        Command::Study(it) => (it.name.clone(), it.patience, LARGE),
+        Command::Plan(plan::Plan::Leg(it)) => (of_template(it.template.as_ref()), it.patience, large(1)),
+        Command::Refit(it) => (of_template(it.template.as_ref()), it.patience, large(1)),
+        Command::Plan(plan::Plan::Spin(it)) => (of_template(it.options.fmu.as_ref()), it.patience, large(1)),
+        Command::Study(it) => (it.name.clone(), it.patience, large(1)),
         _ => return None,
     };
     Some(Relayed { name, bounds: Bounds::of_calls(patience.timeout), limits })

@@ -1,6 +1,7 @@
 //! The heliotorque command line.
 
 // They panic when the reader went away; `terminal` does not.
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests make their own files"))]
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 mod app;

@@ -36,15 +36,9 @@ impl Instant {
     }
 }
 
-/// Whether a text is meant as a date.
-pub(crate) fn is_date(text: &str) -> bool {
-    let ends = ["UTC", "TDB"].iter().any(|scale| text.trim_end().ends_with(scale));
-    ends || dates::looks_like_date(text)
-}
-
 /// A time or a date.
 pub(crate) fn instant(text: &str) -> Result<Instant, String> {
-    if !is_date(text) {
+    if !dates::looks_like_date(text) {
         return Ok(Instant::Time(duration(text)?));
     }
     dates::epoch_s(text)
@@ -87,9 +81,30 @@ pub(crate) fn quantity(text: &str, unit: &str) -> Option<f64> {
     Some(number * factor).filter(|value| value.is_finite())
 }
 
+/// The names between commas; those between the indices of a matrix part none.
+pub(crate) fn names(text: &str) -> Vec<String> {
+    let mut depth = 0;
+    let names = text.split(|letter| {
+        depth += i32::from(letter == '[') - i32::from(letter == ']');
+        letter == ',' && depth == 0
+    });
+    names.map(|name| name.trim().to_owned()).collect()
+}
+
+/// The names of an option that may be given several times.
+pub(crate) fn all_names(texts: &[String]) -> Vec<String> {
+    texts.iter().flat_map(|text| names(text)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_are_split_outside_brackets() {
+        assert_eq!(names("a[1,2], b"), ["a[1,2]", "b"]);
+        assert_eq!(all_names(&["*[1,2].x,y".to_owned(), "z".to_owned()]), ["*[1,2].x", "y", "z"]);
+    }
 
     #[test]
     fn times_take_units() {
@@ -102,7 +117,7 @@ mod tests {
         }
         assert_eq!(instant("2 h"), Ok(Instant::Time(7200.0)));
         assert_eq!(instant("2009-04-06 TDB"), Ok(Instant::Epoch(292_248_000.0)));
-        assert!(instant("2009-04-06").unwrap_err().contains("UTC or TDB"));
+        assert!(instant("2009-04-06").unwrap_err().contains("UTC, Z, TDB"));
         assert_eq!(quantity("0.5 km", "m"), Some(500.0));
         assert_eq!([quantity("-3", "m"), quantity("2m", "m")], [Some(-3.0), Some(2.0)]);
         assert_eq!(

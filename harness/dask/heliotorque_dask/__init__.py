@@ -7,6 +7,8 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import tomllib
+import warnings
 
 import cloudpickle
 
@@ -18,6 +20,8 @@ PROGRAM = "heliotorque"
 PIECES_PER_THREAD = 4
 # Lines of a failed program's words that are shown.
 LINES_SHOWN = 20
+# Status of `heliotorque sweep` where a run failed, and where it is refused: then it prints no table.
+SOME_FAILED = 1
 
 
 class SweepError(RuntimeError):
@@ -25,25 +29,25 @@ class SweepError(RuntimeError):
 
 
 def table(arguments, program=PROGRAM, output="-"):
-    """What `heliotorque sweep` prints for these arguments, as bytes; nothing with a file as output."""
+    """Table that `heliotorque sweep` prints for these arguments, failed runs among its rows; nothing with a file as output."""
     command = [program, "sweep", *arguments, "--output", str(output)]
     try:
         done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True)
     except OSError as error:
         raise SweepError(f"{program}: {error.strerror}; allowed: the heliotorque program, see --heliotorque") from None
-    if done.returncode != 0:
+    if done.returncode != 0 and not (done.returncode == SOME_FAILED and done.stdout.startswith(b"run,")):
         said = "\n".join(done.stderr.decode(errors="replace").splitlines()[-LINES_SHOWN:])
         raise SweepError(f"{' '.join(command)}: ended with {done.returncode}: {said}")
     return done.stdout
 
 
 def rows_of(text, of):
-    """The header of a table of runs with its line end, the rest, and the numbers of the runs."""
+    """The header of a table of runs with its line end, the rest, and the rows."""
     header, end, rest = text.partition(b"\n")
     if not end or header.split(b",")[0].strip() != b"run":
         raise SweepError(f"{of}: found {header[:80]!r}, allowed: a table that begins with run")
     lines = csv.reader(io.StringIO(rest.decode(), newline=""))
-    return header + end, rest, [line[0] for line in lines if line]
+    return header + end, rest, [line for line in lines if line]
 
 
 def planned(campaign, program=PROGRAM):
@@ -51,8 +55,21 @@ def planned(campaign, program=PROGRAM):
     with tempfile.TemporaryDirectory() as folder:
         values = pathlib.Path(folder, "values.csv")
         table([str(campaign), "--dry-run"], program, values)
-        _, _, runs = rows_of(values.read_bytes(), f"{campaign}, --dry-run")
-        return len(runs), pathlib.Path(f"{values}.toml").read_bytes()
+        _, _, rows = rows_of(values.read_bytes(), f"{campaign}, --dry-run")
+        return len(rows), pathlib.Path(f"{values}.toml").read_bytes()
+
+
+def not_made(campaign):
+    """What a campaign keeps that is no part of the table made here, in sentences."""
+    try:
+        keep = tomllib.loads(pathlib.Path(campaign).read_text(encoding="utf-8")).get("keep", {})
+    except (OSError, ValueError):
+        return []
+    said = {
+        "percentiles": "no percentiles are made here, allowed: `heliotorque sweep` on one machine, or `histories`",
+        "histories": "each worker writes the histories of its runs into its own file system",
+    }
+    return [f"{campaign}: keep.{key}: {what}" for key, what in said.items() if key in keep]
 
 
 def cut(runs, pieces):
@@ -71,12 +88,13 @@ def piece(campaign, begin, end, program=PROGRAM):
         return str(error)
 
 
-def joined(tables, pieces, of):
-    """The bytes of one table: the header, then each piece's rows, which must be those that were requested."""
+def joined(tables, pieces, of, failed):
+    """The bytes of one table: the header, then each piece's rows, which must be those that were requested; failed runs are added to a list."""
     first = None
     for text, (begin, end) in zip(tables, pieces):
         name = f"{of}, runs {begin}..{end}"
-        header, rest, runs = rows_of(text, name)
+        header, rest, rows = rows_of(text, name)
+        runs = [row[0] for row in rows]
         if first is None:
             first = header
             yield header
@@ -84,11 +102,16 @@ def joined(tables, pieces, of):
             raise SweepError(f"{name}: found another header than the first piece's, allowed: one program on all workers")
         if runs != [str(run) for run in range(begin, end)]:
             raise SweepError(f"{name}: found {len(runs)} rows, from run {runs[:1]} on, allowed: {end - begin}, one for each run")
+        status = next(csv.reader([first.decode()])).index("status")
+        failed += [row[0] for row in rows if row[status] == "failed"]
         yield rest
 
 
-def sweep(client, campaign, output, pieces=None, program=PROGRAM):
+def sweep(client, campaign, output, pieces=None, program=PROGRAM, fresh=False, failed=None):
     """Runs a campaign on a client's cluster and writes its table; gives the number of runs.
+
+    A run that fails is a row with its reason, and is added to the list `failed` if there is one. What is kept beside the table is
+    warned of where it is not made here. Rows of this campaign that an earlier sweep left in `OUTPUT.part` are refused unless `fresh`.
 
     Until the table is complete it is `OUTPUT.part`, with which `heliotorque sweep --resume` goes on; beside it stands the `.toml` of
     `heliotorque sweep`. `-` is the standard output. Raises SweepError.
@@ -99,10 +122,16 @@ def sweep(client, campaign, output, pieces=None, program=PROGRAM):
         pieces = PIECES_PER_THREAD * max(1, sum(client.nthreads().values()))
     if runs == 0:
         raise SweepError(f"{campaign}: found no run, allowed: one at least")
+    if str(output) != "-" and not fresh and is_left(output, origin):
+        allowed = "`heliotorque sweep --resume`, which goes on with them, or fresh, which begins anew"
+        raise SweepError(f"{output}.part: found runs of this campaign, allowed: {allowed}")
+    for what in not_made(campaign):
+        warnings.warn(what, stacklevel=2)
     pieces = cut(runs, pieces)
+    failed = [] if failed is None else failed
     futures = [client.submit(piece, campaign, begin, end, program, pure=False) for begin, end in pieces]
     try:
-        rows = joined(results(futures), pieces, campaign)
+        rows = joined(results(futures), pieces, campaign, failed)
         if str(output) == "-":
             for part in rows:
                 sys.stdout.buffer.write(part)
@@ -118,6 +147,15 @@ def sweep(client, campaign, output, pieces=None, program=PROGRAM):
         return runs
     finally:
         client.cancel([future for future in futures if future is not None])
+
+
+def is_left(output, origin):
+    """Whether an unfinished table of the campaign with this text beside it has a row."""
+    try:
+        same = pathlib.Path(f"{output}.part.toml").read_bytes() == origin
+        return same and pathlib.Path(f"{output}.part").read_bytes().count(b"\n") > 1
+    except OSError:
+        return False
 
 
 def results(futures):

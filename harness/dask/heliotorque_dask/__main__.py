@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+import warnings
 
 from distributed import Client, LocalCluster
 
@@ -23,18 +24,22 @@ def main():
     parser.add_argument("--output", metavar="CSV", required=True, help="the table to write; - is the standard output")
     parser.add_argument("--pieces", metavar="N", type=whole, help="pieces the runs are cut into; otherwise four a thread")
     parser.add_argument("--heliotorque", metavar="PATH", default=PROGRAM, help="the program, here and on every worker")
+    parser.add_argument("--fresh", action="store_true", help="begin anew although OUTPUT.part holds runs of this campaign")
     arguments = parser.parse_args()
+    warnings.showwarning = lambda message, *_: print(f"heliotorque_dask: {message}", file=sys.stderr)
+    failed = []
     try:
         cluster = arguments.scheduler or LocalCluster(processes=True, threads_per_worker=1, dashboard_address=None)
         try:
             with Client(cluster) as client:
-                runs = sweep(client, arguments.campaign, arguments.output, arguments.pieces, arguments.heliotorque)
+                runs = sweep(client, arguments.campaign, arguments.output, arguments.pieces, arguments.heliotorque, arguments.fresh, failed)
         finally:
             if not arguments.scheduler:
                 cluster.close()
     except (SweepError, OSError) as error:
         sys.exit(f"heliotorque_dask: {error}")
-    print(f"{arguments.output}: {runs} runs", file=sys.stderr)
+    print(f"{arguments.output}: {runs} runs" + (f", {len(failed)} failed" if failed else ""), file=sys.stderr)
+    sys.exit(1 if failed else 0)
 
 
 if __name__ == "__main__":

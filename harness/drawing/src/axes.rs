@@ -1,5 +1,13 @@
 //! Round steps of an axis, and the texts of their multiples.
 
+/// Greatest magnitude that is drawn: spans of what is beyond overflow, so it is as good as infinite.
+const GREATEST: f64 = 1e300;
+
+/// Whether a value has a place in a picture.
+pub fn is_drawable(value: f64) -> bool {
+    value.abs() <= GREATEST
+}
+
 /// Multiples drawn at most.
 const MOST_TICKS: i64 = 100;
 

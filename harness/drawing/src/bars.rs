@@ -1,7 +1,7 @@
 //! Grouped bars: stacked panels over the same named cases, each bar from zero.
 
 use super::{
-    axes::round_up,
+    axes::{is_drawable, round_up},
     frame::{Axes, Frame},
     legend::Legend,
     pen::{COLOURS, Pen, TEXT},
@@ -60,7 +60,7 @@ impl Picture for BarChart {
             let width = FILLED / panel.values.len().max(1) as f64;
             for (bar, values) in panel.values.iter().enumerate() {
                 let fill = format!("fill=\"{}\"", COLOURS[bar % COLOURS.len()]);
-                for (case, value) in values.iter().enumerate().filter(|(_, value)| value.is_finite()) {
+                for (case, value) in values.iter().enumerate().filter(|(_, value)| is_drawable(**value)) {
                     let from = case as f64 - 0.5 * FILLED + bar as f64 * width;
                     let (upper, lower) = (value.max(0.0), value.min(0.0));
                     pen.rect(frame.at([from, upper]), frame.at([from + 0.92 * width, lower]), &fill);
@@ -80,7 +80,7 @@ impl Picture for BarChart {
 impl BarPanel {
     /// From zero, with room at the end.
     fn range(&self) -> [f64; 2] {
-        let finite = || self.values.iter().flatten().copied().filter(|value| value.is_finite());
+        let finite = || self.values.iter().flatten().copied().filter(|value| is_drawable(*value));
         let (low, high) = (finite().fold(0.0, f64::min), finite().fold(0.0, f64::max));
         let margin = 0.08 * (high - low).max(f64::MIN_POSITIVE);
         if low == high {

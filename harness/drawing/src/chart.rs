@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::{
-    axes::round_up,
+    axes::{is_drawable, round_up},
     envelope::{self, Envelope},
     frame::{Axes, Frame},
     legend::{Legend, ROW_HEIGHT},
@@ -54,7 +54,7 @@ impl Chart {
     /// Horizontal range of the finite points of all panels.
     fn x_range(&self) -> Option<[f64; 2]> {
         let points = self.panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.points);
-        let finite = points.filter(|(x, y)| x.is_finite() && y.is_finite()).map(|(x, _)| *x);
+        let finite = points.filter(|(x, y)| is_drawable(*x) && is_drawable(*y)).map(|(x, _)| *x);
         let [low, high] = extremes(finite)?;
         Some(if low < high { [low, high] } else { padded(low, high) })
     }
@@ -148,7 +148,7 @@ impl Panel {
         let edges = bands.flat_map(|band| band.range.lowest.iter().chain(&band.range.greatest));
         let points = self.series.iter().flat_map(|series| &series.points);
         let data = points.chain(edges).map(|(_, y)| *y);
-        let finite = data.chain(self.marks.iter().copied()).filter(|y| y.is_finite());
+        let finite = data.chain(self.marks.iter().copied()).filter(|y| is_drawable(*y));
         extremes(finite).map_or([0.0, 1.0], |[low, high]| padded(low, high))
     }
 
@@ -203,7 +203,7 @@ pub(super) fn draw_series(
             distinct(places).into_iter().for_each(|at| pen.circle(at, 3.0, &fill));
         }
         Mark::Bars => pen.within(low, high, |pen| {
-            let bars = series.points.windows(2).filter(|pair| pair[0].1 != 0.0 && pair[0].1.is_finite());
+            let bars = series.points.windows(2).filter(|pair| pair[0].1 != 0.0 && is_drawable(pair[0].1));
             bars.for_each(|pair| {
                 let ((from, value), to) = (pair[0], pair[1].0);
                 let corners = [[from, value.max(0.0)], [to, value.min(0.0)]].map(|corner| frame.at(corner));

@@ -1,5 +1,7 @@
 //! Long oscillations: where a line would only blacken the panel, its extremes are drawn as a band.
 
+use super::axes::is_drawable;
+
 /// Reversals in a column from which on its line cannot be distinguished.
 const REVERSALS_PER_COLUMN: usize = 3;
 /// Points that a reversal of an oscillation has; noise has fewer.
@@ -28,7 +30,7 @@ impl Envelope {
     pub(crate) fn pieces(&self) -> Vec<Self> {
         let mut pieces = vec![Self::default()];
         for (low, high) in self.lowest.iter().zip(&self.greatest) {
-            let is_finite = [low.0, low.1, high.0, high.1].into_iter().all(f64::is_finite);
+            let is_finite = [low.0, low.1, high.0, high.1].into_iter().all(is_drawable);
             match pieces.last_mut() {
                 Some(piece) if is_finite => {
                     piece.lowest.push(*low);

@@ -1,6 +1,9 @@
 //! What a chart shows: series in panels.
 
-use super::envelope::{self, Envelope};
+use super::{
+    axes::is_drawable,
+    envelope::{self, Envelope},
+};
 
 /// How a series is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -182,5 +185,5 @@ impl Panel {
 
 /// The pieces between points that are not finite.
 pub(super) fn pieces(points: &[(f64, f64)]) -> impl Iterator<Item = &[(f64, f64)]> {
-    points.split(|(x, y)| !x.is_finite() || !y.is_finite()).filter(|piece| !piece.is_empty())
+    points.split(|(x, y)| !is_drawable(*x) || !is_drawable(*y)).filter(|piece| !piece.is_empty())
 }

@@ -115,8 +115,18 @@ fn odd_data_is_drawn_or_refused_but_never_panics() {
         vec![(0.0, 1.0), (1.0, f64::INFINITY), (2.0, 1.0 + 1e-16)],
         vec![(1e-300, -1e-300), (2e-300, 1e-300)],
         vec![(-1e15, 3.0), (1e15, 4.0)],
+        vec![(0.0, 1.0), (1.0, 1e308), (2.0, -1e308), (3.0, 2.0)],
     ] {
-        assert!(svg(&[&chart(points.clone())]).is_ok(), "{points:?}");
+        let band = Envelope { lowest: points.clone(), greatest: points.clone() };
+        let band = Band { label: String::new(), range: band };
+        let drawn = Chart {
+            panels: vec![Panel::new("").with([Series::curve("x", points.clone()).with_bands([band])])],
+            ..Chart::default()
+        };
+        for svg in [svg(&[&chart(points.clone())]), svg(&[&drawn])] {
+            let svg = svg.unwrap();
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{points:?}: {svg}");
+        }
     }
 }
 

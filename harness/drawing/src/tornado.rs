@@ -1,7 +1,7 @@
 //! Tornado charts: what each of several causes changes, as bars across from zero, a row a cause.
 
 use super::{
-    axes::round_up,
+    axes::{is_drawable, round_up},
     frame::{Axes, Frame},
     legend::Legend,
     pen::{COLOURS, Pen, width_px},
@@ -35,7 +35,7 @@ impl TornadoChart {
     /// With room on both sides.
     fn range(&self) -> [f64; 2] {
         let changes =
-            || self.rows.iter().flat_map(|(_, changes)| changes).copied().filter(|it| it.is_finite());
+            || self.rows.iter().flat_map(|(_, changes)| changes).copied().filter(|it| is_drawable(*it));
         let (low, high) = (changes().fold(0.0, f64::min), changes().fold(0.0, f64::max));
         let margin = 0.06 * (high - low);
         if margin > 0.0 { [low - margin, high + margin] } else { NO_RANGE }
@@ -87,7 +87,7 @@ impl Picture for TornadoChart {
         frame.axes(pen, &axes);
         let share = FILLED / self.bars.len() as f64;
         for (row, (_, changes)) in self.rows.iter().enumerate() {
-            for (bar, change) in changes.iter().enumerate().filter(|(_, change)| change.is_finite()) {
+            for (bar, change) in changes.iter().enumerate().filter(|(_, change)| is_drawable(**change)) {
                 let upper = place(row) + 0.5 * FILLED - share * bar as f64;
                 let corners = [[change.min(0.0), upper], [change.max(0.0), upper - share]];
                 let [low, high] = corners.map(|corner| frame.at(corner));

@@ -3,13 +3,18 @@
 use std::{
     ffi::OsString,
     fs::{self, File, OpenOptions},
-    io::{self, BufWriter, Seek, Write},
+    io::{self, BufWriter, Write},
     path::{Path, PathBuf},
 };
 
 use tempfile::NamedTempFile;
 
-use crate::{input::kind, system, temporary::Registered};
+use crate::{
+    growing::{Growing, Part},
+    input::kind,
+    system,
+    temporary::Registered,
+};
 
 /// The name that stands for the standard output, and the system's own for it.
 const STDOUT: &str = "-";
@@ -19,9 +24,9 @@ const SYSTEM_STDOUT: [&str; 3] = ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"]
 #[derive(Debug)]
 pub struct Destination {
     path: PathBuf,
-    option: &'static str,
+    pub(crate) option: &'static str,
     // Behind all symbolic links; `None` is the standard output.
-    target: Option<PathBuf>,
+    pub(crate) target: Option<PathBuf>,
 }
 
 impl Destination {
@@ -61,6 +66,11 @@ impl Destination {
         self.target.as_deref().filter(|target| target.exists())
     }
 
+    /// Where [`Destination::grow`] would record; `None` on the standard output.
+    pub fn part_path(&self) -> Option<PathBuf> {
+        self.target.as_deref().map(part_of)
+    }
+
     /// Whether it leads to a file in a folder or below, behind all links; the standard output is nowhere.
     pub fn is_within(&self, folder: &Path) -> bool {
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
@@ -78,7 +88,12 @@ impl Destination {
 
     /// Replaces the content by what `write` writes, all of it or nothing.
     pub fn fill(self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), String> {
-        self.replace(write).map_err(|error| self.message(&error))
+        self.replace(write, false).map_err(|error| self.message(&error))
+    }
+
+    /// The same; the new content takes its name once the disk has it.
+    pub fn fill_durably(self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), String> {
+        self.replace(write, true).map_err(|error| self.message(&error))
     }
 
     /// Takes a recording in progress: it grows as `<name>.part`, on the standard output as it is.
@@ -86,14 +101,16 @@ impl Destination {
     /// A `.part` of an earlier recording is replaced once there is something to write; that of one in progress, of any program, is
     /// refused.
     pub fn grow(self, inputs: &[&Path]) -> Result<Growing, String> {
-        let part = self.target.as_deref().map(part_of).map(|path| {
-            Part::open(&path, inputs)
-                .map_err(|what| format!("{}: {what}: see {}", path.display(), self.option))
-        });
-        Ok(Growing { part: part.transpose()?, destination: self, lost_reader: false })
+        Ok(Growing::new(self.part(inputs)?, self))
     }
 
-    fn replace(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    /// Takes numbers in progress that the file is made of at the end: they stand in `<name>.part`, with the rules of [`Destination::grow`];
+    /// `None` on the standard output.
+    pub fn part(&self, inputs: &[&Path]) -> Result<Option<Part>, String> {
+        self.target.as_deref().map(|target| Part::open(&part_of(target), self.option, inputs)).transpose()
+    }
+
+    fn replace(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>, syncs: bool) -> io::Result<()> {
         let Some(target) = &self.target else {
             let mut out = BufWriter::new(terminal::Output);
             return gone_reader_is_no_error(write(&mut out).and_then(|()| out.flush()));
@@ -103,11 +120,18 @@ impl Destination {
         write(&mut buffered)?;
         buffered.flush()?;
         drop(buffered);
+        if syncs {
+            temporary.as_file().sync_all()?;
+        }
         keep_permissions(temporary.as_file(), target)?;
         let temporary = temporary.into_temp_path().keep()?;
         system::rename(&temporary, target).inspect_err(|_| {
             let _ = fs::remove_file(&temporary);
-        })
+        })?;
+        if syncs {
+            system::sync_folder_of(target);
+        }
+        Ok(())
     }
 
     /// A new file in the folder of the target.
@@ -127,149 +151,9 @@ impl Destination {
         Registered::with(|| builder.tempfile_in(folder_of(target)), NamedTempFile::path)
     }
 
-    fn message(&self, error: &io::Error) -> String {
+    pub(crate) fn message(&self, error: &io::Error) -> String {
         format!("{}: {error}: see {}", self.path.display(), self.option)
     }
-}
-
-/// A recording in progress: whole rows in `<name>.part`, which takes its name when it is complete.
-#[derive(Debug)]
-pub struct Growing {
-    destination: Destination,
-    part: Option<Part>,
-    lost_reader: bool,
-}
-
-impl Growing {
-    /// Appends these bytes at once.
-    pub fn append(&mut self, bytes: &[u8]) -> Result<(), String> {
-        let Some(part) = &mut self.part else {
-            let mut out = terminal::Output;
-            let written = out.write_all(bytes).and_then(|()| out.flush());
-            self.lost_reader |= matches!(&written, Err(error) if error.kind() == io::ErrorKind::BrokenPipe);
-            return gone_reader_is_no_error(written).map_err(|error| self.destination.message(&error));
-        };
-        part.append(bytes)
-            .map_err(|error| format!("{}: {error}: see {}", part.path.display(), self.destination.option))
-    }
-
-    /// Continues with what a recording before left, of which the first bytes are kept; on the standard output there is none.
-    pub fn keep(&mut self, bytes: u64) -> Result<(), String> {
-        let Some(part) = &mut self.part else { return Ok(()) };
-        part.keep(bytes)
-            .map_err(|error| format!("{}: {error}: see {}", part.path.display(), self.destination.option))
-    }
-
-    /// Whether the reader of the standard output went away: what is appended then goes nowhere.
-    pub fn has_lost_reader(&self) -> bool {
-        self.lost_reader
-    }
-
-    /// The file that would be replaced; `None` where there is none yet.
-    pub fn existing(&self) -> Option<&Path> {
-        self.destination.existing()
-    }
-
-    /// Gives the complete recording its name.
-    pub fn finish(mut self) -> Result<(), String> {
-        self.rename().map_err(|error| self.destination.message(&error))
-    }
-
-    /// Leaves what was recorded as it is and gives its path, if anything was.
-    pub fn leave(self) -> Option<PathBuf> {
-        self.part.filter(|part| part.is_begun).map(|part| part.path.clone())
-    }
-
-    fn rename(&mut self) -> io::Result<()> {
-        let (Some(part), Some(target)) = (&mut self.part, &self.destination.target) else { return Ok(()) };
-        part.append(&[])?;
-        keep_permissions(&part.file, target)?;
-        system::rename(&part.path, target)
-    }
-}
-
-/// The file of a recording in progress, locked against others as long as it is open.
-#[derive(Debug)]
-struct Part {
-    path: PathBuf,
-    file: File,
-    /// Whether nothing was there before.
-    is_new: bool,
-    /// Whether it holds this recording.
-    is_begun: bool,
-}
-
-impl Part {
-    /// How often a file is opened that others take away meanwhile.
-    const ATTEMPTS: usize = 100;
-
-    /// Opens and locks it; what it holds of an earlier recording stays until something is appended.
-    fn open(path: &Path, inputs: &[&Path]) -> Result<Self, String> {
-        let text = |error: io::Error| match error.kind() {
-            io::ErrorKind::ResourceBusy => "another run is writing it".to_owned(),
-            _ => error.to_string(),
-        };
-        for _ in 0..Self::ATTEMPTS {
-            check_place(path, inputs)?;
-            let (file, is_new) =
-                match system::open_exclusively(OpenOptions::new().write(true).create_new(true), path) {
-                    Ok(file) => (file, true),
-                    Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                        match system::open_exclusively(OpenOptions::new().write(true), path) {
-                            Ok(file) => (file, false),
-                            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
-                            Err(error) => return Err(text(error)),
-                        }
-                    }
-                    Err(error) => return Err(text(error)),
-                };
-            // Until it was locked, another run may have given it its name, and a link may lead elsewhere.
-            if is_at(&file, path) {
-                return Ok(Self { path: path.to_owned(), file, is_new, is_begun: false });
-            }
-            if has_other_names(&file) {
-                fs::remove_file(path).map_err(text)?;
-            }
-        }
-        Err("others take it away again and again".to_owned())
-    }
-
-    fn keep(&mut self, bytes: u64) -> io::Result<()> {
-        self.file.set_len(bytes)?;
-        self.file.seek(io::SeekFrom::End(0))?;
-        self.is_begun = true;
-        Ok(())
-    }
-
-    fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
-        if !self.is_begun {
-            self.file.set_len(0)?;
-            self.is_begun = true;
-        }
-        self.file.write_all(bytes)
-    }
-}
-
-impl Drop for Part {
-    fn drop(&mut self) {
-        if self.is_new && !self.is_begun {
-            // Nobody else has it: it is still locked.
-            let _ = fs::remove_file(&self.path);
-        }
-    }
-}
-
-/// Whether an open file is the one at this path, under no other name and behind no link.
-fn is_at(file: &File, path: &Path) -> bool {
-    let (Ok(open), Ok(there)) = (system::identity_of_open(file), system::identity_of_link(path)) else {
-        return false;
-    };
-    open.device_and_inode == there.device_and_inode && open.hard_links == 1
-}
-
-/// Whether an open file has more names than one.
-fn has_other_names(file: &File) -> bool {
-    system::identity_of_open(file).is_ok_and(|identity| identity.hard_links > 1)
 }
 
 /// Why a file cannot be the target: it is of another kind, not to be written, or an input.
@@ -285,7 +169,7 @@ fn check(target: &Path, inputs: &[&Path]) -> Result<(), String> {
 }
 
 /// Why a file cannot be the target whoever writes it: it is of another kind or an input.
-fn check_place(target: &Path, inputs: &[&Path]) -> Result<(), String> {
+pub(crate) fn check_place(target: &Path, inputs: &[&Path]) -> Result<(), String> {
     let metadata = match fs::symlink_metadata(target) {
         Ok(metadata) => Some(metadata),
         Err(error) if error.kind() == io::ErrorKind::NotFound => None,
@@ -318,7 +202,7 @@ fn with_ending(path: &Path, ending: &str) -> PathBuf {
     PathBuf::from(name)
 }
 
-fn folder_of(path: &Path) -> &Path {
+pub(crate) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -358,14 +242,14 @@ fn is_inside(target: &Path, folder: &Path) -> bool {
             .is_ok_and(|place| fs::canonicalize(folder).is_ok_and(|folder| place.starts_with(folder)))
 }
 
-fn keep_permissions(file: &File, target: &Path) -> io::Result<()> {
+pub(crate) fn keep_permissions(file: &File, target: &Path) -> io::Result<()> {
     match fs::metadata(target) {
         Ok(metadata) => file.set_permissions(metadata.permissions()),
         Err(_) => Ok(()),
     }
 }
 
-fn gone_reader_is_no_error(outcome: io::Result<()>) -> io::Result<()> {
+pub(crate) fn gone_reader_is_no_error(outcome: io::Result<()>) -> io::Result<()> {
     match outcome {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         other => other,

@@ -3,19 +3,24 @@
 //! Every file that a command writes goes through [`Destination`]: it is written beside its target and renamed. A
 //! recording in progress is a [`Growing`] file, `<name>.part`. Temporary files and folders are known to
 //! [`remove_temporaries`], which a signal handler calls.
+#![allow(clippy::disallowed_methods, reason = "what others shall use is made of these")]
 
 /// Type of what we add to files of other standards, which ask for a reversed domain name.
 pub const ANNOTATION: &str = "io.github.heliotorque";
 
 mod destination;
 mod entries;
+mod folder;
+mod growing;
 mod identity;
 mod input;
 mod system;
 mod temporary;
 
-pub use destination::{Destination, Growing, part_of, sidecar_of};
+pub use destination::{Destination, part_of, sidecar_of};
 pub use entries::Entries;
+pub use folder::{OutputFolder, leads_below, remove};
+pub use growing::{Growing, Part};
 pub use input::{MOST_TABLE_BYTES, MOST_TEXT_BYTES, kind, open, open_at_most, read, read_at_most, read_text};
 pub use system::canonical;
 pub use temporary::{Scratch, remove_temporaries};

@@ -5,7 +5,8 @@
 
 use std::{
     fs::{self, File, TryLockError},
-    io, mem,
+    io::{self, Write},
+    mem,
     path::{Path, PathBuf},
     sync::{Mutex, MutexGuard, Once, PoisonError},
     thread,
@@ -104,6 +105,16 @@ impl Scratch {
     /// Where it is.
     pub fn path(&self) -> &Path {
         self.folder.path()
+    }
+
+    /// Writes a new file into it and gives its path.
+    ///
+    /// # Errors
+    /// A file that is there already or cannot be written.
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> io::Result<PathBuf> {
+        let path = self.path().join(name);
+        File::create_new(&path)?.write_all(content.as_ref())?;
+        Ok(path)
     }
 }
 

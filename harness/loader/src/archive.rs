@@ -1,8 +1,9 @@
 //! Unpacks an `.fmu` into a folder without trusting it.
 
 use std::{
+    collections::BTreeSet,
     fs::{self, File},
-    io::{self, Read, Write},
+    io::{self, Read, Seek, SeekFrom, Write},
     path::{Component, Path, PathBuf},
 };
 
@@ -43,6 +44,9 @@ pub fn unpack(archive: &Path, into: &Path, limits: ArchiveLimits) -> Result<Vec<
         .map_err(|error| refuse(foreign::kind(archive).map_or_else(|| error.to_string(), str::to_owned)))?;
     if zip.len() > limits.entries {
         return Err(refuse(format!("{} entries, at most {} are allowed", zip.len(), limits.entries)));
+    }
+    if let Some(name) = listed_twice(archive, zip.central_directory_start()) {
+        return Err(refuse(format!("entry {name:?} stands twice in the archive")));
     }
     let mut total_bytes = 0;
     for index in 0..zip.len() {
@@ -100,6 +104,27 @@ pub fn unpack(archive: &Path, into: &Path, limits: ArchiveLimits) -> Result<Vec<
         names.push(name);
     }
     Ok(names)
+}
+
+/// The first name that the archive's own list has twice: the reader's has it once, with the later content.
+fn listed_twice(archive: &Path, list_begins: u64) -> Option<String> {
+    /// Signature, length, and places of the lengths of name, extra field and comment of an entry of the list.
+    const SIGNATURE: &[u8] = b"PK\x01\x02";
+    const LENGTH: usize = 46;
+    const LENGTHS: [usize; 3] = [28, 30, 32];
+    let mut list = io::BufReader::new(files::open(archive).ok()?);
+    list.seek(SeekFrom::Start(list_begins)).ok()?;
+    let (mut head, mut known) = ([0; LENGTH], BTreeSet::new());
+    while list.read_exact(&mut head).is_ok() && head.starts_with(SIGNATURE) {
+        let [name, extra, comment] = LENGTHS.map(|at| u16::from_le_bytes([head[at], head[at + 1]]));
+        let mut bytes = vec![0; usize::from(name)];
+        list.read_exact(&mut bytes).ok()?;
+        list.seek_relative(i64::from(extra) + i64::from(comment)).ok()?;
+        if let Some(twice) = known.replace(bytes) {
+            return Some(String::from_utf8_lossy(&twice).into_owned());
+        }
+    }
+    None
 }
 
 /// Whether an entry is read as XML whole: the description of an FMU or of a system, or what lies beside it.

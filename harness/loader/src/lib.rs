@@ -4,6 +4,7 @@
 //! one from start to stop. Everything this crate knows of an FMU it reads from the FMU; no model is linked here.
 //!
 //! All unsafe code of the harness stands in one folder, `abi/`.
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests make their own files"))]
 
 mod abi;
 mod access;

@@ -1,5 +1,7 @@
 //! A recorded simulation: time and one typed column per recorded variable.
 
+use std::collections::BTreeSet;
+
 use crate::Value;
 
 /// Values of one variable at every recorded time.
@@ -53,6 +55,7 @@ pub struct Recording {
 impl Recording {
     /// The columns of these names, at the same times.
     pub fn only(&self, names: &[String]) -> Self {
+        let names: BTreeSet<&String> = names.iter().collect();
         let kept = (0..self.names.len()).filter(|&index| names.contains(&self.names[index]));
         let mut only = Self { times_s: self.times_s.clone(), ..Self::default() };
         for index in kept {

@@ -317,7 +317,7 @@ fn run_steps(
         let end_s = times.point_s(k + 1);
         if let Some(inputs) = &mut inputs {
             inputs.set(instance, time_s, false)?;
-            inputs.set_slopes(instance, time_s)?;
+            inputs.set_slopes(instance, [time_s, end_s])?;
         }
         // Every step but the last has the step size itself: not each difference of two points is it to the bit.
         let step_s = if k + 1 == steps { end_s - time_s } else { times.step_s };
@@ -475,9 +475,9 @@ impl<'a> InputSetter<'a> {
         Ok(())
     }
 
-    fn set_slopes(&self, instance: &mut Instance, time_s: f64) -> Result<(), Error> {
+    fn set_slopes(&self, instance: &mut Instance, step_s: [f64; 2]) -> Result<(), Error> {
         let slope = |(column, variable): (usize, &&ScalarVariable)| {
-            let slope = self.table.slope(column, time_s).filter(|slope| self.slopes && *slope != 0.0)?;
+            let slope = self.table.slope(column, step_s).filter(|slope| self.slopes && *slope != 0.0)?;
             Some((variable.value_reference, slope))
         };
         let (references, values): (Vec<u32>, Vec<f64>) =

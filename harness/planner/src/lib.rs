@@ -2,6 +2,7 @@
 //!
 //! The planner is the only part of the harness that uses the physics directly: it searches with the fast linear
 //! theory, then runs what it found through the FMU, which knows nothing of the planner.
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests make their own files"))]
 
 pub mod ephemeris;
 mod failure;

@@ -3,6 +3,8 @@
 //! Real: max over rows of |found - expected|, and that as a fraction of the largest |expected| of the vector or scalar over all rows.
 //! Any other cell is the same or not: a difference is infinite.
 
+use std::collections::BTreeMap;
+
 /// A cell of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
@@ -90,10 +92,11 @@ pub struct Difference {
 
 /// The largest difference of every column that is not the same, in the order of the columns.
 pub fn differences(columns: &[Compared]) -> Vec<Difference> {
-    let largest_of = |vector: &(&str, &str)| {
-        let columns = columns.iter().filter(|column| vector_of(&column.name) == *vector);
-        columns.flat_map(|column| &column.expected).map(Cell::magnitude).fold(0.0, f64::max)
-    };
+    let mut largest_of: BTreeMap<(&str, &str), f64> = BTreeMap::new();
+    for column in columns {
+        let largest = largest_of.entry(vector_of(&column.name)).or_default();
+        *largest = column.expected.iter().map(Cell::magnitude).fold(*largest, f64::max);
+    }
     let worst_of = |column: &Compared| {
         let pairs = column.expected.iter().zip(&column.found);
         let absolutes = pairs.map(|(expected, found)| expected.difference(found)).enumerate();
@@ -105,7 +108,7 @@ pub fn differences(columns: &[Compared]) -> Vec<Difference> {
             expected: column.expected[row].clone(),
             found: column.found[row].clone(),
             absolute,
-            fraction: absolute / largest_of(&vector_of(&column.name)),
+            fraction: absolute / largest_of[&vector_of(&column.name)],
         })
     };
     columns.iter().filter_map(worst_of).collect()

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use drawing::Picture;
-use files::Destination;
+use files::{Destination, OutputFolder};
 use rayon::prelude::*;
 
 use crate::options::Cause;
@@ -117,8 +117,7 @@ impl Run<'_> {
 
     fn write(&mut self, file: &str, bytes: &[u8]) -> Outcome {
         let folder = &self.options.output;
-        fs::create_dir_all(folder)
-            .map_err(|error| StudyError::Write(format!("{}: {error}", folder.display())))?;
+        let _folder = OutputFolder::create(folder, "--output").map_err(StudyError::Write)?;
         let path = folder.join(file);
         // An FMU that is simulated is never written over.
         let entries = fs::read_dir(&self.options.dist).into_iter().flatten().flatten();

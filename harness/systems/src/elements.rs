@@ -2,7 +2,7 @@
 
 use model_description::{BaseUnit, Code, EnumerationItem, ReadError, Start, Unit, Xml};
 
-use crate::structure::Enumeration;
+use crate::structure::{Enumeration, Linear};
 
 /// The name without its prefix.
 pub(crate) fn local(start: &Start) -> &str {
@@ -108,6 +108,12 @@ pub(crate) fn leaves<T>(
         xml.skip(&child)?;
     }
     Ok(all)
+}
+
+/// Reads the attributes of a `LinearTransformation`.
+pub(crate) fn linear(start: &Start) -> Result<Linear, ReadError> {
+    let [factor, offset] = [number(start, "factor")?, number(start, "offset")?];
+    Ok(Linear { factor: factor.unwrap_or(1.0), offset: offset.unwrap_or(0.0) })
 }
 
 /// Reads `Units`.

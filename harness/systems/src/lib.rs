@@ -3,6 +3,7 @@
 //! [`System::open`] unpacks an SSP and holds it against its FMUs; [`simulate_into`] runs it with a fixed communication step;
 //! [`wire`] makes one of FMUs by the names of their variables. FMUs are loaded and called through `loader`.
 
+mod annotations;
 mod connectors;
 mod elements;
 mod error;
@@ -13,6 +14,7 @@ mod master;
 mod merged;
 mod own;
 mod package;
+mod parameter_mapping;
 mod parameter_set;
 mod parameters;
 mod reader;
@@ -33,8 +35,8 @@ pub use package::{MOST_BYTES, is_system};
 pub use reader::{MOST_COMPONENTS, read as read_structure};
 pub use simulate::simulate_into;
 pub use structure::{
-    Binding, Component, Connection, Connector, ConnectorKind, End, Enumeration, Linear, Parameter,
-    ParameterSet, SSD_FILE, Signal, Structure, Written,
+    Binding, Component, Connection, Connector, ConnectorKind, End, Enumeration, Linear, Mapping,
+    MappingEntry, Parameter, ParameterSet, SSD_FILE, Signal, Structure, Transformation, Written,
 };
 pub use system::{Part, System};
 pub use unread::Unread;

@@ -72,6 +72,7 @@ impl Package {
     }
 
     /// The folder that an FMU of the SSP is unpacked into: where its file was.
+    #[allow(clippy::disallowed_methods, reason = "the SSP is unpacked into a temporary folder")]
     pub(crate) fn fmu_folder(&self, source: &str) -> Result<PathBuf, Error> {
         let refuse = |what: String| self.structure(SSD_FILE, what);
         let path = self.path(source).map_err(refuse)?;

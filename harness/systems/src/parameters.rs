@@ -6,50 +6,65 @@ use model_description::{ScalarVariable, Unit, value};
 use crate::{
     joint::{ConnectedVariable, near},
     own::Own,
-    structure::{Parameter, ParameterSet, Structure, Written},
+    parameter_mapping::Mapped,
+    structure::{Linear, Parameter, Structure, Written},
     units::{base, conversion, is_same_dimension, shown},
 };
 
 /// A value of a component's variable, by the component's number.
 pub(crate) type Assigned = (usize, String, Value);
 
-/// The values of a parameter set. `component` is where the binding stands; a system's parameters name theirs.
+/// The values of parameters, whose units are defined in `units` or in the system. `component` is where the binding stands; a
+/// system's parameters name theirs.
 pub(crate) fn values(
     structure: &Structure,
     (fmus, own): (&[Fmu], &[Own]),
     component: Option<usize>,
-    prefix: &str,
-    set: &ParameterSet,
+    units: &[Unit],
+    parameters: &[Mapped],
 ) -> Result<Vec<Assigned>, (u32, String)> {
+    let units = [units, &structure.units];
     let mut found = Vec::new();
-    for parameter in &set.parameters {
-        let name = format!("{prefix}{}", parameter.name);
+    for mapped @ Mapped { parameter, is_optional, .. } in parameters {
+        let name = parameter.name.as_str();
         let refuse = |what: String| (parameter.line, format!("parameter {name:?}: {what}"));
         let own = own.iter().find(|it| component.is_none() && it.gives() && it.connector.name == name);
         if let Some(own) = own {
             for place in &own.places {
                 let (number, position) = place.at;
                 let variable = &fmus[number].description().variables[position];
-                let parameter = in_variables_unit(parameter, *place);
-                let value = read(&fmus[number], variable, &parameter, &[&set.units, &structure.units])
-                    .map_err(refuse)?;
+                let value = read(&fmus[number], variable, (mapped, *place), &units).map_err(refuse)?;
                 found.push((number, variable.name.clone(), value));
             }
             continue;
         }
         let (number, name) = match component {
-            Some(number) => (number, name.as_str()),
-            None => owner(structure, &name).ok_or_else(|| {
-                let all = structure.components.iter().map(|it| it.name.as_str());
-                refuse(format!("found no component before the name, allowed: one of {}", near(&name, all)))
-            })?,
+            Some(number) => (number, name),
+            None => match owner(structure, name) {
+                Some(owned) => owned,
+                None if *is_optional => continue,
+                None => {
+                    let all = structure.components.iter().map(|it| it.name.as_str());
+                    let near = near(name, all);
+                    return Err(refuse(format!(
+                        "found no component before the name, allowed: one of {near}"
+                    )));
+                }
+            },
         };
         let fmu = &fmus[number];
-        let variable = fmu.find(name).ok_or_else(|| {
+        let Some((position, variable)) =
+            fmu.description().variables.iter().enumerate().find(|(_, it)| it.name == name)
+        else {
+            if *is_optional {
+                continue;
+            }
             let names = fmu.description().variables.iter().map(|variable| variable.name.as_str());
-            refuse(format!("{} has no variable {name:?}, near it: {}", fmu.name(), near(name, names)))
-        })?;
-        let value = read(fmu, variable, parameter, &[&set.units, &structure.units]).map_err(refuse)?;
+            let near = near(name, names);
+            return Err(refuse(format!("{} has no variable {name:?}, near it: {near}", fmu.name())));
+        };
+        let place = ConnectedVariable { at: (number, position), linear: Linear::IDENTITY };
+        let value = read(fmu, variable, (mapped, place), &units).map_err(refuse)?;
         found.push((number, variable.name.clone(), value));
     }
     Ok(found)
@@ -77,18 +92,24 @@ fn owner<'a>(structure: &Structure, name: &'a str) -> Option<(usize, &'a str)> {
 fn read(
     fmu: &Fmu,
     variable: &ScalarVariable,
-    parameter: &Parameter,
+    (mapped, place): (&Mapped, ConnectedVariable),
     units: &[&[Unit]],
 ) -> Result<Value, String> {
     loader::set_early(variable).map_err(|error| error.to_string())?;
     let description = fmu.description();
+    let parameter = in_variables_unit(&mapped.parameter, place);
     let (found, allowed) = (parameter.value.word(), variable.kind.name());
-    if found != allowed {
+    let is_item = mapped.is_number && allowed == "Enumeration";
+    if found != allowed && !is_item {
         return Err(format!("found type {found}, allowed: {allowed}"));
     }
     let value = match &parameter.value {
         Written::Real { value, unit } => {
-            Value::Real(in_own_unit(fmu, variable, *value, unit.as_deref(), units)?)
+            let converted = in_own_unit(fmu, variable, *value, unit.as_deref(), units)?;
+            // In the unit of the target, which one of the system's own connectors may have another of.
+            let linear = place.linear.inverse().then(mapped.linear).then(place.linear);
+            let is_same = mapped.linear == Linear::IDENTITY;
+            Value::Real(if is_same { converted } else { linear.of(converted) })
         }
         Written::Integer(value) => Value::Integer(*value),
         Written::Boolean(value) => Value::Boolean(*value),

@@ -1,23 +1,23 @@
 //! Reads `SystemStructure.ssd` (SSP 1.0, section 5). What cannot be simulated here is refused by its name.
 
-use files::ANNOTATION;
 use model_description::{DefaultExperiment, ReadError, Start, Xml};
 
 use crate::{
+    annotations::AnnotatedStep,
     elements::{
-        attribute, boolean, enumerations, leaves, list, local, number, parsed, refuse, required, units,
-        unknown,
+        attribute, boolean, enumerations, linear, list, local, number, refuse, required, units, unknown,
     },
-    parameter_set,
-    structure::{Binding, Component, Connection, Connector, ConnectorKind, End, Linear, Signal, Structure},
+    parameter_mapping, parameter_set,
+    structure::{Binding, Component, Connection, Connector, ConnectorKind, End, Mapping, Signal, Structure},
 };
 
 /// Most components of a system: each is an instance of its FMU.
 pub const MOST_COMPONENTS: usize = 1000;
 /// The only type of component that is simulated.
 const FMU_TYPE: &str = "application/x-fmu-sharedlibrary";
-/// The only type of parameters that is read.
+/// The only types of parameters and of mappings that are read.
 const SSV_TYPE: &str = "application/x-ssp-parameter-set";
+const SSM_TYPE: &str = "application/x-ssp-parameter-mapping";
 const CONNECTOR_TYPES: &str = "Real, Integer, Boolean, String, Enumeration, Binary";
 
 /// Reads the bytes of a `SystemStructure.ssd`.
@@ -37,15 +37,16 @@ pub fn read(bytes: &[u8]) -> Result<Structure, ReadError> {
     }
     let mut structure = Structure { name: required(&root, "name")?, ..Structure::default() };
     let mut has_system = false;
+    let mut step = AnnotatedStep::default();
     while let Some(child) = xml.child(&root)? {
         match local(&child) {
             "System" => {
                 has_system = true;
-                system(&mut xml, &child, &mut structure)?;
+                system(&mut xml, &child, &mut structure, &mut step)?;
             }
             "Enumerations" => structure.enumerations = enumerations(&mut xml, &child)?,
             "Units" => structure.units = units(&mut xml, &child)?,
-            "DefaultExperiment" => structure.experiment = experiment(&mut xml, &child)?,
+            "DefaultExperiment" => structure.experiment = experiment(&mut xml, &child, &mut step)?,
             "Annotations" => xml.skip(&child)?,
             _ => {
                 let allowed = "System, Enumerations, Units, DefaultExperiment, Annotations";
@@ -56,11 +57,17 @@ pub fn read(bytes: &[u8]) -> Result<Structure, ReadError> {
     if !has_system {
         return Err(refuse(&root, "has no System".to_owned()));
     }
+    structure.experiment.step_size = step.step_s();
     xml.finish()?;
     Ok(structure)
 }
 
-fn system(xml: &mut Xml<'_>, start: &Start, structure: &mut Structure) -> Result<(), ReadError> {
+fn system(
+    xml: &mut Xml<'_>,
+    start: &Start,
+    structure: &mut Structure,
+    step: &mut AnnotatedStep,
+) -> Result<(), ReadError> {
     while let Some(child) = xml.child(start)? {
         match local(&child) {
             "Elements" => elements(xml, &child, structure)?,
@@ -70,7 +77,8 @@ fn system(xml: &mut Xml<'_>, start: &Start, structure: &mut Structure) -> Result
             "SignalDictionaries" => {
                 return Err(refuse(&child, "signal dictionaries are not simulated here".to_owned()));
             }
-            "ElementGeometry" | "SystemGeometry" | "GraphicalElements" | "Annotations" => xml.skip(&child)?,
+            "Annotations" => step.read(xml, &child)?,
+            "ElementGeometry" | "SystemGeometry" | "GraphicalElements" => xml.skip(&child)?,
             _ => {
                 let allowed = "Connectors, ParameterBindings, Elements, Connections, geometry, Annotations";
                 return Err(unknown(&child, start, allowed));
@@ -168,10 +176,7 @@ fn connection(xml: &mut Xml<'_>, start: &Start) -> Result<Connection, ReadError>
     while let Some(child) = xml.child(start)? {
         match local(&child) {
             "LinearTransformation" => {
-                connection.transformation = Some(Linear {
-                    factor: number(&child, "factor")?.unwrap_or(1.0),
-                    offset: number(&child, "offset")?.unwrap_or(0.0),
-                });
+                connection.transformation = Some(linear(&child)?);
             }
             "ConnectionGeometry" | "Annotations" => {}
             _ => return Err(unknown(&child, start, "LinearTransformation")),
@@ -182,15 +187,12 @@ fn connection(xml: &mut Xml<'_>, start: &Start) -> Result<Connection, ReadError>
 }
 
 fn binding(xml: &mut Xml<'_>, start: &Start) -> Result<Binding, ReadError> {
-    for (key, allowed) in [("type", SSV_TYPE), ("sourceBase", "SSD")] {
-        if let Some(found) = attribute(start, key).filter(|found| *found != allowed) {
-            return Err(refuse(start, format!("{key} {found:?} is not read, allowed: {allowed}")));
-        }
-    }
+    check_source(start, SSV_TYPE)?;
     let mut binding = Binding {
         source: attribute(start, "source").map(str::to_owned),
         prefix: attribute(start, "prefix").unwrap_or_default().to_owned(),
         sets: Vec::new(),
+        mapping: None,
         line: start.line,
     };
     while let Some(child) = xml.child(start)? {
@@ -198,28 +200,35 @@ fn binding(xml: &mut Xml<'_>, start: &Start) -> Result<Binding, ReadError> {
             "ParameterValues" => {
                 binding.sets.extend(list(xml, &child, "ParameterSet", parameter_set::element)?);
             }
+            "ParameterMapping" => {
+                check_source(&child, SSM_TYPE)?;
+                let inline = list(xml, &child, "ParameterMapping", parameter_mapping::element)?;
+                let source = attribute(&child, "source").map(str::to_owned);
+                binding.mapping = Some(Mapping { source, entries: inline.into_iter().flatten().collect() });
+            }
             "Annotations" => xml.skip(&child)?,
-            _ => return Err(unknown(&child, start, "ParameterValues, Annotations")),
+            _ => return Err(unknown(&child, start, "ParameterValues, ParameterMapping, Annotations")),
         }
     }
     Ok(binding)
 }
 
-fn experiment(xml: &mut Xml<'_>, start: &Start) -> Result<DefaultExperiment, ReadError> {
-    let (start_time, stop_time) = (number(start, "startTime")?, number(start, "stopTime")?);
-    let mut experiment = DefaultExperiment { start_time, stop_time, ..DefaultExperiment::default() };
-    list(xml, start, "Annotations", |xml, annotations| {
-        while let Some(annotation) = xml.child(annotations)? {
-            if attribute(&annotation, "type") != Some(ANNOTATION) {
-                xml.skip(&annotation)?;
-                continue;
-            }
-            let size = |step: &Start| parsed(step, "size", "a number of seconds");
-            if let Some(size_s) = leaves(xml, &annotation, "Step", size)?.pop() {
-                experiment.step_size = size_s;
-            }
+/// Refuses a source of another type than this, and one that stands in a component.
+fn check_source(start: &Start, media_type: &str) -> Result<(), ReadError> {
+    for (key, allowed) in [("type", media_type), ("sourceBase", "SSD")] {
+        if let Some(found) = attribute(start, key).filter(|found| *found != allowed) {
+            return Err(refuse(start, format!("{key} {found:?} is not read, allowed: {allowed}")));
         }
-        Ok(())
-    })?;
-    Ok(experiment)
+    }
+    Ok(())
+}
+
+fn experiment(
+    xml: &mut Xml<'_>,
+    start: &Start,
+    step: &mut AnnotatedStep,
+) -> Result<DefaultExperiment, ReadError> {
+    let (start_time, stop_time) = (number(start, "startTime")?, number(start, "stopTime")?);
+    list(xml, start, "Annotations", |xml, annotations| step.read(xml, annotations))?;
+    Ok(DefaultExperiment { start_time, stop_time, ..DefaultExperiment::default() })
 }

@@ -177,8 +177,47 @@ pub struct Binding {
     pub prefix: String,
     /// The values.
     pub sets: Vec<ParameterSet>,
+    /// How their names and values become those of the component or system; otherwise as they are.
+    pub mapping: Option<Mapping>,
     /// Line in the file.
     pub line: u32,
+}
+
+/// A parameter mapping (SSP 1.0, section 5.5).
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Mapping {
+    /// The file with the entries, relative to the archive; otherwise they stand in `entries`.
+    pub source: Option<String>,
+    /// The entries.
+    pub entries: Vec<MappingEntry>,
+}
+
+/// An entry of a parameter mapping.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MappingEntry {
+    /// The parameter's name in its source, with the binding's prefix.
+    pub source: String,
+    /// The parameter's name in the component or system.
+    pub target: String,
+    /// What is done to its value.
+    pub transformation: Option<Transformation>,
+    /// Whether units are not converted.
+    pub suppress_unit_conversion: bool,
+    /// Line in the file.
+    pub line: u32,
+}
+
+/// What an entry does to a value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Transformation {
+    /// Of a Real, in the unit of the target.
+    Linear(Linear),
+    /// Of a Boolean: value in the source, value in the target.
+    Boolean(Vec<(bool, bool)>),
+    /// Of an Integer, whose target may be an Enumeration's number.
+    Integer(Vec<(i32, i32)>),
+    /// Of the name of an Enumeration's item.
+    Enumeration(Vec<(String, String)>),
 }
 
 /// A set of parameters with their values.

@@ -12,7 +12,7 @@ use crate::{
     merged::{Merged, merge},
     own::{Own, describe},
     package::Package,
-    parameter_set, parameters, reader,
+    parameter_mapping, parameter_set, parameters, reader,
     structure::{Binding, Linear, SSD_FILE, Structure},
     unread::{Unread, unread},
 };
@@ -278,10 +278,32 @@ fn bind(
             .map_err(|error| package.structure(source, error.to_string()))?;
         sets.push((source, set));
     }
+    let refuse =
+        |file: &str, (line, what): (u32, String)| package.structure(file, format!("line {line}: {what}"));
+    let mut mapping = binding.mapping.clone();
+    let mapping_file = mapping.as_ref().and_then(|it| it.source.clone());
+    if let (Some(mapping), Some(source)) = (&mut mapping, &mapping_file) {
+        let entries = parameter_mapping::read(&package.read(source)?)
+            .map_err(|error| package.structure(source, error.to_string()))?;
+        mapping.entries.extend(entries);
+    }
+    let mapping_file = mapping_file.as_deref().unwrap_or(SSD_FILE);
+    if let Some(mapping) = &mapping {
+        let all: Vec<_> = sets.iter().map(|(_, set)| set).collect();
+        mapping.check(&binding.prefix, &all).map_err(|error| refuse(mapping_file, error))?;
+    }
     for (file, set) in &sets {
-        let values = parameters::values(structure, (fmus, own), component, &binding.prefix, set)
-            .map_err(|(line, what)| package.structure(file, format!("line {line}: {what}")))?;
-        for (number, name, value) in values {
+        let mapped = parameter_mapping::mapped(mapping.as_ref(), &binding.prefix, set)
+            .map_err(|error| refuse(mapping_file, error))?;
+        let mut found = Vec::new();
+        for mapped in &mapped {
+            // A mapped one has the line of its entry.
+            let file = if mapped.is_mapped { mapping_file } else { file };
+            let mapped = std::slice::from_ref(mapped);
+            let values = parameters::values(structure, (fmus, own), component, &set.units, mapped);
+            found.extend(values.map_err(|error| refuse(file, error))?);
+        }
+        for (number, name, value) in found {
             let known = &mut parts[number].parameters;
             known.retain(|(earlier, _)| *earlier != name);
             known.push((name, value));

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use model_description::{
-    CoSimulation, DefaultExperiment, Description, EnumerationItem, NamingConvention, RealAttributes,
-    ScalarVariable, SimpleType, SimpleTypeKind, Variability, VariableKind, rules, units,
+    Causality, CoSimulation, DefaultExperiment, Description, EnumerationItem, NamingConvention,
+    RealAttributes, ScalarVariable, SimpleType, SimpleTypeKind, Variability, VariableKind, rules, units,
 };
 use uuid::Uuid;
 
@@ -18,8 +18,8 @@ use crate::model::{About, Model, SetupError};
 use crate::runtime::{Runtime, Typed};
 use crate::start_values::{self, OtherReaders, Readers};
 use crate::variables::{
-    Declare, DeclareError, DeclaredEnumeration, DeclaredType, Element, Interface, Real, Values, Variable,
-    Variables,
+    Declare, DeclareError, DeclaredEnumeration, DeclaredType, Element, Interface, Real, SetBits, Values,
+    Variable, Variables,
 };
 
 /// Name space of the GUIDs of this exporter.
@@ -125,8 +125,20 @@ pub(crate) fn prepare<M: Model>(
     description.guid = format!("{{{digest}}}");
     let access = AccessTable::of(&description).map_err(DescribeError::Table)?;
     let tolerance = M::tolerance(&variables);
-    let runtime = Box::new(Typed::<M> { setup, variables, start: Arc::clone(&start), state: None });
+    let parameters = parameters_of(&description.variables, &interface.start);
+    let runtime =
+        Box::new(Typed::<M> { setup, variables, start: Arc::clone(&start), parameters, state: None });
     Ok(Prepared { description, access, start, runtime, digest, tolerance })
+}
+
+/// Places of the parameters that an importer may set; `blank` are values of which none is set.
+fn parameters_of(variables: &[ScalarVariable], blank: &Values) -> [SetBits; Element::TABLES] {
+    let mut places = blank.set.clone();
+    for variable in variables.iter().filter(|it| it.causality == Causality::Parameter) {
+        let base = variable.kind.base_type();
+        places[base as usize].mark(references::index(base, variable.value_reference));
+    }
+    places
 }
 
 /// The elements of every variable, in order, with their start values.

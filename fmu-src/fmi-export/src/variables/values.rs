@@ -82,6 +82,11 @@ impl Values {
         elements.places().any(|place| self.set[elements.first.table()].is_set(place))
     }
 
+    /// Whether all of these places were set.
+    pub(crate) fn are_all_set(&self, places: &[SetBits; Element::TABLES]) -> bool {
+        self.set.iter().zip(places).all(|(set, places)| places.indices().all(|place| set.is_set(place)))
+    }
+
     /// Whether the importer set every element of the variable to what it is in `start`.
     fn repeats(&self, start: &Self, elements: Elements) -> bool {
         let (base, table) = (elements.first.base, elements.first.table());
@@ -89,7 +94,7 @@ impl Values {
     }
 
     /// Whether two values are equal bit by bit.
-    fn is_same(&self, other: &Self, base: BaseType, place: usize) -> bool {
+    pub(crate) fn is_same(&self, other: &Self, base: BaseType, place: usize) -> bool {
         match base {
             BaseType::Real => {
                 let bits = |values: &Self| values.reals.get(place).map(|value| value.to_bits());
@@ -99,6 +104,17 @@ impl Values {
             BaseType::Boolean => self.booleans.get(place) == other.booleans.get(place),
             BaseType::String => self.strings.get(place) == other.strings.get(place),
         }
+    }
+
+    /// A value as text.
+    pub(crate) fn shown(&self, base: BaseType, place: usize) -> String {
+        match base {
+            BaseType::Real => self.reals.get(place).map(|it| format!("{it:?}")),
+            BaseType::Integer => self.integers.get(place).map(i32::to_string),
+            BaseType::Boolean => self.booleans.get(place).map(bool::to_string),
+            BaseType::String => self.strings.get(place).map(|it| format!("{it:?}")),
+        }
+        .unwrap_or_default()
     }
 
     /// Whether all values that the importer set equal those of `before`, bit by bit. No others change between steps.
@@ -213,6 +229,11 @@ impl<'a> Given<'a> {
     pub fn among(values: &'a Values, start: &'a Values, group: &[Elements]) -> Self {
         let by_importer = !group.iter().all(|&elements| values.repeats(start, elements));
         Self { values, start, by_importer }
+    }
+
+    /// The same, but where the importer did not set every parameter of the FMU each of its sets counts.
+    pub(crate) fn deliberately(self, sets_all_parameters: bool) -> Self {
+        Self { by_importer: self.by_importer || !sets_all_parameters, ..self }
     }
 
     /// Whether the user gave this one, of an array any element.

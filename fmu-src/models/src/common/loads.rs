@@ -27,6 +27,10 @@ pub(crate) const TORQUE: Quantity = Quantity {
     nominal: EffectRow::usual_torque_n_m,
 };
 
+/// Torque about the centre of mass of a spacecraft whose parts move.
+pub(crate) const TORQUE_IN_FLIGHT: Quantity =
+    Quantity { has: |effect| effect.is_disturbance() || effect.is_by_moving_parts(), ..TORQUE };
+
 /// Force.
 pub(crate) const FORCE: Quantity = Quantity {
     unit: "N",
@@ -36,7 +40,7 @@ pub(crate) const FORCE: Quantity = Quantity {
 };
 
 /// What an effect did to the momentum since the last dump, by momentum.convention. All of them add up to what the momentum
-/// changed by, but for thrusters in use and rotors out of balance.
+/// changed by, but for thrusters in use.
 pub(crate) const MOMENTUM: Quantity = Quantity {
     unit: "N.m.s",
     display_unit: None,

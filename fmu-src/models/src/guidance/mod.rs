@@ -22,7 +22,7 @@ use physics::guidance::modes::mode::{Mode, ModeReason};
 use physics::guidance::modes::sample_inputs::{GuidanceSettings, SampleInputs, TimedEntries};
 use physics::guidance::modes::system::{GuidanceState, SAMPLE_WORK};
 use physics::guidance::pointing::command::Scenario;
-use physics::guidance::timeline::{TimelineDump, simulation_time_s};
+use physics::guidance::timeline::{TimelineDump, begun};
 use physics::management::{DumpRequests, SampledManager};
 use physics::numerics::work::Work;
 
@@ -39,7 +39,7 @@ use variables::GuidanceVariables;
 
 impl Model for Guidance {
     const NAME: &'static str = "Guidance";
-    const STATE_VERSION: u32 = 8;
+    const STATE_VERSION: u32 = 9;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const SCHEDULE_FILES: &'static [&'static str] = &[TIMELINE_FILE, EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
@@ -97,7 +97,7 @@ impl Model for Guidance {
         let mut state = State {
             system: GuidanceState::new(inputs::start_attitude(context, values)?, start_s),
             dumps: DumpRequests::default(),
-            events_over: 0,
+            events_until_s: start_s.next_down(),
             burn_entry: None,
             time_s: start_s,
             epoch_minus_time_s: time::epoch_minus_time_s(epoch_s, start_s),
@@ -107,7 +107,6 @@ impl Model for Guidance {
             coarse: CoarseEphemeris::default(),
             fixed: None,
         };
-        state.events_over = state.events_until(context, start_s.next_down());
         // Masters that connect inputs one by one look before all of them are set: the first step says what is missing.
         let mut shown = State { warned_unconnected: true, windows_are_checked: true, ..state.clone() };
         let mut fixed = Fixed::read(context, values)?;
@@ -117,6 +116,11 @@ impl Model for Guidance {
         shown.sample(context, values, &fixed, &settings, InputsOverTime::held())?;
         state.ephemeris = shown.ephemeris.clone();
         state.coarse = shown.coarse.clone();
+        if !Reader::new(context, values, InputsOverTime::held(), start_s).has_estimate() {
+            let message = "estimate.q is not set, or with estimate.valid to its start value: until it changes the commanded attitude \
+                           stands in for it";
+            context.log.event(start_s, message);
+        }
         let burn = shown.burn_settings(context, &fixed.burn);
         outputs::write(context, values, &shown, &burn, epoch_s);
         state.fixed = Some(fixed);
@@ -271,26 +275,22 @@ impl State {
     /// The current burn or the last one, where `parameters` are the parameters'.
     fn burn_settings(&self, context: &Plan<'_>, parameters: &BurnSettings) -> BurnSettings {
         let timeline = context.setup.timeline.as_ref();
-        let found = timeline.zip(self.burn_entry).and_then(|(timeline, line)| {
-            let burn = timeline.entry_on_line(line)?.burn?;
+        let found = timeline.zip(self.burn_entry).and_then(|(timeline, at_s)| {
+            let burn = timeline.entry_at(at_s)?.burn?;
             Some(burn.settings(parameters, timeline.clock_minus_time_s(self.epoch_minus_time_s)))
         });
         found.unwrap_or(*parameters)
     }
 
-    /// How many events of the timeline have come at `time_s`.
-    fn events_until(&self, context: &Plan<'_>, time_s: f64) -> usize {
-        let Some(timeline) = context.setup.timeline.as_ref() else { return 0 };
-        let clock_minus_time_s = timeline.clock_minus_time_s(self.epoch_minus_time_s);
-        timeline.events().partition_point(|event| simulation_time_s(event.at_s, clock_minus_time_s) <= time_s)
-    }
-
     /// The momentum that a dump of the timeline leaves, body frame, in N m s, where one has come since the last sample.
     fn scheduled_dump(&mut self, context: &Plan<'_>, time_s: f64) -> Option<Vector3<f64>> {
-        let (before, now) = (self.events_over, self.events_until(context, time_s));
-        self.events_over = now;
-        let events = context.setup.timeline.as_ref()?.events().get(before..now)?;
-        events.iter().rev().find_map(|event| event.dump).map(|dump| match dump {
+        let since_s = core::mem::replace(&mut self.events_until_s, time_s);
+        let timeline = context.setup.timeline.as_ref()?;
+        let (clock_minus_time_s, events) =
+            (timeline.clock_minus_time_s(self.epoch_minus_time_s), timeline.events());
+        let [before, now] =
+            [since_s, time_s].map(|it| begun(events, clock_minus_time_s, it, |event| event.at_s));
+        events.get(before..now)?.iter().rev().find_map(|event| event.dump).map(|dump| match dump {
             TimelineDump::Requested => Vector3::zeros(),
             TimelineDump::To { momentum_body_n_m_s } => momentum_body_n_m_s,
         })
@@ -328,18 +328,18 @@ impl State {
             operational.keep_in = entry.keep_in.applied(&settings.keep_in, operational.keep_in.is_some());
         }
         inputs::check_devices(&command, &settings)?;
-        let line = entry.map(|entry| entry.line);
+        let begun_s = entry.map(|entry| entry.at_s);
         let names_a_scenario = entry.is_some_and(|entry| entry.command.scenario.is_some());
         let mut entries = TimedEntries {
-            scan: line.filter(|_| given.scan.frame.is_none()),
-            scenario: line.filter(|_| given.scenario.is_none() && names_a_scenario),
-            mode: line.filter(|_| !reader.asks_for_a_mode()),
+            scan: begun_s.filter(|_| given.scan.frame.is_none()),
+            scenario: begun_s.filter(|_| given.scenario.is_none() && names_a_scenario),
+            mode: begun_s.filter(|_| !reader.asks_for_a_mode()),
             burn_is_over: false,
         };
         if entries.scenario.is_some() && command.scenario == Some(Scenario::Burn) {
-            self.burn_entry = line.filter(|_| entry.is_some_and(|entry| entry.burn.is_some()));
+            self.burn_entry = begun_s.filter(|_| entry.is_some_and(|entry| entry.burn.is_some()));
         }
-        entries.burn_is_over = self.burn_entry.is_some() && self.burn_entry != line;
+        entries.burn_is_over = self.burn_entry.is_some() && self.burn_entry != begun_s;
         settings.burn = self.burn_settings(context, &fixed.burn);
         let command = self.system.continued(&command);
         let positions = reader.positions(fixed, &command, (&mut self.ephemeris, &mut self.coarse), epoch_s);

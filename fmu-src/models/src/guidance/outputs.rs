@@ -26,7 +26,7 @@ pub(super) fn write(
     let command = state.command();
     let attitude = command.attitude_at(time_s);
     values.set_choice(v.command.kind, CommandKind(command.kind));
-    values.set_vector(v.command.q, command.quaternion_of(&attitude));
+    values.set_vector(v.command.q, attitude.unit_quaternion().0);
     values.set_vector(v.command.rate, command.rate_body_rad_s.into());
     values.set_vector(v.command.error, command.error);
     values.set_choice(v.mode.active, ActiveMode(state.mode()));

@@ -15,10 +15,10 @@ pub struct State {
     pub system: GuidanceState,
     /// Requests of dumps.
     pub dumps: DumpRequests,
-    /// How many events of the timeline have come.
-    pub events_over: usize,
-    /// The line of the timeline's entry whose burn the present or last one is; `None`: the parameters'.
-    pub burn_entry: Option<usize>,
+    /// The time up to which events of the timeline have come, in s.
+    pub events_until_s: f64,
+    /// When the timeline's entry begins, on its clock, in s, whose burn the present or last one is; `None`: the parameters'.
+    pub burn_entry: Option<f64>,
     /// The communication point reached, in s.
     pub time_s: f64,
     /// Epoch less time, in s.

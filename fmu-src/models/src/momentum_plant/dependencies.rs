@@ -200,7 +200,10 @@ fn loads(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramete
     let lit = &knowns![&inputs.attitude, &inputs.dumped_at_once, &v.panel, &inputs.environment];
     let by_source = knowns![&v.torque.by_source, &v.force.by_source, &v.plate];
     table.output(by_source, lit, &parameters.light);
-    let total = knowns![v.torque.total, v.force.total, v.force.inertial, v.acceleration];
+    // What swings does so under all forces.
+    let rows = v.torque.by_source.iter().filter(|(effect, _)| effect.is_by_moving_parts());
+    let moving = rows.map(|(_, output)| output).collect::<Knowns>();
+    let total = knowns![v.torque.total, v.force.total, v.force.inertial, v.acceleration, moving];
     let applied = knowns![v.torque.applied, v.force.applied];
     table.output(
         total,

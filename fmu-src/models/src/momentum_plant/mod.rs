@@ -11,7 +11,7 @@ mod variables;
 
 use fmi_export::{
     About, Dependencies, Extensions, Failure, Manual, Model, OutputRates, Real, SetupError, StartValue, Step,
-    StepEnd, Values,
+    StepEnd, Values, checksum,
 };
 use physics::environment::time;
 
@@ -25,7 +25,7 @@ use variables::PlantVariables;
 
 impl Model for MomentumPlant {
     const NAME: &'static str = "MomentumPlant";
-    const STATE_VERSION: u32 = 19;
+    const STATE_VERSION: u32 = 20;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const SCHEDULE_FILES: &'static [&'static str] = &[TIMELINE_FILE, EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
@@ -47,6 +47,7 @@ impl Model for MomentumPlant {
         file: &str,
         text: &str,
     ) -> Result<(), SetupError> {
+        setup.schedules = setup.schedules.rotate_left(1) ^ checksum(text.as_bytes());
         if schedule == EPHEMERIS_FILE {
             setup.ephemeris = Some(ephemeris::read(file, text)?);
             return Ok(());

@@ -36,9 +36,8 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let time_s = *time_s;
     let variables = context.variables;
     let Evaluation { instant, loads, mass, .. } = evaluation;
-    let rotation = &instant.frame.inertial_from_body;
     values.set_real(variables.epoch, time::epoch_at_s(time_s, configuration.epoch_minus_time_s));
-    values.set_vector(variables.attitude.q, Attitude::from_rotation(rotation).quaternion(None));
+    values.set_vector(variables.attitude.q, report.shown.attitude.unit_quaternion().0);
     values.set_vector(variables.attitude.rate, instant.frame.rate_body_rad_s.into());
 
     let total = loads.total();
@@ -100,11 +99,12 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let sun = instant.sun_at(time_s);
     // The corridor was checked where the flight began.
     let corridor = variables.articulation.read(values).unwrap_or_default();
-    for (panel, (body, setting)) in variables.panel.iter().zip(panels) {
+    for (index, (panel, (body, setting))) in variables.panel.iter().zip(panels).enumerate() {
         let angle_rad = setting.angle_rad(body, &sun);
         let lit = angle_rad.filter(|_| sun.distance_m > 0.0);
         let suns = lit.map(|angle_rad| body.suns(angle_rad, &sun.direction_body, sun.distance_m));
-        values.set_real(panel.angle_actual, angle_rad.unwrap_or(0.0));
+        let continued_rad = |angle_rad| report.panel_turns.continued_rad(index, angle_rad, time_s);
+        values.set_real(panel.angle_actual, angle_rad.map_or(0.0, continued_rad));
         values.set_real(panel.suns, suns.unwrap_or(0.0));
         values.set_real(panel.corridor_margin, suns.map_or(0.0, |suns| corridor.margin_suns(suns)));
     }
@@ -219,7 +219,7 @@ fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) 
 fn write_sensors(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let v = context.variables;
     let shown = &report.shown;
-    values.set_vector(v.estimate.q, shown.estimate.attitude.quaternion(None));
+    values.set_vector(v.estimate.q, shown.estimate.attitude.unit_quaternion().0);
     values.set_vector(v.estimate.rate, shown.estimate.rate_body_rad_s.unwrap_or_default().into());
     values.set_boolean(v.estimate.valid, shown.estimate.is_valid);
     values.set_vector(v.sun.sensed, shown.sun_sensed_body.unwrap_or_default().into());

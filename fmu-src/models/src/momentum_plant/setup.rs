@@ -15,7 +15,7 @@ use physics::plant::{ControlDefaults, PanelStep, PreparedSpacecraft};
 use physics::spacecraft::{Spacecraft, SunKeepIn, SunshadeModel};
 use serde::{Serialize, Serializer};
 
-use super::variables::choices::{AttitudeSource, CommandSource, EphemerisSource, OrbitSource};
+use super::variables::choices::{AttitudeSource, CommandSource, EphemerisSource, OrbitSource, StartAttitude};
 use crate::common::center::{CenterBodies, CenterBody, center_of};
 use crate::common::effects::check_start;
 use crate::common::spacecraft::{
@@ -53,6 +53,8 @@ pub struct PlantSetup {
     pub ephemeris: Option<Arc<OnboardEphemeris>>,
     /// Commands over time, if there is a file of them; it does not enter the GUID.
     pub timeline: Option<Arc<Timeline>>,
+    /// Digest of both files: a state continues by others, what was computed ahead does not.
+    pub schedules: u64,
     /// Its panels, one by one; empty where there is none.
     pub panel_steps: Vec<Arc<[PanelStep]>>,
     /// How disturbed orbits are integrated.
@@ -85,6 +87,7 @@ impl PlantSetup {
             shapes: PreparedShapes::of(&spacecraft),
             ephemeris: None,
             timeline: None,
+            schedules: 0,
             panel_steps: Vec::new(),
             orbit_method: OrbitMethod::default(),
             ephemeris_cache: EphemerisCache::default(),
@@ -156,7 +159,11 @@ impl PlantSetup {
                 .filter(|it| it.model.as_deref().is_none_or(|model| model == MomentumPlant::NAME));
             for_this.into_iter().any(|it| it.name == name || it.name.starts_with(&format!("{name}[")))
         };
-        let begins_pointed = !is_given("start.q");
+        let begins_pointed = match fixed_item::<StartAttitude>(start, MomentumPlant::NAME, "start.attitude") {
+            None | Some(StartAttitude::Guided) => true,
+            Some(StartAttitude::Automatic) => !is_given("start.q") && !is_given("start.rate"),
+            Some(StartAttitude::Given) => false,
+        };
         OpenChoices {
             ideal: matches!(source, None | Some(Guided | Commanded)),
             guided: match source {

@@ -12,6 +12,9 @@ use super::inputs::propulsion::ThrusterWarnings;
 use super::inputs::step_inputs::{CommandInputs, StepInputs};
 use super::setup::Plan;
 
+/// A commanded quaternion whose norm is off 1 by more is warned of.
+const NORM_TOLERANCE: f64 = 0.05;
+
 /// State of one plant.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct PlantState {
@@ -25,6 +28,8 @@ pub struct PlantState {
     pub command: Command,
     /// Inputs and tunables at the last change.
     last: LastInputs,
+    /// Digest of the files of timeline and ephemeris that it goes by.
+    schedules: u64,
     /// `dump.request` at the last step.
     pub request: Request,
     /// `maneuver.request` at the last step.
@@ -43,6 +48,8 @@ pub struct Warned {
     pub thrusters: ThrusterWarnings,
     /// Which inputs are not set yet.
     unset_inputs: bool,
+    /// A commanded quaternion far from unit length.
+    command_norm: bool,
 }
 
 /// What was set at the last change.
@@ -94,7 +101,7 @@ impl PlantState {
         inputs: StepInputs,
         attitude: Attitude,
         thrusters: Thrusters,
-        start_s: f64,
+        (start_s, schedules): (f64, u64),
     ) -> Result<Self, Failure> {
         let mut state = Self {
             start_s,
@@ -111,6 +118,7 @@ impl PlantState {
                 tunables: inputs.tunables,
                 force: inputs.applied[0],
             },
+            schedules,
             request: Request::default(),
             maneuver_request: Request::default(),
             warned: Warned::default(),
@@ -164,6 +172,15 @@ impl PlantState {
         })
     }
 
+    /// Goes by the files with this digest from `time_s` on; whether they are others, with which nothing computed ahead holds.
+    pub fn take_schedules(&mut self, schedules: u64, time_s: f64) -> bool {
+        let are_others = core::mem::replace(&mut self.schedules, schedules) != schedules;
+        if are_others {
+            self.flight.reschedule(time_s);
+        }
+        are_others
+    }
+
     /// The command that stands at the start of a flight with dynamics; until one comes `attitude` is held.
     pub fn take_first_command(&mut self, attitude: Attitude, time_s: f64) -> Result<(), Failure> {
         self.command = Command { attitude, rate_body_rad_s: Vector3::from([0.0; 3]), since_s: time_s };
@@ -211,8 +228,29 @@ impl PlantState {
             GuidanceCommandKind::Attitude if is_zero(&q) => (held, [0.0; 3]),
             GuidanceCommandKind::Attitude => (quaternion("command.q", q)?, rate),
         };
+        let attitude = attitude.continuing(&held.unit_quaternion());
         self.command = Command { attitude, rate_body_rad_s: Vector3::from(rate), since_s: time_s };
         Ok(())
+    }
+
+    /// Warns once of a commanded quaternion far from unit length, which is taken along its direction.
+    pub fn warn_command_norm(&mut self, context: &Plan<'_>, time_s: f64) {
+        let CommandInputs { q, error, .. } = self.last.command;
+        let (name, q) = match self.last.command.kind() {
+            GuidanceCommandKind::Attitude => ("command.q", q),
+            GuidanceCommandKind::ErrorQuaternion => ("command.error", error),
+            GuidanceCommandKind::None | GuidanceCommandKind::RateOnly => return,
+        };
+        let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let is_far = !is_zero(&q) && (norm - 1.0).abs() > NORM_TOLERANCE;
+        if !is_far || !self.inputs.source.is_commanded || self.warned.command_norm {
+            return;
+        }
+        self.warned.command_norm = true;
+        context.log.warning(&format!(
+            "{name} = {q:?} at {time_s} s has norm {norm:.4}: it is restored to 1, and points elsewhere where components were \
+             interpolated between quaternions of other signs or far apart"
+        ));
     }
 
     /// Warns once which inputs are not set yet, if any.

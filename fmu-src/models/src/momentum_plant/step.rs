@@ -4,7 +4,7 @@ use fmi_export::{Failure, InputsOverTime, Step, Values};
 use physics::environment::ephemeris::Ephemeris;
 use physics::plant::{SimulationContext, Undo};
 
-use super::inputs::{self, FixedParameters, Reading, propulsion};
+use super::inputs::{self, FixedParameters, Reading, guidance, propulsion};
 use super::outputs::{self, failure, log_event};
 use super::setup::Plan;
 use super::state::PlantState;
@@ -21,7 +21,7 @@ pub(super) fn start(
     let reading = inputs::read(context, values, state, &start)?;
     configure(context, values, state, (&reading, &start))?;
     // Samples at the start are taken anew by the first step, with its inputs.
-    let undo = if reading.begins { Some(begin(context, state, &reading, time_s)?) } else { None };
+    let undo = if reading.begins { Some(begin(context, values, state, &reading, time_s)?) } else { None };
     show(context, values, state, &reading, time_s)?;
     if let Some(undo) = undo {
         state.flight.undo(undo);
@@ -38,9 +38,10 @@ pub(super) fn step(
 ) -> Result<(), Failure> {
     let reading = inputs::read(context, values, state, step)?;
     state.warn_unset_inputs(context);
+    state.warn_command_norm(context, step.start_s);
     configure(context, values, state, (&reading, step))?;
     if reading.begins {
-        let undo = begin(context, state, &reading, step.start_s)?;
+        let undo = begin(context, values, state, &reading, step.start_s)?;
         state.flight.undo(undo);
     }
     if !state.waiting {
@@ -80,6 +81,7 @@ fn configure(
 /// The flight begins at `time_s`, where a first sample is taken: how to undo that.
 fn begin(
     context: &Plan<'_>,
+    values: &Values,
     state: &mut PlantState,
     reading: &Reading<'_>,
     time_s: f64,
@@ -90,6 +92,9 @@ fn begin(
         context.log.warning(&warning);
     }
     let is_dynamic = state.inputs.source.is_dynamic;
+    if is_dynamic {
+        guidance::report_start(context, values, state, time_s);
+    }
     if is_dynamic && state.flight.configuration().is_some_and(|it| it.momentum.policy.begins_none()) {
         let reported = "dump.threshold is not set: in free flight dumps come on dump.request alone";
         context.log.event(time_s, reported);
@@ -97,7 +102,7 @@ fn begin(
     let (external, planner) = (reading.external(), reading.planner());
     let given = reading.given(&external, &planner);
     let log = &mut |event: &_| log_event(context, event);
-    state.flight.begin(given, time_s, log).map_err(failure)?;
+    state.flight.begin(given, &state.command, time_s, log).map_err(failure)?;
     if let Some(estimate) = state.flight.estimate_at(time_s) {
         state.take_first_command(estimate.attitude, time_s)?;
     }

@@ -31,10 +31,6 @@ impl BodyEphemeris for Backward {
         CartesianState { velocity_m_s: -state.velocity_m_s, ..state }
     }
 
-    fn acceleration_m_s2(&mut self, body: Body, at_s: f64) -> Vector3<f64> {
-        self.0.acceleration_m_s2(body, FLYBY_S - at_s)
-    }
-
     fn smooth_until_s(&self, _: f64) -> f64 {
         f64::INFINITY
     }
@@ -58,7 +54,7 @@ pub(super) fn start(altitude_m: f64, down_rad: f64) -> CartesianState {
         velocity_m_s: -(mercury.velocity_m_s + (ahead * down_rad.cos() - below * down_rad.sin()) * speed_m_s),
     };
     let settings = NBodySettings {
-        relativity: false,
+        relativity: true,
         changes_center: true,
         moon: true,
         cell_s: DAY_S,

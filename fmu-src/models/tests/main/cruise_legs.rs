@@ -60,6 +60,7 @@ fn two_hundred_days_under_light_are_those_of_an_independent_integrator() {
         ("orbit.attraction.moon", 0.0),
         ("orbit.attraction.mars", 0.0),
         ("orbit.attraction.jupiter", 0.0),
+        ("orbit.relativity", 0.0),
     ]);
     let mut flight = named.initialize(0.0, &sets).unwrap();
     let [mut light, mut dark] = [[start.position_m, start.velocity_m_s]; 2];

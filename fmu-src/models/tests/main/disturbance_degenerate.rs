@@ -2,8 +2,10 @@
 //! normals are parallel or perpendicular: outputs and directional derivatives are finite.
 
 use model_description::Causality;
+use models::DisturbanceTorque;
 
 use crate::disturbance_torque::Disturbance;
+use crate::named_model::NamedModel;
 
 const AXES: [[f64; 3]; 6] =
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]];
@@ -43,5 +45,21 @@ fn on_the_axes_everything_is_finite() {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn a_place_inside_the_sun_is_refused_with_a_planet_and_without() {
+    const SUN_RADIUS_M: f64 = 6.957e8;
+    for planet in [0.0, 1.0] {
+        let named = NamedModel::<DisturbanceTorque>::shipped();
+        let at = |distance: f64| {
+            let sets = [("planet.present", planet), ("planet.positionBody[3]", 1e11 * planet)];
+            let sets = [&sets[..], &[("sun.positionBody[2]", -distance * SUN_RADIUS_M)]].concat();
+            named.initialize(0.0, &sets).map(drop)
+        };
+        let refused = at(0.99).unwrap_err().to_string();
+        assert!(refused.contains("from the Sun's centre, allowed is more than its radius"), "{refused}");
+        at(1.01).unwrap();
     }
 }

@@ -312,3 +312,25 @@ fn what_no_model_has_is_refused_by_name() {
         );
     }
 }
+
+/// At 280 km, where air and gravity turn the body by degrees, against a tenth of a second and a tight tolerance.
+#[test]
+fn a_free_body_in_air_turns_as_its_tolerance_says_at_any_step() {
+    let named = cubesat();
+    for rate in [[1e-3, 0.0, 0.0], [1e-2, 5e-3, 0.0]] {
+        let turned_to = |step_s: f64, tolerance: f64| {
+            let orbit = [("orbit.semiMajorAxis", 6.658e6), ("orbit.eccentricity", 0.0)];
+            let names = ["start.rate[1]", "start.rate[2]", "start.rate[3]"];
+            let rates = [0, 1, 2].map(|i| (names[i], rate[i]));
+            let solver = [("solver.dynamicsStep", step_s), ("solver.disturbanceTolerance", tolerance)];
+            let mut flight = named.initialize(0.0, &with(&[PLAIN, FREE, &orbit, &rates, &solver])).unwrap();
+            flight.simulate_to(400.0, 100.0).unwrap();
+            flight.to_inertial("attitude.q")
+        };
+        let fine = turned_to(0.1, 1e-9);
+        for (step_s, tolerance, most_rad) in [(1.0, 1e-5, 1e-5), (10.0, 1e-5, 1e-5), (1.0, 1e-8, 1e-7)] {
+            let off_rad = turned_to(step_s, tolerance).angle_to(&fine);
+            assert!(off_rad < most_rad, "{rate:?}, {step_s} s, {tolerance:e}: {off_rad:e}");
+        }
+    }
+}

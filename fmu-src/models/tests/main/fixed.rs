@@ -61,8 +61,9 @@ fn a_fixed_choice_is_a_local_constant_and_no_command_acts_at_once() {
     };
     assert!(begins_commanded(&fixed));
     let given = "\"attitude.source\" = \"controlled\"\n\"command.source\" = \"inputs\"\n\"orbit.source\" = \"elements\"\n\
-                 \"ephemeris.source\" = \"vsop87\"\n\"start.q[4]\" = 1";
-    assert!(!begins_commanded(&with(given)));
+                 \"ephemeris.source\" = \"vsop87\"\n\"start.q[4]\" = 1\n\"start.attitude\" = ";
+    assert!(!begins_commanded(&with(&format!("{given}\"automatic\""))));
+    assert!(begins_commanded(&with(&format!("{given}\"guided\""))));
     let listed = fixed.structure.initial_unknowns.iter().flat_map(|it| it.dependencies.iter().flatten());
     for known in listed {
         let known = &fixed.variables[*known as usize - 1];
@@ -82,7 +83,12 @@ fn a_body_that_guidance_never_turns_begins_without_it() {
         assert!(!begins_guided(&controlled("inputs"), unknown), "{unknown}");
         let free = "\"attitude.source\" = \"free\"";
         assert!(begins_guided(free, unknown), "{unknown}");
-        assert!(!begins_guided(&format!("{free}\n\"start.q[4]\" = 1"), unknown), "{unknown}");
+        let given = format!("{free}\n\"start.attitude\" = \"given\"");
+        assert!(!begins_guided(&given, unknown), "{unknown}");
+        assert!(
+            begins_guided(&format!("{free}\n\"start.q[4]\" = 1"), unknown),
+            "{unknown}: start.attitude is open"
+        );
     }
 }
 

@@ -3,6 +3,7 @@
 #![allow(clippy::disallowed_methods, reason = "what a test expects may come from the system's functions")]
 
 mod articulation;
+mod attitude_sign;
 mod center_defaults;
 mod cruise;
 mod cruise_centers;
@@ -34,10 +35,12 @@ mod plant_tolerance;
 mod plant_unset;
 mod plant_work;
 mod random;
+mod restored_states;
 mod scheduled_events;
 mod science_unload;
 mod spacecraft;
 mod spin_plant;
+mod start_attitude;
 mod start_values;
 mod timeline;
 mod torn_states;

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use fmi_export::fmi2::{references, scalar_variables};
 use fmi_export::model::InputDerivative;
-use fmi_export::model_description::{Causality, Description, VariableKind};
+use fmi_export::model_description::{Causality, Description, Variability, VariableKind};
 use fmi_export::{
     BaseType, Context, Declare, Entry, Failure, InputsOverTime, Library, Model, Step, Values, Variables,
 };
@@ -62,6 +62,8 @@ struct Named {
     /// Whether the master may set it, and within which limits.
     given: Option<(f64, f64)>,
     input: bool,
+    /// Whether it may be set between steps.
+    changes: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,6 +117,9 @@ impl<M: Model> NamedModel<M> {
             Named {
                 given: given.then_some(limits),
                 input: variable.causality == Causality::Input,
+                changes: given
+                    && (variable.causality == Causality::Input
+                        || variable.variability == Variability::Tunable),
                 name: variable.name.clone(),
                 kind,
                 reference: (variable.value_reference - references::first(base)) as usize,
@@ -163,6 +168,24 @@ impl<M: Model> NamedModel<M> {
             .collect()
     }
 
+    /// Inputs and tunable parameters, each with another value than this one in its place.
+    pub(crate) fn changes(&self, values: &NamedInstance<'_, M>) -> Vec<(&str, f64)> {
+        let other = |it: &Named, (least, most): (f64, f64)| match it.kind {
+            NamedType::Real => {
+                let value = values.real(&it.name);
+                let moved = if value == 0.0 { 1e-3 } else { 1.01 * value };
+                if moved <= most { moved.max(least) } else { 0.99 * value }
+            }
+            NamedType::Boolean => f64::from(u8::from(!values.boolean(&it.name))),
+            _ => {
+                let value = f64::from(values.integer(&it.name));
+                if value < most { value + 1.0 } else { least }
+            }
+        };
+        let changing = self.names.iter().filter(|it| it.changes);
+        changing.filter_map(|it| Some((it.name.as_str(), other(it, it.given?)))).collect()
+    }
+
     /// The warnings of all flights so far.
     pub(crate) fn warnings(&self) -> Vec<String> {
         self.warnings.0.borrow().clone()
@@ -180,7 +203,13 @@ impl<M: Model> NamedModel<M> {
     }
 
     fn context(&self) -> Context<'_, M> {
-        Context { setup: &self.setup, variables: &self.handles, start: &self.start, log: &self.warnings }
+        Context {
+            setup: &self.setup,
+            variables: &self.handles,
+            start: &self.start,
+            sets_all_parameters: false,
+            log: &self.warnings,
+        }
     }
 
     /// A flight from `start_s` with these start values.
@@ -415,19 +444,30 @@ impl<M: Model> NamedInstance<'_, M> {
         bad.map(|it| format!("{} = {}", it.name, tables.reals[it.reference]))
     }
 
-    /// Another flight that knows nothing but what is serialised.
-    pub(crate) fn restored(&self) -> Self {
-        let bytes = postcard::to_stdvec(&(&self.values, &self.state)).unwrap();
-        let (values, state) = postcard::from_bytes(&bytes).unwrap();
+    /// The same flight once more, with all that is not serialised.
+    pub(crate) fn copied(&self) -> Self {
         Self {
             named: self.named,
-            values,
+            values: self.values.clone(),
             tables: OnceCell::new(),
-            state,
+            state: self.state.clone(),
             time_s: self.time_s,
             before: self.before.clone(),
             moved: self.moved,
         }
+    }
+
+    /// Another flight that knows nothing but what is serialised.
+    pub(crate) fn restored(&self) -> Self {
+        let values = postcard::from_bytes(&postcard::to_stdvec(&self.values).unwrap()).unwrap();
+        let restored = self.with_state(&self.state_bytes()).expect("the state of a simulation");
+        Self { values, before: self.before.clone(), moved: self.moved, ..restored }
+    }
+
+    /// The same flight by another model, as where a file beside the setup was exchanged.
+    pub(crate) fn restored_by<'b>(&self, named: &'b NamedModel<M>) -> NamedInstance<'b, M> {
+        let NamedInstance { values, tables, state, time_s, before, moved, .. } = self.restored();
+        NamedInstance { named, values, tables, state, time_s, before, moved }
     }
 
     /// The state's bytes.

@@ -84,6 +84,19 @@ fn components(name: &str) -> Vec<String> {
     (1..=count).map(|i| format!("{name}[{i}]")).collect()
 }
 
+/// After 4 rad the scalar is negative.
+#[test]
+fn slopes_of_quaternions_have_their_sign() {
+    let mut plant = momentum_plant();
+    plant.put_integer("attitude.source", 2);
+    plant.put_vector("command.rate", [0.0, 0.0, 0.02]);
+    assert_eq!(plant.fmu.start(0.0, None), Status::Ok);
+    assert_eq!(plant.fmu.do_step(0.0, 200.0), Status::Ok);
+    assert!((plant.real("attitude.q[4]") - 2.0_f64.cos()).abs() < 1e-12);
+    let off = slopes_off(&mut plant, &["attitude.q"], 200.0, 0.05);
+    assert!(off < 1e-9, "{off:e}");
+}
+
 #[test]
 fn slopes_hold_in_every_source_of_attitude_and_during_a_dump() {
     let names = ["attitude.q", "momentum.body", "momentum.inertial", "deltaV"];

@@ -176,3 +176,44 @@ fn by_torque_dumps_begin_on_schedule_and_the_rest_is_refused() {
         );
     }
 }
+
+/// As the flight by the one timeline up to there and by the other from there on, never saved.
+#[test]
+fn a_state_goes_by_another_timeline_from_where_it_stands() {
+    let command = |at_s: f64, azimuth_deg: f64| {
+        let sun = format!("sun = {{ azimuth = \"{azimuth_deg} deg\", elevation = \"1 deg\" }}\n");
+        format!("[[command]]\nat = {at_s:?}\nscenario = \"downlink\"\n{sun}")
+    };
+    // Unit of time: in guided flight light and momentum are known far ahead of where the state is saved.
+    for (source, unit_s) in [(1.0, 600.0), (3.0, 4.0)] {
+        let dump = |at: f64, size: f64| dump_to(at * unit_s, [size, 0.0, -size]);
+        let past = [dump(1.0, 0.1), dump(2.0, 0.2), dump(3.0, 0.3)];
+        let later = [dump(5.5, 0.1), dump(8.0, 0.4)];
+        let commands = [command(0.0, 0.0), command(5.3 * unit_s, 4.0)];
+        let old = scheduled(&[&commands[..1], &past].concat());
+        let other = scheduled(&[&commands[..], &[dump(1.5, 0.5), dump(4.9, 0.5)], &later].concat());
+        let both = scheduled(&[&commands[..], &past, &later].concat());
+        let sets = [("attitude.source", source), ("command.source", 2.0)];
+        let (saved_s, end_s) = (5.1 * unit_s, 7.0 * unit_s);
+        let mut saved = old.initialize(0.0, &sets).unwrap();
+        saved.step_to(saved_s).unwrap();
+        let mut restored = saved.restored_by(&other);
+        restored.step_to(end_s).unwrap();
+        let mut straight = both.initialize(0.0, &sets).unwrap();
+        straight.step_to(saved_s).unwrap();
+        straight.step_to(end_s).unwrap();
+        let [a, b] =
+            [&restored, &straight].map(|it| (it.integer("dump.count"), it.vector("momentum.inertial")));
+        assert_eq!((a.0, b.0), (4, 4));
+        // Where the state was saved an interval of quadrature ends.
+        assert!((a.1 - b.1).norm() < 1e-7 * b.1.norm(), "{source}: {} {}", a.1, b.1);
+        let turned = restored.to_inertial("attitude.q").angle_to(&straight.to_inertial("attitude.q"));
+        assert!(turned < 1e-6, "{source}: {turned}");
+    }
+    // What flight by torque does not have is refused where it comes.
+    let none = NamedModel::<MomentumPlant>::with("messenger-full.toml", MESSENGER_FULL);
+    let saved = none.initialize(0.0, &[("attitude.source", 3.0)]).unwrap();
+    let other = scheduled(&[maneuver(1.0, [0.1, 0.0, 0.0], false)]);
+    let refused = saved.restored_by(&other).step_to(2.0).unwrap_err().to_string();
+    assert!(refused.contains("a maneuver"), "{refused}");
+}

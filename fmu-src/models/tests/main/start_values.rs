@@ -75,7 +75,7 @@ fn times_take_dates_that_count_from_the_epoch_beside_them() {
         assert!(refused.contains(part), "{part} is missing in: {refused}");
     }
     let refused = guidance("[start]\n\"burn.start\" = \"2009-04-07\"").unwrap_err();
-    assert!(refused.contains("burn.start") && refused.contains("UTC or TDB"), "{refused}");
+    assert!(refused.contains("burn.start") && refused.contains("UTC, Z, TDB"), "{refused}");
     // A model without an epoch counts from none.
     assert!(described::<SpinPlant>("[start]\n\"burn.start\" = \"2009-04-07 TDB\"").is_err());
 }
@@ -284,12 +284,12 @@ const REFUSALS: &[(&str, &str)] = &[
     (
         "[start]\n\"start.epoch\" = \"2026-02-29 UTC\"",
         "my.toml:+2: start.\"start.epoch\": found \"2026-02-29 UTC\", a day that no calendar has, allowed: a date such as \
-         \"2008-03-19T19:30:00 UTC\" or \"2008-03-19 TDB\"",
+         \"2008-03-19T19:30:00 UTC\" or \"JD 2454544.5 TDB\"",
     ),
     (
         "[start]\n\"start.epoch\" = \"2026-01-01T00:00:00\"",
-        "my.toml:+2: start.\"start.epoch\": found \"2026-01-01T00:00:00\", which does not end in UTC or TDB, allowed: a date \
-         such as \"2008-03-19T19:30:00 UTC\" or \"2008-03-19 TDB\"",
+        "my.toml:+2: start.\"start.epoch\": found \"2026-01-01T00:00:00\", which does not end in UTC, Z, TDB, TT or TAI, allowed: a date \
+         such as \"2008-03-19T19:30:00 UTC\" or \"JD 2454544.5 TDB\"",
     ),
     (
         "[start]\n\"orbit.step\" = \"2026-01-01 UTC\"",

@@ -220,13 +220,25 @@ impl Gyrostat {
         self.inertia_body_kg_m2 * rate_body_rad_s + self.along_axes(rotors_n_m_s)
     }
 
-    /// First and second term of the rate's series without torque on body and rotors, body frame, in rad/s2 and rad/s3:
-    /// w' = J^-1 (m x w), m' = m x w, with the body rate w in rad/s, the total momentum m in N m s and J the carrier's inertia.
-    pub fn torque_free_rate_terms(&self, rate: &Vector3<f64>, momentum: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    /// Inverse of the carrier's inertia, in 1/(kg m2).
+    pub fn inverse_carrier(&self) -> Option<&Matrix3<f64>> {
+        self.inverse_carrier.as_ref()
+    }
+
+    /// First and second term of the rate's series, body frame, in rad/s2 and rad/s3: w' = J^-1 (m' - u), m' = m x w + T, with the
+    /// body rate w in rad/s, the total momentum m in N m s, J the carrier's inertia, the torque T from outside with its slope and
+    /// the torque u of the motors on the rotors.
+    pub fn rate_terms(
+        &self,
+        rate: &Vector3<f64>,
+        momentum: &Vector3<f64>,
+        [torque, torque_slope]: [Vector3<f64>; 2],
+        motors: &Vector3<f64>,
+    ) -> [Vector3<f64>; 2] {
         let Some(inverse) = self.inverse_carrier else { return [Vector3::zeros(); 2] };
-        let momentum_rate = momentum.cross(rate);
-        let slope = inverse * momentum_rate;
-        [slope, inverse * (momentum_rate.cross(rate) + momentum.cross(&slope)) * 0.5]
+        let momentum_rate = momentum.cross(rate) + torque;
+        let slope = inverse * (momentum_rate - motors);
+        [slope, inverse * (momentum_rate.cross(rate) + momentum.cross(&slope) + torque_slope) * 0.5]
     }
 
     /// Inverse of the inertia that body and held rotors have alone, without what swings, in 1/(kg m2).

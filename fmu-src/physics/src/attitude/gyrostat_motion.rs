@@ -240,13 +240,34 @@ impl GyrostatMotion {
     /// Change of the total momentum since the start of the segment by the dipole in the field, EME2000, in N m s; `None` without one.
     pub fn magnetic_impulse_inertial_n_m_s(&self, time_s: f64) -> Option<Vector3<f64>> {
         let dipole = self.load.dipole?;
+        Some(self.impulse_inertial_n_m_s(time_s, |attitude, at_s| dipole.torque_n_m(attitude, at_s)))
+    }
+
+    /// The same by rotors out of balance; `None` where all are in balance.
+    pub fn imbalance_impulse_inertial_n_m_s(&self, time_s: f64) -> Option<Vector3<f64>> {
+        let torque = |_: &Quaternion, at_s: f64| self.imbalance_after(at_s)[0];
+        (!self.imbalances.is_empty()).then(|| self.impulse_inertial_n_m_s(time_s, torque))
+    }
+
+    /// The same by what swings under the load; `None` where nothing does.
+    pub fn swing_impulse_inertial_n_m_s(&self, time_s: f64) -> Option<Vector3<f64>> {
+        let swings = !self.oscillators.is_empty() && !self.load.is_zero();
+        let torque = |_: &Quaternion, at_s: f64| self.swing_torque_after(at_s);
+        swings.then(|| self.impulse_inertial_n_m_s(time_s, torque))
+    }
+
+    /// Change of the total momentum since the start of the segment by a torque in N m, body frame, by attitude and s since then.
+    fn impulse_inertial_n_m_s(
+        &self,
+        time_s: f64,
+        torque_body_n_m: impl Fn(&Quaternion, f64) -> Vector3<f64>,
+    ) -> Vector3<f64> {
         let elapsed_s = time_s - self.start_s;
         let attitudes = self.attitudes_before(elapsed_s);
         let torques = GAUSS_3.into_iter().zip(attitudes).map(|((node, weight), attitude)| {
-            attitude.inertial_from_body(&dipole.torque_n_m(&attitude, node * elapsed_s))
-                * (weight * elapsed_s)
+            attitude.inertial_from_body(&torque_body_n_m(&attitude, node * elapsed_s)) * (weight * elapsed_s)
         });
-        Some(torques.sum())
+        torques.sum()
     }
 
     /// Momentum of rotor `k` (0-based) relative to the body at `time_s`, where the body moves like this, in N m s.
@@ -281,9 +302,8 @@ impl GyrostatMotion {
         self.oscillators[k].after(self.series.order, time_s - self.start_s, &motion.rate_body_rad_s)
     }
 
-    /// Torque about the centre of mass in N m and force in N by rotors out of balance and by what swings under the load, body
-    /// frame, where the body moves like this.
-    pub fn swinging_load(&self, gyrostat: &Gyrostat, time_s: f64, motion: &BodyMotion) -> [Vector3<f64>; 2] {
+    /// Torque about the centre of mass in N m and force in N by rotors out of balance, body frame, where the body moves like this.
+    pub fn imbalance_load(&self, gyrostat: &Gyrostat, time_s: f64, motion: &BodyMotion) -> [Vector3<f64>; 2] {
         let elapsed_s = time_s - self.start_s;
         let unbalanced = self.imbalances.iter().zip(&gyrostat.appendages().imbalances);
         let mut sum = [Vector3::zeros(); 2];
@@ -293,12 +313,12 @@ impl GyrostatMotion {
             let load = it.at_speed(self.series.order, elapsed_s, speed_rad_s);
             sum.iter_mut().zip(load).for_each(|(sum, it)| *sum += it);
         }
-        sum[0] += self
-            .oscillators
-            .iter()
-            .map(|it| it.torque_after(self.series.order, elapsed_s))
-            .sum::<Vector3<f64>>();
         sum
+    }
+
+    /// Torque by what swings under the load at `time_s`, body frame, in N m.
+    pub fn swing_torque_n_m(&self, time_s: f64) -> Vector3<f64> {
+        self.swing_torque_after(time_s - self.start_s)
     }
 
     /// Continues from the end: the next segment, at most to `limit_s`, under these motor torques and loads (linear in time from
@@ -390,15 +410,21 @@ impl GyrostatMotion {
             let rate = polynomial(&self.series.rate[..=self.series.order], elapsed_s);
             torque += flow.jet_damping.torque_n_m(elapsed_s, &rate);
         }
-        for it in &self.imbalances {
-            let [imbalance, force] = it.after(self.series.order, elapsed_s);
-            torque += imbalance;
-            acceleration += force / self.load.mass_after_kg(elapsed_s);
-        }
-        for it in &self.oscillators {
-            torque += it.torque_after(self.series.order, elapsed_s);
-        }
+        let [imbalance, force] = self.imbalance_after(elapsed_s);
+        torque += imbalance + self.swing_torque_after(elapsed_s);
+        acceleration += force / self.load.mass_after_kg(elapsed_s);
         [torque, acceleration]
+    }
+
+    /// Torque and force by rotors out of balance, body frame, as the series of the motion has them.
+    fn imbalance_after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
+        let loads = self.imbalances.iter().map(|it| it.after(self.series.order, elapsed_s));
+        loads.fold([Vector3::zeros(); 2], |[torque, force], [own, push]| [torque + own, force + push])
+    }
+
+    /// Torque by what swings under the load, body frame.
+    fn swing_torque_after(&self, elapsed_s: f64) -> Vector3<f64> {
+        self.oscillators.iter().map(|it| it.torque_after(self.series.order, elapsed_s)).sum()
     }
 
     /// Total momentum and velocity change, inertial.

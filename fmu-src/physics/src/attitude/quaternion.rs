@@ -12,6 +12,12 @@ use crate::math;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Quaternion(pub [f64; 4]);
 
+impl Default for Quaternion {
+    fn default() -> Self {
+        Self::IDENTITY
+    }
+}
+
 impl Quaternion {
     /// Body axes along the inertial axes.
     pub const IDENTITY: Self = Self([0.0, 0.0, 0.0, 1.0]);
@@ -20,6 +26,12 @@ impl Quaternion {
     pub fn turn(axis: &Vector3<f64>, angle_rad: f64) -> Self {
         let (sine, cosine) = math::sin_cos(0.5 * angle_rad);
         Self([axis.x * sine, axis.y * sine, axis.z * sine, cosine])
+    }
+
+    /// A turn of the body by the vector `angle_body_rad`.
+    pub fn by_vector(angle_body_rad: &Vector3<f64>) -> Self {
+        let angle_rad = angle_body_rad.norm();
+        if angle_rad > 0.0 { Self::turn(&(angle_body_rad / angle_rad), angle_rad) } else { Self::IDENTITY }
     }
 
     /// Unit quaternion along `components`; `None` where they are not finite or their norm is off 1 by more than 1e-3.

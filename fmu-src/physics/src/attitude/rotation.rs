@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::quaternion::Quaternion;
 
 /// Orientation of the body frame in EME2000.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Attitude {
     quaternion: Quaternion,
 }
@@ -23,12 +23,6 @@ pub struct QuaternionError {
     pub norm: f64,
     /// What the norm may be.
     pub allowed: &'static str,
-}
-
-impl Default for Attitude {
-    fn default() -> Self {
-        Self { quaternion: Quaternion::IDENTITY }
-    }
 }
 
 impl Attitude {
@@ -81,10 +75,16 @@ impl Attitude {
         q.map(|x| sign * x)
     }
 
-    /// How the quaternion with a scalar that is not negative changes at a body rate in rad/s, per second: q (w, 0) / 2.
+    /// The same attitude, of the two signs of its quaternion with the one nearer to `near`.
+    #[must_use]
+    pub fn continuing(&self, near: &Quaternion) -> Self {
+        Self { quaternion: Quaternion(self.quaternion(Some(near.0))) }
+    }
+
+    /// How the quaternion changes at a body rate in rad/s, per second: q (w, 0) / 2.
     pub fn quaternion_rate(&self, rate_body_rad_s: &Vector3<f64>) -> [f64; 4] {
         let [x, y, z] = (rate_body_rad_s * 0.5).into();
-        Quaternion(self.quaternion(None)).after(Quaternion([x, y, z, 0.0])).0
+        self.quaternion.after(Quaternion([x, y, z, 0.0])).0
     }
 
     /// Matrix that takes body components to inertial components.

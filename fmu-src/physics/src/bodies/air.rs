@@ -1,7 +1,9 @@
 //! What is known of a body's air by an exponential model.
 
+use serde::{Deserialize, Serialize};
+
 /// Air whose density falls exponentially with the height.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ExponentialAir {
     /// Density at the reference height, in kg/m3.
     pub reference_density_kg_m3: f64,

@@ -3,8 +3,10 @@
 //! Equation: m = a^3 (g11, h11, g10) of the Gauss coefficients; the place from those of the second degree.
 //! Reference: Fraser-Smith, Centered and eccentric geomagnetic dipoles and their poles, Reviews of Geophysics 25, 1987.
 
+use serde::{Deserialize, Serialize};
+
 /// A dipole along the body's axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DipoleField {
     /// Field on its equator times the cube of the distance there, toward the north pole of the field, in T m3.
     pub moment_fixed_t_m3: [f64; 3],

@@ -232,18 +232,6 @@ impl Ephemeris {
         CartesianState { position_m, velocity_m_s }
     }
 
-    /// The second derivative of the position in EME2000 at `epoch_s`, in m/s2: that of its segment, which errs by 1e-8 m/s2.
-    pub fn acceleration_m_s2(&mut self, body: Body, epoch_s: f64) -> Vector3<f64> {
-        let Some(theory) = theory(body) else {
-            return Vector3::repeat(if body == Body::Custom { f64::NAN } else { 0.0 });
-        };
-        self.entered[body as usize].enter(epoch_s, FittedSegments::length_s(body));
-        match body {
-            Body::Earth => self.fitted.earth(epoch_s).second_derivative(epoch_s),
-            _ => self.fitted.planet(body, theory, epoch_s).second_derivative(epoch_s),
-        }
-    }
-
     /// The first end of a segment after an epoch; within a microsecond of one, the one behind it.
     pub fn smooth_until_s(epoch_s: f64) -> f64 {
         (((epoch_s + 1e-6) / SHORT_S).floor() + 1.0) * SHORT_S
@@ -438,7 +426,7 @@ fn from_rectangular(p: vsop87::RectangularCoordinates) -> Vector3<f64> {
 fn from_elements([a, mean_longitude_rad, k, h, q, p]: [f64; 6]) -> Vector3<f64> {
     let e = math::hypot(k, h);
     let periapsis_longitude_rad = math::atan2(h, k);
-    let anomaly = eccentric_anomaly(mean_longitude_rad - periapsis_longitude_rad, e);
+    let anomaly = eccentric_anomaly(mean_longitude_rad - periapsis_longitude_rad, e, 1.0 - e);
     // In the orbital plane, first axis toward periapsis, then toward the origin of longitudes.
     let along = anomaly.cos - e;
     let across = ((1.0 - e) * (1.0 + e)).sqrt() * anomaly.sin;

@@ -10,6 +10,7 @@
 //! Geodesy 79, 2006.
 
 use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
 
 use crate::math;
 
@@ -19,7 +20,7 @@ const ITERATIONS: usize = 6;
 const LAST_CORRECTION_RAD: f64 = 3e-6;
 
 /// An ellipsoid of revolution.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ellipsoid {
     /// Radius of its equator, in m.
     pub equatorial_radius_m: f64,

@@ -5,7 +5,7 @@
 
 use core::f64::consts::PI;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 use super::{
     CartesianState,
@@ -59,13 +59,9 @@ impl KeplerPlanet {
     /// The body that a spacecraft's file places by elements or by a state about the Sun.
     ///
     /// # Errors
-    /// See [`Elements::check`] and [`Elements::from_state`].
+    /// See [`Elements::check`] and [`TwoBodyOrbit::from_state`].
     pub fn of_body(motion: &BodyMotion) -> Result<Self, OrbitError> {
-        let hci_from_frame = match motion.frame {
-            InertialFrame::Ecliptic => Matrix3::identity(),
-            InertialFrame::Eme2000 => dcm_eme2000_from_ecliptic().transpose(),
-        };
-        let state = match motion.orbit {
+        let orbit = match motion.orbit {
             BodyOrbit::Elements {
                 semi_major_axis_m,
                 eccentricity,
@@ -82,26 +78,23 @@ impl KeplerPlanet {
                     periapsis_argument_rad,
                     true_anomaly_rad,
                 };
-                if motion.frame == InertialFrame::Ecliptic {
-                    return Self::new(elements, motion.epoch_s);
-                }
-                elements.state(GM_SUN_M3_S2)?
+                TwoBodyOrbit::from_elements(elements, GM_SUN_M3_S2, motion.epoch_s)?
             }
-            BodyOrbit::State { position_m, velocity_m_s } => CartesianState { position_m, velocity_m_s },
+            BodyOrbit::State { position_m, velocity_m_s } => {
+                let state = CartesianState { position_m, velocity_m_s };
+                TwoBodyOrbit::from_state(&state, GM_SUN_M3_S2, motion.epoch_s)?
+            }
         };
-        Self::new(Elements::from_state(&state.along(&hci_from_frame), GM_SUN_M3_S2)?, motion.epoch_s)
+        let orbit_hci = match motion.frame {
+            InertialFrame::Ecliptic => orbit,
+            InertialFrame::Eme2000 => orbit.along(&dcm_eme2000_from_ecliptic().transpose()),
+        };
+        Ok(Self { orbit_hci, dcm_eme2000_from_hci: dcm_eme2000_from_ecliptic() })
     }
 
     /// Its elements about the Sun, in HCI.
     pub fn elements(&self) -> &Elements {
         self.orbit_hci.elements()
-    }
-
-    /// Acceleration by the Sun in EME2000, in m/s2.
-    pub fn acceleration_m_s2(&self, epoch_s: f64) -> Vector3<f64> {
-        let position_m = self.state(epoch_s).position_m;
-        let distance_m = position_m.norm();
-        position_m * (-GM_SUN_M3_S2 / (distance_m * distance_m * distance_m))
     }
 
     /// Heliocentric position and velocity in EME2000.

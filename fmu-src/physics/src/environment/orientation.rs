@@ -11,6 +11,7 @@
 use core::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
+use serde::{Deserialize, Serialize};
 
 use super::frames::{dcm_from_pole, rotation_x, rotation_y, rotation_z};
 use super::utc;
@@ -40,7 +41,7 @@ const NUTATION: [([f64; 5], f64, f64); 10] = [
 ];
 
 /// Rotation model of a planet.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Orientation {
     /// Constant rotation rate about a fixed pole.
     Uniform {

@@ -11,6 +11,8 @@ pub enum Grid {
     Field,
     /// With the motion: no disturbance, but applied from outside or by the spacecraft itself.
     Motion,
+    /// The same, by parts that move in a body that moves by torque.
+    MovingParts,
 }
 
 /// What turns effects on and off.
@@ -100,6 +102,8 @@ effects! {
     Magnetic: "magnetic", "The residual dipole in the planet's magnetic field.", Some(Switch::Magnetics), Field, false, true, 1e-2;
     Applied: "applied", "What was applied from outside.", None, Motion, true, true, 1e-1;
     Thrusters: "thruster", "The spacecraft's own thrusters.", None, Motion, true, false, 1.0;
+    Imbalance: "imbalance", "Rotors out of balance, in controlled and free flight.", None, MovingParts, true, true, 1e-2;
+    Slosh: "slosh", "Propellant that swings under the force, in controlled and free flight.", None, MovingParts, false, true, 1e-2;
 }
 
 impl Effect {
@@ -127,7 +131,12 @@ impl Effect {
 
     /// Whether it is an environmental disturbance.
     pub const fn is_disturbance(self) -> bool {
-        !matches!(self.row().grid, Grid::Motion)
+        !matches!(self.row().grid, Grid::Motion | Grid::MovingParts)
+    }
+
+    /// Whether parts that move in the body exert it.
+    pub const fn is_by_moving_parts(self) -> bool {
+        matches!(self.row().grid, Grid::MovingParts)
     }
 }
 

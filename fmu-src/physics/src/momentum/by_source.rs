@@ -10,10 +10,11 @@ use crate::numerics::chebyshev::Segment;
 /// Torque of the effects that act and whose momentum is kept apart, body frame, in N m.
 pub type SourceTorques = ByEffect<Option<Vector3<f64>>>;
 
-/// Torque by effect of the loads at one time, of those that act.
+/// Torque by effect of the loads at one time, of those that act on a body whose attitude is followed ideally.
 pub fn torques_body_n_m(loads: &Loads, active: Active) -> SourceTorques {
+    let acts = |effect: Effect| active.has(effect) && !effect.is_by_moving_parts();
     ByEffect::of(|effect| {
-        (active.has(effect) && effect.row().momentum_apart).then(|| loads[effect].torque_body_n_m)
+        (acts(effect) && effect.row().momentum_apart).then(|| loads[effect].torque_body_n_m)
     })
 }
 

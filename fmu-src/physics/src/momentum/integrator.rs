@@ -3,13 +3,14 @@
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use serde::{Deserialize, Serialize};
 
+use crate::attitude::{Attitude, Quaternion};
 use crate::numerics::intervals::next_multiple_s;
 
 use super::by_source::SourceMomenta;
 use super::dump::{DumpEvent, Dumps};
 use super::segment::{MomentumSegment, Settings};
 use super::torque_model::{Effort, TorqueModel};
-use super::totals::{Convention, Totals};
+use super::totals::Totals;
 
 /// Totals of a flight with their dense output.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -23,7 +24,7 @@ pub struct MomentumIntegrator {
 pub enum Stop {
     /// The time requested is covered.
     Reached,
-    /// Thrusters dumped.
+    /// A dump is due ([`MomentumIntegrator::dump`]).
     Dump(DumpEvent),
     /// Something is to be chosen.
     Choice {
@@ -42,7 +43,7 @@ pub enum Stop {
 pub struct StopTimes {
     /// The next scheduled time, in s; infinite where there is none.
     pub scheduled_s: f64,
-    /// The last dump, in s, which is not watched for again.
+    /// When the last dump was due, in s, which is not watched for again.
     pub dumped_s: Option<f64>,
 }
 
@@ -54,7 +55,12 @@ impl StopTimes {
 impl MomentumIntegrator {
     /// Begins at `time_s` with `totals`.
     pub fn new(time_s: f64, totals: Totals) -> Self {
-        let segment = MomentumSegment::point(time_s, totals, SourceMomenta::default());
+        Self::after(time_s, Quaternion::IDENTITY, totals)
+    }
+
+    /// The same where the quaternion of the attitude continues the sign of `attitude`.
+    pub fn after(time_s: f64, attitude: Quaternion, totals: Totals) -> Self {
+        let segment = MomentumSegment::point(time_s, attitude, totals, SourceMomenta::default());
         Self { segment, dumps: Dumps::default() }
     }
 
@@ -78,6 +84,12 @@ impl MomentumIntegrator {
         self.segment.by_source(time_s)
     }
 
+    /// The attitude of this frame, which the body has at a time inside the current segment, its quaternion continuous along the
+    /// flight; where the law jumps, the sign is the nearer one.
+    pub fn attitude(&self, inertial_from_body: &Rotation3<f64>, time_s: f64) -> Attitude {
+        Attitude::from_rotation(inertial_from_body).continuing(&self.segment.attitude(time_s))
+    }
+
     /// Angular acceleration of the body at a time inside the current segment, body frame, in rad/s2.
     pub fn acceleration_body_rad_s2(&self, time_s: f64) -> Vector3<f64> {
         self.segment.acceleration_body_rad_s2(time_s)
@@ -96,14 +108,11 @@ impl MomentumIntegrator {
 
     /// Forgets what was computed ahead of `time_s`: the flight changes there.
     pub fn cut(&mut self, time_s: f64) {
-        let longest_s = self.segment.next_longest_s();
-        let by_source = self.segment.by_source(time_s);
-        self.segment =
-            MomentumSegment::point(time_s, self.segment.totals(time_s), by_source).expecting(longest_s);
+        self.go_on(time_s, self.segment.totals(time_s));
     }
 
-    /// Dumps at `time_s` on request: momentum goes to `target_body_n_m_s` in the watched convention.
-    pub fn dump_to(
+    /// The dump at `time_s` that brings the momentum to `target_body_n_m_s` in the watched convention; the flight changes there.
+    pub fn request(
         &mut self,
         flight: &mut impl TorqueModel,
         settings: &Settings,
@@ -111,8 +120,22 @@ impl MomentumIntegrator {
         target_body_n_m_s: Vector3<f64>,
     ) -> DumpEvent {
         let totals = self.segment.totals(time_s);
-        let inertial_from_body = flight.sample(time_s).inertial_from_body;
-        self.dump(settings.convention, time_s, totals, &inertial_from_body, |_| target_body_n_m_s)
+        let inertial_from_body = flight.inertial_from_body(time_s);
+        let before_body_n_m_s = totals.momentum_body_n_m_s(settings.convention, &inertial_from_body);
+        self.segment = self.segment.expecting(f64::INFINITY);
+        DumpEvent { time_s, before_body_n_m_s, after_body_n_m_s: target_body_n_m_s }
+    }
+
+    /// Dumps as this event says.
+    pub fn dump(&mut self, flight: &mut impl TorqueModel, event: &DumpEvent) {
+        let (time_s, longest_s) = (event.time_s, self.segment.next_longest_s());
+        let mut totals = self.segment.totals(time_s);
+        totals.torque_integral_body_n_m_s += event.impulse_body_n_m_s();
+        totals.momentum_inertial_n_m_s += flight.inertial_from_body(time_s) * event.impulse_body_n_m_s();
+        let attitude = self.segment.attitude(time_s);
+        self.segment =
+            MomentumSegment::point(time_s, attitude, totals, SourceMomenta::default()).expecting(longest_s);
+        self.dumps = self.dumps.with(*event);
     }
 
     /// Advances until the current segment covers `time_s`; an edge belongs to the segment that begins there.
@@ -128,13 +151,16 @@ impl MomentumIntegrator {
     ) -> Result<(), F::Failure> {
         let mut times = StopTimes::NONE;
         while let Stop::Dump(event) = self.advance_to_stop(flight, settings, time_s, times)? {
+            self.dump(flight, &event);
+            self.dumps.check()?;
             report(&event);
             times.dumped_s = Some(event.time_s);
         }
         Ok(())
     }
 
-    /// The same up to the next dump, which is over, or a choice or scheduled time, which is due.
+    /// The same up to the next dump, choice or scheduled time, which is due; a dump that is not carried out is due again in the next
+    /// segment.
     ///
     /// # Errors
     /// What ends the flight; everything before stays.
@@ -164,43 +190,29 @@ impl MomentumIntegrator {
             exceeded.iter_mut().zip(self.segment.at_threshold()).for_each(|(it, reached)| *it |= reached);
             if dumped_s != Some(start_s) && exceeded.contains(&true) {
                 flight.spend(Effort::Dump, start_s)?;
-                let longest_s = self.segment.next_longest_s();
-                let event = self.dump(settings.convention, start_s, totals, &inertial_from_body, |before| {
-                    settings.policy.reinitialised(before, &exceeded)
-                });
-                self.segment = self.segment.expecting(longest_s);
-                self.dumps.check()?;
-                return Ok(Stop::Dump(event));
+                let after_body_n_m_s = settings.policy.reinitialised(&momentum, &exceeded);
+                let before_body_n_m_s = momentum;
+                return Ok(Stop::Dump(DumpEvent { time_s: start_s, before_body_n_m_s, after_body_n_m_s }));
             }
-            self.segment.advance(flight, settings, horizon_s, (totals, by_source))?;
+            let attitude = self.attitude(&inertial_from_body, start_s).unit_quaternion();
+            self.segment.advance(flight, settings, horizon_s, (attitude, totals, by_source))?;
         }
         Ok(Stop::Reached)
     }
 
     /// The velocity changes by `delta_v_inertial_m_s` where a dump just ended.
     pub fn push(&mut self, delta_v_inertial_m_s: &Vector3<f64>) {
-        let (time_s, longest_s) = (self.segment.end_s(), self.segment.next_longest_s());
+        let time_s = self.segment.end_s();
         let mut totals = self.segment.totals(time_s);
         totals.delta_v_inertial_m_s += delta_v_inertial_m_s;
-        let by_source = self.segment.by_source(time_s);
-        self.segment = MomentumSegment::point(time_s, totals, by_source).expecting(longest_s);
+        self.go_on(time_s, totals);
     }
 
-    fn dump(
-        &mut self,
-        convention: Convention,
-        time_s: f64,
-        mut totals: Totals,
-        inertial_from_body: &Rotation3<f64>,
-        after: impl FnOnce(&Vector3<f64>) -> Vector3<f64>,
-    ) -> DumpEvent {
-        let before_body_n_m_s = totals.momentum_body_n_m_s(convention, inertial_from_body);
-        let event = DumpEvent { time_s, before_body_n_m_s, after_body_n_m_s: after(&before_body_n_m_s) };
-        totals.torque_integral_body_n_m_s += event.impulse_body_n_m_s();
-        totals.momentum_inertial_n_m_s += inertial_from_body * event.impulse_body_n_m_s();
-        self.segment = MomentumSegment::point(time_s, totals, SourceMomenta::default());
-        self.dumps = self.dumps.with(event);
-        event
+    /// Goes on from `time_s`, inside the current segment, with these totals.
+    fn go_on(&mut self, time_s: f64, totals: Totals) {
+        let (longest_s, by_source) = (self.segment.next_longest_s(), self.segment.by_source(time_s));
+        let attitude = self.segment.attitude(time_s);
+        self.segment = MomentumSegment::point(time_s, attitude, totals, by_source).expecting(longest_s);
     }
 }
 

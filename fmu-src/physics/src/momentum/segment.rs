@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
+use crate::attitude::{Attitude, Quaternion};
 use crate::loads::{ByEffect, Effect};
 use crate::numerics::adaptive::AdaptiveInterval;
 use crate::numerics::chebyshev::Segment;
@@ -22,6 +23,10 @@ const SHORTEST_S: f64 = 1e-3;
 /// Largest last Chebyshev term of the momentum of body and panels relative to its largest: only the wheels' torque that is shown
 /// follows from it.
 const STRUCTURE_TOLERANCE: f64 = 1e-8;
+/// Longest turn of a step along the body rate, in rad, and most steps: only the sign of the attitude there matters.
+const STEP_RAD: f64 = 1.0;
+/// See [`STEP_RAD`].
+const MOST_STEPS: f64 = 1000.0;
 /// Terms of a series this much below its largest are rounding; halving the segment does not make them smaller.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
@@ -44,6 +49,8 @@ pub(super) struct MomentumSegment {
     start_s: f64,
     end_s: f64,
     at_start: Totals,
+    /// Attitude at the start, the sign of its quaternion continuing from segment to segment.
+    attitude_at_start: Quaternion,
     /// Length the tolerance will probably allow the next segment, in s.
     #[serde(with = "or_infinite")]
     next_longest_s: f64,
@@ -62,11 +69,12 @@ pub(super) struct MomentumSegment {
 
 impl MomentumSegment {
     /// A segment without length at `time_s`.
-    pub(super) fn point(time_s: f64, totals: Totals, by_source: SourceMomenta) -> Self {
+    pub(super) fn point(time_s: f64, attitude: Quaternion, totals: Totals, by_source: SourceMomenta) -> Self {
         Self {
             start_s: time_s,
             end_s: time_s,
             at_start: totals,
+            attitude_at_start: attitude,
             next_longest_s: f64::INFINITY,
             by_source_at_start: by_source,
             ..Self::default()
@@ -76,6 +84,7 @@ impl MomentumSegment {
     /// Rejects decoded states that no simulation can produce.
     pub(super) fn is_valid(&self) -> bool {
         self.next_longest_s > 0.0
+            && Attitude::from_unit(self.attitude_at_start).is_rotation()
             && self.totals.as_ref().is_none_or(|it| it.is_valid() && it.spans(self.start_s, self.end_s))
             && self.by_source.present().all(|(_, it)| it.is_valid() && it.spans(self.start_s, self.end_s))
             && [&self.rate_body_rad_s, &self.structure_body_n_m_s]
@@ -89,7 +98,7 @@ impl MomentumSegment {
         Self { next_longest_s, ..self }
     }
 
-    /// Becomes the next segment, with these totals at its start. It ends at the next multiple of the grid step or sooner: at
+    /// Becomes the next segment, with this attitude and these totals at its start. It ends at the next multiple of the grid step or sooner: at
     /// `horizon_s`, up to where the flight is prepared, at an event, where the last Chebyshev terms of a total or of the momentum of
     /// body and panels would exceed the tolerance, or where momentum exceeds a dump threshold. Longer than this segment expects the
     /// tolerance to allow is not tried.
@@ -101,7 +110,7 @@ impl MomentumSegment {
         flight: &mut F,
         settings: &Settings,
         horizon_s: f64,
-        (at_start, by_source_at_start): (Totals, SourceMomenta),
+        (attitude_at_start, at_start, by_source_at_start): (Quaternion, Totals, SourceMomenta),
     ) -> Result<(), F::Failure> {
         let (start_s, longest_s) = (self.end_s, self.next_longest_s);
         flight.spend(Effort::Segment, start_s)?;
@@ -155,7 +164,7 @@ impl MomentumSegment {
             Segment::from_samples(start_s, end_s, &samples.each_ref().map(|s| s.rate_body_rad_s));
         (self.start_s, self.end_s, self.next_longest_s) = (start_s, end_s, next_longest_s);
         (self.at_start, self.totals) = (at_start, Some(totals));
-        self.by_source_at_start = by_source_at_start;
+        (self.attitude_at_start, self.by_source_at_start) = (attitude_at_start, by_source_at_start);
         (self.rate_body_rad_s, self.structure_body_n_m_s) = (Some(rate_body_rad_s), structure_body_n_m_s);
         self.at_threshold = [false; 3];
         for effect in Effect::ALL {
@@ -204,6 +213,22 @@ impl MomentumSegment {
             Some(momentum) if time_s > self.start_s => momentum.value(time_s),
             _ => self.by_source_at_start.0[effect],
         }))
+    }
+
+    /// Attitude at a time inside the segment by the body rate since its start, whose sign is that of the motion, be the turn a whole
+    /// one or more.
+    pub(super) fn attitude(&self, time_s: f64) -> Quaternion {
+        let span_s = time_s - self.start_s;
+        let Some(rate) = self.rate_body_rad_s.as_ref().filter(|_| span_s > 0.0) else {
+            return self.attitude_at_start;
+        };
+        let most_rad_s: f64 = rate.coefficients().column_iter().map(|term| term.norm()).sum();
+        let steps = (most_rad_s * span_s / STEP_RAD).ceil().max(1.0).min(MOST_STEPS);
+        let step_s = span_s / steps;
+        (0..steps as u32).fold(self.attitude_at_start, |attitude, step| {
+            let rate_body_rad_s = rate.value(self.start_s + (f64::from(step) + 0.5) * step_s);
+            attitude.after(Quaternion::by_vector(&(rate_body_rad_s * step_s)))
+        })
     }
 
     /// Angular acceleration at a time inside the segment, body frame, in rad/s2; none where it has no length.

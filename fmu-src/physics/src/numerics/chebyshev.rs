@@ -118,13 +118,6 @@ impl<const D: usize, const N: usize> Segment<D, N> {
         Segment { center: self.center, half_length: self.half_length, coefficients }
     }
 
-    /// The second derivative at `at`.
-    pub fn second_derivative(&self, at: f64) -> SVector<f64, D> {
-        let per_half_length = 1.0 / self.half_length;
-        let curve = curvature_at(&self.coefficients.data.0, (at - self.center) * per_half_length);
-        SVector::from(curve) * (per_half_length * per_half_length)
-    }
-
     /// Where the segment starts.
     pub fn start(&self) -> f64 {
         self.center - self.half_length
@@ -242,20 +235,6 @@ pub fn largest_magnitude<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
 /// The coefficient of `T_0` and the others.
 fn constant_and_others<const D: usize>(coefficients: &[[f64; D]]) -> ([f64; D], &[[f64; D]]) {
     coefficients.split_first().map_or(([0.0; D], &[]), |(first, others)| (*first, others))
-}
-
-/// The second derivative of the series with these coefficients at `x` in -1 to 1 (Clenshaw's recurrence, differentiated twice).
-pub fn curvature_at<const D: usize>(coefficients: &[[f64; D]], x: f64) -> [f64; D] {
-    let (mut b1, mut b2, mut d1, mut d2) = ([0.0; D], [0.0; D], [0.0; D], [0.0; D]);
-    let (mut c1, mut c2) = ([0.0; D], [0.0; D]);
-    for column in constant_and_others(coefficients).1.iter().rev() {
-        for i in 0..D {
-            (c1[i], c2[i]) = (2.0 * x * c1[i] + (4.0 * d1[i] - c2[i]), c1[i]);
-            (d1[i], d2[i]) = (2.0 * x * d1[i] + (2.0 * b1[i] - d2[i]), d1[i]);
-            (b1[i], b2[i]) = (2.0 * x * b1[i] + (column[i] - b2[i]), b1[i]);
-        }
-    }
-    core::array::from_fn(|i| x * c1[i] + (2.0 * d1[i] - c2[i]))
 }
 
 /// The Bernstein coefficients on `[0, 1]` of a Chebyshev series on `[-1, 1]`, both of degree `N - 1`.

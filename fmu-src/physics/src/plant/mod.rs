@@ -67,4 +67,5 @@ pub use settings::reaction_control_settings::{ReactionControlSettings, ThrustCom
 pub use settings::thruster_events::{Maneuver, ThrusterEvent, ThrusterEventSettings};
 pub use settings::work::{Cost, Work, WorkExceeded};
 pub use thrusters::reaction_control::Thrusters;
+pub use thrusters::selected::UnservedDumps;
 pub use thrusters::thruster_load::{ThrusterLoad, ThrusterTotals};

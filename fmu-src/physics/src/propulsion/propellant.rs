@@ -7,7 +7,11 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::flow::{flowed_kg, lasts_s};
+use super::pulse_schedule::due_s;
 use crate::spacecraft::{MassProperties, Tank, steiner};
+
+/// A tank that can feed less than this share of its load has given all that it can: the rest is rounding.
+const LEAST_SHARE: f64 = 1e-13;
 
 /// Propellant used from one tank, linear flow from a time on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -46,11 +50,12 @@ impl PropellantState {
         (0..self.tanks.len()).map(|k| self.used_kg(k, time_s)).sum()
     }
 
-    /// Counts what was used until `time_s`; from there nothing flows.
-    pub fn accumulate(&mut self, time_s: f64) {
-        for k in 0..self.tanks.len() {
-            let used_kg = self.used_kg(k, time_s);
-            self.tanks[k] = TankUse { used_kg, flow_kg_s: [0.0; 2] };
+    /// Counts what was used until `time_s`; from there nothing flows. A tank whose time has come feeds no longer.
+    pub fn accumulate(&mut self, tanks: &[Tank], time_s: f64) {
+        for (k, tank) in tanks.iter().enumerate().take(self.tanks.len()) {
+            let is_over = self.depletion_time_s(k, tank) <= due_s(time_s);
+            let used_kg = if is_over { tank.usable_kg() } else { self.used_kg(k, time_s) };
+            self.tanks[k] = TankUse { used_kg: without_rest(tank, used_kg), flow_kg_s: [0.0; 2] };
         }
         self.since_s = time_s;
     }
@@ -69,25 +74,19 @@ impl PropellantState {
         self.tanks.get(k).map_or(0.0, |tank| tank.flow_kg_s[0])
     }
 
-    /// Takes this much from tank `k` at once, in kg, and no more than is left.
+    /// Takes this much from tank `k` at once, in kg, and no more than it can feed.
     pub fn take(&mut self, k: usize, tank: &Tank, propellant_kg: f64) {
         if let Some(used) = self.tanks.get_mut(k) {
-            used.used_kg = (used.used_kg + propellant_kg).min(tank.propellant_kg);
+            let taken_kg = propellant_kg.min(tank.feedable_kg(used.used_kg));
+            used.used_kg = without_rest(tank, used.used_kg + taken_kg);
         }
     }
 
-    /// When tank `k` runs dry at the present flow, in s.
+    /// When tank `k` has fed all that it can at the present flow, in s.
     pub fn depletion_time_s(&self, k: usize, tank: &Tank) -> f64 {
         self.tanks.get(k).map_or(f64::INFINITY, |used| {
-            self.since_s + lasts_s(used.flow_kg_s, tank.propellant_kg - used.used_kg)
+            self.since_s + lasts_s(used.flow_kg_s, tank.usable_kg() - used.used_kg)
         })
-    }
-
-    /// Nothing is left in tank `k`.
-    pub fn empty(&mut self, k: usize, tank: &Tank) {
-        if let Some(used) = self.tanks.get_mut(k) {
-            used.used_kg = tank.propellant_kg;
-        }
     }
 
     /// Mass properties without what is used until `time_s`, of a spacecraft that has `loaded` with full tanks.
@@ -108,6 +107,12 @@ impl PropellantState {
     ) -> MassProperties {
         without(settled, tanks, |k| self.used_kg(k, time_s) - self.used_kg(k, self.since_s))
     }
+}
+
+/// Propellant used, in kg, rounded to all that the tank can feed where hardly more is left.
+fn without_rest(tank: &Tank, used_kg: f64) -> f64 {
+    let usable_kg = tank.usable_kg();
+    if usable_kg - used_kg < LEAST_SHARE * tank.propellant_kg { usable_kg } else { used_kg }
 }
 
 /// Mass properties of a body without so much of each tank, in kg.

@@ -93,11 +93,11 @@ impl Valve {
         let elapsed_s = time_s - self.since_s;
         match (self.is_open, self.fraction) {
             (true, from) if timing.rise_s > 0.0 && from < 1.0 => {
-                [from + elapsed_s / timing.rise_s, timing.rise_s.recip()]
+                [(from + elapsed_s / timing.rise_s).min(1.0), timing.rise_s.recip()]
             }
             (true, _) => [1.0, 0.0],
             (false, from) if timing.tail_off_s > 0.0 && from > 0.0 => {
-                [from - elapsed_s / timing.tail_off_s, -timing.tail_off_s.recip()]
+                [(from - elapsed_s / timing.tail_off_s).max(0.0), -timing.tail_off_s.recip()]
             }
             (false, _) => [0.0, 0.0],
         }

@@ -51,9 +51,25 @@ impl Tank {
         (self.propellant_kg - used_kg).max(0.0)
     }
 
+    /// Propellant that it can feed from full until it is empty or its pressure has fallen to the least allowed, in kg.
+    pub fn usable_kg(&self) -> f64 {
+        let [least_pa, _] = self.allowed_pa;
+        let until_least_kg = match self.blowdown {
+            Some(gas) => gas.density_kg_m3 * gas.ullage_m3 * (self.pressure_pa / least_pa - 1.0),
+            None if self.pressure_pa < least_pa => 0.0,
+            None => f64::INFINITY,
+        };
+        self.propellant_kg.min(until_least_kg).max(0.0)
+    }
+
     /// Whether thrusters may be fed when so much is used.
     pub fn feeds(&self, used_kg: f64) -> bool {
-        let [least_pa, greatest_pa] = self.allowed_pa;
-        (least_pa..=greatest_pa).contains(&self.pressure_pa(used_kg)) && used_kg < self.propellant_kg
+        let [_, greatest_pa] = self.allowed_pa;
+        used_kg < self.usable_kg() && self.pressure_pa(used_kg) <= greatest_pa
+    }
+
+    /// Propellant that it can still feed when so much is used, in kg.
+    pub fn feedable_kg(&self, used_kg: f64) -> f64 {
+        if self.feeds(used_kg) { self.usable_kg() - used_kg } else { 0.0 }
     }
 }

@@ -1,16 +1,34 @@
-//! Dates as people write them: a calendar date, a time of day and the name of the time scale, to an epoch.
+//! Dates as people write them: a calendar date and a time of day, or a Julian date, and the name of the time scale, to an epoch.
 //!
 //! `2008-03-19T19:30:00.5 UTC`: year, month and day, then, unless it is midnight, hours, minutes and possibly seconds with
-//! at most nine decimals, then `UTC` or `TDB`. UTC has whole leap seconds since 1972 (as announced by the IERS), and a
-//! minute that has one has a second 60. TDB differs from TT by its annual term of 1.7 ms (hifitime's, after Archinal).
+//! at most nine decimals, then `UTC` or `Z`, `TDB`, `TT` or `TAI`. `JD 2454545.3125 UTC`: days of 86400 s of that scale since noon
+//! of 4713-11-24 BC; without a scale Terrestrial Time, as resolution B1 of the IAU (1997) has it. UTC has whole leap seconds since
+//! 1972 (as announced by the IERS), and a minute that has one has a second 60. TDB differs from TT by its annual term of 1.7 ms
+//! (hifitime's, after Archinal).
 
 use core::fmt;
 
-use hifitime::{Epoch, TimeScale};
+use hifitime::{Epoch, TimeScale, Unit};
+
+use crate::constants::DAY_S;
 
 /// What a date looks like, for messages.
-pub const ALLOWED_DATE: &str = "a date such as \"2008-03-19T19:30:00 UTC\" or \"2008-03-19 TDB\"";
+pub const ALLOWED_DATE: &str = "a date such as \"2008-03-19T19:30:00 UTC\" or \"JD 2454544.5 TDB\"";
 
+/// Endings of a date and the time scales they name.
+const SCALES: [(&str, TimeScale); 5] = [
+    ("UTC", TimeScale::UTC),
+    ("Z", TimeScale::UTC),
+    ("TDB", TimeScale::TDB),
+    ("TT", TimeScale::TT),
+    ("TAI", TimeScale::TAI),
+];
+/// What stands before or behind a Julian date.
+const JULIAN: &str = "JD";
+/// Julian date of 2000-01-01 12:00.
+const J2000_JULIAN_DAY: i64 = 2_451_545;
+/// Julian dates from 4713 BC to the year 22666: no other number is meant.
+const MOST_JULIAN_DIGITS: usize = 7;
 /// First year of UTC with leap seconds.
 const FIRST_UTC_YEAR: i32 = 1972;
 
@@ -33,20 +51,33 @@ impl fmt::Display for DateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Form => "which is no date",
-            Self::Scale => "which does not end in UTC or TDB",
+            Self::Scale => "which does not end in UTC, Z, TDB, TT or TAI",
             Self::Day => "a day that no calendar has",
             Self::Time => "a time that this day does not have",
-            Self::BeforeUtc => "a year before UTC had leap seconds (1972): give TDB",
+            Self::BeforeUtc => "a time before UTC had leap seconds (1972): give TDB",
         })
     }
 }
 
 impl std::error::Error for DateError {}
 
-/// Whether a text begins as a date does: four digits and a hyphen.
+/// Whether a text is meant as a date: it begins with four digits and a hyphen, ends in the name of a time scale after a digit or a
+/// blank, or has `JD` on either side.
 pub fn looks_like_date(text: &str) -> bool {
-    let bytes = text.trim_start().as_bytes();
-    bytes.len() > 4 && bytes[..4].iter().all(u8::is_ascii_digit) && bytes[4] == b'-'
+    let text = text.trim();
+    let bytes = text.as_bytes();
+    let is_calendar = bytes.len() > 4 && bytes[..4].iter().all(u8::is_ascii_digit) && bytes[4] == b'-';
+    let ends = |name: &str| {
+        let before = text.strip_suffix(name).and_then(|it| it.chars().next_back());
+        before.is_some_and(|last| last.is_ascii_digit() || last.is_whitespace())
+    };
+    is_calendar || SCALES.iter().any(|(name, _)| ends(name)) || julian(text).is_some()
+}
+
+/// The number beside `JD`.
+fn julian(text: &str) -> Option<&str> {
+    let number = text.strip_prefix(JULIAN).or_else(|| text.strip_suffix(JULIAN))?.trim();
+    number.starts_with(|first: char| first.is_ascii_digit()).then_some(number)
 }
 
 /// The epoch of a date, in s past J2000 TDB.
@@ -56,10 +87,13 @@ pub fn looks_like_date(text: &str) -> bool {
 /// What is wrong with the text.
 pub fn epoch_s(text: &str) -> Result<f64, DateError> {
     let text = text.trim();
-    let (text, scale) = [("UTC", TimeScale::UTC), ("TDB", TimeScale::TDB)]
-        .into_iter()
-        .find_map(|(name, scale)| Some((text.strip_suffix(name)?.trim_end(), scale)))
-        .ok_or(if looks_like_date(text) { DateError::Scale } else { DateError::Form })?;
+    let scaled =
+        SCALES.into_iter().find_map(|(name, scale)| Some((text.strip_suffix(name)?.trim_end(), scale)));
+    if let Some(days) = julian(scaled.map_or(text, |(text, _)| text)) {
+        return julian_epoch_s(days, scaled.map_or(TimeScale::TT, |(_, scale)| scale));
+    }
+    let (text, scale) =
+        scaled.ok_or(if looks_like_date(text) { DateError::Scale } else { DateError::Form })?;
     let (day, time) = text.split_once(['T', ' ']).unwrap_or((text, "00:00"));
     let [year, month, day] = numbers(day, '-', [4, 2, 2]).ok_or(DateError::Form)?;
     let (whole, fraction) = time.split_once('.').unwrap_or((time, "0"));
@@ -78,7 +112,7 @@ pub fn epoch_s(text: &str) -> Result<f64, DateError> {
         Epoch::maybe_from_gregorian(year, month, day, hour, minute, second, nanoseconds, scale)
     };
     epoch(0, 0, 0).map_err(|_| DateError::Day)?;
-    if scale == TimeScale::UTC && year < FIRST_UTC_YEAR {
+    if is_before_utc(year, scale) {
         return Err(DateError::BeforeUtc);
     }
     if hour > 23 {
@@ -91,6 +125,31 @@ pub fn epoch_s(text: &str) -> Result<f64, DateError> {
     // In a count of UTC seconds a leap second falls together with the one before.
     let before = epoch(hour, minute, 59).map_err(|_| DateError::Time)?;
     Ok(before.to_tdb_seconds() + 1.0)
+}
+
+/// The epoch of a Julian date, of which the decimals are read on their own: 1e-9 d is 0.1 ms.
+fn julian_epoch_s(text: &str, scale: TimeScale) -> Result<f64, DateError> {
+    let (whole, decimals) = text.split_once('.').unwrap_or((text, "0"));
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    if !is_number(whole) || !is_number(decimals) || whole.len() > MOST_JULIAN_DIGITS {
+        return Err(DateError::Form);
+    }
+    let days = whole.parse::<i64>().map_err(|_| DateError::Form)? - J2000_JULIAN_DAY;
+    let share = format!("0.{decimals}").parse::<f64>().map_err(|_| DateError::Form)?;
+    if scale == TimeScale::TDB {
+        return Ok((days as f64 + share) * DAY_S);
+    }
+    // Days of a scale have 86400 s of it: a leap second of UTC is not counted.
+    let noon = Epoch::maybe_from_gregorian(2000, 1, 1, 12, 0, 0, 0, scale).map_err(|_| DateError::Day)?;
+    let found = noon + days * Unit::Day + share * Unit::Day;
+    if is_before_utc(found.to_gregorian(scale).0, scale) {
+        return Err(DateError::BeforeUtc);
+    }
+    Ok(found.to_tdb_seconds())
+}
+
+fn is_before_utc(year: i32, scale: TimeScale) -> bool {
+    scale == TimeScale::UTC && year < FIRST_UTC_YEAR
 }
 
 /// The time from one epoch to another, in s: whole seconds of UTC are whole seconds, although TDB runs up to 1.7 ms ahead of TT or

@@ -57,12 +57,12 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
         start_momentum_body_n_m_s: Vector3::new(0.3, -0.2, 0.1),
     };
     flight.configure(SimulationContext::new(configured), ModeSettings::Ideal(settings));
-    flight.begin(given, 0.0, &mut |_| {}).unwrap();
     let held = Command {
         attitude: Attitude::from_quaternion([0.0, 0.0, 0.0, 1.0]).unwrap(),
         rate_body_rad_s: Vector3::zeros(),
         since_s: 0.0,
     };
+    flight.begin(given, &held, 0.0, &mut |_| {}).unwrap();
     let (inputs, mut now_s) = (DynamicsInputs::default(), 0.0);
     let mut advance = |to_s: f64| {
         flight.advance(given, &inputs, [now_s, to_s], &mut |_| {}).unwrap();

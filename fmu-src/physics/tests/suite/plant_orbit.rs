@@ -7,7 +7,7 @@ use physics::attitude::Attitude;
 use physics::bodies::Body;
 use physics::constants::{GM_MERCURY_M3_S2 as MU, RADIUS_MERCURY_M};
 use physics::environment::CartesianState;
-use physics::environment::orbit::{Flattening, Gravity};
+use physics::environment::orbit::{Flattening, Gravity, Tides};
 use physics::loads::ForceTorque;
 use physics::momentum::{MomentumIntegrator, Totals};
 use physics::plant::{AttitudeSource, Command, Configuration, Motion, Plant, PropagatorState, Regime};
@@ -15,8 +15,15 @@ use physics::plant::{AttitudeSource, Command, Configuration, Motion, Plant, Prop
 use super::plant_flight::{EPOCH_S, Rig, configuration, guided, orbit};
 
 fn disturbed(gravity: Gravity, attitude: AttitudeSource) -> Configuration {
-    let motion =
-        Motion::Disturbed { gravity, segment_length_s: 300.0, radius_m: RADIUS_MERCURY_M, feedback: true };
+    // With a flattening the Sun's tide acts too.
+    let tides = Tides { sun: gravity.flattening.is_some(), moon: false };
+    let motion = Motion::Disturbed {
+        gravity,
+        tides,
+        segment_length_s: 300.0,
+        radius_m: RADIUS_MERCURY_M,
+        feedback: true,
+    };
     Configuration { motion, ..configuration(orbit(), attitude) }
 }
 

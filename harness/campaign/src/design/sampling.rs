@@ -8,6 +8,8 @@ use super::{distribution::Varied, error::DesignError};
 pub const MOST_RUNS: u64 = 1_000_000_000;
 /// Points of the Sobol sequence, of which the crate has so many.
 const MOST_SOBOL_RUNS: u64 = 1 << 16;
+/// Strata of a Latin hypercube, of all variables together: every process holds them in 4 bytes each.
+const MOST_STRATA: u64 = 1 << 25;
 
 /// How the values of runs are chosen.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,7 +77,11 @@ impl Sampling {
             Self::File(rows) => Some(rows.len() as u64),
             Self::Random | Self::LatinHypercube | Self::Sobol => None,
         };
-        let most = if *self == Self::Sobol { MOST_SOBOL_RUNS } else { MOST_RUNS };
+        let most = match self {
+            Self::Sobol => MOST_SOBOL_RUNS,
+            Self::LatinHypercube => MOST_STRATA / (varied.len() as u64).max(1),
+            _ => MOST_RUNS,
+        };
         let runs = match (own, given) {
             (Some(own), Some(found)) if own != found => {
                 let allowed = format!("{own}, which sampling {} has, or no `runs`", self.key());

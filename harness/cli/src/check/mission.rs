@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use loader::Collector;
+use loader::{Collector, InputTable};
 
 use super::options::Check;
 use crate::{
@@ -19,7 +19,7 @@ pub(super) fn checked(arguments: &Check) -> Result<String, String> {
 fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let run = Run { fmu: arguments.subject.clone(), template: arguments.template.clone(), ..Run::default() };
     let Prepared { simulated, subject, settings, .. } = &Prepared::of(&run)?;
-    let Settings { times, requested, limits, sets, positions, .. } = settings;
+    let Settings { times, requested, limits, sets, positions, inputs, .. } = settings;
     let mut rows = Collector::new(subject.description(), positions);
     // Ended after the first step.
     let cancel = AtomicBool::new(true);
@@ -33,6 +33,7 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
         .iter()
         .chain(&panels)
         .chain(&long_step(times))
+        .chain(&inputs.iter().flat_map(InputTable::coarse_turns).collect::<Vec<_>>())
         .map(|it| format!("\nwarning: {it}"))
         .collect::<String>();
     let count = |count: usize, of: &str| format!("{count} {of}{}", if count == 1 { "" } else { "s" });

@@ -14,10 +14,10 @@ mod system;
 use std::{ffi::OsString, path::Path};
 
 pub(crate) use channel::{Link, NOT_REQUESTED, Payload, push_text};
-pub(crate) use limits::{LARGE, SMALL};
+pub(crate) use limits::{ResourceLimits, SMALL, large};
 pub(crate) use printed::Shown;
 pub(crate) use relayed::{Relayed, is_child, serve};
-pub(crate) use supervisor::{Bounds, ChildProcess, EndReason};
+pub(crate) use supervisor::{Bounds, ChildProcess, EndReason, Supervised};
 pub(crate) use system::end_all;
 
 /// An option with a path, which may hold any bytes.

@@ -67,6 +67,13 @@ pub(crate) enum EndReason {
     Refused(String),
 }
 
+impl EndReason {
+    /// Whether somebody else ended it: a user, a batch system, a host without memory.
+    pub(crate) fn is_from_outside(&self) -> bool {
+        matches!(self, Self::Ended(status) if system::is_from_outside(*status))
+    }
+}
+
 /// A child that was supervised to its end.
 #[derive(Debug)]
 pub(crate) struct Supervised {

@@ -1,5 +1,7 @@
 //! Rows and columns that two tables have in common, and what only one has.
 
+use std::collections::BTreeMap;
+
 use reference::Compared;
 
 use crate::table::Table;
@@ -47,8 +49,11 @@ impl Pairing {
             ));
         }
         let mut columns = Vec::new();
+        let [in_first, in_second] = [first, second].map(|table| {
+            table.names.iter().map(String::as_str).zip(&table.columns).collect::<BTreeMap<_, _>>()
+        });
         for (name, expected) in first.names.iter().zip(&first.columns) {
-            let Some(found) = second.column(name) else { continue };
+            let Some(found) = in_second.get(name.as_str()) else { continue };
             columns.push(Compared {
                 name: name.clone(),
                 expected: rows.iter().map(|(row, _)| expected[*row].clone()).collect(),
@@ -63,10 +68,10 @@ impl Pairing {
                 example(first)
             ));
         }
-        let lone = |table: &Table, in_other: &Table| {
-            table.names.iter().filter(|name| in_other.column(name).is_none()).cloned().collect()
+        let lone = |table: &Table, in_other: &BTreeMap<&str, _>| {
+            table.names.iter().filter(|name| !in_other.contains_key(name.as_str())).cloned().collect()
         };
-        let lone_names = [lone(first, second), lone(second, first)];
+        let lone_names = [lone(first, &in_second), lone(second, &in_first)];
         Ok(Self { rows, columns, lone_rows, lone_names })
     }
 }

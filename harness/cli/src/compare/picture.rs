@@ -1,5 +1,7 @@
 //! The picture of a comparison: the second table less the first, a panel for each vector that differs.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use drawing::{COLOURS, Chart, DrawingError, Panel, Series};
 use reference::{Cell, Difference};
 
@@ -28,8 +30,11 @@ pub(super) fn svg(
         (true, _) => TimeAxis::over([0.0; 2], None),
         _ => TimeAxis { seconds: 1.0, label: sidecar.labelled(&first.key), names: Vec::new() },
     };
-    let differs = |name: &str| found.is_empty() || found.iter().any(|it| it.name == name);
-    let mut panels: Vec<(String, Panel)> = Vec::new();
+    let different: BTreeSet<&str> = found.iter().map(|it| it.name.as_str()).collect();
+    let differs = |name: &str| different.is_empty() || different.contains(name);
+    let mut panels: Vec<Panel> = Vec::new();
+    // The panel of a vector that has room for another line.
+    let mut with_room: BTreeMap<String, usize> = BTreeMap::new();
     for column in pairing.columns.iter().filter(|column| differs(&column.name)) {
         let display = sidecar.columns.get(&column.name).and_then(|it| it.display.as_ref());
         let (unit, factor) = match display {
@@ -54,16 +59,17 @@ pub(super) fn svg(
             true => Series::line(column.name.clone(), points),
             false => Series::dots(column.name.clone(), points),
         };
-        match panels.iter_mut().find(|(known, panel)| *known == name && panel.series.len() < COLOURS.len()) {
-            Some((_, panel)) => panel.series.push(series),
-            None => panels.push((name, Panel::new(y_label).with([series]))),
+        match with_room.get(&name).filter(|at| panels[**at].series.len() < COLOURS.len()) {
+            Some(at) => panels[*at].series.push(series),
+            None => {
+                with_room.insert(name, panels.len());
+                panels.push(Panel::new(y_label).with([series]));
+            }
         }
     }
     leave_out(&mut panels, "panels", "");
     let [one, other] = [first, second].map(|table| table.path.display());
-    let chart = Chart {
-        x_names: axis.names,
-        ..Chart::new(format!("{other} less {one}"), axis.label).with(panels.into_iter().map(|(_, it)| it))
-    };
+    let chart =
+        Chart { x_names: axis.names, ..Chart::new(format!("{other} less {one}"), axis.label).with(panels) };
     drawing::svg(&[&chart])
 }

@@ -3,7 +3,10 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use physics::environment::{dates, onboard::OnboardTarget};
+use physics::{
+    constants::DAY_S,
+    environment::{dates, onboard::OnboardTarget},
+};
 
 #[cfg(feature = "spk")]
 use super::kernel_options::KernelOptions;
@@ -34,7 +37,7 @@ pub(crate) struct Ephemeris {
     #[cfg(feature = "spk")]
     #[command(flatten)]
     pub kernels: KernelOptions,
-    /// First epoch, a date in UTC or TDB: '2011-04-06T00:00:00 UTC'
+    /// First epoch, a date: '2011-04-06T00:00:00 UTC'
     #[arg(long, value_name = "DATE")]
     pub start: String,
     /// Last epoch, likewise
@@ -108,6 +111,17 @@ pub(crate) enum BodyKind {
     Spacecraft,
 }
 
+/// Longest span, in years: what is fitted is in memory whole.
+const MOST_YEARS: f64 = 100.0;
+
+fn check_span(option: &str, written: &str, span_s: f64) -> Result<(), String> {
+    let years = span_s / (365.25 * DAY_S);
+    let is_allowed = years <= MOST_YEARS;
+    is_allowed.then_some(()).ok_or_else(|| {
+        format!("{option}: found {written:?}, {years:.0} years after --start, allowed: up to {MOST_YEARS}")
+    })
+}
+
 impl Ephemeris {
     /// The FMU that is simulated.
     pub(crate) fn simulated(&self) -> PathBuf {
@@ -133,6 +147,7 @@ impl Ephemeris {
                 self.stop, self.start
             ));
         }
+        check_span("--stop", &self.stop, stop_s - start_s)?;
         Ok([start_s, stop_s])
     }
 
@@ -146,6 +161,7 @@ impl Ephemeris {
                 self.stop
             ));
         }
+        check_span("--coarse-until", written, until_s - epoch_s("--start", &self.start)?)?;
         Ok(until_s)
     }
 

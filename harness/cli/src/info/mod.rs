@@ -17,6 +17,7 @@ use crate::{
     carried, epoch, kind,
     outcome::{self, Outcome},
     patience::Patience,
+    values,
     variables::{VariableRow, rows, selected, warn_of_repeated},
 };
 use experiment::times;
@@ -30,7 +31,7 @@ pub(crate) struct Info {
     #[arg(long)]
     pub variables: bool,
     /// Show only these variables and the options they take: names, vectors, patterns with *
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    #[arg(long, value_name = "NAMES")]
     pub only: Vec<String>,
     /// Show what the FMU computes from its parameters: the sunshade's torque coefficients, torque and force by source at
     /// the start, what the wheels guarantee
@@ -91,7 +92,7 @@ fn chosen(description: &Description, arguments: &Info) -> Result<Option<Vec<Stri
     if arguments.only.is_empty() {
         return Ok(None);
     }
-    let positions = selected(description, &arguments.only, loader::select)?;
+    let positions = selected(description, &values::all_names(&arguments.only), loader::select)?;
     Ok(Some(variables_and_options(description, &positions)))
 }
 

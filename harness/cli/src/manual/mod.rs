@@ -1,9 +1,10 @@
 //! `heliotorque man`: the manual's pages, one for the program and one for each command.
 
-use std::{fs, path::PathBuf, process::ExitCode};
+use std::{path::PathBuf, process::ExitCode};
 
 use clap::{Args, Command};
 use clap_mangen::Man;
+use files::Destination;
 
 use crate::outcome::{self, Outcome};
 
@@ -28,7 +29,7 @@ pub(crate) fn run(arguments: &Manual, program: Command) -> Outcome {
     if let Some(folder) = &arguments.output {
         for (name, page) in &pages {
             let path = folder.join(format!("{name}.1"));
-            fs::write(&path, page).map_err(|error| format!("{}: {error}: see --output", path.display()))?;
+            Destination::open(&path, "--output", &[])?.fill(|file| file.write_all(page))?;
         }
         return Ok(ExitCode::SUCCESS);
     }

@@ -47,7 +47,7 @@ pub(crate) struct Map {
     /// MomentumPlant's keepIn.azimuth and keepIn.elevation, none at 180deg,90deg
     #[arg(long, value_name = "AZIMUTH,ELEVATION", value_parser = zone, allow_hyphen_values = true)]
     pub zone: Option<[f64; 2]>,
-    /// Spacing of the directions, in deg or rad, a whole part of 90 deg, at least 0.1 deg
+    /// Spacing of the directions, in deg or rad, a whole part of 90 deg, at least 0.2 deg
     #[arg(long, value_name = "ANGLE", value_parser = steps, allow_hyphen_values = true, default_value = "1deg")]
     pub step: Steps,
     /// What is mapped: solar, the sunlight alone; or total, with the recoil of the heat that sunlight brings
@@ -139,10 +139,10 @@ fn zone(text: &str) -> Result<[f64; 2], String> {
 
 fn steps(text: &str) -> Result<Steps, String> {
     let count = 90.0 / angle(text)?.to_degrees();
-    if (1.0..=900.0 + 1e-6).contains(&count) && (count - count.round()).abs() < 1e-6 {
+    if (1.0..=450.0 + 1e-6).contains(&count) && (count - count.round()).abs() < 1e-6 {
         return Ok(Steps(count.round() as u32));
     }
-    Err("allowed is a whole part of 90 deg from 0.1 deg on: 0.5deg, 1deg, 5deg".to_owned())
+    Err("allowed is a whole part of 90 deg from 0.2 deg on: 0.5deg, 1deg, 5deg".to_owned())
 }
 
 #[cfg(test)]
@@ -163,8 +163,8 @@ mod tests {
             assert!(zone(bad).is_err(), "{bad}");
         }
         assert_eq!(steps("1deg"), Ok(Steps(90)));
-        assert_eq!(steps("0.1deg"), Ok(Steps(900)));
-        for bad in ["0deg", "7deg", "-1deg", "nandeg", "0.01deg", "180deg", "1"] {
+        assert_eq!(steps("0.2deg"), Ok(Steps(450)));
+        for bad in ["0deg", "7deg", "-1deg", "nandeg", "0.1deg", "0.01deg", "180deg", "1"] {
             assert!(steps(bad).is_err(), "{bad}");
         }
         for bad in ["-181deg", "181deg", "65"] {

@@ -24,7 +24,7 @@ pub(super) struct MissionDescription {
     pub timeline: Option<String>,
     /// Positions over time, a TOML file, for models that take one.
     pub ephemeris: Option<String>,
-    /// When the flight begins: a date that ends in UTC or TDB ("2011-04-06T00:00:00 UTC"), which is then simulation time 0; or
+    /// When the flight begins: a date that ends in UTC, Z, TDB, TT or TAI, or a Julian date ("2011-04-06T00:00:00 UTC"), which is then simulation time 0; or
     /// simulation time, in s or with a unit ("10 d").
     pub start: Option<WrittenAs<Time>>,
     /// When it ends: a date, if `start` is one; or simulation time.

@@ -11,9 +11,11 @@ const HEAD: u64 = 1 << 16;
 
 /// A kind of output.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum OutputKind<'a> {
+pub(crate) enum OutputKind<'a> {
     /// A table that begins with this line.
     Table(&'a [u8]),
+    /// A table of a campaign's run, likewise.
+    History(&'a [u8]),
     /// A picture.
     Picture,
     /// What a table comes from.
@@ -25,17 +27,23 @@ pub(super) enum OutputKind<'a> {
 ///
 /// # Errors
 /// What was found, and what is allowed.
-pub(super) fn check(
+pub(crate) fn check(
     file: &OutputFile,
     destination: &Destination,
     kind: OutputKind<'_>,
 ) -> Result<(), String> {
     let OutputFile { path, option, home } = file;
     let Some(home) = home else { return Ok(()) };
-    let (path, instead) = (path.display(), kind.option());
+    let path = path.display();
+    let (owner, anywhere, any) = match kind.option() {
+        Some(instead) => {
+            ("mission", format!("; {instead} may lead anywhere"), format!("; {instead} replaces any"))
+        }
+        None => ("campaign", String::new(), String::new()),
+    };
     if !destination.is_within(home) {
         return Err(format!(
-            "{path}: found a file outside the mission's folder, allowed: one in it or below; {instead} may lead anywhere: see {option}"
+            "{path}: found a file outside the {owner}'s folder, allowed: one in it or below{anywhere}: see {option}"
         ));
     }
     let Some(existing) = destination.existing() else { return Ok(()) };
@@ -48,7 +56,7 @@ pub(super) fn check(
             Ok(())
         }
         Standing::Other => Err(format!(
-            "{path}: found a file that no run wrote, allowed: none, or what a run wrote; {instead} replaces any: see {option}"
+            "{path}: found a file that no run wrote, allowed: none, or what a run wrote{any}: see {option}"
         )),
     }
 }
@@ -65,11 +73,12 @@ enum Standing {
 }
 
 impl OutputKind<'_> {
-    /// The option that gives it a place instead.
-    fn option(self) -> &'static str {
+    /// The option that gives it a place instead, if one does.
+    fn option(self) -> Option<&'static str> {
         match self {
-            Self::Table(_) | Self::Origin => "--output",
-            Self::Picture => "--plot",
+            Self::Table(_) | Self::Origin => Some("--output"),
+            Self::Picture => Some("--plot"),
+            Self::History(_) => None,
         }
     }
 
@@ -78,8 +87,8 @@ impl OutputKind<'_> {
         match self {
             // An empty file holds nothing to lose.
             _ if head.is_empty() => Standing::Same,
-            Self::Table(header) if head.starts_with(header) => Standing::Same,
-            Self::Table(_) if is_over_time(&text) => Standing::Alike,
+            Self::Table(header) | Self::History(header) if head.starts_with(header) => Standing::Same,
+            Self::Table(_) | Self::History(_) if is_over_time(&text) => Standing::Alike,
             Self::Origin if text.starts_with(origin::HEAD) => Standing::Same,
             Self::Picture if drawing::is_chart(&text) => Standing::Same,
             _ => Standing::Other,

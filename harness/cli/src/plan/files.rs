@@ -2,11 +2,10 @@
 
 use std::{
     error::Error,
-    fs,
     path::{Path, PathBuf},
 };
 
-use ::files::Destination;
+use ::files::{Destination, OutputFolder};
 use planner::spin::{PlannedBurn, start_table};
 
 use super::picture;
@@ -29,10 +28,38 @@ pub(super) fn write(
         ("start.toml", start_table(&burn.start_values())),
         ("burn.svg", picture::svg(burn)?),
     ];
-    fs::create_dir_all(folder).map_err(|error| format!("{}: {error}: see {OPTION}", folder.display()))?;
+    let _folder = OutputFolder::create(folder, OPTION)?;
     let inputs: Vec<&Path> = spacecraft.into_iter().collect();
     let contents = contents.map(|(name, text)| (name, terminal::unsigned_zeros(&text).into_owned()));
     write_all(folder, &contents, &inputs)
+}
+
+/// Begins the TOML files of a plan.
+const HEAD: &str = "# Written by `heliotorque plan`, which replaces it when it plans again.\n";
+
+fn is_edited_by_people(name: &str) -> bool {
+    name.ends_with(".toml")
+}
+
+/// Refuses a folder in which files that no plan wrote have the names of a plan's files.
+///
+/// # Errors
+/// The first such file.
+pub(super) fn check_standing<'n>(
+    folder: &Path,
+    names: impl IntoIterator<Item = &'n str>,
+) -> Result<(), String> {
+    for path in names.into_iter().filter(|name| is_edited_by_people(name)).map(|name| folder.join(name)) {
+        let found = if path.exists() { ::files::read_text(&path)? } else { String::new() };
+        if !found.is_empty() && !found.starts_with(HEAD) {
+            let allowed = "allowed: none, or what a plan wrote; another folder takes a new one";
+            return Err(format!(
+                "{}: found a file that no plan wrote, {allowed}: see {OPTION}",
+                path.display()
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Writes texts under their names into a folder and gives their paths; none is written unless all can be.
@@ -44,8 +71,13 @@ pub(super) fn write_all(
     contents: &[(&str, String)],
     inputs: &[&Path],
 ) -> Result<Vec<PathBuf>, Box<dyn Error>> {
+    check_standing(folder, contents.iter().map(|(name, _)| *name))?;
     let opened = contents.iter().map(|(name, text)| {
         let path = folder.join(name);
+        let text = match is_edited_by_people(name) {
+            true => format!("{HEAD}{}", text.strip_prefix(HEAD).unwrap_or(text)),
+            false => text.clone(),
+        };
         Destination::open(&path, OPTION, inputs).map(|destination| (path, destination, text))
     });
     let opened = opened.collect::<Result<Vec<_>, _>>()?;

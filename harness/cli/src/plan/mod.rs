@@ -32,7 +32,7 @@ pub(crate) enum Plan {
 /// Shown with the help of `plan flyby`.
 const FLYBY: &str = "\
 Beside the files of `plan momentum`: desired.csv, the least velocity changes that would do the same; sensitivity.csv, what every window
-changes. Status 0: a plan was found and simulated within its limits. Status 1: none, or the aim is out of reach: plan.json and plan.svg
+changes. Status 0: a plan was found and simulated within its limits. Status 1: none, or none was found: plan.json and plan.svg
 say how far it is.
 
 Example:

@@ -17,6 +17,7 @@ use crate::{
     outcome::{self, Outcome},
     output::check_svg_path,
     table::{Sidecar, TIME, Table},
+    values,
 };
 pub(crate) use options::Plot;
 
@@ -75,7 +76,7 @@ fn pictures(arguments: &Plot, tables: &[(Table, Sidecar)]) -> Result<Vec<Box<dyn
             table.key
         ));
     }
-    let names = &arguments.names;
+    let names = &values::all_names(&arguments.names);
     match tables {
         [(table, sidecar)] if bands::is_of_percentiles(table) => {
             let of_runs = bands::runs_of(&table.path).map(|runs| Sidecar::beside(&runs)).transpose()?;

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::values;
+
 /// Shown with the help.
 const EXAMPLE: &str = "\
 A table over time is drawn as `run --plot` draws it; several are overlaid, a panel for each variable, a colour for each file. A table of
@@ -25,7 +27,7 @@ pub(crate) struct Plot {
     #[arg(required = true, value_name = "CSV")]
     pub files: Vec<PathBuf>,
     /// Of tables over time draw these variables: names, vectors, patterns with *; otherwise all
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    #[arg(long, value_name = "NAMES")]
     pub names: Vec<String>,
     /// How often a column takes which values; repeatable, or a pattern, a panel each
     #[arg(long, value_name = "NAME", conflicts_with = "names")]
@@ -57,24 +59,9 @@ fn triple(text: &str) -> Result<[String; 3], String> {
     names(text).ok_or_else(|| "allowed are three names with commas between them: X,Y,NAME".to_owned())
 }
 
-/// Names between commas; those between the indices of a matrix part none.
 fn names<const N: usize>(text: &str) -> Option<[String; N]> {
-    let (mut names, mut depth) = (vec![String::new()], 0);
-    for letter in text.chars() {
-        match (letter, names.last_mut()) {
-            (',', _) if depth == 0 => names.push(String::new()),
-            (letter, Some(name)) => {
-                depth += i32::from(letter == '[') - i32::from(letter == ']');
-                name.push(letter);
-            }
-            (_, None) => {}
-        }
-    }
-    let names: Vec<String> = names.into_iter().map(|name| name.trim().to_owned()).collect();
-    if names.iter().any(String::is_empty) {
-        return None;
-    }
-    names.try_into().ok()
+    let names = values::names(text);
+    names.iter().all(|name| !name.is_empty()).then(|| names.try_into().ok())?
 }
 
 #[cfg(test)]

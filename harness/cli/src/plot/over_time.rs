@@ -1,6 +1,9 @@
 //! Tables over time: the picture of a run, or several runs overlaid.
 
+use std::collections::BTreeSet;
+
 use drawing::{Chart, Panel, Series};
+use loader::Column;
 
 use crate::{
     output::{Known, TimeAxis, chart, leave_out, panel, shade_eclipses},
@@ -27,7 +30,7 @@ pub(super) fn single(table: &Table, sidecar: &Sidecar, patterns: &[String]) -> R
 pub(super) fn overlaid(tables: &[(Table, Sidecar)], patterns: &[String]) -> Result<Chart, String> {
     let each: Vec<&[String]> =
         if patterns.is_empty() { vec![patterns] } else { patterns.chunks(1).collect() };
-    let mut names: Vec<String> = Vec::new();
+    let (mut names, mut known) = (Vec::new(), BTreeSet::new());
     for pattern in each {
         let found: Vec<_> = tables.iter().map(|(table, _)| table.selected(pattern)).collect();
         // One of the tables may lack a variable, but not all.
@@ -35,7 +38,7 @@ pub(super) fn overlaid(tables: &[(Table, Sidecar)], patterns: &[String]) -> Resu
             return Err(found.into_iter().find_map(Result::err).unwrap_or_default());
         }
         for name in found.into_iter().flatten().flatten() {
-            if !names.contains(&name) {
+            if known.insert(name.clone()) {
                 names.push(name);
             }
         }
@@ -43,12 +46,16 @@ pub(super) fn overlaid(tables: &[(Table, Sidecar)], patterns: &[String]) -> Resu
     let axis = axis(tables);
     let described: Vec<Described> =
         tables.iter().map(|(table, sidecar)| Described::new(table, sidecar)).collect();
+    let numbers = described.iter().flat_map(|it| it.recording.names.iter().zip(&it.recording.columns));
+    let numbers = numbers.filter(|(_, column)| !matches!(column, Column::Text(_)));
+    let numbers: BTreeSet<&String> = numbers.map(|(name, _)| name).collect();
+    names.retain(|name| numbers.contains(name));
+    leave_out(&mut names, "variables", ": see --names");
     let mut panels = Vec::new();
     for name in &names {
         check_units(tables, name)?;
         panels.extend(of_variable(tables, &described, (name, axis.seconds)));
     }
-    leave_out(&mut panels, "variables", ": see --names");
     let legend = legend(tables);
     let title = tables.iter().find_map(|(_, sidecar)| sidecar.title.clone()).unwrap_or_default();
     Ok(Chart { title, x_label: axis.label, panels, legend, x_names: axis.names })

@@ -52,8 +52,10 @@ fn histogram(table: &Table, sidecar: &Sidecar, name: &str) -> Result<Chart, Stri
     let marks = marks.into_iter().flat_map(|value| [(value, 0.0), (value, top), (f64::NAN, f64::NAN)]);
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
-    let squares = values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>();
-    let deviation = if count > 1.0 { (squares / (count - 1.0)).sqrt() } else { 0.0 };
+    // In parts of the largest, whose square may be beyond all numbers.
+    let largest = values.iter().fold(f64::MIN_POSITIVE, |largest, value| largest.max(value.abs()));
+    let squares = values.iter().map(|value| ((value - mean) / largest).powi(2)).sum::<f64>();
+    let deviation = if count > 1.0 { largest * (squares / (count - 1.0)).sqrt() } else { 0.0 };
     let title = format!(
         "{name}: {} {}, mean {}, standard deviation {}",
         values.len(),
@@ -135,7 +137,7 @@ pub(super) fn together<const N: usize>(table: &Table, names: [&str; N]) -> Resul
 /// Rows in which every column has a finite number.
 fn numbered(table: &Table, names: &[&str]) -> Vec<bool> {
     let columns: Vec<Vec<f64>> = names.iter().filter_map(|name| table.numbers(name)).collect();
-    (0..table.keys.len()).map(|row| columns.iter().all(|column| column[row].is_finite())).collect()
+    (0..table.keys.len()).map(|row| columns.iter().all(|column| drawing::is_drawable(column[row]))).collect()
 }
 
 /// Of sorted values, between neighbours linearly.

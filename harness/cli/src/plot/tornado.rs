@@ -37,7 +37,7 @@ pub(super) fn chart(table: &Table, sidecar: &Sidecar, name: &str) -> Result<Torn
     }
     let of_run = |column: &str, run: usize| {
         let row = table.keys.iter().position(|key| *key == run as f64)?;
-        table.numbers(column)?.get(row).copied().filter(|value| value.is_finite())
+        table.numbers(column)?.get(row).copied().filter(|value| drawing::is_drawable(*value))
     };
     let at_means = of_run(&name, 0).ok_or_else(|| {
         format!("{file}: {name}: found no number in run 0, allowed: the run with all at their means")

@@ -3,6 +3,7 @@
 use core::{fmt, marker::PhantomData, ops::Deref};
 use std::collections::BTreeMap;
 
+use physics::environment::dates;
 use serde::Deserialize;
 
 use crate::values;
@@ -45,7 +46,11 @@ impl Written {
 
     /// A text that looks like a date.
     pub(crate) fn date(&self) -> Option<&str> {
-        if let Self::Text(text) = self { Some(text.as_str()).filter(|it| values::is_date(it)) } else { None }
+        if let Self::Text(text) = self {
+            Some(text.as_str()).filter(|it| dates::looks_like_date(it))
+        } else {
+            None
+        }
     }
 
     /// A number without a unit.

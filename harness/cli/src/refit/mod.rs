@@ -48,6 +48,9 @@ pub(crate) fn run(arguments: &Refit) -> Outcome {
     if !arguments.quiet {
         terminal::print(&found.text())?;
     }
+    if let Some(warning) = found.warning(&telemetry.lines) {
+        terminal::note(&warning);
+    }
     outcome::write_all(destinations.into_iter().zip(contents), arguments.quiet)?;
     Ok(ExitCode::SUCCESS)
 }

@@ -13,7 +13,7 @@ is fitted with them. A direction of which the history leaves more than half of t
 prior, and the answer names it.
 
 Telemetry has the columns time (s of simulation time, growing from row to row), momentum.inertial[1], [2], [3] (N.m.s, EME2000), and
-dump.count where dumps fall: a recording of `run` with --record momentum.inertial,dump.count is such a table.
+dump.count where dumps fall; others are not read: a recording of `run` with momentum.inertial and dump.count is such a table.
 
 Example:
   heliotorque refit mission.toml --telemetry momentum.csv --output refit.toml      writes refit.toml, refit.json, refit.svg

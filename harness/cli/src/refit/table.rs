@@ -6,9 +6,6 @@ use loader::csv::Real;
 use nalgebra::Vector4;
 use planner::refit::{Deviations, Direction, Fitted, Parameters};
 
-/// Standard deviations of chi square from its mean beyond which noise or model are not what they were said to be.
-const FAR: f64 = 5.0;
-
 /// What was fitted.
 pub(super) struct Found<'a> {
     pub mission: String,
@@ -107,21 +104,34 @@ impl Found<'_> {
 
     fn residuals(&self) -> String {
         let (chi_square, freedom) = (self.fitted.chi_square, self.fitted.degrees_of_freedom as f64);
-        let text = format!(
+        format!(
             "chi square {chi_square:.1} for {freedom} degrees of freedom; residuals {} N.m.s rms, --noise {} N.m.s",
             terminal::short(rounded(self.rms_n_m_s())),
             terminal::short(self.deviations.noise_n_m_s)
-        );
-        if (chi_square - freedom).abs() <= FAR * (2.0 * freedom).sqrt() {
-            return text;
+        )
+    }
+
+    /// What is to be said of residuals that are not the noise's; `lines` are those of the rows in the telemetry.
+    pub(super) fn warning(&self, lines: &[u64]) -> Option<String> {
+        if self.fitted.is_overcautious() {
+            return Some(
+                "warning: less than the noise is left: --noise is too high, or rows are smoothed; the deviations are wider than the \
+                 history's"
+                    .to_owned(),
+            );
         }
-        let why = if chi_square > freedom {
-            "more than noise is left: a dump without dump.count, another attitude, a spacecraft that is not the mission's, or a \
-             --noise that is too low"
-        } else {
-            "less than the noise is left: --noise is too high, or rows are smoothed"
-        };
-        format!("{text}\nwarning: {why}; the deviations above are not to be trusted")
+        let (row, residual_n_m_s) = self.fitted.worst_row();
+        (!self.fitted.is_trusted()).then(|| {
+            format!(
+                "warning: more than noise is left, chi square {} a degree of freedom, most of it in {}:{}, {} N.m.s: a dump without \
+                 dump.count, another attitude, a spacecraft that is not the mission's, or a --noise that is too low; values and \
+                 deviations are not to be trusted (trusted = false), and `plan` refuses them",
+                terminal::short(rounded(self.fitted.chi_square / self.fitted.degrees_of_freedom.max(1) as f64)),
+                self.telemetry,
+                lines.get(row).copied().unwrap_or_default(),
+                terminal::short(rounded(residual_n_m_s)),
+            )
+        })
     }
 
     /// The table that a mission takes.
@@ -131,6 +141,13 @@ impl Found<'_> {
         let mut text = format!(
             "# {} fitted to {} by `heliotorque refit`: for the table [set] of a mission.\n",
             self.mission, self.telemetry
+        );
+        let _ = writeln!(
+            text,
+            "# trusted = {}: chi square {:.1} for {} degrees of freedom",
+            self.fitted.is_trusted(),
+            self.fitted.chi_square,
+            self.fitted.degrees_of_freedom
         );
         for it in self.fitted.undetermined() {
             let _ = writeln!(text, "# Not determined, so kept at the mission's values: {}.", self.named(it));

@@ -15,7 +15,7 @@ use loader::{Collector, Ended, Error, LogMessage, Recording, Row, Rows, Status};
 use super::{options::Run, settings::Settings, simulated::Simulated, subject::Subject};
 use crate::{
     child::{
-        Bounds, ChildProcess, EndReason, LARGE, Link, NOT_REQUESTED, Payload, Shown, path_option, push_text,
+        Bounds, ChildProcess, EndReason, Link, NOT_REQUESTED, Payload, Shown, large, path_option, push_text,
     },
     outcome::Outcome,
 };
@@ -59,7 +59,7 @@ pub(super) fn start(subject: &Subject, input_copy: Option<&Path>) -> io::Result<
     let own = [OsString::from("run-in-child"), path_option("--unpacked-in=", &subject.folder())];
     let own = own.into_iter().chain(input_copy.map(|path| path_option("--input-copy=", path)));
     // After the program and `run`: the child reads the same arguments.
-    ChildProcess::new(own.chain(std::env::args_os().skip(2)), LARGE, None)
+    ChildProcess::new(own.chain(std::env::args_os().skip(2)), large(1), None)
 }
 
 /// Takes what the child process sends for so many points, each FMI call within its bounds. `tick` is shown the recording so far and the beginning of

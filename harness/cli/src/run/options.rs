@@ -43,8 +43,9 @@ pub(crate) struct Run {
     /// otherwise initial
     #[arg(long, value_enum, value_name = "VALUES", hide_possible_values = true)]
     pub first_exchange: Option<FirstExchangeKind>,
-    /// Inputs over time, a CSV file: time,<input>,... with one row per time in s. Between rows continuous inputs are
-    /// interpolated linearly and discrete ones held; two rows at one time make a jump; - is the standard input
+    /// Inputs over time, a CSV file: time,<input>,... with one row per time in s. Between rows attitudes turn, by their rate
+    /// where it stands beside, angles take the nearest turn, positions follow their velocities, other continuous inputs are
+    /// linear and discrete ones held; two rows at one time make a jump; - is the standard input
     #[arg(long, value_name = "CSV")]
     pub input: Option<PathBuf>,
     /// Hand the slopes of the input table to the FMU too, so that inputs do not jump from step to step
@@ -52,7 +53,7 @@ pub(crate) struct Run {
     pub slopes: bool,
     /// Record these variables: names, vectors, patterns with * such as 'plate*.force', which take outputs only; otherwise
     /// every output
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    #[arg(long, value_name = "NAMES")]
     pub record: Vec<String>,
     /// Record the step nearest to each multiple of this time, in s or with a unit, and the last one; otherwise every step
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]

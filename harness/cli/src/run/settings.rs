@@ -17,6 +17,7 @@ use crate::{
     epoch::Dates,
     mission::{self, Resolved},
     output::{self, Limit, OutputFile, Plot, Requested},
+    values::all_names,
     variables::{assigned_by, selected},
 };
 
@@ -83,7 +84,7 @@ impl Settings {
         let mut positions = match (&arguments.record[..], resolved.record) {
             ([], Some(positions)) => positions,
             ([], None) => loader::outputs(described),
-            (patterns, _) => selected(described, patterns, loader::select_outputs)?,
+            (names, _) => selected(described, &all_names(names), loader::select_outputs)?,
         };
         // What is drawn or judged is recorded too.
         let requested = plots.iter().flat_map(|plot| plot.names.iter().flatten());

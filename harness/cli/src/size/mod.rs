@@ -11,7 +11,7 @@ mod table;
 
 use std::{path::Path, process::ExitCode};
 
-use files::Destination;
+use files::{Destination, OutputFolder};
 
 use crate::{
     interrupt,
@@ -25,7 +25,7 @@ use table::Found;
 
 /// Sizes a spacecraft.
 pub(crate) fn run(arguments: &Size) -> Outcome {
-    let [picture, table_file] = destinations(arguments)?;
+    let ([picture, table_file], _folder) = destinations(arguments)?;
     let sized = SizedSpacecraft::open(arguments)?;
     let slews = SlewLimits::of(&sized)?.slews();
     let simulated = flights::undumped(&sized, arguments.quiet)?;
@@ -52,15 +52,13 @@ pub(crate) fn run(arguments: &Size) -> Outcome {
 }
 
 /// Picture and table, looked at before anything is simulated.
-fn destinations(arguments: &Size) -> Result<[Destination; 2], String> {
+fn destinations(arguments: &Size) -> Result<([Destination; 2], Option<OutputFolder>), String> {
     let stem = arguments.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let folder = arguments.output.as_deref().unwrap_or(Path::new(""));
     let inputs = [arguments.file.as_path()];
     let open =
         |ending: &str| Destination::open(&folder.join(format!("{stem}-size.{ending}")), "--output", &inputs);
-    if let Some(folder) = &arguments.output {
-        std::fs::create_dir_all(folder)
-            .map_err(|error| format!("{}: {error}: see --output", folder.display()))?;
-    }
-    Ok([open("svg")?, open("csv")?])
+    let made =
+        arguments.output.as_deref().map(|folder| OutputFolder::create(folder, "--output")).transpose()?;
+    Ok(([open("svg")?, open("csv")?], made))
 }

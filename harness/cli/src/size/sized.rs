@@ -25,6 +25,9 @@ const PHASE: &str = "guided.phase";
 /// A year, in s.
 pub(super) const YEAR_S: f64 = 365.25 * DAY_S;
 
+/// Longest flight, in years: its columns are in memory whole.
+const MOST_YEARS: f64 = 50.0;
+
 /// A spacecraft ready for simulation.
 pub(super) struct SizedSpacecraft {
     pub fmu: Fmu,
@@ -94,6 +97,14 @@ impl SizedSpacecraft {
         let spacing_s = started.get_real("dump.requiredSpacing")?.max(shortest_s);
         let is_body_integral = item(description, &sets, "momentum.convention") == Some("bodyIntegral");
         drop(started);
+        let span_s = arguments.duration.unwrap_or(stop_s - start_s);
+        if span_s > MOST_YEARS * YEAR_S {
+            let [found, option] = [span_s / YEAR_S, MOST_YEARS].map(terminal::short);
+            return Err(format!(
+                "{file}: found a flight of {found} years, allowed: up to {option}: --duration"
+            )
+            .into());
+        }
         let spacecraft = spacecraft_of(&fmu)?;
         let has_fan = spacecraft.antennas.iter().any(|named| named.antenna.fan().is_some());
         let strategies = strategies(description, &sets, period_s, has_fan && !is_in_cruise);
@@ -102,7 +113,7 @@ impl SizedSpacecraft {
             sets,
             inputs,
             start_s,
-            span_s: arguments.duration.unwrap_or(stop_s - start_s),
+            span_s,
             period_s,
             spacing_s,
             is_body_integral,

@@ -4,7 +4,9 @@ mod description;
 mod file;
 mod options;
 mod origin;
+mod outputs;
 mod pool;
+mod repeated;
 mod resolved;
 mod schema;
 mod series;
@@ -13,9 +15,8 @@ mod worker;
 
 use std::{
     error::Error,
-    fs,
     ops::Range,
-    path::{Path, PathBuf},
+    path::Path,
     process::ExitCode,
     sync::{
         atomic::{AtomicBool, Ordering},
@@ -25,14 +26,16 @@ use std::{
     time::Instant,
 };
 
-use files::{Destination, Growing, part_of, sidecar_of};
-use loader::csv;
+use files::{Destination, Growing, Part, sidecar_of};
+use loader::{InputTable, csv};
 use model_description::Description;
 
 use file::CampaignFile;
 pub(crate) use options::Sweep;
 use origin::Digests;
-use pool::Pool;
+use outputs::{Beside, CampaignFiles, Opened};
+use pool::{Attempt, Pool};
+use repeated::Sample;
 use resolved::Campaign;
 use series::Series;
 use table::RunTable;
@@ -40,6 +43,7 @@ use worker::RunStatus;
 pub(crate) use worker::{SweepInChild, run as run_in_child};
 
 use crate::{
+    child::large,
     interrupt::{self, INTERRUPTED},
     outcome::{self, Outcome},
     run::Subject,
@@ -73,6 +77,10 @@ pub(crate) fn run(arguments: &Sweep) -> Outcome {
     let campaign = Campaign::resolve(&file, simulated, &subject)?;
     let runs = resolved::range(arguments, &campaign)?;
     campaign.check(&file, described, &runs)?;
+    if !arguments.quiet {
+        let warnings = campaign.settings.inputs.iter().flat_map(InputTable::coarse_turns);
+        warnings.for_each(|warning| terminal::note(&format!("warning: {warning}")));
+    }
     let sweep = Started { arguments, file: &file, campaign: &campaign, described, runs };
     if arguments.dry_run { sweep.print_values(fmu.folder()) } else { sweep.carry_out(fmu.folder()) }
 }
@@ -105,82 +113,99 @@ impl Started<'_> {
             runs.clone().try_for_each(|run| writeln!(to, "{}", table::values(campaign, run)))
         })?;
         if !is_stdout {
-            self.write_beside(&sidecar_of(output), &Digests::of(file, campaign, folder)?)?;
+            let digests = Digests::of(file, campaign, folder, runs)?;
+            let beside = Destination::open(&sidecar_of(output), OPTION, &self.inputs())?;
+            self.write_beside(beside, &digests)?;
         }
         Ok(ExitCode::SUCCESS)
     }
 
     fn carry_out(&self, folder: &Path) -> Outcome {
         let Self { arguments, file, campaign, described, runs } = self;
-        let output = arguments.output.as_path();
-        let digests = Digests::of(file, campaign, folder)?;
-        let part = part_of(output);
-        let inputs = self.inputs();
-        let destination = Destination::open(output, OPTION, &inputs)?;
-        let is_stdout = destination.is_stdout();
-        if arguments.resume && !is_stdout && !part.exists() && output.exists() {
-            self.check_digests(&sidecar_of(output), &digests)?;
-            return outcome::printed(&format!("{}: complete already", output.display()));
-        }
-        let header = table::header(campaign, described);
-        let (done, bytes) = if arguments.resume && !is_stdout && part.exists() {
-            self.check_digests(&sidecar_of(&part), &digests)?;
-            table::whole_rows(&part, &header, (campaign, runs.start))?
-        } else {
-            (0, 0)
+        let digests = Digests::of(file, campaign, folder, runs)?;
+        let files = match CampaignFiles::open(self, &digests)? {
+            Opened::Begun(files) => files,
+            Opened::Complete(counts) => return self.complete(&counts),
         };
-        let mut growing = destination.grow(&inputs)?;
-        let series = self.series(is_stdout, done > 0)?;
-        let histories = self.histories()?;
-        if !is_stdout {
-            self.write_beside(&sidecar_of(&part), &digests)?;
-        }
-        if bytes > 0 {
-            growing.keep(bytes)?;
-        }
-        let mut table = RunTable::new(campaign, growing, runs.start + done);
-        if bytes == 0 {
-            table.begin(described)?;
-        }
-        let is_over = AtomicBool::new(false);
-        let left = table.next..runs.end;
+        let CampaignFiles { growing, left, series, beside, histories, .. } = *files;
+        let again: Vec<u64> = left.killed().map(|at| runs.start + at).collect();
+        let done = left.count() - again.len() as u64;
+        let mut counts = Counts::default();
+        left.statuses().for_each(|status| counts.add(status));
+        let mut table = RunTable::continued(campaign, described, (growing, &left), runs.start)?;
+        let rest = runs.start + left.count()..runs.end;
+        drop(left);
         let cores = || thread::available_parallelism().map_or(1, |it| it.get() as u64);
-        let workers = arguments.workers.map_or_else(cores, u64::from).min((left.end - left.start).max(1));
+        let workers = arguments.workers.map_or_else(cores, u64::from).min((rest.end - rest.start).max(1));
+        let is_over = AtomicBool::new(false);
         let pool = Pool {
             file: &arguments.campaign,
             campaign,
             described,
             folder,
-            runs: left,
+            runs: rest,
             workers,
+            attempt: Attempt::First,
+            limits: large(workers),
             timeout_s: arguments.timeout,
-            histories: histories.as_deref(),
+            histories: histories.as_ref().map(|it| &it.place),
             series: series.as_ref(),
             is_over: &is_over,
         };
         let began = Instant::now();
-        let counts = self.simulate(&pool, &mut table)?;
-        let next = table.next;
+        let progress = terminal::progress(runs.end - runs.start, "runs", arguments.quiet);
+        progress.set_position(done);
+        let mut taken = Taken { counts, sample: Sample::of(&pool), killed: Vec::new() };
+        for run in again {
+            simulate(&pool.alone(run, Attempt::Again), &mut table, (&mut taken, &progress))?;
+        }
+        simulate(&pool, &mut table, (&mut taken, &progress))?;
+        progress.finish_and_clear();
         if table.file.has_lost_reader() {
             return Ok(ExitCode::SUCCESS);
         }
-        let growing = table.file;
+        let next = table.next;
         if next < runs.end {
-            return self.interrupted(growing, next);
+            return self.interrupted(table.file, next);
         }
-        growing.finish()?;
-        if !is_stdout {
-            self.write_beside(&sidecar_of(output), &digests)?;
-            let _ = fs::remove_file(sidecar_of(&part));
+        if let (Some(run), Some(_)) = (taken.killed.first(), &beside) {
+            let part = table.file.leave().unwrap_or_default();
+            return Err(format!(
+                "{}: run {run}: its process was killed from outside: --resume simulates it again",
+                part.display()
+            )
+            .into());
         }
-        self.finish_series(series, is_stdout)?;
+        taken.sample.warn(&pool)?;
+        self.finish(table.file, series, beside)?;
         if !arguments.quiet {
             let simulated = (runs.end - runs.start) - done;
             let lines =
-                [counts.text(), format!("{simulated} runs in {:.3} s", began.elapsed().as_secs_f64())];
+                [taken.counts.text(), format!("{simulated} runs in {:.3} s", began.elapsed().as_secs_f64())];
             lines.iter().for_each(|line| terminal::note(line));
         }
-        Ok(if counts.have_none_failed() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+        Ok(taken.counts.status())
+    }
+
+    /// What an earlier sweep has completed.
+    fn complete(&self, counts: &Counts) -> Outcome {
+        let text = format!("{}: complete already: {}", self.arguments.output.display(), counts.text());
+        outcome::printed(&text).map(|_| counts.status())
+    }
+
+    /// Gives the files their names, the table last: what was killed between is taken up again.
+    fn finish(
+        &self,
+        growing: Growing,
+        series: Option<Series>,
+        beside: Option<Beside>,
+    ) -> Result<(), Box<dyn Error>> {
+        let records = series.map(|series| self.finish_series(series)).transpose()?;
+        let begun = beside.map(Beside::finish).transpose()?;
+        growing.finish()?;
+        records.map(Part::remove).transpose()?;
+        begun.as_deref().map(files::remove).transpose()?;
+        Ok(())
     }
 
     /// Files that are read, so not written over.
@@ -191,43 +216,13 @@ impl Started<'_> {
         inputs
     }
 
-    fn simulate(&self, pool: &Pool<'_>, table: &mut RunTable<'_>) -> Result<Counts, Box<dyn Error>> {
-        let mut counts = Counts::default();
-        let total = self.runs.end - self.runs.start;
-        let progress = terminal::progress(total, "runs", self.arguments.quiet);
-        progress.set_position(table.next - self.runs.start);
-        let outcome = thread::scope(|scope| {
-            let (sender, results) = mpsc::channel();
-            let followed: Vec<_> = (0..pool.workers)
-                .map(|worker| {
-                    let sender = sender.clone();
-                    scope.spawn(move || {
-                        let outcome = pool.follow(worker, &sender);
-                        if outcome.is_err() {
-                            pool.is_over.store(true, Ordering::Relaxed);
-                        }
-                        outcome
-                    })
-                })
-                .collect();
-            drop(sender);
-            let mut written = Ok(());
-            for result in results {
-                counts.0[result.status as usize] += 1;
-                written = written.and_then(|()| table.take(&result));
-                if written.is_err() || table.file.has_lost_reader() {
-                    pool.is_over.store(true, Ordering::Relaxed);
-                }
-                progress.inc(1);
-            }
-            let outcomes = followed
-                .into_iter()
-                .map(|it| it.join().unwrap_or_else(|_| Err("a thread panicked".to_owned())));
-            outcomes.fold(written, |so_far, outcome| so_far.and(outcome))
-        });
-        progress.finish_and_clear();
-        outcome?;
-        Ok(counts)
+    /// The text beside a table: units, seed, versions, digests.
+    fn text_beside(&self, digests: &Digests) -> String {
+        origin::to_toml((self.file, self.campaign, digests), self.described)
+    }
+
+    fn write_beside(&self, beside: Destination, digests: &Digests) -> Result<(), String> {
+        beside.fill_durably(|file| file.write_all(self.text_beside(digests).as_bytes()))
     }
 
     fn interrupted(&self, growing: Growing, next: u64) -> Outcome {
@@ -239,42 +234,7 @@ impl Started<'_> {
         Ok(if interrupt::raised() { ExitCode::from(INTERRUPTED) } else { ExitCode::FAILURE })
     }
 
-    fn check_digests(&self, path: &Path, digests: &Digests) -> Result<(), String> {
-        let found = files::read_text(path).ok().and_then(|text| Digests::read(&text));
-        let of = match found {
-            Some(found) if found == *digests => return Ok(()),
-            Some(found) if found.campaign != digests.campaign => "another campaign",
-            Some(_) => "another FMU",
-            None => "no digests",
-        };
-        let allowed = "those of this campaign and FMU: without --resume it begins anew";
-        Err(format!("{}: found {of}, allowed: {allowed}", path.display()))
-    }
-
-    fn write_beside(&self, path: &Path, digests: &Digests) -> Result<(), String> {
-        let text = origin::to_toml((self.file, self.campaign, digests), self.described, &self.runs);
-        Destination::open(path, OPTION, &[])?.fill(|file| file.write_all(text.as_bytes()))
-    }
-
-    fn series(&self, is_stdout: bool, keeps: bool) -> Result<Option<Series>, String> {
-        let variables = self.campaign.kept.percentiles.len();
-        if variables == 0 {
-            return Ok(None);
-        }
-        if is_stdout {
-            terminal::note(
-                "percentiles are not written: they stand beside a table, and --output is the standard output",
-            );
-            return Ok(None);
-        }
-        let path = series::percentiles_path(&self.arguments.output);
-        let per_run =
-            variables * usize::try_from(self.campaign.percentile_points.count()).unwrap_or(usize::MAX);
-        Series::open(part_of(&path), &self.runs, per_run, keeps).map(Some)
-    }
-
-    fn finish_series(&self, series: Option<Series>, is_stdout: bool) -> Result<(), String> {
-        let Some(series) = series.filter(|_| !is_stdout) else { return Ok(()) };
+    fn finish_series(&self, series: Series) -> Result<Part, String> {
         let Campaign { settings, kept, percentile_points, .. } = self.campaign;
         let names: Vec<&str> = kept
             .percentiles
@@ -284,23 +244,64 @@ impl Started<'_> {
         let times = settings.times;
         let points = (0..=times.steps()).filter(|k| percentile_points.contain(*k));
         let times_s: Vec<f64> = points.map(|k| times.point_s(k)).collect();
-        let path = series::percentiles_path(&self.arguments.output);
-        let output = Destination::open(&path, OPTION, &self.inputs())?;
-        series.finish(self.runs.end - self.runs.start, (&names, &times_s), output)
-    }
-
-    /// The folder of histories, made where it is not there.
-    fn histories(&self) -> Result<Option<PathBuf>, String> {
-        let Some(at) = &self.file.keep.histories else { return Ok(None) };
-        fs::create_dir_all(&at.it)
-            .map_err(|error| self.file.problem(at, &format!("{}: {error}", at.it.display())))?;
-        Ok(Some(at.it.clone()))
+        series.finish(self.runs.end - self.runs.start, (&names, &times_s))
     }
 }
 
+/// What is known of the runs that ended.
+struct Taken {
+    counts: Counts,
+    sample: Sample,
+    /// Runs whose process was killed from outside.
+    killed: Vec<u64>,
+}
+
+/// Simulates the runs of a pool and writes their rows.
+fn simulate(
+    pool: &Pool<'_>,
+    table: &mut RunTable<'_>,
+    (taken, progress): (&mut Taken, &terminal::ProgressBar),
+) -> Result<(), Box<dyn Error>> {
+    let outcome = thread::scope(|scope| {
+        let (sender, results) = mpsc::channel();
+        let followed: Vec<_> = (0..pool.workers)
+            .map(|worker| {
+                let sender = sender.clone();
+                scope.spawn(move || {
+                    let outcome = pool.follow(worker, &sender);
+                    if outcome.is_err() {
+                        pool.is_over.store(true, Ordering::Relaxed);
+                    }
+                    outcome
+                })
+            })
+            .collect();
+        drop(sender);
+        let mut written = Ok(());
+        for result in results {
+            taken.counts.add(result.status);
+            taken.sample.take(&result);
+            taken.killed.extend(result.is_killed().then_some(result.run));
+            written = written.and_then(|()| table.take(&result));
+            if written.is_err() || table.file.has_lost_reader() {
+                pool.is_over.store(true, Ordering::Relaxed);
+            }
+            progress.inc(1);
+        }
+        let outcomes =
+            followed.into_iter().map(|it| it.join().unwrap_or_else(|_| Err("a thread panicked".to_owned())));
+        outcomes.fold(written, |so_far, outcome| so_far.and(outcome))
+    });
+    Ok(outcome?)
+}
+
 impl Counts {
-    fn have_none_failed(&self) -> bool {
-        self.0[RunStatus::Failed as usize] == 0
+    fn add(&mut self, status: RunStatus) {
+        self.0[status as usize] += 1;
+    }
+
+    fn status(&self) -> ExitCode {
+        if self.0[RunStatus::Failed as usize] == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
     }
 
     fn text(&self) -> String {

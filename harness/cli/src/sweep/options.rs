@@ -34,6 +34,9 @@ pub(crate) struct Sweep {
     /// Go on where an earlier sweep of the same campaign was interrupted: with what <CSV>.part holds
     #[arg(long)]
     pub resume: bool,
+    /// Begin anew although <CSV>.part holds runs of this campaign, which go
+    #[arg(long, conflicts_with = "resume")]
+    pub fresh: bool,
     /// Simulate nothing: write the table of the runs' values, to the standard output unless --output is given, then with its
     /// <CSV>.toml
     #[arg(long, conflicts_with = "resume")]

@@ -20,12 +20,19 @@ pub(super) struct Digests {
     pub campaign: String,
     /// Of all files of the FMU.
     pub fmu: String,
+    /// The runs that the table has.
+    pub runs: Range<u64>,
 }
 
 impl Digests {
     /// # Errors
     /// A file that cannot be read.
-    pub(super) fn of(file: &CampaignFile, campaign: &Campaign, folder: &Path) -> Result<Self, String> {
+    pub(super) fn of(
+        file: &CampaignFile,
+        campaign: &Campaign,
+        folder: &Path,
+        runs: &Range<u64>,
+    ) -> Result<Self, String> {
         let read = |path: &Path| files::read(path).map_err(|error| format!("{}: {error}", path.display()));
         let mut bytes = file.text.clone().into_bytes();
         if let Some(mission) = &campaign.simulated.mission {
@@ -37,14 +44,42 @@ impl Digests {
         let mut all = Vec::new();
         gather(folder, folder, &mut all).map_err(|error| format!("{}: {error}", folder.display()))?;
         let digest = |bytes: &[u8]| Uuid::new_v5(&NAME_SPACE, bytes).to_string();
-        Ok(Self { campaign: digest(&bytes), fmu: digest(&all) })
+        Ok(Self { campaign: digest(&bytes), fmu: digest(&all), runs: runs.clone() })
     }
 
     /// Of the text beside a table.
     pub(super) fn read(text: &str) -> Option<Self> {
         let document: DocumentMut = text.parse().ok()?;
         let digest = |key: &str| Some(document.get("digests")?.get(key)?.as_str()?.to_owned());
-        Some(Self { campaign: digest("campaign")?, fmu: digest("fmu")? })
+        let whole = |key: &str| u64::try_from(document.get(key)?.as_integer()?).ok();
+        let first = whole("first_run")?;
+        let runs = first..first.checked_add(whole("runs")?)?;
+        Some(Self { campaign: digest("campaign")?, fmu: digest("fmu")?, runs })
+    }
+
+    /// Refuses what stands beside a table of something else.
+    ///
+    /// # Errors
+    /// What was found in the file, and what is allowed.
+    pub(super) fn check(&self, beside: &Path) -> Result<(), String> {
+        let refuse = |found: &str, allowed: &str| {
+            let anew = "with --fresh it begins anew";
+            Err(format!("{}: found {found}, allowed: {allowed}: {anew}", beside.display()))
+        };
+        let ours = "those of this campaign and FMU";
+        match files::read_text(beside).ok().and_then(|text| Self::read(&text)) {
+            None => refuse("no digests", ours),
+            Some(found) if found.campaign != self.campaign => refuse("another campaign", ours),
+            Some(found) if found.fmu != self.fmu => refuse("another FMU", ours),
+            Some(Self { runs, .. }) if runs != self.runs => {
+                let range = |runs: &Range<u64>| format!("{}..{}", runs.start, runs.end);
+                refuse(
+                    &format!("the runs {}", range(&runs)),
+                    &format!("those of this sweep, {}", range(&self.runs)),
+                )
+            }
+            Some(_) => Ok(()),
+        }
     }
 }
 
@@ -69,8 +104,8 @@ fn gather(root: &Path, folder: &Path, bytes: &mut Vec<u8>) -> io::Result<()> {
 pub(super) fn to_toml(
     (file, campaign, digests): (&CampaignFile, &Campaign, &Digests),
     described: &Description,
-    runs: &Range<u64>,
 ) -> String {
+    let runs = &digests.runs;
     let mut document = DocumentMut::new();
     let mut set = |key: &str, item: Item| drop(document.insert(key, item));
     set("program", toml_edit::value(concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"))));

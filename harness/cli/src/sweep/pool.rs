@@ -4,7 +4,7 @@ use std::{
     cell::RefCell,
     ffi::OsString,
     ops::Range,
-    path::{Path, PathBuf},
+    path::Path,
     sync::{
         atomic::{AtomicBool, Ordering},
         mpsc::Sender,
@@ -16,17 +16,25 @@ use loader::{Collector, Recording, csv};
 use model_description::Description;
 
 use super::{
+    outputs::HistoryPlace,
     resolved::Campaign,
     series::Series,
     worker::{ALL_ENDED, BEGUN, ENDED, POINT, REFUSED, ROW, RunStatus},
 };
 use crate::{
-    child::{Bounds, ChildProcess, EndReason, LARGE, NOT_REQUESTED, Payload, Shown, path_option},
+    child::{
+        Bounds, ChildProcess, EndReason, NOT_REQUESTED, Payload, ResourceLimits, Shown, Supervised,
+        path_option,
+    },
     interrupt,
     run::take_row,
 };
 
+/// Begins the reason of a run whose process was killed from outside, which says nothing of the run.
+pub(super) const KILLED: &str = "killed from outside";
+
 /// What came of a run.
+#[derive(Clone)]
 pub(super) struct RunResult {
     pub run: u64,
     pub status: RunStatus,
@@ -34,6 +42,26 @@ pub(super) struct RunResult {
     pub reason: String,
     /// What is kept, as named by its columns.
     pub numbers: Vec<f64>,
+    /// Whether its instance had simulated another run and was reset.
+    pub was_reset: bool,
+}
+
+impl RunResult {
+    /// Whether its process was killed from outside, for the first time.
+    pub(super) fn is_killed(&self) -> bool {
+        self.reason.starts_with(KILLED)
+    }
+}
+
+/// Why runs are simulated.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Attempt {
+    /// They are next.
+    First,
+    /// Their process was killed from outside; one that is killed again fails.
+    Again,
+    /// To be compared: nothing of them is written.
+    Afresh,
 }
 
 /// What the processes have in common.
@@ -44,9 +72,12 @@ pub(super) struct Pool<'a> {
     pub folder: &'a Path,
     pub runs: Range<u64>,
     pub workers: u64,
+    pub attempt: Attempt,
+    /// Of each process.
+    pub limits: ResourceLimits,
     /// Longest time of a call in s.
     pub timeout_s: Option<f64>,
-    pub histories: Option<&'a Path>,
+    pub histories: Option<&'a HistoryPlace>,
     pub series: Option<&'a Series>,
     /// Raised where the rest need not be simulated.
     pub is_over: &'a AtomicBool,
@@ -55,23 +86,39 @@ pub(super) struct Pool<'a> {
 /// Why a process is ended where the rest need not be simulated.
 const IS_OVER: &str = "the sweep is over";
 
+impl<'a> Pool<'a> {
+    /// For one of its runs, in a process of its own.
+    pub(super) fn alone(&self, run: u64, attempt: Attempt) -> Self {
+        let writes = attempt != Attempt::Afresh;
+        Self {
+            runs: run..run + 1,
+            workers: 1,
+            attempt,
+            histories: self.histories.filter(|_| writes),
+            series: self.series.filter(|_| writes),
+            ..*self
+        }
+    }
+}
+
 impl Pool<'_> {
     /// Simulates every n-th run from `worker` on, by as many processes as it takes; an error ends the campaign.
     pub(super) fn follow(&self, worker: u64, results: &Sender<RunResult>) -> Result<(), String> {
         let mut next = self.runs.start + worker;
-        let mut is_fresh = false;
+        let mut is_fresh = self.attempt == Attempt::Afresh;
         while next < self.runs.end && !self.is_done() {
             let mut inbox = Inbox {
                 pool: self,
                 results,
                 next,
                 current: None,
+                was_reset: false,
                 has_ended: false,
                 refused: None,
                 points: Vec::new(),
                 collector: None,
             };
-            let end_reason = self.one_process(next, is_fresh, &mut inbox)?;
+            let supervised = self.one_process(next, is_fresh, &mut inbox)?;
             if let Some(why) = inbox.refused.take() {
                 return Err(why);
             }
@@ -79,11 +126,11 @@ impl Pool<'_> {
                 return Ok(());
             }
             match inbox.current {
-                Some(run) => inbox.failed(run, &end_reason)?,
+                Some(run) => inbox.failed(run, &supervised)?,
                 // It did not come to a run: with the instance that is reset, a new one each time is left to try.
                 None if inbox.next == next && !is_fresh => is_fresh = true,
                 None if inbox.next == next => {
-                    return Err(format!("{}: {end_reason}", self.described.model_name));
+                    return Err(format!("{}: {}", self.described.model_name, supervised.without_result()));
                 }
                 None => {}
             }
@@ -97,7 +144,7 @@ impl Pool<'_> {
     }
 
     /// Until a process has ended; how it did.
-    fn one_process(&self, first: u64, is_fresh: bool, inbox: &mut Inbox<'_>) -> Result<String, String> {
+    fn one_process(&self, first: u64, is_fresh: bool, inbox: &mut Inbox<'_>) -> Result<Supervised, String> {
         let mut arguments = vec![
             OsString::from("sweep-in-child"),
             path_option("--campaign=", self.file),
@@ -107,7 +154,7 @@ impl Pool<'_> {
             format!("--end={}", self.runs.end).into(),
         ];
         arguments.extend(is_fresh.then(|| "--fresh".into()));
-        let child = ChildProcess::new(arguments, LARGE, None)
+        let child = ChildProcess::new(arguments, self.limits, None)
             .map_err(|error| format!("a process of the FMU cannot be started: {error}"))?;
         let bounds = Bounds { call_s: self.timeout_s, ..Bounds::default() };
         let mut shown = Shown::new(&self.described.model_name);
@@ -123,7 +170,7 @@ impl Pool<'_> {
         {
             return Err(why.clone());
         }
-        Ok(supervised.without_result())
+        Ok(supervised)
     }
 }
 
@@ -133,8 +180,9 @@ struct Inbox<'a> {
     results: &'a Sender<RunResult>,
     /// The first run that it has not begun.
     next: u64,
-    /// The run that it has begun and not ended.
+    /// The run that it has begun and not ended, and whether its instance was reset for it.
     current: Option<u64>,
+    was_reset: bool,
     has_ended: bool,
     refused: Option<String>,
     /// Percentiles' rows of the current run.
@@ -152,10 +200,11 @@ impl Inbox<'_> {
             (BEGUN, None) => {
                 let run = payload.word().filter(|run| *run == self.next).ok_or(NOT_REQUESTED)?;
                 self.current = Some(run);
+                self.was_reset = payload.word().ok_or(NOT_REQUESTED)? != 0;
                 self.next += self.pool.workers;
                 self.points.clear();
                 let Campaign { kept, .. } = self.pool.campaign;
-                let has_history = self.pool.histories.is_some();
+                let has_history = kept.histories > 0;
                 self.collector = has_history.then(|| Collector::new(self.pool.described, &kept.positions));
             }
             (POINT, Some(_)) => {
@@ -168,11 +217,11 @@ impl Inbox<'_> {
             (ENDED, Some(run)) => {
                 let number = payload.word().and_then(|it| usize::try_from(it).ok()).ok_or(NOT_REQUESTED)?;
                 let status = *RunStatus::ALL.get(number).ok_or(NOT_REQUESTED)?;
-                let count = self.pool.campaign.kept.columns(self.pool.described).len();
+                let count = self.pool.campaign.kept.count();
                 let words = payload.words(count).ok_or(NOT_REQUESTED)?;
                 let numbers = words.iter().map(|word| f64::from_bits(*word)).collect();
                 let reason = payload.text().ok_or(NOT_REQUESTED)?;
-                self.end(RunResult { run, status, reason, numbers })?;
+                self.end(RunResult { run, status, reason, numbers, was_reset: self.was_reset })?;
             }
             (ALL_ENDED, None) => self.has_ended = true,
             (REFUSED, _) => {
@@ -185,10 +234,15 @@ impl Inbox<'_> {
     }
 
     /// A run that its process did not end.
-    fn failed(&mut self, run: u64, end_reason: &str) -> Result<(), String> {
-        let count = self.pool.campaign.kept.columns(self.pool.described).len();
+    fn failed(&mut self, run: u64, supervised: &Supervised) -> Result<(), String> {
+        let count = self.pool.campaign.kept.count();
+        let why = supervised.without_result();
+        let reason = match (supervised.end_reason.is_from_outside(), self.pool.attempt) {
+            (true, Attempt::First) => format!("{KILLED}: {why}"),
+            _ => why,
+        };
         let numbers = vec![f64::NAN; count];
-        self.end(RunResult { run, status: RunStatus::Failed, reason: end_reason.to_owned(), numbers })
+        self.end(RunResult { run, status: RunStatus::Failed, reason, numbers, was_reset: self.was_reset })
     }
 
     fn end(&mut self, result: RunResult) -> Result<(), String> {
@@ -196,8 +250,9 @@ impl Inbox<'_> {
         if let Some(series) = self.pool.series {
             series.put(result.run, &self.points)?;
         }
-        if let (Some(folder), Some(collector)) = (self.pool.histories, self.collector.take()) {
-            write_history(folder, result.run, collector.recording(), self.pool.campaign.kept.histories)?;
+        if let (Some(place), Some(collector)) = (self.pool.histories, self.collector.take()) {
+            let columns = self.pool.campaign.kept.histories;
+            write_history(place.destination(result.run)?, collector.recording(), columns)?;
         }
         // Without a receiver the campaign is over.
         let _ = self.results.send(result);
@@ -205,13 +260,8 @@ impl Inbox<'_> {
     }
 }
 
-/// The table over time of a run.
-pub(super) fn history_path(folder: &Path, run: u64) -> PathBuf {
-    folder.join(format!("run-{run}.csv"))
-}
-
-fn write_history(folder: &Path, run: u64, recording: &Recording, columns: usize) -> Result<(), String> {
-    Destination::open(&history_path(folder, run), "keep.histories", &[])?.fill(|file| {
+fn write_history(destination: Destination, recording: &Recording, columns: usize) -> Result<(), String> {
+    destination.fill(|file| {
         csv::write_header(recording, columns, file)?;
         csv::write_rows(recording, columns, 0..recording.times_s.len(), file)
     })

@@ -3,7 +3,7 @@
 use std::{error::Error, ops::Range, path::Path};
 
 use campaign::{Correlation, Design, DesignError, Distribution, Sampling, Varied};
-use loader::{RecordedPoints, Value};
+use loader::{RecordedPoints, Value, csv};
 use model_description::{BaseType, Description, ScalarVariable, value};
 
 use super::{
@@ -55,6 +55,11 @@ impl Kept {
             ["min", "max", "largest", "timeOfLargest"].map(|what| (format!("{}.{what}", name(it)), *it))
         });
         finals.chain(extremes).collect()
+    }
+
+    /// How many numbers are kept of a run.
+    pub(super) fn count(&self) -> usize {
+        self.finals.len() + 4 * self.extremes.len()
     }
 
     fn column(&mut self, position: usize) -> usize {
@@ -134,6 +139,19 @@ impl Campaign {
             .collect()
     }
 
+    /// Numbers that the percentiles are made of, of one run.
+    pub(super) fn numbers_per_run(&self) -> usize {
+        let points = usize::try_from(self.percentile_points.count()).unwrap_or(usize::MAX);
+        points.saturating_mul(self.kept.percentiles.len())
+    }
+
+    /// The header of a run's table over time.
+    pub(super) fn history_header(&self, described: &Description) -> String {
+        let names = self.kept.positions.iter().take(self.kept.histories);
+        let names = names.map(|position| csv::field(&described.variables[*position].name));
+        names.fold("time".to_owned(), |header, name| header + "," + &name) + "\n"
+    }
+
     /// Refuses values that the FMU does not take, and more numbers than percentiles may be made of.
     ///
     /// # Errors
@@ -144,8 +162,7 @@ impl Campaign {
         described: &Description,
         runs: &Range<u64>,
     ) -> Result<(), String> {
-        let per_run = self.percentile_points.count() * self.kept.percentiles.len() as u64;
-        let numbers = (runs.end - runs.start).saturating_mul(per_run);
+        let numbers = (runs.end - runs.start).saturating_mul(self.numbers_per_run() as u64);
         if numbers > MOST_NUMBERS {
             return Err(format!(
                 "{}: keep.percentiles: found {numbers} numbers, allowed: up to {MOST_NUMBERS}: a larger `every`, fewer names or runs",
@@ -312,6 +329,10 @@ impl Reader<'_> {
             .map(|(column, name)| Ok((column, self.variable(name)?)))
             .collect::<Result<_, String>>()
             .map_err(|what| format!("{shown}: {what}"))?;
+        let name = |at: usize| &columns[at].1.name;
+        if let Some(twice) = (1..columns.len()).find(|at| (0..*at).any(|other| name(other) == name(*at))) {
+            return Err(format!("{shown}: found the column {:?} twice, allowed: once", name(twice)));
+        }
         let mut table = Vec::with_capacity(rows.len());
         for (number, row) in rows.iter().enumerate() {
             let cell = |(column, variable): &(usize, &ScalarVariable)| {

@@ -1,63 +1,75 @@
 //! Percentiles of all runs over time: numbers of every run in a file of their own until all are there, then a table.
 
 use std::{
-    fs::{self, File, OpenOptions},
-    io::{self, Read, Seek, SeekFrom, Write},
+    io,
     ops::Range,
     path::{Path, PathBuf},
     sync::{Mutex, PoisonError},
 };
 
 use campaign::{PERCENTILES, percentiles};
-use files::Destination;
+use files::{Destination, Part};
 use loader::csv;
 
 /// Numbers that are in memory at once.
 const AT_ONCE: usize = 4_000_000;
 const BYTES: u64 = 8;
 
-/// The numbers of every run.
+/// The numbers of every run: its record is what they are and a check, so that a record that is not whole is none.
 pub(super) struct Series {
-    path: PathBuf,
-    file: Mutex<File>,
+    part: Mutex<Part>,
+    output: Destination,
     first: u64,
     /// Numbers of a run: a row of every variable at each time.
     per_run: usize,
 }
 
 impl Series {
-    /// Opens the file; what it holds of runs before stays.
+    /// Of runs from `first` on, beside the table that is made of them.
+    ///
+    /// # Errors
+    /// A file that is an input, cannot be written, or is another sweep's.
     pub(super) fn open(
-        path: PathBuf,
-        runs: &Range<u64>,
+        output: Destination,
+        first: u64,
         per_run: usize,
-        keeps: bool,
-    ) -> Result<Self, String> {
-        let mut options = OpenOptions::new();
-        let file = options.read(true).write(true).create(true).truncate(!keeps).open(&path);
-        let file = file.map_err(|error| format!("{}: {error}", path.display()))?;
-        Ok(Self { path, file: Mutex::new(file), first: runs.start, per_run })
+        inputs: &[&Path],
+    ) -> Result<Option<Self>, String> {
+        let part = output.part(inputs)?;
+        Ok(part.map(|part| Self { part: Mutex::new(part), output, first, per_run }))
+    }
+
+    fn place(&self, run: u64) -> u64 {
+        (run - self.first) * (self.per_run as u64 + 1) * BYTES
+    }
+
+    /// Keeps the records of an earlier sweep, and gives how many of the first `runs` are whole.
+    pub(super) fn keep(&self, runs: u64) -> Result<u64, String> {
+        let mut part = self.part.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut record = vec![0; (self.per_run + 1) * BYTES as usize];
+        let is_whole = |at: &u64| {
+            let read = part.read_at(self.place(self.first + at), &mut record);
+            let (numbers, check) = record.split_at(record.len() - BYTES as usize);
+            read.is_ok() && check == check_of(self.first + at, numbers)
+        };
+        let whole = (0..runs).take_while(is_whole).count() as u64;
+        part.keep(whole * (self.per_run as u64 + 1) * BYTES)
+            .map_err(|error| format!("{}: {error}", self.output.path().display()))?;
+        Ok(whole)
     }
 
     /// Puts the numbers of a run there; those that it did not come to are NaN.
     pub(super) fn put(&self, run: u64, numbers: &[f64]) -> Result<(), String> {
         let numbers = numbers.iter().copied().chain(std::iter::repeat(f64::NAN)).take(self.per_run);
-        let bytes: Vec<u8> = numbers.flat_map(f64::to_le_bytes).collect();
-        let place = (run - self.first) * self.per_run as u64 * BYTES;
-        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
-        let written = file.seek(SeekFrom::Start(place)).and_then(|_| file.write_all(&bytes));
-        written.map_err(|error| format!("{}: {error}", self.path.display()))
+        let mut bytes: Vec<u8> = numbers.flat_map(f64::to_le_bytes).collect();
+        bytes.extend(check_of(run, &bytes));
+        self.part.lock().unwrap_or_else(PoisonError::into_inner).write_at(self.place(run), &bytes)
     }
 
-    /// Writes the table and removes the file.
-    pub(super) fn finish(
-        self,
-        runs: u64,
-        (names, times_s): (&[&str], &[f64]),
-        output: Destination,
-    ) -> Result<(), String> {
-        let mut file = self.file.into_inner().unwrap_or_else(PoisonError::into_inner);
-        output.fill(|to| {
+    /// Writes the table and gives the records, which are of no use once the table of runs is complete.
+    pub(super) fn finish(self, runs: u64, (names, times_s): (&[&str], &[f64])) -> Result<Part, String> {
+        let mut part = self.part.into_inner().unwrap_or_else(PoisonError::into_inner);
+        self.output.fill_durably(|to| {
             write!(to, "time")?;
             for name in names {
                 for percent in PERCENTILES {
@@ -69,7 +81,7 @@ impl Series {
             let rows_at_once = (AT_ONCE / (runs as usize * names.len()).max(1)).max(1);
             for (chunk, times_s) in times_s.chunks(rows_at_once).enumerate() {
                 let at = chunk * rows_at_once * names.len();
-                let all = read_runs(&mut file, runs, self.per_run, at..at + times_s.len() * names.len())?;
+                let all = read_runs(&mut part, runs, self.per_run, at..at + times_s.len() * names.len())?;
                 for (row, time_s) in times_s.iter().enumerate() {
                     write!(to, "{}", csv::Real(*time_s))?;
                     for variable in 0..names.len() {
@@ -84,17 +96,25 @@ impl Series {
             }
             Ok(())
         })?;
-        fs::remove_file(&self.path).map_err(|error| format!("{}: {error}", self.path.display()))
+        Ok(part)
     }
 }
 
+/// Check of a run's numbers: their hash by Fowler, Noll and Vo (FNV-1a), which begins with the run.
+fn check_of(run: u64, numbers: &[u8]) -> [u8; BYTES as usize] {
+    let bytes = run.to_le_bytes();
+    let hash = bytes.iter().chain(numbers).fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    });
+    hash.to_le_bytes()
+}
+
 /// A range of the numbers of every run.
-fn read_runs(file: &mut File, runs: u64, per_run: usize, range: Range<usize>) -> io::Result<Vec<Vec<f64>>> {
+fn read_runs(part: &mut Part, runs: u64, per_run: usize, range: Range<usize>) -> io::Result<Vec<Vec<f64>>> {
     let mut bytes = vec![0; range.len() * BYTES as usize];
     (0..runs)
         .map(|run| {
-            file.seek(SeekFrom::Start((run * per_run as u64 + range.start as u64) * BYTES))?;
-            file.read_exact(&mut bytes)?;
+            part.read_at((run * (per_run as u64 + 1) + range.start as u64) * BYTES, &mut bytes)?;
             let numbers = bytes.chunks_exact(BYTES as usize);
             Ok(numbers.map(|it| it.try_into().map_or(f64::NAN, f64::from_le_bytes)).collect())
         })

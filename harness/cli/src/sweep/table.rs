@@ -6,7 +6,11 @@ use files::Growing;
 use loader::csv::{self, Real};
 use model_description::Description;
 
-use super::{pool::RunResult, resolved::Campaign};
+use super::{
+    pool::{KILLED, RunResult},
+    resolved::Campaign,
+    worker::RunStatus,
+};
 
 /// Rows in order.
 pub(super) struct RunTable<'a> {
@@ -38,14 +42,21 @@ pub(super) fn values(campaign: &Campaign, run: u64) -> String {
 }
 
 impl<'a> RunTable<'a> {
-    /// From this run on; what stands in the file before stays.
-    pub(super) fn new(campaign: &'a Campaign, file: Growing, next: u64) -> Self {
-        Self { campaign, file, next, waiting: BTreeMap::new() }
-    }
-
-    /// Writes the header.
-    pub(super) fn begin(&mut self, described: &Description) -> Result<(), String> {
-        self.file.append(header(self.campaign, described).as_bytes())
+    /// Continues in a file with the rows that were left of runs from `first` on; without any, with the header.
+    pub(super) fn continued(
+        campaign: &'a Campaign,
+        described: &Description,
+        (mut file, left): (Growing, &LeftRows),
+        first: u64,
+    ) -> Result<Self, String> {
+        let (rows, bytes) = left.kept();
+        let waiting = left.behind().map(|(at, row)| (first + at, row)).collect();
+        if bytes > 0 {
+            file.keep(bytes as u64)?;
+        } else {
+            file.append(header(campaign, described).as_bytes())?;
+        }
+        Ok(Self { campaign, file, next: first + rows as u64, waiting })
     }
 
     /// Takes a run; writes it once all before it are there.
@@ -66,33 +77,89 @@ impl<'a> RunTable<'a> {
     }
 }
 
-/// Rows and bytes of whole rows of a table in progress, where it has this header and the runs of this campaign.
-///
-/// # Errors
-/// A table of something else.
-pub(super) fn whole_rows(
-    path: &Path,
-    header: &str,
-    (campaign, first): (&Campaign, u64),
-) -> Result<(u64, u64), String> {
-    let shown = path.display();
-    let bytes = files::read(path).map_err(|error| format!("{shown}: {error}"))?;
-    if bytes.is_empty() {
-        return Ok((0, 0));
-    }
-    if !bytes.starts_with(header.as_bytes()) {
-        return Err(format!("{shown}: found other columns, allowed: those of this campaign"));
-    }
-    let (mut rows, mut end) = (0, header.len());
-    while let Some(length) = row_length(&bytes[end..]) {
-        let expected = values(campaign, first + rows);
-        if !bytes[end..].starts_with(format!("{expected},").as_bytes()) {
-            return Err(format!("{shown}: found another run {}, allowed: {expected}", first + rows));
+/// Rows that an earlier sweep of the same campaign left.
+#[derive(Default)]
+pub(super) struct LeftRows {
+    bytes: Vec<u8>,
+    /// The end of the header.
+    begin: usize,
+    /// Of each row its end, how its run ended, and whether its process was killed from outside.
+    rows: Vec<(usize, RunStatus, bool)>,
+}
+
+impl LeftRows {
+    /// The whole rows of a table in progress, where it has this header and the runs of this campaign; a header that is not whole is none.
+    ///
+    /// # Errors
+    /// A table of something else.
+    pub(super) fn read(
+        shown: &Path,
+        bytes: Vec<u8>,
+        header: &str,
+        (campaign, first): (&Campaign, u64),
+    ) -> Result<Self, String> {
+        let shown = shown.display();
+        if header.as_bytes().starts_with(&bytes) && bytes.len() < header.len() {
+            return Ok(Self::default());
         }
-        rows += 1;
-        end += length;
+        if !bytes.starts_with(header.as_bytes()) {
+            return Err(format!("{shown}: found other columns, allowed: those of this campaign"));
+        }
+        let mut left = Self { bytes, begin: header.len(), rows: Vec::new() };
+        let mut begin = left.begin;
+        while let Some(length) = row_length(&left.bytes[begin..]) {
+            let row = String::from_utf8_lossy(&left.bytes[begin..begin + length]);
+            let run = first + left.rows.len() as u64;
+            let expected = values(campaign, run);
+            if !row.starts_with(&format!("{expected},")) {
+                return Err(format!("{shown}: found another run {run}, allowed: {expected}"));
+            }
+            // Numbers hold no comma; behind them stand how the run ended and the reason.
+            let numbers = 1 + campaign.varied.len() + campaign.kept.count();
+            let mut ending = row.splitn(numbers + 2, ',').skip(numbers);
+            let word = ending.next().unwrap_or_default();
+            let status = RunStatus::ALL.into_iter().find(|status| status.word() == word);
+            let status =
+                status.ok_or_else(|| format!("{shown}: run {run}: found {word:?}, allowed: how it ended"))?;
+            let reason = ending.next().unwrap_or_default().trim_start_matches('"');
+            begin += length;
+            left.rows.push((begin, status, status == RunStatus::Failed && reason.starts_with(KILLED)));
+        }
+        Ok(left)
     }
-    Ok((rows, end as u64))
+
+    /// How many there are.
+    pub(super) fn count(&self) -> u64 {
+        self.rows.len() as u64
+    }
+
+    /// Forgets all but the first rows.
+    pub(super) fn truncate(&mut self, rows: u64) {
+        self.rows.truncate(usize::try_from(rows).unwrap_or(usize::MAX));
+    }
+
+    /// How the runs ended whose rows stay.
+    pub(super) fn statuses(&self) -> impl Iterator<Item = RunStatus> {
+        self.rows.iter().filter(|(.., is_killed)| !is_killed).map(|(_, status, _)| *status)
+    }
+
+    /// Places of rows whose process was killed from outside.
+    pub(super) fn killed(&self) -> impl Iterator<Item = u64> {
+        self.rows.iter().enumerate().filter(|(_, (.., is_killed))| *is_killed).map(|(at, _)| at as u64)
+    }
+
+    /// How many rows stand before one that is simulated again, and the bytes up to there.
+    fn kept(&self) -> (usize, usize) {
+        let rows = self.rows.iter().take_while(|(.., is_killed)| !is_killed).count();
+        (rows, if rows == 0 { self.begin } else { self.rows[rows - 1].0 })
+    }
+
+    /// The rows behind that one, by place.
+    fn behind(&self) -> impl Iterator<Item = (u64, String)> {
+        let places = (self.kept().0 + 1..self.rows.len()).filter(|at| !self.rows[*at].2);
+        let text = |at: usize| &self.bytes[self.rows[at - 1].0..self.rows[at].0];
+        places.map(move |at| (at as u64, String::from_utf8_lossy(text(at)).into_owned()))
+    }
 }
 
 /// Length of the row at the beginning, its line break counted; `None` where it is not whole. Quoted fields hold no line break: they are

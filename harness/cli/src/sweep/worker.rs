@@ -97,19 +97,26 @@ fn simulate_all(arguments: &SweepInChild, link: &mut Link) -> Result<(), Box<dyn
         if rows.link.cancel_word().load(Ordering::Relaxed) != 0 {
             return Ok(());
         }
-        rows.begin(run)?;
-        let instance = match held.take() {
-            Some(mut instance) if is_reset => instance.reset().map(|()| instance),
-            _ => Instance::new(fmu, "run", &InstanceOptions::default()),
+        // What fails before a run is begun is no fault of that run: another process goes on with it.
+        let (mut instance, was_reset) = match held.take() {
+            Some(mut instance) if is_reset => match instance.reset() {
+                Ok(()) => (instance, true),
+                Err(_) => return Ok(()),
+            },
+            _ => match Instance::new(fmu, "run", &InstanceOptions::default()) {
+                Ok(instance) => (instance, false),
+                // Where nothing else is left to try, no run can be simulated.
+                Err(error) if arguments.fresh && run == arguments.first => return Err(error.into()),
+                Err(_) => return Ok(()),
+            },
         };
-        let ended = instance.and_then(|mut instance| {
-            let ended = simulate(&mut instance, &campaign, fmu, run, &mut rows)?;
-            held = Some(instance);
-            Ok(ended)
-        });
-        match ended {
+        rows.begin(run, was_reset)?;
+        match simulate(&mut instance, &campaign, fmu, run, &mut rows) {
             Ok(Ended::Cancelled) => return Ok(()),
-            Ok(ended) => rows.end(ended)?,
+            Ok(ended) => {
+                rows.end(ended)?;
+                held = Some(instance);
+            }
             Err(error) => {
                 rows.send(RunStatus::Failed, &Error::chain(&error))?;
                 if error.status() == Some(Status::Fatal) {
@@ -197,12 +204,12 @@ impl<'a> KeptRows<'a> {
         }
     }
 
-    fn begin(&mut self, run: u64) -> Result<(), String> {
+    fn begin(&mut self, run: u64, was_reset: bool) -> Result<(), String> {
         self.points = 0;
         self.finals.fill(f64::NAN);
         self.extremes.fill(Extremes::default());
         self.broken = None;
-        self.link.send(BEGUN, |payload| payload.push(run))
+        self.link.send(BEGUN, |payload| payload.extend([run, u64::from(was_reset)]))
     }
 
     fn end(&mut self, ended: Ended) -> Result<(), String> {

@@ -1,6 +1,7 @@
 //! A CSV with a first column of numbers that do not fall: times in s, numbers of runs, whatever they are.
 
 use std::{
+    collections::BTreeSet,
     io::{BufRead, BufReader, Seek, SeekFrom},
     path::{Path, PathBuf},
 };
@@ -70,8 +71,8 @@ impl Table {
         // Tables of some programs begin with a mark of their encoding.
         self.key = names.next().unwrap_or_default().trim_start_matches('\u{feff}').to_owned();
         self.names = names.collect();
-        let all: Vec<&String> = std::iter::once(&self.key).chain(&self.names).collect();
-        if let Some((_, twice)) = all.iter().enumerate().find(|(at, name)| all[..*at].contains(name)) {
+        let mut known = BTreeSet::new();
+        if let Some(twice) = std::iter::once(&self.key).chain(&self.names).find(|name| !known.insert(*name)) {
             return Err(format!("found the column {twice:?} twice, allowed: once"));
         }
         if self.names.is_empty() {
@@ -113,14 +114,12 @@ impl Table {
         let variable = |name: &String| ScalarVariable { name: name.clone(), ..ScalarVariable::default() };
         let description =
             Description { variables: self.names.iter().map(variable).collect(), ..Description::default() };
-        let mut found: Vec<String> = Vec::new();
+        let (mut found, mut known) = (Vec::new(), BTreeSet::new());
         for pattern in patterns {
             let positions = loader::select(&description, pattern).map_err(|_| self.unknown(pattern))?;
-            for name in positions.into_iter().map(|at| &self.names[at]) {
-                if !found.contains(name) {
-                    found.push(name.clone());
-                }
-            }
+            found.extend(
+                positions.into_iter().filter(|at| known.insert(*at)).map(|at| self.names[at].clone()),
+            );
         }
         Ok(found)
     }

@@ -16,7 +16,7 @@ use systems::{SSD_FILE, Wired, Wiring};
 use crate::{
     home, kind,
     outcome::Outcome,
-    values::{duration, span},
+    values::{all_names, duration, span},
     variables,
 };
 
@@ -34,11 +34,11 @@ pub(crate) struct Wire {
     #[arg(required = true, num_args = 1.., value_name = "FMU")]
     pub fmus: Vec<String>,
     /// List these outputs too, for tools that show only connectors: component.variable, vectors, patterns with *
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    #[arg(long, value_name = "NAMES")]
     pub outputs: Vec<String>,
     /// Make these connectors of the system too, by names such as attitude_q_1: outputs, open inputs, parameters. FMPy sets connected
     /// inputs to 0 where it is given nothing; libcosim refuses systems with such connectors
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    #[arg(long, value_name = "NAMES")]
     pub export: Vec<String>,
     /// Leave enumerations open, for tools that cannot connect them, and say what each stands at
     #[arg(long)]
@@ -89,8 +89,8 @@ pub(crate) fn run(arguments: &Wire) -> Outcome {
     let experiment = DefaultExperiment { stop_time, step_size, ..DefaultExperiment::default() };
     let name = name.unwrap_or_else(|| DEFAULT_NAME.to_owned());
     let wiring = Wiring {
-        outputs: arguments.outputs.clone(),
-        exports: arguments.export.clone(),
+        outputs: all_names(&arguments.outputs),
+        exports: all_names(&arguments.export),
         without_enumerations: arguments.without_enumerations,
         sets: arguments.set.clone(),
     };

@@ -1,7 +1,8 @@
 /* An FMU that misbehaves: what it does is chosen by -DBEHAVIOUR=..., where by -DAT_LOADING, -DIN_DESCRIBE,
    -DIN_INSTANTIATE or -DIN_STEP, or -DIN_STEP_IF the parameter trouble (reference 1) is above 0.5.
    One Real output x with reference 0, which is the time; steps from 3 s on do the behaviour. With -DKEEPS a reset forgets nothing:
-   x is the number of steps since the instance was made. */
+   x is the number of steps since the instance was made; with -DCARRIES it is 1 more once a run with trouble was reset. -DIN_RESET_IF
+   does the behaviour at the reset after such a run, -DUNDEFINED makes a library that cannot be loaded. */
 #define _GNU_SOURCE
 #include <fcntl.h>
 #include <signal.h>
@@ -31,6 +32,7 @@
 #define FAILS 14
 #define DETACHES 15
 #define TOUCHES 16
+#define DIES 17
 
 typedef void *Component;
 typedef void (*Logger)(void *, const char *, int, const char *, const char *, ...);
@@ -42,7 +44,7 @@ typedef struct {
     void *environment;
 } Callbacks;
 
-static double now, trouble;
+static double now, trouble, carried;
 static int steps;
 static Callbacks callbacks;
 static volatile int forever = 1;
@@ -65,6 +67,8 @@ static int behaviour(void) {
     case CRASHES: *nowhere = 1; break;
     case ABORTS: abort();
     case FAILS: return 3;
+    /* As if killed from outside, as long as the environment says so. */
+    case DIES: if (getenv("HOSTILE_DIES")) raise(SIGKILL); break;
     case SLEEPS: for (;;) sleep(1000);
     case SPINS: while (forever) {} break;
     case PRINTS: for (;;) { puts("and on and on and on and on and on and on and on and on and on"); }
@@ -131,6 +135,11 @@ static int behaviour(void) {
     return 0;
 }
 
+#ifdef UNDEFINED
+extern int defined_nowhere(void);
+int use_of_it(void) { return defined_nowhere(); }
+#endif
+
 #ifdef AT_LOADING
 __attribute__((constructor)) static void at_loading(void) { behaviour(); }
 #endif
@@ -165,11 +174,27 @@ int fmi2SetupExperiment(Component c, int has, double tolerance, double start, in
 int fmi2EnterInitializationMode(Component c) { (void)c; return 0; }
 int fmi2ExitInitializationMode(Component c) { (void)c; return 0; }
 int fmi2Terminate(Component c) { (void)c; return 0; }
-int fmi2Reset(Component c) { (void)c; trouble = 0; return 0; }
+int fmi2Reset(Component c) {
+    (void)c;
+    double before = trouble;
+    trouble = 0;
+    (void)before;
+#ifdef CARRIES
+    if (before > 0.5) carried = 1;
+#endif
+#ifdef IN_RESET_IF
+    if (before > 0.5) {
+        int status = behaviour();
+        if (status) return status;
+    }
+#endif
+    return 0;
+}
 int fmi2GetReal(Component c, const unsigned *references, size_t n, double *values) {
     (void)c;
     for (size_t i = 0; i < n; i++) {
         values[i] = BEHAVIOUR == ANSWERS_NAN && now >= 3 ? 0.0 / (now - now) : references[i] == 1 ? trouble : now;
+        if (references[i] == 0) values[i] += carried;
 #ifdef KEEPS
         if (references[i] == 0) values[i] = steps;
 #endif

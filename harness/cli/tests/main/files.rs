@@ -282,3 +282,21 @@ fn the_systems_name_of_the_standard_output_is_a_dash() {
     }
     assert!(run(&["run", shown(&fmu), "--output", "/dev/full"], 1).contains("or - for the standard output"));
 }
+
+#[test]
+fn a_command_that_is_refused_leaves_no_folder() {
+    let scratch = tempfile::tempdir().unwrap();
+    let at = |name: &str| scratch.path().join(name);
+    std::fs::write(at("bad.toml"), "nothing = 1\n").unwrap();
+    let (bad, out) = (at("bad.toml"), at("deep/out"));
+    for command in [&["size"][..], &["plan", "momentum"], &["plan", "leg"]] {
+        crate::run(&[command, &[shown(&bad), "--output", shown(&out)]].concat(), 1);
+        assert!(!at("deep").exists(), "{command:?}");
+    }
+}
+
+#[test]
+fn spans_beyond_memory_are_refused_by_name() {
+    let refused = crate::run(&["ephemeris", "--start", "2011-04-06 UTC", "--stop", "3011-04-06 UTC"], 1);
+    says(&refused, &["--stop: found \"3011-04-06 UTC\", 1000 years after --start, allowed: up to 100"]);
+}

@@ -372,7 +372,7 @@ fn dispersed_flights_spread_as_the_covariance_says_on_any_number_of_threads() {
     assert!(of_mean < 20.0);
 }
 
-/// On the baseline without tilt, no limit on |H|, 111 d before: 170 km along +R is refused with what is in reach, along -R it is not.
+/// On the baseline without tilt, no limit on |H|, 111 d before: 260 km along +R is refused with what was reached.
 #[test]
 fn what_is_out_of_reach_is_refused_with_the_polygon() {
     let Some((_packed, template)) = template() else { return };
@@ -382,20 +382,53 @@ fn what_is_out_of_reach_is_refused_with_the_polygon() {
     let file = folder.join("plan.toml");
     let text = "mission = \"leg/mission.toml\"\nwindow = \"10 d\"\n[momentum]\nlimit = \"1e6 N.m.s\"\n\
                 [tilt]\nazimuth = \"10 deg\"\nelevation = \"12 deg\"\n[sunOffset]\nchange = true\nlargest = \"90 deg\"\n\
-                [flyby]\nbody = \"mercury\"\nbT = \"3321.8 km\"\nbR = \"170 km\"\nfrom = \"2008-06-17 UTC\"\n";
+                [flyby]\nbody = \"mercury\"\nbT = \"3321.8 km\"\nbR = \"260 km\"\nfrom = \"2008-06-17 UTC\"\n";
     fs::write(&file, text).unwrap();
     let printed = plan("flyby", &file, &folder.join("far"), &template, 1);
-    says(&printed, &["out of reach", "reach +T"]);
+    says(&printed, &["not found: arrays and attitudes that lead to the aim", "reach +T"]);
     let found = json(&folder.join("far"));
-    assert_eq!(found["status"], "outOfReach");
+    assert_eq!(found["status"], "notFound");
     let reach = ["+T", "-T", "+R", "-R"].map(|key| found["reach_m"][key].as_f64().unwrap() / 1e3);
     println!("reach {reach:?} km");
-    // With windows of 10 d. 146 and 233 km were computed with unknown windows: see docs/src/validation.md.
-    for (found_km, expected_km) in [(reach[2], 109.5), (reach[3], 198.7)] {
-        assert!((found_km / expected_km - 1.0).abs() < 0.1, "{reach:?}");
+    // Paper 003 has 146 and 233 km, of windows that it does not print: see docs/src/validation.md.
+    for (found_km, published_km) in [(reach[2], 146.0), (reach[3], 233.0)] {
+        assert!((found_km / published_km - 1.0).abs() < 0.2, "{reach:?}");
     }
     assert!(found["reachable_m"].as_array().unwrap().len() > 6);
     assert!(!folder.join("far/mission.toml").exists());
+}
+
+/// Steps of the arrays at the start and 30 d behind it, as dates and as times, and a plan that begins with the mission's own state of day 60.
+#[test]
+fn an_update_leaves_the_clock_of_a_timeline() {
+    let Some((_packed, template)) = template() else { return };
+    let times = [["\"2008-03-19T00:00:00 UTC\"", "\"2008-04-18T00:00:00 UTC\""], ["0", "\"30 d\""]];
+    let ats = ["\"2008-05-18 UTC\"", "\"60 d\""];
+    let froms = ["\"2008-06-17 UTC\"", "\"90 d\""];
+    let missed = [(0, 0), (1, 0), (1, 1)].map(|(clock, of_file)| {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        let with = "timeline = \"steps.toml\"\nmodel = ";
+        flyby(folder, 2, &[("\"distance\"", "\"timeline\""), ("model = ", with)]);
+        let steps = times[clock].iter().zip([45, 62]);
+        let steps = steps.map(|(at, deg)| format!("[[panels]]\nat = {at}\nsunOffset = \"{deg} deg\"\n"));
+        fs::write(folder.join("steps.toml"), steps.collect::<String>()).unwrap();
+        let text = format!(
+            "mission = \"flyby.toml\"\nwindmill = 0\nalternation = 0\n[momentum]\nlimit = \"1e6 N.m.s\"\n\
+             [flyby]\nbody = \"mercury\"\nbT = \"9e4 km\"\nbR = 0\nfrom = {}\n[update]\nat = {}\n",
+            froms[of_file], ats[of_file]
+        );
+        fs::write(folder.join("plan.toml"), text).unwrap();
+        plan("flyby", &folder.join("plan.toml"), &folder.join("out"), &template, 1);
+        let found = json(&folder.join("out"));
+        let mut missed = numbers(&found["missBefore_m"]);
+        missed.push(found["desiredDeltaV"][0]["at_s"].as_f64().unwrap());
+        missed
+    });
+    for other in &missed[1..] {
+        let apart = missed[0].iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart < 10.0, "{missed:?}");
+    }
 }
 
 /// Each with line, key, what was found and what is allowed.
@@ -434,6 +467,18 @@ fn aims_and_states_that_cannot_be_are_refused() {
         (
             format!("{aim}[update]\nat = \"2007-04-01 UTC\"\n"),
             ":8: update.at: found a time outside of the mission",
+        ),
+        (
+            format!("{aim}[compare]\nnext = \"2008-10-10 UTC\"\n"),
+            ":8: compare.next: found a date before the departure manoeuvre",
+        ),
+        (
+            format!("{aim}[compare]\nnext = \"2009-10-10 UTC\"\napproach = [\"-400 d\"]\n"),
+            ":9: compare.approach[1]: found a time outside of the flight",
+        ),
+        (
+            format!("{aim}from = \"2008-10-06T08:00:00 UTC\"\n"),
+            ":7: flyby.from: found a time behind which no change moves the encounter",
         ),
         (
             format!("{aim}[compare]\nnext = \"2008-10-10 UTC\"\napproach = [\"42 d\"]\n"),

@@ -91,6 +91,8 @@ fn the_shipped_missions_are_those_of_their_legs() {
             &["altitude 200.000 km", "6 h before", "flights without the planet's gravity", "plan.json"],
         );
         let written = fs::read_to_string(output.join("mission.toml")).unwrap();
+        let (head, written) = written.split_once('\n').unwrap();
+        assert!(head.starts_with("# Written by `heliotorque plan`"), "{head}");
         let path = written.lines().find_map(|line| line.strip_prefix("spacecraft = ")).unwrap();
         let written = written.replace(path, "\"../../messenger.toml\"");
         if std::env::var_os("HELIOTORQUE_BLESS").is_some() {

@@ -1,6 +1,13 @@
 //! Tests of the program as people run it: arguments in, text, files and exit status out.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::disallowed_methods,
+    reason = "tests"
+)]
 
+mod campaigns;
 mod checks;
 mod compares;
 mod drawings;
@@ -14,6 +21,7 @@ mod installed;
 mod kernels;
 mod legs;
 mod limits;
+mod mapped;
 mod maps;
 mod missions;
 mod mistakes;
@@ -23,6 +31,7 @@ mod packs;
 mod plans;
 mod plots;
 mod refits;
+mod replays;
 mod runs;
 mod sizes;
 mod sweeps;

@@ -186,13 +186,39 @@ fn a_cruise_is_planned_and_simulated_below_its_limit() {
     run(&arguments, 0);
 }
 
+/// Month by month, each plan made of the one before: the arrays move no more often over the whole cruise.
+#[test]
+fn planning_again_never_raises_the_number_of_changes() {
+    let Some((scratch, template)) = template() else { return };
+    let folder = scratch.path();
+    cruise(folder, &[("stop = \"200 d\"", "stop = \"60 d\"")]);
+    plan(folder, &template, PLAN, 0);
+    let steps =
+        || fs::read_to_string(folder.join("out/timeline.toml")).unwrap().matches("[[panels]]").count();
+    let mut before = (steps(), number(folder, "changes"));
+    for freeze_d in [30, 45] {
+        for name in ["mission.toml", "timeline.toml"] {
+            fs::copy(folder.join("out").join(name), folder.join(name)).unwrap();
+        }
+        let mission = fs::read_to_string(folder.join("mission.toml")).unwrap();
+        fs::write(folder.join("mission.toml"), mission.replace("../messenger.toml", "messenger.toml"))
+            .unwrap();
+        let again = PLAN.replace("cruise.toml\"", &format!("mission.toml\"\nfreeze = \"{freeze_d} d\""));
+        plan(folder, &template, &again, 0);
+        let now = (steps(), number(folder, "changes"));
+        assert!(now.0 <= before.0 && now.1 <= before.1, "day {freeze_d}: {now:?} for {before:?}");
+        assert!(number(folder, "simulated") <= 5.5);
+        before = now;
+    }
+}
+
 #[test]
 fn without_controls_the_least_dumps_and_the_first_day_are_reported() {
     let Some((scratch, template)) = template() else { return };
     let folder = scratch.path();
     cruise(folder, &[]);
     let printed = plan(folder, &template, OFF, 1);
-    says(&printed, &["no plan holds without a dump: 5 at least", "first on day 19."]);
+    says(&printed, &["no plan holds without a dump: 5 at least on this baseline", "first on day 19."]);
     assert_eq!([number(folder, "dumps"), number(folder, "dumpsAtLeast")], [5.0, 5.0]);
     assert!((number(folder, "excess_n_m_s") - 37.5).abs() < 0.2);
     assert!((19.0..20.0).contains(&number(folder, "firstDay")));

@@ -145,6 +145,51 @@ fn a_shift_comes_back_through_the_fmu() {
     }
 }
 
+/// A history with a dump that it does not say: the fit is told from a good one in words, files and plans.
+#[test]
+fn a_fit_that_is_not_trusted_says_so_and_no_plan_takes_it() {
+    let Some((scratch, template)) = template() else { return };
+    let file = |name: &str| scratch.path().join(name);
+    let truth_m = [0, 1, 2].map(|axis| CENTER_M[axis] + SHIFT_M[axis]);
+    let (truth, prior, rows, output) =
+        (file("truth.toml"), file("mission.toml"), file("momentum.csv"), file("refit.toml"));
+    fs::write(&truth, with_center(&mission(40), truth_m)).unwrap();
+    fs::write(&prior, with_center(&mission(40), CENTER_M)).unwrap();
+    let history = telemetry(&truth, &template, 1, &[]);
+    // In row 700 three N m s are lost and found.
+    let lines = history.lines().enumerate().map(|(row, line)| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if row == 700 {
+            cells[1] = "3".to_owned();
+        }
+        cells.join(",") + "\n"
+    });
+    fs::write(&rows, lines.collect::<String>()).unwrap();
+    let arguments =
+        ["refit", shown(&prior), "--telemetry", shown(&rows), "--output", shown(&output), "--template"];
+    let quiet = run(&[&arguments[..], &[shown(&template), "--quiet"]].concat(), 0);
+    says(&quiet, &["warning: more than noise is left", "momentum.csv:701", "trusted = false"]);
+    assert!(fs::read_to_string(&output).unwrap().contains("# trusted = false"));
+    let json: Value = serde_json::from_str(&fs::read_to_string(file("refit.json")).unwrap()).unwrap();
+    assert_eq!(json["trusted"], false);
+    let plan = file("plan.toml");
+    fs::write(&plan, "mission = \"mission.toml\"\n[momentum]\nlimit = 5\nrefit = \"refit.toml\"\n").unwrap();
+    let out = file("out");
+    let arguments =
+        ["plan", "momentum", shown(&plan), "--output", shown(&out), "--template", shown(&template)];
+    says(
+        &run(&arguments, 1),
+        &["plan.toml:4: momentum.refit: found ", "a fit that is not trusted, chi square "],
+    );
+    // A prior that excludes what the history says.
+    fs::write(&rows, history).unwrap();
+    let arguments =
+        ["refit", shown(&prior), "--telemetry", shown(&rows), "--output", shown(&output), "--template"];
+    let arguments = [&arguments[..], &[shown(&template), "--prior-center", "0.0005"]].concat();
+    let refused = text(&heliotorque(&arguments).output().unwrap());
+    says(&refused, &["deviations of its prior off the mission's", "allowed: 6"]);
+}
+
 #[test]
 fn what_cannot_be_fitted_is_refused_by_name() {
     let Some((scratch, template)) = template() else { return };

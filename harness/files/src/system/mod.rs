@@ -12,5 +12,6 @@ use windows as own;
 
 pub use own::canonical;
 pub(crate) use own::{
-    identity, identity_of_link, identity_of_open, lock_folder, open_exclusively, rename, with_advice,
+    identity, identity_of_link, identity_of_open, lock_folder, open_exclusively, rename, sync_folder_of,
+    with_advice,
 };

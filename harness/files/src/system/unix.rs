@@ -7,7 +7,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::identity::Identity;
+use crate::{destination::folder_of, identity::Identity};
 
 fn of(metadata: &Metadata) -> Identity {
     Identity { device_and_inode: (metadata.dev(), metadata.ino()), hard_links: metadata.nlink() }
@@ -58,4 +58,10 @@ pub(crate) fn with_advice(error: io::Error) -> io::Error {
 /// Renames a file, replacing the target; programs that have the target open keep the old content.
 pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
     fs::rename(from, to)
+}
+
+/// Lets the disk have the names of a file's folder, where the file system can.
+pub(crate) fn sync_folder_of(file: &Path) {
+    // The content is there already; a name that is lost leaves the file before.
+    let _ = File::open(folder_of(file)).and_then(|folder| folder.sync_all());
 }

@@ -97,3 +97,6 @@ pub(crate) fn with_advice(error: io::Error) -> io::Error {
 pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
     fs::rename(from, to).map_err(with_advice)
 }
+
+/// Names are written with their file.
+pub(crate) fn sync_folder_of(_file: &Path) {}

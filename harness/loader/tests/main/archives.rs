@@ -156,3 +156,19 @@ fn what_is_no_fmu_says_so() {
     archive(&path, &[("modelDescription.xml", b"\xff\xfe<\0")]);
     assert!(matches!(Fmu::open(&path), Err(Error::Unusable { .. })));
 }
+
+#[test]
+fn an_entry_that_the_list_has_twice_is_refused() {
+    let scratch = tempfile::tempdir().unwrap();
+    let path = scratch.path().join("a.fmu");
+    // The writer refuses a name twice: two names of one length, of which the second is written over.
+    archive(&path, &[("modelDescription.xml", b"<x/>"), ("modelDescriptiom.xml", b"<y/>")]);
+    let mut bytes = fs::read(&path).unwrap();
+    let name = b"modelDescriptiom.xml";
+    while let Some(at) = bytes.windows(name.len()).position(|it| it == name) {
+        bytes[at..at + name.len()].copy_from_slice(b"modelDescription.xml");
+    }
+    fs::write(&path, bytes).unwrap();
+    let refused = unpack_in(scratch.path(), &path, ArchiveLimits::default()).unwrap_err();
+    assert!(refused.contains("entry \"modelDescription.xml\" stands twice in the archive"), "{refused}");
+}

@@ -1,8 +1,15 @@
 //! Tests of the loader: what it refuses, how it reads names, values and tables, and how it runs the probe FMUs.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::disallowed_methods,
+    reason = "tests"
+)]
 
 mod archives;
 mod instances;
+mod interpolation;
 mod names;
 mod simulations;
 mod tables;

@@ -37,11 +37,10 @@ fn continuous_inputs_are_interpolated_and_discrete_ones_held() {
         assert_eq!(number(&table, 1, time_s), held, "held at {time_s}");
         assert_eq!(table.value(2, time_s), Value::Boolean(on == 1.0), "on at {time_s}");
     }
-    assert_eq!(table.slope(0, 0.0), Some(2.0));
-    assert_eq!(table.slope(0, 2.0), Some(0.0));
-    assert_eq!(table.slope(0, -1.0), Some(0.0));
-    assert_eq!(table.slope(0, 9.0), Some(0.0));
-    assert_eq!(table.slope(1, 1.0), None);
+    for (start_s, slope) in [(0.0, 2.0), (2.0, 0.0), (-1.0, 0.0), (9.0, 0.0), (1.5, 1.0)] {
+        assert_eq!(table.slope(0, [start_s, start_s + 1.0]), Some(slope), "slope at {start_s}");
+    }
+    assert_eq!(table.slope(1, [1.0, 2.0]), None);
 }
 
 #[test]
@@ -50,7 +49,10 @@ fn two_rows_at_one_time_make_a_jump() {
         table(&[&["time", "drive.push"], &["0", "0"], &["1", "1"], &["1", "5"], &["2", "5"]]).unwrap();
     assert!((number(&table, 0, 1.0 - 1e-9) - 1.0).abs() < 1e-8);
     assert_eq!(number(&table, 0, 1.0), 5.0);
-    assert_eq!(table.slope(0, 1.0), Some(0.0));
+    // Up to the jump alone.
+    for (step_s, slope) in [([1.0, 2.0], 0.0), ([0.5, 1.0], 1.0), ([0.5, 1.5], 1.0)] {
+        assert_eq!(table.slope(0, step_s), Some(slope), "slope over {step_s:?}");
+    }
 }
 
 #[test]

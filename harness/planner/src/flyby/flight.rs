@@ -32,6 +32,8 @@ pub struct ForceModel {
     pub attracting: Vec<Body>,
     /// Whether the Moon attracts.
     pub moon: bool,
+    /// Whether the Sun's relativity acts.
+    pub relativity: bool,
     /// What turns a time of the flight into s past J2000 TDB.
     pub epoch_minus_time_s: f64,
     /// How long before closest approach the hyperbola osculates that B is of, in s.
@@ -72,6 +74,7 @@ impl ForceModel {
             gm_m3_s2: values.real("planet.gravitationalParameter"),
             attracting,
             moon: values.is_true("orbit.attraction.moon"),
+            relativity: values.is_true("orbit.relativity"),
             epoch_minus_time_s: values.real("start.epoch") - start_s,
             lead_s: values.real("encounter.leadTime"),
         })
@@ -80,7 +83,7 @@ impl ForceModel {
     /// Gravity of all of it, positions counting from `center`.
     pub(super) fn gravity(&self, center: Body) -> NBodyGravity {
         let settings = NBodySettings {
-            relativity: false,
+            relativity: self.relativity,
             changes_center: true,
             moon: self.moon,
             cell_s: CELL_S,
@@ -113,10 +116,6 @@ pub(super) struct Planets {
 impl BodyEphemeris for Planets {
     fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState {
         self.ephemeris.state(body, at_s + self.epoch_minus_time_s)
-    }
-
-    fn acceleration_m_s2(&mut self, body: Body, at_s: f64) -> Vector3<f64> {
-        self.ephemeris.acceleration_m_s2(body, at_s + self.epoch_minus_time_s)
     }
 
     fn smooth_until_s(&self, at_s: f64) -> f64 {
@@ -195,10 +194,6 @@ impl BodyEphemeris for Recorded<'_> {
         } else {
             self.planets.heliocentric(body, at_s)
         }
-    }
-
-    fn acceleration_m_s2(&mut self, body: Body, at_s: f64) -> Vector3<f64> {
-        self.planets.acceleration_m_s2(body, at_s)
     }
 
     fn smooth_until_s(&self, at_s: f64) -> f64 {

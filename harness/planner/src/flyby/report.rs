@@ -12,6 +12,7 @@ use crate::momentum::{
     attainable::Reachable,
     report::{by_percent, percentiles},
     target::Moves,
+    torque::Control,
     windows::Window,
 };
 
@@ -57,7 +58,7 @@ pub struct FlybyReport {
     pub encounter: [f64; 4],
     /// Where the encounter can be moved to from where the mission meets it.
     pub reach: Reachable,
-    /// Whether no choice of arrays and attitudes reaches the aimpoint.
+    /// Whether no choice of arrays and attitudes that reaches the aimpoint was found.
     pub is_out_of_reach: bool,
     /// Least changes of velocity that would do the same, at times in s of the flight.
     pub desired: Vec<(f64, DesiredDeltaV)>,
@@ -190,20 +191,28 @@ fn campaign(campaign: &Campaign) -> Value {
     })
 }
 
-/// `sensitivity.csv`: B.T, B.R (m) and arrival (s) of every window by a degree of offset, windmill, azimuth and elevation, and by the
-/// share of the alternate attitude.
+/// `sensitivity.csv`: B.T, B.R (m) and arrival (s) of every window by a degree of offset, windmill, azimuth and elevation, by the share of
+/// the alternate attitude, and by a degree of its own azimuth and elevation.
 ///
 /// # Errors
 /// What CSV does not take.
 pub fn sensitivity_csv(windows: &[Window], by_window: &[Moves]) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let controls = ["offset_deg", "windmill_deg", "azimuth_deg", "elevation_deg", "alternate_share"];
+    let controls = [
+        "offset_deg",
+        "windmill_deg",
+        "azimuth_deg",
+        "elevation_deg",
+        "alternate_share",
+        "alternate_azimuth_deg",
+        "alternate_elevation_deg",
+    ];
     let rows = ["b_t_m", "b_r_m", "arrival_s"];
     let names = controls.iter().flat_map(|control| rows.map(|row| format!("{row}_by_{control}")));
     writer.write_record(["start_s", "stop_s"].map(str::to_owned).into_iter().chain(names))?;
     for (window, by) in windows.iter().zip(by_window) {
         let numbers = by.by_control.iter().enumerate().flat_map(|(control, by)| {
-            let unit = if control < 4 { 1.0_f64.to_radians() } else { 1.0 };
+            let unit = if control == Control::Alternate as usize { 1.0 } else { 1.0_f64.to_radians() };
             [0, 1, 2].map(|row| by[row] * unit)
         });
         let cells = [window.start_s, window.stop_s].into_iter().chain(numbers);

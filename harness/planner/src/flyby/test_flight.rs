@@ -16,7 +16,8 @@ pub(super) const DAY_S: f64 = 86_400.0;
 const FLYBY_S: f64 = 276_640_800.0;
 pub(super) const LONG_S: f64 = 200.0 * DAY_S;
 pub(super) const MASS_KG: f64 = 900.0;
-const BODIES: [Body; 3] = [Body::Mercury, Body::Venus, Body::Jupiter];
+/// All planets: near Mercury the plans' law has it moved by the list, the flights here by its ephemeris.
+const BODIES: [Body; 5] = [Body::Mercury, Body::Venus, Body::Earth, Body::Mars, Body::Jupiter];
 
 type State6 = SVector<f64, 6>;
 
@@ -40,6 +41,7 @@ pub(super) fn force_model() -> ForceModel {
         gm_m3_s2: GM_MERCURY_M3_S2,
         attracting: BODIES.to_vec(),
         moon: false,
+        relativity: false,
         epoch_minus_time_s: FLYBY_S - LONG_S,
         lead_s: 21_600.0,
     }

@@ -58,7 +58,7 @@ impl Approach {
             (Some(closest), _) => closest,
             (None, Some(last)) => {
                 let orbit = TwoBodyOrbit::from_state(&last.state, self.mu_m3_s2, last.time_s)?;
-                let distance_m = orbit.elements().periapsis_distance_m();
+                let distance_m = orbit.periapsis_distance_m();
                 (orbit.periapsis_epoch_s(0), distance_m - self.radius_m)
             }
             (None, None) => (f64::NAN, f64::NAN),

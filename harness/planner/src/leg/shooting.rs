@@ -32,6 +32,10 @@ const UNATTRACTED_SHARE: f64 = 0.02;
 const ROUNDS: u32 = 25;
 /// Largest change of velocity of a round, as a share of it.
 const LARGEST_CHANGE: f64 = 0.02;
+/// Longest leg, in s: ten years, for flights take time in proportion.
+pub const MOST_LEG_S: f64 = 10.0 * 365.25 * 86_400.0;
+/// Greatest speed at either end of an arc, in m/s: a thousandth of that of light, and more than any fall into the Sun from rest gives.
+const MOST_SPEED_M_S: f64 = 3e5;
 /// Share of the velocity by which it is varied for the first matrix.
 const VARIATION: f64 = 1e-6;
 
@@ -107,6 +111,17 @@ pub enum LegError {
     /// No arc.
     #[error(transparent)]
     Lambert(#[from] LambertError),
+    /// An arc that takes too great a speed.
+    #[error(
+        "found an arc of {days:.3} d with {speed_km_s:.1} km/s at an end, allowed: up to {} km/s, an arrival later",
+        1e-3 * MOST_SPEED_M_S
+    )]
+    Fast {
+        /// Its time, in d.
+        days: f64,
+        /// Greatest speed at an end of it, in km/s.
+        speed_km_s: f64,
+    },
     /// An aimpoint inside the body.
     #[error(
         "found |B| of {found_km:.1} km, with {excess_speed_m_s:.1} m/s far from the body: the path ends in it, allowed: above {least_km:.1} km"
@@ -223,6 +238,11 @@ pub fn shoot(task: &LegTask, flights: &mut dyn SimulatesLeg) -> Result<Leg, LegE
     flights.progress("Lambert's arc");
     let body = flights.body(task.arrival_s).map_err(LegError::Flight)?;
     let [lambert_m_s, end_m_s] = task.lambert_m_s(body.position_m)?;
+    let speed_m_s = lambert_m_s.norm().max(end_m_s.norm());
+    if speed_m_s > MOST_SPEED_M_S {
+        let days = (task.arrival_s - task.start_s) / 86_400.0;
+        return Err(LegError::Fast { days, speed_km_s: 1e-3 * speed_m_s });
+    }
     let mut excess_m_s = end_m_s - body.velocity_m_s;
     task.check_aimpoint(excess_m_s.norm())?;
 

@@ -30,10 +30,6 @@ impl BodyEphemeris for Sky {
         self.0.state(body, FLYBY_S + at_s)
     }
 
-    fn acceleration_m_s2(&mut self, body: Body, at_s: f64) -> Vector3<f64> {
-        self.0.acceleration_m_s2(body, FLYBY_S + at_s)
-    }
-
     fn smooth_until_s(&self, at_s: f64) -> f64 {
         Ephemeris::smooth_until_s(FLYBY_S + at_s) - FLYBY_S
     }
@@ -190,6 +186,9 @@ fn what_cannot_be_is_refused_before_a_flight_to_the_body() {
     let aimpoint = FlybyAimpoint::Altitude { altitude_m: 2e5, angle_rad: 0.0 };
     let short = refused(LegTask { revolutions: Some((1, LambertBranch::Left)), ..task(40.0, aimpoint) });
     assert!(matches!(short, LegError::Lambert(LambertError::TooShort { revolutions: 1, .. })), "{short}");
+    // Half an astronomical unit in half a day: 1700 km/s.
+    let fast = refused(task(0.5, aimpoint));
+    assert!(matches!(fast, LegError::Fast { speed_km_s, .. } if speed_km_s > 1e3), "{fast}");
     let mercury = Sky(Ephemeris::default()).heliocentric(Body::Mercury, 0.0);
     let opposite = refused(LegTask { position_m: mercury.position_m * -1.2, ..task(80.0, aimpoint) });
     assert!(opposite.to_string().starts_with("found places 180.000 deg apart"), "{opposite}");

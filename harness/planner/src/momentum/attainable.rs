@@ -1,7 +1,8 @@
 //! What any choice of controls attains, by the linear model before any flight of a plan: excess, dumps, places in the B-plane.
 //!
 //! The places that the target can be moved to are convex as far as it is linear in the controls. Each of their corners is the farthest in
-//! one direction, solved again about its own answer, for tilt, windmilling and alternation multiply.
+//! one direction, solved again about its own answer, for tilt, windmilling and alternation multiply; a direction whose own place is behind
+//! another one's begins again from that. The polygon is a lower bound: every corner is a place that was found.
 
 use nalgebra::{Vector2, Vector3};
 use rayon::prelude::*;
@@ -14,7 +15,7 @@ use super::{
     region::Region,
     simulated::{FlightRow, SAME_S, SimulatedFlight},
     target::{LinearMiss, Target},
-    torque::{Attitude, Control, SunlitSpacecraft},
+    torque::{Attitude, Control, Controls, SunlitSpacecraft},
     windows::Window,
 };
 use crate::Failure;
@@ -28,6 +29,8 @@ const NARROWED: f64 = 0.5;
 const LEAST_RANGE: f64 = 0.01;
 /// A place farther by less than this share is the last.
 const GAINED: f64 = 2e-3;
+/// Times that directions begin again from the farthest of all corners, at most.
+const RESTARTS: usize = 3;
 /// Along one axis the other one is kept within so many m by the model, and within this share of the way in the end.
 const ASIDE_M: f64 = 10.0;
 const ASIDE: f64 = 0.03;
@@ -79,7 +82,7 @@ pub fn fewest_dumps(
     if refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), &mut Silent)? {
         return Ok(Some(0));
     }
-    Ok(counted::fewest_dumps(&model, GUARD, &mut || {}).map(|found| found.at_least))
+    Ok(counted::fewest_dumps(&model, GUARD, &mut || {}).map(|found| found.rows.len()))
 }
 
 /// Momentum that a downlink with the Sun on -Y would gather over a span, the arrays standing as in the windows, EME2000, in N m s.
@@ -105,13 +108,13 @@ pub fn downlink_momentum_n_m_s(
 /// Places in the B-plane that the controls can move an encounter to, from where it is, in m along T and R.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reachable {
-    /// Farthest along +T, -T, +R, -R, the other one unchanged; `None` where that keeps no limit.
+    /// Farthest along +T, -T, +R, -R, the other one unchanged; `None` where no place there was found.
     pub along_m: [Option<f64>; 4],
-    /// Corners of all places, counterclockwise from T to R.
+    /// Corners of the places that were found, counterclockwise from T to R.
     pub polygon_m: Vec<[f64; 2]>,
 }
 
-/// The places that the target of a flight can be moved to within the limits.
+/// The places that the target of a flight can be moved to within the limits: those that were found, which all others may lie beyond.
 ///
 /// # Errors
 /// A corridor without an offset, a programme without an answer.
@@ -125,109 +128,217 @@ pub fn reachable(
     // The target itself is no limit here.
     model.set_target(sunlit, task.target.map(|_| Target { tolerance: [None; 3] }));
     simulates.progress("reach");
-    let Some(here) = model.miss() else { return Ok(Reachable::default()) };
-    let here = here.xy();
+    let Some(encountered) = &simulated.encountered else { return Ok(Reachable::default()) };
     let single = counted::single(&model);
     if model.excess_n_m_s().0 > 0.0 {
         refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), simulates)?;
     }
-    let farthest =
-        |direction: Vector2<f64>, is_straight: bool| farthest(&model, sunlit, (here, direction), is_straight);
+    let search = Search { model, sunlit, here: encountered.miss.xy() };
     let axes = [Vector2::x(), -Vector2::x(), Vector2::y(), -Vector2::y()];
     // As far as it goes, and straight.
-    let found: Vec<[Option<Vector2<f64>>; 2]> =
-        axes.par_iter().map(|axis| [false, true].map(|is_straight| farthest(*axis, is_straight))).collect();
-    // One behind where it is: the limits do not let it stay there.
-    let along = |at: usize| found[at][1].map(|place| place.dot(&axes[at])).filter(|along_m| *along_m >= 0.0);
-    let widest = [0, 1, 2, 3].map(|at| found[at][0].map_or(0.0, |place| place.dot(&axes[at])));
+    let found: Vec<[Option<Corner>; 2]> = axes
+        .par_iter()
+        .map(|axis| [false, true].map(|is_straight| search.first((*axis, is_straight))))
+        .collect();
+    let widest = [0, 1, 2, 3].map(|at| found[at][0].as_ref().map_or(0.0, |it| it.place_m.dot(&axes[at])));
     let scale = Vector2::new(widest[0].max(widest[1]), widest[2].max(widest[3])).add_scalar(1.0);
     // Normals of an ellipse of that size, between the axes.
     let between = (0..DIRECTIONS).filter(|k| k % (DIRECTIONS / 4) != 0);
-    let normals: Vec<Vector2<f64>> = between
+    let normals = between
         .map(|k| core::f64::consts::TAU * k as f64 / DIRECTIONS as f64)
-        .map(|angle| Vector2::new(angle.cos() / scale.x, angle.sin() / scale.y).normalize())
-        .collect();
-    let mut corners: Vec<Option<Vector2<f64>>> =
-        normals.par_iter().map(|normal| farthest(*normal, false)).collect();
-    corners.extend(found.iter().flatten());
-    let polygon_m = hull(corners.into_iter().flatten().collect());
-    Ok(Reachable { along_m: [0, 1, 2, 3].map(along), polygon_m })
-}
-
-/// The place farthest in a direction from where the encounter was; straight: nowhere aside. Sought with the alternate attitude and
-/// without, for it takes away what tilt does.
-fn farthest(
-    model: &Model,
-    sunlit: &SunlitSpacecraft,
-    (here, direction): (Vector2<f64>, Vector2<f64>),
-    is_straight: bool,
-) -> Option<Vector2<f64>> {
-    let mut best: Option<Vector2<f64>> = None;
-    for alternates in [true, false] {
-        let mut model = model.clone();
-        if !alternates {
-            model.windows.iter_mut().for_each(|window| window.bounds[Control::Alternate as usize] = [0.0; 2]);
-            model.linearise(sunlit);
-        }
-        let found = climb(&mut model, sunlit, (here, direction), is_straight);
-        let is_farther =
-            |found: &Vector2<f64>| best.is_none_or(|best| direction.dot(found) > direction.dot(&best));
-        best = found.filter(is_farther).or(best);
+        .map(|angle| Vector2::new(angle.cos() / scale.x, angle.sin() / scale.y).normalize());
+    let normals: Vec<Vector2<f64>> = normals.collect();
+    let of_normals: Vec<Option<Corner>> =
+        normals.par_iter().map(|normal| search.first((*normal, false))).collect();
+    let mut reached: Vec<(Vector2<f64>, Option<Corner>)> = normals.into_iter().zip(of_normals).collect();
+    let mut all: Vec<Corner> = search.start().into_iter().collect();
+    for (axis, [farthest, straight]) in axes.iter().zip(found) {
+        reached.push((*axis, farthest));
+        all.extend(straight);
     }
-    best
+    search.restart(&mut reached, &all);
+    all.extend(reached.into_iter().filter_map(|(_, corner)| corner));
+    let mut places: Vec<Vector2<f64>> = all.iter().map(|corner| corner.place_m).collect();
+    // The flight as it is, where it keeps the limits.
+    if simulated.greatest(task.limit.size).0 <= task.limit.momentum_n_m_s * (1.0 - task.limit.margin) {
+        places.push(Vector2::zeros());
+    }
+    let polygon_m = hull(places);
+    Ok(Reachable { along_m: axes.map(|axis| along_m(&polygon_m, &axis)), polygon_m })
 }
 
-/// The same from the model's controls on: an answer is taken where it is farther, and the range about it narrows where it is not.
-fn climb(
-    model: &mut Model,
+/// Whether the programme of a plan meets the target within the limits, by the model before any flight of it.
+///
+/// # Errors
+/// A corridor without an offset, a programme without an answer.
+pub fn meets_target(
+    task: &PlanTask,
     sunlit: &SunlitSpacecraft,
-    (here, direction): (Vector2<f64>, Vector2<f64>),
-    is_straight: bool,
-) -> Option<Vector2<f64>> {
-    let leaders = counted::single(model);
-    let aside = Vector2::new(-direction.y, direction.x);
-    let (mut place, mut trust): (Option<Vector2<f64>>, f64) = (None, WHOLE);
-    let limit_n_m_s = model.limit.momentum_n_m_s;
-    while trust > LEAST_RANGE {
-        let LinearMiss { constant, terms } = model.linear_miss(&leaders)?;
-        let mut program = model.program(&leaders, model.whole(), [GUARD, trust]);
-        let by = |axis: Vector2<f64>| terms.iter().map(move |(index, by)| (*index, axis.dot(&by.xy())));
-        let size = by(direction).map(|(_, by)| by.abs()).fold(0.0, f64::max);
-        if size == 0.0 {
-            return Some(Vector2::zeros());
-        }
-        program.gains = by(direction).map(|(index, by)| (index, by / size)).collect();
-        if is_straight {
-            program.targets.push(TargetRow {
-                constant: aside.dot(&(constant.xy() - here)),
-                terms: by(aside).collect(),
-                within: ASIDE_M,
-                per_excess: ASIDE_M,
-            });
-        }
-        let Some(solution) = program.solve(Goal::Farthest) else { break };
-        let mut next = model.clone();
-        give(&mut next, &leaders, &solution);
-        next.linearise(sunlit);
-        let found = next.miss()?.xy() - here;
-        let is_aside = is_straight && aside.dot(&found).abs() > ASIDE * direction.dot(&found).abs() + ASIDE_M;
-        let is_kept = next.excess_n_m_s().0 <= GUARD * limit_n_m_s && !is_aside;
-        let gained = place.map_or(f64::INFINITY, |place| direction.dot(&(found - place)));
-        if is_kept && gained > 0.0 {
-            *model = next;
-            place = Some(found);
-            if gained < GAINED * direction.dot(&found).abs() {
+    simulated: &SimulatedFlight,
+    simulates: &mut dyn Simulates,
+) -> Result<bool, PlanError> {
+    let mut model = bare(task, sunlit, simulated)?;
+    model.set_target(sunlit, task.target);
+    let single = counted::single(&model);
+    refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), simulates)
+}
+
+/// A place in the B-plane from where the flight meets it, in m, and the controls of the windows that lead there by the model.
+#[derive(Clone, Debug)]
+struct Corner {
+    place_m: Vector2<f64>,
+    controls: Vec<Controls>,
+}
+
+/// Direction of a climb, and whether it goes straight there: nowhere aside.
+type Heading = (Vector2<f64>, bool);
+
+/// Search of the places farthest from `here`, where the flight meets the B-plane.
+struct Search<'a> {
+    model: Model,
+    sunlit: &'a SunlitSpacecraft,
+    here: Vector2<f64>,
+}
+
+impl Search<'_> {
+    /// The model's place and controls; `None` without a target.
+    fn corner(&self, model: &Model) -> Option<Corner> {
+        let controls = model.windows.iter().map(|window| window.controls).collect();
+        Some(Corner { place_m: model.miss()?.xy() - self.here, controls })
+    }
+
+    /// The first controls, where they keep the limits.
+    fn start(&self) -> Option<Corner> {
+        if self.model.excess_n_m_s().0 <= 0.0 { self.corner(&self.model) } else { None }
+    }
+
+    /// The farthest place from the first controls on. Sought without the alternate attitude too, for it takes away what tilt does, and from
+    /// half of its greatest share on, for at none the place of the Sun in it moves nothing.
+    fn first(&self, heading: Heading) -> Option<Corner> {
+        let found = [None, Some(0.0), Some(0.5)].map(|share| {
+            let mut model = self.model.clone();
+            if let Some(share) = share {
+                for window in &mut model.windows {
+                    let [_, most] = &mut window.bounds[Control::Alternate as usize];
+                    window.controls = window.controls.with(Control::Alternate, share * *most);
+                    *most = if share > 0.0 { *most } else { 0.0 };
+                }
+                model.linearise(self.sunlit);
+            }
+            self.climb(&mut model, heading, None)
+        });
+        farthest(found.iter().flatten(), &heading.0).cloned()
+    }
+
+    /// Climbs again from the farthest of all corners where a direction's own is behind it, or there is none.
+    fn restart(&self, reached: &mut [(Vector2<f64>, Option<Corner>)], others: &[Corner]) {
+        for _ in 0..RESTARTS {
+            let all: Vec<&Corner> =
+                reached.iter().filter_map(|(_, corner)| corner.as_ref()).chain(others).collect();
+            let again = |(direction, own): &(Vector2<f64>, Option<Corner>)| {
+                let from = farthest(all.iter().copied(), direction)?;
+                let ahead_m = direction.dot(&from.place_m);
+                let is_behind = own
+                    .as_ref()
+                    .is_none_or(|own| ahead_m - direction.dot(&own.place_m) > GAINED * ahead_m.abs());
+                is_behind.then(|| self.climb_from(from, *direction))
+            };
+            let found: Vec<Option<Corner>> = reached.par_iter().map(again).collect();
+            if found.iter().all(Option::is_none) {
                 break;
             }
-        } else {
-            // Nothing yet: the next linearisation is about the answer all the same.
-            if place.is_none() {
-                *model = next;
+            for ((_, own), found) in reached.iter_mut().zip(found) {
+                *own = found.or(own.take());
             }
-            trust *= NARROWED;
         }
     }
-    place
+
+    /// The farthest place from a corner on; that corner where nothing is farther.
+    fn climb_from(&self, from: &Corner, direction: Vector2<f64>) -> Corner {
+        let mut model = self.model.clone();
+        model.windows.iter_mut().zip(&from.controls).for_each(|(window, it)| window.controls = *it);
+        model.linearise(self.sunlit);
+        self.climb(&mut model, (direction, false), Some(from.clone())).unwrap_or_else(|| from.clone())
+    }
+
+    /// Climbs from the model's controls on, which lead to `found` if they keep the limits: an answer is taken where it is farther, and the
+    /// range about it narrows where it is not.
+    fn climb(
+        &self,
+        model: &mut Model,
+        (direction, is_straight): Heading,
+        mut found: Option<Corner>,
+    ) -> Option<Corner> {
+        let leaders = counted::single(model);
+        model.look_between();
+        let aside = Vector2::new(-direction.y, direction.x);
+        let mut trust = WHOLE;
+        while trust > LEAST_RANGE {
+            let LinearMiss { constant, terms } = model.linear_miss(&leaders)?;
+            let mut program = model.program(&leaders, model.whole(), [GUARD, trust]);
+            let by = |axis: Vector2<f64>| terms.iter().map(move |(index, by)| (*index, axis.dot(&by.xy())));
+            let size = by(direction).map(|(_, by)| by.abs()).fold(0.0, f64::max);
+            if size == 0.0 {
+                return found.or_else(|| self.start());
+            }
+            program.gains = by(direction).map(|(index, by)| (index, by / size)).collect();
+            if is_straight {
+                program.targets.push(TargetRow {
+                    constant: aside.dot(&(constant.xy() - self.here)),
+                    terms: by(aside).collect(),
+                    within: ASIDE_M,
+                    per_excess: ASIDE_M,
+                });
+            }
+            let Some(solution) = program.solve(Goal::Farthest) else { break };
+            let mut next = model.clone();
+            give(&mut next, &leaders, &solution);
+            next.linearise(self.sunlit);
+            next.look_between();
+            let corner = self.corner(&next)?;
+            let along_m = |corner: &Corner| direction.dot(&corner.place_m);
+            let aside_m = aside.dot(&corner.place_m).abs();
+            let is_aside = is_straight && aside_m > ASIDE * along_m(&corner).abs() + ASIDE_M;
+            let is_kept = next.excess_n_m_s().0 <= 0.0 && !is_aside;
+            let gained_m = found.as_ref().map_or(f64::INFINITY, |found| along_m(&corner) - along_m(found));
+            if is_kept && gained_m > 0.0 {
+                *model = next;
+                let is_last = gained_m < GAINED * along_m(&corner).abs();
+                found = Some(corner);
+                if is_last {
+                    break;
+                }
+                trust = (trust / NARROWED).min(WHOLE);
+            } else {
+                // Nothing yet: the next linearisation is about the answer all the same.
+                if found.is_none() {
+                    *model = next;
+                }
+                trust *= NARROWED;
+            }
+        }
+        found
+    }
+}
+
+/// The corner that is farthest in a direction.
+fn farthest<'a>(corners: impl Iterator<Item = &'a Corner>, direction: &Vector2<f64>) -> Option<&'a Corner> {
+    let along_m = |corner: &Corner| direction.dot(&corner.place_m);
+    corners.max_by(|a, b| along_m(a).total_cmp(&along_m(b)))
+}
+
+/// How far a convex polygon goes along a ray from the origin, in m; `None` where the ray does not meet it.
+fn along_m(polygon_m: &[[f64; 2]], axis: &Vector2<f64>) -> Option<f64> {
+    let places = || polygon_m.iter().map(|corner| Vector2::from(*corner));
+    let crossed = places().zip(places().cycle().skip(1)).filter_map(|(from, to)| {
+        let [aside, next] = [from, to].map(|place| axis.perp(&place));
+        if aside == 0.0 {
+            return Some(axis.dot(&from));
+        }
+        let share = aside / (aside - next);
+        (aside * next < 0.0).then(|| axis.dot(&from.lerp(&to, share)))
+    });
+    crossed.filter(|along_m| *along_m >= 0.0).max_by(f64::total_cmp)
 }
 
 /// Corners of the least convex region with all of these places, counterclockwise.

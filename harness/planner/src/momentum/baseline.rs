@@ -4,6 +4,7 @@
 //! acos(min D^2). A span can share one offset if the greatest of its lower bounds is below the least of its upper ones. The fewest
 //! spans come of continuing as long as that holds. Where the same number does with steps at the edges of windows alone, those are taken,
 //! and of all such choices the one whose narrowest span is widest: that is the room windmilling has. The offset of a span is in the middle.
+//! A corridor that every offset keeps throughout forces none: then the mission's own offsets are the baseline.
 
 use physics::{constants::ASTRONOMICAL_UNIT_M, spacecraft::Articulation};
 
@@ -36,6 +37,18 @@ pub fn allowed_rad(corridor: &Articulation, distance_m: f64) -> Option<[f64; 2]>
         .then(|| [greatest_cosine, least_cosine.max(0.0)].map(f64::acos))
 }
 
+/// Whether the corridor excludes any offset of lit cells at a distance in m.
+fn forces(corridor: &Articulation, distance_m: f64) -> bool {
+    corridor.min_suns > 0.0 || corridor.max_suns * (distance_m / ASTRONOMICAL_UNIT_M).powi(2) < 1.0
+}
+
+/// Offsets in rad, without their sign, that keep the corridor at every one of the distances in m; either way where it forces none.
+pub(super) fn shared_rad(corridor: &Articulation, distances_m: impl Iterator<Item = f64>) -> [f64; 2] {
+    let forced = distances_m.filter(|distance_m| forces(corridor, *distance_m));
+    let bounds = forced.filter_map(|distance_m| allowed_rad(corridor, distance_m));
+    bounds.fold([-core::f64::consts::PI, core::f64::consts::PI], meet)
+}
+
 /// Bounds at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Bound {
@@ -49,7 +62,8 @@ fn meet(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 
 const ALL: [f64; 2] = [0.0, core::f64::consts::PI];
 
-/// The baseline over `places`, times in s with the distances from the Sun in m; `edges_s` are the edges of windows between.
+/// The baseline over `places`, times in s with the distances from the Sun in m; `edges_s` are the edges of windows between, `own` what the
+/// mission has.
 ///
 /// # Errors
 /// The first time at which no offset suits.
@@ -57,7 +71,11 @@ pub fn baseline(
     corridor: &Articulation,
     places: &[(f64, f64)],
     edges_s: &[f64],
+    own: &[OffsetStep],
 ) -> Result<Vec<OffsetStep>, NoOffset> {
+    if !own.is_empty() && !places.iter().any(|(_, distance_m)| forces(corridor, *distance_m)) {
+        return Ok(own.to_vec());
+    }
     let mut bounds = Vec::with_capacity(places.len());
     for &(at_s, distance_m) in places {
         let Some(rad) = allowed_rad(corridor, distance_m) else {

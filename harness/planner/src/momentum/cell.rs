@@ -5,7 +5,7 @@
 use nalgebra::{Matrix3, Matrix3x4, Vector3};
 
 use super::{
-    simulated::FlightRow,
+    simulated::{FlightRow, SAME_S},
     target::Moves,
     torque::{ALL, CONTROLS, Control, LinearTorque, SunlitSpacecraft},
     windows::{Window, WindowKind},
@@ -60,7 +60,7 @@ impl At {
     fn mean(&self, share: f64) -> Mean {
         let (solar, by_control) = self.load.mean(share);
         let (force, force_by_control) = self.load.mean_force_n(share);
-        let by_center = self.load.mix(share) * self.load.by_center;
+        let by_center = self.load.mean_by_center(share);
         let by_scale = if self.scale > 0.0 { solar / self.scale } else { Vector3::zeros() };
         let by_error = Matrix3x4::from_columns(&[
             by_center.column(0).into_owned(),
@@ -74,6 +74,62 @@ impl At {
         };
         Mean { torque: solar + self.other, by_control, by_error, moves }
     }
+}
+
+/// Instants of a programme in a window, at least.
+const INSTANTS: usize = 8;
+const DAY_S: f64 = 86_400.0;
+/// Windows count as no longer than this where instants are chosen, in s.
+const LONGEST_WINDOW_S: f64 = 3.0 * DAY_S;
+/// Instants within a window of less than a day are no closer, in s: what goes on between them is looked at all the same.
+const CLOSEST_S: f64 = 8.0 * 3600.0;
+
+/// Last rows of a programme's steps; edges of windows and resets are among them.
+pub(crate) fn instants(cells: &[Cell], windows: &[Window], rows: &[FlightRow]) -> Vec<usize> {
+    let mut instants = Vec::new();
+    let mut since_s = rows.first().map_or(0.0, |row| row.time_s);
+    for (index, cell) in cells.iter().enumerate() {
+        let end_s = rows[index + 1].time_s;
+        let next = cells.get(index + 1);
+        let ends_window = next.is_none_or(|next| next.window != cell.window);
+        let meets_reset = cell.reset.is_some() || next.is_some_and(|next| next.reset.is_some());
+        let length_s = windows[cell.window].length_s();
+        let mut long_s = length_s.min(LONGEST_WINDOW_S) / INSTANTS as f64;
+        if length_s < DAY_S {
+            long_s = long_s.max(CLOSEST_S);
+        }
+        if ends_window || meets_reset || end_s - since_s >= long_s - SAME_S {
+            instants.push(index + 1);
+            since_s = end_s;
+        }
+    }
+    instants
+}
+
+/// Share of a guard that is left at every row: nothing while the flight is as the mission has it, growing to all over the first window
+/// that a plan moves, for what it cannot know grows with it; all behind a planned dump.
+pub(crate) fn guard_shares(
+    cells: &[Cell],
+    windows: &[Window],
+    rows: &[FlightRow],
+    is_dump: impl Fn(usize) -> bool,
+) -> Vec<f64> {
+    let mut shares = vec![0.0];
+    let mut share: f64 = 0.0;
+    for (index, cell) in cells.iter().enumerate() {
+        let window = &windows[cell.window];
+        if is_dump(index) {
+            share = 1.0;
+        }
+        if cell.reset.is_some() {
+            share = 0.0;
+        } else if window.kind != WindowKind::Frozen {
+            let duration_s = rows[index + 1].time_s - rows[index].time_s;
+            share = (share + duration_s / window.length_s().max(SAME_S)).min(1.0);
+        }
+        shares.push(share);
+    }
+    shares
 }
 
 /// From one row to the next, with the share in the alternate attitude and that by unit of its control.

@@ -2,20 +2,20 @@
 //!
 //! **Dumps.** A dump leaves any momentum within the limit, so the flight falls into parts that do not know of one another, and a part of
 //! a feasible part is feasible: continuing as far as some choice of controls allows and dumping there gives the fewest (of the linear
-//! model). Of all ways with that number the one is taken that does with the smallest limit.
+//! model). Of all ways with that number the one is taken that does with the smallest limit. From below: the same by relaxed programmes.
 //!
 //! **Changes.** The arrays stand alike over groups of neighbouring windows. Steps of the baseline begin a group in any case. From below:
 //! windows that cannot share a windmill angle whatever the momentum before them have a change among them; such spans that share no edge
 //! are counted. From above: each group continues as long as a plan for the rest exists in which every later window is a group by itself.
 //! Where both differ, branch and bound over the places of the changes, depth first: a branch ends where even single windows
-//! behind it find no plan, or where the count from below exceeds what is left. It stops by the clock; the gap is reported. Controls stay
-//! within a range about the model's: the programmes are linear, and over a wide range their groups may not keep the limits.
+//! behind it find no plan, or where the count from below exceeds what is left. It stops by the clock; the gap is reported. Plans leave a
+//! guard and follow a linear model; the same search by relaxed programmes proves that there are not fewer. Controls of plans stay within a range about the model's: the programmes are linear, and over a wide range their groups may not keep the limits.
 
 use std::{collections::HashMap, time::Instant};
 
 use super::{
     model::{Model, Part},
-    program::{Goal, WHOLE},
+    program::{GUARD, Goal, WHOLE},
     simulated::SAME_S,
     torque::Control,
     windows::WindowKind,
@@ -29,18 +29,18 @@ const KEPT: f64 = 1e-4;
 pub(super) struct Dumps {
     /// Rows of the flight at which they are.
     pub rows: Vec<usize>,
-    /// No plan has fewer.
+    /// No plan on the baseline has fewer.
     pub at_least: usize,
 }
 
 /// Which windows' arrays stand alike.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Groups {
     /// First window of the group of every window.
     pub leaders: Vec<usize>,
     /// Changes of the arrays.
     pub changes: usize,
-    /// No plan has fewer.
+    /// No plan on the baseline with these dumps has fewer; 0 within less than the whole range of the controls.
     pub at_least: usize,
 }
 
@@ -101,6 +101,24 @@ fn parts(model: &Model, guard: f64, scale: f64, most: usize) -> Option<Vec<usize
     Some(ends)
 }
 
+/// Dumps that no plan on the baseline can do without: each falls somewhere in the step that no relaxed programme reaches the end of.
+fn least_dumps(model: &Model) -> usize {
+    let leaders = single(model);
+    let count = model.instants().len();
+    let (mut from, mut dumps) = (0, 0);
+    while from < count {
+        let free = dumps > 0;
+        let to = farthest(from, count, |to| {
+            is_kept(model, &leaders, Part { steps: [from, to], free }, [0.0, WHOLE], 1.0)
+        });
+        if to >= count {
+            break;
+        }
+        (from, dumps) = (to + 1, dumps + 1);
+    }
+    dumps
+}
+
 /// The fewest dumps about the model's controls; `None` where dumps do not help.
 pub(super) fn fewest_dumps(model: &Model, guard: f64, progress: &mut dyn FnMut()) -> Option<Dumps> {
     let ends = parts(model, guard, 1.0, usize::MAX - 1)?;
@@ -118,16 +136,18 @@ pub(super) fn fewest_dumps(model: &Model, guard: f64, progress: &mut dyn FnMut()
         }
     }
     best.pop();
+    let at_least = least_dumps(model).min(count);
     let rows = best.into_iter().filter_map(|end| model.instants().get(end - 1).copied()).collect();
-    Some(Dumps { rows, at_least: count })
+    Some(Dumps { rows, at_least })
 }
 
-/// The end of the first step up to which no choice of controls keeps the limit without a dump, in s; `None` where one does throughout.
-pub(super) fn first_exceeded_s(model: &Model, guard: f64) -> Option<f64> {
+/// The end of the first step up to which no controls are found that keep the limit without a dump, in s; `None` where some do throughout.
+/// Other controls may keep it longer: the model is linear.
+pub(super) fn first_exceeded_s(model: &Model) -> Option<f64> {
     let leaders = single(model);
     let count = model.instants().len();
     let kept = farthest(0, count, |to| {
-        is_kept(model, &leaders, Part { steps: [0, to], free: false }, [guard, WHOLE], 1.0)
+        is_kept(model, &leaders, Part { steps: [0, to], free: false }, [GUARD, WHOLE], 1.0)
     });
     model.instants().get(kept).map(|row| model.simulated.rows[*row].time_s)
 }
@@ -275,7 +295,11 @@ pub(super) fn fewest_changes(
             steps[window] = step + 1;
         }
     }
-    let mut search = Search { model, ranges, forced, steps, until, reached: HashMap::new() };
+    let search = |ranges: [f64; 2]| {
+        let (forced, steps) = (forced.clone(), steps.clone());
+        Search { model, ranges, forced, steps, until, reached: HashMap::new() }
+    };
+    let (mut search, mut proof) = (search(ranges), search([0.0, WHOLE]));
     let moves = (0..windows.len())
         .any(|window| is_moved(window, Control::Windmill) || is_moved(window, Control::Offset));
     if !moves {
@@ -285,21 +309,32 @@ pub(super) fn fewest_changes(
     if !search.is_open(&[], 0) {
         return None;
     }
-    let mut at_least = search.at_least_from(0);
-    progress();
     let mut best = search.greedy(progress);
-    while at_least < best.len() {
-        match search.descend(&mut Vec::new(), at_least, progress) {
-            Some(found) => best = found,
-            None if Instant::now() >= until => break,
-            None => at_least += 1,
+    let is_over = || Instant::now() >= until;
+    for count in search.at_least_from(0)..best.len() {
+        match search.descend(&mut Vec::new(), count, progress) {
+            Some(found) => {
+                best = found;
+                break;
+            }
+            None if is_over() => break,
+            None => {}
         }
     }
-    Some(Groups {
-        leaders: search.leaders(&best, usize::MAX),
-        changes: base + best.len(),
-        at_least: base + at_least.min(best.len()),
-    })
+    let at_least = match ranges[1] < WHOLE {
+        true => 0,
+        false => {
+            let mut at_least = proof.at_least_from(0);
+            while at_least < best.len()
+                && proof.descend(&mut Vec::new(), at_least, progress).is_none()
+                && !is_over()
+            {
+                at_least += 1;
+            }
+            base + at_least.min(best.len())
+        }
+    };
+    Some(Groups { leaders: search.leaders(&best, usize::MAX), changes: base + best.len(), at_least })
 }
 
 #[cfg(test)]

@@ -56,6 +56,9 @@ impl Table {
             .iter()
             .map(|name| name.trim().to_owned())
             .collect();
+        if let Some((_, twice)) = names.iter().enumerate().find(|(at, name)| names[..*at].contains(name)) {
+            return Err(failed(&format!("found the column {twice:?} twice, allowed: once")));
+        }
         let is_read = |name: &String| {
             name == "time"
                 || name == DUMPS

@@ -1,5 +1,6 @@
 //! Momentum that sunlight's torque can hold: what downlinks of a recorded mission attain, and optimal plans of arrays and attitudes.
 
+mod as_it_is;
 pub mod attainable;
 pub mod baseline;
 pub(crate) mod cell;
@@ -10,10 +11,12 @@ mod mission;
 mod model;
 pub mod places;
 pub mod plan;
+mod planned;
 pub mod plant;
 mod program;
 pub mod refit_file;
 mod region;
+mod relaxed;
 pub mod report;
 pub mod simulated;
 pub mod target;

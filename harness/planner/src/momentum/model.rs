@@ -7,16 +7,15 @@
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, SymmetricEigen, Vector3};
 
 use super::{
-    cell::{At, Cell, cell},
+    cell::{At, Cell, cell, guard_shares, instants},
     program::{Begin, Program, Step},
+    relaxed::{Placed, departures_n_m, relax},
     simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
     target::{LinearMiss, Target, Targeting},
     torque::{ALL, CONTROLS, Control, SunlitSpacecraft},
     windows::{Window, WindowKind},
 };
 
-/// Instants of the programme in a window, at least.
-const INSTANTS: usize = 8;
 /// Deviations of the refit's errors that the margin holds.
 const SIGMAS: f64 = 3.0;
 
@@ -54,6 +53,8 @@ pub(super) struct Model {
     instants: Vec<usize>,
     /// By how much |H| between instants exceeds that at them, by step.
     between: Vec<f64>,
+    /// By how much the torque of every window departs from the model at most, in N m; nothing unless it was looked at.
+    departures_n_m: Vec<Vector3<f64>>,
 }
 
 /// Which part of the flight a programme covers.
@@ -86,9 +87,11 @@ impl Model {
             cells: Vec::new(),
             instants: Vec::new(),
             between: Vec::new(),
+            departures_n_m: Vec::new(),
         };
         model.linearise(sunlit);
-        model.set_instants();
+        model.instants = instants(&model.cells, &model.windows, &model.simulated.rows);
+        model.between = vec![0.0; model.instants.len()];
         model
     }
 
@@ -114,8 +117,9 @@ impl Model {
     fn recorded_moves(&self, sunlit: &SunlitSpacecraft) -> Vector3<f64> {
         let Some(targeting) = &self.targeting else { return Vector3::zeros() };
         let rows = self.simulated.rows.iter();
-        let rates: Vec<_> =
-            rows.map(|row| targeting.by_impulse(sunlit, row) * sunlit.simulated(row).force_n).collect();
+        let rates: Vec<_> = rows
+            .map(|row| targeting.by_impulse(sunlit, row) * sunlit.simulated(row).normal.force_n)
+            .collect();
         let cells = self.cells.iter().enumerate();
         let free = cells.filter(|(_, cell)| self.windows[cell.window].kind != WindowKind::Frozen);
         free.map(|(index, _)| {
@@ -172,30 +176,6 @@ impl Model {
         self.cells = cells;
     }
 
-    fn set_instants(&mut self) {
-        let mut instants = Vec::new();
-        let mut since_s = self.simulated.rows.first().map_or(0.0, |row| row.time_s);
-        for index in 0..self.cells.len() {
-            let cell = &self.cells[index];
-            let of = &self.windows[cell.window];
-            let end_s = self.simulated.rows[index + 1].time_s;
-            let next = self.cells.get(index + 1);
-            let ends_window = next.is_none_or(|next| next.window != cell.window);
-            let meets_reset = cell.reset.is_some() || next.is_some_and(|next| next.reset.is_some());
-            let length_s = of.stop_s - of.start_s;
-            let mut long_s = length_s.min(LONGEST_WINDOW_S) / INSTANTS as f64;
-            if length_s < DAY_S {
-                long_s = long_s.max(CLOSEST_S);
-            }
-            if ends_window || meets_reset || end_s - since_s >= long_s - SAME_S {
-                instants.push(index + 1);
-                since_s = end_s;
-            }
-        }
-        self.between = vec![0.0; instants.len()];
-        self.instants = instants;
-    }
-
     /// The whole flight as a part.
     pub(super) fn whole(&self) -> Part {
         Part { steps: [0, self.instants.len()], free: false }
@@ -206,8 +186,8 @@ impl Model {
         &self.instants
     }
 
-    /// Takes what a flight of the present controls gained, and how it missed the target.
-    pub(super) fn take(&mut self, sunlit: &SunlitSpacecraft, flight: &SimulatedFlight) {
+    /// Takes a share of what a flight of the present controls gained beyond the model, and how it missed the target.
+    pub(super) fn take(&mut self, sunlit: &SunlitSpacecraft, flight: &SimulatedFlight, share: f64) {
         let momentum = |row: &FlightRow| flight.momentum_n_m_s(row.time_s);
         let count_at = |time_s: f64| {
             let after = flight.rows.partition_point(|row| row.time_s <= time_s + SAME_S);
@@ -218,7 +198,8 @@ impl Model {
             if cell.reset.is_some() || count_at(from.time_s - 2.0 * SAME_S) != count_at(to.time_s) {
                 continue;
             }
-            self.corrections[index] = momentum(to) - momentum(from) - cell.gain;
+            let gained = momentum(to) - momentum(from) - cell.gain;
+            self.corrections[index] = self.corrections[index].lerp(&gained, share);
         }
         if let (Some(targeting), Some(encountered)) = (&mut self.targeting, &flight.encountered) {
             targeting.encountered = encountered.clone();
@@ -279,32 +260,29 @@ impl Model {
 
     /// By how much |H| exceeds what is allowed at the worst row, in N m s, and that row; the target's excess counts as at the last.
     pub(super) fn excess_n_m_s(&self) -> (f64, usize) {
-        let of_momentum = self.momentum_excess_n_m_s();
-        let limit_n_m_s = self.limit.momentum_n_m_s;
-        let of_target = self
-            .targeting
-            .as_ref()
-            .zip(self.miss())
-            .map(|(targeting, miss)| targeting.target.excess_n_m_s(&miss, limit_n_m_s));
-        match of_target {
-            Some(excess) if excess > of_momentum.0 => (excess, self.cells.len()),
-            _ => of_momentum,
-        }
+        self.excess_beyond_n_m_s(0.0)
     }
 
-    /// The same of the momentum alone.
-    fn momentum_excess_n_m_s(&self) -> (f64, usize) {
+    /// The same where this share of the limit is left too.
+    pub(super) fn excess_beyond_n_m_s(&self, guard: f64) -> (f64, usize) {
+        let limit_n_m_s = self.limit.momentum_n_m_s;
         let momentum = self.momentum_n_m_s();
-        let over = momentum
-            .iter()
-            .zip(self.allowed_n_m_s())
-            .map(|(momentum, allowed)| self.limit.size.of(momentum) - allowed);
-        over.enumerate().fold(
-            (f64::NEG_INFINITY, 0),
-            |(worst, at), (row, over)| {
-                if over > worst { (over, row) } else { (worst, at) }
-            },
-        )
+        let rows = momentum.iter().zip(self.allowed_n_m_s()).zip(self.guard_shares());
+        let over = rows.map(|((momentum, allowed), share)| {
+            self.limit.size.of(momentum) - allowed + share * guard * limit_n_m_s
+        });
+        let of_target =
+            self.targeting.as_ref().zip(self.miss()).map(|(targeting, miss)| {
+                targeting.target.excess_n_m_s(&miss, limit_n_m_s) + guard * limit_n_m_s
+            });
+        let all = over.enumerate().chain(of_target.map(|over| (self.cells.len(), over)));
+        let least = (f64::NEG_INFINITY, 0);
+        all.fold(least, |worst, (row, over)| if over > worst.0 { (over, row) } else { worst })
+    }
+
+    fn guard_shares(&self) -> Vec<f64> {
+        let is_dump = |row: usize| self.dumps.iter().any(|(at, _)| *at == row);
+        guard_shares(&self.cells, &self.windows, &self.simulated.rows, is_dump)
     }
 
     /// Looks at how far |H| goes between the instants.
@@ -328,7 +306,7 @@ impl Model {
     pub(super) fn index(leaders: &[usize], window: usize, control: Control) -> usize {
         let of = match control {
             Control::Offset | Control::Windmill => leaders[window],
-            Control::Azimuth | Control::Elevation | Control::Alternate => window,
+            _ => window,
         };
         CONTROLS * of + control as usize
     }
@@ -354,7 +332,8 @@ impl Model {
     }
 
     /// The programme of a part, the arrays of every window standing as those of its leader; `guard` is a share of the limit that is
-    /// left, `trust` the share of each control's range by which it may leave its present value.
+    /// left (0: a relaxed programme, for bounds from below), `trust` the share of
+    /// each control's range by which it may leave its present value.
     pub(super) fn program(&self, leaders: &[usize], part: Part, [guard, trust]: [f64; 2]) -> Program {
         let bounds = vec![[0.0, 0.0]; CONTROLS * self.windows.len()];
         let mut program = Program { size: self.limit.size, bounds, ..Program::default() };
@@ -376,28 +355,55 @@ impl Model {
             self.add_target(&mut program, leaders);
         }
         self.add_corridor(&mut program, leaders);
+        if guard <= 0.0 {
+            let placed: Vec<Placed> = (part.steps[0]..part.steps[1]).map(|step| self.placed(step)).collect();
+            let unjudged_n_m_s = UNJUDGED * self.limit.momentum_n_m_s;
+            relax(&mut program, &placed, &self.windows, &self.departures_n_m, unjudged_n_m_s);
+        }
         for (index, window) in self.windows.iter().enumerate() {
             if window.kind != WindowKind::Free {
                 continue;
             }
-            let weight = (window.stop_s - window.start_s) / DAY_S;
+            let days = (window.stop_s - window.start_s) / DAY_S;
+            let own = [Control::AlternateAzimuth, Control::AlternateElevation]
+                .map(|it| Self::index(leaders, index, it));
+            let is_apart = own.iter().any(|at| program.bounds[*at][0] < program.bounds[*at][1]);
+            let alternate = if is_apart { 0.5 * window.bounds[Control::Alternate as usize][1] } else { 0.0 };
+            program.lengths.extend(is_apart.then_some((own, days * alternate)));
             let pair = [Control::Azimuth, Control::Elevation].map(|it| Self::index(leaders, index, it));
             let has_tilt = pair.iter().any(|at| program.bounds[*at][0] < program.bounds[*at][1]);
             if has_tilt {
-                program.lengths.push((pair, weight));
+                program.lengths.push((pair, days * (1.0 - alternate)));
                 let sides = window.places.iter();
                 program.sums.extend(sides.map(|side| (side.terms(pair), side.most)));
             }
             // Behind the tilt: a hundredth of a degree, not to alternate or windmill for nothing.
             for control in [Control::Alternate, Control::Windmill] {
-                program.magnitudes.push((Self::index(leaders, index, control), SLIGHT * weight));
+                program.magnitudes.push((Self::index(leaders, index, control), SLIGHT * days));
             }
         }
         program
     }
 
+    /// Looks at what the model leaves out about the present controls.
+    pub(super) fn look_at_departures(&mut self, sunlit: &SunlitSpacecraft) {
+        self.departures_n_m = departures_n_m(sunlit, &self.simulated, &self.windows);
+    }
+
+    fn placed(&self, step: usize) -> Placed {
+        let [from, to] = [step.checked_sub(1).map_or(0, |before| self.instants[before]), self.instants[step]];
+        let window = self.cells[to - 1].window;
+        let is_other = |cell: Option<&Cell>| cell.is_none_or(|cell| cell.window != window);
+        Placed {
+            window,
+            begins: is_other(from.checked_sub(1).and_then(|before| self.cells.get(before))),
+            ends: is_other(self.cells.get(to)),
+            duration_s: self.simulated.rows[to].time_s - self.simulated.rows[from].time_s,
+        }
+    }
+
     fn add_steps(&self, program: &mut Program, leaders: &[usize], part: Part, guard: f64) {
-        let allowed = self.allowed_n_m_s();
+        let (allowed, shares) = (self.allowed_n_m_s(), self.guard_shares());
         let start = self.simulated.rows.first().map_or_else(Vector3::zeros, |row| row.momentum_n_m_s);
         for step in part.steps[0]..part.steps[1] {
             let from = step.checked_sub(1).map_or(0, |before| self.instants[before]);
@@ -435,7 +441,9 @@ impl Model {
                     }
                 }
             }
-            let limit = allowed[to] - guard * self.limit.momentum_n_m_s - self.between[step];
+            let share = if part.free { 1.0 } else { shares[to] };
+            let left_n_m_s = guard * share * self.limit.momentum_n_m_s;
+            let limit = allowed[to] - left_n_m_s - if guard > 0.0 { self.between[step] } else { 0.0 };
             program.steps.push(Step { begin, drift, terms, limit });
         }
     }
@@ -480,12 +488,8 @@ impl Model {
     }
 }
 
-/// Limits that nothing is judged by, where nothing is judged.
+/// Limits by which nothing is judged, of the limit.
 const UNJUDGED: f64 = 1e3;
-/// Windows count as no longer than this where instants are chosen, in s.
-const LONGEST_WINDOW_S: f64 = 3.0 * DAY_S;
-/// Instants within a window of less than a day are no closer, in s: what goes on between them is looked at all the same.
-const CLOSEST_S: f64 = 8.0 * 3600.0;
 const DAY_S: f64 = 86_400.0;
 /// Cost of a day in the alternate attitude or of a radian of windmilling, against a day with a radian of tilt.
 const SLIGHT: f64 = 1e-3;

@@ -1,8 +1,9 @@
 //! The optimal plan: fewest dumps, then fewest changes of the arrays, then least tilt, simulated and linearised again until both agree.
 //!
 //! Each round linearises the momentum about the present controls, solves, and simulates the answer through the FMU; what the flight gained
-//! more than the model is added to the model of the next round. A round ends the search where flight and plan differ by no more than
-//! [`AGREED`] of the limit and the flight stays below the limit. Within a round the programme is solved again about its own answer
+//! more than the model is added to the model of the next round, half of it where the last did not halve the difference. A round ends the
+//! search where flight and plan differ by no more than [`AGREED`] of the limit and the flight stays below the limit. A plan holds where its
+//! flight stays below the limit, however far both differ; the best of those flown is the answer, the mission as it is among them. Within a round the programme is solved again about its own answer
 //! (sequential convex programming) with the range of the controls around it narrowed, for tilt, windmilling and alternation multiply.
 
 use std::time::{Duration, Instant};
@@ -10,22 +11,25 @@ use std::time::{Duration, Instant};
 use nalgebra::Vector3;
 use physics::momentum::Convention;
 
+pub(super) use super::planned::greatest_n_m_s;
+pub use super::planned::{
+    AGREED, Exceeded, Least, MomentumPlan, PlanError, PlanTask, PlannedDump, PlannedRow, Simulates,
+};
 use super::{
-    baseline::{NoOffset, OffsetStep},
+    as_it_is::{array_changes, is_better, may_stay, own_windows},
+    baseline::OffsetStep,
     counted::{self, Groups},
-    model::{Limit, Model},
+    model::Model,
     program::{GUARD, Goal, Program, Solution, WHOLE},
     simulated::{MomentumSize, SAME_S, SimulatedFlight},
-    target::Target,
     torque::{ALL, Controls, SunlitSpacecraft},
-    windows::{Layout, Window},
+    windows::{Window, WindowKind},
 };
-use crate::Failure;
 
-/// Flight and plan agree where they differ by less than this share of the limit.
-pub const AGREED: f64 = 0.02;
 /// Rounds at most.
 const MOST_ROUNDS: usize = 8;
+/// Share of a flight's correction that a model takes where the last one did not bring both nearer by half.
+const DAMPED: f64 = 0.5;
 /// Solutions within a round at most.
 const MOST_STEPS: usize = 24;
 /// By which the range about the present controls narrows where the model fails, and where that ends.
@@ -37,146 +41,6 @@ const PENALTY: f64 = 1e3;
 const LITTLE: [f64; 3] = [0.05, 0.15, 0.5];
 /// A gain in merit below this share is none.
 const TAKEN: f64 = 1e-4;
-
-/// What a plan has least of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Least {
-    /// Tilt of the Sun off -Y, by its time.
-    Tilt,
-    /// Greatest momentum.
-    Momentum,
-}
-
-impl Least {
-    fn goal(self) -> Goal {
-        match self {
-            Self::Tilt => Goal::LeastCost,
-            Self::Momentum => Goal::LeastExcess,
-        }
-    }
-}
-
-/// What is planned.
-#[derive(Clone, Debug)]
-pub struct PlanTask {
-    /// Windows, contacts, how far controls go.
-    pub layout: Layout,
-    /// What momentum is kept below.
-    pub limit: Limit,
-    /// Dumps that the plan may have.
-    pub dumps: usize,
-    /// What is least of all plans with the fewest dumps and changes.
-    pub least: Least,
-    /// Time for counted changes, in s.
-    pub budget_s: f64,
-    /// What the flight is aimed at; without effect where it has no encounter.
-    pub target: Option<Target>,
-}
-
-/// A dump of the plan.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlannedDump {
-    /// In s of the flight.
-    pub at_s: f64,
-    /// Momentum after it, EME2000, in N m s.
-    pub after_n_m_s: Vector3<f64>,
-}
-
-/// What a plan says at a row of its flight.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlannedRow {
-    /// In s of the flight.
-    pub time_s: f64,
-    /// |H| as planned, in N m s.
-    pub planned_n_m_s: f64,
-    /// |H| as simulated, in N m s.
-    pub simulated_n_m_s: f64,
-    /// What it may come to, in N m s.
-    pub allowed_n_m_s: f64,
-    /// Length of the difference of both, in N m s.
-    pub difference_n_m_s: f64,
-}
-
-/// What stands in the way of a plan without dumps.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Exceeded {
-    /// By which the limit is exceeded without dumps at best, in N m s.
-    pub excess_n_m_s: f64,
-    /// When it is first, in s of the flight: no choice of controls keeps the limit up to then.
-    pub first_s: f64,
-}
-
-/// A plan.
-#[derive(Clone, Debug)]
-pub struct MomentumPlan {
-    /// With their controls.
-    pub windows: Vec<Window>,
-    /// Steps of the baseline.
-    pub baseline: Vec<OffsetStep>,
-    /// Its dumps, in order.
-    pub dumps: Vec<PlannedDump>,
-    /// No plan has fewer.
-    pub dumps_at_least: usize,
-    /// Changes of the arrays.
-    pub changes: usize,
-    /// No plan has fewer.
-    pub changes_at_least: usize,
-    /// Row by row.
-    pub rows: Vec<PlannedRow>,
-    /// Flights that it took.
-    pub rounds: usize,
-    /// Whether the last flight agrees with it and stays below the limit.
-    pub holds: bool,
-    /// Where the limit is not kept without dumps.
-    pub exceeded: Option<Exceeded>,
-    /// The last flight.
-    pub flight: SimulatedFlight,
-}
-
-/// The greatest |H| of rows as planned and as simulated, in N m s.
-pub(super) fn greatest_n_m_s<'a>(rows: impl Iterator<Item = &'a PlannedRow>) -> [f64; 2] {
-    rows.fold([0.0; 2], |[planned, simulated], row| {
-        [row.planned_n_m_s.max(planned), row.simulated_n_m_s.max(simulated)]
-    })
-}
-
-impl MomentumPlan {
-    /// Greatest |H| as planned and as simulated, in N m s.
-    pub fn greatest_n_m_s(&self) -> [f64; 2] {
-        greatest_n_m_s(self.rows.iter())
-    }
-
-    /// Greatest difference of flight and plan, in N m s.
-    pub fn difference_n_m_s(&self) -> f64 {
-        self.rows.iter().map(|row| row.difference_n_m_s).fold(0.0, f64::max)
-    }
-}
-
-/// Why there is no plan at all.
-#[derive(Debug, thiserror::Error)]
-pub enum PlanError {
-    /// The corridor is empty somewhere.
-    #[error("no offset keeps the light on the cells in its corridor {distance_au:.3} AU from the Sun", distance_au = .0.distance_au)]
-    Corridor(NoOffset),
-    /// A flight failed.
-    #[error("{0}")]
-    Flight(Failure),
-    /// The solver found nothing.
-    #[error("no programme was solved: {0}")]
-    Programme(&'static str),
-}
-
-/// How a plan is simulated.
-pub trait Simulates {
-    /// Simulates windows and dumps.
-    ///
-    /// # Errors
-    /// The flight fails.
-    fn simulate(&mut self, windows: &[Window], dumps: &[PlannedDump]) -> Result<SimulatedFlight, Failure>;
-
-    /// Receives what is being done.
-    fn progress(&mut self, _doing: &str) {}
-}
 
 /// Gives every window the controls of a solution, and every dump its momentum.
 pub(super) fn give(model: &mut Model, leaders: &[usize], solution: &Solution) {
@@ -212,7 +76,7 @@ pub(super) fn refine(
 ) -> Result<bool, PlanError> {
     let limit = model.limit.momentum_n_m_s;
     // What instants leave, rows between them may use in part.
-    let exceeded = |model: &Model| model.excess_n_m_s().0 + 0.5 * GUARD * limit;
+    let exceeded = |model: &Model| model.excess_beyond_n_m_s(0.5 * GUARD).0;
     model.look_between();
     let mut merit_now = f64::INFINITY;
     for step in 0..MOST_STEPS {
@@ -259,6 +123,7 @@ pub(super) fn refine(
 }
 
 /// What was counted in an earlier round.
+#[derive(Default)]
 struct Structure {
     groups: Groups,
     dumps_at_least: usize,
@@ -295,14 +160,22 @@ fn structure(
             let excess_n_m_s = alone.excess_n_m_s().0;
             if excess_n_m_s > 0.0 {
                 simulates.progress("dumps");
+                alone.look_at_departures(sunlit);
                 let found = counted::fewest_dumps(&alone, GUARD, &mut || simulates.progress("dumps"));
                 let Some(found) = found else {
-                    return Err(PlanError::Programme("the limit is exceeded between two instants"));
+                    let (_, row) = alone.excess_n_m_s();
+                    let rows = &alone.simulated.rows;
+                    let day = (rows[row.min(rows.len() - 1)].time_s - rows[0].time_s) / 86_400.0;
+                    return Err(PlanError::Limit {
+                        excess_n_m_s,
+                        limit_n_m_s: alone.limit.momentum_n_m_s,
+                        day,
+                    });
                 };
                 dumps_at_least = found.at_least;
                 if let Some(row) = found.rows.first() {
                     let first_s =
-                        counted::first_exceeded_s(&alone, GUARD).unwrap_or(model.simulated.rows[*row].time_s);
+                        counted::first_exceeded_s(&alone).unwrap_or(model.simulated.rows[*row].time_s);
                     exceeded = Some(Exceeded { excess_n_m_s, first_s });
                 }
                 model.dumps = found.rows.into_iter().map(|row| (row, Vector3::zeros())).collect();
@@ -310,6 +183,7 @@ fn structure(
             }
         }
     }
+    model.look_at_departures(sunlit);
     let until = Instant::now() + Duration::from_secs_f64(task.budget_s.clamp(0.0, 1e6));
     let mut at_least = None;
     // Linear programmes count too few changes over wide ranges: count again in narrower ones about controls that keep the limits.
@@ -330,7 +204,7 @@ fn structure(
     Ok((Structure { groups, dumps_at_least, exceeded }, is_kept))
 }
 
-/// The optimal plan of a mission whose flight is given.
+/// The optimal plan of a mission whose flight is given; the mission as it is where that is no worse than what was found.
 ///
 /// # Errors
 /// A corridor without an offset, a flight that fails, a programme without an answer.
@@ -340,11 +214,98 @@ pub fn plan(
     simulated: &SimulatedFlight,
     simulates: &mut dyn Simulates,
 ) -> Result<MomentumPlan, PlanError> {
-    let (windows, baseline) = task.layout.windows(sunlit, simulated).map_err(PlanError::Corridor)?;
+    let laid_out = task.layout.windows(sunlit, simulated).map_err(PlanError::Corridor)?;
+    let own = as_it_is(task, sunlit, simulated, simulates)?;
+    let found = searched(task, sunlit, (simulated, laid_out), simulates);
+    match (own, found) {
+        (None, found) => found,
+        (Some(own), Err(PlanError::Programme(_))) => Ok(own),
+        (Some(_), Err(error)) => Err(error),
+        (Some(own), Ok(found)) => {
+            // What was flown is possible.
+            let [dumps_at_least, changes_at_least, rounds] = [
+                found.dumps_at_least.min(own.dumps.len()),
+                found.changes_at_least.min(own.changes),
+                found.rounds + own.rounds,
+            ];
+            let best = if is_better(&own, &found, task) { own } else { found };
+            Ok(MomentumPlan { dumps_at_least, changes_at_least, rounds, ..best })
+        }
+    }
+}
+
+/// The mission as it is, where it keeps the bounds of the plan and its flight the limit.
+fn as_it_is(
+    task: &PlanTask,
+    sunlit: &SunlitSpacecraft,
+    simulated: &SimulatedFlight,
+    simulates: &mut dyn Simulates,
+) -> Result<Option<MomentumPlan>, PlanError> {
+    let limit = &task.limit;
+    if simulated.greatest(limit.size).0 > limit.momentum_n_m_s * (1.0 - limit.margin) {
+        return Ok(None);
+    }
+    let Some(windows) = own_windows(&task.layout, sunlit, simulated) else { return Ok(None) };
+    simulates.progress("flight");
+    let flight = simulates.simulate(&windows, &[]).map_err(PlanError::Flight)?;
+    let mut model = Model::new(sunlit, simulated.clone(), windows, limit.clone());
+    model.take(sunlit, &flight, 1.0);
+    let mut baseline: Vec<OffsetStep> = Vec::new();
+    for window in model.windows.iter().filter(|it| it.kind != WindowKind::Frozen && !it.sides.is_empty()) {
+        let step = OffsetStep { at_s: window.start_s, offset_rad: window.baseline_rad.abs() };
+        if baseline.last().is_none_or(|last| last.offset_rad != step.offset_rad) {
+            baseline.push(step);
+        }
+    }
+    let none = Structure::default();
+    let plan =
+        MomentumPlan { is_mission: true, ..flown(task, &model, (baseline, &none), (flight, Vec::new(), 1)) };
+    Ok(plan.holds.then_some(plan))
+}
+
+/// A plan with its flight, its dumps and the number of flights so far.
+fn flown(
+    task: &PlanTask,
+    model: &Model,
+    (baseline, counts): (Vec<OffsetStep>, &Structure),
+    (flight, dumps, rounds): (SimulatedFlight, Vec<PlannedDump>, usize),
+) -> MomentumPlan {
+    let limit = &task.limit;
+    let rows = rows(model, &flight);
+    let below = rows.iter().all(|row| row.simulated_n_m_s <= row.allowed_n_m_s)
+        && flight.greatest(limit.size).0 <= limit.momentum_n_m_s * (1.0 - limit.margin);
+    let miss = flight.encountered.as_ref().map(|it| it.miss);
+    let meets = task.target.zip(miss).is_none_or(|(target, miss)| target.is_met(&miss));
+    let changes = array_changes(&task.layout, &model.windows);
+    let edge = usize::from(may_stay(&task.layout, &model.windows));
+    MomentumPlan {
+        windows: model.windows.clone(),
+        baseline,
+        dumps,
+        dumps_at_least: counts.dumps_at_least,
+        changes,
+        changes_at_least: counts.groups.at_least.saturating_sub(edge).min(changes),
+        rows,
+        rounds,
+        holds: below && meets,
+        is_mission: false,
+        exceeded: counts.exceeded,
+        flight,
+    }
+}
+
+/// The best plan that a search finds in windows on their baseline.
+fn searched(
+    task: &PlanTask,
+    sunlit: &SunlitSpacecraft,
+    (simulated, (windows, baseline)): (&SimulatedFlight, (Vec<Window>, Vec<OffsetStep>)),
+    simulates: &mut dyn Simulates,
+) -> Result<MomentumPlan, PlanError> {
     let mut model = Model::new(sunlit, simulated.clone(), windows, task.limit.clone());
     model.set_target(sunlit, task.target);
     let mut counts: Option<Structure> = None;
-    let mut rounds = 0;
+    let mut best: Option<MomentumPlan> = None;
+    let (mut rounds, mut off_before_n_m_s) = (0, f64::INFINITY);
     loop {
         rounds += 1;
         let (found, kept) = match counts.take() {
@@ -366,30 +327,21 @@ pub fn plan(
             .collect();
         simulates.progress("flight");
         let flight = simulates.simulate(&model.windows, &dumps).map_err(PlanError::Flight)?;
-        let rows = rows(&model, &flight);
-        let limit = task.limit.momentum_n_m_s;
-        let off = rows.iter().map(|row| row.difference_n_m_s).fold(0.0, f64::max);
-        let below = rows.iter().all(|row| row.simulated_n_m_s <= row.allowed_n_m_s)
-            && flight.greatest(task.limit.size).0 <= limit * (1.0 - task.limit.margin);
-        let miss = flight.encountered.as_ref().map(|it| it.miss);
-        let meets = task.target.zip(miss).is_none_or(|(target, miss)| target.is_met(&miss));
-        let holds = off <= AGREED * limit && below && meets;
-        if holds || rounds == MOST_ROUNDS {
-            return Ok(MomentumPlan {
-                windows: model.windows,
-                baseline,
-                dumps,
-                dumps_at_least: found.dumps_at_least,
-                changes: found.groups.changes,
-                changes_at_least: found.groups.at_least,
-                rows,
-                rounds,
-                holds,
-                exceeded: found.exceeded,
-                flight,
-            });
+        let present = flown(task, &model, (baseline.clone(), &found), (flight.clone(), dumps, rounds));
+        let off_n_m_s = present.difference_n_m_s();
+        let agrees = off_n_m_s <= AGREED * task.limit.momentum_n_m_s;
+        let is_last = (present.holds && agrees) || rounds == MOST_ROUNDS;
+        let best_now = match best.take() {
+            Some(best) if best.holds && !is_better(&present, &best, task) => best,
+            _ => present,
+        };
+        if is_last {
+            return Ok(MomentumPlan { rounds, ..best_now });
         }
-        model.take(sunlit, &flight);
+        best = Some(best_now);
+        let share = if off_n_m_s > 0.5 * off_before_n_m_s { DAMPED } else { 1.0 };
+        off_before_n_m_s = off_n_m_s;
+        model.take(sunlit, &flight, share);
         model.look_between();
         if kept {
             counts = Some(found);

@@ -2,8 +2,11 @@
 
 use serde::Deserialize;
 
+use crate::refit::is_trusted;
+
 /// A refit.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct RefitValues {
     /// Name of the spacecraft, where the file gives it.
     pub spacecraft: Option<String>,
@@ -14,12 +17,16 @@ pub struct RefitValues {
     pub scale: f64,
     /// Of both, row by row.
     pub covariance: [[f64; 4]; 4],
+    /// Whether the fit's residuals are no more than its noise, where the file says so.
+    trusted: Option<bool>,
+    chi_square: Option<f64>,
+    degrees_of_freedom: Option<f64>,
 }
 
 /// Reads the JSON of a refit.
 ///
 /// # Errors
-/// What is missing or of another kind, and a covariance that is none.
+/// What is missing or of another kind, a covariance that is none, and a fit that is not trusted.
 pub fn read(text: &str) -> Result<RefitValues, String> {
     let found: RefitValues = serde_json::from_str(text).map_err(|error| error.to_string())?;
     let matrix = nalgebra::Matrix4::from(found.covariance);
@@ -30,6 +37,16 @@ pub fn read(text: &str) -> Result<RefitValues, String> {
     }
     if found.scale <= 0.0 {
         return Err(format!("the scale {}", found.scale));
+    }
+    let (chi_square, freedom) = (found.chi_square, found.degrees_of_freedom);
+    let by_residuals =
+        || chi_square.zip(freedom).is_none_or(|(chi_square, freedom)| is_trusted(chi_square, freedom));
+    if !found.trusted.unwrap_or_else(by_residuals) {
+        let [chi_square, freedom] =
+            [chi_square, freedom].map(|it| it.map_or("?".to_owned(), terminal::short));
+        return Err(format!(
+            "a fit that is not trusted, chi square {chi_square} for {freedom} degrees of freedom: its covariance leaves no three sigma"
+        ));
     }
     Ok(found)
 }
@@ -51,5 +68,12 @@ mod tests {
         assert_eq!((found.center_of_mass_m[2], found.scale, found.covariance[1][1]), (0.03, 1.1, 4e-6));
         assert!(read(&text(-1e-4)).unwrap_err().contains("negative variance"));
         assert!(read("{}").unwrap_err().contains("centerOfMass_m"));
+        let with = |more: &str| read(&text(1e-4).replace("\"chiSquare\": 3", more));
+        assert!(with(r#""trusted": true, "chiSquare": 3"#).is_ok());
+        assert!(with(r#""trusted": false"#).unwrap_err().contains("not trusted"));
+        // A file without the word has the numbers.
+        assert!(with(r#""chiSquare": 4317, "degreesOfFreedom": 4317"#).is_ok());
+        let refused = with(r#""chiSquare": 6968, "degreesOfFreedom": 1"#).unwrap_err();
+        assert!(refused.contains("chi square 6968 for 1 degrees"), "{refused}");
     }
 }

@@ -40,9 +40,23 @@ pub struct Price {
     pub dumps: i64,
 }
 
-/// The name of a plan's state.
+/// The name of a plan's state: found, proved not to exist on the baseline, or neither.
 pub fn status(plan: &MomentumPlan, task: &PlanTask) -> &'static str {
-    if plan.holds && plan.dumps.len() <= task.dumps { "planned" } else { "infeasible" }
+    match plan.holds && plan.dumps.len() <= task.dumps {
+        true => "planned",
+        false if plan.dumps_at_least > task.dumps => "infeasible",
+        false => "notFound",
+    }
+}
+
+/// Scope of each number that is no count of the plan.
+fn scopes() -> Value {
+    let bound = "no plan on this baseline has fewer, by the linear model and the most that it departs by";
+    json!({
+        "dumpsAtLeast": bound,
+        "changesAtLeast": format!("{bound}; with these dumps where it has any"),
+        "firstDay": "no bound: the search found no controls that keep the limit longer; others may",
+    })
 }
 
 /// What limits a plan, as JSON: what binds, when, by how much it is exceeded.
@@ -128,6 +142,8 @@ pub fn json(
         "dumpsAtLeast": plan.dumps_at_least,
         "changes": plan.changes,
         "changesAtLeast": plan.changes_at_least,
+        "scopes": scopes(),
+        "asTheMissionIs": plan.is_mission,
         "largestMomentum": { "planned": planned, "simulated": simulated },
         "largestDifference_n_m_s": plan.difference_n_m_s(),
         "binding": binding(plan),
@@ -143,12 +159,12 @@ pub fn json(
     serde_json::to_string_pretty(&all)
 }
 
-/// `plan.json` of a flyby whose aimpoint is out of reach; `more` are its members.
+/// `plan.json` of a flyby for which no controls that lead to its aimpoint were found; `more` are its members.
 ///
 /// # Errors
 /// What JSON does not take.
 pub fn out_of_reach_json(mut more: Map<String, Value>) -> Result<String, serde_json::Error> {
-    more.insert("status".to_owned(), json!("outOfReach"));
+    more.insert("status".to_owned(), json!("notFound"));
     serde_json::to_string_pretty(&more)
 }
 
@@ -194,11 +210,14 @@ pub fn windows_csv(plan: &MomentumPlan, shown_deg: &dyn Fn(f64) -> f64) -> Resul
         "azimuth_deg",
         "elevation_deg",
         "alternate_share",
+        "alternate_azimuth_deg",
+        "alternate_elevation_deg",
         "momentum_planned_n_m_s",
         "momentum_simulated_n_m_s",
     ])?;
     for window in &plan.windows {
         let angle = |control| shown_deg(window.controls.get(control)).to_string();
+        let own = window.sun_place_rad(true).map(|angle_rad| shown_deg(angle_rad).to_string());
         let [planned, simulated] = greatest_in(plan, window).map(|momentum| format!("{momentum:.6}"));
         writer.write_record([
             window.start_s.to_string(),
@@ -209,6 +228,8 @@ pub fn windows_csv(plan: &MomentumPlan, shown_deg: &dyn Fn(f64) -> f64) -> Resul
             angle(Control::Azimuth),
             angle(Control::Elevation),
             format!("{:.6}", window.controls.get(Control::Alternate)),
+            own[0].clone(),
+            own[1].clone(),
             planned,
             simulated,
         ])?;

@@ -68,6 +68,7 @@ pub(super) fn task(limit_n_m_s: f64, control_bounds: ControlBounds) -> PlanTask 
             contact_share: 0.0,
             control_bounds,
             in_force: Vec::new(),
+            own: Vec::new(),
             corridor: Articulation { min_suns: 0.0, max_suns: 1e3, target_suns: 1.0 },
             offset_sign: 1.0,
             frozen_offset_rad: 0.0,

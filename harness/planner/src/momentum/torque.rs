@@ -2,7 +2,8 @@
 //!
 //! The downlink attitude puts the Sun at azimuth A and elevation E of the body frame, the Earth in the XY plane; the alternate one is the
 //! same turned by 180 deg about the Sun line s, so that its torque is T' = 2 s (s.T) - T, its force alike: what lies across the Sun line changes sign.
-//! Of a share a of the time in the alternate attitude the mean torque is (1 - a) T + a T'. Derivatives by the angles are central
+//! Of a share a of the time in the alternate attitude the mean torque is (1 - a) T + a T'; T' is of a place of the Sun of its own where
+//! a window gives it one. Derivatives by the angles are central
 //! differences of the physics with a step of [`STEP_RAD`] (error of its square, 1e-8 relative); that by the share is exact.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -25,7 +26,7 @@ use super::simulated::FlightRow;
 /// Step of the central differences, in rad or as a share.
 const STEP_RAD: f64 = 1e-4;
 /// Number of controls of a window.
-pub const CONTROLS: usize = 5;
+pub const CONTROLS: usize = 7;
 
 /// What a plan chooses in a window, in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,11 +41,22 @@ pub enum Control {
     Elevation,
     /// Share of the window in the alternate attitude.
     Alternate,
+    /// Azimuth of the Sun in the alternate attitude, in rad, where it has its own.
+    AlternateAzimuth,
+    /// Elevation of the Sun in the alternate attitude, in rad, where it has its own.
+    AlternateElevation,
 }
 
 /// All controls, in their order.
-pub(super) const ALL: [Control; CONTROLS] =
-    [Control::Offset, Control::Windmill, Control::Azimuth, Control::Elevation, Control::Alternate];
+pub(super) const ALL: [Control; CONTROLS] = [
+    Control::Offset,
+    Control::Windmill,
+    Control::Azimuth,
+    Control::Elevation,
+    Control::Alternate,
+    Control::AlternateAzimuth,
+    Control::AlternateElevation,
+];
 
 /// How arrays and attitude stand in a window.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -54,6 +66,14 @@ impl Controls {
     /// One of them.
     pub fn get(&self, control: Control) -> f64 {
         self.0[control as usize]
+    }
+
+    /// The same with the Sun where the alternate attitude has it.
+    #[must_use]
+    pub fn alternate(self) -> Self {
+        let [azimuth, elevation] =
+            [Control::AlternateAzimuth, Control::AlternateElevation].map(|it| self.get(it));
+        self.with(Control::Azimuth, azimuth).with(Control::Elevation, elevation)
     }
 
     /// The same with another value of one.
@@ -285,6 +305,12 @@ impl SunlitSpacecraft {
         self.linear(row, &inertial_from_body, loads, by_angle)
     }
 
+    /// The same of a downlink whose alternate attitude has its own place of the Sun.
+    pub fn linearised_apart(&self, row: &FlightRow, controls: &Controls) -> LinearTorque {
+        let of = |controls: &Controls| self.linearised(row, Attitude::Downlink, controls);
+        LinearTorque { alternate: Some(of(&controls.alternate()).normal), ..of(controls) }
+    }
+
     fn linear(
         &self,
         row: &FlightRow,
@@ -296,20 +322,23 @@ impl SunlitSpacecraft {
         let given_from_body = self.given_from_body(inertial_from_body);
         let given_force_n = given_from_body * (inertial_from_body.inverse() * force_n);
         LinearTorque {
-            torque,
-            by_angle: loads_by_angle.map(|[_, torque]| torque),
-            force_n,
-            force_by_angle: loads_by_angle.map(|[force, _]| force),
-            by_center: given_force_n.cross_matrix() * given_from_body.matrix(),
+            normal: LinearLoad {
+                torque,
+                by_angle: loads_by_angle.map(|[_, torque]| torque),
+                force_n,
+                force_by_angle: loads_by_angle.map(|[force, _]| force),
+                by_center: given_force_n.cross_matrix() * given_from_body.matrix(),
+            },
+            alternate: None,
             half_turn: half_turn(&row.to_sun_m),
         }
     }
 }
 
-/// Torque at a time, in N m, with its derivatives.
+/// Force and torque in one attitude at a time, with their derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinearTorque {
-    /// In the attitude that is not alternate.
+pub struct LinearLoad {
+    /// In N m.
     pub torque: Vector3<f64>,
     /// By offset, windmill, azimuth, elevation, in N m/rad.
     pub by_angle: [Vector3<f64>; 4],
@@ -317,8 +346,17 @@ pub struct LinearTorque {
     pub force_n: Vector3<f64>,
     /// That by the same angles, in N/rad.
     pub force_by_angle: [Vector3<f64>; 4],
-    /// By the centre of mass, body frame, in N.
+    /// Torque by the centre of mass, body frame, in N.
     pub by_center: Matrix3<f64>,
+}
+
+/// Torque at a time, in N m, with its derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearTorque {
+    /// In the attitude that is not alternate.
+    pub normal: LinearLoad,
+    /// With the Sun where the alternate attitude has it, before its half turn; `None` where that is no other place.
+    pub alternate: Option<LinearLoad>,
     /// Takes a vector to that turned by 180 deg about the Sun line.
     pub half_turn: Matrix3<f64>,
 }
@@ -326,29 +364,52 @@ pub struct LinearTorque {
 impl LinearTorque {
     /// Mean torque of a share of the alternate attitude, and its derivatives by the controls.
     pub fn mean(&self, alternate: f64) -> (Vector3<f64>, [Vector3<f64>; CONTROLS]) {
-        self.mean_of(&self.torque, &self.by_angle, alternate)
+        self.mean_of(|load| (load.torque, load.by_angle), alternate)
+    }
+
+    /// Mean of torques of the normal and the alternate attitude, the latter given before its half turn, by its share, in N m.
+    pub(super) fn mixed_n_m(
+        &self,
+        normal_n_m: Vector3<f64>,
+        other_n_m: Vector3<f64>,
+        alternate: f64,
+    ) -> Vector3<f64> {
+        normal_n_m * (1.0 - alternate) + self.half_turn * other_n_m * alternate
     }
 
     /// Mean force, EME2000, in N, and its derivatives by the controls.
     pub fn mean_force_n(&self, alternate: f64) -> (Vector3<f64>, [Vector3<f64>; CONTROLS]) {
-        self.mean_of(&self.force_n, &self.force_by_angle, alternate)
+        self.mean_of(|load| (load.force_n, load.force_by_angle), alternate)
+    }
+
+    /// Mean torque by the centre of mass, body frame, in N.
+    pub fn mean_by_center(&self, alternate: f64) -> Matrix3<f64> {
+        let turned = self.alternate.unwrap_or(self.normal);
+        self.normal.by_center * (1.0 - alternate) + self.half_turn * turned.by_center * alternate
     }
 
     fn mean_of(
         &self,
-        vector: &Vector3<f64>,
-        by_angle: &[Vector3<f64>; 4],
+        of: impl Fn(&LinearLoad) -> (Vector3<f64>, [Vector3<f64>; 4]),
         alternate: f64,
     ) -> (Vector3<f64>, [Vector3<f64>; CONTROLS]) {
-        let mix = self.mix(alternate);
-        let [offset, windmill, azimuth, elevation] = by_angle.map(|it| mix * it);
-        let by_share = self.half_turn * vector - vector;
-        (mix * vector, [offset, windmill, azimuth, elevation, by_share])
-    }
-
-    /// (1 - a) 1 + a times the half turn.
-    pub fn mix(&self, alternate: f64) -> Matrix3<f64> {
-        Matrix3::identity() * (1.0 - alternate) + self.half_turn * alternate
+        let (vector, by_angle) = of(&self.normal);
+        let (other, other_by_angle) = of(self.alternate.as_ref().unwrap_or(&self.normal));
+        let (turned, turned_by_angle) =
+            (self.half_turn * other, other_by_angle.map(|it| self.half_turn * it));
+        let parts = [0, 1, 2, 3].map(|k| [by_angle[k] * (1.0 - alternate), turned_by_angle[k] * alternate]);
+        let [offset, windmill, azimuth, elevation] = parts.map(|[normal, turned]| normal + turned);
+        let by_share = turned - vector;
+        let mean = vector * (1.0 - alternate) + turned * alternate;
+        match self.alternate {
+            None => {
+                (mean, [offset, windmill, azimuth, elevation, by_share, Vector3::zeros(), Vector3::zeros()])
+            }
+            Some(_) => {
+                let [.., [azimuth, own_azimuth], [elevation, own_elevation]] = parts;
+                (mean, [offset, windmill, azimuth, elevation, by_share, own_azimuth, own_elevation])
+            }
+        }
     }
 }
 

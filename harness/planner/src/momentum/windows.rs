@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, Unit};
 use physics::spacecraft::Articulation;
 
 use super::{
-    baseline::{NoOffset, OffsetStep, allowed_rad, baseline},
+    baseline::{NoOffset, OffsetStep, baseline, shared_rad},
     in_force::{InForce, mean},
     places::{PlaceSide, places},
     simulated::{FlightRow, SAME_S, SimulatedFlight},
@@ -78,11 +78,26 @@ impl Window {
     pub fn linearised(&self, sunlit: &SunlitSpacecraft, row: &FlightRow) -> LinearTorque {
         match self.kind {
             WindowKind::Frozen => sunlit.simulated(row),
+            WindowKind::Free if self.is_apart() => sunlit.linearised_apart(row, &self.controls),
             _ => sunlit.linearised(row, self.attitude(), &self.controls),
         }
     }
 
-    fn attitude(&self) -> Attitude {
+    /// Whether the alternate attitude has a place of the Sun of its own.
+    pub(super) fn is_apart(&self) -> bool {
+        let own = [Control::AlternateAzimuth, Control::AlternateElevation].map(|it| self.bounds[it as usize]);
+        own.iter().any(|[low, high]| low < high)
+    }
+
+    /// Azimuth and elevation of the Sun in the normal or the alternate attitude, in rad.
+    pub fn sun_place_rad(&self, is_alternate: bool) -> [f64; 2] {
+        let controls =
+            if is_alternate && self.is_apart() { self.controls.alternate() } else { self.controls };
+        [Control::Azimuth, Control::Elevation].map(|it| controls.get(it))
+    }
+
+    /// Its attitude.
+    pub(super) fn attitude(&self) -> Attitude {
         if self.kind == WindowKind::Free { Attitude::Downlink } else { Attitude::SimulatedFlight }
     }
 
@@ -93,9 +108,13 @@ impl Window {
         row: &FlightRow,
         at_s: f64,
     ) -> Rotation3<f64> {
-        let inertial_from_body = sunlit.inertial_from_body(row, self.attitude(), &self.controls);
-        let is_alternate = |[from_s, to_s]: &[f64; 2]| (*from_s..*to_s).contains(&at_s);
-        if self.kind != WindowKind::Free || !self.alternate_spans_s().iter().any(is_alternate) {
+        let is_inside = |[from_s, to_s]: &[f64; 2]| (*from_s..*to_s).contains(&at_s);
+        let is_alternate = self.kind == WindowKind::Free && self.alternate_spans_s().iter().any(is_inside);
+        let [azimuth_rad, elevation_rad] = self.sun_place_rad(is_alternate);
+        let controls =
+            self.controls.with(Control::Azimuth, azimuth_rad).with(Control::Elevation, elevation_rad);
+        let inertial_from_body = sunlit.inertial_from_body(row, self.attitude(), &controls);
+        if !is_alternate {
             return inertial_from_body;
         }
         let sun_line = Unit::new_normalize(row.to_sun_m);
@@ -162,6 +181,8 @@ pub struct ControlBounds {
     pub elevation_rad: f64,
     /// Largest share of a window in the alternate attitude.
     pub alternate: f64,
+    /// Whether the alternate attitude has a place of the Sun of its own, within the same bounds.
+    pub alternate_apart: bool,
 }
 
 /// A command of the mission's timeline that the plan does not change.
@@ -198,6 +219,8 @@ pub struct Layout {
     pub control_bounds: ControlBounds,
     /// The plan that the mission has so far, in order: windows begin with its controls, those before it on the baseline without tilt.
     pub in_force: Vec<InForce>,
+    /// What the mission itself does, in order, whether that is a plan or not; none where its arrays are no offset and windmill angle.
+    pub own: Vec<InForce>,
     /// Corridor of the light on the cells.
     pub corridor: Articulation,
     /// Sign of the offsets.
@@ -225,6 +248,7 @@ impl Layout {
             contact_share: 0.0,
             control_bounds,
             in_force: Vec::new(),
+            own: Vec::new(),
             corridor: Articulation { min_suns: 0.0, max_suns: f64::INFINITY, target_suns: 1.0 },
             offset_sign: 1.0,
             frozen_offset_rad: sun_offset_rad,
@@ -241,32 +265,22 @@ impl Layout {
         sunlit: &SunlitSpacecraft,
         simulated: &SimulatedFlight,
     ) -> Result<(Vec<Window>, Vec<OffsetStep>), NoOffset> {
-        let (Some(first), Some(last)) = (simulated.rows.first(), simulated.rows.last()) else {
+        let spans = self.spans(simulated);
+        let Some(begin_s) = simulated.rows.first().map(|row| row.time_s) else {
             return Ok((Vec::new(), Vec::new()));
         };
-        let [begin_s, end_s] = [first.time_s, last.time_s];
-        let frozen_s = self.frozen_until_s.clamp(begin_s, end_s);
-        let mut spans = Vec::new();
-        if frozen_s > begin_s + SAME_S {
-            let kind = if self.arrays_are_frozen { WindowKind::Frozen } else { WindowKind::Fixed };
-            spans.push(([begin_s, frozen_s], kind, None));
-        }
-        let occupied = self.occupied.iter().map(|it| {
-            let kind = if it.planned { WindowKind::Planned } else { WindowKind::Fixed };
-            ([it.start_s, it.stop_s], kind, Some(it.command))
-        });
-        fill(&mut spans, [frozen_s, end_s], occupied, |spans, gap_s| self.cut(spans, gap_s));
-
-        let arrays_from_s = if self.arrays_are_frozen { frozen_s } else { begin_s };
+        let arrays_from_s = if self.arrays_are_frozen { self.frozen_until_s.max(begin_s) } else { begin_s };
         let places: Vec<(f64, f64)> = simulated
             .rows
             .iter()
             .filter(|row| row.time_s >= arrays_from_s - SAME_S)
             .map(|row| (row.time_s, row.to_sun_m.norm()))
             .collect();
-        let edges: Vec<f64> = spans.iter().map(|([start_s, _], ..)| *start_s).collect();
-        let steps =
-            if self.sides.is_empty() { Vec::new() } else { baseline(&self.corridor, &places, &edges)? };
+        let edges: Vec<f64> = spans.iter().map(|(span_s, ..)| span_s[0]).collect();
+        let steps = match self.sides.is_empty() {
+            true => Vec::new(),
+            false => baseline(&self.corridor, &places, &edges, &self.own_offsets(arrays_from_s))?,
+        };
         // A step inside a window splits it.
         let mut windows = Vec::new();
         for ([start_s, stop_s], kind, command) in spans {
@@ -281,6 +295,41 @@ impl Layout {
             }
         }
         Ok((windows, steps))
+    }
+
+    /// What the mission holds fixed, and the free time between in pieces.
+    pub(super) fn spans(&self, simulated: &SimulatedFlight) -> Vec<Span> {
+        let (Some(first), Some(last)) = (simulated.rows.first(), simulated.rows.last()) else {
+            return Vec::new();
+        };
+        let [begin_s, end_s] = [first.time_s, last.time_s];
+        let frozen_s = self.frozen_until_s.clamp(begin_s, end_s);
+        let mut spans = Vec::new();
+        if frozen_s > begin_s + SAME_S {
+            let kind = if self.arrays_are_frozen { WindowKind::Frozen } else { WindowKind::Fixed };
+            spans.push(([begin_s, frozen_s], kind, None));
+        }
+        let occupied = self.occupied.iter().map(|it| {
+            let kind = if it.planned { WindowKind::Planned } else { WindowKind::Fixed };
+            ([it.start_s, it.stop_s], kind, Some(it.command))
+        });
+        fill(&mut spans, [frozen_s, end_s], occupied, |spans, gap_s| self.cut(spans, gap_s));
+        spans
+    }
+
+    /// Offsets of the mission's own arrays from a time on, without their sign.
+    fn own_offsets(&self, from_s: f64) -> Vec<OffsetStep> {
+        let mut steps: Vec<OffsetStep> = Vec::new();
+        for (index, it) in self.own.iter().enumerate() {
+            if self.own.get(index + 1).is_some_and(|next| next.at_s <= from_s + SAME_S) {
+                continue;
+            }
+            let offset_rad = self.offset_sign * it.controls.get(Control::Offset);
+            if steps.last().is_none_or(|last| last.offset_rad != offset_rad) {
+                steps.push(OffsetStep { at_s: it.at_s.max(from_s), offset_rad });
+            }
+        }
+        steps
     }
 
     /// Free time in pieces; a last one of less than half a window joins the one before. In an orbit phase each downlink is one.
@@ -298,7 +347,7 @@ impl Layout {
         }
     }
 
-    fn window(
+    pub(super) fn window(
         &self,
         [start_s, stop_s]: [f64; 2],
         (kind, command): (WindowKind, Option<usize>),
@@ -311,10 +360,7 @@ impl Layout {
                 .iter()
                 .filter(move |row| (start_s - SAME_S..=stop_s + SAME_S).contains(&row.time_s))
         };
-        let mut offsets_rad = [0.0, core::f64::consts::PI];
-        for allowed in rows().filter_map(|row| allowed_rad(&self.corridor, row.to_sun_m.norm())) {
-            offsets_rad = [offsets_rad[0].max(allowed[0]), offsets_rad[1].min(allowed[1])];
-        }
+        let mut offsets_rad = shared_rad(&self.corridor, rows().map(|row| row.to_sun_m.norm()));
         let begun = steps.iter().rev().find(|step| step.at_s <= start_s + SAME_S);
         let offset_rad = match kind {
             WindowKind::Frozen => self.frozen_offset_rad,
@@ -352,6 +398,10 @@ impl Layout {
             bounds[Control::Azimuth as usize] = [-azimuth_rad, azimuth_rad];
             bounds[Control::Elevation as usize] = [-elevation_rad, elevation_rad];
             bounds[Control::Alternate as usize] = [0.0, self.control_bounds.alternate.min(share)];
+            if self.control_bounds.alternate_apart && self.control_bounds.alternate.min(share) > 0.0 {
+                bounds[Control::AlternateAzimuth as usize] = bounds[Control::Azimuth as usize];
+                bounds[Control::AlternateElevation as usize] = bounds[Control::Elevation as usize];
+            }
         }
         let mut controls = Controls::default().with(Control::Offset, offset_rad);
         let in_force = (kind == WindowKind::Free).then(|| mean(&self.in_force, [start_s, stop_s])).flatten();
@@ -410,7 +460,7 @@ impl Layout {
 }
 
 /// Times, kind and command of a window.
-type Span = ([f64; 2], WindowKind, Option<usize>);
+pub(super) type Span = ([f64; 2], WindowKind, Option<usize>);
 
 /// Adds what of `own` is within an interval, in its order, and what `between` makes of the gaps.
 fn fill(

@@ -10,7 +10,7 @@ use super::{
     estimate::{Problem, residuals_n_m_s},
     expansion::{Expansion, FLIGHTS},
     flights::Flights,
-    parameters::{Deviations, Parameters},
+    parameters::{Deviations, FITTED, Parameters},
     telemetry::{LEAST_ROWS, Telemetry, arcs},
 };
 use crate::Failure;
@@ -19,6 +19,10 @@ use crate::Failure;
 const MOST_ROUNDS: u64 = 5;
 /// Part of the noise by which a flight may depart from the expansion that it is fitted by.
 const AGREES: f64 = 0.05;
+/// Standard deviations of chi square above its mean beyond which the noise or the flight is not what it was said to be.
+const FAR: f64 = 5.0;
+/// Deviations of its prior that an estimate may be off.
+const MOST_PRIOR_DEVIATIONS: f64 = 6.0;
 /// Flights of one round: an expansion, and one with its result.
 const FLIGHTS_OF_ROUND: u64 = FLIGHTS + 1;
 
@@ -56,7 +60,7 @@ pub struct Fitted {
 /// Fits; `progress` receives the flights so far and the most that the present round may come to.
 ///
 /// # Errors
-/// A flight that fails, too few rows, a flight that no expansion describes.
+/// A flight that fails, too few rows, a flight that no expansion describes, an estimate that its prior excludes.
 pub fn fit(
     flights: &dyn Flights,
     requested: &Requested<'_>,
@@ -98,6 +102,7 @@ pub fn fit(
         let noise_n_m_s = deviations.noise_n_m_s;
         if departure_n_m_s <= AGREES * noise_n_m_s {
             let determined = estimate.directions.iter().filter(|it| it.observable).count();
+            check_prior(&estimate.parameters, requested)?;
             return Ok(Fitted {
                 parameters: estimate.parameters,
                 covariance: covariance(&estimate.directions, deviations),
@@ -122,6 +127,29 @@ pub fn fit(
     }
 }
 
+/// Refuses estimates that their prior excludes: the history is of something else.
+fn check_prior(found: &Parameters, requested: &Requested<'_>) -> Result<(), String> {
+    let (prior, deviations) = (requested.prior.values(), requested.deviations.of_parameters());
+    let off = (found.values() - prior).component_div(&deviations);
+    let at = off.icamax();
+    if off[at].abs() <= MOST_PRIOR_DEVIATIONS {
+        return Ok(());
+    }
+    Err(format!(
+        "{}: the fit found {}, {} deviations of its prior off the mission's {}, allowed: {MOST_PRIOR_DEVIATIONS}: a history of this \
+         mission's flight with every dump in dump.count, or a wider --prior-center, --prior-scale",
+        FITTED[at],
+        terminal::short(found.values()[at]),
+        terminal::short(off[at].abs()),
+        terminal::short(prior[at]),
+    ))
+}
+
+/// Whether residuals are no more than the noise: deviations and covariance hold then alone.
+pub fn is_trusted(chi_square: f64, degrees_of_freedom: f64) -> bool {
+    chi_square - degrees_of_freedom <= FAR * (2.0 * degrees_of_freedom).sqrt()
+}
+
 /// Of the parameters in their own units.
 fn covariance(directions: &[Direction; 4], deviations: &Deviations) -> Matrix4<f64> {
     let scales = Matrix4::from_diagonal(&deviations.of_parameters());
@@ -142,6 +170,7 @@ struct Written<'a> {
     directions: [WrittenDirection; 4],
     chi_square: f64,
     degrees_of_freedom: usize,
+    trusted: bool,
 }
 
 #[derive(Serialize)]
@@ -170,8 +199,26 @@ impl Fitted {
             }),
             chi_square: self.chi_square,
             degrees_of_freedom: self.degrees_of_freedom,
+            trusted: self.is_trusted(),
         };
         serde_json::to_string_pretty(&written).map(|text| text + "\n")
+    }
+
+    /// Whether residuals are no more than the noise.
+    pub fn is_trusted(&self) -> bool {
+        is_trusted(self.chi_square, self.degrees_of_freedom as f64)
+    }
+
+    /// Whether residuals are far less than the noise.
+    pub fn is_overcautious(&self) -> bool {
+        let freedom = self.degrees_of_freedom as f64;
+        freedom - self.chi_square > FAR * (2.0 * freedom).sqrt()
+    }
+
+    /// Row whose residual is the longest, and that, in N m s.
+    pub fn worst_row(&self) -> (usize, f64) {
+        let lengths = self.residuals_n_m_s.iter().map(Vector3::norm).enumerate();
+        lengths.fold((0, 0.0), |worst, row| if row.1 > worst.1 { row } else { worst })
     }
 
     /// Standard deviations of centre of mass X, Y, Z (m), and `solar.scale`.

@@ -1,4 +1,5 @@
-//! The history of momentum that is fitted: a CSV with time, momentum and, if there is one, the count of dumps.
+//! The history of momentum that is fitted: a CSV with time, momentum and, if there is one, the count of dumps; its other columns are not
+//! read.
 
 use std::path::Path;
 
@@ -35,11 +36,9 @@ struct Columns {
 
 impl Columns {
     fn of(names: Vec<String>) -> Result<Self, String> {
-        let is_known = |name: &str| name == TIME || name == DUMPS || MOMENTUM.contains(&name);
-        if let Some(other) = names.iter().find(|name| !is_known(name)) {
-            return Err(format!("found the column {other:?}, allowed: {ALLOWED}"));
-        }
-        if let Some((_, twice)) = names.iter().enumerate().find(|(at, name)| names[..*at].contains(name)) {
+        let is_read = |name: &str| name == TIME || name == DUMPS || MOMENTUM.contains(&name);
+        let mut read = names.iter().enumerate().filter(|(_, name)| is_read(name));
+        if let Some((_, twice)) = read.find(|(at, name)| names[..*at].contains(name)) {
             return Err(format!("found the column {twice} twice, allowed: once"));
         }
         let position = |name: &str| names.iter().position(|it| it == name);
@@ -54,7 +53,7 @@ impl Telemetry {
     /// Reads a table; lines that begin with `#` are comments.
     ///
     /// # Errors
-    /// Other columns, cells that are missing or no finite numbers, times that do not grow, a count of dumps that falls; by line.
+    /// Columns that are missing or there twice, cells that are missing or no finite numbers, times that do not grow, a count of dumps that falls; by line.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let file = path.display().to_string();
         let failed = |error: &dyn std::fmt::Display| format!("{file}: {error}: see --telemetry");

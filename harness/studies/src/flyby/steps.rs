@@ -23,6 +23,7 @@ const MOMENTUM: Room = Room {
         azimuth_rad: 5.0 * DEG,
         elevation_rad: 6.0 * DEG,
         alternate: 0.0,
+        alternate_apart: false,
     },
     limit_n_m_s: 4.5,
 };
@@ -55,6 +56,7 @@ impl Correction {
             azimuth_rad: 10.0 * DEG,
             elevation_rad: 12.0 * DEG,
             alternate: 0.0,
+            alternate_apart: false,
         };
         Room { window_s: self.window_s, control_bounds, limit_n_m_s: self.limit_n_m_s }
     }

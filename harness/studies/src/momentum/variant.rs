@@ -79,12 +79,12 @@ impl Variant {
         let resources = folder.path().join("resources");
         copy_folder(&template.folder().join("binaries"), &folder.path().join("binaries"))?;
         fs::create_dir(&resources)?;
-        fs::write(resources.join(FILE), text)?;
+        folder.write(&format!("resources/{FILE}"), text)?;
         if let Some(timeline) = timeline {
             check_timeline(template, text, timeline)?;
-            fs::write(resources.join(TIMELINE), timeline)?;
+            folder.write(&format!("resources/{TIMELINE}"), timeline)?;
         }
-        fs::write(folder.path().join("modelDescription.xml"), described.xml)?;
+        folder.write("modelDescription.xml", described.xml)?;
         Ok(Self { fmu: Fmu::open(folder.path())?, _folder: folder })
     }
 

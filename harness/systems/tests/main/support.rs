@@ -55,6 +55,7 @@ pub(crate) fn giver() -> String {
             "parameter size Real unit=\"m\" start=\"1\" max=\"5000\"",
             "parameter paint Enumeration declaredType=\"Colour\" start=\"0\"",
             "parameter many Integer start=\"3\"",
+            "parameter lit Boolean start=\"true\"",
             "input push Real unit=\"m\" start=\"0\"",
         ],
     )

@@ -6,7 +6,8 @@ use crate::fmi2::instance::state::{Experiment, InstanceState};
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
 use crate::logger::Category;
-use crate::variables::Real;
+use crate::model::Log;
+use crate::variables::{Real, Values};
 use model_description::BaseType;
 use model_description::Status;
 
@@ -99,15 +100,44 @@ impl Instance {
                 ),
             );
         }
+        if taken != default {
+            let name = self.access.any_name(references::of(at)).unwrap_or_default();
+            let message =
+                format!("{name} = {taken:?}, the tolerance of fmi2SetupExperiment, as it is not set");
+            self.logger.event(self.state.time_s, &message);
+        }
         self.state.values.set_real(at, taken);
     }
 
     /// `fmi2ExitInitializationMode`.
     pub(crate) fn exit_initialization_mode(&mut self) -> Result<(), Problem> {
         self.initialize_if_needed()?;
+        let before = self.logger.events_enabled().then(|| self.state.values.clone());
         self.runtime.resolve_parameters(&mut self.state.values, &self.logger);
+        if let Some(before) = before {
+            self.report_resolved(&before);
+        }
         self.allocate_spare();
         Ok(())
+    }
+
+    /// Reports the parameters that the model resolved to others than their values before.
+    fn report_resolved(&self, before: &Values) {
+        let mut resolved = Vec::new();
+        for base in BaseType::ALL {
+            let places = 0..self.access.flags(base).len();
+            for place in places.filter(|place| !self.state.values.is_same(before, base, *place)) {
+                let name = self.access.name(base, references::first(base) + place as u32).unwrap_or_default();
+                resolved.push(format!("{name} = {}", self.state.values.shown(base, place)));
+            }
+        }
+        if !resolved.is_empty() {
+            let message = format!(
+                "parameters that follow others, as they are not set, or all of their group to their start values: {}",
+                resolved.join(", ")
+            );
+            self.logger.event(self.state.time_s, &message);
+        }
     }
 
     /// Computes the outputs of Initialization Mode from what was set so far.

@@ -189,15 +189,21 @@ impl<'a> Reader<'a> {
         self.item(self.context.variables.mode.request, ModeRequest::mode).is_some()
     }
 
+    /// Whether estimate.q is connected.
+    pub(crate) fn has_estimate(&self) -> bool {
+        let v = self.context.variables;
+        let q = self.inputs.vector(self.values, v.estimate.q, self.time_s);
+        let given = self.context.given(self.values, &[v.estimate.q.into(), v.estimate.valid.into()]);
+        q != [0.0; 4] && (q != NOT_CONNECTED || given.has(v.estimate.q))
+    }
+
     /// Mode request, estimate and Sun sensors, and whether there is an estimate to be judged. Where it is not connected, or
     /// nothing is placed yet, the attitude commanded now stands in for it.
     pub(crate) fn sensed(&self, commanded: Attitude, is_placed: bool) -> Result<(Sensed, bool), Failure> {
         let v = self.context.variables;
         let q = self.inputs.vector(self.values, v.estimate.q, self.time_s);
         let valid = self.flag(v.estimate.valid);
-        let given = self.context.given(self.values, &[v.estimate.q.into(), v.estimate.valid.into()]);
-        let is_connected = q != [0.0; 4] && (q != NOT_CONNECTED || given.has(v.estimate.q));
-        let is_estimated = is_placed && (is_connected || !valid);
+        let is_estimated = is_placed && (self.has_estimate() || !valid);
         let estimate = if !is_estimated {
             Some(commanded)
         } else if valid {

@@ -19,6 +19,7 @@ use crate::common::management::{check_strategy_has_antenna, check_windows, check
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::state::PlantState;
 use crate::momentum_plant::variables::PlantVariables;
+use crate::momentum_plant::variables::choices::StartAttitude;
 
 /// The keep-in zone of commands.
 fn zone(variables: &PlantVariables, values: &Values) -> Result<KeepIn, Failure> {
@@ -122,8 +123,54 @@ fn managed_law(
     Ok(Guided { managed, requested, ..law })
 }
 
-/// Initial motion by start.q, start.rate and wheel[k].startMomentum. A value that is not set is that of the internal guidance, in
-/// free flight too, or of the command.
+/// Whether start.q gives the attitude of a start by torque, and whether start.rate gives its rate where that does not.
+fn given_at_start(context: &Plan<'_>, values: &Values) -> [bool; 2] {
+    let start = &context.variables.start;
+    let given = context.given_deliberately(values, &[start.q.into(), start.rate.into()]);
+    let has_rate = given.has(start.rate);
+    let is_given = match values.choice(start.attitude) {
+        StartAttitude::Automatic => has_rate || given.has(start.q),
+        StartAttitude::Guided => false,
+        StartAttitude::Given => true,
+    };
+    [is_given, has_rate]
+}
+
+/// Reports by what a flight by torque starts where it does.
+pub(in crate::momentum_plant) fn report_start(
+    context: &Plan<'_>,
+    values: &Values,
+    state: &PlantState,
+    start_s: f64,
+) {
+    let start = &context.variables.start;
+    let ([is_given, has_rate], source) = (given_at_start(context, values), state.inputs.source);
+    let pointed = match state.attitude_command() {
+        _ if is_given => "in start.q at start.rate",
+        Some(_) => "in the commanded attitude",
+        None if source.is_commanded => "in start.q, as there is no command yet",
+        None => "as the internal guidance points",
+    };
+    let by = match values.choice(start.attitude) {
+        StartAttitude::Automatic if is_given => "automatic, and start.q or start.rate is set",
+        StartAttitude::Automatic if values.is_set(start.q) && values.is_set(start.rate) => {
+            context.log.warning(&format!(
+                "the flight starts {pointed}: every parameter of the FMU was set, start.q and start.rate to their start values, \
+                 which counts as not set; start.attitude given (3) starts in them"
+            ));
+            return;
+        }
+        StartAttitude::Automatic => "automatic, and neither start.q nor start.rate is set",
+        StartAttitude::Guided if has_rate => "guided, the rate by start.rate",
+        StartAttitude::Guided => "guided",
+        StartAttitude::Given => "given",
+    };
+    if context.log.events_enabled() {
+        context.log.event(start_s, &format!("the flight starts {pointed}: start.attitude is {by}"));
+    }
+}
+
+/// Initial motion by start.attitude, start.q, start.rate and wheel[k].startMomentum.
 pub(super) fn start_motion(
     context: &Plan<'_>,
     values: &Values,
@@ -133,9 +180,9 @@ pub(super) fn start_motion(
     let start = &context.variables.start;
     let q = values.vector(start.q);
     let attitude = Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
-    let given = context.given(values, &[start.q.into(), start.rate.into()]);
+    let [is_given, has_rate] = given_at_start(context, values);
     let pointing = match configuration.attitude.guided() {
-        _ if given.has(start.q) => None,
+        _ if is_given => None,
         Some(law) => Some(StartPointing::Guidance(Box::new(*law))),
         None if state.inputs.source.is_commanded => state.attitude_command().map(StartPointing::Command),
         None => Some(StartPointing::Guidance(Box::new(law(context, values, &configuration.orbit)?))),
@@ -144,7 +191,7 @@ pub(super) fn start_motion(
         attitude,
         rate_body_rad_s: Vector3::from(values.vector(start.rate)),
         pointing,
-        rate_is_pointed: !given.has(start.rate),
+        rate_is_pointed: !has_rate,
         wheels_n_m_s: context.variables.wheel.iter().map(|it| values.real(it.start_momentum)).collect(),
     })
 }

@@ -5,7 +5,7 @@ mod center;
 mod configuration;
 mod dynamics;
 mod ephemeris_source;
-mod guidance;
+pub(super) mod guidance;
 mod n_body;
 mod orbit;
 pub(super) mod propulsion;
@@ -102,6 +102,9 @@ pub(super) fn read<'a>(
     if step.changed || !state.inputs.are_read {
         state.inputs.update(context, values, step.inputs);
         changes = Some(state.take_inputs(step.start_s)?).filter(|_| step.changed);
+        if state.take_schedules(context.setup.schedules, step.start_s) {
+            changes = Some(Changes { light: true, ..changes.unwrap_or_default() });
+        }
     }
     let begins = state.waiting && state.inputs.unset_places.is_empty();
     state.waiting &= !begins;
@@ -174,7 +177,7 @@ pub(super) fn start(context: &Plan<'_>, values: &Values, start_s: f64) -> Result
     let q = values.vector(context.variables.start.q);
     let attitude = Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
     let thrusters = Thrusters::new(propulsion::reaction_control(context, values)?, start_s);
-    PlantState::new(inputs, attitude, thrusters, start_s)
+    PlantState::new(inputs, attitude, thrusters, (start_s, context.setup.schedules))
 }
 
 /// Warns of what is set, or stands in the file, and is without effect.

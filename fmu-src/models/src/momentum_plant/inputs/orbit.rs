@@ -2,9 +2,9 @@
 
 use fmi_export::{Failure, Values};
 use nalgebra::Vector3;
-use physics::constants;
+use physics::bodies::Body;
 use physics::environment::CartesianState;
-use physics::environment::orbit::{Flattening, Gravity, NBodyGravity, TwoBodyOrbit};
+use physics::environment::orbit::{Flattening, Gravity, NBodyGravity, Tides, TwoBodyOrbit};
 use physics::environment::time;
 use physics::plant::{self, Motion};
 
@@ -23,7 +23,7 @@ pub(super) fn read(
     (gravity, epoch_minus_time_s): (Option<NBodyGravity>, f64),
 ) -> Result<(TwoBodyOrbit, Motion), Failure> {
     let orbit = orbit(center, variables, values, state, epoch_minus_time_s)?;
-    let (limit_m, lowest_m) = (center.data.radius_m, orbit.elements().periapsis_distance_m());
+    let (limit_m, lowest_m) = (center.data.radius_m, orbit.periapsis_distance_m());
     if !state.inputs.orbit_is_given && lowest_m <= limit_m {
         return Err(Failure::new(format!(
             "orbit.semiMajorAxis, orbit.eccentricity: the periapsis at {lowest_m:.0} m lies inside {}, whose \
@@ -98,14 +98,15 @@ fn motion(
     }
     let center = &center.data;
     let flattening = Flattening::of(center);
-    let tide = center.body.is_planet() && values.boolean(orbit.sun_tide);
-    let gravity = Gravity {
-        mu_m3_s2: center.gm_m3_s2,
-        flattening: (flattening.j2 != 0.0).then_some(flattening),
-        tide_mu_m3_s2: tide.then_some(constants::GM_SUN_M3_S2),
-    };
     Motion::Disturbed {
-        gravity,
+        gravity: Gravity {
+            mu_m3_s2: center.gm_m3_s2,
+            flattening: (flattening.j2 != 0.0).then_some(flattening),
+        },
+        tides: Tides {
+            sun: center.body.is_planet() && values.boolean(orbit.sun_tide),
+            moon: center.body == Body::Earth && values.boolean(orbit.moon_tide),
+        },
         segment_length_s: values.real(orbit.step),
         radius_m: center.radius_m,
         feedback,

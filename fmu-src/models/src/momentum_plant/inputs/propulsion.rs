@@ -2,7 +2,7 @@
 
 use fmi_export::{Failure, Step, Values};
 use nalgebra::Vector3;
-use physics::plant::{Configuration, DynamicsInputs, Flight, ReactionControlSettings, Report};
+use physics::plant::{Configuration, DynamicsInputs, Flight, ReactionControlSettings, Report, UnservedDumps};
 use physics::propulsion::{PulseCommand, ThrustErrors};
 use physics::spacecraft::{Tank, Thruster, ValveTiming};
 
@@ -68,13 +68,26 @@ pub(crate) fn check(flight: &Flight) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Reports once that a dump found no thrusters.
+/// Reports once that a dump found no thrusters, and once that those it found were not fed.
 pub(crate) fn warn_unserved(context: &Plan<'_>, report: &Report<'_>, warned: &mut ThrusterWarnings) {
-    if warned.unserved || report.thrusters.unserved_dumps() == 0 {
+    let UnservedDumps { unfed, one_sided } = report.thrusters.unserved_dumps();
+    if unfed > 0 && !warned.unfed {
+        warned.unfed = true;
+        let ReactionControlSettings { tanks, .. } = &report.thrusters.settings;
+        let propellant = &report.thrusters.propellant;
+        let dry = tanks.iter().enumerate().filter(|(k, it)| !it.feeds(propellant.used_kg(*k, report.time_s)));
+        let names: Vec<&str> = dry.map(|(_, tank)| tank.name.as_str()).collect();
+        context.log.warning(&format!(
+            "dump.count: nothing feeds the thrusters that give torque about every axis both ways (tank[k].feeds is false of {}); a \
+             dump goes as far as there is propellant for it, and without any it is not carried out and does not count",
+            names.join(", ")
+        ));
+    }
+    if warned.unserved || one_sided == 0 {
         return;
     }
     let center_of_mass_body_m = report.evaluation.mass.center_of_mass_body_m;
-    if let Err(error) = report.thrusters.settings.dump_selection(&center_of_mass_body_m) {
+    if let Err(error) = report.thrusters.settings.dump_selection(|_| true, &center_of_mass_body_m) {
         warned.unserved = true;
         context.log.warning(&format!(
             "dump.count: {error} (centerOfMass = {:?} m); dumps are as those of a file without [[thrusters]]: at once in guided \
@@ -136,4 +149,5 @@ pub struct ThrusterWarnings {
     cut: bool,
     no_set: bool,
     unserved: bool,
+    unfed: bool,
 }

@@ -63,13 +63,15 @@ pub struct PanelVariables {
     /// Whether the panel takes part; paper 000's Tables 2 and 3 leave the panels out.
     #[parameter(start = true)]
     pub enabled: Boolean,
-    /// Rotation angle about the panel's axis from its zero position; it counts when panel control is by angle.
+    /// Rotation angle about the panel's axis from its zero position; it counts when panel control is by angle. Where it jumps, the
+    /// panel goes the shorter way: +180 and -180 deg are one place.
     #[input(unit = "rad", display = "deg", start = setup.spacecraft.panels[index].angle_rad)]
     pub angle: Real,
     /// Angle between the panel's normal and the Sun direction when panel control is by command; its sign is a sense of tilt.
     #[input(unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1], start = setup.spacecraft.panels[index].sun_offset_rad)]
     pub sun_offset_command: Real,
-    /// Rotation angle in effect, about the panel's axis from its zero position.
+    /// Rotation angle in effect, about the panel's axis from its zero position; whole turns are counted along the flight, so that it
+    /// does not wrap.
     #[output(unit = "rad", display = "deg")]
     pub angle_actual: Real,
     /// Light on the cells, in suns: the cosine of the angle between their normal and the Sun, 0 where they look away, over the square

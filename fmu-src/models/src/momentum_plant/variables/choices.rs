@@ -21,6 +21,17 @@ pub enum AttitudeSource {
     Free = 4,
 }
 
+/// What a controlled or free flight starts with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum StartAttitude {
+    /// As given where start.q or start.rate is set, else as guided.
+    Automatic = 1,
+    /// In the attitude and at the rate of the command or the internal guidance.
+    Guided = 2,
+    /// In start.q at start.rate.
+    Given = 3,
+}
+
 /// Where commands come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
 pub enum CommandSource {

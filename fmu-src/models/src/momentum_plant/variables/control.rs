@@ -65,7 +65,7 @@ pub struct ControlVariables {
 /// commanded flight they are the true ones.
 #[derive(Variables)]
 pub struct EstimateVariables {
-    /// Estimated attitude quaternion, scalar last, from EME2000 to the body frame; the scalar is never negative.
+    /// Estimated attitude quaternion, scalar last, from EME2000 to the body frame, its sign as attitude.q's.
     #[output(unit = "1", nominal = 1.0)]
     pub q: RealVector<4>,
     /// Estimated angular rate of the body in EME2000, in body components: the gyros', without their estimated bias; without gyros

@@ -20,7 +20,7 @@ pub struct TorqueVariables {
     /// Torque from outside this model, body frame.
     #[input(unit = "N.m", display = "uN.m", start = [0.0; 3])]
     pub applied: RealVector<3>,
-    #[group(name = "", setup = &loads::TORQUE)]
+    #[group(name = "", setup = &loads::TORQUE_IN_FLIGHT)]
     pub by_source: BySource,
     /// Torque of the thrusters, in controlled and free flight.
     #[output(unit = "N.m", nominal = 1.0)]

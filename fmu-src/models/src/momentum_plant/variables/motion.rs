@@ -7,7 +7,9 @@ use physics::bodies::Body;
 use physics::environment::{ephemeris, time};
 use physics::guidance::modes::guidance_command;
 
-use super::choices::{AttitudeSource, CommandSource, EncounterBody, OrbitDynamics, OrbitFrame, OrbitSource};
+use super::choices::{
+    AttitudeSource, CommandSource, EncounterBody, OrbitDynamics, OrbitFrame, OrbitSource, StartAttitude,
+};
 use crate::common::choices::{CommandKind, OrbitCenter, custom_body};
 
 /// Attitude: where it comes from, and what it is.
@@ -16,7 +18,8 @@ pub struct AttitudeVariables {
     /// Where the attitude comes from.
     #[parameter(start = AttitudeSource::Guided)]
     pub source: Choice<AttitudeSource>,
-    /// Attitude quaternion, scalar last, from EME2000 to the body frame; the scalar is never negative.
+    /// Attitude quaternion, scalar last, from EME2000 to the body frame. Of its two signs it begins with the one nearer to start.q and
+    /// then keeps it: it is continuous wherever the attitude is, and where that jumps the nearer one is taken.
     #[output(unit = "1", nominal = 1.0)]
     pub q: RealVector<4>,
     /// Angular rate of the body in EME2000, in body components.
@@ -34,7 +37,8 @@ pub struct CommandVariables {
     /// on. The attitude is held without rate while this is none, or while the quaternion it gives is all zero.
     #[input(start = CommandKind(guidance_command::CommandKind::Attitude))]
     pub kind: Choice<CommandKind>,
-    /// Commanded attitude quaternion, scalar last, from EME2000 to the body frame; a norm of 0.1 to 10 is restored to 1.
+    /// Commanded attitude quaternion, scalar last, from EME2000 to the body frame; a norm of 0.1 to 10 is restored to 1, with
+    /// a warning where it is off by more than 5 %. Its sign does not count.
     #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub q: RealVector<4>,
     /// Commanded angular rate in body components; the attitude is propagated with it.
@@ -53,14 +57,17 @@ pub struct StartVariables {
     /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.
     #[parameter(unit = "s", display = "d", min = ephemeris::EARLIEST_EPOCH_S, max = ephemeris::VALID_EPOCH_S, start = time::MOMENTUM_STUDY_START_S)]
     pub epoch: Real,
-    /// Attitude quaternion at the start, scalar last, from EME2000 to body; used until a command changes it. Unless this is set, be
-    /// it to the identity, a controlled flight starts in the first attitude that command.q or the internal guidance commands, and a
-    /// free one as the internal guidance points (start.q and start.rate both set to their start values count as not set, as some
-    /// tools set everything).
+    /// Whether a controlled or free flight starts in start.q at start.rate (given), or in the first attitude and at the rate that
+    /// the command or, in free flight too, the internal guidance gives (guided). automatic is given where start.q or start.rate
+    /// stands in the file or is set, be it to its start value, else guided; also where every parameter of the FMU is set and both
+    /// have their start values, as some tools set everything. The log tells which.
+    #[parameter(start = StartAttitude::Automatic)]
+    pub attitude: Choice<StartAttitude>,
+    /// Attitude quaternion at the start, scalar last, from EME2000 to body; used until a command changes it, in controlled and free
+    /// flight by start.attitude.
     #[parameter(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub q: RealVector<4>,
-    /// Body rate at the start in controlled and free flight; that of the command or the internal guidance unless start.q or this
-    /// is set.
+    /// Body rate at the start in controlled and free flight by start.attitude; set, it also counts where that is guided.
     #[parameter(unit = "rad/s", display = "deg/s", min = -1e3, max = 1e3, start = [0.0; 3])]
     pub rate: RealVector<3>,
     /// System momentum at the start, body frame. In controlled and free flight it follows from start.rate and
@@ -89,6 +96,9 @@ pub struct OrbitVariables {
     /// Whether the Sun's tide acts on a disturbed orbit.
     #[parameter(start = true)]
     pub sun_tide: Boolean,
+    /// Whether the Moon's tide acts on a disturbed orbit about the Earth.
+    #[parameter(start = true)]
+    pub moon_tide: Boolean,
     /// Whether light, heat, thrusters and force.applied move the spacecraft on a disturbed orbit.
     #[parameter(start = true)]
     pub radiation_feedback: Boolean,
@@ -96,11 +106,12 @@ pub struct OrbitVariables {
     #[parameter(unit = "s", min = 1.0, max = 86_400.0, start = 300.0)]
     pub step: Real,
     pub attraction: AttractionVariables,
-    /// Whether the Sun's relativity acts with orbit.dynamics nBody: some 100 m in 200 days at 0.5 AU.
-    #[parameter(start = false)]
+    /// Whether the Sun's relativity acts with orbit.dynamics nBody: some 60 km in 200 days at 0.5 AU.
+    #[parameter(start = true)]
     pub relativity: Boolean,
     /// Whether the path of orbit.dynamics nBody is integrated about the planet within whose sphere of influence it is, else about the
-    /// Sun; otherwise about orbit.center throughout. Positions count from orbit.center either way.
+    /// Sun; otherwise, and about the body of the spacecraft's file, about orbit.center throughout. Positions count from orbit.center
+    /// either way. Beyond the sphere of an orbit.center that bodies pull which orbit.attraction.* switches off, set it to false.
     #[parameter(start = true)]
     pub change_center: Boolean,
     /// Longest integration step of orbit.dynamics nBody; it is halved until orbit.nBodyTolerance holds.
@@ -145,7 +156,8 @@ pub struct OrbitVariables {
     pub current_center: Choice<OrbitCenter>,
 }
 
-/// Which bodies attract the spacecraft with orbit.dynamics nBody, beside the Sun and orbit.center.
+/// Which bodies attract the spacecraft and what its path is integrated about, with orbit.dynamics nBody, beside the Sun and
+/// orbit.center.
 #[derive(Variables)]
 pub struct AttractionVariables {
     /// Whether Mercury does.

@@ -94,7 +94,13 @@ impl<M: Model> Bench<M> {
     }
 
     fn context(&self) -> Context<'_, M> {
-        Context { setup: &self.setup, variables: &self.handles, start: &self.start, log: &Silent }
+        Context {
+            setup: &self.setup,
+            variables: &self.handles,
+            start: &self.start,
+            sets_all_parameters: false,
+            log: &Silent,
+        }
     }
 
     pub(super) fn defaults(&self) -> Tables {

@@ -162,7 +162,11 @@ impl<M: Model> Search<M> {
         let mut drawn = 0;
         while self.bench.looks[1] < states {
             drawn += 1;
-            assert!(drawn < 20 * states, "only {:?} of {drawn} states can be simulated", self.bench.looks);
+            assert!(
+                drawn < 20 * (states + 1),
+                "only {:?} of {drawn} states can be simulated",
+                self.bench.looks
+            );
             self.look(drawn);
         }
         let [in_steps, at_start] = self.bench.seen();

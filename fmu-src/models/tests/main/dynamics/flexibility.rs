@@ -77,6 +77,29 @@ fn torque_and_force_reported_are_what_momentum_and_velocity_change_by() {
     assert!((flight.vector("torque.total") - Vector3::y() * 0.2).norm() > 0.1);
 }
 
+/// What each effect did adds up to what the momentum changed by, rotors out of balance and propellant that swings among them.
+#[test]
+fn the_budget_of_the_momentum_closes() {
+    let named = swinging();
+    let spinning: Start<'_> = &[("start.rate[1]", 2e-3), ("start.rate[3]", -1e-3)];
+    let pushed: Start<'_> =
+        &[("force.applied[1]", 4.0), ("force.applied[3]", -60.0), ("torque.applied[2]", 0.2)];
+    let mut flight = initialize(&named, &[FREE, UNBALANCED, spinning, pushed]);
+    let start = flight.vector("momentum.inertial");
+    flight.simulate_to(30.0, 0.7).unwrap();
+    let rows = flight.output_bits().into_iter().filter_map(|(name, _)| {
+        let row = name.strip_prefix("momentum.")?.strip_suffix("[1]")?;
+        (!["body", "inertial"].contains(&row)).then(|| flight.vector(&format!("momentum.{row}")))
+    });
+    let budget = to_inertial(&flight) * rows.sum::<Vector3<f64>>();
+    let changed = flight.vector("momentum.inertial") - start;
+    assert!((budget - changed).norm() < 1e-11 * changed.norm(), "{budget} {changed}");
+    for row in ["imbalance", "slosh"] {
+        let size = flight.vector(&format!("momentum.{row}")).norm();
+        assert!(size > 1e-4 && flight.vector(&format!("torque.{row}")).norm() > 1e-4, "{row}: {size}");
+    }
+}
+
 #[test]
 fn how_the_flight_is_cut_changes_no_bit() {
     let named = swinging();

@@ -5,9 +5,11 @@ mod control;
 mod flexibility;
 mod momentum;
 mod panel_momentum;
+mod panel_turns;
 mod refusals;
 mod sensors;
 mod spin_light;
+mod tanks;
 mod thrusters;
 
 use models::MomentumPlant;

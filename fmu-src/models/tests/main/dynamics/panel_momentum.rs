@@ -1,6 +1,8 @@
 //! Panels with a mass that turn: the body gives way. Truth is J w + h = C H, integrated independently, the panels made of
 //! point masses.
 
+use core::f64::consts::{PI, TAU};
+
 use models::MomentumPlant;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use physics::numerics::quadrature::Rule;
@@ -10,13 +12,13 @@ use super::super::wheel_torque::{self, WHEELS, axial, most_off, torques};
 use super::{DARK, FREE, PlantInstance, Start, axes, held_momentum, initialize, to_inertial};
 
 const MASS_KG: f64 = 700.0;
-const LOCKED: Start<'_> =
+pub(super) const LOCKED: Start<'_> =
     &[("wheel[1].locked", 1.0), ("wheel[2].locked", 1.0), ("wheel[3].locked", 1.0), ("wheel[4].locked", 1.0)];
-const BY_ANGLE: Start<'_> = &[("panel[1].control", 2.0), ("panel[2].control", 2.0)];
+pub(super) const BY_ANGLE: Start<'_> = &[("panel[1].control", 2.0), ("panel[2].control", 2.0)];
 const TUMBLING: Start<'_> = &[("start.rate[1]", 4e-3), ("start.rate[2]", -7e-3), ("start.rate[3]", 5e-3)];
 
 /// The shipped spacecraft with panels of these masses.
-fn text(panels: [&str; 2]) -> String {
+pub(super) fn text(panels: [&str; 2]) -> String {
     let shipped = include_str!("../../../../resources/messenger.toml");
     let mut parts = shipped.split("[[panels]]");
     let head = parts.next().unwrap();
@@ -25,7 +27,7 @@ fn text(panels: [&str; 2]) -> String {
 }
 
 const PAIR: [&str; 2] = ["mass_kg = 20.0", "mass_kg = 20.0"];
-const HINGED: [&str; 2] = [
+pub(super) const HINGED: [&str; 2] = [
     "mass_kg = 30.0\nmass_center_m = [2.0, 0.3, 0.5]\ninertia_kg_m2 = [[4.0, 0.0, 0.0], [0.0, 7.0, 0.0], [0.0, 0.0, 3.5]]",
     "mass_kg = 12.0\nmass_center_m = [-3.0, -0.2, 0.1]\ninertia_kg_m2 = [[1.0, 0.0, 0.0], [0.0, 1.5, 0.0], [0.0, 0.0, 1.2]]",
 ];
@@ -214,15 +216,16 @@ fn a_tumbling_body_gives_way_to_panels_that_move_evenly_and_at_once() {
     let mut attitude = to_inertial(&flight);
     let (mut angles, mut now_s, mut worst_deg, mut worst_momentum) = ([0.0; 2], 0.0, 0.0_f64, 0.0_f64);
     // What each panel does: goes at once there, then moves so fast until then.
-    for (at_once, rates, until_s) in [
+    for (set, rates, until_s) in [
         ([0.0, 0.0], [0.1, -0.03], 8.37),
         ([0.837, -0.2511], [0.0, 0.0], 15.0),
         ([-1.3, 2.1], [0.0, 0.0], 20.0),
         ([-1.0, 2.1], [-0.2, 0.5], 26.5),
         ([3.0, -2.9], [0.0, 0.02], 60.0),
     ] {
-        // At once is as fast as one likes.
-        let (from, quick_s) = (angles, 1e-8);
+        // At once is as fast as one likes, and the shorter way.
+        let (from, quick_s): ([f64; 2], f64) = (angles, 1e-8);
+        let at_once = [0, 1].map(|k| from[k] + (set[k] - from[k] + PI).rem_euclid(TAU) - PI);
         let jump = |at_s: f64, _: &UnitQuaternion<f64>| {
             [0, 1].map(|k| from[k] + (at_once[k] - from[k]) * (at_s - now_s) / quick_s)
         };
@@ -230,8 +233,8 @@ fn a_tumbling_body_gives_way_to_panels_that_move_evenly_and_at_once() {
         let ramp =
             |at_s: f64, _: &UnitQuaternion<f64>| [0, 1].map(|k| at_once[k] + rates[k] * (at_s - now_s));
         attitude = spacecraft.integrated(&ramp, (now_s, until_s, 2000), attitude, &momentum);
-        flight.set("panel[1].angle", at_once[0]);
-        flight.set("panel[2].angle", at_once[1]);
+        flight.set("panel[1].angle", set[0]);
+        flight.set("panel[2].angle", set[1]);
         let moving = [("panel[1].angle", rates[0]), ("panel[2].angle", rates[1])];
         let moving: &[_] = if rates == [0.0; 2] { &[] } else { &moving };
         flight.step_moving(until_s, moving).unwrap();

@@ -67,7 +67,7 @@ fn the_torque_of_an_oblate_planet_is_that_of_point_masses() {
             let position_m = Vector3::from(position);
             let pull = |(mass_kg, arm_m): &(f64, Vector3<f64>)| {
                 let place_m = position_m + arm_m;
-                arm_m.cross(&(gravity.acceleration_m_s2(&place_m, &Vector3::x()) * *mass_kg))
+                arm_m.cross(&(gravity.acceleration_m_s2(&place_m) * *mass_kg))
             };
             let expected: Vector3<f64> = masses.iter().map(pull).sum();
             let found = oblate_gravity_gradient_n_m(&planet, &inertia, &-position_m);

@@ -42,7 +42,7 @@ fn a_rotor_out_of_balance_shakes_the_body_as_the_closed_form_says() {
         let time_s = 0.01 * f64::from(step) + 1e-4;
         simulate(&mut motion, &spacecraft, &[Motor::default()], &load, time_s, 0.02);
         let at = motion.at(&spacecraft, time_s);
-        let [_, found] = motion.swinging_load(&spacecraft, time_s, &at);
+        let [_, found] = motion.imbalance_load(&spacecraft, time_s, &at);
         let found = Complex::new(found.x, found.y);
         assert!((found - force(time_s)).norm() < 1e-9 * force(0.0).norm(), "{found} {}", force(time_s));
         let amplitude = imbalance * speed * speed * lever_m / (inertia * (speed - precession));

@@ -1,7 +1,9 @@
 //! Air at one place and time, and the activity that it follows.
 
+use serde::{Deserialize, Serialize};
+
 /// Air at one place and time.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Air {
     /// Density, in kg/m3.
     pub density_kg_m3: f64,
@@ -12,7 +14,7 @@ pub struct Air {
 }
 
 /// Activity of the Sun and of the Earth's magnetic field.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpaceWeather {
     /// Flux at 10.7 cm on the day before, in 1e-22 W/(m2 Hz).
     pub f107: f64,

@@ -1,5 +1,7 @@
 //! Models of the air about a planet.
 
+use serde::{Deserialize, Serialize};
+
 use super::air::{Air, SpaceWeather};
 use super::nrlmsise;
 use crate::bodies::air::ExponentialAir;
@@ -14,7 +16,7 @@ pub const BREAKS: usize = 7;
 pub const FLOOR_M: f64 = 1e5;
 
 /// Where the air comes from.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum AtmosphereModel {
     /// Exponential decrease with height.
     Exponential(ExponentialAir),

@@ -41,6 +41,7 @@ pub(super) fn air(epoch_s: f64, place: &Geodetic, weather: &SpaceWeather) -> Air
 
 /// The air for inputs of the model.
 pub(super) fn air_of(input: &Input<Portable>) -> Air {
+    const _: () = assert!(!core::mem::needs_drop::<Model>());
     static MODEL: OnceLock<Model> = OnceLock::new();
     let found: Output<Portable> = MODEL.get_or_init(Model::new).gtd7d(input);
     let parts = [

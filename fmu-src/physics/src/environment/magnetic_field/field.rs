@@ -1,13 +1,14 @@
 //! Models of a planet's magnetic field.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use super::igrf14::{self, FIRST_YEAR, LAST_YEAR};
 use crate::bodies::dipole::DipoleField;
 use crate::environment::utc;
 
 /// Where the field comes from.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum MagneticField {
     /// A dipole.
     Dipole(DipoleField),

@@ -32,24 +32,32 @@ type Pair = [[f64; 2]; COLUMNS];
 /// As published: a row of degree, order (negative: h) and a value in nT for each column.
 const TEXT: &str = include_str!("igrf14.shc");
 
-/// Pairs by degree and order.
-fn table() -> &'static [[Pair; DEGREE + 1]; DEGREE + 1] {
-    static TABLE: OnceLock<Box<[[Pair; DEGREE + 1]; DEGREE + 1]>> = OnceLock::new();
-    TABLE.get_or_init(|| {
-        let mut table = Box::new([[[[0.0; 2]; COLUMNS]; DEGREE + 1]; DEGREE + 1]);
+/// Pairs of a degree by order.
+type Pairs = [Pair; DEGREE + 1];
+
+const _: () = assert!(!core::mem::needs_drop::<Pairs>());
+
+/// The pairs of degree `n`: one degree at a time, for few kB fit on the stack of a thread, and in place, for an unloaded library
+/// leaves its heap behind.
+fn pairs(n: usize) -> &'static Pairs {
+    static PAIRS: [OnceLock<Pairs>; DEGREE + 1] = [const { OnceLock::new() }; DEGREE + 1];
+    PAIRS[n].get_or_init(|| {
+        let mut pairs = [[[0.0; 2]; COLUMNS]; DEGREE + 1];
         let rows = TEXT.lines().filter(|line| !line.starts_with('#')).skip(2);
         for row in rows {
             let mut fields = row.split_whitespace();
             let mut whole = || fields.next()?.parse::<i32>().ok();
             let (Some(degree), Some(order)) = (whole(), whole()) else { continue };
-            let (n, m) = (degree.unsigned_abs() as usize, order.unsigned_abs() as usize);
-            let Some(pair) = table.get_mut(n).and_then(|row| row.get_mut(m)) else { continue };
+            let m = order.unsigned_abs() as usize;
+            let Some(pair) = pairs.get_mut(m).filter(|_| degree.unsigned_abs() as usize == n) else {
+                continue;
+            };
             let scale_t = schmidt(n, m) * 1e-9;
             for (value, column) in fields.filter_map(|it| it.parse::<f64>().ok()).zip(pair) {
                 column[usize::from(order < 0)] = value * scale_t;
             }
         }
-        table
+        pairs
     })
 }
 
@@ -67,8 +75,8 @@ pub(super) fn field_fixed_t(year: f64, position_fixed_m: &Vector3<f64>) -> Vecto
     let share = columns - column as f64;
     let (v, w) = functions(position_fixed_m);
     let mut field = Vector3::zeros();
-    for (n, row) in table().iter().enumerate().skip(1) {
-        for (m, pair) in row.iter().enumerate().take(n + 1) {
+    for n in 1..=DEGREE {
+        for (m, pair) in pairs(n).iter().enumerate().take(n + 1) {
             let [g, h] = [0, 1].map(|k| pair[column][k] + (pair[column + 1][k] - pair[column][k]) * share);
             let (up, k) = (n + 1, (n - m + 1) as f64);
             field.z += k * (g * v[up][m] + h * w[up][m]);

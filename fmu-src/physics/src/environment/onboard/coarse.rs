@@ -11,7 +11,7 @@ use nalgebra::SVector;
 use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::orbit::Elements;
-use crate::environment::orbit::kepler::{EccentricAnomaly, eccentric_anomaly};
+use crate::environment::orbit::kepler::{Anomaly, eccentric_anomaly};
 use crate::math;
 use crate::numerics::chebyshev::Segment;
 
@@ -86,7 +86,7 @@ impl CoarseElements {
         if !(0.0..1.0).contains(&e) {
             return None;
         }
-        let EccentricAnomaly { sin, cos, .. } = eccentric_anomaly(mean_rad % TAU, e);
+        let Anomaly { sin, cos, .. } = eccentric_anomaly(mean_rad % TAU, e, 1.0 - e);
         let elements = Elements {
             semi_major_axis_m: a_m,
             eccentricity: e,

@@ -1,8 +1,6 @@
 //! The onboard ephemeris, from its file; every problem is reported by file, line, key, what was found and what is allowed.
 
-use core::ops::{Add, Sub};
-
-use nalgebra::{SMatrix, Vector3};
+use nalgebra::SMatrix;
 
 use super::coarse::{COARSE_TERMS, CoarseElements};
 use super::description::{
@@ -139,7 +137,15 @@ impl OnboardEphemeris {
     /// Position and velocity of `target` from `center` by the precise models, in EME2000; `None` outside their span and
     /// where nothing joins them.
     pub fn state(&self, target: OnboardTarget, center: Body, epoch_s: f64) -> Option<CartesianState> {
-        self.difference(target, center, |motion| motion.state(epoch_s))
+        let [mut up, mut down] = [CartesianState::default(); 2];
+        let center = center.into();
+        for (from, other, sum) in [(target, center, &mut up), (center, target, &mut down)] {
+            self.climb(from, other, |body| {
+                *sum = *sum + body.motion.state(epoch_s)?;
+                Some(())
+            })?;
+        }
+        Some(up - down)
     }
 
     /// The same, beyond the span of the models as their last state would move on evenly: for integrators, which look
@@ -155,39 +161,6 @@ impl OnboardEphemeris {
         let state = self.state(target, center, inside_s)?;
         let position_m = state.position_m + state.velocity_m_s * (epoch_s - inside_s);
         Some(CartesianState { position_m, ..state })
-    }
-
-    /// The second derivative of the position of `target` from `center` by the precise models, in m/s2, EME2000: 0 beyond their
-    /// span, as [`OnboardEphemeris::state_carried_on`] continues; `None` where nothing joins them.
-    pub fn acceleration_m_s2(
-        &self,
-        target: OnboardTarget,
-        center: Body,
-        epoch_s: f64,
-    ) -> Option<Vector3<f64>> {
-        let [start_s, end_s] = self.span_s(target, center)?;
-        if !(start_s..=end_s).contains(&epoch_s) {
-            return Some(Vector3::zeros());
-        }
-        self.difference(target, center, |motion| motion.acceleration_m_s2(epoch_s))
-    }
-
-    /// What the models give of `target` from `center`; `None` where one gives nothing, or nothing joins them.
-    fn difference<V: Copy + Default + Add<Output = V> + Sub<Output = V>>(
-        &self,
-        target: OnboardTarget,
-        center: Body,
-        of: impl Fn(&SegmentTable) -> Option<V>,
-    ) -> Option<V> {
-        let [mut up, mut down] = [V::default(); 2];
-        let center = center.into();
-        for (from, other, sum) in [(target, center, &mut up), (center, target, &mut down)] {
-            self.climb(from, other, |body| {
-                *sum = *sum + of(&body.motion)?;
-                Some(())
-            })?;
-        }
-        Some(up - down)
     }
 
     /// Position and velocity by the coarse model of a target about its own centre; `None` without one or outside its span.

@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 
 use crate::environment::CartesianState;
-use crate::numerics::chebyshev::{curvature_at, series_at};
+use crate::numerics::chebyshev::series_at;
 
 /// A polynomial of position.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,13 +29,6 @@ impl EphemerisSegment {
             position_m: Vector3::from(position_m),
             velocity_m_s: Vector3::from(slope_m) * (2.0 / length_s),
         }
-    }
-
-    /// The second derivative of the position at an epoch inside, in m/s2.
-    fn acceleration_m_s2(&self, epoch_s: f64) -> Vector3<f64> {
-        let length_s = self.end_s - self.start_s;
-        let x = ((epoch_s - self.start_s) - (self.end_s - epoch_s)) / length_s;
-        Vector3::from(curvature_at(&self.coefficients_m, x)) * (4.0 / (length_s * length_s))
     }
 }
 
@@ -72,11 +65,6 @@ impl SegmentTable {
     /// Position and velocity; `None` outside the span.
     pub fn state(&self, epoch_s: f64) -> Option<CartesianState> {
         self.segment(epoch_s).map(|segment| segment.state(epoch_s))
-    }
-
-    /// The second derivative of the position, in m/s2; `None` outside the span.
-    pub fn acceleration_m_s2(&self, epoch_s: f64) -> Option<Vector3<f64>> {
-        self.segment(epoch_s).map(|segment| segment.acceleration_m_s2(epoch_s))
     }
 
     /// The first end of a segment after an epoch; infinite behind the last one.

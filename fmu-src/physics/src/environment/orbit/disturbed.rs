@@ -1,5 +1,5 @@
-//! An orbit integrated under gravity with its disturbances: the planet's flattening, the Sun's tide, and whatever
-//! acceleration the caller adds: of forces known in advance, or of forces that depend on the simulated attitude (`deviation`).
+//! An orbit integrated under gravity with its disturbances: the planet's flattening, and whatever acceleration the caller adds: tides,
+//! forces known in advance, or forces that depend on the simulated attitude (`deviation`).
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -155,7 +155,7 @@ impl DisturbedOrbit {
     }
 
     /// Integrates the deviation under the perturbing acceleration `extra_m_s2(t)`, EME2000, smooth from `start_s` to `end_s`, within the
-    /// present segment and not before the last such interval; `None`: none acts. The Sun's tide is that of the segment.
+    /// present segment and not before the last such interval; `None`: none acts. Tides are those of the segment.
     ///
     /// # Errors
     /// [`OrbitIntegrationError`]; the orbit stays as it was.
@@ -168,9 +168,8 @@ impl DisturbedOrbit {
         if end_s <= start_s || (extra_m_s2.is_none() && self.deviation.is_none()) {
             return Ok(());
         }
-        // Over a deviation the tide changes by less than 1e-10 m/s2 a kilometre.
-        let gravity = Gravity { tide_mu_m3_s2: None, ..*gravity };
-        let near_m_s2 = |position_m: &Vector3<f64>| gravity.acceleration_m_s2(position_m, &Vector3::zeros());
+        // Over a deviation tides change by less than 1e-10 m/s2 a kilometre.
+        let near_m_s2 = |position_m: &Vector3<f64>| gravity.acceleration_m_s2(position_m);
         let before = self.deviation.as_ref().map_or_else(CartesianState::default, |it| it.value(start_s));
         let reference_m = |at_s: f64| unpack(&self.chain.value(at_s)).position_m;
         let next = Deviation::integrate(&before, [start_s, end_s], reference_m, near_m_s2, extra_m_s2)?;
@@ -181,8 +180,8 @@ impl DisturbedOrbit {
     }
 
     /// Integrates one more segment, to `limit_s` if that comes first: because an acceleration changes there. Later segments end at
-    /// whole multiples again. `tide_body_m(t)` is the Sun's position relative to the central body, `extra(t, state)` any further
-    /// acceleration, m/s2, smooth within the segment; both in EME2000. Called 20 to 40 times a segment.
+    /// whole multiples again. `extra(t, state)` is any further acceleration, m/s2, EME2000, smooth within the segment, called 20 to 40
+    /// times a segment.
     ///
     /// # Errors
     /// [`OrbitIntegrationError`]; the orbit stays as it was.
@@ -191,7 +190,6 @@ impl DisturbedOrbit {
         limit_s: f64,
         method: &OrbitMethod,
         gravity: &Gravity,
-        mut tide_body_m: impl FnMut(f64) -> Vector3<f64>,
         mut extra: impl FnMut(f64, &CartesianState) -> Vector3<f64>,
     ) -> Result<(), OrbitIntegrationError> {
         check_mu(gravity.mu_m3_s2)?;
@@ -201,10 +199,7 @@ impl DisturbedOrbit {
         }
         next.advance_to(&method.0, limit_s, |at_s, y| {
             let state = unpack(y);
-            let tide_body_m =
-                if gravity.tide_mu_m3_s2.is_some() { tide_body_m(at_s) } else { Vector3::zeros() };
-            let acceleration =
-                gravity.acceleration_m_s2(&state.position_m, &tide_body_m) + extra(at_s, &state);
+            let acceleration = gravity.acceleration_m_s2(&state.position_m) + extra(at_s, &state);
             pack(&CartesianState { position_m: state.velocity_m_s, velocity_m_s: acceleration })
         })?;
         // The lowest point of a segment is near an end or where the radial speed changes sign: look at nine points.

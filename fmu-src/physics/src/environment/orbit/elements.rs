@@ -60,7 +60,7 @@ pub enum OrbitError {
         /// Speed, m/s.
         speed_m_s: f64,
     },
-    /// The energy is that of a parabola, whose semi-major axis is infinite.
+    /// The eccentricity or the energy is that of a parabola, whose semi-major axis is infinite.
     #[error(
         "the eccentricity is {eccentricity}: a parabola has no semi-major axis, allowed is below or above 1"
     )]
@@ -152,7 +152,9 @@ impl Elements {
         let (sin_anomaly, cos_anomaly) = math::sin_cos(self.true_anomaly_rad);
         let e = self.eccentricity;
         let parameter_m = self.semi_latus_rectum_m();
-        let distance_m = parameter_m / (1.0 + e * cos_anomaly);
+        // 1 + e cos nu, exact to rounding far from periapsis of a near parabola.
+        let cos_half = math::cos(0.5 * self.true_anomaly_rad);
+        let distance_m = parameter_m / ((1.0 - e) + 2.0 * e * cos_half * cos_half);
         let speed_m_s = (mu_m3_s2 / parameter_m).sqrt();
         let [to_periapsis, to_latus] = self.in_plane_axes();
         Ok(CartesianState {
@@ -166,6 +168,21 @@ impl Elements {
     /// # Errors
     /// [`OrbitError::Rectilinear`], [`OrbitError::Parabolic`], or a number that is not finite.
     pub fn from_state(state: &CartesianState, mu_m3_s2: f64) -> Result<Self, OrbitError> {
+        let (elements, _) = Self::osculating(state, mu_m3_s2)?;
+        if (state.position_m.norm() / elements.semi_major_axis_m).abs() < 1e-14 {
+            return Err(OrbitError::Parabolic { eccentricity: elements.eccentricity });
+        }
+        Ok(elements)
+    }
+
+    /// The same with |1 - e|, which near 1 is known to more digits than the eccentricity tells. A parabola counts as the hyperbola
+    /// nearest to it, less apart than the state is rounded.
+    ///
+    /// # Errors
+    /// [`OrbitError::Rectilinear`], or a number that is not finite.
+    pub(super) fn osculating(state: &CartesianState, mu_m3_s2: f64) -> Result<(Self, f64), OrbitError> {
+        /// Ratio of distance to semi-major axis, under which an orbit is a parabola to rounding.
+        const LEAST: f64 = 1e-17;
         check_mu(mu_m3_s2)?;
         let (position, velocity) = (state.position_m, state.velocity_m_s);
         for (what, vector) in [("position in m", position), ("velocity in m/s", velocity)] {
@@ -179,36 +196,47 @@ impl Elements {
         }
         let to_spacecraft = position / distance_m;
         let eccentricity_vector = velocity.cross(&momentum) / mu_m3_s2 - to_spacecraft;
-        let eccentricity = eccentricity_vector.norm();
-        // 1 - e^2 from the energy: no cancellation for nearly circular orbits.
-        let inverse_axis = 2.0 / distance_m - speed_m_s * speed_m_s / mu_m3_s2;
-        if inverse_axis.abs() * distance_m < 1e-14 || eccentricity == 1.0 {
-            return Err(OrbitError::Parabolic { eccentricity });
+        let mut eccentricity = eccentricity_vector.norm();
+        // From the energy, as 1 - e below: no cancellation for nearly circular and nearly parabolic orbits.
+        let mut inverse_axis = 2.0 / distance_m - speed_m_s * speed_m_s / mu_m3_s2;
+        if inverse_axis.abs() * distance_m < LEAST {
+            inverse_axis = -LEAST / distance_m;
+        }
+        let periapsis_m = momentum_norm / mu_m3_s2 * momentum_norm / (1.0 + eccentricity);
+        let gap = periapsis_m * inverse_axis;
+        if gap.abs() < 1e-3 {
+            eccentricity = 1.0 - gap;
+        }
+        if eccentricity == 1.0 {
+            eccentricity = if gap > 0.0 { eccentricity.next_down() } else { eccentricity.next_up() };
         }
         let normal = momentum / momentum_norm;
-        let sin_inclination = math::hypot(normal.x, normal.y);
-        let to_node = if sin_inclination < DEGENERATE {
-            Vector3::x()
-        } else {
-            Vector3::new(-normal.y, normal.x, 0.0) / sin_inclination
-        };
-        let across_node = normal.cross(&to_node);
-        let (to_periapsis, periapsis_argument_rad) = if eccentricity < DEGENERATE {
-            (to_node, 0.0)
-        } else {
-            let direction = eccentricity_vector / eccentricity;
-            (direction, positive(math::atan2(direction.dot(&across_node), direction.dot(&to_node))))
-        };
+        let to_node = node(&normal);
+        let to_periapsis = if eccentricity < DEGENERATE { to_node } else { eccentricity_vector.normalize() };
         let to_latus = normal.cross(&to_periapsis);
         let anomaly_rad = math::atan2(to_spacecraft.dot(&to_latus), to_spacecraft.dot(&to_periapsis));
-        Ok(Self {
+        let elements = Self {
             semi_major_axis_m: 1.0 / inverse_axis,
             eccentricity,
-            inclination_rad: math::atan2(sin_inclination, normal.z),
-            ascending_node_rad: positive(math::atan2(to_node.y, to_node.x)),
-            periapsis_argument_rad,
             true_anomaly_rad: if eccentricity < 1.0 { positive(anomaly_rad) } else { anomaly_rad },
-        })
+            ..Self::circle(0.0, 0.0)
+        };
+        Ok((elements.with_axes(&normal, &to_periapsis), gap.abs()))
+    }
+
+    /// The same in another plane, of this `normal`, and with periapsis in this direction; both unit vectors.
+    pub(super) fn with_axes(self, normal: &Vector3<f64>, to_periapsis: &Vector3<f64>) -> Self {
+        let to_node = node(normal);
+        let across_node = normal.cross(&to_node);
+        Self {
+            inclination_rad: math::atan2(math::hypot(normal.x, normal.y), normal.z),
+            ascending_node_rad: positive(math::atan2(to_node.y, to_node.x)),
+            periapsis_argument_rad: positive(math::atan2(
+                to_periapsis.dot(&across_node),
+                to_periapsis.dot(&to_node),
+            )),
+            ..self
+        }
     }
 
     /// Semi-latus rectum p = a (1 - e^2), m.
@@ -230,6 +258,15 @@ impl Elements {
         let across_node = Vector3::new(-sin_node * cos_inc, cos_node * cos_inc, sin_inc);
         [to_node * cos_arg + across_node * sin_arg, across_node * cos_arg - to_node * sin_arg]
     }
+}
+
+/// Unit vector to the ascending node of a plane of this normal; +x of an equatorial one.
+fn node(normal: &Vector3<f64>) -> Vector3<f64> {
+    let sin_inclination = math::hypot(normal.x, normal.y);
+    if sin_inclination < DEGENERATE {
+        return Vector3::x();
+    }
+    Vector3::new(-normal.y, normal.x, 0.0) / sin_inclination
 }
 
 pub(super) fn check_mu(mu_m3_s2: f64) -> Result<(), OrbitError> {

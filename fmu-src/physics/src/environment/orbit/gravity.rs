@@ -7,7 +7,7 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::{bodies::BodyData, constants::GM_SUN_M3_S2};
+use crate::bodies::BodyData;
 
 /// Flattening of the central body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,44 +37,43 @@ impl Flattening {
     }
 }
 
-/// What pulls on a spacecraft about a body.
+/// The gravity of a central body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Gravity {
     /// Gravitational parameter of the central body, m3/s2.
     pub mu_m3_s2: f64,
     /// Its flattening, if that counts.
     pub flattening: Option<Flattening>,
-    /// Gravitational parameter of a distant body (the Sun) whose tide counts, m3/s2.
-    pub tide_mu_m3_s2: Option<f64>,
+}
+
+/// Distant bodies whose tides act on a spacecraft about another one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tides {
+    /// Whether the Sun's does.
+    pub sun: bool,
+    /// Whether the Moon's does, about the Earth.
+    pub moon: bool,
 }
 
 impl Gravity {
     /// A point mass and nothing else.
     pub fn point_mass(mu_m3_s2: f64) -> Self {
-        Self { mu_m3_s2, flattening: None, tide_mu_m3_s2: None }
+        Self { mu_m3_s2, flattening: None }
     }
 
-    /// A planet with its flattening and the Sun's tide.
+    /// A planet with its flattening.
     pub fn of(planet: &BodyData) -> Self {
-        Self {
-            mu_m3_s2: planet.gm_m3_s2,
-            flattening: Some(Flattening::of(planet)),
-            tide_mu_m3_s2: Some(GM_SUN_M3_S2),
-        }
+        Self { mu_m3_s2: planet.gm_m3_s2, flattening: Some(Flattening::of(planet)) }
     }
 
-    /// Acceleration in EME2000, m/s2, at a position relative to the central body; `tide_body_m` is the position of the
-    /// distant body relative to the central one.
-    pub fn acceleration_m_s2(&self, position_m: &Vector3<f64>, tide_body_m: &Vector3<f64>) -> Vector3<f64> {
+    /// Acceleration in EME2000, m/s2, at a position relative to the central body.
+    pub fn acceleration_m_s2(&self, position_m: &Vector3<f64>) -> Vector3<f64> {
         let distance_squared = position_m.norm_squared();
         let inverse = 1.0 / distance_squared.sqrt();
         let point = self.mu_m3_s2 * inverse * inverse * inverse;
         let mut sum = position_m * -point;
         if let Some(flattening) = self.flattening {
             flattening.add_to(&mut sum, position_m, inverse, point);
-        }
-        if let Some(mu) = self.tide_mu_m3_s2 {
-            sum += tide_m_s2(position_m, tide_body_m, mu);
         }
         sum
     }

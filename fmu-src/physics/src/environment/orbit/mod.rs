@@ -23,7 +23,7 @@ mod two_body;
 pub use b_plane::BPlane;
 pub use disturbed::{DisturbedOrbit, OrbitIntegrationError};
 pub use elements::{Elements, OrbitError, period_s, semi_major_axis_m};
-pub use gravity::{Flattening, Gravity, tide_m_s2};
+pub use gravity::{Flattening, Gravity, Tides, tide_m_s2};
 pub use lambert::{LambertArc, LambertBranch, LambertError, LambertVelocities};
 pub use n_body::{BodyEphemeris, Collision, NBodyGravity, NBodySettings};
 pub use orbit_method::OrbitMethod;

@@ -1,11 +1,13 @@
 //! Gravity of Sun, planets and Moon on a spacecraft between them, and the body that its path is integrated about.
 //!
-//! Equation: r from the Sun, r'' = sum of mu (p - r) / |p - r|^3 over all bodies, less the Sun's own fall, the sum of
-//! mu p / |p|^3 over planets and Moon. About a planet at p it is (r - p)'' = r'' - p'': p'' is the second derivative of the
-//! ephemeris, so that going over to another body changes nothing of the path. One body may be flattened; the Sun's relativity is
-//! Schwarzschild's in harmonic coordinates, mu / (c^2 r^3) ((4 mu / r - v^2) r + 4 (r . v) v).
+//! Equation: about a body at c, (r - c)'' is what every body of the list does to the spacecraft less what it does to that body: a
+//! point mass at p, mu [(p - r) / |p - r|^3 - (p - c) / |p - c|^3], the body itself -mu (r - c) / |r - c|^3. No acceleration is taken
+//! from an ephemeris, whose bodies are pulled by others than those of the list. One body may be flattened; the Sun's
+//! relativity is Schwarzschild's in harmonic coordinates, mu / (c^2 r^3) ((4 mu / r - v^2) r + 4 (r . v) v), likewise less that of the
+//! body.
 //! Method: the path is integrated about the planet within whose sphere of influence it is, of radius a (m / M)^(2/5), else about
-//! the Sun: near a planet positions from it are as exact as their size says. Edges of spheres are roots on the dense output.
+//! the Sun: near a planet positions from it are as exact as their size says. Edges of spheres are roots on the dense output; over them
+//! the path goes on as the ephemeris places the planet.
 //! Error measure: the last Chebyshev term of a segment's position.
 //! Reference: Battin, An Introduction to the Mathematics and Methods of Astrodynamics, 8.4 and 8.5; Petit and Luzum, IERS
 //! Conventions 2010, 10.12.
@@ -15,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::first_fall::{EDGE_M, first_fall};
-use super::gravity::{Flattening, Gravity, gradient_per_s2};
+use super::gravity::{Flattening, Gravity, gradient_per_s2, tide_m_s2};
 use super::orbit_method::TERMS;
 use crate::{
     bodies::{Body, BodyData},
@@ -32,9 +34,6 @@ const SHORTEST_LIT_S: f64 = 60.0;
 pub trait BodyEphemeris {
     /// Position and velocity from the Sun.
     fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState;
-
-    /// The second derivative of that position, in m/s2.
-    fn acceleration_m_s2(&mut self, body: Body, at_s: f64) -> Vector3<f64>;
 
     /// When the first segment of an ephemeris ends after `at_s`: until there positions are smooth.
     fn smooth_until_s(&self, at_s: f64) -> f64;
@@ -79,7 +78,8 @@ pub enum Collision {
 pub struct NBodySettings {
     /// Whether the Sun's relativity counts.
     pub relativity: bool,
-    /// Whether the path is integrated about the body whose sphere of influence it is in.
+    /// Whether the path is integrated about the planet whose sphere of influence it is in. A body that the spacecraft's file places,
+    /// which may move by the Sun alone, is never left.
     pub changes_center: bool,
     /// Whether the Moon attracts.
     pub moon: bool,
@@ -118,6 +118,8 @@ impl NBodyGravity {
             bodies[data.body as usize] = [data.gm_m3_s2, data.radius_m, sphere_m];
         }
         let flattened = flattened.filter(|data| data.j2 != 0.0).map(|data| (data.body, Flattening::of(data)));
+        let changes_center = settings.changes_center && center.body != Body::Custom;
+        let settings = NBodySettings { changes_center, ..settings };
         Self { center: center.body, cell_s: settings.cell_s, settings, bodies, flattened }
     }
 
@@ -131,6 +133,14 @@ impl NBodyGravity {
         let bodies = self.bodies;
         let all = Body::ALL.into_iter().chain([Body::Custom]);
         all.filter(move |body| body.is_planet() && bodies[*body as usize][0] > 0.0)
+    }
+
+    /// Those over the edges of whose spheres of influence a path integrated about `about` can go.
+    fn spheres(&self, about: Body) -> impl Iterator<Item = Body> + use<> {
+        let Self { settings, bodies, .. } = *self;
+        let all =
+            self.planets().filter(move |body| settings.changes_center && bodies[*body as usize][2] > 0.0);
+        all.filter(move |body| [Body::Sun, *body].contains(&about))
     }
 
     /// The gravity of a body alone, with its flattening; of none that of the one that positions count from.
@@ -215,46 +225,53 @@ impl<E: BodyEphemeris> BodiesAbout<'_, E> {
     pub(super) fn acceleration_m_s2(&mut self, at_s: f64, state: &CartesianState) -> Vector3<f64> {
         let Self { gravity, about, ephemeris } = self;
         let about = *about;
-        let center =
-            if about.is_planet() { ephemeris.heliocentric(about, at_s) } else { CartesianState::default() };
-        let from_sun = *state + center;
-        let mut sum = fall_m_s2(&from_sun.position_m, gravity.bodies[Body::Sun as usize][0]);
+        let sun_m3_s2 = gravity.bodies[Body::Sun as usize][0];
+        let mut center = CartesianState::default();
+        let mut sum = Vector3::zeros();
+        if about.is_planet() {
+            center = ephemeris.heliocentric(about, at_s);
+            sum += tide_m_s2(&state.position_m, &-center.position_m, sun_m3_s2);
+        } else {
+            sum += fall_m_s2(&state.position_m, sun_m3_s2);
+        }
         let mut earth_m = None;
         for body in gravity.planets() {
             let gm_m3_s2 = gravity.bodies[body as usize][0];
-            let is_center = body == about;
-            let place_m = if is_center { center } else { ephemeris.heliocentric(body, at_s) }.position_m;
-            let from_body_m = if is_center { state.position_m } else { from_sun.position_m - place_m };
-            sum += fall_m_s2(&from_body_m, gm_m3_s2) + fall_m_s2(&place_m, gm_m3_s2);
+            let mut from_about_m = Vector3::zeros();
+            if body == about {
+                sum += fall_m_s2(&state.position_m, gm_m3_s2);
+            } else {
+                from_about_m = ephemeris.heliocentric(body, at_s).position_m - center.position_m;
+                sum += tide_m_s2(&state.position_m, &from_about_m, gm_m3_s2);
+            }
             if body == Body::Earth {
-                earth_m = Some(place_m);
+                earth_m = Some(from_about_m);
             }
             if let Some((_, flattening)) = gravity.flattened.filter(|(of, _)| *of == body) {
+                let from_body_m = state.position_m - from_about_m;
                 let inverse = 1.0 / from_body_m.norm();
                 flattening.add_to(&mut sum, &from_body_m, inverse, gm_m3_s2 * inverse * inverse * inverse);
             }
         }
         if gravity.settings.moon {
-            let earth_m = earth_m.unwrap_or_else(|| ephemeris.heliocentric(Body::Earth, at_s).position_m);
-            let moon_from_earth_m = ephemeris.moon_from_earth_m(at_s);
-            let moon_m = earth_m + moon_from_earth_m;
-            let from_moon_m = match about {
-                Body::Earth => state.position_m - moon_from_earth_m,
-                _ => from_sun.position_m - moon_m,
-            };
-            sum += fall_m_s2(&from_moon_m, GM_MOON_M3_S2) + fall_m_s2(&moon_m, GM_MOON_M3_S2);
+            let earth_m = earth_m
+                .unwrap_or_else(|| ephemeris.heliocentric(Body::Earth, at_s).position_m - center.position_m);
+            let moon_m = earth_m + ephemeris.moon_from_earth_m(at_s);
+            sum += tide_m_s2(&state.position_m, &moon_m, GM_MOON_M3_S2);
         }
         if gravity.settings.relativity {
-            sum += relativity_m_s2(&from_sun, gravity.bodies[Body::Sun as usize][0]);
+            sum += relativity_m_s2(&(*state + center), sun_m3_s2);
+            if about.is_planet() {
+                sum -= relativity_m_s2(&center, sun_m3_s2);
+            }
         }
-        if about.is_planet() { sum - ephemeris.acceleration_m_s2(about, at_s) } else { sum }
+        sum
     }
 
     /// The body within whose sphere of influence a place is, else the Sun.
     fn body_about(&mut self, state: &CartesianState, at_s: f64) -> Body {
         let gravity = self.gravity;
-        let spheres = gravity.planets().filter(|body| gravity.sphere_m(*body) > 0.0);
-        let shares = spheres.map(|body| {
+        let shares = gravity.spheres(Body::Sun).map(|body| {
             let share = self.distance_m(body, &state.position_m, at_s) / gravity.sphere_m(body);
             (share, body)
         });
@@ -267,9 +284,7 @@ impl<E: BodyEphemeris> BodiesAbout<'_, E> {
         let Self { gravity, about, ephemeris } = self;
         let about = *about;
         let from_sun = *state + ephemeris.heliocentric(about, at_s);
-        let changes = gravity.settings.changes_center;
-        let mut spheres = gravity.planets().filter(|body| changes && [Body::Sun, *body].contains(&about));
-        let crossed = spheres.find(|body| {
+        let crossed = gravity.spheres(about).find(|body| {
             let from_body =
                 if *body == about { *state } else { from_sun - ephemeris.heliocentric(*body, at_s) };
             let outward = if *body == about { 1.0 } else { -1.0 };
@@ -305,11 +320,11 @@ impl<E: BodyEphemeris> BodiesAbout<'_, E> {
         let Self { gravity, about, .. } = *self;
         // On so short a span a crossing is a rounding error; the next segment's start decides (`body_at_edge`).
         let is_short = farthest_m(&path(span_s[0]), span_s) < EDGE_M;
-        if !gravity.settings.changes_center || is_short {
+        if is_short {
             return None;
         }
         let mut first: Option<Reached> = None;
-        for body in gravity.planets().filter(|body| about == Body::Sun || *body == about) {
+        for body in gravity.spheres(about) {
             // Positive outside; a path about a planet is within its sphere.
             let sense = if body == about { -1.0 } else { 1.0 };
             let at_s = self.first_crossing(body, (gravity.sphere_m(body), sense), span_s, &path);

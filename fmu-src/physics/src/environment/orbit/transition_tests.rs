@@ -117,10 +117,6 @@ impl BodyEphemeris for Sky {
         self.0.state(body, Self::ZERO_S + at_s)
     }
 
-    fn acceleration_m_s2(&mut self, body: Body, at_s: f64) -> Vector3<f64> {
-        self.0.acceleration_m_s2(body, Self::ZERO_S + at_s)
-    }
-
     fn smooth_until_s(&self, at_s: f64) -> f64 {
         Ephemeris::smooth_until_s(Self::ZERO_S + at_s) - Self::ZERO_S
     }

@@ -35,8 +35,8 @@ pub struct DownlinkSun {
     chosen: Option<ChosenPlace>,
     /// The scenario whose downlink lasts.
     lasts: Option<Scenario>,
-    /// The timeline's entry that named the downlink.
-    entry: Option<usize>,
+    /// The timeline's entry that named the downlink, by when it begins on the timeline's clock, in s.
+    entry: Option<f64>,
     /// The last choice for science.
     science: Option<ChosenPlace>,
     /// Whether that science lasts.
@@ -86,7 +86,7 @@ impl DownlinkSun {
     pub fn last(
         &mut self,
         scenario: Scenario,
-        entry: Option<usize>,
+        entry: Option<f64>,
         choose: impl FnOnce() -> Option<ChosenPlace>,
     ) -> bool {
         self.science_lasts = false;
@@ -122,21 +122,21 @@ mod tests {
         };
         assert_eq!(last(Scenario::Downlink, None), 1);
         assert_eq!(last(Scenario::Downlink, None), 1);
-        assert_eq!(last(Scenario::Downlink, Some(4)), 2);
+        assert_eq!(last(Scenario::Downlink, Some(4.0)), 2);
         assert_eq!(last(Scenario::Downlink, None), 2);
-        assert_eq!(last(Scenario::Downlink, Some(4)), 2);
-        assert_eq!(last(Scenario::OrbitPhase, Some(5)), 3);
-        assert_eq!(last(Scenario::OrbitPhase, Some(6)), 3);
+        assert_eq!(last(Scenario::Downlink, Some(4.0)), 2);
+        assert_eq!(last(Scenario::OrbitPhase, Some(5.0)), 3);
+        assert_eq!(last(Scenario::OrbitPhase, Some(6.0)), 3);
         sun.end();
         assert!(!sun.is_clamped() && sun.place().is_some());
-        sun.last(Scenario::OrbitPhase, Some(6), || None);
+        sun.last(Scenario::OrbitPhase, Some(6.0), || None);
         assert!(!sun.is_clamped() && sun.place().is_none());
         // Science is chosen once too, and a downlink keeps its place for the slew out of it.
         let angles = SunAngles { azimuth_rad: 0.1, elevation_rad: -0.2 };
         let place = SunPlace { angles, earth_ahead: false };
         assert!(sun.last_in_science(|| Some(ChosenPlace { place, clamped: true })) && sun.is_clamped());
         assert!(!sun.last_in_science(|| None) && sun.is_clamped());
-        sun.last(Scenario::OrbitPhase, Some(6), || None);
+        sun.last(Scenario::OrbitPhase, Some(6.0), || None);
         assert!(!sun.is_clamped() && sun.in_science() == Some(angles));
         assert!(sun.last_in_science(|| None) && !sun.is_clamped() && sun.in_science().is_none());
     }

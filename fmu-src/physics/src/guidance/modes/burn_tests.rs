@@ -217,7 +217,7 @@ fn a_burn_interrupted_does_not_go_on_by_itself() {
     // An entry of a timeline that continues with its scenario does not begin it anew, one that names it does.
     let mut guidance = burning;
     let mut planned = inputs;
-    planned.entries.scenario = Some(7);
+    planned.entries.scenario = Some(7.0);
     guidance.sample(&all, &planned, |_| None);
     assert_eq!(guidance.burn().velocity_m_s(), &Vector3::zeros());
     planned.entries.scenario = None;

@@ -30,10 +30,9 @@ pub struct GuidanceCommand {
     pub kind: CommandKind,
     /// When it was computed, in s.
     pub since_s: f64,
-    /// Attitude then; without [`CommandKind::Attitude`] the one held before.
+    /// Attitude then, the sign of its quaternion continuing from command to command; without [`CommandKind::Attitude`] the one
+    /// held before.
     attitude: Attitude,
-    /// Its quaternion with continuous sign.
-    quaternion: [f64; 4],
     /// Body rate, in rad/s.
     pub rate_body_rad_s: Vector3<f64>,
     /// From the commanded to the actual body frame, scalar last (paper 001 eq 25).
@@ -47,7 +46,6 @@ impl GuidanceCommand {
             kind: CommandKind::None,
             since_s,
             attitude,
-            quaternion: attitude.quaternion(None),
             rate_body_rad_s: Vector3::zeros(),
             error: [0.0, 0.0, 0.0, 1.0],
         }
@@ -66,9 +64,7 @@ impl GuidanceCommand {
         rate_body_rad_s: Vector3<f64>,
         time_s: f64,
     ) -> Self {
-        let attitude = self.attitude_at(time_s);
-        let quaternion = self.quaternion_of(&attitude);
-        Self { kind, since_s: time_s, attitude, quaternion, rate_body_rad_s, error }
+        Self { kind, since_s: time_s, attitude: self.attitude_at(time_s), rate_body_rad_s, error }
     }
 
     /// An attitude and rate at `time_s`, the quaternion's sign continuing.
@@ -77,33 +73,19 @@ impl GuidanceCommand {
         Self {
             kind: CommandKind::Attitude,
             since_s: time_s,
-            attitude,
-            quaternion: attitude.quaternion(Some(self.quaternion_at(time_s))),
+            attitude: attitude.continuing(&self.attitude_at(time_s).unit_quaternion()),
             rate_body_rad_s: frame.rate_body_rad_s,
             error: [0.0, 0.0, 0.0, 1.0],
         }
     }
 
-    /// Attitude at `time_s`.
+    /// Attitude at `time_s`, its quaternion continuous from the sample on.
     pub fn attitude_at(&self, time_s: f64) -> Attitude {
         self.attitude.propagated(self.rate_body_rad_s, time_s - self.since_s)
     }
 
-    /// Its quaternion, scalar last, EME2000 to body; the sign continues from sample to sample.
-    pub fn quaternion_at(&self, time_s: f64) -> [f64; 4] {
-        self.quaternion_of(&self.attitude_at(time_s))
-    }
-
-    /// The same of the attitude then.
-    pub fn quaternion_of(&self, attitude: &Attitude) -> [f64; 4] {
-        attitude.quaternion(Some(self.quaternion))
-    }
-
-    /// Its rate, in 1/s: half the product with the body rate.
+    /// Rate of its quaternion, in 1/s.
     pub fn quaternion_rate_at(&self, time_s: f64) -> [f64; 4] {
-        let [x, y, z, w] = self.quaternion_at(time_s);
-        let rate = self.rate_body_rad_s * 0.5;
-        let vector = rate * w + Vector3::new(x, y, z).cross(&rate);
-        [vector.x, vector.y, vector.z, -Vector3::new(x, y, z).dot(&rate)]
+        self.attitude_at(time_s).quaternion_rate(&self.rate_body_rad_s)
     }
 }

@@ -50,15 +50,16 @@ pub struct SampleInputs {
     pub delta_v_body_m_s: Vector3<f64>,
 }
 
-/// Which entry of a timeline something comes from; `None` where it comes from no timeline.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+/// Which entry of a timeline something comes from, by when it begins on the timeline's clock, in s; `None` where it comes from no
+/// timeline.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TimedEntries {
     /// The scan.
-    pub scan: Option<usize>,
+    pub scan: Option<f64>,
     /// The scenario: the entry that names one.
-    pub scenario: Option<usize>,
+    pub scenario: Option<f64>,
     /// The mode that is requested.
-    pub mode: Option<usize>,
+    pub mode: Option<f64>,
     /// Whether the burn is one of an entry that is no longer in force; its attitude is held.
     pub burn_is_over: bool,
 }

@@ -130,9 +130,9 @@ impl Timeline {
         }
     }
 
-    /// The command that begins on this line of the file.
-    pub fn entry_on_line(&self, line: usize) -> Option<&TimelineEntry> {
-        self.entries.get(self.entries.binary_search_by_key(&line, |entry| entry.line).ok()?)
+    /// The command that begins at this time of the timeline's clock, in s.
+    pub fn entry_at(&self, at_s: f64) -> Option<&TimelineEntry> {
+        self.entries.get(self.entries.binary_search_by(|entry| entry.at_s.total_cmp(&at_s)).ok()?)
     }
 
     /// What is in force at a time of the simulation, in s, the clock being `clock_minus_time_s` ahead of it.

@@ -85,7 +85,7 @@ struct ManeuverDescription {
 /// A command.
 #[serde(rename_all = "camelCase")]
 struct CommandDescription {
-    /// When it begins: a date that ends in UTC or TDB ("2008-03-19T19:30:00 UTC"), or FMI time: a number of seconds or a
+    /// When it begins: a date that ends in UTC, Z, TDB, TT or TAI, or a Julian date ("2008-03-19T19:30:00 UTC"), or FMI time: a number of seconds or a
     /// string with a unit ("90 min"). A file has one kind.
     at: Quantity,
     /// When it ends, if that is before the next one begins; then nothing is commanded.

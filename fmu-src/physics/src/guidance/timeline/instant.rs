@@ -37,6 +37,5 @@ pub(super) fn is_date(quantity: &Quantity) -> bool {
 
 fn date(quantity: &Quantity) -> Option<&str> {
     let Quantity::Text(text) = quantity else { return None };
-    let ends = ["UTC", "TDB"].iter().any(|scale| text.trim_end().ends_with(scale));
-    (ends || dates::looks_like_date(text)).then_some(text)
+    dates::looks_like_date(text).then_some(text)
 }

@@ -1,6 +1,7 @@
 //! Against torques whose integrals and threshold crossings are known in closed form.
 use super::*;
 use crate::loads::ByEffect;
+use crate::momentum::Convention;
 use crate::momentum::dump::{DUMP_WINDOW_S, DumpPolicy, Reinitialise, TooManyDumps};
 use crate::momentum::torque_model::{EventValues, TorqueSample};
 use approx::assert_relative_eq;
@@ -191,7 +192,8 @@ fn a_dump_turns_with_the_body() {
     integrator.advance(&mut Known, &setting, 500.0, |_| {}).unwrap();
     integrator.cut(500.0);
     let target = Vector3::new(0.1, -0.2, 0.3);
-    integrator.dump_to(&mut Known, &setting, 500.0, target);
+    let event = integrator.request(&mut Known, &setting, 500.0, target);
+    integrator.dump(&mut Known, &event);
     let rotation = Known.sample(500.0).inertial_from_body;
     assert_relative_eq!(integrator.totals(500.0).momentum_inertial_n_m_s, rotation * target, epsilon = 1e-15);
     assert_eq!(integrator.dumps().count, 1);

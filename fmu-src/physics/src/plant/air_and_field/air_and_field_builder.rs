@@ -60,7 +60,9 @@ impl AirAndFieldBuilder<'_, '_> {
         start_s: f64,
         limit_s: f64,
     ) -> Result<f64, PlantError> {
-        if !segment.span.contains(start_s) || (self.orbit_has_moved && self.orbit_differs(segment, limit_s)) {
+        let is_made =
+            segment.span.contains(start_s) && segment.made_for == Some((self.settings, self.figure));
+        if !is_made || (self.orbit_has_moved && self.orbit_differs(segment, limit_s)) {
             self.build(segment, start_s, limit_s)?;
         }
         Ok(segment.span.end_s.min(limit_s))
@@ -98,7 +100,8 @@ impl AirAndFieldBuilder<'_, '_> {
                     if let Some(next_s) = interval.accept(unresolved, self.settings.tolerance, NODES) {
                         let end_s = interval.end_s();
                         let span = SegmentSpan { start_s, end_s, next_longest_s: next_s };
-                        *segment = AirAndFieldSegment { span, ..series };
+                        let made_for = Some((self.settings, self.figure));
+                        *segment = AirAndFieldSegment { span, made_for, ..series };
                         return Ok(());
                     }
                 }

@@ -17,7 +17,7 @@ use crate::math;
 use crate::numerics::adaptive::SegmentSpan;
 use crate::numerics::chebyshev::Segment;
 use crate::plant::settings::air_and_field_settings::{
-    AirAndFieldSettings, AirSettings, AirSource, FieldSource,
+    AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure,
 };
 
 /// Chebyshev nodes a segment.
@@ -42,6 +42,8 @@ pub struct AirAndField {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct AirAndFieldSegment {
     pub(crate) span: SegmentSpan,
+    /// What it was fitted for; with anything else it is void.
+    pub(crate) made_for: Option<(AirAndFieldSettings, PlanetFigure)>,
     /// Position relative to the planet on which the segment was fitted, EME2000, in m; absent before the first segment.
     pub(crate) position: Option<Series>,
     /// Logarithm of the density in kg/m3, temperature in K, molar mass in kg/mol; absent where a model has no air.

@@ -149,6 +149,10 @@ impl<T: Scalar> BySource<T> {
             workspace.darken(model.face_count());
             return Ok(Self { active, loads: Loads::zero(), lit_fraction: T::constant(0.0) });
         }
+        let (distance_m, radius_m) = (sun_m.norm().value(), parameters.sun_radius_m.value());
+        if distance_m <= radius_m {
+            return Err(EclipseError::InsideSun { distance_m, radius_m }.into());
+        }
         let shadow = shadow.filter(|_| !is_zero(&Vector3::from(positions.planet_m)));
         let planet_m = shadow.map(|_| Vector3::from(positions.planet_m));
         let lit_fraction = match (shadow, &planet_m) {

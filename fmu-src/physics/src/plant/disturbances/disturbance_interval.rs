@@ -1,20 +1,21 @@
 //! Disturbances of an attitude that is not known ahead: force and torque over one interval of their grid, linear in time.
 //!
 //! Equation: T(t) = a + b (t - start) through the loads at the two nodes of Gauss-Legendre quadrature, the body taken to turn
-//! on at its present rate.
+//! on at its present rate where a controller holds that, else under the torque that the interval before has there.
 //! Method: an interval ends at the grid's next edge or sooner: where light changes abruptly, where the body has turned by
 //! [`LONGEST_TURN_RAD`], or where the fit is not what the tolerance asks for ([`crate::numerics::adaptive`]). Where it ends
 //! follows from the state at its start alone.
-//! Order: the impulse over an interval has an error of h^5 as long as the body does turn on like that. A change of rate
-//! within the interval of at most `a` leaves an attitude that is off by a h^2 / 2 at its end.
+//! Order: the impulse over an interval has an error of h^5 as long as the body does turn on like that. Torque that is off by dT
+//! from what was foreseen, J being the inertia, leaves an attitude that is off by J^-1 dT h^2 / 2 at its end.
 //! Error measure: the first term that a line leaves out is Legendre's second, c P2; at both ends it shows whole, and so does a
 //! kink next to them, where the load falls on another side of a surface. It does not change the integral; what the momentum in
 //! inertial axes has of it is its product with the second term of the turning body's axes, (w h)^2 / 12, and what the two nodes
 //! alias is of the size of c^2. So c max(c, (w h)^2 / 12) is below the tolerance, c relative to the largest force and torque of
-//! all effects in the interval. An interval in which body and orbit turn by less than [`SHORTEST_TURN_RAD`] is not judged.
+//! all effects in the interval. An interval in which body and orbit turn by less than [`SHORTEST_TURN_RAD`] is not judged by it.
+//! In free flight the attitude by which the disturbances are off from those foreseen, in rad, is below the tolerance as well.
 //! Reference: Davis and Rabinowitz, Methods of Numerical Integration, 2.7; see [`crate::numerics::adaptive`].
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::environment::CartesianState;
@@ -89,11 +90,18 @@ impl DisturbanceInterval {
         self.end_s == f64::NEG_INFINITY
     }
 
-    /// The interval of `plant` that begins at `start_s`, after `self`, and lasts to the next multiple of `grid_s` at most.
+    /// The interval of `plant` that begins at `start_s`, after `self`, and lasts to the next multiple of `grid_s` at most; a body
+    /// that nothing holds has this inverse of its inertia.
     ///
     /// # Errors
     /// What ends a flight.
-    pub(crate) fn next(&self, plant: &mut Plant<'_>, start_s: f64, grid_s: f64) -> Result<Self, PlantError> {
+    pub(crate) fn next(
+        &self,
+        plant: &mut Plant<'_>,
+        start_s: f64,
+        grid_s: f64,
+        free_inverse_inertia: Option<&Matrix3<f64>>,
+    ) -> Result<Self, PlantError> {
         plant.spend(Effort::Segment, start_s)?;
         let (known_s, begin) = plant.begin(start_s, next_multiple_s(start_s, grid_s))?;
         let limit_s = match plant.kinematics.excludes_events(&begin, known_s - start_s) {
@@ -115,13 +123,18 @@ impl DisturbanceInterval {
             first = plant.evaluate(start_s + NODES[0] * span_s);
             second = plant.evaluate(start_s + NODES[1] * span_s);
             first.check(start_s)?;
-            if turning_rad_s * span_s < SHORTEST_TURN_RAD {
+            let unforeseen_rad_s2 =
+                free_inverse_inertia.map_or(0.0, |it| self.unforeseen(active, it, [&first, &second], span_s));
+            let mut unresolved = 0.5 * unforeseen_rad_s2 * span_s * span_s;
+            if turning_rad_s * span_s >= SHORTEST_TURN_RAD {
+                let last_s = plant.kinematics.configuration.last_of_panels_s(start_s, interval.end_s());
+                let ends = [start_s, last_s].map(|at_s| plant.evaluate(at_s));
+                let left_out = left_out(active, [&first, &second], &ends);
+                unresolved =
+                    unresolved.max(left_out * left_out.max(math::powi(rate_rad_s * span_s, 2) / 12.0));
+            } else if unresolved <= tolerance {
                 break;
             }
-            let last_s = plant.kinematics.configuration.last_of_panels_s(start_s, interval.end_s());
-            let ends = [start_s, last_s].map(|at_s| plant.evaluate(at_s));
-            let left_out = left_out(active, [&first, &second], &ends);
-            let unresolved = left_out * left_out.max(math::powi(rate_rad_s * span_s, 2) / 12.0);
             if let Some(longest_s) = interval.accept(unresolved, tolerance, ORDER) {
                 next_longest_s = longest_s;
                 break;
@@ -148,6 +161,24 @@ impl DisturbanceInterval {
         let to_sun = [to_sun, (to_sun_then - to_sun) / elapsed_s];
         let lit_fraction = [now.lit_fraction, (then.lit_fraction - now.lit_fraction) / elapsed_s];
         Ok(Self { start_s, end_s, next_longest_s, loads, field_inertial_t, to_sun, lit_fraction })
+    }
+
+    /// Angular acceleration by which the disturbances at the nodes of an interval after this one, `span_s` long, are off from what
+    /// this one has there, in rad/s2.
+    fn unforeseen(
+        &self,
+        active: Active,
+        inverse_inertia: &Matrix3<f64>,
+        nodes: [&Evaluation; 2],
+        span_s: f64,
+    ) -> f64 {
+        let off_rad_s2 = |(node, share): (&Evaluation, f64)| {
+            let [_, [foreseen_n_m, slope_n_m_s]] = self.total_at(self.end_s);
+            let effects = active.disturbances().filter(|effect| !effect.is_in_field());
+            let found_n_m: Vector3<f64> = effects.map(|effect| node.loads[effect].torque_body_n_m).sum();
+            (inverse_inertia * (found_n_m - foreseen_n_m - slope_n_m_s * (share * span_s))).norm()
+        };
+        nodes.into_iter().zip(NODES).map(off_rad_s2).fold(0.0, f64::max)
     }
 
     /// Integrates the deviation of the orbit under the forces of the interval, at the predicted attitude (Encke's method).

@@ -31,6 +31,7 @@ use crate::plant::light::radiation_solver::RadiationSolver;
 use crate::plant::motion::instant::Instant;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::motion::panel_motion::Hinged;
+use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::configuration::{AttitudeSource, Configuration};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::work::Cost;
@@ -138,6 +139,7 @@ pub struct Plant<'a> {
     air_and_field: &'a mut AirAndFieldSegment,
     air: Option<&'a mut AerodynamicSolver>,
     sun_choice: SunChoice,
+    panel_turns: &'a mut PanelTurns,
     external: &'a External<'a>,
 }
 
@@ -153,7 +155,8 @@ impl<'a> Plant<'a> {
         external: &'a External<'a>,
     ) -> Self {
         let SimulationContext { configuration, mass_at_zero, ephemeris, light, air, work, .. } = context;
-        let PropagatorState { trajectory, light: segment, air_and_field, sun_choice, .. } = propagator;
+        let PropagatorState { trajectory, light: segment, air_and_field, sun_choice, panel_turns, .. } =
+            propagator;
         let kinematics = Kinematics {
             configuration,
             trajectory,
@@ -171,6 +174,7 @@ impl<'a> Plant<'a> {
             air_and_field,
             air: air.as_mut(),
             sun_choice: *sun_choice,
+            panel_turns,
             external,
         }
     }
@@ -356,6 +360,8 @@ impl<'a> Plant<'a> {
     pub(crate) fn begin(&mut self, start_s: f64, limit_s: f64) -> Result<(f64, Instant), PlantError> {
         let known_s = self.orbit_and_light(start_s)?.min(limit_s);
         let instant = self.kinematics.instant(start_s);
+        let settings = &self.kinematics.configuration.panels;
+        self.panel_turns.begin(settings, self.prepared.panels, &instant, start_s);
         Ok((self.kinematics.laws_until_s(start_s, &instant, known_s), instant))
     }
 

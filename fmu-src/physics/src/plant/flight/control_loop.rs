@@ -141,7 +141,7 @@ impl ControlLoop {
         let time_s = motion.end_s();
         let burning = thrusters.burning();
         let lacks_wheels = !self.wheels.spans(gyrostat);
-        let by_thrusters = (burning.is_some() || lacks_wheels) && thrusters.spans(mass);
+        let by_thrusters = (burning.is_some() || lacks_wheels) && thrusters.spans(mass, time_s);
         let is_new = by_thrusters != self.by_thrusters;
         if is_new {
             self.by_thrusters = by_thrusters;

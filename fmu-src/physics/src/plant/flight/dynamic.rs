@@ -27,7 +27,7 @@ use crate::plant::settings::dynamics_settings::{
     DynamicsInputs, DynamicsSettings, StartMotion, StartPointing, Tracked,
 };
 use crate::plant::settings::error::{ManeuverError, PlantError};
-use crate::plant::settings::thruster_events::ThrusterEvent;
+use crate::plant::settings::thruster_events::{SchedulePlace, ThrusterEvent};
 use crate::plant::settings::work::Cost;
 use crate::plant::thrusters::reaction_control::Thrusters;
 
@@ -44,8 +44,8 @@ pub(crate) struct AttitudeDynamics {
     pub sensing: Sensing,
     pub control: ControlLoop,
     pub dumps: MomentumDumps,
-    /// How many events of the schedule are over.
-    scheduled: usize,
+    /// How far the schedule is over.
+    pub scheduled: SchedulePlace,
 }
 
 /// A step of a flight by torque.
@@ -59,15 +59,15 @@ pub(super) struct DynamicStep<'s, 'f> {
 }
 
 impl AttitudeDynamics {
-    /// At the start of a flight.
+    /// At the start of a flight in the attitude after `held`.
     pub(super) fn begin(
         settings: &mut DynamicsSettings,
         flight: &mut ConfiguredFlight<'_>,
         time_s: f64,
+        held: &Attitude,
     ) -> Result<Self, PlantError> {
-        let events = &flight.context.configuration.thruster_events;
-        let scheduled = events.before(time_s);
-        events.check_for_dynamics(scheduled)?;
+        let scheduled = SchedulePlace::before(time_s);
+        flight.context.configuration.thruster_events.check_for_dynamics(scheduled)?;
         let StartMotion { mut attitude, mut rate_body_rad_s, rate_is_pointed, .. } = settings.start;
         if let Some(pointing) = &settings.start.pointing {
             let frame = match pointing {
@@ -79,6 +79,7 @@ impl AttitudeDynamics {
                 rate_body_rad_s = frame.rate_body_rad_s;
             }
         }
+        attitude = attitude.continuing(&held.unit_quaternion());
         let unit = attitude.unit_quaternion();
         let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = [Vector3::zeros(); 2];
         let body =
@@ -110,6 +111,7 @@ impl AttitudeDynamics {
             let internal = begun.panels.internal(flight.given.prepared.panels, &mass, begun.motion.end_s());
             begun.motion.add_hinges(internal);
         }
+        flight.propagator.panel_turns.restart();
         Ok(begun)
     }
 
@@ -227,7 +229,7 @@ impl AttitudeDynamics {
         if grid_due {
             self.begin_interval(step)?;
         }
-        self.dump_as_scheduled(step, due_s);
+        self.dump_as_scheduled(step, due_s)?;
         if sample_due {
             self.sample(step)?;
             step.flight.thrusters.process_valve_events(time_s);
@@ -254,14 +256,7 @@ impl AttitudeDynamics {
         } else {
             flight.propagator.cut_light(time_s);
         }
-        // A controller's torque lasts for a sample, and holds the rate.
-        let rate_terms_body = match &settings.control {
-            Some(_) => [Vector3::zeros(); 2],
-            None => {
-                let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
-                settings.gyrostat.torque_free_rate_terms(&body.rate_body_rad_s, &momentum_body)
-            }
-        };
+        let rate_terms_body = self.predicted_rate_terms(settings, flight, &body);
         let has_thrusters = !flight.thrusters.settings.thrusters.is_empty();
         let mut plant = flight.turning_plant(time_s, &body, rate_terms_body);
         if settings.panels_have_mass
@@ -269,7 +264,8 @@ impl AttitudeDynamics {
         {
             plant = flight.turning_plant(time_s, &body, rate_terms_body);
         }
-        self.disturbance = self.disturbance.next(&mut plant, time_s, settings.grid_s)?;
+        let inverse_inertia = settings.gyrostat.inverse_carrier().filter(|_| settings.control.is_none());
+        self.disturbance = self.disturbance.next(&mut plant, time_s, settings.grid_s, inverse_inertia)?;
         self.disturbance.deviate(&mut plant)?;
         if settings.panels_have_mass || self.mass.left.is_some() || has_thrusters {
             let instant = plant.instant(time_s);
@@ -288,6 +284,44 @@ impl AttitudeDynamics {
             }
         }
         Ok(())
+    }
+
+    /// First and second term of the rate's series at the end of the motion, body frame, in rad/s2 and rad/s3: by what acts there,
+    /// the disturbances as the interval that ends has them.
+    fn predicted_rate_terms(
+        &self,
+        settings: &DynamicsSettings,
+        flight: &ConfiguredFlight<'_>,
+        body: &BodyMotion,
+    ) -> [Vector3<f64>; 2] {
+        // A controller's torque lasts for a sample, and holds the rate.
+        if settings.control.is_some() {
+            return [Vector3::zeros(); 2];
+        }
+        let (time_s, rate) = (self.motion.end_s(), &body.rate_body_rad_s);
+        let [_, [mut torque, mut slope]] = self.disturbance.total_at(time_s);
+        let [now, per_s] = (flight.given.external)(time_s);
+        torque += now.torque_body_n_m;
+        slope += per_s.torque_body_n_m;
+        // A pulse that ends before the interval says little of it.
+        let steady_until_s = flight.thrusters.next_edge_s().min(self.dumps.until_s());
+        if steady_until_s >= time_s + settings.grid_s {
+            let [turn, turn_slope] = flight.thrusters.load().law.torque_body_n_m;
+            torque += self.dumps.torque_body_n_m() + turn;
+            slope += turn_slope;
+        }
+        let dipole = self.dipole(flight).filter(|_| !self.disturbance.is_before());
+        if let Some(DipoleInField { dipole_body_a_m2, field_inertial_t }) = dipole {
+            let [field, per_s] = field_inertial_t.map(|it| body.attitude.body_from_inertial(&it));
+            torque += dipole_body_a_m2.cross(&field);
+            slope += dipole_body_a_m2.cross(&(per_s - rate.cross(&field)));
+        }
+        let gyrostat = &settings.gyrostat;
+        let motor_n_m = |k: usize| {
+            if gyrostat.wheels()[k].locked { 0.0 } else { self.control.wheels.motors()[k].torque_n_m }
+        };
+        let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
+        gyrostat.rate_terms(rate, &momentum_body, [torque, slope], &gyrostat.along_axes(motor_n_m))
     }
 
     /// The panels go where their laws have them at the end of the motion; the body after that, where they were elsewhere.
@@ -365,22 +399,26 @@ impl AttitudeDynamics {
     }
 
     /// Begins the dumps of the schedule whose time has come.
-    fn dump_as_scheduled(&mut self, step: &mut DynamicStep<'_, '_>, due_s: f64) {
+    fn dump_as_scheduled(&mut self, step: &mut DynamicStep<'_, '_>, due_s: f64) -> Result<(), PlantError> {
         while let events = &step.flight.context.configuration.thruster_events
             && let Some(event) = events.next(self.scheduled).filter(|event| events.time_s(event) <= due_s)
         {
-            self.scheduled = self.scheduled.saturating_add(1);
+            // The schedule may be another than at the start.
+            events.check_for_dynamics(self.scheduled)?;
+            self.scheduled.take(events.time_s(event));
             if let Some(target_body_n_m_s) = events.dump_target_body_n_m_s(event) {
                 self.dump_to(step, target_body_n_m_s);
             }
         }
+        Ok(())
     }
 
     fn begin_dump(&mut self, flight: &mut ConfiguredFlight<'_>, before: &Vector3<f64>, after: Vector3<f64>) {
         let time_s = self.motion.end_s();
         let event = DumpEvent { time_s, before_body_n_m_s: *before, after_body_n_m_s: after };
-        self.dumps.begin(event, flight.thrusters, &self.motion, &self.mass.known);
-        (flight.log)(&ThrusterEvent::Dump(event));
+        if self.dumps.begin(event, flight.thrusters, &self.motion, &self.mass.known) {
+            (flight.log)(&ThrusterEvent::Dump(event));
+        }
     }
 
     /// What acts from `time_s` on.
@@ -447,9 +485,10 @@ impl AttitudeDynamics {
             let field_body_t = instant.to_body * field_inertial_t;
             loads[Effect::Magnetic].torque_body_n_m = dipole.dipole_body_a_m2.cross(&field_body_t);
         }
-        let [torque_body_n_m, force_body_n] = self.motion.swinging_load(&settings.gyrostat, time_s, body);
-        let [external, _] = (flight.given.external)(time_s);
-        loads[Effect::Applied] = external + ForceTorque { force_body_n, torque_body_n_m };
+        let [torque_body_n_m, force_body_n] = self.motion.imbalance_load(&settings.gyrostat, time_s, body);
+        loads[Effect::Imbalance] = ForceTorque { force_body_n, torque_body_n_m };
+        loads[Effect::Slosh].torque_body_n_m = self.motion.swing_torque_n_m(time_s);
+        [loads[Effect::Applied], _] = (flight.given.external)(time_s);
         let thrusters = flight.thrusters.load();
         loads[Effect::Thrusters] = ForceTorque {
             force_body_n: thrusters.law.force_at_n(time_s),

@@ -17,6 +17,7 @@ use crate::plant::motion::geometry::Geometry;
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::radiation_settings::RadiationSettings;
+use crate::plant::settings::thruster_events::SchedulePlace;
 use crate::spacecraft::MassProperties;
 
 /// Greatest last Chebyshev term of a forecast's totals, in N m s and m/s: far below any threshold.
@@ -51,8 +52,8 @@ pub(crate) struct Fork<'f> {
     integrator: MomentumIntegrator,
     /// Applied from outside, with its rate.
     applied: [ForceTorque<f64>; 2],
-    /// Events of the schedule that are over.
-    scheduled: usize,
+    /// How far the schedule is over.
+    scheduled: SchedulePlace,
     /// The last two waypoints.
     waypoints: [(Option<Waypoint>, PropagatorState); 2],
     flight: (AttitudeSource, Settings, RadiationSettings, MassProperties),
@@ -62,7 +63,7 @@ pub(crate) struct Fork<'f> {
 #[derive(Clone, Copy, Debug)]
 struct Waypoint {
     time_s: f64,
-    scheduled: usize,
+    scheduled: SchedulePlace,
     mass_at_zero: MassProperties,
 }
 
@@ -81,7 +82,7 @@ impl<'f> Fork<'f> {
         let attitude = core::mem::replace(&mut configuration.attitude, attitude);
         let flight = (attitude, configuration.momentum, configuration.light_and_heat, context.mass_at_zero);
         // Those of this time are over.
-        let scheduled = configuration.thruster_events.until(time_s);
+        let scheduled = SchedulePlace::until(time_s);
         let integrator = MomentumIntegrator::new(time_s, totals);
         let waypoints = [(None, first), (None, second)];
         Self { prepared, context, propagator: own, integrator, applied, scheduled, waypoints, flight }
@@ -174,7 +175,7 @@ impl<'f> Fork<'f> {
         let configuration = &context.configuration;
         let next = configuration.thruster_events.next(self.scheduled).copied();
         let Some(event) = next else { return Ok(Vector3::zeros()) };
-        self.scheduled += 1;
+        self.scheduled.take(configuration.thruster_events.time_s(&event));
         if let Some(place_body_m) = event.center_of_mass_body_m {
             let before = propagator.center_of_mass.of(configuration);
             propagator.center_of_mass.place(configuration, place_body_m);

@@ -9,13 +9,15 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::attitude::Attitude;
 use crate::momentum::{DumpEvent, DumpSpacing, MomentumIntegrator, Stop, StopTimes, TorqueModel, Totals};
 
 use super::configured::ConfiguredFlight;
 use super::downlink_forecast::StartMomentum;
 use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::{ManeuverError, PlantError};
-use crate::plant::settings::thruster_events::{Maneuver, ThrusterEvent};
+use crate::plant::settings::thruster_events::{Maneuver, SchedulePlace, ThrusterEvent};
+use crate::plant::thrusters::at_once::DumpAtOnce;
 
 /// Maneuvers so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -37,19 +39,19 @@ pub(crate) struct IdealFlight {
     pub dump_delta_v_inertial_m_s: Vector3<f64>,
     /// Maneuvers so far.
     pub maneuvers: Maneuvers,
-    /// How many events of the schedule are over.
-    scheduled: usize,
+    /// How far the schedule is over.
+    pub scheduled: SchedulePlace,
 }
 
 impl IdealFlight {
-    /// From `time_s` on with these totals, so many events of the schedule being over.
-    pub(super) fn new(time_s: f64, totals: Totals, scheduled: usize) -> Self {
+    /// From `time_s` on with these totals, the quaternion continuing that of `attitude`; what the schedule has before is over.
+    pub(super) fn new(time_s: f64, attitude: &Attitude, totals: Totals) -> Self {
         Self {
-            integrator: MomentumIntegrator::new(time_s, totals),
+            integrator: MomentumIntegrator::after(time_s, attitude.unit_quaternion(), totals),
             spacing: DumpSpacing::default(),
             dump_delta_v_inertial_m_s: Vector3::zeros(),
             maneuvers: Maneuvers::default(),
-            scheduled,
+            scheduled: SchedulePlace::before(time_s),
         }
     }
 
@@ -58,10 +60,11 @@ impl IdealFlight {
         self.integrator.is_valid() && self.spacing.is_valid() && self.maneuvers.count >= 0
     }
 
-    /// At the start of a flight, where the system has this momentum, body frame, in N m s.
+    /// At the start of a flight in the attitude after `held`, where the system has this momentum, body frame, in N m s.
     pub(super) fn begin(
         flight: &mut ConfiguredFlight<'_>,
         time_s: f64,
+        held: &Attitude,
         momentum_body_n_m_s: Vector3<f64>,
     ) -> Result<Self, PlantError> {
         flight.context.begin_work(flight.given.work_limit);
@@ -73,9 +76,9 @@ impl IdealFlight {
         plant.prepare(time_s, time_s)?;
         let frame = plant.instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-        let over = flight.context.configuration.thruster_events.before(time_s);
-        let mut begun = Self::new(time_s, totals, over);
+        let mut begun = Self::new(time_s, held, totals);
         flight.context.begin_work(flight.given.work_limit);
+        flight.propagator.panel_turns.restart();
         begun.advance(flight, time_s)?;
         Ok(begun)
     }
@@ -102,8 +105,8 @@ impl IdealFlight {
     /// Dumps to this momentum, body frame, in N m s, at `time_s` on request.
     fn dump_to(&mut self, flight: &mut ConfiguredFlight<'_>, time_s: f64, target_body_n_m_s: Vector3<f64>) {
         let settings = flight.context.configuration.momentum;
-        let event = self.integrator.dump_to(&mut flight.plant(), &settings, time_s, target_body_n_m_s);
-        self.dumped(flight, &event);
+        let event = self.integrator.request(&mut flight.plant(), &settings, time_s, target_body_n_m_s);
+        self.dump(flight, &event);
     }
 
     /// The maneuver, at `time_s`.
@@ -123,7 +126,7 @@ impl IdealFlight {
         let executed_m_s = configuration.thruster_events.executed_m_s(&found_m_s, number);
         if let Some(set) = maneuver.thrusters {
             let mass_kg = flight.context.mass_at_zero.mass_kg;
-            let given = flight.thrusters.give_at_once(set, executed_m_s.norm(), mass_kg, time_s);
+            let given = flight.thrusters.at_once(time_s).delta_v(set, executed_m_s.norm(), mass_kg);
             given.map_err(refused)?;
         }
         let moved = flight.propagator.maneuver(configuration, time_s, &executed_m_s);
@@ -143,7 +146,7 @@ impl IdealFlight {
     fn scheduled_event(&mut self, flight: &mut ConfiguredFlight<'_>, time_s: f64) -> Result<(), PlantError> {
         let configuration = &flight.context.configuration;
         let Some(event) = configuration.thruster_events.next(self.scheduled).copied() else { return Ok(()) };
-        self.scheduled = self.scheduled.saturating_add(1);
+        self.scheduled.take(configuration.thruster_events.time_s(&event));
         if let Some(place_body_m) = event.center_of_mass_body_m {
             flight.propagator.center_of_mass.place(configuration, place_body_m);
             self.integrator.cut(time_s);
@@ -181,7 +184,8 @@ impl IdealFlight {
                     at_s
                 }
                 Stop::Dump(event) => {
-                    self.dumped(flight, &event);
+                    self.dump(flight, &event);
+                    self.integrator.dumps().check()?;
                     dumped_s = Some(event.time_s);
                     event.time_s
                 }
@@ -192,16 +196,40 @@ impl IdealFlight {
         }
     }
 
-    /// Counts a dump; propellant, push and mass properties after it.
-    fn dumped(&mut self, flight: &mut ConfiguredFlight<'_>, event: &DumpEvent) {
-        self.spacing.dumped(event);
+    /// Dumps as far as the tanks feed the thrusters: momentum, propellant, push and mass properties after it. A dump that nothing
+    /// feeds is none.
+    fn dump(&mut self, flight: &mut ConfiguredFlight<'_>, due: &DumpEvent) {
+        let time_s = due.time_s;
+        let mut dump = DumpAtOnce { event: *due, push_body_n_s: None };
+        let mut pushed = None;
         if !flight.thrusters.settings.thrusters.is_empty() {
-            self.push(flight, event);
+            let mut plant = flight.plant();
+            let instant = plant.instant(time_s);
+            let mass = plant.mass_properties(&instant, time_s);
+            let given = flight.thrusters.at_once(time_s).dump(due, &mass.center_of_mass_body_m);
+            let Some(given) = given else { return };
+            dump = given;
+            let inertial_from_body = instant.frame.inertial_from_body;
+            pushed =
+                dump.push_body_n_s.map(|push_body_n_s| inertial_from_body * push_body_n_s / mass.mass_kg);
+            self.dump_delta_v_inertial_m_s = pushed.unwrap_or_default();
         }
-        if self.move_center_of_mass(flight, event.time_s) {
-            self.set_mass(flight, event.time_s);
+        self.integrator.dump(&mut flight.plant(), &dump.event);
+        self.spacing.dumped(&dump.event);
+        if let Some(delta_v_inertial_m_s) = &pushed {
+            self.integrator.push(delta_v_inertial_m_s);
+            self.set_mass(flight, time_s);
+            flight.propagator.cut_with_jump(
+                &flight.context.configuration,
+                time_s,
+                true,
+                delta_v_inertial_m_s,
+            );
         }
-        (flight.log)(&ThrusterEvent::Dump(*event));
+        if self.move_center_of_mass(flight, time_s) {
+            self.set_mass(flight, time_s);
+        }
+        (flight.log)(&ThrusterEvent::Dump(dump.event));
     }
 
     /// A thruster event is over: the centre of mass is elsewhere, where that is simulated.
@@ -221,22 +249,5 @@ impl IdealFlight {
     fn set_mass(&self, flight: &mut ConfiguredFlight<'_>, time_s: f64) {
         let loaded = flight.propagator.center_of_mass.of(&flight.context.configuration);
         flight.context.mass_at_zero = flight.thrusters.left(&loaded, time_s).unwrap_or(loaded);
-    }
-
-    fn push(&mut self, flight: &mut ConfiguredFlight<'_>, event: &DumpEvent) {
-        let time_s = event.time_s;
-        let mut plant = flight.plant();
-        let instant = plant.instant(time_s);
-        let mass = plant.mass_properties(&instant, time_s);
-        let push_body_n_s = flight.thrusters.dump_at_once(event, &mass.center_of_mass_body_m);
-        let Some(push_body_n_s) = push_body_n_s else {
-            self.dump_delta_v_inertial_m_s = Vector3::zeros();
-            return;
-        };
-        let delta_v_inertial_m_s = instant.frame.inertial_from_body * push_body_n_s / mass.mass_kg;
-        self.dump_delta_v_inertial_m_s = delta_v_inertial_m_s;
-        self.integrator.push(&delta_v_inertial_m_s);
-        self.set_mass(flight, time_s);
-        flight.propagator.cut_with_jump(&flight.context.configuration, time_s, true, &delta_v_inertial_m_s);
     }
 }

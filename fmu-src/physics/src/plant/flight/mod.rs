@@ -122,7 +122,7 @@ impl Flight {
         let (wheels, oscillators) = (spacecraft.wheels.len(), spacecraft.oscillator_count());
         self.propagator.is_valid()
             && self.prediction.as_ref().is_none_or(EncounterPrediction::is_valid)
-            && self.thrusters.is_valid(spacecraft.thrusters.len(), spacecraft.tanks.len())
+            && self.thrusters.is_valid(spacecraft)
             && match &self.mode {
                 Mode::Waiting => true,
                 Mode::Ideal(ideal) => ideal.is_valid(),
@@ -230,9 +230,6 @@ impl Flight {
             }
         }
         if let Some(configuration) = configuration {
-            if configuration.air_and_field != setup.context.configuration.air_and_field {
-                self.propagator.air_and_field.cut(time_s);
-            }
             setup.context.configuration = configuration;
             self.propagator.center_of_mass.reconfigured(&setup.context.configuration);
         }
@@ -244,6 +241,16 @@ impl Flight {
         }
         self.set_left();
         Ok(())
+    }
+
+    /// The schedule is another one from `time_s` on: what it has before is over, and a downlink of it is chosen anew.
+    pub fn reschedule(&mut self, time_s: f64) {
+        match &mut self.mode {
+            Mode::Waiting => {}
+            Mode::Ideal(ideal) => ideal.scheduled.skip_to(time_s),
+            Mode::Dynamic(dynamics) => dynamics.scheduled.skip_to(time_s),
+        }
+        self.propagator.sun_choice.row = 0;
     }
 
     /// The flight in one step, its settings and its mode.
@@ -259,24 +266,26 @@ impl Flight {
         Ok((ConfiguredFlight { given, context, propagator, thrusters, log }, settings, mode))
     }
 
-    /// Begins at `time_s`.
+    /// Begins at `time_s`, where the attitude was the one of `held`: the quaternion takes the sign nearer to that.
     ///
     /// # Errors
     /// What ends a flight.
     pub fn begin(
         &mut self,
         given: StepContext<'_>,
+        held: &Command,
         time_s: f64,
         log: &mut dyn FnMut(&ThrusterEvent),
     ) -> Result<(), PlantError> {
         let (mut flight, settings, mode) = self.parts(given, log)?;
         *flight.propagator = PropagatorState::new(&flight.context.configuration, time_s)?;
+        let held = held.attitude_at(time_s);
         *mode = match settings {
-            ModeSettings::Ideal(IdealSettings { start_momentum_body_n_m_s, .. }) => {
-                Mode::Ideal(Box::new(IdealFlight::begin(&mut flight, time_s, *start_momentum_body_n_m_s)?))
+            ModeSettings::Ideal(IdealSettings { start_momentum_body_n_m_s: momentum, .. }) => {
+                Mode::Ideal(Box::new(IdealFlight::begin(&mut flight, time_s, &held, *momentum)?))
             }
             ModeSettings::Dynamic(settings) => {
-                Mode::Dynamic(Box::new(AttitudeDynamics::begin(settings, &mut flight, time_s)?))
+                Mode::Dynamic(Box::new(AttitudeDynamics::begin(settings, &mut flight, time_s, &held)?))
             }
         };
         Ok(())
@@ -420,7 +429,7 @@ impl Flight {
                 let body = dynamics.motion.remembered_at(&settings.gyrostat, time_s);
                 let evaluation =
                     &*evaluation.insert(dynamics.evaluation(settings, &mut flight, &body, time_s));
-                (evaluation, dynamic(dynamics, settings, flight.thrusters, body, time_s))
+                (evaluation, dynamic(dynamics, settings, flight.thrusters, (body, evaluation), time_s))
             }
             (Mode::Ideal(simulated), ModeSettings::Ideal(settings)) => {
                 let evaluation = &*evaluation.insert(flight.plant().evaluate(time_s));
@@ -440,7 +449,7 @@ impl Flight {
                 let evaluation = &*evaluation.insert(evaluated);
                 let momentum_body_n_m_s = settings.start_momentum_body_n_m_s;
                 let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-                let waiting = IdealFlight::new(time_s, totals, 0);
+                let waiting = IdealFlight::new(time_s, &held.attitude_at(time_s), totals);
                 (evaluation, ideal(&waiting, settings, evaluation, inputs, time_s))
             }
             _ => return Err(PlantError::OtherMode),
@@ -469,6 +478,7 @@ impl Flight {
             evaluation,
             integration_center: propagator.trajectory.integration_center(configuration),
             approaches: propagator.trajectory.approaches_until(time_s),
+            panel_turns: &propagator.panel_turns,
             prediction: *prediction,
             shown,
         })

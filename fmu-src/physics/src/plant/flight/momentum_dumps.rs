@@ -9,6 +9,7 @@ use crate::loads::{ByEffect, Effect};
 use crate::momentum::{DumpEvent, DumpSpacing, Dumps, SourceMomenta};
 use crate::plant::disturbances::disturbance_interval::Linear;
 use crate::plant::thrusters::reaction_control::Thrusters;
+use crate::plant::thrusters::selected::Unserved;
 use crate::spacecraft::MassProperties;
 
 /// A dump by a constant torque.
@@ -63,28 +64,38 @@ impl MomentumDumps {
     /// What each effect did to the momentum since the end of the last dump, at `time_s`.
     pub(super) fn by_source(&self, motion: &GyrostatMotion, time_s: f64) -> SourceMomenta {
         let mut impulses = motion.impulses_inertial_n_m_s(self.torques.values(), time_s);
-        if let Some(impulse) = motion.magnetic_impulse_inertial_n_m_s(time_s) {
-            impulses[Effect::Magnetic as usize] = impulse;
+        let by_motion = [
+            (Effect::Magnetic, motion.magnetic_impulse_inertial_n_m_s(time_s)),
+            (Effect::Imbalance, motion.imbalance_impulse_inertial_n_m_s(time_s)),
+            (Effect::Slosh, motion.swing_impulse_inertial_n_m_s(time_s)),
+        ];
+        for (effect, impulse) in by_motion {
+            impulses[effect as usize] = impulse.unwrap_or(impulses[effect as usize]);
         }
         self.by_source.with(&impulses)
     }
 
     /// Begins a dump at the end of the motion: by thrusters that give torque all ways about the centre of mass, or by a constant
-    /// torque.
+    /// torque; false where those thrusters are not fed.
     pub(super) fn begin(
         &mut self,
         event: DumpEvent,
         thrusters: &mut Thrusters,
         motion: &GyrostatMotion,
         mass: &MassProperties,
-    ) {
+    ) -> bool {
+        let target = motion.attitude_at(event.time_s).inertial_from_body(&event.after_body_n_m_s);
+        let has_thrusters = !thrusters.settings.thrusters.is_empty();
+        let by_thrusters =
+            has_thrusters.then(|| thrusters.begin_dump(motion, target, &mass.center_of_mass_body_m));
+        if by_thrusters == Some(Err(Unserved::Unfed)) {
+            return false;
+        }
         self.dumps = self.dumps.with(event);
         self.spacing.dumped(&event);
         self.by_source = SourceMomenta::default();
-        let target = motion.attitude_at(event.time_s).inertial_from_body(&event.after_body_n_m_s);
-        let has_thrusters = !thrusters.settings.thrusters.is_empty();
-        if has_thrusters && thrusters.begin_dump(motion, target, &mass.center_of_mass_body_m) {
-            return;
+        if by_thrusters == Some(Ok(())) {
+            return true;
         }
         let impulse_body_n_m_s = event.impulse_body_n_m_s();
         let duration_s = impulse_body_n_m_s.amax() / thrusters.settings.dump_torque_n_m;
@@ -92,6 +103,7 @@ impl MomentumDumps {
             let torque_body_n_m = impulse_body_n_m_s / duration_s;
             self.constant = Some(ConstantDump { torque_body_n_m, until_s: event.time_s + duration_s });
         }
+        true
     }
 
     /// Whether one lasts at `time_s`.

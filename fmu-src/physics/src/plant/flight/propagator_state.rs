@@ -8,6 +8,7 @@ use super::sun_choice::SunChoice;
 use crate::environment::orbit::OrbitError;
 use crate::plant::air_and_field::air_and_field_segment::AirAndFieldSegment;
 use crate::plant::light::radiation_segment::RadiationSegment;
+use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::motion::trajectory::Trajectory;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
@@ -26,6 +27,8 @@ pub struct PropagatorState {
     pub sun_choice: SunChoice,
     /// Where the centre of mass lies.
     pub center_of_mass: CenterOfMass,
+    /// Whole turns of the panels.
+    pub panel_turns: PanelTurns,
 }
 
 impl PropagatorState {
@@ -51,7 +54,8 @@ impl PropagatorState {
             (Some(light), Some(other)) => light.copy_from(other),
             (light, other) => light.clone_from(other),
         }
-        let Self { trajectory, light: _, air_and_field, sun_choice, center_of_mass } = *other;
+        // Nobody asks for the turns of a fork's panels.
+        let Self { trajectory, air_and_field, sun_choice, center_of_mass, .. } = *other;
         (self.trajectory, self.air_and_field) = (trajectory, air_and_field);
         (self.sun_choice, self.center_of_mass) = (sun_choice, center_of_mass);
     }

@@ -11,6 +11,7 @@ use crate::guidance::DownlinkStatus;
 use crate::momentum::{DumpSpacing, Dumps, SourceMomenta, Totals};
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::motion::approaches::Approach;
+use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
 use crate::plant::settings::ideal_settings::IdealSettings;
@@ -42,6 +43,8 @@ pub struct Report<'a> {
     pub integration_center: Body,
     /// Closest approaches to the encounter's body so far, and the last of them.
     pub approaches: (i32, Option<Approach>),
+    /// Whole turns of the panels.
+    pub panel_turns: &'a PanelTurns,
     /// The last prediction of the next one; `None` before any.
     pub prediction: Option<EncounterPrediction>,
     /// Momentum, dumps, sensors and control.
@@ -92,6 +95,8 @@ pub struct Shown<'a> {
     pub dump_delta_v_inertial_m_s: Vector3<f64>,
     /// Maneuvers so far.
     pub maneuvers: Maneuvers,
+    /// Attitude, its quaternion continuous along the flight.
+    pub attitude: Attitude,
     /// Attitude and rate as sensors know them.
     pub estimate: Estimate,
     /// The Sun in the body frame as sensed.
@@ -199,6 +204,7 @@ pub(super) fn ideal<'a>(
     let (totals, dumps) = (simulated.integrator.totals(time_s), *simulated.integrator.dumps());
     let Evaluation { instant, loads, mass, .. } = evaluation;
     let frame = &instant.frame;
+    let attitude = simulated.integrator.attitude(&frame.inertial_from_body, time_s);
     let structure_rate_body_n_m =
         simulated.integrator.structure_rate_body_n_m(&mass.inertia_body_kg_m2, time_s);
     Shown {
@@ -211,8 +217,9 @@ pub(super) fn ideal<'a>(
         dump_impulse_body_n_m_s: impulse_body_n_m_s(&dumps),
         dump_delta_v_inertial_m_s: simulated.dump_delta_v_inertial_m_s,
         maneuvers: simulated.maneuvers,
+        attitude,
         estimate: Estimate {
-            attitude: Attitude::from_rotation(&frame.inertial_from_body),
+            attitude,
             is_valid: inputs.health.star_tracker,
             rate_body_rad_s: Some(frame.rate_body_rad_s),
         },
@@ -237,7 +244,7 @@ pub(super) fn dynamic<'a>(
     dynamics: &'a AttitudeDynamics,
     settings: &'a DynamicsSettings,
     thrusters: &Thrusters,
-    body: BodyMotion,
+    (body, evaluation): (BodyMotion, &Evaluation),
     time_s: f64,
 ) -> Shown<'a> {
     let AttitudeDynamics { motion, sensing, control, dumps, .. } = dynamics;
@@ -258,6 +265,8 @@ pub(super) fn dynamic<'a>(
             .map_or_else(|| impulse_body_n_m_s(&dumps.dumps), |[impulse, _]| impulse),
         dump_delta_v_inertial_m_s: dumped.map_or(Vector3::zeros(), |[_, delta_v]| delta_v),
         maneuvers: Maneuvers::default(),
+        attitude: Attitude::from_rotation(&evaluation.instant.frame.inertial_from_body)
+            .continuing(&body.attitude),
         estimate: sensing.estimate_at(time_s),
         sun_sensed_body: sensing.sun_sensed_body,
         accelerometer_body_m_s: *sensing.accelerometer.delta_v_body_m_s(),

@@ -78,11 +78,13 @@ impl Sensing {
             let increment_body_m_s = before.halfway(&body.attitude).body_from_inertial(&increment);
             self.accelerometer.sample(&settings.accelerometer, &increment_body_m_s, interval_s, number);
         }
+        let expected = self.estimate_at(time_s).attitude.unit_quaternion();
         self.sampled_s = time_s;
         self.sampled = (body.attitude, body.delta_v_inertial_m_s);
         let attitude = Attitude::from_unit(body.attitude);
         let rate = &body.rate_body_rad_s;
         self.estimate = self.estimator.sample(&settings.sensors, inputs.health, &attitude, rate, number);
+        self.estimate.attitude = self.estimate.attitude.continuing(&expected);
         self.sun_sensed_body = sensed_sun(
             &settings.sun_sensors,
             |k| inputs.sun_sensor_failed.get(k).is_some_and(|failed| *failed),

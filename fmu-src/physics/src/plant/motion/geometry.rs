@@ -145,19 +145,6 @@ impl BodyEphemeris for SimulationEphemeris<'_> {
         }
     }
 
-    fn acceleration_m_s2(&mut self, body: Body, at_s: f64) -> Vector3<f64> {
-        let epoch_s = self.epoch_s(at_s);
-        match &self.configuration.ephemeris {
-            _ if body == Body::Sun => Vector3::zeros(),
-            EphemerisSource::Simulated(carried) => {
-                let found = carried.acceleration_m_s2(body.into(), Body::Sun, epoch_s);
-                found.unwrap_or_else(|| Vector3::repeat(f64::NAN))
-            }
-            EphemerisSource::Kepler(planet) if body == Body::Custom => planet.acceleration_m_s2(epoch_s),
-            _ => self.ephemeris.acceleration_m_s2(body, epoch_s),
-        }
-    }
-
     fn smooth_until_s(&self, at_s: f64) -> f64 {
         let epoch_s = self.epoch_s(at_s);
         let until_epoch_s = match &self.configuration.ephemeris {
@@ -169,12 +156,10 @@ impl BodyEphemeris for SimulationEphemeris<'_> {
 
     fn moon_from_earth_m(&mut self, at_s: f64) -> Vector3<f64> {
         let epoch_s = self.epoch_s(at_s);
-        match &self.configuration.ephemeris {
-            EphemerisSource::Simulated(carried) => {
-                let found = carried.state_carried_on(OnboardTarget::Moon, Body::Earth, epoch_s);
-                found.map_or_else(|| Vector3::repeat(f64::NAN), |moon| moon.position_m)
-            }
-            _ => self.ephemeris.moon_from_earth(epoch_s).position_m,
-        }
+        let carried = match &self.configuration.ephemeris {
+            EphemerisSource::Simulated(carried) => carried.state(OnboardTarget::Moon, Body::Earth, epoch_s),
+            _ => None,
+        };
+        carried.unwrap_or_else(|| self.ephemeris.moon_from_earth(epoch_s)).position_m
     }
 }

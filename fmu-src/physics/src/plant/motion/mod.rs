@@ -5,4 +5,5 @@ pub(super) mod geometry;
 pub(super) mod instant;
 pub(super) mod kinematics;
 pub(super) mod panel_motion;
+pub(super) mod panel_turns;
 pub(super) mod trajectory;

@@ -17,6 +17,7 @@ use crate::attitude::{Attitude, Gyrostat, GyrostatMotion, HingedMass, InternalMo
 use crate::spacecraft::{MassProperties, Panel, hinged_masses, with_panels};
 
 use super::instant::Instant;
+use super::panel_turns::nearest_turns_rad;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::panel_setting::SunAt;
 
@@ -174,7 +175,7 @@ impl PanelMotion {
             [_, turn.rate_rad_s] = setting.turn_rad(panel, &sun);
             if setting.is_by_sun() {
                 let to_rad = setting.angle_rad(panel, &end_sun).unwrap_or(0.0);
-                let way_rad = setting.way_rad(turn.angle_rad, to_rad);
+                let way_rad = shorter_way_rad(turn.angle_rad, to_rad);
                 let bend_rad = way_rad - turn.rate_rad_s * span_s;
                 if bend_rad.abs() < GREATEST_BEND_RAD {
                     turn.acceleration_rad_s2 = 2.0 * bend_rad / (span_s * span_s);
@@ -190,7 +191,7 @@ impl PanelMotion {
         let settings = hinged.configuration.panels.iter().zip(hinged.panels);
         for (turn, (setting, panel)) in self.turns.iter_mut().zip(settings) {
             let to_rad = setting.angle_rad(panel, sun).unwrap_or(0.0);
-            turn.way_rad = if panel.mass.is_some() { setting.way_rad(turn.angle_rad, to_rad) } else { 0.0 };
+            turn.way_rad = if panel.mass.is_some() { shorter_way_rad(turn.angle_rad, to_rad) } else { 0.0 };
         }
         self.turns.iter().any(|it| it.way_rad != 0.0)
     }
@@ -233,4 +234,10 @@ impl PanelMotion {
         }
         attitude.unit_quaternion().normalized()
     }
+}
+
+/// The way between two angles, which say nothing of whole turns, in rad: the shorter one.
+fn shorter_way_rad(from_rad: f64, to_rad: f64) -> f64 {
+    let way_rad = to_rad - from_rad;
+    way_rad - nearest_turns_rad(way_rad)
 }

@@ -4,10 +4,11 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::bodies::Body;
+use crate::constants::{GM_MOON_M3_S2, GM_SUN_M3_S2};
 use crate::environment::CartesianState;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::{
-    BodyEphemeris, DisturbedOrbit, OrbitError, OrbitIntegrationError, OrbitMethod, TwoBodyOrbit,
+    BodyEphemeris, DisturbedOrbit, OrbitError, OrbitIntegrationError, OrbitMethod, TwoBodyOrbit, tide_m_s2,
 };
 use crate::guidance::Window;
 use crate::numerics::roots;
@@ -378,12 +379,21 @@ impl Trajectory {
     ) -> Result<u32, OrbitIntegrationError> {
         let Some(mut orbit) = self.orbit else { return Ok(0) };
         let shortened = match &configuration.motion {
-            Motion::Disturbed { gravity, .. } => {
-                let sun_m = |at_s: f64| {
-                    let epoch_s = at_s + configuration.epoch_minus_time_s;
-                    geometry::body(configuration, ephemeris, Body::Sun, epoch_s).position_m
+            Motion::Disturbed { gravity, tides, .. } => {
+                let extra_m_s2 = |at_s: f64, state: &CartesianState| {
+                    let mut sum = extra_m_s2(at_s);
+                    if tides.sun {
+                        let epoch_s = at_s + configuration.epoch_minus_time_s;
+                        let sun_m = geometry::body(configuration, ephemeris, Body::Sun, epoch_s).position_m;
+                        sum += tide_m_s2(&state.position_m, &sun_m, GM_SUN_M3_S2);
+                    }
+                    if tides.moon {
+                        let moon_m = SimulationEphemeris { configuration, ephemeris }.moon_from_earth_m(at_s);
+                        sum += tide_m_s2(&state.position_m, &moon_m, GM_MOON_M3_S2);
+                    }
+                    sum
                 };
-                orbit.advance_to(limit_s, method, gravity, sun_m, |at_s, _| extra_m_s2(at_s))?;
+                orbit.advance_to(limit_s, method, gravity, extra_m_s2)?;
                 0
             }
             Motion::NBody { gravity, .. } => {

@@ -1,6 +1,7 @@
 //! Figure and rotation of the planet, and which air and magnetic field are about it.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use crate::environment::atmosphere::{Air, AtmosphereModel, SpaceWeather};
 use crate::environment::geodetic::{Ellipsoid, Geodetic};
@@ -9,7 +10,7 @@ use crate::environment::orientation::Orientation;
 use crate::math::wrapped_rad;
 
 /// Figure and rotation of the planet.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlanetFigure {
     /// Rotation.
     pub orientation: Orientation,
@@ -28,7 +29,7 @@ impl PlanetFigure {
 }
 
 /// Air and magnetic field about the planet.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AirAndFieldSettings {
     /// The air; `None` where it does not act.
     pub air: Option<AirSettings>,
@@ -49,7 +50,7 @@ impl AirAndFieldSettings {
 }
 
 /// The air about the planet.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AirSettings {
     /// Where it comes from.
     pub source: AirSource,
@@ -62,7 +63,7 @@ pub struct AirSettings {
 }
 
 /// Where density, temperature and molar mass come from.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum AirSource {
     /// A model.
     Model(AtmosphereModel),
@@ -71,7 +72,7 @@ pub enum AirSource {
 }
 
 /// Where the magnetic field comes from.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum FieldSource {
     /// A model.
     Model(MagneticField),

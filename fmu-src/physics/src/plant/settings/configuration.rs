@@ -12,7 +12,7 @@ use crate::environment::eclipse::Shadow;
 use crate::environment::frames::Frame;
 use crate::environment::kepler_planet::KeplerPlanet;
 use crate::environment::onboard::OnboardEphemeris;
-use crate::environment::orbit::{Elements, Gravity, NBodyGravity, OrbitError, TwoBodyOrbit};
+use crate::environment::orbit::{Elements, Gravity, NBodyGravity, OrbitError, Tides, TwoBodyOrbit};
 use crate::environment::sun::pressure_n_m2;
 use crate::guidance::timeline::TimelineSettings;
 use crate::guidance::{Guided, SunPlace};
@@ -197,8 +197,10 @@ pub enum Motion {
     TwoBody,
     /// The same orbit at the start, then integrated.
     Disturbed {
-        /// The centre's gravity with its flattening and the Sun's tide.
+        /// The centre's gravity with its flattening.
         gravity: Gravity,
+        /// Tides of distant bodies.
+        tides: Tides,
         /// Length of the integrator's segments, in s.
         segment_length_s: f64,
         /// Radius of the centre, in m: a flight below it ends.
@@ -297,7 +299,7 @@ pub fn orbit_from_elements(
     epoch_s: f64,
 ) -> Result<TwoBodyOrbit, OrbitError> {
     let to_eme2000 = frame.dcm_eme2000_from_frame(center);
-    TwoBodyOrbit::from_state(&elements.state(gm_m3_s2)?.along(&to_eme2000), gm_m3_s2, epoch_s)
+    Ok(TwoBodyOrbit::from_elements(elements, gm_m3_s2, epoch_s)?.along(&to_eme2000))
 }
 
 impl Configuration {

@@ -55,7 +55,8 @@ impl ControlDefaults {
             ..ReactionControlSettings::default()
         };
         let center = &spacecraft.mass_properties.center_of_mass_body_m;
-        let by_thrusters = thrusters.attitude_selection(None, center).map_or(0.0, |it| it.least_torque_n_m());
+        let by_thrusters =
+            thrusters.attitude_selection(None, |_| true, center).map_or(0.0, |it| it.least_torque_n_m());
         let acceleration_rad_s2 = 0.5 * torque_n_m / largest_kg_m2;
         let jump_rad_s = 2.0 * SCAN_RATE_RAD_S;
         let reversal_rad = if acceleration_rad_s2 > 0.0 {

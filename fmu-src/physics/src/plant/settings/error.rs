@@ -130,13 +130,15 @@ pub enum ManeuverError {
         found_n: f64,
     },
     /// Too little propellant.
-    #[error("it takes {needed_kg:?} kg from tank {tank}, allowed: up to the {left_kg:?} kg left in it")]
+    #[error(
+        "it takes {needed_kg:?} kg from tank {tank}, allowed: up to the {left_kg:?} kg that it can still feed"
+    )]
     Propellant {
         /// The tank's name.
         tank: String,
         /// What it takes, in kg.
         needed_kg: f64,
-        /// What is left, in kg.
+        /// What it can still feed, in kg.
         left_kg: f64,
     },
     /// A velocity without an orbit.

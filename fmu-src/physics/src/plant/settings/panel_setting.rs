@@ -1,6 +1,5 @@
 //! How one panel stands: at an angle of its own or by the Sun, held, moving evenly, in steps or by the light on its cells.
 
-use core::f64::consts::TAU;
 use std::sync::Arc;
 
 use nalgebra::Vector3;
@@ -169,13 +168,6 @@ impl PanelSetting {
             }
             Self::Disabled | Self::SunOffset { .. } | Self::Angle(_) | Self::Distance { .. } => f64::INFINITY,
         }
-    }
-
-    /// The way to `to_rad` from `from_rad`, in rad: of an angle that the Sun gives, which is known but for whole turns, the
-    /// shorter one.
-    pub(crate) fn way_rad(&self, from_rad: f64, to_rad: f64) -> f64 {
-        let way_rad = to_rad - from_rad;
-        if self.is_by_sun() { way_rad - TAU * (way_rad / TAU).round() } else { way_rad }
     }
 
     /// Whether the Sun gives the angle.

@@ -21,30 +21,32 @@ pub struct ReactionControlSettings {
 }
 
 impl ReactionControlSettings {
-    /// The thrusters that dump: the weakest that give torque all ways.
+    /// The thrusters that dump: the weakest that are fed and give torque all ways.
     ///
     /// # Errors
     /// A way about an axis that no thruster gives.
     pub fn dump_selection(
         &self,
+        is_fed: impl Fn(usize) -> bool,
         center_of_mass_body_m: &Vector3<f64>,
     ) -> Result<ThrusterSelection, SelectionError> {
-        let may_fire = |k: usize| self.thrusters[k].attitude_control;
+        let may_fire = |k: usize| self.thrusters[k].attitude_control && is_fed(k);
         ThrusterSelection::of_the_finest(&self.thrusters, may_fire, center_of_mass_body_m)
     }
 
-    /// The thrusters that control the attitude while those of a set give a delta-v.
+    /// The thrusters that are fed and control the attitude while those of a set give a delta-v.
     ///
     /// # Errors
     /// A way about an axis that no thruster gives.
     pub fn attitude_selection(
         &self,
         burning: Option<ThrusterSet>,
+        is_fed: impl Fn(usize) -> bool,
         center_of_mass_body_m: &Vector3<f64>,
     ) -> Result<ThrusterSelection, SelectionError> {
         let may_fire = |k: usize| {
             let Thruster { set, attitude_control, .. } = self.thrusters[k];
-            attitude_control && (burning.is_none() || set != burning)
+            attitude_control && (burning.is_none() || set != burning) && is_fed(k)
         };
         ThrusterSelection::new(&self.thrusters, may_fire, center_of_mass_body_m, Preference::LeastOnTime)
     }
@@ -62,7 +64,8 @@ impl ReactionControlSettings {
     }
 }
 
-/// Thrusters as their tanks feed them at a time.
+/// Thrusters as their tanks feed them at a time; pulses, dumps and burns in every mode ask it for the limits of the tanks.
+#[derive(Clone, Copy)]
 pub(crate) struct Feed<'a> {
     pub settings: &'a ReactionControlSettings,
     pub propellant: &'a PropellantState,
@@ -70,6 +73,13 @@ pub(crate) struct Feed<'a> {
 }
 
 impl Feed<'_> {
+    /// Whether the tank of thruster `k` feeds it.
+    pub(crate) fn feeds(&self, k: usize) -> bool {
+        let index = self.settings.thrusters[k].tank;
+        let tank = self.settings.tanks.get(index);
+        tank.is_some_and(|tank| tank.feeds(self.propellant.used_kg(index, self.time_s)))
+    }
+
     /// Thrust of thruster `k` over its nominal one, by the pressure of its tank.
     pub(crate) fn pressure_ratio(&self, k: usize) -> f64 {
         let thruster = &self.settings.thrusters[k];

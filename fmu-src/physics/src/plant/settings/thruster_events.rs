@@ -7,9 +7,10 @@
 use std::sync::Arc;
 
 use nalgebra::{Rotation3, Vector3};
+use serde::{Deserialize, Serialize};
 
 use super::error::PlantError;
-use crate::guidance::timeline::{TimelineDump, TimelineEvent, TimelineManeuver, simulation_time_s};
+use crate::guidance::timeline::{TimelineDump, TimelineEvent, TimelineManeuver, begun, simulation_time_s};
 use crate::momentum::DumpEvent;
 use crate::numerics::noise::{Channel, normal, normal_vector};
 use crate::spacecraft::ThrusterSet;
@@ -39,6 +40,38 @@ pub enum ThrusterEvent {
         /// The delta-v that was executed.
         executed_m_s: Vector3<f64>,
     },
+}
+
+/// Place in a schedule by time, which counts in any other schedule too: events before `time_s` are over, and `count` of those at it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct SchedulePlace {
+    time_s: f64,
+    count: u32,
+}
+
+impl SchedulePlace {
+    /// Place at which the events before `time_s` are over.
+    pub(crate) fn before(time_s: f64) -> Self {
+        Self { time_s, count: 0 }
+    }
+
+    /// Place at which the events up to `time_s` are over.
+    pub(crate) fn until(time_s: f64) -> Self {
+        Self { time_s, count: u32::MAX }
+    }
+
+    /// Goes on to `time_s`: what another schedule had before it is over.
+    pub(crate) fn skip_to(&mut self, time_s: f64) {
+        if self.time_s < time_s {
+            *self = Self::before(time_s);
+        }
+    }
+
+    /// Takes the next event, which stands at `time_s`.
+    pub(crate) fn take(&mut self, time_s: f64) {
+        let count = if self.time_s == time_s { self.count } else { 0 };
+        *self = Self { time_s, count: count.saturating_add(1) };
+    }
 }
 
 /// What thruster events go by.
@@ -128,27 +161,26 @@ impl ThrusterEventSettings {
         simulation_time_s(event.at_s, self.clock_minus_time_s)
     }
 
-    /// The next event of the schedule, so many being over.
-    pub(crate) fn next(&self, over: usize) -> Option<&TimelineEvent> {
-        self.schedule.get(over)
+    /// The events of the schedule that lie beyond this place.
+    fn beyond(&self, place: SchedulePlace) -> &[TimelineEvent] {
+        let up_to = begun(&self.schedule, self.clock_minus_time_s, place.time_s, |event| event.at_s);
+        let (over, beyond) = self.schedule.split_at(up_to);
+        let at = over.iter().rev().take_while(|event| self.time_s(event) == place.time_s).count();
+        let due = at.saturating_sub(place.count as usize);
+        self.schedule.get(up_to - due..).unwrap_or(beyond)
     }
 
-    /// How many events lie before `time_s`.
-    pub(crate) fn before(&self, time_s: f64) -> usize {
-        self.schedule.partition_point(|event| self.time_s(event) < time_s)
+    /// The next event of the schedule from this place on.
+    pub(crate) fn next(&self, place: SchedulePlace) -> Option<&TimelineEvent> {
+        self.beyond(place).first()
     }
 
-    /// How many events lie up to `time_s`.
-    pub(crate) fn until(&self, time_s: f64) -> usize {
-        self.schedule.partition_point(|event| self.time_s(event) <= time_s)
-    }
-
-    /// Refuses what a flight by torque does not have, so many events being over.
+    /// Refuses what a flight by torque does not have from this place on.
     ///
     /// # Errors
     /// An event that is no dump.
-    pub(crate) fn check_for_dynamics(&self, over: usize) -> Result<(), PlantError> {
-        for event in self.schedule.iter().skip(over) {
+    pub(crate) fn check_for_dynamics(&self, place: SchedulePlace) -> Result<(), PlantError> {
+        for event in self.beyond(place) {
             let found = match (event.maneuver, event.center_of_mass_body_m) {
                 (Some(_), _) => "a maneuver",
                 (None, Some(_)) => "a centre of mass",
@@ -159,9 +191,9 @@ impl ThrusterEventSettings {
         Ok(())
     }
 
-    /// When the next event comes, so many being over, in s; infinite where none does.
-    pub(crate) fn next_s(&self, over: usize) -> f64 {
-        self.next(over).map_or(f64::INFINITY, |event| self.time_s(event))
+    /// When the next event from this place on comes, in s; infinite where none does.
+    pub(crate) fn next_s(&self, place: SchedulePlace) -> f64 {
+        self.next(place).map_or(f64::INFINITY, |event| self.time_s(event))
     }
 }
 

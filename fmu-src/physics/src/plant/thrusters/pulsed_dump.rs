@@ -79,6 +79,10 @@ impl PulsedDump {
         let torque = |k: usize| settings.thrusters[k].torque_about_n_m(center_of_mass_body_m);
         let shortest_s = |k: usize| settings.thrusters[k].valve.min_on_s;
         let most_n_m_s = settings.dump_torque_n_m * settings.dump_period_s;
+        // A thruster that is no longer fed leaves what it owes to the others.
+        for (k, residual_s) in self.residual_s.iter_mut().enumerate().take(settings.thrusters.len()) {
+            *residual_s = if feed.feeds(k) { *residual_s } else { 0.0 };
+        }
         let residual_n_m_s = |residual_s: &[f64; MOST_THRUSTERS]| -> Vector3<f64> {
             (0..settings.thrusters.len()).map(|k| torque(k) * residual_s[k]).sum()
         };

@@ -10,21 +10,16 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::GyrostatMotion;
-use crate::math;
-use crate::momentum::DumpEvent;
 use crate::numerics::or_infinite;
 use crate::numerics::quadrature::GAUSS_3;
 use crate::propulsion::{PropellantState, PulseCommand, PulseSchedule, Valve, due_s};
-use crate::spacecraft::{MassProperties, Thrust, Thruster, ThrusterSet};
+use crate::spacecraft::{MassProperties, Spacecraft, Thrust, Thruster, ThrusterSet};
 
+use super::at_once::AtOnce;
 use super::pulsed_dump::PulsedDump;
-use super::selected::{Purpose, Selected};
+use super::selected::{Purpose, Selected, Unserved, UnservedDumps};
 use super::thruster_load::{ThrusterLoad, ThrusterTotals};
-use crate::plant::settings::error::ManeuverError;
 use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSettings, ThrustCommand};
-
-/// Forces of a set whose sum is below this share of them cancel.
-const LEAST_FORCE: f64 = 1e-6;
 
 /// The current delta-v.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -49,8 +44,7 @@ pub struct Thrusters {
     dump: Option<PulsedDump>,
     load: ThrusterLoad,
     totals: ThrusterTotals,
-    /// How many dumps found no thrusters that give torque all ways about the centre of mass.
-    unserved_dumps: u32,
+    unserved: UnservedDumps,
     #[serde(skip)]
     for_dumps: Selected,
     #[serde(skip)]
@@ -70,20 +64,22 @@ impl Thrusters {
             dump: None,
             load: ThrusterLoad::none(time_s, 1.0),
             totals: ThrusterTotals::default(),
-            unserved_dumps: 0,
+            unserved: UnservedDumps::default(),
             for_dumps: Selected::default(),
             for_attitude: Selected::default(),
         }
     }
 
-    /// Whether a simulation with so many thrusters and tanks can produce it.
-    pub fn is_valid(&self, thrusters: usize, tanks: usize) -> bool {
-        self.valves.len() == thrusters
-            && self.schedule.len() == thrusters
-            && self.propellant.is_valid(tanks)
+    /// Whether a simulation of this spacecraft can produce it; a decoded state has no settings yet.
+    pub fn is_valid(&self, spacecraft: &Spacecraft) -> bool {
+        let thrusters = &spacecraft.thrusters;
+        let has_members = |set: ThrusterSet| thrusters.iter().any(|thruster| thruster.set == Some(set));
+        self.valves.len() == thrusters.len()
+            && self.schedule.len() == thrusters.len()
+            && self.propellant.is_valid(spacecraft.tanks.len())
             && self.valves.iter().all(Valve::is_valid)
             && self.schedule.iter().all(PulseSchedule::is_valid)
-            && self.burn.is_none_or(|it| it.stop_s > f64::NEG_INFINITY && self.has_thrusters(it.set))
+            && self.burn.is_none_or(|it| it.stop_s > f64::NEG_INFINITY && has_members(it.set))
             && self.dump.as_ref().is_none_or(PulsedDump::is_valid)
             && self.load.is_valid()
     }
@@ -102,8 +98,9 @@ impl Thrusters {
 
     /// Takes the command of a delta-v that holds from `time_s` on; whether it changes what was going to happen.
     pub fn command_thrust(&mut self, command: &ThrustCommand, time_s: f64) -> bool {
-        // A set without thrusters gives no delta-v.
-        let requested = command.set.filter(|set| command.stop_s > due_s(time_s) && self.has_thrusters(*set));
+        // A set without thrusters that are fed gives no delta-v.
+        let requested =
+            command.set.filter(|set| command.stop_s > due_s(time_s) && self.can_burn(*set, time_s));
         let before = self.burn.map(|burn| (burn.set, burn.stop_s));
         if requested.map(|set| (set, command.stop_s)) == before {
             return false;
@@ -145,20 +142,13 @@ impl Thrusters {
     pub fn process_valve_events(&mut self, time_s: f64) {
         let due_s = due_s(time_s);
         let Self { settings, propellant, .. } = self;
-        for (index, tank) in settings.tanks.iter().enumerate() {
-            if propellant.depletion_time_s(index, tank) <= due_s {
-                propellant.empty(index, tank);
-            }
-        }
+        let feed = Feed { settings, propellant, time_s };
         for (k, thruster) in settings.thrusters.iter().enumerate() {
             let (valve, pulse) = (&mut self.valves[k], &mut self.schedule[k]);
-            let feeds = || {
-                let tank = settings.tanks.get(thruster.tank);
-                tank.is_some_and(|tank| tank.feeds(propellant.used_kg(thruster.tank, time_s)))
-            };
-            if valve.is_open() && !feeds() {
+            if !feed.feeds(k) {
                 valve.shut(time_s);
                 pulse.clear();
+                continue;
             }
             if valve.ramp_end_s(&thruster.valve) <= due_s {
                 valve.end_ramp(time_s);
@@ -167,23 +157,17 @@ impl Thrusters {
                 valve.close(&thruster.valve, time_s);
             }
             if pulse.take_opening(&thruster.valve, due_s) {
-                if feeds() {
-                    valve.open(&thruster.valve, time_s, thruster.scatter, settings.errors.seed, k as u16);
-                } else {
-                    pulse.clear();
-                }
+                valve.open(&thruster.valve, time_s, thruster.scatter, settings.errors.seed, k as u16);
             }
         }
-        if self.burn.is_some_and(|burn| burn.stop_s <= due_s) {
-            self.burn = None;
-        }
+        self.burn = self.burn.filter(|burn| burn.stop_s > due_s && self.can_burn(burn.set, time_s));
     }
 
     /// Counts what thrusters did up to `time_s`, the end of the motion's present segment.
     pub fn accumulate(&mut self, motion: &GyrostatMotion, time_s: f64) {
         if !self.load.law.is_none() {
             self.totals = self.totals_at(motion, time_s);
-            self.propellant.accumulate(time_s);
+            self.propellant.accumulate(&self.settings.tanks, time_s);
         }
     }
 
@@ -195,7 +179,7 @@ impl Thrusters {
         if (0..thrusters.len()).all(|k| thrust(k) == [0.0; 2]) {
             return;
         }
-        self.propellant.accumulate(time_s);
+        self.propellant.accumulate(&self.settings.tanks, time_s);
         let mut nozzles_kg_m_s = Vector3::zeros();
         for (index, tank) in self.settings.tanks.iter().enumerate() {
             let fed = || thrusters.iter().enumerate().filter(|(_, thruster)| thruster.tank == index);
@@ -263,8 +247,15 @@ impl Thrusters {
         totals
     }
 
-    fn has_thrusters(&self, set: ThrusterSet) -> bool {
-        self.settings.thrusters.iter().any(|thruster| thruster.set == Some(set))
+    /// Thrusters as their tanks feed them at `time_s`.
+    fn feed(&self, time_s: f64) -> Feed<'_> {
+        Feed { settings: &self.settings, propellant: &self.propellant, time_s }
+    }
+
+    /// Whether a thruster of the set is fed.
+    fn can_burn(&self, set: ThrusterSet, time_s: f64) -> bool {
+        let mut members = self.settings.thrusters.iter().enumerate().filter(|(_, it)| it.set == Some(set));
+        members.any(|(k, _)| self.feed(time_s).feeds(k))
     }
 
     /// The set that gives the current delta-v.
@@ -272,93 +263,40 @@ impl Thrusters {
         self.burn.map(|burn| burn.set)
     }
 
-    /// How many dumps so far began or ended without thrusters that give torque all ways about the centre of mass.
-    pub fn unserved_dumps(&self) -> u32 {
-        self.unserved_dumps
+    /// Dumps so far that thrusters did not carry out, or not to their end.
+    pub fn unserved_dumps(&self) -> UnservedDumps {
+        self.unserved
     }
 
-    /// A dump at once by nominal thrust without a shortest pulse, about this centre of mass: takes the propellant and gives the
-    /// impulse of force, body frame, in N s. None without thrusters that give torque all ways.
-    pub fn dump_at_once(
-        &mut self,
-        event: &DumpEvent,
-        center_of_mass_body_m: &Vector3<f64>,
-    ) -> Option<Vector3<f64>> {
-        let Self { settings, propellant, unserved_dumps, for_dumps, .. } = self;
-        let Some(selection) = for_dumps.about(settings, Purpose::Dump, center_of_mass_body_m) else {
-            *unserved_dumps = unserved_dumps.saturating_add(1);
-            return None;
-        };
-        let mut push_body_n_s = Vector3::zeros();
-        let on_times = selection.on_times_s(&event.impulse_body_n_m_s());
-        for (thruster, full_s) in settings.thrusters.iter().zip(on_times) {
-            push_body_n_s += thruster.force_body_n * full_s;
-            if let Some(tank) = settings.tanks.get(thruster.tank) {
-                propellant.take(thruster.tank, tank, thruster.flow_kg_s * full_s);
-            }
-        }
-        Some(push_body_n_s)
+    /// What they do at once at `time_s`.
+    pub(crate) fn at_once(&mut self, time_s: f64) -> AtOnce<'_> {
+        let Self { settings, propellant, unserved, for_dumps, .. } = self;
+        AtOnce { settings, propellant, for_dumps, unserved, time_s }
     }
 
-    /// A delta-v of this magnitude at once by nominal thrust of a set, of a spacecraft of this mass: takes the propellant
-    /// m (1 - exp(-dv / c)) from the set's tanks as it flows, c being the set's force over its flow. A set without thrusters takes
-    /// none.
+    /// Begins a dump by pulses toward a total momentum, EME2000, in N m s, at the end of the motion.
     ///
     /// # Errors
-    /// A set whose forces cancel, or more propellant than there is.
-    pub(crate) fn give_at_once(
-        &mut self,
-        set: ThrusterSet,
-        delta_v_m_s: f64,
-        mass_kg: f64,
-        time_s: f64,
-    ) -> Result<(), ManeuverError> {
-        let Self { settings, propellant, .. } = self;
-        let members = || settings.thrusters.iter().filter(|it| it.set == Some(set));
-        if members().next().is_none() {
-            return Ok(());
-        }
-        let [force_body_n, _] = settings.nominal_thrust(set, &Vector3::zeros());
-        let force_n = force_body_n.norm();
-        if force_n <= LEAST_FORCE * members().map(|it| it.force_body_n.norm()).sum::<f64>() {
-            return Err(ManeuverError::WithoutThrust { found_n: force_n });
-        }
-        let total_kg_s: f64 = members().map(|it| it.flow_kg_s).sum();
-        let exhaust_m_s = force_n / total_kg_s;
-        let used_kg = mass_kg * -math::exp_m1(-delta_v_m_s / exhaust_m_s);
-        let needed = |tank: usize| {
-            let flow_kg_s: f64 = members().filter(|it| it.tank == tank).map(|it| it.flow_kg_s).sum();
-            used_kg * (flow_kg_s / total_kg_s)
-        };
-        for (index, tank) in settings.tanks.iter().enumerate() {
-            let (needed_kg, left_kg) = (needed(index), tank.left_kg(propellant.used_kg(index, time_s)));
-            if needed_kg > left_kg {
-                return Err(ManeuverError::Propellant { tank: tank.name.clone(), needed_kg, left_kg });
-            }
-        }
-        for (index, tank) in settings.tanks.iter().enumerate() {
-            propellant.take(index, tank, needed(index));
-        }
-        Ok(())
-    }
-
-    /// Begins a dump by pulses toward a total momentum, EME2000, in N m s, at the end of the motion; false where no thrusters give
-    /// torque all ways about this centre of mass.
-    pub fn begin_dump(
+    /// No thrusters that are fed give torque all ways about this centre of mass.
+    pub(crate) fn begin_dump(
         &mut self,
         motion: &GyrostatMotion,
         target_inertial_n_m_s: Vector3<f64>,
         center_of_mass_body_m: &Vector3<f64>,
-    ) -> bool {
-        if self.for_dumps.about(&self.settings, Purpose::Dump, center_of_mass_body_m).is_none() {
-            self.dump = None;
-            self.unserved_dumps = self.unserved_dumps.saturating_add(1);
-            return false;
-        }
+    ) -> Result<(), Unserved> {
         let time_s = motion.end_s();
+        let Self { settings, propellant, for_dumps, .. } = self;
+        let feed = Feed { settings, propellant, time_s };
+        if let Err(unserved) = for_dumps.about(&feed, Purpose::Dump, center_of_mass_body_m) {
+            self.unserved.count(unserved);
+            if unserved == Unserved::OneSided {
+                self.dump = None;
+            }
+            return Err(unserved);
+        }
         let before = self.totals_at(motion, time_s);
         self.dump = Some(PulsedDump::new(target_inertial_n_m_s, motion.attitude_at(time_s), before, time_s));
-        true
+        Ok(())
     }
 
     /// Whether a dump lasts.
@@ -400,25 +338,25 @@ impl Thrusters {
         let totals = self.totals_at(motion, time_s);
         let Self { settings, propellant, valves, schedule, for_dumps, .. } = self;
         let center_of_mass_body_m = &mass.center_of_mass_body_m;
-        let selection = for_dumps.about(settings, Purpose::Dump, center_of_mass_body_m);
-        if selection.is_none() {
-            self.unserved_dumps = self.unserved_dumps.saturating_add(1);
+        let feed = Feed { settings, propellant, time_s };
+        let selection = for_dumps.about(&feed, Purpose::Dump, center_of_mass_body_m);
+        if let Err(unserved) = selection {
+            self.unserved.count(unserved);
         }
         let mut pairs = valves.iter().zip(&settings.thrusters);
         let fires = pairs.any(|(valve, it)| valve.thrust(&it.valve, time_s) != [0.0; 2]);
         match selection {
-            // What is left in the valves still comes out.
-            Some(_) if dump.is_last && fires => return,
-            Some(selection) if !dump.is_last => {
+            Ok(selection) if !dump.is_last => {
                 let attitude = motion.attitude_at(time_s);
                 let left_body_n_m_s =
                     attitude.body_from_inertial(&(dump.target_inertial_n_m_s - momentum_inertial_n_m_s));
-                let feed = Feed { settings, propellant, time_s };
                 let opened_s = dump.decide(&feed, selection, &left_body_n_m_s, center_of_mass_body_m);
                 for (k, on_s) in opened_s.iter().enumerate().filter(|(_, on_s)| **on_s > 0.0) {
                     schedule[k].plan(&settings.thrusters[k].valve, time_s, time_s + on_s);
                 }
             }
+            // What is left in the valves still comes out.
+            _ if fires => return,
             _ => dump.after = Some(totals),
         }
         self.dump = Some(dump);
@@ -435,9 +373,9 @@ impl Thrusters {
     ) -> Option<f64> {
         let purpose = Purpose::Attitude { burning: self.burning() };
         let Self { settings, propellant, schedule, for_attitude, .. } = self;
-        let selection = for_attitude.about(settings, purpose, &mass.center_of_mass_body_m)?;
-        let impulse_body_n_m_s = torque_body_n_m * period_s;
         let feed = Feed { settings, propellant, time_s };
+        let selection = for_attitude.about(&feed, purpose, &mass.center_of_mass_body_m).ok()?;
+        let impulse_body_n_m_s = torque_body_n_m * period_s;
         let times = selection.on_times_s(&impulse_body_n_m_s).enumerate();
         let longest_s = times.clone().map(|(k, full_s)| feed.opens_for_s(k, full_s)).fold(0.0, f64::max);
         let given = if longest_s > period_s { period_s / longest_s } else { 1.0 };
@@ -458,23 +396,24 @@ impl Thrusters {
         Some(given)
     }
 
-    /// Whether thrusters other than a delta-v's give torque all ways.
-    pub fn spans(&mut self, mass: &MassProperties) -> bool {
+    /// Whether thrusters that are fed at `time_s`, other than a delta-v's, give torque all ways.
+    pub fn spans(&mut self, mass: &MassProperties, time_s: f64) -> bool {
         let purpose = Purpose::Attitude { burning: self.burning() };
-        !self.settings.thrusters.is_empty()
-            && self.for_attitude.about(&self.settings, purpose, &mass.center_of_mass_body_m).is_some()
+        let Self { settings, propellant, for_attitude, .. } = self;
+        let feed = Feed { settings, propellant, time_s };
+        !settings.thrusters.is_empty()
+            && for_attitude.about(&feed, purpose, &mass.center_of_mass_body_m).is_ok()
     }
 
     /// Thrust of thruster `k` at `time_s`, in N.
     pub fn thrust_n(&self, k: usize, time_s: f64) -> f64 {
-        let Self { settings, propellant, .. } = self;
-        let thruster = &settings.thrusters[k];
+        let thruster = &self.settings.thrusters[k];
         let [fraction, slope] = self.valves[k].thrust(&thruster.valve, self.load.law.since_s);
         let share = fraction + slope * (time_s - self.load.law.since_s).max(0.0);
         if share == 0.0 {
             return 0.0;
         }
-        thruster.force_body_n.norm() * share * Feed { settings, propellant, time_s }.pressure_ratio(k)
+        thruster.force_body_n.norm() * share * self.feed(time_s).pressure_ratio(k)
     }
 
     /// Pulses that thruster `k` has begun.

@@ -1,10 +1,11 @@
-//! Which thrusters give which torque about a centre of mass: worked out where it is another.
+//! Which thrusters give which torque about a centre of mass: worked out where it or what the tanks feed is another.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
-use crate::plant::settings::reaction_control_settings::ReactionControlSettings;
+use crate::plant::settings::reaction_control_settings::Feed;
 use crate::propulsion::ThrusterSelection;
-use crate::spacecraft::ThrusterSet;
+use crate::spacecraft::{MOST_THRUSTERS, ThrusterSet};
 
 /// What thrusters are selected for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,29 +16,77 @@ pub(super) enum Purpose {
     Attitude { burning: Option<ThrusterSet> },
 }
 
+/// Why no thrusters give torque all ways.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unserved {
+    /// Those that would are not fed.
+    Unfed,
+    /// None would about this centre of mass, were they fed or not.
+    OneSided,
+}
+
+/// How many dumps thrusters did not carry out, or not to their end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct UnservedDumps {
+    /// For want of propellant.
+    pub unfed: u32,
+    /// For want of thrusters that give torque all ways about the centre of mass.
+    pub one_sided: u32,
+}
+
+impl UnservedDumps {
+    /// Counts one.
+    pub(super) fn count(&mut self, unserved: Unserved) {
+        let count = match unserved {
+            Unserved::Unfed => &mut self.unfed,
+            Unserved::OneSided => &mut self.one_sided,
+        };
+        *count = count.saturating_add(1);
+    }
+}
+
+/// What a selection follows from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Basis {
+    center_of_mass_body_m: Vector3<f64>,
+    purpose: Purpose,
+    fed: [bool; MOST_THRUSTERS],
+}
+
 /// The last selection; a cache.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Selected(Option<(Vector3<f64>, Purpose, Option<ThrusterSelection>)>);
+pub(super) struct Selected(Option<(Basis, Result<ThrusterSelection, Unserved>)>);
 
 impl Selected {
-    /// The thrusters for this, none where they do not give torque all ways.
+    /// The thrusters for this that are fed.
+    ///
+    /// # Errors
+    /// They do not give torque all ways.
     pub(super) fn about(
         &mut self,
-        settings: &ReactionControlSettings,
+        feed: &Feed<'_>,
         purpose: Purpose,
         center_of_mass_body_m: &Vector3<f64>,
-    ) -> Option<&ThrusterSelection> {
-        if self.0.as_ref().is_none_or(|(center, last, _)| center != center_of_mass_body_m || *last != purpose)
-        {
+    ) -> Result<&ThrusterSelection, Unserved> {
+        let settings = feed.settings;
+        let fed = core::array::from_fn(|k| k < settings.thrusters.len() && feed.feeds(k));
+        let basis = Basis { center_of_mass_body_m: *center_of_mass_body_m, purpose, fed };
+        if self.0.as_ref().is_none_or(|(last, _)| *last != basis) {
             self.0 = None;
         }
-        let (_, _, selection) = self.0.get_or_insert_with(|| {
-            let found = match purpose {
-                Purpose::Dump => settings.dump_selection(center_of_mass_body_m),
-                Purpose::Attitude { burning } => settings.attitude_selection(burning, center_of_mass_body_m),
+        let (_, selection) = self.0.get_or_insert_with(|| {
+            let of = |is_fed: &dyn Fn(usize) -> bool| match purpose {
+                Purpose::Dump => settings.dump_selection(is_fed, center_of_mass_body_m),
+                Purpose::Attitude { burning } => {
+                    settings.attitude_selection(burning, is_fed, center_of_mass_body_m)
+                }
             };
-            (*center_of_mass_body_m, purpose, found.ok())
+            let selected = of(&|k| fed[k]).map_err(|_| match of(&|_| true) {
+                Ok(_) => Unserved::Unfed,
+                Err(_) => Unserved::OneSided,
+            });
+            (basis, selected)
         });
-        selection.as_ref()
+        selection.as_ref().map_err(|unserved| *unserved)
     }
 }

@@ -67,6 +67,30 @@ fn a_tank_runs_dry_when_its_flow_has_summed_up() {
     assert_eq!(used.depletion_time_s(0, &tank), f64::INFINITY, "the flow stops before");
 }
 
+/// Rounding leaves nothing to feed, whether it flows out or is taken at once, at times small and large.
+#[test]
+fn a_tank_that_has_run_dry_feeds_no_more() {
+    let gas = Blowdown { ullage_m3: 0.02, density_kg_m3: 1000.0 };
+    let falling = Tank { blowdown: Some(gas), allowed_pa: [1e6, 3e6], ..tank(Vector3::zeros(), 40.0) };
+    for (tank, usable_kg) in [(tank(Vector3::zeros(), 1e-3), 1e-3), (falling, 20.0)] {
+        for since_s in [0.0, 0.1, 3e8] {
+            for flow in [[0.1, 0.0], [0.07, 0.01], [0.1, -1e-5]] {
+                let mut used = PropellantState::new(1, since_s);
+                used.add_flow(0, flow);
+                let end_s = used.depletion_time_s(0, &tank);
+                used.accumulate(core::slice::from_ref(&tank), end_s);
+                assert_eq!(
+                    (used.used_kg(0, end_s + 9.0), tank.feeds(used.used_kg(0, end_s))),
+                    (usable_kg, false)
+                );
+            }
+        }
+        let mut used = PropellantState::new(1, 0.0);
+        (0..7).for_each(|_| used.take(0, &tank, usable_kg / 7.0));
+        assert_eq!((used.used_kg(0, 0.0), tank.feedable_kg(usable_kg)), (usable_kg, 0.0));
+    }
+}
+
 #[test]
 fn blowdown_follows_boyle() {
     let gas = Blowdown { ullage_m3: 0.02, density_kg_m3: 1000.0 };

@@ -31,6 +31,7 @@ const IMPULSE_PANEL_MASS: f64 = 0.25;
 const EDGE_ROUNDING: f64 = 1e-11;
 
 /// For the impulse of a turning thruster.
+const _: () = assert!(!core::mem::needs_drop::<Rule<8>>());
 static IMPULSE_RULE: LazyLock<Rule<8>> = LazyLock::new(Rule::gauss_legendre);
 
 enumeration! {

@@ -71,6 +71,38 @@ fn leap_seconds_are_seconds_of_their_own() {
 }
 
 #[test]
+fn dates_in_other_scales_and_julian_dates_are_the_same_epochs() {
+    let s = |text: &str| epoch_s(text).unwrap();
+    // One instant: TT is 32.184 s ahead of TAI, TAI 34 s ahead of UTC in 2009; TDB follows TT to 2 ms.
+    for (text, later_s) in [
+        ("2009-04-06T00:00:00Z", 0.0),
+        ("2009-04-06 Z", 0.0),
+        ("2009-04-06T00:00:34 TAI", 0.0),
+        ("2009-04-06T00:01:06.184 TT", 0.0),
+        ("JD 2454927.5 UTC", 0.0),
+        ("2454927.5 JD UTC", 0.0),
+        ("JD2454927.5Z", 0.0),
+        ("JD 2454927.5 TAI", -34.0),
+        ("JD 2454927.5 TT", -66.184),
+        ("JD 2454927.5", -66.184),
+        ("2454927.5 JD", -66.184),
+        // A day of UTC is 86400 s, 2017 too begins at midnight, behind three more leap seconds.
+        ("JD 2457754.5 UTC", (2_457_754.5 - 2_454_927.5) * 86_400.0 + 3.0),
+        ("JD 2454927.500000001 UTC", 8.64e-5),
+    ] {
+        assert_abs_diff_eq!(s(text) - s("2009-04-06 UTC"), later_s, epsilon = 4e-3);
+        assert!(looks_like_date(text), "{text}");
+    }
+    assert_eq!(s("JD 2457754.5 UTC"), s("2017-01-01 UTC"));
+    assert_eq!(s("JD 2454927.5 TDB"), MOMENTUM_STUDY_START_S);
+    assert_eq!(s("JD 2451545 TDB"), 0.0);
+    assert_abs_diff_eq!(s("JD 2454927.500000001 TDB") - MOMENTUM_STUDY_START_S, 8.64e-5, epsilon = 1e-7);
+    for text in ["90 min", "nadir", "5 m", "JD", "MATT", "1e3", "-2 d", "JDx"] {
+        assert!(!looks_like_date(text), "{text}");
+    }
+}
+
+#[test]
 fn a_date_is_written_as_it_was_read() {
     for date in [
         "1972-01-01T00:00:00 UTC",
@@ -89,7 +121,11 @@ fn a_date_is_written_as_it_was_read() {
 fn what_is_no_date_is_reported() {
     for (text, error) in [
         ("2008-03-19T19:30:00", DateError::Scale),
-        ("2008-03-19T19:30:00Z", DateError::Scale),
+        ("JD 2454544.5e0 TDB", DateError::Form),
+        ("JD 24545440.5 TDB", DateError::Form),
+        ("JD 2454544. TDB", DateError::Form),
+        ("JD TDB", DateError::Form),
+        ("JD 2441317.4 UTC", DateError::BeforeUtc),
         ("2008-03-19T19:30:00 GPS", DateError::Scale),
         ("90 min", DateError::Form),
         ("UTC", DateError::Form),

@@ -53,7 +53,7 @@ fn an_epoch_takes_a_date() {
     let text = written("Start.Epoch=2009-04-06 TDB").unwrap();
     assert_eq!(text, "[start]\n\"start.epoch\" = 292248000.0\n");
     let refused = written("start.epoch=2009-04-06").unwrap_err().to_string();
-    assert!(refused.contains("does not end in UTC or TDB"), "{refused}");
+    assert!(refused.contains("does not end in UTC, Z, TDB, TT or TAI"), "{refused}");
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn a_time_takes_a_date_that_counts_from_the_epoch_set_beside_it() {
         "[start]\n\"burn.start\" = 86400.0\n"
     );
     let refused = written(&["burn.start=2009-04-06"]).unwrap_err().to_string();
-    assert!(refused.contains("does not end in UTC or TDB"), "{refused}");
+    assert!(refused.contains("does not end in UTC, Z, TDB, TT or TAI"), "{refused}");
     description.variables[0].name = "other".to_owned();
     let refused = with_values("", START, "Plant", &description, &settings(&["burn.start=2009-04-06 TDB"]));
     let refused = refused.unwrap_err().to_string();

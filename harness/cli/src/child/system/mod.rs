@@ -12,6 +12,6 @@ use windows as own;
 
 pub(crate) use own::end_all;
 pub(super) use own::{
-    Pipe, committed_bytes, describe_exit, end, end_with_parent, has_ended, restrict, spawn, take_stdin,
-    wait_for,
+    Pipe, available_bytes, committed_bytes, describe_exit, end, end_with_parent, has_ended, is_from_outside,
+    restrict, spawn, take_stdin, wait_for,
 };

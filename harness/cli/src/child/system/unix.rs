@@ -258,3 +258,22 @@ pub(crate) fn describe_exit(status: ExitStatus) -> String {
         None => status.to_string(),
     }
 }
+
+/// Whether a process was ended by a signal that others send.
+pub(crate) fn is_from_outside(status: ExitStatus) -> bool {
+    let signals = [Signal::HUP, Signal::INT, Signal::KILL, Signal::TERM];
+    status.signal().is_some_and(|found| signals.iter().any(|signal| signal.as_raw() == found))
+}
+
+/// Memory that is available, in bytes, within the bound of the process's group where it has one; `None` where no system says.
+pub(crate) fn available_bytes() -> Option<u64> {
+    let number = |text: &str| text.trim().parse::<u64>().ok();
+    let of_host = std::fs::read_to_string("/proc/meminfo").ok().and_then(|text| {
+        let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+        number(line.trim().strip_suffix("kB")?)?.checked_mul(1024)
+    })?;
+    let of_group = |file: &str| number(&std::fs::read_to_string(format!("/sys/fs/cgroup/{file}")).ok()?);
+    let left =
+        of_group("memory.max").map(|most| most.saturating_sub(of_group("memory.current").unwrap_or(0)));
+    Some(left.map_or(of_host, |left| left.min(of_host)))
+}

@@ -328,3 +328,13 @@ pub(crate) fn describe_exit(status: ExitStatus) -> String {
     };
     format!("exception {:#010x} ({name})", code as u32)
 }
+
+/// Whether a process was ended by others; its status does not say.
+pub(crate) fn is_from_outside(_status: ExitStatus) -> bool {
+    false
+}
+
+/// Memory that is available; not asked for, as [`committed_bytes`] is measured.
+pub(crate) fn available_bytes() -> Option<u64> {
+    None
+}

@@ -1,6 +1,7 @@
 //! The picture of `run --plot`: one panel per vector or variable, in display units.
 
 use std::{
+    collections::BTreeMap,
     error::Error,
     path::{Path, PathBuf},
 };
@@ -8,12 +9,12 @@ use std::{
 use drawing::{COLOURS, Chart, Mark, Panel, Series};
 use files::Destination;
 use loader::{Column, Recording};
-use model_description::{Causality, Description};
+use model_description::{Causality, Description, ScalarVariable, value};
 
 use super::{
     exporter::Exporter,
     known::Known,
-    shown::{ANGLE_UNIT, ROUNDING, Shown, find},
+    shown::{ANGLE_UNIT, ROUNDING},
     time_axis::TimeAxis,
 };
 use crate::variables::vector;
@@ -140,8 +141,9 @@ pub(crate) fn panel(
     seconds: f64,
 ) -> Option<Panel> {
     // With those that it is large or small against.
+    let of_variable = group(variable);
     let together: Vec<String> =
-        recording.names.iter().filter(|name| group(name) == group(variable)).cloned().collect();
+        recording.names.iter().filter(|name| group(name) == of_variable).cloned().collect();
     let groups = groups(described, &recording.only(&together), &Known::default(), seconds);
     groups.into_iter().find_map(|Group { name, mut panel, .. }| {
         panel.series.retain(|series| series.label == variable);
@@ -154,9 +156,12 @@ pub(crate) fn panel(
 /// What is drawn together, in the order of the recording.
 fn groups(described: &Description, recording: &Recording, known: &Known, seconds: f64) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
-    for (name, column) in drawn(described, recording) {
+    // The panel of a name and a label that has room for another line.
+    let mut with_room: BTreeMap<(String, String), usize> = BTreeMap::new();
+    let variables = by_name(described);
+    for (name, column) in drawn(&variables, recording) {
         let vector = group(name);
-        let variable = find(described, name);
+        let variable = variables.get(name).copied();
         let display = variable.and_then(|variable| loader::display_unit(described, variable));
         let own = variable.and_then(|variable| loader::unit(described, variable)).unwrap_or_default();
         let (unit, factor, offset) = display.unwrap_or((own, 1.0, 0.0));
@@ -169,15 +174,16 @@ fn groups(described: &Description, recording: &Recording, known: &Known, seconds
         let y_label =
             if unit.is_empty() || unit == "1" { vector.clone() } else { format!("{vector} [{unit}]") };
         // What belongs together may stand apart in the description: wheel[1].momentum, wheel[1].speed, wheel[2]...
-        let with_space = groups.iter().position(|group| {
-            group.name == vector && group.panel.y_label == y_label && group.panel.series.len() < COLOURS.len()
-        });
+        let key = (vector, y_label);
+        let with_space = with_room.get(&key).copied();
+        let with_space = with_space.filter(|at| groups[*at].panel.series.len() < COLOURS.len());
         let position = with_space.unwrap_or_else(|| {
             let scale = (own == ANGLE_UNIT).then_some(factor.abs());
-            groups.push(Group::new(vector, y_label, scale));
+            groups.push(Group::new(key.0.clone(), key.1.clone(), scale));
+            with_room.insert(key, groups.len() - 1);
             groups.len() - 1
         });
-        groups[position].name_values(described, name, &series);
+        groups[position].name_values(described, variable, &series);
         groups[position].add(series, known, |value| factor * value + offset);
     }
     groups.iter_mut().for_each(Group::still);
@@ -214,9 +220,8 @@ impl Group {
     }
 
     /// Names the values of an Enumeration that it takes.
-    fn name_values(&mut self, described: &Description, variable: &str, series: &Series) {
-        let shown = Shown::of(described, variable);
-        for item in shown.items {
+    fn name_values(&mut self, described: &Description, variable: Option<&ScalarVariable>, series: &Series) {
+        for item in variable.map_or(&[][..], |variable| value::items(described, variable)) {
             let value = f64::from(item.value);
             let is_taken = series.points.iter().any(|(_, taken)| *taken == value);
             if is_taken && self.panel.names.iter().all(|(known, _)| *known != value) {
@@ -358,12 +363,20 @@ pub(crate) fn is_lit_fraction(name: &str) -> bool {
     name.strip_suffix(LIT_FRACTION).is_some_and(|part| part.is_empty() || part.ends_with('.'))
 }
 
+/// Variables by name.
+fn by_name(described: &Description) -> BTreeMap<&str, &ScalarVariable> {
+    described.variables.iter().map(|variable| (variable.name.as_str(), variable)).collect()
+}
+
 /// The columns worth drawing: no texts, and no inputs that nobody used, unless there is nothing else.
-fn drawn<'a>(described: &Description, recording: &'a Recording) -> Vec<(&'a str, &'a Column)> {
+fn drawn<'a>(
+    variables: &BTreeMap<&str, &ScalarVariable>,
+    recording: &'a Recording,
+) -> Vec<(&'a str, &'a Column)> {
     let columns = recording.names.iter().map(String::as_str).zip(&recording.columns);
     let numbers: Vec<_> = columns.filter(|(_, column)| !matches!(column, Column::Text(_))).collect();
     let unused = |name: &str, column: &Column| {
-        find(described, name).is_some_and(|variable| variable.causality == Causality::Input)
+        variables.get(name).is_some_and(|variable| variable.causality == Causality::Input)
             && column.numbers().iter().all(|value| *value == 0.0)
     };
     let used: Vec<_> = numbers.iter().copied().filter(|(name, column)| !unused(name, column)).collect();

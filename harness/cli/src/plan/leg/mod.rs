@@ -9,18 +9,18 @@ mod schema;
 
 use std::{cell::RefCell, path::Path, process::ExitCode, time::Instant};
 
-use ::files::Scratch;
+use ::files::{OutputFolder, Scratch};
 use physics::{
     constants::DAY_S,
     environment::{dates, orbit::LambertError},
 };
-use planner::leg::{FlybyAimpoint, Leg, LegError, LegTask, report, shoot};
+use planner::leg::{FlybyAimpoint, Leg, LegError, LegTask, MOST_LEG_S, report, shoot};
 use toml_edit::{DocumentMut, value};
 
 pub(crate) use self::options::LegOptions;
 use self::{file::LegFile, flights::LegFlights};
 use super::{
-    files::write_all,
+    files::{check_standing, write_all},
     flights::{Failure, SimulatedMission},
     mission_text,
 };
@@ -166,6 +166,14 @@ fn check(file: &LegFile, mission: &SimulatedMission, arrival_s: f64) -> Result<(
             .problem(&file.arrive, "found a time that is not after the departure, allowed: a later one")
             .into());
     }
+    if arrival_s - mission.start_s > MOST_LEG_S {
+        let years = terminal::short((arrival_s - mission.start_s) / (365.25 * DAY_S));
+        let what = format!(
+            "found a time {years} years behind the departure, allowed: up to {} years behind it",
+            terminal::short(MOST_LEG_S / (365.25 * DAY_S))
+        );
+        return Err(file.problem(&file.arrive, &what).into());
+    }
     if let Some(table) = &mission.inputs {
         let variables = &mission.fmu.description().variables;
         let mut names = table.positions().map(|position| variables[position].name.as_str());
@@ -180,8 +188,8 @@ fn check(file: &LegFile, mission: &SimulatedMission, arrival_s: f64) -> Result<(
 pub(crate) fn run(options: &LegOptions) -> Outcome {
     let began = Instant::now();
     let file = LegFile::read(&options.leg)?;
-    std::fs::create_dir_all(&options.output)
-        .map_err(|error| format!("{}: {error}: see --output", options.output.display()))?;
+    check_standing(&options.output, NAMES)?;
+    let _folder = OutputFolder::create(&options.output, "--output")?;
     let of_leg = LegMission::read(&file)?;
     let last = RefCell::new(String::new());
     let say = |doing: &str| {
@@ -191,9 +199,8 @@ pub(crate) fn run(options: &LegOptions) -> Outcome {
         }
     };
     let scratch = Scratch::new()?;
-    let begun = scratch.path().join(NAMES[0]);
     // At rest it would fall into the Sun; every flight has a velocity of its own.
-    std::fs::write(&begun, of_leg.text(scratch.path(), &[0.0; 3])?)?;
+    let begun = scratch.write(NAMES[0], of_leg.text(scratch.path(), &[0.0; 3])?)?;
     let in_mission = |error: Failure| {
         let text =
             error.to_string().replace(&begun.display().to_string(), &file.mission.it.display().to_string());
@@ -247,7 +254,9 @@ fn refusal(file: &LegFile, error: &LegError, in_mission: &dyn Fn(Failure) -> Str
     match error {
         LegError::Inside { .. } | LegError::Lost { .. } => file.problem(&file.aimpoint, &what),
         LegError::Lambert(LambertError::TooShort { .. }) => file.problem(&file.revolutions, &what),
-        LegError::Lambert(LambertError::Time { .. }) => file.problem(&file.arrive, &what),
+        LegError::Fast { .. } | LegError::Lambert(LambertError::Time { .. }) => {
+            file.problem(&file.arrive, &what)
+        }
         LegError::Lambert(_) | LegError::Orbit(_) => file.problem(&file.position_m, &what),
         LegError::Flight(_) => in_mission(what.into()),
     }

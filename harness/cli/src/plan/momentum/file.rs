@@ -72,6 +72,15 @@ impl PlanFile {
         at.problem(&self.file, what)
     }
 
+    /// Every time that counts by the clock of the mission.
+    pub(super) fn instants_mut(&mut self) -> impl Iterator<Item = &mut values::Instant> {
+        let flyby = self.flyby.iter_mut().flat_map(|at| [&mut at.it.time, &mut at.it.from]);
+        let next = self.compare.iter_mut().map(|at| &mut at.it.next.it);
+        let contacts = self.contacts.iter_mut().flat_map(|at| &mut at.it);
+        let activities = self.activities.iter_mut().flat_map(|at| &mut at.it.span);
+        flyby.flatten().map(|at| &mut at.it).chain(next).chain(contacts).chain(activities)
+    }
+
     /// A time of the mission that the file gives, in s.
     pub(super) fn time_s<T>(
         &self,

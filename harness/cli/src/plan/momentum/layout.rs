@@ -90,6 +90,7 @@ pub(super) fn orbit_layout(
     Ok(Layout {
         frozen_until_s: mission.start_s + file.freeze_s.it,
         occupied: timeline.occupied(mission.stop_s),
+        own: timeline.own(mission.start_s, &[], &[]),
         ..Layout::of_downlinks(downlinks_s, control_bounds, sun_offset_rad)
     })
 }
@@ -131,6 +132,12 @@ pub(super) fn layout(
         timeline.arrays_rad.first().and_then(|(_, angles)| angles.first().copied()).unwrap_or_else(|| {
             if sides.is_empty() { 0.0 } else { mission.values().real("panel[1].sunOffset") }
         });
+    let offsets_rad =
+        (1..=all_sides.len()).map(|number| mission.values().real(&format!("panel[{number}].sunOffset")));
+    let own = match arrays_are_frozen {
+        true => timeline.own(mission.start_s, &all_sides, &offsets_rad.collect::<Vec<_>>()),
+        false => Vec::new(),
+    };
     Ok(Layout {
         frozen_until_s: mission.start_s + file.freeze_s.it,
         arrays_are_frozen,
@@ -145,8 +152,10 @@ pub(super) fn layout(
             azimuth_rad: file.azimuth_rad.unwrap_or(0.0).min(zone_rad[0]),
             elevation_rad: file.elevation_rad.unwrap_or(0.0).min(zone_rad[1]),
             alternate: file.alternation,
+            alternate_apart: file.flyby.is_some(),
         },
-        in_force: timeline.in_force(&all_sides),
+        in_force: timeline.in_force(&own),
+        own,
         corridor: mission.corridor(),
         offset_sign: if offset_rad < 0.0 { -1.0 } else { 1.0 },
         frozen_offset_rad: offset_rad,
@@ -169,7 +178,7 @@ pub(super) fn refit(plan: &PlanFile, at: &At<PathBuf>) -> Result<RefitValues, St
     let path = if is_toml { at.it.with_extension("json") } else { at.it.clone() };
     let found = ::files::read_text(&path).and_then(|text| refit_file::read(&text));
     found.map_err(|error| {
-        let allowed = "allowed: the JSON that `heliotorque refit` writes";
+        let allowed = "allowed: the JSON that `heliotorque refit` writes of a fit that is trusted";
         plan.problem(at, &format!("found {}: {error}, {allowed}", path.display()))
     })
 }

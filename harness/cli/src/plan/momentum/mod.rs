@@ -15,6 +15,7 @@ mod written;
 
 use std::{cell::RefCell, path::Path, process::ExitCode, time::Instant};
 
+use ::files::OutputFolder;
 use drawing::{Chart, DrawingError, Picture};
 use nalgebra::{Matrix4, Vector3};
 use physics::guidance::timeline::Timeline;
@@ -36,7 +37,7 @@ use self::{
     timeline::MissionTimeline,
 };
 use super::{
-    files::write_all,
+    files::{check_standing, write_all},
     flights::{Failure, SimulatedMission},
 };
 use crate::{assembly::spacecraft_of, interrupt, outcome::Outcome, reading::At};
@@ -92,6 +93,7 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
         let begun = PlanFile { update: None, ..updated };
         let mut planned = opened(options, &begun, began)?;
         planned.keeps = Some(folder);
+        planned.file.update = file.update.clone();
         return Ok(planned);
     }
     let file = &frozen_until_from(file, &mission)?;
@@ -137,6 +139,7 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
     let last = RefCell::new(String::new());
     Ok(Planned {
         options,
+        file: file.clone(),
         mission,
         timeline,
         sunlit,
@@ -189,9 +192,13 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     let began = Instant::now();
     let file = PlanFile::read(&options.plan)?;
     kind.check(&file)?;
-    std::fs::create_dir_all(&options.output)
-        .map_err(|error| format!("{}: {error}: see --output", options.output.display()))?;
+    check_standing(&options.output, NAMES)?;
+    let _folder = OutputFolder::create(&options.output, "--output")?;
     let planned = opened(options, &file, began)?;
+    let file = &planned.file;
+    if let Some(flyby_task) = &planned.flyby_task {
+        flyby::check(&planned, flyby_task)?;
+    }
     let encounter =
         planned.flyby_task.as_ref().map(|it| Ok::<_, Failure>((flyby::before(&planned, it)?, it)));
     let mut encounter = encounter.transpose()?;
@@ -223,7 +230,7 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
         }
         Err(error) => return Err(error.to_string().into()),
     };
-    let prices = prices::all(&file, &planned, &found)?;
+    let prices = prices::all(file, &planned, &found)?;
     let events = events(&planned, &found);
     let panels = planned.sunlit.spacecraft.panels.iter().map(|panel| panel.windmill_side);
     let sides: Vec<f64> = panels.filter(|_| !planned.mission.is_in_orbit()).collect();
@@ -233,7 +240,7 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     let seeds = planned.simulate_seeds(&found.windows, &found.dumps)?;
     let mut of_flyby = Vec::new();
     if let Some((report, flyby_task)) = &mut encounter {
-        let sensitivity = flyby::complete(report, &file, (&planned, flyby_task), &found)?;
+        let sensitivity = flyby::complete(report, file, (&planned, flyby_task), &found)?;
         of_flyby = vec![
             (flyby::NAMES[0], String::from_utf8(report.desired_csv()?)?),
             (flyby::NAMES[1], sensitivity),
@@ -272,7 +279,7 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
         }
     }
     if found.exceeded.is_some() {
-        check_contacts(&file, &planned, &found)?;
+        check_contacts(file, &planned, &found)?;
     }
     let is_planned = report::status(&found, &planned.task) == "planned";
     Ok(if is_planned { ExitCode::SUCCESS } else { ExitCode::FAILURE })
@@ -329,7 +336,7 @@ fn check_contacts(file: &PlanFile, planned: &Planned<'_>, found: &MomentumPlan) 
     let start_s = planned.mission.start_s;
     let [from_d, to_d] = [window.start_s, window.stop_s].map(|time_s| (time_s - start_s) / 86_400.0);
     let what = format!(
-        "found contacts that fill the window from day {from_d:.1} to {to_d:.1}, allowed: some time without contact: no plan holds without alternation there"
+        "found contacts that fill the window from day {from_d:.1} to {to_d:.1}, allowed: some time without contact: no plan was found without alternation there"
     );
     Err(file.problem(at, &what).into())
 }
@@ -371,9 +378,12 @@ fn summary(
         ),
     ];
     if let Some(exceeded) = &found.exceeded {
+        let bound = match found.dumps_at_least {
+            0 => "no plan without a dump was found".to_owned(),
+            count => format!("no plan holds without a dump: {count} at least on this baseline"),
+        };
         lines.push(format!(
-            "no plan holds without a dump: {} at least, the limit being exceeded by {:.3} N.m.s, first on day {:.1}; {} may be ([momentum] dumps)",
-            found.dumps_at_least,
+            "{bound}; the limit is exceeded by {:.3} N.m.s at the least that was found, first on day {:.1}; {} may be ([momentum] dumps)",
             exceeded.excess_n_m_s,
             day(exceeded.first_s),
             planned.task.dumps,
@@ -384,11 +394,17 @@ fn summary(
         lines.push("dumps: 0".to_owned());
     }
     if !found.holds {
-        lines.push("the last flight does not agree with the plan, or exceeds the limit".to_owned());
+        lines.push(
+            "no plan was found that holds: the best flight exceeds the limit, or misses its aim".to_owned(),
+        );
     }
-    let gap = match found.changes - found.changes_at_least {
-        0 => "no plan has fewer".to_owned(),
-        _ => format!("no plan has fewer than {}", found.changes_at_least),
+    if found.is_mission {
+        lines.push("the plan is the mission as it is: no better one was found".to_owned());
+    }
+    let gap = match (found.changes - found.changes_at_least, found.changes_at_least) {
+        (0, _) => "no plan has fewer on this baseline".to_owned(),
+        (_, 0) => "fewer are not excluded".to_owned(),
+        (_, least) => format!("no plan has fewer than {least} on this baseline"),
     };
     let free = found.windows.iter().filter(|window| window.kind == WindowKind::Free);
     lines.push(match planned.mission.is_in_orbit() {

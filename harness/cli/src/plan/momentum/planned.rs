@@ -14,7 +14,11 @@ use planner::momentum::{
 
 use super::super::flights::{Failure, SimulatedMission};
 use super::{
-    file::Activity, flyby_task::FlybyTask, options::MomentumOptions, timeline::MissionTimeline, written,
+    file::{Activity, PlanFile},
+    flyby_task::FlybyTask,
+    options::MomentumOptions,
+    timeline::MissionTimeline,
+    written,
 };
 
 /// Names of the files.
@@ -24,6 +28,8 @@ pub(super) const NAMES: [&str; 6] =
 /// A mission with what a plan needs of it.
 pub(super) struct Planned<'a> {
     pub options: &'a MomentumOptions,
+    /// The plan file, its times by the clock of `mission`.
+    pub file: PlanFile,
     pub mission: SimulatedMission,
     pub timeline: MissionTimeline,
     pub sunlit: SunlitSpacecraft,
@@ -52,9 +58,8 @@ impl Planned<'_> {
         (windows, dumps): (&[Window], &[PlannedDump]),
         activity: Option<(&Activity, [f64; 2])>,
     ) -> Result<[(&'static str, String); 2], Failure> {
-        let frozen_s = self.task.layout.frozen_until_s;
         let bodies = |dump: &PlannedDump| self.body(windows, dump);
-        let text = self.timeline.text(&self.mission, (windows, dumps, frozen_s), &bodies, activity);
+        let text = self.timeline.text(&self.mission, (windows, dumps, &self.task.layout), &bodies, activity);
         // In an orbit phase the arrays stay as they are.
         let panels = if self.mission.is_in_orbit() { 0 } else { self.sunlit.panels.len() };
         let start = self.start_momentum_body_n_m_s(windows);
@@ -83,7 +88,7 @@ impl Planned<'_> {
     ) -> Result<(SimulatedMission, Scratch), Failure> {
         let folder = Scratch::new()?;
         for (name, text) in self.write_into(folder.path(), plan, activity)? {
-            std::fs::write(folder.path().join(name), text)?;
+            folder.write(name, text)?;
         }
         let template = self.options.template.as_deref();
         Ok((SimulatedMission::open(&folder.path().join(NAMES[1]), template, &[])?, folder))

@@ -15,7 +15,7 @@ use planner::momentum::{
     plan::PlannedDump,
     report::PlanEvent,
     torque::{Control, Controls},
-    windows::{Occupied, Window, WindowKind},
+    windows::{Layout, Occupied, Window, WindowKind},
 };
 use toml_edit::{DocumentMut, Item};
 
@@ -70,6 +70,10 @@ pub(super) fn shown_n_m_s(momentum_n_m_s: &Vector3<f64>) -> [f64; 3] {
 }
 
 const MINUTE_S: f64 = 60.0;
+/// Share of a minute within which a time is a whole one.
+const SAME_MINUTE: f64 = 1e-5;
+/// Panels stand by an offset and a windmill angle to so much, in rad.
+const SAME_RAD: f64 = 1e-9;
 
 /// One stretch of a window in one attitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,7 +87,10 @@ pub(super) fn stretches(window: &Window) -> Vec<Stretch> {
     let mut all = vec![Stretch { at_s: window.start_s, alternate: false }];
     for [from_s, to_s] in window.alternate_spans_s() {
         // Inward, for a contact may be at either end.
-        let [from_s, to_s] = [MINUTE_S * (from_s / MINUTE_S).ceil(), MINUTE_S * (to_s / MINUTE_S).floor()];
+        let [from_s, to_s] = [
+            MINUTE_S * (from_s / MINUTE_S - SAME_MINUTE).ceil(),
+            MINUTE_S * (to_s / MINUTE_S + SAME_MINUTE).floor(),
+        ];
         if to_s <= from_s {
             continue;
         }
@@ -180,41 +187,74 @@ impl MissionTimeline {
             .collect()
     }
 
-    /// Controls of the plan that it has, where it commands both arrays and places of the Sun; `sides` is which way a windmill angle turns
-    /// each panel.
-    pub(super) fn in_force(&self, sides: &[f64]) -> Vec<InForce> {
-        let Some(turned) = sides.iter().position(|side| *side != 0.0) else { return Vec::new() };
+    /// Controls of the mission from its start on, where every panel stands at one offset plus a windmill angle by its side: `sides` is
+    /// which way that turns each of them, `offsets_rad` where they stand before the timeline's first step; else none.
+    pub(super) fn own(&self, start_s: f64, sides: &[f64], offsets_rad: &[f64]) -> Vec<InForce> {
+        let turned = sides.iter().position(|side| *side != 0.0);
         // Panels on both sides are at offset + windmill and offset - windmill.
-        let other = sides.iter().position(|side| *side == -sides[turned]).unwrap_or(turned);
+        let other = turned.and_then(|turned| sides.iter().position(|side| *side == -sides[turned]));
         let arrays = |time_s: f64| {
-            let (_, angles_rad) = self.arrays_rad.iter().rfind(|(at_s, _)| *at_s <= time_s + CLOCK_S)?;
-            let [one, other] = [*angles_rad.get(turned)?, *angles_rad.get(other)?];
-            Some([0.5 * (one + other), 0.5 * (one - other) * sides[turned]])
+            let step = self.arrays_rad.iter().rfind(|(at_s, _)| *at_s <= time_s + CLOCK_S);
+            let angles_rad = step.map_or(offsets_rad, |(_, angles_rad)| angles_rad);
+            let Some(first) = angles_rad.first() else { return Some([0.0; 2]) };
+            let [offset_rad, windmill_rad] = match turned.zip(other) {
+                Some((turned, other)) => {
+                    let [one, other] = [*angles_rad.get(turned)?, *angles_rad.get(other)?];
+                    [0.5 * (one + other), 0.5 * (one - other) * sides[turned]]
+                }
+                None => [*first, 0.0],
+            };
+            let stands = |(angle_rad, side): (&f64, &f64)| {
+                (offset_rad + windmill_rad * side - angle_rad).abs() < SAME_RAD
+            };
+            angles_rad.iter().zip(sides).all(stands).then_some([offset_rad, windmill_rad])
         };
-        let place = |time_s: f64| self.sun_places.iter().rfind(|(at_s, ..)| *at_s <= time_s + CLOCK_S);
+        let place = |time_s: f64| {
+            let place = self.sun_places.iter().rfind(|(at_s, ..)| *at_s <= time_s + CLOCK_S);
+            place.map_or(([0.0; 2], false), |(_, sun_rad, alternate)| (*sun_rad, *alternate))
+        };
         let mut times_s: Vec<f64> = self.arrays_rad.iter().map(|it| it.0).collect();
         times_s.extend(self.sun_places.iter().map(|it| it.0));
+        times_s.push(start_s);
         times_s.sort_by(f64::total_cmp);
         times_s.dedup();
         let at = |at_s: f64| {
-            let ([offset_rad, windmill_rad], (_, sun_rad, alternate)) = (arrays(at_s)?, place(at_s)?);
-            let share = if *alternate { 1.0 } else { 0.0 };
-            let controls = Controls([offset_rad, windmill_rad, sun_rad[0], sun_rad[1], share]);
+            let ([offset_rad, windmill_rad], (sun_rad, alternate)) = (arrays(at_s)?, place(at_s));
+            let share = if alternate { 1.0 } else { 0.0 };
+            // Between its times an attitude keeps its place of the Sun.
+            let of = |is_alternate: bool| {
+                let mut begun = self.sun_places.iter().filter(|it| it.0 <= at_s + CLOCK_S);
+                begun.rfind(|it| it.2 == is_alternate).map_or(sun_rad, |it| it.1)
+            };
+            let ([azimuth, elevation], [own_azimuth, own_elevation]) = (of(false), of(true));
+            let controls =
+                Controls([offset_rad, windmill_rad, azimuth, elevation, share, own_azimuth, own_elevation]);
             Some(InForce { at_s, controls })
         };
-        times_s.into_iter().filter_map(at).collect()
+        let all: Option<Vec<InForce>> = times_s.into_iter().map(at).collect();
+        all.unwrap_or_default()
+    }
+
+    /// What of `own` is a plan: from when both arrays and places of the Sun are commanded.
+    pub(super) fn in_force(&self, own: &[InForce]) -> Vec<InForce> {
+        let (Some((arrays_s, _)), Some((places_s, ..))) = (self.arrays_rad.first(), self.sun_places.first())
+        else {
+            return Vec::new();
+        };
+        let from_s = arrays_s.max(*places_s);
+        own.iter().filter(|it| it.at_s >= from_s - CLOCK_S).copied().collect()
     }
 
     /// The timeline of a plan, as text; with an activity where one is given.
     pub(super) fn text(
         &self,
         mission: &SimulatedMission,
-        (windows, dumps, frozen_s): (&[Window], &[PlannedDump], f64),
+        (windows, dumps, layout): (&[Window], &[PlannedDump], &Layout),
         bodies: &dyn Fn(&PlannedDump) -> Vector3<f64>,
         activity: Option<(&Activity, [f64; 2])>,
     ) -> String {
         let clock = |time_s: f64| self.clock(mission, time_s);
-        let is_in_orbit = mission.is_in_orbit();
+        let (is_in_orbit, frozen_s) = (mission.is_in_orbit(), layout.frozen_until_s);
         let mut commands: Vec<(f64, String)> = Vec::new();
         for kept in &self.commands {
             let is_frozen = kept.at_s < frozen_s - CLOCK_S;
@@ -257,7 +297,12 @@ impl MissionTimeline {
             let is_kept = |(at_s, _): &&(f64, String)| is_in_orbit || *at_s < frozen_s - CLOCK_S;
             panels.extend(self.panels.iter().filter(is_kept).cloned());
         }
-        for step in array_steps(windows) {
+        // Arrays that go on as the frozen timeline has them do not move.
+        let before = layout.own.iter().rfind(|it| it.at_s < frozen_s - CLOCK_S && !panels.is_empty());
+        let steps = array_steps(windows);
+        let stays =
+            |first: &ArrayStep| before.is_some_and(|it| ArrayStep::of(first.at_s, &it.controls) == *first);
+        for step in steps.iter().skip(usize::from(steps.first().is_some_and(stays))) {
             let mut text =
                 format!("[[panels]]\nat = {}\nsunOffset = \"{} deg\"\n", clock(step.at_s), step.offset_deg);
             if step.windmill_deg != 0.0 {
@@ -298,19 +343,24 @@ pub(super) struct ArrayStep {
     pub windmill_deg: f64,
 }
 
+impl ArrayStep {
+    fn of(at_s: f64, controls: &Controls) -> Self {
+        let [offset_deg, windmill_deg] =
+            [Control::Offset, Control::Windmill].map(|it| shown_deg(controls.get(it)));
+        Self { at_s, offset_deg, windmill_deg }
+    }
+}
+
 /// The steps of the arrays over the windows of a plan.
 pub(super) fn array_steps(windows: &[Window]) -> Vec<ArrayStep> {
     let mut steps: Vec<ArrayStep> = Vec::new();
     for window in
         windows.iter().filter(|window| window.kind != WindowKind::Frozen && !window.sides.is_empty())
     {
-        let [offset_deg, windmill_deg] =
-            [Control::Offset, Control::Windmill].map(|it| shown_deg(window.controls.get(it)));
-        let stays = steps
-            .last()
-            .is_some_and(|last| last.offset_deg == offset_deg && last.windmill_deg == windmill_deg);
+        let step = ArrayStep::of(window.start_s, &window.controls);
+        let stays = steps.last().is_some_and(|last| ArrayStep { at_s: step.at_s, ..*last } == step);
         if !stays {
-            steps.push(ArrayStep { at_s: window.start_s, offset_deg, windmill_deg });
+            steps.push(step);
         }
     }
     steps
@@ -318,8 +368,7 @@ pub(super) fn array_steps(windows: &[Window]) -> Vec<ArrayStep> {
 
 /// A downlink of a window.
 fn command(at: &str, until: Option<String>, window: &Window, alternate: bool) -> String {
-    let [azimuth_deg, elevation_deg] =
-        [Control::Azimuth, Control::Elevation].map(|it| shown_deg(window.controls.get(it)));
+    let [azimuth_deg, elevation_deg] = window.sun_place_rad(alternate).map(shown_deg);
     let until = until.map_or(String::new(), |until| format!("until = {until}\n"));
     let mut text = format!("[[command]]\nat = {at}\n{until}scenario = \"downlink\"\n");
     if azimuth_deg != 0.0 || elevation_deg != 0.0 {
@@ -366,21 +415,28 @@ mod tests {
         let timeline = MissionTimeline {
             // Offset less and plus the windmill angle.
             arrays_rad: vec![(0.0, vec![0.5, 0.7]), (20.0, vec![0.9, 0.9])],
-            sun_places: vec![(5.0, [0.1, -0.2], false), (10.0, [0.1, -0.2], true)],
+            sun_places: vec![(5.0, [0.1, -0.2], false), (10.0, [-0.1, 0.3], true)],
             ..MissionTimeline::default()
         };
-        let found: Vec<_> =
-            timeline.in_force(&[-1.0, 1.0]).iter().map(|it| (it.at_s, it.controls.0)).collect();
+        let own = timeline.own(0.0, &[-1.0, 1.0], &[0.0; 2]);
+        let found: Vec<_> = timeline.in_force(&own).iter().map(|it| (it.at_s, it.controls.0)).collect();
         let expected = [
-            (5.0, [0.6, 0.1, 0.1, -0.2, 0.0]),
-            (10.0, [0.6, 0.1, 0.1, -0.2, 1.0]),
-            (20.0, [0.9, 0.0, 0.1, -0.2, 1.0]),
+            (5.0, [0.6, 0.1, 0.1, -0.2, 0.0, 0.1, -0.2]),
+            (10.0, [0.6, 0.1, 0.1, -0.2, 1.0, -0.1, 0.3]),
+            (20.0, [0.9, 0.0, 0.1, -0.2, 1.0, -0.1, 0.3]),
         ];
         assert_eq!(found.len(), expected.len());
         for ((at_s, controls), (expected_s, of)) in found.into_iter().zip(expected) {
             assert_eq!(at_s, expected_s);
             assert!(controls.iter().zip(of).all(|(a, b)| (a - b).abs() < 1e-15), "{controls:?} {of:?}");
         }
-        assert_eq!(MissionTimeline { sun_places: Vec::new(), ..timeline }.in_force(&[-1.0, 1.0]), []);
+        let still = MissionTimeline { arrays_rad: Vec::new(), ..timeline };
+        assert_eq!(still.in_force(&own), []);
+        let before: Vec<_> =
+            still.own(-3.0, &[-1.0, 1.0], &[0.3, 0.3]).iter().map(|it| (it.at_s, it.controls.0)).collect();
+        assert_eq!(before[0], (-3.0, [0.3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]));
+        assert_eq!(before.last().unwrap(), &(10.0, [0.3, 0.0, 0.1, -0.2, 1.0, -0.1, 0.3]));
+        // A panel of no side that stands elsewhere is neither.
+        assert_eq!(still.own(0.0, &[-1.0, 1.0, 0.0], &[0.3, 0.3, 0.4]), []);
     }
 }

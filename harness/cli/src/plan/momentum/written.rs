@@ -6,7 +6,6 @@ use nalgebra::Vector3;
 use physics::plant::ThrusterEventSettings;
 use planner::momentum::{
     plan::{MomentumPlan, PlannedDump},
-    torque::Control,
     windows::WindowKind,
 };
 use toml_edit::value;
@@ -125,9 +124,9 @@ pub(super) fn inputs(
             changes.push((window.start_s, SUN, sun_place([0.0; 2], false)));
             continue;
         }
-        let angles_rad = [Control::Azimuth, Control::Elevation]
-            .map(|control| shown_deg(window.controls.get(control)).to_radians());
         for stretch in stretches(window) {
+            let place_rad = window.sun_place_rad(stretch.alternate);
+            let angles_rad = place_rad.map(|angle_rad| shown_deg(angle_rad).to_radians());
             changes.push((stretch.at_s, SUN, sun_place(angles_rad, stretch.alternate)));
         }
     }

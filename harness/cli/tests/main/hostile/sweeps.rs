@@ -2,6 +2,8 @@
 
 use std::{fs, path::Path};
 
+use tempfile::TempDir;
+
 use super::{DESCRIPTION, hostile, program, wait};
 use crate::{shown, text};
 
@@ -67,4 +69,67 @@ fn an_fmu_that_does_not_reset_gets_an_instance_a_run() {
     let table = fs::read_to_string(&runs).unwrap();
     // x counts the steps of an instance.
     assert!(table.lines().skip(1).all(|row| row.ends_with(",10,ok,")), "{table}");
+}
+
+/// The campaign of an FMU, with one process; its table and what is said, once it ended with this status.
+fn swept(scratch: &TempDir, more: &[&str], dies: bool, status: i32) -> (String, String) {
+    let (file, runs) = (scratch.path().join("campaign.toml"), scratch.path().join("runs.csv"));
+    let arguments = ["sweep", shown(&file), "--output", shown(&runs), "--workers", "1"];
+    let mut command = program(scratch, &[&arguments[..], more].concat());
+    if dies {
+        command.env("HOSTILE_DIES", "1");
+    }
+    let output = command.output().unwrap();
+    assert_eq!(output.status.code(), Some(status), "{}", text(&output));
+    (fs::read_to_string(&runs).unwrap_or_default(), text(&output))
+}
+
+/// Rows of runs that are as they should be.
+const UNDISTURBED: &str = "run,trouble,x.final,status,reason\n0,0,10,ok,\n1,1,10,ok,\n2,0,10,ok,\n3,0,10,ok,\n4,1,10,ok,\n5,0,10,ok,\n";
+
+#[test]
+fn a_reset_that_fails_is_no_fault_of_the_next_run() {
+    for behaviour in ["FAILS", "CRASHES"] {
+        let Some(scratch) = hostile(behaviour, "IN_RESET_IF") else { return };
+        campaign(scratch.path());
+        assert_eq!(swept(&scratch, &[], false, 0).0, UNDISTURBED, "{behaviour}");
+    }
+}
+
+#[test]
+fn what_an_fmu_keeps_over_a_reset_is_warned_of() {
+    let Some(scratch) = hostile("0", "CARRIES") else { return };
+    campaign(scratch.path());
+    let (table, said) = swept(&scratch, &["--quiet"], false, 0);
+    assert!(table.contains("\n1,1,10,ok,\n2,0,11,ok,\n"), "{table}");
+    assert!(said.contains("run 5: x.final is 11, and 10 in a process of its own"), "{said}");
+    assert!(said.contains("found in 1 of 1 runs repeated"), "{said}");
+}
+
+#[test]
+fn a_run_whose_process_was_killed_is_simulated_again() {
+    let Some(scratch) = hostile("DIES", "IN_STEP_IF") else { return };
+    campaign(scratch.path());
+    let (table, said) = swept(&scratch, &[], true, 1);
+    assert!(
+        table.is_empty() && said.contains("runs.csv.part: run 1: its process was killed"),
+        "{table}{said}"
+    );
+    assert!(said.contains("--resume simulates it again"), "{said}");
+    let (table, said) = swept(&scratch, &["--resume"], false, 0);
+    assert_eq!(table, UNDISTURBED);
+    assert!(said.contains("6 ok") && said.contains("2 runs in"), "{said}");
+    // A run that is killed each time fails.
+    swept(&scratch, &["--fresh"], true, 1);
+    let (table, said) = swept(&scratch, &["--resume"], true, 1);
+    assert_eq!(table.matches(",failed,").count(), 2, "{table}");
+    assert!(table.contains("signal 9 (killed)") && said.contains("4 ok, 2 failed"), "{table}{said}");
+}
+
+#[test]
+fn a_library_that_cannot_be_loaded_ends_the_campaign() {
+    let Some(scratch) = hostile("0", "UNDEFINED") else { return };
+    campaign(scratch.path());
+    let (table, said) = swept(&scratch, &[], false, 1);
+    assert!(table.is_empty() && said.contains("defined_nowhere"), "{table}{said}");
 }

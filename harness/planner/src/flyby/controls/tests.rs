@@ -2,7 +2,7 @@
 
 use std::{cell::Cell, rc::Rc};
 
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Unit, Vector3};
 
 use super::*;
 use crate::flyby::test_flight::{DAY_S, Intercept, LONG_S, Leg, force_model, packed};
@@ -14,7 +14,7 @@ use crate::momentum::{
 };
 
 const DEG: f64 = core::f64::consts::PI / 180.0;
-const STEPS: [f64; CONTROLS] = [0.2 * DEG, 0.2 * DEG, 0.2 * DEG, 0.2 * DEG, 0.05];
+const STEPS: [f64; CONTROLS] = [0.2 * DEG, 0.2 * DEG, 0.2 * DEG, 0.2 * DEG, 0.05, 0.2 * DEG, 0.2 * DEG];
 
 fn window(start_s: f64, controls: Controls) -> Window {
     let stop_s = start_s + 3.0 * DAY_S;
@@ -24,7 +24,7 @@ fn window(start_s: f64, controls: Controls) -> Window {
         kind: WindowKind::Free,
         command: None,
         free_of_contact: vec![[start_s, stop_s]],
-        bounds: [[-1.0, 1.0], [-0.1, 0.1], [-0.2, 0.2], [-0.2, 0.2], [0.0, 0.5]],
+        bounds: [[-1.0, 1.0], [-0.1, 0.1], [-0.2, 0.2], [-0.2, 0.2], [0.0, 0.5], [-0.2, 0.2], [-0.2, 0.2]],
         places: Vec::new(),
         offsets_rad: [0.0, 1.0],
         baseline_rad: 0.0,
@@ -39,8 +39,13 @@ fn leg(window: &Window) -> (Leg, Rc<Cell<Option<Controls>>>) {
     let (sunlit, span_s, controls) = (sunlit([0.0; 3]), [window.start_s, window.stop_s], Rc::clone(&put));
     let law = move |at_s: f64, row: &FlightRow| match controls.get() {
         Some(controls) if (span_s[0]..=span_s[1]).contains(&at_s) => {
-            let found = sunlit.linearised(row, Attitude::Downlink, &controls);
-            found.mean_force_n(controls.get(Control::Alternate)).0
+            let of = |controls: &Controls| {
+                sunlit.linearised(row, Attitude::Downlink, controls).mean_force_n(0.0).0
+            };
+            let share = controls.get(Control::Alternate);
+            let half_turn =
+                Rotation3::from_axis_angle(&Unit::new_normalize(row.to_sun_m), core::f64::consts::PI);
+            of(&controls) * (1.0 - share) + half_turn * of(&controls.alternate()) * share
         }
         _ => Vector3::zeros(),
     };
@@ -49,7 +54,7 @@ fn leg(window: &Window) -> (Leg, Rc<Cell<Option<Controls>>>) {
 
 #[test]
 fn controls_of_a_window_move_the_encounter_as_flights_show() {
-    let controls = Controls([35.0 * DEG, 1.0 * DEG, 2.0 * DEG, -DEG, 0.3]);
+    let controls = Controls([35.0 * DEG, 1.0 * DEG, 2.0 * DEG, -DEG, 0.3, 2.0 * DEG, -DEG]);
     let window = window(102.0 * DAY_S, controls);
     let (mut leg, put) = leg(&window);
     let start = leg.start();

@@ -1,10 +1,11 @@
 //! Places of an encounter whose partials are constant: reach in closed form, plans that meet a target.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::*;
 use crate::momentum::{
     encountered::Encountered,
+    in_force::InForce,
     plan::{MomentumPlan, plan},
     target::Target,
     test_spacecraft::{DAY_S, row, simulated, sunlit, task},
@@ -41,6 +42,16 @@ impl Encounters {
     fn new(miss_m: Vector3<f64>) -> Self {
         let sunlit = sunlit([0.01, 0.02, 0.03]);
         let mut simulated = simulated(&sunlit, DAYS as u32, 0.4);
+        let (windows, _) = task(1.0, tilts()).layout.windows(&sunlit, &simulated).unwrap();
+        // The arrays on the baseline.
+        for row in &mut simulated.rows {
+            let sun_body = row.inertial_from_body.inverse() * row.to_sun_m.normalize();
+            let panels = sunlit.spacecraft.panels.iter().zip(&sunlit.panels);
+            let angles = panels.map(|(panel, (_, tilt_sign))| {
+                panel.angle_for_sun_offset(&sun_body, windows[0].baseline_rad, *tilt_sign)
+            });
+            row.panel_angles_rad = angles.collect();
+        }
         let by_velocity = [0.0, DAYS * DAY_S].map(|at_s| (at_s, by_velocity()));
         simulated.encountered = Some(Encountered { miss: miss_m, by_velocity: by_velocity.to_vec() });
         Self { sunlit, simulated, miss_m }
@@ -115,7 +126,7 @@ fn the_reach_of_one_control_is_what_its_bounds_do() {
     let row = row(&encounters.sunlit, 0.0, 0.4, 0.3);
     let at = |elevation_rad: f64| {
         let controls = windows[0].controls.with(Control::Elevation, elevation_rad);
-        let force = encounters.sunlit.linearised(&row, Attitude::Downlink, &controls).force_n;
+        let force = encounters.sunlit.linearised(&row, Attitude::Downlink, &controls).normal.force_n;
         by_velocity() * force * (DAYS * DAY_S / encounters.sunlit.mass_at_zero.mass_kg)
     };
     let places = [0.1, -0.1].map(|elevation_rad| (at(elevation_rad) - at(0.0)).xy());
@@ -153,5 +164,39 @@ fn a_target_in_reach_is_met_and_one_beyond_is_not() {
             // No dump leads there.
             assert!(found.dumps.is_empty() && found.exceeded.is_none());
         }
+    }
+}
+
+/// Alternate throughout and below its limit without a plan: what it is keeps all limits, and so does all between what was found.
+#[test]
+fn a_flight_that_alternates_is_within_its_own_reach() {
+    let bounds = ControlBounds { alternate: 1.0, ..tilts() };
+    let mut task = targeting(f64::INFINITY, bounds);
+    let controls = Controls::default().with(Control::Alternate, 1.0);
+    task.layout.in_force = vec![InForce { at_s: 0.0, controls }];
+    let Encounters { sunlit, mut simulated, .. } = Encounters::new(Vector3::new(1e5, -2e4, 0.0));
+    let mut momentum = Vector3::zeros();
+    for row in &mut simulated.rows {
+        let load = sunlit.linearised(row, Attitude::Downlink, &controls);
+        row.inertial_from_body = Rotation3::from_matrix_unchecked(load.half_turn) * row.inertial_from_body;
+        row.momentum_n_m_s = momentum;
+        momentum += load.mean(1.0).0 * 7200.0;
+    }
+    task.limit.momentum_n_m_s = 1.02 * simulated.greatest_momentum().0;
+    let found = reachable(&task, &sunlit, &simulated, &mut Silent).unwrap();
+    println!("{found:?}");
+    let all: Vec<Vector2<f64>> = found.polygon_m.iter().map(|corner| Vector2::from(*corner)).collect();
+    let is_within = |place: Vector2<f64>| {
+        let mut pairs = all.iter().zip(all.iter().cycle().skip(1));
+        pairs.all(|(from, to)| (to - from).perp(&(place - from)) >= 0.0)
+    };
+    assert!(is_within(Vector2::zeros()));
+    let axes = [Vector2::x(), -Vector2::x(), Vector2::y(), -Vector2::y()];
+    for (axis, along_m) in axes.iter().zip(found.along_m) {
+        let along_m = along_m.unwrap();
+        assert!(
+            is_within(axis * (along_m - 1e-3)) && !is_within(axis * (along_m + 1e-3)),
+            "{axis} {along_m}"
+        );
     }
 }

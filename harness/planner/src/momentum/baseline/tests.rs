@@ -27,7 +27,7 @@ fn holds(steps: &[OffsetStep], places: &[(f64, f64)]) -> bool {
 #[test]
 fn no_choice_has_fewer_steps() {
     let places: Vec<_> = places().into_iter().step_by(20).collect();
-    let found = baseline(&CORRIDOR, &places, &[]).unwrap();
+    let found = baseline(&CORRIDOR, &places, &[], &[]).unwrap();
     let shares = |from: usize, to: usize| {
         let all = places[from..to].iter().map(|it| allowed_rad(&CORRIDOR, it.1).unwrap());
         let shared = all.fold(ALL, meet);
@@ -55,8 +55,8 @@ fn no_choice_has_fewer_steps() {
 fn steps_are_at_edges_of_windows_where_as_many_suffice() {
     let places = places();
     let edges: Vec<f64> = (1..66).map(|k| 3.0 * DAY_S * f64::from(k)).collect();
-    let anywhere = baseline(&CORRIDOR, &places, &[]).unwrap();
-    let at_edges = baseline(&CORRIDOR, &places, &edges).unwrap();
+    let anywhere = baseline(&CORRIDOR, &places, &[], &[]).unwrap();
+    let at_edges = baseline(&CORRIDOR, &places, &edges, &[]).unwrap();
     assert_eq!(anywhere.len(), at_edges.len());
     assert!(at_edges[1..].iter().all(|step| edges.contains(&step.at_s)));
     assert!(holds(&anywhere, &places) && holds(&at_edges, &places));
@@ -65,7 +65,7 @@ fn steps_are_at_edges_of_windows_where_as_many_suffice() {
 #[test]
 fn a_distance_without_an_offset_is_named() {
     let far = [(0.0, 0.5 * ASTRONOMICAL_UNIT_M), (DAY_S, 0.71 * ASTRONOMICAL_UNIT_M)];
-    let none = baseline(&CORRIDOR, &far, &[]).unwrap_err();
+    let none = baseline(&CORRIDOR, &far, &[], &[]).unwrap_err();
     assert_eq!(none.at_s, DAY_S);
     assert!((none.suns - 0.71_f64.powi(-2)).abs() < 1e-12);
 }

@@ -37,7 +37,7 @@ fn dumps_of_a_constant_torque_are_counted_in_closed_form() {
         let found = fewest_dumps(&model, 0.0, &mut || {}).unwrap();
         assert_eq!(found.at_least, expected, "{limit}");
         assert_eq!(found.rows.len(), expected);
-        let first = first_exceeded_s(&model, 0.0);
+        let first = first_exceeded_s(&model);
         assert_eq!(first.is_some(), expected > 0);
         if let Some(first_s) = first {
             let at_d = limit / per_day;

@@ -55,7 +55,7 @@ fn a_flight_that_gains_more_is_believed() {
     for (row, planned) in flight.rows.iter_mut().zip(&planned) {
         row.momentum_n_m_s = planned + more * row.time_s;
     }
-    model.take(&sunlit, &flight);
+    model.take(&sunlit, &flight, 1.0);
     for (row, found) in flight.rows.iter().zip(model.momentum_n_m_s()) {
         assert_relative_eq!(row.momentum_n_m_s, found, epsilon = 1e-12);
     }

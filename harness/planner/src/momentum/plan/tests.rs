@@ -1,12 +1,16 @@
 //! Whole plans, simulated by an integration of their own with a torque that the model does not know.
 
+mod again;
+mod enumerated;
+
 use nalgebra::Vector3;
 
 use super::*;
 use crate::momentum::{
+    Limit,
     test_spacecraft::{DAY_S, simulated, sunlit, task},
     torque::{Attitude, Control},
-    windows::{ControlBounds, WindowKind},
+    windows::{ControlBounds, Layout},
 };
 
 /// Simulates windows with the alternate attitude as it is timed, in steps of ten minutes, and one more torque.
@@ -14,6 +18,8 @@ struct Integrated {
     sunlit: SunlitSpacecraft,
     simulated: SimulatedFlight,
     more_n_m: Vector3<f64>,
+    /// Share of what tilt does that it does once more.
+    echo: f64,
     flights: usize,
 }
 
@@ -39,7 +45,13 @@ impl Simulates for Integrated {
             for step in 0..steps {
                 let time_s = from.time_s + duration_s * (f64::from(step) + 0.5) / f64::from(steps);
                 let window = windows.iter().find(|window| window.stop_s > time_s).unwrap();
-                let torque = self.sunlit.torque_n_m(&from, Attitude::Downlink, &window.controls);
+                if window.kind == WindowKind::Frozen {
+                    momentum = self.simulated.rows[index].momentum_n_m_s;
+                    break;
+                }
+                let of = |controls: &Controls| self.sunlit.torque_n_m(&from, Attitude::Downlink, controls);
+                let still = window.controls.with(Control::Azimuth, 0.0).with(Control::Elevation, 0.0);
+                let torque = of(&window.controls) * (1.0 + self.echo) - of(&still) * self.echo;
                 let is_alternate = window.alternate_spans_s().iter().any(|[a, b]| (*a..*b).contains(&time_s));
                 let about = from.to_sun_m.normalize();
                 let turned = about * (2.0 * about.dot(&torque)) - torque;
@@ -59,7 +71,7 @@ fn planned(task: &PlanTask, more_n_m: Vector3<f64>) -> (MomentumPlan, Integrated
     let sunlit = sunlit([0.01, 0.02, 0.03]);
     let simulated = simulated(&sunlit, 20, 0.4);
     let mut integrated =
-        Integrated { sunlit: sunlit.clone(), simulated: simulated.clone(), more_n_m, flights: 0 };
+        Integrated { sunlit: sunlit.clone(), simulated: simulated.clone(), more_n_m, echo: 0.0, flights: 0 };
     let found = plan(task, &sunlit, &simulated, &mut integrated).unwrap();
     (found, integrated)
 }
@@ -129,7 +141,7 @@ fn no_plan_of_the_same_windows_has_less_tilt() {
     }
     let sunlit = sunlit([0.01, 0.02, 0.03]);
     let simulated = simulated(&sunlit, 20, 0.4);
-    let mut integrated = Integrated { sunlit, simulated, more_n_m: Vector3::zeros(), flights: 0 };
+    let mut integrated = Integrated { sunlit, simulated, more_n_m: Vector3::zeros(), echo: 0.0, flights: 0 };
     let flight = integrated.simulate(&less, &[]).unwrap();
     assert!(flight.greatest_momentum().0 > found.greatest_n_m_s()[1]);
 }
@@ -174,6 +186,7 @@ fn arrays_move_no_more_often_than_by_the_best_of_all_choices() {
             sunlit: sunlit.clone(),
             simulated: simulated.clone(),
             more_n_m: Vector3::zeros(),
+            echo: 0.0,
             flights: 0,
         };
         let found = plan(&task, &sunlit, &simulated, &mut integrated).unwrap();

@@ -13,7 +13,7 @@ fn worth(offset_deg: f64, control: Control) -> Vector3<f64> {
     let row = row(&sunlit, 0.0, 0.35, 0.3);
     let controls = Controls::default().with(Control::Offset, offset_deg * DEG);
     let linear = sunlit.linearised(&row, Attitude::Downlink, &controls);
-    row.inertial_from_body.inverse() * linear.by_angle[control as usize] * (DAY_S * DEG)
+    row.inertial_from_body.inverse() * linear.normal.by_angle[control as usize] * (DAY_S * DEG)
 }
 
 /// Paper 003's authority at 0.35 AU and 1358 W/m2.
@@ -40,8 +40,8 @@ fn a_centimetre_is_worth_its_torque() {
     for axis in 0..3 {
         let mut moved = [0.01, 0.02, 0.03];
         moved[axis] += 0.01;
-        let change = (at(moved).torque - here.torque) / 0.01;
-        assert_relative_eq!(change, here.by_center.column(axis).into_owned(), epsilon = 1e-12);
+        let change = (at(moved).normal.torque - here.normal.torque) / 0.01;
+        assert_relative_eq!(change, here.normal.by_center.column(axis).into_owned(), epsilon = 1e-12);
     }
 }
 
@@ -50,17 +50,24 @@ fn a_centimetre_is_worth_its_torque() {
 fn the_alternate_attitude_is_a_half_turn() {
     let sunlit = sunlit([0.01, 0.02, 0.03]);
     let mut row = row(&sunlit, 0.0, 0.4, 0.3);
-    let controls = Controls([60.0 * DEG, 1.0 * DEG, 2.0 * DEG, -3.0 * DEG, 0.0]);
+    let controls = Controls([60.0 * DEG, 1.0 * DEG, 2.0 * DEG, -3.0 * DEG, 0.0, -4.0 * DEG, 1.0 * DEG]);
     let linear = sunlit.linearised(&row, Attitude::Downlink, &controls);
     let attitude = sunlit.downlink_attitude(&row, 2.0 * DEG, -3.0 * DEG).unwrap();
     let about = nalgebra::Unit::new_normalize(row.to_sun_m);
     row.inertial_from_body = Rotation3::from_axis_angle(&about, core::f64::consts::PI) * attitude;
     let turned = sunlit.torque_n_m(&row, Attitude::SimulatedFlight, &controls);
-    assert_relative_eq!(linear.half_turn * linear.torque, turned, epsilon = 1e-14);
+    assert_relative_eq!(linear.half_turn * linear.normal.torque, turned, epsilon = 1e-14);
     // In equal parts nothing is left across the Sun line.
     let (mean, _) = linear.mean(0.5);
-    assert!(mean.cross(&about).norm() < 1e-12 * linear.torque.norm());
+    assert!(mean.cross(&about).norm() < 1e-12 * linear.normal.torque.norm());
     let (_, by) = linear.mean(0.2);
     let difference = (linear.mean(0.3).0 - linear.mean(0.2).0) / 0.1;
     assert_relative_eq!(by[Control::Alternate as usize], difference, epsilon = 1e-12);
+    // With a place of its own.
+    let attitude = sunlit.downlink_attitude(&row, -4.0 * DEG, 1.0 * DEG).unwrap();
+    row.inertial_from_body = Rotation3::from_axis_angle(&about, core::f64::consts::PI) * attitude;
+    let own = sunlit.torque_n_m(&row, Attitude::SimulatedFlight, &controls);
+    let apart = sunlit.linearised_apart(&row, &controls);
+    assert_relative_eq!(apart.mean(1.0).0, own, epsilon = 1e-14);
+    assert_relative_eq!(apart.mean(0.3).0, linear.normal.torque * 0.7 + own * 0.3, epsilon = 1e-14);
 }

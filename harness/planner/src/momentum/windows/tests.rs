@@ -9,6 +9,7 @@ const REACH: ControlBounds = ControlBounds {
     azimuth_rad: 0.1,
     elevation_rad: 0.1,
     alternate: 0.5,
+    alternate_apart: false,
 };
 
 fn layout() -> Layout {
@@ -40,14 +41,14 @@ fn free_windows_begin_with_the_plan_in_force() {
     let sunlit = sunlit([0.0; 3]);
     let mut layout = layout();
     layout.control_bounds.offset_rad = 0.05;
-    let present = Controls([0.2, 0.01, 0.05, 0.3, 0.0]);
+    let present = Controls([0.2, 0.01, 0.05, 0.3, 0.0, 0.0, 0.0]);
     layout.in_force = vec![InForce { at_s: 0.0, controls: present }];
     let (windows, steps) = layout.windows(&sunlit, &simulated(&sunlit, 20, 0.4)).unwrap();
     let baseline_rad = steps[0].offset_rad;
     assert!(baseline_rad > 0.3, "{baseline_rad}");
     let controls = |kind| windows.iter().filter(move |it| it.kind == kind).map(|it| it.controls.0);
-    assert!(controls(WindowKind::Free).all(|it| it == [0.2, 0.01, 0.05, REACH.elevation_rad, 0.0]));
-    assert!(controls(WindowKind::Planned).all(|it| it == [baseline_rad, 0.0, 0.0, 0.0, 0.0]));
+    assert!(controls(WindowKind::Free).all(|it| it == [0.2, 0.01, 0.05, REACH.elevation_rad, 0.0, 0.0, 0.0]));
+    assert!(controls(WindowKind::Planned).all(|it| it == [baseline_rad, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]));
     assert_eq!(windows[1].bounds[Control::Offset as usize], [0.2, baseline_rad + 0.05]);
     layout.control_bounds.offset_rad = 0.0;
     let (kept, _) = layout.windows(&sunlit, &simulated(&sunlit, 20, 0.4)).unwrap();

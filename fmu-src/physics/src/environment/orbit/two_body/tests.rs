@@ -4,7 +4,11 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::constants::GM_MERCURY_M3_S2 as MU;
+use crate::constants::{GM_EARTH_M3_S2, GM_MERCURY_M3_S2 as MU};
+
+#[path = "universal_variables.rs"]
+#[allow(clippy::unreadable_literal, reason = "a table")]
+mod universal_variables;
 
 fn messenger() -> Elements {
     // Paper 004 Table 3.
@@ -51,6 +55,38 @@ fn agrees_with_integrating_newtons_law() {
     }
 }
 
+/// Share of the distance that a place differs by.
+fn apart(found: &CartesianState, x_m: f64, y_m: f64) -> f64 {
+    (found.position_m - Vector3::new(x_m, y_m, 0.0)).norm() / x_m.hypot(y_m)
+}
+
+#[test]
+fn places_are_those_of_universal_variables_to_1e_11_for_all_eccentricities() {
+    assert_eq!(GM_EARTH_M3_S2, 3.986_004_355_07e14);
+    // As late an epoch as flights have.
+    let epoch_s = 292_248_000.0;
+    for [x_m, y_m, vx_m_s, vy_m_s, after_s, then_x_m, then_y_m] in universal_variables::STATES {
+        let state = CartesianState {
+            position_m: Vector3::new(x_m, y_m, 0.0),
+            velocity_m_s: Vector3::new(vx_m_s, vy_m_s, 0.0),
+        };
+        let orbit = TwoBodyOrbit::from_state(&state, GM_EARTH_M3_S2, epoch_s).unwrap();
+        let off = apart(&orbit.state_at(epoch_s + after_s), then_x_m, then_y_m);
+        assert!(off < 1e-11, "{off:e} after {after_s} s from {state:?}");
+        assert!((orbit.periapsis_distance_m() / 7e6 - 1.0).abs() < 1e-11);
+        assert!(apart(&orbit.state_at(epoch_s), x_m, y_m) < 1e-14);
+    }
+    for [a_m, e, anomaly_rad, after_s, then_x_m, then_y_m] in universal_variables::ELEMENTS {
+        let elements =
+            Elements { eccentricity: e, true_anomaly_rad: anomaly_rad, ..Elements::circle(a_m, 0.0) };
+        let orbit = TwoBodyOrbit::from_elements(elements, GM_EARTH_M3_S2, epoch_s).unwrap();
+        let off = apart(&orbit.state_at(epoch_s + after_s), then_x_m, then_y_m);
+        assert!(off < 1e-11, "{off:e} after {after_s} s from {elements:?}");
+    }
+    let parabola = Elements { eccentricity: 1.0, ..Elements::circle(7e6, 0.0) };
+    assert!(TwoBodyOrbit::from_elements(parabola, GM_EARTH_M3_S2, 0.0).is_err());
+}
+
 #[test]
 fn energy_momentum_and_eccentricity_vector_are_constant() {
     let orbit = TwoBodyOrbit::from_elements(messenger(), MU, 0.0).unwrap();
@@ -94,6 +130,28 @@ fn a_period_brings_it_back() {
 }
 
 proptest! {
+    #[test]
+    fn energy_and_momentum_are_those_of_the_elements_near_a_parabola_too(
+        log_gap in -15.0..1.0f64, outside: bool, anomaly in -2.6..2.6f64, t in -1e7..1e7f64,
+    ) {
+        let gap = 10.0_f64.powf(log_gap);
+        let e = if outside { 1.0 + 0.9 * gap } else { (1.0 - gap).max(0.0) };
+        let (q, anomaly) = (7e6, if e > 1.2 { anomaly / 2.6 * (-1.0 / e).acos() * 0.9 } else { anomaly });
+        prop_assume!(e != 1.0);
+        let elements = Elements {
+            semi_major_axis_m: q / (1.0 - e), eccentricity: e, true_anomaly_rad: anomaly, ..messenger()
+        };
+        let orbit = TwoBodyOrbit::from_elements(elements, MU, 0.0).unwrap();
+        for state in [orbit.state_at(0.0), orbit.state_at(t)] {
+            let (r, v) = (state.position_m.norm(), state.velocity_m_s.norm());
+            let momentum = state.position_m.cross(&state.velocity_m_s).norm();
+            prop_assert!((momentum / (MU * q * (1.0 + e)).sqrt() - 1.0).abs() < 1e-11);
+            prop_assert!((v * v - 2.0 * MU / r + MU / elements.semi_major_axis_m).abs() < 1e-11 * (v * v).max(MU / r));
+        }
+        let given = elements.state(MU).unwrap();
+        prop_assert!((orbit.state_at(0.0).position_m - given.position_m).norm() < 1e-12 * given.position_m.norm());
+    }
+
     #[test]
     fn velocity_is_the_derivative_of_position(
         a in 3e6..5e7f64, e in 0.0..0.9f64, anomaly in 0.0..TAU, t in -1e6..1e6f64,

@@ -71,7 +71,9 @@ impl<T: Scalar> Laws<T> {
             | Effect::Infrared
             | Effect::Thermal
             | Effect::Applied
-            | Effect::Thrusters => ForceTorque::zero(),
+            | Effect::Thrusters
+            | Effect::Imbalance
+            | Effect::Slosh => ForceTorque::zero(),
         }
     }
 }

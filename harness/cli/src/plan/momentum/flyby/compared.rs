@@ -17,6 +17,26 @@ use crate::plan::{
     },
 };
 
+/// Refuses times of manoeuvres that the flight does not have, before anything is planned.
+pub(super) fn check(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<(), Failure> {
+    let file = &planned.file;
+    let Some(compare) = file.compare.as_ref().map(|at| &at.it) else { return Ok(()) };
+    let encounter = &flyby_task.first.encounter;
+    let next_s = file.time_s(&compare.next, compare.next.it, &planned.mission)?;
+    if next_s <= encounter.time_s + compare.departure_s {
+        let what = "found a date before the departure manoeuvre, allowed: a later one";
+        return Err(file.problem(&compare.next, what).into());
+    }
+    for at in &compare.approach_s {
+        let at_s = encounter.time_s + at.it;
+        if at_s < planned.mission.start_s || at_s >= encounter.epoch_s {
+            let what = "found a time outside of the flight, allowed: between its start and the encounter";
+            return Err(file.problem(at, what).into());
+        }
+    }
+    Ok(())
+}
+
 /// Manoeuvres compared, by the tables of a plan.
 pub(super) fn compared(
     file: &PlanFile,
@@ -27,10 +47,6 @@ pub(super) fn compared(
     let arrival_s = flyby_task.first.encounter.time_s;
     let next_s = file.time_s(&compare.next, compare.next.it, &planned.mission)?;
     let departure_s = arrival_s + compare.departure_s;
-    if next_s <= departure_s {
-        let what = "found a date before the departure manoeuvre, allowed: a later one";
-        return Err(file.problem(&compare.next, what).into());
-    }
     let cost = MissCost::new(after, &flyby_task.force_model, [departure_s, next_s])?;
     let errors =
         ExecutionErrors { direction_rad: compare.direction_error_rad, magnitude: compare.magnitude_error };
@@ -42,10 +58,6 @@ pub(super) fn compared(
     let mut all = Vec::new();
     for at in &compare.approach_s {
         let at_s = arrival_s + at.it;
-        if at_s < planned.mission.start_s || at_s >= flyby_task.first.encounter.epoch_s {
-            let what = "found a time outside of the flight, allowed: between its start and the encounter";
-            return Err(file.problem(at, what).into());
-        }
         let by_velocity = flyby_task.first.by_velocity(at_s).fixed_rows::<2>(0).into_owned();
         let Some(found) = approach(&miss, &by_velocity, &errors) else {
             let what = "found a time at which no velocity moves both components of B, allowed: another";

@@ -4,19 +4,23 @@
 
 use ::files::Scratch;
 use nalgebra::Vector3;
-use physics::environment::dates;
-use toml_edit::value;
+use physics::{environment::dates, guidance::timeline::TimelineClock};
+use toml_edit::{DocumentMut, Item, value};
 
 use crate::{
+    assembly::spacecraft_of,
     plan::{
         flights::{Failure, Requested, SimulatedMission},
         mission_text,
         momentum::file::{PlanFile, encounter::Update},
     },
     reading::At,
+    values::Instant,
     variables::{NEVER_N_M_S, elements, vectors},
 };
 
+/// The timeline of an updated mission.
+const TIMELINE: &str = "timeline.toml";
 /// What is recorded up to the date.
 const STATE: [&str; 3] = ["position", "velocity", "momentum.body"];
 
@@ -28,6 +32,12 @@ pub(in crate::plan::momentum) fn updated(
 ) -> Result<(PlanFile, Scratch), Failure> {
     let update = &at.it;
     let at_s = file.time_in_mission_s(&update.at, mission)?;
+    if let (Some(_), Some(_)) = (&mission.mission.inputs, mission.zero_epoch_s)
+        && at_s > mission.start_s
+    {
+        let what = "found inputs of the mission, which count from its start, allowed: none, or a date that is its start";
+        return Err(file.problem(&update.at, what).into());
+    }
     let [position_m, velocity_m_s, momentum_n_m_s] = state_at(mission, at_s)?;
     let position_m = update.position_m.unwrap_or(position_m);
     let velocity_m_s = update.velocity_m_s.unwrap_or(velocity_m_s);
@@ -42,14 +52,30 @@ pub(in crate::plan::momentum) fn updated(
         mission_text::set(&mut document, name, mission_text::numbers(vector.as_slice()));
     }
     mission_text::set(&mut document, "orbit.source", value("inputs"));
-    document["start"] = match mission.zero_epoch_s {
-        Some(zero_s) => value(dates::utc(zero_s + at_s)),
-        None => value(at_s),
-    };
-    document["stop"] = value(mission.stop_s - at_s);
-    let path = folder.path().join("updated.toml");
-    std::fs::write(&path, document.to_string())?;
+    match mission.zero_epoch_s {
+        Some(zero_s) => {
+            document["start"] = value(dates::utc(zero_s + at_s));
+            document["stop"] = value(mission.stop_s - at_s);
+            if let Some(text) = dated(mission, zero_s)? {
+                folder.write(TIMELINE, text)?;
+                document["timeline"] = value(TIMELINE);
+            }
+        }
+        None => {
+            document["start"] = value(at_s);
+            document["stop"] = value(mission.stop_s);
+        }
+    }
+    let path = folder.write("updated.toml", document.to_string())?;
     let mut updated = file.clone();
+    // The clock of the mission as it was, for every time of the file.
+    if let Some(zero_s) = mission.zero_epoch_s {
+        updated.instants_mut().for_each(|instant| {
+            if let Instant::Time(time_s) = *instant {
+                *instant = Instant::Epoch(zero_s + time_s);
+            }
+        });
+    }
     updated.mission.it = path;
     // The date of the mission's start moves, that up to which it is frozen does not.
     updated.freeze_s.it = match &file.flyby {
@@ -57,6 +83,31 @@ pub(in crate::plan::momentum) fn updated(
         _ => (file.freeze_s.it - (at_s - mission.start_s)).max(0.0),
     };
     Ok((updated, folder))
+}
+
+/// The mission's timeline with dates in the place of times, which would count from another start; `None` where it has none, or dates.
+fn dated(mission: &SimulatedMission, zero_s: f64) -> Result<Option<String>, Failure> {
+    let spacecraft = spacecraft_of(&mission.fmu)?;
+    let Some((text, timeline)) = mission.timeline(&spacecraft)? else { return Ok(None) };
+    if timeline.clock() == TimelineClock::Epoch {
+        return Ok(None);
+    }
+    let mut document: DocumentMut = text.parse()?;
+    let commands = timeline.entries().iter().map(|it| (it.at_s, it.until_s)).collect();
+    let panels = timeline.panels().iter().map(|it| (it.at_s, None)).collect();
+    let events = timeline.events().iter().map(|it| (it.at_s, None)).collect();
+    let lists: [(&str, Vec<(f64, Option<f64>)>); 3] =
+        [("command", commands), ("panels", panels), ("event", events)];
+    for (name, times_s) in lists {
+        let tables = document.get_mut(name).and_then(Item::as_array_of_tables_mut);
+        for (table, (at_s, until_s)) in tables.into_iter().flat_map(|it| it.iter_mut()).zip(times_s) {
+            table["at"] = value(dates::utc(zero_s + at_s));
+            if let Some(until_s) = until_s.filter(|_| table.contains_key("until")) {
+                table["until"] = value(dates::utc(zero_s + until_s));
+            }
+        }
+    }
+    Ok(Some(document.to_string()))
 }
 
 /// Position, velocity and momentum (body frame) of the mission's flight at a time.

@@ -1,0 +1,199 @@
+//! Recordings and other files in progress, `<name>.part`, locked against other runs as long as they are open.
+
+use std::{
+    fs::{self, File, OpenOptions},
+    io::{self, Read, Seek, SeekFrom, Write},
+    path::{Path, PathBuf},
+};
+
+use crate::{
+    destination::{Destination, check_place, gone_reader_is_no_error, keep_permissions},
+    system,
+};
+
+/// A recording in progress: whole rows in `<name>.part`, which takes its name when it is complete.
+#[derive(Debug)]
+pub struct Growing {
+    destination: Destination,
+    part: Option<Part>,
+    lost_reader: bool,
+}
+
+impl Growing {
+    pub(crate) fn new(part: Option<Part>, destination: Destination) -> Self {
+        Self { destination, part, lost_reader: false }
+    }
+
+    /// Appends these bytes at once.
+    pub fn append(&mut self, bytes: &[u8]) -> Result<(), String> {
+        let Some(part) = &mut self.part else {
+            let mut out = terminal::Output;
+            let written = out.write_all(bytes).and_then(|()| out.flush());
+            self.lost_reader |= matches!(&written, Err(error) if error.kind() == io::ErrorKind::BrokenPipe);
+            return gone_reader_is_no_error(written).map_err(|error| self.destination.message(&error));
+        };
+        part.append(bytes).map_err(|error| part.message(&error))
+    }
+
+    /// Continues with what a recording before left, of which the first bytes are kept; on the standard output there is none.
+    pub fn keep(&mut self, bytes: u64) -> Result<(), String> {
+        let Some(part) = &mut self.part else { return Ok(()) };
+        part.keep(bytes).map_err(|error| part.message(&error))
+    }
+
+    /// The whole content that a recording before left; nothing on the standard output.
+    pub fn left(&mut self) -> Result<Vec<u8>, String> {
+        let Some(part) = &mut self.part else { return Ok(Vec::new()) };
+        let mut bytes = Vec::new();
+        let read = part.file.rewind().and_then(|()| part.file.read_to_end(&mut bytes));
+        read.map(|_| bytes).map_err(|error| part.message(&error))
+    }
+
+    /// Whether the reader of the standard output went away: what is appended then goes nowhere.
+    pub fn has_lost_reader(&self) -> bool {
+        self.lost_reader
+    }
+
+    /// The file that would be replaced; `None` where there is none yet.
+    pub fn existing(&self) -> Option<&Path> {
+        self.destination.existing()
+    }
+
+    /// Gives the complete recording its name, once the disk has it.
+    pub fn finish(mut self) -> Result<(), String> {
+        self.rename().map_err(|error| self.destination.message(&error))
+    }
+
+    /// Leaves what was recorded as it is and gives its path, if anything was.
+    pub fn leave(self) -> Option<PathBuf> {
+        self.part.filter(|part| part.is_begun).map(|part| part.path.clone())
+    }
+
+    fn rename(&mut self) -> io::Result<()> {
+        let (Some(part), Some(target)) = (&mut self.part, &self.destination.target) else { return Ok(()) };
+        part.append(&[])?;
+        part.file.sync_all()?;
+        keep_permissions(&part.file, target)?;
+        system::rename(&part.path, target)?;
+        system::sync_folder_of(target);
+        Ok(())
+    }
+}
+
+/// File in progress beside a destination, `<name>.part`, locked against others as long as it is open.
+#[derive(Debug)]
+pub struct Part {
+    path: PathBuf,
+    option: &'static str,
+    file: File,
+    /// Whether nothing was there before.
+    is_new: bool,
+    /// Whether it holds this recording.
+    is_begun: bool,
+}
+
+impl Part {
+    /// How often a file is opened that others take away meanwhile.
+    const ATTEMPTS: usize = 100;
+
+    /// Opens and locks it; what it holds of an earlier recording stays until something is appended.
+    pub(crate) fn open(path: &Path, option: &'static str, inputs: &[&Path]) -> Result<Self, String> {
+        Self::locked(path, option, inputs).map_err(|what| format!("{}: {what}: see {option}", path.display()))
+    }
+
+    fn locked(path: &Path, option: &'static str, inputs: &[&Path]) -> Result<Self, String> {
+        let text = |error: io::Error| match error.kind() {
+            io::ErrorKind::ResourceBusy => "another run is writing it".to_owned(),
+            _ => error.to_string(),
+        };
+        let options = || {
+            let mut options = OpenOptions::new();
+            options.read(true).write(true);
+            options
+        };
+        for _ in 0..Self::ATTEMPTS {
+            check_place(path, inputs)?;
+            let (file, is_new) = match system::open_exclusively(options().create_new(true), path) {
+                Ok(file) => (file, true),
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+                    match system::open_exclusively(&mut options(), path) {
+                        Ok(file) => (file, false),
+                        Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+                        Err(error) => return Err(text(error)),
+                    }
+                }
+                Err(error) => return Err(text(error)),
+            };
+            // Until it was locked, another run may have given it its name, and a link may lead elsewhere.
+            if is_at(&file, path) {
+                return Ok(Self { path: path.to_owned(), option, file, is_new, is_begun: false });
+            }
+            if has_other_names(&file) {
+                fs::remove_file(path).map_err(text)?;
+            }
+        }
+        Err("others take it away again and again".to_owned())
+    }
+
+    /// Continues with what an earlier run left, of which the first bytes are kept.
+    pub fn keep(&mut self, bytes: u64) -> io::Result<()> {
+        self.file.set_len(bytes)?;
+        self.file.seek(SeekFrom::End(0))?;
+        self.is_begun = true;
+        Ok(())
+    }
+
+    fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
+        if !self.is_begun {
+            self.keep(0)?;
+        }
+        self.file.write_all(bytes)
+    }
+
+    /// Writes bytes at a place; without [`Part::keep`] before, what an earlier run left goes first.
+    pub fn write_at(&mut self, place: u64, bytes: &[u8]) -> Result<(), String> {
+        let begun = if self.is_begun { Ok(()) } else { self.keep(0) };
+        let written = begun
+            .and_then(|()| self.file.seek(SeekFrom::Start(place)))
+            .and_then(|_| self.file.write_all(bytes));
+        written.map_err(|error| self.message(&error))
+    }
+
+    /// Fills a buffer with the bytes from a place on.
+    pub fn read_at(&mut self, place: u64, bytes: &mut [u8]) -> io::Result<()> {
+        self.file.seek(SeekFrom::Start(place))?;
+        self.file.read_exact(bytes)
+    }
+
+    /// Removes it.
+    pub fn remove(mut self) -> Result<(), String> {
+        self.is_begun = true;
+        fs::remove_file(&self.path).map_err(|error| self.message(&error))
+    }
+
+    fn message(&self, error: &io::Error) -> String {
+        format!("{}: {error}: see {}", self.path.display(), self.option)
+    }
+}
+
+impl Drop for Part {
+    fn drop(&mut self) {
+        if self.is_new && !self.is_begun {
+            // Nobody else has it: it is still locked.
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}
+
+/// Whether an open file is the one at this path, under no other name and behind no link.
+fn is_at(file: &File, path: &Path) -> bool {
+    let (Ok(open), Ok(there)) = (system::identity_of_open(file), system::identity_of_link(path)) else {
+        return false;
+    };
+    open.device_and_inode == there.device_and_inode && open.hard_links == 1
+}
+
+/// Whether an open file has more names than one.
+fn has_other_names(file: &File) -> bool {
+    system::identity_of_open(file).is_ok_and(|identity| identity.hard_links > 1)
+}
