@@ -10,8 +10,9 @@ use std::{
 use tempfile::NamedTempFile;
 
 use crate::{
-    growing::{Growing, Part},
-    input::kind,
+    part::Part,
+    paths::{folder_of, part_of},
+    place::{behind_links, check_place, is_beside, keep_permissions},
     system,
     temporary::Registered,
 };
@@ -156,6 +157,75 @@ impl Destination {
     }
 }
 
+/// A recording in progress: whole rows in `<name>.part`, which takes its name when it is complete.
+#[derive(Debug)]
+pub struct Growing {
+    destination: Destination,
+    part: Option<Part>,
+    lost_reader: bool,
+}
+
+impl Growing {
+    fn new(part: Option<Part>, destination: Destination) -> Self {
+        Self { destination, part, lost_reader: false }
+    }
+
+    /// Appends these bytes at once.
+    pub fn append(&mut self, bytes: &[u8]) -> Result<(), String> {
+        let Some(part) = &mut self.part else {
+            let mut out = terminal::Output;
+            let written = out.write_all(bytes).and_then(|()| out.flush());
+            self.lost_reader |= matches!(&written, Err(error) if error.kind() == io::ErrorKind::BrokenPipe);
+            return gone_reader_is_no_error(written).map_err(|error| self.destination.message(&error));
+        };
+        part.append(bytes).map_err(|error| part.message(&error))
+    }
+
+    /// Continues with what a recording before left, of which the first bytes are kept; on the standard output there is none.
+    pub fn keep(&mut self, bytes: u64) -> Result<(), String> {
+        let Some(part) = &mut self.part else { return Ok(()) };
+        part.keep(bytes).map_err(|error| part.message(&error))
+    }
+
+    /// The whole content that a recording before left; nothing on the standard output.
+    pub fn left(&mut self) -> Result<Vec<u8>, String> {
+        let Some(part) = &mut self.part else { return Ok(Vec::new()) };
+        let mut bytes = Vec::new();
+        let read = part.file.rewind().and_then(|()| part.file.read_to_end(&mut bytes));
+        read.map(|_| bytes).map_err(|error| part.message(&error))
+    }
+
+    /// Whether the reader of the standard output went away: what is appended then goes nowhere.
+    pub fn has_lost_reader(&self) -> bool {
+        self.lost_reader
+    }
+
+    /// The file that would be replaced; `None` where there is none yet.
+    pub fn existing(&self) -> Option<&Path> {
+        self.destination.existing()
+    }
+
+    /// Gives the complete recording its name, once the disk has it.
+    pub fn finish(mut self) -> Result<(), String> {
+        self.rename().map_err(|error| self.destination.message(&error))
+    }
+
+    /// Leaves what was recorded as it is and gives its path, if anything was.
+    pub fn leave(self) -> Option<PathBuf> {
+        self.part.filter(|part| part.is_begun).map(|part| part.path.clone())
+    }
+
+    fn rename(&mut self) -> io::Result<()> {
+        let (Some(part), Some(target)) = (&mut self.part, &self.destination.target) else { return Ok(()) };
+        part.append(&[])?;
+        part.file.sync_all()?;
+        keep_permissions(&part.file, target)?;
+        system::rename(&part.path, target)?;
+        system::sync_folder_of(target);
+        Ok(())
+    }
+}
+
 /// Why a file cannot be the target: it is of another kind, not to be written, or an input.
 fn check(target: &Path, inputs: &[&Path]) -> Result<(), String> {
     check_place(target, inputs)?;
@@ -165,87 +235,6 @@ fn check(target: &Path, inputs: &[&Path]) -> Result<(), String> {
             Err(system::with_advice(error).to_string())
         }
         _ => Ok(()),
-    }
-}
-
-/// Why a file cannot be the target whoever writes it: it is of another kind or an input.
-pub(crate) fn check_place(target: &Path, inputs: &[&Path]) -> Result<(), String> {
-    let metadata = match fs::symlink_metadata(target) {
-        Ok(metadata) => Some(metadata),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-        Err(error) => return Err(error.to_string()),
-    };
-    if let Some(found) = metadata.as_ref().and_then(kind) {
-        return Err(format!("found {found}, allowed: a regular file or - for the standard output"));
-    }
-    for input in inputs {
-        if is_one_file(target, input) || is_inside(target, input) {
-            return Err(format!("it is an input too, {}", input.display()));
-        }
-    }
-    Ok(())
-}
-
-/// Where the recording of a file in progress grows.
-pub fn part_of(target: &Path) -> PathBuf {
-    with_ending(target, ".part")
-}
-
-/// The file beside a table that tells of it.
-pub fn sidecar_of(table: &Path) -> PathBuf {
-    with_ending(table, ".toml")
-}
-
-fn with_ending(path: &Path, ending: &str) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(ending);
-    PathBuf::from(name)
-}
-
-pub(crate) fn folder_of(path: &Path) -> &Path {
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    }
-}
-
-/// The path behind symbolic links, also where the last one leads to nothing yet.
-fn behind_links(path: &Path) -> io::Result<PathBuf> {
-    const LINKS: usize = 40;
-    let mut path = path.to_owned();
-    for _ in 0..LINKS {
-        match fs::symlink_metadata(&path) {
-            Ok(metadata) if metadata.is_symlink() => path = folder_of(&path).join(fs::read_link(&path)?),
-            _ => return Ok(path),
-        }
-    }
-    Err(io::Error::other("too many symbolic links"))
-}
-
-/// Whether two new files in existing folders have one path.
-fn is_beside(one: &Path, two: &Path) -> bool {
-    let whole = |path: &Path| Some((fs::canonicalize(folder_of(path)).ok()?, path.file_name()?.to_owned()));
-    whole(one).is_some_and(|place| whole(two) == Some(place))
-}
-
-/// Whether both exist and are one file.
-fn is_one_file(one: &Path, two: &Path) -> bool {
-    let (Ok(one), Ok(two)) = (system::identity(one), system::identity(two)) else { return false };
-    one.device_and_inode == two.device_and_inode
-}
-
-/// Whether a file is one of a folder's files, or would become one.
-fn is_inside(target: &Path, folder: &Path) -> bool {
-    let is_folder = fs::metadata(folder).is_ok_and(|metadata| metadata.is_dir());
-    is_folder
-        && fs::canonicalize(folder_of(target))
-            .is_ok_and(|place| fs::canonicalize(folder).is_ok_and(|folder| place.starts_with(folder)))
-}
-
-pub(crate) fn keep_permissions(file: &File, target: &Path) -> io::Result<()> {
-    match fs::metadata(target) {
-        Ok(metadata) => file.set_permissions(metadata.permissions()),
-        Err(_) => Ok(()),
     }
 }
 

@@ -241,9 +241,8 @@ impl PlantState {
             GuidanceCommandKind::ErrorQuaternion => ("command.error", error),
             GuidanceCommandKind::None | GuidanceCommandKind::RateOnly => return,
         };
-        let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let is_far = !is_zero(&q) && (norm - 1.0).abs() > NORM_TOLERANCE;
-        if !is_far || !self.inputs.source.is_commanded || self.warned.command_norm {
+        let Some(norm) = Attitude::norm_if_far_from_unit(q, NORM_TOLERANCE) else { return };
+        if is_zero(&q) || !self.inputs.source.is_commanded || self.warned.command_norm {
             return;
         }
         self.warned.command_norm = true;

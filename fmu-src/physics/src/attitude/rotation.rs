@@ -31,6 +31,12 @@ impl Attitude {
         Self::restored(q, 0.999..=1.001, "1 (within 1e-3)")
     }
 
+    /// Returns the norm of four numbers where it differs from 1 by more than `tolerance`.
+    pub fn norm_if_far_from_unit(q: [f64; 4], tolerance: f64) -> Option<f64> {
+        let norm = q.iter().map(|component| component * component).sum::<f64>().sqrt();
+        ((norm - 1.0).abs() > tolerance).then_some(norm)
+    }
+
     /// From four numbers that point along a scalar-last quaternion (EME2000 to body), as masters make them that
     /// interpolate component by component; a norm of 0.1 to 10 is restored to 1.
     pub fn along_quaternion(q: [f64; 4]) -> Result<Self, QuaternionError> {

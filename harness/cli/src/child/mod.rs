@@ -14,11 +14,16 @@ mod system;
 use std::{ffi::OsString, path::Path};
 
 pub(crate) use channel::{Link, NOT_REQUESTED, Payload, push_text};
-pub(crate) use limits::{ResourceLimits, SMALL, large};
+pub(crate) use limits::{ResourceLimits, SMALL};
 pub(crate) use printed::Shown;
 pub(crate) use relayed::{Relayed, is_child, serve};
 pub(crate) use supervisor::{Bounds, ChildProcess, EndReason, Supervised};
 pub(crate) use system::end_all;
+
+/// Limits of each of `processes` simulations at a time, by the memory that is available now.
+pub(crate) fn large(processes: u64) -> ResourceLimits {
+    limits::large(processes, system::available_bytes())
+}
 
 /// An option with a path, which may hold any bytes.
 pub(crate) fn path_option(name: &str, path: &Path) -> OsString {

@@ -7,7 +7,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::{destination::folder_of, identity::Identity};
+use crate::{identity::Identity, paths::folder_of};
 
 fn of(metadata: &Metadata) -> Identity {
     Identity { device_and_inode: (metadata.dev(), metadata.ino()), hard_links: metadata.nlink() }

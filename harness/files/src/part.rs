@@ -1,4 +1,4 @@
-//! Recordings and other files in progress, `<name>.part`, locked against other runs as long as they are open.
+//! File in progress, `<name>.part`, locked against other runs as long as it is open.
 
 use std::{
     fs::{self, File, OpenOptions},
@@ -7,78 +7,9 @@ use std::{
 };
 
 use crate::{
-    destination::{Destination, check_place, gone_reader_is_no_error, keep_permissions},
+    place::{check_place, keep_permissions},
     system,
 };
-
-/// A recording in progress: whole rows in `<name>.part`, which takes its name when it is complete.
-#[derive(Debug)]
-pub struct Growing {
-    destination: Destination,
-    part: Option<Part>,
-    lost_reader: bool,
-}
-
-impl Growing {
-    pub(crate) fn new(part: Option<Part>, destination: Destination) -> Self {
-        Self { destination, part, lost_reader: false }
-    }
-
-    /// Appends these bytes at once.
-    pub fn append(&mut self, bytes: &[u8]) -> Result<(), String> {
-        let Some(part) = &mut self.part else {
-            let mut out = terminal::Output;
-            let written = out.write_all(bytes).and_then(|()| out.flush());
-            self.lost_reader |= matches!(&written, Err(error) if error.kind() == io::ErrorKind::BrokenPipe);
-            return gone_reader_is_no_error(written).map_err(|error| self.destination.message(&error));
-        };
-        part.append(bytes).map_err(|error| part.message(&error))
-    }
-
-    /// Continues with what a recording before left, of which the first bytes are kept; on the standard output there is none.
-    pub fn keep(&mut self, bytes: u64) -> Result<(), String> {
-        let Some(part) = &mut self.part else { return Ok(()) };
-        part.keep(bytes).map_err(|error| part.message(&error))
-    }
-
-    /// The whole content that a recording before left; nothing on the standard output.
-    pub fn left(&mut self) -> Result<Vec<u8>, String> {
-        let Some(part) = &mut self.part else { return Ok(Vec::new()) };
-        let mut bytes = Vec::new();
-        let read = part.file.rewind().and_then(|()| part.file.read_to_end(&mut bytes));
-        read.map(|_| bytes).map_err(|error| part.message(&error))
-    }
-
-    /// Whether the reader of the standard output went away: what is appended then goes nowhere.
-    pub fn has_lost_reader(&self) -> bool {
-        self.lost_reader
-    }
-
-    /// The file that would be replaced; `None` where there is none yet.
-    pub fn existing(&self) -> Option<&Path> {
-        self.destination.existing()
-    }
-
-    /// Gives the complete recording its name, once the disk has it.
-    pub fn finish(mut self) -> Result<(), String> {
-        self.rename().map_err(|error| self.destination.message(&error))
-    }
-
-    /// Leaves what was recorded as it is and gives its path, if anything was.
-    pub fn leave(self) -> Option<PathBuf> {
-        self.part.filter(|part| part.is_begun).map(|part| part.path.clone())
-    }
-
-    fn rename(&mut self) -> io::Result<()> {
-        let (Some(part), Some(target)) = (&mut self.part, &self.destination.target) else { return Ok(()) };
-        part.append(&[])?;
-        part.file.sync_all()?;
-        keep_permissions(&part.file, target)?;
-        system::rename(&part.path, target)?;
-        system::sync_folder_of(target);
-        Ok(())
-    }
-}
 
 /// File in progress beside a destination, `<name>.part`, locked against others as long as it is open.
 #[derive(Debug)]
