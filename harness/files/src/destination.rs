@@ -2,7 +2,7 @@
 
 use std::{
     ffi::OsString,
-    fs::{self, File, OpenOptions},
+    fs::{self, OpenOptions},
     io::{self, BufWriter, Write},
     path::{Path, PathBuf},
 };
@@ -12,7 +12,7 @@ use tempfile::NamedTempFile;
 use crate::{
     part::Part,
     paths::{folder_of, part_of},
-    place::{behind_links, check_place, is_beside, keep_permissions},
+    place::{behind_links, check_place, is_beside, is_inside, is_one_file, keep_permissions},
     system,
     temporary::Registered,
 };
@@ -190,9 +190,7 @@ impl Growing {
     /// The whole content that a recording before left; nothing on the standard output.
     pub fn left(&mut self) -> Result<Vec<u8>, String> {
         let Some(part) = &mut self.part else { return Ok(Vec::new()) };
-        let mut bytes = Vec::new();
-        let read = part.file.rewind().and_then(|()| part.file.read_to_end(&mut bytes));
-        read.map(|_| bytes).map_err(|error| part.message(&error))
+        part.content().map_err(|error| part.message(&error))
     }
 
     /// Whether the reader of the standard output went away: what is appended then goes nowhere.
@@ -212,17 +210,12 @@ impl Growing {
 
     /// Leaves what was recorded as it is and gives its path, if anything was.
     pub fn leave(self) -> Option<PathBuf> {
-        self.part.filter(|part| part.is_begun).map(|part| part.path.clone())
+        self.part.as_ref().and_then(Part::begun_path).map(Path::to_owned)
     }
 
     fn rename(&mut self) -> io::Result<()> {
         let (Some(part), Some(target)) = (&mut self.part, &self.destination.target) else { return Ok(()) };
-        part.append(&[])?;
-        part.file.sync_all()?;
-        keep_permissions(&part.file, target)?;
-        system::rename(&part.path, target)?;
-        system::sync_folder_of(target);
-        Ok(())
+        part.rename(target)
     }
 }
 

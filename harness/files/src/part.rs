@@ -66,6 +66,29 @@ impl Part {
         Err("others take it away again and again".to_owned())
     }
 
+    /// Returns the whole content that an earlier recording left.
+    pub(crate) fn content(&mut self) -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        self.file.rewind()?;
+        self.file.read_to_end(&mut bytes)?;
+        Ok(bytes)
+    }
+
+    /// Returns its path once it holds something of this recording.
+    pub(crate) fn begun_path(&self) -> Option<&Path> {
+        self.is_begun.then_some(&self.path)
+    }
+
+    /// Gives it the name of the complete file, once the disk has its content.
+    pub(crate) fn rename(&mut self, target: &Path) -> io::Result<()> {
+        self.append(&[])?;
+        self.file.sync_all()?;
+        keep_permissions(&self.file, target)?;
+        system::rename(&self.path, target)?;
+        system::sync_folder_of(target);
+        Ok(())
+    }
+
     /// Continues with what an earlier run left, of which the first bytes are kept.
     pub fn keep(&mut self, bytes: u64) -> io::Result<()> {
         self.file.set_len(bytes)?;
@@ -74,7 +97,7 @@ impl Part {
         Ok(())
     }
 
-    fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
+    pub(crate) fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
         if !self.is_begun {
             self.keep(0)?;
         }
@@ -102,7 +125,7 @@ impl Part {
         fs::remove_file(&self.path).map_err(|error| self.message(&error))
     }
 
-    fn message(&self, error: &io::Error) -> String {
+    pub(crate) fn message(&self, error: &io::Error) -> String {
         format!("{}: {error}: see {}", self.path.display(), self.option)
     }
 }

@@ -46,13 +46,13 @@ pub(crate) fn is_beside(one: &Path, two: &Path) -> bool {
 }
 
 /// Whether both exist and are one file.
-fn is_one_file(one: &Path, two: &Path) -> bool {
+pub(crate) fn is_one_file(one: &Path, two: &Path) -> bool {
     let (Ok(one), Ok(two)) = (system::identity(one), system::identity(two)) else { return false };
     one.device_and_inode == two.device_and_inode
 }
 
 /// Whether a file is one of a folder's files, or would become one.
-fn is_inside(target: &Path, folder: &Path) -> bool {
+pub(crate) fn is_inside(target: &Path, folder: &Path) -> bool {
     let is_folder = fs::metadata(folder).is_ok_and(|metadata| metadata.is_dir());
     is_folder
         && fs::canonicalize(folder_of(target))
