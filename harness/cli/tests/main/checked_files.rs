@@ -70,11 +70,12 @@ fn what_the_command_refuses_before_its_first_flight_check_refuses() {
         ),
         (
             "plan",
-            &[(
-                "# [flyby]\n# body = \"mercury\"\n# altitude = \"200 km\"",
-                "[flyby]\nbody = \"mercury\"\naltitude = \"200 km\"",
-            )],
-            "orbit.dynamics",
+            &[
+                ("freeze = \"2 d\"", "freeze = \"0 d\""),
+                ("# [flyby]\n# body = \"mercury\"\n# altitude", "[flyby]\nbody = \"mercury\"\naltitude"),
+                ("# angle", "angle"),
+            ],
+            "plan-mission.toml: ",
         ),
     ] {
         let file = format!("{kind}.toml");
