@@ -1,12 +1,14 @@
 //! `heliotorque check FILE.toml`: a spacecraft, a mission, a timeline, an ephemeris, a plan, a leg or a campaign, by what it is meant as.
 
+use std::error::Error;
+
 use physics::{
     environment::onboard::OnboardEphemeris,
     guidance::timeline::Timeline,
     spacecraft::{MESSENGER_TOML, Spacecraft},
 };
 
-use super::{mission, options::Check, spacecraft};
+use super::{library::Library, mission, options::Check, spacecraft};
 use crate::{
     carried::{ephemeris, timeline},
     kind::{FileKind, is_blank},
@@ -23,13 +25,15 @@ pub(super) fn run(arguments: &Check) -> Outcome {
         return Err(format!("{file}: found an empty file, allowed: {allowed}").into());
     }
     let kind = FileKind::of(&text).unwrap_or(FileKind::Spacecraft);
+    let library = Library::new(arguments.template.as_deref());
+    let chain = |error: Box<dyn Error>| loader::Error::chain(error.as_ref());
     let read = match kind {
         FileKind::Spacecraft => return spacecraft::run(arguments, &file, &text),
         FileKind::Mission => mission::checked(arguments),
         FileKind::Timeline => of_timeline(&file, &text),
-        FileKind::Plan => momentum::checked(&arguments.subject),
-        FileKind::Leg => leg::checked(&arguments.subject),
-        FileKind::Campaign => sweep::checked(&arguments.subject),
+        FileKind::Plan => momentum::checked(&arguments.subject, library).map_err(chain),
+        FileKind::Leg => leg::checked(&arguments.subject, library).map_err(chain),
+        FileKind::Campaign => sweep::checked(&arguments.subject, library).map_err(chain),
         FileKind::Ephemeris => OnboardEphemeris::from_toml(&file, &text)
             .map(|read| ephemeris::table(&read, text.len()))
             .map_err(|problems| problems.to_string()),

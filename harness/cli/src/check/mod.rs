@@ -6,6 +6,7 @@
 mod child;
 mod figures;
 mod files;
+mod library;
 mod mission;
 mod options;
 mod spacecraft;
@@ -21,6 +22,7 @@ use loader::Fmu;
 
 use crate::{carried, outcome::Outcome, pointing};
 pub(crate) use child::{Probe, run_probe};
+pub(crate) use library::Library;
 pub(crate) use options::Check;
 
 /// A group of findings under one heading.

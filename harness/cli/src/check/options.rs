@@ -12,11 +12,11 @@ use crate::values::span;
 /// `heliotorque check`.
 #[derive(Debug, Args)]
 pub(crate) struct Check {
-    /// The FMU, an .fmu file or the folder it was unpacked into; a system, an .ssp file; a spacecraft, a mission, a timeline or
-    /// an ephemeris, a .toml file
+    /// The FMU, an .fmu file or the folder it was unpacked into; a system, an .ssp file; a spacecraft, a mission, a timeline, an
+    /// ephemeris, a plan, a leg or a campaign, a .toml file
     pub subject: PathBuf,
-    /// For a spacecraft or a mission only: the FMU whose library shall read it, as for `pack`; otherwise the installed
-    /// program's own, or dist/MomentumPlant.fmu
+    /// For a spacecraft, and a mission or what names one: the FMU whose library shall read it, as for `pack`; otherwise the
+    /// installed program's own, or dist/MomentumPlant.fmu
     #[arg(long, value_name = "FMU")]
     pub template: Option<PathBuf>,
     /// For an FMU only: check what can be read, without running it

@@ -18,7 +18,7 @@ pub(crate) struct New {
     pub kind: NewKind,
     /// The file to write; otherwise the kind's name with .toml, in this folder; - is the standard output
     pub file: Option<PathBuf>,
-    /// Write over a file that is there
+    /// Write over files that are there
     #[arg(long)]
     pub force: bool,
 }
@@ -34,15 +34,25 @@ pub(crate) enum NewKind {
     Mission,
     /// Commands, positions of panels and events over time, for `pack --timeline`
     Timeline,
-    /// How far arrays and attitude may go to hold a mission's momentum, for `plan momentum`
+    /// How far arrays and attitude may go to hold a mission's momentum, for `plan momentum`; with plan-mission.toml, the mission
     Plan,
-    /// The place and date at which a leg begins, and the encounter that it leads to, for `plan leg`
+    /// The place and date at which a leg begins, and the encounter that it leads to, for `plan leg`; with leg-mission.toml, the mission
     Leg,
-    /// What varies over many runs, and what is kept of each, for `sweep`
+    /// What varies over many runs, and what is kept of each, for `sweep`; with mission.toml, the mission
     Campaign,
 }
 
 impl NewKind {
+    /// Name and text of the mission that it names.
+    fn mission(self) -> Option<(&'static str, &'static str)> {
+        match self {
+            Self::Plan => Some(("plan-mission.toml", include_str!("plan-mission.toml"))),
+            Self::Leg => Some(("leg-mission.toml", include_str!("leg-mission.toml"))),
+            Self::Campaign => Some(Self::Mission.content()),
+            _ => None,
+        }
+    }
+
     /// The file's name and text.
     fn content(self) -> (&'static str, &'static str) {
         match self {
@@ -67,7 +77,21 @@ fn with_commands_of(text: &str, name: &str, own: &str) -> String {
     text.lines().map(line).collect()
 }
 
-/// Writes the file.
+/// Writes the mission that a file names beside it; one that is there stays unless `force` is given.
+fn write_mission(kind: NewKind, path: &Path, force: bool) -> Result<(), String> {
+    let Some((name, text)) = kind.mission() else { return Ok(()) };
+    let beside = path.with_file_name(name);
+    let shown = beside.display();
+    if std::fs::symlink_metadata(&beside).is_ok() && !force {
+        terminal::note(&format!("{shown}: there already, kept: see --force"));
+        return Ok(());
+    }
+    Destination::open(&beside, "FILE", &[path])?.fill(|file| file.write_all(text.as_bytes()))?;
+    terminal::note(&format!("{shown}: written, the mission that {} names", path.display()));
+    Ok(())
+}
+
+/// Writes the file, and the mission that it names.
 pub(crate) fn run(arguments: &New) -> Outcome {
     let (name, text) = arguments.kind.content();
     let path = arguments.file.as_deref().unwrap_or(Path::new(name));
@@ -83,6 +107,7 @@ pub(crate) fn run(arguments: &New) -> Outcome {
     let text = with_commands_of(text, name, &own);
     destination.fill(|file| file.write_all(text.as_bytes()))?;
     if !is_stdout {
+        write_mission(arguments.kind, path, arguments.force)?;
         let next = match arguments.kind {
             NewKind::Mission => "run",
             _ => "check",

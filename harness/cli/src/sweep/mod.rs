@@ -26,8 +26,8 @@ use std::{
     time::Instant,
 };
 
-use files::{Destination, Growing, Part, sidecar_of};
-use loader::{InputTable, csv};
+use files::{Destination, Growing, Part, Scratch, sidecar_of};
+use loader::{Fmu, InputTable, csv};
 use model_description::Description;
 
 use file::CampaignFile;
@@ -43,6 +43,7 @@ use worker::RunStatus;
 pub(crate) use worker::{SweepInChild, run as run_in_child};
 
 use crate::{
+    check::Library,
     child::large,
     interrupt::{self, INTERRUPTED},
     outcome::{self, Outcome},
@@ -52,37 +53,69 @@ use crate::{
 /// What names the table.
 const OPTION: &str = "--output";
 
-/// A campaign file that was read without an FMU, in a line.
+/// A campaign file in a line, after all that the command does before its first run.
 ///
 /// # Errors
-/// Everything wrong in it.
-pub(crate) fn checked(path: &Path) -> Result<String, String> {
+/// What the command refuses.
+pub(crate) fn checked(path: &Path, library: Library<'_>) -> Result<String, Box<dyn Error>> {
     let file = CampaignFile::read(path)?;
+    let unjudged = library.unjudged(&file.simulated)?;
+    if unjudged.is_none() {
+        Accepted::of(&file, library.template(), None)?;
+    }
     let runs = file.runs.as_ref().map_or_else(String::new, |at| format!("{} runs, ", at.it));
     let varied = file.vary.len();
-    Ok(format!("{runs}{varied} variables vary; `heliotorque sweep --dry-run` prints the values of every run"))
+    Ok(format!(
+        "{runs}{varied} variables vary; `heliotorque sweep --dry-run` prints the values of every run{}",
+        unjudged.unwrap_or_default()
+    ))
 }
 
 /// Simulates a campaign.
 pub(crate) fn run(arguments: &Sweep) -> Outcome {
     let file = CampaignFile::read(&arguments.campaign)?;
-    let simulated = resolved::simulated(&file, arguments.template.as_deref())?;
-    let (subject, _scratch) = simulated.open()?;
-    subject.check_libraries()?;
-    let Subject::Fmu(fmu) = &subject else {
-        let found = "found a system, allowed: an FMU, or a mission of one";
-        return Err(format!("{}: {found}", file.simulated.display()).into());
-    };
-    let described = fmu.description();
-    let campaign = Campaign::resolve(&file, simulated, &subject)?;
-    let runs = resolved::range(arguments, &campaign)?;
-    campaign.check(&file, described, &runs)?;
+    let Accepted { campaign, runs, fmu, _scratch } =
+        Accepted::of(&file, arguments.template.as_deref(), arguments.runs.as_ref())?;
     if !arguments.quiet {
         let warnings = campaign.settings.inputs.iter().flat_map(InputTable::coarse_turns);
         warnings.for_each(|warning| terminal::note(&format!("warning: {warning}")));
     }
-    let sweep = Started { arguments, file: &file, campaign: &campaign, described, runs };
+    let sweep = Started { arguments, file: &file, campaign: &campaign, described: fmu.description(), runs };
     if arguments.dry_run { sweep.print_values(fmu.folder()) } else { sweep.carry_out(fmu.folder()) }
+}
+
+/// A campaign that its FMU takes.
+struct Accepted {
+    campaign: Campaign,
+    runs: Range<u64>,
+    fmu: Fmu,
+    // The packed FMU of a mission, as long as it is in use.
+    _scratch: Option<Scratch>,
+}
+
+impl Accepted {
+    /// Opens the mission or FMU, and finds every name and value of the campaign in it.
+    ///
+    /// # Errors
+    /// Whatever is refused, by the flag or the campaign's line.
+    fn of(
+        file: &CampaignFile,
+        template: Option<&Path>,
+        runs: Option<&Range<u64>>,
+    ) -> Result<Self, Box<dyn Error>> {
+        let simulated = resolved::simulated(file, template)?;
+        let (subject, scratch) = simulated.open()?;
+        subject.check_libraries()?;
+        let campaign = Campaign::resolve(file, simulated, &subject)?;
+        let Subject::Fmu(fmu) = subject else {
+            let found = "found a system, allowed: an FMU, or a mission of one";
+            return Err(format!("{}: {found}", file.simulated.display()).into());
+        };
+        let runs = resolved::range(runs, &campaign)?;
+        campaign.check(file, fmu.description(), &runs)?;
+        outputs::check_histories(file)?;
+        Ok(Self { campaign, runs, fmu, _scratch: scratch })
+    }
 }
 
 /// A campaign of which everything was accepted.

@@ -9,6 +9,7 @@ use files::{Destination, Growing, OutputFolder, leads_below, sidecar_of};
 
 use super::{
     Counts, OPTION, Started,
+    file::CampaignFile,
     origin::Digests,
     series::{Series, percentiles_path},
     table::{self, LeftRows},
@@ -197,15 +198,24 @@ fn percentiles(
     Destination::open(&percentiles_path(&started.arguments.output), OPTION, inputs).map(Some)
 }
 
+/// Refuses histories elsewhere than below the campaign.
+pub(super) fn check_histories(file: &CampaignFile) -> Result<(), String> {
+    let home = file.file.parent().unwrap_or(Path::new(""));
+    match file.keep.histories.as_ref().filter(|at| !leads_below(&at.it, home)) {
+        Some(at) => {
+            let found =
+                format!("found {}, allowed: a folder in the campaign's own or below", at.it.display());
+            Err(file.problem(at, &found))
+        }
+        None => Ok(()),
+    }
+}
+
 /// The folder of histories, made where it is not there; the files that stand in it are such tables.
 fn histories(started: &Started<'_>, inputs: &[&Path]) -> Result<Option<Histories>, String> {
     let Started { file, campaign, described, runs, .. } = started;
     let Some(at) = &file.keep.histories else { return Ok(None) };
     let home = file.file.parent().unwrap_or(Path::new(""));
-    if !leads_below(&at.it, home) {
-        let found = format!("found {}, allowed: a folder in the campaign's own or below", at.it.display());
-        return Err(file.problem(at, &found));
-    }
     let created = OutputFolder::create(&at.it, HISTORIES).map_err(|error| file.problem(at, &error))?;
     let inputs = inputs.iter().map(|path| (*path).to_owned()).collect();
     let place = HistoryPlace { folder: at.it.clone(), inputs };

@@ -9,7 +9,6 @@ use model_description::{BaseType, Description, ScalarVariable, value};
 use super::{
     description::SamplingWord,
     file::{CampaignFile, WrittenDistribution},
-    options::Sweep,
 };
 use crate::{
     epoch::Dates,
@@ -435,9 +434,9 @@ impl Reader<'_> {
 }
 
 /// Runs that are simulated.
-pub(super) fn range(arguments: &Sweep, campaign: &Campaign) -> Result<Range<u64>, String> {
+pub(super) fn range(runs: Option<&Range<u64>>, campaign: &Campaign) -> Result<Range<u64>, String> {
     let all = campaign.design.runs();
-    match &arguments.runs {
+    match runs {
         None => Ok(0..all),
         Some(range) if range.end <= all => Ok(range.clone()),
         Some(range) => Err(format!(

@@ -8,6 +8,7 @@
 )]
 
 mod campaigns;
+mod checked_files;
 mod checks;
 mod compares;
 mod drawings;

@@ -72,7 +72,7 @@ impl Mistake {
         }
         cruise(folder, &[("stop = \"200 d\"", "stop = \"40 d\"")]);
         let plan = run(&["new", "plan", "-"], 0)
-            .replace("mission = \"mission.toml\" ", "mission = \"cruise.toml\" ");
+            .replace("mission = \"plan-mission.toml\"     ", "mission = \"cruise.toml\"          ");
         for (name, text) in [("plan.toml", plan.as_str()), ("telemetry.csv", TELEMETRY)] {
             fs::write(folder.join(name), text).unwrap();
         }

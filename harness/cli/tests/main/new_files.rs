@@ -1,8 +1,8 @@
 //! `heliotorque new` writes files that work unchanged, and `man` pages of every command.
 
-use std::{fs, process::Command};
+use std::{fs, path::Path, process::Command};
 
-use crate::{run, says, shown, template};
+use crate::{heliotorque, run, says, shown, template, text, words};
 
 const KINDS: [&str; 7] = ["spacecraft", "spinner", "mission", "timeline", "plan", "leg", "campaign"];
 
@@ -28,50 +28,89 @@ fn a_file_that_is_there_is_kept() {
     run(&["new", "planet"], 2);
 }
 
+/// The commands in a file's head and, for some, those that `--help` has behind `new`: all end with status 0.
 #[test]
 fn every_new_file_works_unchanged() {
-    let Some((scratch, template)) = template() else { return };
-    let at = |name: &str| scratch.path().join(name);
-    let with = |arguments: &[&str]| run(&[arguments, &["--template", shown(&template)]].concat(), 0);
     for kind in KINDS {
-        let file = at(&format!("{kind}.toml"));
-        run(&["new", kind, shown(&file)], 0);
-        let reported = with(&["check", shown(&file)]);
-        assert!(reported.contains(".toml: ok"), "{reported}");
-        assert!(!reported.contains("warning"), "{reported}");
-        let fmu = at(&format!("{kind}.fmu"));
-        let spacecraft = ["--spacecraft", shown(&file)];
-        let packs: &[&[&str]] = match kind {
-            "mission" => &[&["--mission", shown(&file)]],
-            // They name the mission beside them, and are packed with nothing.
-            "plan" | "leg" | "campaign" => &[],
-            "timeline" => &[
-                &["--model", "Guidance", "--timeline", shown(&file)],
-                &["--timeline", shown(&file), "--set", "panel[1].control=timeline"],
-            ],
-            // Every model's reference flight suits a file that says little.
-            "spacecraft" => &[
-                &spacecraft,
-                &["--model", "Guidance", "--spacecraft", shown(&file)],
-                &["--model", "DisturbanceTorque", "--spacecraft", shown(&file)],
-            ],
-            _ => &[&spacecraft],
+        let Some((scratch, template)) = template() else { return };
+        let folder = scratch.path();
+        let printed = |line: &str| {
+            let output = heliotorque(&words(line)).current_dir(folder).output().unwrap();
+            let reported = text(&output);
+            assert_eq!(output.status.code(), Some(0), "{kind}: {line}: {reported}");
+            reported
         };
-        for pack in packs {
-            with(&[&["pack", "--output", shown(&fmu)], *pack].concat());
-            run(&["run", shown(&fmu), "--stop", "60", "--quiet"], 0);
+        printed(&format!("new {kind}"));
+        let name = format!("{kind}.toml");
+        let written = fs::read_to_string(folder.join(&name)).unwrap();
+        let lines = written.lines().filter_map(|line| line.strip_prefix("#   heliotorque "));
+        // Behind two blanks stands what a command is for.
+        let commands: Vec<&str> = lines.map(|line| line.split("  ").next().unwrap()).collect();
+        assert!(commands.len() > 1 && commands[0].starts_with("check "), "{commands:?}");
+        for command in &commands {
+            let takes_no_template = ["draw", "plan spin"].iter().any(|it| command.starts_with(it));
+            let with = if takes_no_template { String::new() } else { " --template template.fmu".to_owned() };
+            // Its options count in quotes for a shell.
+            let reported = printed(&format!("{command}{with}").replace('\'', ""));
+            if command.starts_with("check ") {
+                assert!(reported.contains(".toml: ok") && !reported.contains("warning"), "{reported}");
+            }
+        }
+        packs(kind, folder, &template);
+        if kind == "mission" {
+            let rows = fs::read_to_string(folder.join("mission.csv")).unwrap();
+            let header = "time,momentum.body[1],momentum.body[2],momentum.body[3],dump.count,sun.elevation\n";
+            assert!(rows.starts_with(header));
+            assert_eq!(rows.lines().count(), 1 + 10 * 144 + 1);
+            assert!(folder.join("mission.svg").exists());
         }
     }
-    let reported = with(&["run", shown(&at("mission.toml"))]);
-    assert!(reported.contains("wrote") && !reported.contains("found"), "{reported}");
-    let rows = fs::read_to_string(at("mission.csv")).unwrap();
-    assert!(
-        rows.starts_with(
-            "time,momentum.body[1],momentum.body[2],momentum.body[3],dump.count,sun.elevation\n"
-        )
-    );
-    assert_eq!(rows.lines().count(), 1 + 10 * 144 + 1);
-    assert!(at("mission.svg").exists());
+}
+
+/// What is made of a file runs.
+fn packs(kind: &str, folder: &Path, template: &Path) {
+    let (file, fmu) = (folder.join(format!("{kind}.toml")), folder.join("packed.fmu"));
+    let spacecraft = ["--spacecraft", shown(&file)];
+    let packs: &[&[&str]] = match kind {
+        "mission" => &[&["--mission", shown(&file)]],
+        "timeline" => &[
+            &["--model", "Guidance", "--timeline", shown(&file)],
+            &["--timeline", shown(&file), "--set", "panel[1].control=timeline"],
+        ],
+        // Every model's reference flight suits a file that says little.
+        "spacecraft" => &[
+            &spacecraft,
+            &["--model", "Guidance", "--spacecraft", shown(&file)],
+            &["--model", "DisturbanceTorque", "--spacecraft", shown(&file)],
+        ],
+        "spinner" => &[&spacecraft],
+        _ => &[],
+    };
+    for pack in packs {
+        run(&[&["pack", "--output", shown(&fmu)], *pack, &["--template", shown(template)]].concat(), 0);
+        run(&["run", shown(&fmu), "--stop", "60", "--quiet"], 0);
+    }
+}
+
+/// The mission that a file names is kept where one stands there, but for `--force`.
+#[test]
+fn the_mission_of_a_new_file_is_kept_where_it_is_there() {
+    for (kind, mission) in
+        [("plan", "plan-mission.toml"), ("leg", "leg-mission.toml"), ("campaign", "mission.toml")]
+    {
+        let scratch = tempfile::tempdir().unwrap();
+        let (file, beside) = (scratch.path().join("mine.toml"), scratch.path().join(mission));
+        says(&run(&["new", kind, shown(&file)], 0), &[mission, "written, the mission that"]);
+        let written = fs::read_to_string(&beside).unwrap();
+        fs::write(&beside, "# mine\n").unwrap();
+        fs::remove_file(&file).unwrap();
+        says(&run(&["new", kind, shown(&file)], 0), &[mission, "there already, kept"]);
+        assert_eq!(fs::read_to_string(&beside).unwrap(), "# mine\n");
+        run(&["new", kind, shown(&file)], 1);
+        assert_eq!(fs::read_to_string(&beside).unwrap(), "# mine\n");
+        run(&["new", kind, shown(&file), "--force"], 0);
+        assert_eq!(fs::read_to_string(&beside).unwrap(), written);
+    }
 }
 
 #[test]

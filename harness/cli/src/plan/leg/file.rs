@@ -12,6 +12,7 @@ use planner::leg::FlybyAimpoint;
 use super::description::{ArcBranch, ArriveDescription, LegDescription};
 use crate::{
     kind::FileKind,
+    plan::flights::Failure,
     reading::{self, ALLOWED_LENGTH, At, Builder, Written},
     values::Instant,
 };
@@ -50,6 +51,12 @@ impl LegFile {
     /// A problem at a place of the file.
     pub(super) fn problem<T>(&self, at: &At<T>, what: &str) -> String {
         at.problem(&self.file, what)
+    }
+
+    /// An error of its mission, which stands in a file of its own with the start of the leg.
+    pub(super) fn in_mission(&self, error: Failure, begun: &Path) -> String {
+        let [begun, own] = [begun, &self.mission.it].map(|path| path.display().to_string());
+        self.problem(&self.mission, &error.to_string().replace(&begun, &own))
     }
 }
 

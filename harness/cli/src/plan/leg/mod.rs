@@ -7,7 +7,12 @@ mod options;
 mod picture;
 mod schema;
 
-use std::{cell::RefCell, path::Path, process::ExitCode, time::Instant};
+use std::{
+    cell::RefCell,
+    path::{Path, PathBuf},
+    process::ExitCode,
+    time::Instant,
+};
 
 use ::files::{OutputFolder, Scratch};
 use physics::{
@@ -26,6 +31,7 @@ use super::{
 };
 use crate::{
     assembly::spacecraft_of,
+    check::Library,
     interrupt,
     mission::{Inputs, Mission},
     outcome::Outcome,
@@ -51,12 +57,16 @@ const ELEMENTS: [&str; 7] = [
 /// Inputs that a leg gives.
 const STARTS: [&str; 2] = ["orbit.position", "orbit.velocity"];
 
-/// What a leg file says, in a sentence, without simulating anything.
+/// What a leg file says, in a sentence, after all that the command does before its first flight.
 ///
 /// # Errors
-/// Everything wrong in it.
-pub(crate) fn checked(file: &Path) -> Result<String, String> {
+/// What the command refuses.
+pub(crate) fn checked(file: &Path, library: Library<'_>) -> Result<String, Failure> {
     let found = LegFile::read(file)?;
+    let unjudged = library.unjudged(&found.mission.it)?;
+    if unjudged.is_none() {
+        Prepared::of(&found, library.template())?;
+    }
     let at = |instant: values::Instant| match instant {
         values::Instant::Time(time_s) => format!("day {}", terminal::short(time_s / DAY_S)),
         values::Instant::Epoch(epoch_s) => dates::utc(epoch_s),
@@ -64,11 +74,12 @@ pub(crate) fn checked(file: &Path) -> Result<String, String> {
     let from = found.depart.as_ref().map_or("its start", |at| &at.it.1);
     let revolutions = found.revolutions.it.map_or(0, |(number, _)| number);
     Ok(format!(
-        "leads {} from {from} to {} at {}, {}, in {revolutions} revolutions",
+        "leads {} from {from} to {} at {}, {}, in {revolutions} revolutions{}",
         found.mission.it.display(),
         found.body.it,
         at(found.arrive.it),
         aimpoint(&found.aimpoint.it),
+        unjudged.unwrap_or_default(),
     ))
 }
 
@@ -184,13 +195,41 @@ fn check(file: &LegFile, mission: &SimulatedMission, arrival_s: f64) -> Result<(
     Ok(())
 }
 
+/// A leg before its first flight.
+struct Prepared<'a> {
+    of_leg: LegMission<'a>,
+    mission: SimulatedMission,
+    arrival_s: f64,
+    /// Where the mission with the leg's start stood.
+    begun: PathBuf,
+}
+
+impl<'a> Prepared<'a> {
+    /// Opens the mission with the leg's start.
+    ///
+    /// # Errors
+    /// Whatever is refused, by the leg's line.
+    fn of(file: &'a LegFile, template: Option<&Path>) -> Result<Self, Failure> {
+        let of_leg = LegMission::read(file)?;
+        let scratch = Scratch::new()?;
+        // At rest it would fall into the Sun; every flight has a velocity of its own.
+        let begun = scratch.write(NAMES[0], of_leg.text(scratch.path(), &[0.0; 3])?)?;
+        let in_mission = |error: Failure| file.in_mission(error, &begun);
+        let mission = SimulatedMission::open(&begun, template, &[]).map_err(in_mission)?;
+        let arrival_s = of_leg.arrival_s(mission.zero_epoch_s);
+        check(file, &mission, arrival_s)?;
+        Ok(Self { of_leg, mission, arrival_s, begun })
+    }
+}
+
 /// Finds the leg, writes the files and reports what came of it.
 pub(crate) fn run(options: &LegOptions) -> Outcome {
     let began = Instant::now();
     let file = LegFile::read(&options.leg)?;
     check_standing(&options.output, NAMES)?;
     let _folder = OutputFolder::create(&options.output, "--output")?;
-    let of_leg = LegMission::read(&file)?;
+    let Prepared { of_leg, mission, arrival_s, begun } = Prepared::of(&file, options.template.as_deref())?;
+    let in_mission = |error: Failure| file.in_mission(error, &begun);
     let last = RefCell::new(String::new());
     let say = |doing: &str| {
         if !options.quiet && *last.borrow() != doing {
@@ -198,17 +237,6 @@ pub(crate) fn run(options: &LegOptions) -> Outcome {
             terminal::note(&format!("{:.1} s: {doing}", began.elapsed().as_secs_f64()));
         }
     };
-    let scratch = Scratch::new()?;
-    // At rest it would fall into the Sun; every flight has a velocity of its own.
-    let begun = scratch.write(NAMES[0], of_leg.text(scratch.path(), &[0.0; 3])?)?;
-    let in_mission = |error: Failure| {
-        let text =
-            error.to_string().replace(&begun.display().to_string(), &file.mission.it.display().to_string());
-        file.problem(&file.mission, &text)
-    };
-    let mission = SimulatedMission::open(&begun, options.template.as_deref(), &[]).map_err(in_mission)?;
-    let arrival_s = of_leg.arrival_s(mission.zero_epoch_s);
-    check(&file, &mission, arrival_s)?;
     say("the planet");
     let (leg, task, picture) = {
         let start = (file.position_m.it, arrival_s);

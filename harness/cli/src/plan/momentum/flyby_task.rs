@@ -1,7 +1,6 @@
 //! Where a plan's flights are to meet a planet, and how each of them misses that.
 
 use nalgebra::Vector3;
-use physics::bodies::Body;
 use planner::{
     flyby::{
         BPlaneAimpoint, ForceModel, Sensitivity,
@@ -13,6 +12,29 @@ use planner::{
 
 use super::file::{PlanFile, encounter::Flyby};
 use crate::plan::flights::{Failure, SimulatedMission};
+
+/// What is known of an encounter before the first flight.
+pub(super) struct Aim {
+    pub force_model: ForceModel,
+    /// Of a fixed arrival, in s.
+    pub arrival_s: Option<f64>,
+}
+
+impl Aim {
+    /// Refuses a planet that is not the mission's, and a date that it has not.
+    pub(super) fn of(file: &PlanFile, flyby: &Flyby, mission: &SimulatedMission) -> Result<Self, Failure> {
+        let force_model = ForceModel::of(&mission.values(), mission.start_s)
+            .map_err(|error| format!("{}: {error}", mission.mission.file.display()))?;
+        let name = force_model.body.data().name;
+        if !name.eq_ignore_ascii_case(&flyby.body.it) {
+            let (found, allowed) = (&flyby.body.it, name.to_lowercase());
+            let what = format!("found {found:?}, allowed: {allowed:?}, the mission's encounter.body");
+            return Err(file.problem(&flyby.body, &what).into());
+        }
+        let arrival_s = flyby.time.as_ref().map(|at| file.time_s(at, at.it, mission)).transpose()?;
+        Ok(Self { force_model, arrival_s })
+    }
+}
 
 /// Where a plan's flights are to meet a planet.
 #[derive(Clone, Debug)]
@@ -30,23 +52,12 @@ impl FlybyTask {
     /// By the flight of the mission as it is.
     pub(super) fn of(
         file: &PlanFile,
-        flyby: &Flyby,
+        (flyby, Aim { force_model, arrival_s }): (&Flyby, Aim),
         (mission, sunlit): (&SimulatedMission, &SunlitSpacecraft),
         simulated: &SimulatedFlight,
     ) -> Result<Self, Failure> {
         let values = mission.values();
         let shown = mission.mission.file.display();
-        let force_model =
-            ForceModel::of(&values, mission.start_s).map_err(|error| format!("{shown}: {error}"))?;
-        let name = |body: Body| body.data().name;
-        if !name(force_model.body).eq_ignore_ascii_case(&flyby.body.it) {
-            let what = format!(
-                "found {:?}, allowed: {:?}, the mission's encounter.body",
-                flyby.body.it,
-                name(force_model.body).to_lowercase()
-            );
-            return Err(file.problem(&flyby.body, &what).into());
-        }
         let first =
             Sensitivity::new(simulated, &force_model, sunlit).map_err(|error| format!("{shown}: {error}"))?;
         let radius_m = values.real("planet.radius");
@@ -70,13 +81,12 @@ impl FlybyTask {
                 b_m[0] / 1e3,
                 b_m[1] / 1e3,
                 (radius_m - periapsis_m) / 1e3,
-                name(force_model.body),
+                force_model.body.data().name,
                 b_of_periapsis_m(radius_m, gm_m3_s2, excess_m_s) / 1e3,
             );
             return Err(file.problem(&flyby.aimpoint, &what).into());
         }
-        let arrival_s = flyby.time.as_ref().map(|at| file.time_s(at, at.it, mission));
-        let aimpoint = BPlaneAimpoint { b_m, arrival_s: arrival_s.transpose()? };
+        let aimpoint = BPlaneAimpoint { b_m, arrival_s };
         Ok(Self { force_model, aimpoint, tolerance_m: flyby.tolerance_m, radius_m, first })
     }
 

@@ -8,6 +8,7 @@ mod layout;
 mod options;
 mod picture;
 mod planned;
+mod prepared;
 mod prices;
 mod schema;
 mod timeline;
@@ -18,7 +19,6 @@ use std::{cell::RefCell, path::Path, process::ExitCode, time::Instant};
 use ::files::OutputFolder;
 use drawing::{Chart, DrawingError, Picture};
 use nalgebra::{Matrix4, Vector3};
-use physics::guidance::timeline::Timeline;
 use planner::flyby::report::FlybyReport;
 use planner::momentum::{
     Limit,
@@ -32,15 +32,15 @@ pub(crate) use self::options::MomentumOptions;
 use self::{
     file::PlanFile,
     flyby_task::FlybyTask,
-    layout::{check_arrays, check_spans, layout, orbit_layout, refit, sets_of},
+    layout::orbit_layout,
     planned::{NAMES, Planned},
-    timeline::MissionTimeline,
+    prepared::Prepared,
 };
 use super::{
     files::{check_standing, write_all},
-    flights::{Failure, SimulatedMission},
+    flights::Failure,
 };
-use crate::{assembly::spacecraft_of, interrupt, outcome::Outcome, reading::At};
+use crate::{check::Library, interrupt, outcome::Outcome};
 
 /// What is planned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,56 +75,27 @@ impl PlanKind {
     }
 }
 
-/// Reads the plan file and what it names, and simulates the mission as it is.
+/// Reads what the plan file names, and simulates the mission as it is.
 fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> Result<Planned<'a>, Failure> {
-    let template = options.template.as_deref();
-    let refit = file.refit.as_ref().map(|at| refit(file, at)).transpose()?;
-    let sets: Vec<(String, Vec<f64>)> = refit.iter().flat_map(sets_of).collect();
-    let settings = sets.iter().map(|(name, values)| {
-        let values: Vec<String> = values.iter().map(f64::to_string).collect();
-        format!("{name}={}", values.join(","))
-    });
-    let settings: Vec<String> = settings.collect();
-    let in_mission = |error: Failure| file.problem(&file.mission, &error.to_string());
-    let mission = SimulatedMission::open(&file.mission.it, template, &settings).map_err(in_mission)?;
-    mission.check_downlinks().map_err(in_mission)?;
+    let prepared = Prepared::of(file, options.template.as_deref())?;
     if let Some(at) = &file.update {
-        let (updated, folder) = flyby::updated(file, at, &mission)?;
+        let (updated, folder) = flyby::updated(file, at, &prepared.mission)?;
         let begun = PlanFile { update: None, ..updated };
         let mut planned = opened(options, &begun, began)?;
         planned.keeps = Some(folder);
         planned.file.update = file.update.clone();
         return Ok(planned);
     }
-    let file = &frozen_until_from(file, &mission)?;
-    check_spans(file, &mission)?;
-    check_arrays(file, &mission)?;
-    let is_in_orbit = mission.is_in_orbit();
-    if let Some(at) = file.of_cruise.first().filter(|_| is_in_orbit) {
-        let what =
-            "found it, allowed: none in an orbit phase, whose downlinks' places of the Sun alone are planned";
-        return Err(file.problem(at, what).into());
-    }
-    let spacecraft = spacecraft_of(&mission.fmu)?;
-    if let (Some(at), Some(refit)) = (&file.refit, &refit)
-        && let Some(other) = refit.spacecraft.as_ref().filter(|other| **other != spacecraft.name)
-    {
-        let what =
-            format!("found values of {other:?}, allowed: of {:?}, the mission's spacecraft", spacecraft.name);
-        return Err(file.problem(at, &what).into());
-    }
-    let found = mission.timeline(&spacecraft)?;
-    let timeline = MissionTimeline::of(&mission, found.as_ref())?;
-    let own: Option<&Timeline> = found.as_ref().map(|(_, timeline)| timeline);
-    let sunlit = mission.sunlit(own)?;
+    let Prepared { file, mission, timeline, sunlit, refit, sets, aim, cruise } = prepared;
     let mut simulated = mission.simulate(None)?;
+    let flyby_task = file.flyby.as_ref().zip(aim);
     let flyby_task =
-        file.flyby.as_ref().map(|at| FlybyTask::of(file, &at.it, (&mission, &sunlit), &simulated));
+        flyby_task.map(|(at, aim)| FlybyTask::of(&file, (&at.it, aim), (&mission, &sunlit), &simulated));
     let flyby_task = flyby_task.transpose()?;
     simulated.encountered = flyby_task.as_ref().map(|it| it.aimpoint.encountered(&it.first, &simulated.rows));
-    let layout = match is_in_orbit {
-        true => orbit_layout(file, &mission, &timeline, &simulated)?,
-        false => layout(file, &mission, &timeline, &sunlit)?,
+    let layout = match cruise {
+        Some(layout) => layout,
+        None => orbit_layout(&file, &mission, &timeline, &simulated)?,
     };
     let momentum_n_m_s = file.limit_n_m_s.unwrap_or_else(|| mission.least_threshold_n_m_s());
     let limit = Limit {
@@ -133,13 +104,13 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
         margin: file.margin,
         covariance: refit.map(|it| Matrix4::from(it.covariance).transpose()),
     };
-    let least = if is_in_orbit { Least::Momentum } else { Least::Tilt };
+    let least = if mission.is_in_orbit() { Least::Momentum } else { Least::Tilt };
     let target = flyby_task.as_ref().map(FlybyTask::target);
     let task = PlanTask { layout, limit, dumps: file.dumps, least, budget_s: options.budget, target };
     let last = RefCell::new(String::new());
     Ok(Planned {
         options,
-        file: file.clone(),
+        file,
         mission,
         timeline,
         sunlit,
@@ -153,27 +124,24 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
     })
 }
 
-/// A plan whose `[flyby] from` says until when the mission stays as it is.
-fn frozen_until_from(file: &PlanFile, mission: &SimulatedMission) -> Result<PlanFile, Failure> {
-    let mut file = file.clone();
-    let Some(from) = file.flyby.as_ref().and_then(|flyby| flyby.it.from.clone()) else { return Ok(file) };
-    let frozen_s = file.time_in_mission_s(&from, mission)? - mission.start_s;
-    file.freeze_s = At { it: frozen_s, key: from.key, line: from.line };
-    Ok(file)
-}
-
-/// Summary of a plan file in a sentence, without simulating anything.
+/// Summary of a plan file in a sentence, after all that the command does before its first flight.
 ///
 /// # Errors
-/// Everything wrong in it.
-pub(crate) fn checked(file: &Path) -> Result<String, String> {
-    let found = PlanFile::read(file)?;
+/// What the command refuses.
+pub(crate) fn checked(path: &Path, library: Library<'_>) -> Result<String, Failure> {
+    let found = PlanFile::read(path)?;
+    let kind = if found.flyby.is_some() { PlanKind::Flyby } else { PlanKind::Momentum };
+    kind.check(&found)?;
+    let unjudged = library.unjudged(&found.mission.it)?;
+    if unjudged.is_none() {
+        Prepared::of(&found, library.template())?;
+    }
     let days = |time_s: f64| terminal::short(time_s / 86_400.0);
     let deg = |angle_rad: f64| terminal::short(angle_rad.to_degrees());
     let tilt = |angle_rad: Option<f64>| deg(angle_rad.unwrap_or(0.0));
     Ok(format!(
         "plans {} behind day {} in windows of {} d: windmill {} deg, Sun {} and {} deg off -Y, alternation {}, offset {} deg off the \
-         baseline; {} contacts, {} activities",
+         baseline; {} contacts, {} activities{}",
         found.mission.it.display(),
         days(found.freeze_s.it),
         days(found.window_s.it),
@@ -184,6 +152,7 @@ pub(crate) fn checked(file: &Path) -> Result<String, String> {
         deg(found.offset_rad),
         found.contacts.len(),
         found.activities.len(),
+        unjudged.unwrap_or_default(),
     ))
 }
 

@@ -9,11 +9,26 @@ use planner::momentum::{
     windows::{Occupied, Window, WindowKind},
 };
 
-use super::super::flights::Failure;
+use super::super::flights::{Failure, SimulatedMission};
 use super::{
-    file::{OUTSIDE, PlanFile},
+    file::{Activity, OUTSIDE, PlanFile},
     planned::Planned,
 };
+use crate::reading::At;
+
+/// When an activity begins and ends, in s of the mission.
+pub(super) fn span_s(
+    file: &PlanFile,
+    at: &At<Activity>,
+    mission: &SimulatedMission,
+) -> Result<[f64; 2], String> {
+    let [from_s, to_s] = at.it.span.map(|instant| file.time_s(at, instant, mission));
+    let (from_s, to_s) = (from_s?, to_s?);
+    if from_s < mission.start_s || to_s > mission.stop_s {
+        return Err(file.problem(at, OUTSIDE));
+    }
+    Ok([from_s, to_s])
+}
 
 /// All of them.
 pub(super) fn all(
@@ -54,11 +69,7 @@ pub(super) fn all(
     }
     for at in &file.activities {
         let activity = &at.it;
-        let [from_s, to_s] = activity.span.map(|instant| file.time_s(at, instant, &planned.mission));
-        let (from_s, to_s) = (from_s?, to_s?);
-        if from_s < planned.mission.start_s || to_s > planned.mission.stop_s {
-            return Err(file.problem(at, OUTSIDE).into());
-        }
+        let [from_s, to_s] = span_s(file, at, &planned.mission)?;
         let touches = |window: &&Window| window.start_s < to_s && window.stop_s > from_s;
         if found.windows.iter().filter(touches).any(|window| window.kind != WindowKind::Free) {
             let what = "found a time that the mission holds fixed, allowed: free time behind `freeze`";

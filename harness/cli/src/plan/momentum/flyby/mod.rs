@@ -19,7 +19,7 @@ use planner::{
 
 pub(super) use self::{
     picture::{desired, plane},
-    update::updated,
+    update::{update_time_s, updated},
 };
 use super::{file::PlanFile, flyby_task::FlybyTask, planned::Planned};
 use crate::plan::flights::Failure;

@@ -24,13 +24,12 @@ const TIMELINE: &str = "timeline.toml";
 /// What is recorded up to the date.
 const STATE: [&str; 3] = ["position", "velocity", "momentum.body"];
 
-/// A plan whose mission begins with the state of `[update]`, in a folder that lasts as long as it is in use.
-pub(in crate::plan::momentum) fn updated(
+/// When the state of `[update]` holds, in s of the mission as it is.
+pub(in crate::plan::momentum) fn update_time_s(
     file: &PlanFile,
-    at: &At<Update>,
+    update: &Update,
     mission: &SimulatedMission,
-) -> Result<(PlanFile, Scratch), Failure> {
-    let update = &at.it;
+) -> Result<f64, Failure> {
     let at_s = file.time_in_mission_s(&update.at, mission)?;
     if let (Some(_), Some(_)) = (&mission.mission.inputs, mission.zero_epoch_s)
         && at_s > mission.start_s
@@ -38,6 +37,17 @@ pub(in crate::plan::momentum) fn updated(
         let what = "found inputs of the mission, which count from its start, allowed: none, or a date that is its start";
         return Err(file.problem(&update.at, what).into());
     }
+    Ok(at_s)
+}
+
+/// A plan whose mission begins with the state of `[update]`, in a folder that lasts as long as it is in use.
+pub(in crate::plan::momentum) fn updated(
+    file: &PlanFile,
+    at: &At<Update>,
+    mission: &SimulatedMission,
+) -> Result<(PlanFile, Scratch), Failure> {
+    let update = &at.it;
+    let at_s = update_time_s(file, update, mission)?;
     let [position_m, velocity_m_s, momentum_n_m_s] = state_at(mission, at_s)?;
     let position_m = update.position_m.unwrap_or(position_m);
     let velocity_m_s = update.velocity_m_s.unwrap_or(velocity_m_s);
