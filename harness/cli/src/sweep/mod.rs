@@ -27,7 +27,7 @@ use std::{
 };
 
 use files::{Destination, Growing, Part, sidecar_of};
-use loader::{InputTable, csv};
+use loader::csv;
 use model_description::Description;
 
 use file::CampaignFile;
@@ -46,7 +46,7 @@ use crate::{
     child::large,
     interrupt::{self, INTERRUPTED},
     outcome::{self, Outcome},
-    run::Subject,
+    run::{Settings, Subject},
 };
 
 /// What names the table.
@@ -78,7 +78,8 @@ pub(crate) fn run(arguments: &Sweep) -> Outcome {
     let runs = resolved::range(arguments, &campaign)?;
     campaign.check(&file, described, &runs)?;
     if !arguments.quiet {
-        let warnings = campaign.settings.inputs.iter().flat_map(InputTable::coarse_turns);
+        let Settings { inputs, times, .. } = &campaign.settings;
+        let warnings = inputs.iter().flat_map(|it| it.warnings(described, times));
         warnings.for_each(|warning| terminal::note(&format!("warning: {warning}")));
     }
     let sweep = Started { arguments, file: &file, campaign: &campaign, described, runs };
