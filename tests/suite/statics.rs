@@ -39,13 +39,13 @@ impl<'ast> Visit<'ast> for Statics {
     }
 }
 
-/// What a static holds that is set while the library runs: in a file that asserts that dropping it would free nothing.
+/// Contents of statics that are set while the library runs, in files that assert that dropping them frees nothing.
 const SET_LATER: [(&str, &str); 3] = [
     ("IMPULSE_RULE", "LazyLock<Rule<8>>"),
     ("MODEL", "OnceLock<Model>"),
     ("PAIRS", "[OnceLock<Pairs>;DEGREE+1]"),
 ];
-/// What is constant, or a cell of plain data.
+/// Statics that are constant, or cells of plain data.
 const CONSTANT: [(&str, &str); 4] =
     [("LIBRARY", "macro_rules"), ("MARKS", "[u8;2]"), ("ONCE", "Once"), ("PLACE", "thread_local")];
 

@@ -66,7 +66,7 @@ impl Destination {
         self.target.as_deref().filter(|target| target.exists())
     }
 
-    /// Where [`Destination::grow`] would record; `None` on the standard output.
+    /// File that [`Destination::grow`] would record to; `None` on the standard output.
     pub fn part_path(&self) -> Option<PathBuf> {
         self.target.as_deref().map(part_of)
     }

@@ -16,7 +16,7 @@ const TRANSFORMATIONS: &str = "LinearTransformation, BooleanMappingTransformatio
 pub(crate) struct Mapped {
     /// Under the name that it has there; a number without a unit is in the target's.
     pub parameter: Parameter,
-    /// What is done to a Real in the target's unit.
+    /// Transformation of a Real in the target's unit.
     pub linear: Linear,
     /// Whether an Integer may be the number of an Enumeration's item.
     pub is_number: bool,

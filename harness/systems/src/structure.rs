@@ -199,7 +199,7 @@ pub struct MappingEntry {
     pub source: String,
     /// The parameter's name in the component or system.
     pub target: String,
-    /// What is done to its value.
+    /// Transformation of the value.
     pub transformation: Option<Transformation>,
     /// Whether units are not converted.
     pub suppress_unit_conversion: bool,
@@ -207,16 +207,16 @@ pub struct MappingEntry {
     pub line: u32,
 }
 
-/// What an entry does to a value.
+/// Transformation of a value by a mapping entry.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Transformation {
-    /// Of a Real, in the unit of the target.
+    /// Factor and offset of a Real, in the unit of the target.
     Linear(Linear),
-    /// Of a Boolean: value in the source, value in the target.
+    /// Pairs of Booleans: value in the source, value in the target.
     Boolean(Vec<(bool, bool)>),
-    /// Of an Integer, whose target may be an Enumeration's number.
+    /// Pairs of Integers; the target may be an Enumeration's number.
     Integer(Vec<(i32, i32)>),
-    /// Of the name of an Enumeration's item.
+    /// Pairs of names of an Enumeration's items.
     Enumeration(Vec<(String, String)>),
 }
 

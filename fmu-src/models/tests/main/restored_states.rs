@@ -43,7 +43,7 @@ impl<M: Model> Mode<'_, M> {
         flight
     }
 
-    /// What of inputs and tunables does not bring restored flights where the flight goes.
+    /// Inputs and tunables that take a restored flight elsewhere than the flight that was never saved.
     fn goes_elsewhere(&self) -> Vec<String> {
         let saved = self.saved();
         let changes = self.named.changes(&saved);

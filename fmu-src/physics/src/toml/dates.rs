@@ -23,7 +23,7 @@ const SCALES: [(&str, TimeScale); 5] = [
     ("TT", TimeScale::TT),
     ("TAI", TimeScale::TAI),
 ];
-/// What stands before or behind a Julian date.
+/// Mark before or after a Julian date.
 const JULIAN: &str = "JD";
 /// Julian date of 2000-01-01 12:00.
 const J2000_JULIAN_DAY: i64 = 2_451_545;

@@ -71,7 +71,6 @@ pub(super) fn write_all(
     contents: &[(&str, String)],
     inputs: &[&Path],
 ) -> Result<Vec<PathBuf>, Box<dyn Error>> {
-    check_standing(folder, contents.iter().map(|(name, _)| *name))?;
     let opened = contents.iter().map(|(name, text)| {
         let path = folder.join(name);
         let text = match is_edited_by_people(name) {
@@ -81,6 +80,7 @@ pub(super) fn write_all(
         Destination::open(&path, OPTION, inputs).map(|destination| (path, destination, text))
     });
     let opened = opened.collect::<Result<Vec<_>, _>>()?;
+    check_standing(folder, contents.iter().map(|(name, _)| *name))?;
     let mut written = Vec::with_capacity(opened.len());
     for (path, destination, text) in opened {
         destination.fill(|file| file.write_all(text.as_bytes()))?;

@@ -111,7 +111,7 @@ impl Found<'_> {
         )
     }
 
-    /// What is to be said of residuals that are not the noise's; `lines` are those of the rows in the telemetry.
+    /// Warning about residuals that do not fit the noise; `lines` are those of the rows in the telemetry.
     pub(super) fn warning(&self, lines: &[u64]) -> Option<String> {
         if self.fitted.is_overcautious() {
             return Some(

@@ -188,7 +188,7 @@ impl Started<'_> {
         Ok(taken.counts.status())
     }
 
-    /// What an earlier sweep has completed.
+    /// Reports a campaign that an earlier sweep completed.
     fn complete(&self, counts: &Counts) -> Outcome {
         let text = format!("{}: complete already: {}", self.arguments.output.display(), counts.text());
         outcome::printed(&text).map(|_| counts.status())
@@ -249,7 +249,7 @@ impl Started<'_> {
     }
 }
 
-/// What is known of the runs that ended.
+/// Results of the runs that ended.
 struct Taken {
     counts: Counts,
     sample: Sample,

@@ -60,7 +60,7 @@ impl Digests {
     /// Refuses what stands beside a table of something else.
     ///
     /// # Errors
-    /// What was found in the file, and what is allowed.
+    /// Compares with the digests in a file; the error says found and allowed.
     pub(super) fn check(&self, beside: &Path) -> Result<(), String> {
         let refuse = |found: &str, allowed: &str| {
             let anew = "with --fresh it begins anew";

@@ -15,14 +15,14 @@ use super::{
 };
 use crate::output::{OutputFile, OutputKind, check_standing};
 
-/// What names the folder of histories.
+/// Key of the folder of histories.
 const HISTORIES: &str = "keep.histories";
 
-/// What there is to do.
+/// Outputs of a campaign, opened.
 pub(super) enum Opened {
     /// The runs that no row is left of.
     Begun(Box<CampaignFiles>),
-    /// Nothing: an earlier sweep has completed it.
+    /// Campaign that an earlier sweep completed.
     Complete(Counts),
 }
 
@@ -63,7 +63,7 @@ pub(super) struct Histories {
     _created: OutputFolder,
 }
 
-/// Where histories go.
+/// Folder of histories and its rules.
 pub(super) struct HistoryPlace {
     folder: PathBuf,
     inputs: Vec<PathBuf>,

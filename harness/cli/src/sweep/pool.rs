@@ -73,7 +73,7 @@ pub(super) struct Pool<'a> {
     pub runs: Range<u64>,
     pub workers: u64,
     pub attempt: Attempt,
-    /// Of each process.
+    /// Limits of each process.
     pub limits: ResourceLimits,
     /// Longest time of a call in s.
     pub timeout_s: Option<f64>,

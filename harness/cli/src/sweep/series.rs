@@ -25,7 +25,7 @@ pub(super) struct Series {
 }
 
 impl Series {
-    /// Of runs from `first` on, beside the table that is made of them.
+    /// Series of runs from `first` on, next to the table that is made of them.
     ///
     /// # Errors
     /// A file that is an input, cannot be written, or is another sweep's.

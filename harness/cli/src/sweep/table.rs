@@ -83,7 +83,7 @@ pub(super) struct LeftRows {
     bytes: Vec<u8>,
     /// The end of the header.
     begin: usize,
-    /// Of each row its end, how its run ended, and whether its process was killed from outside.
+    /// End of each row, status of its run, and whether its process was killed from outside.
     rows: Vec<(usize, RunStatus, bool)>,
 }
 

@@ -1,6 +1,6 @@
 //! Variables: start values, limits, references, and derivatives.
 
-use loader::{Fmu, Instance, Value};
+use loader::{Fmu, Instance, Status, Value};
 use model_description::call_table::{Condition, State};
 use model_description::{BaseType, Causality, Initial, Variability, VariableKind, rules, value::start};
 
@@ -155,8 +155,14 @@ pub(crate) fn derivatives(fmu: &Fmu) -> Findings {
             experiment::simulate(&mut instance, 0, 2)?;
             let mut values = vec![f64::NAN; outputs.len()];
             let orders = vec![order; outputs.len()];
+            instance.take_messages();
             let outcome = instance.get_output_derivatives(&outputs, &orders, &mut values);
-            findings.push(verdict(&format!("gives output derivatives of order {order}"), outcome));
+            let claim = format!("gives output derivatives of order {order}");
+            let warning = instance.take_messages().into_iter().find(|it| it.status == Status::Warning);
+            findings.push(match warning {
+                Some(warning) => Finding::bad(format!("not so: {claim}: {}", warning.text)),
+                None => verdict(&claim, outcome),
+            });
             let finite = values.iter().all(|value| value.is_finite());
             findings.push(Finding::expect(finite, "every output derivative is finite"));
             let mut instance = experiment::ready(fmu, &experiment::unchecked())?;

@@ -1,4 +1,4 @@
-//! What a continuous input means, as far as its rows are interpolated by it: attitude, position with velocity, angle.
+//! Meaning of a continuous input for interpolation: attitude, position with velocity, angle.
 //!
 //! The model description tells it by names and units alone; annotations of the FMU can take the place of this file.
 
@@ -53,7 +53,7 @@ pub(super) fn angle(description: &Description, variable: &ScalarVariable) -> Opt
     Some(Circle { turn, min: min.unwrap_or(f64::NEG_INFINITY), max: max.unwrap_or(f64::INFINITY) })
 }
 
-/// What stands before the last name, with its dot, and the last name.
+/// Splits a name into its prefix up to the last dot, and the last segment.
 fn split(name: &str) -> (&str, &str) {
     name.split_at(name.rfind('.').map_or(0, |dot| dot + 1))
 }

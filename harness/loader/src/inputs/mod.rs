@@ -35,7 +35,7 @@ struct InputColumn {
     values: Vec<Value>,
 }
 
-/// What holds between two rows.
+/// Interpolation between two rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Interpolation {
     /// The earlier row.

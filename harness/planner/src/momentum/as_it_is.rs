@@ -126,7 +126,7 @@ fn is_allowed(layout: &Layout, window: &Window, simulated: &SimulatedFlight) -> 
     is_lit && is_free && is_place
 }
 
-/// What the plan has least of, once dumps and changes are counted.
+/// Cost that a plan minimises after dumps and changes.
 fn cost(plan: &MomentumPlan, task: &PlanTask) -> f64 {
     let free = plan.windows.iter().filter(|window| window.kind == WindowKind::Free);
     match task.least {

@@ -15,7 +15,7 @@ use crate::Failure;
 /// Flight and plan agree where they differ by less than this share of the limit: nothing more is to be gained.
 pub const AGREED: f64 = 0.02;
 
-/// What a plan has least of.
+/// Cost that a plan minimises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Least {
     /// Tilt of the Sun off -Y, by its time.
@@ -33,20 +33,20 @@ impl Least {
     }
 }
 
-/// What is planned.
+/// Task of a plan.
 #[derive(Clone, Debug)]
 pub struct PlanTask {
     /// Windows, contacts, how far controls go.
     pub layout: Layout,
-    /// What momentum is kept below.
+    /// Limit of the momentum.
     pub limit: Limit,
     /// Dumps that the plan may have.
     pub dumps: usize,
-    /// What is least of all plans with the fewest dumps and changes.
+    /// Cost that is minimised among plans with the fewest dumps and changes.
     pub least: Least,
     /// Time for counted changes, in s.
     pub budget_s: f64,
-    /// What the flight is aimed at; without effect where it has no encounter.
+    /// Aim of the flight; without effect where it has no encounter.
     pub target: Option<Target>,
 }
 
@@ -59,7 +59,7 @@ pub struct PlannedDump {
     pub after_n_m_s: Vector3<f64>,
 }
 
-/// What a plan says at a row of its flight.
+/// Plan and flight at one row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlannedRow {
     /// In s of the flight.
@@ -68,13 +68,13 @@ pub struct PlannedRow {
     pub planned_n_m_s: f64,
     /// |H| as simulated, in N m s.
     pub simulated_n_m_s: f64,
-    /// What it may come to, in N m s.
+    /// Largest allowed |H|, in N m s.
     pub allowed_n_m_s: f64,
     /// Length of the difference of both, in N m s.
     pub difference_n_m_s: f64,
 }
 
-/// What stands in the way of a plan without dumps.
+/// Excess that keeps a plan from having no dumps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exceeded {
     /// By which the limit is exceeded without dumps at the least that was found, in N m s.
@@ -106,7 +106,7 @@ pub struct MomentumPlan {
     pub holds: bool,
     /// Whether it is the mission as it is: no better plan was found.
     pub is_mission: bool,
-    /// Where the limit is not kept without dumps.
+    /// Excess without dumps, if the limit is not kept.
     pub exceeded: Option<Exceeded>,
     /// Its flight.
     pub flight: SimulatedFlight,

@@ -26,7 +26,7 @@ pub struct RefitValues {
 /// Reads the JSON of a refit.
 ///
 /// # Errors
-/// What is missing or of another kind, a covariance that is none, and a fit that is not trusted.
+/// A missing or wrong field, a matrix that is no covariance, a fit that is not trusted.
 pub fn read(text: &str) -> Result<RefitValues, String> {
     let found: RefitValues = serde_json::from_str(text).map_err(|error| error.to_string())?;
     let matrix = nalgebra::Matrix4::from(found.covariance);

@@ -2,7 +2,7 @@
 //!
 //! The downlink attitude puts the Sun at azimuth A and elevation E of the body frame, the Earth in the XY plane; the alternate one is the
 //! same turned by 180 deg about the Sun line s, so that its torque is T' = 2 s (s.T) - T, its force alike: what lies across the Sun line changes sign.
-//! Of a share a of the time in the alternate attitude the mean torque is (1 - a) T + a T'; T' is of a place of the Sun of its own where
+//! With a fraction a of the time in the alternate attitude the mean torque is (1 - a) T + a T'; T' has a Sun direction of its own where
 //! a window gives it one. Derivatives by the angles are central
 //! differences of the physics with a step of [`STEP_RAD`] (error of its square, 1e-8 relative); that by the share is exact.
 

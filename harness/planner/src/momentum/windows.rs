@@ -219,7 +219,7 @@ pub struct Layout {
     pub control_bounds: ControlBounds,
     /// The plan that the mission has so far, in order: windows begin with its controls, those before it on the baseline without tilt.
     pub in_force: Vec<InForce>,
-    /// What the mission itself does, in order, whether that is a plan or not; none where its arrays are no offset and windmill angle.
+    /// Controls of the mission itself, in order; empty where its arrays are no offset and windmill angle.
     pub own: Vec<InForce>,
     /// Corridor of the light on the cells.
     pub corridor: Articulation,
@@ -299,7 +299,7 @@ impl Layout {
         Ok((windows, steps))
     }
 
-    /// What the mission holds fixed, and the free time between in pieces.
+    /// Spans that the mission holds fixed, and the free time between in pieces.
     pub(super) fn spans(&self, simulated: &SimulatedFlight) -> Vec<Span> {
         let (Some(first), Some(last)) = (simulated.rows.first(), simulated.rows.last()) else {
             return Vec::new();

@@ -21,7 +21,7 @@ pub enum AttitudeSource {
     Free = 4,
 }
 
-/// What a controlled or free flight starts with.
+/// Start of a controlled or free flight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
 pub enum StartAttitude {
     /// As given where start.q or start.rate is set, else as guided.

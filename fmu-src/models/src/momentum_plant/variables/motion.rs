@@ -156,8 +156,7 @@ pub struct OrbitVariables {
     pub current_center: Choice<OrbitCenter>,
 }
 
-/// Which bodies attract the spacecraft and what its path is integrated about, with orbit.dynamics nBody, beside the Sun and
-/// orbit.center.
+/// Bodies that attract the spacecraft in nBody motion, next to the Sun and orbit.center, and the centre of integration.
 #[derive(Variables)]
 pub struct AttractionVariables {
     /// Whether Mercury does.

@@ -77,7 +77,7 @@ fn torque_and_force_reported_are_what_momentum_and_velocity_change_by() {
     assert!((flight.vector("torque.total") - Vector3::y() * 0.2).norm() > 0.1);
 }
 
-/// What each effect did adds up to what the momentum changed by, rotors out of balance and propellant that swings among them.
+/// Momentum by source adds up to the change of the momentum, with rotors out of balance and swinging propellant.
 #[test]
 fn the_budget_of_the_momentum_closes() {
     let named = swinging();

@@ -135,7 +135,7 @@ impl NBodyGravity {
         all.filter(move |body| body.is_planet() && bodies[*body as usize][0] > 0.0)
     }
 
-    /// Those over the edges of whose spheres of influence a path integrated about `about` can go.
+    /// Bodies whose spheres of influence a path integrated about `about` can enter or leave.
     fn spheres(&self, about: Body) -> impl Iterator<Item = Body> + use<> {
         let Self { settings, bodies, .. } = *self;
         let all =

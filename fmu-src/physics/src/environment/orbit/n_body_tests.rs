@@ -302,7 +302,7 @@ fn positions_count_from_the_given_body_whatever_the_path_is_integrated_about() {
     }
 }
 
-/// What attracts, and the body that a spacecraft is about.
+/// Attracting bodies, and the body that the spacecraft orbits.
 struct Case {
     center: BodyData,
     planets: Vec<Body>,

@@ -50,8 +50,7 @@ pub struct SampleInputs {
     pub delta_v_body_m_s: Vector3<f64>,
 }
 
-/// Which entry of a timeline something comes from, by when it begins on the timeline's clock, in s; `None` where it comes from no
-/// timeline.
+/// Begin times on the timeline's clock, in s, of the entries in force; `None` without a timeline.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TimedEntries {
     /// The scan.

@@ -42,7 +42,7 @@ pub struct AirAndField {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct AirAndFieldSegment {
     pub(crate) span: SegmentSpan,
-    /// What it was fitted for; with anything else it is void.
+    /// Settings and planet that the fit was made for; with others it is void.
     pub(crate) made_for: Option<(AirAndFieldSettings, PlanetFigure)>,
     /// Position relative to the planet on which the segment was fitted, EME2000, in m; absent before the first segment.
     pub(crate) position: Option<Series>,

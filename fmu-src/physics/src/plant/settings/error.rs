@@ -138,7 +138,7 @@ pub enum ManeuverError {
         tank: String,
         /// What it takes, in kg.
         needed_kg: f64,
-        /// What it can still feed, in kg.
+        /// Mass that the tank can still feed, in kg.
         left_kg: f64,
     },
     /// A velocity without an orbit.

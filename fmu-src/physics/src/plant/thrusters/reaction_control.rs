@@ -268,7 +268,7 @@ impl Thrusters {
         self.unserved
     }
 
-    /// What they do at once at `time_s`.
+    /// Impulsive dumps and velocity changes at `time_s`.
     pub(crate) fn at_once(&mut self, time_s: f64) -> AtOnce<'_> {
         let Self { settings, propellant, unserved, for_dumps, .. } = self;
         AtOnce { settings, propellant, for_dumps, unserved, time_s }

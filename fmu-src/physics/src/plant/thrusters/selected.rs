@@ -1,4 +1,4 @@
-//! Which thrusters give which torque about a centre of mass: worked out where it or what the tanks feed is another.
+//! Selection of thrusters by torque about a centre of mass, made anew where that or the feed of the tanks changes.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -19,9 +19,9 @@ pub(super) enum Purpose {
 /// Why no thrusters give torque all ways.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Unserved {
-    /// Those that would are not fed.
+    /// The thrusters that give the torque are not fed.
     Unfed,
-    /// None would about this centre of mass, were they fed or not.
+    /// No thrusters give the torque about this centre of mass, fed or not.
     OneSided,
 }
 
@@ -45,7 +45,7 @@ impl UnservedDumps {
     }
 }
 
-/// What a selection follows from.
+/// Data that determine a selection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Basis {
     center_of_mass_body_m: Vector3<f64>,

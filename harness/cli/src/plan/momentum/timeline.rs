@@ -235,7 +235,7 @@ impl MissionTimeline {
         all.unwrap_or_default()
     }
 
-    /// What of `own` is a plan: from when both arrays and places of the Sun are commanded.
+    /// Part of `own` that is a plan: from the time on at which both arrays and Sun directions are commanded.
     pub(super) fn in_force(&self, own: &[InForce]) -> Vec<InForce> {
         let (Some((arrays_s, _)), Some((places_s, ..))) = (self.arrays_rad.first(), self.sun_places.first())
         else {
