@@ -19,6 +19,7 @@ mod info;
 mod instance;
 mod interrupt;
 mod kind;
+mod library;
 mod manual;
 mod map;
 mod mission;

@@ -127,11 +127,12 @@ impl Parameters {
         let turned = knowns![&orbit, followed, &v.sunshade, panels];
         let attitude = knowns![turned, solution.clone().only_if(choice.guided || choice.begins_guided)];
         let sensors = knowns![&v.star_tracker, &v.gyro, &v.sun_sensor, v.noise_seed, v.control.rate];
-        // In free flight they are fitted along the torque-free turn ahead, which goes by the rotors' inertia.
-        let rotors = v.wheel.iter().map(|wheel| wheel.inertia).collect::<Knowns>();
+        // In controlled and free flight they are fitted along the turn ahead, by the torque that is foreseen.
+        let turning = knowns![&sensors, &v.control, &v.wheel, &v.thruster, &v.thrust, &v.dump];
+        let turning = knowns![turning, v.torque.applied, v.force.applied].only_if(choice.by_torque);
         let light = knowns![
             &attitude,
-            rotors,
+            turning,
             &v.planet_light,
             &v.thermal,
             v.thermal_storage,

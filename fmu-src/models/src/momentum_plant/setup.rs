@@ -166,6 +166,7 @@ impl PlantSetup {
         };
         OpenChoices {
             ideal: matches!(source, None | Some(Guided | Commanded)),
+            by_torque: matches!(source, None | Some(Controlled | Free)),
             guided: match source {
                 None | Some(Guided) => true,
                 Some(Commanded | Controlled) => !is_inputs,
@@ -185,6 +186,8 @@ impl PlantSetup {
 pub struct OpenChoices {
     /// The attitude follows a command or guidance, and dumps take the momentum at once.
     pub ideal: bool,
+    /// The body turns by torque.
+    pub by_torque: bool,
     /// The orbit phase's own guidance sets the attitude, if only where a flight by torque begins.
     pub guided: bool,
     /// It gives the attitude where a free flight begins, for the file has none.

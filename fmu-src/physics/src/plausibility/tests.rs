@@ -223,7 +223,8 @@ fn a_membrane_of_one_side_is_warned_of_whichever_way_it_faces() {
     for corners in [corners, turned] {
         let found = judged(&plate(corners, ""));
         assert!(found.iter().any(|it| it.contains("`sail` has one side and nothing behind it")), "{found:?}");
-        assert_eq!(judged(&plate(corners, "rear_optics = 'front'\n")), [""; 0]);
+        let found = judged(&plate(corners, "rear_optics = 'front'\n"));
+        assert!(!found.iter().any(|it| it.contains("nothing behind it")), "{found:?}");
     }
     // Four quarters in a plane hide nothing behind one another either.
     let quarter = |x: i32, z: i32| {

@@ -8,10 +8,11 @@ use physics::{
     spacecraft::{MESSENGER_TOML, Spacecraft},
 };
 
-use super::{library::Library, mission, options::Check, spacecraft};
+use super::{mission, options::Check, spacecraft};
 use crate::{
     carried::{ephemeris, timeline},
     kind::{FileKind, is_blank},
+    library::Library,
     outcome::{self, Outcome},
     plan::{leg, momentum},
     sweep,

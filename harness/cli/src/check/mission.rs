@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use loader::{Collector, InputTable};
+use loader::Collector;
 
 use super::options::Check;
 use crate::{
@@ -33,7 +33,7 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
         .iter()
         .chain(&panels)
         .chain(&long_step(times))
-        .chain(&inputs.iter().flat_map(InputTable::coarse_turns).collect::<Vec<_>>())
+        .chain(&inputs.iter().flat_map(|it| it.warnings(subject.description(), times)).collect::<Vec<_>>())
         .map(|it| format!("\nwarning: {it}"))
         .collect::<String>();
     let count = |count: usize, of: &str| format!("{count} {of}{}", if count == 1 { "" } else { "s" });

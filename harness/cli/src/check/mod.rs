@@ -6,7 +6,6 @@
 mod child;
 mod figures;
 mod files;
-mod library;
 mod mission;
 mod options;
 mod spacecraft;
@@ -22,7 +21,6 @@ use loader::Fmu;
 
 use crate::{carried, outcome::Outcome, pointing};
 pub(crate) use child::{Probe, run_probe};
-pub(crate) use library::Library;
 pub(crate) use options::Check;
 
 /// A group of findings under one heading.

@@ -16,7 +16,7 @@ use std::{
 };
 
 use files::Scratch;
-use loader::{Collector, Ended, InputTable, RecordedPoints, Times};
+use loader::{Collector, Ended, RecordedPoints, Times};
 
 use crate::{
     carried,
@@ -122,7 +122,7 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
     warnings.extend(variables::repeated("--set", &arguments.set));
     warnings.extend(long_step(&settings.times));
     warnings.extend(subject.unread(&settings.sets));
-    warnings.extend(settings.inputs.iter().flat_map(InputTable::coarse_turns));
+    warnings.extend(settings.inputs.iter().flat_map(|it| it.warnings(described, &settings.times)));
     let Settings { times, positions, limits, requested, .. } = settings;
     if !arguments.quiet {
         warnings.iter().for_each(|warning| terminal::note(&format!("warning: {warning}")));

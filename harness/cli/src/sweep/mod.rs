@@ -2,6 +2,7 @@
 
 mod description;
 mod file;
+mod histories;
 mod options;
 mod origin;
 mod outputs;
@@ -10,6 +11,7 @@ mod repeated;
 mod resolved;
 mod schema;
 mod series;
+mod started;
 mod table;
 mod worker;
 
@@ -27,8 +29,7 @@ use std::{
 };
 
 use files::{Destination, Growing, Part, Scratch, sidecar_of};
-use loader::{Fmu, InputTable, csv};
-use model_description::Description;
+use loader::{Fmu, csv};
 
 use file::CampaignFile;
 pub(crate) use options::Sweep;
@@ -38,20 +39,17 @@ use pool::{Attempt, Pool};
 use repeated::Sample;
 use resolved::Campaign;
 use series::Series;
+use started::{Counts, OPTION, Started};
 use table::RunTable;
-use worker::RunStatus;
 pub(crate) use worker::{SweepInChild, run as run_in_child};
 
 use crate::{
-    check::Library,
     child::large,
     interrupt::{self, INTERRUPTED},
+    library::Library,
     outcome::{self, Outcome},
-    run::Subject,
+    run::{Settings, Subject},
 };
-
-/// What names the table.
-const OPTION: &str = "--output";
 
 /// A campaign file in a line, after all that the command does before its first run.
 ///
@@ -77,11 +75,12 @@ pub(crate) fn run(arguments: &Sweep) -> Outcome {
     let Accepted { campaign, runs, fmu, _scratch } =
         Accepted::of(&file, arguments.template.as_deref(), arguments.runs.as_ref())?;
     if !arguments.quiet {
-        let warnings = campaign.settings.inputs.iter().flat_map(InputTable::coarse_turns);
+        let Settings { inputs, times, .. } = &campaign.settings;
+        let warnings = inputs.iter().flat_map(|it| it.warnings(fmu.description(), times));
         warnings.for_each(|warning| terminal::note(&format!("warning: {warning}")));
     }
     let sweep = Started { arguments, file: &file, campaign: &campaign, described: fmu.description(), runs };
-    if arguments.dry_run { sweep.print_values(fmu.folder()) } else { sweep.carry_out(fmu.folder()) }
+    if arguments.dry_run { print_values(&sweep, fmu.folder()) } else { carry_out(&sweep, fmu.folder()) }
 }
 
 /// A campaign that its FMU takes.
@@ -118,167 +117,135 @@ impl Accepted {
     }
 }
 
-/// A campaign of which everything was accepted.
-struct Started<'a> {
-    arguments: &'a Sweep,
-    file: &'a CampaignFile,
-    campaign: &'a Campaign,
-    described: &'a Description,
-    runs: Range<u64>,
+/// The table of the runs' values.
+fn print_values(started: &Started<'_>, folder: &Path) -> Outcome {
+    let Started { arguments, file, campaign, runs, .. } = started;
+    let is_given = arguments.output != Path::new(options::OUTPUT);
+    let output = if is_given { arguments.output.as_path() } else { Path::new("-") };
+    let names = campaign.design.varied().iter().map(|it| csv::field(&it.name).into_owned());
+    let header: Vec<String> = ["run".to_owned()].into_iter().chain(names).collect();
+    let destination = Destination::open(output, OPTION, &started.inputs())?;
+    let is_stdout = destination.is_stdout();
+    destination.fill(|to| {
+        writeln!(to, "{}", header.join(","))?;
+        runs.clone().try_for_each(|run| writeln!(to, "{}", table::values(campaign, run)))
+    })?;
+    if !is_stdout {
+        let digests = Digests::of(file, campaign, folder, runs)?;
+        let beside = Destination::open(&sidecar_of(output), OPTION, &started.inputs())?;
+        started.write_beside(beside, &digests)?;
+    }
+    Ok(ExitCode::SUCCESS)
 }
 
-/// How many runs ended how.
-#[derive(Default)]
-struct Counts([u64; 4]);
-
-impl Started<'_> {
-    /// The table of the runs' values.
-    fn print_values(&self, folder: &Path) -> Outcome {
-        let Self { arguments, file, campaign, runs, .. } = self;
-        let is_given = arguments.output != Path::new(options::OUTPUT);
-        let output = if is_given { arguments.output.as_path() } else { Path::new("-") };
-        let names = campaign.design.varied().iter().map(|it| csv::field(&it.name).into_owned());
-        let header: Vec<String> = ["run".to_owned()].into_iter().chain(names).collect();
-        let destination = Destination::open(output, OPTION, &self.inputs())?;
-        let is_stdout = destination.is_stdout();
-        destination.fill(|to| {
-            writeln!(to, "{}", header.join(","))?;
-            runs.clone().try_for_each(|run| writeln!(to, "{}", table::values(campaign, run)))
-        })?;
-        if !is_stdout {
-            let digests = Digests::of(file, campaign, folder, runs)?;
-            let beside = Destination::open(&sidecar_of(output), OPTION, &self.inputs())?;
-            self.write_beside(beside, &digests)?;
-        }
-        Ok(ExitCode::SUCCESS)
+fn carry_out(started: &Started<'_>, folder: &Path) -> Outcome {
+    let Started { arguments, file, campaign, described, runs } = started;
+    let digests = Digests::of(file, campaign, folder, runs)?;
+    let files = match CampaignFiles::open(started, &digests)? {
+        Opened::Begun(files) => files,
+        Opened::Complete(counts) => return complete(started, &counts),
+    };
+    let CampaignFiles { growing, left, series, beside, histories, .. } = *files;
+    let again: Vec<u64> = left.killed().map(|at| runs.start + at).collect();
+    let done = left.count() - again.len() as u64;
+    let mut counts = Counts::default();
+    left.statuses().for_each(|status| counts.add(status));
+    let mut table = RunTable::continued(campaign, described, (growing, &left), runs.start)?;
+    let rest = runs.start + left.count()..runs.end;
+    drop(left);
+    let cores = || thread::available_parallelism().map_or(1, |it| it.get() as u64);
+    let workers = arguments.workers.map_or_else(cores, u64::from).min((rest.end - rest.start).max(1));
+    let is_over = AtomicBool::new(false);
+    let pool = Pool {
+        file: &arguments.campaign,
+        campaign,
+        described,
+        folder,
+        runs: rest,
+        workers,
+        attempt: Attempt::First,
+        limits: large(workers),
+        timeout_s: arguments.timeout,
+        histories: histories.as_ref().map(|it| &it.place),
+        series: series.as_ref(),
+        is_over: &is_over,
+    };
+    let began = Instant::now();
+    let progress = terminal::progress(runs.end - runs.start, "runs", arguments.quiet);
+    progress.set_position(done);
+    let mut taken = Taken { counts, sample: Sample::of(&pool), killed: Vec::new() };
+    for run in again {
+        simulate(&pool.alone(run, Attempt::Again), &mut table, (&mut taken, &progress))?;
     }
-
-    fn carry_out(&self, folder: &Path) -> Outcome {
-        let Self { arguments, file, campaign, described, runs } = self;
-        let digests = Digests::of(file, campaign, folder, runs)?;
-        let files = match CampaignFiles::open(self, &digests)? {
-            Opened::Begun(files) => files,
-            Opened::Complete(counts) => return self.complete(&counts),
-        };
-        let CampaignFiles { growing, left, series, beside, histories, .. } = *files;
-        let again: Vec<u64> = left.killed().map(|at| runs.start + at).collect();
-        let done = left.count() - again.len() as u64;
-        let mut counts = Counts::default();
-        left.statuses().for_each(|status| counts.add(status));
-        let mut table = RunTable::continued(campaign, described, (growing, &left), runs.start)?;
-        let rest = runs.start + left.count()..runs.end;
-        drop(left);
-        let cores = || thread::available_parallelism().map_or(1, |it| it.get() as u64);
-        let workers = arguments.workers.map_or_else(cores, u64::from).min((rest.end - rest.start).max(1));
-        let is_over = AtomicBool::new(false);
-        let pool = Pool {
-            file: &arguments.campaign,
-            campaign,
-            described,
-            folder,
-            runs: rest,
-            workers,
-            attempt: Attempt::First,
-            limits: large(workers),
-            timeout_s: arguments.timeout,
-            histories: histories.as_ref().map(|it| &it.place),
-            series: series.as_ref(),
-            is_over: &is_over,
-        };
-        let began = Instant::now();
-        let progress = terminal::progress(runs.end - runs.start, "runs", arguments.quiet);
-        progress.set_position(done);
-        let mut taken = Taken { counts, sample: Sample::of(&pool), killed: Vec::new() };
-        for run in again {
-            simulate(&pool.alone(run, Attempt::Again), &mut table, (&mut taken, &progress))?;
-        }
-        simulate(&pool, &mut table, (&mut taken, &progress))?;
-        progress.finish_and_clear();
-        if table.file.has_lost_reader() {
-            return Ok(ExitCode::SUCCESS);
-        }
-        let next = table.next;
-        if next < runs.end {
-            return self.interrupted(table.file, next);
-        }
-        if let (Some(run), Some(_)) = (taken.killed.first(), &beside) {
-            let part = table.file.leave().unwrap_or_default();
-            return Err(format!(
-                "{}: run {run}: its process was killed from outside: --resume simulates it again",
-                part.display()
-            )
-            .into());
-        }
-        taken.sample.warn(&pool)?;
-        self.finish(table.file, series, beside)?;
-        if !arguments.quiet {
-            let simulated = (runs.end - runs.start) - done;
-            let lines =
-                [taken.counts.text(), format!("{simulated} runs in {:.3} s", began.elapsed().as_secs_f64())];
-            lines.iter().for_each(|line| terminal::note(line));
-        }
-        Ok(taken.counts.status())
+    simulate(&pool, &mut table, (&mut taken, &progress))?;
+    progress.finish_and_clear();
+    if table.file.has_lost_reader() {
+        return Ok(ExitCode::SUCCESS);
     }
-
-    /// Reports a campaign that an earlier sweep completed.
-    fn complete(&self, counts: &Counts) -> Outcome {
-        let text = format!("{}: complete already: {}", self.arguments.output.display(), counts.text());
-        outcome::printed(&text).map(|_| counts.status())
+    let next = table.next;
+    if next < runs.end {
+        return interrupted(started, table.file, next);
     }
-
-    /// Gives the files their names, the table last: what was killed between is taken up again.
-    fn finish(
-        &self,
-        growing: Growing,
-        series: Option<Series>,
-        beside: Option<Beside>,
-    ) -> Result<(), Box<dyn Error>> {
-        let records = series.map(|series| self.finish_series(series)).transpose()?;
-        let begun = beside.map(Beside::finish).transpose()?;
-        growing.finish()?;
-        records.map(Part::remove).transpose()?;
-        begun.as_deref().map(files::remove).transpose()?;
-        Ok(())
+    if let (Some(run), Some(_)) = (taken.killed.first(), &beside) {
+        let part = table.file.leave().unwrap_or_default();
+        return Err(format!(
+            "{}: run {run}: its process was killed from outside: --resume simulates it again",
+            part.display()
+        )
+        .into());
     }
-
-    /// Files that are read, so not written over.
-    fn inputs(&self) -> Vec<&Path> {
-        let mut inputs = self.campaign.simulated.reads();
-        inputs.push(&self.arguments.campaign);
-        inputs.extend(self.file.table.as_deref());
-        inputs
+    taken.sample.warn(&pool)?;
+    finish(started, table.file, series, beside)?;
+    if !arguments.quiet {
+        let simulated = (runs.end - runs.start) - done;
+        let lines =
+            [taken.counts.text(), format!("{simulated} runs in {:.3} s", began.elapsed().as_secs_f64())];
+        lines.iter().for_each(|line| terminal::note(line));
     }
+    Ok(taken.counts.status())
+}
 
-    /// The text beside a table: units, seed, versions, digests.
-    fn text_beside(&self, digests: &Digests) -> String {
-        origin::to_toml((self.file, self.campaign, digests), self.described)
-    }
+/// Reports a campaign that an earlier sweep completed.
+fn complete(started: &Started<'_>, counts: &Counts) -> Outcome {
+    let text = format!("{}: complete already: {}", started.arguments.output.display(), counts.text());
+    outcome::printed(&text).map(|_| counts.status())
+}
 
-    fn write_beside(&self, beside: Destination, digests: &Digests) -> Result<(), String> {
-        beside.fill_durably(|file| file.write_all(self.text_beside(digests).as_bytes()))
-    }
+/// Gives the files their names, the table last: what was killed between is taken up again.
+fn finish(
+    started: &Started<'_>,
+    growing: Growing,
+    series: Option<Series>,
+    beside: Option<Beside>,
+) -> Result<(), Box<dyn Error>> {
+    let records = series.map(|series| finish_series(started, series)).transpose()?;
+    let begun = beside.map(Beside::finish).transpose()?;
+    growing.finish()?;
+    records.map(Part::remove).transpose()?;
+    begun.as_deref().map(files::remove).transpose()?;
+    Ok(())
+}
 
-    fn interrupted(&self, growing: Growing, next: u64) -> Outcome {
-        let kept = growing.leave().map(|path| {
-            let rows = next - self.runs.start;
-            format!("\n{rows} rows so far: {}; --resume goes on with them", path.display())
-        });
-        terminal::note(&format!("interrupted before run {next}{}", kept.unwrap_or_default()));
-        Ok(if interrupt::raised() { ExitCode::from(INTERRUPTED) } else { ExitCode::FAILURE })
-    }
+fn interrupted(started: &Started<'_>, growing: Growing, next: u64) -> Outcome {
+    let kept = growing.leave().map(|path| {
+        let rows = next - started.runs.start;
+        format!("\n{rows} rows so far: {}; --resume goes on with them", path.display())
+    });
+    terminal::note(&format!("interrupted before run {next}{}", kept.unwrap_or_default()));
+    Ok(if interrupt::raised() { ExitCode::from(INTERRUPTED) } else { ExitCode::FAILURE })
+}
 
-    fn finish_series(&self, series: Series) -> Result<Part, String> {
-        let Campaign { settings, kept, percentile_points, .. } = self.campaign;
-        let names: Vec<&str> = kept
-            .percentiles
-            .iter()
-            .map(|column| self.described.variables[kept.positions[*column]].name.as_str())
-            .collect();
-        let times = settings.times;
-        let points = (0..=times.steps()).filter(|k| percentile_points.contain(*k));
-        let times_s: Vec<f64> = points.map(|k| times.point_s(k)).collect();
-        series.finish(self.runs.end - self.runs.start, (&names, &times_s))
-    }
+fn finish_series(started: &Started<'_>, series: Series) -> Result<Part, String> {
+    let Campaign { settings, kept, percentile_points, .. } = started.campaign;
+    let names: Vec<&str> = kept
+        .percentiles
+        .iter()
+        .map(|column| started.described.variables[kept.positions[*column]].name.as_str())
+        .collect();
+    let times = settings.times;
+    let points = (0..=times.steps()).filter(|k| percentile_points.contain(*k));
+    let times_s: Vec<f64> = points.map(|k| times.point_s(k)).collect();
+    series.finish(started.runs.end - started.runs.start, (&names, &times_s))
 }
 
 /// Results of the runs that ended.
@@ -326,19 +293,4 @@ fn simulate(
         outcomes.fold(written, |so_far, outcome| so_far.and(outcome))
     });
     Ok(outcome?)
-}
-
-impl Counts {
-    fn add(&mut self, status: RunStatus) {
-        self.0[status as usize] += 1;
-    }
-
-    fn status(&self) -> ExitCode {
-        if self.0[RunStatus::Failed as usize] == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-    }
-
-    fn text(&self) -> String {
-        let counts = RunStatus::ALL.iter().zip(self.0).filter(|(_, count)| *count > 0);
-        counts.map(|(status, count)| format!("{count} {}", status.word())).collect::<Vec<_>>().join(", ")
-    }
 }

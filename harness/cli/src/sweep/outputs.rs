@@ -8,16 +8,14 @@ use std::{
 use files::{Destination, Growing, OutputFolder, leads_below, sidecar_of};
 
 use super::{
-    Counts, OPTION, Started,
     file::CampaignFile,
+    histories::{HISTORIES, HistoryPlace},
     origin::Digests,
     series::{Series, percentiles_path},
+    started::{Counts, OPTION, Started},
     table::{self, LeftRows},
 };
 use crate::output::{OutputFile, OutputKind, check_standing};
-
-/// Key of the folder of histories.
-const HISTORIES: &str = "keep.histories";
 
 /// Outputs of a campaign, opened.
 pub(super) enum Opened {
@@ -62,20 +60,6 @@ pub(super) struct Histories {
     /// The folder, and the files that are not written over.
     pub place: HistoryPlace,
     _created: OutputFolder,
-}
-
-/// Folder of histories and its rules.
-pub(super) struct HistoryPlace {
-    folder: PathBuf,
-    inputs: Vec<PathBuf>,
-}
-
-impl HistoryPlace {
-    /// The table over time of a run.
-    pub(super) fn destination(&self, run: u64) -> Result<Destination, String> {
-        let inputs: Vec<&Path> = self.inputs.iter().map(PathBuf::as_path).collect();
-        Destination::open(&self.folder.join(format!("run-{run}.csv")), HISTORIES, &inputs)
-    }
 }
 
 impl CampaignFiles {

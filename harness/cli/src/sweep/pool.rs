@@ -16,7 +16,7 @@ use loader::{Collector, Recording, csv};
 use model_description::Description;
 
 use super::{
-    outputs::HistoryPlace,
+    histories::HistoryPlace,
     resolved::Campaign,
     series::Series,
     worker::{ALL_ENDED, BEGUN, ENDED, POINT, REFUSED, ROW, RunStatus},

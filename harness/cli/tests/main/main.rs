@@ -15,6 +15,7 @@ mod drawings;
 mod encounters;
 mod ephemerides;
 mod files;
+mod flyby_mistakes;
 mod flybys;
 mod hostile;
 mod installed;

@@ -233,3 +233,19 @@ fn rows_that_turn_far_without_a_rate_are_named() {
         assert!(!warned(vectors, spacing_s).contains("command.q turns by"), "{vectors:?} {spacing_s}");
     }
 }
+
+#[test]
+fn pulses_between_two_communication_points_are_named() {
+    let Some((scratch, _)) = truth() else { return };
+    let (fmu, input) = (scratch.path().join("craft.fmu"), scratch.path().join("in.csv"));
+    fs::write(&input, "time,dump.request\n0,false\n70,true\n100,false\n").unwrap();
+    let told = |step: &str| {
+        let begin = ["run", shown(&fmu), "--stop", "5 min", "--record", "attitude.q"];
+        run(&[&begin[..], &["--step", step, "--input", shown(&input)]].concat(), 0)
+    };
+    says(
+        &told("1 min"),
+        &["warning: dump.request is true from 70 s to 100 s alone", "a step of at most 30 s"],
+    );
+    assert!(!told("30 s").contains("dump.request is"));
+}

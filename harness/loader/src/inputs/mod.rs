@@ -2,13 +2,14 @@
 
 mod interpolation;
 mod meaning;
+mod pulses;
 
 use std::{collections::HashMap, sync::Arc};
 
 use model_description::{Causality, Description, ScalarVariable, Variability, VariableKind};
 
 use self::interpolation::{Circle, Gap, Quaternion, half_turn_rad};
-use crate::{Error, Value, parse_value, select};
+use crate::{Error, Times, Value, parse_value, select};
 
 /// Values of inputs (and tunable parameters) over time.
 ///
@@ -171,6 +172,12 @@ impl InputTable {
         let way =
             if let Interpolation::Angle(circle) = interpolation { circle.way(from, to) } else { to - from };
         Some(way / (end_s - start_s))
+    }
+
+    /// Lines on what a run with these communication points does not make of the rows: see [`Self::coarse_turns`] and
+    /// [`Self::lost_pulses`].
+    pub fn warnings(&self, description: &Description, times: &Times) -> Vec<String> {
+        [self.coarse_turns(), self.lost_pulses(description, times)].concat()
     }
 
     /// A line for each attitude without a body rate whose rows are more than a degree apart, with the widest gap.

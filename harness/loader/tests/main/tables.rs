@@ -1,6 +1,6 @@
 //! Input tables: linear between rows, held where discrete, jumps kept; bad tables named by line.
 
-use loader::{InputTable, Value};
+use loader::{InputTable, Times, Value};
 
 use crate::{description, folder};
 
@@ -53,6 +53,41 @@ fn two_rows_at_one_time_make_a_jump() {
     for (step_s, slope) in [([1.0, 2.0], 0.0), ([0.5, 1.0], 1.0), ([0.5, 1.5], 1.0)] {
         assert_eq!(table.slope(0, step_s), Some(slope), "slope over {step_s:?}");
     }
+}
+
+#[test]
+fn held_values_between_two_communication_points_are_named() {
+    let rows: &[&[&str]] = &[
+        &["time", "drive.push", "drive.held", "drive.on"],
+        &["0", "0", "1", "true"],
+        &["3", "1", "1", "false"],
+        &["12", "0", "2", "true"],
+        &["15", "9", "1", "false"],
+        &["25", "0", "3", "false"],
+        &["28", "0", "4", "false"],
+        &["31", "0", "4", "true"],
+        &["33", "0", "4", "false"],
+    ];
+    let table = table(rows).unwrap();
+    let description = description();
+    let lines = |step_s: f64| table.lost_pulses(&description, &Times::new(0.0, 40.0, step_s).unwrap());
+    // What is continuous is not lost; a staircase neither: 3 is passed on the way from 1 to 4.
+    let [held, on] = &lines(10.0)[..] else { panic!("{:?}", lines(10.0)) };
+    assert!(
+        held.starts_with(
+            "drive.held is 2 from 12 s to 15 s alone, between the communication points at 10 s and 20 s: "
+        ),
+        "{held}"
+    );
+    assert!(held.contains("at most 3 s"), "{held}");
+    assert!(
+        on.starts_with("drive.on is true from 12 s to 15 s alone") && on.contains("1 more like it"),
+        "{on}"
+    );
+    assert!(on.contains("at most 2 s does (now 10 s)"), "{on}");
+    let [on] = &lines(3.0)[..] else { panic!("{:?}", lines(3.0)) };
+    assert!(on.starts_with("drive.on is true from 31 s to 33 s alone"), "{on}");
+    assert!(lines(2.0).is_empty());
 }
 
 #[test]

@@ -108,8 +108,10 @@ fn fewest(bounds: &[Bound]) -> Vec<OffsetStep> {
             continue;
         }
         steps.push(step(bounds[since].at_s, shared));
-        // It begins with the time before, at which both offsets suit if distances are close.
-        (since, shared) = (index, bound.rad);
+        // From the time before on, at which both offsets suit if distances are close: between the two the earlier one leaves the corridor.
+        let overlap = meet(bounds[index - 1].rad, bound.rad);
+        let is_close = overlap[0] <= overlap[1];
+        (since, shared) = if is_close { (index - 1, overlap) } else { (index, bound.rad) };
     }
     steps.push(step(bounds.get(since).map_or(0.0, |bound| bound.at_s), shared));
     steps

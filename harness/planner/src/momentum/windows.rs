@@ -266,6 +266,9 @@ impl Layout {
         simulated: &SimulatedFlight,
     ) -> Result<(Vec<Window>, Vec<OffsetStep>), NoOffset> {
         let spans = self.spans(simulated);
+        let edges: Vec<f64> = spans.iter().map(|(span_s, ..)| span_s[0]).collect();
+        // The corridor holds up to an edge and from it on, rows there or not.
+        let simulated = &simulated.with_rows_at(&edges);
         let Some(begin_s) = simulated.rows.first().map(|row| row.time_s) else {
             return Ok((Vec::new(), Vec::new()));
         };
@@ -276,7 +279,6 @@ impl Layout {
             .filter(|row| row.time_s >= arrays_from_s - SAME_S)
             .map(|row| (row.time_s, row.to_sun_m.norm()))
             .collect();
-        let edges: Vec<f64> = spans.iter().map(|(span_s, ..)| span_s[0]).collect();
         let steps = match self.sides.is_empty() {
             true => Vec::new(),
             false => baseline(&self.corridor, &places, &edges, &self.own_offsets(arrays_from_s))?,

@@ -31,8 +31,8 @@ use super::{
 };
 use crate::{
     assembly::spacecraft_of,
-    check::Library,
     interrupt,
+    library::Library,
     mission::{Inputs, Mission},
     outcome::Outcome,
     values,

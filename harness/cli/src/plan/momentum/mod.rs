@@ -40,7 +40,7 @@ use super::{
     files::{check_standing, write_all},
     flights::Failure,
 };
-use crate::{check::Library, interrupt, outcome::Outcome};
+use crate::{interrupt, library::Library, outcome::Outcome};
 
 /// What is planned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

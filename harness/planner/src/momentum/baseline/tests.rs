@@ -8,9 +8,14 @@ const CORRIDOR: Articulation = Articulation { min_suns: 2.0, max_suns: 4.2, targ
 
 /// From 0.31 to 0.69 AU and back, a row each half day.
 fn places() -> Vec<(f64, f64)> {
+    each(0.5)
+}
+
+/// Over 200 days, a row each so many days.
+fn each(days: f64) -> Vec<(f64, f64)> {
     let distance_au = |day: f64| 0.5 - 0.19 * (core::f64::consts::TAU * day / 130.0).cos();
-    (0..=400)
-        .map(|k| 0.5 * f64::from(k))
+    (0..=(200.0 / days).round() as i32)
+        .map(|k| days * f64::from(k))
         .map(|day| (day * DAY_S, distance_au(day) * ASTRONOMICAL_UNIT_M))
         .collect()
 }
@@ -23,13 +28,22 @@ fn holds(steps: &[OffsetStep], places: &[(f64, f64)]) -> bool {
     })
 }
 
-/// By trying every set of so many steps: none of fewer steps keeps the corridor.
+/// Between rows as at them, extremes of the distance being rows.
+#[test]
+fn the_corridor_is_kept_up_to_each_step() {
+    for days in [0.25, 0.5, 1.0, 2.5] {
+        let found = baseline(&CORRIDOR, &each(days), &[], &[]).unwrap();
+        assert!(found.len() > 3 && holds(&found, &each(0.01)), "{days} d: {found:?}");
+    }
+}
+
+/// By trying every set of so many steps: none of fewer steps keeps the corridor, each from the row before on.
 #[test]
 fn no_choice_has_fewer_steps() {
     let places: Vec<_> = places().into_iter().step_by(20).collect();
     let found = baseline(&CORRIDOR, &places, &[], &[]).unwrap();
     let shares = |from: usize, to: usize| {
-        let all = places[from..to].iter().map(|it| allowed_rad(&CORRIDOR, it.1).unwrap());
+        let all = places[from.saturating_sub(1)..to].iter().map(|it| allowed_rad(&CORRIDOR, it.1).unwrap());
         let shared = all.fold(ALL, meet);
         shared[0] <= shared[1]
     };

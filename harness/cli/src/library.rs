@@ -7,7 +7,7 @@ use crate::{
     mission::{Mission, SpacecraftSource},
 };
 
-/// What `--template` names; otherwise the installed program's library, or a shipped FMU in `dist`.
+/// FMU of `--template`; otherwise the installed program's library, or a shipped FMU in `dist`.
 #[derive(Clone, Copy)]
 pub(crate) struct Library<'a> {
     template: Option<&'a Path>,
@@ -15,7 +15,7 @@ pub(crate) struct Library<'a> {
 
 impl<'a> Library<'a> {
     /// By the option.
-    pub(super) fn new(template: Option<&'a Path>) -> Self {
+    pub(crate) fn new(template: Option<&'a Path>) -> Self {
         Self { template }
     }
 
@@ -24,7 +24,7 @@ impl<'a> Library<'a> {
         self.template
     }
 
-    /// What cannot be judged where no library can be found; the mission is only read then.
+    /// Sentence on what is not judged where no library can be found; the mission is only read then.
     ///
     /// # Errors
     /// Everything wrong in the mission's file.

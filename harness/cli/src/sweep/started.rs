@@ -1,0 +1,64 @@
+//! Campaign of which everything was accepted, and how its runs ended.
+
+use std::{ops::Range, path::Path, process::ExitCode};
+
+use files::Destination;
+use model_description::Description;
+
+use super::{
+    file::CampaignFile,
+    options::Sweep,
+    origin::{self, Digests},
+    resolved::Campaign,
+    worker::RunStatus,
+};
+
+/// Option that names the table.
+pub(super) const OPTION: &str = "--output";
+
+/// A campaign of which everything was accepted.
+pub(super) struct Started<'a> {
+    pub arguments: &'a Sweep,
+    pub file: &'a CampaignFile,
+    pub campaign: &'a Campaign,
+    pub described: &'a Description,
+    pub runs: Range<u64>,
+}
+
+/// How many runs ended how.
+#[derive(Default)]
+pub(super) struct Counts([u64; 4]);
+
+impl Started<'_> {
+    /// Files that are read, so not written over.
+    pub(super) fn inputs(&self) -> Vec<&Path> {
+        let mut inputs = self.campaign.simulated.reads();
+        inputs.push(&self.arguments.campaign);
+        inputs.extend(self.file.table.as_deref());
+        inputs
+    }
+
+    /// The text beside a table: units, seed, versions, digests.
+    pub(super) fn text_beside(&self, digests: &Digests) -> String {
+        origin::to_toml((self.file, self.campaign, digests), self.described)
+    }
+
+    pub(super) fn write_beside(&self, beside: Destination, digests: &Digests) -> Result<(), String> {
+        beside.fill_durably(|file| file.write_all(self.text_beside(digests).as_bytes()))
+    }
+}
+
+impl Counts {
+    pub(super) fn add(&mut self, status: RunStatus) {
+        self.0[status as usize] += 1;
+    }
+
+    pub(super) fn status(&self) -> ExitCode {
+        if self.0[RunStatus::Failed as usize] == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    }
+
+    pub(super) fn text(&self) -> String {
+        let counts = RunStatus::ALL.iter().zip(self.0).filter(|(_, count)| *count > 0);
+        counts.map(|(status, count)| format!("{count} {}", status.word())).collect::<Vec<_>>().join(", ")
+    }
+}
