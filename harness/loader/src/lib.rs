@@ -25,6 +25,7 @@ mod requirements;
 mod select;
 mod simulate;
 mod status;
+mod times;
 mod uri;
 mod values;
 
@@ -47,9 +48,10 @@ pub use recording::{Column, Recording};
 pub use requirements::Requirements;
 pub use select::{select, select_outputs};
 pub use simulate::{
-    Ended, Options, RecordedPoints, Simulation, Stopped, Times, initialize, outputs, set_early, simulate,
+    Ended, Options, RecordedPoints, Simulation, Stopped, initialize, outputs, set_early, simulate,
     simulate_instance, simulate_into, simulate_with,
 };
 pub use status::LogMessage;
+pub use times::Times;
 pub use uri::file_uri;
 pub use values::{Assigned, assignment, parse_assignment, parse_value};

@@ -53,6 +53,8 @@ struct Inputs {
     failures: Knowns,
     /// What fires thrusters and turns wheels.
     commanded: Knowns,
+    /// Inputs by which a turn by torque is foreseen where a flight begins.
+    foreseen: Knowns,
 }
 
 impl Inputs {
@@ -68,19 +70,19 @@ impl Inputs {
         let attitude = knowns![&places, guided, commanded, knowns![&v.panel].only_if(panels_weigh)];
         let sensors = v.sun_sensor.iter().map(|sensor| sensor.failed).collect::<Knowns>();
         let wheels = v.wheel.iter().map(|wheel| wheel.failed).collect::<Knowns>();
+        let commanding =
+            knowns![&v.command, &v.dump, &v.maneuver, &v.thrust, &v.thruster, &v.wheel, &v.panel];
+        let failures =
+            knowns![v.star_tracker.failed, v.star_tracker.spare_failed, v.gyro.failed, sensors, wheels];
+        let applied = knowns![v.torque.applied, v.force.applied];
         Self {
+            foreseen: knowns![&commanding, &failures, applied].only_if(choice.by_torque),
             places,
             environment,
             attitude,
             dumped_at_once: knowns![&v.dump, maneuver].only_if(choice.ideal),
-            failures: knowns![
-                v.star_tracker.failed,
-                v.star_tracker.spare_failed,
-                v.gyro.failed,
-                sensors,
-                wheels
-            ],
-            commanded: knowns![&v.command, &v.dump, &v.maneuver, &v.thrust, &v.thruster, &v.wheel, &v.panel],
+            failures,
+            commanded: commanding,
         }
     }
 }
@@ -129,7 +131,7 @@ impl Parameters {
         let sensors = knowns![&v.star_tracker, &v.gyro, &v.sun_sensor, v.noise_seed, v.control.rate];
         // In controlled and free flight they are fitted along the turn ahead, by the torque that is foreseen.
         let turning = knowns![&sensors, &v.control, &v.wheel, &v.thruster, &v.thrust, &v.dump];
-        let turning = knowns![turning, v.torque.applied, v.force.applied].only_if(choice.by_torque);
+        let turning = turning.only_if(choice.by_torque);
         let light = knowns![
             &attitude,
             turning,
@@ -200,7 +202,8 @@ fn predicted(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, para
 fn loads(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, parameters: &Parameters) {
     let lit = &knowns![&inputs.attitude, &inputs.dumped_at_once, &v.panel, &inputs.environment];
     let by_source = knowns![&v.torque.by_source, &v.force.by_source, &v.plate];
-    table.output(by_source, lit, &parameters.light);
+    table.output(&by_source, lit, &parameters.light);
+    table.begins(by_source, &inputs.foreseen);
     // What swings does so under all forces.
     let rows = v.torque.by_source.iter().filter(|(effect, _)| effect.is_by_moving_parts());
     let moving = rows.map(|(_, output)| output).collect::<Knowns>();
