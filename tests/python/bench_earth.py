@@ -15,10 +15,11 @@ import time
 from earth_basilisk import DAY_S, DENSITY_KG_M3, DIPOLE_A_M2, HEIGHT_M, SCALE_M, TEXT, Day
 
 TURNS = 9
-# The same effects, from an orbit of the same size; the Sun's tide and light from the Earth Basilisk's flight does not have.
+# The same effects, from an orbit of the same size; tides of Sun and Moon and light from the Earth Basilisk's flight does not have.
 FLIGHT = {
     "orbit.center": "earth", "orbit.frame": "eme2000", "orbit.dynamics": "disturbed", "orbit.sunTide": "false",
-    "orbit.semiMajorAxis": 6_778_137.0, "orbit.eccentricity": 0.0, "orbit.inclination": 1.44, "planetLight.enabled": "false",
+    "orbit.moonTide": "false", "orbit.semiMajorAxis": 6_778_137.0, "orbit.eccentricity": 0.0, "orbit.inclination": 1.44,
+    "planetLight.enabled": "false",
     "atmosphere.referenceDensity": DENSITY_KG_M3, "atmosphere.referenceHeight": HEIGHT_M, "atmosphere.scaleHeight": SCALE_M,
     "dipole.residual": ",".join(map(str, DIPOLE_A_M2)),
 }

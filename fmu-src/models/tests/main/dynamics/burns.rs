@@ -156,6 +156,7 @@ fn simulated<'a>(
         ("orbit.source", 2.0),
         ("orbit.dynamics", 2.0),
         ("orbit.sunTide", 0.0),
+        ("orbit.moonTide", 0.0),
         // The pole is fixed, as in the integration.
         ("planet.orientation", 1.0),
     ];
