@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-/// Where the recording of a file in progress grows.
+/// Path of the file in progress of a target, `<name>.part`.
 pub fn part_of(target: &Path) -> PathBuf {
     with_ending(target, ".part")
 }

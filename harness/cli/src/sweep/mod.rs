@@ -54,7 +54,7 @@ use crate::{
 /// A campaign file in a line, after all that the command does before its first run.
 ///
 /// # Errors
-/// What the command refuses.
+/// Refusals of the command.
 pub(crate) fn checked(path: &Path, library: Library<'_>) -> Result<String, Box<dyn Error>> {
     let file = CampaignFile::read(path)?;
     let unjudged = library.unjudged(&file.simulated)?;

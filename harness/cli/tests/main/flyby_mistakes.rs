@@ -1,4 +1,4 @@
-//! What `plan flyby` refuses before its first flight.
+//! Refusals of `plan flyby` before its first flight.
 
 use std::fs;
 

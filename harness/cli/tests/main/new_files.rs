@@ -67,7 +67,7 @@ fn every_new_file_works_unchanged() {
     }
 }
 
-/// What is made of a file runs.
+/// Files made from a new file run.
 fn packs(kind: &str, folder: &Path, template: &Path) {
     let (file, fmu) = (folder.join(format!("{kind}.toml")), folder.join("packed.fmu"));
     let spacecraft = ["--spacecraft", shown(&file)];

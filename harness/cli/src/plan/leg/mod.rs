@@ -57,10 +57,10 @@ const ELEMENTS: [&str; 7] = [
 /// Inputs that a leg gives.
 const STARTS: [&str; 2] = ["orbit.position", "orbit.velocity"];
 
-/// What a leg file says, in a sentence, after all that the command does before its first flight.
+/// Sentence on a leg file, after all that the command does before its first flight.
 ///
 /// # Errors
-/// What the command refuses.
+/// Refusals of the command.
 pub(crate) fn checked(file: &Path, library: Library<'_>) -> Result<String, Failure> {
     let found = LegFile::read(file)?;
     let unjudged = library.unjudged(&found.mission.it)?;
@@ -200,7 +200,7 @@ struct Prepared<'a> {
     of_leg: LegMission<'a>,
     mission: SimulatedMission,
     arrival_s: f64,
-    /// Where the mission with the leg's start stood.
+    /// File that the mission with the leg's start was written to.
     begun: PathBuf,
 }
 

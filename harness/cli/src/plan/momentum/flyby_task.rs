@@ -13,10 +13,10 @@ use planner::{
 use super::file::{PlanFile, encounter::Flyby};
 use crate::plan::flights::{Failure, SimulatedMission};
 
-/// What is known of an encounter before the first flight.
+/// Encounter as the files give it before the first flight.
 pub(super) struct Aim {
     pub force_model: ForceModel,
-    /// Of a fixed arrival, in s.
+    /// Time of a fixed arrival, in s.
     pub arrival_s: Option<f64>,
 }
 

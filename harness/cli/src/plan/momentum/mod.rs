@@ -127,7 +127,7 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
 /// Summary of a plan file in a sentence, after all that the command does before its first flight.
 ///
 /// # Errors
-/// What the command refuses.
+/// Refusals of the command.
 pub(crate) fn checked(path: &Path, library: Library<'_>) -> Result<String, Failure> {
     let found = PlanFile::read(path)?;
     let kind = if found.flyby.is_some() { PlanKind::Flyby } else { PlanKind::Momentum };

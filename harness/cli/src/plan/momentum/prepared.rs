@@ -29,7 +29,7 @@ pub(super) struct Prepared {
     pub refit: Option<RefitValues>,
     /// Values that the refit gives.
     pub sets: Vec<(String, Vec<f64>)>,
-    /// Of a plan with a flyby.
+    /// Encounter of a plan with a flyby.
     pub aim: Option<Aim>,
     /// Windows in cruise. In an orbit phase a flight shows its downlinks; with `[update]` the mission is another one.
     pub cruise: Option<Layout>,
