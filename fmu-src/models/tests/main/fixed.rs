@@ -93,14 +93,14 @@ fn a_body_that_guidance_never_turns_begins_without_it() {
 }
 
 #[test]
-fn where_no_dump_is_at_once_light_begins_without_thrusters() {
-    let begins_fired = |fixed: &str| {
+fn light_begins_with_wheels_where_the_body_may_turn_by_torque() {
+    let begins_failed = |fixed: &str| {
         let description =
             described::<MomentumPlant>("my.toml", &format!("{FULL}\n[fixed]\n{fixed}\n")).unwrap();
-        begins_with(&description, "torque.solar[1]").iter().any(|name| name.starts_with("thruster[1]."))
+        begins_with(&description, "torque.solar[1]").iter().any(|name| name == "wheel[1].failed")
     };
-    assert!(begins_fired("") && begins_fired("\"attitude.source\" = \"commanded\""));
-    assert!(!begins_fired("\"attitude.source\" = \"controlled\""));
+    assert!(begins_failed("") && begins_failed("\"attitude.source\" = \"controlled\""));
+    assert!(!begins_failed("\"attitude.source\" = \"commanded\""));
 }
 
 #[test]
