@@ -4,7 +4,7 @@
 use nalgebra::{Matrix3, Rotation3, SVector, Vector3};
 use physics::{
     bodies::Body,
-    constants::{ASTRONOMICAL_UNIT_M, GM_MERCURY_M3_S2, GM_SUN_M3_S2},
+    constants::{ASTRONOMICAL_UNIT_M, GM_MERCURY_M3_S2, GM_SUN_M3_S2, SPEED_OF_LIGHT_M_S},
     environment::{CartesianState, ephemeris::Ephemeris, orbit::BPlane},
 };
 
@@ -41,7 +41,7 @@ pub(super) fn force_model() -> ForceModel {
         gm_m3_s2: GM_MERCURY_M3_S2,
         attracting: BODIES.to_vec(),
         moon: false,
-        relativity: false,
+        relativity: true,
         epoch_minus_time_s: FLYBY_S - LONG_S,
         lead_s: 21_600.0,
     }
@@ -163,8 +163,12 @@ impl Leg {
     }
 
     fn rate(&mut self, at_s: f64, y: &State6, ahead: bool) -> State6 {
-        let r = Vector3::new(y[0], y[1], y[2]);
+        let (r, v) = (Vector3::new(y[0], y[1], y[2]), Vector3::new(y[3], y[4], y[5]));
         let mut sum = -r * GM_SUN_M3_S2 / r.norm().powi(3);
+        // Schwarzschild's term, without which Mercury does not move as VSOP87 has it.
+        let potential = GM_SUN_M3_S2 / r.norm();
+        let bracket = r * (4.0 * potential - v.norm_squared()) + v * (4.0 * r.dot(&v));
+        sum += bracket * potential / (SPEED_OF_LIGHT_M_S * r.norm()).powi(2);
         for body in BODIES {
             let gm = body.data().gm_m3_s2;
             let p = self.body(body, at_s).position_m;
