@@ -57,7 +57,7 @@ const SYSTEMS: &[System] = &[
                 "MomentumPlant",
                 Some("messenger-full.toml"),
                 "--set shadowing.enabled=true --set solver.dynamicsStep=10 --set GUIDED_AT_START \
-                 --fix attitude.source=controlled --fix command.source=inputs --fix orbit.source=elements \
+                 --fix attitude.source=controlled --fix start.attitude=given --fix command.source=inputs --fix orbit.source=elements \
                  --fix ephemeris.source=vsop87",
             ),
         ],

