@@ -95,6 +95,9 @@ pub(in crate::plan::momentum) fn updated(
     Ok((updated, folder))
 }
 
+/// Begin of each row of a list and, where it has one, its end, in s.
+type RowTimes = Vec<(f64, Option<f64>)>;
+
 /// The mission's timeline with dates in the place of times, which would count from another start; `None` where it has none, or dates.
 fn dated(mission: &SimulatedMission, zero_s: f64) -> Result<Option<String>, Failure> {
     let spacecraft = spacecraft_of(&mission.fmu)?;
@@ -106,8 +109,7 @@ fn dated(mission: &SimulatedMission, zero_s: f64) -> Result<Option<String>, Fail
     let commands = timeline.entries().iter().map(|it| (it.at_s, it.until_s)).collect();
     let panels = timeline.panels().iter().map(|it| (it.at_s, None)).collect();
     let events = timeline.events().iter().map(|it| (it.at_s, None)).collect();
-    let lists: [(&str, Vec<(f64, Option<f64>)>); 3] =
-        [("command", commands), ("panels", panels), ("event", events)];
+    let lists: [(&str, RowTimes); 3] = [("command", commands), ("panels", panels), ("event", events)];
     for (name, times_s) in lists {
         let tables = document.get_mut(name).and_then(Item::as_array_of_tables_mut);
         for (table, (at_s, until_s)) in tables.into_iter().flat_map(|it| it.iter_mut()).zip(times_s) {
