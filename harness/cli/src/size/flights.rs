@@ -17,7 +17,7 @@ use crate::{
 
 /// Communication points of an orbit at least, and the longest step, in s.
 const POINTS_OF_ORBIT: f64 = 48.0;
-const LONGEST_STEP_S: f64 = 600.0;
+const LONGEST_STEP_S: f64 = 120.0;
 /// Step of a flight of which only dumps count, in s; one in which several fall is cut between them.
 const STEP_OF_DUMPS_S: f64 = 21_600.0;
 /// Rows that are kept of a flight at most.
