@@ -35,7 +35,12 @@ impl Column {
 
     /// All values as numbers.
     pub fn numbers(&self) -> Vec<f64> {
-        (0..).map_while(|row| self.value(row)).map(|value| value.to_f64()).collect()
+        match self {
+            Self::Real(values) => values.clone(),
+            Self::Integer(values) => values.iter().copied().map(f64::from).collect(),
+            Self::Boolean(values) => values.iter().map(|value| f64::from(u8::from(*value))).collect(),
+            Self::Text(values) => vec![f64::NAN; values.len()],
+        }
     }
 }
 

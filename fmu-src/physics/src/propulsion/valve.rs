@@ -32,6 +32,11 @@ impl Valve {
         self.is_open
     }
 
+    /// Whether it is closed with nothing left to come out.
+    pub fn is_shut(&self) -> bool {
+        !self.is_open && self.fraction == 0.0
+    }
+
     /// Pulses begun so far.
     pub fn pulses(&self) -> u32 {
         self.pulses

@@ -145,6 +145,9 @@ impl Thrusters {
         let feed = Feed { settings, propellant, time_s };
         for (k, thruster) in settings.thrusters.iter().enumerate() {
             let (valve, pulse) = (&mut self.valves[k], &mut self.schedule[k]);
+            if pulse.is_idle() && valve.is_shut() {
+                continue;
+            }
             if !feed.feeds(k) {
                 valve.shut(time_s);
                 pulse.clear();
