@@ -410,9 +410,14 @@ impl GyrostatMotion {
             let rate = polynomial(&self.series.rate[..=self.series.order], elapsed_s);
             torque += flow.jet_damping.torque_n_m(elapsed_s, &rate);
         }
-        let [imbalance, force] = self.imbalance_after(elapsed_s);
-        torque += imbalance + self.swing_torque_after(elapsed_s);
-        acceleration += force / self.load.mass_after_kg(elapsed_s);
+        if !self.imbalances.is_empty() {
+            let [imbalance, force] = self.imbalance_after(elapsed_s);
+            torque += imbalance;
+            acceleration += force / self.load.mass_after_kg(elapsed_s);
+        }
+        if !self.oscillators.is_empty() {
+            torque += self.swing_torque_after(elapsed_s);
+        }
         [torque, acceleration]
     }
 

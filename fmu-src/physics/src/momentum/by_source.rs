@@ -37,10 +37,9 @@ impl SourceMomenta {
         }
     }
 
-    /// With what torques did over a span: the means of inertial and body components times its length.
-    #[must_use]
-    pub fn with(self, impulses: &[Vector3<f64>; Effect::COUNT]) -> Self {
-        Self(ByEffect::of(|effect| self.0[effect] + impulses[effect as usize]))
+    /// Adds changes of momentum by effect, in N m s.
+    pub fn add(&mut self, impulses: &[Vector3<f64>; Effect::COUNT]) {
+        Effect::ALL.into_iter().zip(impulses).for_each(|(effect, impulse)| self.0[effect] += impulse);
     }
 }
 

@@ -56,13 +56,23 @@ impl MomentumDumps {
 
     /// Adds what the effects did in the segment that ends; nothing of a dump's time counts.
     pub(super) fn accumulate(&mut self, motion: &GyrostatMotion, is_dumping: bool) {
-        self.by_source =
-            if is_dumping { SourceMomenta::default() } else { self.by_source(motion, motion.end_s()) };
+        if is_dumping {
+            self.by_source = SourceMomenta::default();
+        } else {
+            self.by_source.add(&self.impulses(motion, motion.end_s()));
+        }
         self.torques = Default::default();
     }
 
     /// What each effect did to the momentum since the end of the last dump, at `time_s`.
     pub(super) fn by_source(&self, motion: &GyrostatMotion, time_s: f64) -> SourceMomenta {
+        let mut sum = self.by_source;
+        sum.add(&self.impulses(motion, time_s));
+        sum
+    }
+
+    /// Change of momentum by effect since the start of the motion's segment, EME2000, in N m s.
+    fn impulses(&self, motion: &GyrostatMotion, time_s: f64) -> [Vector3<f64>; Effect::COUNT] {
         let mut impulses = motion.impulses_inertial_n_m_s(self.torques.values(), time_s);
         let by_motion = [
             (Effect::Magnetic, motion.magnetic_impulse_inertial_n_m_s(time_s)),
@@ -70,9 +80,11 @@ impl MomentumDumps {
             (Effect::Slosh, motion.swing_impulse_inertial_n_m_s(time_s)),
         ];
         for (effect, impulse) in by_motion {
-            impulses[effect as usize] = impulse.unwrap_or(impulses[effect as usize]);
+            if let Some(impulse) = impulse {
+                impulses[effect as usize] = impulse;
+            }
         }
-        self.by_source.with(&impulses)
+        impulses
     }
 
     /// Begins a dump at the end of the motion: by thrusters that give torque all ways about the centre of mass, or by a constant

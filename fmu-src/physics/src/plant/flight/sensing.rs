@@ -7,6 +7,9 @@ use crate::attitude::control::{AccelerometerState, Estimate, EstimatorState, sen
 use crate::attitude::{Attitude, BodyMotion, Quaternion};
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
 
+/// Turn below which the quaternion keeps its nearer sign, in rad; a half turn at the most.
+const SAME_SIGN_RAD: f64 = 1.0;
+
 /// What the sensors measured last.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Sensing {
@@ -78,13 +81,13 @@ impl Sensing {
             let increment_body_m_s = before.halfway(&body.attitude).body_from_inertial(&increment);
             self.accelerometer.sample(&settings.accelerometer, &increment_body_m_s, interval_s, number);
         }
-        let expected = self.estimate_at(time_s).attitude.unit_quaternion();
+        let before = self.last_sign_reference(time_s, interval_s);
         self.sampled_s = time_s;
         self.sampled = (body.attitude, body.delta_v_inertial_m_s);
         let attitude = Attitude::from_unit(body.attitude);
         let rate = &body.rate_body_rad_s;
         self.estimate = self.estimator.sample(&settings.sensors, inputs.health, &attitude, rate, number);
-        self.estimate.attitude = self.estimate.attitude.continuing(&expected);
+        self.estimate.attitude = self.estimate.attitude.continuing(&before);
         self.sun_sensed_body = sensed_sun(
             &settings.sun_sensors,
             |k| inputs.sun_sensor_failed.get(k).is_some_and(|failed| *failed),
@@ -93,6 +96,15 @@ impl Sensing {
             (settings.sensors.seed, number),
         );
         sample
+    }
+
+    /// Quaternion whose sign an estimate at `time_s` takes, `interval_s` after the last one: that one's own, unless the body may
+    /// have turned far since.
+    fn last_sign_reference(&self, time_s: f64, interval_s: f64) -> Quaternion {
+        let rate_rad_s = self.estimate.rate_body_rad_s.map_or(0.0, |rate| rate.norm());
+        let estimate =
+            if rate_rad_s * interval_s < SAME_SIGN_RAD { self.estimate } else { self.estimate_at(time_s) };
+        estimate.attitude.unit_quaternion()
     }
 
     /// The last estimate, propagated to `time_s`.

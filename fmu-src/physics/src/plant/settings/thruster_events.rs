@@ -163,6 +163,9 @@ impl ThrusterEventSettings {
 
     /// The events of the schedule that lie beyond this place.
     fn beyond(&self, place: SchedulePlace) -> &[TimelineEvent] {
+        if self.schedule.is_empty() {
+            return &[];
+        }
         let up_to = begun(&self.schedule, self.clock_minus_time_s, place.time_s, |event| event.at_s);
         let (over, beyond) = self.schedule.split_at(up_to);
         let at = over.iter().rev().take_while(|event| self.time_s(event) == place.time_s).count();
