@@ -10,12 +10,21 @@ use crate::numerics::chebyshev::Segment;
 /// Torque of the effects that act and whose momentum is kept apart, body frame, in N m.
 pub type SourceTorques = ByEffect<Option<Vector3<f64>>>;
 
+/// Whether the momentum of an effect is kept apart on a body whose attitude is followed ideally, in the table's order.
+const KEPT_APART: [bool; Effect::COUNT] = {
+    let mut kept = [false; Effect::COUNT];
+    let mut k = 0;
+    while k < Effect::COUNT {
+        kept[k] = Effect::ALL[k].row().momentum_apart && !Effect::ALL[k].is_by_moving_parts();
+        k += 1;
+    }
+    kept
+};
+
 /// Torque by effect of the loads at one time, of those that act on a body whose attitude is followed ideally.
 pub fn torques_body_n_m(loads: &Loads, active: Active) -> SourceTorques {
-    let acts = |effect: Effect| active.has(effect) && !effect.is_by_moving_parts();
-    ByEffect::of(|effect| {
-        (acts(effect) && effect.row().momentum_apart).then(|| loads[effect].torque_body_n_m)
-    })
+    let acts = |effect: Effect| KEPT_APART[effect as usize] && active.has(effect);
+    ByEffect::of(|effect| acts(effect).then(|| loads[effect].torque_body_n_m))
 }
 
 /// Momentum by effect since the last dump, in N m s: EME2000 where the momentum is physical, the integral of body components

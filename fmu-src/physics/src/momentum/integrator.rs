@@ -87,7 +87,7 @@ impl MomentumIntegrator {
     /// The attitude of this frame, which the body has at a time inside the current segment, its quaternion continuous along the
     /// flight; where the law jumps, the sign is the nearer one.
     pub fn attitude(&self, inertial_from_body: &Rotation3<f64>, time_s: f64) -> Attitude {
-        Attitude::from_rotation(inertial_from_body).continuing(&self.segment.attitude(time_s))
+        Attitude::from_rotation(inertial_from_body).continuing(&self.segment.sign_reference(time_s))
     }
 
     /// Angular acceleration of the body at a time inside the current segment, body frame, in rad/s2.
@@ -194,7 +194,9 @@ impl MomentumIntegrator {
                 let before_body_n_m_s = momentum;
                 return Ok(Stop::Dump(DumpEvent { time_s: start_s, before_body_n_m_s, after_body_n_m_s }));
             }
-            let attitude = self.attitude(&inertial_from_body, start_s).unit_quaternion();
+            // A law that jumps here takes the sign nearer to the motion that ends.
+            let ended = self.segment.attitude(start_s);
+            let attitude = Attitude::from_rotation(&inertial_from_body).continuing(&ended).unit_quaternion();
             self.segment.advance(flight, settings, horizon_s, (attitude, totals, by_source))?;
         }
         Ok(Stop::Reached)

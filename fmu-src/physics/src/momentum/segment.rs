@@ -61,6 +61,8 @@ pub(super) struct MomentumSegment {
     by_source: SourceSegments<{ NODES + 1 }>,
     /// Angular rate, body frame, in rad/s; absent for a segment without length.
     rate_body_rad_s: Option<Segment<3, NODES>>,
+    /// Bound of its norm, in rad/s.
+    fastest_rad_s: f64,
     /// Momentum of the body and its panels, body frame, in N m s; absent where no panel has a mass.
     structure_body_n_m_s: Option<Segment<3, NODES>>,
     /// Components of the momentum, body frame, that come to their dump thresholds at the end.
@@ -84,6 +86,7 @@ impl MomentumSegment {
     /// Rejects decoded states that no simulation can produce.
     pub(super) fn is_valid(&self) -> bool {
         self.next_longest_s > 0.0
+            && self.fastest_rad_s >= 0.0
             && Attitude::from_unit(self.attitude_at_start).is_rotation()
             && self.totals.as_ref().is_none_or(|it| it.is_valid() && it.spans(self.start_s, self.end_s))
             && self.by_source.present().all(|(_, it)| it.is_valid() && it.spans(self.start_s, self.end_s))
@@ -165,6 +168,7 @@ impl MomentumSegment {
         (self.start_s, self.end_s, self.next_longest_s) = (start_s, end_s, next_longest_s);
         (self.at_start, self.totals) = (at_start, Some(totals));
         (self.attitude_at_start, self.by_source_at_start) = (attitude_at_start, by_source_at_start);
+        self.fastest_rad_s = rate_body_rad_s.coefficients().column_iter().map(|term| term.norm()).sum();
         (self.rate_body_rad_s, self.structure_body_n_m_s) = (Some(rate_body_rad_s), structure_body_n_m_s);
         self.at_threshold = [false; 3];
         for effect in Effect::ALL {
@@ -215,6 +219,13 @@ impl MomentumSegment {
         }))
     }
 
+    /// Quaternion inside the segment whose sign is that of the motion at `time_s`: the one at the start, until the body may have
+    /// turned far.
+    pub(super) fn sign_reference(&self, time_s: f64) -> Quaternion {
+        let turned_rad = self.fastest_rad_s * (time_s - self.start_s);
+        if turned_rad < STEP_RAD { self.attitude_at_start } else { self.attitude(time_s) }
+    }
+
     /// Attitude at a time inside the segment by the body rate since its start, whose sign is that of the motion, be the turn a whole
     /// one or more.
     pub(super) fn attitude(&self, time_s: f64) -> Quaternion {
@@ -222,8 +233,7 @@ impl MomentumSegment {
         let Some(rate) = self.rate_body_rad_s.as_ref().filter(|_| span_s > 0.0) else {
             return self.attitude_at_start;
         };
-        let most_rad_s: f64 = rate.coefficients().column_iter().map(|term| term.norm()).sum();
-        let steps = (most_rad_s * span_s / STEP_RAD).ceil().clamp(1.0, MOST_STEPS);
+        let steps = (self.fastest_rad_s * span_s / STEP_RAD).ceil().clamp(1.0, MOST_STEPS);
         let step_s = span_s / steps;
         (0..steps as u32).fold(self.attitude_at_start, |attitude, step| {
             let rate_body_rad_s = rate.value(self.start_s + (f64::from(step) + 0.5) * step_s);
