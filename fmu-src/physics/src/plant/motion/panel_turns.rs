@@ -3,7 +3,7 @@
 //! Method: at the start of each segment the angle of the law is taken with the whole turns that bring it nearest to the angle of the
 //! segment before, continued at its rate; within a segment likewise from its start. Communication points only read.
 
-use core::f64::consts::TAU;
+use core::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
@@ -58,5 +58,5 @@ impl PanelTurns {
 
 /// Whole turns that are nearest to `way_rad`, in rad.
 pub(crate) fn nearest_turns_rad(way_rad: f64) -> f64 {
-    TAU * (way_rad / TAU).round()
+    if way_rad.abs() < PI { 0.0 } else { TAU * (way_rad / TAU).round() }
 }
