@@ -28,8 +28,16 @@ pub(crate) struct New {
 pub(crate) enum NewKind {
     /// A spacecraft, for `check`, `draw`, `pack`
     Spacecraft,
-    /// A spin-stabilised spacecraft, for `check`, `pack`, `plan spin`
+    /// A spin-stabilised spacecraft, for `check`, `pack`, `plan spin`; with spinner-mission.toml, a mission of it
     Spinner,
+    /// A communications satellite in geostationary orbit; with comsat-mission.toml, a mission of it
+    Comsat,
+    /// A `CubeSat` in low Earth orbit; with cubesat-mission.toml, a mission of it
+    Cubesat,
+    /// An orbiter of a small asteroid; with asteroid-mission.toml, a mission of it
+    Asteroid,
+    /// A telescope behind a sunshield near the Sun-Earth point L2; with telescope-mission.toml, a mission of it
+    Telescope,
     /// What is simulated, when, with which values, and what is recorded; for `run`, `check`, `pack --mission`
     Mission,
     /// Commands, positions of panels and events over time, for `pack --timeline`
@@ -42,27 +50,67 @@ pub(crate) enum NewKind {
     Campaign,
 }
 
-impl NewKind {
-    /// Name and text of the mission that it names.
-    fn mission(self) -> Option<(&'static str, &'static str)> {
-        match self {
-            Self::Plan => Some(("plan-mission.toml", include_str!("plan-mission.toml"))),
-            Self::Leg => Some(("leg-mission.toml", include_str!("leg-mission.toml"))),
-            Self::Campaign => Some(Self::Mission.content()),
-            _ => None,
-        }
-    }
+/// Text of the example file of this name.
+macro_rules! example {
+    ($name:literal) => {
+        include_str!(concat!("../../../../fmu-src/resources/examples/", $name))
+    };
+}
 
-    /// The file's name and text.
-    fn content(self) -> (&'static str, &'static str) {
+/// A file to write.
+struct Content {
+    /// Its usual name.
+    file: &'static str,
+    /// The name that its text has for itself.
+    named: &'static str,
+    text: &'static str,
+    /// Name and text of a mission beside it.
+    mission: Option<(&'static str, &'static str)>,
+}
+
+impl NewKind {
+    fn content(self) -> Content {
+        let alone = |file, text| Content { file, named: file, text, mission: None };
+        let mission = alone("mission.toml", include_str!("mission.toml"));
         match self {
-            Self::Spacecraft => ("spacecraft.toml", include_str!("spacecraft.toml")),
-            Self::Spinner => ("spinner.toml", include_str!("spinner.toml")),
-            Self::Mission => ("mission.toml", include_str!("mission.toml")),
-            Self::Timeline => ("timeline.toml", include_str!("timeline.toml")),
-            Self::Plan => ("plan.toml", include_str!("plan.toml")),
-            Self::Leg => ("leg.toml", include_str!("leg.toml")),
-            Self::Campaign => ("campaign.toml", include_str!("campaign.toml")),
+            Self::Spacecraft => alone("spacecraft.toml", include_str!("spacecraft.toml")),
+            Self::Spinner => Content {
+                mission: Some(("spinner-mission.toml", include_str!("spinner-mission.toml"))),
+                ..alone("spinner.toml", include_str!("spinner.toml"))
+            },
+            Self::Comsat => Content {
+                mission: Some(("comsat-mission.toml", example!("missions/comsat.toml"))),
+                ..alone("comsat.toml", example!("comsat.toml"))
+            },
+            Self::Cubesat => Content {
+                file: "cubesat.toml",
+                mission: Some(("cubesat-mission.toml", example!("missions/cubesat-12u.toml"))),
+                ..alone("cubesat-12u.toml", example!("cubesat-12u.toml"))
+            },
+            Self::Asteroid => Content {
+                file: "asteroid.toml",
+                mission: Some(("asteroid-mission.toml", example!("missions/asteroid-orbiter.toml"))),
+                ..alone("asteroid-orbiter.toml", example!("asteroid-orbiter.toml"))
+            },
+            Self::Telescope => Content {
+                file: "telescope.toml",
+                mission: Some(("telescope-mission.toml", example!("missions/sunshield-telescope.toml"))),
+                ..alone("sunshield-telescope.toml", example!("sunshield-telescope.toml"))
+            },
+            Self::Mission => mission,
+            Self::Timeline => alone("timeline.toml", include_str!("timeline.toml")),
+            Self::Plan => Content {
+                mission: Some(("plan-mission.toml", include_str!("plan-mission.toml"))),
+                ..alone("plan.toml", include_str!("plan.toml"))
+            },
+            Self::Leg => Content {
+                mission: Some(("leg-mission.toml", include_str!("leg-mission.toml"))),
+                ..alone("leg.toml", include_str!("leg.toml"))
+            },
+            Self::Campaign => Content {
+                mission: Some((mission.file, mission.text)),
+                ..alone("campaign.toml", include_str!("campaign.toml"))
+            },
         }
     }
 }
@@ -77,24 +125,39 @@ fn with_commands_of(text: &str, name: &str, own: &str) -> String {
     text.lines().map(line).collect()
 }
 
-/// Writes the mission that a file names beside it; one that is there stays unless `force` is given.
-fn write_mission(kind: NewKind, path: &Path, force: bool) -> Result<(), String> {
-    let Some((name, text)) = kind.mission() else { return Ok(()) };
+/// The text of a mission; one that flies a spacecraft gets this one's name, and the command in its head the mission's own.
+fn mission_of(text: &str, craft: &str, own: &str) -> String {
+    if !text.lines().any(|line| line.starts_with("spacecraft = ")) {
+        return text.to_owned();
+    }
+    let line = |line: &str| match line {
+        line if line.starts_with("#   heliotorque run ") => format!("#   heliotorque run {own}\n"),
+        line if line.starts_with("spacecraft = ") => format!("spacecraft = \"{craft}\"\n"),
+        line => format!("{line}\n"),
+    };
+    text.lines().map(line).collect()
+}
+
+/// Writes the mission beside a file; one that is there stays unless `force` is given.
+fn write_mission(content: &Content, path: &Path, force: bool) -> Result<(), String> {
+    let Some((name, text)) = content.mission else { return Ok(()) };
     let beside = path.with_file_name(name);
     let shown = beside.display();
     if std::fs::symlink_metadata(&beside).is_ok() && !force {
         terminal::note(&format!("{shown}: there already, kept: see --force"));
         return Ok(());
     }
+    let craft = path.file_name().unwrap_or_default().to_string_lossy();
+    let text = mission_of(text, &craft, name);
     Destination::open(&beside, "FILE", &[path])?.fill(|file| file.write_all(text.as_bytes()))?;
-    terminal::note(&format!("{shown}: written, the mission that {} names", path.display()));
+    terminal::note(&format!("{shown}: written, the mission of {}", path.display()));
     Ok(())
 }
 
 /// Writes the file, and the mission that it names.
 pub(crate) fn run(arguments: &New) -> Outcome {
-    let (name, text) = arguments.kind.content();
-    let path = arguments.file.as_deref().unwrap_or(Path::new(name));
+    let content = arguments.kind.content();
+    let path = arguments.file.as_deref().unwrap_or(Path::new(content.file));
     let is_there = path != Path::new("-") && std::fs::symlink_metadata(path).is_ok();
     if is_there && !arguments.force {
         let path = path.display();
@@ -103,11 +166,11 @@ pub(crate) fn run(arguments: &New) -> Outcome {
     let destination = Destination::open(path, "FILE", &[])?;
     let is_stdout = destination.is_stdout();
     let own =
-        path.file_name().filter(|_| !is_stdout).map_or_else(|| name.into(), |own| own.to_string_lossy());
-    let text = with_commands_of(text, name, &own);
+        path.file_name().filter(|_| !is_stdout).map_or(content.file.into(), |own| own.to_string_lossy());
+    let text = with_commands_of(content.text, content.named, &own);
     destination.fill(|file| file.write_all(text.as_bytes()))?;
     if !is_stdout {
-        write_mission(arguments.kind, path, arguments.force)?;
+        write_mission(&content, path, arguments.force)?;
         let next = match arguments.kind {
             NewKind::Mission => "run",
             _ => "check",
@@ -124,9 +187,9 @@ mod tests {
     #[test]
     fn the_commands_in_a_file_name_it() {
         for kind in NewKind::value_variants() {
-            let (name, text) = kind.content();
-            assert_eq!(with_commands_of(text, name, name), text);
-            let own = with_commands_of(text, name, "mine.toml");
+            let Content { named, text, .. } = kind.content();
+            assert_eq!(with_commands_of(text, named, named), text);
+            let own = with_commands_of(text, named, "mine.toml");
             assert!(own.contains("#   heliotorque check mine.toml"), "{own}");
             assert_eq!(
                 own.lines().filter(|line| !line.starts_with('#')).collect::<Vec<_>>(),

@@ -4,7 +4,21 @@ use std::{fs, path::Path, process::Command};
 
 use crate::{heliotorque, run, says, shown, template, text, words};
 
-const KINDS: [&str; 7] = ["spacecraft", "spinner", "mission", "timeline", "plan", "leg", "campaign"];
+const KINDS: [&str; 11] = [
+    "spacecraft",
+    "spinner",
+    "comsat",
+    "cubesat",
+    "asteroid",
+    "telescope",
+    "mission",
+    "timeline",
+    "plan",
+    "leg",
+    "campaign",
+];
+/// Craft with a mission beside them that flies them.
+const GALLERY: [&str; 5] = ["spinner", "comsat", "cubesat", "asteroid", "telescope"];
 
 #[test]
 fn a_file_that_is_there_is_kept() {
@@ -57,6 +71,11 @@ fn every_new_file_works_unchanged() {
             }
         }
         packs(kind, folder, &template);
+        if GALLERY.contains(&kind) {
+            printed(&format!("check {kind}-mission.toml --template template.fmu"));
+            printed(&format!("run {kind}-mission.toml --quiet --template template.fmu"));
+            assert!(fs::read_dir(folder).unwrap().any(|it| it.unwrap().path().extension().unwrap() == "svg"));
+        }
         if kind == "mission" {
             let rows = fs::read_to_string(folder.join("mission.csv")).unwrap();
             let header = "time,momentum.body[1],momentum.body[2],momentum.body[3],dump.count,sun.elevation\n";
@@ -100,7 +119,7 @@ fn the_mission_of_a_new_file_is_kept_where_it_is_there() {
     {
         let scratch = tempfile::tempdir().unwrap();
         let (file, beside) = (scratch.path().join("mine.toml"), scratch.path().join(mission));
-        says(&run(&["new", kind, shown(&file)], 0), &[mission, "written, the mission that"]);
+        says(&run(&["new", kind, shown(&file)], 0), &[mission, "written, the mission of"]);
         let written = fs::read_to_string(&beside).unwrap();
         fs::write(&beside, "# mine\n").unwrap();
         fs::remove_file(&file).unwrap();
