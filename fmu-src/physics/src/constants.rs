@@ -16,6 +16,11 @@ pub const ARCSECOND_RAD: f64 = DEG_RAD / 3600.0;
 pub const RPM_RAD_S: f64 = core::f64::consts::PI / 30.0;
 /// Seconds in a day.
 pub const DAY_S: f64 = 86_400.0;
+/// Seconds in a Julian year.
+pub const YEAR_S: f64 = 365.25 * DAY_S;
+/// Units of time that files and options take, with their seconds, the SI unit first.
+pub const TIME_UNITS: [(&str, f64); 6] =
+    [("s", 1.0), ("ms", 1e-3), ("min", 60.0), ("h", 3600.0), ("d", DAY_S), ("a", YEAR_S)];
 /// Standard acceleration of gravity, m/s2 (exact, CGPM 1901); turns specific impulse into exhaust speed.
 pub const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
 

@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use loader::Error;
-use model_description::{Description, ScalarVariable, VariableKind, value};
+use model_description::{Causality, Description, ScalarVariable, VariableKind, start_values, value};
 use physics::environment::dates;
 pub(crate) use planner::ephemeris::utc_date as date;
 
@@ -169,6 +169,20 @@ pub(crate) fn is_epoch(description: &Description, variable: &ScalarVariable) -> 
     matches!(variable.kind, VariableKind::Real { .. })
         && value::unit(description, variable) == Some("s")
         && variable.description.as_deref().is_some_and(|text| text.contains(SAYS_EPOCH))
+}
+
+/// The epoch of time 0 in s past J2000 TDB in a flight from `start_s`, by the epochs that its parameters give, where they are one.
+pub(crate) fn zero_epoch_s(
+    description: &Description,
+    sets: &[(String, value::Value)],
+    start_s: f64,
+) -> Option<f64> {
+    let fixed = [Causality::Parameter, Causality::Local];
+    let given = description.variables.iter().filter(|it| fixed.contains(&it.causality));
+    let epochs = given.filter(|it| is_epoch(description, it));
+    let mut epochs_s = epochs.filter_map(|it| start_values::real(description, sets, &it.name));
+    let first_s = epochs_s.next()?;
+    epochs_s.all(|other_s| other_s == first_s).then_some(first_s - start_s)
 }
 
 /// Whether a variable is the epoch of the start, its own or a component's.

@@ -1,20 +1,24 @@
 //! What times and angles on the command line mean.
 
 use model_description::units;
-use physics::environment::dates;
+use physics::{constants::TIME_UNITS, environment::dates};
 
 /// Seconds, or a number with a unit of time.
 pub(crate) fn duration(text: &str) -> Result<f64, String> {
-    const UNITS: [(&str, f64); 6] =
-        [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0), ("d", 86_400.0), ("", 1.0)];
+    with_unit(text, TIME_UNITS).ok_or_else(|| {
+        "a time is a number of seconds or carries a unit (ms, s, min, h, d, a): 600, 10min, 0.5h, 90d"
+            .to_owned()
+    })
+}
+
+/// A finite number with one of these units, or without, in the unit of factor 1.
+fn with_unit<'u>(text: &str, units: impl IntoIterator<Item = (&'u str, f64)>) -> Option<f64> {
     let text = text.trim();
-    let unit = UNITS.iter().find(|(unit, _)| text.ends_with(unit));
-    let (number, factor) =
-        unit.map_or((text, 1.0), |(unit, factor)| (&text[..text.len() - unit.len()], *factor));
-    match number.trim_end().parse::<f64>() {
-        Ok(number) if (number * factor).is_finite() => Ok(number * factor),
-        _ => Err("a time is a number of seconds or carries a unit: 600, 10min, 0.5h, 90d".to_owned()),
-    }
+    // "5 km" ends in m as well: the longest name that fits is meant.
+    let fitting = units.into_iter().chain([("", 1.0)]).filter(|(name, _)| text.ends_with(name));
+    let (name, factor) = fitting.max_by_key(|(name, _)| name.len())?;
+    let number: f64 = text[..text.len() - name.len()].trim_end().parse().ok()?;
+    Some(number * factor).filter(|value| value.is_finite())
 }
 
 /// A time of the simulation, or a date.
@@ -71,14 +75,11 @@ pub(crate) fn number(text: &str, is_allowed: impl Fn(f64) -> bool, allowed: &str
 
 /// A number in the SI unit of this name, or with one of the units that it is shown in.
 pub(crate) fn quantity(text: &str, unit: &str) -> Option<f64> {
-    let text = text.trim();
+    if unit == TIME_UNITS[0].0 {
+        return with_unit(text, TIME_UNITS);
+    }
     let shown = units::find(unit).into_iter().flat_map(|known| known.display);
-    let factors = shown.map(|(name, factor)| (*name, 1.0 / factor));
-    // "5 km" ends in m as well: the longest name that fits is meant.
-    let fitting = factors.chain([(unit, 1.0), ("", 1.0)]).filter(|(name, _)| text.ends_with(name));
-    let (name, factor) = fitting.max_by_key(|(name, _)| name.len())?;
-    let number: f64 = text[..text.len() - name.len()].trim_end().parse().ok()?;
-    Some(number * factor).filter(|value| value.is_finite())
+    with_unit(text, shown.map(|(name, factor)| (*name, 1.0 / factor)).chain([(unit, 1.0)]))
 }
 
 /// The names between commas; those between the indices of a matrix part none.
@@ -104,6 +105,20 @@ mod tests {
     fn names_are_split_outside_brackets() {
         assert_eq!(names("a[1,2], b"), ["a[1,2]", "b"]);
         assert_eq!(all_names(&["*[1,2].x,y".to_owned(), "z".to_owned()]), ["*[1,2].x", "y", "z"]);
+    }
+
+    #[test]
+    fn times_take_the_same_units_everywhere() {
+        let shown = units::find("s").unwrap().display.iter().map(|(name, factor)| (*name, 1.0 / factor));
+        for ((name, seconds), (known, factor)) in
+            TIME_UNITS.into_iter().zip([("s", 1.0)].into_iter().chain(shown))
+        {
+            assert!(name == known && (seconds / factor - 1.0).abs() < 1e-15, "{name}");
+            let text = format!("3 {name}");
+            assert_eq!([duration(&text).ok(), quantity(&text, "s")], [Some(3.0 * seconds); 2]);
+        }
+        assert_eq!(TIME_UNITS.len(), 1 + units::find("s").unwrap().display.len());
+        assert_eq!(duration("15a"), Ok(473_364_000.0));
     }
 
     #[test]

@@ -223,6 +223,7 @@ pub(super) fn draw_series(
                     Some(band) => {
                         pen.polygon(&place(band.outline()), &filled(0.25));
                         edges.extend([band.lowest, band.greatest].map(place));
+                        lines.push(place(envelope::mean(piece)));
                     }
                     None if mark == Mark::Steps => lines.push(place(piece.to_vec())),
                     None => lines.push(place(thin(piece))),

@@ -8,6 +8,11 @@ const REVERSALS_PER_COLUMN: usize = 3;
 const POINTS_PER_REVERSAL: usize = 2;
 /// Part of the panel's height that the band has at least on average; a ripple on something slower stays a line.
 const HEIGHT: f64 = 0.2;
+/// Reversals in the window that a mean is taken over: some ten oscillations, of which the window leaves 1e-3.
+const REVERSALS_OF_MEAN: f64 = 20.0;
+/// Widest window as part of the line, and points of a mean.
+const WIDEST: f64 = 1.0 / 12.0;
+const MEANS: usize = 200;
 /// Numbers of columns that are tried: of two pixels each, and of ten.
 const COLUMNS: [usize; 2] = [400, 80];
 
@@ -50,6 +55,34 @@ pub(super) fn of(points: &[(f64, f64)]) -> Option<Envelope> {
     COLUMNS.into_iter().find_map(|columns| over(points, columns))
 }
 
+/// Mean of a line that swings up and down, over a window of some ten oscillations, which falls to 0 at its ends; from half a window
+/// after the first point to half a window before the last.
+pub(super) fn mean(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let (Some(first), Some(last)) = (points.first(), points.last()) else { return Vec::new() };
+    let length = last.0 - first.0;
+    let half = 0.5 * length * (REVERSALS_OF_MEAN / reversals(points) as f64).min(WIDEST);
+    let middle = |at: usize| 0.5 * (points[at].0 + points[at + 1].0);
+    let intervals: Vec<usize> = (0..points.len() - 1).collect();
+    let at = |k: usize| {
+        let x = first.0 + half + (length - 2.0 * half) * k as f64 / MEANS as f64;
+        let begin = intervals.partition_point(|at| middle(*at) <= x - half);
+        let within = intervals[begin..].iter().take_while(|at| middle(**at) < x + half);
+        let (sum, weights) = within.fold((0.0, 0.0), |(sum, weights), &at| {
+            let place = (middle(at) - x) / half;
+            let weight = (1.0 - place * place).powi(2) * (points[at + 1].0 - points[at].0);
+            (sum + weight * 0.5 * (points[at].1 + points[at + 1].1), weights + weight)
+        });
+        (x, sum / weights)
+    };
+    (0..=MEANS).map(at).collect()
+}
+
+/// How often a line turns from rising to falling or back.
+fn reversals(points: &[(f64, f64)]) -> usize {
+    let rises = |window: &[(f64, f64)]| (window[1].1 - window[0].1).signum();
+    points.windows(3).filter(|window| rises(&window[..2]) * rises(&window[1..]) < 0.0).count()
+}
+
 fn over(points: &[(f64, f64)], columns: usize) -> Option<Envelope> {
     let (first, last) = (points.first()?.0, points.last()?.0);
     let last_column = columns as f64 - 1.0;
@@ -61,9 +94,7 @@ fn over(points: &[(f64, f64)], columns: usize) -> Option<Envelope> {
         let values = || group.iter().map(|(_, y)| *y);
         band.lowest.push((middle, values().fold(f64::INFINITY, f64::min)));
         band.greatest.push((middle, values().fold(f64::NEG_INFINITY, f64::max)));
-        let rises = |window: &[(f64, f64)]| (window[1].1 - window[0].1).signum();
-        let reversals =
-            group.windows(3).filter(|window| rises(&window[..2]) * rises(&window[1..]) < 0.0).count();
+        let reversals = reversals(group);
         let is_resolved = group.len() >= POINTS_PER_REVERSAL * reversals;
         dense += usize::from(is_resolved && reversals >= REVERSALS_PER_COLUMN);
     }
@@ -100,6 +131,18 @@ mod tests {
         // Two hundred orbits in as many hundredths of a panel.
         let slow = of(&line(2_000, |x| (std::f64::consts::TAU * 200.0 * x).sin())).unwrap();
         assert!(slow.greatest.iter().all(|(_, y)| (0.9..=1.0).contains(y)), "{slow:?}");
+    }
+
+    #[test]
+    fn a_mean_follows_what_an_oscillation_swings_about() {
+        // Sunlight that fades over the year and is cut off for a third of each of 300 orbits: its mean is known in closed form.
+        let orbit = |x: f64| if (300.0 * x).fract() < 1.0 / 3.0 { 0.0 } else { 1.0 - 0.5 * x };
+        let means = mean(&line(60_000, orbit));
+        assert_eq!(means.len(), MEANS + 1);
+        for (x, mean) in &means {
+            assert!((mean - 2.0 / 3.0 * (1.0 - 0.5 * x)).abs() < 2e-3, "{x}: {mean}");
+        }
+        assert!(means[0].0 < 0.05 && means[MEANS].0 > 0.95, "{means:?}");
     }
 
     #[test]

@@ -30,7 +30,7 @@ enum Swatch {
 }
 
 /// What a band is.
-const BAND: &str = "range within an oscillation";
+const BAND: &str = "range and mean of an oscillation";
 
 /// Labels with what stands before them, row by row, and what stands at the left of the first.
 pub(super) struct Legend<'a> {
@@ -123,6 +123,7 @@ impl Swatch {
                 for y in [y - 6.0, y + 6.0] {
                     pen.lines([&[(x, y), (x + SWATCH, y)][..]], &format!("stroke=\"{GREY}\""));
                 }
+                line(pen, &format!("stroke=\"{GREY}\" stroke-width=\"2\""));
             }
             Self::Range(index, wider) => {
                 let colour = COLOURS[index % COLOURS.len()];

@@ -82,7 +82,7 @@ fn a_band_is_named_once() {
         let line = (0..count).map(|k| (f64::from(k), (1.3 * f64::from(k)).sin())).collect();
         Panel::new("torque").with([Series::line("a", line)])
     };
-    let count = |chart: Chart| svg(&[&chart]).unwrap().matches("range within an oscillation").count();
+    let count = |chart: Chart| svg(&[&chart]).unwrap().matches("range and mean of an oscillation").count();
     assert_eq!(count(Chart::new("", "time [d]").with([fast(10), fast(100_000), fast(100_000)])), 1);
     assert_eq!(count(Chart::new("", "time [d]").with([fast(10)])), 0);
 }

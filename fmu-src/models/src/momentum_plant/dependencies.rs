@@ -165,7 +165,7 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramet
     let sun = knowns![v.sun.position_inertial, v.sun.velocity_inertial, v.sun.distance, v.sun.lit_fraction];
     let earth = knowns![v.earth.position_inertial, v.earth.velocity_inertial];
     let orbit = knowns![v.position, v.velocity, v.heliocentric_position, v.orbit.time_since_periapsis];
-    let between = knowns![v.orbit.current_center, &v.encounter];
+    let between = knowns![v.orbit.current_center, &v.encounter, &v.osculating, v.sun.beta];
     table.output(knowns![sun, earth, orbit, between], &inputs.places, &parameters.orbit);
     predicted(table, v, inputs, parameters);
     let orientation = knowns![&parameters.orbit, v.earth.ut1_offset];

@@ -83,6 +83,9 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     values.set_vector(variables.heliocentric_position, instant.geometry.heliocentric_position_m().into());
     values.set_real(variables.orbit.time_since_periapsis, report.since_periapsis_s);
     values.set_choice(variables.orbit.current_center, OrbitCenter(report.integration_center));
+    let osculating = report.osculating_orbit();
+    variables.osculating.write(values, osculating.as_ref());
+    values.set_real(variables.sun.beta, osculating.map_or(0.0, |orbit| orbit.sun_elevation_rad));
     write_encounter(&variables.encounter, values, report);
     write_prediction(&variables.prediction, values, report);
     values.set_real(variables.mass, mass.mass_kg);

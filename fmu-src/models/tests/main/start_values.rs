@@ -279,7 +279,7 @@ const REFUSALS: &[(&str, &str)] = &[
     (
         "[start]\n\"orbit.step\" = \"1 week\"",
         "my.toml:+2: start.\"orbit.step\": found \"1 week\" with the unknown unit \"week\", allowed: a number, with one of \
-         the units s, ms, min, h, d",
+         the units s, ms, min, h, d, a",
     ),
     (
         "[start]\n\"start.epoch\" = \"2026-02-29 UTC\"",
@@ -294,11 +294,11 @@ const REFUSALS: &[(&str, &str)] = &[
     (
         "[start]\n\"orbit.step\" = \"2026-01-01 UTC\"",
         "my.toml:+2: start.\"orbit.step\": found \"2026-01-01 UTC\" with the unknown unit \"-01-01 UTC\", allowed: a \
-         number, with one of the units s, ms, min, h, d",
+         number, with one of the units s, ms, min, h, d, a",
     ),
     (
         "[start]\n\"orbit.step\" = true",
-        "my.toml:+2: start.\"orbit.step\": found true, allowed: a number, with one of the units s, ms, min, h, d",
+        "my.toml:+2: start.\"orbit.step\": found true, allowed: a number, with one of the units s, ms, min, h, d, a",
     ),
     (
         "[start]\n\"orbit.step\" = 2011-04-06",

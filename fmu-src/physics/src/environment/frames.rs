@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bodies::BodyData;
 use crate::enumeration::enumeration;
+use crate::environment::CartesianState;
 use crate::math;
 
 /// Obliquity of the ecliptic at J2000, rad: 84381.448 arc seconds (IAU 1976, SPICE's ECLIPJ2000).
@@ -26,13 +27,21 @@ enumeration! {
         /// Ecliptic and equinox of J2000.
         // Mean (SPICE's ECLIPJ2000); paper 004's HCI has these axes.
         4 => Ecliptic,
+        /// The Sun's line at the start: z to the Sun, x along the planet's motion about it; inclination 0 is the terminator's plane.
+        5 => SunLine,
     }
 }
 
 impl Frame {
-    /// Components in this frame, which may be the body's own, to components in EME2000.
-    pub fn dcm_eme2000_from_frame(self, body: &BodyData) -> Matrix3<f64> {
-        match self {
+    /// Components in this frame, which may be the body's own, to components in EME2000; `sun` is the Sun from the body at the start,
+    /// EME2000. `None`: the Sun's line of a body that does not move about the Sun.
+    pub fn dcm_eme2000_from_frame(
+        self,
+        body: &BodyData,
+        sun: impl FnOnce() -> CartesianState,
+    ) -> Option<Matrix3<f64>> {
+        Some(match self {
+            Self::SunLine => return dcm_from_sun_line(&sun()),
             Self::PlanetOrbit => {
                 dcm_eme2000_from_ecliptic()
                     * dcm_reference_from_node_frame(body.orbit_node_rad, body.orbit_inclination_rad)
@@ -40,8 +49,16 @@ impl Frame {
             Self::PlanetEquator => dcm_from_pole(body.pole_right_ascension_rad, body.pole_declination_rad),
             Self::Eme2000 => Matrix3::identity(),
             Self::Ecliptic => dcm_eme2000_from_ecliptic(),
-        }
+        })
     }
+}
+
+/// From a frame with z to the Sun and x along the motion about it, across z, to that of the Sun's state; `None` without such a motion.
+fn dcm_from_sun_line(sun: &CartesianState) -> Option<Matrix3<f64>> {
+    let z = sun.position_m.try_normalize(0.0)?;
+    let motion = -sun.velocity_m_s;
+    let x = (motion - z * z.dot(&motion)).try_normalize(1e-9 * motion.norm())?;
+    Some(Matrix3::from_columns(&[x, z.cross(&x), z]))
 }
 
 /// Components in the mean ecliptic and equinox of J2000 to components in EME2000.
@@ -92,17 +109,42 @@ mod tests {
 
     use super::*;
     use crate::bodies::Body;
+    use crate::enumeration::Enumerated;
 
-    const ALL: [Frame; 4] = [Frame::PlanetOrbit, Frame::PlanetEquator, Frame::Eme2000, Frame::Ecliptic];
+    /// The Sun as it would stand from any body.
+    fn sun() -> CartesianState {
+        CartesianState {
+            position_m: Vector3::new(-9e10, 6e10, -3e10),
+            velocity_m_s: Vector3::new(2e4, 1e4, 1e4),
+        }
+    }
+
+    fn dcm(frame: Frame, body: Body) -> Matrix3<f64> {
+        frame.dcm_eme2000_from_frame(body.data(), sun).unwrap()
+    }
 
     #[test]
     fn proper_rotations() {
-        for frame in ALL {
+        for frame in Frame::ITEMS.iter().map(|item| item.variant) {
             for body in Body::ALL {
-                let dcm = frame.dcm_eme2000_from_frame(body.data());
+                let dcm = dcm(frame, body);
                 assert!((dcm * dcm.transpose() - Matrix3::identity()).norm() < 1e-14, "{frame:?} {body:?}");
                 assert!((dcm.determinant() - 1.0).abs() < 1e-14, "{frame:?} {body:?}");
             }
+        }
+    }
+
+    #[test]
+    fn the_sun_line_has_the_terminator_for_its_plane() {
+        let dcm = dcm(Frame::SunLine, Body::Earth);
+        let sun = sun();
+        assert!((dcm.tr_mul(&sun.position_m) / sun.position_m.norm() - Vector3::z()).norm() < 1e-15);
+        // The body moves along +x, and toward or from the Sun.
+        let motion = dcm.tr_mul(&-sun.velocity_m_s);
+        assert!(motion.y.abs() < 1e-11 && motion.x > 0.0, "{motion}");
+        for still in [Vector3::zeros(), sun.position_m * 1e-9] {
+            let sun = CartesianState { velocity_m_s: still, ..sun };
+            assert_eq!(Frame::SunLine.dcm_eme2000_from_frame(Body::Earth.data(), || sun), None);
         }
     }
 
@@ -119,23 +161,22 @@ mod tests {
     fn mercury_turns_upright_on_its_orbit() {
         // Obliquity 0.034 deg (2.04 arc minutes, Margot et al. 2012), though pole and orbit come from different sources.
         let mercury = Body::Mercury.data();
-        let pole = Frame::PlanetEquator.dcm_eme2000_from_frame(mercury) * Vector3::z();
+        let pole = dcm(Frame::PlanetEquator, Body::Mercury) * Vector3::z();
         assert!((pole - mercury.pole()).norm() < 1e-14);
-        let orbit_normal = Frame::PlanetOrbit.dcm_eme2000_from_frame(mercury) * Vector3::z();
+        let orbit_normal = dcm(Frame::PlanetOrbit, Body::Mercury) * Vector3::z();
         let obliquity_deg = pole.angle(&orbit_normal).to_degrees();
         assert!((0.02..0.05).contains(&obliquity_deg), "{obliquity_deg}");
     }
 
     #[test]
     fn node_axes_lie_in_both_planes() {
-        let mercury = Body::Mercury.data();
-        let orbit = Frame::PlanetOrbit.dcm_eme2000_from_frame(mercury);
+        let orbit = dcm(Frame::PlanetOrbit, Body::Mercury);
         let ecliptic_normal = dcm_eme2000_from_ecliptic() * Vector3::z();
         assert!((orbit * Vector3::x()).dot(&ecliptic_normal).abs() < 1e-15);
         // Ascending: moving on from the node (along y) leads north of the ecliptic.
         assert!((orbit * Vector3::y()).dot(&ecliptic_normal) > 0.0);
         assert!((ecliptic_normal.angle(&(orbit * Vector3::z())).to_degrees() - 7.0).abs() < 1e-12);
-        let equator = Frame::PlanetEquator.dcm_eme2000_from_frame(mercury);
+        let equator = dcm(Frame::PlanetEquator, Body::Mercury);
         assert!((equator * Vector3::x()).z.abs() < 1e-15 && (equator * Vector3::y()).z > 0.0);
     }
 }

@@ -42,8 +42,9 @@ pub use light::radiation_segment::RadiationSegment;
 pub use light::radiation_solver::RadiationSolver;
 pub use light::sunlit::SunlitConfiguration;
 pub use motion::approaches::Approach;
-pub use motion::geometry::Geometry;
+pub use motion::geometry::{Geometry, sun_and_earth};
 pub use motion::instant::{Instant, Regime};
+pub use motion::osculating_orbit::OsculatingOrbit;
 pub use motion::panel_motion::PanelMotion;
 pub use motion::trajectory::Trajectory;
 pub use settings::air_and_field_settings::{
@@ -51,7 +52,7 @@ pub use settings::air_and_field_settings::{
 };
 pub use settings::configuration::{
     AttitudeSource, Command, Configuration, DynamicAttitude, Encounter, EphemerisSource, LightSource, Motion,
-    PredictionSettings, SunLight, orbit_from_elements,
+    PredictionSettings, SunLight,
 };
 pub use settings::control_defaults::{
     ControlDefaults, DUMP_TORQUE_N_M, SLEW_ACCELERATION_RAD_S2, SLEW_RATE_RAD_S,

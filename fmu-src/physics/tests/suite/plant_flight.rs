@@ -21,7 +21,7 @@ use physics::numerics::quadrature;
 use physics::plant::{
     AttitudeSource, Command, Configuration, EphemerisSource, External, Laws, LightSource, Motion,
     PanelSetting, PanelStep, Plant, PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver,
-    Ramp, SimulationContext, SunLight, ThrusterEventSettings, orbit_from_elements,
+    Ramp, SimulationContext, SunLight, ThrusterEventSettings,
 };
 use physics::radiation::SolarModel;
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel};
@@ -51,6 +51,8 @@ pub(crate) fn configuration(orbit: TwoBodyOrbit, attitude: AttitudeSource) -> Co
         laws: Laws { gm_m3_s2: GM_MERCURY_M3_S2, flattening: None, dipole_body_a_m2: Vector3::zeros() },
         epoch_minus_time_s: EPOCH_S,
         center: Body::Mercury,
+        center_radius_m: RADIUS_MERCURY_M,
+        eme2000_from_orbit_frame: Matrix3::identity(),
         orbit,
         motion: Motion::TwoBody,
         ephemeris: EphemerisSource::Vsop87,
@@ -101,8 +103,12 @@ pub(crate) fn guided(orbit: &TwoBodyOrbit) -> AttitudeSource {
 }
 
 pub(crate) fn orbit() -> TwoBodyOrbit {
-    orbit_from_elements(elements(), Frame::PlanetEquator, Body::Mercury.data(), GM_MERCURY_M3_S2, EPOCH_S)
-        .unwrap()
+    orbit_in(Frame::PlanetEquator)
+}
+
+fn orbit_in(frame: Frame) -> TwoBodyOrbit {
+    let to_eme2000 = frame.dcm_eme2000_from_frame(Body::Mercury.data(), CartesianState::default).unwrap();
+    TwoBodyOrbit::from_elements(elements(), GM_MERCURY_M3_S2, EPOCH_S).unwrap().along(&to_eme2000)
 }
 
 fn spacecraft() -> Spacecraft {
@@ -183,8 +189,7 @@ fn orbit_elements_keep_energy_and_angular_momentum_in_every_frame() {
     let expected_energy = -GM_MERCURY_M3_S2 / (2.0 * elements().semi_major_axis_m);
     let p_m = elements().semi_major_axis_m * (1.0 - 0.74f64.powi(2));
     for frame in [Frame::PlanetOrbit, Frame::PlanetEquator, Frame::Eme2000, Frame::Ecliptic] {
-        let orbit =
-            orbit_from_elements(elements(), frame, Body::Mercury.data(), GM_MERCURY_M3_S2, EPOCH_S).unwrap();
+        let orbit = orbit_in(frame);
         for hours in [0.0, 1.0, 5.5, 11.9, 1000.0] {
             let state = orbit.state_at(EPOCH_S + hours * 3600.0);
             let energy = 0.5 * state.velocity_m_s.norm_squared() - GM_MERCURY_M3_S2 / state.position_m.norm();

@@ -2,16 +2,12 @@
 
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
-use physics::bodies::Body;
 use physics::constants::{GM_MERCURY_M3_S2, RADIUS_MERCURY_M};
 use physics::environment::eclipse::{Shadow, ShadowModel};
-use physics::environment::frames::Frame;
 use physics::environment::orbit::{Elements, TwoBodyOrbit};
 use physics::loads::{Active, ForceTorque};
 use physics::momentum::{MomentumIntegrator, TorqueModel, Totals};
-use physics::plant::{
-    AttitudeSource, Command, Configuration, EphemerisSource, LightSource, SunLight, orbit_from_elements,
-};
+use physics::plant::{AttitudeSource, Command, Configuration, EphemerisSource, LightSource, SunLight};
 
 use super::plant_flight::{EPOCH_S, Rig, configuration, still};
 
@@ -37,7 +33,7 @@ fn tilted(shadow_s: f64, midnight_s: f64) -> TwoBodyOrbit {
         periapsis_argument_rad: 0.0,
         true_anomaly_rad: core::f64::consts::FRAC_PI_2 - mean_motion_rad_s() * midnight_s,
     };
-    orbit_from_elements(orbit, Frame::Eme2000, Body::Mercury.data(), GM_MERCURY_M3_S2, EPOCH_S).unwrap()
+    TwoBodyOrbit::from_elements(orbit, GM_MERCURY_M3_S2, EPOCH_S).unwrap()
 }
 
 fn in_light(orbit: TwoBodyOrbit, model: ShadowModel, grid_s: f64) -> Configuration {

@@ -35,7 +35,8 @@ pub(super) struct Found {
     pub least: (Angles, Vector3<f64>),
     /// Torque with the Sun on -Y.
     pub ahead_n_m: Vector3<f64>,
-    pub worths: Vec<Worth>,
+    /// Torque with the Sun where a degree is weighed, and what that is worth.
+    pub weighed: (Vector3<f64>, Vec<Worth>),
     pub attainable: Attainable,
 }
 
@@ -52,10 +53,12 @@ impl Found {
             |zone_rad: [f64; 2]| Mapped::new(&spacecraft.lit, zone_rad.map(f64::to_degrees), ZONE_STEPS);
         let zone = spacecraft.zone_rad.map(of_zone).transpose()?;
         let allowed = &zone.as_ref().unwrap_or(&sphere).grid;
-        let least = least(&mut Sunlight::new(&spacecraft.lit)?, allowed)?;
-        let (ahead_n_m, worths) = worths(&spacecraft.lit, panel_called)?;
+        let mut sunlight = Sunlight::new(&spacecraft.lit)?;
+        let least = least(&mut sunlight, allowed)?;
+        let ahead_n_m = sunlight.at(&-Vector3::y())?.torque_n_m;
+        let weighed = worths(&spacecraft.lit, spacecraft.sun.angles_deg, panel_called)?;
         let attainable = Attainable::new(spacecraft, allowed, &ahead_n_m, mission);
-        Ok(Self { sphere, zone, least, ahead_n_m, worths, attainable })
+        Ok(Self { sphere, zone, least, ahead_n_m, weighed, attainable })
     }
 }
 

@@ -47,6 +47,10 @@ pub(crate) struct Map {
     /// MomentumPlant's keepIn.azimuth and keepIn.elevation, none at 180deg,90deg
     #[arg(long, value_name = "AZIMUTH,ELEVATION", value_parser = zone, allow_hyphen_values = true)]
     pub zone: Option<[f64; 2]>,
+    /// Azimuth and elevation of the Sun at which a degree is weighed, in deg or rad: 20deg,-5deg; otherwise where the attitude of
+    /// MomentumPlant has it at the start
+    #[arg(long, value_name = "AZIMUTH,ELEVATION", value_parser = sun, allow_hyphen_values = true)]
+    pub sun: Option<[f64; 2]>,
     /// Spacing of the directions, in deg or rad, a whole part of 90 deg, at least 0.2 deg
     #[arg(long, value_name = "ANGLE", value_parser = steps, allow_hyphen_values = true, default_value = "1deg")]
     pub step: Steps,
@@ -128,13 +132,29 @@ fn offset(text: &str) -> Result<f64, String> {
 fn zone(text: &str) -> Result<[f64; 2], String> {
     const ALLOWED: &str = "allowed are two angles, azimuth above 0 up to 180 deg and elevation above 0 up to 90 deg: \
                            15deg,13deg";
-    let (azimuth, elevation) = text.split_once(',').ok_or(ALLOWED)?;
-    let limits_rad = [angle(azimuth)?, angle(elevation)?];
+    let limits_rad = pair(text).ok_or(ALLOWED)??;
     let is_allowed = |angle_rad: f64, most_deg: f64| angle_rad > 0.0 && angle_rad <= most_deg.to_radians();
     if is_allowed(limits_rad[0], 180.0) && is_allowed(limits_rad[1], 90.0) {
         return Ok(limits_rad);
     }
     Err(ALLOWED.to_owned())
+}
+
+fn sun(text: &str) -> Result<[f64; 2], String> {
+    const ALLOWED: &str =
+        "allowed are two angles, azimuth from -180 to 180 deg and elevation from -90 to 90 deg: 20deg,-5deg";
+    let place_rad = pair(text).ok_or(ALLOWED)??;
+    let is_allowed = |angle_rad: f64, most_deg: f64| angle_rad.abs() <= most_deg.to_radians();
+    if is_allowed(place_rad[0], 180.0) && is_allowed(place_rad[1], 90.0) {
+        return Ok(place_rad);
+    }
+    Err(ALLOWED.to_owned())
+}
+
+/// Two angles with a comma between them, in rad.
+fn pair(text: &str) -> Option<Result<[f64; 2], String>> {
+    let (azimuth, elevation) = text.split_once(',')?;
+    Some(angle(azimuth).and_then(|azimuth| Ok([azimuth, angle(elevation)?])))
 }
 
 fn steps(text: &str) -> Result<Steps, String> {
@@ -161,6 +181,10 @@ mod tests {
         for bad in ["0deg,13deg", "15deg", "15deg,0deg", "15deg,91deg", "15,13", "nandeg,1deg", "-1deg,1deg"]
         {
             assert!(zone(bad).is_err(), "{bad}");
+        }
+        assert_eq!(sun("-180deg,-90deg"), Ok([-core::f64::consts::PI, -core::f64::consts::FRAC_PI_2]));
+        for bad in ["0deg", "181deg,0deg", "0deg,91deg", "15,13", "nandeg,1deg"] {
+            assert!(sun(bad).is_err(), "{bad}");
         }
         assert_eq!(steps("1deg"), Ok(Steps(90)));
         assert_eq!(steps("0.2deg"), Ok(Steps(450)));

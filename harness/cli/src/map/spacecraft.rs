@@ -12,11 +12,12 @@ use physics::{
         Articulation, DownlinkWindows, Panel, PanelControl, Spacecraft, TimeAfterPeriapsis, offset_for_suns,
     },
 };
-use planner::torque_map::{LitSpacecraft, Rule, TurnedPanels};
+use planner::torque_map::{Angles, LitSpacecraft, Rule, TurnedPanels};
 
 use super::options::Map;
 use crate::{
     assembly::{START, Source, description, model_of, open_template, with_values},
+    instance::started,
     kind::FileKind,
     variables,
 };
@@ -45,6 +46,37 @@ impl Downlink {
     }
 }
 
+/// Where the Sun stands where a degree is weighed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct WeighedSun {
+    pub angles_deg: Angles,
+    /// Whether the attitude has it there at the start.
+    pub is_at_start: bool,
+}
+
+impl WeighedSun {
+    /// Where nothing else is known: on -Y.
+    const AHEAD: Self = Self { angles_deg: [0.0; 2], is_at_start: false };
+
+    /// Whether it stands on -Y to the digits that are shown.
+    pub(super) fn is_ahead(&self) -> bool {
+        self.angles_deg.iter().all(|angle_deg| angle_deg.abs() < 5e-4)
+    }
+
+    /// Where the attitude of MomentumPlant has it at the start; on -Y where that does not start by itself.
+    fn of_attitude(fmu: &Fmu) -> Self {
+        let at_start = || -> Result<Option<Angles>, loader::Error> {
+            let mut instance = started(fmu, "map", 0.0, &[])?;
+            let (azimuth_rad, elevation_rad) =
+                (instance.get_real("sun.azimuth")?, instance.get_real("sun.elevation")?);
+            let is_waiting = instance.get_real("sun.distance")? == 0.0;
+            Ok((!is_waiting).then_some([azimuth_rad, elevation_rad].map(f64::to_degrees)))
+        };
+        let found = at_start().ok().flatten();
+        found.map_or(Self::AHEAD, |angles_deg| Self { angles_deg, is_at_start: true })
+    }
+}
+
 /// A spacecraft ready to be mapped.
 pub(super) struct MappedSpacecraft {
     pub name: String,
@@ -55,6 +87,7 @@ pub(super) struct MappedSpacecraft {
     /// Panels that MomentumPlant leaves out, which DisturbanceTorque cannot.
     pub panels_left_out: bool,
     pub threshold_n_m_s: [f64; 3],
+    pub sun: WeighedSun,
     // The FMU's folder, as long as it is in use.
     _folder: Scratch,
 }
@@ -100,9 +133,18 @@ impl MappedSpacecraft {
         }
         let described = source.binary().describe(MODEL, Some(&file), Some(&text))?;
         let simulated = describe(PLANT, Some(&text))?;
-        let folder = Scratch::new()?;
-        unpacked(&source, &described, &text)?.write_below(folder.path())?;
-        let fmu = Fmu::open(folder.path())?;
+        let (fmu, folder) = unpacked(&source, MODEL, &described, &text)?;
+        let sun = match arguments.sun {
+            Some(angles_rad) => {
+                WeighedSun { angles_deg: angles_rad.map(f64::to_degrees), is_at_start: false }
+            }
+            None => {
+                let described = source.binary().describe(PLANT, Some(&file), Some(&text))?;
+                // The folder stays until the Sun is found.
+                let (plant, _folder) = unpacked(&source, PLANT, &described, &text)?;
+                WeighedSun::of_attitude(&plant)
+            }
+        };
         let spacecraft = Spacecraft::from_toml(&file, &text).map_err(|error| error.to_string())?;
         let default = describe(MODEL, None)?;
         let distance_m = match arguments.distance {
@@ -139,20 +181,28 @@ impl MappedSpacecraft {
             panels_left_out: panels_left_out(&simulated),
             threshold_n_m_s: [1, 2, 3]
                 .map(|axis| real(&simulated, &format!("dump.threshold[{axis}]")).unwrap_or(f64::INFINITY)),
+            sun,
             _folder: folder,
         })
     }
 }
 
-/// The files of the FMU: description, library, spacecraft.
-fn unpacked(source: &Source, described: &Described, text: &str) -> Result<Entries, Failure> {
+/// The FMU of a model in a temporary folder: description, library, spacecraft.
+fn unpacked(
+    source: &Source,
+    model: &str,
+    described: &Described,
+    text: &str,
+) -> Result<(Fmu, Scratch), Failure> {
     let mut entries = Entries::default();
     entries.add("modelDescription.xml", described.xml.clone().into_bytes())?;
     if let Some(name) = &described.setup_file {
         entries.add(&format!("resources/{name}"), text.as_bytes().to_vec())?;
     }
-    source.add_libraries(&mut entries, MODEL)?;
-    Ok(entries)
+    source.add_libraries(&mut entries, model)?;
+    let folder = Scratch::new()?;
+    entries.write_below(folder.path())?;
+    Ok((Fmu::open(folder.path())?, folder))
 }
 
 /// The panels with the angles that MomentumPlant would give them.
@@ -211,7 +261,7 @@ fn distance_m(described: &Description, simulated: &Description, default: &Descri
         return given_m.norm();
     }
     match center(simulated) {
-        Body::Sun => real(simulated, "orbit.semiMajorAxis").unwrap_or(AU_M),
+        Body::Sun => real(simulated, "orbit.semiMajorAxis").map_or(AU_M, f64::abs),
         Body::Custom => real(simulated, "ephemeris.semiMajorAxis").unwrap_or(AU_M),
         planet => planet.data().orbit_semi_major_axis_m,
     }

@@ -4,7 +4,12 @@ use nalgebra::Vector3;
 use physics::constants::{ASTRONOMICAL_UNIT_M, DAY_S};
 use planner::torque_map::{Angles, Mapped, Rule};
 
-use super::{found::Found, options::SourceKind, spacecraft::MappedSpacecraft, verdict};
+use super::{
+    found::Found,
+    options::SourceKind,
+    spacecraft::{MappedSpacecraft, WeighedSun},
+    verdict,
+};
 
 /// Rows of a table at most.
 const MOST_ROWS: usize = 12;
@@ -18,7 +23,7 @@ pub(super) fn text(spacecraft: &MappedSpacecraft, found: &Found, source: SourceK
         parts.push(lines(mapped, where_));
         parts.push(balances(mapped, where_));
     }
-    parts.push(worths(found));
+    parts.push(worths(found, &spacecraft.sun));
     parts.push(attainable(spacecraft, found));
     parts.join("\n\n")
 }
@@ -71,6 +76,10 @@ fn head(spacecraft: &MappedSpacecraft, found: &Found, source: SourceKind) -> Str
         table.add_row(cells);
     };
     row("Sun on -Y", [0.0; 2], found.ahead_n_m);
+    if !spacecraft.sun.is_ahead() {
+        let what = if spacecraft.sun.is_at_start { "Sun at the start" } else { "Sun as by --sun" };
+        row(what, spacecraft.sun.angles_deg, found.weighed.0);
+    }
     let least = if found.zone.is_some() { "least in the zone" } else { "least of all" };
     row(least, found.least.0, found.least.1);
     let zone = found.zone.iter().map(|zone| ("greatest in the zone", zone));
@@ -150,7 +159,7 @@ fn more(count: usize) -> String {
     }
 }
 
-fn worths(found: &Found) -> String {
+fn worths(found: &Found, sun: &WeighedSun) -> String {
     let mut table = terminal::table(&[
         "a degree of",
         "X [uN.m]",
@@ -160,14 +169,19 @@ fn worths(found: &Found) -> String {
         "Y [N.m.s per day]",
         "Z [N.m.s per day]",
     ]);
-    for worth in &found.worths {
+    for worth in &found.weighed.1 {
         let torque_n_m = worth.torque_n_m_per_deg;
         let mut cells = vec![worth.what.clone()];
         cells.extend(torque_n_m.iter().map(|part| micro(*part)));
         cells.extend(torque_n_m.iter().map(|part| fixed(part * DAY_S)));
         table.add_row(cells);
     }
-    format!("What a degree is worth with the Sun on -Y, panels turning with it\n{table}")
+    let place = match sun.angles_deg.map(angle) {
+        _ if sun.is_ahead() => "on -Y".to_owned(),
+        [azimuth, elevation] => format!("at azimuth {azimuth} deg, elevation {elevation} deg"),
+    };
+    let why = if sun.is_at_start { ", as the attitude has it at the start (--sun)" } else { "" };
+    format!("What a degree of tilt is worth with the Sun {place}{why}, panels turning with it\n{table}")
 }
 
 fn attainable(spacecraft: &MappedSpacecraft, found: &Found) -> String {

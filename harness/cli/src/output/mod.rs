@@ -7,6 +7,7 @@ mod file;
 mod known;
 mod limits;
 mod origin;
+mod scales;
 mod shown;
 mod standing;
 mod summary;

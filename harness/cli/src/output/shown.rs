@@ -2,6 +2,7 @@
 
 use model_description::{Description, EnumerationItem, ScalarVariable, VariableKind, value};
 
+use super::scales::ROUNDING;
 use crate::epoch;
 
 /// What a description says of a time that may be none.
@@ -9,8 +10,6 @@ const NONE: &str = "; -1 ";
 /// The value that says so, in s.
 const NONE_S: f64 = -1.0;
 
-/// What is less than this part of a quantity's scale is the rounding of its calculation.
-pub(super) const ROUNDING: f64 = 1e-12;
 /// The unit of angles, whose scale is 1 of it.
 pub(super) const ANGLE_UNIT: &str = "rad";
 

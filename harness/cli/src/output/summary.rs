@@ -7,7 +7,8 @@ use model_description::Description;
 
 use super::{
     exporter::Exporter,
-    shown::{ROUNDING, Shown},
+    scales::{ROUNDING, Scales},
+    shown::Shown,
 };
 use crate::variables::vector;
 
@@ -51,16 +52,13 @@ fn table(described: &Description, recording: &Recording, most: usize) -> String 
 
 fn rows<'a>(described: &'a Description, recording: &'a Recording) -> Vec<SummaryRow<'a>> {
     let mut rows: Vec<SummaryRow<'a>> = Vec::new();
+    let scales = Scales::of(described, recording);
     let columns: Vec<(&String, &Column)> = recording.names.iter().zip(&recording.columns).collect();
     for group in columns.chunk_by(|one, other| vector(one.0).is_some() && vector(one.0) == vector(other.0)) {
-        // What is less than this part of the greatest component at any time is rounding.
-        let values = group.iter().filter(|(_, column)| matches!(column, Column::Real(_)));
-        let values = values.flat_map(|(_, column)| column.numbers());
-        let size =
-            values.filter(|value| value.is_finite()).fold(0.0, |size: f64, value| size.max(value.abs()));
         let Some((first, _)) = group.first() else { continue };
         let name = vector(first).filter(|_| group.len() > 1).unwrap_or(first);
         let unit = Shown::of(described, first).unit;
+        let size = scales.size(first);
         let components = group.iter().map(|(name, column)| texts(&Shown::of(described, name), column, size));
         rows.push(SummaryRow { name, unit, components: components.collect() });
     }
@@ -95,6 +93,10 @@ mod tests {
   <TypeDefinitions><SimpleType name="Mode"><Enumeration><Item name="nadir" value="1"/><Item name="safe" value="4"/></Enumeration></SimpleType></TypeDefinitions>
   <ModelVariables>
     <ScalarVariable name="angle" valueReference="0"><Real unit="rad" displayUnit="deg"/></ScalarVariable>
+    <ScalarVariable name="load.light[1]" valueReference="2" causality="output"><Real unit="N"/></ScalarVariable>
+    <ScalarVariable name="load.air[1]" valueReference="3" causality="output"><Real unit="N"/></ScalarVariable>
+    <ScalarVariable name="mixed.far" valueReference="4" causality="output"><Real unit="m"/></ScalarVariable>
+    <ScalarVariable name="mixed.slow" valueReference="5" causality="output"><Real unit="m/s"/></ScalarVariable>
     <ScalarVariable name="mode" valueReference="1" causality="output" variability="discrete"><Enumeration declaredType="Mode"/></ScalarVariable>
   </ModelVariables>
   <ModelStructure/>
@@ -127,6 +129,11 @@ mod tests {
         assert!(vector.contains("0, 2e-5, 4e-16"), "{vector}");
         let small = last(&[("torque[1]", 3e-18), ("torque[2]", 2e-18)]);
         assert!(small.contains("3e-18, 2e-18"), "{small}");
+        // Loads of one unit are small against each other, whatever is of several units is not.
+        let loads = last(&[("load.light[1]", 3e-6), ("load.air[1]", 2e-19)]);
+        assert!(!loads.contains("e-19"), "{loads}");
+        assert!(last(&[("load.light[1]", 3e-6), ("load.air[1]", 4e-18)]).contains("4e-18"));
+        assert!(last(&[("mixed.far", 3e11), ("mixed.slow", 2e-3)]).contains("0.002"));
         // Against what it was at any time.
         assert!(!reported(&[("lone", real(&[4.0, 1e-15]))]).contains("e-15"));
     }

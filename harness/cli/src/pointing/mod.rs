@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use loader::Value;
+use loader::{Times, Value};
 use model_description::Description;
 use physics::{
     bodies::Body,
@@ -52,6 +52,30 @@ pub(crate) fn warnings(
     windows: &[Windows],
 ) -> Vec<String> {
     plants(description, sets, windows).filter_map(|plant| plant.window_warning()).collect()
+}
+
+/// Rows of an orbit below which its extremes are missed.
+const ROWS_OF_ORBIT: f64 = 8.0;
+
+/// A warning for each plant of whose orbits rows so far apart show too little, where the run has a whole one.
+pub(crate) fn sparse_rows(
+    description: &Description,
+    sets: &[(String, Value)],
+    times: &Times,
+    every_s: f64,
+) -> Vec<String> {
+    let sparse = |plant: Plant<'_>| {
+        let period_s = plant.period_s().filter(|period_s| *period_s <= times.stop_s - times.start_s)?;
+        (every_s * ROWS_OF_ORBIT > period_s).then(|| {
+            let [every, period] = [every_s, period_s].map(hours);
+            format!(
+                "{}: rows {every} apart show too little of an orbit of {period}: its least and greatest values are missed, and \
+                 what repeats with it looks slow; see --every and --step",
+                plant.name("orbit.semiMajorAxis")
+            )
+        })
+    };
+    plants(description, sets, &[]).filter_map(sparse).collect()
 }
 
 /// How the plant points; `None` of what is no plant.

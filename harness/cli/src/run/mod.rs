@@ -21,6 +21,7 @@ use loader::{Collector, Ended, RecordedPoints, Times};
 use crate::{
     carried,
     child::Bounds,
+    epoch,
     interrupt::INTERRUPTED,
     outcome::Outcome,
     output::{self, Known, LimitChecks, Origin, Outputs},
@@ -71,7 +72,7 @@ impl Prepared {
         subject.check_libraries()?;
         let described = subject.description();
         let known = Known::of(&subject.parts(), described, &settings.sets, &settings.limits)
-            .dated(simulated.zero_epoch_s(settings.times.start_s));
+            .dated(epoch::zero_epoch_s(described, &settings.sets, settings.times.start_s));
         let collector = Collector::new(described, &settings.positions);
         let origin = Origin {
             file: arguments.fmu.clone(),
@@ -123,7 +124,9 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
     warnings.extend(long_step(&settings.times));
     warnings.extend(subject.unread(&settings.sets));
     warnings.extend(settings.inputs.iter().flat_map(|it| it.warnings(described, &settings.times)));
-    let Settings { times, positions, limits, requested, .. } = settings;
+    let every_s = arguments.every.unwrap_or(settings.times.step_s);
+    warnings.extend(pointing::sparse_rows(described, &settings.sets, &settings.times, every_s));
+    let Settings { times, sets, positions, limits, requested, .. } = settings;
     if !arguments.quiet {
         warnings.iter().for_each(|warning| terminal::note(&format!("warning: {warning}")));
     }
@@ -183,7 +186,7 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
         terminal::note(&format!("{steps} steps to {last} s in {:.3} s", elapsed.as_secs_f64()));
     }
     if !arguments.quiet || !checks.is_kept() {
-        let lines = checks.report(described, simulated.zero_epoch_s(times.start_s));
+        let lines = checks.report(described, epoch::zero_epoch_s(described, &sets, times.start_s));
         lines.iter().for_each(|line| terminal::note(line));
     }
     match ended {

@@ -20,7 +20,7 @@ pub(crate) struct Run {
     /// The FMU, an .fmu file or the folder it was unpacked into; a system, an .ssp file, whose variables are named
     /// component.variable; or a mission, a .toml file (see `heliotorque new mission`), whose values the options replace
     pub fmu: PathBuf,
-    /// Start time, in s or with a unit (s, min, h, d); otherwise the FMU's default
+    /// Start time, in s or with a unit (s, min, h, d, a); otherwise the FMU's default
     #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
     pub start: Option<f64>,
     /// Stop time, in s or with a unit: 90d; or a date ('2011-04-16T00:00:00 UTC'), which start.epoch is counted to; otherwise the

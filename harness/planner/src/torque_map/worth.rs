@@ -4,6 +4,7 @@ use loader::Error;
 use nalgebra::Vector3;
 
 use super::{
+    grid::{Angles, direction},
     panels::Rule,
     sunlight::{LitSpacecraft, Sunlight},
 };
@@ -16,17 +17,20 @@ pub struct Worth {
     pub torque_n_m_per_deg: Vector3<f64>,
 }
 
-/// Torque with the Sun on -Y in N m, as in a downlink without targets, and what a degree changes; `called` names panels.
+/// Torque with the Sun at this azimuth and elevation in N m, and its change by a degree of tilt, toward larger azimuth and toward
+/// larger elevation, and of panels, which `called` names.
 ///
 /// # Errors
 /// A call that failed.
 pub fn worths(
     spacecraft: &LitSpacecraft,
+    [azimuth_deg, elevation_deg]: Angles,
     called: impl Fn(&str) -> String,
 ) -> Result<(Vector3<f64>, Vec<Worth>), Error> {
-    let (mut sunlight, sun) = (Sunlight::new(spacecraft)?, -Vector3::y());
-    // Azimuth turns the Sun toward +X, elevation toward -Z.
-    let (load, slopes) = sunlight.slopes(&sun, [Vector3::x(), -Vector3::z()])?;
+    let (mut sunlight, sun) = (Sunlight::new(spacecraft)?, direction([azimuth_deg, elevation_deg]));
+    // A quarter turn on along either angle; along azimuth a great circle, which at a pole is one as well.
+    let ahead = [direction([azimuth_deg + 90.0, 0.0]), direction([azimuth_deg, elevation_deg + 90.0])];
+    let (load, slopes) = sunlight.slopes(&sun, ahead)?;
     let per_deg = |what: &str, slope: Vector3<f64>| Worth {
         what: what.to_owned(),
         torque_n_m_per_deg: slope * 1_f64.to_radians(),

@@ -34,8 +34,11 @@ pub(super) fn read(
     let inertia_body_kg_m2 = inertia_body_kg_m2(values, variables.spacecraft.inertia)?;
     let planet = air_and_field::read(context, values, center)?;
     let (gravity, encounter) = n_body::read(context, values, &planet.center)?;
+    let ephemeris = ephemeris_source::read(context, values, center.data.body, state.waiting)?;
+    let frame = orbit::eme2000_from_frame(context, values, center, &ephemeris)?;
+    let centers = [center, &planet.center];
     let (orbit, motion) =
-        orbit::read(variables, values, state, [center, &planet.center], (gravity, epoch_minus_time_s))?;
+        orbit::read(variables, values, state, centers, (&frame, gravity, epoch_minus_time_s))?;
     let corridor = variables.articulation.read(values)?;
     let followed = context.setup.timeline.as_ref().filter(|_| values.boolean(variables.timeline.enabled));
     let clock_minus_time_s = followed.map_or(0.0, |it| it.clock_minus_time_s(epoch_minus_time_s));
@@ -77,12 +80,14 @@ pub(super) fn read(
     Ok(Configuration {
         epoch_minus_time_s,
         center: center.data.body,
+        center_radius_m: center.data.radius_m,
+        eme2000_from_orbit_frame: frame,
         encounter,
         attitude: guidance::attitude(context, values, state, &orbit)?,
         timeline: timeline.transpose()?,
         orbit,
         motion,
-        ephemeris: ephemeris_source::read(context, values, center.data.body, state.waiting)?,
+        ephemeris,
         air_and_field: planet.air_and_field,
         figure: planet.figure,
         light: variables.solar.read(values),

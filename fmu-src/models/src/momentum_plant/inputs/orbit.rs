@@ -1,17 +1,50 @@
 //! Orbit and motion of the spacecraft, from parameters, inputs and state; refuses what cannot be simulated, by name.
 
 use fmi_export::{Failure, Values};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use physics::bodies::Body;
 use physics::environment::CartesianState;
-use physics::environment::orbit::{Flattening, Gravity, NBodyGravity, Tides, TwoBodyOrbit};
+use physics::environment::ephemeris::Ephemeris;
+use physics::environment::frames::Frame;
+use physics::environment::orbit::{Flattening, Gravity, NBodyGravity, OrbitError, Tides, TwoBodyOrbit};
 use physics::environment::time;
 use physics::plant::{self, Motion};
 
 use super::center::Center;
+use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::state::PlantState;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::choices::{OrbitDynamics, OrbitSource};
+
+/// Components in the frame of the elements to components in EME2000.
+///
+/// # Errors
+/// A Sun line that nothing gives at the start.
+pub(super) fn eme2000_from_frame(
+    context: &Plan<'_>,
+    values: &Values,
+    center: &Center,
+    source: &plant::EphemerisSource,
+) -> Result<Matrix3<f64>, Failure> {
+    let (variables, body) = (context.variables, &center.data);
+    let is_of_sun = center.frame == Frame::SunLine;
+    if is_of_sun && (body.body == Body::Sun || matches!(source, plant::EphemerisSource::Given { .. })) {
+        return Err(Failure::new(
+            "orbit.frame: found sunLine (5), allowed: with orbit.center sun (2) and with ephemeris.source inputs (3), which gives no \
+             Sun at the start, another frame",
+        ));
+    }
+    let sun = || {
+        let mut ephemeris = Ephemeris::with_cache(&context.setup.ephemeris_cache);
+        plant::sun_and_earth(body.body, source, &mut ephemeris, values.real(variables.start.epoch)).0
+    };
+    center.frame.dcm_eme2000_from_frame(body, sun).ok_or_else(|| {
+        Failure::new(format!(
+            "orbit.frame: found sunLine (5) about {}, which does not move about the Sun, allowed: another frame",
+            body.name
+        ))
+    })
+}
 
 /// The orbit by its elements about `center`, and the motion on it about the same centre with the pole of the start epoch, by
 /// `gravity` of all bodies where that is given.
@@ -20,9 +53,9 @@ pub(super) fn read(
     values: &Values,
     state: &PlantState,
     [center, turned]: [&Center; 2],
-    (gravity, epoch_minus_time_s): (Option<NBodyGravity>, f64),
+    (frame, gravity, epoch_minus_time_s): (&Matrix3<f64>, Option<NBodyGravity>, f64),
 ) -> Result<(TwoBodyOrbit, Motion), Failure> {
-    let orbit = orbit(center, variables, values, state, epoch_minus_time_s)?;
+    let orbit = orbit((center, frame), variables, values, state, epoch_minus_time_s)?;
     let (limit_m, lowest_m) = (center.data.radius_m, orbit.periapsis_distance_m());
     if !state.inputs.orbit_is_given && lowest_m <= limit_m {
         return Err(Failure::new(format!(
@@ -44,7 +77,7 @@ fn given_state(variables: &PlantVariables, values: &Values) -> CartesianState {
 }
 
 fn orbit(
-    center: &Center,
+    (center, frame): (&Center, &Matrix3<f64>),
     variables: &PlantVariables,
     values: &Values,
     state: &PlantState,
@@ -68,10 +101,22 @@ fn orbit(
         }
         OrbitSource::Elements => {
             let epoch_s = values.real(variables.start.epoch);
-            plant::orbit_from_elements(center.elements, center.frame, data, data.gm_m3_s2, epoch_s)
-                .map_err(|error| Failure::new(format!("orbit elements: {error}")))
+            let orbit = TwoBodyOrbit::from_elements(center.elements, data.gm_m3_s2, epoch_s);
+            orbit.map(|orbit| orbit.along(frame)).map_err(|error| refused(&error))
         }
     }
+}
+
+/// Elements that are no orbit, by their parameters.
+fn refused(error: &OrbitError) -> Failure {
+    let instead = match error {
+        OrbitError::Parabolic { .. } => {
+            "; or orbit.source inputs (2), which takes orbit.position and orbit.velocity"
+        }
+        _ => "",
+    };
+    let named = "orbit.semiMajorAxis, orbit.eccentricity, orbit.trueAnomaly";
+    Failure::new(format!("{named}: {error}{instead}"))
 }
 
 fn circle(radius_m: f64, gm_m3_s2: f64, epoch_s: f64) -> Result<TwoBodyOrbit, Failure> {

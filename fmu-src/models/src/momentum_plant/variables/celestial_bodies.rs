@@ -68,6 +68,10 @@ pub struct SunVariables {
     /// Elevation of the Sun in the body frame, positive toward -Z.
     #[output(unit = "rad", display = "deg", min = QUARTER_TURNS_RAD[0], max = QUARTER_TURNS_RAD[1])]
     pub elevation: Real,
+    /// Elevation of the Sun over the plane of the orbit about orbit.currentCenter, positive on the side of the angular momentum; 0
+    /// without such a plane.
+    #[output(unit = "rad", display = "deg", min = QUARTER_TURNS_RAD[0], max = QUARTER_TURNS_RAD[1])]
+    pub beta: Real,
     /// Visible part of the Sun's disc: 1 in full light, 0 in the planet's shadow.
     #[output(unit = "1", min = 0.0, max = 1.0, nominal = 1.0)]
     pub lit_fraction: Real,

@@ -8,6 +8,7 @@ mod control;
 mod effects;
 mod flexibility;
 pub(super) mod motion;
+mod osculating;
 mod propulsion;
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
@@ -26,6 +27,7 @@ use motion::{
     AttitudeVariables, CommandVariables, EncounterVariables, OrbitVariables, PredictionVariables,
     StartVariables, TimelineVariables,
 };
+use osculating::OsculatingVariables;
 use propulsion::{
     AccelerometerVariables, ManeuverVariables, TankVariables, ThrustVariables, ThrusterVariables,
 };
@@ -48,6 +50,7 @@ pub struct PlantVariables {
     pub timeline: TimelineVariables,
     pub start: StartVariables,
     pub orbit: OrbitVariables,
+    pub osculating: OsculatingVariables,
     pub encounter: EncounterVariables,
     pub prediction: PredictionVariables,
     pub planet: PlanetVariables,

@@ -120,15 +120,15 @@ pub struct OrbitVariables {
     /// Error of position that a step of orbit.dynamics nBody may have, by its last Chebyshev term.
     #[parameter(unit = "m", display = "mm", min = 1e-5, max = 1e6, start = 1e-3)]
     pub n_body_tolerance: Real,
-    /// Frame of the elements; by default the equator of a planet, about the Sun the ecliptic.
+    /// Frame of the elements, and of osculating.*; by default the equator of a planet, about the Sun the ecliptic.
     #[parameter(start = OrbitFrame(setup.center.frame()))]
     pub frame: Choice<OrbitFrame>,
-    /// Semi-major axis; by default a period of 12 h about Mercury. About another planet the elements are by default those of a
-    /// circle of three radii over the poles, about the Sun of 1 AU in the ecliptic.
-    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e13, start = setup.center.elements().semi_major_axis_m)]
+    /// Semi-major axis, with an eccentricity above 1 negative; by default a period of 12 h about Mercury. About another planet the
+    /// elements are by default those of a circle of three radii over the poles, about the Sun of 1 AU in the ecliptic.
+    #[parameter(unit = "m", display = "km", min = -1e13, max = 1e13, start = setup.center.elements().semi_major_axis_m)]
     pub semi_major_axis: Real,
-    /// Eccentricity.
-    #[parameter(unit = "1", min = 0.0, max = 0.99, start = setup.center.elements().eccentricity)]
+    /// Eccentricity; above 1 that of a hyperbola. A parabola, 1, is given by orbit.source inputs.
+    #[parameter(unit = "1", min = 0.0, max = 1e3, start = setup.center.elements().eccentricity)]
     pub eccentricity: Real,
     /// Inclination.
     #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = setup.center.elements().inclination_rad)]

@@ -115,7 +115,7 @@ fn frames_agree_with_the_inertial_mci() {
     // With Table 4's node and inclination MCI is the frame an orbit may be given in.
     let (_, frames) = case(189.0);
     let eme2000_from_hci = dcm_eme2000_from_ecliptic();
-    let mci = Frame::PlanetOrbit.dcm_eme2000_from_frame(Body::Mercury.data());
+    let mci = Frame::PlanetOrbit.dcm_eme2000_from_frame(Body::Mercury.data(), Default::default).unwrap();
     assert!((eme2000_from_hci * frames.dcm_hci_from_mci - mci).norm() < 1e-14);
 }
 

@@ -139,7 +139,7 @@ impl DisturbedOrbit {
     }
 
     /// The same from the body that the present segment counts from.
-    fn own_state_at(&self, at_s: f64) -> CartesianState {
+    pub fn own_state_at(&self, at_s: f64) -> CartesianState {
         let reference = unpack(&self.chain.value(at_s));
         self.deviation.as_ref().map_or(reference, |deviation| reference + deviation.value(at_s))
     }

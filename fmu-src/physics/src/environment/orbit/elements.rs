@@ -76,8 +76,11 @@ pub fn semi_major_axis_m(mu_m3_s2: f64, period_s: f64) -> f64 {
     math::cbrt(mu_m3_s2 / (mean_motion_rad_s * mean_motion_rad_s))
 }
 
-/// Period of an ellipse of this semi-major axis, s (Kepler's third law).
+/// Period of an ellipse of this semi-major axis, s (Kepler's third law); infinite for a hyperbola's.
 pub fn period_s(mu_m3_s2: f64, semi_major_axis_m: f64) -> f64 {
+    if semi_major_axis_m < 0.0 {
+        return f64::INFINITY;
+    }
     TAU * (semi_major_axis_m / mu_m3_s2).sqrt() * semi_major_axis_m
 }
 
@@ -180,7 +183,7 @@ impl Elements {
     ///
     /// # Errors
     /// [`OrbitError::Rectilinear`], or a number that is not finite.
-    pub(super) fn osculating(state: &CartesianState, mu_m3_s2: f64) -> Result<(Self, f64), OrbitError> {
+    pub(crate) fn osculating(state: &CartesianState, mu_m3_s2: f64) -> Result<(Self, f64), OrbitError> {
         /// Ratio of distance to semi-major axis, under which an orbit is a parabola to rounding.
         const LEAST: f64 = 1e-17;
         check_mu(mu_m3_s2)?;
@@ -242,6 +245,12 @@ impl Elements {
     /// Semi-latus rectum p = a (1 - e^2), m.
     pub fn semi_latus_rectum_m(&self) -> f64 {
         self.semi_major_axis_m * (1.0 - self.eccentricity) * (1.0 + self.eccentricity)
+    }
+
+    /// Angle from the ascending node to the spacecraft, along the motion, rad in `[0, 2 pi)`.
+    pub fn argument_of_latitude_rad(&self) -> f64 {
+        let sum_rad = self.periapsis_argument_rad + self.true_anomaly_rad;
+        positive(if sum_rad >= TAU { sum_rad - TAU } else { sum_rad })
     }
 
     /// Distance of periapsis from the centre, m.

@@ -128,6 +128,11 @@ impl NBodyGravity {
         self.bodies[body as usize][2]
     }
 
+    /// Radius of a body that attracts, m.
+    pub fn radius_m(&self, body: Body) -> f64 {
+        self.bodies[body as usize][1]
+    }
+
     /// Those that attract, but for the Sun and the Moon.
     fn planets(&self) -> impl Iterator<Item = Body> + use<> {
         let bodies = self.bodies;

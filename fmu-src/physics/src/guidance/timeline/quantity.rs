@@ -6,7 +6,7 @@ use core::ops::RangeInclusive;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-use crate::constants::{ASTRONOMICAL_UNIT_M, DAY_S, DEG_RAD, RPM_RAD_S};
+use crate::constants::{ASTRONOMICAL_UNIT_M, DEG_RAD, RPM_RAD_S, TIME_UNITS};
 use crate::guidance::pointing::command::{
     BACK_HALF_TURN_RAD, BACK_TURN_RAD, DOWN_ANGLE_RAD, FULL_TURN_RAD, RIGHT_ANGLE_RAD,
 };
@@ -70,8 +70,7 @@ pub(super) const SPEED: QuantityKind = kind("a speed", &[("m/s", 1.0), ("km/s", 
 /// Angular momentum.
 pub(super) const MOMENTUM: QuantityKind = kind("an angular momentum", &[("N.m.s", 1.0), ("mN.m.s", 1e-3)]);
 /// Times.
-pub(super) const TIME: QuantityKind =
-    kind("a time", &[("s", 1.0), ("ms", 1e-3), ("min", 60.0), ("h", 3600.0), ("d", DAY_S)]);
+pub(super) const TIME: QuantityKind = kind("a time", &TIME_UNITS);
 
 impl Quantity {
     /// The value in the SI unit; `None` where this is no quantity of this kind.

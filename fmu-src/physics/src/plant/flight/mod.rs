@@ -477,6 +477,7 @@ impl Flight {
             target_is_clamped,
             evaluation,
             integration_center: propagator.trajectory.integration_center(configuration),
+            from_integration_center: propagator.trajectory.state_from_integration_center(time_s),
             approaches: propagator.trajectory.approaches_until(time_s),
             panel_turns: &propagator.panel_turns,
             prediction: *prediction,

@@ -11,6 +11,7 @@ use crate::guidance::DownlinkStatus;
 use crate::momentum::{DumpSpacing, Dumps, SourceMomenta, Totals};
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::motion::approaches::Approach;
+use crate::plant::motion::osculating_orbit::OsculatingOrbit;
 use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
@@ -41,6 +42,8 @@ pub struct Report<'a> {
     pub evaluation: &'a Evaluation,
     /// The body that the path is integrated about.
     pub integration_center: Body,
+    /// Position and velocity from it, EME2000, where it may change.
+    pub from_integration_center: Option<CartesianState>,
     /// Closest approaches to the encounter's body so far, and the last of them.
     pub approaches: (i32, Option<Approach>),
     /// Whole turns of the panels.
@@ -63,6 +66,14 @@ pub struct EncounterReport {
 }
 
 impl Report<'_> {
+    /// The orbit that osculates about the body that the path is integrated about; `None` where there is none, or while the flight
+    /// waits.
+    pub fn osculating_orbit(&self) -> Option<OsculatingOrbit> {
+        let geometry = &self.evaluation.instant.geometry;
+        let state = self.from_integration_center.as_ref().unwrap_or(&geometry.spacecraft);
+        OsculatingOrbit::new(self.configuration, self.integration_center, state, geometry)
+    }
+
     /// The encounter's body; `None` without one, or while the flight waits.
     pub fn encounter(&self) -> Option<EncounterReport> {
         let encounter = self.configuration.encounter?;

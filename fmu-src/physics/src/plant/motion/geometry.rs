@@ -34,7 +34,8 @@ impl Geometry {
         spacecraft: CartesianState,
     ) -> Self {
         let epoch_s = time_s + configuration.epoch_minus_time_s;
-        let (sun, earth) = sun_and_earth(configuration, ephemeris, epoch_s);
+        let Configuration { center, ephemeris: source, .. } = configuration;
+        let (sun, earth) = sun_and_earth(*center, source, ephemeris, epoch_s);
         let planet = configuration.planet().map(|planet| match planet == configuration.center {
             true => CartesianState::default(),
             false => body(configuration, ephemeris, planet, epoch_s),
@@ -99,17 +100,18 @@ pub(crate) fn body(
     BodiesFromCenter { center: configuration.center, ellipse, custom: None }.body(body, ephemeris, epoch_s)
 }
 
-/// Sun and Earth from the orbit's centre.
-pub(crate) fn sun_and_earth(
-    configuration: &Configuration,
+/// Sun and Earth from the orbit's centre by this source.
+pub fn sun_and_earth(
+    center: Body,
+    source: &EphemerisSource,
     ephemeris: &mut Ephemeris,
     epoch_s: f64,
 ) -> (CartesianState, CartesianState) {
-    let ellipse = match &configuration.ephemeris {
+    let ellipse = match source {
         EphemerisSource::Given { sun, earth } => return (*sun, *earth),
         EphemerisSource::Simulated(carried) => {
             let state = |body: Body| {
-                let found = carried.state_carried_on(body.into(), configuration.center, epoch_s);
+                let found = carried.state_carried_on(body.into(), center, epoch_s);
                 found.unwrap_or_else(|| fixed(Vector3::repeat(f64::NAN)))
             };
             return (state(Body::Sun), state(Body::Earth));
@@ -117,7 +119,7 @@ pub(crate) fn sun_and_earth(
         EphemerisSource::Vsop87 => None,
         EphemerisSource::Kepler(planet) => Some(*planet),
     };
-    BodiesFromCenter { center: configuration.center, ellipse, custom: None }.sun_and_earth(ephemeris, epoch_s)
+    BodiesFromCenter { center, ellipse, custom: None }.sun_and_earth(ephemeris, epoch_s)
 }
 
 /// Sun, planets and Moon by the simulation's ephemeris and clock.

@@ -4,6 +4,7 @@ pub(super) mod approaches;
 pub(super) mod geometry;
 pub(super) mod instant;
 pub(super) mod kinematics;
+pub(super) mod osculating_orbit;
 pub(super) mod panel_motion;
 pub(super) mod panel_turns;
 pub(super) mod trajectory;

@@ -169,6 +169,12 @@ impl Trajectory {
         self.orbit.as_ref().and_then(DisturbedOrbit::integration_center).unwrap_or(configuration.center)
     }
 
+    /// Position and velocity from that body at `time_s`, EME2000, where it may change; `None` where it is the centre throughout.
+    pub(crate) fn state_from_integration_center(&self, time_s: f64) -> Option<CartesianState> {
+        let orbit = self.orbit.as_ref().filter(|orbit| orbit.integration_center().is_some());
+        orbit.map(|orbit| orbit.own_state_at(time_s))
+    }
+
     /// How many closest approaches there were until `time_s`, and the last of them.
     pub(crate) fn approaches_until(&self, time_s: f64) -> (i32, Option<Approach>) {
         self.approaches.until(time_s)

@@ -6,13 +6,12 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::{Attitude, MovingFrame, SunAngles};
-use crate::bodies::{Body, BodyData};
+use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::eclipse::Shadow;
-use crate::environment::frames::Frame;
 use crate::environment::kepler_planet::KeplerPlanet;
 use crate::environment::onboard::OnboardEphemeris;
-use crate::environment::orbit::{Elements, Gravity, NBodyGravity, OrbitError, Tides, TwoBodyOrbit};
+use crate::environment::orbit::{Gravity, NBodyGravity, Tides, TwoBodyOrbit};
 use crate::environment::sun::pressure_n_m2;
 use crate::guidance::timeline::TimelineSettings;
 use crate::guidance::{Guided, SunPlace};
@@ -287,21 +286,6 @@ impl LightSource {
     }
 }
 
-/// Two-body orbit about `center`, in EME2000, of `elements` given in `frame`.
-///
-/// # Errors
-/// Elements that are no orbit.
-pub fn orbit_from_elements(
-    elements: Elements,
-    frame: Frame,
-    center: &BodyData,
-    gm_m3_s2: f64,
-    epoch_s: f64,
-) -> Result<TwoBodyOrbit, OrbitError> {
-    let to_eme2000 = frame.dcm_eme2000_from_frame(center);
-    Ok(TwoBodyOrbit::from_elements(elements, gm_m3_s2, epoch_s)?.along(&to_eme2000))
-}
-
 impl Configuration {
     /// The planet, if there is one: the encounter's body, else the centre.
     pub fn planet(&self) -> Option<Body> {
@@ -404,6 +388,10 @@ pub struct Configuration {
     pub center: Body,
     /// Another body that counts as the planet, if one does.
     pub encounter: Option<Encounter>,
+    /// Its radius, in m.
+    pub center_radius_m: f64,
+    /// Components in the frame of the orbit's elements to components in EME2000.
+    pub eme2000_from_orbit_frame: Matrix3<f64>,
     /// Orbit about it, in EME2000, by epoch; of an integrated orbit the one it starts on.
     pub orbit: TwoBodyOrbit,
     /// What moves the spacecraft along or off that orbit.

@@ -3,16 +3,14 @@
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-use crate::constants::DAY_S;
+use crate::constants::TIME_UNITS;
 use crate::spacecraft::downlinks::TimeAfterPeriapsis;
 
-/// Units of a time, and how many seconds they are.
-const UNITS: [(&str, f64); 4] = [("s", 1.0), ("min", 60.0), ("h", 3600.0), ("d", DAY_S)];
 /// Latest time, in s, and greatest share.
 const LATEST_S: f64 = 1e9;
 const GREATEST_SHARE: f64 = 1000.0;
 /// What may stand there.
-pub(crate) const ALLOWED_TIME: &str = "a time from 0 to 1e9 s: a number in s or a string with a unit (s, min, h, d), or a share of the period (\"20 %\")";
+pub(crate) const ALLOWED_TIME: &str = "a time from 0 to 1e9 s: a number in s or a string with a unit (s, ms, min, h, d, a), or a share of the period (\"20 %\")";
 
 /// A time after periapsis as it is written.
 #[derive(Debug, Deserialize)]
@@ -39,7 +37,7 @@ impl WrittenTime {
         let (number, unit): (f64, _) = (number.parse().ok()?, unit.trim());
         in_range(match unit {
             "%" => TimeAfterPeriapsis::PeriodShare(number / 100.0),
-            _ => TimeAfterPeriapsis::Seconds(number * UNITS.iter().find(|(name, _)| *name == unit)?.1),
+            _ => TimeAfterPeriapsis::Seconds(number * TIME_UNITS.iter().find(|(name, _)| *name == unit)?.1),
         })
     }
 
@@ -91,6 +89,7 @@ mod tests {
             ("1.5min", Seconds(90.0)),
             ("3 d", Seconds(259_200.0)),
             ("40 s", Seconds(40.0)),
+            ("2 a", Seconds(63_115_200.0)),
             ("20 %", PeriodShare(0.2)),
             ("0%", PeriodShare(0.0)),
         ] {

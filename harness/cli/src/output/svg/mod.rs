@@ -14,10 +14,10 @@ use model_description::{Causality, Description, ScalarVariable, value};
 use super::{
     exporter::Exporter,
     known::Known,
-    shown::{ANGLE_UNIT, ROUNDING},
+    scales::{ROUNDING, Scales, group},
+    shown::ANGLE_UNIT,
     time_axis::TimeAxis,
 };
-use crate::variables::vector;
 
 /// Panels drawn at most; more would not be readable.
 const PANELS: usize = 10;
@@ -32,18 +32,6 @@ pub(crate) fn leave_out<T>(panels: &mut Vec<T>, what: &str, see: &str) {
 
 /// Eclipses shaded at most; more would be stripes.
 const ECLIPSES: usize = 60;
-
-/// What is drawn together: the elements of a vector, or the same quantity of everything that is counted.
-fn group(name: &str) -> String {
-    match (vector(name), name.rsplit_once('[')) {
-        (Some(vector), _) => vector.to_owned(),
-        (None, Some((counted, rest))) => {
-            let (_, quantity) = rest.split_once(']').unwrap_or(("", rest));
-            format!("{counted}{quantity}")
-        }
-        (None, None) => name.to_owned(),
-    }
-}
 
 /// The picture, drawn at the end.
 pub(super) struct Svg {
@@ -158,7 +146,7 @@ fn groups(described: &Description, recording: &Recording, known: &Known, seconds
     let mut groups: Vec<Group> = Vec::new();
     // The panel of a name and a label that has room for another line.
     let mut with_room: BTreeMap<(String, String), usize> = BTreeMap::new();
-    let variables = by_name(described);
+    let (variables, scales) = (by_name(described), Scales::of(described, recording));
     for (name, column) in drawn(&variables, recording) {
         let vector = group(name);
         let variable = variables.get(name).copied();
@@ -178,8 +166,9 @@ fn groups(described: &Description, recording: &Recording, known: &Known, seconds
         let with_space = with_room.get(&key).copied();
         let with_space = with_space.filter(|at| groups[*at].panel.series.len() < COLOURS.len());
         let position = with_space.unwrap_or_else(|| {
-            let scale = (own == ANGLE_UNIT).then_some(factor.abs());
-            groups.push(Group::new(key.0.clone(), key.1.clone(), scale));
+            let is_of_angles = own == ANGLE_UNIT;
+            let size = factor.abs() * if is_of_angles { 1.0 } else { scales.size(name) };
+            groups.push(Group::new(key.0.clone(), key.1.clone(), Scale { size, is_of_angles }));
             with_room.insert(key, groups.len() - 1);
             groups.len() - 1
         });
@@ -200,12 +189,19 @@ struct Group {
     panel: Panel,
     /// Marks that are drawn only near the lines, with what they are.
     bounds: Vec<(&'static str, f64)>,
-    /// What its values are large or small against; `None`: the largest of them.
-    scale: Option<f64>,
+    scale: Scale,
+}
+
+/// What values are large or small against.
+#[derive(Clone, Copy)]
+struct Scale {
+    size: f64,
+    /// Whether that is a radian, by which their variation is judged too.
+    is_of_angles: bool,
 }
 
 impl Group {
-    fn new(name: String, y_label: String, scale: Option<f64>) -> Self {
+    fn new(name: String, y_label: String, scale: Scale) -> Self {
         let panel = Panel { y_label, is_whole: true, ..Panel::default() };
         Self { name, panel, bounds: Vec::new(), scale }
     }
@@ -235,19 +231,21 @@ impl Group {
         points.map(|(_, value)| *value).filter(|value| value.is_finite())
     }
 
-    /// Makes lines that vary by nothing but rounding straight.
+    /// Makes lines that vary by nothing but rounding straight, and 0 where they are nothing else.
     fn still(&mut self) {
         let largest = self.values().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-        let rounding = ROUNDING * self.scale.unwrap_or(largest);
+        let Scale { size, is_of_angles } = self.scale;
+        let [rounding, straight] = [size, if is_of_angles { size } else { largest }].map(|it| ROUNDING * it);
         for series in self.panel.series.iter_mut().filter(|series| series.mark == Mark::Line) {
             let values = || series.points.iter().map(|(_, value)| *value);
             let (low, high) = range(values());
-            let Some(first) = values().next().filter(|_| high - low < rounding) else { continue };
-            let all_finite = values().all(f64::is_finite);
-            let value = if low.abs().max(high.abs()) < rounding { 0.0 } else { first };
-            for point in series.points.iter_mut().filter(|_| all_finite) {
-                point.1 = value;
-            }
+            let value = match values().next() {
+                _ if !values().all(f64::is_finite) => continue,
+                Some(_) if low.abs().max(high.abs()) < rounding => 0.0,
+                Some(first) if high - low < straight => first,
+                _ => continue,
+            };
+            series.points.iter_mut().for_each(|point| point.1 = value);
         }
     }
 

@@ -9,6 +9,8 @@ const SHIP: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <ScalarVariable name="push[1]" valueReference="0" causality="input"><Real start="0"/></ScalarVariable>
 <ScalarVariable name="push[2]" valueReference="1" causality="input"><Real start="0"/></ScalarVariable>
 <ScalarVariable name="angle" valueReference="2" causality="output"><Real unit="rad"/></ScalarVariable>
+<ScalarVariable name="load.light[1]" valueReference="4" causality="output"><Real unit="N"/></ScalarVariable>
+<ScalarVariable name="load.air[1]" valueReference="5" causality="output"><Real unit="N"/></ScalarVariable>
 <ScalarVariable name="mode" valueReference="3" causality="output" variability="discrete"><Enumeration declaredType="Mode"/></ScalarVariable>
   </ModelVariables>
   <ModelStructure/>
@@ -78,6 +80,11 @@ fn rounding_is_drawn_as_nothing() {
     assert_eq!(labels(&[("far", real([1.5e11, 1.5e11 + 1e-3, 1.5e11])), moves()]), ["moves"]);
     // Small by itself is no rounding.
     assert_eq!(labels(&[("tiny", real([1e-18, 2e-18, 0.0])), moves()]), ["tiny", "moves"]);
+    // Beside other loads it is, and has no panel.
+    let loads =
+        |air: f64| [("load.light[1]", real([0.0, 1e-3, 2e-3])), ("load.air[1]", real([0.0, air, -air]))];
+    assert_eq!(labels(&loads(1e-15)), ["load.light [N]"]);
+    assert_eq!(labels(&loads(4e-15)), ["load.light [N]", "load.air [N]"]);
     // Within a vector it is, and there its line is straight; so is what is drawn alone.
     let vector = [("force[1]", real([0.0, 1e-3, 2e-3])), ("force[2]", real([1e-19, -1e-19, 0.0]))];
     for columns in [&vector[..], &[angle([9e-17, -2e-17, 4e-17])]] {

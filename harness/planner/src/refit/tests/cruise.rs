@@ -3,11 +3,11 @@
 use nalgebra::{Matrix3, Vector3};
 use physics::{
     bodies::Body,
-    constants::{ASTRONOMICAL_UNIT_M, GM_SUN_M3_S2},
+    constants::{ASTRONOMICAL_UNIT_M, GM_SUN_M3_S2, RADIUS_SUN_M},
     environment::{
         eclipse::{Shadow, ShadowModel},
-        frames::Frame,
-        orbit::{Elements, OrbitMethod},
+        frames::dcm_eme2000_from_ecliptic,
+        orbit::{Elements, OrbitMethod, TwoBodyOrbit},
     },
     guidance::{Guided, Schedule, ScienceRule, downlink::default_downlink::DefaultDownlink},
     loads::{Active, ForceTorque},
@@ -15,7 +15,7 @@ use physics::{
     plant::{
         AttitudeSource, Configuration, EphemerisSource, Laws, LightSource, Motion, PanelSetting, PanelStep,
         Plant, PreparedSpacecraft, PropagatorState, RadiationSettings, SimulationContext, SunLight,
-        ThrusterEventSettings, orbit_from_elements,
+        ThrusterEventSettings,
     },
     radiation::SolarModel,
     spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel},
@@ -63,8 +63,8 @@ impl Cruise {
             periapsis_argument_rad: 0.0,
             true_anomaly_rad: 1.0,
         };
-        let sun = Body::Sun.data();
-        let orbit = orbit_from_elements(elements, Frame::Ecliptic, sun, GM_SUN_M3_S2, EPOCH_S).unwrap();
+        let orbit = TwoBodyOrbit::from_elements(elements, GM_SUN_M3_S2, EPOCH_S).unwrap();
+        let orbit = orbit.along(&dcm_eme2000_from_ecliptic());
         let panel = |steps: &Vec<PanelStep>| PanelSetting::Timeline {
             steps: steps.as_slice().into(),
             clock_minus_time_s: 0.0,
@@ -78,6 +78,8 @@ impl Cruise {
             laws: Laws { gm_m3_s2: GM_SUN_M3_S2, flattening: None, dipole_body_a_m2: Vector3::zeros() },
             epoch_minus_time_s: EPOCH_S,
             center: Body::Sun,
+            center_radius_m: RADIUS_SUN_M,
+            eme2000_from_orbit_frame: dcm_eme2000_from_ecliptic(),
             motion: Motion::TwoBody,
             ephemeris: EphemerisSource::Vsop87,
             light: SunLight {
