@@ -42,8 +42,12 @@ use crate::common::variables::{EclipseVariables, EllipseVariables, GuidedVariabl
 pub struct PlantVariables {
     pub attitude: AttitudeVariables,
     pub command: CommandVariables,
-    #[group(setup = &setup.windows)]
+    #[group(setup = &setup.guided)]
     pub guided: GuidedVariables,
+    /// Whether both targets of the attitude lie on one line within 1e-9 rad, so that a substitute stands in for the second one: the
+    /// north of EME2000, along that its equinox. Of a downlink, a turn and the rules scaled to fixedToSunLine false.
+    #[output(name = "guided.degenerate")]
+    pub guided_degenerate: Boolean,
     pub downlink: DownlinkVariables,
     pub timeline: TimelineVariables,
     pub start: StartVariables,
