@@ -4,6 +4,7 @@ pub(crate) mod center;
 pub(crate) mod choices;
 pub(crate) mod downlink;
 pub(crate) mod effects;
+pub(crate) mod ellipse;
 pub(crate) mod ephemeris;
 pub(crate) mod loads;
 pub(crate) mod management;

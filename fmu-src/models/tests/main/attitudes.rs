@@ -323,7 +323,9 @@ fn the_zone_acts_as_on_a_command_of_a_timeline() {
         let sets = [&rule[..], zone].concat();
         let [mut a, mut b] = [&by_rule, &by_command].map(|named| named.initialize(0.0, &sets).unwrap());
         for k in 1..100 {
-            [&mut a, &mut b].map(|flight| flight.step_to(431.0 * f64::from(k)).unwrap());
+            for flight in [&mut a, &mut b] {
+                flight.step_to(431.0 * f64::from(k)).unwrap();
+            }
             for name in ["attitude.q", "attitude.rate", "momentum.inertial"] {
                 assert_eq!(a.vector(name), b.vector(name), "{name} {zone:?}");
             }

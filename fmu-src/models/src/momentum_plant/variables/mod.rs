@@ -33,8 +33,9 @@ use propulsion::{
 use super::setup::PlantSetup;
 use crate::common::downlink::DownlinkVariables;
 use crate::common::effects::{LawVariables, PlanetLightVariables, RecoilVariables, ShadowingVariables};
+use crate::common::ellipse::EllipseVariables;
 use crate::common::loads::PlateVariables;
-use crate::common::variables::{EclipseVariables, EllipseVariables, GuidedVariables, SolarVariables};
+use crate::common::variables::{EclipseVariables, GuidedVariables, SolarVariables};
 
 /// Every variable of the plant, in the order of the XML.
 #[derive(Variables)]

@@ -11,7 +11,7 @@ use crate::environment::onboard::OnboardTarget;
 use crate::environment::orbit::{BodyEphemeris, Tides, tide_m_s2};
 use crate::guidance::{EphemerisAtTime, LinesOfSight, Sight, TargetPlanet};
 
-use crate::plant::settings::configuration::{Configuration, EphemerisSource};
+use crate::plant::settings::configuration::{Configuration, EphemerisSource, Motion};
 
 /// Positions and velocities in EME2000.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -154,6 +154,20 @@ pub(crate) struct SimulationEphemeris<'a> {
 impl SimulationEphemeris<'_> {
     fn epoch_s(&self, at_s: f64) -> f64 {
         at_s + self.configuration.epoch_minus_time_s
+    }
+
+    /// Acceleration by all gravity of the flight, without other forces, in m/s2, EME2000, of a spacecraft there about the orbit's centre at
+    /// `at_s`; `None` where the centre's point mass alone attracts.
+    pub(super) fn gravity_m_s2(&mut self, at_s: f64, spacecraft: &CartesianState) -> Option<Vector3<f64>> {
+        match &self.configuration.motion {
+            Motion::TwoBody | Motion::Held { .. } => None,
+            Motion::Disturbed { gravity, tides, .. } => {
+                let mut sum = gravity.acceleration_m_s2(&spacecraft.position_m);
+                self.add_tides(&mut sum, tides, at_s, &spacecraft.position_m);
+                Some(sum)
+            }
+            Motion::NBody { gravity, .. } => Some(gravity.acceleration_m_s2(at_s, spacecraft, self)),
+        }
     }
 
     /// Adds the tides of distant bodies at `at_s`, m/s2, EME2000, at a position from the orbit's centre.

@@ -27,7 +27,7 @@ use crate::spacecraft::{MassProperties, Panel};
 
 use nalgebra::{Rotation3, Vector3};
 
-use super::geometry::{self, Geometry, GeometrySight};
+use super::geometry::{self, Geometry, GeometrySight, SimulationEphemeris};
 use super::instant::{Instant, Regime};
 use super::trajectory::Trajectory;
 use crate::plant::settings::configuration::{AttitudeSource, Configuration, Motion};
@@ -59,7 +59,8 @@ fn sight(
     planet: Option<TargetPlanet>,
 ) -> GeometrySight {
     let motion = planet.map(|planet| {
-        let gravity = Trajectory::gravity_m_s2(configuration, ephemeris, time_s, &geometry.spacecraft);
+        let bodies = &mut SimulationEphemeris { configuration, ephemeris };
+        let gravity = bodies.gravity_m_s2(time_s, &geometry.spacecraft);
         (TargetPlanet { gm_m3_s2: configuration.orbit.mu_m3_s2(), ..planet }, gravity)
     });
     GeometrySight { geometry, epoch_s: time_s + configuration.epoch_minus_time_s, motion }

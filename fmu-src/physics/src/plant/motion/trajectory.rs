@@ -133,26 +133,6 @@ impl Trajectory {
         }
     }
 
-    /// Acceleration by all gravity of the flight, without other forces, in m/s2, of a spacecraft there about the centre at `time_s`, EME2000;
-    /// `None` where the centre's point mass alone attracts.
-    pub(crate) fn gravity_m_s2(
-        configuration: &Configuration,
-        ephemeris: &mut Ephemeris,
-        time_s: f64,
-        state: &CartesianState,
-    ) -> Option<Vector3<f64>> {
-        let bodies = &mut SimulationEphemeris { configuration, ephemeris };
-        match &configuration.motion {
-            Motion::TwoBody | Motion::Held { .. } => None,
-            Motion::Disturbed { gravity, tides, .. } => {
-                let mut sum = gravity.acceleration_m_s2(&state.position_m);
-                bodies.add_tides(&mut sum, tides, time_s, &state.position_m);
-                Some(sum)
-            }
-            Motion::NBody { gravity, .. } => Some(gravity.acceleration_m_s2(time_s, state, bodies)),
-        }
-    }
-
     /// The two-body orbit since the last maneuver, if there was one.
     fn coasting(&self, configuration: &Configuration) -> Option<&Coast> {
         self.coast.as_ref().filter(|_| matches!(configuration.motion, Motion::TwoBody))
