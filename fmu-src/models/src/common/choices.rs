@@ -9,7 +9,7 @@ use physics::environment::eclipse::ShadowModel;
 use physics::guidance::constraints::keep_in;
 use physics::guidance::modes::guidance_command;
 use physics::momentum::Convention;
-use physics::spacecraft::{CustomBody, Panel, Spacecraft, SunshadeModel, ThrusterSet};
+use physics::spacecraft::{CustomBody, Panel, Spacecraft, SunshadeModel, TargetItem, ThrusterSet};
 
 /// Enumerations that are those of physics: `Name(type);` each, or `Name(type) of ITEMS;` for some of its items, described by its
 /// doc comment.
@@ -173,7 +173,7 @@ choices! {
     CommandKind(guidance_command::CommandKind);
 }
 
-/// Pitch during science.
+/// Attitude during science.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
 pub enum ScienceRule {
     /// Sun elevation is a fraction of (Sun-nadir angle - 90 deg), within the keep-in zone.
@@ -183,6 +183,21 @@ pub enum ScienceRule {
     /// Fixed to the Sun line: -Y from the planet to the Sun, -Z to the north of the planet's orbit, as in paper 004; no
     /// keep-in zone.
     FixedToSunLine = 3,
+    /// Local vertical, local horizontal: +Z to nadir, -Y along the orbit normal (position x velocity).
+    Lvlh = 4,
+    /// Yaw steering: +Z to nadir, p x Z toward the Sun, p the axis of the panels; -Y toward the Sun without panels.
+    YawSteering = 5,
+    /// -Y to the Sun, +Z toward ecliptic north.
+    SunPointing = 6,
+    /// The attitude guided.attitude.
+    Inertial = 7,
+    /// The axis guided.align.axis exactly at its target, guided.constrain.axis as near as possible to its own.
+    Aligned = 8,
+}
+
+choices! {
+    /// Direction that a body axis is turned to.
+    PointingTarget(TargetItem);
 }
 
 /// The known bodies; the one that a spacecraft's file describes stands behind them.

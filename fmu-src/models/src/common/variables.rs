@@ -7,8 +7,7 @@ use physics::attitude::SunAngles;
 use physics::bodies::Body;
 use physics::bodies::surface::PlanetSurface;
 use physics::environment::eclipse::{Shadow, ShadowModel};
-use physics::environment::kepler_planet::KeplerPlanet;
-use physics::environment::orbit::{self, Elements as KeplerElements};
+use physics::environment::orbit;
 use physics::environment::sun::SOLAR_FLUX_W_M2;
 use physics::guidance::constraints::keep_in::KeepIn;
 use physics::guidance::downlink::sun_place::SunRequest;
@@ -19,8 +18,8 @@ use physics::spacecraft::{Spacecraft, TimeAfterPeriapsis};
 
 use super::center::CenterBody;
 use super::choices::{DayTemperature, DownlinkReference, EclipseMethod, GuidedPhase, ScienceRule};
-use super::ephemeris;
 use super::numbers::Numbers;
+use super::pointing::{AttitudeDefaults, NamedAttitudeVariables, RuleContext};
 
 /// What a planet's surface does with sunlight; Mercury's fits paper 004, which prints none.
 #[derive(Variables)]
@@ -164,9 +163,9 @@ pub(crate) const NO_GIMBAL: &str = "no instrument of the spacecraft has a gimbal
 /// Latest begin and end of a downlink, in s.
 const LATEST_WINDOW_S: f64 = 1e9;
 
-/// Start values of the downlink windows by a spacecraft's file; without any in it there is no downlink.
+/// Start values of guided flight by a spacecraft's file; without windows in it there is no downlink.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct WindowDefaults {
+pub struct GuidedDefaults {
     /// Begin after periapsis, in s.
     pub start_s: f64,
     /// End after periapsis, in s.
@@ -177,14 +176,17 @@ pub struct WindowDefaults {
     pub period_shares: [Option<f64>; 2],
     /// Whether the spacecraft has antennas, and its file has it about the Sun.
     pub antennas_and_cruise: [bool; 2],
+    /// How it stands while it observes.
+    pub attitude: AttitudeDefaults,
 }
 
-impl WindowDefaults {
+impl GuidedDefaults {
     /// Of a file; shares of the period are shown in the orbit that one about `center` begins with.
     pub fn of(spacecraft: &Spacecraft, center: &CenterBody) -> Self {
         let antennas_and_cruise = [!spacecraft.antennas.is_empty(), center.data.body == Body::Sun];
+        let attitude = AttitudeDefaults::of(spacecraft);
         let Some(windows) = &spacecraft.downlinks else {
-            return Self { antennas_and_cruise, ..Self::default() };
+            return Self { antennas_and_cruise, attitude, ..Self::default() };
         };
         let axis_m = center.elements().semi_major_axis_m;
         let period_s = orbit::period_s(center.data.gm_m3_s2, axis_m);
@@ -196,27 +198,37 @@ impl WindowDefaults {
             every: i32::try_from(windows.every).unwrap_or(i32::MAX),
             period_shares: times.map(TimeAfterPeriapsis::period_share),
             antennas_and_cruise,
+            attitude,
         }
     }
 
     /// The phase about a body.
     pub fn phase(&self, is_about_sun: bool) -> GuidedPhase {
         let [has_antennas, _] = self.antennas_and_cruise;
-        if has_antennas && is_about_sun { GuidedPhase::Cruise } else { GuidedPhase::Orbit }
+        if has_antennas && is_about_sun && self.attitude.pointing.is_none() {
+            GuidedPhase::Cruise
+        } else {
+            GuidedPhase::Orbit
+        }
     }
 }
 
 /// Science and downlink in turn.
 #[derive(Variables)]
-#[variables(setup = WindowDefaults)]
+#[variables(setup = GuidedDefaults)]
 pub struct GuidedVariables {
     /// What guided flight does: science and downlink in turn, or downlink throughout. By default cruise about the Sun where the file
-    /// has antennas.
+    /// has antennas and no [pointing].
     #[parameter(start = setup.phase(setup.antennas_and_cruise[1]))]
     pub phase: Choice<GuidedPhase>,
-    /// How the spacecraft stands while it observes.
-    #[parameter(start = ScienceRule::Nadir)]
+    /// How the spacecraft stands while it observes. By default as [pointing] in its file says; without that nadir, or about a planet
+    /// yawSteering where the file has no keep-in zone and all panels turn about one axis more than 5 deg off X and off Z. lvlh to
+    /// aligned keep the Sun in the zone of keepIn.enabled, as commands do. The rate is the derivative of the attitude by the gravity
+    /// of the flight (in Guidance by that of the planet's point mass), without other forces.
+    #[parameter(start = setup.attitude.rule(setup.antennas_and_cruise[1]))]
     pub science_rule: Choice<ScienceRule>,
+    #[group(name = "", setup = &setup.attitude)]
+    pub named: NamedAttitudeVariables,
     /// Whether science off-points to unload momentum by sunlight (paper 001, MDIS pointing): the Sun's place in the keep-in zone is
     /// chosen where science begins, or the flight or the scenario in it, for the momentum target of momentum.strategy at its end, and
     /// held until the next downlink. The body turns about the Sun line until nadir lies in the plane that the instrument on the
@@ -244,82 +256,8 @@ pub struct GuidedVariables {
     pub downlink_reference: Choice<DownlinkReference>,
     /// Greatest rate of the turn between science and downlink attitudes; 0 = at once, as in paper 000. A turn about one axis,
     /// or, where that would take the Sun out of the keep-in zone and both ends keep it inside, within the zone.
-    #[parameter(unit = "rad/s", display = "deg/s", min = 0.0, max = 10.0, start = 0.0)]
+    #[parameter(unit = "rad/s", display = "deg/s", min = 0.0, max = 10.0, start = setup.attitude.slew_rate_rad_s())]
     pub slew_rate: Real,
-}
-
-/// The planet's ellipse about the Sun when `ephemeris.source` is kepler.
-#[derive(Variables)]
-#[variables(setup = CenterBody)]
-pub struct EllipseVariables {
-    /// Semi-major axis of the planet's orbit about the Sun when source is kepler; elements are in the ecliptic and
-    /// equinox of J2000, of Mercury those of paper 004's Table 4 (whose axis is printed a digit short).
-    #[parameter(unit = "m", display = "AU", min = 1e9, max = 1e13, start = setup.ellipse().semi_major_axis_m)]
-    pub semi_major_axis: Real,
-    /// Its eccentricity.
-    #[parameter(unit = "1", min = 0.0, max = 0.99, start = setup.ellipse().eccentricity)]
-    pub eccentricity: Real,
-    /// Its inclination.
-    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = setup.ellipse().inclination_rad)]
-    pub inclination: Real,
-    /// Longitude of its ascending node.
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.ellipse().ascending_node_rad)]
-    pub ascending_node: Real,
-    /// Its argument of perihelion; paper 004 uses Mercury's longitude of perihelion, 77.46 deg, in its place.
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.ellipse().periapsis_argument_rad)]
-    pub periapsis_argument: Real,
-    /// The planet's true anomaly at start.epoch; paper 004's cases 1 to 4 are 10, 98, 189 and 279 deg.
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.ellipse().true_anomaly_rad)]
-    pub true_anomaly: Real,
-}
-
-impl EllipseVariables {
-    fn numbers(&self) -> Numbers<KeplerElements, 6> {
-        Numbers([
-            (self.semi_major_axis, |it| &mut it.semi_major_axis_m),
-            (self.eccentricity, |it| &mut it.eccentricity),
-            (self.inclination, |it| &mut it.inclination_rad),
-            (self.ascending_node, |it| &mut it.ascending_node_rad),
-            (self.periapsis_argument, |it| &mut it.periapsis_argument_rad),
-            (self.true_anomaly, |it| &mut it.true_anomaly_rad),
-        ])
-    }
-
-    /// Elements of the planet's ellipse about the Sun, in the ecliptic of J2000: those that are given, else the body's own.
-    pub fn read<M: Model>(
-        &self,
-        context: &Context<'_, M>,
-        values: &Values,
-        body: &CenterBody,
-    ) -> KeplerElements {
-        let numbers = self.numbers();
-        numbers.read_or(context.given(values, &numbers.group()), &body.ellipse())
-    }
-
-    /// The planet on the ellipse of `ephemeris.source` kepler; a body of the file's own of which nothing is given here, as that file
-    /// places it.
-    ///
-    /// # Errors
-    /// Elements that are none, a body that its file does not place.
-    pub fn planet<M: Model>(
-        &self,
-        context: &Context<'_, M>,
-        values: &Values,
-        body: &CenterBody,
-        epoch_s: f64,
-    ) -> Result<KeplerPlanet, Failure> {
-        let handles = self.numbers().group();
-        let given = context.given(values, &handles);
-        if body.data.body == Body::Custom && !handles.iter().any(|handle| given.has(*handle)) {
-            return ephemeris::custom(body, "kepler");
-        }
-        ephemeris::kepler(self.read(context, values, body), epoch_s)
-    }
-
-    /// Writes these elements.
-    pub fn write(&self, values: &mut Values, elements: &KeplerElements) {
-        self.numbers().write(values, *elements);
-    }
 }
 
 impl GuidedVariables {
@@ -328,7 +266,7 @@ impl GuidedVariables {
         &self,
         context: &Context<'_, M>,
         values: &Values,
-        defaults: &WindowDefaults,
+        defaults: &GuidedDefaults,
         law: Guided,
     ) -> Guided {
         let [start, end] = defaults.period_shares;
@@ -344,17 +282,54 @@ impl GuidedVariables {
         Guided { schedule: schedule.in_orbit(schedule.period_s), ..law }
     }
 
-    /// The law by shares of the period, in the phase that acts: where nobody gave it, that about the Sun or about a planet.
+    /// The law by shares of the period, in the phase and by the rule that act: where nobody gave them, those about the Sun or about a
+    /// planet.
+    ///
+    /// # Errors
+    /// A named attitude that the spacecraft does not have there.
     pub fn in_phase<M: Model>(
         &self,
         context: &Context<'_, M>,
         values: &Values,
-        defaults: &WindowDefaults,
-        (law, is_about_sun): (Guided, bool),
-    ) -> Guided {
+        defaults: &GuidedDefaults,
+        (law, about): (Guided, &RuleContext<'_>),
+    ) -> Result<Guided, Failure> {
         let law = self.by_shares(context, values, defaults, law);
-        let throughout = self.phase(context, values, defaults, is_about_sun) == GuidedPhase::Cruise;
-        Guided { schedule: Schedule { throughout, ..law.schedule }, ..law }
+        let throughout = self.phase(context, values, defaults, about.is_about_sun) == GuidedPhase::Cruise;
+        let rule = self.rule(context, values, defaults, about.is_about_sun);
+        let named = if law.science.unloads() { None } else { self.named.read(values, rule, about)? };
+        let schedule = Schedule { throughout, ..law.schedule };
+        Ok(Guided { schedule, science: named.unwrap_or(law.science), ..law })
+    }
+
+    /// The rule that acts.
+    pub fn rule<M: Model>(
+        &self,
+        context: &Context<'_, M>,
+        values: &Values,
+        defaults: &GuidedDefaults,
+        is_about_sun: bool,
+    ) -> ScienceRule {
+        let group = [self.science_rule.into(), self.science_gain.into(), self.slew_rate.into()];
+        if context.given(values, &group).has(self.science_rule) {
+            values.choice(self.science_rule)
+        } else {
+            defaults.attitude.rule(is_about_sun)
+        }
+    }
+
+    /// Writes phase and rule as they act.
+    pub fn resolve_start<M: Model>(
+        &self,
+        context: &Context<'_, M>,
+        values: &mut Values,
+        defaults: &GuidedDefaults,
+        is_about_sun: bool,
+    ) {
+        let phase = self.phase(context, values, defaults, is_about_sun);
+        let rule = self.rule(context, values, defaults, is_about_sun);
+        values.set_choice(self.phase, phase);
+        values.set_choice(self.science_rule, rule);
     }
 
     /// The phase that acts.
@@ -362,7 +337,7 @@ impl GuidedVariables {
         &self,
         context: &Context<'_, M>,
         values: &Values,
-        defaults: &WindowDefaults,
+        defaults: &GuidedDefaults,
         is_about_sun: bool,
     ) -> GuidedPhase {
         let [start, end] = [self.downlink_start, self.downlink_end].map(Elements::from);
@@ -427,9 +402,10 @@ impl GuidedVariables {
                     })?;
                     guidance::ScienceRule::Unloading { sun: SunAngles::default(), gimbal }
                 }
-                ScienceRule::Nadir => guidance::ScienceRule::Nadir,
-                ScienceRule::FixedToSunLine => guidance::ScienceRule::PlanetOrbit,
                 ScienceRule::Scaled => guidance::ScienceRule::Scaled { gain: values.real(self.science_gain) },
+                ScienceRule::FixedToSunLine => guidance::ScienceRule::PlanetOrbit,
+                // Named attitudes are read with what they need ([`Self::in_phase`]).
+                _ => guidance::ScienceRule::Nadir,
             },
             elevation_limit_rad: keep_in.elevation_rad,
             slew_rate_rad_s: values.real(self.slew_rate),

@@ -13,7 +13,7 @@ use serde::{Serialize, Serializer};
 
 use crate::common::center::{CenterBodies, CenterBody, target_of};
 use crate::common::spacecraft::{PreparedAntennas, PreparedShapes, wheel_array};
-use crate::common::variables::WindowDefaults;
+use crate::common::variables::GuidedDefaults;
 
 /// Guidance.
 pub struct Guidance;
@@ -30,8 +30,8 @@ pub struct GuidanceSetup {
     pub target: CenterBody,
     /// Bodies with what the file gives of one.
     pub bodies: CenterBodies,
-    /// Start values of the downlink windows.
-    pub windows: WindowDefaults,
+    /// Start values of guided flight.
+    pub guided: GuidedDefaults,
     /// The antennas, and the default downlink with them.
     pub antennas: PreparedAntennas,
     /// Prepared for sunlight.
@@ -60,7 +60,7 @@ impl GuidanceSetup {
         Ok(Self {
             target,
             bodies,
-            windows: WindowDefaults::of(&spacecraft, &target),
+            guided: GuidedDefaults::of(&spacecraft, &target),
             antennas: PreparedAntennas::of(&spacecraft),
             shapes: PreparedShapes::of(&spacecraft),
             spacecraft,

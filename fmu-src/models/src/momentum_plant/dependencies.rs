@@ -182,7 +182,11 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramet
     let sun = knowns![v.sun.direction, v.sun.azimuth, v.sun.elevation, v.sun.position_body];
     let others = knowns![v.planet.position_body, v.earth.azimuth, v.earth.elevation, v.keep_in.margin];
     let seen = knowns![v.attitude.q, v.attitude.rate, sun, others, v.sunshade.polynomial_valid];
-    table.output(knowns![seen, &v.downlink, &v.timeline], &inputs.attitude, &parameters.attitude);
+    table.output(
+        knowns![seen, v.guided_degenerate, &v.downlink, &v.timeline],
+        &inputs.attitude,
+        &parameters.attitude,
+    );
     // How the panels stand, and to the corridor.
     let stood = knowns![&parameters.attitude, &v.articulation];
     table.output(&v.panel, knowns![&inputs.attitude, &v.panel], stood);

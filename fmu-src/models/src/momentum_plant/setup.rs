@@ -22,7 +22,7 @@ use crate::common::spacecraft::{
     PreparedAntennas, PreparedShapes, ReportedFace, reported_faces, wheel_array,
 };
 use crate::common::start_values::{entry_of, fixed_item, item};
-use crate::common::variables::WindowDefaults;
+use crate::common::variables::GuidedDefaults;
 
 /// The momentum plant.
 pub struct MomentumPlant;
@@ -39,8 +39,8 @@ pub struct PlantSetup {
     pub center: CenterBody,
     /// Bodies with what the file gives of one.
     pub bodies: CenterBodies,
-    /// Start values of the downlink windows.
-    pub windows: WindowDefaults,
+    /// Start values of guided flight.
+    pub guided: GuidedDefaults,
     /// The antennas, and the default downlink with them.
     pub antennas: PreparedAntennas,
     /// Prepared for sunlight.
@@ -80,7 +80,7 @@ impl PlantSetup {
         Ok(Self {
             center,
             bodies,
-            windows: WindowDefaults::of(&spacecraft, &center),
+            guided: GuidedDefaults::of(&spacecraft, &center),
             control: ControlDefaults::of(&spacecraft, wheel_array(&spacecraft).as_ref()),
             reported_faces: reported_faces(file, &spacecraft)?,
             antennas: PreparedAntennas::of(&spacecraft),

@@ -50,6 +50,8 @@ pub struct Warned {
     unset_inputs: bool,
     /// A commanded quaternion far from unit length.
     command_norm: bool,
+    /// Targets of the attitude on one line.
+    pub degenerate: bool,
 }
 
 /// What was set at the last change.

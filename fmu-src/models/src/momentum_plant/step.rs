@@ -153,6 +153,7 @@ fn show(
         outputs::flyable(&report)?;
     }
     propulsion::warn_unserved(context, &report, &mut warned.thrusters);
+    guidance::warn_degenerate(context, &report, &mut warned.degenerate);
     outputs::write(context, values, &report, reading.is_reconfigured);
     outputs::write_faces(context, values, flight, (given.prepared, time_s))
 }

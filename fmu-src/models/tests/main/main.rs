@@ -4,6 +4,7 @@
 
 mod articulation;
 mod attitude_sign;
+mod attitudes;
 mod center_defaults;
 mod cruise;
 mod cruise_centers;

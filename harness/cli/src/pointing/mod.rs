@@ -202,7 +202,12 @@ impl Plant<'_> {
         let is_limited = limit_deg < EVERYWHERE_DEG;
         let limit = short((limit_deg * 1e6).round() / 1e6);
         let science = match rule {
+            "sunPointing" => "-Y at the Sun, +Z toward ecliptic north".to_owned(),
+            "inertial" => "held in guided.attitude".to_owned(),
+            "aligned" => format!("{}, {}", self.axis("align", "at")?, self.axis("constrain", "toward")?),
             _ if self.item(CENTER) == Some("sun") => "-Y at the Sun, +Z toward the north".to_owned(),
+            "lvlh" => "nadir with +Z, -Y along the orbit normal".to_owned(),
+            "yawSteering" => "nadir with +Z, rolled so that the panels' axis is across the Sun".to_owned(),
             "nadir" if is_limited => format!("nadir with +Z, the Sun within {limit} deg of -Y"),
             "nadir" => "nadir with +Z, rolled so that the Sun is nearest to -Y".to_owned(),
             "scaled" => {
@@ -213,6 +218,14 @@ impl Plant<'_> {
                 .to_owned(),
         };
         Some(format!("{science}, {}", self.downlinks()?))
+    }
+
+    /// An axis of the rule aligned and its target.
+    fn axis(&self, group: &str, preposition: &str) -> Option<String> {
+        let target = self.item(&format!("guided.{group}.target"))?;
+        let component = |i: i32| Some(short(self.real(&format!("guided.{group}.axis[{i}]"))?));
+        let [x, y, z] = [component(1)?, component(2)?, component(3)?];
+        Some(format!("({x}, {y}, {z}) {preposition} {target}"))
     }
 
     fn downlinks(&self) -> Option<String> {

@@ -35,6 +35,7 @@ use crate::common::downlink::ZERO_KEEP_IN_AXIS;
 use crate::common::ephemeris;
 use crate::common::management::{NO_ANTENNA, check_windows_have_antenna};
 use crate::common::numbers::Numbers;
+use crate::common::pointing::RuleContext;
 use crate::common::variables::NO_GIMBAL;
 
 /// What parameters fix for a whole flight.
@@ -151,9 +152,7 @@ pub(super) fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     values.set_vector(v.radii, radii_m.into());
     planet(v).write(values, data);
     values.set_choice(v.rotation.orientation, orientation);
-    let guided = &context.variables.guided;
-    let phase = guided.phase(context, values, &context.setup.windows, data.body == Body::Sun);
-    values.set_choice(guided.phase, phase);
+    context.variables.guided.resolve_start(context, values, &context.setup.guided, data.body == Body::Sun);
 }
 
 /// The burn by its parameters and the spacecraft's thrusters.
@@ -266,12 +265,13 @@ pub(super) fn settings<'a>(
         },
         orbit_phase: {
             let law = v.guided.read(values, [0.0, f64::INFINITY, real(v.start.epoch)], keep_in, gimbal)?;
-            v.guided.in_phase(
-                context,
-                values,
-                &context.setup.windows,
-                (law, fixed.bodies.center == Body::Sun),
-            )
+            // Every sample brings the zone of its mode.
+            let about = RuleContext {
+                is_about_sun: fixed.bodies.center == Body::Sun,
+                panels: &context.setup.spacecraft.panels,
+                zone: None,
+            };
+            v.guided.in_phase(context, values, &context.setup.guided, (law, &about))?
         },
         burn: fixed.burn,
     })

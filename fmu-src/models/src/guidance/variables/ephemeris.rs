@@ -7,7 +7,7 @@ use physics::guidance::modes::body_positions;
 
 use super::super::setup::GuidanceSetup;
 use super::choices::{EphemerisModel, EphemerisSource};
-use crate::common::variables::EllipseVariables;
+use crate::common::ellipse::EllipseVariables;
 
 /// Positions of the Sun, the target planet and the Earth.
 #[derive(Variables)]

@@ -60,7 +60,7 @@ pub struct GuidanceVariables {
     #[parameter(name = "earthAcquisition.rate", tunable, unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = transitions::EARTH_ACQUISITION_RATE_RAD_S)]
     pub earth_acquisition_rate: Real,
     pub sun_search: SunSearchVariables,
-    #[group(setup = &setup.windows)]
+    #[group(setup = &setup.guided)]
     pub guided: GuidedVariables,
     pub downlink: DownlinkVariables,
     /// What is pointed at what. This and every input of a command is read once a second; one that is not 0 overrides the

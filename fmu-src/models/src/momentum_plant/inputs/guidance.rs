@@ -12,10 +12,11 @@ use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::timeline::TimelineSettings;
 use physics::guidance::{Guided, TargetPlanet};
 use physics::management::Strategy;
-use physics::plant::{self, Configuration, DynamicAttitude, StartMotion, StartPointing};
+use physics::plant::{self, Configuration, DynamicAttitude, Report, StartMotion, StartPointing};
 
 use crate::common::downlink::ZERO_KEEP_IN_AXIS;
 use crate::common::management::{check_strategy_has_antenna, check_windows, check_windows_have_antenna};
+use crate::common::pointing::RuleContext;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::state::PlantState;
 use crate::momentum_plant::variables::PlantVariables;
@@ -34,6 +35,13 @@ fn zone(variables: &PlantVariables, values: &Values) -> Result<KeepIn, Failure> 
         elevation_rad: values.real(v.elevation),
         method: values.choice(v.method).0,
     })
+}
+
+/// The same where it is in force, with the distance at which it counts.
+fn zone_in_force(variables: &PlantVariables, values: &Values) -> Result<Option<SunZone>, Failure> {
+    let zone =
+        SunZone { keep_in: zone(variables, values)?, distance_m: values.real(variables.keep_in.distance) };
+    Ok(values.boolean(variables.keep_in.enabled).then_some(zone))
 }
 
 /// Settings of the timeline about a centre of this rotation.
@@ -68,7 +76,12 @@ fn law(context: &Plan<'_>, values: &Values, orbit: &TwoBodyOrbit) -> Result<Guid
     let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
     let gimbal = Gimbal::of(&context.setup.spacecraft.instruments);
     let law = variables.guided.read(values, [periapsis_s, period_s, start_s], keep_in, gimbal)?;
-    Ok(variables.guided.in_phase(context, values, &context.setup.windows, (law, !is_planet)))
+    let about = RuleContext {
+        is_about_sun: !is_planet,
+        panels: &context.setup.spacecraft.panels,
+        zone: zone_in_force(variables, values)?,
+    };
+    variables.guided.in_phase(context, values, &context.setup.guided, (law, &about))
 }
 
 /// The attitude's source: commands, the orbit phase's own guidance, or the dynamics that follow one of them.
@@ -98,7 +111,6 @@ fn managed_law(
     orbit: &TwoBodyOrbit,
 ) -> Result<Guided, Failure> {
     let variables = context.variables;
-    let keep_in = zone(variables, values)?;
     let law = law(context, values, orbit)?;
     let antennas = &context.setup.antennas.all;
     let strategy = values.choice(variables.momentum.strategy).0;
@@ -115,12 +127,23 @@ fn managed_law(
     let requested = if managed {
         SunRequest::default()
     } else {
-        let zone = SunZone { keep_in, distance_m: values.real(variables.keep_in.distance) };
-        let zone = values.boolean(variables.keep_in.enabled).then_some(zone);
-        SunRequest { zone, ..variables.downlink.request(values) }
+        SunRequest { zone: zone_in_force(variables, values)?, ..variables.downlink.request(values) }
     };
     let law = law.with_sun_places(choice.place(), choice.in_science());
     Ok(Guided { managed, requested, ..law })
+}
+
+/// Warns once of targets on one line.
+pub(in crate::momentum_plant) fn warn_degenerate(context: &Plan<'_>, report: &Report<'_>, warned: &mut bool) {
+    if report.is_degenerate && !*warned {
+        *warned = true;
+        context.log.warning(&format!(
+            "guided.degenerate: at {:?} s both targets of the attitude lie on one line; the north of EME2000, or along that its \
+             equinox, stands in for the second one. Another second target (guided.constrain.target) or another guided.scienceRule \
+             avoids it",
+            report.time_s
+        ));
+    }
 }
 
 /// Whether start.q gives the attitude of a start by torque, and whether start.rate gives its rate where that does not.

@@ -206,9 +206,8 @@ pub(super) fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     ellipse.write(values, &elements);
     center.write(context.variables, values);
     air_and_field::Followed::read(context, values, center.planet.body).write(context.variables, values);
-    let guided = &context.variables.guided;
-    let phase = guided.phase(context, values, &context.setup.windows, !center.data.body.is_planet());
-    values.set_choice(guided.phase, phase);
+    let is_about_sun = !center.data.body.is_planet();
+    context.variables.guided.resolve_start(context, values, &context.setup.guided, is_about_sun);
 }
 
 /// Refuses a step that leaves the span of the onboard ephemerides it goes by.

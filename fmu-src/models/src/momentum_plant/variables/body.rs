@@ -179,18 +179,18 @@ pub struct WheelVariables {
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct KeepInVariables {
-    /// Whether commands keep the Sun inside the zone: scenarios of the timeline, which can switch and resize it. Guided flight
-    /// without one always does.
+    /// Whether commands keep the Sun inside the zone: scenarios of the timeline, which can switch and resize it, and the rules lvlh to
+    /// aligned of guided.scienceRule. Guided flight by the others always does.
     #[parameter(start = setup.spacecraft.sun_keep_in.is_some())]
     pub enabled: Boolean,
     /// Centre of the zone, body frame, of any length: the zone's frame is the body's, turned by the smallest rotation that takes -Y
-    /// to it. For scenarios of the timeline.
+    /// to it. For scenarios of the timeline and the rules lvlh to aligned.
     #[parameter(unit = "1", start = [0.0, -1.0, 0.0])]
     pub axis: RealVector<3>,
-    /// Greatest distance from the Sun at which the zone counts; for scenarios of the timeline.
+    /// Greatest distance from the Sun at which the zone counts; likewise.
     #[parameter(unit = "m", display = "AU", min = 0.0, max = SunKeepIn::FARTHEST_M, start = setup.keep_in().distance_m)]
     pub distance: Real,
-    /// Where a Sun outside is put; by scenarios of the timeline.
+    /// Where a Sun outside is put; likewise.
     #[parameter(start = KeepInMethod(keep_in::KeepInMethod::Nearest))]
     pub method: Choice<KeepInMethod>,
     /// Largest Sun azimuth either way.

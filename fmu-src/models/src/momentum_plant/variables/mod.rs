@@ -35,8 +35,9 @@ use propulsion::{
 use super::setup::PlantSetup;
 use crate::common::downlink::DownlinkVariables;
 use crate::common::effects::{LawVariables, PlanetLightVariables, RecoilVariables, ShadowingVariables};
+use crate::common::ellipse::EllipseVariables;
 use crate::common::loads::PlateVariables;
-use crate::common::variables::{EclipseVariables, EllipseVariables, GuidedVariables, SolarVariables};
+use crate::common::variables::{EclipseVariables, GuidedVariables, SolarVariables};
 
 /// Every variable of the plant, in the order of the XML.
 #[derive(Variables)]
@@ -44,8 +45,12 @@ use crate::common::variables::{EclipseVariables, EllipseVariables, GuidedVariabl
 pub struct PlantVariables {
     pub attitude: AttitudeVariables,
     pub command: CommandVariables,
-    #[group(setup = &setup.windows)]
+    #[group(setup = &setup.guided)]
     pub guided: GuidedVariables,
+    /// Whether both targets of the attitude lie on one line within 1e-9 rad, so that a substitute stands in for the second one: the
+    /// north of EME2000, along that its equinox. Of a downlink, a turn and the rules scaled to fixedToSunLine false.
+    #[output(name = "guided.degenerate")]
+    pub guided_degenerate: Boolean,
     pub downlink: DownlinkVariables,
     pub timeline: TimelineVariables,
     pub start: StartVariables,

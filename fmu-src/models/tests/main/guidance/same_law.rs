@@ -104,6 +104,14 @@ fn the_orbit_phase_is_the_plants_guided_attitude_over_three_days() {
 }
 
 #[test]
+fn named_attitudes_are_one_law_in_both() {
+    for rule in 4..=8 {
+        let windows = [("guided.downlinkEvery", 1.0), ("guided.scienceRule", f64::from(rule))];
+        compare(&windows, &with(&[&windows, &[("pointing.scenario", 10.0)]]), 2.0 * ORBIT_S, 600.0);
+    }
+}
+
+#[test]
 fn a_timeline_is_one_law_in_both() {
     let quiet = [("guided.downlinkEvery", 0.0)];
     compare_by(&example(), &quiet, &[], (86_400.0, 30.0));

@@ -22,10 +22,12 @@ use crate::guidance::downlink::downlink_sun::{DownlinkSun, WindowStart};
 use crate::guidance::downlink::sun_place::{ChosenPlace, SunPlace, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::value;
+use crate::guidance::orbit_phase::attitudes::ScienceRule;
 use crate::guidance::orbit_phase::guided::{DownlinkStatus, Guided};
 use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
 use crate::guidance::orbit_phase::predicted_orbit::ellipse_of;
 use crate::guidance::orbit_phase::schedule::{Activity, Schedule};
+use crate::guidance::pointing::aligned::aligned_vectors;
 use crate::guidance::pointing::antenna::Beam;
 use crate::guidance::pointing::command::{
     BoresightOption, LimbCommand, PointingCommand, ScanCommand, Scenario,
@@ -187,7 +189,11 @@ impl GuidanceState {
         match steering {
             Some(Steering::Pointing(constraints)) => {
                 let command = self.modes.mode.allowed(&inputs.command);
-                let orbit_phase = Guided { keep_in: constraints.keep_in, ..settings.orbit_phase };
+                let orbit_phase = Guided {
+                    keep_in: constraints.keep_in,
+                    science: settings.orbit_phase.science.within(constraints.keep_in),
+                    ..settings.orbit_phase
+                };
                 let settings = &GuidanceSettings { orbit_phase, ..*settings };
                 if let Some(ephemeris) = ephemeris.filter(|_| command.scenario.is_some()) {
                     let attitude = sensed.estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
@@ -384,7 +390,8 @@ impl GuidanceState {
         pointing_solution(command, &now.settings.hardware, now.ephemeris, &progress)
     }
 
-    /// The orbit phase's attitude as vectors: +Z at where it looks, -Y rolled to where it is.
+    /// The orbit phase's attitude as vectors: axes and targets of its science where those are its law, else +Z at where it looks,
+    /// -Y rolled to where it is.
     fn orbit_phase(
         &mut self,
         law: &Guided,
@@ -396,6 +403,13 @@ impl GuidanceState {
         let is_downlink = attitude.window.activity == Activity::Downlink && !attitude.slewing;
         let keeps_nadir = attitude.window.activity == Activity::Science && law.science.unloads();
         let earth_body = || value(&pointing.to_body(&ephemeris.to_earth()));
+        // The zone exchanges the vectors of the targets themselves.
+        let aligned = match law.science {
+            ScienceRule::Aligned { axes, .. } if attitude.window.activity == Activity::Science => {
+                aligned_vectors(&axes, ephemeris).filter(|_| !attitude.slewing)
+            }
+            _ => None,
+        };
         PointingSolution {
             second: keeps_nadir.then(|| ephemeris.to_planet()),
             antenna: (is_downlink && !law.requested.alternate)
@@ -403,7 +417,7 @@ impl GuidanceState {
             downlink: DownlinkStatus::of(&attitude),
             reachable: !attitude.slewing
                 && (is_downlink || attitude.margins.iter().all(|margin| *margin >= 0.0)),
-            ..PointingSolution::at(pointing.vectors())
+            ..PointingSolution::at(aligned.unwrap_or_else(|| pointing.vectors()))
         }
     }
 

@@ -3,14 +3,15 @@
 use nalgebra::Vector3;
 
 use crate::bodies::Body;
+use crate::constants::{GM_MOON_M3_S2, GM_SUN_M3_S2};
 use crate::environment::CartesianState;
 use crate::environment::bodies_from_center::{BodiesFromCenter, fixed};
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::onboard::OnboardTarget;
-use crate::environment::orbit::BodyEphemeris;
-use crate::guidance::LinesOfSight;
+use crate::environment::orbit::{BodyEphemeris, Tides, tide_m_s2};
+use crate::guidance::{EphemerisAtTime, LinesOfSight, Sight, TargetPlanet};
 
-use crate::plant::settings::configuration::{Configuration, EphemerisSource};
+use crate::plant::settings::configuration::{Configuration, EphemerisSource, Motion};
 
 /// Positions and velocities in EME2000.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -77,6 +78,30 @@ impl Geometry {
     }
 }
 
+/// Geometry as attitude laws read it.
+pub(crate) struct GeometrySight {
+    /// Where everything is.
+    pub geometry: Geometry,
+    /// In s past J2000 TDB.
+    pub epoch_s: f64,
+    /// The centre, and the acceleration by all gravity in m/s2, EME2000, where that is not the centre's point mass alone; `None` for a
+    /// law that reads directions only.
+    pub motion: Option<(TargetPlanet, Option<Vector3<f64>>)>,
+}
+
+impl Sight for GeometrySight {
+    fn lines(&self) -> LinesOfSight {
+        self.geometry.lines_of_sight()
+    }
+
+    fn ephemeris(&self) -> Option<EphemerisAtTime> {
+        let (planet, acceleration_m_s2) = self.motion?;
+        let (sun, earth) = (self.geometry.sun_from_center(), self.geometry.earth_from_center());
+        let at = EphemerisAtTime::new(self.epoch_s, planet, &self.geometry.spacecraft, &sun, &earth);
+        Some(acceleration_m_s2.map_or(at, |acceleration_m_s2| at.accelerated(&acceleration_m_s2)))
+    }
+}
+
 /// A body from the orbit's centre.
 pub(crate) fn body(
     configuration: &Configuration,
@@ -131,6 +156,39 @@ pub(crate) struct SimulationEphemeris<'a> {
 impl SimulationEphemeris<'_> {
     fn epoch_s(&self, at_s: f64) -> f64 {
         at_s + self.configuration.epoch_minus_time_s
+    }
+
+    /// Acceleration by all gravity of the flight, without other forces, in m/s2, EME2000, of a spacecraft there about the orbit's centre at
+    /// `at_s`; `None` where the centre's point mass alone attracts.
+    pub(super) fn gravity_m_s2(&mut self, at_s: f64, spacecraft: &CartesianState) -> Option<Vector3<f64>> {
+        match &self.configuration.motion {
+            Motion::TwoBody | Motion::Held { .. } => None,
+            Motion::Disturbed { gravity, tides, .. } => {
+                let mut sum = gravity.acceleration_m_s2(&spacecraft.position_m);
+                self.add_tides(&mut sum, tides, at_s, &spacecraft.position_m);
+                Some(sum)
+            }
+            Motion::NBody { gravity, .. } => Some(gravity.acceleration_m_s2(at_s, spacecraft, self)),
+        }
+    }
+
+    /// Adds the tides of distant bodies at `at_s`, m/s2, EME2000, at a position from the orbit's centre.
+    pub(super) fn add_tides(
+        &mut self,
+        sum: &mut Vector3<f64>,
+        tides: &Tides,
+        at_s: f64,
+        position_m: &Vector3<f64>,
+    ) {
+        if tides.sun {
+            let epoch_s = self.epoch_s(at_s);
+            let sun_m = body(self.configuration, self.ephemeris, Body::Sun, epoch_s).position_m;
+            *sum += tide_m_s2(position_m, &sun_m, GM_SUN_M3_S2);
+        }
+        if tides.moon {
+            let moon_m = self.moon_from_earth_m(at_s);
+            *sum += tide_m_s2(position_m, &moon_m, GM_MOON_M3_S2);
+        }
     }
 }
 
