@@ -90,7 +90,11 @@ struct CommandDescription {
     at: Quantity,
     /// When it ends, if that is before the next one begins; then nothing is commanded.
     until: Option<Quantity>,
+    /// Name in reports; the scenario's or the attitude's unless given.
+    name: Option<String>,
     scenario: Option<Scenario>,
+    /// Attitude instead of a scenario: a quaternion from EME2000 to the body, scalar last.
+    attitude: Option<[f64; 4]>,
     boresight: Option<BoresightDescription>,
     aimpoint: Option<AimpointDescription>,
     /// Aimpoint of the instrument on the gimbal in the scenario doubleTarget.
