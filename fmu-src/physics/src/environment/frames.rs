@@ -49,6 +49,11 @@ pub fn dcm_eme2000_from_ecliptic() -> Matrix3<f64> {
     rotation_x(OBLIQUITY_J2000_RAD)
 }
 
+/// North of the mean ecliptic of J2000, a unit vector in EME2000.
+pub fn ecliptic_north() -> Vector3<f64> {
+    dcm_eme2000_from_ecliptic().column(2).into_owned()
+}
+
 /// From a frame with x at a plane's ascending node and z along its normal to the reference frame of node and
 /// inclination (paper 004 eq 1): Rz(node) Rx(inclination).
 pub fn dcm_reference_from_node_frame(ascending_node_rad: f64, inclination_rad: f64) -> Matrix3<f64> {

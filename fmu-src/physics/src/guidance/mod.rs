@@ -14,10 +14,10 @@ pub use downlink::downlink_sun::{DownlinkSun, WindowStart};
 pub use downlink::sun_place::{ChosenPlace, SunPlace};
 pub use geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
 pub use orbit_phase::attitudes::{
-    AttitudeCommand, LinesOfSight, ScienceRule, downlink_toward, science, sun_pointing, unloading,
+    AttitudeCommand, LinesOfSight, ScienceRule, Sight, downlink_toward, science, sun_pointing, unloading,
 };
 pub use orbit_phase::guided::{DownlinkStatus, Guided, GuidedAttitude};
-pub use orbit_phase::predicted_orbit::{PredictedOrbit, lines_of_sight};
+pub use orbit_phase::predicted_orbit::PredictedOrbit;
 pub use orbit_phase::schedule::{Activity, NoCycle, Schedule, Window};
 pub use orbit_phase::science_course::{CoursePoint, ScienceCourse};
 pub use pointing::law::{Pointing, PointingVectors};

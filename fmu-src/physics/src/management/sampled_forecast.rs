@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 use super::prediction::{Forecast, ForecastTerms};
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::geometry::moving::value;
-use crate::guidance::{Activity, Guided, GuidedAttitude, PredictedOrbit, lines_of_sight};
+use crate::guidance::{Activity, Guided, GuidedAttitude, PredictedOrbit};
 use crate::momentum::Totals;
 use crate::numerics::quadrature::GAUSS_3;
 use crate::plant::{ForecastMomentum, SunLight, SunlitConfiguration};
@@ -38,17 +38,15 @@ pub struct SampledForecast<'a> {
 
 impl SampledForecast<'_> {
     fn attitude(&self, epoch_s: f64) -> GuidedAttitude {
-        self.law.at(epoch_s, self.default_downlink, |at_s| lines_of_sight(&self.orbit.at(at_s)))
+        self.law.at(epoch_s, self.default_downlink, |at_s| self.orbit.at(at_s))
     }
 
     /// Adds the torque at a time, for `span_s`.
     fn add(&self, totals: &mut Totals, epoch_s: f64, span_s: f64) {
         let ephemeris = self.orbit.at(epoch_s);
-        let lines = |at_s: f64| match at_s == epoch_s {
-            true => lines_of_sight(&ephemeris),
-            false => lines_of_sight(&self.orbit.at(at_s)),
-        };
-        let inertial_from_body = self.law.at(epoch_s, self.default_downlink, lines).frame.inertial_from_body;
+        let sight_at = |at_s: f64| if at_s == epoch_s { ephemeris } else { self.orbit.at(at_s) };
+        let attitude = self.law.at(epoch_s, self.default_downlink, sight_at);
+        let inertial_from_body = attitude.frame.inertial_from_body;
         let to_sun_m = ephemeris.to_sun().map(|it| it.re);
         let distance_m = to_sun_m.norm();
         let sun_body = inertial_from_body.inverse() * (to_sun_m / distance_m);

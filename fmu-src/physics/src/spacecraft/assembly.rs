@@ -17,6 +17,7 @@ use super::file::names::check_names;
 use super::file::part_reader::PartReader;
 use super::file::planet_map::planet_map;
 use super::file::plates::{body_plates, panel, sunshade};
+use super::file::pointing::pointing;
 use super::file::propulsion::{tank, thruster};
 use super::file::swinging::{mode, slosh, swinging_fits};
 use super::file::thruster_sets::{set_of, thruster_sets};
@@ -26,6 +27,7 @@ use super::instruments::Instrument;
 use super::mass::MassProperties;
 use super::panel::Panel;
 use super::planet_map::PlanetMap;
+use super::pointing::PointingSettings;
 use super::start::{StartEntry, start_entries};
 use super::sun_sensors::MountedSunSensor;
 use super::surface::{Plate, Sunshade, SunshadeModel};
@@ -71,6 +73,9 @@ pub struct Spacecraft {
     pub dump_threshold_n_m_s: Option<Vector3<f64>>,
     /// Directions the Sun may have.
     pub sun_keep_in: Option<SunKeepIn>,
+    /// How it stands while it observes; `None`: as the models' defaults say. Models have it as start values.
+    #[serde(skip)]
+    pub pointing: Option<PointingSettings>,
     /// When it talks to the Earth; `None`: never by its file.
     pub downlinks: Option<DownlinkWindows>,
     /// Corridor of light on the cells.
@@ -172,12 +177,17 @@ impl Spacecraft {
         let has_antenna = description.antennas.is_some() || file.is_stand_in("antennas");
         check_gimbals(file.check, &file.at.key("instruments"), &instruments);
         let start = start_entries(file.check, description.start.as_ref(), description.fixed.as_ref());
+        let panels = file.list("panels", description.panels.as_deref(), panel);
         Self {
             name: description.name.clone(),
             mass_properties,
             plates: body_plates(file, description),
             sunshade: description.sunshade.as_ref().map(|it| sunshade(&mut file.table("sunshade"), it)),
-            panels: file.list("panels", description.panels.as_deref(), panel),
+            pointing: description
+                .pointing
+                .as_ref()
+                .and_then(|it| pointing(&mut file.table("pointing"), it, &start, &panels)),
+            panels,
             wheels: file.list("wheels", description.wheels.as_deref(), wheel),
             flexible_modes,
             sloshes,

@@ -21,6 +21,7 @@ mod optics;
 mod panel;
 mod panel_mass;
 mod planet_map;
+mod pointing;
 mod polygon;
 mod start;
 mod sun_sensors;
@@ -41,6 +42,8 @@ pub use assembly::{Spacecraft, SunKeepIn};
 pub use body::{BodyMotion, BodyOrbit, CustomBody, InertialFrame};
 pub use downlinks::{DownlinkWindows, TimeAfterPeriapsis};
 #[cfg(feature = "schema")]
+pub(crate) use file::description::{StarDescription, TargetedAxisDescription};
+pub(crate) use file::pointing::aligned;
 pub use file::schema;
 pub use gas_surface::GasSurface;
 pub use hot_pole::HotPoleZone;
@@ -51,6 +54,10 @@ pub use optics::Optics;
 pub use panel::{Panel, PanelControl, offset_for_suns};
 pub use panel_mass::{hinged_masses, with_panels};
 pub use planet_map::{PlanetCell, PlanetMap};
+pub use pointing::{
+    AlignedAxes, AttitudeName, AttitudePart, AttitudeRefusal, NamedAttitude, PointingSettings,
+    PointingTarget, TargetItem, TargetedAxis, panels_need_yaw_steering,
+};
 pub use polygon::Polygon;
 pub use start::{StartEntry, StartValue};
 pub(crate) use start::{StartTable, start_entries};

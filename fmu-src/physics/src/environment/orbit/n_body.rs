@@ -150,6 +150,16 @@ impl NBodyGravity {
         Gravity { flattening, ..Gravity::point_mass(self.bodies[body as usize][0]) }
     }
 
+    /// Acceleration of a spacecraft at `state` from where positions are given, relative to that, in EME2000, m/s2.
+    pub fn acceleration_m_s2(
+        &self,
+        at_s: f64,
+        state: &CartesianState,
+        ephemeris: &mut impl BodyEphemeris,
+    ) -> Vector3<f64> {
+        BodiesAbout { gravity: self, about: self.center, ephemeris }.acceleration_m_s2(at_s, state)
+    }
+
     /// Gradient of a spacecraft's acceleration by the position from `about`, 1/s2: of all that attract as point masses. Flattening, up to some 1e-4 of the
     /// gradient near Mercury's surface, and relativity, 1e-7, are left out.
     pub fn gradient_per_s2(

@@ -21,6 +21,9 @@ use crate::guidance::pointing::law::{Pointing, PointingVectors};
 use crate::math;
 use crate::numerics::scalar::{Scalar, sin_cos};
 
+/// A Sun this little off the zone's boundary is on it, in rad.
+const ON_BOUNDARY_RAD: f64 = 1e-9;
+
 /// A Sun this little outside counts as inside, in rad: laws that put it on the boundary leave it there within rounding.
 pub const BOUNDARY_RAD: f64 = 1e-12;
 
@@ -56,6 +59,41 @@ pub struct KeptIn {
     pub pointing: Pointing,
     /// Whether the vectors were exchanged (Table 6).
     pub in_force: bool,
+}
+
+/// An attitude of vectors within a zone, and where the law takes its other form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WithinZone {
+    /// The attitude.
+    pub pointing: Pointing,
+    /// How far the Sun is inside the zone in the attitude without it, in rad; infinite without one.
+    pub margin: f64,
+    /// Whether the zone moves the Sun.
+    pub is_moved: bool,
+}
+
+/// The attitude of `vectors` with the Sun inside the zone, if there is one; `None` where boresight, aimpoint, the zone's axis or the
+/// Sun has no direction. A Sun that the law itself holds on the boundary (`is_held`) stays there, whatever the rounding: no root.
+pub fn within_zone(
+    vectors: &PointingVectors,
+    zone: Option<&KeepIn>,
+    to_sun: &MovingVector,
+    is_held: bool,
+) -> Option<WithinZone> {
+    let Some(zone) = zone else {
+        let pointing = vectors.pointing()?;
+        return Some(WithinZone { pointing, margin: f64::INFINITY, is_moved: false });
+    };
+    let unconstrained = vectors.pointing()?;
+    let sun_body = value(&unconstrained.to_body(to_sun)).try_normalize(0.0);
+    let margin = sun_body.and_then(|sun_body| Some(-zone.excess_rad(&sun_body)?));
+    let is_moved = margin.is_some_and(|margin| margin < -ON_BOUNDARY_RAD);
+    let margin = margin.filter(|margin| !is_held || margin.abs() > ON_BOUNDARY_RAD);
+    Some(WithinZone {
+        pointing: zone.constrained(vectors, to_sun)?.pointing,
+        margin: margin.unwrap_or(f64::INFINITY),
+        is_moved,
+    })
 }
 
 impl KeepIn {

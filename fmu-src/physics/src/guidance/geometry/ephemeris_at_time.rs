@@ -88,6 +88,12 @@ impl EphemerisAtTime {
         }
     }
 
+    /// The same with this acceleration of the spacecraft by gravity, EME2000, where more than the planet's point mass is known.
+    #[must_use]
+    pub fn accelerated(self, acceleration_m_s2: &Vector3<f64>) -> Self {
+        Self { velocity: moving(value(&self.velocity), *acceleration_m_s2), ..self }
+    }
+
     /// Sets where a body is.
     pub fn place_body(&mut self, body: Body, place: &CartesianState) {
         self.bodies[body as usize] = Some(moving(place.position_m, place.velocity_m_s));
@@ -113,6 +119,11 @@ impl EphemerisAtTime {
     /// From the spacecraft to the planet's centre, in m.
     pub fn to_planet(&self) -> MovingVector {
         -self.position
+    }
+
+    /// Position x velocity about the planet, in m2/s.
+    pub fn orbit_normal(&self) -> MovingVector {
+        self.position.cross(&self.velocity)
     }
 
     /// From the spacecraft to the Sun, in m.

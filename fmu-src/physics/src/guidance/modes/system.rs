@@ -23,10 +23,12 @@ use crate::guidance::downlink::downlink_sun::{DownlinkSun, WindowStart};
 use crate::guidance::downlink::sun_place::{ChosenPlace, SunPlace, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::value;
+use crate::guidance::orbit_phase::attitudes::{ScienceRule, Sight};
 use crate::guidance::orbit_phase::guided::{DownlinkStatus, Guided};
 use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
-use crate::guidance::orbit_phase::predicted_orbit::{ellipse_of, lines_of_sight};
+use crate::guidance::orbit_phase::predicted_orbit::ellipse_of;
 use crate::guidance::orbit_phase::schedule::{Activity, Schedule};
+use crate::guidance::pointing::aligned::aligned_vectors;
 use crate::guidance::pointing::antenna::Beam;
 use crate::guidance::pointing::command::{
     BoresightOption, LimbCommand, PointingCommand, ScanCommand, Scenario,
@@ -192,7 +194,11 @@ impl GuidanceState {
         match steering {
             Some(Steering::Pointing(constraints)) => {
                 let command = self.modes.mode.allowed(&inputs.command);
-                let orbit_phase = Guided { keep_in: constraints.keep_in, ..settings.orbit_phase };
+                let orbit_phase = Guided {
+                    keep_in: constraints.keep_in,
+                    science: settings.orbit_phase.science.within(constraints.keep_in),
+                    ..settings.orbit_phase
+                };
                 let settings = &GuidanceSettings { orbit_phase, ..*settings };
                 if let Some(ephemeris) = ephemeris.filter(|_| command.scenario.is_some()) {
                     let attitude = sensed.estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
@@ -383,7 +389,7 @@ impl GuidanceState {
     fn slewed(&mut self, now: &SampleContext<'_>, target: &Pointing) -> Option<ConstrainedPointing> {
         let slew = self.slew.as_mut()?;
         let rate_rad_s = now.settings.orbit_phase.slew_rate_rad_s;
-        let (target, sun) = (target.frame(), lines_of_sight(now.ephemeris).sun);
+        let (target, sun) = (target.frame(), now.ephemeris.lines().sun);
         if slew.is_open() {
             slew.aim(&target, &sun, now.constraints.keep_in.as_ref(), rate_rad_s);
         }
@@ -428,7 +434,8 @@ impl GuidanceState {
         pointing_solution(command, &now.settings.hardware, now.ephemeris, &progress)
     }
 
-    /// The orbit phase's attitude as vectors: +Z at where it looks, -Y rolled to where it is.
+    /// The orbit phase's attitude as vectors: axes and targets of its science where those are its law, else +Z at where it looks,
+    /// -Y rolled to where it is.
     fn orbit_phase(
         &mut self,
         law: &Guided,
@@ -440,6 +447,13 @@ impl GuidanceState {
         let is_downlink = attitude.window.activity == Activity::Downlink && !attitude.slewing;
         let keeps_nadir = attitude.window.activity == Activity::Science && law.science.unloads();
         let earth_body = || value(&pointing.to_body(&ephemeris.to_earth()));
+        // The zone exchanges the vectors of the targets themselves.
+        let aligned = match law.science {
+            ScienceRule::Aligned { axes, .. } if attitude.window.activity == Activity::Science => {
+                aligned_vectors(&axes, ephemeris).filter(|_| !attitude.slewing)
+            }
+            _ => None,
+        };
         PointingSolution {
             second: keeps_nadir.then(|| ephemeris.to_planet()),
             antenna: (is_downlink && !law.requested.alternate)
@@ -447,7 +461,7 @@ impl GuidanceState {
             downlink: DownlinkStatus::of(&attitude),
             reachable: !attitude.slewing
                 && (is_downlink || attitude.margins.iter().all(|margin| *margin >= 0.0)),
-            ..PointingSolution::at(pointing.vectors())
+            ..PointingSolution::at(aligned.unwrap_or_else(|| pointing.vectors()))
         }
     }
 

@@ -1,18 +1,22 @@
 //! The two attitudes of paper 000: science (pitched about X toward the planet) and default downlink (eq 18); of paper 001,
-//! science off-pointed to unload momentum, the camera turned back to nadir.
+//! science off-pointed to unload momentum, the camera turned back to nadir; and two axes at targets of their own.
 
 use nalgebra::{ComplexField, Vector3};
 
 use crate::attitude::{MovingFrame, MovingUnit, SunAngles, angle_between_rad, direction_from_angles};
 use crate::environment::CartesianState;
+use crate::guidance::constraints::keep_in::{KeepIn, within_zone};
 use crate::guidance::downlink::default_downlink::{DefaultDownlink, EarthBoresight};
-use crate::guidance::downlink::sun_place::{self, DownlinkRequest, SunPlace, both_solutions};
-use crate::guidance::geometry::moving::{Moving, direction, fixed, moving};
+use crate::guidance::downlink::sun_place::{self, DownlinkRequest, SunPlace, SunZone, both_solutions};
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
+use crate::guidance::geometry::moving::{Moving, direction, fixed, moving, state, value};
+use crate::guidance::pointing::aligned::aligned_vectors;
 use crate::guidance::pointing::antenna::Antennas;
 use crate::guidance::pointing::boresight::Gimbal;
 use crate::guidance::pointing::law::PointingVectors;
 use crate::math;
 use crate::numerics::scalar::Scalar;
+use crate::spacecraft::AlignedAxes;
 
 /// Directions from the spacecraft, in EME2000, with their rates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +42,40 @@ impl LinesOfSight {
     }
 }
 
+/// Surroundings of the spacecraft at a time, as attitude laws read them.
+pub trait Sight {
+    /// Directions to Sun, planet and Earth.
+    fn lines(&self) -> LinesOfSight;
+
+    /// Positions and motions about the orbit's centre; `None` where directions alone are known.
+    fn ephemeris(&self) -> Option<EphemerisAtTime>;
+}
+
+impl Sight for LinesOfSight {
+    fn lines(&self) -> LinesOfSight {
+        *self
+    }
+
+    fn ephemeris(&self) -> Option<EphemerisAtTime> {
+        None
+    }
+}
+
+impl Sight for EphemerisAtTime {
+    fn lines(&self) -> LinesOfSight {
+        let [to_sun, to_earth, to_planet] =
+            [self.to_sun(), self.to_earth(), self.to_planet()].map(|it| state(&it));
+        LinesOfSight {
+            sun_from_planet: Some(state(&self.sun)),
+            ..LinesOfSight::to([&to_sun, &to_earth], Some(&to_planet))
+        }
+    }
+
+    fn ephemeris(&self) -> Option<EphemerisAtTime> {
+        Some(*self)
+    }
+}
+
 /// How far science observations pitch the spacecraft, as Sun elevation over (Sun-nadir angle - 90 deg).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ScienceRule {
@@ -58,6 +96,13 @@ pub enum ScienceRule {
         /// The camera's gimbal that keeps nadir.
         gimbal: Gimbal,
     },
+    /// Two axes at targets of their own ([`aligned_vectors`]).
+    Aligned {
+        /// The axes and their targets.
+        axes: AlignedAxes,
+        /// Zone that keeps the Sun, as in a command of a timeline.
+        zone: Option<SunZone>,
+    },
 }
 
 impl ScienceRule {
@@ -66,12 +111,29 @@ impl ScienceRule {
         matches!(self, Self::Unloading { .. })
     }
 
+    /// Whether it reads motions about the orbit's centre beside directions.
+    pub fn reads_motion(&self) -> bool {
+        matches!(self, Self::Aligned { .. })
+    }
+
     /// The same with the Sun there, where it has a place of its own.
     #[must_use]
     pub fn with_sun(self, sun: SunAngles) -> Self {
         match self {
             Self::Unloading { gimbal, .. } => Self::Unloading { sun, gimbal },
-            Self::Scaled { .. } | Self::Nadir | Self::PlanetOrbit => self,
+            Self::Scaled { .. } | Self::Nadir | Self::PlanetOrbit | Self::Aligned { .. } => self,
+        }
+    }
+
+    /// The same with the Sun inside this zone, at any distance from it, where it keeps a zone of its own.
+    #[must_use]
+    pub fn within(self, keep_in: Option<KeepIn>) -> Self {
+        match self {
+            Self::Aligned { axes, .. } => {
+                let zone = keep_in.map(|keep_in| SunZone { keep_in, distance_m: f64::INFINITY });
+                Self::Aligned { axes, zone }
+            }
+            Self::Scaled { .. } | Self::Nadir | Self::PlanetOrbit | Self::Unloading { .. } => self,
         }
     }
 }
@@ -84,13 +146,15 @@ pub struct AttitudeCommand {
     /// Functions of the geometry alone at whose roots the law takes another form; infinite where there is none. Between two
     /// roots the attitude is smooth.
     pub margins: [f64; 2],
-    /// Whether Sun, Earth and antennas do not allow the place of the Sun that was requested.
+    /// Whether Sun, Earth and antennas do not allow the place of the Sun that was requested, or the keep-in zone not the attitude.
     pub clamped: bool,
+    /// Whether a substitute stands in for a target on one line with the other.
+    pub degenerate: bool,
 }
 
 impl AttitudeCommand {
     fn new(frame: MovingFrame, margins: [f64; 2]) -> Self {
-        Self { frame, margins, clamped: false }
+        Self { frame, margins, clamped: false, degenerate: false }
     }
 
     /// Turned by 180 deg about the Sun line: the Sun stays in its place.
@@ -104,13 +168,18 @@ impl AttitudeCommand {
 const NO_MARGINS: [f64; 2] = [f64::INFINITY; 2];
 
 /// Science attitude: -Y toward the Sun, +Z on the planet's side of it, then pitched about X until the Sun stands
-/// at the elevation of `rule`, within +-`elevation_limit_rad`.
-pub fn science(lines: &LinesOfSight, rule: ScienceRule, elevation_limit_rad: f64) -> AttitudeCommand {
+/// at the elevation of `rule`, within +-`elevation_limit_rad`; by other rules as they say.
+pub fn science(sight: &impl Sight, rule: ScienceRule, elevation_limit_rad: f64) -> AttitudeCommand {
+    let lines = &sight.lines();
     let gain = match rule {
         ScienceRule::Scaled { gain } => gain,
         ScienceRule::Nadir => 1.0,
         ScienceRule::PlanetOrbit => return planet_orbit(lines),
         ScienceRule::Unloading { sun, gimbal } => return unloading(lines, sun, &gimbal),
+        ScienceRule::Aligned { axes, zone } => {
+            let found = sight.ephemeris().and_then(|ephemeris| aligned(&axes, zone, &ephemeris));
+            return found.unwrap_or_else(|| sun_pointing(lines));
+        }
     };
     let Some((side, angle_rad, angle_rate_rad_s)) =
         lines.planet.as_ref().and_then(|planet| lines.sun.perpendicular_part(planet))
@@ -165,6 +234,28 @@ pub fn unloading(lines: &LinesOfSight, sun: SunAngles, gimbal: &Gimbal) -> Attit
     vectors
         .pointing()
         .map_or_else(|| sun_pointing(lines), |pointing| AttitudeCommand::new(pointing.frame(), margins))
+}
+
+/// Attitude of two axes at their targets, the Sun inside the zone; `None` where the target of the first has no direction.
+fn aligned(
+    axes: &AlignedAxes,
+    zone: Option<SunZone>,
+    ephemeris: &EphemerisAtTime,
+) -> Option<AttitudeCommand> {
+    let to_sun = ephemeris.to_sun();
+    let zone = zone.filter(|zone| value(&to_sun).norm() <= zone.distance_m);
+    let kept = within_zone(
+        &aligned_vectors(axes, ephemeris)?,
+        zone.map(|zone| zone.keep_in).as_ref(),
+        &to_sun,
+        false,
+    )?;
+    Some(AttitudeCommand {
+        frame: kept.pointing.frame(),
+        margins: [kept.margin, f64::INFINITY],
+        clamped: kept.is_moved,
+        degenerate: kept.pointing.degenerate,
+    })
 }
 
 /// Paper 004's attitude; without a planet that moves about the Sun, [`sun_pointing`].

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::attitude::{MovingFrame, SunAngles};
 
 use super::attitudes::{
-    AttitudeCommand, LinesOfSight, ScienceRule, downlink, downlink_toward, downlink_with, science,
+    AttitudeCommand, LinesOfSight, ScienceRule, Sight, downlink, downlink_toward, downlink_with, science,
 };
 use super::schedule::{Activity, Schedule, Window};
 use crate::guidance::constraints::keep_in::KeepIn;
@@ -49,6 +49,8 @@ pub struct GuidedAttitude {
     pub margins: [f64; 2],
     /// Whether a place of the Sun that was requested is not allowed.
     pub clamped: bool,
+    /// Whether a substitute stands in for a target on one line with the other.
+    pub degenerate: bool,
     /// When the next motion of a scan begins or ends, in the schedule's time scale; infinite without one.
     pub corner_s: f64,
     /// When window or slew ends, in the schedule's time scale; infinite where nothing ends. Until then the attitude is
@@ -80,28 +82,28 @@ impl Guided {
         Self { sun_place, science: self.science.with_sun(science.unwrap_or_default()), ..self }
     }
 
-    /// Attitude at `time_s` (time scale of the schedule) with the antennas of this default downlink. `lines_at` gives the lines of
-    /// sight at any time.
-    pub fn at(
+    /// Attitude at `time_s` (time scale of the schedule) with the antennas of this default downlink. `sight_at` gives what
+    /// surrounds the spacecraft at any time.
+    pub fn at<S: Sight>(
         &self,
         time_s: f64,
         default_downlink: &DefaultDownlink,
-        lines_at: impl FnMut(f64) -> LinesOfSight,
+        sight_at: impl FnMut(f64) -> S,
     ) -> GuidedAttitude {
-        self.within(self.schedule.window(time_s), time_s, default_downlink, lines_at)
+        self.within(self.schedule.window(time_s), time_s, default_downlink, sight_at)
     }
 
     /// The same in a window found by other means than the schedule's own counting.
-    pub fn within(
+    pub fn within<S: Sight>(
         &self,
         window: Window,
         time_s: f64,
         default_downlink: &DefaultDownlink,
-        mut lines_at: impl FnMut(f64) -> LinesOfSight,
+        mut sight_at: impl FnMut(f64) -> S,
     ) -> GuidedAttitude {
-        let lines = lines_at(time_s);
-        let command = |activity, lines: &LinesOfSight| self.command(activity, lines, default_downlink);
-        let target = command(window.activity, &lines);
+        let sight = sight_at(time_s);
+        let command = |activity, sight: &S| self.command(activity, sight, default_downlink);
+        let target = command(window.activity, &sight);
         let held = GuidedAttitude {
             frame: target.frame,
             window,
@@ -109,6 +111,7 @@ impl Guided {
             slewing: false,
             margins: target.margins,
             clamped: target.clamped,
+            degenerate: target.degenerate,
             corner_s: f64::INFINITY,
             until_s: window.until_s,
         };
@@ -123,9 +126,10 @@ impl Guided {
             Activity::Science => Activity::Downlink,
             Activity::Downlink => Activity::Science,
         };
-        let lines_then = lines_at(window.since_s);
-        let from = command(before, &lines_then).frame;
-        let to = command(window.activity, &lines_then).frame;
+        let sight_then = sight_at(window.since_s);
+        let from = command(before, &sight_then).frame;
+        let to = command(window.activity, &sight_then).frame;
+        let lines_then = sight_then.lines();
         let start = SlewStart {
             from: &from,
             to: &to,
@@ -139,7 +143,7 @@ impl Guided {
         }
         let left = 1.0 - elapsed_s / duration_s;
         GuidedAttitude {
-            frame: slew.frame(&target.frame, &lines.sun, left, -1.0 / duration_s),
+            frame: slew.frame(&target.frame, &sight.lines().sun, left, -1.0 / duration_s),
             slewing: true,
             until_s: held.until_s.min(window.since_s + duration_s),
             ..held
@@ -161,6 +165,8 @@ impl Guided {
             (Activity::Downlink, _) | (Activity::Science, ScienceRule::Unloading { .. }) => return 0.0,
             (Activity::Science, ScienceRule::Scaled { gain }) => gain.abs(),
             (Activity::Science, ScienceRule::Nadir | ScienceRule::PlanetOrbit) => 1.0,
+            // No frame of targets turns faster than their lines of sight but where they are near one line.
+            (Activity::Science, ScienceRule::Aligned { .. }) => 2.0,
         };
         let planet_rad_s = lines.planet.map_or(0.0, |planet| planet.rate_1_s.norm());
         2.0 * gain * (planet_rad_s + lines.sun.rate_1_s.norm())
@@ -169,12 +175,13 @@ impl Guided {
     fn command(
         &self,
         activity: Activity,
-        lines: &LinesOfSight,
+        sight: &impl Sight,
         default_downlink: &DefaultDownlink,
     ) -> AttitudeCommand {
         match activity {
-            Activity::Science => science(lines, self.science, self.elevation_limit_rad),
+            Activity::Science => science(sight, self.science, self.elevation_limit_rad),
             Activity::Downlink => {
+                let lines = &sight.lines();
                 let SunRequest { sun, alternate, .. } = self.requested;
                 let command = match &self.sun_place {
                     Some(place) => downlink_toward(lines, place),

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::guided::{Guided, GuidedAttitude};
-use super::predicted_orbit::{ellipse_of, lines_of_sight};
+use super::predicted_orbit::ellipse_of;
 use super::schedule::Schedule;
 use crate::environment::orbit::TwoBodyOrbit;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
@@ -26,12 +26,10 @@ impl PeriapsisCount {
         ephemeris: &EphemerisAtTime,
     ) -> GuidedAttitude {
         let (orbit, schedule) = self.counted(&law.schedule, ephemeris);
-        let (epoch_s, now) = (ephemeris.epoch_s, lines_of_sight(ephemeris));
+        let epoch_s = ephemeris.epoch_s;
         Guided { schedule, ..*law }.at(epoch_s, default_downlink, |at_s| match orbit {
-            Some(orbit) if at_s != epoch_s => {
-                lines_of_sight(&ephemeris.moved_to(at_s, &orbit.state_at(at_s)))
-            }
-            _ => now,
+            Some(orbit) if at_s != epoch_s => ephemeris.moved_to(at_s, &orbit.state_at(at_s)),
+            _ => *ephemeris,
         })
     }
 

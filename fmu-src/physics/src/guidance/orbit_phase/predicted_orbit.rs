@@ -6,7 +6,6 @@
 //! Error measure: the planets' pull on one another is left out; Sun and Earth stand off by less than 3e-5 rad after four days
 //! about Mercury, Venus and Mars (tested).
 
-use super::attitudes::LinesOfSight;
 use crate::constants::GM_SUN_M3_S2;
 use crate::environment::CartesianState;
 use crate::environment::orbit::TwoBodyOrbit;
@@ -77,16 +76,6 @@ pub fn ellipse_of(ephemeris: &EphemerisAtTime) -> Option<TwoBodyOrbit> {
         CartesianState { position_m: value(&ephemeris.position), velocity_m_s: value(&ephemeris.velocity) };
     let orbit = TwoBodyOrbit::from_state(&state, ephemeris.planet.gm_m3_s2, ephemeris.epoch_s).ok();
     orbit.filter(|orbit| orbit.period_s().is_finite())
-}
-
-/// Directions from the spacecraft with their rates; a body at zero distance counts as lying toward +X.
-pub fn lines_of_sight(ephemeris: &EphemerisAtTime) -> LinesOfSight {
-    let [to_sun, to_earth, to_planet] =
-        [ephemeris.to_sun(), ephemeris.to_earth(), ephemeris.to_planet()].map(|it| state(&it));
-    LinesOfSight {
-        sun_from_planet: Some(state(&ephemeris.sun)),
-        ..LinesOfSight::to([&to_sun, &to_earth], Some(&to_planet))
-    }
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::command::{AimpointCommand, AimpointOption, AzimuthReference};
 use crate::bodies::Body;
+use crate::environment::frames::ecliptic_north;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::{SubsolarMethod, optimal_lighting_m, subsolar_m};
 use crate::guidance::geometry::lvlh::lvlh_direction;
@@ -45,8 +46,13 @@ impl Aimpoint {
 /// Kind of an option's aimpoint.
 pub fn aimpoint_kind(option: AimpointOption) -> AimpointKind {
     match option {
-        AimpointOption::Vector | AimpointOption::RightAscensionDeclination => AimpointKind::Direction,
-        AimpointOption::LvlhDowntrack | AimpointOption::LvlhSun => AimpointKind::LocalDirection,
+        AimpointOption::Vector
+        | AimpointOption::RightAscensionDeclination
+        | AimpointOption::EclipticNorth => AimpointKind::Direction,
+        AimpointOption::LvlhDowntrack
+        | AimpointOption::LvlhSun
+        | AimpointOption::Velocity
+        | AimpointOption::OrbitNormal => AimpointKind::LocalDirection,
         AimpointOption::EarthCentered
         | AimpointOption::SunCentered
         | AimpointOption::Sun
@@ -101,6 +107,9 @@ pub fn aimpoint(
             Body::Earth => ephemeris.to_earth(),
             other => ephemeris.to_body(other),
         },
+        AimpointOption::Velocity => ephemeris.velocity,
+        AimpointOption::OrbitNormal => ephemeris.orbit_normal(),
+        AimpointOption::EclipticNorth => fixed(ecliptic_north()),
     };
     Aimpoint::new(toward, aimpoint_kind(option))
 }

@@ -107,6 +107,12 @@ enumeration! {
         14 => OptimalLighting,
         /// The body named beside.
         15 => Body,
+        /// The direction of the velocity about the planet.
+        16 => Velocity,
+        /// The direction of the orbit normal, position x velocity.
+        17 => OrbitNormal,
+        /// North of the ecliptic of J2000.
+        18 => EclipticNorth,
     }
 }
 
@@ -141,6 +147,12 @@ enumeration! {
         4 => Earth,
         /// The target planet.
         5 => Planet,
+        /// The direction of the velocity about the planet.
+        6 => Velocity,
+        /// The direction of the orbit normal, position x velocity.
+        7 => OrbitNormal,
+        /// North of the ecliptic of J2000.
+        8 => EclipticNorth,
     }
 }
 

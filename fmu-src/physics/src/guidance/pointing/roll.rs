@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 
 use super::command::{BodyRollCommand, BodyRollOption, ExternalRollCommand, ExternalRollOption};
 use crate::attitude::{SunAngles, direction_from_angles};
+use crate::environment::frames::ecliptic_north;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{MovingVector, fixed, spherical};
 
@@ -31,6 +32,9 @@ pub fn external_roll(command: &ExternalRollCommand, ephemeris: &EphemerisAtTime)
         None | Some(ExternalRollOption::Sun) => ephemeris.to_sun(),
         Some(ExternalRollOption::Earth) => ephemeris.to_earth(),
         Some(ExternalRollOption::Planet) => ephemeris.to_planet(),
+        Some(ExternalRollOption::Velocity) => ephemeris.velocity,
+        Some(ExternalRollOption::OrbitNormal) => ephemeris.orbit_normal(),
+        Some(ExternalRollOption::EclipticNorth) => fixed(ecliptic_north()),
     }
 }
 

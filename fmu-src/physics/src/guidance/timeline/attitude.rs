@@ -1,15 +1,11 @@
 //! A command's attitude instead of a scenario, as a command of the scenario generic; and its name.
 
-use nalgebra::Vector3;
-
 use super::commands::{Commands, named};
-use super::description::CommandDescription;
+use super::description::{AttitudeDescription, AxesDescription, CommandDescription};
 use super::reads::{TABLES, keys};
-use crate::attitude::Attitude;
-use crate::guidance::pointing::command::{
-    AimpointCommand, AimpointOption, BodyRollCommand, BodyRollOption, BoresightCommand, BoresightOption,
-    ExternalRollCommand, ExternalRollOption, PointingCommand, Scenario,
-};
+use crate::enumeration::Enumerated;
+use crate::guidance::pointing::command::{PointingCommand, Scenario};
+use crate::spacecraft::{AttitudePart, NamedAttitude, aligned};
 use crate::toml::KeyPath;
 
 impl Commands<'_, '_> {
@@ -17,7 +13,7 @@ impl Commands<'_, '_> {
     pub(super) fn by_attitude(
         &mut self,
         at: &KeyPath,
-        attitude: &[f64; 4],
+        attitude: &AttitudeDescription,
         given: &CommandDescription,
     ) -> PointingCommand {
         let place = at.key("attitude");
@@ -27,11 +23,26 @@ impl Commands<'_, '_> {
         "the attitude".clone_into(&mut self.scenario);
         self.check_mode(&place, Scenario::Generic, given.mode);
         self.check_scenario_keys(at, TABLES, keys(&[], &["scan"]));
-        match Attitude::from_quaternion(*attitude) {
-            Ok(attitude) => held(&attitude),
-            Err(error) => {
-                let allowed = "a quaternion from EME2000 to the body, scalar last, of norm 1 within 1e-3";
-                self.check.report(&place, format_args!("a norm of {}", error.norm), allowed);
+        let attitude = match attitude {
+            AttitudeDescription::Name(_) if self.check.is_stand_in(&place) => return PointingCommand::default(),
+            AttitudeDescription::Name(name) => (*name).into(),
+            AttitudeDescription::Quaternion(q) => NamedAttitude::Inertial(*q),
+            AttitudeDescription::Axes(AxesDescription { align, constrain, star }) => {
+                let found = aligned(&mut self.check, &place, [align, constrain], star.as_ref());
+                let Some(found) = found else { return PointingCommand::default() };
+                found
+            }
+        };
+        match attitude.axes(&self.spacecraft.panels) {
+            Ok(axes) => PointingCommand::aligned(&axes),
+            Err(refusal) => {
+                let place = match refusal.part {
+                    AttitudePart::Name | AttitudePart::Quaternion => place,
+                    AttitudePart::AlignAxis => place.key("align").key("axis"),
+                    AttitudePart::ConstrainAxis => place.key("constrain").key("axis"),
+                    AttitudePart::ConstrainTarget => place.key("constrain").key("to"),
+                };
+                self.check.report(&place, refusal.found, refusal.allowed);
                 PointingCommand::default()
             }
         }
@@ -50,38 +61,12 @@ impl Commands<'_, '_> {
                 name.clone()
             }
             (None, Some(scenario)) => named("", scenario).trim_start().to_owned(),
-            (None, None) if given.attitude.is_some() => "inertial".to_owned(),
-            (None, None) => "guided".to_owned(),
+            (None, None) => match &given.attitude {
+                Some(AttitudeDescription::Name(name)) => name.name().to_owned(),
+                Some(AttitudeDescription::Quaternion(_)) => "inertial".to_owned(),
+                Some(AttitudeDescription::Axes(_)) => "aligned".to_owned(),
+                None => "guided".to_owned(),
+            },
         }
-    }
-}
-
-/// The command that holds an attitude.
-fn held(attitude: &Attitude) -> PointingCommand {
-    let inertial = |axis_body: Vector3<f64>| attitude.to_inertial(&axis_body);
-    let (boresight_body, roll_body) = (Vector3::z(), -Vector3::y());
-    PointingCommand {
-        scenario: Some(Scenario::Generic),
-        boresight: BoresightCommand {
-            option: Some(BoresightOption::Vector),
-            vector: boresight_body,
-            ..BoresightCommand::default()
-        },
-        aimpoint: AimpointCommand {
-            option: Some(AimpointOption::Vector),
-            vector: inertial(boresight_body),
-            ..AimpointCommand::default()
-        },
-        body_roll: BodyRollCommand {
-            option: Some(BodyRollOption::Vector),
-            vector: roll_body,
-            ..BodyRollCommand::default()
-        },
-        external_roll: ExternalRollCommand {
-            option: Some(ExternalRollOption::Vector),
-            vector: inertial(roll_body),
-            ..ExternalRollCommand::default()
-        },
-        ..PointingCommand::default()
     }
 }

@@ -8,8 +8,7 @@ use super::build::Timeline;
 use super::entry::{TimelineEntry, simulation_time_s};
 use crate::attitude::MovingFrame;
 use crate::bodies::Body;
-use crate::guidance::constraints::constrained::Constraints;
-use crate::guidance::constraints::keep_in::KeepIn;
+use crate::guidance::constraints::keep_in::{KeepIn, within_zone};
 use crate::guidance::downlink::sun_place::{SunPlace, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
 use crate::guidance::geometry::moving::value;
@@ -17,9 +16,6 @@ use crate::guidance::pointing::command::{AimpointOption, PointingCommand};
 use crate::guidance::pointing::scan::{ScanTime, next_corner_s};
 use crate::guidance::pointing::scenario::{GuidanceHardware, PointingProgress, pointing_solution};
 use crate::numerics::spacing::spacing;
-
-/// A Sun this little off the zone's boundary is on it, in rad.
-const ON_BOUNDARY_RAD: f64 = 1e-9;
 
 /// What parameters set.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +59,8 @@ pub struct TimelineAttitude {
     pub margins: [f64; 2],
     /// Whether the Sun's place in a downlink is not the one that was requested.
     pub clamped: bool,
+    /// Whether a substitute stands in for a vector that lies on one line with the other.
+    pub degenerate: bool,
     /// When the next motion of a scan begins or ends, in s.
     pub corner_s: f64,
 }
@@ -98,21 +96,15 @@ impl TimelineLaw<'_> {
             burn: None,
         };
         let solution = pointing_solution(&entry.command, &self.hardware, ephemeris, &progress)?;
-        let unconstrained = solution.vectors.pointing()?;
-        let sun_body = || value(&unconstrained.to_body(&to_sun)).try_normalize(0.0);
-        let margin = keep_in.and_then(|zone| Some(-zone.excess_rad(&sun_body()?)?));
-        let moves = margin.is_some_and(|margin| margin < -ON_BOUNDARY_RAD);
-        // A place of the Sun on the boundary stays there, whatever the rounding.
         let is_held = cut || solution.downlink.active;
-        let margin = margin.filter(|margin| !is_held || margin.abs() > ON_BOUNDARY_RAD);
-        let constraints = Constraints { keep_in, hot_pole: None };
-        let constrained = constraints.applied(&solution.vectors, ephemeris, None)?;
+        let kept = within_zone(&solution.vectors, keep_in.as_ref(), &to_sun, is_held)?;
         let corner_s = next_corner_s(&entry.command.scan, scan).map_or(f64::INFINITY, |it| it + begin_s);
         let [form, bound] = solution.margins;
         Some(TimelineAttitude {
-            frame: constrained.pointing.frame(),
-            margins: [margin.unwrap_or(f64::INFINITY).min(bound), form],
-            clamped: solution.downlink.clamped || cut || moves,
+            frame: kept.pointing.frame(),
+            margins: [kept.margin.min(bound), form],
+            clamped: solution.downlink.clamped || cut || kept.is_moved,
+            degenerate: kept.pointing.degenerate,
             corner_s,
         })
     }

@@ -104,7 +104,10 @@ pub(super) fn aimpoint_keys(option: AimpointOption) -> Keys {
         | AimpointOption::Earth
         | AimpointOption::Nadir
         | AimpointOption::Subsolar
-        | AimpointOption::OptimalLighting => NOTHING,
+        | AimpointOption::OptimalLighting
+        | AimpointOption::Velocity
+        | AimpointOption::OrbitNormal
+        | AimpointOption::EclipticNorth => NOTHING,
         AimpointOption::Body => keys(&["body"], &[]),
     }
 }
@@ -122,7 +125,12 @@ pub(super) fn external_roll_keys(option: ExternalRollOption) -> Keys {
     match option {
         ExternalRollOption::Vector => VECTOR,
         ExternalRollOption::RightAscensionDeclination => CELESTIAL,
-        ExternalRollOption::Sun | ExternalRollOption::Earth | ExternalRollOption::Planet => NOTHING,
+        ExternalRollOption::Sun
+        | ExternalRollOption::Earth
+        | ExternalRollOption::Planet
+        | ExternalRollOption::Velocity
+        | ExternalRollOption::OrbitNormal
+        | ExternalRollOption::EclipticNorth => NOTHING,
     }
 }
 

@@ -34,6 +34,8 @@ pub(crate) struct ControlLoop {
     guidance: Option<Command>,
     /// What it reported of a downlink.
     pub downlink: DownlinkStatus,
+    /// Whether a substitute stood in for a target of its law.
+    pub is_degenerate: bool,
     /// When guidance is sampled next, in s.
     next_guidance_s: f64,
     /// Whether thrusters control the attitude, and whether they could not give the torque requested.
@@ -61,6 +63,7 @@ impl ControlLoop {
             wheels: WheelControl::new(wheels),
             guidance: None,
             downlink: DownlinkStatus::default(),
+            is_degenerate: false,
             next_guidance_s: time_s,
             by_thrusters: false,
             thrusters_limited: false,
@@ -121,6 +124,7 @@ impl ControlLoop {
         flight.choose_sun_place(time_s, &totals, momentum, self.guidance.is_none())?;
         let guided = flight.plant_at(time_s, body).kinematics.guided_attitude(time_s);
         self.downlink = guided.as_ref().map(DownlinkStatus::of).unwrap_or_default();
+        self.is_degenerate = guided.as_ref().is_some_and(|guided| guided.degenerate);
         let (attitude, rate_body_rad_s) =
             guided.map_or((sampled.estimate.attitude, Vector3::zeros()), |guided| {
                 let frame = guided.frame;

@@ -429,7 +429,7 @@ impl Flight {
         let (evaluation, shown) = match (mode, settings) {
             (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
                 dynamics.resume(settings, &mut flight);
-                sampled = Some(dynamics.control.downlink);
+                sampled = Some((dynamics.control.downlink, dynamics.control.is_degenerate));
                 let body = dynamics.motion.remembered_at(&settings.gyrostat, time_s);
                 let evaluation =
                     &*evaluation.insert(dynamics.evaluation(settings, &mut flight, &body, time_s));
@@ -463,7 +463,8 @@ impl Flight {
             true => 0.0,
             false => propagator.trajectory.time_since_periapsis_s(configuration, time_s),
         };
-        let downlink = sampled.unwrap_or(evaluation.instant.downlink);
+        let Instant { downlink, is_degenerate, .. } = evaluation.instant;
+        let (downlink, is_degenerate) = sampled.unwrap_or((downlink, is_degenerate));
         let followed = configuration.timeline.filter(|_| configuration.attitude.guided().is_some());
         let slot = given
             .prepared
@@ -477,6 +478,7 @@ impl Flight {
             thrusters,
             since_periapsis_s,
             downlink,
+            is_degenerate,
             timeline_row: slot.map_or(0, |slot| slot.row),
             timeline_until_s: slot.map(|slot| slot.until_s).filter(|until_s| until_s.is_finite()),
             target_is_clamped,

@@ -3,12 +3,13 @@
 use nalgebra::Vector3;
 
 use crate::bodies::Body;
+use crate::constants::{GM_MOON_M3_S2, GM_SUN_M3_S2};
 use crate::environment::CartesianState;
 use crate::environment::bodies_from_center::{BodiesFromCenter, fixed};
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::onboard::OnboardTarget;
-use crate::environment::orbit::BodyEphemeris;
-use crate::guidance::LinesOfSight;
+use crate::environment::orbit::{BodyEphemeris, Tides, tide_m_s2};
+use crate::guidance::{EphemerisAtTime, LinesOfSight, Sight, TargetPlanet};
 
 use crate::plant::settings::configuration::{Configuration, EphemerisSource};
 
@@ -76,6 +77,30 @@ impl Geometry {
     }
 }
 
+/// Geometry as attitude laws read it.
+pub(crate) struct GeometrySight {
+    /// Where everything is.
+    pub geometry: Geometry,
+    /// In s past J2000 TDB.
+    pub epoch_s: f64,
+    /// The centre, and the acceleration by all gravity in m/s2, EME2000, where that is not the centre's point mass alone; `None` for a
+    /// law that reads directions only.
+    pub motion: Option<(TargetPlanet, Option<Vector3<f64>>)>,
+}
+
+impl Sight for GeometrySight {
+    fn lines(&self) -> LinesOfSight {
+        self.geometry.lines_of_sight()
+    }
+
+    fn ephemeris(&self) -> Option<EphemerisAtTime> {
+        let (planet, acceleration_m_s2) = self.motion?;
+        let (sun, earth) = (self.geometry.sun_from_center(), self.geometry.earth_from_center());
+        let at = EphemerisAtTime::new(self.epoch_s, planet, &self.geometry.spacecraft, &sun, &earth);
+        Some(acceleration_m_s2.map_or(at, |acceleration_m_s2| at.accelerated(&acceleration_m_s2)))
+    }
+}
+
 /// A body from the orbit's centre.
 pub(crate) fn body(
     configuration: &Configuration,
@@ -129,6 +154,25 @@ pub(crate) struct SimulationEphemeris<'a> {
 impl SimulationEphemeris<'_> {
     fn epoch_s(&self, at_s: f64) -> f64 {
         at_s + self.configuration.epoch_minus_time_s
+    }
+
+    /// Adds the tides of distant bodies at `at_s`, m/s2, EME2000, at a position from the orbit's centre.
+    pub(super) fn add_tides(
+        &mut self,
+        sum: &mut Vector3<f64>,
+        tides: &Tides,
+        at_s: f64,
+        position_m: &Vector3<f64>,
+    ) {
+        if tides.sun {
+            let epoch_s = self.epoch_s(at_s);
+            let sun_m = body(self.configuration, self.ephemeris, Body::Sun, epoch_s).position_m;
+            *sum += tide_m_s2(position_m, &sun_m, GM_SUN_M3_S2);
+        }
+        if tides.moon {
+            let moon_m = self.moon_from_earth_m(at_s);
+            *sum += tide_m_s2(position_m, &moon_m, GM_MOON_M3_S2);
+        }
     }
 }
 

@@ -32,6 +32,8 @@ pub struct Instant {
     pub events: EventValues,
     /// Whether a downlink lasts, the turn to it done, and whether the Sun's place in it is not the one requested.
     pub downlink: DownlinkStatus,
+    /// Whether a substitute stands in for a target of the attitude law on one line with the other.
+    pub is_degenerate: bool,
     /// Up to when window and slew last, in s of the flight.
     pub attitude_until_s: f64,
 }
@@ -50,6 +52,7 @@ impl Instant {
             regime: Regime::UNCHANGING,
             events: EventValues::repeat(f64::INFINITY),
             downlink: DownlinkStatus::default(),
+            is_degenerate: false,
             attitude_until_s: f64::INFINITY,
         }
     }

@@ -19,8 +19,8 @@ use crate::guidance::timeline::{
     Slot, TimelineAttitude, TimelineEntry, TimelineLaw, TimelineSettings, bodies_of,
 };
 use crate::guidance::{
-    Activity, CoursePoint, DownlinkStatus, EphemerisAtTime, Guided, GuidedAttitude, ScienceCourse, SunPlace,
-    Window,
+    Activity, CoursePoint, DownlinkStatus, Guided, GuidedAttitude, ScienceCourse, Sight, SunPlace,
+    TargetPlanet, Window,
 };
 use crate::math;
 use crate::momentum::{EventValues, after_event_s};
@@ -33,7 +33,7 @@ use crate::spacecraft::{MassProperties, Panel};
 use nalgebra::{Rotation3, Vector3};
 
 use super::command_slews::CommandSlews;
-use super::geometry::{self, Geometry};
+use super::geometry::{self, Geometry, GeometrySight};
 use super::instant::{Instant, Regime};
 use super::trajectory::Trajectory;
 use crate::plant::settings::configuration::{AttitudeSource, Configuration, Motion};
@@ -51,6 +51,7 @@ struct LawAt {
     frame: MovingFrame,
     regime: Regime,
     status: DownlinkStatus,
+    degenerate: bool,
     margins: [f64; 2],
     until_s: f64,
 }
@@ -61,6 +62,21 @@ fn keep_in_of_orbit_phase(guided: &Guided, entry: Option<&TimelineEntry>) -> Opt
         (Some(entry), Some(zone)) => entry.keep_in.applied(&zone, true),
         (_, zone) => zone,
     }
+}
+
+/// Geometry at `time_s`, of which a law reads motions about `planet` as well, or directions alone.
+fn sight(
+    configuration: &Configuration,
+    ephemeris: &mut Ephemeris,
+    time_s: f64,
+    geometry: Geometry,
+    planet: Option<TargetPlanet>,
+) -> GeometrySight {
+    let motion = planet.map(|planet| {
+        let gravity = Trajectory::gravity_m_s2(configuration, ephemeris, time_s, &geometry.spacecraft);
+        (TargetPlanet { gm_m3_s2: configuration.orbit.mu_m3_s2(), ..planet }, gravity)
+    });
+    GeometrySight { geometry, epoch_s: time_s + configuration.epoch_minus_time_s, motion }
 }
 
 /// Motion and light of a configured flight, and the work that is done for it.
@@ -127,6 +143,7 @@ impl Kinematics<'_> {
             regime: Regime { in_shadow: gaps_rad[0] <= 0.0, ..law.regime },
             events: EventValues::new(gaps_rad[0], gaps_rad[1], law.margins[0], law.margins[1]),
             downlink: law.status,
+            is_degenerate: law.degenerate,
             attitude_until_s: law.until_s,
         }
     }
@@ -160,6 +177,7 @@ impl Kinematics<'_> {
             frame,
             regime: Regime::UNCHANGING,
             status: DownlinkStatus::default(),
+            degenerate: false,
             margins: [f64::INFINITY; 2],
             until_s: f64::INFINITY,
         };
@@ -177,6 +195,7 @@ impl Kinematics<'_> {
                         in_shadow: false,
                     },
                     status: DownlinkStatus::of(&guided),
+                    degenerate: guided.degenerate,
                     margins: guided.margins,
                     until_s: guided.until_s - self.configuration.epoch_minus_time_s,
                 }
@@ -304,6 +323,7 @@ impl Kinematics<'_> {
                 slewing: false,
                 margins: found.margins,
                 clamped: found.clamped,
+                degenerate: found.degenerate,
                 corner_s: found.corner_s + epoch_minus_time_s,
                 until_s: until_s.min(found.corner_s + epoch_minus_time_s),
             };
@@ -328,9 +348,8 @@ impl Kinematics<'_> {
         sun: (Option<SunPlace>, SunRequest),
     ) -> Option<TimelineAttitude> {
         let epoch_s = time_s + self.configuration.epoch_minus_time_s;
-        let (sun_state, earth) = (geometry.sun_from_center(), geometry.earth_from_center());
-        let mut ephemeris_at_time =
-            EphemerisAtTime::new(epoch_s, settings.planet, &geometry.spacecraft, &sun_state, &earth);
+        let sight = sight(self.configuration, self.ephemeris, time_s, *geometry, Some(settings.planet));
+        let mut ephemeris_at_time = sight.ephemeris()?;
         for body in bodies_of(&entry.command) {
             let place = geometry::body(self.configuration, self.ephemeris, body, epoch_s);
             ephemeris_at_time.place_body(body, &place);
@@ -343,15 +362,17 @@ impl Kinematics<'_> {
         let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
         let (trajectory, default_downlink) = (&*self.trajectory, self.default_downlink);
         let epoch_s = time_s + configuration.epoch_minus_time_s;
+        let planet = guided.science.reads_motion().then(|| TargetPlanet::of(configuration.center.data()));
         let window =
             trajectory.window(configuration, time_s).unwrap_or_else(|| guided.schedule.window(epoch_s));
         guided.within(window, epoch_s, default_downlink, |at_epoch_s| {
             if at_epoch_s == epoch_s {
-                return geometry.lines_of_sight();
+                return sight(configuration, ephemeris, time_s, *geometry, planet);
             }
             let at_s = at_epoch_s - configuration.epoch_minus_time_s;
             let spacecraft = trajectory.state_at_window_start(configuration, at_s);
-            Geometry::at(configuration, ephemeris, at_s, spacecraft).lines_of_sight()
+            let geometry = Geometry::at(configuration, ephemeris, at_s, spacecraft);
+            sight(configuration, ephemeris, at_s, geometry, planet)
         })
     }
 

@@ -4,18 +4,17 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::bodies::Body;
-use crate::constants::{GM_MOON_M3_S2, GM_SUN_M3_S2};
 use crate::environment::CartesianState;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::{
-    BodyEphemeris, DisturbedOrbit, OrbitError, OrbitIntegrationError, OrbitMethod, TwoBodyOrbit, tide_m_s2,
+    BodyEphemeris, DisturbedOrbit, OrbitError, OrbitIntegrationError, OrbitMethod, TwoBodyOrbit,
 };
 use crate::guidance::Window;
 use crate::numerics::roots;
 use crate::numerics::spacing::spacing;
 
 use super::approaches::{Approach, Approaches};
-use super::geometry::{self, SimulationEphemeris};
+use super::geometry::SimulationEphemeris;
 use crate::plant::settings::configuration::{Configuration, Encounter, Motion};
 
 /// Two passages closer together than this part of a revolution are one, found twice.
@@ -131,6 +130,26 @@ impl Trajectory {
             (Some(orbit), _) => orbit.state_at(time_s),
             (None, Some(coast)) => coast.orbit.state_at(time_s + configuration.epoch_minus_time_s),
             (None, None) => closed_form(configuration, time_s),
+        }
+    }
+
+    /// Acceleration by all gravity of the flight, without other forces, in m/s2, of a spacecraft there about the centre at `time_s`, EME2000;
+    /// `None` where the centre's point mass alone attracts.
+    pub(crate) fn gravity_m_s2(
+        configuration: &Configuration,
+        ephemeris: &mut Ephemeris,
+        time_s: f64,
+        state: &CartesianState,
+    ) -> Option<Vector3<f64>> {
+        let bodies = &mut SimulationEphemeris { configuration, ephemeris };
+        match &configuration.motion {
+            Motion::TwoBody | Motion::Held { .. } => None,
+            Motion::Disturbed { gravity, tides, .. } => {
+                let mut sum = gravity.acceleration_m_s2(&state.position_m);
+                bodies.add_tides(&mut sum, tides, time_s, &state.position_m);
+                Some(sum)
+            }
+            Motion::NBody { gravity, .. } => Some(gravity.acceleration_m_s2(time_s, state, bodies)),
         }
     }
 
@@ -382,15 +401,12 @@ impl Trajectory {
             Motion::Disturbed { gravity, tides, .. } => {
                 let extra_m_s2 = |at_s: f64, state: &CartesianState| {
                     let mut sum = extra_m_s2(at_s);
-                    if tides.sun {
-                        let epoch_s = at_s + configuration.epoch_minus_time_s;
-                        let sun_m = geometry::body(configuration, ephemeris, Body::Sun, epoch_s).position_m;
-                        sum += tide_m_s2(&state.position_m, &sun_m, GM_SUN_M3_S2);
-                    }
-                    if tides.moon {
-                        let moon_m = SimulationEphemeris { configuration, ephemeris }.moon_from_earth_m(at_s);
-                        sum += tide_m_s2(&state.position_m, &moon_m, GM_MOON_M3_S2);
-                    }
+                    SimulationEphemeris { configuration, ephemeris }.add_tides(
+                        &mut sum,
+                        tides,
+                        at_s,
+                        &state.position_m,
+                    );
                     sum
                 };
                 orbit.advance_to(limit_s, method, gravity, extra_m_s2)?;

@@ -12,6 +12,7 @@ use super::written_time::WrittenTime;
 use crate::spacecraft::body::InertialFrame;
 use crate::spacecraft::gas_surface::GasSurface;
 use crate::spacecraft::panel::PanelControl;
+use crate::spacecraft::pointing::{AttitudeName, TargetItem};
 use crate::spacecraft::start::StartTable;
 use crate::spacecraft::sun_sensors::HALF_FIELD_OF_VIEW_DEG;
 use crate::spacecraft::surface::SunshadeModel;
@@ -71,6 +72,7 @@ struct SpacecraftDescription {
     antennas: Option<NonEmpty<AntennaDescription>>,
     momentum: Option<MomentumDescription>,
     sun_keep_in: Option<SunKeepInDescription>,
+    pointing: Option<PointingDescription>,
     downlinks: Option<DownlinksDescription>,
     articulation: Option<ArticulationDescription>,
     hot_pole: Option<HotPoleDescription>,
@@ -409,6 +411,36 @@ struct SunKeepInDescription {
     elevation_deg: QuarterTurn,
     /// Greatest distance from the Sun at which commands of Guidance keep the zone, in m; any unless given.
     distance_m: Option<Positive>,
+}
+
+/// How the spacecraft stands while it observes, by a name, a quaternion, or two axes and their targets: the start values of
+/// `guided.scienceRule`, `guided.attitude`, `guided.align`, `guided.constrain` and `guided.slewRate`, which `[start]` does not have
+/// beside it. With it `guided.phase` is orbit by default.
+struct PointingDescription {
+    attitude: Option<AttitudeName>,
+    /// Quaternion from EME2000 to the body, scalar last.
+    quaternion: Option<[f64; 4]>,
+    align: Option<TargetedAxisDescription>,
+    constrain: Option<TargetedAxisDescription>,
+    star: Option<StarDescription>,
+    /// Greatest rate of turns, in deg/s; 0 is at once.
+    slew_rate_deg_s: Option<NotNegative>,
+}
+
+/// A body axis and its target: that of `align` exactly, that of `constrain` as near as possible.
+struct TargetedAxisDescription {
+    /// Body frame, of any length.
+    axis: [f64; 3],
+    /// The target.
+    to: TargetItem,
+}
+
+/// Direction in EME2000 of `to = "star"`.
+struct StarDescription {
+    /// Right ascension, in deg.
+    right_ascension_deg: TurnEither,
+    /// Declination, in deg.
+    declination_deg: f64,
 }
 
 /// When an antenna looks at the Earth, counted from periapsis; left out, there are no downlinks. The start values of

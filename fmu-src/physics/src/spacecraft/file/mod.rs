@@ -2,7 +2,7 @@
 
 pub(super) mod antennas;
 pub(super) mod body;
-pub(super) mod description;
+pub(crate) mod description;
 pub(super) mod devices;
 pub(super) mod mass;
 pub(super) mod materials;
@@ -10,6 +10,7 @@ pub(super) mod names;
 pub(super) mod part_reader;
 pub(super) mod planet_map;
 pub(super) mod plates;
+pub(crate) mod pointing;
 pub(super) mod propulsion;
 pub(super) mod swinging;
 pub(super) mod thruster_sets;
