@@ -32,9 +32,11 @@ pub(super) fn write(
     values.set_choice(v.mode.active, ActiveMode(state.mode()));
     values.set_choice(v.mode.reason, ModeReason(state.mode_reason()));
     values.set_real(v.epoch, epoch_s);
-    let slot = context.setup.timeline.as_ref().map(|timeline| {
-        timeline.slot(time_s, timeline.clock_minus_time_s(*epoch_minus_time_s))
-    });
+    let slot = context
+        .setup
+        .timeline
+        .as_ref()
+        .map(|timeline| timeline.slot(time_s, timeline.clock_minus_time_s(*epoch_minus_time_s)));
     let until_s = slot.map(|slot| slot.until_s).filter(|until_s| until_s.is_finite());
     values.set_real(v.timeline_until, until_s.unwrap_or(NEVER_S));
     values.set_boolean(v.ephemeris.valid, state.ephemeris_is_valid());

@@ -17,7 +17,8 @@ fn plant() -> NamedModel<MomentumPlant> {
     NamedModel::<MomentumPlant>::shipped().with_schedule("timeline.toml", COMMANDS)
 }
 
-const SLEWING: [(&str, f64); 2] = [("guided.slewRate", RATE_RAD_S), ("guided.downlinkEvery", 0.0)];
+const UNBOUND: [(&str, f64); 2] = [("guided.downlinkEvery", 0.0), ("keepIn.enabled", 0.0)];
+const SLEWING: [(&str, f64); 1] = [("guided.slewRate", RATE_RAD_S)];
 
 fn turned_rad(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> f64 {
     from.angle_to(to)
@@ -26,8 +27,8 @@ fn turned_rad(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> f64 {
 #[test]
 fn the_body_turns_into_each_command_from_where_it_stands() {
     let named = plant();
-    let mut slewing = named.initialize(0.0, &SLEWING).unwrap();
-    let mut jumping = named.initialize(0.0, &[("guided.downlinkEvery", 0.0)]).unwrap();
+    let mut slewing = named.initialize(0.0, &[SLEWING.as_slice(), &UNBOUND].concat()).unwrap();
+    let mut jumping = named.initialize(0.0, &UNBOUND).unwrap();
     let mut stands = |time_s: f64| {
         [&mut slewing, &mut jumping].map(|flight: &mut NamedInstance<'_, MomentumPlant>| {
             flight.step_to(time_s).unwrap();
@@ -61,7 +62,8 @@ fn the_body_turns_into_each_command_from_where_it_stands() {
 fn steps_of_any_length_slew_to_the_same_bits() {
     let named = plant();
     let disturbed = [("orbit.dynamics", 2.0), ("dump.threshold[2]", 0.01), ("guided.slewRate", RATE_RAD_S)];
-    let managed = [("momentum.strategy", 3.0), ("guided.slewRate", RATE_RAD_S), ("guided.downlinkEvery", 1.0)];
+    let managed =
+        [("momentum.strategy", 3.0), ("guided.slewRate", RATE_RAD_S), ("guided.downlinkEvery", 1.0)];
     for sets in [&disturbed[..], &managed] {
         let initialize = || named.initialize(0.0, sets).unwrap();
         let ends_s = [650.0, 1000.5, 7000.0, 20_500.0, 50_000.0];
@@ -78,9 +80,14 @@ fn both_models_tell_when_a_command_ends() {
     let named = plant();
     let mut flight = named.initialize(0.0, &SLEWING).unwrap();
     let mut guidance = guidances.initialize(0.0, &[("position[1]", 5e6), ("velocity[2]", 2e3)]).unwrap();
-    for (time_s, until_s) in
-        [(0.0, 600.0), (600.0, 700.3), (700.3, 5000.0), (6000.0, 9000.0), (9000.0, 20_000.0), (20_000.0, -1.0)]
-    {
+    for (time_s, until_s) in [
+        (0.0, 600.0),
+        (600.0, 700.3),
+        (700.3, 5000.0),
+        (6000.0, 9000.0),
+        (9000.0, 20_000.0),
+        (20_000.0, -1.0),
+    ] {
         flight.step_to(time_s).unwrap();
         guidance.step_to(time_s).unwrap();
         let found = [flight.real("timeline.until"), guidance.real("timeline.until")];

@@ -41,13 +41,14 @@ impl CommandSlew {
     /// Computes its course toward the attitude `to` that the command has when the slew begins, the Sun being there, within a zone
     /// that holds both ends, at a rate of `rate_rad_s`.
     pub fn aim(&mut self, to: &MovingFrame, sun: &MovingUnit, zone: Option<&KeepIn>, rate_rad_s: f64) {
-        let from =
-            MovingFrame { inertial_from_body: self.from.inertial_from_body(), rate_body_rad_s: Vector3::zeros() };
+        let from = MovingFrame {
+            inertial_from_body: self.from.inertial_from_body(),
+            rate_body_rad_s: Vector3::zeros(),
+        };
         let to_body = to.inertial_from_body.inverse();
         let drift = to_body * sun.rate_1_s - to.rate_body_rad_s.cross(&(to_body * sun.direction));
         // Twice what it is at the beginning bounds the drift of the Sun over the slew.
-        let start =
-            SlewStart { from: &from, to, to_sun: sun.direction, sun_drift_rad_s: 2.0 * drift.norm() };
+        let start = SlewStart { from: &from, to, to_sun: sun.direction, sun_drift_rad_s: 2.0 * drift.norm() };
         self.slew = Some(Slew::between(&start, zone, rate_rad_s));
     }
 
@@ -57,7 +58,13 @@ impl CommandSlew {
     }
 
     /// The attitude at `time_s` on the way to `target`; `None` once the command's own is reached.
-    pub fn at(&self, time_s: f64, target: &MovingFrame, sun: &MovingUnit, rate_rad_s: f64) -> Option<SlewedFrame> {
+    pub fn at(
+        &self,
+        time_s: f64,
+        target: &MovingFrame,
+        sun: &MovingUnit,
+        rate_rad_s: f64,
+    ) -> Option<SlewedFrame> {
         let slew = self.slew?;
         let duration_s = slew.length_rad() / rate_rad_s;
         let elapsed_s = time_s - self.begin_s;

@@ -251,7 +251,8 @@ impl GuidanceState {
         }
         let TimedEntries { scenario, .. } = inputs.entries;
         let is_new = scenario.is_some() && scenario != self.entries.scenario;
-        if is_new && self.command.kind == CommandKind::Attitude && settings.orbit_phase.slew_rate_rad_s > 0.0 {
+        if is_new && self.command.kind == CommandKind::Attitude && settings.orbit_phase.slew_rate_rad_s > 0.0
+        {
             self.slew = Some(CommandSlew::new(time_s, &self.command.frame_at(time_s)));
         }
     }
