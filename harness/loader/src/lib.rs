@@ -28,6 +28,7 @@ mod status;
 mod times;
 mod uri;
 mod values;
+mod watch;
 
 pub use abi::{Binary, Callbacks, Described, SharedWords, set_locale};
 pub use archive::{ArchiveLimits, path_inside, unpack};
@@ -55,3 +56,4 @@ pub use status::LogMessage;
 pub use times::Times;
 pub use uri::file_uri;
 pub use values::{Assigned, assignment, parse_assignment, parse_value};
+pub use watch::Watcher;

@@ -9,6 +9,7 @@ use crate::{
     Error, Fmu, InputTable, Instance, InstanceOptions, LogMessage, Recording, Status, Times, Value,
     apart::{MOST_HALVINGS, step_apart},
     recorder::{Collector, Reader, Rows},
+    watch::{Watch, Watcher},
 };
 
 /// What to simulate. `Options::default()` runs the FMU's default experiment and records its outputs.
@@ -36,6 +37,9 @@ pub struct Options<'a> {
     /// Position of an Integer that counts events: a step in which it rises by more than one is taken again in halves, and
     /// recorded at them, until the events stand apart. For FMUs with states, without input derivatives.
     pub apart: Option<usize>,
+    /// Looks at the instance at every communication point and at times between them, recording nothing. Without times of its own to
+    /// record, a counter of events and input derivatives.
+    pub watcher: Option<&'a mut dyn Watcher>,
     /// How to instantiate.
     pub instance: InstanceOptions,
     /// Called with the time in s after every step.
@@ -224,6 +228,11 @@ fn run_steps(
         None => record(instance, times.start_s)?,
     }
 
+    let resolution_s = SAME * times.step_s;
+    let is_watched = cuts.is_none() && options.apart.is_none() && !options.input_derivatives;
+    let watcher = options.watcher.take().filter(|_| is_watched);
+    let begin = |watcher| Watch::begin(watcher, instance, [times.start_s, resolution_s]);
+    let mut watch = watcher.map(begin).transpose()?;
     let counter = options.apart.map(|position| fmu.description().variables[position].value_reference);
     let steps = times.steps();
     for k in 0..steps {
@@ -235,10 +244,13 @@ fn run_steps(
         }
         // Every step but the last has the step size itself: not each difference of two points is it to the bit.
         let step_s = if k + 1 == steps { end_s - time_s } else { times.step_s };
-        let stepped = match (&mut cuts, counter) {
-            (Some(cuts), _) => cuts.step(instance, [time_s, end_s], record),
-            (None, None) => instance.do_step(time_s, step_s, true),
-            (None, Some(counter)) => step_apart(instance, counter, (time_s, step_s), MOST_HALVINGS, record),
+        let stepped = match (&mut cuts, counter, &mut watch) {
+            (Some(cuts), ..) => cuts.step(instance, [time_s, end_s], record),
+            (None, None, Some(watch)) => watch.step(instance, time_s, step_s),
+            (None, None, None) => instance.do_step(time_s, step_s, true),
+            (None, Some(counter), _) => {
+                step_apart(instance, counter, (time_s, step_s), MOST_HALVINGS, record)
+            }
         };
         if let Err(error) = stepped {
             if error.status() == Some(Status::Discard) && instance.terminated().unwrap_or(false) {

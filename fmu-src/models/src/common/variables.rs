@@ -254,8 +254,9 @@ pub struct GuidedVariables {
     /// From where downlinks are counted.
     #[parameter(start = DownlinkReference::Periapsis)]
     pub downlink_reference: Choice<DownlinkReference>,
-    /// Greatest rate of the turn between science and downlink attitudes; 0 = at once, as in paper 000. A turn about one axis,
-    /// or, where that would take the Sun out of the keep-in zone and both ends keep it inside, within the zone.
+    /// Greatest rate of the turn between science and downlink attitudes, and into each command of the timeline from where the body
+    /// stands; 0 = at once, as in paper 000. A turn about one axis, or, where that would take the Sun out of the keep-in zone and
+    /// both ends keep it inside, within the zone.
     #[parameter(unit = "rad/s", display = "deg/s", min = 0.0, max = 10.0, start = setup.attitude.slew_rate_rad_s())]
     pub slew_rate: Real,
 }

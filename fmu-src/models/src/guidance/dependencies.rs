@@ -9,7 +9,7 @@ use super::variables::GuidanceVariables;
 /// Rows by groups of outputs.
 pub(super) fn table(_setup: &GuidanceSetup, v: &GuidanceVariables) -> Dependencies {
     let mut table = Dependencies::new();
-    table.output(v.epoch, knowns![], v.start.epoch);
+    table.output(knowns![v.epoch, v.timeline_until], knowns![], v.start.epoch);
     table.output(&v.panel, knowns![], &v.panel);
     table.output(&v.dump, v.momentum.body, knowns![&v.momentum, &v.dump]);
 

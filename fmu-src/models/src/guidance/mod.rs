@@ -379,6 +379,7 @@ impl State {
             command,
             requested_sun,
             sun_is_placed,
+            is_commanded: given.scenario.is_some(),
             entries,
             positions,
             sensed,

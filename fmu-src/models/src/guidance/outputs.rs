@@ -10,8 +10,8 @@ use super::state::State;
 use super::variables::choices::{ActiveMode, AntennaSelect, EphemerisModel, EphemerisSource, ModeReason};
 use crate::common::choices::{CommandKind, ThrustRequest};
 
-/// What `thrust.stop` says without thrust, in s.
-const NO_STOP_S: f64 = -1.0;
+/// What `thrust.stop` says without thrust, in s, and `timeline.until` without an edge to come.
+const NEVER_S: f64 = -1.0;
 
 /// Writes every output at the communication point reached, the epoch there being `epoch_s`.
 pub(super) fn write(
@@ -22,7 +22,7 @@ pub(super) fn write(
     epoch_s: f64,
 ) {
     let v = context.variables;
-    let (State { system: state, dumps, .. }, time_s) = (state, state.time_s);
+    let (State { system: state, dumps, epoch_minus_time_s, .. }, time_s) = (state, state.time_s);
     let command = state.command();
     let attitude = command.attitude_at(time_s);
     values.set_choice(v.command.kind, CommandKind(command.kind));
@@ -32,6 +32,13 @@ pub(super) fn write(
     values.set_choice(v.mode.active, ActiveMode(state.mode()));
     values.set_choice(v.mode.reason, ModeReason(state.mode_reason()));
     values.set_real(v.epoch, epoch_s);
+    let slot = context
+        .setup
+        .timeline
+        .as_ref()
+        .map(|timeline| timeline.slot(time_s, timeline.clock_minus_time_s(*epoch_minus_time_s)));
+    let until_s = slot.map(|slot| slot.until_s).filter(|until_s| until_s.is_finite());
+    values.set_real(v.timeline_until, until_s.unwrap_or(NEVER_S));
     values.set_boolean(v.ephemeris.valid, state.ephemeris_is_valid());
     let is_coarse = match values.choice(v.ephemeris.source) {
         EphemerisSource::Chebyshev => state.uses_coarse_ephemeris(),
@@ -75,7 +82,7 @@ fn burn(context: &Plan<'_>, values: &mut Values, state: &BurnState, settings: &B
     values.set_choice(thrust.request, ThrustRequest(thrusters));
     let stop_s = state.stop_s();
     values.set_boolean(thrust.command, stop_s.is_some());
-    values.set_real(thrust.stop, stop_s.unwrap_or(NO_STOP_S));
+    values.set_real(thrust.stop, stop_s.unwrap_or(NEVER_S));
     values.set_vector(burn.thrust_estimate, state.thrust_body(settings).into());
     values.set_vector(burn.velocity, (*state.velocity_m_s()).into());
     values.set_vector(burn.velocity_error, state.velocity_error_m_s(settings).into());

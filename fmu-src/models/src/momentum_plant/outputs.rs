@@ -190,6 +190,7 @@ fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) 
     values.set_boolean(v.downlink.active, report.downlink.active);
     values.set_boolean(v.downlink.clamped, report.downlink.clamped);
     values.set_integer(v.timeline.command, i32::try_from(report.timeline_row).unwrap_or(i32::MAX));
+    values.set_real(v.timeline.until, report.timeline_until_s.unwrap_or(-1.0));
     for (k, variables) in v.wheel.iter().enumerate() {
         let Some(wheel) = shown.wheel(k) else { break };
         values.set_real(variables.momentum, wheel.momentum_n_m_s);

@@ -6,6 +6,7 @@ mod articulation;
 mod attitude_sign;
 mod attitudes;
 mod center_defaults;
+mod command_slews;
 mod cruise;
 mod cruise_centers;
 mod cruise_legs;

@@ -29,6 +29,13 @@ pub(crate) fn read(fmu: &Fmu, resources: &Path) -> Result<String, String> {
     read(FILE, &text(FILE)?, &spacecraft).map(|it| summary(&it)).map_err(|error| error.to_string())
 }
 
+/// Names of the commands in the timeline of an FMU that is unpacked there; `None` without one.
+pub(crate) fn names(folder: &Path) -> Option<Vec<String>> {
+    let text = |file: &str| files::read_text(&folder.join("resources").join(file)).ok();
+    let spacecraft = Spacecraft::from_toml("", &text("spacecraft.toml")?).ok()?;
+    Some(Timeline::of_plant(FILE, &text(FILE)?, &spacecraft).ok()?.names().to_vec())
+}
+
 /// How many commands, positions of panels and events, from when to when.
 pub(crate) fn summary(timeline: &Timeline) -> String {
     let shown = |time_s: f64| match timeline.clock() {

@@ -10,9 +10,15 @@ use std::{
 };
 
 use clap::Args;
-use loader::{Collector, Ended, Error, LogMessage, Recording, Row, Rows, Status};
+use loader::{Collector, Ended, Error, LogMessage, Recording, Row, Rows, Status, Watcher};
 
-use super::{options::Run, settings::Settings, simulated::Simulated, subject::Subject};
+use super::{
+    options::Run,
+    settings::Settings,
+    simulated::Simulated,
+    subject::Subject,
+    visits::{Visit, Visits},
+};
 use crate::{
     child::{
         Bounds, ChildProcess, EndReason, Link, NOT_REQUESTED, Payload, Shown, large, path_option, push_text,
@@ -34,15 +40,18 @@ pub(crate) struct RunInChild {
     pub run: Run,
 }
 
-/// Kinds of frames: a row, a message of the log, the end of the simulation, its failure.
+/// Kinds of frames: a row, a message of the log, the end of the simulation, its failure, a visit.
 const ROW: u8 = 1;
 const MESSAGE: u8 = 2;
 const ENDED: u8 = 3;
 const FAILED: u8 = 4;
+const VISIT: u8 = 5;
 
 const ENDS: [Ended; 3] = [Ended::AtStop, Ended::Cancelled, Ended::ByItself];
 /// Messages taken at most: as many as an instance keeps.
 const MESSAGES: usize = 1000;
+/// Visits taken at most: a timeline has 10,000 commands, each with an end before the next one begins.
+const VISITS: usize = 20_001;
 
 /// What came of a simulation.
 pub(super) struct SimulationResult {
@@ -50,6 +59,8 @@ pub(super) struct SimulationResult {
     pub outcome: Result<Ended, String>,
     /// What the instance logged.
     pub messages: Vec<LogMessage>,
+    /// Visits of a flight by a timeline.
+    pub visits: Vec<Visit>,
     /// What went wrong after a good end.
     pub fault: Option<String>,
 }
@@ -73,7 +84,8 @@ pub(super) fn simulate(
 ) -> SimulationResult {
     // One more row where the FMU ends by itself between two points.
     let rows_left = points.saturating_add(1);
-    let inbox = RefCell::new(Inbox { collector, rows_left, outcome: None, messages: Vec::new() });
+    let inbox = Inbox { collector, rows_left, outcome: None, messages: Vec::new(), visits: Vec::new() };
+    let inbox = RefCell::new(inbox);
     let mut shown = Shown::new(subject.name());
     let supervised = child.supervise(
         bounds,
@@ -81,7 +93,7 @@ pub(super) fn simulate(
         &mut |line| shown.line(line),
         &mut |calls| tick(inbox.borrow().collector.recording(), calls.and_then(loader::step_begin_s)),
     );
-    let Inbox { outcome, messages, .. } = inbox.into_inner();
+    let Inbox { outcome, messages, visits, .. } = inbox.into_inner();
     let name = supervised.calls.instance.map_or_else(|| subject.name().to_owned(), |it| subject.named(it));
     if let Some(left) = supervised.left_behind() {
         terminal::note(&format!("{name}: {left}"));
@@ -97,7 +109,7 @@ pub(super) fn simulate(
         (None, EndReason::Refused(why)) => Err(why.clone()),
         (None, _) => Err(format!("{name}: {}", supervised.without_result())),
     };
-    SimulationResult { outcome, messages, fault }
+    SimulationResult { outcome, messages, visits, fault }
 }
 
 /// Takes the frames of a simulation.
@@ -106,6 +118,7 @@ struct Inbox<'a> {
     rows_left: u64,
     outcome: Option<Result<Ended, String>>,
     messages: Vec<LogMessage>,
+    visits: Vec<Visit>,
 }
 
 impl Inbox<'_> {
@@ -121,6 +134,9 @@ impl Inbox<'_> {
             }
             MESSAGE if self.messages.len() < MESSAGES => {
                 self.messages.push(message(&mut payload).ok_or(NOT_REQUESTED)?);
+            }
+            VISIT if self.visits.len() < VISITS => {
+                self.visits.push(Visit::of(&mut payload).ok_or(NOT_REQUESTED)?);
             }
             ENDED => {
                 let ended =
@@ -176,11 +192,14 @@ pub(crate) fn take_row(payload: &mut Payload<'_>, collector: &mut Collector) -> 
     collector.take(&row).map_err(|error| error.to_string())
 }
 
+/// End of a simulation, with its log and its visits.
+type Simulation = (Ended, Vec<LogMessage>, Vec<Visit>);
+
 /// Runs in this process and sends the parent what comes of it.
 pub(crate) fn run(arguments: &RunInChild) -> Outcome {
     let mut link = Link::attach("heliotorque run")?;
     match simulation(arguments, &mut link) {
-        Ok((ended, messages)) => {
+        Ok((ended, messages, visits)) => {
             for message in &messages {
                 link.send(MESSAGE, |payload| {
                     payload.push(u64::from(message.status.code() as u32));
@@ -188,6 +207,9 @@ pub(crate) fn run(arguments: &RunInChild) -> Outcome {
                     message.category.iter().for_each(|category| push_text(payload, category));
                     push_text(payload, &message.text);
                 })?;
+            }
+            for visit in &visits {
+                link.send(VISIT, |payload| visit.push(payload))?;
             }
             let number = ENDS.iter().position(|end| *end == ended).unwrap_or(0);
             link.send(ENDED, |payload| payload.push(number as u64))?;
@@ -201,10 +223,7 @@ pub(crate) fn run(arguments: &RunInChild) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-fn simulation(
-    arguments: &RunInChild,
-    link: &mut Link,
-) -> Result<(Ended, Vec<LogMessage>), Box<dyn std::error::Error>> {
+fn simulation(arguments: &RunInChild, link: &mut Link) -> Result<Simulation, Box<dyn std::error::Error>> {
     let subject = Subject::open(&arguments.unpacked_in)?;
     let simulated = Simulated::of(&arguments.run)?;
     let settings = Settings::of(&subject, &simulated, arguments.input_copy.as_deref())?;
@@ -212,6 +231,10 @@ fn simulation(
     let cancel = AtomicBool::new(false);
     let mut check_cancel = |_: f64| cancel.store(cancel_word.load(Ordering::Relaxed) != 0, Ordering::Relaxed);
     check_cancel(0.0);
-    let watched = (&mut check_cancel as &mut dyn FnMut(f64), &cancel);
-    Ok(settings.simulate_into(&subject, &simulated.run, watched, &mut RowSender(link))?)
+    let mut visits = Visits::of(subject.description(), settings.times.stop_s);
+    let watcher = visits.as_mut().map(|visits| visits as &mut dyn Watcher);
+    let watched = (&mut check_cancel as &mut dyn FnMut(f64), &cancel, watcher);
+    let ran = settings.simulate_into(&subject, &simulated.run, watched, &mut RowSender(link));
+    let (ended, messages) = ran?;
+    Ok((ended, messages, visits.map(Visits::into_visits).unwrap_or_default()))
 }

@@ -5,6 +5,7 @@ mod options;
 mod settings;
 mod simulated;
 mod subject;
+mod visits;
 
 use std::{
     error::Error,
@@ -15,7 +16,7 @@ use std::{
     time::Instant,
 };
 
-use files::Scratch;
+use files::{Destination, Scratch};
 use loader::{Collector, Ended, RecordedPoints, Times};
 
 use crate::{
@@ -24,7 +25,7 @@ use crate::{
     epoch,
     interrupt::INTERRUPTED,
     outcome::Outcome,
-    output::{self, Known, LimitChecks, Origin, Outputs},
+    output::{self, Known, LimitChecks, Origin, Outputs, VisitTable},
     pointing, variables,
 };
 pub(crate) use child::{RunInChild, push_row, run as run_in_child, take_row};
@@ -32,6 +33,7 @@ pub(crate) use options::Run;
 pub(crate) use settings::Settings;
 pub(crate) use simulated::{Assemble, Simulated, assemble_into};
 pub(crate) use subject::Subject;
+pub(crate) use visits::Visit;
 
 /// Why a run ends before its stop.
 const LOST_READER: &str = "nobody reads the standard output any more";
@@ -47,6 +49,8 @@ pub(crate) struct Prepared {
     /// Points that will be recorded.
     pub points: u64,
     outputs: Outputs,
+    /// File of the visits.
+    visits: Option<Destination>,
     /// What the standard input held, for parent and child.
     input_copy: Option<PathBuf>,
     // The packed FMU of a mission and the copy, as long as they are in use.
@@ -83,10 +87,14 @@ impl Prepared {
             input: simulated.run.input.clone(),
         };
         let reads = simulated.reads();
+        let has_visits = carried::timeline::names(&subject.folder()).is_some_and(|names| !names.is_empty());
+        let table = settings.requested.table.as_ref().filter(|_| has_visits);
+        let visits = table.map(|table| output::open_visits(table, &reads)).transpose()?.flatten();
         let outputs = Outputs::open(&settings.requested, collector.recording(), &known, (&origin, &reads))?;
         let points = RecordedPoints::new(&settings.times, simulated.run.every)?.count();
         collector.fits(points)?;
-        Ok(Self { simulated, subject, settings, points, outputs, input_copy, _scratch: [packed, copy] })
+        let _scratch = [packed, copy];
+        Ok(Self { simulated, subject, settings, points, outputs, visits, input_copy, _scratch })
     }
 }
 
@@ -115,7 +123,8 @@ pub(crate) fn long_step(times: &Times) -> Option<String> {
 /// Runs in a child process.
 pub(crate) fn run(arguments: &Run) -> Outcome {
     let prepared = Prepared::of(arguments)?;
-    let Prepared { simulated, subject, settings, points, mut outputs, input_copy, _scratch } = prepared;
+    let Prepared { simulated, subject, settings, points, mut outputs, visits, input_copy, _scratch } =
+        prepared;
     let arguments = &simulated.run;
     let described = subject.description();
     let mut warnings = pointing::warnings(described, &settings.sets, &pointing::windows_in(&subject.parts()));
@@ -124,6 +133,7 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
     warnings.extend(long_step(&settings.times));
     warnings.extend(subject.unread(&settings.sets));
     warnings.extend(settings.inputs.iter().flat_map(|it| it.warnings(described, &settings.times)));
+    let zero_epoch_s = simulated.zero_epoch_s(settings.times.start_s);
     let every_s = arguments.every.unwrap_or(settings.times.step_s);
     warnings.extend(pointing::sparse_rows(described, &settings.sets, &settings.times, every_s));
     let Settings { times, sets, positions, limits, requested, .. } = settings;
@@ -181,6 +191,20 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
         Ended::Cancelled => outputs.stop(described, recording)?,
         _ => outputs.finish(described, recording).map(|()| Vec::new())?,
     };
+    if !result.visits.is_empty() {
+        let names = carried::timeline::names(&subject.folder()).unwrap_or_default();
+        let table = VisitTable { visits: &result.visits, names: &names, zero_epoch_s };
+        if !arguments.quiet {
+            terminal::note(&table.shown());
+        }
+        if let Some(file) = visits {
+            let path = file.path().display().to_string();
+            file.fill(|out| table.write(out))?;
+            if !arguments.quiet {
+                terminal::note(&format!("wrote {path}"));
+            }
+        }
+    }
     if !arguments.quiet {
         let steps = ((last_s - times.start_s) / times.step_s).ceil();
         terminal::note(&format!("{steps} steps to {last} s in {:.3} s", elapsed.as_secs_f64()));

@@ -3,7 +3,7 @@
 use std::{path::Path, sync::atomic::AtomicBool};
 
 use files::Scratch;
-use loader::{Ended, Fmu, InputTable, InstanceOptions, LogMessage, Options, Rows, Times};
+use loader::{Ended, Fmu, InputTable, InstanceOptions, LogMessage, Options, Rows, Times, Watcher};
 use model_description::Description;
 
 use systems::{FirstExchange, Master};
@@ -134,12 +134,12 @@ impl Settings {
         Ok((fmu, settings, folder))
     }
 
-    /// Runs it in this process, telling the time in s after every step, until a word says that it shall end.
-    pub(crate) fn simulate_into(
-        &self,
+    /// Runs it in this process, telling the time in s after every step, until a word says that it shall end; an FMU is watched.
+    pub(crate) fn simulate_into<'a>(
+        &'a self,
         subject: &Subject,
         arguments: &Run,
-        (progress, cancel): (&mut dyn FnMut(f64), &AtomicBool),
+        (progress, cancel, watcher): (&'a mut dyn FnMut(f64), &'a AtomicBool, Option<&'a mut dyn Watcher>),
         rows: &mut dyn Rows,
     ) -> Result<(Ended, Vec<LogMessage>), loader::Error> {
         let options = Options {
@@ -154,6 +154,7 @@ impl Settings {
             instance: InstanceOptions { logging: arguments.log, ..InstanceOptions::default() },
             progress: Some(progress),
             cancel: Some(cancel),
+            watcher,
             ..Options::default()
         };
         match subject {

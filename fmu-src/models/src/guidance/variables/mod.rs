@@ -67,6 +67,9 @@ pub struct GuidanceVariables {
     /// timeline's.
     #[input(name = "pointing.scenario", start = PointingScenario(None))]
     pub pointing_scenario: Choice<PointingScenario>,
+    /// When the timeline's command ends, or where none is in force the next one begins; -1 where none does.
+    #[output(name = "timeline.until", discrete, unit = "s", display = "d")]
+    pub timeline_until: Real,
     pub boresight: BoresightVariables,
     pub aimpoint: AimpointVariables,
     pub second_aimpoint: AimpointVariables,

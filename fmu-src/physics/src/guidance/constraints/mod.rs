@@ -1,5 +1,6 @@
 //! What a pointing must keep: the zone of the Sun, the hot pole, and turns within the zone.
 
+pub mod command_slew;
 pub mod constrained;
 #[cfg(test)]
 pub(crate) mod constraint_tests;

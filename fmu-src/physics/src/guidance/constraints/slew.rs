@@ -11,6 +11,7 @@
 //! kept as a margin, so that no turn leaves the zone later.
 
 use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
 
 use super::keep_in::{BOUNDARY_RAD, KeepIn};
 use crate::attitude::{MovingFrame, MovingUnit, SunAngles, rotation_vector};
@@ -33,7 +34,7 @@ pub struct SlewStart<'a> {
 }
 
 /// A turn.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Slew {
     /// About one axis: the rotation vector back from the new attitude to the old one, in rad.
     Eigenaxis {
@@ -54,6 +55,24 @@ pub enum Slew {
 }
 
 impl Slew {
+    /// Longest turn within this zone or without one, in rad: half a revolution about one axis or about the Sun line, and across the
+    /// zone.
+    pub fn longest_rad(zone: Option<&KeepIn>) -> f64 {
+        let across_rad = zone.map_or(0.0, |zone| 2.0 * (zone.azimuth_rad + zone.elevation_rad));
+        core::f64::consts::PI + across_rad
+    }
+
+    /// Rejects decoded turns that no simulation can produce.
+    pub fn is_valid(&self) -> bool {
+        let numbers = match self {
+            Self::Eigenaxis { back_body_rad } => back_body_rad.norm(),
+            Self::WithinZone { body_from_zone, from, back_rad, length_rad } => {
+                body_from_zone.sum() + from.azimuth_rad + from.elevation_rad + back_rad + length_rad
+            }
+        };
+        numbers.is_finite() && self.length_rad() >= 0.0
+    }
+
     /// The turn between two attitudes at a rate of `rate_rad_s`; without a zone about the eigenaxis.
     pub fn between(start: &SlewStart<'_>, zone: Option<&KeepIn>, rate_rad_s: f64) -> Self {
         let [from, to] = [start.from, start.to].map(|frame| frame.inertial_from_body);

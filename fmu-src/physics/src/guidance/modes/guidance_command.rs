@@ -84,6 +84,12 @@ impl GuidanceCommand {
         self.attitude.propagated(self.rate_body_rad_s, time_s - self.since_s)
     }
 
+    /// Body frame and rate at `time_s`.
+    pub(super) fn frame_at(&self, time_s: f64) -> MovingFrame {
+        let inertial_from_body = self.attitude_at(time_s).inertial_from_body();
+        MovingFrame { inertial_from_body, rate_body_rad_s: self.rate_body_rad_s }
+    }
+
     /// Rate of its quaternion, in 1/s.
     pub fn quaternion_rate_at(&self, time_s: f64) -> [f64; 4] {
         self.attitude_at(time_s).quaternion_rate(&self.rate_body_rad_s)

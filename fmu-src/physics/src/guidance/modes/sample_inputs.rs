@@ -40,6 +40,8 @@ pub struct SampleInputs {
     pub requested_sun: SunRequest,
     /// Whether the timeline says where the Sun stands, so that no strategy does.
     pub sun_is_placed: bool,
+    /// Whether an input commands the scenario.
+    pub is_commanded: bool,
     /// The timeline's entries that say scan, limb and mode, where they and no input do: each begins with its entry.
     pub entries: TimedEntries,
     /// Where everything is.

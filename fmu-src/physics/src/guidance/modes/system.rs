@@ -16,13 +16,14 @@ use super::sun_line::SunLine;
 use super::transitions::{ModeState, Sensed, Steering};
 use crate::attitude::Attitude;
 use crate::guidance::burn::delta_v::{BurnState, MeasuredMotion};
+use crate::guidance::constraints::command_slew::CommandSlew;
 use crate::guidance::constraints::constrained::{ConstrainedPointing, Constraints};
 use crate::guidance::constraints::hot_pole::TurnSide;
 use crate::guidance::downlink::downlink_sun::{DownlinkSun, WindowStart};
 use crate::guidance::downlink::sun_place::{ChosenPlace, SunPlace, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::value;
-use crate::guidance::orbit_phase::attitudes::ScienceRule;
+use crate::guidance::orbit_phase::attitudes::{ScienceRule, Sight};
 use crate::guidance::orbit_phase::guided::{DownlinkStatus, Guided};
 use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
 use crate::guidance::orbit_phase::predicted_orbit::ellipse_of;
@@ -65,6 +66,8 @@ pub struct GuidanceState {
     limb: Option<(Scenario, f64)>,
     burn: BurnState,
     downlink_sun: DownlinkSun,
+    /// The slew into the timeline's command.
+    slew: Option<CommandSlew>,
     next_sample_s: f64,
 }
 
@@ -94,6 +97,7 @@ impl GuidanceState {
             limb: None,
             burn: BurnState::default(),
             downlink_sun: DownlinkSun::default(),
+            slew: None,
             next_sample_s: start_s,
         }
     }
@@ -172,6 +176,7 @@ impl GuidanceState {
             modes.operational.keep_in = None;
         }
         modes.watches_hot_pole &= self.status.hot_pole_reached;
+        self.begin_slew(settings, inputs, time_s);
         self.update_timers(&inputs.command, inputs.entries, time_s);
         self.burn.measure(
             &settings.burn,
@@ -234,8 +239,22 @@ impl GuidanceState {
         if self.modes.mode != Mode::Operational {
             self.burn.end(time_s);
             self.downlink_sun.end();
+            self.slew = None;
         }
         is_chosen
+    }
+
+    /// Begins the slew into a command of the timeline, from what was commanded so far; an input's command is taken at once.
+    fn begin_slew(&mut self, settings: &GuidanceSettings<'_>, inputs: &SampleInputs, time_s: f64) {
+        if inputs.is_commanded {
+            self.slew = None;
+        }
+        let TimedEntries { scenario, .. } = inputs.entries;
+        let is_new = scenario.is_some() && scenario != self.entries.scenario;
+        if is_new && self.command.kind == CommandKind::Attitude && settings.orbit_phase.slew_rate_rad_s > 0.0
+        {
+            self.slew = Some(CommandSlew::new(time_s, &self.command.frame_at(time_s)));
+        }
     }
 
     /// Puts the Sun where a downlink begins, or science that unloads; whether one does.
@@ -293,7 +312,10 @@ impl GuidanceState {
 
     /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
-        self.command.is_valid() && self.burn.is_valid() && self.downlink_sun.is_valid()
+        self.command.is_valid()
+            && self.burn.is_valid()
+            && self.downlink_sun.is_valid()
+            && self.slew.is_none_or(|slew| slew.is_valid())
     }
 
     /// Whether a step could begin at `time_s`.
@@ -347,15 +369,38 @@ impl GuidanceState {
         } else if is_given && self.modes.mode == Mode::Operational {
             self.law = Some(*command);
         }
-        let Some((solution, constrained)) = found else {
+        let Some((mut solution, mut constrained)) = found else {
             self.status = CommandStatus { degenerate: true, ..CommandStatus::NOTHING };
             return;
         };
+        let is_slewing = self.slewed(now, &constrained.pointing).is_some_and(|slewed| {
+            solution.downlink = DownlinkStatus::default();
+            constrained = ConstrainedPointing { sun_keep_in: constrained.sun_keep_in, ..slewed };
+            true
+        });
         self.hot_pole_turn = constrained.hot_pole;
         self.command = self.command.followed_by(&constrained.pointing.frame(), now.time_s);
         let (_, is_sun_moved) = now.requested_sun;
         self.status = CommandStatus::of(now.settings, now.ephemeris, &solution, &constrained, is_sun_moved);
         self.status.degenerate |= !is_given;
+        self.status.reachable &= !is_slewing;
+    }
+
+    /// Where the slew into the command stands on the way to `target`, kept away from the hot pole; `None` where it is over.
+    fn slewed(&mut self, now: &SampleContext<'_>, target: &Pointing) -> Option<ConstrainedPointing> {
+        let slew = self.slew.as_mut()?;
+        let rate_rad_s = now.settings.orbit_phase.slew_rate_rad_s;
+        let (target, sun) = (target.frame(), now.ephemeris.lines().sun);
+        if slew.is_open() {
+            slew.aim(&target, &sun, now.constraints.keep_in.as_ref(), rate_rad_s);
+        }
+        let Some(slewed) = slew.at(now.time_s, &target, &sun, rate_rad_s) else {
+            self.slew = None;
+            return None;
+        };
+        let vectors = Pointing::of(&slewed.frame).vectors();
+        let constraints = Constraints { keep_in: None, ..now.constraints };
+        constraints.applied(&vectors, now.ephemeris, self.hot_pole_turn)
     }
 
     /// The vectors of a command and the attitude within the constraints; `None` where something has no direction.

@@ -128,6 +128,7 @@ pub(crate) fn sample_inputs(attitude: Attitude, delta_v_body_m_s: Vector3<f64>) 
         command: PointingCommand { scenario: Some(Scenario::Burn), ..PointingCommand::default() },
         requested_sun: SunRequest::default(),
         sun_is_placed: false,
+        is_commanded: false,
         entries: TimedEntries::default(),
         positions: BodyPositions::in_every_mode(Some(ephemeris())),
         sensed: Sensed {

@@ -119,7 +119,7 @@ impl Guided {
             return held;
         }
         let elapsed_s = time_s - window.since_s;
-        if elapsed_s >= self.longest_turn_rad() / self.slew_rate_rad_s {
+        if elapsed_s >= Slew::longest_rad(self.keep_in.as_ref()) / self.slew_rate_rad_s {
             return held;
         }
         let before = match window.activity {
@@ -148,12 +148,6 @@ impl Guided {
             until_s: held.until_s.min(window.since_s + duration_s),
             ..held
         }
-    }
-
-    /// No turn is longer: half a revolution about one axis or about the Sun line, and across the zone.
-    fn longest_turn_rad(&self) -> f64 {
-        let across_rad = self.keep_in.map_or(0.0, |zone| 2.0 * (zone.azimuth_rad + zone.elevation_rad));
-        core::f64::consts::PI + across_rad
     }
 
     /// Bound of the rate at which the Sun moves in the body frame during a turn to an attitude, in rad/s: twice what the lines

@@ -21,6 +21,7 @@ use crate::toml::{Checker, Document, FileError, KeyPath, TIMELINE_LIMITS};
 pub struct Timeline {
     clock: TimelineClock,
     entries: Vec<TimelineEntry>,
+    names: Vec<String>,
     panels: Vec<TimelinePanels>,
     events: Arc<[TimelineEvent]>,
 }
@@ -65,9 +66,11 @@ impl Timeline {
         let event_times = times.instants(&events_place, events_list.iter().map(|it| &it.at));
         let clock = times.clock();
         let mut entries = Vec::with_capacity(list.len());
+        let mut names = Vec::with_capacity(list.len());
         for (index, (description, [at_s, until_s])) in list.iter().zip(spans.iter().copied()).enumerate() {
             let at = place.item(index);
             let command = commands.pointing(&at, description);
+            names.push(commands.name(&at, description));
             let next_s = spans.iter().skip(index + 1).find_map(|[next_s, _]| *next_s);
             let end_s = until_s.or(next_s).unwrap_or(f64::INFINITY);
             let span = Span { clock, at_s: at_s.unwrap_or(f64::NAN), end_s };
@@ -99,7 +102,7 @@ impl Timeline {
             .enumerate()
             .map(|(index, (given, at_s))| event(&mut commands, &events_place.item(index), given, at_s))
             .collect();
-        commands.check.finish(Self { clock, entries, panels, events })
+        commands.check.finish(Self { clock, entries, names, panels, events })
     }
 
     /// By which clock it counts.
@@ -110,6 +113,11 @@ impl Timeline {
     /// The commands in the order of their times.
     pub fn entries(&self) -> &[TimelineEntry] {
         &self.entries
+    }
+
+    /// Name of each command.
+    pub fn names(&self) -> &[String] {
+        &self.names
     }
 
     /// How the panels stand, in the order of the times.
@@ -133,6 +141,11 @@ impl Timeline {
     /// The command that begins at this time of the timeline's clock, in s.
     pub fn entry_at(&self, at_s: f64) -> Option<&TimelineEntry> {
         self.entries.get(self.entries.binary_search_by(|entry| entry.at_s.total_cmp(&at_s)).ok()?)
+    }
+
+    /// What was in force until `since_s` of the simulation.
+    pub fn slot_before(&self, since_s: f64, clock_minus_time_s: f64) -> Slot<'_> {
+        self.slot(since_s.next_down(), clock_minus_time_s)
     }
 
     /// What is in force at a time of the simulation, in s, the clock being `clock_minus_time_s` ahead of it.

@@ -52,8 +52,8 @@ pub(super) struct Commands<'d, 'i> {
     pub check: Checker<'d>,
     pub spacecraft: &'i Spacecraft,
     reader: Reader,
-    /// The scenario of the current command, for messages.
-    scenario: String,
+    /// The scenario of the current command, or its attitude, for messages.
+    pub(super) scenario: String,
 }
 
 impl<'d, 'i> Commands<'d, 'i> {
@@ -66,6 +66,9 @@ impl<'d, 'i> Commands<'d, 'i> {
     pub(super) fn pointing(&mut self, at: &KeyPath, given: &CommandDescription) -> PointingCommand {
         let scenario_place = at.key("scenario");
         self.check_reader(at, given);
+        if let Some(attitude) = &given.attitude {
+            return self.by_attitude(at, attitude, given);
+        }
         let Some(scenario) = given.scenario else {
             self.report_lack_of_scenario(at, given);
             return PointingCommand::default();
@@ -73,14 +76,8 @@ impl<'d, 'i> Commands<'d, 'i> {
         if self.check.is_stand_in(&scenario_place) {
             return PointingCommand::default();
         }
-        if let Some(mode) = given.mode.filter(|mode| !follows(*mode, scenario)) {
-            let allowed = match mode {
-                Mode::SafeHold => "downlink, which alone Safe Hold follows, or no scenario",
-                _ => "no scenario: Earth Acquisition follows none",
-            };
-            self.check.report(&scenario_place, named("the scenario", scenario), allowed);
-        }
         self.scenario = named("the scenario", scenario);
+        self.check_mode(&scenario_place, scenario, given.mode);
         if matches!(scenario, Scenario::Gimbal | Scenario::DoubleTarget) {
             self.needs_gimbal(&scenario_place, named("the scenario", scenario));
         }
@@ -110,6 +107,17 @@ impl<'d, 'i> Commands<'d, 'i> {
             command.limb = self.limb(&at.key("limb"), limb, scenario);
         }
         command
+    }
+
+    /// Reports what the mode beside it does not follow.
+    pub(super) fn check_mode(&mut self, at: &KeyPath, scenario: Scenario, mode: Option<Mode>) {
+        if let Some(mode) = mode.filter(|mode| !follows(*mode, scenario)) {
+            let allowed = match mode {
+                Mode::SafeHold => "downlink, which alone Safe Hold follows, or no scenario",
+                _ => "no scenario: Earth Acquisition follows none",
+            };
+            self.check.report(at, &self.scenario, allowed);
+        }
     }
 
     /// Reports what Guidance alone does.
@@ -167,9 +175,13 @@ impl<'d, 'i> Commands<'d, 'i> {
         if let Some(table) = TABLES.iter().find(|table| self.check.is_written(&at.key(table))) {
             self.check.report_lack(at, "scenario", format_args!("a scenario, which `{table}` is for"));
         } else if given.keep_in.is_none() && given.mode.is_none() {
-            let lacks = ["scenario", "keepIn", "mode"];
+            let lacks = ["scenario", "attitude", "keepIn", "mode"];
             if !lacks.iter().any(|key| self.check.is_stand_in(&at.key(key))) {
-                self.check.push(at, "a command of nothing", "at least one of scenario, keepIn, mode");
+                self.check.push(
+                    at,
+                    "a command of nothing",
+                    "at least one of scenario, attitude, keepIn, mode",
+                );
             }
         }
     }
@@ -195,7 +207,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// The same where the scenario reads them.
-    fn check_scenario_keys(&mut self, at: &KeyPath, known: &[&str], read: Keys) {
+    pub(super) fn check_scenario_keys(&mut self, at: &KeyPath, known: &[&str], read: Keys) {
         self.check_keys(at, known, read, &self.scenario.clone());
     }
 

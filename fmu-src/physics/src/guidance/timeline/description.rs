@@ -1,6 +1,10 @@
 //! The shape of a timeline file: keys and items are named as the variables of Guidance.
 
-use serde::Deserialize;
+use core::fmt;
+
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{self, IntoDeserializer, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 
 use super::entry::PlanStatus;
 use super::quantity::Quantity;
@@ -10,6 +14,7 @@ use crate::guidance::pointing::command::{
     AimpointOption, AzimuthReference, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame,
     Scenario,
 };
+use crate::spacecraft::{AttitudeName, StarDescription, TargetedAxisDescription};
 use crate::toml::tables;
 
 /// An angle for all, or one each.
@@ -32,6 +37,48 @@ pub(crate) enum DumpDescription {
     Is(bool),
     /// To this momentum, body frame.
     To(Vec<Quantity>),
+}
+
+/// An attitude.
+#[derive(Debug)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(untagged))]
+pub(crate) enum AttitudeDescription {
+    /// By its name.
+    Name(AttitudeName),
+    /// By a quaternion from EME2000 to the body, scalar last.
+    Quaternion([f64; 4]),
+    /// By two axes and their targets.
+    Axes(AxesDescription),
+}
+
+impl<'de> Deserialize<'de> for AttitudeDescription {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(AttitudeVisitor)
+    }
+}
+
+/// Reads each form by its own type, so that an error is that form's.
+struct AttitudeVisitor;
+
+impl<'de> Visitor<'de> for AttitudeVisitor {
+    type Value = AttitudeDescription;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a name, a quaternion of four numbers, or a table with `align` and `constrain`")
+    }
+
+    fn visit_str<E: de::Error>(self, name: &str) -> Result<Self::Value, E> {
+        AttitudeName::deserialize(name.into_deserializer()).map(AttitudeDescription::Name)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, numbers: A) -> Result<Self::Value, A::Error> {
+        Deserialize::deserialize(SeqAccessDeserializer::new(numbers)).map(AttitudeDescription::Quaternion)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, table: A) -> Result<Self::Value, A::Error> {
+        Deserialize::deserialize(MapAccessDeserializer::new(table)).map(AttitudeDescription::Axes)
+    }
 }
 
 tables! {
@@ -90,7 +137,12 @@ struct CommandDescription {
     at: Quantity,
     /// When it ends, if that is before the next one begins; then nothing is commanded.
     until: Option<Quantity>,
+    /// Name in reports; the scenario's or the attitude's unless given.
+    name: Option<String>,
     scenario: Option<Scenario>,
+    /// Attitude instead of a scenario: a name, a quaternion from EME2000 to the body (scalar last), or two body axes and their
+    /// targets.
+    attitude: Option<AttitudeDescription>,
     boresight: Option<BoresightDescription>,
     aimpoint: Option<AimpointDescription>,
     /// Aimpoint of the instrument on the gimbal in the scenario doubleTarget.
@@ -109,6 +161,15 @@ struct CommandDescription {
     mode: Option<Mode>,
     /// For a plan: whether it may change this command. FMUs ignore it; fixed unless given.
     status: Option<PlanStatus>,
+}
+
+/// Two body axes and their targets.
+struct AxesDescription {
+    /// Axis that stands exactly at its target.
+    align: TargetedAxisDescription,
+    /// Axis that stands as near as possible to its target.
+    constrain: TargetedAxisDescription,
+    star: Option<StarDescription>,
 }
 
 /// Where the Sun stands in the body frame.

@@ -32,6 +32,14 @@ pub struct TimelineSettings {
     pub clock_minus_time_s: f64,
 }
 
+impl TimelineSettings {
+    /// The keep-in zone in force under a command this far from the Sun.
+    pub fn keep_in(&self, entry: &TimelineEntry, sun_distance_m: f64) -> Option<KeepIn> {
+        let counts = sun_distance_m <= self.keep_in_distance_m;
+        entry.keep_in.applied(&self.keep_in, self.keep_in_is_enabled).filter(|_| counts)
+    }
+}
+
 /// A timeline with what its scenarios point.
 #[derive(Clone, Copy, Debug)]
 pub struct TimelineLaw<'a> {
@@ -78,9 +86,7 @@ impl TimelineLaw<'_> {
         let elapsed_s = time_s - begin_s;
         let scan = ScanTime { elapsed_s, tolerance_s: 4.0 * (spacing(entry.at_s) + spacing(time_s)) };
         let to_sun = ephemeris.to_sun();
-        let counts = value(&to_sun).norm() <= settings.keep_in_distance_m;
-        let keep_in =
-            entry.keep_in.applied(&settings.keep_in, settings.keep_in_is_enabled).filter(|_| counts);
+        let keep_in = settings.keep_in(entry, value(&to_sun).norm());
         let (requested, cut) = requested.within(keep_in.as_ref());
         let progress = PointingProgress {
             scan: entry.command.scan.frame.map(|_| scan),

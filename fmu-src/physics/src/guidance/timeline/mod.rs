@@ -3,6 +3,7 @@
 //! A timeline is one TOML file ([`Timeline::from_toml`]) of `[[command]]`, `[[panels]]` and `[[event]]` tables. Keys and items are
 //! those of the FMUs' variables; numbers are SI, or strings with a unit.
 
+mod attitude;
 mod build;
 mod burn;
 mod commands;

@@ -155,14 +155,22 @@ impl<'a> Plant<'a> {
         external: &'a External<'a>,
     ) -> Self {
         let SimulationContext { configuration, mass_at_zero, ephemeris, light, air, work, .. } = context;
-        let PropagatorState { trajectory, light: segment, air_and_field, sun_choice, panel_turns, .. } =
-            propagator;
+        let PropagatorState {
+            trajectory,
+            light: segment,
+            air_and_field,
+            sun_choice,
+            panel_turns,
+            command_slews,
+            ..
+        } = propagator;
         let kinematics = Kinematics {
             configuration,
             trajectory,
             ephemeris,
             default_downlink: prepared.default_downlink,
             timeline: prepared.timeline,
+            command_slews,
             work,
             mass_at_zero: *mass_at_zero,
         };
@@ -395,6 +403,8 @@ impl<'a> Plant<'a> {
             let predicted = core::mem::replace(self.kinematics.trajectory, before);
             self.kinematics.trajectory.take_passages(&predicted, end_s);
             self.integrate(end_s, |at_s| acceleration_m_s2.value(at_s))?;
+            // Those ahead began on the predicted orbit.
+            self.kinematics.command_slews.forget_after(start_s);
         }
         let end_s = self.kinematics.trajectory.end_s();
         // Written so that a NaN is stuck too.

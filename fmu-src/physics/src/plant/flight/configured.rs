@@ -156,6 +156,7 @@ impl ConfiguredFlight<'_> {
             choice.science = chosen;
         }
         self.context.configuration.attitude.set_sun_places(choice.place(), choice.in_science());
+        self.propagator.command_slews.cut(time_s);
         Ok(())
     }
 

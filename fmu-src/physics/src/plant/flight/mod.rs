@@ -31,6 +31,7 @@ use crate::momentum::Totals;
 use crate::loads::ForceTorque;
 use crate::plant::disturbances::evaluation::{Evaluation, Plant};
 use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
+use crate::plant::motion::command_slews::CommandSlews;
 use crate::plant::motion::instant::Instant;
 use crate::plant::settings::configuration::{Command, Configuration, PredictionSettings};
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
@@ -224,6 +225,7 @@ impl Flight {
             Mode::Dynamic(dynamics) => {
                 let loads_change = changes.light || changes.mass || pushed;
                 dynamics.cut(time_s, loads_change);
+                self.propagator.command_slews.cut(time_s);
                 if loads_change {
                     self.propagator.cut(so_far, time_s, true);
                 }
@@ -243,7 +245,8 @@ impl Flight {
         Ok(())
     }
 
-    /// The schedule is another one from `time_s` on: what it has before is over, and a downlink of it is chosen anew.
+    /// The schedule is another one from `time_s` on: what it has before is over, a downlink of it is chosen anew, and the body stands
+    /// in the command that it has then.
     pub fn reschedule(&mut self, time_s: f64) {
         match &mut self.mode {
             Mode::Waiting => {}
@@ -251,6 +254,7 @@ impl Flight {
             Mode::Dynamic(dynamics) => dynamics.scheduled.skip_to(time_s),
         }
         self.propagator.sun_choice.row = 0;
+        self.propagator.command_slews = CommandSlews::beginning(time_s);
     }
 
     /// The flight in one step, its settings and its mode.
@@ -462,11 +466,11 @@ impl Flight {
         let Instant { downlink, is_degenerate, .. } = evaluation.instant;
         let (downlink, is_degenerate) = sampled.unwrap_or((downlink, is_degenerate));
         let followed = configuration.timeline.filter(|_| configuration.attitude.guided().is_some());
-        let timeline_row = given
+        let slot = given
             .prepared
             .timeline
             .zip(followed)
-            .map_or(0, |(law, settings)| law.timeline.slot(time_s, settings.clock_minus_time_s).row);
+            .map(|(law, settings)| law.timeline.slot(time_s, settings.clock_minus_time_s));
         let target_is_clamped = propagator.sun_choice.is_clamped();
         Ok(Report {
             time_s,
@@ -475,7 +479,8 @@ impl Flight {
             since_periapsis_s,
             downlink,
             is_degenerate,
-            timeline_row,
+            timeline_row: slot.map_or(0, |slot| slot.row),
+            timeline_until_s: slot.map(|slot| slot.until_s).filter(|until_s| until_s.is_finite()),
             target_is_clamped,
             evaluation,
             integration_center: propagator.trajectory.integration_center(configuration),

@@ -8,6 +8,7 @@ use super::sun_choice::SunChoice;
 use crate::environment::orbit::OrbitError;
 use crate::plant::air_and_field::air_and_field_segment::AirAndFieldSegment;
 use crate::plant::light::radiation_segment::RadiationSegment;
+use crate::plant::motion::command_slews::CommandSlews;
 use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::motion::trajectory::Trajectory;
 use crate::plant::settings::configuration::Configuration;
@@ -29,6 +30,8 @@ pub struct PropagatorState {
     pub center_of_mass: CenterOfMass,
     /// Whole turns of the panels.
     pub panel_turns: PanelTurns,
+    /// Slews into the timeline's commands.
+    pub command_slews: CommandSlews,
 }
 
 impl PropagatorState {
@@ -37,6 +40,7 @@ impl PropagatorState {
         self.trajectory.is_valid()
             && self.air_and_field.is_valid()
             && self.sun_choice.is_valid()
+            && self.command_slews.is_valid()
             && self.light.as_ref().is_none_or(RadiationSegment::is_valid)
     }
 
@@ -45,7 +49,11 @@ impl PropagatorState {
     /// # Errors
     /// A start below the surface.
     pub fn new(configuration: &Configuration, time_s: f64) -> Result<Self, PlantError> {
-        Ok(Self { trajectory: Trajectory::new(configuration, time_s)?, ..Self::default() })
+        Ok(Self {
+            trajectory: Trajectory::new(configuration, time_s)?,
+            command_slews: CommandSlews::beginning(time_s),
+            ..Self::default()
+        })
     }
 
     /// Becomes another one; allocates nothing where it held as much before.
@@ -55,9 +63,10 @@ impl PropagatorState {
             (light, other) => light.clone_from(other),
         }
         // Nobody asks for the turns of a fork's panels.
-        let Self { trajectory, air_and_field, sun_choice, center_of_mass, .. } = *other;
+        let Self { trajectory, air_and_field, sun_choice, center_of_mass, command_slews, .. } = *other;
         (self.trajectory, self.air_and_field) = (trajectory, air_and_field);
         (self.sun_choice, self.center_of_mass) = (sun_choice, center_of_mass);
+        self.command_slews = command_slews;
     }
 
     /// Continues from another place; the heat stored in the surfaces comes along.
@@ -66,6 +75,7 @@ impl PropagatorState {
     /// A place below the surface.
     pub fn move_to(&mut self, configuration: &Configuration, time_s: f64) -> Result<(), PlantError> {
         self.trajectory = Trajectory::new(configuration, time_s)?;
+        self.command_slews.cut(time_s);
         self.air_and_field.cut(time_s);
         self.cut_light(time_s);
         Ok(())
@@ -86,6 +96,7 @@ impl PropagatorState {
         light_changes: bool,
         jump_m_s: &Vector3<f64>,
     ) {
+        self.command_slews.cut(time_s);
         // An orbit that light and forces act on goes elsewhere from here.
         let orbit_changes = configuration.motion.is_pushed();
         let taken_m_s = if orbit_changes { *jump_m_s } else { Vector3::zeros() };
@@ -113,6 +124,7 @@ impl PropagatorState {
         delta_v_m_s: &Vector3<f64>,
     ) -> Result<(), OrbitError> {
         self.trajectory.maneuver(configuration, time_s, delta_v_m_s)?;
+        self.command_slews.cut(time_s);
         self.air_and_field.cut(time_s);
         self.cut_light(time_s);
         Ok(())

@@ -38,6 +38,8 @@ pub struct Report<'a> {
     pub is_degenerate: bool,
     /// Row of the timeline's command in force, from 1; 0 where none is.
     pub timeline_row: usize,
+    /// When the timeline's command ends, or where none is the next one begins, in s; `None`: never.
+    pub timeline_until_s: Option<f64>,
     /// Whether a downlink lasts whose target of momentum is out of reach.
     pub target_is_clamped: bool,
     /// Where everything is and what acts.

@@ -8,11 +8,16 @@ use crate::attitude::{MovingFrame, angle_between_rad};
 use crate::environment::CartesianState;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::TwoBodyOrbit;
+use crate::guidance::constraints::command_slew::{CommandSlew, SlewedFrame};
+use crate::guidance::constraints::keep_in::KeepIn;
+use crate::guidance::constraints::slew::Slew;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::downlink::sun_place::SunRequest;
 use crate::guidance::pointing::boresight::Gimbal;
 use crate::guidance::pointing::command::Scenario;
-use crate::guidance::timeline::{TimelineAttitude, TimelineEntry, TimelineLaw, TimelineSettings, bodies_of};
+use crate::guidance::timeline::{
+    Slot, TimelineAttitude, TimelineEntry, TimelineLaw, TimelineSettings, bodies_of,
+};
 use crate::guidance::{
     Activity, CoursePoint, DownlinkStatus, Guided, GuidedAttitude, ScienceCourse, Sight, SunPlace,
     TargetPlanet, Window,
@@ -27,6 +32,7 @@ use crate::spacecraft::{MassProperties, Panel};
 
 use nalgebra::{Rotation3, Vector3};
 
+use super::command_slews::CommandSlews;
 use super::geometry::{self, Geometry, GeometrySight, SimulationEphemeris};
 use super::instant::{Instant, Regime};
 use super::trajectory::Trajectory;
@@ -48,6 +54,14 @@ struct LawAt {
     degenerate: bool,
     margins: [f64; 2],
     until_s: f64,
+}
+
+/// The keep-in zone of the orbit phase's own guidance under a command of the timeline.
+fn keep_in_of_orbit_phase(guided: &Guided, entry: Option<&TimelineEntry>) -> Option<KeepIn> {
+    match (entry, guided.keep_in) {
+        (Some(entry), Some(zone)) => entry.keep_in.applied(&zone, true),
+        (_, zone) => zone,
+    }
 }
 
 /// Geometry at `time_s`, of which a law reads motions about `planet` as well, or directions alone.
@@ -75,6 +89,8 @@ pub(crate) struct Kinematics<'a> {
     pub default_downlink: &'a DefaultDownlink,
     /// Commands over time.
     pub timeline: Option<TimelineLaw<'a>>,
+    /// Slews into them.
+    pub command_slews: &'a mut CommandSlews,
     /// What the step has cost so far.
     pub work: &'a mut Work,
     /// With every panel at angle 0, of what is left of the propellant.
@@ -199,13 +215,103 @@ impl Kinematics<'_> {
             return GuidedAttitude { clamped: own.clamped || cut, ..own };
         };
         let slot = law.timeline.slot(time_s, settings.clock_minus_time_s);
+        let target = self.by_slot(guided, (&law, &settings, &slot), time_s, geometry);
+        // NaN is no rate.
+        if !(guided.slew_rate_rad_s > 0.0 && self.command_slews.lead_into(slot.since_s)) {
+            return target;
+        }
+        let slew = self.command_slew(guided, (&law, &settings, &slot), time_s, (geometry, &target));
+        self.slewed(guided, slew.as_ref(), time_s, (geometry, target))
+    }
+
+    /// What a command is on the way of a slew into it.
+    fn slewed(
+        &self,
+        guided: &Guided,
+        slew: Option<&CommandSlew>,
+        time_s: f64,
+        (geometry, target): (&Geometry, GuidedAttitude),
+    ) -> GuidedAttitude {
+        let sun = geometry.lines_of_sight().sun;
+        let slewed = slew.and_then(|slew| slew.at(time_s, &target.frame, &sun, guided.slew_rate_rad_s));
+        slewed.map_or(target, |SlewedFrame { frame, end_s }| {
+            let end_epoch_s = end_s + self.configuration.epoch_minus_time_s;
+            GuidedAttitude { frame, slewing: true, until_s: target.until_s.min(end_epoch_s), ..target }
+        })
+    }
+
+    /// The slew into the command of a slot, from the attitude in which the body stands where it begins: of an attitude that dynamics
+    /// follow at the first sample of it, otherwise at its edge.
+    fn command_slew(
+        &mut self,
+        guided: &Guided,
+        (law, settings, slot): (&TimelineLaw<'_>, &TimelineSettings, &Slot<'_>),
+        time_s: f64,
+        (geometry, target): (&Geometry, &GuidedAttitude),
+    ) -> Option<CommandSlew> {
+        let found = self.command_slews.find(slot.since_s);
+        if let Some(slew) = found.filter(|slew| !slew.is_open()) {
+            return Some(slew);
+        }
+        let zone = self.slew_zone(guided, settings, slot, geometry);
+        let longest_s = Slew::longest_rad(zone.as_ref()) / guided.slew_rate_rad_s;
+        if found.is_none() && time_s - slot.since_s > longest_s {
+            return None;
+        }
+        let is_sampled = matches!(self.configuration.attitude, AttitudeSource::Dynamic(_));
+        let begin_s = found.map_or(if is_sampled { time_s } else { slot.since_s }, |slew| slew.begin_s);
+        let (geometry, target) = match begin_s == time_s {
+            true => (*geometry, *target),
+            false => {
+                let geometry = self.geometry(begin_s);
+                (geometry, self.by_slot(guided, (law, settings, slot), begin_s, &geometry))
+            }
+        };
+        let mut slew = found.unwrap_or_else(|| {
+            let before = law.timeline.slot_before(slot.since_s, settings.clock_minus_time_s);
+            let last = self.by_slot(guided, (law, settings, &before), begin_s, &geometry);
+            let from = self.command_slews.find(before.since_s);
+            let stood = self.slewed(guided, from.as_ref(), begin_s, (&geometry, last));
+            CommandSlew::new(begin_s, &stood.frame)
+        });
+        let sun = geometry.lines_of_sight().sun;
+        let zone = self.slew_zone(guided, settings, slot, &geometry);
+        slew.aim(&target.frame, &sun, zone.as_ref(), guided.slew_rate_rad_s);
+        self.command_slews.keep(slot.since_s, slew);
+        Some(slew)
+    }
+
+    /// The zone that a slew into the command of a slot does not leave where it holds both ends.
+    fn slew_zone(
+        &self,
+        guided: &Guided,
+        settings: &TimelineSettings,
+        slot: &Slot<'_>,
+        geometry: &Geometry,
+    ) -> Option<KeepIn> {
+        match slot.entry {
+            Some(entry) if slot.scenario().is_some() => {
+                settings.keep_in(entry, geometry.to_sun.position_m.norm())
+            }
+            entry => keep_in_of_orbit_phase(guided, entry),
+        }
+    }
+
+    /// What a slot of the timeline commands at `time_s`, without the slew into it.
+    fn by_slot(
+        &mut self,
+        guided: &Guided,
+        (law, settings, slot): (&TimelineLaw<'_>, &TimelineSettings, &Slot<'_>),
+        time_s: f64,
+        geometry: &Geometry,
+    ) -> GuidedAttitude {
         let epoch_minus_time_s = self.configuration.epoch_minus_time_s;
         let [since_s, until_s] = [slot.since_s, slot.until_s].map(|it| it + epoch_minus_time_s);
         let requested = slot.sun_request(guided.requested);
         let commanded = slot.entry.filter(|_| slot.scenario().is_some());
         if let Some(entry) = commanded
             && let Some(found) =
-                self.commanded((&law, &settings, entry), time_s, geometry, (guided.sun_place, requested))
+                self.commanded((law, settings, entry), time_s, geometry, (guided.sun_place, requested))
         {
             let activity = match slot.scenario() {
                 Some(Scenario::Downlink) => Activity::Downlink,
@@ -223,11 +329,8 @@ impl Kinematics<'_> {
                 until_s: until_s.min(found.corner_s + epoch_minus_time_s),
             };
         }
-        let keep_in = match (slot.entry, guided.keep_in) {
-            (Some(entry), Some(zone)) => entry.keep_in.applied(&zone, true),
-            (_, zone) => zone,
-        };
-        let (requested, cut) = requested.at_distance(distance_m);
+        let keep_in = keep_in_of_orbit_phase(guided, slot.entry);
+        let (requested, cut) = requested.at_distance(geometry.to_sun.position_m.norm());
         let own = self.by_orbit_phase(&Guided { requested, keep_in, ..*guided }, time_s, geometry);
         let window = Window {
             since_s: own.window.since_s.max(since_s),

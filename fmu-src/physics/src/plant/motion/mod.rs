@@ -1,6 +1,7 @@
 //! Where the spacecraft is and how it moves: orbit, geometry, attitude, turning panels.
 
 pub(super) mod approaches;
+pub(super) mod command_slews;
 pub(super) mod geometry;
 pub(super) mod instant;
 pub(super) mod kinematics;

@@ -1,0 +1,123 @@
+//! A command's attitude instead of a scenario, as a command of the scenario generic; and its name.
+
+use super::commands::{Commands, named};
+use super::description::{AttitudeDescription, AxesDescription, CommandDescription};
+use super::reads::{TABLES, keys};
+use crate::enumeration::Enumerated;
+use crate::guidance::pointing::command::{PointingCommand, Scenario};
+use crate::spacecraft::{AttitudePart, NamedAttitude, aligned};
+use crate::toml::KeyPath;
+
+impl Commands<'_, '_> {
+    /// The command of an attitude, without its scan.
+    pub(super) fn by_attitude(
+        &mut self,
+        at: &KeyPath,
+        attitude: &AttitudeDescription,
+        given: &CommandDescription,
+    ) -> PointingCommand {
+        let place = at.key("attitude");
+        if given.scenario.is_some() {
+            self.check.report(&place, "it beside `scenario`", "one of both");
+        }
+        "the attitude".clone_into(&mut self.scenario);
+        self.check_mode(&place, Scenario::Generic, given.mode);
+        self.check_scenario_keys(at, TABLES, keys(&[], &["scan"]));
+        let attitude = match attitude {
+            AttitudeDescription::Name(_) if self.check.is_stand_in(&place) => {
+                return PointingCommand::default();
+            }
+            AttitudeDescription::Name(name) => (*name).into(),
+            AttitudeDescription::Quaternion(q) => NamedAttitude::Inertial(*q),
+            AttitudeDescription::Axes(AxesDescription { align, constrain, star }) => {
+                let found = aligned(&mut self.check, &place, [align, constrain], star.as_ref());
+                let Some(found) = found else { return PointingCommand::default() };
+                found
+            }
+        };
+        match attitude.axes(&self.spacecraft.panels) {
+            Ok(axes) => PointingCommand::aligned(&axes),
+            Err(refusal) => {
+                let place = match refusal.part {
+                    AttitudePart::Name | AttitudePart::Quaternion => place,
+                    AttitudePart::AlignAxis => place.key("align").key("axis"),
+                    AttitudePart::ConstrainAxis => place.key("constrain").key("axis"),
+                    AttitudePart::ConstrainTarget => place.key("constrain").key("to"),
+                };
+                self.check.report(&place, refusal.found, refusal.allowed);
+                PointingCommand::default()
+            }
+        }
+    }
+
+    /// The name of a command: its own, or its scenario's or attitude's.
+    pub(super) fn name(&mut self, at: &KeyPath, given: &CommandDescription) -> String {
+        /// Longest name in a report.
+        const MOST: usize = 60;
+        match (&given.name, given.scenario) {
+            (Some(name), _) => {
+                if name.trim().is_empty() || name.chars().count() > MOST || name.chars().any(char::is_control)
+                {
+                    let allowed = format!("a text of 1 to {MOST} characters on one line");
+                    self.check.report(&at.key("name"), format_args!("{name:?}"), allowed);
+                }
+                name.clone()
+            }
+            (None, Some(scenario)) => named("", scenario).trim_start().to_owned(),
+            (None, None) => match &given.attitude {
+                Some(AttitudeDescription::Name(name)) => name.name().to_owned(),
+                Some(AttitudeDescription::Quaternion(_)) => "inertial".to_owned(),
+                Some(AttitudeDescription::Axes(_)) => "aligned".to_owned(),
+                None => "guided".to_owned(),
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! An attitude is the scenario generic with its axes; names are given ones, or tell what is commanded.
+
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::guidance::timeline::Timeline;
+    use crate::spacecraft::{AlignedAxes, MESSENGER_TOML, PointingTarget, Spacecraft, TargetedAxis};
+
+    #[test]
+    fn attitudes_are_commands_by_two_axes() {
+        let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
+        let command = |attitude: &str| {
+            let text = format!("[[command]]\nat = 0\nattitude = {attitude}\n");
+            Timeline::of_plant("t.toml", &text, &spacecraft).unwrap().entries()[0].command
+        };
+        assert_eq!(command("\"lvlh\""), PointingCommand::aligned(&AlignedAxes::LVLH));
+        let toward = |axis_body, target| TargetedAxis { axis_body, target };
+        let star = PointingTarget::Star {
+            right_ascension_rad: 10_f64.to_radians(),
+            declination_rad: -20_f64.to_radians(),
+        };
+        let axes = AlignedAxes {
+            align: toward(Vector3::new(0.0, 0.0, 2.0), star),
+            constrain: toward(-Vector3::y(), PointingTarget::Sun),
+        };
+        let written = "{ align = { axis = [0, 0, 2], to = \"star\" }, constrain = { axis = [0, -1, 0], to = \"sun\" }, \
+                       star = { right_ascension_deg = 10, declination_deg = -20 } }";
+        assert_eq!(command(written), PointingCommand::aligned(&axes));
+        // A quarter turn about Z: the body's X stands along Y of EME2000.
+        let half = core::f64::consts::FRAC_1_SQRT_2;
+        let held = command(&format!("[0, 0, {half}, {half}]"));
+        let pointing = held.aimpoint.vector.cross(&held.external_roll.vector);
+        assert!((pointing - Vector3::z().cross(&Vector3::x())).norm() < 1e-15, "{held:?}");
+    }
+
+    #[test]
+    fn commands_have_names() {
+        let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
+        let text = "[[command]]\nat = 0\nname = \"relay\"\nscenario = \"downlink\"\n[[command]]\nat = 1\nscenario = \"plusZ\"\n\
+                    aimpoint = { option = \"earth\" }\n[[command]]\nat = 2\nattitude = \"sunPointing\"\n\
+                    [[command]]\nat = 3\nattitude = [0, 0, 0, 1]\n[[command]]\nat = 4\nkeepIn = { enabled = false }\n";
+        let timeline = Timeline::of_plant("t.toml", text, &spacecraft).unwrap();
+        assert_eq!(timeline.names(), ["relay", "plusZ", "sunPointing", "inertial", "guided"]);
+    }
+}

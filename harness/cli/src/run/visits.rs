@@ -1,0 +1,180 @@
+//! Visits of a run: a command of the timeline at a time, the Sun in the body frame, and the momentum gathered.
+//!
+//! Momentum gathered is the change of `momentum.inertial` without dumps: in a step with a dump the trapezoid of the torque stands for
+//! it. The Sun is that of the middle of a visit, when a slew into it is over.
+
+use loader::{Error, Instance, Watcher};
+use model_description::Description;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+use crate::child::Payload;
+
+/// Reals that are read, in this order.
+const REALS: [&str; 13] = [
+    "timeline.until",
+    "sun.azimuth",
+    "sun.elevation",
+    "momentum.inertial[1]",
+    "momentum.inertial[2]",
+    "momentum.inertial[3]",
+    "torque.total[1]",
+    "torque.total[2]",
+    "torque.total[3]",
+    "attitude.q[1]",
+    "attitude.q[2]",
+    "attitude.q[3]",
+    "attitude.q[4]",
+];
+/// Integers, likewise.
+const INTEGERS: [&str; 2] = ["timeline.command", "dump.count"];
+/// Words of a visit in a payload.
+const WORDS: usize = 9;
+
+/// A visit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Visit {
+    /// Row of the timeline's command, from 1; 0 where none is in force.
+    pub row: i32,
+    /// Begin and end, in s.
+    pub span_s: [f64; 2],
+    /// Azimuth and elevation of the Sun in its middle, in rad.
+    pub sun_rad: [f64; 2],
+    /// Momentum gathered, EME2000, without dumps, in N m s.
+    pub gathered_inertial_n_m_s: Vector3<f64>,
+    /// Dumps in it.
+    pub dumps: i32,
+}
+
+impl Visit {
+    /// Appends it to a payload, as [`Visit::of`] reads it.
+    pub(crate) fn push(&self, payload: &mut Vec<u64>) {
+        payload.extend([self.row, self.dumps].map(|it| u64::from(it as u32)));
+        let numbers = [self.span_s, self.sun_rad].concat();
+        payload.extend(numbers.iter().chain(&self.gathered_inertial_n_m_s).map(|it| it.to_bits()));
+    }
+
+    /// The visit of a payload.
+    pub(crate) fn of(payload: &mut Payload<'_>) -> Option<Self> {
+        let words = payload.words(WORDS)?;
+        let number = |k: usize| f64::from_bits(words[k]);
+        Some(Self {
+            row: words[0] as u32 as i32,
+            dumps: words[1] as u32 as i32,
+            span_s: [number(2), number(3)],
+            sun_rad: [number(4), number(5)],
+            gathered_inertial_n_m_s: Vector3::new(number(6), number(7), number(8)),
+        })
+    }
+}
+
+/// Values at a time.
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    time_s: f64,
+    row: i32,
+    until_s: Option<f64>,
+    sun_rad: [f64; 2],
+    momentum_inertial_n_m_s: Vector3<f64>,
+    torque_inertial_n_m: Vector3<f64>,
+    dumps: i32,
+}
+
+/// A visit under way.
+#[derive(Clone, Copy, Debug)]
+struct Open {
+    visit: Visit,
+    middle_s: f64,
+    last: Sample,
+}
+
+/// Makes visits of a flight by a timeline.
+pub(crate) struct Visits {
+    references: [Vec<u32>; 2],
+    stop_s: f64,
+    open: Option<Open>,
+    /// Those that are over.
+    closed: Vec<Visit>,
+}
+
+impl Visits {
+    /// For an FMU that flies by a timeline and tells its momentum; `None` for others.
+    pub(crate) fn of(description: &Description, stop_s: f64) -> Option<Self> {
+        let reference = |name: &&str| {
+            let found = description.variables.iter().find(|variable| variable.name == **name);
+            found.map(|variable| variable.value_reference)
+        };
+        let reals = REALS.iter().map(reference).collect::<Option<Vec<u32>>>()?;
+        let integers = INTEGERS.iter().map(reference).collect::<Option<Vec<u32>>>()?;
+        Some(Self { references: [reals, integers], stop_s, open: None, closed: Vec::new() })
+    }
+
+    /// The visits up to where the run came; none where no command was ever in force.
+    pub(crate) fn into_visits(mut self) -> Vec<Visit> {
+        self.closed.extend(self.open.map(|open| open.visit));
+        self.closed.retain(|visit| visit.span_s[0] < visit.span_s[1]);
+        if self.closed.iter().all(|visit| visit.row == 0) { Vec::new() } else { self.closed }
+    }
+
+    fn read(&self, instance: &mut Instance, time_s: f64) -> Result<Sample, Error> {
+        let (mut reals, mut integers) = ([0.0; REALS.len()], [0; INTEGERS.len()]);
+        instance.get_reals(&self.references[0], &mut reals)?;
+        instance.get_integers(&self.references[1], &mut integers)?;
+        let [until_s, azimuth_rad, elevation_rad, ..] = reals;
+        let vector = |at: usize| Vector3::new(reals[at], reals[at + 1], reals[at + 2]);
+        let q = Quaternion::new(reals[12], reals[9], reals[10], reals[11]);
+        Ok(Sample {
+            time_s,
+            row: integers[0],
+            until_s: Some(until_s).filter(|it| *it > time_s),
+            sun_rad: [azimuth_rad, elevation_rad],
+            momentum_inertial_n_m_s: vector(3),
+            torque_inertial_n_m: UnitQuaternion::new_normalize(q) * vector(6),
+            dumps: integers[1],
+        })
+    }
+
+    /// Begins a visit where a sample is.
+    fn begin(&self, now: Sample) -> Open {
+        let end_s = now.until_s.unwrap_or(self.stop_s).min(self.stop_s);
+        let visit = Visit {
+            row: now.row,
+            span_s: [now.time_s; 2],
+            sun_rad: now.sun_rad,
+            gathered_inertial_n_m_s: Vector3::zeros(),
+            dumps: 0,
+        };
+        Open { visit, middle_s: 0.5 * (now.time_s + end_s), last: now }
+    }
+
+    /// Takes the values of a later time; gives the next one at which something happens, in s.
+    fn take(&mut self, now: Sample) -> f64 {
+        let mut open = self.open.unwrap_or_else(|| self.begin(now));
+        let last = core::mem::replace(&mut open.last, now);
+        let dumps = now.dumps - last.dumps;
+        open.visit.gathered_inertial_n_m_s += if dumps == 0 {
+            now.momentum_inertial_n_m_s - last.momentum_inertial_n_m_s
+        } else {
+            (last.torque_inertial_n_m + now.torque_inertial_n_m) * (0.5 * (now.time_s - last.time_s))
+        };
+        open.visit.dumps += dumps;
+        open.visit.span_s[1] = now.time_s;
+        if last.time_s < open.middle_s {
+            open.visit.sun_rad = now.sun_rad;
+        }
+        let is_over = now.row != last.row || last.until_s.is_some_and(|until_s| until_s <= now.time_s);
+        if is_over && now.time_s > open.visit.span_s[0] {
+            self.closed.push(open.visit);
+            open = self.begin(now);
+        }
+        self.open = Some(open);
+        let middle_s = Some(open.middle_s).filter(|middle_s| *middle_s > now.time_s);
+        middle_s.or(now.until_s).unwrap_or(f64::INFINITY)
+    }
+}
+
+impl Watcher for Visits {
+    fn look(&mut self, instance: &mut Instance, time_s: f64) -> Result<f64, Error> {
+        let now = self.read(instance, time_s)?;
+        Ok(self.take(now))
+    }
+}
