@@ -34,6 +34,7 @@ use super::setup::PlantSetup;
 use crate::common::downlink::DownlinkVariables;
 use crate::common::effects::{LawVariables, PlanetLightVariables, RecoilVariables, ShadowingVariables};
 use crate::common::loads::PlateVariables;
+use crate::common::optics::OpticsVariables;
 use crate::common::variables::{EclipseVariables, EllipseVariables, GuidedVariables, SolarVariables};
 
 /// Every variable of the plant, in the order of the XML.
@@ -72,6 +73,8 @@ pub struct PlantVariables {
     pub magnetic_field: MagneticFieldVariables,
     pub geodetic: GeodeticVariables,
     pub spacecraft: SpacecraftVariables,
+    #[group(setup = &setup.optics)]
+    pub optics: OpticsVariables,
     pub sunshade: SunshadeVariables,
     #[group(count = setup.spacecraft.panels.len())]
     pub panel: Vec<PanelVariables>,
