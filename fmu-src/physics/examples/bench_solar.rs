@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         messenger.panels.iter().map(|p| p.angle_for_sun_offset(&sun, p.sun_offset_rad, p.tilt_sign)).sum()
     });
     if let Some(shade) = &messenger.sunshade {
-        let polynomial = TorquePolynomial::of_sunshade(shade, SunshadeModel::Plates, &Vector3::zeros())?;
+        let polynomial = TorquePolynomial::of_sunshade(shade, SunshadeModel::Plates, &[], &Vector3::zeros())?;
         report("solar_polynomial", 1, |i| {
             polynomial.torque_n_m(&Beam { source_body: sun(i), pressure_pa: 5e-5 }).x
         });

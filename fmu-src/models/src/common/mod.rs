@@ -9,6 +9,7 @@ pub(crate) mod ephemeris;
 pub(crate) mod loads;
 pub(crate) mod management;
 pub(crate) mod numbers;
+pub(crate) mod optics;
 pub(crate) mod orientation;
 pub(crate) mod pointing;
 pub(crate) mod spacecraft;

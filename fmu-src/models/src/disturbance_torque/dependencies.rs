@@ -23,15 +23,17 @@ pub(super) fn table(_setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Depe
 
     let mut table = Dependencies::new();
     table.output(v.sun.lit_fraction, places, eclipse);
-    table.output(&v.plate, lit, light);
+    let heated = &knowns![light, v.optics.light_and_heat()];
+    table.output(&v.plate, lit, heated);
     let quantities =
         [(&torque.by_source, torque.total, on_torque), (&force.by_source, force.total, (lit, light))];
     for (by_source, total, of_light) in quantities {
         for (effect, output) in by_source.iter() {
             let (at_steps, at_start) = match effect {
-                Effect::Aerodynamic => (aerodynamic, air),
+                Effect::Aerodynamic => (aerodynamic, &knowns![air, &v.optics]),
                 Effect::Magnetic => (field, laws),
-                effect if effect.is_light() => of_light,
+                Effect::Solar | Effect::Albedo => (of_light.0, &knowns![of_light.1, v.optics.light()]),
+                effect if effect.is_light() => (of_light.0, &knowns![of_light.1, v.optics.light_and_heat()]),
                 _ => (planet_geometry, laws),
             };
             table.output(knowns![output, total], at_steps, at_start);

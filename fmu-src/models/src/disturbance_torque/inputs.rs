@@ -9,7 +9,7 @@ use physics::loads::{Active, Effect};
 use physics::numerics::scalar::Scalar;
 use physics::plant::{BySource, Parameters, PositionError, Positions, Surfaces, Workspaces};
 use physics::radiation::disturbance::{DisturbanceModel, Options, PlanetLightMethod};
-use physics::spacecraft::Spacecraft;
+use physics::spacecraft::{Material, Spacecraft};
 
 use super::setup::Plan;
 use super::variables::{DisturbanceVariables, PlanetLightVariables, PlanetMethod};
@@ -37,7 +37,7 @@ pub(super) fn is_known(variables: &DisturbanceVariables, values: &Values, real: 
         is_read.set(is_read.get() || parameter == real);
         0.0
     });
-    is_read.get()
+    is_read.get() || variables.optics.each().any(|parameter| parameter == real)
 }
 
 fn method(
@@ -131,17 +131,19 @@ impl Prepared {
         unset.map(|(_, _, name)| name).collect()
     }
 
-    /// Everything at these positions, with these parameters: its own, which may carry a seed.
+    /// Everything at these positions, with these parameters and materials: its own, which may carry a seed.
     ///
     /// # Errors
     /// Names the inputs of a geometry without meaning.
     pub(super) fn evaluate<T: Scalar>(
         &self,
         parameters: &Parameters<T>,
+        materials: &[Material<T>],
         positions: &Positions<T>,
         workspaces: &mut Workspaces<T>,
     ) -> Result<BySource<T>, Failure> {
-        let surfaces = Surfaces { light: &self.model, air: self.air.as_ref(), active: self.active };
+        let surfaces =
+            Surfaces { light: &self.model, air: self.air.as_ref(), materials, active: self.active };
         BySource::at(surfaces, self.shadow.as_ref(), parameters, positions, workspaces).map_err(|error| {
             let inputs = match &error {
                 PositionError::Eclipse(_) => "sun.positionBody, planet.positionBody, planet.radius",

@@ -3,6 +3,7 @@
 
 mod dependencies;
 mod inputs;
+mod materials;
 mod outputs;
 mod setup;
 mod variables;
@@ -19,6 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::common::start_values::of_spacecraft;
 use inputs::Prepared;
+use materials::Materials;
 use setup::Plan;
 pub use setup::{DisturbanceSetup, DisturbanceTorque};
 use variables::DisturbanceVariables;
@@ -31,6 +33,8 @@ pub struct DisturbanceState {
     solar_scale: f64,
     /// Tunable parameters of the laws.
     tunable: [f64; TUNABLE_COUNT],
+    /// Materials of the surfaces.
+    materials: Materials,
     /// Whether the warning was given which inputs are not set yet.
     has_warned_unset: bool,
     #[serde(skip)]
@@ -91,10 +95,12 @@ impl Model for DisturbanceTorque {
             positions: prepared.inputs.map(|input| values.real(*input)),
             solar_scale: prepared.parameters.solar_scale,
             tunable: context.variables.laws.tunable().map(|it| values.real(it)),
+            materials: Materials::of_file(&context.setup.optics),
             has_warned_unset: false,
             prepared: Some(prepared.clone()),
             workspaces: Workspaces::default(),
         };
+        state.materials.read(context, values)?;
         update(context, values, &mut state, &prepared)?;
         Ok(state)
     }
@@ -114,6 +120,7 @@ impl Model for DisturbanceTorque {
         }
         state.solar_scale = values.real(context.variables.solar.scale);
         state.tunable = context.variables.laws.tunable().map(|it| values.real(it));
+        state.materials.read(context, values)?;
         if !state.has_warned_unset {
             let unset = prepared.unset(&state.positions);
             state.has_warned_unset = !unset.is_empty();
@@ -132,10 +139,12 @@ impl Model for DisturbanceTorque {
 
     fn check_state(setup: &DisturbanceSetup, state: &DisturbanceState) -> Result<(), Failure> {
         let (found, allowed) = (state.positions.panel_angles_rad.len(), setup.spacecraft.panels.len());
-        if found == allowed {
-            return Ok(());
+        if found != allowed {
+            return Err(Failure::new(format!(
+                "the saved state has {found} panel angles, allowed: {allowed}"
+            )));
         }
-        Err(Failure::new(format!("the saved state has {found} panel angles, allowed: {allowed}")))
+        state.materials.check(&setup.optics)
     }
 }
 
@@ -172,8 +181,9 @@ impl Differentiable for DisturbanceTorque {
         for (seeded, value) in parameters.laws.tunable_mut().zip(state.tunable) {
             seeded.re = value;
         }
+        let materials = state.materials.seeded(context, values, along)?;
         let mut workspaces = Workspaces::<Dual64>::default();
-        let found = prepared.evaluate(&parameters, &positions, &mut workspaces)?;
+        let found = prepared.evaluate(&parameters, &materials, &positions, &mut workspaces)?;
         for (unknown, product) in unknowns.iter().zip(products) {
             *product = outputs::value(variables, &found, &workspaces.light, *unknown)
                 .ok_or_else(|| Failure::new("directional derivatives are known of the outputs only"))?
@@ -194,7 +204,8 @@ fn update(
     for (parameter, value) in parameters.laws.tunable_mut().zip(state.tunable) {
         *parameter = value;
     }
-    let found = prepared.evaluate(&parameters, &state.positions, &mut state.workspaces)?;
+    let materials = state.materials.prepared();
+    let found = prepared.evaluate(&parameters, materials, &state.positions, &mut state.workspaces)?;
     if !found.loads.total().is_finite() {
         return Err(Failure::new(
             "force or torque is no number at these inputs; see sun.positionBody, planet.positionBody, spacecraft.centerOfMass, solar.flux, solar.scale and \

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::common::center::{CenterBodies, CenterBody, center_of};
 use crate::common::effects::check_start;
+use crate::common::optics::SettableMaterials;
 
 /// The memoryless disturbance model.
 pub struct DisturbanceTorque;
@@ -21,6 +22,9 @@ pub struct DisturbanceSetup {
     /// The centre of its orbit by its file, by which the defaults of the parameters go.
     #[serde(skip)]
     pub center: CenterBody,
+    /// Materials whose numbers are parameters.
+    #[serde(skip)]
+    pub optics: SettableMaterials,
     /// The faces reported one by one, with the panel each belongs to; empty unless the file asks for that.
     #[serde(skip)]
     pub reported_faces: Vec<crate::common::spacecraft::ReportedFace>,
@@ -32,8 +36,10 @@ impl DisturbanceSetup {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
         check_start(file, &spacecraft, DisturbanceTorque::NAME)?;
         let reported_faces = crate::common::spacecraft::reported_faces(file, &spacecraft)?;
+        let center = CenterBodies::of(file, &spacecraft)?.body(center_of(&spacecraft));
         Ok(Self {
-            center: CenterBodies::of(file, &spacecraft)?.body(center_of(&spacecraft)),
+            optics: SettableMaterials::of(&spacecraft, center.data.body, DisturbanceTorque::NAME),
+            center,
             spacecraft,
             reported_faces,
         })

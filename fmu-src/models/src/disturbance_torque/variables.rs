@@ -10,6 +10,7 @@ use super::setup::DisturbanceSetup;
 use crate::common::choices::SunshadeShape;
 use crate::common::effects::{self, LawVariables, RecoilVariables, ShadowingVariables};
 use crate::common::loads::{self, BySource, PlateVariables};
+use crate::common::optics::OpticsVariables;
 use crate::common::variables::{EclipseVariables, SolarFluxVariables, SurfaceVariables, WorkLimit};
 
 /// Every variable, in the order of the XML.
@@ -35,6 +36,8 @@ pub struct DisturbanceVariables {
     /// Which model of the shade takes the light; without a shade it does not count.
     #[parameter(name = "sunshade.shape", start = SunshadeShape::of(&setup.spacecraft))]
     pub sunshade_shape: Choice<SunshadeShape>,
+    #[group(setup = &setup.optics)]
+    pub optics: OpticsVariables,
     pub solver: WorkLimit,
     pub torque: TorqueVariables,
     pub force: ForceVariables,

@@ -110,7 +110,7 @@ impl Model for Guidance {
         // Masters that connect inputs one by one look before all of them are set: the first step says what is missing.
         let mut shown = State { warned_unconnected: true, windows_are_checked: true, ..state.clone() };
         let mut fixed = Fixed::read(context, values)?;
-        fixed.tune(context, values);
+        fixed.tune(context, values)?;
         management::set_panels(context, values, &mut fixed.panels);
         let settings = inputs::settings(context, values, &fixed)?;
         shown.sample(context, values, &fixed, &settings, InputsOverTime::held())?;
@@ -134,7 +134,7 @@ impl Model for Guidance {
         step: &Step<'_>,
     ) -> Result<StepEnd, Failure> {
         let mut fixed = state.fixed.take().map_or_else(|| Fixed::read(context, values), Ok)?;
-        fixed.tune(context, values);
+        fixed.tune(context, values)?;
         management::set_panels(context, values, &mut fixed.panels);
         let settings = inputs::settings(context, values, &fixed)?;
         let limit = context.variables.solver.units(values);
@@ -363,7 +363,7 @@ impl State {
         let scheduled = self.scheduled_dump(context, time_s);
         self.dumps.sample(&management::policy(context, values), &momentum_body_n_m_s, scheduled);
         let keep_in = settings.modes.operational.keep_in.unwrap_or(settings.keep_in);
-        let manager = management::manager(context, values, &fixed.panels, &keep_in)?;
+        let manager = management::manager(context, values, fixed, &keep_in)?;
         let manager = SampledManager { momentum_body_n_m_s, ..manager };
         if command.scenario == Some(Scenario::OrbitPhase)
             && !self.windows_are_checked

@@ -12,6 +12,7 @@ use physics::spacecraft::{HotPoleZone, Spacecraft, SunKeepIn};
 use serde::{Serialize, Serializer};
 
 use crate::common::center::{CenterBodies, CenterBody, target_of};
+use crate::common::optics::SettableMaterials;
 use crate::common::spacecraft::{PreparedAntennas, PreparedShapes, wheel_array};
 use crate::common::variables::GuidedDefaults;
 
@@ -36,6 +37,8 @@ pub struct GuidanceSetup {
     pub antennas: PreparedAntennas,
     /// Prepared for sunlight.
     pub shapes: PreparedShapes,
+    /// Materials whose numbers are parameters.
+    pub optics: SettableMaterials,
     /// Planets' segments, kept over a reset.
     pub ephemeris_cache: EphemerisCache,
     /// Positions over time, if there is a file of them; they do not enter the GUID.
@@ -63,6 +66,7 @@ impl GuidanceSetup {
             guided: GuidedDefaults::of(&spacecraft, &target),
             antennas: PreparedAntennas::of(&spacecraft),
             shapes: PreparedShapes::of(&spacecraft),
+            optics: SettableMaterials::in_sunlight(&spacecraft),
             spacecraft,
             ephemeris_cache: EphemerisCache::default(),
             ephemeris: None,

@@ -121,6 +121,7 @@ impl Parameters {
             &v.guided,
             &v.momentum,
             &v.solar,
+            v.optics.light(),
             &v.spacecraft,
             wheels.collect::<Knowns>()
         ];
@@ -143,6 +144,7 @@ impl Parameters {
             air,
             &v.solver,
             &v.solar,
+            &v.optics,
             &v.spacecraft,
             &v.tank,
         ];
@@ -218,7 +220,7 @@ fn loads(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramete
         knowns![lit, applied, &inputs.commanded, &inputs.failures],
         knowns![&parameters.light, &parameters.actuators],
     );
-    let shape = knowns![v.spacecraft.center_of_mass, v.sunshade.shape];
+    let shape = knowns![v.spacecraft.center_of_mass, v.sunshade.shape, v.optics.light()];
     table.calculated(v.sunshade.coefficient, shape);
 }
 

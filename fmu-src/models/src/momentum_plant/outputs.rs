@@ -6,8 +6,7 @@ use physics::attitude::{Attitude, SunAngles};
 use physics::environment::time;
 use physics::loads::Effect;
 use physics::plant::{
-    AirAndField, Configuration, Cost, Evaluation, Flight, PlantError, PreparedSpacecraft, Report,
-    ThrusterEvent,
+    AirAndField, Cost, Evaluation, Flight, PlantError, PreparedSpacecraft, Report, ThrusterEvent,
 };
 use physics::propulsion::surface_in_plume;
 use physics::radiation::{TorquePolynomial, polynomial_valid};
@@ -22,7 +21,7 @@ use crate::momentum_plant::variables::motion::{EncounterVariables, PredictionVar
 /// Writes every output but those of single faces, and what follows from parameters where these are others.
 pub(super) fn write(context: &Plan<'_>, values: &mut Values, report: &Report<'_>, is_reconfigured: bool) {
     if is_reconfigured {
-        write_polynomial(context, values, report.configuration);
+        write_polynomial(context, values, report);
     }
     write_motion(context, values, report);
     write_momentum(context, values, report);
@@ -286,10 +285,12 @@ pub(super) fn write_faces(
 }
 
 /// Writes the polynomial of the shade's torque.
-fn write_polynomial(context: &Plan<'_>, values: &mut Values, configuration: &Configuration) {
+fn write_polynomial(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
+    let configuration = report.configuration;
     let polynomial = context.setup.spacecraft.sunshade.as_ref().and_then(|shade| {
         let center_of_mass_body_m = &configuration.center_of_mass_body_m;
-        TorquePolynomial::of_sunshade(shade, configuration.sunshade, center_of_mass_body_m).ok()
+        TorquePolynomial::of_sunshade(shade, configuration.sunshade, report.materials, center_of_mass_body_m)
+            .ok()
     });
     values.set_matrix(context.variables.sunshade.coefficient, polynomial.map_or([[0.0; 9]; 3], |p| p.k));
 }

@@ -18,6 +18,7 @@ use serde::{Serialize, Serializer};
 use super::variables::choices::{AttitudeSource, CommandSource, EphemerisSource, OrbitSource, StartAttitude};
 use crate::common::center::{CenterBodies, CenterBody, center_of};
 use crate::common::effects::check_start;
+use crate::common::optics::SettableMaterials;
 use crate::common::spacecraft::{
     PreparedAntennas, PreparedShapes, ReportedFace, reported_faces, wheel_array,
 };
@@ -45,6 +46,8 @@ pub struct PlantSetup {
     pub antennas: PreparedAntennas,
     /// Prepared for sunlight.
     shapes: PreparedShapes,
+    /// Materials whose numbers are parameters.
+    pub optics: SettableMaterials,
     /// The faces reported one by one, with the panel each belongs to; empty unless the file asks for that.
     pub reported_faces: Vec<ReportedFace>,
     /// Limits of turns and dumps that the wheels allow.
@@ -78,6 +81,7 @@ impl PlantSetup {
         let bodies = CenterBodies::of(file, &spacecraft)?;
         let center = bodies.body(center_of(&spacecraft));
         Ok(Self {
+            optics: SettableMaterials::of(&spacecraft, center.data.body, MomentumPlant::NAME),
             center,
             bodies,
             guided: GuidedDefaults::of(&spacecraft, &center),

@@ -63,19 +63,24 @@ fn configure(
         match (read.fixed, read.settings) {
             (Some(fixed), Some(settings)) => {
                 let FixedParameters { light, air, thrusters } = fixed;
-                let ephemeris = Ephemeris::with_cache(&context.setup.ephemeris_cache);
-                let simulation =
-                    SimulationContext { ephemeris, light, air, ..SimulationContext::new(read.configuration) };
+                let simulation = SimulationContext {
+                    ephemeris: Ephemeris::with_cache(&context.setup.ephemeris_cache),
+                    solar: Some(reading.solar().clone()),
+                    light,
+                    air,
+                    ..SimulationContext::new(read.configuration)
+                };
                 state.flight.thrusters.settings = thrusters;
                 state.flight.configure(simulation, settings);
             }
             (_, changed) => (configuration, settings) = (Some(read.configuration), changed),
         }
     }
-    match reading.changes.filter(|_| !state.waiting && !reading.begins) {
-        Some(changes) => state.flight.apply(changes, configuration, settings, step.start_s).map_err(failure),
-        None => Ok(()),
+    if let Some(changes) = reading.changes.filter(|_| !state.waiting && !reading.begins) {
+        state.flight.apply(changes, configuration, settings, step.start_s).map_err(failure)?;
     }
+    // After what was computed ahead with those before is void.
+    if reading.is_reconfigured { inputs::take_materials(context, values, state) } else { Ok(()) }
 }
 
 /// The flight begins at `time_s`, where a first sample is taken: how to undo that.

@@ -24,6 +24,7 @@ mod management;
 mod maneuvers;
 mod named_model;
 mod onboard_ephemeris;
+mod optics;
 mod plant_changes;
 mod plant_commands;
 mod plant_cuts;

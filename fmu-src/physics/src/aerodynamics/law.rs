@@ -98,7 +98,7 @@ impl<'a, T: Scalar> LawAtFlow<'a, T> {
     /// Force per area in Pa on a face of this outward normal and wall temperature under this incident flux.
     pub(super) fn force_per_area_pa(
         &self,
-        surface: &GasSurface,
+        surface: &GasSurface<T>,
         wall_temperature_k: T,
         normal_body: &Vector3<T>,
         incident: &IncidentFlow<T>,
@@ -108,17 +108,17 @@ impl<'a, T: Scalar> LawAtFlow<'a, T> {
         let wall_m2_s2 = self.flow.speed_squared(wall_temperature_k);
         let (pressure_pa, along) = match self.law {
             AerodynamicLaw::DragCoefficient => {
-                return -velocity * (mass * (0.5 * surface.drag_coefficient));
+                return -velocity * (mass * (surface.drag_coefficient * 0.5));
             }
             AerodynamicLaw::Sentman => {
                 let alpha = surface.energy_accommodation;
-                let reemitted_m2_s2 = self.incident_m2_s2 * (1.0 - alpha) + wall_m2_s2 * alpha;
+                let reemitted_m2_s2 = self.incident_m2_s2 * (T::constant(1.0) - alpha) + wall_m2_s2 * alpha;
                 (incident.pressure_pa + reemitted_pressure_pa(mass, reemitted_m2_s2), mass)
             }
             AerodynamicLaw::SchaafChambre => {
                 let (normal, tangential) = (surface.normal_accommodation, surface.tangential_accommodation);
                 let reemitted_pa = reemitted_pressure_pa(mass, wall_m2_s2) * normal;
-                (incident.pressure_pa * (2.0 - normal) + reemitted_pa, mass * tangential)
+                (incident.pressure_pa * (T::constant(2.0) - normal) + reemitted_pa, mass * tangential)
             }
         };
         let normal_m_s = normal_body.dot(velocity);

@@ -13,4 +13,4 @@ mod tests;
 
 pub use flow::AirFlow;
 pub use law::{AerodynamicLaw, Reemission};
-pub use model::{AerodynamicModel, AerodynamicOptions, AerodynamicWorkspace};
+pub use model::{AerodynamicModel, AerodynamicOptions, AerodynamicWorkspace, Walls};

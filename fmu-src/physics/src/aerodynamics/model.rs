@@ -9,7 +9,7 @@ use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::radiation::faces::Faces;
 use crate::radiation::shadow::{ShadowScene, ShadowWorkspace};
 use crate::refusal::Refusal;
-use crate::spacecraft::{Spacecraft, SunshadeModel};
+use crate::spacecraft::{Material, Spacecraft, SunshadeModel};
 
 /// What an evaluation takes into account.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,6 +67,21 @@ impl<T: Scalar> AerodynamicWorkspace<T> {
     }
 }
 
+/// Faces in the flow as something else says: their temperatures and materials.
+#[derive(Clone, Copy, Debug)]
+pub struct Walls<'a, T: Scalar> {
+    /// Temperature of every face, in K, in the order of [`crate::radiation::disturbance::DisturbanceModel::face_names`]; where there
+    /// is none, the material's.
+    pub temperatures_k: Option<&'a [T]>,
+    /// Materials in the order of [`crate::radiation::disturbance::DisturbanceModel::materials`]; where there is none, the model's.
+    pub materials: Option<&'a [Material<T>]>,
+}
+
+impl<T: Scalar> Walls<'_, T> {
+    /// As the model has them.
+    pub const OWN: Self = Self { temperatures_k: None, materials: None };
+}
+
 impl AerodynamicModel {
     /// Prepares a spacecraft. A cylindrical sunshade is cut into the strips that planet light and heat have.
     ///
@@ -76,6 +91,11 @@ impl AerodynamicModel {
         let mut faces = Faces::new(spacecraft, options.sunshade_model)?;
         let scene = if options.shadowing { faces.take_scene() } else { None };
         Ok(Self { faces, law: options.law, reemission: options.reemission, scene })
+    }
+
+    /// Sets the material in this place of the spacecraft's.
+    pub fn set_material(&mut self, place: usize, material: &Material) {
+        self.faces.set_material(place, material);
     }
 
     /// Number of faces, in the order of [`crate::radiation::disturbance::DisturbanceModel::face_names`].
@@ -91,16 +111,13 @@ impl AerodynamicModel {
     }
 
     /// Force, and torque about the centre of mass (body frame, m), of this flow with the panels at these angles (from 0 about
-    /// their axes, in rad; 0 for one that is not given).
-    ///
-    /// `wall_temperature_k` has a temperature for every face, in K, in the order of
-    /// [`crate::radiation::disturbance::DisturbanceModel::face_names`]; where it has none, the material's.
+    /// their axes, in rad; 0 for one that is not given) and the faces like that.
     pub fn load<T: Scalar>(
         &self,
         flow: &AirFlow<T>,
         panel_angles_rad: &[T],
         center_of_mass_body_m: &Vector3<T>,
-        wall_temperature_k: Option<&[T]>,
+        walls: Walls<'_, T>,
         workspace: &mut AerodynamicWorkspace<T>,
     ) -> ForceTorque<T> {
         if flow.is_vacuum() {
@@ -122,11 +139,13 @@ impl AerodynamicModel {
         for (index, face) in self.faces.faces.iter().enumerate() {
             let surface = &self.faces.surfaces[face.surface];
             let normal = &workspace.normals[face.normal];
-            let own_k = T::constant(face.gas_surface.wall_temperature_k);
-            let wall_k = wall_temperature_k.and_then(|all| all.get(index).copied()).unwrap_or(own_k);
-            let pressure = |incident: &IncidentFlow<T>| {
-                law.force_per_area_pa(&face.gas_surface, wall_k, normal, incident)
-            };
+            let given = walls.materials.and_then(|all| all.get(face.material));
+            let own = || self.faces.materials[face.material].gas_surface.map(T::constant);
+            let gas_surface = given.map_or_else(own, |material| material.gas_surface);
+            let given_k = walls.temperatures_k.and_then(|all| all.get(index).copied());
+            let wall_k = given_k.unwrap_or(gas_surface.wall_temperature_k);
+            let pressure =
+                |incident: &IncidentFlow<T>| law.force_per_area_pa(&gas_surface, wall_k, normal, incident);
             let whole_m2 = T::constant(surface.area_m2);
             let center_m = constant_vector::<T>(&surface.center_body_m);
             let open_pa = pressure(&workspace.incident[face.normal]);

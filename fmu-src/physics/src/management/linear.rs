@@ -67,7 +67,7 @@ mod tests {
             let turn = Rotation3::from_axis_angle(&Vector3::y_axis(), turn_rad);
             shade.dcm_body_from_shade = *turn.matrix();
             let polynomial =
-                TorquePolynomial::of_sunshade(&shade, shade.model, &(turn * center_of_mass_m)).unwrap();
+                TorquePolynomial::of_sunshade(&shade, shade.model, &[], &(turn * center_of_mass_m)).unwrap();
             let linear = LinearTorque::new(&polynomial, shade.dcm_body_from_shade);
             let error = |size: f64| {
                 // A torque that asks for angles of this size about the one that asks for none.

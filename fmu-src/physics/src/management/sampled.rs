@@ -57,7 +57,7 @@ impl SampledManager<'_> {
             span_s: science.as_ref().map_or(start.span_s, ScienceCourse::light_s),
             torque_body_n_m: &torque,
             pressure_pa,
-            linear: self.manager.linear(&spacecraft.center_of_mass_body_m()),
+            linear: self.manager.linear(spacecraft.solar.materials(), &spacecraft.center_of_mass_body_m()),
             science: science.as_ref().map(|course| ScienceUnload { course, convention: self.convention }),
         };
         let separations_rad = separations_rad(start);

@@ -21,7 +21,7 @@ use crate::guidance::{ChosenPlace, ScienceCourse};
 use crate::momentum::Settings;
 use crate::plant::{DownlinkForecast, ForecastMomentum, PlantError, StartMomentum};
 use crate::radiation::TorquePolynomial;
-use crate::spacecraft::{Sunshade, SunshadeModel};
+use crate::spacecraft::{Material, Sunshade, SunshadeModel};
 
 enumeration! {
     /// What sunlight is used for.
@@ -89,7 +89,7 @@ impl Manager<'_> {
             return Ok(None);
         };
         let prediction = self.predict(forecast)?;
-        let linear = self.linear(&forecast.center_of_mass_body_m());
+        let linear = self.linear(forecast.materials(), &forecast.center_of_mass_body_m());
         let ForecastTerms { convention, .. } = forecast.terms();
         let torque = |sun_body: &Vector3<f64>| forecast.torque_body_n_m(sun_body);
         let state = DownlinkState {
@@ -106,10 +106,15 @@ impl Manager<'_> {
         Ok(self.place(state, prediction.as_ref(), separations_rad))
     }
 
-    /// The shade's linear formula about this centre of mass; `None` without a shade.
-    pub(super) fn linear(&self, center_of_mass_body_m: &Vector3<f64>) -> Option<LinearTorque> {
+    /// The linear formula of the shade of these materials about this centre of mass; `None` without a shade.
+    pub(super) fn linear(
+        &self,
+        materials: &[Material],
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> Option<LinearTorque> {
         let (shade, model) = self.sunshade?;
-        let polynomial = TorquePolynomial::of_sunshade(shade, model, center_of_mass_body_m).ok()?;
+        let polynomial =
+            TorquePolynomial::of_sunshade(shade, model, materials, center_of_mass_body_m).ok()?;
         Some(LinearTorque::new(&polynomial, shade.dcm_body_from_shade))
     }
 

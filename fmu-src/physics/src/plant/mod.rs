@@ -62,7 +62,7 @@ pub use settings::dynamics_settings::{
 };
 pub use settings::error::{ManeuverError, PlantError};
 pub use settings::ideal_settings::IdealSettings;
-pub use settings::panel_setting::{PanelSetting, PanelStep, Ramp, SunAt};
+pub use settings::panel_setting::{PanelSetting, PanelStep, Ramp, SunAt, Tilt};
 pub use settings::radiation_settings::RadiationSettings;
 pub use settings::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
 pub use settings::thruster_events::{Maneuver, ThrusterEvent, ThrusterEventSettings};

@@ -13,7 +13,7 @@ use super::flat_plate::Beam;
 use crate::loads::ForceTorque;
 use crate::math;
 use crate::numerics::scalar::Scalar;
-use crate::spacecraft::Cylinder;
+use crate::spacecraft::{Cylinder, Optics};
 
 const THIRD: f64 = 1.0 / 3.0;
 
@@ -21,15 +21,21 @@ const THIRD: f64 = 1.0 / 3.0;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CylinderFace {
     pub cylinder: Cylinder,
+    /// Place of its material among those of the faces.
+    pub material: usize,
     pub dcm_body_from_shade: Matrix3<f64>,
 }
 
 impl CylinderFace {
     /// Force, and torque about the body frame's origin.
-    pub(super) fn force_torque_about_origin<T: Scalar>(&self, beam: &Beam<T>) -> ForceTorque<T> {
+    pub(super) fn force_torque_about_origin<T: Scalar>(
+        &self,
+        optics: &Optics<T>,
+        beam: &Beam<T>,
+    ) -> ForceTorque<T> {
         let rotation = self.dcm_body_from_shade.map(T::constant);
         let beam_shade = Beam { source_body: rotation.transpose() * beam.source_body, ..*beam };
-        let shade = cylinder_force_torque(&self.cylinder, &beam_shade);
+        let shade = cylinder_force_torque(&self.cylinder, optics, &beam_shade);
         ForceTorque {
             force_body_n: rotation * shade.force_body_n,
             torque_body_n_m: rotation * shade.torque_body_n_m,
@@ -43,22 +49,25 @@ pub fn lit_angle_rad(cylinder: &Cylinder, sun_shade: &Vector3<f64>) -> f64 {
     arcs.iter().flatten().map(|[from, to]| to.angle_rad - from.angle_rad).sum()
 }
 
-/// Force and torque about the shade frame's origin, both in the shade frame, as is the beam.
-pub fn cylinder_force_torque<T: Scalar>(cylinder: &Cylinder, beam: &Beam<T>) -> ForceTorque<T> {
+/// Force and torque about the shade frame's origin, both in the shade frame, as is the beam, of an outside of these optics.
+pub fn cylinder_force_torque<T: Scalar>(
+    cylinder: &Cylinder,
+    optics: &Optics<T>,
+    beam: &Beam<T>,
+) -> ForceTorque<T> {
     let sun = &beam.source_body;
     let moments = lit_arcs(cylinder.half_angle_rad, sun)
         .iter()
         .flatten()
         .map(|[from, to]| Moments::over(from, to, sun))
         .fold(Moments::zero(), Moments::plus);
-    let optics = &cylinder.optics;
     // P times the area of a strip of one radian.
     let strip_n = beam.pressure_pa * (cylinder.radius_m * cylinder.height_m);
     let along_light = moments.light * (optics.absorptivity + optics.diffuse);
-    let along_normal = moments.light_normal * T::constant(2.0 / 3.0 * optics.diffuse)
-        + moments.light_squared_normal * T::constant(2.0 * optics.specular);
-    let moment = moments.light_normal.cross(sun)
-        * T::constant(cylinder.radius_m * (optics.absorptivity + optics.diffuse));
+    let along_normal = moments.light_normal * (optics.diffuse * (2.0 / 3.0))
+        + moments.light_squared_normal * (optics.specular * 2.0);
+    let moment =
+        moments.light_normal.cross(sun) * ((optics.absorptivity + optics.diffuse) * cylinder.radius_m);
     ForceTorque {
         force_body_n: -(sun * along_light + along_normal) * strip_n,
         torque_body_n_m: -moment * strip_n,

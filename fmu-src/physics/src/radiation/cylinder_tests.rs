@@ -10,10 +10,18 @@ use super::Beam;
 use super::cylinder::{cylinder_force_torque, lit_angle_rad};
 use super::flat_plate::force_per_area_pa;
 use crate::loads::ForceTorque;
-use crate::spacecraft::{Cylinder, GasSurface, Optics};
+use crate::spacecraft::{Cylinder, FaceThermal, GasSurface, Optics};
 
 fn cylinder(half_angle_rad: f64, optics: Optics) -> Cylinder {
-    Cylinder { radius_m: 0.991, height_m: 2.489, half_angle_rad, optics, gas_surface: GasSurface::ASSUMED }
+    Cylinder {
+        radius_m: 0.991,
+        height_m: 2.489,
+        half_angle_rad,
+        optics,
+        gas_surface: GasSurface::ASSUMED,
+        thermal: FaceThermal::like_sunlight(&optics),
+        material: None,
+    }
 }
 
 fn shade() -> Cylinder {
@@ -46,7 +54,7 @@ fn a_whole_cylinder_has_the_textbook_drag() {
         let cylinder = cylinder(PI, Optics::from_reflectivities(specular, diffuse));
         for azimuth in [-3.0_f64, -1.7, 0.0, 0.4, PI / 2.0, PI] {
             let sun = Vector3::new(azimuth.sin(), -azimuth.cos(), 0.0);
-            let found = cylinder_force_torque(&cylinder, &beam(sun));
+            let found = cylinder_force_torque(&cylinder, &cylinder.optics, &beam(sun));
             assert_relative_eq!(found.force_body_n, -sun * drag * shadow_m2, epsilon = 1e-13);
             assert_relative_eq!(found.torque_body_n_m, Vector3::zeros(), epsilon = 1e-13);
         }
@@ -55,8 +63,8 @@ fn a_whole_cylinder_has_the_textbook_drag() {
 
 #[test]
 fn a_sun_on_the_axis_or_behind_does_nothing() {
-    assert_eq!(cylinder_force_torque(&shade(), &beam(Vector3::z())), ForceTorque::zero());
-    assert_eq!(cylinder_force_torque(&shade(), &beam(Vector3::y())), ForceTorque::zero());
+    assert_eq!(cylinder_force_torque(&shade(), &shade().optics, &beam(Vector3::z())), ForceTorque::zero());
+    assert_eq!(cylinder_force_torque(&shade(), &shade().optics, &beam(Vector3::y())), ForceTorque::zero());
     assert_eq!(lit_angle_rad(&shade(), &Vector3::y()), 0.0);
 }
 
@@ -76,7 +84,8 @@ fn facets_agree_to_1e_minus_7_inside_the_keep_in_zone() {
     for (azimuth_deg, elevation_deg) in [(0.0, 0.0), (15.0, 13.0), (-15.0, 13.0), (7.0, -13.0_f64)] {
         let (a, e) = (f64::to_radians(azimuth_deg), elevation_deg.to_radians());
         let beam = beam(Vector3::new(e.cos() * a.sin(), -e.cos() * a.cos(), -e.sin()));
-        let (closed, facets) = (cylinder_force_torque(&shade(), &beam), faceted(&shade(), &beam, 4000));
+        let (closed, facets) =
+            (cylinder_force_torque(&shade(), &shade().optics, &beam), faceted(&shade(), &beam, 4000));
         assert_relative_eq!(closed.force_body_n, facets.force_body_n, epsilon = 1e-7);
         assert_relative_eq!(closed.torque_body_n_m, facets.torque_body_n_m, epsilon = 1e-7);
     }
@@ -90,7 +99,7 @@ proptest! {
         let cylinder = cylinder(half_angle, Optics::from_reflectivities(s, (1.0 - s) * share));
         let rho = (1.0 - z * z).sqrt();
         let beam = beam(Vector3::new(rho * azimuth.sin(), -rho * azimuth.cos(), z));
-        let (closed, facets) = (cylinder_force_torque(&cylinder, &beam), faceted(&cylinder, &beam, 4000));
+        let (closed, facets) = (cylinder_force_torque(&cylinder, &cylinder.optics, &beam), faceted(&cylinder, &beam, 4000));
         // The facet at the shadow's edge is lit or dark as a whole: an error of its width squared.
         prop_assert!((closed.force_body_n - facets.force_body_n).norm() < 1e-5);
         prop_assert!((closed.torque_body_n_m - facets.torque_body_n_m).norm() < 1e-5);

@@ -10,8 +10,7 @@ use crate::math;
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::refusal::Refusal;
 use crate::spacecraft::{
-    BusLink, Cylinder, Emission, FaceThermal, GasSurface, Optics, Panel, Plate, Spacecraft, SunshadeModel,
-    Thermal,
+    BusLink, Conduction, Cylinder, Emission, Material, Panel, Plate, Spacecraft, SunshadeModel, Thermal,
 };
 
 /// Strips a cylindrical shade is cut into for planet light and heat; sunlight on it has a closed form.
@@ -24,12 +23,8 @@ pub(crate) struct Face {
     pub normal: usize,
     /// Which of the surfaces.
     pub surface: usize,
-    /// Sunlight's optics.
-    pub optics: Optics,
-    /// Infrared optics and emission.
-    pub thermal: FaceThermal,
-    /// The face in the air.
-    pub gas_surface: GasSurface,
+    /// Which of the materials.
+    pub material: usize,
     /// Heat from inside, in W.
     pub internal_heat_w: f64,
 }
@@ -43,7 +38,12 @@ pub(crate) struct Surface {
     /// First of its faces; the rear follows the front.
     pub first_face: usize,
     pub two_sided: bool,
-    pub thermal: Thermal,
+    /// Heat flow between its faces.
+    pub conduction: Option<Conduction>,
+    /// Heat flow from front and rear to the bus.
+    pub bus: [BusLink; 2],
+    /// Heat capacity of each face, in J/m2/K; 0 where the face follows its light at once.
+    pub heat_capacity_j_m2_k: f64,
     /// Temperature of the space it sees, in K.
     pub background_k: f64,
     /// Whether sunlight's force on it is computed elsewhere, in closed form.
@@ -53,36 +53,52 @@ pub(crate) struct Surface {
 }
 
 impl Surface {
-    /// What front and rear give off heat to; a face there is not gives off none.
-    pub(super) fn environments(&self) -> [FaceEnvironment; 2] {
-        let Thermal { front, rear, bus, .. } = &self.thermal;
-        let rear = rear.map_or(Emission::constant(0.0), |rear| rear.emission);
-        let face = |emission, bus| FaceEnvironment { emission, background_k: self.background_k, bus };
-        let rear_bus = if self.two_sided { bus[1] } else { BusLink::NONE };
-        [face(front.emission, bus[0]), face(rear, rear_bus)]
+    /// Its faces among all.
+    pub(super) fn faces(&self) -> core::ops::Range<usize> {
+        self.first_face..self.first_face + if self.two_sided { 2 } else { 1 }
     }
 
-    /// Temperatures of its faces `duration_s` later, in place, for the heat of every face at the start and at the end; left
-    /// as they are where it stores no heat.
-    pub(super) fn advance_temperatures(
+    /// What front and rear give off heat to, `faces` being its own; a face there is not gives off none.
+    pub(super) fn environments<T: Scalar>(
         &self,
+        faces: &[Face],
+        materials: &[Material<T>],
+    ) -> [FaceEnvironment<T>; 2] {
+        [0, 1].map(|side| {
+            let face = faces.get(side);
+            FaceEnvironment {
+                emission: face.map_or_else(
+                    || Emission::constant(0.0).map(T::constant),
+                    |face| materials[face.material].thermal.emission,
+                ),
+                background_k: self.background_k,
+                bus: face.map_or(BusLink::NONE, |_| self.bus[side]),
+            }
+        })
+    }
+
+    /// Temperatures of its faces, all of which are `faces`, `duration_s` later, in place, for the heat of every face at the start and
+    /// at the end; left as they are where it stores no heat.
+    fn advance_temperatures(
+        &self,
+        (faces, materials): (&[Face], &[Material]),
         temperatures_k: &mut [f64],
         heat_w: [&[f64]; 2],
         duration_s: f64,
     ) {
-        if self.thermal.heat_capacity_j_m2_k <= 0.0 {
+        if self.heat_capacity_j_m2_k <= 0.0 {
             return;
         }
         let first = self.first_face;
-        let count = if self.two_sided { 2 } else { 1 };
+        let count = self.faces().len();
         let pick = |values: &[f64], scale: f64| {
             let at = |side: usize| values.get(first + side).map_or(0.0, |value| value * scale);
             if count == 2 { [at(0), at(1)] } else { [at(0), 0.0] }
         };
         let store = HeatStore {
-            faces: self.environments(),
-            conduction: self.thermal.conduction,
-            heat_capacity_j_m2_k: self.thermal.heat_capacity_j_m2_k,
+            faces: self.environments(&faces[self.faces()], materials),
+            conduction: self.conduction,
+            heat_capacity_j_m2_k: self.heat_capacity_j_m2_k,
         };
         let per_area = 1.0 / self.area_m2;
         let heat = heat_w.map(|heat_w| pick(heat_w, per_area));
@@ -116,6 +132,8 @@ pub(super) fn no_such_sunshade(form: SunshadeModel) -> Refusal {
 pub(crate) struct Faces {
     pub surfaces: Vec<Surface>,
     pub faces: Vec<Face>,
+    /// Those of the spacecraft in its order, then those of faces without a named one.
+    pub materials: Vec<Material>,
     pub normals: Vec<Normal>,
     /// Temperature of the space that all of them see, in K.
     pub background_k: f64,
@@ -131,7 +149,8 @@ impl Faces {
     /// # Errors
     /// The file has a sunshade but not in this form.
     pub(crate) fn new(spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Result<Self, Refusal> {
-        let mut faces = Self { background_k: spacecraft.background_k, ..Self::default() };
+        let materials = spacecraft.materials.iter().map(|named| named.material).collect();
+        let mut faces = Self { background_k: spacecraft.background_k, materials, ..Self::default() };
         for plate in &spacecraft.plates {
             faces.add_plate(plate);
         }
@@ -142,7 +161,11 @@ impl Faces {
             }
             let dcm_body_from_shade = shade.dcm_body_from_shade;
             let cylinder = shade.cylinder.filter(|_| form == SunshadeModel::Cylinder);
-            faces.cylinder = cylinder.map(|cylinder| CylinderFace { cylinder, dcm_body_from_shade });
+            faces.cylinder = cylinder.map(|cylinder| {
+                let Cylinder { optics, thermal, gas_surface, .. } = cylinder;
+                let material = faces.material(cylinder.material, Material { optics, thermal, gas_surface });
+                CylinderFace { cylinder, material, dcm_body_from_shade }
+            });
             let plates = cylinder.map_or(shade.plates.clone(), |cylinder| strips(&cylinder).collect());
             for plate in plates {
                 faces.add_plate(&plate.rotated(&dcm_body_from_shade));
@@ -181,26 +204,49 @@ impl Faces {
         scene.has_pairs().then_some(scene)
     }
 
+    /// Temperatures of all faces `duration_s` later, in place, for the heat of every face at the start and at the end.
+    pub(super) fn advance_temperatures(
+        &self,
+        temperatures_k: &mut [f64],
+        heat_w: [&[f64]; 2],
+        duration_s: f64,
+    ) {
+        for surface in &self.surfaces {
+            let of_faces = (self.faces.as_slice(), self.materials.as_slice());
+            surface.advance_temperatures(of_faces, temperatures_k, heat_w, duration_s);
+        }
+    }
+
+    /// Sets the material in this place of the spacecraft's.
+    pub(crate) fn set_material(&mut self, place: usize, material: &Material) {
+        if let Some(known) = self.materials.get_mut(place) {
+            *known = *material;
+        }
+    }
+
+    /// Where among the materials this one is: in its place among the spacecraft's, or where surfaces were given another, by itself.
+    fn material(&mut self, place: Option<usize>, material: Material) -> usize {
+        place.filter(|&place| self.materials.get(place) == Some(&material)).unwrap_or_else(|| {
+            self.materials.push(material);
+            self.materials.len() - 1
+        })
+    }
+
     fn add_plate(&mut self, plate: &Plate) {
         self.add(plate, [Normal::Fixed(plate.normal), Normal::Fixed(-plate.normal)], None);
     }
 
     fn add(&mut self, plate: &Plate, normals: [Normal; 2], hinge: Option<Hinge>) {
-        let Thermal { front, rear, internal_heat_w, .. } = plate.thermal;
+        let Thermal { front, rear, internal_heat_w, conduction, bus, heat_capacity_j_m2_k } = plate.thermal;
         let sides =
             [Some((plate.optics, front)), plate.rear_optics.map(|optics| (optics, rear.unwrap_or(front)))];
         let first_face = self.faces.len();
         for (side, (optics, thermal)) in sides.into_iter().flatten().enumerate() {
             let normal = self.normal(normals[side]);
             let surface = self.surfaces.len();
-            self.faces.push(Face {
-                normal,
-                surface,
-                optics,
-                thermal,
-                gas_surface: plate.gas_surface[side],
-                internal_heat_w: internal_heat_w[side],
-            });
+            let material = Material { optics, thermal, gas_surface: plate.gas_surface[side] };
+            let material = self.material(plate.materials[side], material);
+            self.faces.push(Face { normal, surface, material, internal_heat_w: internal_heat_w[side] });
         }
         let two_sided = plate.rear_optics.is_some();
         let outline = plate.polygon.clone().map(|polygon| Outline { polygon, hinge, two_sided });
@@ -210,7 +256,9 @@ impl Faces {
             center_body_m: plate.center_m,
             first_face,
             two_sided,
-            thermal: plate.thermal,
+            conduction,
+            bus,
+            heat_capacity_j_m2_k,
             background_k: self.background_k,
             closed_form_sun: false,
             outline: outline.is_some().then_some(self.outlines.len()),
@@ -236,6 +284,8 @@ fn strips(cylinder: &Cylinder) -> impl Iterator<Item = Plate> + '_ {
         let area_m2 = cylinder.radius_m * width_rad * cylinder.height_m;
         let center_m = normal * cylinder.radius_m;
         let plate = Plate::insulated(name, area_m2, center_m, normal, (cylinder.optics, None));
-        Plate { gas_surface: [cylinder.gas_surface; 2], ..plate }
+        let thermal = Thermal { front: cylinder.thermal, ..plate.thermal };
+        let (gas_surface, materials) = ([cylinder.gas_surface; 2], [cylinder.material, None]);
+        Plate { gas_surface, thermal, materials, ..plate }
     })
 }

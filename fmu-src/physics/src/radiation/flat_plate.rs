@@ -51,11 +51,11 @@ impl<T: Scalar> ReceivedLight<T> {
 /// light turned about the normal, scattered light stopped and sent out by Lambert's law, whose mean momentum is 2/3
 /// along the normal. Light absorbed is *not* re-emitted here: that is thermal recoil.
 pub fn force_per_area_pa<T: Scalar>(
-    optics: &Optics,
+    optics: &Optics<T>,
     normal_body: &Vector3<T>,
     light: &ReceivedLight<T>,
 ) -> Vector3<T> {
-    let along_light = light.vector_pa * T::constant(optics.absorptivity + optics.diffuse);
+    let along_light = light.vector_pa * (optics.absorptivity + optics.diffuse);
     let scattered = light.pressure_pa * (optics.diffuse / 3.0);
     let mirrored = normal_body.dot(&light.vector_pa) * optics.specular;
     -(along_light + *normal_body * ((scattered + mirrored) * 2.0))

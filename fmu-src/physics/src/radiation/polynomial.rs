@@ -16,7 +16,7 @@ use super::flat_plate::Beam;
 use crate::math;
 use crate::numerics::scalar::Scalar;
 use crate::refusal::Refusal;
-use crate::spacecraft::{Cylinder, Optics, Plate, Sunshade, SunshadeModel};
+use crate::spacecraft::{Cylinder, Material, Optics, Plate, Sunshade, SunshadeModel};
 
 /// The monomials of the Sun's direction in the order of the coefficients (paper 000, eq 3).
 pub const TERMS: [&str; 9] = ["x", "y", "z", "xy", "xz", "yz", "xx", "yy", "zz"];
@@ -32,7 +32,8 @@ pub struct TorquePolynomial {
 }
 
 impl TorquePolynomial {
-    /// Of the sunshade in one of its forms, in the shade frame. The torque in the body frame is
+    /// Of the sunshade in one of its forms with these materials in their places of the spacecraft's, in the shade frame; a surface
+    /// without a named one has its own. The torque in the body frame is
     /// `dcm_body_from_shade` times it (eq 12).
     ///
     /// # Errors
@@ -41,31 +42,36 @@ impl TorquePolynomial {
     pub fn of_sunshade(
         shade: &Sunshade,
         model: SunshadeModel,
+        materials: &[Material],
         center_of_mass_body_m: &Vector3<f64>,
     ) -> Result<Self, Refusal> {
         let center_of_mass_m = shade.dcm_body_from_shade.transpose() * center_of_mass_body_m;
         match (model, &shade.cylinder) {
-            (SunshadeModel::Cylinder, Some(cylinder)) => Ok(Self::of_cylinder(cylinder, &center_of_mass_m)),
+            (SunshadeModel::Cylinder, Some(cylinder)) => {
+                Ok(Self::of_cylinder(cylinder, materials, &center_of_mass_m))
+            }
             (SunshadeModel::Plates, _) if !shade.plates.is_empty() => {
-                Ok(Self::of_plates(&shade.plates, &center_of_mass_m))
+                Ok(Self::of_plates(&shade.plates, materials, &center_of_mass_m))
             }
             _ => Err(no_such_sunshade(model)),
         }
     }
 
     /// Of the front faces of plates (eqs 6-8), in the plates' frame.
-    pub fn of_plates(plates: &[Plate], center_of_mass_m: &Vector3<f64>) -> Self {
+    pub fn of_plates(plates: &[Plate], materials: &[Material], center_of_mass_m: &Vector3<f64>) -> Self {
         let mut sum = Self { k: [[0.0; 9]; 3] };
         for plate in plates {
-            sum.add(&Moments::of_plate(plate, center_of_mass_m), &plate.optics);
+            let optics = optics(plate.materials[0], materials).unwrap_or(&plate.optics);
+            sum.add(&Moments::of_plate(plate, center_of_mass_m), optics);
         }
         sum
     }
 
     /// Of a cylindrical section (eqs 4-5), in its own frame.
-    pub fn of_cylinder(cylinder: &Cylinder, center_of_mass_m: &Vector3<f64>) -> Self {
+    pub fn of_cylinder(cylinder: &Cylinder, materials: &[Material], center_of_mass_m: &Vector3<f64>) -> Self {
         let mut sum = Self { k: [[0.0; 9]; 3] };
-        sum.add(&Moments::of_cylinder(cylinder, center_of_mass_m), &cylinder.optics);
+        let optics = optics(cylinder.material, materials).unwrap_or(&cylinder.optics);
+        sum.add(&Moments::of_cylinder(cylinder, center_of_mass_m), optics);
         sum
     }
 
@@ -105,6 +111,11 @@ impl TorquePolynomial {
             }
         }
     }
+}
+
+/// Optics of a named material.
+fn optics(place: Option<usize>, materials: &[Material]) -> Option<&Optics> {
+    materials.get(place?).map(|material| &material.optics)
 }
 
 /// Whether the polynomial holds for a Sun in this direction (body frame): no part of the shade is dark.

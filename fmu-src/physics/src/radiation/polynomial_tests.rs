@@ -24,7 +24,7 @@ fn sun(azimuth: f64, elevation: f64) -> Vector3<f64> {
 
 fn of_table_1(center_of_mass_m: [f64; 3]) -> (Cylinder, TorquePolynomial) {
     let cylinder = shade(&messenger()).cylinder.unwrap();
-    (cylinder, TorquePolynomial::of_cylinder(&cylinder, &Vector3::from(center_of_mass_m)))
+    (cylinder, TorquePolynomial::of_cylinder(&cylinder, &[], &Vector3::from(center_of_mass_m)))
 }
 
 /// Values worked out from Table 1 for r_c = 0.
@@ -80,7 +80,7 @@ fn validity_ends_where_the_first_part_goes_dark() {
 fn a_form_the_file_does_not_give_is_refused() {
     let mut shade = shade(&messenger()).clone();
     shade.cylinder = None;
-    assert!(TorquePolynomial::of_sunshade(&shade, SunshadeModel::Cylinder, &Vector3::zeros()).is_err());
+    assert!(TorquePolynomial::of_sunshade(&shade, SunshadeModel::Cylinder, &[], &Vector3::zeros()).is_err());
     assert!(!polynomial_valid(&shade, SunshadeModel::Cylinder, &-Vector3::y()));
 }
 
@@ -105,7 +105,7 @@ proptest! {
         let center_of_mass = Vector3::from(c);
         let sun_body = sun(azimuth, elevation);
         for model in MODELS {
-            let polynomial = TorquePolynomial::of_sunshade(shade, model, &center_of_mass).unwrap();
+            let polynomial = TorquePolynomial::of_sunshade(shade, model, &[], &center_of_mass).unwrap();
             let beam = |source_body| Beam { source_body, pressure_pa: 0.7 };
             let direct = SolarModel::new(&spacecraft, Some(model))
                 .unwrap()

@@ -10,14 +10,18 @@ use super::flat_plate::{Beam, force_per_area_pa};
 use crate::loads::ForceTorque;
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::refusal::Refusal;
-use crate::spacecraft::{Optics, Panel, Spacecraft, SunshadeModel};
+use crate::spacecraft::{Material, Optics, Panel, Spacecraft, SunshadeModel};
 
 /// A spacecraft prepared for sunlight: whatever does not change is computed once.
 ///
 /// Evaluation does not allocate and costs a few nanoseconds a face.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolarModel {
+    /// Those of the spacecraft in its order, then those of faces without a named one.
+    materials: Vec<Material>,
     fixed: Vec<FixedFace>,
+    /// Area in m2 and material of every fixed face.
+    fixed_surfaces: Vec<(f64, usize)>,
     cylinder: Option<CylinderFace>,
     panels: Vec<Panel>,
 }
@@ -44,14 +48,42 @@ impl SolarModel {
     /// # Errors
     /// The file has a sunshade but not in this form.
     pub fn new(spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Result<Self, Refusal> {
-        let Faces { surfaces, faces, normals, cylinder, panels, .. } = Faces::new(spacecraft, form)?;
+        let Faces { surfaces, faces, materials, normals, cylinder, panels, .. } =
+            Faces::new(spacecraft, form)?;
         let fixed = faces.iter().filter_map(|face| match (normals[face.normal], &surfaces[face.surface]) {
             (Normal::Fixed(normal), surface) if !surface.closed_form_sun => {
-                Some(FixedFace::new(surface, normal, &face.optics))
+                let fixed = FixedFace::new(surface, normal, &materials[face.material].optics);
+                Some((fixed, (surface.area_m2, face.material)))
             }
             _ => None,
         });
-        Ok(Self { fixed: fixed.collect(), cylinder, panels })
+        let (fixed, fixed_surfaces) = fixed.unzip();
+        Ok(Self { materials, fixed, fixed_surfaces, cylinder, panels })
+    }
+
+    /// Materials of the faces, those of the spacecraft in their places.
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// Sets the material in this place of the spacecraft's where it is another than so far; allocates nothing.
+    pub fn set_material(&mut self, place: usize, material: &Material) {
+        let Some(known) = self.materials.get_mut(place).filter(|known| *known != material) else { return };
+        *known = *material;
+        for (face, (area_m2, of_face)) in self.fixed.iter_mut().zip(&self.fixed_surfaces) {
+            if *of_face == place {
+                face.set_optics(*area_m2, &material.optics);
+            }
+        }
+        for panel in &mut self.panels {
+            let [front, rear] = panel.materials.map(|of_side| of_side == Some(place));
+            if front {
+                panel.optics = material.optics;
+            }
+            if let Some(optics) = panel.rear_optics.as_mut().filter(|_| rear) {
+                *optics = material.optics;
+            }
+        }
     }
 
     /// Number of faces: those of plates, shade and panels, rear faces by themselves.
@@ -70,7 +102,8 @@ impl SolarModel {
     ) -> ForceTorque<T> {
         let mut sum = self.fixed_about_origin(beam);
         if let Some(cylinder) = &self.cylinder {
-            sum += cylinder.force_torque_about_origin(beam);
+            let optics = self.materials[cylinder.material].optics.map(T::constant);
+            sum += cylinder.force_torque_about_origin(&optics, beam);
         }
         let mut sum = sum.about(center_of_mass_body_m);
         for (index, panel) in self.panels.iter().enumerate() {
@@ -111,14 +144,22 @@ impl SolarModel {
 
 impl FixedFace {
     fn new(surface: &Surface, normal: Vector3<f64>, optics: &Optics) -> Self {
-        Self {
+        let mut face = Self {
             normal,
             center_m: surface.center_body_m,
             arm_m: surface.center_body_m.cross(&normal),
-            light_m2: surface.area_m2 * (optics.absorptivity + optics.diffuse),
-            diffuse_m2: surface.area_m2 * optics.diffuse * 2.0 / 3.0,
-            specular_m2: surface.area_m2 * optics.specular * 2.0,
-        }
+            light_m2: 0.0,
+            diffuse_m2: 0.0,
+            specular_m2: 0.0,
+        };
+        face.set_optics(surface.area_m2, optics);
+        face
+    }
+
+    fn set_optics(&mut self, area_m2: f64, optics: &Optics) {
+        self.light_m2 = area_m2 * (optics.absorptivity + optics.diffuse);
+        self.diffuse_m2 = area_m2 * optics.diffuse * 2.0 / 3.0;
+        self.specular_m2 = area_m2 * optics.specular * 2.0;
     }
 }
 
@@ -129,7 +170,8 @@ fn panel_force_n<T: Scalar>(panel: &Panel, beam: &Beam<T>, normal: Vector3<T>) -
     let (normal, optics) =
         if is_front { (normal, Some(&panel.optics)) } else { (-normal, panel.rear_optics.as_ref()) };
     optics.map_or_else(Vector3::zeros, |optics| {
-        force_per_area_pa(optics, &normal, &beam.received(&normal)) * T::constant(panel.area_m2)
+        force_per_area_pa(&optics.map(T::constant), &normal, &beam.received(&normal))
+            * T::constant(panel.area_m2)
     })
 }
 

@@ -25,6 +25,7 @@ use super::file::windows::{articulation, downlinks, hot_pole};
 use super::hot_pole::HotPoleZone;
 use super::instruments::Instrument;
 use super::mass::MassProperties;
+use super::material::NamedMaterial;
 use super::panel::Panel;
 use super::planet_map::PlanetMap;
 use super::pointing::PointingSettings;
@@ -44,6 +45,8 @@ pub struct Spacecraft {
     pub name: String,
     /// Mass, centre of mass, inertia.
     pub mass_properties: MassProperties,
+    /// Materials of its surfaces.
+    pub materials: Vec<NamedMaterial>,
     /// Plates fixed in the body frame, other than the sunshade's.
     pub plates: Vec<Plate>,
     /// The sunshade, if it has one.
@@ -226,6 +229,8 @@ impl Spacecraft {
                 elevation_rad: limits.elevation_deg.0.to_radians(),
                 distance_m: limits.distance_m.map_or(SunKeepIn::FARTHEST_M, |distance| distance.0),
             }),
+            // After the surfaces, which say what is in use.
+            materials: materials.in_use(),
         }
     }
 

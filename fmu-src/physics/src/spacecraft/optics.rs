@@ -1,16 +1,18 @@
 //! Optics of a surface: absorbed, mirrored and scattered fractions of light.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+
+use crate::numerics::scalar::Scalar;
 
 /// What a surface does with light; the three fractions sum to 1.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Optics {
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Optics<T = f64> {
     /// Absorbed fraction (alpha).
-    pub absorptivity: f64,
+    pub absorptivity: T,
     /// Mirrored fraction (gamma_S; paper 000's C_s).
-    pub specular: f64,
+    pub specular: T,
     /// Fraction scattered by Lambert's law (gamma_D; paper 000's C_d).
-    pub diffuse: f64,
+    pub diffuse: T,
 }
 
 impl Optics {
@@ -18,12 +20,22 @@ impl Optics {
     pub const fn from_reflectivities(specular: f64, diffuse: f64) -> Self {
         Self { absorptivity: 1.0 - specular - diffuse, specular, diffuse }
     }
+}
 
+impl<T: Scalar> Optics<T> {
     /// The same surface where it absorbs another fraction: what is reflected keeps its mix of mirror and scatter.
-    pub fn with_absorptivity(&self, absorptivity: f64) -> Self {
+    pub fn with_absorptivity(&self, absorptivity: T) -> Self {
         let reflected = self.specular + self.diffuse;
-        let specular_share = if reflected > 0.0 { self.specular / reflected } else { 0.0 };
-        let specular = (1.0 - absorptivity) * specular_share;
-        Self { absorptivity, specular, diffuse: 1.0 - absorptivity - specular }
+        let specular_share =
+            if reflected.value() > 0.0 { self.specular / reflected } else { T::constant(0.0) };
+        let specular = (T::constant(1.0) - absorptivity) * specular_share;
+        Self { absorptivity, specular, diffuse: T::constant(1.0) - absorptivity - specular }
+    }
+}
+
+impl<T> Optics<T> {
+    /// What `of` makes of every fraction.
+    pub fn map<U>(self, of: impl Fn(T) -> U) -> Optics<U> {
+        Optics { absorptivity: of(self.absorptivity), specular: of(self.specular), diffuse: of(self.diffuse) }
     }
 }

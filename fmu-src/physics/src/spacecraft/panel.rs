@@ -56,6 +56,8 @@ pub struct Panel {
     pub gas_surface: [GasSurface; 2],
     /// Heat of both faces.
     pub thermal: Thermal,
+    /// Places of the materials of cell side and back among the spacecraft's; `None` for a side of no named material.
+    pub materials: [Option<usize>; 2],
     /// Outline at angle 0, body frame, counter-clockwise seen from the cell side; panels without one neither shadow
     /// nor are shadowed.
     pub polygon: Option<Polygon>,
@@ -86,6 +88,7 @@ impl Panel {
             rear_optics: self.rear_optics,
             gas_surface: self.gas_surface,
             thermal: self.thermal,
+            materials: self.materials,
             polygon: self.polygon.clone(),
         }
     }

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::gas_surface::GasSurface;
 use super::optics::Optics;
 use super::polygon::Polygon;
-use super::thermal::Thermal;
+use super::thermal::{FaceThermal, Thermal};
 use crate::enumeration::enumeration;
 
 /// Most surfaces of a spacecraft, copies and facets of shapes among them.
@@ -31,6 +31,8 @@ pub struct Plate {
     pub gas_surface: [GasSurface; 2],
     /// Heat of both faces.
     pub thermal: Thermal,
+    /// Places of the materials of front and rear among the spacecraft's; `None` for a face of no named material.
+    pub materials: [Option<usize>; 2],
     /// Outline, counter-clockwise seen from the front; surfaces without one neither shadow nor are shadowed.
     pub polygon: Option<Polygon>,
 }
@@ -46,7 +48,19 @@ impl Plate {
     ) -> Self {
         let thermal = Thermal::insulated(&optics, rear_optics.as_ref());
         let gas_surface = [GasSurface::ASSUMED; 2];
-        Self { name, area_m2, center_m, normal, optics, rear_optics, gas_surface, thermal, polygon: None }
+        let (materials, polygon) = ([None; 2], None);
+        Self {
+            name,
+            area_m2,
+            center_m,
+            normal,
+            optics,
+            rear_optics,
+            gas_surface,
+            thermal,
+            materials,
+            polygon,
+        }
     }
 
     /// One of this outline whose faces are insulated.
@@ -81,6 +95,10 @@ pub struct Cylinder {
     pub optics: Optics,
     /// The outside in the air.
     pub gas_surface: GasSurface,
+    /// The outside in the infrared.
+    pub thermal: FaceThermal,
+    /// Place of its material among the spacecraft's; `None` where it has no named one.
+    pub material: Option<usize>,
 }
 
 enumeration! {

@@ -1,6 +1,6 @@
 //! How a surface gives off heat: emissivity, conduction between its faces, heat from inside, heat capacity.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::optics::Optics;
 use crate::numerics::scalar::Scalar;
@@ -12,13 +12,13 @@ pub const EMISSIVITY_REFERENCE_TEMPERATURE_K: f64 = 300.0;
 pub(super) const HIGHEST_TEMPERATURE_K: f64 = 2000.0;
 
 /// Least emissivity at any temperature.
-const LEAST_EMISSIVITY: f64 = 1e-3;
+pub(super) const LEAST_EMISSIVITY: f64 = 1e-3;
 
 /// Emissivity of a face, linear in temperature and kept from 0.001 to 1.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Emission {
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Emission<T = f64> {
     /// Emissivity at the reference temperature.
-    pub emissivity: f64,
+    pub emissivity: T,
     /// Change with temperature per K.
     pub slope_per_k: f64,
     /// Reference temperature in K.
@@ -26,12 +26,12 @@ pub struct Emission {
 }
 
 /// What a face does in the infrared.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct FaceThermal {
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FaceThermal<T = f64> {
     /// Optics for the planet's infrared light.
-    pub infrared_optics: Optics,
+    pub infrared_optics: Optics<T>,
     /// Emission of heat.
-    pub emission: Emission,
+    pub emission: Emission<T>,
 }
 
 /// Heat flow through a thin structure from front to rear (paper 004 eqs 45-47).
@@ -102,13 +102,15 @@ impl Emission {
     pub const fn constant(emissivity: f64) -> Self {
         Self { emissivity, slope_per_k: 0.0, reference_temperature_k: EMISSIVITY_REFERENCE_TEMPERATURE_K }
     }
+}
 
+impl<T: Scalar> Emission<T> {
     /// Emissivity and its derivative by temperature.
     #[inline]
-    pub fn at<T: Scalar>(&self, temperature_k: T) -> (T, T) {
+    pub fn at(&self, temperature_k: T) -> (T, T) {
         let linear = (temperature_k - self.reference_temperature_k) * self.slope_per_k + self.emissivity;
         if self.slope_per_k == 0.0 {
-            (T::constant(self.emissivity), T::constant(0.0))
+            (self.emissivity, T::constant(0.0))
         } else if linear.value() < LEAST_EMISSIVITY {
             (T::constant(LEAST_EMISSIVITY), T::constant(0.0))
         } else if linear.value() > 1.0 {
@@ -121,11 +123,19 @@ impl Emission {
     /// Whether a hotter face always emits more, up to 2000 K; otherwise a heat balance has several answers.
     pub(super) fn grows(&self) -> bool {
         // d(eps T^4)/dT = T^3 (4 eps + T eps'); with a falling emissivity it is least at the highest temperature.
-        let at_highest =
-            self.emissivity + self.slope_per_k * (HIGHEST_TEMPERATURE_K - self.reference_temperature_k);
+        let at_highest = self.emissivity.value()
+            + self.slope_per_k * (HIGHEST_TEMPERATURE_K - self.reference_temperature_k);
         self.slope_per_k >= 0.0
             || (at_highest >= LEAST_EMISSIVITY
                 && 4.0 * at_highest + HIGHEST_TEMPERATURE_K * self.slope_per_k > 0.0)
+    }
+}
+
+impl<T> Emission<T> {
+    /// The same of another number type.
+    pub fn map<U>(self, of: impl Fn(T) -> U) -> Emission<U> {
+        let Self { emissivity, slope_per_k, reference_temperature_k } = self;
+        Emission { emissivity: of(emissivity), slope_per_k, reference_temperature_k }
     }
 }
 

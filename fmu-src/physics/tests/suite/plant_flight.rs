@@ -369,7 +369,7 @@ fn spans_end_at_the_number_where_a_panel_goes_elsewhere() {
             steps: steps(panel),
             clock_minus_time_s: 0.0,
             before_rad: OFFSETS_RAD[0][panel],
-            tilt_sign: 1.0,
+            tilt: 1.0.into(),
         };
         let stepped = Configuration { panels: vec![timeline(0), timeline(1)], ..whole.clone() };
         let simulate = |cut_s: f64| {
@@ -390,7 +390,7 @@ fn spans_end_at_the_number_where_a_panel_goes_elsewhere() {
         let mut totals = Totals::default();
         for (k, &start_s) in EDGES_S.iter().enumerate() {
             let end_s = EDGES_S.get(k + 1).copied().unwrap_or(END_S);
-            let offset = |angle| PanelSetting::SunOffset { offset: Ramp::held(angle), tilt_sign: 1.0 };
+            let offset = |angle| PanelSetting::SunOffset { offset: Ramp::held(angle), tilt: 1.0.into() };
             let held = Configuration { panels: OFFSETS_RAD[k].map(offset).to_vec(), ..whole.clone() };
             let mut rig = Rig::new();
             let mut plant = rig.plant(&held);

@@ -136,7 +136,7 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
     let zero_epoch_s = simulated.zero_epoch_s(settings.times.start_s);
     let every_s = arguments.every.unwrap_or(settings.times.step_s);
     warnings.extend(pointing::sparse_rows(described, &settings.sets, &settings.times, every_s));
-    let Settings { times, sets, positions, limits, requested, .. } = settings;
+    let Settings { times, positions, limits, requested, .. } = settings;
     if !arguments.quiet {
         warnings.iter().for_each(|warning| terminal::note(&format!("warning: {warning}")));
     }
@@ -210,7 +210,7 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
         terminal::note(&format!("{steps} steps to {last} s in {:.3} s", elapsed.as_secs_f64()));
     }
     if !arguments.quiet || !checks.is_kept() {
-        let lines = checks.report(described, epoch::zero_epoch_s(described, &sets, times.start_s));
+        let lines = checks.report(described, zero_epoch_s);
         lines.iter().for_each(|line| terminal::note(line));
     }
     match ended {

@@ -274,3 +274,71 @@ fn a_value_outside_its_limits_is_named_with_its_run() {
         &["campaign.toml:4: vary.\"inertia[1]\".steps: run 2: found 0, allowed: a number from 0.001"],
     );
 }
+
+/// Rows of a Sobol sequence over a material's numbers are flights of edited files.
+#[test]
+fn a_sweep_over_optics_flies_edited_files() {
+    let Some(library) = crate::library() else { return };
+    let (scratch, _) = crate::packed_from(&library, "MomentumPlant", "plant.fmu", &[]).unwrap();
+    let (file, shipped) = (scratch.path().join("campaign.toml"), scratch.path().join("messenger.toml"));
+    let rows = if crate::is_long() { 20 } else { 2 };
+    let names = [
+        "optics.shadeCloth.specular",
+        "optics.shadeCloth.diffuse",
+        "optics.solarCells.specular",
+        "optics.solarCells.diffuse",
+    ];
+    let vary: String = names.map(|name| format!("\"{name}\" = {{ uniform = [0, 0.5] }}\n")).concat();
+    let text = format!(
+        "fmu = \"plant.fmu\"\nstop = \"6 h\"\nstep = \"600 s\"\nruns = {rows}\nsampling = \"sobol\"\n[vary]\n{vary}\
+         [keep]\nfinal = [\"momentum.inertial\"]\n"
+    );
+    fs::write(&file, text).unwrap();
+    let swept = table(&file, "runs.csv", &[]);
+    let own = include_str!("../../../../fmu-src/resources/messenger.toml");
+    let mut seen = Vec::new();
+    for row in 0..rows {
+        let at = |name: &str| column(&swept, name)[row];
+        let [a, b, c, d] = names.map(at);
+        let edited = own
+            .replace("specular = 0.15\ndiffuse = 0.35", &format!("specular = {a:?}\ndiffuse = {b:?}"))
+            .replace("specular = 0.52\ndiffuse = 0.07", &format!("specular = {c:?}\ndiffuse = {d:?}"));
+        fs::write(&shipped, edited).unwrap();
+        let fmu = scratch.path().join("edited.fmu");
+        let pack = [
+            "pack",
+            "--library",
+            shown(&library),
+            "--model",
+            "MomentumPlant",
+            "--spacecraft",
+            shown(&shipped),
+        ];
+        run(&[&pack[..], &["--output", shown(&fmu)]].concat(), 0);
+        let flown = scratch.path().join("flown.csv");
+        let flight = [
+            "run",
+            shown(&fmu),
+            "--stop",
+            "6h",
+            "--step",
+            "600s",
+            "--quiet",
+            "--record",
+            "momentum.inertial",
+        ];
+        run(&[&flight[..], &["--output", shown(&flown)]].concat(), 0);
+        let flown = fs::read_to_string(flown).unwrap();
+        for axis in 1..=3 {
+            let name = format!("momentum.inertial[{axis}]");
+            let expected = *column(&flown, &name).last().unwrap();
+            let found = at(&format!("{name}.final"));
+            assert!(
+                (found - expected).abs() <= 1e-12 * expected.abs().max(1e-3),
+                "{name} {found} {expected}"
+            );
+            seen.push(found);
+        }
+    }
+    assert!((seen[0] - seen[3]).abs() > 1e-4 * seen[0].abs(), "{seen:?}");
+}

@@ -8,7 +8,7 @@ use physics::{
     momentum::Convention,
     plant::{LightSource, SunLight},
     refusal::Refusal,
-    spacecraft::{MassProperties, Spacecraft, SunshadeModel},
+    spacecraft::{MassProperties, MaterialValues, Spacecraft, SunshadeModel},
 };
 
 use super::{
@@ -29,6 +29,11 @@ impl<'a> StartValues<'a> {
     /// Of a Real; not a number where there is none.
     pub fn real(&self, name: &str) -> f64 {
         start_values::start(self.description, self.sets, name).map_or(f64::NAN, |value| value.to_f64())
+    }
+
+    /// Of a Real, or `other` where there is none.
+    fn real_or(&self, name: &str, other: f64) -> f64 {
+        start_values::start(self.description, self.sets, name).map_or(other, |value| value.to_f64())
     }
 
     /// The name of an option's item.
@@ -91,12 +96,23 @@ pub fn sunlit(
         center_of_mass_body_m: values.vector("spacecraft.centerOfMass"),
         inertia_body_kg_m2: Matrix3::from_fn(inertia),
     };
-    let panels = sunlit.panels.iter_mut().zip(&mut sunlit.followed_suns).enumerate();
-    for (index, ((enabled, sign), suns)) in panels {
+    for (place, named) in sunlit.spacecraft.materials.clone().iter().enumerate() {
+        let own = named.values();
+        let set = |last: &str, own: f64| values.real_or(&format!("optics.{}.{last}", named.name), own);
+        let (specular, diffuse) = (set("specular", own.specular), set("diffuse", own.diffuse));
+        let reflecting = MaterialValues { specular, diffuse, ..own };
+        // A flight with others is refused by the FMU.
+        if let Ok(material) = named.with(&reflecting) {
+            sunlit.set_material(place, &material);
+        }
+    }
+    let panels = sunlit.panels.iter_mut().zip(&mut sunlit.followed_suns).zip(&mut sunlit.panel_biases_rad);
+    for (index, (((enabled, sign), suns), bias_rad)) in panels.enumerate() {
         let name = |last: &str| format!("panel[{}].{last}", index + 1);
         let follows = values.item(&name("control")) == Some("distance");
         *suns = follows.then(|| values.real("articulation.targetSuns"));
         *enabled = values.is_true(&name("enabled"));
+        *bias_rad = values.real_or(&name("angleBias"), 0.0);
         match values.item(&name("tilt")) {
             Some("positive") => *sign = 1.0,
             Some("negative") => *sign = -1.0,

@@ -15,10 +15,10 @@ use physics::{
         pointing::antenna::Antennas,
     },
     momentum::Convention,
-    plant::{PanelSetting, Ramp, SunLight, SunlitConfiguration},
+    plant::{PanelSetting, Ramp, SunLight, SunlitConfiguration, Tilt},
     radiation::{Beam, SolarModel},
     refusal::Refusal,
-    spacecraft::{MassProperties, Spacecraft, SunshadeModel},
+    spacecraft::{MassProperties, Material, Spacecraft, SunshadeModel},
 };
 
 use super::simulated::FlightRow;
@@ -106,6 +106,8 @@ pub struct SunlitSpacecraft {
     pub centers_of_mass: Vec<(f64, Vector3<f64>)>,
     /// Whether each panel takes part, and the sense of its tilt.
     pub panels: Vec<(bool, f64)>,
+    /// Angle added to that of each panel about its axis, in rad.
+    pub panel_biases_rad: Vec<f64>,
     /// The light on its cells that each panel is turned for as the distance from the Sun changes, in suns, where it is.
     pub followed_suns: Vec<Option<f64>>,
     /// What torques are given in: EME2000, or, where the body components are integrated, the body frame.
@@ -129,12 +131,18 @@ impl SunlitSpacecraft {
             antennas: Antennas::of(&spacecraft.antennas),
             mass_at_zero: spacecraft.mass_properties,
             panels: spacecraft.panels.iter().map(|panel| (true, panel.tilt_sign)).collect(),
+            panel_biases_rad: vec![0.0; spacecraft.panels.len()],
             followed_suns: vec![None; spacecraft.panels.len()],
             centers_of_mass: Vec::new(),
             convention: Convention::Inertial,
             light,
             spacecraft,
         })
+    }
+
+    /// Sets the material in this place of the spacecraft's.
+    pub fn set_material(&mut self, place: usize, material: &Material) {
+        self.solar.set_material(place, material);
     }
 
     /// Which way a windmill angle turns each panel that takes part.
@@ -183,13 +191,14 @@ impl SunlitSpacecraft {
         let panels = self.spacecraft.panels.iter().zip(&self.panels);
         let setting = |side: f64, tilt_sign: f64| {
             let offset_rad = controls.get(Control::Offset) + controls.get(Control::Windmill) * side;
-            PanelSetting::SunOffset { offset: Ramp::held(offset_rad), tilt_sign }
+            PanelSetting::SunOffset { offset: Ramp::held(offset_rad), tilt: tilt_sign.into() }
         };
         let one = |(panel, (enabled, tilt_sign)): (&physics::spacecraft::Panel, &(bool, f64))| match enabled {
             true => setting(panel.windmill_side, *tilt_sign),
             false => PanelSetting::Disabled,
         };
-        panels.map(one).collect()
+        let biased = |(setting, added_rad): (PanelSetting, &f64)| setting.biased(*added_rad);
+        panels.map(one).zip(&self.panel_biases_rad).map(biased).collect()
     }
 
     /// Force in EME2000 and torque about the centre of mass of direct sunlight, in N and N m.
@@ -234,14 +243,15 @@ impl SunlitSpacecraft {
         if self.followed_suns.iter().all(Option::is_none) {
             return Vector3::zeros();
         }
-        let panels = self.panels.iter().zip(&self.followed_suns).zip(&row.panel_angles_rad);
-        let setting =
-            |((&(enabled, tilt_sign), suns), angle_rad): ((&(bool, f64), &Option<f64>), &f64)| match *suns {
+        let settings: Vec<_> = (self.panels.iter().zip(&self.panel_biases_rad))
+            .zip(&self.followed_suns)
+            .zip(&row.panel_angles_rad)
+            .map(|(((&(enabled, tilt_sign), &bias_rad), suns), angle_rad)| match *suns {
                 _ if !enabled => PanelSetting::Disabled,
-                Some(suns) => PanelSetting::Distance { suns, tilt_sign },
+                Some(suns) => PanelSetting::Distance { suns, tilt: Tilt { sign: tilt_sign, bias_rad } },
                 None => PanelSetting::Angle(Ramp::held(*angle_rad)),
-            };
-        let settings: Vec<_> = panels.map(setting).collect();
+            })
+            .collect();
         let distance_m = row.to_sun_m.norm();
         let sun_body = row.inertial_from_body.inverse() * (row.to_sun_m / distance_m);
         let [high_n, low_n] = [STEP_RAD, -STEP_RAD].map(|step| {

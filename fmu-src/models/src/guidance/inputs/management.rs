@@ -8,6 +8,7 @@ use physics::momentum::{DumpPolicy, Reinitialise};
 use physics::plant::{PanelSetting, Ramp, SunlitConfiguration};
 use physics::spacecraft::MassProperties;
 
+use super::Fixed;
 use crate::common::management::check_strategy_has_antenna;
 use crate::guidance::setup::Plan;
 use crate::guidance::variables::choices::DumpReinitTo;
@@ -21,7 +22,7 @@ pub(crate) fn set_panels(context: &Plan<'_>, values: &Values, panels: &mut Vec<P
         }
         PanelSetting::SunOffset {
             offset: Ramp::held(values.real(panel.nominal_sun_offset)),
-            tilt_sign: values.choice(panel.tilt).sign(),
+            tilt: values.choice(panel.tilt).sign().into(),
         }
     }));
 }
@@ -34,11 +35,11 @@ pub(crate) fn is_managed(context: &Plan<'_>, values: &Values) -> bool {
 /// Who puts the Sun in its place, where this momentum begins a downlink.
 ///
 /// # Errors
-/// A shade that the file does not describe, a strategy without a downlink.
+/// A strategy without a downlink.
 pub(crate) fn manager<'a>(
     context: &'a Plan<'_>,
     values: &Values,
-    panels: &'a [PanelSetting],
+    fixed: &'a Fixed,
     keep_in: &KeepIn,
 ) -> Result<SampledManager<'a>, Failure> {
     let v = context.variables;
@@ -63,9 +64,9 @@ pub(crate) fn manager<'a>(
         ),
         default_downlink: &context.setup.antennas.default_downlink,
         spacecraft: SunlitConfiguration {
-            solar: context.setup.shapes.solar(sunshade, &spacecraft.name)?,
+            solar: &fixed.solar,
             panels: &spacecraft.panels,
-            settings: panels,
+            settings: &fixed.panels,
             mass_at_zero: MassProperties {
                 center_of_mass_body_m: Vector3::from(values.vector(v.spacecraft_center_of_mass)),
                 ..spacecraft.mass_properties

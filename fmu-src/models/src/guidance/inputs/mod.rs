@@ -26,6 +26,7 @@ use physics::guidance::pointing::command::{BoresightOption, PointingCommand, Sce
 use physics::guidance::pointing::scan::ScanCompatibility;
 use physics::guidance::pointing::scenario::GuidanceHardware;
 use physics::plant::PanelSetting;
+use physics::radiation::SolarModel;
 
 use super::setup::Plan;
 use super::variables::celestial_bodies::PlanetVariables;
@@ -46,16 +47,27 @@ pub struct Fixed {
     bodies: BodiesFromCenter,
     /// The panels as they are commanded; tunable, and set anew with every step.
     pub panels: Vec<PanelSetting>,
+    /// The spacecraft in sunlight; its materials are tunable.
+    pub solar: SolarModel,
     /// The burn of the scenario burn by the parameters.
     pub burn: BurnSettings,
 }
 
 impl Fixed {
-    /// Takes the tunable parameters of the planet.
-    pub fn tune(&mut self, context: &Plan<'_>, values: &Values) {
-        if let Orientation::Iau { ut1_minus_utc_s } = &mut self.planet.orientation {
-            *ut1_minus_utc_s = values.real(context.variables.earth.ut1_offset);
+    /// Takes the tunable parameters of planet and materials; allocates nothing.
+    ///
+    /// # Errors
+    /// Names parameters whose values no material has.
+    pub fn tune(&mut self, context: &Plan<'_>, values: &Values) -> Result<(), Failure> {
+        let v = context.variables;
+        for found in v.optics.materials((context, values), &context.setup.optics) {
+            let (place, material) = found?;
+            self.solar.set_material(place, &material);
         }
+        if let Orientation::Iau { ut1_minus_utc_s } = &mut self.planet.orientation {
+            *ut1_minus_utc_s = values.real(v.earth.ut1_offset);
+        }
+        Ok(())
     }
 
     /// From the parameters.
@@ -91,6 +103,10 @@ impl Fixed {
             source,
             bodies,
             panels: Vec::with_capacity(v.panel.len()),
+            solar: {
+                let shape = values.choice(v.sunshade_shape).0;
+                context.setup.shapes.solar(shape, &context.setup.spacecraft.name)?.clone()
+            },
             burn: burn(context, values)?,
         })
     }

@@ -17,6 +17,7 @@ use physics::guidance::pointing::scan::DEFAULT_COMPATIBILITY;
 use super::setup::GuidanceSetup;
 use crate::common::choices::SunshadeShape;
 use crate::common::downlink::DownlinkVariables;
+use crate::common::optics::OpticsVariables;
 use crate::common::variables::{GuidedVariables, SolarVariables, WorkLimit};
 use burn::{BurnVariables, ThrustVariables};
 use celestial_bodies::{
@@ -93,6 +94,8 @@ pub struct GuidanceVariables {
     /// Which model of the shade takes the light; without a shade it does not count.
     #[parameter(name = "sunshade.shape", start = SunshadeShape::of(&setup.spacecraft))]
     pub sunshade_shape: Choice<SunshadeShape>,
+    #[group(setup = &setup.optics)]
+    pub optics: OpticsVariables,
     pub solar: SolarVariables,
     #[group(count = setup.spacecraft.panels.len())]
     pub panel: Vec<PanelVariables>,

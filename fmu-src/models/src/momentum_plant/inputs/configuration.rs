@@ -49,8 +49,8 @@ pub(super) fn read(
         }
         let since_s = over_time.start_s();
         let ramp = |input: Real| Ramp::since(since_s, values.real(input), over_time.rate(input, since_s));
-        let tilt_sign = values.choice(panel.tilt).sign();
-        let offset = |offset| PanelSetting::SunOffset { offset, tilt_sign };
+        let tilt = values.choice(panel.tilt).sign().into();
+        let offset = |offset| PanelSetting::SunOffset { offset, tilt };
         match values.choice(panel.control).0 {
             PanelControl::Angle => PanelSetting::Angle(ramp(panel.angle)),
             PanelControl::SunOffset => offset(Ramp::held(values.real(panel.sun_offset))),
@@ -58,11 +58,12 @@ pub(super) fn read(
                 steps: followed.and_then(|_| context.setup.panel_steps.get(k).cloned()).unwrap_or_default(),
                 clock_minus_time_s,
                 before_rad: values.real(panel.sun_offset),
-                tilt_sign,
+                tilt,
             },
             PanelControl::Command => offset(ramp(panel.sun_offset_command)),
-            PanelControl::Distance => PanelSetting::Distance { suns: corridor.target_suns, tilt_sign },
+            PanelControl::Distance => PanelSetting::Distance { suns: corridor.target_suns, tilt },
         }
+        .biased(values.real(panel.angle_bias))
     }));
     let v = &variables.planet;
     let laws = [

@@ -21,6 +21,7 @@ use physics::plant::{
     AerodynamicSolver, Changes, Configuration, DownlinkForecast, External, ModeSettings, PlantError,
     PreparedSpacecraft, RadiationSolver, ReactionControlSettings, StepContext, SunPlanner, Thrusters,
 };
+use physics::radiation::SolarModel;
 
 use self::center::Center;
 use self::step_inputs::{AppliedLoad, StepInputs};
@@ -68,6 +69,11 @@ pub(super) struct FixedParameters {
 }
 
 impl Reading<'_> {
+    /// The spacecraft in sunlight by its file.
+    pub(super) fn solar(&self) -> &SolarModel {
+        self.prepared.solar
+    }
+
     /// Force and torque from outside.
     pub(super) fn external(&self) -> impl Fn(f64) -> [physics::loads::ForceTorque; 2] + '_ {
         |time_s| self.applied.at(time_s)
@@ -168,6 +174,23 @@ pub(super) fn configured(
         None
     };
     Ok(Configured { configuration, settings, fixed })
+}
+
+/// Sets the materials of the surfaces where they are other than the flight has them.
+///
+/// # Errors
+/// Names parameters whose values no material has.
+pub(super) fn take_materials(
+    context: &Plan<'_>,
+    values: &Values,
+    state: &mut PlantState,
+) -> Result<(), Failure> {
+    let Some(flown) = state.flight.context_mut() else { return Ok(()) };
+    for found in context.variables.optics.materials((context, values), &context.setup.optics) {
+        let (place, material) = found?;
+        flown.set_material(place, &material);
+    }
+    Ok(())
 }
 
 /// Reads what a flight begins with.

@@ -149,8 +149,13 @@ impl StepInputs {
         self.light.clear();
         self.light.extend(vectors.into_iter().flat_map(|vector| values.vector(vector)));
         self.light.push(real(v.solar.at_1_au.scale));
-        self.light
-            .extend(v.panel.iter().flat_map(|it| [it.angle, it.sun_offset, it.sun_offset_command].map(real)));
+        self.light.extend(
+            v.panel
+                .iter()
+                .flat_map(|it| [it.angle, it.sun_offset, it.sun_offset_command, it.angle_bias].map(real)),
+        );
+        let materials = v.optics.values((context, values), &context.setup.optics, real);
+        self.light.extend(materials.flat_map(|it| it.acting()));
         let downlink = &v.downlink;
         self.light.extend([downlink.sun_azimuth, downlink.sun_elevation].map(real));
         self.light.push(f64::from(u8::from(values.boolean(downlink.alternate))));

@@ -57,6 +57,9 @@ pub struct PanelVariables {
     /// Angle between the panel's normal and the Sun direction when it is held by Sun offset; its sign is a sense of tilt.
     #[parameter(tunable, unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1], start = setup.spacecraft.panels[index].sun_offset_rad)]
     pub sun_offset: Real,
+    /// Added to the rotation angle, whatever sets it: as mounted or measured.
+    #[parameter(tunable, unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1], start = 0.0)]
+    pub angle_bias: Real,
     /// Sense of tilt of a positive offset; the paper does not print it.
     #[parameter(start = PanelTilt::of(&setup.spacecraft.panels[index]))]
     pub tilt: Choice<PanelTilt>,

@@ -37,6 +37,7 @@ use crate::common::downlink::DownlinkVariables;
 use crate::common::effects::{LawVariables, PlanetLightVariables, RecoilVariables, ShadowingVariables};
 use crate::common::ellipse::EllipseVariables;
 use crate::common::loads::PlateVariables;
+use crate::common::optics::OpticsVariables;
 use crate::common::variables::{EclipseVariables, GuidedVariables, SolarVariables};
 
 /// Every variable of the plant, in the order of the XML.
@@ -80,6 +81,8 @@ pub struct PlantVariables {
     pub magnetic_field: MagneticFieldVariables,
     pub geodetic: GeodeticVariables,
     pub spacecraft: SpacecraftVariables,
+    #[group(setup = &setup.optics)]
+    pub optics: OpticsVariables,
     pub sunshade: SunshadeVariables,
     #[group(count = setup.spacecraft.panels.len())]
     pub panel: Vec<PanelVariables>,

@@ -194,6 +194,8 @@ fn check_parameter_slopes(mut fmu: Disturbance, seed: u64, in_shadow: bool) {
                 "planet.absorptivity" | "planet.diffuseReflectivity" | "planet.emissivity" => {
                     defaults[k] * 0.9
                 }
+                // Fractions, some of which are 0 by the file.
+                _ if name.starts_with("optics.") => defaults[k] * 0.9 + 0.01,
                 _ => defaults[k],
             };
             let put = |fmu: &mut Disturbance, value: f64| {

@@ -59,5 +59,5 @@ fn thin_air(velocity_body_m_s: Vector3<f64>) -> AirFlow<f64> {
 
 fn load(model: &AerodynamicModel, flow: &AirFlow<f64>, panel_angles_rad: &[f64]) -> ForceTorque {
     let mut workspace = AerodynamicWorkspace::default();
-    model.load(flow, panel_angles_rad, &Vector3::zeros(), None, &mut workspace)
+    model.load(flow, panel_angles_rad, &Vector3::zeros(), Walls::OWN, &mut workspace)
 }

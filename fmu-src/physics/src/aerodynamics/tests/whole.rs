@@ -117,7 +117,7 @@ fn at_numbers<T: Scalar>(
     let [density_kg_m3, temperature_k, molar_mass_kg_mol, x, y, z, angle_rad, a, b, c] = *numbers;
     let velocity_body_m_s = Vector3::new(x, y, z);
     let flow = AirFlow { density_kg_m3, temperature_k, molar_mass_kg_mol, velocity_body_m_s };
-    let found = model.load(&flow, &[angle_rad], &Vector3::new(a, b, c), None, workspace);
+    let found = model.load(&flow, &[angle_rad], &Vector3::new(a, b, c), Walls::OWN, workspace);
     let [f, t] = [found.force_body_n, found.torque_body_n_m];
     [f.x, f.y, f.z, t.x, t.y, t.z]
 }
@@ -191,7 +191,8 @@ fn wall_temperatures_of_a_heat_balance_replace_those_of_the_materials() {
         let (cold, hot) = (model(&spacecraft, *law), model(&hot, *law));
         let temperatures_k = vec![500.0; count];
         let mut workspace = AerodynamicWorkspace::default();
-        let given = cold.load(&flow, &[0.0], &Vector3::zeros(), Some(&temperatures_k), &mut workspace);
+        let walls = Walls { temperatures_k: Some(&temperatures_k), ..Walls::OWN };
+        let given = cold.load(&flow, &[0.0], &Vector3::zeros(), walls, &mut workspace);
         assert_eq!(given, load(&hot, &flow, &[]));
         assert_ne!(given, load(&cold, &flow, &[]));
     }
@@ -212,7 +213,7 @@ fn no_air_exerts_no_force_and_a_little_exerts_its_slope() {
             velocity_body_m_s: flow.velocity_body_m_s.map(Dual64::constant),
         };
         let mut workspace = AerodynamicWorkspace::default();
-        let slope = model.load(&seeded, &[], &Vector3::zeros(), None, &mut workspace).force_body_n;
+        let slope = model.load(&seeded, &[], &Vector3::zeros(), Walls::OWN, &mut workspace).force_body_n;
         let force_n = load(&model, &flow, &[]).force_body_n;
         assert_relative_eq!(slope.map(|x| x.eps) * 1e-11, force_n, epsilon = 1e-14 * force_n.norm());
     }

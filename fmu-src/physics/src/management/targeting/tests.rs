@@ -51,7 +51,8 @@ impl TestSpacecraft {
 
     fn linear(&self) -> LinearTorque {
         let shade = self.spacecraft.sunshade.as_ref().unwrap();
-        let polynomial = TorquePolynomial::of_sunshade(shade, shade.model, &self.center_of_mass_m).unwrap();
+        let polynomial =
+            TorquePolynomial::of_sunshade(shade, shade.model, &[], &self.center_of_mass_m).unwrap();
         LinearTorque::new(&polynomial, shade.dcm_body_from_shade)
     }
 }

@@ -2,13 +2,13 @@
 
 use nalgebra::Vector3;
 
-use crate::aerodynamics::{AerodynamicModel, AerodynamicOptions, AerodynamicWorkspace, AirFlow};
+use crate::aerodynamics::{AerodynamicModel, AerodynamicOptions, AerodynamicWorkspace, AirFlow, Walls};
 use crate::loads::ForceTorque;
 use crate::plant::light::radiation_segment::RadiationSegment;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::panel_setting::SunAt;
 use crate::refusal::Refusal;
-use crate::spacecraft::{Panel, Spacecraft};
+use crate::spacecraft::{Material, Panel, Spacecraft};
 
 /// Aerodynamic model and workspace. All of it follows from setup and configuration: a cache, not state.
 #[derive(Clone, Debug)]
@@ -56,14 +56,19 @@ impl AerodynamicSolver {
         let is_known = light.is_some_and(|(segment, time_s)| {
             segment.wall_temperatures_at(time_s, &mut self.wall_temperatures_k)
         });
-        let wall_temperatures_k = is_known.then_some(self.wall_temperatures_k.as_slice());
+        let temperatures_k = is_known.then_some(self.wall_temperatures_k.as_slice());
         self.model.load(
             flow,
             &self.panel_angles_rad,
             center_of_mass_body_m,
-            wall_temperatures_k,
+            Walls { temperatures_k, ..Walls::OWN },
             &mut self.workspace,
         )
+    }
+
+    /// Sets the material in this place of the spacecraft's.
+    pub(crate) fn set_material(&mut self, place: usize, material: &Material) {
+        self.model.set_material(place, material);
     }
 
     /// About how many microseconds an evaluation takes.

@@ -5,13 +5,14 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::laws::{Laws, LocalEnvironment};
-use crate::aerodynamics::{AerodynamicModel, AerodynamicWorkspace, AirFlow};
+use crate::aerodynamics::{AerodynamicModel, AerodynamicWorkspace, AirFlow, Walls};
 use crate::bodies::surface::PlanetSurface;
 use crate::environment::eclipse::{EclipseError, Shadow};
 use crate::loads::{Active, Effect, ForceTorque, Loads};
 use crate::numerics::scalar::Scalar;
 use crate::radiation::disturbance::{self, DisturbanceModel, Geometry, Recoil};
 use crate::refusal::Refusal;
+use crate::spacecraft::Material;
 
 /// Where everything is, body frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -53,11 +54,13 @@ pub struct Parameters<T: Scalar> {
 
 /// What the spacecraft is prepared as.
 #[derive(Clone, Copy, Debug)]
-pub struct Surfaces<'a> {
+pub struct Surfaces<'a, T: Scalar> {
     /// In light.
     pub light: &'a DisturbanceModel,
     /// In air, where that acts.
     pub air: Option<&'a AerodynamicModel>,
+    /// Of these materials, in the order of [`DisturbanceModel::materials`].
+    pub materials: &'a [Material<T>],
     /// The effects that act.
     pub active: Active,
 }
@@ -138,7 +141,7 @@ impl<T: Scalar> BySource<T> {
     /// # Errors
     /// The spacecraft inside planet or Sun, positions that are no numbers.
     pub fn at(
-        Surfaces { light: model, air, active }: Surfaces<'_>,
+        Surfaces { light: model, air, materials, active }: Surfaces<'_, T>,
         shadow: Option<&Shadow>,
         parameters: &Parameters<T>,
         positions: &Positions<T>,
@@ -178,7 +181,7 @@ impl<T: Scalar> BySource<T> {
             planet.pole_body = if is_zero(&pole) { -Vector3::z() } else { pole };
         }
         let planet = shadow.filter(|_| active.has(Effect::Albedo)).map(|_| &parameters.planet);
-        let light = model.evaluate_on(planet, &geometry, Recoil::Balance, workspace)?;
+        let light = model.evaluate_on(planet, materials, &geometry, Recoil::Balance, workspace)?;
         let mut loads = light.of_active(active);
         let pole = Vector3::from(positions.pole);
         let [density_kg_m3, temperature_k, molar_mass_kg_mol] = positions.air;
@@ -186,12 +189,13 @@ impl<T: Scalar> BySource<T> {
         let flow = AirFlow { density_kg_m3, temperature_k, molar_mass_kg_mol, velocity_body_m_s };
         let air = air.filter(|_| density_kg_m3.value() > 0.0).map(|model| {
             let center = Vector3::from(positions.center_of_mass_m);
-            let wall_temperatures_k = active.has(Effect::Thermal).then(|| {
+            let temperatures_k = active.has(Effect::Thermal).then(|| {
                 face_temperatures_k.clear();
                 face_temperatures_k.extend(workspace.faces().iter().map(|face| face.temperature_k));
                 face_temperatures_k.as_slice()
             });
-            model.load(&flow, &positions.panel_angles_rad, &center, wall_temperatures_k, air_workspace)
+            let walls = Walls { temperatures_k, materials: Some(materials) };
+            model.load(&flow, &positions.panel_angles_rad, &center, walls, air_workspace)
         });
         let at = LocalEnvironment {
             planet_body_m: planet_m,

@@ -154,7 +154,9 @@ impl<'a> Plant<'a> {
         propagator: &'a mut PropagatorState,
         external: &'a External<'a>,
     ) -> Self {
-        let SimulationContext { configuration, mass_at_zero, ephemeris, light, air, work, .. } = context;
+        let SimulationContext { configuration, mass_at_zero, ephemeris, solar, light, air, work, .. } =
+            context;
+        let prepared = PreparedSpacecraft { solar: solar.as_ref().unwrap_or(prepared.solar), ..prepared };
         let PropagatorState {
             trajectory,
             light: segment,

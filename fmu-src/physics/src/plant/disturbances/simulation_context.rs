@@ -11,7 +11,7 @@ use crate::plant::light::sunlit::SunlitConfiguration;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::work::Work;
 use crate::radiation::SolarModel;
-use crate::spacecraft::{MassProperties, Panel};
+use crate::spacecraft::{MassProperties, Material, Panel};
 
 /// Configuration, environment and work limit of a simulation: everything beside its state.
 #[derive(Clone, Debug)]
@@ -22,6 +22,8 @@ pub struct SimulationContext {
     pub mass_at_zero: MassProperties,
     /// Planets.
     pub ephemeris: Ephemeris,
+    /// The spacecraft in sunlight, where its materials can be set; else as it was prepared.
+    pub solar: Option<SolarModel>,
     /// Light and heat beyond direct sunlight.
     pub light: Option<RadiationSolver>,
     /// Surfaces in air.
@@ -39,10 +41,31 @@ impl SimulationContext {
             mass_at_zero: configuration.loaded(),
             configuration,
             ephemeris: Ephemeris::default(),
+            solar: None,
             light: None,
             air: None,
             work: Work::new(u32::MAX, 0),
             fork_room: Default::default(),
+        }
+    }
+
+    /// The spacecraft in sunlight as it is here.
+    pub(crate) fn in_sunlight<'c>(&'c self, prepared: PreparedSpacecraft<'c>) -> PreparedSpacecraft<'c> {
+        PreparedSpacecraft { solar: self.solar.as_ref().unwrap_or(prepared.solar), ..prepared }
+    }
+
+    /// Sets the material in this place of the spacecraft's where it is another than so far; allocates nothing.
+    pub fn set_material(&mut self, place: usize, material: &Material) {
+        let Self { solar, light, air, .. } = self;
+        let Some(solar) = solar.as_mut().filter(|it| it.materials().get(place) != Some(material)) else {
+            return;
+        };
+        solar.set_material(place, material);
+        if let Some(light) = light {
+            light.model.set_material(place, material);
+        }
+        if let Some(air) = air {
+            air.set_material(place, material);
         }
     }
 
@@ -68,14 +91,14 @@ pub struct PreparedSpacecraft<'a> {
     pub timeline: Option<TimelineLaw<'a>>,
 }
 
-impl PreparedSpacecraft<'_> {
+impl<'a> PreparedSpacecraft<'a> {
     /// The spacecraft in sunlight at `time_s` and this distance from the Sun.
-    pub(crate) fn sunlit<'c>(
-        &'c self,
-        configuration: &'c Configuration,
+    pub(crate) fn sunlit(
+        self,
+        configuration: &'a Configuration,
         mass_at_zero: &MassProperties,
         [time_s, sun_distance_m]: [f64; 2],
-    ) -> SunlitConfiguration<'c> {
+    ) -> SunlitConfiguration<'a> {
         SunlitConfiguration {
             solar: self.solar,
             panels: self.panels,

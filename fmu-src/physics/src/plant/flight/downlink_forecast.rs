@@ -14,6 +14,7 @@ use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, Simulat
 use crate::plant::light::sunlit::SunlitConfiguration;
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
+use crate::spacecraft::Material;
 
 /// Momentum where a downlink begins, in N m s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,7 +78,13 @@ pub struct DownlinkForecast<'o> {
 impl DownlinkForecast<'_> {
     fn sunlit(&self) -> SunlitConfiguration<'_> {
         let SimulationContext { configuration, mass_at_zero, .. } = &*self.context;
-        self.prepared.sunlit(configuration, mass_at_zero, [self.time_s, self.sun_distance_m])
+        let at = [self.time_s, self.sun_distance_m];
+        self.context.in_sunlight(self.prepared).sunlit(configuration, mass_at_zero, at)
+    }
+
+    /// Materials of the spacecraft's faces.
+    pub fn materials(&self) -> &[Material] {
+        self.sunlit().solar.materials()
     }
 
     /// Torque of direct sunlight without shadows in N m, body frame, the Sun being there in the body frame.

@@ -40,6 +40,7 @@ use crate::plant::settings::ideal_settings::IdealSettings;
 use crate::plant::settings::panel_setting::PanelSetting;
 use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::thrusters::reaction_control::Thrusters;
+use crate::radiation::SolarModel;
 use crate::spacecraft::Spacecraft;
 use configured::ConfiguredFlight;
 use dynamic::{AttitudeDynamics, DynamicStep};
@@ -186,6 +187,11 @@ impl Flight {
     pub fn configure(&mut self, context: SimulationContext, settings: ModeSettings) {
         self.setup = Some(Box::new(FlightSetup { context, settings, evaluation: None }));
         self.set_left();
+    }
+
+    /// What the flight is simulated with, where it is configured.
+    pub fn context_mut(&mut self) -> Option<&mut SimulationContext> {
+        self.setup.as_mut().map(|setup| &mut setup.context)
     }
 
     /// Takes the memory of the panels' settings for the next configuration.
@@ -475,6 +481,7 @@ impl Flight {
         Ok(Report {
             time_s,
             configuration,
+            materials: context.solar.as_ref().map_or(&[], SolarModel::materials),
             thrusters,
             since_periapsis_s,
             downlink,

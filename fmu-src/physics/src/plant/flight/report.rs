@@ -17,6 +17,7 @@ use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
 use crate::plant::settings::ideal_settings::IdealSettings;
 use crate::plant::thrusters::reaction_control::Thrusters;
+use crate::spacecraft::Material;
 
 use super::dynamic::AttitudeDynamics;
 use super::encounter_prediction::EncounterPrediction;
@@ -28,6 +29,8 @@ pub struct Report<'a> {
     pub time_s: f64,
     /// The spacecraft, and where it is.
     pub configuration: &'a Configuration,
+    /// Materials of its faces, where they can be set.
+    pub materials: &'a [Material],
     /// Thrusters and tanks.
     pub thrusters: &'a Thrusters,
     /// Time since the last periapsis, in s; 0 where the flight waits.

@@ -56,6 +56,21 @@ impl Ramp {
     }
 }
 
+/// Turn of a panel about its axis off the angle that the Sun gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tilt {
+    /// +1 or -1: the sense of the tilt about the axis.
+    pub sign: f64,
+    /// Angle added to that of the law, in rad.
+    pub bias_rad: f64,
+}
+
+impl From<f64> for Tilt {
+    fn from(sign: f64) -> Self {
+        Self { sign, bias_rad: 0.0 }
+    }
+}
+
 /// One step of a timeline of a panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PanelStep {
@@ -85,8 +100,8 @@ pub enum PanelSetting {
     SunOffset {
         /// That angle.
         offset: Ramp,
-        /// +1 or -1: the sense of the tilt about the axis.
-        tilt_sign: f64,
+        /// Sense of the tilt about the axis, and what is added.
+        tilt: Tilt,
     },
     /// At this angle about its axis.
     Angle(Ramp),
@@ -98,25 +113,41 @@ pub enum PanelSetting {
         clock_minus_time_s: f64,
         /// The angle before the first, in rad.
         before_rad: f64,
-        /// +1 or -1: the sense of the tilt about the axis.
-        tilt_sign: f64,
+        /// Sense of the tilt about the axis, and what is added.
+        tilt: Tilt,
     },
     /// Cell normal at the angle from the Sun that gives the cells this light; toward the Sun where it cannot.
     Distance {
         /// That light, in suns.
         suns: f64,
-        /// +1 or -1: the sense of the tilt about the axis.
-        tilt_sign: f64,
+        /// Sense of the tilt about the axis, and what is added.
+        tilt: Tilt,
     },
 }
 
 impl PanelSetting {
+    /// With an angle in rad added about the axis, whatever the law.
+    #[must_use]
+    pub fn biased(mut self, added_rad: f64) -> Self {
+        match &mut self {
+            Self::Angle(ramp) if added_rad != 0.0 => {
+                *ramp = Ramp::since(ramp.since_s, ramp.angle_rad + added_rad, ramp.rate_rad_s);
+            }
+            Self::SunOffset { tilt, .. } | Self::Timeline { tilt, .. } | Self::Distance { tilt, .. } => {
+                tilt.bias_rad = added_rad;
+            }
+            Self::Disabled | Self::Angle(_) => {}
+        }
+        self
+    }
+
     /// Angle about the panel's axis, in rad, with the Sun there; `None` when left out.
     pub fn angle_rad<T: Scalar>(&self, panel: &Panel, sun: &SunAt<T>) -> Option<T> {
         Some(match self.commanded(sun)? {
             Commanded::Angle(angle_rad) => angle_rad,
-            Commanded::SunOffset { offset_rad, tilt_sign, .. } => {
-                panel.angle_for_sun_offset(&sun.direction_body, offset_rad, tilt_sign)
+            Commanded::SunOffset { offset_rad, tilt, .. } => {
+                let angle_rad = panel.angle_for_sun_offset(&sun.direction_body, offset_rad, tilt.sign);
+                if tilt.bias_rad == 0.0 { angle_rad } else { angle_rad + tilt.bias_rad }
             }
         })
     }
@@ -125,33 +156,34 @@ impl PanelSetting {
     pub fn normal_body<T: Scalar>(&self, panel: &Panel, sun: &SunAt<T>) -> Option<Vector3<T>> {
         Some(match self.commanded(sun)? {
             Commanded::Angle(angle_rad) => panel.normal_body(angle_rad),
-            Commanded::SunOffset { offset_rad, cos_sin, tilt_sign } => {
+            Commanded::SunOffset { tilt, .. } if tilt.bias_rad != 0.0 => {
+                panel.normal_body(self.angle_rad(panel, sun)?)
+            }
+            Commanded::SunOffset { offset_rad, cos_sin, tilt } => {
                 let of_angle = || {
                     let (sin, cos) = sin_cos(offset_rad);
                     [cos, sin]
                 };
                 let sun_offset = cos_sin.map_or_else(of_angle, |it| it.map(T::constant));
-                panel.normal_for_sun_offset(&sun.direction_body, sun_offset, tilt_sign)
+                panel.normal_for_sun_offset(&sun.direction_body, sun_offset, tilt.sign)
             }
         })
     }
 
     /// Commanded angle with the Sun there; `None` when left out.
     fn commanded<T: Scalar>(&self, sun: &SunAt<T>) -> Option<Commanded<T>> {
-        let (offset_rad, cos_sin, tilt_sign) = match self {
+        let (offset_rad, cos_sin, tilt) = match self {
             Self::Disabled => return None,
             Self::Angle(angle) => return Some(Commanded::Angle(angle.at_rad(sun.time_s))),
-            Self::SunOffset { offset, tilt_sign } => {
-                (offset.at_rad(sun.time_s), offset.held_cos_sin(), tilt_sign)
-            }
-            Self::Timeline { steps, clock_minus_time_s, before_rad, tilt_sign } => {
+            Self::SunOffset { offset, tilt } => (offset.at_rad(sun.time_s), offset.held_cos_sin(), tilt),
+            Self::Timeline { steps, clock_minus_time_s, before_rad, tilt } => {
                 let begun = begun_steps(steps, *clock_minus_time_s, sun.time_s.value());
                 let step = begun.checked_sub(1).and_then(|last| steps.get(last));
-                (T::constant(step.map_or(*before_rad, |step| step.offset_rad)), None, tilt_sign)
+                (T::constant(step.map_or(*before_rad, |step| step.offset_rad)), None, tilt)
             }
-            Self::Distance { suns, tilt_sign } => (offset_for_suns(*suns, sun.distance_m), None, tilt_sign),
+            Self::Distance { suns, tilt } => (offset_for_suns(*suns, sun.distance_m), None, tilt),
         };
-        Some(Commanded::SunOffset { offset_rad, cos_sin, tilt_sign: *tilt_sign })
+        Some(Commanded::SunOffset { offset_rad, cos_sin, tilt: *tilt })
     }
 
     /// That angle and its rate, in rad and rad/s, the Sun moving; 0 when left out.
@@ -189,8 +221,8 @@ enum Commanded<T> {
         offset_rad: T,
         /// Cosine and sine of an offset that stays.
         cos_sin: Option<[f64; 2]>,
-        /// +1 or -1: the sense of the tilt about the axis.
-        tilt_sign: f64,
+        /// Sense of the tilt about the axis, and what is added.
+        tilt: Tilt,
     },
 }
 

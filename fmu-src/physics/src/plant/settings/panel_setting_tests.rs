@@ -24,7 +24,7 @@ fn sun_at(time_s: f64) -> SunAt {
 }
 
 fn timeline(of: &[(f64, f64)]) -> PanelSetting {
-    PanelSetting::Timeline { steps: steps(of), clock_minus_time_s: 0.0, before_rad: 1.1, tilt_sign: -1.0 }
+    PanelSetting::Timeline { steps: steps(of), clock_minus_time_s: 0.0, before_rad: 1.1, tilt: (-1.0).into() }
 }
 
 #[test]
@@ -65,10 +65,10 @@ fn the_rate_of_every_law_is_that_of_its_differences() {
     };
     for setting in [
         PanelSetting::Angle(ramp),
-        PanelSetting::SunOffset { offset: ramp, tilt_sign: -1.0 },
+        PanelSetting::SunOffset { offset: ramp, tilt: (-1.0).into() },
         timeline(&[(0.0, -0.6)]),
-        PanelSetting::Distance { suns: 3.0, tilt_sign: 1.0 },
-        PanelSetting::Distance { suns: 90.0, tilt_sign: 1.0 },
+        PanelSetting::Distance { suns: 3.0, tilt: 1.0.into() },
+        PanelSetting::Distance { suns: 90.0, tilt: 1.0.into() },
     ] {
         let angle = |sun: &SunAt| setting.angle_rad(&panel(), sun).unwrap();
         let [angle_rad, rate_rad_s] = setting.turn_rad(&panel(), &moving);
@@ -76,4 +76,26 @@ fn the_rate_of_every_law_is_that_of_its_differences() {
         assert_relative_eq!(rate_rad_s, (angle(&after) - angle(&before)) / (2.0 * H_S), max_relative = 1e-6);
     }
     assert_eq!(PanelSetting::Disabled.turn_rad(&panel(), &moving), [0.0; 2]);
+}
+
+/// By rotating the cell normal about the axis.
+#[test]
+fn a_bias_turns_the_panel_about_its_axis_under_every_law() {
+    let (panel, sun) = (panel(), sun_at(50.0));
+    let axis = nalgebra::Unit::new_normalize(panel.axis_body);
+    for setting in [
+        PanelSetting::Angle(Ramp::since(10.0, 0.4, -3e-4)),
+        PanelSetting::SunOffset { offset: Ramp::held(0.5), tilt: (-1.0).into() },
+        timeline(&[(0.0, -0.6)]),
+        PanelSetting::Distance { suns: 3.0, tilt: 1.0.into() },
+    ] {
+        assert_eq!(setting.clone().biased(0.0), setting);
+        let biased = setting.clone().biased(0.3);
+        let [own_rad, angle_rad] = [&setting, &biased].map(|it| it.angle_rad(&panel, &sun).unwrap());
+        assert_relative_eq!(angle_rad, own_rad + 0.3, epsilon = 1e-15);
+        let [own, normal] = [&setting, &biased].map(|it| it.normal_body(&panel, &sun).unwrap());
+        let turned = nalgebra::Rotation3::from_axis_angle(&axis, 0.3) * own;
+        assert_relative_eq!(normal, turned, epsilon = 1e-15);
+    }
+    assert_eq!(PanelSetting::Disabled.biased(0.3), PanelSetting::Disabled);
 }

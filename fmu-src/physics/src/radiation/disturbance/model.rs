@@ -14,7 +14,7 @@ use crate::radiation::flat_plate::Beam;
 use crate::radiation::planet_light::PlanetLight;
 use crate::radiation::shadow::{DIRECTIONS, ShadowScene, SunDisc};
 use crate::refusal::Refusal;
-use crate::spacecraft::{Spacecraft, SunshadeModel};
+use crate::spacecraft::{Material, Spacecraft, SunshadeModel};
 
 /// What an evaluation takes into account.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,6 +74,16 @@ impl DisturbanceModel {
         })
     }
 
+    /// Materials of the faces, those of the spacecraft in their places.
+    pub fn materials(&self) -> &[Material] {
+        &self.faces.materials
+    }
+
+    /// Sets the material in this place of the spacecraft's.
+    pub fn set_material(&mut self, place: usize, material: &Material) {
+        self.faces.set_material(place, material);
+    }
+
     /// Number of faces, hence of temperatures a thermal state has.
     pub fn face_count(&self) -> usize {
         self.faces.faces.len()
@@ -128,7 +138,7 @@ impl DisturbanceModel {
 
     /// Whether any face stores heat, so that [`super::Recoil::Stored`] differs from balance.
     pub fn stores_heat(&self) -> bool {
-        self.faces.surfaces.iter().any(|surface| surface.thermal.heat_capacity_j_m2_k > 0.0)
+        self.faces.surfaces.iter().any(|surface| surface.heat_capacity_j_m2_k > 0.0)
     }
 
     /// Force and torque about the centre of mass by effect; by face in the workspace.
@@ -145,15 +155,35 @@ impl DisturbanceModel {
         workspace: &mut Workspace<T>,
     ) -> Result<Loads<T>, Refusal> {
         let surface = self.planet.map(|surface| surface.constant());
-        self.evaluate_on(surface.as_ref(), geometry, recoil, workspace)
+        workspace.materials.clear();
+        workspace.materials.extend(self.faces.materials.iter().map(|material| material.map(T::constant)));
+        self.evaluate_prepared(surface.as_ref(), geometry, recoil, workspace)
     }
 
-    /// As [`DisturbanceModel::evaluate`] near a planet of this surface, whose properties may depend on the seed; not
-    /// checked.
+    /// As [`DisturbanceModel::evaluate`] with these materials, in the order of [`DisturbanceModel::materials`], near a planet of
+    /// this surface; both may depend on the seed, and neither is checked.
     ///
     /// # Errors
-    /// See [`DisturbanceModel::evaluate`].
+    /// Too few materials; see [`DisturbanceModel::evaluate`].
     pub fn evaluate_on<T: Scalar>(
+        &self,
+        surface: Option<&PlanetSurface<T>>,
+        materials: &[Material<T>],
+        geometry: &Geometry<'_, T>,
+        recoil: Recoil<'_>,
+        workspace: &mut Workspace<T>,
+    ) -> Result<Loads<T>, Refusal> {
+        let (found, allowed) = (materials.len(), self.faces.materials.len());
+        if found != allowed {
+            return Err(Refusal::new(format_args!("{found} materials"), allowed));
+        }
+        workspace.materials.clear();
+        workspace.materials.extend_from_slice(materials);
+        self.evaluate_prepared(surface, geometry, recoil, workspace)
+    }
+
+    /// Evaluates with the workspace's materials.
+    fn evaluate_prepared<T: Scalar>(
         &self,
         surface: Option<&PlanetSurface<T>>,
         geometry: &Geometry<'_, T>,
@@ -180,7 +210,8 @@ impl DisturbanceModel {
         if let Some(cylinder) = &self.faces.cylinder {
             let beam = geometry.beam();
             let beam = Beam { pressure_pa: beam.pressure_pa * geometry.solar_scale, ..beam };
-            let sunlight = cylinder.force_torque_about_origin(&beam);
+            let optics = &workspace.materials[cylinder.material].optics;
+            let sunlight = cylinder.force_torque_about_origin(optics, &beam);
             sum[Effect::Solar] += sunlight.about(&geometry.center_of_mass_body_m);
         }
         Ok(sum)
@@ -221,9 +252,7 @@ impl DisturbanceModel {
         end_heat_w: &[f64],
         duration_s: f64,
     ) {
-        for surface in &self.faces.surfaces {
-            surface.advance_temperatures(temperatures_k, [start_heat_w, end_heat_w], duration_s);
-        }
+        self.faces.advance_temperatures(temperatures_k, [start_heat_w, end_heat_w], duration_s);
     }
 
     fn check_temperatures(&self, recoil: Recoil<'_>) -> Result<(), Refusal> {

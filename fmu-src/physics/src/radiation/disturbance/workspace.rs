@@ -6,6 +6,7 @@ use crate::loads::{Active, Effect};
 use crate::numerics::scalar::Scalar;
 use crate::radiation::planet_light::PlanetLight;
 use crate::radiation::shadow::ShadowWorkspace;
+use crate::spacecraft::Material;
 
 /// What one face receives, gives off and feels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,6 +53,7 @@ pub struct Workspace<T: Scalar> {
     pub(super) lights: Vec<PlanetLight<T>>,
     pub(super) faces: Vec<FaceResult<T>>,
     pub(super) shadow: ShadowWorkspace<T>,
+    pub(super) materials: Vec<Material<T>>,
 }
 
 impl<T: Scalar> Default for Workspace<T> {
@@ -61,6 +63,7 @@ impl<T: Scalar> Default for Workspace<T> {
             lights: Vec::new(),
             faces: Vec::new(),
             shadow: ShadowWorkspace::default(),
+            materials: Vec::new(),
         }
     }
 }

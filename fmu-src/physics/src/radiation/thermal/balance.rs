@@ -12,7 +12,7 @@ const MOST_ITERATIONS: usize = 100;
 
 /// Power per area a face radiates at a temperature, in W/m2, and its derivative by temperature.
 #[inline]
-pub fn exitance_w_m2<T: Scalar>(emission: &Emission, temperature_k: T) -> (T, T) {
+pub fn exitance_w_m2<T: Scalar>(emission: &Emission<T>, temperature_k: T) -> (T, T) {
     let (emissivity, slope) = emission.at(temperature_k);
     let cube = temperature_k * temperature_k * temperature_k * STEFAN_BOLTZMANN_W_M2_K4;
     let fourth = cube * temperature_k;
@@ -21,19 +21,19 @@ pub fn exitance_w_m2<T: Scalar>(emission: &Emission, temperature_k: T) -> (T, T)
 
 /// What a face gives off heat to: space all around, and the bus behind it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FaceEnvironment {
+pub struct FaceEnvironment<T = f64> {
     /// Emission of the face.
-    pub emission: Emission,
+    pub emission: Emission<T>,
     /// Temperature of the space it sees, in K.
     pub background_k: f64,
     /// Heat flow to the bus.
     pub bus: BusLink,
 }
 
-impl FaceEnvironment {
+impl<T: Scalar> FaceEnvironment<T> {
     /// Power per area that the face radiates more than it takes in from space, in W/m2, and its derivative by temperature.
     #[inline]
-    pub fn radiated_w_m2<T: Scalar>(&self, temperature_k: T) -> (T, T) {
+    pub fn radiated_w_m2(&self, temperature_k: T) -> (T, T) {
         let (exitance, exitance_slope) = exitance_w_m2(&self.emission, temperature_k);
         let (emissivity, slope) = self.emission.at(temperature_k);
         let from_space = STEFAN_BOLTZMANN_W_M2_K4 * fourth(self.background_k);
@@ -42,11 +42,17 @@ impl FaceEnvironment {
 
     /// The same with what flows to the bus.
     #[inline]
-    pub fn outflow_w_m2<T: Scalar>(&self, temperature_k: T) -> (T, T) {
+    pub fn outflow_w_m2(&self, temperature_k: T) -> (T, T) {
         let (radiated, slope) = self.radiated_w_m2(temperature_k);
         let conductance_w_m2_k = self.bus.conductance_w_m2_k;
         let to_bus = (temperature_k - self.bus.temperature_k) * conductance_w_m2_k;
         (radiated + to_bus, slope + T::constant(conductance_w_m2_k))
+    }
+
+    /// The same of another number type.
+    pub fn map<U>(self, of: impl Fn(T) -> U) -> FaceEnvironment<U> {
+        let Self { emission, background_k, bus } = self;
+        FaceEnvironment { emission: emission.map(of), background_k, bus }
     }
 
     /// The bus's temperature, where heat flows to it.
@@ -61,8 +67,9 @@ fn fourth(temperature_k: f64) -> f64 {
 
 /// Temperature of a face that takes in `heat_w_m2` and radiates to its environment alone (eq 43 where they are cold). No
 /// heat gives the temperature of space.
-pub fn face_temperature_k<T: Scalar>(face: &FaceEnvironment, heat_w_m2: T) -> T {
-    let heat = heat_w_m2.value();
+pub fn face_temperature_k<T: Scalar>(face: &FaceEnvironment<T>, heat_w_m2: T) -> T {
+    let (seeded, heat) = (face, heat_w_m2.value());
+    let face = &face.map(T::value);
     let emission = &face.emission;
     if heat <= 0.0 && !face.bus.conducts() {
         return T::constant(face.background_k);
@@ -83,8 +90,8 @@ pub fn face_temperature_k<T: Scalar>(face: &FaceEnvironment, heat_w_m2: T) -> T 
         }
     }
     // One more step in the kernel's numbers carries the derivative over exactly.
-    let (outflow, slope) = face.outflow_w_m2(temperature_k);
-    (heat_w_m2 - outflow) / slope + temperature_k
+    let (outflow, slope) = seeded.outflow_w_m2(T::constant(temperature_k));
+    (heat_w_m2 - outflow) / slope.value() + temperature_k
 }
 
 /// Temperatures of front and rear of a thin structure that take in `heat_w_m2` each (eqs 44-49).
@@ -93,11 +100,12 @@ pub fn face_temperature_k<T: Scalar>(face: &FaceEnvironment, heat_w_m2: T) -> T 
 /// 1e-12 of the heat. No heat gives the temperature of space, of which both faces see the same. Heat must not be negative;
 /// radiative exchange or conductance may be 0, not both.
 pub fn conducting_temperatures_k<T: Scalar>(
-    faces: &[FaceEnvironment; 2],
+    faces: &[FaceEnvironment<T>; 2],
     conduction: &Conduction,
     heat_w_m2: [T; 2],
 ) -> [T; 2] {
-    let heat = heat_w_m2.map(T::value);
+    let (seeded, heat) = (faces, heat_w_m2.map(T::value));
+    let faces = &faces.map(|face| face.map(T::value));
     let total = heat[0] + heat[1];
     let background_k = faces[0].background_k;
     if total <= 0.0 && !faces.iter().any(|face| face.bus.conducts()) {
@@ -124,7 +132,7 @@ pub fn conducting_temperatures_k<T: Scalar>(
         }
     }
     // One more step in the kernel's numbers carries the derivative over exactly.
-    let balance = Balance::at(faces, conduction, temperatures_k);
+    let balance = Balance::at(seeded, conduction, temperatures_k);
     let change = balance.solve([0, 1].map(|i| heat_w_m2[i] - balance.outflow[i]));
     [0, 1].map(|i| change[i] + temperatures_k[i])
 }
@@ -136,32 +144,32 @@ fn damped(change_k: f64, temperature_k: f64) -> f64 {
 }
 
 /// Heat flow out of each face, into space, to the bus and to the other face, with its slopes.
-struct Balance {
+struct Balance<T> {
     /// In W/m2.
-    outflow: [f64; 2],
+    outflow: [T; 2],
     /// d(flow to space and bus) / dT of each face, in W/m2/K.
     own_slope: [f64; 2],
     /// d(exchange) / dT of each face, in W/m2/K.
     exchange_slope: [f64; 2],
 }
 
-impl Balance {
+impl<T: Scalar> Balance<T> {
     #[inline]
-    fn at(faces: &[FaceEnvironment; 2], conduction: &Conduction, temperatures_k: [f64; 2]) -> Self {
-        let [front, rear] = temperatures_k;
+    fn at(faces: &[FaceEnvironment<T>; 2], conduction: &Conduction, temperatures_k: [f64; 2]) -> Self {
+        let [front, rear] = temperatures_k.map(T::constant);
         let (front_outflow, front_slope) = faces[0].outflow_w_m2(front);
         let (rear_outflow, rear_slope) = faces[1].outflow_w_m2(rear);
         let (exchange, exchange_slope) = exchange_w_m2(conduction, temperatures_k);
         Self {
             outflow: [front_outflow + exchange, rear_outflow - exchange],
-            own_slope: [front_slope, rear_slope],
+            own_slope: [front_slope.value(), rear_slope.value()],
             exchange_slope,
         }
     }
 
     /// Changes of temperature that raise the outflow by `missing`.
     #[inline]
-    fn solve<T: Scalar>(&self, missing: [T; 2]) -> [T; 2] {
+    fn solve(&self, missing: [T; 2]) -> [T; 2] {
         let [a1, a2] = self.own_slope;
         let [b1, b2] = self.exchange_slope;
         let determinant = a1 * a2 + a1 * b2 + a2 * b1;

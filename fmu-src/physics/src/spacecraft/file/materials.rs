@@ -1,33 +1,42 @@
 //! Materials, and what every surface exchanges heat with, from their descriptions.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 
 use super::describe_thermal::SurroundingsDescription;
 use super::description::{OpticsDescription, SpacecraftDescription};
+use super::names::variable_name;
 use crate::spacecraft::gas_surface::GasSurface;
+use crate::spacecraft::material::{Material, NamedMaterial, OPTICS_SUM_TOLERANCE};
 use crate::spacecraft::optics::Optics;
 use crate::spacecraft::thermal::{Emission, FaceThermal};
 use crate::toml::{Checker, Fraction, KeyPath, hint, rounded};
 
-/// What a file says of a material.
+/// A material that a surface names.
 #[derive(Clone, Copy)]
-pub(crate) struct Material {
-    pub optics: Optics,
-    pub thermal: FaceThermal,
-    pub gas_surface: GasSurface,
+pub(crate) struct ChosenMaterial {
+    /// Its place among those in use; `None` for a stand-in.
+    pub place: Option<usize>,
+    /// Its properties.
+    pub material: Material,
 }
 
-impl Material {
+impl ChosenMaterial {
     /// Stands in for a material that was reported as unknown.
-    pub(crate) const BLACK: Self = Self {
-        optics: Optics::from_reflectivities(0.0, 0.0),
-        thermal: FaceThermal::like_sunlight(&Optics::from_reflectivities(0.0, 0.0)),
-        gas_surface: GasSurface::ASSUMED,
+    const BLACK: Self = {
+        let optics = Optics::from_reflectivities(0.0, 0.0);
+        let thermal = FaceThermal::like_sunlight(&optics);
+        Self { place: None, material: Material { optics, thermal, gas_surface: GasSurface::ASSUMED } }
     };
 
     /// Front and rear of a surface in the air.
     pub(crate) fn in_air(front: Self, rear: Option<Self>) -> [GasSurface; 2] {
-        [front, rear.unwrap_or(front)].map(|material| material.gas_surface)
+        [front, rear.unwrap_or(front)].map(|it| it.material.gas_surface)
+    }
+
+    /// Places of the materials of front and rear.
+    pub(crate) fn places(front: Self, rear: Option<Self>) -> [Option<usize>; 2] {
+        [front.place, rear.and_then(|it| it.place)]
     }
 }
 
@@ -41,7 +50,9 @@ pub(crate) struct ThermalEnvironment {
 
 /// The file's materials by name, and what their surfaces exchange heat with.
 pub(crate) struct Materials {
-    by_name: BTreeMap<String, Material>,
+    by_name: BTreeMap<String, (NamedMaterial, Cell<Option<usize>>)>,
+    /// How many are in use.
+    used: Cell<usize>,
     pub environment: ThermalEnvironment,
 }
 
@@ -54,32 +65,67 @@ impl Materials {
             background_k: thermal.background_k(),
             bus_temperature_k: thermal.bus_temperature_k.map(f64::from),
         };
-        let materials = description.optics.iter().map(|(name, description)| {
+        let names = variable_names(check, description.optics.keys());
+        let materials = description.optics.iter().zip(names).map(|((name, description), variable)| {
             let at = KeyPath::root().key("optics").key(name);
             let optics = optics(check, &at, description);
             let thermal = face_thermal(check, &at, description, &optics);
-            (name.clone(), Material { optics, thermal, gas_surface: gas_surface(description) })
+            let material = NamedMaterial {
+                name: variable,
+                material: Material { optics, thermal, gas_surface: gas_surface(description) },
+                emissivity_follows: description.emissivity.is_none(),
+                infrared_follows: description.infrared_absorptivity.is_none(),
+                has_air: says_air(description),
+            };
+            (name.clone(), (material, Cell::new(None)))
         });
-        Self { by_name: materials.collect(), environment }
+        Self { by_name: materials.collect(), used: Cell::new(0), environment }
+    }
+
+    /// Those that surfaces name, in the order in which they first do.
+    pub(crate) fn in_use(&self) -> Vec<NamedMaterial> {
+        let mut used: Vec<_> = self.by_name.values().filter(|(_, place)| place.get().is_some()).collect();
+        used.sort_by_key(|(_, place)| place.get());
+        used.into_iter().map(|(material, _)| material.clone()).collect()
     }
 
     /// The material of this name; an unknown one is reported.
-    pub(crate) fn find(&self, check: &mut Checker<'_>, at: &KeyPath, name: &str) -> Material {
-        if let Some(material) = self.by_name.get(name) {
-            return *material;
+    pub(crate) fn find(&self, check: &mut Checker<'_>, at: &KeyPath, name: &str) -> ChosenMaterial {
+        if let Some((named, place)) = self.by_name.get(name) {
+            if place.get().is_none() {
+                place.set(Some(self.used.replace(self.used.get() + 1)));
+            }
+            return ChosenMaterial { place: place.get(), material: named.material };
         }
         if check.is_stand_in(&KeyPath::root().key("optics")) {
-            return Material::BLACK;
+            return ChosenMaterial::BLACK;
         }
         let known: Vec<&str> = self.by_name.keys().map(String::as_str).collect();
         let allowed = format!("a material under [optics]: {}", known.join(", "));
         check.report(at, format_args!("the unknown material `{name}`{}", hint(name, &known)), allowed);
-        Material::BLACK
+        ChosenMaterial::BLACK
     }
 }
 
-/// How far absorptivity + specular + diffuse may be off 1.
-const OPTICS_SUM_TOLERANCE: f64 = 1e-9;
+/// Names of the parameters of materials, no two alike.
+fn variable_names<'n>(check: &mut Checker<'_>, names: impl Iterator<Item = &'n String>) -> Vec<String> {
+    let mut known: BTreeMap<String, &str> = BTreeMap::new();
+    let called = names.map(|name| {
+        let at = KeyPath::root().key("optics").key(name);
+        let Some(variable) = variable_name(name) else {
+            let allowed = "letters and digits, words apart by `-` or `_`, the first a letter: parameters are called after it, \
+                           those of `shield-film` optics.shieldFilm.*";
+            check.report(&at, format_args!("{name:?}"), allowed);
+            return name.clone();
+        };
+        if let Some(other) = known.insert(variable.clone(), name) {
+            let found = format!("parameters optics.{variable}.*, as of `{other}`");
+            check.report(&at, found, "a name of its own without `-` and `_` too");
+        }
+        variable
+    });
+    called.collect()
+}
 
 fn optics(check: &mut Checker<'_>, at: &KeyPath, description: &OpticsDescription) -> Optics {
     let (specular, diffuse) = (description.specular.0, description.diffuse.0);
@@ -98,6 +144,18 @@ fn optics(check: &mut Checker<'_>, at: &KeyPath, description: &OpticsDescription
         check.report_across(at, &at.key("absorptivity"), found, "a sum of 1 within 1e-9");
     }
     Optics { absorptivity, specular, diffuse }
+}
+
+/// Whether the file gives any number of the interaction with air.
+fn says_air(description: &OpticsDescription) -> bool {
+    let fractions = [
+        description.energy_accommodation,
+        description.normal_accommodation,
+        description.tangential_accommodation,
+    ];
+    description.drag_coefficient.is_some()
+        || description.wall_temperature_k.is_some()
+        || fractions.iter().any(Option::is_some)
 }
 
 fn gas_surface(description: &OpticsDescription) -> GasSurface {

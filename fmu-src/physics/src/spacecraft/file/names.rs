@@ -185,3 +185,17 @@ pub(crate) fn check_item_name(check: &mut Checker<'_>, at: &KeyPath, name: &str)
         check.report(at, format_args!("{name:?}"), ALLOWED);
     }
 }
+
+/// The name in camel case, as variables have it: `shieldFilm` of `shield-film`; `None` of one that no variable can have.
+pub(crate) fn variable_name(name: &str) -> Option<String> {
+    let mut words = name.split(['-', '_', ' ']).filter(|word| !word.is_empty());
+    let is_word = |word: &str| word.chars().all(|letter| letter.is_ascii_alphanumeric());
+    let mut called =
+        words.next().filter(|first| first.starts_with(|it: char| it.is_ascii_alphabetic()))?.to_owned();
+    for word in words {
+        let (first, others) = word.split_at_checked(1)?;
+        called.push_str(&first.to_ascii_uppercase());
+        called.push_str(others);
+    }
+    is_word(&called).then_some(called)
+}

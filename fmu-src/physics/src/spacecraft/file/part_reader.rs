@@ -4,7 +4,7 @@ use core::fmt::Display;
 
 use nalgebra::Vector3;
 
-use super::materials::{Material, Materials};
+use super::materials::{ChosenMaterial, Materials};
 use crate::toml::{Checker, KeyPath};
 
 /// A table of the file, or an item of one of its lists.
@@ -84,12 +84,12 @@ impl<'d> PartReader<'_, 'd> {
     }
 
     /// The material that a key names.
-    pub(crate) fn material(&mut self, key: &str, name: &str) -> Material {
+    pub(crate) fn material(&mut self, key: &str, name: &str) -> ChosenMaterial {
         self.materials.find(self.check, &self.at.key(key), name)
     }
 
     /// That of its rear, if it has one.
-    pub(crate) fn rear(&mut self, name: Option<&str>) -> Option<Material> {
+    pub(crate) fn rear(&mut self, name: Option<&str>) -> Option<ChosenMaterial> {
         name.map(|name| self.material("rear_optics", name))
     }
 }

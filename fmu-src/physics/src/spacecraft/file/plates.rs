@@ -5,7 +5,7 @@ use super::description::{
     CylinderDescription, PanelDescription, PlateDescription, SpacecraftDescription, SunshadeDescription,
 };
 use super::mass::panel_mass;
-use super::materials::Material;
+use super::materials::ChosenMaterial;
 use super::names::Named;
 use super::outline::{checked_area, checked_center, checked_normal, checked_outline};
 use super::part_reader::PartReader;
@@ -76,9 +76,10 @@ fn plate(part: &mut PartReader<'_, '_>, description: &PlateDescription) -> Plate
         area_m2: checked_area(part, description.area_m2, outline.as_ref()),
         center_m: checked_center(part, description.center_m, outline.as_ref()),
         normal: checked_normal(part, normal, outline.as_ref()),
-        optics: front.optics,
-        rear_optics: rear.map(|rear| rear.optics),
-        gas_surface: Material::in_air(front, rear),
+        optics: front.material.optics,
+        rear_optics: rear.map(|rear| rear.material.optics),
+        gas_surface: ChosenMaterial::in_air(front, rear),
+        materials: ChosenMaterial::places(front, rear),
         thermal: thermal(part, description.thermal.as_ref(), front, rear),
         polygon: outline,
     }
@@ -106,13 +107,15 @@ pub(crate) fn sunshade(part: &mut PartReader<'_, '_>, description: &SunshadeDesc
 }
 
 fn cylinder(part: &mut PartReader<'_, '_>, description: &CylinderDescription) -> Cylinder {
-    let material = part.material("optics", &description.optics);
+    let ChosenMaterial { place, material } = part.material("optics", &description.optics);
     Cylinder {
         radius_m: description.radius_m.0,
         height_m: description.height_m.0,
         half_angle_rad: description.subtended_angle_deg.0.to_radians() / 2.0,
         optics: material.optics,
         gas_surface: material.gas_surface,
+        thermal: material.thermal,
+        material: place,
     }
 }
 
@@ -148,9 +151,10 @@ pub(crate) fn panel(part: &mut PartReader<'_, '_>, description: &PanelDescriptio
         mass: mass.map(|mass| mass.turned(&dcm_body_from_panel)),
         axis_body: dcm_body_from_panel * axis,
         zero_normal_body: dcm_body_from_panel * zero_normal,
-        optics: front.optics,
-        rear_optics: rear.map(|rear| rear.optics),
-        gas_surface: Material::in_air(front, rear),
+        optics: front.material.optics,
+        rear_optics: rear.map(|rear| rear.material.optics),
+        gas_surface: ChosenMaterial::in_air(front, rear),
+        materials: ChosenMaterial::places(front, rear),
         thermal: thermal(part, description.thermal.as_ref(), front, rear),
         polygon: outline.as_ref().map(|polygon| polygon.moved(|v| dcm_body_from_panel * v)),
         control: description.control(),

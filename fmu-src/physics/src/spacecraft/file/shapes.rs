@@ -10,7 +10,7 @@ use super::describe_shapes::{
     RepeatDescription,
 };
 use super::facets::{BOX_FACES, Facet, box_faces, cylinder_facets, disc, dish_facets};
-use super::materials::Material;
+use super::materials::ChosenMaterial;
 use super::names::Named;
 use super::part_reader::PartReader;
 use super::thermal::thermal;
@@ -26,7 +26,7 @@ struct Shape<'s> {
     turn: Matrix3<f64>,
     shift_m: Vector3<f64>,
     facets: Vec<Facet>,
-    rear: Option<Material>,
+    rear: Option<ChosenMaterial>,
     thermal: Thermal,
     mirror: Option<&'s [MirrorPlane]>,
     repeat: Option<&'s RepeatDescription>,
@@ -150,7 +150,7 @@ impl Shape<'_> {
         &self,
         part: &mut PartReader<'_, '_>,
         kind: &str,
-        material: &dyn Fn(&str) -> Material,
+        material: &dyn Fn(&str) -> ChosenMaterial,
     ) -> Vec<Plate> {
         let motions = motions(part, self.mirror, self.repeat);
         if part.check.has_reported(&part.at) || part.check.has_stand_in(&part.at) {
@@ -184,13 +184,15 @@ impl Shape<'_> {
         plates
     }
 
-    fn plate(&self, name: &str, facet: &Facet, outline: Polygon, front: Material) -> Plate {
+    fn plate(&self, name: &str, facet: &Facet, outline: Polygon, front: ChosenMaterial) -> Plate {
         let mut thermal = self.thermal;
-        thermal.front = front.thermal;
+        thermal.front = front.material.thermal;
         let dot = if facet.name.is_empty() { "" } else { "." };
-        let (name, rear) = (format!("{name}{dot}{}", facet.name), self.rear.map(|rear| rear.optics));
-        let gas_surface = Material::in_air(front, self.rear);
-        Plate { thermal, gas_surface, ..Plate::outlined(name, outline, front.optics, rear) }
+        let (name, rear) = (format!("{name}{dot}{}", facet.name), self.rear.map(|it| it.material.optics));
+        let gas_surface = ChosenMaterial::in_air(front, self.rear);
+        let materials = ChosenMaterial::places(front, self.rear);
+        let plate = Plate::outlined(name, outline, front.material.optics, rear);
+        Plate { thermal, gas_surface, materials, ..plate }
     }
 
     /// Heat from inside leaves through all plates alike.

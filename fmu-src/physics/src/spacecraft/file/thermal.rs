@@ -1,7 +1,7 @@
 //! Heat of a surface, from its description.
 
 use super::describe_thermal::{ConductionDescription, ThermalDescription};
-use super::materials::Material;
+use super::materials::ChosenMaterial;
 use super::part_reader::PartReader;
 use crate::spacecraft::thermal::{BusLink, Conduction, Honeycomb, Thermal};
 use crate::toml::NotNegative;
@@ -10,8 +10,8 @@ use crate::toml::NotNegative;
 pub(crate) fn thermal(
     part: &mut PartReader<'_, '_>,
     description: Option<&ThermalDescription>,
-    front: Material,
-    rear: Option<Material>,
+    front: ChosenMaterial,
+    rear: Option<ChosenMaterial>,
 ) -> Thermal {
     let nothing = ThermalDescription::default();
     let description = description.unwrap_or(&nothing);
@@ -29,8 +29,8 @@ pub(crate) fn thermal(
     }
     let bus = bus(&mut part, description);
     Thermal {
-        front: front.thermal,
-        rear: rear.map(|rear| rear.thermal),
+        front: front.material.thermal,
+        rear: rear.map(|rear| rear.material.thermal),
         bus,
         internal_heat_w: [description.internal_heat_w(), description.rear_internal_heat_w()],
         heat_capacity_j_m2_k: description.heat_capacity_j_m2_k(),

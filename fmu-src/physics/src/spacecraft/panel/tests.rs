@@ -16,6 +16,7 @@ fn panel() -> Panel {
         optics: Optics::from_reflectivities(0.52, 0.07),
         rear_optics: None,
         gas_surface: [GasSurface::ASSUMED; 2],
+        materials: [None; 2],
         thermal: Thermal::insulated(&Optics::from_reflectivities(0.52, 0.07), None),
         polygon: None,
         control: PanelControl::SunOffset,

@@ -69,7 +69,7 @@ impl Cruise {
             steps: steps.as_slice().into(),
             clock_minus_time_s: 0.0,
             before_rad: steps[0].offset_rad,
-            tilt_sign: 1.0,
+            tilt: 1.0.into(),
         };
         Configuration {
             encounter: None,

@@ -111,9 +111,18 @@ proptest! {
     ) {
         let emission = [front, rear];
         let link = link(q, h);
-        let at = |x: f64| conducting_temperatures_k(&emission.map(in_the_cold), &link, [heats[0] + x, heats[1] - 0.3 * x]);
+        // The emissivities change too, each in its own direction.
+        const BY_HEAT: [f64; 2] = [3e-6, -2e-6];
+        let faces = emission.map(in_the_cold);
+        let at = |x: f64| {
+            let mut faces = faces;
+            faces.iter_mut().zip(BY_HEAT).for_each(|(face, by_heat)| face.emission.emissivity += by_heat * x);
+            conducting_temperatures_k(&faces, &link, [heats[0] + x, heats[1] - 0.3 * x])
+        };
         let seeded = [Dual64::new(heats[0], 1.0), Dual64::new(heats[1], -0.3)];
-        let exact = conducting_temperatures_k(&emission.map(in_the_cold), &link, seeded);
+        let mut changing = faces.map(|face| face.map(Dual64::from_re));
+        changing.iter_mut().zip(BY_HEAT).for_each(|(face, by_heat)| face.emission.emissivity.eps = by_heat);
+        let exact = conducting_temperatures_k(&changing, &link, seeded);
         let step = 1e-4 * heats[0].min(heats[1]);
         // The slope is discontinuous where an emissivity reaches 1.
         let slopes = |x: f64| [0, 1].map(|i| emission[i].at(at(x)[i]).1);
@@ -192,11 +201,12 @@ proptest! {
             let scale = heats[0] + heats[1] + conductances[i] * buses_k[i] + radiated.abs() + flow.abs();
             prop_assert!((heats[i] - through - radiated - to_bus).abs() <= 1e-9 * scale, "{found_k:?}");
         }
-        let seeded = conducting_temperatures_k(&faces, &link, [Dual64::new(heats[0], 1.0), Dual64::new(heats[1], -0.3)]);
+        let constant = faces.map(|face| face.map(Dual64::from_re));
+        let seeded = conducting_temperatures_k(&constant, &link, [Dual64::new(heats[0], 1.0), Dual64::new(heats[1], -0.3)]);
         let step = 1e-2;
         let at = |x: f64| conducting_temperatures_k(&faces, &link, [heats[0] + step + x, heats[1] + step - 0.3 * x]);
         let here = conducting_temperatures_k(
-            &faces,
+            &constant,
             &link,
             [Dual64::new(heats[0] + step, 1.0), Dual64::new(heats[1] + step, -0.3)],
         );
