@@ -7,7 +7,6 @@ use crate::bodies::{Body, sphere_of_influence_m};
 use crate::environment::atmosphere::CEILING_M;
 use crate::loads::Effect;
 use crate::plant::{Configuration, EphemerisSource, Motion};
-use crate::spacecraft::Spacecraft;
 use crate::toml::dates;
 
 /// Least part by which shadows change force or torque of sunlight where it is odd to leave them out.
@@ -39,8 +38,6 @@ pub struct WheelSettings {
 /// Settings of a flight where it begins.
 #[derive(Clone, Copy, Debug)]
 pub struct FlightSettings<'a> {
-    /// The spacecraft.
-    pub spacecraft: &'a Spacecraft,
     /// What its file comes to.
     pub figures: &'a Figures,
     /// What the flight needs beside it.

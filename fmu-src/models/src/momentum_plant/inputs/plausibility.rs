@@ -5,11 +5,14 @@ use nalgebra::Vector3;
 use physics::bodies::Body;
 use physics::environment::CartesianState;
 use physics::environment::orbit::{Elements, TwoBodyOrbit};
+use physics::guidance::pointing::scenario::is_rolled_about_boresight;
+use physics::guidance::timeline::TimelineLaw;
 use physics::plant::{Flight, StepContext};
 use physics::plausibility::{
     Figures, FlightSettings, FlightSurvey, WheelSettings, air_moves_orbit, warnings,
 };
 
+use crate::common::downlink::roll_warning;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::air_and_field::AtmosphereMethod;
@@ -95,7 +98,6 @@ pub(in crate::momentum_plant) fn report(
     ];
     let weather = &v.space_weather;
     let settings = FlightSettings {
-        spacecraft,
         figures: &figures,
         configuration,
         epoch_s: values.real(v.start.epoch),
@@ -107,7 +109,13 @@ pub(in crate::momentum_plant) fn report(
         has_default_dynamics: !context.given_deliberately(values, &[dynamics.into()]).has(dynamics),
     };
     let survey = FlightSurvey::of(flight, given, spacecraft, time_s);
+    let timeline = given.prepared.timeline.filter(|_| configuration.timeline.is_some());
+    let rolled = timeline.and_then(|TimelineLaw { timeline, hardware }| {
+        timeline.entries().iter().find(|entry| is_rolled_about_boresight(&entry.command, &hardware))
+    });
+    let rolled =
+        rolled.map(|entry| roll_warning(&format!("the command in line {} of the timeline", entry.line)));
     let found = warnings(spacecraft, &figures).into_iter();
-    let found = found.chain(settings.warnings()).chain(survey.warnings(spacecraft));
+    let found = found.chain(settings.warnings()).chain(survey.warnings(spacecraft)).chain(rolled);
     found.for_each(|text| context.log.warning(&text));
 }
