@@ -65,6 +65,16 @@ pub trait Model: Sized + 'static {
         Vec::new()
     }
 
+    /// Start values that follow from those of `start` and are declared in place of what the setup leaves open: each is of a
+    /// parameter that it did not give. They count as given by nobody.
+    fn following_start_values(
+        _setup: &Self::Setup,
+        _variables: &Self::Variables,
+        _start: &Values,
+    ) -> Vec<StartValue> {
+        Vec::new()
+    }
+
     /// Description, default experiment and the like.
     fn about(setup: &Self::Setup) -> About;
 

@@ -8,6 +8,8 @@ pub const ASTRONOMICAL_UNIT_M: f64 = 149_597_870_700.0;
 pub const STEFAN_BOLTZMANN_W_M2_K4: f64 = 5.670_374_419e-8;
 /// Molar gas constant, J mol-1 K-1 (exact in the SI of 2019, rounded to 15 digits).
 pub const GAS_CONSTANT_J_MOL_K: f64 = 8.314_462_618_153_24;
+/// Newtonian constant of gravitation, m3 kg-1 s-2 (CODATA 2018).
+pub const GRAVITATIONAL_CONSTANT_M3_KG_S2: f64 = 6.674_30e-11;
 /// Radians in a degree.
 pub const DEG_RAD: f64 = core::f64::consts::PI / 180.0;
 /// An arc second, in rad.
@@ -49,6 +51,8 @@ pub const RADIUS_MERCURY_M: f64 = 2.439_4e6;
 pub const RADIUS_VENUS_M: f64 = 6.051_8e6;
 /// Mean radius of the Earth, m (IAU Working Group on Cartographic Coordinates, 2015).
 pub const RADIUS_EARTH_M: f64 = 6.371_008_4e6;
+/// Mean radius of the Moon, m (IAU Working Group on Cartographic Coordinates, 2015).
+pub const RADIUS_MOON_M: f64 = 1.737_4e6;
 /// Mean radius of Mars, m (IAU Working Group on Cartographic Coordinates, 2015).
 pub const RADIUS_MARS_M: f64 = 3.389_5e6;
 /// Mean radius of Jupiter, m (IAU Working Group on Cartographic Coordinates, 2015).

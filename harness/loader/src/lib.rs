@@ -52,7 +52,7 @@ pub use simulate::{
     Ended, Options, RecordedPoints, Simulation, Stopped, initialize, outputs, set_early, simulate,
     simulate_instance, simulate_into, simulate_with,
 };
-pub use status::LogMessage;
+pub use status::{LogMessage, warnings};
 pub use times::Times;
 pub use uri::file_uri;
 pub use values::{Assigned, assignment, parse_assignment, parse_value};

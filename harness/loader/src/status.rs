@@ -13,6 +13,17 @@ pub struct LogMessage {
     pub text: String,
 }
 
+/// The texts of the warnings among messages, each once.
+pub fn warnings(messages: &[LogMessage]) -> Vec<&str> {
+    let mut texts = Vec::new();
+    for message in messages.iter().filter(|message| message.status == Status::Warning) {
+        if !texts.contains(&message.text.as_str()) {
+            texts.push(message.text.as_str());
+        }
+    }
+    texts
+}
+
 impl std::fmt::Display for LogMessage {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "[{}] {}", self.category.as_deref().unwrap_or("no category"), self.text)

@@ -47,3 +47,11 @@ impl DownlinkVariables {
         }
     }
 }
+
+/// A sentence for a command, named by `command`, whose roll axis lies along its boresight.
+pub(crate) fn roll_warning(command: &str) -> String {
+    format!(
+        "{command} has its body roll axis along the boresight, which leaves the turn about it open, and -Y or +Z stands in: set \
+         bodyRoll (-Y unless it is set) across the boresight"
+    )
+}

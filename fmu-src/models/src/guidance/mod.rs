@@ -22,11 +22,13 @@ use physics::guidance::modes::mode::{Mode, ModeReason};
 use physics::guidance::modes::sample_inputs::{GuidanceSettings, SampleInputs, TimedEntries};
 use physics::guidance::modes::system::{GuidanceState, SAMPLE_WORK};
 use physics::guidance::pointing::command::Scenario;
+use physics::guidance::pointing::scenario::is_rolled_about_boresight;
 use physics::guidance::timeline::{TimelineDump, begun};
 use physics::management::{DumpRequests, SampledManager};
 use physics::numerics::work::Work;
 
 use crate::common::downlink::TIMELINE_FILE;
+use crate::common::downlink::roll_warning;
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
 use crate::common::management::window_warning;
 use crate::common::start_values::of_spacecraft;
@@ -102,13 +104,15 @@ impl Model for Guidance {
             time_s: start_s,
             epoch_minus_time_s: time::epoch_minus_time_s(epoch_s, start_s),
             warned_unconnected: false,
+            warned_roll: false,
             windows_are_checked: false,
             ephemeris: Ephemeris::with_cache(&context.setup.ephemeris_cache),
             coarse: CoarseEphemeris::default(),
             fixed: None,
         };
         // Masters that connect inputs one by one look before all of them are set: the first step says what is missing.
-        let mut shown = State { warned_unconnected: true, windows_are_checked: true, ..state.clone() };
+        let mut shown =
+            State { warned_unconnected: true, warned_roll: true, windows_are_checked: true, ..state.clone() };
         let mut fixed = Fixed::read(context, values)?;
         fixed.tune(context, values)?;
         management::set_panels(context, values, &mut fixed.panels);
@@ -349,6 +353,14 @@ impl State {
                 "position, or with ephemeris.source inputs sun.position or earth.position, is all zero and counts as not \
                  connected yet: the last command stays until then",
             );
+        }
+        if !self.warned_roll && is_rolled_about_boresight(&command, &settings.hardware) {
+            self.warned_roll = true;
+            let by = match entry {
+                Some(entry) => format!("the command in line {} of the timeline", entry.line),
+                None => "the command".to_owned(),
+            };
+            context.log.warning(&roll_warning(&by));
         }
         let commanded = self.system.command().attitude_at(time_s);
         let (mut sensed, is_estimated) = reader.sensed(commanded, positions.are_known())?;

@@ -25,6 +25,8 @@ pub struct State {
     pub epoch_minus_time_s: f64,
     /// Whether the warning was given that places are not connected.
     pub warned_unconnected: bool,
+    /// Whether the warning was given of a roll axis along the boresight.
+    pub warned_roll: bool,
     /// Whether the windows of the orbit phase were checked.
     pub windows_are_checked: bool,
     /// Cache, not state: the same epoch gives the same bits.

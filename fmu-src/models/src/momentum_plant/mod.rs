@@ -59,6 +59,14 @@ impl Model for MomentumPlant {
         of_spacecraft(&setup.spacecraft, Self::NAME, Some(time::MOMENTUM_STUDY_START_S))
     }
 
+    fn following_start_values(
+        _setup: &PlantSetup,
+        variables: &PlantVariables,
+        start: &Values,
+    ) -> Vec<StartValue> {
+        inputs::plausibility::following_dynamics(variables, start).into_iter().collect()
+    }
+
     fn about(setup: &PlantSetup) -> About {
         // 90 days of the momentum; dynamics are computed at 50 Hz.
         let (stop_time_s, step_size_s) =

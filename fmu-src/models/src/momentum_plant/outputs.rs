@@ -8,6 +8,7 @@ use physics::loads::Effect;
 use physics::plant::{
     AirAndField, Cost, Evaluation, Flight, PlantError, PreparedSpacecraft, Report, ThrusterEvent,
 };
+use physics::plausibility::is_sun_offset_reached;
 use physics::propulsion::surface_in_plume;
 use physics::radiation::{TorquePolynomial, polynomial_valid};
 
@@ -106,6 +107,9 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
         let lit = angle_rad.filter(|_| sun.distance_m > 0.0);
         let suns = lit.map(|angle_rad| body.suns(angle_rad, &sun.direction_body, sun.distance_m));
         let continued_rad = |angle_rad| report.panel_turns.continued_rad(index, angle_rad, time_s);
+        let offsets_rad = setting.sun_offsets_rad(body, &sun).filter(|_| sun.distance_m > 0.0);
+        values.set_real(panel.sun_offset_actual, offsets_rad.map_or(0.0, |[_, actual_rad]| actual_rad));
+        values.set_boolean(panel.sun_offset_reached, offsets_rad.is_some_and(is_sun_offset_reached));
         values.set_real(panel.angle_actual, angle_rad.map_or(0.0, continued_rad));
         values.set_real(panel.suns, suns.unwrap_or(0.0));
         values.set_real(panel.corridor_margin, suns.map_or(0.0, |suns| corridor.margin_suns(suns)));

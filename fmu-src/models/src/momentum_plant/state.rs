@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::guidance::modes::guidance_command::CommandKind as GuidanceCommandKind;
 use physics::plant::{Changes, Command, Flight, Thrusters, Tracked};
+use physics::plausibility::FlightWatch;
 use physics::spacecraft::Spacecraft;
 use serde::{Deserialize, Serialize};
 
@@ -44,6 +45,8 @@ pub struct PlantState {
 /// Warnings that are given once.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Warned {
+    /// About what the flight shows.
+    pub watch: FlightWatch,
     /// About thrusters.
     pub thrusters: ThrusterWarnings,
     /// Which inputs are not set yet.

@@ -4,7 +4,7 @@ use fmi_export::{Failure, InputsOverTime, Step, Values};
 use physics::environment::ephemeris::Ephemeris;
 use physics::plant::{SimulationContext, Undo};
 
-use super::inputs::{self, FixedParameters, Reading, guidance, propulsion};
+use super::inputs::{self, FixedParameters, Reading, guidance, plausibility, propulsion};
 use super::outputs::{self, failure, log_event};
 use super::setup::Plan;
 use super::state::PlantState;
@@ -112,6 +112,7 @@ fn begin(
         state.take_first_command(estimate.attitude, time_s)?;
     }
     let PlantState { flight, inputs, command, .. } = state;
+    plausibility::report(context, values, (&*flight, given), time_s);
     let undo = flight.sample_at_start(given, &inputs.dynamics, time_s).map_err(failure)?;
     let report = flight.report(given, &inputs.dynamics, command, time_s).map_err(failure)?;
     outputs::flyable(&report)?;
@@ -160,5 +161,6 @@ fn show(
     propulsion::warn_unserved(context, &report, &mut warned.thrusters);
     guidance::warn_degenerate(context, &report, &mut warned.degenerate);
     outputs::write(context, values, &report, reading.is_reconfigured);
+    warned.watch.see(flight, &context.setup.spacecraft, time_s, |text| context.log.warning(text));
     outputs::write_faces(context, values, flight, (given.prepared, time_s))
 }

@@ -15,7 +15,7 @@ const SAILER: &str = include_str!("../../../resources/examples/solar-sailer.toml
 
 /// The sailer about a body.
 fn about(center: &str) -> String {
-    format!("{SAILER}\n[start]\n\"orbit.center\" = \"{center}\"\n")
+    format!("{SAILER}\"orbit.center\" = \"{center}\"\n")
 }
 
 fn described<M: Model>(text: &str) -> Description {

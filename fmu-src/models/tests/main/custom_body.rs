@@ -23,9 +23,11 @@ const ON_A_CIRCLE: &str = "elements = { semi_major_axis_m = 4e11, eccentricity =
 
 /// The sailer about an asteroid, with what is reported of its motion.
 fn about_an_asteroid(motion: &str, start: &str) -> String {
+    let sailer = SAILER.split("[start]").next().unwrap();
     format!(
-        "{SAILER}\n[body]\nname = \"Rock\"\ngravitational_parameter_m3_s2 = {GM_M3_S2}\nradii_m = [5000, 5000, 5000]\n\
-         {motion}\n[start]\n\"start.epoch\" = \"2030-01-01 TDB\"\n\"orbit.semiMajorAxis\" = 6500\n{start}"
+        "{sailer}\n[body]\nname = \"Rock\"\ngravitational_parameter_m3_s2 = {GM_M3_S2}\nradii_m = [5000, 5000, 5000]\n\
+         {motion}\n[start]\n\"start.epoch\" = \"2030-01-01 TDB\"\n\"orbit.semiMajorAxis\" = 6500\n\
+         \"orbit.dynamics\" = \"twoBody\"\n{start}"
     )
 }
 

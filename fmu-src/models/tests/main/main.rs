@@ -37,6 +37,7 @@ mod plant_thresholds;
 mod plant_tolerance;
 mod plant_unset;
 mod plant_work;
+mod plausible_flights;
 mod random;
 mod restored_states;
 mod scheduled_events;

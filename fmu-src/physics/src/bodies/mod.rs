@@ -110,6 +110,22 @@ impl Body {
     }
 }
 
+/// Least and greatest mean density of a body, in kg/m3: from a comet of loose snow to beyond all planets.
+pub const MEAN_DENSITY_KG_M3: [f64; 2] = [100.0, 30_000.0];
+
+/// Mean density of an ellipsoid with these radii that attracts like that, in kg/m3, where it is none of [`MEAN_DENSITY_KG_M3`].
+pub fn impossible_density_kg_m3(gm_m3_s2: f64, [a_m, b_m, c_m]: [f64; 3]) -> Option<f64> {
+    let volume_m3 = 4.0 / 3.0 * core::f64::consts::PI * a_m * b_m * c_m;
+    let density_kg_m3 = gm_m3_s2 / constants::GRAVITATIONAL_CONSTANT_M3_KG_S2 / volume_m3;
+    let [least, most] = MEAN_DENSITY_KG_M3;
+    (!(least..=most).contains(&density_kg_m3)).then_some(density_kg_m3)
+}
+
+/// Radius of the sphere of influence of a body that attracts like that on an orbit of this semi-major axis about the Sun, in m.
+pub fn sphere_of_influence_m(gm_m3_s2: f64, semi_major_axis_m: f64) -> f64 {
+    semi_major_axis_m * math::powf(gm_m3_s2 / constants::GM_SUN_M3_S2, 0.4)
+}
+
 impl BodyData {
     /// Where the Sun stands for a spacecraft about this body unless somebody says otherwise, from the spacecraft in body axes, in m:
     /// on -Y, at the planet's mean distance from it (Mercury's as paper 004 has it), 1 AU where none is known.

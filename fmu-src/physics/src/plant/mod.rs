@@ -36,7 +36,8 @@ pub use flight::report::{ControlReport, EncounterReport, Report, Shown, WheelRep
 pub use flight::sun_choice::SunChoice;
 pub use flight::wheel_control::{WheelControl, WheelControlSettings};
 pub use flight::{
-    Changes, EncounterPrediction, Flight, ForecastMomentum, ModeSettings, PredictedArrival, StepContext, Undo,
+    Changes, EncounterPrediction, Flight, ForecastMomentum, ModeSettings, Occultation, PredictedArrival,
+    StepContext, Undo,
 };
 pub use light::radiation_segment::RadiationSegment;
 pub use light::radiation_solver::RadiationSolver;

@@ -40,10 +40,10 @@ pub struct Figures {
     pub gyration_radii_m: Vector3<f64>,
     /// Root mean square distance of the mass from the planes through the centre of mass across X, Y, Z, in m.
     pub mass_spread_m: Vector3<f64>,
-    /// Torque of sunlight about the centre of mass at 1 AU without shadows, in N m.
-    pub solar_torque_body_n_m: Option<Vector3<f64>>,
-    /// The same where surfaces with an outline shadow one another, in N m.
-    pub shadowed_solar_torque_body_n_m: Option<Vector3<f64>>,
+    /// Force in N and torque in N m of sunlight about the centre of mass at 1 AU without shadows, body frame.
+    pub solar: Option<(Vector3<f64>, Vector3<f64>)>,
+    /// The same where surfaces with an outline shadow one another.
+    pub shadowed_solar: Option<(Vector3<f64>, Vector3<f64>)>,
     /// What the wheels hold; `None` where they do not span all directions.
     pub wheels: Option<WheelCapacity>,
     /// Each thruster, in the file's order.
@@ -79,7 +79,6 @@ impl Figures {
         let center_m = mass_properties.center_of_mass_body_m;
         let tolerance_m = OUTSIDE * (greatest_body_m - least_body_m).norm();
         let sunlit = |spacecraft: &Spacecraft, shadows| sunlight(spacecraft, &angles_rad, center_m, shadows);
-        let torque = |shadows| sunlit(spacecraft, shadows).map(|(_, torque_n_m)| torque_n_m);
         let moments = mass_properties.inertia_body_kg_m2.diagonal() / mass_properties.mass_kg;
         let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
         let capacities_n_m_s: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s).collect();
@@ -95,8 +94,8 @@ impl Figures {
             center_of_mass_outside_m: is_outside(&center_m, &corners_m, tolerance_m),
             gyration_radii_m: moments.map(f64::sqrt),
             mass_spread_m: moments.map(|own| ((moments.sum() / 2.0 - own).max(0.0)).sqrt()),
-            solar_torque_body_n_m: torque(false),
-            shadowed_solar_torque_body_n_m: torque(true),
+            solar: sunlit(spacecraft, false),
+            shadowed_solar: sunlit(spacecraft, true),
             wheels: WheelCapacity::of(&axes, &capacities_n_m_s),
             thrusters: ThrusterFigures::of_all(spacecraft, &angles_rad, &center_m),
             thruster_torque: TorqueBothWays::of(spacecraft, &center_m),

@@ -2,6 +2,9 @@
 //! together.
 
 mod figures;
+mod flight_settings;
+mod flight_survey;
+mod flight_watch;
 mod hull;
 mod surfaces;
 mod thrusters;
@@ -11,6 +14,9 @@ mod warnings;
 mod tests;
 
 pub use figures::Figures;
+pub use flight_settings::{FlightSettings, WheelSettings, air_moves_orbit};
+pub use flight_survey::FlightSurvey;
+pub use flight_watch::{FlightWatch, is_sun_offset_reached};
 pub use hull::is_outside;
 pub use thrusters::{ThrusterFigures, TorqueBothWays};
 pub use warnings::{defaults_at_their_bounds, warnings};

@@ -15,6 +15,8 @@ pub(super) struct Surface {
     pub normal: Vector3<f64>,
     /// Of its outline; without one, of a square of its area.
     pub corners_m: Vec<Vector3<f64>>,
+    /// Whether those corners are its own.
+    pub has_outline: bool,
     /// How far a corner was off the outline's plane as the file has it, in m.
     pub off_plane_m: f64,
     /// Whether light on its rear counts.
@@ -57,6 +59,7 @@ fn of_plate(plate: &Plate) -> Surface {
         area_m2: plate.area_m2,
         normal: plate.normal,
         corners_m: corners(plate),
+        has_outline: plate.polygon.is_some(),
         off_plane_m: plate.polygon.as_ref().map_or(0.0, Polygon::off_plane_m),
         is_two_sided: plate.rear_optics.is_some(),
     }

@@ -44,8 +44,8 @@ fn a_solid_box_has_the_figures_of_the_textbook() {
     assert_eq!(figures.wheels, None);
     // Nothing stands before the mirror.
     assert_relative_eq!(
-        figures.shadowed_solar_torque_body_n_m.unwrap(),
-        figures.solar_torque_body_n_m.unwrap(),
+        figures.shadowed_solar.unwrap().1,
+        figures.solar.unwrap().1,
         epsilon = 1e-20,
         max_relative = 1e-12
     );
@@ -53,7 +53,7 @@ fn a_solid_box_has_the_figures_of_the_textbook() {
     let force_n = Vector3::y() * (2.0 * 3.0 * SOLAR_FLUX_W_M2 / SPEED_OF_LIGHT_M_S);
     let arm_m = Vector3::new(-0.1, -1.2, -0.3);
     assert_relative_eq!(
-        figures.solar_torque_body_n_m.unwrap(),
+        figures.solar.unwrap().1,
         arm_m.cross(&force_n),
         epsilon = 1e-20,
         max_relative = 1e-12

@@ -259,7 +259,8 @@ fn one_sided(surfaces: &[Surface], figures: &Figures, found: &mut Vec<String>) {
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
                 (low.min(height), high.max(height))
             });
-        if lowest_m >= -slack_m && highest_m > slack_m {
+        let is_inward = lowest_m >= -slack_m && highest_m > slack_m;
+        if is_inward {
             found.push(format!(
                 "`{}` faces inward: everything else lies in front of it, and light reaches it from there alone",
                 surface.name
@@ -269,6 +270,42 @@ fn one_sided(surfaces: &[Surface], figures: &Figures, found: &mut Vec<String>) {
                 "`{}` has one side and nothing behind it: light on its back meets nothing; a membrane has `rear_optics`",
                 surface.name
             ));
+        } else if let Some(rear) = rear_before(surfaces, index) {
+            found.push(format!(
+                "`{}` faces inward: before it stands the rear of `{rear}`, which light does not pass, and behind it nothing; turn \
+                 `normal` about",
+                surface.name
+            ));
         }
     }
+}
+
+/// The one-sided surface whose rear a surface has before its middle, while it has nothing behind; both with outlines of their own.
+fn rear_before(surfaces: &[Surface], index: usize) -> Option<&str> {
+    let own = surfaces.get(index).filter(|own| own.has_outline)?;
+    let middle_m = own.corners_m.iter().sum::<Vector3<f64>>() / own.corners_m.len() as f64;
+    let first_along = |direction: Vector3<f64>| {
+        let others = surfaces.iter().enumerate().filter(|(other, _)| *other != index);
+        let met = others.filter_map(|(_, it)| Some((it, ray_length_m(it, &middle_m, &direction)?)));
+        met.min_by(|one, other| one.1.total_cmp(&other.1)).map(|(it, _)| it)
+    };
+    let before = first_along(own.normal)?;
+    let is_rear = before.has_outline && !before.is_two_sided && before.normal.dot(&own.normal) > 0.0;
+    (is_rear && first_along(-own.normal).is_none()).then_some(before.name.as_str())
+}
+
+/// How far from a point a ray meets a surface, in m; `None` where it does not.
+fn ray_length_m(surface: &Surface, from_m: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
+    let corners_m = &surface.corners_m;
+    let length_m = surface.normal.dot(&(corners_m.first()? - from_m)) / surface.normal.dot(direction);
+    let at_m = from_m + direction * length_m;
+    let across = surface.normal.iamax();
+    let (u, v) = ((across + 1) % 3, (across + 2) % 3);
+    let following = corners_m.iter().cycle().skip(1);
+    // A half line from a point inside of an outline crosses it an odd number of times.
+    let crossings = corners_m.iter().zip(following).filter(|(a, b)| {
+        (a[v] > at_m[v]) != (b[v] > at_m[v])
+            && at_m[u] < a[u] + (b[u] - a[u]) * (at_m[v] - a[v]) / (b[v] - a[v])
+    });
+    (length_m.is_finite() && length_m > ROUNDED_M && crossings.count() % 2 == 1).then_some(length_m)
 }

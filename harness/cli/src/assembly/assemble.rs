@@ -8,7 +8,7 @@ use model_description::Description;
 use physics::toml::nearest;
 
 use super::{
-    per_plate, schedule,
+    orbit_default, per_plate, schedule,
     source::{Source, description, taker},
     start,
 };
@@ -126,6 +126,10 @@ pub(crate) fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, 
         // Dates in the file count from the epoch that the mission starts at.
         let at = parts.origin.map(|mission| epoch.place(&mission.file)).unwrap_or_default();
         settings.push((at, format!("{}={}", crate::epoch::START, epoch.it)));
+    }
+    if let Some(mission) = parts.origin.filter(|_| parts.mission.is_none()) {
+        let own = (&described, &description);
+        settings.extend(orbit_default::of_mission(source.binary(), own, &setup, mission));
     }
     settings.extend(parts.sets.iter().map(|set| (format!("--set {set}"), set.clone())));
     let fixed = parts.fixes.iter().map(|fix| (format!("--fix {fix}"), fix.clone())).collect();

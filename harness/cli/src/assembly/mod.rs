@@ -1,6 +1,7 @@
 //! FMUs of the files that people write, put together around a library: for `pack`, `check`, `run` and `map`.
 
 mod assemble;
+mod orbit_default;
 mod per_plate;
 mod schedule;
 mod source;
@@ -10,7 +11,9 @@ mod without_effect;
 use std::error::Error;
 
 use files::{Entries, Scratch};
-use loader::Fmu;
+use loader::{Fmu, Times};
+
+use crate::instance;
 
 pub(crate) use assemble::{Assembled, Parts, assemble};
 pub(crate) use source::{Source, common_keys, description, model_of, open_template, spacecraft_of};
@@ -20,10 +23,17 @@ pub(crate) use without_effect::{can_read_map, unused_map};
 /// Paths within an archive with what stands there.
 type Contents = Vec<(String, Vec<u8>)>;
 
-/// The files of the reference flight of the FMU that these files make; an error where it cannot simulate it.
-pub(crate) fn reference_flight(entries: &Entries, inputs: &str) -> Result<Contents, Box<dyn Error>> {
+/// The files of the reference flight of the FMU that these files make, and what it warns of where it begins; an error where it
+/// cannot simulate it.
+pub(crate) fn reference_flight(
+    entries: &Entries,
+    inputs: &str,
+) -> Result<(Contents, Vec<String>), Box<dyn Error>> {
     let folder = Scratch::new()?;
     entries.write_below(folder.path())?;
     let fmu = Fmu::open(folder.path())?;
-    Ok(reference::record(&fmu, inputs).map_err(|error| loader::Error::chain(&error))?)
+    let files = reference::record(&fmu, inputs).map_err(|error| loader::Error::chain(&error))?;
+    let start_s = Times::of(&fmu, None, None, None)?.start_s;
+    let messages = instance::started(&fmu, "warnings", start_s, &[])?.messages();
+    Ok((files, loader::warnings(&messages).into_iter().map(str::to_owned).collect()))
 }

@@ -84,14 +84,13 @@ fn body(figures: &Figures, sunlight: Sunlight) -> Vec<(&'static str, String)> {
 /// Of sunlight, by what the FMU simulates, and otherwise where that differs.
 fn torque(figures: &Figures, sunlight: Sunlight) -> String {
     let micro = 1e6 * sunlight.flux_w_m2 / SOLAR_FLUX_W_M2;
-    let shown = |torque_n_m: Option<Vector3<f64>>| {
-        torque_n_m.map_or_else(
+    let shown = |solar: Option<(Vector3<f64>, Vector3<f64>)>| {
+        solar.map_or_else(
             || "cannot be computed".to_owned(),
-            |torque_n_m| format!("{} uN m", triple(&(torque_n_m * micro))),
+            |(_, torque_n_m)| format!("{} uN m", triple(&(torque_n_m * micro))),
         )
     };
-    let (without, with) =
-        (shown(figures.solar_torque_body_n_m), shown(figures.shadowed_solar_torque_body_n_m));
+    let (without, with) = (shown(figures.solar), shown(figures.shadowed_solar));
     match (without == with, sunlight.has_shadows) {
         (true, _) => format!("{with} by sunlight, with or without shadows"),
         (false, true) => format!("{with} by sunlight with shadows (shadowing.enabled), {without} without"),

@@ -6,7 +6,7 @@ use loader::Collector;
 
 use super::options::Check;
 use crate::{
-    carried, epoch, pointing,
+    carried, epoch,
     run::{Prepared, Run, Settings, long_step},
 };
 
@@ -23,17 +23,20 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let mut rows = Collector::new(subject.description(), positions);
     // Ended after the first step.
     let cancel = AtomicBool::new(true);
-    settings.simulate_into(subject, &simulated.run, (&mut |_| {}, &cancel, None), &mut rows)?;
+    let (_, messages) =
+        settings.simulate_into(subject, &simulated.run, (&mut |_| {}, &cancel, None), &mut rows)?;
     let short = terminal::short;
     let begin = simulated.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s.as_ref()?.it));
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));
-    let windows = pointing::warnings(subject.description(), sets, &pointing::windows_in(&subject.parts()));
     let panels = carried::timeline::warnings(subject.description(), sets, &subject.parts());
-    let warnings = windows
+    let inputs: Vec<String> =
+        inputs.iter().flat_map(|it| it.warnings(subject.description(), times)).collect();
+    let logged = loader::warnings(&messages).into_iter().map(str::to_owned).collect::<Vec<_>>();
+    let warnings = panels
         .iter()
-        .chain(&panels)
         .chain(&long_step(times))
-        .chain(&inputs.iter().flat_map(|it| it.warnings(subject.description(), times)).collect::<Vec<_>>())
+        .chain(&inputs)
+        .chain(&logged)
         .map(|it| format!("\nwarning: {it}"))
         .collect::<String>();
     let count = |count: usize, of: &str| format!("{count} {of}{}", if count == 1 { "" } else { "s" });

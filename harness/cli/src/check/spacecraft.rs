@@ -67,22 +67,29 @@ pub(super) fn run(arguments: &Check, file: &str, text: &str) -> Outcome {
         let parts =
             Parts { spacecraft: Some(&arguments.subject), model: Some(&described.model), ..Parts::default() };
         let assembled = assemble(&source, &parts)?;
-        if let Err(reason) = reference_flight(&assembled.entries, &described.reference_inputs) {
-            return refused(file, &described, &format!("{file}: {reason}"));
-        }
+        let logged = match reference_flight(&assembled.entries, &described.reference_inputs) {
+            Ok((_, logged)) => logged,
+            Err(reason) => return refused(file, &described, &format!("{file}: {reason}")),
+        };
         let windows = pointing::windows_of(text);
         let points = pointing::sentence(&description, windows.as_slice())
             .map_or_else(String::new, |it| figures::row("points", &it));
         let windows = pointing::warnings(&description, &[], windows.as_slice());
-        let warnings: String =
-            map.iter().chain(&windows).map(|warning| format!("\nwarning: {warning}")).collect();
+        let figures = Spacecraft::from_toml("", text)
+            .map_or_else(|_| levers(text), |it| figures::report(&it, sunlight(&description)));
+        // Said once: the FMU's log warns of these too.
+        let are_said = [("[planet_map]", map.is_some()), ("guided.downlinkStart", !windows.is_empty())];
+        let is_new = |text: &&String| {
+            let is_said = |(begin, is_said): &(&str, bool)| *is_said && text.starts_with(begin);
+            !are_said.iter().any(is_said) && !figures.contains(text.as_str())
+        };
+        let warnings = map.iter().chain(&windows).chain(logged.iter().filter(is_new));
+        let warnings: String = warnings.map(|warning| format!("\nwarning: {warning}")).collect();
         return outcome::printed(&format!(
-            "{file}: ok for {}: {}; the FMU will have {} variables{points}{}{warnings}",
+            "{file}: ok for {}: {}; the FMU will have {} variables{points}{figures}{warnings}",
             described.model,
             contents(text),
-            description.variables.len(),
-            Spacecraft::from_toml("", text)
-                .map_or_else(|_| levers(text), |it| figures::report(&it, sunlight(&description)))
+            description.variables.len()
         ));
     }
     let Some(fittest) = fittest else {

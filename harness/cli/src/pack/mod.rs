@@ -109,7 +109,7 @@ pub(crate) fn run(arguments: &Pack) -> Outcome {
     if let Some(png) = draw::png(&setup) {
         entries.add("model.png", png)?;
     }
-    let flight = reference_flight(&entries, &described.reference_inputs)
+    let (flight, _) = reference_flight(&entries, &described.reference_inputs)
         .map_err(|error| format!("the FMU is not written: {error}"))?;
     for (path, content) in flight {
         entries.add(&path, content)?;

@@ -35,6 +35,9 @@ pub(crate) use simulated::{Assemble, Simulated, assemble_into};
 pub(crate) use subject::Subject;
 pub(crate) use visits::Visit;
 
+/// Warnings of an FMU that are shown without `--log`.
+const MOST_WARNINGS: usize = 20;
+
 /// Why a run ends before its stop.
 const LOST_READER: &str = "nobody reads the standard output any more";
 
@@ -127,8 +130,7 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
         prepared;
     let arguments = &simulated.run;
     let described = subject.description();
-    let mut warnings = pointing::warnings(described, &settings.sets, &pointing::windows_in(&subject.parts()));
-    warnings.extend(carried::timeline::warnings(described, &settings.sets, &subject.parts()));
+    let mut warnings = carried::timeline::warnings(described, &settings.sets, &subject.parts());
     warnings.extend(variables::repeated("--set", &arguments.set));
     warnings.extend(long_step(&settings.times));
     warnings.extend(subject.unread(&settings.sets));
@@ -162,6 +164,13 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
 
     let recording = collector.recording();
     checks.update(recording);
+    let logged = loader::warnings(&result.messages);
+    if !arguments.quiet && !arguments.log {
+        logged.iter().take(MOST_WARNINGS).for_each(|text| terminal::note(&format!("warning: {text}")));
+        if let Some(more) = logged.len().checked_sub(MOST_WARNINGS).filter(|more| *more > 0) {
+            terminal::note(&format!("warning: {more} more: see --log"));
+        }
+    }
     if arguments.log {
         result.messages.iter().for_each(|it| terminal::note(&format!("{} {it}", it.status)));
     }

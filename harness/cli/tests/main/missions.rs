@@ -207,14 +207,35 @@ fn the_missions_of_the_examples_are_simulated() {
     let template = ["--template", "../../template.fmu"];
     for mission in &missions {
         let reported = printed(&folder, &[&["check", mission], &template[..]].concat(), 0);
-        assert!(reported.contains(".toml: ok: "), "{reported}");
+        assert!(reported.contains(".toml: ok: ") && !reported.contains("warning"), "{reported}");
         // ACE's train is over after half an hour; the others last days.
         let stop: &[&str] = if mission == "ace.toml" { &[] } else { &["--stop", "2h"] };
         let reported = printed(&folder, &[&["run", mission], &template[..], stop].concat(), 0);
+        assert!(!reported.contains("warning"), "{reported}");
         for kind in ["csv", "svg"] {
             assert!(folder.join(mission.replace("toml", kind)).exists(), "{mission}: {reported}");
         }
     }
+}
+
+/// The spacecraft's own orbit is above all air, the mission's within.
+#[test]
+fn what_a_flight_warns_of_is_said_once_and_a_mission_s_orbit_gives_the_default_dynamics() {
+    let Some((scratch, _)) = template() else { return };
+    let folder = scratch.path();
+    let leo = include_str!("../../../../docs/src/tutorial/leo.toml");
+    let high = leo.replace("\"orbit.dynamics\" = \"disturbed\"\n", "").replace("\"6878 km\"", "\"20000 km\"");
+    fs::write(folder.join("leo.toml"), high.replace("\"2026-03-20 UTC\"", "2460000.5")).unwrap();
+    let mission = "spacecraft = \"leo.toml\"\nmodel = \"MomentumPlant\"\nstop = \"20 min\"\nstep = \"10 min\"\n\
+                   record = [\"position\"]\n[set]\n\"orbit.semiMajorAxis\" = \"6878 km\"\n";
+    fs::write(folder.join("low.toml"), mission).unwrap();
+    for command in ["check", "run"] {
+        let printed = printed(folder, &[command, "low.toml", "--template", "template.fmu"], 0);
+        assert_eq!(printed.matches("is it a Julian date?").count(), 1, "{command}: {printed}");
+        assert_eq!(printed.matches("warning").count(), 1, "{command}: {printed}");
+    }
+    let printed = printed(folder, &["check", "leo.toml", "--template", "template.fmu"], 0);
+    assert_eq!(printed.matches("is it a Julian date?").count(), 1, "{printed}");
 }
 
 /// What `check` and `run` say of a mission that both refuse.

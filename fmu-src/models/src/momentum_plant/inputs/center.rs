@@ -1,9 +1,9 @@
 //! What follows `orbit.center`: a parameter that nobody gave takes the centre's own value.
 
-use fmi_export::Values;
+use fmi_export::{Failure, Values};
 use physics::bodies::air::ExponentialAir;
 use physics::bodies::surface::PlanetSurface;
-use physics::bodies::{Body, BodyData};
+use physics::bodies::{Body, BodyData, impossible_density_kg_m3};
 use physics::enumeration::Enumerated;
 use physics::environment::frames::Frame;
 use physics::environment::orbit::Elements as KeplerElements;
@@ -101,6 +101,19 @@ impl Center {
             elements: elements.read_or(given, &own),
             frame: if has_frame { values.choice(orbit.frame).0 } else { body.frame() },
         }
+    }
+
+    /// Refuses gravity and radius that no body has together.
+    ///
+    /// # Errors
+    /// The mean density that they come to.
+    pub(super) fn check_density(&self) -> Result<(), Failure> {
+        let BodyData { gm_m3_s2, radius_m, .. } = self.planet;
+        let Some(density_kg_m3) = impossible_density_kg_m3(gm_m3_s2, [radius_m; 3]) else { return Ok(()) };
+        Err(Failure::new(format!(
+            "planet.gravitationalParameter, planet.radius: found {gm_m3_s2:?} m3/s2 and {radius_m:?} m, a mean density of \
+             {density_kg_m3:.3e} kg/m3, allowed: 100 to 30000 kg/m3 (1 km3/s2 is 1e9 m3/s2)"
+        )))
     }
 
     /// Writes the parameters as they act.

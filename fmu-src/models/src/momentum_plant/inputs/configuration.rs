@@ -32,6 +32,7 @@ pub(super) fn read(
         ephemeris::check_start(epoch_s)?;
     }
     let inertia_body_kg_m2 = inertia_body_kg_m2(values, variables.spacecraft.inertia)?;
+    center.check_density()?;
     let planet = air_and_field::read(context, values, center)?;
     let (gravity, encounter) = n_body::read(context, values, &planet.center)?;
     let ephemeris = ephemeris_source::read(context, values, center.data.body, state.waiting)?;

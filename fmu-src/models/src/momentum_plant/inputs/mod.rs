@@ -8,6 +8,7 @@ mod ephemeris_source;
 pub(super) mod guidance;
 mod n_body;
 mod orbit;
+pub(super) mod plausibility;
 pub(super) mod propulsion;
 mod solvers;
 pub(super) mod step_inputs;

@@ -77,6 +77,13 @@ pub struct PanelVariables {
     /// does not wrap.
     #[output(unit = "rad", display = "deg")]
     pub angle_actual: Real,
+    /// Angle between the panel's normal and the Sun direction at which it stands; 0 while the Sun's place is not known, as panel.suns.
+    #[output(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI)]
+    pub sun_offset_actual: Real,
+    /// Whether that is the angle that panel control asks for; near the panel's axis the Sun leaves no such angle about it. True of a
+    /// panel by angle.
+    #[output]
+    pub sun_offset_reached: Boolean,
     /// Light on the cells, in suns: the cosine of the angle between their normal and the Sun, 0 where they look away, over the square
     /// of the distance in AU; shadows do not count.
     #[output(unit = "1", min = 0.0, nominal = 1.0)]

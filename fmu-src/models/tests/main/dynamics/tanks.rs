@@ -197,7 +197,8 @@ fn the_next_thrusters_dump_what_the_weakest_are_not_fed_for() {
         // Jet damping takes some of the momentum of a body that turns.
         let allowed = if source < 3.0 { 1e-12 } else { 2e-5 };
         assert!(off.abs() < allowed && momentum(&flight).norm() < allowed, "{off} {}", momentum(&flight));
-        assert_eq!((flight.integer("dump.count"), named.warnings().len()), (1, 0), "{:?}", named.warnings());
+        let unserved = named.warnings().iter().filter(|it| it.contains("thrusters")).count();
+        assert_eq!((flight.integer("dump.count"), unserved), (1, 0), "{:?}", named.warnings());
     }
 }
 

@@ -20,10 +20,9 @@ use super::first_fall::{EDGE_M, first_fall};
 use super::gravity::{Flattening, Gravity, gradient_per_s2, tide_m_s2};
 use super::orbit_method::TERMS;
 use crate::{
-    bodies::{Body, BodyData},
-    constants::{GM_MOON_M3_S2, GM_SUN_M3_S2, SPEED_OF_LIGHT_M_S},
+    bodies::{Body, BodyData, sphere_of_influence_m},
+    constants::{GM_MOON_M3_S2, SPEED_OF_LIGHT_M_S},
     environment::CartesianState,
-    math,
     numerics::chebyshev::Segment,
 };
 
@@ -113,8 +112,7 @@ impl NBodyGravity {
     ) -> Self {
         let mut bodies = [[0.0; 3]; Body::COUNT];
         for data in [*Body::Sun.data()].into_iter().chain(attracting).chain([*center]) {
-            let ratio = data.gm_m3_s2 / GM_SUN_M3_S2;
-            let sphere_m = data.orbit_semi_major_axis_m * math::powf(ratio, 0.4);
+            let sphere_m = sphere_of_influence_m(data.gm_m3_s2, data.orbit_semi_major_axis_m);
             bodies[data.body as usize] = [data.gm_m3_s2, data.radius_m, sphere_m];
         }
         let flattened = flattened.filter(|data| data.j2 != 0.0).map(|data| (data.body, Flattening::of(data)));

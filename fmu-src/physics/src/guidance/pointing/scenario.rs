@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use super::aimpoint::{Aimpoint, AimpointKind, aimpoint};
 use super::antenna::{Antennas, Beam};
 use super::boresight::{Boresight, DeviceAngle, Gimbal, boresight, instrument_boresight};
-use super::command::{BoresightOption, LimbCommand, PointingCommand, Scenario};
+use super::command::{BodyRollCommand, BoresightOption, LimbCommand, PointingCommand, Scenario};
 use super::law::{Pointing, PointingVectors};
 use super::roll::{body_roll, external_roll};
 use super::scan::{ScanCompatibility, ScanTime, scanned};
@@ -18,7 +18,7 @@ use crate::guidance::downlink::sun_place::{DownlinkRequest, SunPlace, SunRequest
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::SubsolarMethod;
 use crate::guidance::geometry::limb::{LimbPoint, generic_limb, terminator_limb};
-use crate::guidance::geometry::moving::{MovingVector, fixed, value};
+use crate::guidance::geometry::moving::{MovingVector, fixed, unit, unit_normal, value};
 use crate::spacecraft::Instrument;
 
 /// What the spacecraft has, and how the options are read.
@@ -131,6 +131,21 @@ pub fn pointing_solution(
     let directed =
         |vector: &MovingVector| value(vector).amax() > 0.0 && vector.iter().all(|x| x.re.is_finite());
     directed(&solution.vectors.boresight_body).then_some(solution)
+}
+
+/// Whether the body roll axis of a command lies along the boresight that it gives: then a fallback stands in for it.
+pub fn is_rolled_about_boresight(command: &PointingCommand, hardware: &GuidanceHardware<'_>) -> bool {
+    use Scenario::{DoubleTarget, Generic, LimbGeneric, LimbTerminator, Nadir, PlusZ};
+    let boresight_body = match command.scenario {
+        Some(Generic) => boresight(&command.boresight, hardware.gimbal.as_ref(), hardware.antennas),
+        Some(PlusZ | Nadir | DoubleTarget | LimbTerminator | LimbGeneric) => {
+            instrument_boresight(hardware.instruments, command.boresight.instrument).map(Boresight::of)
+        }
+        _ => None,
+    };
+    let roll = if command.scenario == Some(Generic) { command.body_roll } else { BodyRollCommand::default() };
+    boresight_body
+        .is_some_and(|it| unit(&it.body).is_some() && unit_normal(&it.body, &body_roll(&roll)).is_none())
 }
 
 impl PointingSolution {

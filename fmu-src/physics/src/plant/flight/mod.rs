@@ -10,6 +10,7 @@ mod encounter_prediction;
 mod fork;
 mod momentum_dumps;
 mod sensing;
+mod survey;
 
 pub(super) mod downlink_forecast;
 pub(super) mod ideal;
@@ -21,6 +22,7 @@ pub(super) mod wheel_control;
 pub use configured::StepContext;
 pub use encounter_prediction::{EncounterPrediction, PredictedArrival};
 pub use fork::ForecastMomentum;
+pub use survey::Occultation;
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -155,6 +157,11 @@ impl Flight {
     /// The configuration that is simulated.
     pub fn configuration(&self) -> Option<&Configuration> {
         self.setup.as_ref().map(|setup| &setup.context.configuration)
+    }
+
+    /// Where everything was and what acted at the last report; `None` before any.
+    pub fn evaluation(&self) -> Option<&Evaluation> {
+        self.setup.as_ref()?.evaluation.as_ref().filter(|_| !self.is_waiting())
     }
 
     /// Whether it waits.

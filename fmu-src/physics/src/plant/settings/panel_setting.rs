@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use crate::guidance::timeline::{TimelinePanels, begun, simulation_time_s};
-use crate::math;
+use crate::math::{self, wrapped_rad};
 use crate::numerics::scalar::{Dual64, Scalar, sin_cos};
 use crate::spacecraft::{Panel, offset_for_suns};
 
@@ -152,6 +152,18 @@ impl PanelSetting {
         })
     }
 
+    /// Angle from the Sun at which the cell normal is to stand, and at which it stands, in rad, 0 to pi; of a panel that is turned by an
+    /// angle of its own both are that at which it stands. `None` when left out.
+    pub fn sun_offsets_rad(&self, panel: &Panel, sun: &SunAt) -> Option<[f64; 2]> {
+        let normal = self.normal_body(panel, sun)?;
+        let actual_rad =
+            math::atan2(normal.cross(&sun.direction_body).norm(), normal.dot(&sun.direction_body));
+        Some(match self.commanded(sun)? {
+            Commanded::Angle(_) => [actual_rad; 2],
+            Commanded::SunOffset { offset_rad, .. } => [wrapped_rad(offset_rad).abs(), actual_rad],
+        })
+    }
+
     /// Unit normal of the cell side, body frame, with the Sun there; `None` when left out.
     pub fn normal_body<T: Scalar>(&self, panel: &Panel, sun: &SunAt<T>) -> Option<Vector3<T>> {
         Some(match self.commanded(sun)? {
@@ -203,7 +215,7 @@ impl PanelSetting {
     }
 
     /// Whether the Sun gives the angle.
-    pub(crate) fn is_by_sun(&self) -> bool {
+    pub fn is_by_sun(&self) -> bool {
         match self {
             Self::SunOffset { .. } | Self::Timeline { .. } | Self::Distance { .. } => true,
             Self::Disabled | Self::Angle(_) => false,

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::description::{BodyDescription, BodyElementsDescription};
 use super::part_reader::PartReader;
+use crate::bodies::impossible_density_kg_m3;
 use crate::spacecraft::body::{BodyMotion, BodyOrbit, CustomBody};
 use crate::toml::dates::{self, ALLOWED_DATE};
 
@@ -18,10 +19,20 @@ pub(crate) fn body(part: &mut PartReader<'_, '_>, description: &BodyDescription)
     let rate_rad_s = description.rotation_rate_rad_s();
     let place = part.at.key("rotation_rate_rad_s");
     part.check.within(&place, rate_rad_s, -1.0, 1.0, "a rate from -1 to 1 rad/s");
+    let (gm_m3_s2, radii_m) =
+        (description.gravitational_parameter_m3_s2.0, description.radii_m.map(f64::from));
+    if let Some(density_kg_m3) = impossible_density_kg_m3(gm_m3_s2, radii_m) {
+        let found = format_args!("{gm_m3_s2:?}, with radii_m a mean density of {density_kg_m3:.3e} kg/m3");
+        part.report(
+            "gravitational_parameter_m3_s2",
+            found,
+            "a mean density of 100 to 30000 kg/m3 (1 km3/s2 is 1e9 m3/s2)",
+        );
+    }
     CustomBody {
         name: description.name.clone(),
-        gm_m3_s2: description.gravitational_parameter_m3_s2.0,
-        radii_m: description.radii_m.map(f64::from),
+        gm_m3_s2,
+        radii_m,
         j2: part.check.within(&part.at.key("j2"), description.j2(), -1.0, 1.0, "a number from -1 to 1"),
         pole_rad: [right_ascension, declination].map(f64::to_radians),
         prime_meridian_rad: description.prime_meridian_deg().to_radians(),

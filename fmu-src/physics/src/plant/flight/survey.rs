@@ -1,0 +1,113 @@
+//! A look at a flight ahead and around, by which nothing of it changes: how it stands along its orbit, and what hides its Sun.
+
+use nalgebra::Vector3;
+
+use super::{Flight, FlightSetup, StepContext};
+use crate::bodies::Body;
+use crate::constants::RADIUS_MOON_M;
+use crate::environment::eclipse::{Shadow, ShadowModel};
+use crate::environment::orbit::BodyEphemeris;
+use crate::plant::motion::geometry::{Geometry, SimulationEphemeris, body};
+use crate::plant::motion::instant::Instant;
+use crate::plant::motion::kinematics::Kinematics;
+use crate::plant::motion::trajectory::Trajectory;
+use crate::plant::settings::configuration::{AttitudeSource, Configuration, EphemerisSource, Motion};
+use crate::plant::settings::work::Work;
+
+/// The Moon's rate against the Sun as seen from the Earth is at most that, in rad/s.
+const MOON_RATE_RAD_S: f64 = 3.3e-6;
+/// Perigee of the Moon, below all of them, in m.
+const MOON_NEAREST_M: f64 = 3.5e8;
+
+/// A body that stands before the Sun's disc.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Occultation {
+    /// Its name.
+    pub name: &'static str,
+    /// The part of the disc that it hides.
+    pub share: f64,
+}
+
+impl Flight {
+    /// How the spacecraft stands at these times by its own guidance, followed ideally on the orbit under the centre's gravity alone;
+    /// nothing where something else gives the attitude.
+    pub fn survey(
+        &self,
+        given: StepContext<'_>,
+        times_s: impl IntoIterator<Item = f64>,
+        mut see: impl FnMut(&Configuration, f64, &Instant),
+    ) {
+        let Some(FlightSetup { context, .. }) = self.setup.as_deref() else { return };
+        let Some(guided) = context.configuration.attitude.guided().copied() else { return };
+        let configuration = Configuration {
+            attitude: AttitudeSource::Guided(guided),
+            motion: match context.configuration.motion {
+                held @ Motion::Held { .. } => held,
+                _ => Motion::TwoBody,
+            },
+            ..context.configuration.clone()
+        };
+        let mut kinematics = Kinematics {
+            configuration: &configuration,
+            trajectory: &mut Trajectory::default(),
+            ephemeris: &mut context.ephemeris.clone(),
+            default_downlink: given.prepared.default_downlink,
+            timeline: given.prepared.timeline,
+            work: &mut Work::new(u32::MAX, 0),
+            mass_at_zero: context.mass_at_zero,
+        };
+        for time_s in times_s {
+            let instant = kinematics.instant(time_s);
+            see(&configuration, time_s, &instant);
+        }
+    }
+
+    /// The body before the Sun's disc at `time_s`, where the flight was reported, which its shadow does not know: the Earth, about it
+    /// the Moon, and in motion between bodies every planet. `quiet_until_s` is the time before which the Moon cannot come there.
+    pub fn occultation(&mut self, time_s: f64, quiet_until_s: &mut Option<f64>) -> Option<Occultation> {
+        let FlightSetup { context, evaluation, .. } = self.setup.as_deref_mut()?;
+        let geometry = &evaluation.as_ref()?.instant.geometry;
+        let (configuration, ephemeris) = (&context.configuration, &mut context.ephemeris);
+        let planet = configuration.planet();
+        let known = |body: Body| Some(body) != planet && body != configuration.center;
+        let earth = known(Body::Earth).then(|| {
+            let data = Body::Earth.data();
+            hidden(geometry, &geometry.to_earth.position_m, (data.name, data.radius_m))
+        });
+        let is_given = matches!(configuration.ephemeris, EphemerisSource::Given { .. });
+        if configuration.center == Body::Earth && !is_given {
+            let mut simulated = SimulationEphemeris { configuration, ephemeris };
+            let moon_m = simulated.moon_from_earth_m(time_s);
+            let sun_m = geometry.sun_from_center().position_m;
+            let away_m = geometry.spacecraft.position_m.norm();
+            // By which the spacecraft's place moves Moon and Sun against one another, both discs included.
+            let margin_rad = (away_m / MOON_NEAREST_M).min(1.0) * core::f64::consts::FRAC_PI_2 + 0.02;
+            let apart_rad = moon_m.angle(&sun_m);
+            *quiet_until_s = Some(time_s + (apart_rad - margin_rad).max(0.0) / MOON_RATE_RAD_S);
+            let found =
+                hidden(geometry, &(moon_m - geometry.spacecraft.position_m), ("the Moon", RADIUS_MOON_M));
+            return found.or(earth.flatten());
+        }
+        let others = Body::ALL.into_iter().filter(|body| *body != Body::Earth && body.is_planet());
+        let others = others.filter(|_| matches!(configuration.motion, Motion::NBody { .. }) && !is_given);
+        let epoch_s = time_s + configuration.epoch_minus_time_s;
+        let found = others.filter(|it| known(*it)).find_map(|other| {
+            let to_body_m =
+                body(configuration, ephemeris, other, epoch_s).position_m - geometry.spacecraft.position_m;
+            hidden(geometry, &to_body_m, (other.data().name, other.data().radius_m))
+        });
+        found.or(earth.flatten())
+    }
+}
+
+/// What a body there, seen from the spacecraft, with a name and a radius in m hides of the Sun's disc.
+fn hidden(
+    geometry: &Geometry,
+    to_body_m: &Vector3<f64>,
+    (name, radius_m): (&'static str, f64),
+) -> Option<Occultation> {
+    let shadow = Shadow::new(ShadowModel::DiscOverlap, radius_m).ok()?;
+    let from_body_m = [-to_body_m, geometry.to_sun.position_m - to_body_m];
+    let (lit, _) = shadow.fraction_and_gaps(&from_body_m[0], &from_body_m[1]);
+    (lit < 1.0).then_some(Occultation { name, share: 1.0 - lit })
+}

@@ -1,0 +1,111 @@
+//! What a flight shows that its settings leave out, each told once: forces on an orbit in closed form, bodies before the Sun, panels
+//! that do not come to where they are to stand.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::environment::time;
+use crate::loads::Effect;
+use crate::plant::{Evaluation, Flight, Motion};
+use crate::spacecraft::Spacecraft;
+use crate::toml::dates;
+
+/// Greatest force over gravity of a spacecraft that a closed orbit describes.
+const FORCE_OVER_GRAVITY: f64 = 1e-4;
+/// Panels that stand this much off the angle that they are to have are told of, in rad.
+const OFF_RAD: f64 = core::f64::consts::PI / 180.0;
+/// Rounding of an angle, in rad.
+const ROUNDING_RAD: f64 = 1e-6;
+/// Panels whose warnings are remembered, one bit each.
+const PANELS: usize = 64;
+
+/// What was told already.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FlightWatch {
+    force: bool,
+    occultation: bool,
+    panels: u64,
+    /// Before this time the Moon cannot hide the Sun, in s.
+    quiet_until_s: Option<f64>,
+}
+
+/// Whether a panel stands at the angle from the Sun, both in rad, at which it is to stand.
+pub fn is_sun_offset_reached([meant_rad, actual_rad]: [f64; 2]) -> bool {
+    (meant_rad - actual_rad).abs() <= ROUNDING_RAD
+}
+
+impl FlightWatch {
+    /// What a flight that was reported at `time_s` shows for the first time.
+    pub fn see(
+        &mut self,
+        flight: &mut Flight,
+        spacecraft: &Spacecraft,
+        time_s: f64,
+        mut tell: impl FnMut(&str),
+    ) {
+        let Some((configuration, evaluation)) = flight.configuration().zip(flight.evaluation()) else {
+            return;
+        };
+        if !self.force && matches!(configuration.motion, Motion::TwoBody) {
+            let mu_m3_s2 = configuration.orbit.mu_m3_s2();
+            if let Some(text) = force_over_gravity(evaluation, mu_m3_s2) {
+                self.force = true;
+                tell(&text);
+            }
+        }
+        let sun = evaluation.instant.sun_at(time_s);
+        let panels = spacecraft.panels.iter().zip(&configuration.panels).take(PANELS);
+        for (k, (panel, setting)) in panels.enumerate() {
+            let bit = 1_u64 << k;
+            if self.panels & bit != 0 || !setting.is_by_sun() {
+                continue;
+            }
+            let Some([meant_rad, actual_rad]) = setting.sun_offsets_rad(panel, &sun) else { continue };
+            if (meant_rad - actual_rad).abs() > OFF_RAD {
+                self.panels |= bit;
+                let [meant_deg, actual_deg] =
+                    [meant_rad, actual_rad].map(|it| format!("{:.1}", it.to_degrees()));
+                tell(&format!(
+                    "panel[{}].sunOffset of {meant_deg} deg is out of reach at {time_s} s: turned about its axis `{}` comes to \
+                     {actual_deg} deg from the Sun; see panel[k].sunOffsetActual, and choose guided.scienceRule or the axis so that the \
+                     Sun stands across it",
+                    k + 1,
+                    panel.name
+                ));
+            }
+        }
+        let epoch_s = time::epoch_at_s(time_s, configuration.epoch_minus_time_s);
+        if self.occultation || self.quiet_until_s.is_some_and(|quiet_until_s| time_s < quiet_until_s) {
+            return;
+        }
+        if let Some(found) = flight.occultation(time_s, &mut self.quiet_until_s) {
+            self.occultation = true;
+            tell(&format!(
+                "{} stands before the Sun on {} and hides {:.1} % of its disc: no eclipse by another body than that of planet.* is \
+                 simulated; sun.litFraction and torque.solar leave it out",
+                found.name,
+                dates::utc(epoch_s),
+                100.0 * found.share
+            ));
+        }
+    }
+}
+
+/// A sentence where light or air is more than a small part of the gravity in the centre's field.
+fn force_over_gravity(evaluation: &Evaluation, mu_m3_s2: f64) -> Option<String> {
+    let distance_m = evaluation.instant.geometry.spacecraft.position_m.norm();
+    let gravity_n = evaluation.mass.mass_kg * mu_m3_s2 / (distance_m * distance_m);
+    let of = |name, is_of: fn(Effect) -> bool| {
+        let all = Effect::ALL.into_iter().filter(|effect| is_of(*effect));
+        (name, all.map(|effect| evaluation.loads[effect].force_body_n).sum::<Vector3<f64>>().norm())
+    };
+    let groups = [of("light", Effect::is_light), of("air", |effect| effect == Effect::Aerodynamic)];
+    let (name, force_n) = groups.into_iter().max_by(|one, other| one.1.total_cmp(&other.1))?;
+    let share = force_n / gravity_n;
+    (distance_m > 0.0 && share > FORCE_OVER_GRAVITY).then(|| {
+        format!(
+            "the force of {name} is {share:.1e} of the gravity, and orbit.dynamics is twoBody, an orbit in closed form that nothing \
+             else moves: set orbit.dynamics = disturbed"
+        )
+    })
+}
