@@ -81,7 +81,7 @@ impl PlantSetup {
             center,
             bodies,
             windows: WindowDefaults::of(&spacecraft, &center),
-            control: ControlDefaults::of(&spacecraft, wheel_array(&spacecraft).as_ref()),
+            control: ControlDefaults::of(&spacecraft, &wheel_array(&spacecraft)),
             reported_faces: reported_faces(file, &spacecraft)?,
             antennas: PreparedAntennas::of(&spacecraft),
             shapes: PreparedShapes::of(&spacecraft),

@@ -22,6 +22,7 @@ mod panel;
 mod panel_mass;
 mod planet_map;
 mod polygon;
+mod slew;
 mod start;
 mod sun_sensors;
 mod surface;
@@ -52,6 +53,7 @@ pub use panel::{Panel, PanelControl, offset_for_suns};
 pub use panel_mass::{hinged_masses, with_panels};
 pub use planet_map::{PlanetCell, PlanetMap};
 pub use polygon::Polygon;
+pub use slew::SlewDemand;
 pub use start::{StartEntry, StartValue};
 pub(crate) use start::{StartTable, start_entries};
 pub use sun_sensors::MountedSunSensor;
@@ -63,7 +65,7 @@ pub use thermal::{
     Thermal,
 };
 pub use thruster::{Thrust, Thruster, ThrusterSet, ValveTiming};
-pub use wheels::{PAPER_DUMP_THRESHOLDS_N_M_S, Wheel};
+pub use wheels::{Wheel, free_capacity_n_m_s};
 
 /// MESSENGER as paper 000 describes it, for callers without a file.
 pub const MESSENGER_TOML: &str = include_str!("../../../resources/messenger.toml");
