@@ -46,5 +46,6 @@ mod timeline;
 mod torn_states;
 mod valves;
 mod vocabulary;
+mod wheel_bias;
 mod wheel_torque;
 mod without_effect;
