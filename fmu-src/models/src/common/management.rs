@@ -31,7 +31,7 @@ pub struct TargetingVariables {
     /// How the Sun's place is computed.
     #[parameter(start = MomentumTargeting(TargetingMethod::Exact))]
     pub targeting: Choice<MomentumTargeting>,
-    /// Momentum in the body frame that a reactive downlink aims at, by momentum.convention.
+    /// Momentum in the body frame that a reactive downlink aims at, by momentum.convention, from the wheels' bias.
     #[parameter(unit = "N.m.s", min = -1e12, max = 1e12, start = [0.0; 3])]
     pub target: RealVector<3>,
     /// How many cycles predictive targets look ahead: each is the science after a downlink and the downlink after it, the first begins
@@ -52,13 +52,13 @@ impl TargetingVariables {
         Vector3::from(values.vector(self.target))
     }
 
-    /// The manager by this strategy, the Sun staying within these limits of azimuth and elevation about -Y, of a spacecraft
-    /// whose shade takes the light in this form.
+    /// The manager by this strategy, the Sun staying within these limits of azimuth and elevation about -Y, targets counting from
+    /// this bias, of a spacecraft whose shade takes the light in this form.
     pub fn manager<'s>(
         &self,
         values: &Values,
         strategy: Strategy,
-        [azimuth_limit_rad, elevation_limit_rad]: [f64; 2],
+        ([azimuth_limit_rad, elevation_limit_rad], bias_body_n_m_s): ([f64; 2], Vector3<f64>),
         (spacecraft, sunshade, antennas): (&'s Spacecraft, SunshadeModel, &'s Antennas),
     ) -> Manager<'s> {
         Manager {
@@ -71,6 +71,7 @@ impl TargetingVariables {
                 antennas,
             },
             target_body_n_m_s: self.target_body_n_m_s(values),
+            bias_body_n_m_s,
             horizon: values.integer(self.horizon).unsigned_abs(),
             sunshade: spacecraft.sunshade.as_ref().map(|shade| (shade, sunshade)),
         }

@@ -1,10 +1,11 @@
 //! What several models read from their spacecraft alike.
 
 use fmi_export::{Failure, RealMatrix, SetupError, Values};
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 use physics::guidance::downlink::default_downlink::DefaultDownlink;
 use physics::guidance::pointing::antenna::Antennas;
-use physics::momentum::WheelArray;
+use physics::momentum::{WheelArray, wheels_body_n_m_s};
+use physics::plant::ControlDefaults;
 use physics::radiation::SolarModel;
 use physics::radiation::disturbance::{DisturbanceModel, Options};
 use physics::spacecraft::{self, Spacecraft, SunshadeModel};
@@ -77,22 +78,19 @@ impl PreparedAntennas {
     }
 }
 
-/// Distribution of momentum over the wheels of a file; `None` unless they span all directions.
-pub(crate) fn wheel_array(spacecraft: &Spacecraft) -> Option<WheelArray> {
-    WheelArray::new(&spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect::<Vec<_>>())
+/// Distribution of momentum over the wheels of a file.
+pub(crate) fn wheel_array(spacecraft: &Spacecraft) -> WheelArray {
+    WheelArray::of(&spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect::<Vec<_>>())
 }
 
-/// Smallest dump threshold that may be set, in N m s.
-pub(crate) const LEAST_THRESHOLD_N_M_S: f64 = 1e-6;
+/// What the biases of the wheels of a file come to, body frame, in N m s.
+pub(crate) fn bias_body_n_m_s(spacecraft: &Spacecraft) -> Vector3<f64> {
+    wheels_body_n_m_s(spacecraft.wheels.iter().map(|wheel| (wheel.axis_body, wheel.bias_n_m_s)))
+}
 
-/// The dump threshold; without one in the file what its wheels guarantee, and without wheels in all directions paper
-/// 000's for small wheels.
+/// The default dump threshold, in N m s.
 pub(crate) fn dump_threshold_n_m_s(spacecraft: &Spacecraft) -> [f64; 3] {
-    let smallest_n_m_s = spacecraft::PAPER_DUMP_THRESHOLDS_N_M_S[0].1;
-    let capacities_n_m_s = spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s);
-    let guaranteed_n_m_s = wheel_array(spacecraft)
-        .map(|it| it.guaranteed_threshold_n_m_s(capacities_n_m_s).max(LEAST_THRESHOLD_N_M_S));
-    spacecraft.dump_threshold_n_m_s.map_or([guaranteed_n_m_s.unwrap_or(smallest_n_m_s); 3], Into::into)
+    ControlDefaults::of(spacecraft, &wheel_array(spacecraft)).dump_threshold_n_m_s.into()
 }
 
 /// A face whose temperature and force are reported.

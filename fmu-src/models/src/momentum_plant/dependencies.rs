@@ -112,7 +112,8 @@ impl Parameters {
             &v.eclipse,
             between
         ];
-        let wheels = v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.start_momentum]);
+        let wheels =
+            v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.bias_momentum, wheel.start_momentum]);
         // Guidance balances torques against the momentum.
         let air = &knowns![&v.atmosphere, &v.space_weather, &v.magnetic_field, v.earth.ut1_offset];
         let solution = &knowns![
@@ -229,6 +230,9 @@ fn momentum(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, param
     let momentum = &parameters.momentum;
     let dumped = &knowns![&inputs.attitude, &inputs.dumped_at_once];
     table.output(knowns![v.momentum.body, v.momentum.inertial], dumped, momentum);
+    let biases = v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.bias_momentum]).collect::<Knowns>();
+    table.output(v.momentum.bias, knowns![], biases);
+    table.output(v.momentum.unheld, dumped, knowns![momentum, &v.wheel]);
     // They count from the last dump on.
     table.output(&v.momentum.by_source, knowns![dumped, &v.dump, v.torque.applied], momentum);
     let target = knowns![&inputs.attitude, &v.panel, &v.dump];

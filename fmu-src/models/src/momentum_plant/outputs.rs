@@ -12,7 +12,7 @@ use physics::plausibility::is_sun_offset_reached;
 use physics::propulsion::surface_in_plume;
 use physics::radiation::{TorquePolynomial, polynomial_valid};
 
-use super::inputs::wheel_array;
+use super::inputs::wheels;
 use super::setup::Plan;
 use super::state::PlantState;
 use crate::common::choices::OrbitCenter;
@@ -185,6 +185,8 @@ fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) 
     values.set_vector(v.delta_v, shown.totals.delta_v_inertial_m_s.into());
     values.set_vector(v.momentum.body, shown.totals.momentum_body_n_m_s(convention, rotation).into());
     values.set_vector(v.momentum.inertial, shown.totals.momentum_inertial_n_m_s.into());
+    values.set_vector(v.momentum.bias, report.configuration.momentum.policy.bias_body_n_m_s.into());
+    values.set_vector(v.momentum.unheld, shown.unheld_body_n_m_s().into());
     for (effect, output) in v.momentum.by_source.iter() {
         values.set_vector(output, shown.by_source.body_n_m_s(effect, convention, rotation).into());
     }
@@ -301,9 +303,7 @@ fn write_polynomial(context: &Plan<'_>, values: &mut Values, report: &Report<'_>
 
 /// Writes what dump thresholds the wheels guarantee, which follows from parameters alone.
 pub(super) fn write_guaranteed(context: &Plan<'_>, values: &mut Values) {
-    let capacities_n_m_s = context.variables.wheel.iter().map(|wheel| values.real(wheel.capacity));
-    let array = wheel_array(context, values);
-    let guaranteed_n_m_s = array.map_or(0.0, |it| it.guaranteed_threshold_n_m_s(capacities_n_m_s));
+    let guaranteed_n_m_s = wheels::guaranteed_threshold_n_m_s(context, values);
     values.set_real(context.variables.dump.guaranteed_threshold, guaranteed_n_m_s);
 }
 

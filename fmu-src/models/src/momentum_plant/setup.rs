@@ -85,7 +85,7 @@ impl PlantSetup {
             center,
             bodies,
             guided: GuidedDefaults::of(&spacecraft, &center),
-            control: ControlDefaults::of(&spacecraft, wheel_array(&spacecraft).as_ref()),
+            control: ControlDefaults::of(&spacecraft, &wheel_array(&spacecraft)),
             reported_faces: reported_faces(file, &spacecraft)?,
             antennas: PreparedAntennas::of(&spacecraft),
             shapes: PreparedShapes::of(&spacecraft),

@@ -2,7 +2,7 @@
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use physics::environment::ephemeris::Ephemeris;
-use physics::plant::{SimulationContext, Undo};
+use physics::plant::{NEVER_DUMPED_N_M_S, SimulationContext, Undo};
 
 use super::inputs::{self, FixedParameters, Reading, guidance, plausibility, propulsion};
 use super::outputs::{self, failure, log_event};
@@ -100,10 +100,7 @@ fn begin(
     if is_dynamic {
         guidance::report_start(context, values, state, time_s);
     }
-    if is_dynamic && state.flight.configuration().is_some_and(|it| it.momentum.policy.begins_none()) {
-        let reported = "dump.threshold is not set: in free flight dumps come on dump.request alone";
-        context.log.event(time_s, reported);
-    }
+    report_dumps(context, state, time_s);
     let (external, planner) = (reading.external(), reading.planner());
     let given = reading.given(&external, &planner);
     let log = &mut |event: &_| log_event(context, event);
@@ -117,6 +114,43 @@ fn begin(
     let report = flight.report(given, &inputs.dynamics, command, time_s).map_err(failure)?;
     outputs::flyable(&report)?;
     Ok(undo)
+}
+
+/// Reports where no dump comes, and dumps that cost nothing.
+fn report_dumps(context: &Plan<'_>, state: &PlantState, time_s: f64) {
+    let Some(configuration) = state.flight.configuration().filter(|_| context.log.events_enabled()) else {
+        return;
+    };
+    let policy = &configuration.momentum.policy;
+    if policy.begins_none() {
+        let reported = "dump.threshold is not set: in free flight dumps come on dump.request alone";
+        return context.log.event(time_s, reported);
+    }
+    let axes = ["X", "Y", "Z"].into_iter().zip(&policy.threshold_body_n_m_s);
+    let never = axes.filter(|(_, threshold)| **threshold >= NEVER_DUMPED_N_M_S).map(|(name, _)| name);
+    let never: Vec<&str> = never.collect();
+    if !never.is_empty() {
+        context.log.event(
+            time_s,
+            &format!(
+                "dump.threshold about {} is {NEVER_DUMPED_N_M_S:e} N.m.s: thrusters never dump what gathers there; by default \
+                 where no wheels hold momentum",
+                never.join(", ")
+            ),
+        );
+    }
+    if never.len() < 3 && context.setup.spacecraft.thrusters.is_empty() {
+        let how = match state.inputs.source.is_dynamic {
+            true => "by the constant dump.torque",
+            false => "ideal: at once",
+        };
+        context.log.event(
+            time_s,
+            &format!(
+                "dumps are {how} and without propellant, as the spacecraft has no thrusters ([[thrusters]])"
+            ),
+        );
+    }
 }
 
 /// The flight continues to the step's end.

@@ -50,5 +50,6 @@ mod timeline;
 mod torn_states;
 mod valves;
 mod vocabulary;
+mod wheel_bias;
 mod wheel_torque;
 mod without_effect;

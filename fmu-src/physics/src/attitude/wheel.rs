@@ -20,6 +20,8 @@ pub struct ReactionWheel {
     pub max_torque_n_m: f64,
     /// Greatest momentum of the rotor relative to the body, in N m s.
     pub capacity_n_m_s: f64,
+    /// Momentum about which it works, in N m s: wheels share what is beside it.
+    pub bias_n_m_s: f64,
     /// Coulomb friction, in N m.
     pub coulomb_friction_n_m: f64,
     /// Viscous friction, in N m per rad/s.

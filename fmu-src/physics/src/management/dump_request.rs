@@ -12,7 +12,7 @@ pub struct DumpRequests {
     exceeded: [bool; 3],
     /// Whether one came beyond its threshold there.
     request: bool,
-    /// Where the last request leaves the momentum, body frame, in N m s.
+    /// Where the last request leaves the momentum, body frame, from the wheels' bias, in N m s.
     target_body_n_m_s: Vector3<f64>,
 }
 
@@ -29,7 +29,7 @@ impl DumpRequests {
         self.request = exceeded.iter().zip(self.exceeded).any(|(now, before)| *now && !before);
         self.exceeded = exceeded;
         if self.request {
-            self.target_body_n_m_s = policy.after(momentum_body_n_m_s);
+            self.target_body_n_m_s = policy.after(momentum_body_n_m_s) - policy.bias_body_n_m_s;
         }
         if let Some(target_body_n_m_s) = scheduled {
             (self.request, self.target_body_n_m_s) = (true, target_body_n_m_s);
@@ -41,7 +41,7 @@ impl DumpRequests {
         self.request
     }
 
-    /// Where the last request leaves the momentum, body frame, in N m s; zero before any.
+    /// Where the last request leaves the momentum, body frame, from the wheels' bias, in N m s; zero before any.
     pub fn target_body_n_m_s(&self) -> &Vector3<f64> {
         &self.target_body_n_m_s
     }
@@ -58,6 +58,7 @@ mod tests {
         let policy = DumpPolicy {
             threshold_body_n_m_s: Vector3::new(4.0, 5.0, 1.0),
             reinitialise: Reinitialise::Opposite { fraction: 0.5 },
+            bias_body_n_m_s: Vector3::zeros(),
         };
         let mut requests = DumpRequests::default();
         let mut sample = |x, y, z| {

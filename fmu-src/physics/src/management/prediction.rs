@@ -284,7 +284,8 @@ impl PredictedScience {
             } else if let Some(left) = left.filter(|_| !has_ended) {
                 let turn = at.body_from_inertial * left.body_from_inertial.inverse();
                 let added = at.momentum_inertial_n_m_s - left.momentum_inertial_n_m_s;
-                let added_body_n_m_s = at.body_from_inertial * added;
+                // Of what counts, from the wheels' bias on.
+                let added_body_n_m_s = at.body_from_inertial * added - policy.bias_body_n_m_s;
                 squares.add(&RotatedMomentum { turn: turn.into_inner(), added_body_n_m_s }, &threshold);
                 has_begun = true;
             }

@@ -47,6 +47,8 @@ pub struct Manager<'a> {
     pub targeting: Targeting<'a>,
     /// Momentum a reactive downlink aims at, body frame, in N m s.
     pub target_body_n_m_s: Vector3<f64>,
+    /// The wheels' bias, from which the target counts, body frame, in N m s.
+    pub bias_body_n_m_s: Vector3<f64>,
     /// How many cycles ahead predictive targets look, at most [`super::LONGEST_HORIZON`].
     pub horizon: u32,
     /// The shade, for the linear formula.
@@ -146,7 +148,7 @@ impl Manager<'_> {
             (Some(Prediction::Components(components)), _) => self.kept(&state, components),
             _ => None,
         };
-        let target = predicted.unwrap_or(self.target_body_n_m_s);
+        let target = predicted.unwrap_or(self.bias_body_n_m_s + self.target_body_n_m_s);
         self.targeting.sun_place_throughout(&state, &target, separations_rad)
     }
 
@@ -170,17 +172,19 @@ impl Manager<'_> {
             })
         });
         let beside = beside(prediction.present());
+        let policy = &prediction.policy;
         let target = |axis: usize| {
             let body_axis = 2 * axis;
+            let bias_n_m_s = policy.bias_body_n_m_s[body_axis];
             let component = Component {
-                momentum_n_m_s: momentum_body_n_m_s[body_axis] + beside[axis],
+                momentum_n_m_s: momentum_body_n_m_s[body_axis] + beside[axis] - bias_n_m_s,
                 authority: torques[axis].map(|it| it * state.span_s),
                 cycles: later[axis].get(..prediction.count()).unwrap_or_default(),
                 path: &prediction.path()[axis],
-                threshold: prediction.policy.threshold_body_n_m_s[body_axis],
-                dumped: |before| prediction.policy.component_after(body_axis, before),
+                threshold: policy.threshold_body_n_m_s[body_axis],
+                dumped: |before| policy.component_after(body_axis, before + bias_n_m_s) - bias_n_m_s,
             };
-            component.target() - beside[axis]
+            component.target() - beside[axis] + bias_n_m_s
         };
         Some(Vector3::new(target(0), 0.0, target(1)))
     }

@@ -17,7 +17,7 @@ pub enum Reinitialise {
     },
     /// The component of a chosen vector (zero, or biased against what is coming), in N m s.
     Target {
-        /// Body frame.
+        /// Body frame, from the wheels' bias.
         momentum_body_n_m_s: Vector3<f64>,
     },
 }
@@ -29,6 +29,8 @@ pub struct DumpPolicy {
     pub threshold_body_n_m_s: Vector3<f64>,
     /// Where a component goes that exceeded its threshold.
     pub reinitialise: Reinitialise,
+    /// Momentum of the wheels' bias, body frame, in N m s: thresholds and what a dump leaves count from there.
+    pub bias_body_n_m_s: Vector3<f64>,
 }
 
 impl DumpPolicy {
@@ -44,13 +46,16 @@ impl DumpPolicy {
 
     /// The same of each component.
     pub fn exceeded_by(&self, momentum_body_n_m_s: &Vector3<f64>) -> [bool; 3] {
-        let excess_n_m_s = momentum_body_n_m_s.abs() - self.threshold_body_n_m_s;
-        excess_n_m_s.map(|it| it > EXCEEDED_N_M_S).into()
+        self.excesses_n_m_s(momentum_body_n_m_s).map(|it| it > EXCEEDED_N_M_S).into()
+    }
+
+    fn excesses_n_m_s(&self, momentum_body_n_m_s: &Vector3<f64>) -> Vector3<f64> {
+        (momentum_body_n_m_s - self.bias_body_n_m_s).abs() - self.threshold_body_n_m_s
     }
 
     /// How far the worst component lies above its threshold, in N m s; negative while none does.
     pub fn excess_n_m_s(&self, momentum_body_n_m_s: &Vector3<f64>) -> f64 {
-        (momentum_body_n_m_s.abs() - self.threshold_body_n_m_s).max()
+        self.excesses_n_m_s(momentum_body_n_m_s).max()
     }
 
     /// The momentum after a dump at `momentum_body_n_m_s`: components above their threshold are set anew, the
@@ -69,19 +74,22 @@ impl DumpPolicy {
 
     /// One component after a dump, in N m s.
     pub fn component_after(&self, axis: usize, before_n_m_s: f64) -> f64 {
-        if before_n_m_s.abs() - self.threshold_body_n_m_s[axis] <= EXCEEDED_N_M_S {
+        let from_bias_n_m_s = before_n_m_s - self.bias_body_n_m_s[axis];
+        if from_bias_n_m_s.abs() - self.threshold_body_n_m_s[axis] <= EXCEEDED_N_M_S {
             return before_n_m_s;
         }
         self.reinitialised_component(axis, before_n_m_s)
     }
 
     fn reinitialised_component(&self, axis: usize, before_n_m_s: f64) -> f64 {
-        match self.reinitialise {
+        let bias_n_m_s = self.bias_body_n_m_s[axis];
+        let from_bias_n_m_s = match self.reinitialise {
             Reinitialise::Opposite { fraction } => {
-                -before_n_m_s.signum() * fraction * self.threshold_body_n_m_s[axis]
+                -(before_n_m_s - bias_n_m_s).signum() * fraction * self.threshold_body_n_m_s[axis]
             }
             Reinitialise::Target { momentum_body_n_m_s } => momentum_body_n_m_s[axis],
-        }
+        };
+        bias_n_m_s + from_bias_n_m_s
     }
 }
 
@@ -184,6 +192,7 @@ mod tests {
     const POLICY: DumpPolicy = DumpPolicy {
         threshold_body_n_m_s: Vector3::new(4.0, 5.0, f64::INFINITY),
         reinitialise: Reinitialise::Opposite { fraction: 0.9 },
+        bias_body_n_m_s: Vector3::new(0.0, 0.0, 0.0),
     };
 
     #[test]
@@ -199,6 +208,24 @@ mod tests {
             ..POLICY
         };
         assert_eq!(policy.after(&Vector3::new(4.1, 5.5, 0.0)), Vector3::new(0.5, -1.0, 0.0));
+    }
+
+    /// A flight about a bias is that about rest, moved by it.
+    #[test]
+    fn everything_counts_from_the_bias() {
+        let bias = Vector3::new(1.0, -8.0, 2.0);
+        for reinitialise in
+            [POLICY.reinitialise, Reinitialise::Target { momentum_body_n_m_s: Vector3::new(0.5, -1.0, 2.0) }]
+        {
+            let rest = DumpPolicy { reinitialise, ..POLICY };
+            let moved = DumpPolicy { bias_body_n_m_s: bias, ..rest };
+            for momentum in [Vector3::new(-4.5, 5.5, 1e6), Vector3::new(4.5, 4.5, 0.0), Vector3::zeros()] {
+                assert_eq!(moved.exceeded_by(&(momentum + bias)), rest.exceeded_by(&momentum));
+                assert!((moved.after(&(momentum + bias)) - bias - rest.after(&momentum)).norm() < 1e-9);
+                let component = moved.component_after(1, momentum.y + bias.y) - bias.y;
+                assert_eq!(component, rest.component_after(1, momentum.y));
+            }
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! First excess of a dump threshold within a segment, located as a root of the momentum in the body frame.
 //!
-//! Equation: |h_i(t)| = threshold_i, with h = R(t)^-1 H(t) of the inertial total H, or the body integral itself.
+//! Equation: |h_i(t) - b_i| = threshold_i, with h = R(t)^-1 H(t) of the inertial total H, or the body integral itself, and the
+//! wheels' bias b.
 //! Method: an excess by more than rounding is sought with [`first_event`] on threshold - h_i and threshold + h_i, in pieces of
 //! a limited turn, so that their fits resolve the rotation whatever it does within the segment; the dump's time is the root of
 //! |h_i| = threshold before it, by bisection on the function itself.
@@ -54,10 +55,12 @@ impl Watched {
         mut momentum: impl FnMut(f64) -> Vector3<f64>,
     ) -> Option<Excess> {
         let thresholds_n_m_s = policy.threshold_body_n_m_s;
+        let bias_n_m_s = policy.bias_body_n_m_s;
         let below = |h: &Vector3<f64>| -> SVector<f64, 6> {
             SVector::from_fn(|row, _| {
                 let limit_n_m_s = thresholds_n_m_s[row % 3] + 2.0 * EXCEEDED_N_M_S;
-                if row < 3 { limit_n_m_s - h[row] } else { limit_n_m_s + h[row - 3] }
+                let h_n_m_s = h[row % 3] - bias_n_m_s[row % 3];
+                if row < 3 { limit_n_m_s - h_n_m_s } else { limit_n_m_s + h_n_m_s }
             })
         };
         let Self { start_s, end_s, rounding_s, rate_rad_s } = *self;
@@ -80,7 +83,8 @@ impl Watched {
         let Some(axis) = components.iter().position(|exceeds| *exceeds) else {
             return Some(Excess { time_s: beyond_s, components });
         };
-        let mut is_below = |at_s: f64| momentum(at_s)[axis].abs() < thresholds_n_m_s[axis];
+        let mut is_below =
+            |at_s: f64| (momentum(at_s)[axis] - bias_n_m_s[axis]).abs() < thresholds_n_m_s[axis];
         // Where a dump left the component at its threshold it need not be below at the start.
         let from_s = (0..MOST_HALVINGS)
             .map(|halvings| beyond_s - (beyond_s - start_s) * math::powi(0.5_f64, halvings))

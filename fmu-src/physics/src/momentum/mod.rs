@@ -20,4 +20,4 @@ pub use integrator::{MomentumIntegrator, Stop, StopTimes};
 pub use segment::Settings;
 pub use torque_model::{Effort, EventValues, TorqueModel, TorqueSample, after_event_s};
 pub use totals::{Convention, Totals};
-pub use wheels::{WheelArray, WheelCapacity};
+pub use wheels::{WheelArray, WheelCapacity, wheels_body_n_m_s};

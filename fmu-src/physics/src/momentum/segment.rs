@@ -281,6 +281,7 @@ impl MomentumSegment {
         };
         let rows = totals.coefficients().fixed_rows::<3>(row);
         let most_n_m_s: f64 = rows.column_iter().map(|terms| terms.norm()).sum();
+        let most_n_m_s = most_n_m_s + settings.policy.bias_body_n_m_s.norm();
         if most_n_m_s.is_nan() || most_n_m_s < settings.policy.threshold_body_n_m_s.min() {
             return None;
         }

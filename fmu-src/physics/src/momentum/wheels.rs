@@ -2,31 +2,67 @@
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
+/// A body axis off what the axes span by less lies in it.
+const IN_SPAN: f64 = 1e-6;
+
 /// Least eigenvalue of the axes' Gram matrix: axes within 1e-6 rad of a plane span no more than that.
 const LEAST_EIGENVALUE: f64 = 1e-12;
 
 /// Least size of the normal of two axes that span a face.
 const LEAST_FACE: f64 = 1e-9;
 
-/// Wheels with the smallest-norm distribution of momentum over their spin axes.
+/// Wheels with the smallest-norm distribution of momentum over their spin axes: the pseudo-inverse of the axes, whatever they span.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WheelArray {
     axes_body: Vec<Vector3<f64>>,
     rows: Vec<Vector3<f64>>,
+    /// How many directions the axes span.
+    rank: usize,
 }
 
 impl WheelArray {
     /// From unit spin axes in the body frame; `None` unless they span all three directions.
     pub fn new(axes_body: &[Vector3<f64>]) -> Option<Self> {
+        Some(Self::of(axes_body)).filter(Self::spans_all)
+    }
+
+    /// From unit spin axes in the body frame, which may lie in a plane or a line.
+    pub fn of(axes_body: &[Vector3<f64>]) -> Self {
         let gram: Matrix3<f64> = axes_body.iter().map(|axis| axis * axis.transpose()).sum();
-        if SymmetricEigen::new(gram).eigenvalues.min() < LEAST_EIGENVALUE {
-            return None;
-        }
-        let inverse = gram.try_inverse()?;
-        Some(Self {
+        let eigenvalues = SymmetricEigen::new(gram).eigenvalues;
+        let rank = eigenvalues.iter().filter(|value| **value >= LEAST_EIGENVALUE).count();
+        // With the projection on what they leave out the matrix has an inverse, which is the pseudo-inverse on their span.
+        let regular = match rank {
+            3 => gram,
+            _ => gram + projection_across(axes_body, rank),
+        };
+        let inverse = regular.try_inverse().unwrap_or_default();
+        Self {
             axes_body: axes_body.to_vec(),
             rows: axes_body.iter().map(|axis| inverse * axis).collect(),
-        })
+            rank,
+        }
+    }
+
+    /// Whether the axes span all three directions.
+    pub fn spans_all(&self) -> bool {
+        self.rank == 3
+    }
+
+    /// Body axes along which the wheels hold momentum.
+    pub fn spanned(&self) -> [bool; 3] {
+        [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| (self.held(&axis) - axis).norm() < IN_SPAN)
+    }
+
+    /// The part of a momentum that lies along the axes, body frame, in N m s.
+    fn held(&self, momentum_body_n_m_s: &Vector3<f64>) -> Vector3<f64> {
+        let each = self.axes_body.iter().zip(&self.rows);
+        each.map(|(axis, row)| axis * row.dot(momentum_body_n_m_s)).sum()
+    }
+
+    /// Momentum that wheels of these momenta along their axes hold together, body frame, in N m s.
+    pub fn sum_body_n_m_s(&self, momenta_n_m_s: impl Iterator<Item = f64>) -> Vector3<f64> {
+        self.axes_body.iter().zip(momenta_n_m_s).map(|(axis, momentum)| axis * momentum).sum()
     }
 
     /// Number of wheels.
@@ -34,7 +70,7 @@ impl WheelArray {
         self.rows.len()
     }
 
-    /// Whether there is no wheel; never true for an array that could be built.
+    /// Whether there is no wheel.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
@@ -61,9 +97,45 @@ impl WheelArray {
     /// while the three body components of momentum all stay within -h .. +h: what a per-component dump threshold may be at
     /// most. Wheels that share momentum better than by the smallest norm would hold more.
     pub fn guaranteed_threshold_n_m_s(&self, capacities_n_m_s: impl Iterator<Item = f64>) -> f64 {
+        if self.spans_all() { self.box_n_m_s(capacities_n_m_s) } else { 0.0 }
+    }
+
+    /// The same by body axis, of axes in a plane or a line about those that they span; infinite about others, which wheels do not
+    /// keep from growing.
+    pub fn spanned_threshold_n_m_s(&self, capacities_n_m_s: impl Iterator<Item = f64>) -> Vector3<f64> {
+        let box_n_m_s = self.box_n_m_s(capacities_n_m_s);
+        Vector3::from(self.spanned().map(|is_spanned| if is_spanned { box_n_m_s } else { f64::INFINITY }))
+    }
+
+    /// Half the edge of the cube about the spanned body axes that the wheels hold.
+    fn box_n_m_s(&self, capacities_n_m_s: impl Iterator<Item = f64>) -> f64 {
+        let spanned = Vector3::from(self.spanned().map(|it| f64::from(u8::from(it))));
         // The corner of the cube that loads a wheel most has the signs of its row.
-        let each = self.rows.iter().zip(capacities_n_m_s).map(|(row, capacity)| capacity / row.abs().sum());
-        each.fold(f64::INFINITY, f64::min)
+        let load = |row: &Vector3<f64>| row.abs().component_mul(&spanned).sum();
+        let each = self.rows.iter().zip(capacities_n_m_s).map(|(row, capacity)| capacity / load(row));
+        // A wheel that no spanned axis loads limits nothing.
+        each.filter(|it| !it.is_nan()).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Momentum of wheels with these axes, of any length but zero, and momenta along them together, body frame, in N m s.
+pub fn wheels_body_n_m_s(wheels: impl Iterator<Item = (Vector3<f64>, f64)>) -> Vector3<f64> {
+    let along =
+        |(axis, momentum): (Vector3<f64>, f64)| axis.try_normalize(0.0).unwrap_or_default() * momentum;
+    wheels.map(along).sum()
+}
+
+/// Projection on the directions across axes that span `rank` of them.
+fn projection_across(axes_body: &[Vector3<f64>], rank: usize) -> Matrix3<f64> {
+    let pairs = axes_body.iter().enumerate().flat_map(|(k, a)| axes_body[k + 1..].iter().map(|b| a.cross(b)));
+    let normal = pairs.max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
+    match (rank, normal, axes_body.first()) {
+        (2, Some(normal), _) => {
+            let normal = normal.normalize();
+            normal * normal.transpose()
+        }
+        (1, _, Some(line)) => Matrix3::identity() - line * line.transpose(),
+        _ => Matrix3::identity(),
     }
 }
 

@@ -56,13 +56,14 @@ pub use settings::configuration::{
     PredictionSettings, SunLight,
 };
 pub use settings::control_defaults::{
-    ControlDefaults, DUMP_TORQUE_N_M, SLEW_ACCELERATION_RAD_S2, SLEW_RATE_RAD_S,
+    ControlDefaults, DUMP_TORQUE_N_M, LEAST_DUMP_THRESHOLD_N_M_S, NEVER_DUMPED_N_M_S,
+    SLEW_ACCELERATION_RAD_S2, SLEW_RATE_RAD_S,
 };
 pub use settings::dynamics_settings::{
     Control, DynamicsInputs, DynamicsSettings, StartMotion, StartPointing, ThrusterControl, Tracked,
 };
 pub use settings::error::{ManeuverError, PlantError};
-pub use settings::ideal_settings::IdealSettings;
+pub use settings::ideal_settings::{IdealSettings, IdealWheel};
 pub use settings::panel_setting::{PanelSetting, PanelStep, Ramp, SunAt, Tilt};
 pub use settings::radiation_settings::RadiationSettings;
 pub use settings::reaction_control_settings::{ReactionControlSettings, ThrustCommand};

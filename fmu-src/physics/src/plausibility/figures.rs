@@ -10,7 +10,7 @@ use crate::environment::sun::SOLAR_FLUX_W_M2;
 use crate::loads::Effect;
 use crate::momentum::WheelCapacity;
 use crate::radiation::disturbance::{DisturbanceModel, Geometry, Options, Recoil, Workspace};
-use crate::spacecraft::{MassProperties, Optics, Spacecraft, with_panels};
+use crate::spacecraft::{MassProperties, Optics, Spacecraft, Wheel, with_panels};
 
 /// A centre of mass counts as outside where it is beyond the hull by this part of the extents' diagonal: on the hull nothing
 /// could be proved.
@@ -81,7 +81,7 @@ impl Figures {
         let sunlit = |spacecraft: &Spacecraft, shadows| sunlight(spacecraft, &angles_rad, center_m, shadows);
         let moments = mass_properties.inertia_body_kg_m2.diagonal() / mass_properties.mass_kg;
         let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
-        let capacities_n_m_s: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s).collect();
+        let capacities_n_m_s: Vec<_> = spacecraft.wheels.iter().map(Wheel::free_capacity_n_m_s).collect();
         Self {
             least_body_m,
             greatest_body_m,

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::antennas::NamedAntenna;
 use super::articulation::Articulation;
 use super::body::CustomBody;
-use super::downlinks::DownlinkWindows;
+use super::downlinks::{DownlinkWindows, TimeAfterPeriapsis};
 use super::file::antennas::antenna;
 use super::file::body::body;
 use super::file::description::SpacecraftDescription;
@@ -21,7 +21,7 @@ use super::file::pointing::pointing;
 use super::file::propulsion::{tank, thruster};
 use super::file::swinging::{mode, slosh, swinging_fits};
 use super::file::thruster_sets::{set_of, thruster_sets};
-use super::file::windows::{articulation, downlinks, hot_pole};
+use super::file::windows::{articulation, downlinks, hot_pole, slew, unload_every};
 use super::hot_pole::HotPoleZone;
 use super::instruments::Instrument;
 use super::mass::MassProperties;
@@ -29,6 +29,7 @@ use super::material::NamedMaterial;
 use super::panel::Panel;
 use super::planet_map::PlanetMap;
 use super::pointing::PointingSettings;
+use super::slew::SlewDemand;
 use super::start::{StartEntry, start_entries};
 use super::sun_sensors::MountedSunSensor;
 use super::surface::{Plate, Sunshade, SunshadeModel};
@@ -74,6 +75,12 @@ pub struct Spacecraft {
     pub antennas: Vec<NamedAntenna>,
     /// Magnitude of each body component of the momentum at which thrusters dump it, in N m s.
     pub dump_threshold_n_m_s: Option<Vector3<f64>>,
+    /// Time between unloadings that wheels are sized for.
+    #[serde(skip)]
+    pub unload_every: Option<TimeAfterPeriapsis>,
+    /// Slew that they are sized for.
+    #[serde(skip)]
+    pub slew: Option<SlewDemand>,
     /// Directions the Sun may have.
     pub sun_keep_in: Option<SunKeepIn>,
     /// How it stands while it observes; `None`: as the models' defaults say. Models have it as start values.
@@ -179,6 +186,7 @@ impl Spacecraft {
         let instruments = file.list("instruments", description.instruments.as_deref(), instrument);
         let has_antenna = description.antennas.is_some() || file.is_stand_in("antennas");
         check_gimbals(file.check, &file.at.key("instruments"), &instruments);
+        let momentum = description.momentum.as_ref();
         let start = start_entries(file.check, description.start.as_ref(), description.fixed.as_ref());
         let panels = file.list("panels", description.panels.as_deref(), panel);
         Self {
@@ -203,10 +211,11 @@ impl Spacecraft {
             },
             instruments,
             antennas: file.list("antennas", description.antennas.as_deref(), antenna),
-            dump_threshold_n_m_s: description
-                .momentum
-                .as_ref()
-                .map(|momentum| Vector3::from(momentum.dump_threshold_n_m_s.map(f64::from))),
+            dump_threshold_n_m_s: momentum
+                .and_then(|it| it.dump_threshold_n_m_s)
+                .map(|it| Vector3::from(it.map(f64::from))),
+            unload_every: momentum.and_then(|it| unload_every(&mut file.table("momentum"), it)),
+            slew: momentum.and_then(|it| slew(&mut file.table("momentum"), it)),
             per_plate_outputs: description.per_plate_outputs(),
             background_k: materials.environment.background_k,
             planet_map: description

@@ -24,6 +24,7 @@ mod panel_mass;
 mod planet_map;
 mod pointing;
 mod polygon;
+mod slew;
 mod start;
 mod sun_sensors;
 mod surface;
@@ -61,6 +62,7 @@ pub use pointing::{
     PointingTarget, TargetItem, TargetedAxis, panels_need_yaw_steering,
 };
 pub use polygon::Polygon;
+pub use slew::SlewDemand;
 pub use start::{StartEntry, StartValue};
 pub(crate) use start::{StartTable, start_entries};
 pub use sun_sensors::MountedSunSensor;
@@ -72,7 +74,7 @@ pub use thermal::{
     Thermal,
 };
 pub use thruster::{Thrust, Thruster, ThrusterSet, ValveTiming};
-pub use wheels::{PAPER_DUMP_THRESHOLDS_N_M_S, Wheel};
+pub use wheels::{Wheel, free_capacity_n_m_s};
 
 /// MESSENGER as paper 000 describes it, for callers without a file.
 pub const MESSENGER_TOML: &str = include_str!("../../../resources/messenger.toml");

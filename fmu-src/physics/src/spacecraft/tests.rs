@@ -481,6 +481,7 @@ impl Thruster {
             flow_kg_s: 0.002,
             valve: ValveTiming::default(),
             scatter: 0.0,
+            power_w: None,
             set: None,
             attitude_control: true,
             tank: 0,

@@ -64,6 +64,9 @@ pub struct Thruster {
     pub valve: ValveTiming,
     /// Standard deviation of the thrust from pulse to pulse, as a share of it.
     pub scatter: f64,
+    /// Electric power while it fires, in W.
+    #[serde(skip)]
+    pub power_w: Option<f64>,
     /// The delta-v that it takes part in.
     pub set: Option<ThrusterSet>,
     /// Whether it may control the attitude and dump momentum.

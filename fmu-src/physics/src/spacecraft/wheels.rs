@@ -12,6 +12,8 @@ pub struct Wheel {
     pub axis_body: Vector3<f64>,
     /// Greatest momentum of the rotor about its axis, in N m s.
     pub capacity_n_m_s: f64,
+    /// Momentum about which it works, along its axis, in N m s.
+    pub bias_n_m_s: f64,
     /// Moment of inertia of the rotor about its axis, in kg m2.
     pub inertia_kg_m2: f64,
     /// Greatest torque of the motor, in N m.
@@ -26,11 +28,19 @@ pub struct Wheel {
     pub position_body_m: Vector3<f64>,
 }
 
+impl Wheel {
+    /// Momentum that it takes up to either side of its bias, in N m s.
+    pub fn free_capacity_n_m_s(&self) -> f64 {
+        free_capacity_n_m_s(self.capacity_n_m_s, self.bias_n_m_s)
+    }
+}
+
+/// The part of a capacity that a wheel has to either side of its bias momentum, in N m s.
+pub fn free_capacity_n_m_s(capacity_n_m_s: f64, bias_n_m_s: f64) -> f64 {
+    capacity_n_m_s - bias_n_m_s.abs()
+}
+
 /// Speed at the capacity, from which a rotor's inertia follows where the file gives none: 6000 rpm, assumed.
 pub(super) const SPEED_AT_CAPACITY_RAD_S: f64 = 6000.0 * core::f64::consts::TAU / 60.0;
 /// How long a motor takes from rest to the capacity where the file gives no torque: 100 s, assumed.
 pub(super) const TIME_TO_CAPACITY_S: f64 = 100.0;
-
-/// Dump thresholds paper 000 states beside the capacity of each of four wheels, both in N m s; it does not publish
-/// the wheels' axes.
-pub const PAPER_DUMP_THRESHOLDS_N_M_S: [(f64, f64); 3] = [(4.0, 4.0), (8.0, 5.5), (12.0, 7.0)];

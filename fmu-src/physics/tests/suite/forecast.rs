@@ -7,6 +7,7 @@ use physics::attitude::Attitude;
 use physics::guidance::ChosenPlace;
 use physics::guidance::timeline::{TimelineEvent, TimelineManeuver};
 use physics::loads::ForceTorque;
+use physics::momentum::WheelArray;
 use physics::plant::{
     AttitudeSource, Command, DownlinkForecast, DynamicsInputs, Flight, IdealSettings, ModeSettings,
     PlantError, SimulationContext, StepContext, ThrusterEventSettings, Thrusters,
@@ -49,7 +50,7 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
     };
     let mut flight = Flight::waiting(Thrusters::new(Default::default(), 0.0));
     let settings = IdealSettings {
-        array: None,
+        array: WheelArray::of(&[]),
         wheels: Vec::new(),
         sun_sensors: Vec::new(),
         rate_hz: 1.0,

@@ -73,6 +73,7 @@ pub(crate) fn configuration(orbit: TwoBodyOrbit, attitude: AttitudeSource) -> Co
             convention: Convention::Inertial,
             policy: DumpPolicy {
                 threshold_body_n_m_s: Vector3::repeat(f64::INFINITY),
+                bias_body_n_m_s: Vector3::zeros(),
                 reinitialise: Reinitialise::Opposite { fraction: 1.0 },
             },
         },

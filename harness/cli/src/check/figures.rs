@@ -3,6 +3,8 @@
 use nalgebra::Vector3;
 use physics::{
     environment::sun::SOLAR_FLUX_W_M2,
+    momentum::WheelArray,
+    plant::{ControlDefaults, NEVER_DUMPED_N_M_S},
     plausibility::{Figures, ThrusterFigures, TorqueBothWays, warnings},
     spacecraft::{Instrument, MountedSunSensor, NamedAntenna, Spacecraft},
     spin::spinner::Spinner,
@@ -136,7 +138,29 @@ fn devices(spacecraft: &Spacecraft, figures: &Figures) -> Vec<(&'static str, Str
     }
     listed("instruments", spacecraft.instruments.iter().map(instrument).collect());
     listed("antennas", spacecraft.antennas.iter().map(antenna).collect());
+    listed("dumps", dumps(spacecraft));
     rows
+}
+
+/// Where no dump comes, and dumps that cost nothing.
+fn dumps(spacecraft: &Spacecraft) -> Vec<String> {
+    let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
+    let thresholds_n_m_s = ControlDefaults::of(spacecraft, &WheelArray::of(&axes)).dump_threshold_n_m_s;
+    let is_given = spacecraft.start.iter().any(|entry| entry.name.starts_with("dump.threshold"));
+    let never =
+        AXES.into_iter().zip(&thresholds_n_m_s).filter(|(_, it)| !is_given && **it >= NEVER_DUMPED_N_M_S);
+    let never: Vec<&str> = never.map(|(name, _)| name).collect();
+    let mut lines = Vec::new();
+    if !never.is_empty() {
+        lines.push(format!(
+            "never about {}, where no wheels hold momentum, unless dump.threshold is set",
+            never.join(", ")
+        ));
+    }
+    if spacecraft.thrusters.is_empty() && never.len() < AXES.len() {
+        lines.push("ideal, without propellant: there are no [[thrusters]]".to_owned());
+    }
+    lines
 }
 
 /// Boresight, and how far a gimbal turns it.

@@ -1,25 +1,26 @@
 //! What slews, wheels and thrusters the mission needs or has, by axis.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use physics::{
-    momentum::WheelCapacity,
+    momentum::WheelArray,
     propulsion::ThrusterSelection,
-    spacecraft::{Spacecraft, Thruster},
+    spacecraft::{Spacecraft, Thruster, Wheel},
 };
 
 use super::{momentum::Histories, sized::SizedSpacecraft};
-use crate::{instance::vector, variables::item};
+use crate::{
+    instance::vector,
+    variables::{NEVER_N_M_S, item},
+};
 
-const NAMES: [&str; 3] = ["X", "Y", "Z"];
+pub(super) const NAMES: [&str; 3] = ["X", "Y", "Z"];
 
-/// A turn about a body axis from rest to rest, by `control.slewRate` and `control.slewAcceleration`.
+/// A turn about a body axis from rest to rest, speeding up for half of the time and braking for the other.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Slew {
     pub axis: &'static str,
     pub torque_n_m: f64,
     pub momentum_n_m_s: f64,
-    /// Of 90 and 180 deg.
-    pub times_s: [f64; 2],
 }
 
 /// Wheels of one geometry that take what the mission needs.
@@ -33,11 +34,14 @@ pub(super) struct Geometry {
 
 /// What wheels have to take about each body axis, and which wheels do.
 pub(super) struct Wheels {
-    /// Gathered within the longest time between dumps.
+    /// Time between unloadings, in s.
+    pub every_s: f64,
+    /// Gathered within it beside the bias.
     pub gathered_n_m_s: Vector3<f64>,
     /// With slews and margin.
-    pub needed_n_m_s: f64,
-    pub needed_n_m: f64,
+    pub needed_n_m_s: Vector3<f64>,
+    pub needed_n_m: Vector3<f64>,
+    /// The file's wheels first, where it has some.
     pub geometries: Vec<Geometry>,
 }
 
@@ -54,123 +58,148 @@ pub(super) struct Allocation {
     pub propellant_g_per_n_m_s: f64,
 }
 
-/// What the FMU lets slews do.
-pub(super) struct SlewLimits {
-    pub rate_rad_s: f64,
-    pub acceleration_rad_s2: f64,
-    pub inertia_kg_m2: Matrix3<f64>,
+/// The slew about each body axis; none without a demand.
+pub(super) fn slews(sized: &SizedSpacecraft) -> Result<Option<[Slew; 3]>, loader::Error> {
+    let Some(demand) = sized.slew else { return Ok(None) };
+    let mut started = sized.started()?;
+    let mut inertia_kg_m2 = Vector3::zeros();
+    for axis in 0..3 {
+        inertia_kg_m2[axis] = started.get_real(&format!("spacecraft.inertia[{0},{0}]", axis + 1))?;
+    }
+    Ok(Some([0, 1, 2].map(|axis| Slew {
+        axis: NAMES[axis],
+        torque_n_m: inertia_kg_m2[axis] * demand.acceleration_rad_s2(),
+        momentum_n_m_s: inertia_kg_m2[axis] * demand.peak_rate_rad_s(),
+    })))
 }
 
-impl SlewLimits {
-    /// Of a sized at its start.
-    pub(super) fn of(sized: &SizedSpacecraft) -> Result<Self, loader::Error> {
-        let mut started = sized.started()?;
-        let mut inertia_kg_m2 = Matrix3::zeros();
-        for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
-            let name = format!("spacecraft.inertia[{},{}]", row + 1, column + 1);
-            inertia_kg_m2[(row, column)] = started.get_real(&name)?;
-        }
-        Ok(Self {
-            rate_rad_s: started.get_real("control.slewRate")?,
-            acceleration_rad_s2: started.get_real("control.slewAcceleration")?,
-            inertia_kg_m2,
-        })
-    }
-
-    /// About each body axis.
-    pub(super) fn slews(&self) -> [Slew; 3] {
-        let inertia_kg_m2 = self.inertia_kg_m2.diagonal();
-        [0, 1, 2].map(|axis| Slew {
-            axis: NAMES[axis],
-            torque_n_m: inertia_kg_m2[axis] * self.acceleration_rad_s2,
-            momentum_n_m_s: inertia_kg_m2[axis] * self.rate_rad_s,
-            times_s: [90.0_f64, 180.0].map(|angle_deg| self.time_s(angle_deg.to_radians())),
-        })
-    }
-
-    /// At full acceleration, coasting at the greatest rate where the turn is long enough; infinite without limits.
-    fn time_s(&self, angle_rad: f64) -> f64 {
-        let (rate_rad_s, acceleration_rad_s2) = (self.rate_rad_s, self.acceleration_rad_s2);
-        if acceleration_rad_s2 <= 0.0 {
-            return f64::INFINITY;
-        }
-        let longest_rad = rate_rad_s * rate_rad_s / acceleration_rad_s2;
-        if rate_rad_s > 0.0 && angle_rad > longest_rad {
-            return angle_rad / rate_rad_s + rate_rad_s / acceleration_rad_s2;
-        }
-        2.0 * (angle_rad / acceleration_rad_s2).sqrt()
-    }
+/// What sizes wheels beside the time between unloadings.
+pub(super) struct Demands<'a> {
+    pub sized: &'a SizedSpacecraft,
+    pub slews: &'a Option<[Slew; 3]>,
+    pub margin: f64,
+    /// Thresholds over which a component moves between dumps: 1 + dump.reinitFraction after one to the other side.
+    pub room: f64,
 }
 
-impl Wheels {
-    /// By what a flight without dumps gathers: after a dump to the other side of the threshold a component has room for
-    /// 1 + dump.reinitFraction thresholds.
-    pub(super) fn needed(
-        sized: &SizedSpacecraft,
-        histories: &Histories,
-        slews: &[Slew; 3],
+impl<'a> Demands<'a> {
+    /// Of a spacecraft with these slews.
+    pub(super) fn new(
+        sized: &'a SizedSpacecraft,
+        slews: &'a Option<[Slew; 3]>,
         margin: f64,
     ) -> Result<Self, loader::Error> {
-        let mut started = sized.started()?;
         let is_opposite = item(sized.fmu.description(), &sized.sets, "dump.reinitTo") == Some("opposite");
-        let room = if is_opposite { 1.0 + started.get_real("dump.reinitFraction")? } else { 1.0 };
-        let gathered_n_m_s = histories.gathered_n_m_s(sized.spacing_s);
-        let of_axis = |axis: usize| gathered_n_m_s[axis] / room + slews[axis].momentum_n_m_s;
-        let needed_n_m_s = (1.0 + margin) * [0, 1, 2].map(of_axis).into_iter().fold(0.0, f64::max);
-        let needed_n_m = (1.0 + margin) * slews.iter().map(|slew| slew.torque_n_m).fold(0.0, f64::max);
-        let held = geometries(&sized.spacecraft).into_iter().filter_map(|(name, axes)| {
-            // Capacity and torque of each wheel are shared alike.
-            let of_one = WheelCapacity::of(&axes, &vec![1.0; axes.len()])?.least_norm_box_n_m_s;
-            Some(Geometry { name, capacity_n_m_s: needed_n_m_s / of_one, torque_n_m: needed_n_m / of_one })
-        });
-        let geometries = held.collect();
-        Ok(Self { gathered_n_m_s, needed_n_m_s, needed_n_m, geometries })
+        let room = if is_opposite { 1.0 + sized.started()?.get_real("dump.reinitFraction")? } else { 1.0 };
+        Ok(Self { sized, slews, margin, room })
+    }
+
+    fn slew(&self, of: fn(&Slew) -> f64) -> Vector3<f64> {
+        self.slews.as_ref().map_or_else(Vector3::zeros, |slews| Vector3::from_fn(|axis, _| of(&slews[axis])))
+    }
+
+    /// Wheels for what the flights gather between unloadings every `every_s`.
+    pub(super) fn wheels(&self, flights: &[Histories], every_s: f64) -> Wheels {
+        let most = |of: &dyn Fn(&Histories) -> Vector3<f64>| {
+            flights.iter().map(of).fold(Vector3::zeros(), |most: Vector3<f64>, it| most.sup(&it))
+        };
+        let gathered_n_m_s = most(&|flight| flight.gathered_n_m_s(every_s));
+        let held_n_m_s = gathered_n_m_s / self.room;
+        let needed_n_m_s = (held_n_m_s + self.slew(|it| it.momentum_n_m_s)) * (1.0 + self.margin);
+        let torque_n_m = most(&|flight| flight.torque_n_m(held_n_m_s)) + self.slew(|it| it.torque_n_m);
+        let needed_n_m = torque_n_m * (1.0 + self.margin);
+        let geometry = |(name, axes, bias_n_m_s): (String, Vec<Vector3<f64>>, f64)| Geometry {
+            name,
+            capacity_n_m_s: bias_n_m_s + of_each(&axes, &needed_n_m_s),
+            torque_n_m: of_each(&axes, &needed_n_m),
+        };
+        let geometries = geometries(&self.sized.spacecraft).into_iter().map(geometry).collect();
+        Wheels { every_s, gathered_n_m_s, needed_n_m_s, needed_n_m, geometries }
+    }
+
+    /// How long the file's wheels hold what gathers, in s: infinite where no flight fills them; `None` without wheels.
+    pub(super) fn lasting_s(&self, flights: &[Histories]) -> Option<f64> {
+        let wheels = &self.sized.spacecraft.wheels;
+        if wheels.is_empty() {
+            return None;
+        }
+        let array = WheelArray::of(&axes_of(&self.sized.spacecraft));
+        let held_n_m_s = array.spanned_threshold_n_m_s(wheels.iter().map(Wheel::free_capacity_n_m_s));
+        let free_n_m_s = held_n_m_s / (1.0 + self.margin) - self.slew(|it| it.momentum_n_m_s);
+        let bounds_n_m_s = free_n_m_s.map(|it| it.max(0.0)) * self.room;
+        let each =
+            flights.iter().map(|flight| flight.shortest_beyond_s(bounds_n_m_s).unwrap_or(f64::INFINITY));
+        Some(each.fold(f64::INFINITY, f64::min))
     }
 }
 
-/// The file's wheels, and others to compare.
-fn geometries(spacecraft: &Spacecraft) -> Vec<(String, Vec<Vector3<f64>>)> {
-    let own: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
+/// Body axes along which the file's wheels hold nothing; none where it has no wheels.
+pub(super) fn unspanned(spacecraft: &Spacecraft) -> Vec<usize> {
+    let spanned = WheelArray::of(&axes_of(spacecraft)).spanned();
+    (0..3).filter(|axis| !spacecraft.wheels.is_empty() && !spanned[*axis]).collect()
+}
+
+/// Part of each of wheels alike, along these axes, that hold so much about all body axes that they span at once.
+fn of_each(axes: &[Vector3<f64>], needed: &Vector3<f64>) -> f64 {
+    let of_one = WheelArray::of(axes).spanned_threshold_n_m_s(axes.iter().map(|_| 1.0));
+    // About an axis that they do not span they hold nothing, whatever they are.
+    let each = needed.iter().zip(&of_one).filter(|(_, of_one)| of_one.is_finite());
+    each.map(|(needed, of_one)| needed / of_one).fold(0.0, f64::max)
+}
+
+fn axes_of(spacecraft: &Spacecraft) -> Vec<Vector3<f64>> {
+    spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect()
+}
+
+/// The file's wheels, and others to compare, with the greatest bias of each.
+fn geometries(spacecraft: &Spacecraft) -> Vec<(String, Vec<Vector3<f64>>, f64)> {
+    let own = axes_of(spacecraft);
+    let bias_n_m_s = spacecraft.wheels.iter().map(|wheel| wheel.bias_n_m_s.abs()).fold(0.0, f64::max);
     let c = (1.0_f64 / 3.0).sqrt();
     let pyramid = [(c, c), (c, -c), (-c, -c), (-c, c)].map(|(x, z)| Vector3::new(x, c, z)).to_vec();
     let orthogonal = vec![Vector3::x(), Vector3::y(), Vector3::z()];
-    let own = (!own.is_empty()).then(|| (format!("the file's {}", own.len()), own));
+    let own = (!own.is_empty()).then(|| (format!("the file's {}", own.len()), own, bias_n_m_s));
     own.into_iter()
         .chain([
-            ("four in a pyramid about Y, 54.7 deg off it".to_owned(), pyramid),
-            ("three along X, Y, Z".to_owned(), orthogonal),
+            ("four in a pyramid about Y, 54.7 deg off it".to_owned(), pyramid, 0.0),
+            ("three along X, Y, Z".to_owned(), orthogonal, 0.0),
         ])
         .collect()
 }
 
-/// Capacity of each of the file's wheels whose least-norm box is this threshold, in N m s; the threshold itself without
-/// wheels in all directions.
-pub(super) fn capacity_n_m_s(spacecraft: &Spacecraft, threshold_n_m_s: f64) -> f64 {
-    let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
-    let of_one =
-        WheelCapacity::of(&axes, &vec![1.0; axes.len()]).map_or(1.0, |held| held.least_norm_box_n_m_s);
-    threshold_n_m_s / of_one
+/// Capacity of each of the file's wheels whose least-norm box is this threshold, in N m s; the threshold itself without wheels.
+pub(super) fn capacity_n_m_s(spacecraft: &Spacecraft, threshold_n_m_s: &Vector3<f64>) -> f64 {
+    let bias_n_m_s = spacecraft.wheels.iter().map(|wheel| wheel.bias_n_m_s.abs()).fold(0.0, f64::max);
+    let reached = threshold_n_m_s.map(|it| if it >= NEVER_N_M_S { 0.0 } else { it });
+    if spacecraft.wheels.is_empty() {
+        reached.max()
+    } else {
+        bias_n_m_s + of_each(&axes_of(spacecraft), &reached)
+    }
+}
+
+/// Thrusters that dump, about the centre of mass at the start.
+///
+/// # Errors
+/// Why dumps take no propellant.
+pub(super) fn dumping(sized: &SizedSpacecraft) -> Result<ThrusterSelection, String> {
+    let thrusters = &sized.spacecraft.thrusters;
+    if thrusters.is_empty() {
+        return Err("dumps are ideal and take no propellant: the file has no [[thrusters]]".to_owned());
+    }
+    let mut started = sized.started().map_err(|error| error.to_string())?;
+    let center_m = vector(&mut started, "spacecraft.centerOfMass").map_err(|error| error.to_string())?;
+    ThrusterSelection::of_the_finest(thrusters, |k| thrusters[k].attitude_control, &center_m)
+        .map_err(|error| format!("dumps are ideal and take no propellant: thrusters: {error}"))
 }
 
 /// Each way about each axis by the weakest thrusters that give it, as dumps use them.
-///
-/// # Errors
-/// Why there is none.
-pub(super) fn allocations(sized: &SizedSpacecraft) -> Result<Vec<Allocation>, String> {
+pub(super) fn allocations(sized: &SizedSpacecraft, selection: &ThrusterSelection) -> Vec<Allocation> {
     let thrusters = &sized.spacecraft.thrusters;
-    if thrusters.is_empty() {
-        return Err("The file has no thrusters: dumps take no propellant.".to_owned());
-    }
-    let center_m =
-        vector(&mut sized.started().map_err(|error| error.to_string())?, "spacecraft.centerOfMass");
-    let center_m = center_m.map_err(|error| error.to_string())?;
-    let may_fire = |k: usize| thrusters[k].attitude_control;
-    let selection = ThrusterSelection::of_the_finest(thrusters, may_fire, &center_m)
-        .map_err(|error| format!("Thrusters: {error}; dumps take no propellant."))?;
     let senses = NAMES.into_iter().enumerate().flat_map(|(axis, name)| {
         [("+", 1.0), ("-", -1.0)].map(|(sign, way)| (format!("{sign}{name}"), Vector3::ith(axis, way)))
     });
-    Ok(senses.map(|(sense, impulse)| allocation(thrusters, &selection, sense, &impulse)).collect())
+    senses.map(|(sense, impulse)| allocation(thrusters, selection, sense, &impulse)).collect()
 }
 
 fn allocation(

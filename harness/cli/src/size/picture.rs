@@ -8,11 +8,11 @@ use super::{
     table::capacity,
 };
 
-/// As SVG text.
+/// As SVG text, without panels in which all is 0; `None` where no panel is left.
 ///
 /// # Errors
 /// Nothing to draw.
-pub(super) fn svg(sized: &SizedSpacecraft, sweep: &Sweep) -> Result<String, DrawingError> {
+pub(super) fn svg(sized: &SizedSpacecraft, sweep: &Sweep) -> Result<Option<String>, DrawingError> {
     let of_strategies = |value: fn(&Dumped) -> f64| {
         let lines = sized.strategies.iter().map(move |strategy| {
             let own = sweep.dumped.iter().filter(|it| it.strategy == *strategy);
@@ -22,10 +22,8 @@ pub(super) fn svg(sized: &SizedSpacecraft, sweep: &Sweep) -> Result<String, Draw
     };
     let most = |value: fn(&Dumped) -> f64| sweep.dumped.iter().map(value).fold(0.0, f64::max);
     let panel = |label: &str, value: fn(&Dumped) -> f64| {
-        // A year without dumps is a line along the axis.
         let most = most(value);
-        let most = if most > 0.0 { 1.08 * most } else { 1.0 };
-        Panel::new(label).with(of_strategies(value)).range(0.0, most)
+        (most > 0.0).then(|| Panel::new(label).with(of_strategies(value)).range(0.0, 1.08 * most))
     };
     let title = format!("{}: dumps by the wheels' capacity", sized.spacecraft.name);
     let x_label = if sized.spacecraft.wheels.is_empty() {
@@ -33,7 +31,11 @@ pub(super) fn svg(sized: &SizedSpacecraft, sweep: &Sweep) -> Result<String, Draw
     } else {
         "capacity of each wheel [N·m·s], least-norm sharing"
     };
-    let chart = Chart::new(title, x_label)
-        .with([panel("dumps a year", |it| it.dumps), panel("propellant a year [kg]", |it| it.propellant_kg)]);
-    drawing::svg(&[&chart])
+    let panels =
+        [panel("dumps a year", |it| it.dumps), panel("propellant a year [kg]", |it| it.propellant_kg)];
+    let panels: Vec<Panel> = panels.into_iter().flatten().collect();
+    if panels.is_empty() {
+        return Ok(None);
+    }
+    drawing::svg(&[&Chart::new(title, x_label).with(panels)]).map(Some)
 }

@@ -3,12 +3,17 @@
 use files::Scratch;
 use loader::{Fmu, InputTable, Instance, Value};
 use model_description::Description;
-use physics::{bodies::Body, constants::DAY_S, spacecraft::Spacecraft};
+use nalgebra::Vector3;
+use physics::{
+    bodies::Body,
+    constants::DAY_S,
+    spacecraft::{SlewDemand, Spacecraft},
+};
 
 use super::options::Size;
 use crate::{
     assembly::{Parts, Source, assemble, spacecraft_of},
-    instance,
+    instance::{self, vector},
     kind::FileKind,
     mission::{Inputs, SpacecraftSource as Given},
     run::{Run, Settings, Simulated},
@@ -38,8 +43,12 @@ pub(super) struct SizedSpacecraft {
     pub span_s: f64,
     /// Period of the orbit at the start, in s.
     pub period_s: f64,
-    /// Longest time between dumps, an orbit or, about the Sun, a day at least, in s.
-    pub spacing_s: f64,
+    /// Time between unloadings, in s.
+    pub every_s: f64,
+    /// Slew about every axis; `None`: none.
+    pub slew: Option<SlewDemand>,
+    /// Momentum of the wheels' bias, body frame, in N m s.
+    pub bias_n_m_s: Vector3<f64>,
     /// Whether `momentum.*` are integrals of body components.
     pub is_body_integral: bool,
     /// What sunlight is used for where there are downlinks, by item; the first is dumps alone.
@@ -54,7 +63,7 @@ impl SizedSpacecraft {
         let text = files::read_text(&arguments.file)?;
         let file = arguments.file.display().to_string();
         let is_mission = FileKind::of(&text) == Some(FileKind::Mission);
-        let (fmu, mut sets, inputs, [start_s, stop_s], folders) = match is_mission {
+        let (fmu, mut sets, inputs, ([start_s, stop_s], is_of_its_time), folders) = match is_mission {
             false => {
                 FileKind::Spacecraft.check(&file, &text)?;
                 let source = Source::open(arguments.template.as_deref(), &[])?;
@@ -63,7 +72,7 @@ impl SizedSpacecraft {
                 let folder = Scratch::new()?;
                 assemble(&source, &parts)?.entries.write_below(folder.path())?;
                 let fmu = Fmu::open(folder.path())?;
-                (fmu, Vec::new(), None, [0.0, YEAR_S], [Some(folder), None])
+                (fmu, Vec::new(), None, ([0.0, YEAR_S], false), [Some(folder), None])
             }
             true => {
                 let template = arguments.template.clone();
@@ -79,7 +88,8 @@ impl SizedSpacecraft {
                 });
                 let start_s = settings.times.start_s;
                 let stop_s = if is_of_its_time { settings.times.stop_s } else { start_s + YEAR_S };
-                (fmu, settings.sets, settings.inputs, [start_s, stop_s], [folder, None])
+                let times_s = ([start_s, stop_s], is_of_its_time);
+                (fmu, settings.sets, settings.inputs, times_s, [folder, None])
             }
         };
         let description = fmu.description();
@@ -93,8 +103,7 @@ impl SizedSpacecraft {
         let phase = phase.map(|it| started.get_variable(it)).transpose()?;
         let phase: Vec<_> = phase.into_iter().map(|value| (PHASE.to_owned(), value)).collect();
         let is_in_cruise = item(description, &phase, PHASE) == Some("cruise");
-        let shortest_s = if is_about_sun { DAY_S } else { period_s };
-        let spacing_s = started.get_real("dump.requiredSpacing")?.max(shortest_s);
+        let bias_n_m_s = vector(&mut started, "momentum.bias")?;
         let is_body_integral = item(description, &sets, "momentum.convention") == Some("bodyIntegral");
         drop(started);
         let span_s = arguments.duration.unwrap_or(stop_s - start_s);
@@ -106,19 +115,29 @@ impl SizedSpacecraft {
             .into());
         }
         let spacecraft = spacecraft_of(&fmu)?;
+        let by_file_s = spacecraft.unload_every.map(|every| every.in_orbit_s(period_s));
+        let every_s = arguments.every.or(by_file_s).unwrap_or(DAY_S);
         let has_fan = spacecraft.antennas.iter().any(|named| named.antenna.fan().is_some());
         let strategies = strategies(description, &sets, period_s, has_fan && !is_in_cruise);
+        if arguments.years.is_some() && is_of_its_time {
+            let allowed = "a mission without inputs, timeline and ephemeris, which are those of its own time";
+            return Err(
+                format!("{file}: --years: found a mission of its own time, allowed: {allowed}").into()
+            );
+        }
         Ok(Self {
-            spacecraft,
             sets,
             inputs,
             start_s,
             span_s,
             period_s,
-            spacing_s,
+            every_s,
+            slew: arguments.slew.or(spacecraft.slew),
+            bias_n_m_s,
             is_body_integral,
             strategies,
             fmu,
+            spacecraft,
             _folders: folders,
         })
     }
@@ -126,6 +145,22 @@ impl SizedSpacecraft {
     /// An instance that has just been initialised.
     pub(super) fn started(&self) -> Result<Instance, loader::Error> {
         instance::started(&self.fmu, "size", self.start_s, &self.sets)
+    }
+
+    /// Whether the file or the call gives a variable, or an element of it, a value.
+    pub(super) fn says(&self, name: &str) -> bool {
+        let is_it =
+            |given: &str| given == name || given.strip_prefix(name).is_some_and(|it| it.starts_with('['));
+        self.sets.iter().any(|(given, _)| is_it(given))
+            || self.spacecraft.start.iter().any(|entry| is_it(&entry.name))
+    }
+
+    /// What is set in the last year of a mission of so many.
+    pub(super) fn last_year(&self, years: f64, end: &[String]) -> Result<Vec<(String, Value)>, Failure> {
+        let first_s = self.started()?.get_real("start.epoch")?;
+        let mut sets = vec![("start.epoch".to_owned(), Value::Real(first_s + (years - 1.0) * YEAR_S))];
+        sets.extend(assigned(self.fmu.description(), end)?);
+        Ok(sets)
     }
 
     /// What a flight comes to, scaled to a year.

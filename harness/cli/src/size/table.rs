@@ -4,33 +4,80 @@ use loader::csv::Real;
 use physics::constants::DAY_S;
 use terminal::rounded;
 
+use nalgebra::Vector3;
+
 use super::{
+    answer,
     flights::{Dumped, Sweep},
     momentum::SourceRow,
-    needs::{Allocation, Slew, Wheels, capacity_n_m_s},
-    sized::SizedSpacecraft,
+    needs::{Allocation, Slew, capacity_n_m_s},
+    sized::{SizedSpacecraft, YEAR_S},
+    unloading::Unloadings,
 };
 
 /// What was found, but for pictures.
 pub(super) struct Found {
     pub sources: Vec<SourceRow>,
     pub sweep: Sweep,
-    pub slews: [Slew; 3],
-    pub wheels: Wheels,
+    pub slews: Option<[Slew; 3]>,
+    /// By the time between unloadings.
+    pub unloadings: Unloadings,
+    /// The same by an orbit and a week, where the flight has whole ones.
+    pub others: Vec<Unloadings>,
+    /// How long the file's wheels last, in s; `None` without any.
+    pub lasting_s: Option<f64>,
+    /// How many years the mission lasts, where it was said.
+    pub years: Option<f64>,
+    pub threshold_n_m_s: Vector3<f64>,
+    /// Why dumps take no propellant, or thrusters by axis.
     pub allocations: Result<Vec<Allocation>, String>,
     pub margin: f64,
 }
 
 /// All of it.
 pub(super) fn text(sized: &SizedSpacecraft, found: &Found) -> String {
-    let parts = [
+    let mut parts = vec![
+        answer::text(sized, found),
+        answer::assumed(sized, found),
+        unloadings(found),
         sources(sized, &found.sources),
         dumps(sized, &found.sweep),
         wheels(sized, found),
-        slews(&found.slews),
-        allocations(&found.allocations),
     ];
+    parts.extend(found.slews.as_ref().map(slews));
+    parts.extend(found.allocations.as_ref().ok().map(|rows| allocations(rows)));
     parts.join("\n\n")
+}
+
+/// Wheels and thrusters by the time between unloadings.
+fn unloadings(found: &Found) -> String {
+    let mut table = terminal::table(&[
+        "unloaded every",
+        "capacity of each wheel [N.m.s]",
+        "torque [N.m]",
+        "impulse a year [N.m.s]",
+        "propellant a year [kg]",
+        "most minutes a dump",
+        "most W.h a dump",
+    ]);
+    let mut rows: Vec<&Unloadings> = found.others.iter().chain([&found.unloadings]).collect();
+    rows.sort_by(|a, b| a.wheels.every_s.total_cmp(&b.wheels.every_s));
+    for row in rows {
+        let Some((wheels, year)) = row.wheels.geometries.first().zip(row.years.first()) else { continue };
+        let firing = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), rounded);
+        table.add_row([
+            time(row.wheels.every_s),
+            rounded(wheels.capacity_n_m_s),
+            rounded(wheels.torque_n_m),
+            rounded(year.impulse_n_m_s),
+            rounded(year.propellant_kg),
+            firing(row.longest.map(|it| it.time_s / 60.0)),
+            firing(row.longest.and_then(|it| it.energy_j).map(|energy_j| energy_j / 3600.0)),
+        ]);
+    }
+    format!(
+        "Unloaded to the bias whatever gathered, by the thrusters at full thrust; the capacity with slews and margin\n{table}"
+    )
 }
 
 fn sources(sized: &SizedSpacecraft, rows: &[SourceRow]) -> String {
@@ -38,7 +85,7 @@ fn sources(sized: &SizedSpacecraft, rows: &[SourceRow]) -> String {
         "momentum.* [N.m.s]",
         "secular per orbit: X, Y, Z",
         "cyclic in an orbit",
-        &format!("most in {}", time(sized.spacing_s)),
+        &format!("most in {}", time(sized.every_s)),
     ]);
     for row in rows.iter().filter(|row| !is_nothing(row)) {
         table.add_row([
@@ -90,13 +137,13 @@ fn dumps(sized: &SizedSpacecraft, sweep: &Sweep) -> String {
     )
 }
 
-/// Of each wheel, by the greatest threshold.
+/// Of each wheel, by the threshold.
 pub(super) fn capacity(sized: &SizedSpacecraft, dumped: &Dumped) -> f64 {
-    capacity_n_m_s(&sized.spacecraft, dumped.threshold_n_m_s.max())
+    capacity_n_m_s(&sized.spacecraft, &dumped.threshold_n_m_s)
 }
 
 fn wheels(sized: &SizedSpacecraft, found: &Found) -> String {
-    let wheels = &found.wheels;
+    let wheels = &found.unloadings.wheels;
     let mut table = terminal::table(&["wheels", "capacity of each [N.m.s]", "torque of each [N.m]"]);
     for it in &wheels.geometries {
         table.add_row([it.name.clone(), rounded(it.capacity_n_m_s), rounded(it.torque_n_m)]);
@@ -104,40 +151,26 @@ fn wheels(sized: &SizedSpacecraft, found: &Found) -> String {
     let own = sized.spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s).reduce(f64::min);
     let own = own.map_or_else(|| "none".to_owned(), |capacity| format!("{} N.m.s each", rounded(capacity)));
     format!(
-        "Wheels for {} N.m.s and {} N.m about every axis at once: {} N.m.s gathered in {} (dump.requiredSpacing, at least an \
-         orbit, about the Sun a day{}) in the room between dumps, a slew, and a margin of {}; the file has {own}\n{table}",
-        rounded(wheels.needed_n_m_s),
-        rounded(wheels.needed_n_m),
+        "Wheels for {} N.m.s and {} N.m about X, Y, Z, beside their bias, about every axis at once: {} N.m.s gathered in {} \
+         (time between unloadings{}), in the room between dumps, a slew, and a margin of {}; the file has {own}\n{table}",
+        triple(wheels.needed_n_m_s.into()),
+        triple(wheels.needed_n_m.into()),
         triple(wheels.gathered_n_m_s.into()),
-        time(sized.spacing_s),
-        if sized.span_s < sized.spacing_s { "; the flight is shorter, see --duration" } else { "" },
+        time(sized.every_s),
+        if sized.span_s < sized.every_s { "; the flight is shorter, see --duration" } else { "" },
         rounded(found.margin)
     )
 }
 
 fn slews(slews: &[Slew; 3]) -> String {
-    let mut table =
-        terminal::table(&["slew about", "torque [N.m]", "momentum [N.m.s]", "90 deg [s]", "180 deg [s]"]);
+    let mut table = terminal::table(&["slew about", "torque [N.m]", "momentum [N.m.s]"]);
     for slew in slews {
-        let [quarter, half] = slew
-            .times_s
-            .map(|time_s| if time_s.is_finite() { rounded(time_s) } else { "no limit".to_owned() });
-        table.add_row([
-            slew.axis.to_owned(),
-            rounded(slew.torque_n_m),
-            rounded(slew.momentum_n_m_s),
-            quarter,
-            half,
-        ]);
+        table.add_row([slew.axis.to_owned(), rounded(slew.torque_n_m), rounded(slew.momentum_n_m_s)]);
     }
-    format!("Slews from rest to rest by control.slewRate and control.slewAcceleration\n{table}")
+    format!("The slew about each axis from rest to rest, speeding up for half of the time\n{table}")
 }
 
-fn allocations(found: &Result<Vec<Allocation>, String>) -> String {
-    let rows = match found {
-        Ok(rows) => rows,
-        Err(reason) => return reason.clone(),
-    };
+fn allocations(rows: &[Allocation]) -> String {
     let mut table = terminal::table(&[
         "torque about",
         "lever [m]",
@@ -175,14 +208,14 @@ pub(super) fn csv(sized: &SizedSpacecraft, sweep: &Sweep) -> String {
     text
 }
 
-fn triple(values: [f64; 3]) -> String {
+pub(super) fn triple(values: [f64; 3]) -> String {
     values.map(rounded).join(", ")
 }
 
-/// In the largest unit that it has more than two of.
-fn time(span_s: f64) -> String {
-    const UNITS: [(f64, &str); 3] = [(DAY_S, "d"), (3600.0, "h"), (60.0, "min")];
-    let unit = UNITS.into_iter().find(|(unit_s, _)| span_s >= 2.0 * unit_s);
+/// In the largest unit that it has one of.
+pub(super) fn time(span_s: f64) -> String {
+    const UNITS: [(f64, &str); 4] = [(YEAR_S, "a"), (DAY_S, "d"), (3600.0, "h"), (60.0, "min")];
+    let unit = UNITS.into_iter().find(|(unit_s, _)| span_s >= *unit_s);
     let (unit_s, unit) = unit.unwrap_or((1.0, "s"));
     format!("{} {unit}", rounded(span_s / unit_s))
 }

@@ -35,6 +35,7 @@ mod plots;
 mod refits;
 mod replays;
 mod runs;
+mod size_answers;
 mod sizes;
 mod sweeps;
 mod timelines;

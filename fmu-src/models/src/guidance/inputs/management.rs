@@ -10,6 +10,7 @@ use physics::spacecraft::MassProperties;
 
 use super::Fixed;
 use crate::common::management::check_strategy_has_antenna;
+use crate::common::spacecraft::bias_body_n_m_s;
 use crate::guidance::setup::Plan;
 use crate::guidance::variables::choices::DumpReinitTo;
 
@@ -59,7 +60,7 @@ pub(crate) fn manager<'a>(
         manager: v.momentum.targeting.manager(
             values,
             strategy,
-            [keep_in.azimuth_rad, keep_in.elevation_rad],
+            ([keep_in.azimuth_rad, keep_in.elevation_rad], bias_body_n_m_s(spacecraft)),
             (spacecraft, sunshade, &context.setup.antennas.all),
         ),
         default_downlink: &context.setup.antennas.default_downlink,
@@ -86,6 +87,7 @@ pub(crate) fn manager<'a>(
 pub(crate) fn policy(context: &Plan<'_>, values: &Values) -> DumpPolicy {
     let v = context.variables;
     DumpPolicy {
+        bias_body_n_m_s: bias_body_n_m_s(&context.setup.spacecraft),
         threshold_body_n_m_s: Vector3::from(values.vector(v.dump.threshold)),
         reinitialise: match values.choice(v.dump.reinit_to) {
             DumpReinitTo::Target => {

@@ -4,12 +4,13 @@ use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 use physics::constants::HALF_TURNS_RAD;
 use physics::management::Strategy;
 use physics::momentum::Convention;
+use physics::plant::LEAST_DUMP_THRESHOLD_N_M_S;
 
 use super::super::setup::GuidanceSetup;
 use super::choices::DumpReinitTo;
 use crate::common::choices::{MomentumConvention, PanelTilt};
 use crate::common::management::{MomentumStrategy, TargetingVariables};
-use crate::common::spacecraft::{LEAST_THRESHOLD_N_M_S, dump_threshold_n_m_s};
+use crate::common::spacecraft::dump_threshold_n_m_s;
 
 /// One solar panel.
 #[derive(Variables)]
@@ -59,11 +60,12 @@ pub struct MomentumVariables {
 #[derive(Variables)]
 #[variables(setup = GuidanceSetup)]
 pub struct DumpVariables {
-    /// Magnitude of a body component of momentum that triggers a dump, here a request of one; a very large value means never.
-    #[parameter(tunable, unit = "N.m.s", min = LEAST_THRESHOLD_N_M_S, start = dump_threshold_n_m_s(&setup.spacecraft))]
+    /// Magnitude of a body component of momentum, from the bias of the file's wheels, that triggers a dump, here a request of one;
+    /// a very large value means never.
+    #[parameter(tunable, unit = "N.m.s", min = LEAST_DUMP_THRESHOLD_N_M_S, start = dump_threshold_n_m_s(&setup.spacecraft))]
     pub threshold: RealVector<3>,
     /// Where a component goes that exceeded its threshold; the others stay.
-    #[parameter(start = DumpReinitTo::Opposite)]
+    #[parameter(start = DumpReinitTo::Target)]
     pub reinit_to: Choice<DumpReinitTo>,
     /// Fraction of the threshold, of opposite sign, after a dump: 1 is paper 000's; 0 dumps to zero.
     #[parameter(tunable, unit = "1", min = 0.0, max = 1.0, start = 0.9)]

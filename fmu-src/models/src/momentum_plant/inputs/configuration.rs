@@ -8,7 +8,7 @@ use physics::plant::{Configuration, PanelSetting, RadiationSettings, Ramp, Thrus
 use physics::spacecraft::PanelControl;
 
 use super::center::Center;
-use super::{air_and_field, ephemeris_source, guidance, n_body, orbit};
+use super::{air_and_field, ephemeris_source, guidance, n_body, orbit, wheels};
 use crate::common::ephemeris;
 use crate::common::spacecraft::inertia_body_kg_m2;
 use crate::momentum_plant::setup::Plan;
@@ -142,6 +142,7 @@ fn settings(context: &Plan<'_>, values: &Values) -> Settings {
         tolerance: values.real(variables.solver.tolerance),
         convention: values.choice(variables.momentum.convention).0,
         policy: DumpPolicy {
+            bias_body_n_m_s: wheels::bias_body_n_m_s(context, values),
             threshold_body_n_m_s: match is_left_to_master(context, values) {
                 true => Vector3::repeat(f64::INFINITY),
                 false => Vector3::from(values.vector(dump.threshold)),

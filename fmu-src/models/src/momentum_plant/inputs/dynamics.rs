@@ -6,12 +6,13 @@ use physics::attitude::control::{
     AccelerometerSettings, ControllerSettings, Gyro, SensorSettings, StarTracker, SunSensor, WheelAllocator,
 };
 use physics::attitude::{Appendages, FlexibleMode, Gyrostat, ReactionWheel, RotorImbalance, SloshPendulum};
-use physics::momentum::{Convention, WheelArray};
+use physics::momentum::Convention;
 use physics::plant::{
     Configuration, Control, DynamicsSettings, IdealSettings, StartMotion, ThrusterControl,
     WheelControlSettings,
 };
 
+use super::wheels;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::choices::AttitudeSource;
 
@@ -42,7 +43,8 @@ pub(super) fn dynamic(
              the momentum follows from start.rate and wheel[k].startMomentum"
         )));
     }
-    let wheels: Vec<ReactionWheel> = v
+    wheels::check(context, values)?;
+    let rotors: Vec<ReactionWheel> = v
         .wheel
         .iter()
         .map(|wheel| ReactionWheel {
@@ -50,13 +52,14 @@ pub(super) fn dynamic(
             inertia_kg_m2: real(wheel.inertia),
             max_torque_n_m: real(wheel.max_torque),
             capacity_n_m_s: real(wheel.capacity),
+            bias_n_m_s: real(wheel.bias_momentum),
             coulomb_friction_n_m: real(wheel.coulomb_friction),
             viscous_friction_n_m_s: real(wheel.viscous_friction),
             locked: values.boolean(wheel.locked),
         })
         .collect();
-    for (index, (wheel, body)) in v.wheel.iter().zip(&wheels).enumerate() {
-        let (number, found) = (index + 1, real(wheel.start_momentum));
+    for (index, (wheel, body)) in v.wheel.iter().zip(&rotors).enumerate() {
+        let (number, found) = (index + 1, wheels::start_n_m_s(context, values, wheel));
         let allowed_n_m_s = if body.locked { 0.0 } else { body.capacity_n_m_s };
         if found.abs() > allowed_n_m_s {
             let why = if body.locked { "the rotor is locked" } else { "its capacity" };
@@ -72,9 +75,9 @@ pub(super) fn dynamic(
              thruster events move the centre of mass in guided and commanded flight alone"
         )));
     }
-    let axes: Vec<_> = wheels.iter().map(|wheel| wheel.axis_body).collect();
+    let axes: Vec<_> = rotors.iter().map(|wheel| wheel.axis_body).collect();
     let appendages = appendages(context, values)?;
-    let gyrostat = Gyrostat::new(configuration.inertia_body_kg_m2, wheels)
+    let gyrostat = Gyrostat::new(configuration.inertia_body_kg_m2, rotors)
         .and_then(|rigid| {
             rigid.with_appendages(appendages, configuration.mass_kg, configuration.center_of_mass_body_m)
         })
@@ -205,20 +208,13 @@ fn direction(
 pub(super) fn ideal(context: &Plan<'_>, values: &Values) -> Result<IdealSettings, Failure> {
     let v = context.variables;
     Ok(IdealSettings {
-        array: wheel_array(context, values),
-        wheels: v.wheel.iter().map(|it| [it.inertia, it.capacity].map(|it| values.real(it))).collect(),
+        array: wheels::array(context, values),
+        wheels: wheels::ideal(context, values)?,
         sun_sensors: sun_sensors(context, values)?,
         rate_hz: values.real(v.control.rate),
         seed: values.integer(v.noise_seed).unsigned_abs().into(),
         start_momentum_body_n_m_s: Vector3::from(values.vector(v.start.momentum)),
     })
-}
-
-/// Distribution of momentum over the wheels; `None` unless they span all directions.
-pub(crate) fn wheel_array(context: &Plan<'_>, values: &Values) -> Option<WheelArray> {
-    let wheels = context.variables.wheel.iter();
-    let axes = wheels.map(|wheel| Vector3::from(values.vector(wheel.axis)).try_normalize(0.0));
-    WheelArray::new(&axes.collect::<Option<Vec<_>>>()?)
 }
 
 /// Flexible modes, propellant and rotors out of balance.

@@ -14,6 +14,7 @@ use physics::guidance::{Guided, TargetPlanet};
 use physics::management::Strategy;
 use physics::plant::{self, Configuration, DynamicAttitude, Report, StartMotion, StartPointing};
 
+use super::wheels;
 use crate::common::downlink::ZERO_KEEP_IN_AXIS;
 use crate::common::management::{check_strategy_has_antenna, check_windows, check_windows_have_antenna};
 use crate::common::pointing::RuleContext;
@@ -215,6 +216,11 @@ pub(super) fn start_motion(
         rate_body_rad_s: Vector3::from(values.vector(start.rate)),
         pointing,
         rate_is_pointed: !has_rate,
-        wheels_n_m_s: context.variables.wheel.iter().map(|it| values.real(it.start_momentum)).collect(),
+        wheels_n_m_s: context
+            .variables
+            .wheel
+            .iter()
+            .map(|it| wheels::start_n_m_s(context, values, it))
+            .collect(),
     })
 }

@@ -12,6 +12,7 @@ pub(super) mod plausibility;
 pub(super) mod propulsion;
 mod solvers;
 pub(super) mod step_inputs;
+pub(super) mod wheels;
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use physics::attitude::Attitude;
@@ -31,7 +32,6 @@ use super::state::PlantState;
 use super::variables::choices::EphemerisSource;
 use crate::common::effects::unused_map;
 use crate::common::ephemeris;
-pub(super) use dynamics::wheel_array;
 
 /// Parameters and inputs of one step, beside what [`PlantState::inputs`] hold.
 pub(super) struct Reading<'a> {
@@ -131,7 +131,7 @@ pub(super) fn read<'a>(
         manager: momentum.targeting.manager(
             values,
             strategy,
-            limits_rad,
+            (limits_rad, wheels::bias_body_n_m_s(context, values)),
             (spacecraft, sunshade, &context.setup.antennas.all),
         ),
         prepared: context.setup.prepared_spacecraft(sunshade)?,
@@ -230,6 +230,7 @@ pub(super) fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     ellipse.write(values, &elements);
     center.write(context.variables, values);
     air_and_field::Followed::read(context, values, center.planet.body).write(context.variables, values);
+    wheels::write_start(context, values);
     let is_about_sun = !center.data.body.is_planet();
     context.variables.guided.resolve_start(context, values, &context.setup.guided, is_about_sun);
 }

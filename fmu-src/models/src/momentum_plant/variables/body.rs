@@ -157,8 +157,11 @@ pub struct WheelVariables {
     /// Whether the rotor is fixed to the body.
     #[parameter(start = false)]
     pub locked: Boolean,
-    /// Spin momentum at the start, relative to the body, in controlled and free flight.
-    #[parameter(unit = "N.m.s", min = -1e12, max = 1e12, start = 0.0)]
+    /// Spin momentum about which the wheel works, up to its capacity either way; their sum is momentum.bias.
+    #[parameter(unit = "N.m.s", min = -1e12, max = 1e12, start = setup.spacecraft.wheels[index].bias_n_m_s)]
+    pub bias_momentum: Real,
+    /// Spin momentum at the start, relative to the body, in controlled and free flight; by default biasMomentum.
+    #[parameter(unit = "N.m.s", min = -1e12, max = 1e12, start = setup.spacecraft.wheels[index].bias_n_m_s)]
     pub start_momentum: Real,
     /// Torque of the motor on the rotor along the axis in free flight, held over the step; limited to maxTorque.
     #[input(unit = "N.m", start = 0.0)]
@@ -166,15 +169,15 @@ pub struct WheelVariables {
     /// Whether the motor gives no torque, in controlled and free flight; friction stays.
     #[input(start = false)]
     pub failed: Boolean,
-    /// Spin momentum about the wheel's axis relative to the body; in guided and commanded flight 0 unless the wheels' axes
-    /// span all directions.
+    /// Spin momentum about the wheel's axis relative to the body; in guided and commanded flight its
+    /// bias and its share by least norm of what lies along the wheels' axes beside all biases.
     #[output(unit = "N.m.s", nominal = 1.0)]
     pub momentum: Real,
     /// Speed of the rotor relative to the body.
     #[output(unit = "rad/s", display = "rpm", nominal = 100.0)]
     pub speed: Real,
     /// Torque of the motor on the rotor that acts, after failure, limit and the stop at capacity; in guided and commanded flight
-    /// that with which the wheel follows ideally, without friction, where the wheels' axes span all directions.
+    /// that with which the wheel follows ideally, without friction.
     #[output(unit = "N.m", nominal = 1e-3)]
     pub torque: Real,
     /// Mechanical power of the motor, torque times speed; negative where it brakes.

@@ -4,14 +4,13 @@ use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
 use physics::management::Strategy;
 use physics::momentum::Convention;
-use physics::plant::DUMP_TORQUE_N_M;
+use physics::plant::{DUMP_TORQUE_N_M, LEAST_DUMP_THRESHOLD_N_M_S};
 
 use super::super::setup::PlantSetup;
 use super::choices::DumpReinitTo;
 use crate::common::choices::MomentumConvention;
 use crate::common::loads::{self, BySource};
 use crate::common::management::{MomentumStrategy, TargetingVariables};
-use crate::common::spacecraft::{LEAST_THRESHOLD_N_M_S, dump_threshold_n_m_s};
 use crate::common::variables::WorkLimit;
 
 /// Torque about the centre of mass by source, body frame.
@@ -93,6 +92,13 @@ pub struct MomentumVariables {
     /// System momentum in EME2000: always the physical total.
     #[output(unit = "N.m.s", nominal = 1.0)]
     pub inertial: RealVector<3>,
+    /// What the wheels' biases come to, body frame: start.momentum, dump thresholds and targets count from here.
+    #[output(unit = "N.m.s", nominal = 1.0)]
+    pub bias: RealVector<3>,
+    /// What no wheel holds in guided and commanded flight, body frame: momentum across the wheels' axes, and beyond their capacities.
+    /// In controlled and free flight the body takes it.
+    #[output(unit = "N.m.s", nominal = 1.0)]
+    pub unheld: RealVector<3>,
     #[group(name = "", setup = &loads::MOMENTUM)]
     pub by_source: BySource,
     /// Whether the Sun's place that brings the momentum to the target of the present downlink, or of science with
@@ -106,12 +112,13 @@ pub struct MomentumVariables {
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct DumpVariables {
-    /// Magnitude of a body component of momentum that triggers a dump; a very large value means never, and in free flight, where
-    /// the master controls, none is triggered unless this is set.
-    #[parameter(tunable, unit = "N.m.s", min = LEAST_THRESHOLD_N_M_S, start = dump_threshold_n_m_s(&setup.spacecraft))]
+    /// Magnitude of a body component of momentum, from momentum.bias, that triggers a dump; a very large value means never, and in free
+    /// flight, where the master controls, none is triggered unless this is set. By default what the wheels hold beside their bias on
+    /// all body axes that they span at once, about others 1e9.
+    #[parameter(tunable, unit = "N.m.s", min = LEAST_DUMP_THRESHOLD_N_M_S, start = setup.control.dump_threshold_n_m_s.into())]
     pub threshold: RealVector<3>,
     /// Where a component goes that exceeded its threshold.
-    #[parameter(start = DumpReinitTo::Opposite)]
+    #[parameter(start = DumpReinitTo::Target)]
     pub reinit_to: Choice<DumpReinitTo>,
     /// Fraction of the threshold, of opposite sign, after a dump: 1 is paper 000's, which dumps again within minutes
     /// where the drift reverses; 0.9 is robust; 0 dumps to zero.
@@ -120,14 +127,14 @@ pub struct DumpVariables {
     /// A rising edge dumps all components to dump.target.
     #[input(start = false)]
     pub request: Boolean,
-    /// Momentum after a requested dump, body frame.
+    /// Momentum after a requested dump, body frame, from momentum.bias; also where a component goes with dump.reinitTo target.
     #[input(unit = "N.m.s", start = [0.0; 3])]
     pub target: RealVector<3>,
-    /// Time that must lie between dumps; paper 000's mission asks for five days.
-    #[parameter(unit = "s", display = "d", min = 0.0, max = 1e12, start = 432_000.0)]
+    /// Time that must lie between dumps, by which dump.tooClose goes.
+    #[parameter(unit = "s", display = "d", min = 0.0, max = 1e12, start = 0.0)]
     pub required_spacing: Real,
-    /// Largest threshold at which no wheel saturates whatever components stay within it, by their capacities and spin axes
-    /// and the distribution of wheel[k].momentum; 0 without wheels in all directions. Paper 000 states 4, 5.5 and 7 N.m.s for wheels of 4, 8 and 12 N.m.s without printing the axes.
+    /// Largest threshold at which no wheel saturates whatever components stay within it, by their capacities beside their bias, spin
+    /// axes and the distribution of wheel[k].momentum; 0 without wheels in all directions. Paper 000 states 4, 5.5 and 7 N.m.s for wheels of 4, 8 and 12 N.m.s without printing the axes.
     #[calculated_parameter(unit = "N.m.s")]
     pub guaranteed_threshold: Real,
     /// Greatest component of the thrusters' mean torque in controlled and free flight, where a dump lasts as long as this takes;

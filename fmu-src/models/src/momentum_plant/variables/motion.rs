@@ -70,7 +70,7 @@ pub struct StartVariables {
     /// Body rate at the start in controlled and free flight by start.attitude; set, it also counts where that is guided.
     #[parameter(unit = "rad/s", display = "deg/s", min = -1e3, max = 1e3, start = [0.0; 3])]
     pub rate: RealVector<3>,
-    /// System momentum at the start, body frame. In controlled and free flight it follows from start.rate and
+    /// System momentum at the start, body frame, from momentum.bias. In controlled and free flight it follows from start.rate and
     /// wheel[k].startMomentum instead.
     #[parameter(unit = "N.m.s", min = -1e12, max = 1e12, start = [0.0; 3])]
     pub momentum: RealVector<3>,

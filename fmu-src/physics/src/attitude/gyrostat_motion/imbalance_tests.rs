@@ -16,6 +16,7 @@ fn a_rotor_out_of_balance_shakes_the_body_as_the_closed_form_says() {
         inertia_kg_m2: 0.0127,
         max_torque_n_m: 0.075,
         capacity_n_m_s: 8.0,
+        bias_n_m_s: 0.0,
         coulomb_friction_n_m: 0.0,
         viscous_friction_n_m_s: 0.0,
         locked: false,

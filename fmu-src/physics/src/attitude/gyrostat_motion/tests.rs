@@ -16,6 +16,7 @@ fn wheel(axis_body: Vector3<f64>) -> ReactionWheel {
         inertia_kg_m2: 0.0127,
         max_torque_n_m: 0.075,
         capacity_n_m_s: 8.0,
+        bias_n_m_s: 0.0,
         coulomb_friction_n_m: 0.0,
         viscous_friction_n_m_s: 0.0,
         locked: false,
@@ -333,6 +334,7 @@ fn no_wheels_make_the_motion_stand_still() {
                 ReactionWheel {
                     inertia_kg_m2: 0.005 + 0.045 * random(),
                     capacity_n_m_s: [8.0, 1e-3, 0.1][(3.0 * random()) as usize],
+                    bias_n_m_s: 0.0,
                     coulomb_friction_n_m: if random() < 0.5 { 1e-5 * 100_f64.powf(random()) } else { 0.0 },
                     viscous_friction_n_m_s: if random() < 0.5 { 1e-6 * 100_f64.powf(random()) } else { 0.0 },
                     locked: random() < 0.1,

@@ -51,6 +51,7 @@ mod tests {
             flow_kg_s: 0.01,
             valve: ValveTiming::default(),
             scatter: 0.0,
+            power_w: None,
             set: Some(set),
             attitude_control: true,
             tank: 0,

@@ -38,6 +38,7 @@ impl Forecast for ByHand {
             policy: DumpPolicy {
                 threshold_body_n_m_s: Vector3::repeat(3.0),
                 reinitialise: Reinitialise::Opposite { fraction: 1.0 },
+                bias_body_n_m_s: Vector3::zeros(),
             },
         }
     }
@@ -85,6 +86,7 @@ fn target_x(separations_rad: [f64; 4], horizon: u32) -> f64 {
             antennas: &crate::guidance::pointing::antenna::tests::quadrants(),
         },
         target_body_n_m_s: Vector3::zeros(),
+        bias_body_n_m_s: Vector3::zeros(),
         horizon,
         sunshade: None,
     };

@@ -48,6 +48,7 @@ fn settings(threshold_n_m_s: f64, convention: Convention) -> Settings {
         convention,
         policy: DumpPolicy {
             threshold_body_n_m_s: Vector3::new(threshold_n_m_s, f64::INFINITY, f64::INFINITY),
+            bias_body_n_m_s: Vector3::zeros(),
             reinitialise: Reinitialise::Opposite { fraction: 1.0 },
         },
     }
@@ -135,6 +136,7 @@ fn first_dump_s(flight: &mut Spinning, threshold_n_m_s: f64) -> f64 {
     let totals = Totals { momentum_inertial_n_m_s: Vector3::new(3.5, 3.5, 0.0), ..Totals::default() };
     let policy = DumpPolicy {
         threshold_body_n_m_s: Vector3::repeat(threshold_n_m_s),
+        bias_body_n_m_s: Vector3::zeros(),
         reinitialise: Reinitialise::Opposite { fraction: 0.0 },
     };
     let setting = Settings { grid_s: 600.0, policy, ..settings(1.0, Convention::Inertial) };
@@ -222,6 +224,7 @@ fn how_the_flight_is_cut_changes_no_bit() {
 fn dumps_without_end_are_refused_wherever_the_steps_are_cut() {
     let policy = DumpPolicy {
         threshold_body_n_m_s: Vector3::new(2e-9, f64::INFINITY, f64::INFINITY),
+        bias_body_n_m_s: Vector3::zeros(),
         reinitialise: Reinitialise::Opposite { fraction: 0.5 },
     };
     let setting = Settings { policy, ..settings(1.0, Convention::Inertial) };

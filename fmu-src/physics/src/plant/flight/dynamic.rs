@@ -391,11 +391,12 @@ impl AttitudeDynamics {
         Ok(())
     }
 
-    /// Thrusters bring the momentum to `target_body_n_m_s` from the present end of the motion on.
+    /// Thrusters bring the momentum to `target_body_n_m_s` from the wheels' bias, from the present end of the motion on.
     fn dump_to(&mut self, step: &mut DynamicStep<'_, '_>, target_body_n_m_s: Vector3<f64>) {
         let body = self.motion.at(&step.settings.gyrostat, self.motion.end_s());
         let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
-        self.begin_dump(step.flight, &momentum_body, target_body_n_m_s);
+        let bias_body_n_m_s = step.flight.context.configuration.momentum.policy.bias_body_n_m_s;
+        self.begin_dump(step.flight, &momentum_body, bias_body_n_m_s + target_body_n_m_s);
     }
 
     /// Begins the dumps of the schedule whose time has come.

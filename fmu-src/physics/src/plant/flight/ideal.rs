@@ -102,9 +102,10 @@ impl IdealFlight {
         Ok(())
     }
 
-    /// Dumps to this momentum, body frame, in N m s, at `time_s` on request.
+    /// Dumps to this momentum, body frame, from the wheels' bias, in N m s, at `time_s` on request.
     fn dump_to(&mut self, flight: &mut ConfiguredFlight<'_>, time_s: f64, target_body_n_m_s: Vector3<f64>) {
         let settings = flight.context.configuration.momentum;
+        let target_body_n_m_s = settings.policy.bias_body_n_m_s + target_body_n_m_s;
         let event = self.integrator.request(&mut flight.plant(), &settings, time_s, target_body_n_m_s);
         self.dump(flight, &event);
     }

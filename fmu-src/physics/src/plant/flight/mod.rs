@@ -299,7 +299,9 @@ impl Flight {
         let held = held.attitude_at(time_s);
         *mode = match settings {
             ModeSettings::Ideal(IdealSettings { start_momentum_body_n_m_s: momentum, .. }) => {
-                Mode::Ideal(Box::new(IdealFlight::begin(&mut flight, time_s, &held, *momentum)?))
+                let momentum_body_n_m_s =
+                    flight.context.configuration.momentum.policy.bias_body_n_m_s + *momentum;
+                Mode::Ideal(Box::new(IdealFlight::begin(&mut flight, time_s, &held, momentum_body_n_m_s)?))
             }
             ModeSettings::Dynamic(settings) => {
                 Mode::Dynamic(Box::new(AttitudeDynamics::begin(settings, &mut flight, time_s, &held)?))
@@ -464,7 +466,8 @@ impl Flight {
             (Mode::Waiting, ModeSettings::Ideal(settings)) => {
                 let evaluated = Evaluation::without_position(frame, flight.context.mass_at_zero);
                 let evaluation = &*evaluation.insert(evaluated);
-                let momentum_body_n_m_s = settings.start_momentum_body_n_m_s;
+                let bias_body_n_m_s = context.configuration.momentum.policy.bias_body_n_m_s;
+                let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
                 let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
                 let waiting = IdealFlight::new(time_s, &held.attitude_at(time_s), totals);
                 (evaluation, ideal(&waiting, settings, evaluation, inputs, time_s))

@@ -15,7 +15,7 @@ use crate::plant::motion::osculating_orbit::OsculatingOrbit;
 use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
-use crate::plant::settings::ideal_settings::IdealSettings;
+use crate::plant::settings::ideal_settings::{IdealSettings, IdealWheel};
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::Material;
 
@@ -166,14 +166,24 @@ enum Bodies<'a> {
 }
 
 impl Shown<'_> {
-    /// Wheel `k` (0-based); ideal ones only where they span all directions.
+    /// What no ideal wheel holds, body frame, in N m s: momentum across the wheels' axes, and beyond their capacities; zero where
+    /// the body turns by torque.
+    pub fn unheld_body_n_m_s(&self) -> Vector3<f64> {
+        let Bodies::Ideal { settings, momentum_body_n_m_s, .. } = &self.body else { return Vector3::zeros() };
+        let held = settings.wheels.iter().enumerate().map(|(k, wheel)| {
+            settings.momentum_n_m_s(k, momentum_body_n_m_s).clamp(-wheel.capacity_n_m_s, wheel.capacity_n_m_s)
+        });
+        momentum_body_n_m_s - settings.array.sum_body_n_m_s(held)
+    }
+
+    /// Wheel `k` (0-based).
     pub fn wheel(&self, k: usize) -> Option<WheelReport> {
         let (momentum_n_m_s, torque_n_m, speed_rad_s, is_saturated) = match &self.body {
             Bodies::Ideal { settings, momentum_body_n_m_s, rate_body_n_m, acceleration_body_rad_s2 } => {
-                let (array, [inertia_kg_m2, capacity_n_m_s]) =
-                    settings.array.as_ref().zip(settings.wheels.get(k).copied())?;
-                let momentum_n_m_s = array.momentum_n_m_s(k, momentum_body_n_m_s);
+                let IdealWheel { inertia_kg_m2, capacity_n_m_s, .. } = *settings.wheels.get(k)?;
+                let momentum_n_m_s = settings.momentum_n_m_s(k, momentum_body_n_m_s);
                 let speed_rad_s = wheel_speed_rad_s(momentum_n_m_s, inertia_kg_m2);
+                let array = &settings.array;
                 let torque_n_m = array.motor_n_m(k, inertia_kg_m2, rate_body_n_m, acceleration_body_rad_s2);
                 (momentum_n_m_s, torque_n_m, speed_rad_s, momentum_n_m_s.abs() > capacity_n_m_s)
             }

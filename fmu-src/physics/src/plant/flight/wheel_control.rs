@@ -1,7 +1,7 @@
 //! Wheel control: how a torque on the body becomes motor torques, and what the motors give of it.
 //!
-//! Equation: u_k = -s_k + f_k + (b_k - h_k) / T with the shares s of the torque, friction f, and the shares b of what the
-//! working wheels hold together; where a motor would have to give more than it can, all s are reduced alike.
+//! Equation: u_k = -s_k + f_k + (b_k - h_k) / T with the shares s of the torque, friction f, and b the bias of a wheel with its
+//! share of what the working wheels hold together beside their biases; where a motor would have to give more than it can, all s are reduced alike.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -123,7 +123,8 @@ impl WheelControl {
         // The body feels the opposite of what the motors exert on the rotors.
         allocator.distribute(settings.allocation, &-torque_body_n_m, shares);
         let turns = |k: usize| !motors[k].failed && !gyrostat.wheels()[k].locked;
-        let working_body_n_m_s = gyrostat.along_axes(|k| if turns(k) { momentum_n_m_s(k) } else { 0.0 });
+        let working_body_n_m_s = gyrostat
+            .along_axes(|k| if turns(k) { momentum_n_m_s(k) - gyrostat.wheels()[k].bias_n_m_s } else { 0.0 });
         allocator.distribute(settings.allocation, &working_body_n_m_s, balance);
         let mut given = 1.0_f64;
         for (k, wheel) in gyrostat.wheels().iter().enumerate() {
@@ -131,7 +132,7 @@ impl WheelControl {
                 if settings.compensates_friction { wheel.friction_n_m(momentum_n_m_s(k)) } else { 0.0 };
             // Motor torque without the share that is requested: friction and balance.
             balance[k] = if turns(k) {
-                friction + (balance[k] - momentum_n_m_s(k)) / settings.balance_time_s
+                friction + (balance[k] + wheel.bias_n_m_s - momentum_n_m_s(k)) / settings.balance_time_s
             } else {
                 0.0
             };

@@ -1,5 +1,7 @@
 //! Limits of control where the user gives none: what the wheels of a spacecraft allow.
 
+use nalgebra::Vector3;
+
 use crate::constants::DEG_RAD;
 use crate::momentum::WheelArray;
 use crate::spacecraft::{Spacecraft, Wheel};
@@ -7,7 +9,7 @@ use crate::spacecraft::{Spacecraft, Wheel};
 use super::reaction_control_settings::ReactionControlSettings;
 use crate::guidance::modes::monitor::MARGIN_RAD;
 
-/// Greatest rate of a turn, assumed.
+/// Greatest rate of a turn by wheels, assumed.
 const GREATEST_SLEW_RATE_RAD_S: f64 = 0.5 * DEG_RAD;
 /// Rate of an ordinary scan, assumed; where it reverses the command's rate jumps by twice as much.
 const SCAN_RATE_RAD_S: f64 = 0.05 * DEG_RAD;
@@ -20,13 +22,21 @@ const TORQUE_WITHOUT_WHEELS_N_M: f64 = 0.05;
 pub const SLEW_RATE_RAD_S: [f64; 2] = [0.0, 10.0];
 /// Acceleration of a turn that may be set, in rad/s2.
 pub const SLEW_ACCELERATION_RAD_S2: [f64; 2] = [0.0, 10.0];
+/// Least dump threshold that may be set, in N m s.
+pub const LEAST_DUMP_THRESHOLD_N_M_S: f64 = 1e-6;
+/// A dump threshold that no momentum reaches, in N m s.
+pub const NEVER_DUMPED_N_M_S: f64 = 1e9;
 /// Torque of a dump that may be set, in N m.
 pub const DUMP_TORQUE_N_M: [f64; 2] = [1e-9, 1e6];
 
 /// Limits of turns and dumps, each within what may be set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ControlDefaults {
-    /// Rate of a turn in rad/s: half a degree a second, less where it would take more than a quarter of what the wheels hold.
+    /// Dump threshold by body axis, in N m s: the file's, else what the wheels hold beside their bias about all body axes that they
+    /// span at once, and about others [`NEVER_DUMPED_N_M_S`].
+    pub dump_threshold_n_m_s: Vector3<f64>,
+    /// Rate of a turn in rad/s: half a degree a second, less where it would take more than a quarter of what the wheels hold; 0, no
+    /// limit, without wheels in all directions.
     pub slew_rate_rad_s: f64,
     /// Acceleration of a turn in rad/s2: half of what the wheels' torque gives the axis of largest inertia; 0 without wheels
     /// in all directions.
@@ -42,13 +52,12 @@ pub struct ControlDefaults {
 
 impl ControlDefaults {
     /// Of a spacecraft with these wheels.
-    pub fn of(spacecraft: &Spacecraft, wheels: Option<&WheelArray>) -> Self {
+    pub fn of(spacecraft: &Spacecraft, wheels: &WheelArray) -> Self {
         let guaranteed = |of_wheel: fn(&Wheel) -> f64| {
-            let each = spacecraft.wheels.iter().map(of_wheel);
-            wheels.map_or(0.0, |array| array.guaranteed_threshold_n_m_s(each))
+            wheels.guaranteed_threshold_n_m_s(spacecraft.wheels.iter().map(of_wheel))
         };
         let largest_kg_m2 = spacecraft.mass_properties.inertia_body_kg_m2.diagonal().max();
-        let momentum_n_m_s = guaranteed(|wheel| wheel.capacity_n_m_s);
+        let momentum_n_m_s = guaranteed(Wheel::free_capacity_n_m_s);
         let torque_n_m = guaranteed(|wheel| wheel.max_torque_n_m);
         let thrusters = ReactionControlSettings {
             thrusters: spacecraft.thrusters.clone(),
@@ -65,12 +74,13 @@ impl ControlDefaults {
             0.0
         };
         let fastest_rad_s = 0.25 * momentum_n_m_s / largest_kg_m2;
+        let free_n_m_s = spacecraft.wheels.iter().map(Wheel::free_capacity_n_m_s);
+        let spanned_n_m_s = wheels
+            .spanned_threshold_n_m_s(free_n_m_s)
+            .map(|it| within(it, [LEAST_DUMP_THRESHOLD_N_M_S, NEVER_DUMPED_N_M_S]));
         Self {
-            slew_rate_rad_s: if momentum_n_m_s > 0.0 {
-                fastest_rad_s.min(GREATEST_SLEW_RATE_RAD_S)
-            } else {
-                GREATEST_SLEW_RATE_RAD_S
-            },
+            dump_threshold_n_m_s: spacecraft.dump_threshold_n_m_s.unwrap_or(spanned_n_m_s),
+            slew_rate_rad_s: fastest_rad_s.min(GREATEST_SLEW_RATE_RAD_S),
             slew_acceleration_rad_s2: within(acceleration_rad_s2, SLEW_ACCELERATION_RAD_S2),
             monitor_margin_rad: reversal_rad.clamp(MARGIN_RAD, core::f64::consts::FRAC_PI_2),
             thruster_acceleration_rad_s2: within(

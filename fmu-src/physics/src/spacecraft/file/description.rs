@@ -290,6 +290,8 @@ struct WheelDescription {
     axis: [f64; 3],
     /// Greatest momentum of the rotor, in N m s.
     capacity_n_m_s: Positive,
+    /// Momentum about which the wheel works, along its axis, in N m s; up to its capacity either way.
+    bias_momentum_n_m_s: Finite = 0.0,
     /// Moment of inertia of the rotor about its axis, in kg m2; left out, that which reaches the capacity at 6000 rpm.
     inertia_kg_m2: Option<Positive>,
     /// Greatest torque of the motor, in N m; left out, that which reaches the capacity from rest in 100 s.
@@ -352,6 +354,8 @@ struct ThrusterDescription {
     tail_off_time_s: NotNegative = 0.0,
     /// Standard deviation of the thrust from pulse to pulse, as a share of it.
     scatter: Fraction = 0.0,
+    /// Electric power while it fires, in W, for `heliotorque size`.
+    power_w: Option<NotNegative>,
     /// Half angle of the plume, in deg: surfaces within it are flagged while it fires; 0 is none.
     plume_half_angle_deg: QuarterTurn = 0.0,
 }
@@ -397,10 +401,16 @@ struct AntennaDescription {
     beam_deg: [FieldOfView; 2],
 }
 
-/// Limits of the stored momentum; left out, they are what the wheels guarantee on all body axes at once.
+/// Limits of the stored momentum, and what wheels are sized for.
 struct MomentumDescription {
-    /// Magnitude of each body component at which thrusters dump it, in N m s.
-    dump_threshold_n_m_s: [Positive; 3],
+    /// Magnitude of each body component, from the wheels' bias, at which thrusters dump it, in N m s; left out, what the wheels hold
+    /// on all body axes that they span at once, about others 1e9, never.
+    dump_threshold_n_m_s: Option<[Positive; 3]>,
+    /// Time between unloadings that `heliotorque size` counts with: s, a string with a unit ("2 d"), or a share of the orbital period
+    /// ("100 %"); a day unless given.
+    unload_every: Option<WrittenTime>,
+    /// Slew that `heliotorque size` counts with, about every axis: "90 deg in 10 min"; none unless given.
+    slew: Option<String>,
 }
 
 /// Directions the Sun may have, symmetric about -Y.

@@ -17,7 +17,13 @@ pub(crate) fn wheel(part: &mut PartReader<'_, '_>, description: &WheelDescriptio
         let allowed = "with the rotor's place, position_m";
         part.report("static_imbalance_kg_m", "no position_m beside it", allowed);
     }
+    let bias_n_m_s = description.bias_momentum_n_m_s();
+    if bias_n_m_s.abs() > capacity_n_m_s {
+        let allowed = format_args!("up to capacity_n_m_s either way, {capacity_n_m_s}");
+        part.report_across("bias_momentum_n_m_s", bias_n_m_s, allowed);
+    }
     Wheel {
+        bias_n_m_s,
         static_imbalance_kg_m,
         position_body_m: description
             .position_m

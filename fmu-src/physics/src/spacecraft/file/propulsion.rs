@@ -63,6 +63,7 @@ pub(crate) fn thruster(
         flow_kg_s: force_n / (description.specific_impulse_s.0 * STANDARD_GRAVITY_M_S2),
         valve,
         scatter: description.scatter(),
+        power_w: description.power_w.map(f64::from),
         set: set_of(sets, description.set.as_deref()),
         attitude_control: description.attitude_control(),
         tank: tank_of(part, tanks, description.tank.as_deref()),

@@ -1,11 +1,14 @@
-//! Downlink windows, hot pole and corridor of light, from their descriptions.
+//! Downlink windows, hot pole, corridor of light and what wheels are sized for, from their descriptions.
 
-use super::description::{ArticulationDescription, DownlinksDescription, HotPoleDescription};
+use super::description::{
+    ArticulationDescription, DownlinksDescription, HotPoleDescription, MomentumDescription,
+};
 use super::part_reader::PartReader;
 use super::written_time::{ALLOWED_TIME, WrittenTime};
 use crate::spacecraft::articulation::Articulation;
 use crate::spacecraft::downlinks::{DownlinkWindows, TimeAfterPeriapsis};
 use crate::spacecraft::hot_pole::HotPoleZone;
+use crate::spacecraft::slew::SlewDemand;
 use crate::spacecraft::start::StartEntry;
 
 pub(crate) fn downlinks(
@@ -39,6 +42,34 @@ pub(crate) fn downlinks(
         part.report("every", every, allowed);
     }
     DownlinkWindows { start: begin, stop: end, every }
+}
+
+/// Time between unloadings.
+pub(crate) fn unload_every(
+    part: &mut PartReader<'_, '_>,
+    description: &MomentumDescription,
+) -> Option<TimeAfterPeriapsis> {
+    let written = description.unload_every.as_ref()?;
+    let is_some = |time: &TimeAfterPeriapsis| match time {
+        TimeAfterPeriapsis::Seconds(length) | TimeAfterPeriapsis::PeriodShare(length) => *length > 0.0,
+    };
+    let read = written.read().filter(is_some);
+    if read.is_none() {
+        let allowed = "a time above 0, up to 1e9 s: a number in s or a string with a unit (s, min, h, d), or a share of the \
+                       period (\"100 %\")";
+        part.report("unload_every", written.found(), allowed);
+    }
+    read
+}
+
+/// The slew that wheels are sized for.
+pub(crate) fn slew(part: &mut PartReader<'_, '_>, description: &MomentumDescription) -> Option<SlewDemand> {
+    let written = description.slew.as_ref()?;
+    let read = SlewDemand::read(written);
+    if read.is_none() {
+        part.report("slew", format_args!("{written:?}"), SlewDemand::ALLOWED);
+    }
+    read
 }
 
 pub(crate) fn hot_pole(description: &HotPoleDescription) -> HotPoleZone {

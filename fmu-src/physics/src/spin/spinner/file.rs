@@ -231,6 +231,7 @@ impl Builder<'_> {
                 flow_kg_s: entry.force_n.0 / exhaust_m_s,
                 valve,
                 scatter: entry.scatter.map_or(0.0, f64::from),
+                power_w: None,
                 set: None,
                 attitude_control: true,
                 tank: 0,

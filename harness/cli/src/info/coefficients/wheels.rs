@@ -1,23 +1,28 @@
 //! What wheels hold: inscribed sphere, guaranteed box, and the box of least-norm sharing, as the FMU shares momentum.
 
 use loader::{Error, Fmu, Instance};
-use physics::momentum::WheelCapacity;
+use physics::{momentum::WheelCapacity, spacecraft::free_capacity_n_m_s};
 
 use crate::instance::vector;
 
 /// What the wheels guarantee.
 pub(super) fn table(fmu: &Fmu, instance: &mut Instance) -> Result<String, Error> {
     let count = (1..).take_while(|number| fmu.find(&format!("wheel[{number}].capacity")).is_some()).count();
-    let (mut capacities_n_m_s, mut axes_body) = (Vec::new(), Vec::new());
+    let (mut capacities_n_m_s, mut biases_n_m_s, mut axes_body) = (Vec::new(), Vec::new(), Vec::new());
     for number in 1..=count {
         capacities_n_m_s.push(instance.get_real(&format!("wheel[{number}].capacity"))?);
+        let bias = format!("wheel[{number}].biasMomentum");
+        biases_n_m_s.push(if fmu.find(&bias).is_some() { instance.get_real(&bias)? } else { 0.0 });
         axes_body.push(vector(instance, &format!("wheel[{number}].axis"))?.normalize());
     }
     let mut distinct = capacities_n_m_s.clone();
     distinct.dedup();
     let distinct: Vec<String> = distinct.into_iter().map(terminal::short).collect();
     let guaranteed_n_m_s = instance.get_real("dump.guaranteedThreshold")?;
-    let held = WheelCapacity::of(&axes_body, &capacities_n_m_s);
+    let free_n_m_s = capacities_n_m_s.iter().zip(biases_n_m_s);
+    let free_n_m_s: Vec<f64> =
+        free_n_m_s.map(|(capacity, bias)| free_capacity_n_m_s(*capacity, bias)).collect();
+    let held = WheelCapacity::of(&axes_body, &free_n_m_s);
     let shown = |meaning: fn(WheelCapacity) -> f64| format!("{:.4}", held.map_or(0.0, meaning));
     let mut table = terminal::table(&[
         "wheel capacity [N.m.s]",

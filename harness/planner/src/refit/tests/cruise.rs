@@ -128,6 +128,7 @@ impl Cruise {
                 policy: DumpPolicy {
                     threshold_body_n_m_s: Vector3::repeat(f64::INFINITY),
                     reinitialise: Reinitialise::Opposite { fraction: 1.0 },
+                    bias_body_n_m_s: Vector3::zeros(),
                 },
             },
             thruster_events: ThrusterEventSettings::default(),
