@@ -7,6 +7,7 @@ use crate::bodies::Body;
 use crate::constants::RADIUS_MOON_M;
 use crate::environment::eclipse::{Shadow, ShadowModel};
 use crate::environment::orbit::BodyEphemeris;
+use crate::plant::motion::command_slews::CommandSlews;
 use crate::plant::motion::geometry::{Geometry, SimulationEphemeris, body};
 use crate::plant::motion::instant::Instant;
 use crate::plant::motion::kinematics::Kinematics;
@@ -50,6 +51,8 @@ impl Flight {
         let mut kinematics = Kinematics {
             configuration: &configuration,
             trajectory: &mut Trajectory::default(),
+            // Commands are taken at once.
+            command_slews: &mut CommandSlews::beginning(f64::INFINITY),
             ephemeris: &mut context.ephemeris.clone(),
             default_downlink: given.prepared.default_downlink,
             timeline: given.prepared.timeline,
