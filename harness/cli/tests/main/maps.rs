@@ -248,7 +248,7 @@ fn a_degree_is_weighed_where_the_attitude_has_the_sun() {
         printed.lines().find(|line| line.starts_with("What a degree")).unwrap().to_owned()
     };
     // A fixed attitude, EME2000 to body, and the Sun where the plant's own outputs have it.
-    let turned = ["--set", "attitude.source=commanded", "--set", "start.q=0.1,-0.3,0.2,0.9"];
+    let turned = ["--set", "attitude.source=commanded", "--set", "start.q=0.1,-0.3,0.3,0.9"];
     let Some((_folder, plant)) =
         library().and_then(|it| packed_from(&it, "MomentumPlant", "plant.fmu", &["--spacecraft", MESSENGER]))
     else {
