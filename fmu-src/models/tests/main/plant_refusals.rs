@@ -44,6 +44,35 @@ fn orbits_inside_planet_or_sun() {
 }
 
 #[test]
+fn elements_that_are_no_orbit() {
+    let elements = |axis_m: f64, eccentricity: f64| {
+        [("orbit.semiMajorAxis", axis_m), ("orbit.eccentricity", eccentricity)]
+    };
+    for axis_m in [-6e6, 6e6] {
+        let words = ["orbit.eccentricity", "parabola", "orbit.source inputs (2)", "orbit.velocity"];
+        says(&elements(axis_m, 1.0), &words);
+    }
+    says(&elements(6e6, 1.8), &["orbit.semiMajorAxis", "6000000", "below 0 for a hyperbola"]);
+    says(&elements(-6e6, 0.1), &["orbit.semiMajorAxis", "-6000000", "above 0 for an ellipse"]);
+    says(
+        &[&elements(-6e6, 1.8)[..], &[("orbit.trueAnomaly", 2.5)]].concat(),
+        &["asymptotes", "orbit.trueAnomaly"],
+    );
+    says(&elements(-6e6, 1.2), &["the periapsis at 1200000 m", "planet.radius"]);
+    // A hyperbola that passes the planet is simulated, with downlinks that no second periapsis repeats.
+    let named = NamedModel::<MomentumPlant>::shipped();
+    named.initialize(0.0, &elements(-6e6, 1.8)).unwrap().step_to(86_400.0).unwrap();
+}
+
+#[test]
+fn a_sun_line_that_nothing_gives() {
+    let sun_line = ("orbit.frame", 5.0);
+    says(&[sun_line, ("orbit.center", 2.0)], &["orbit.frame", "sunLine (5)", "orbit.center sun (2)"]);
+    let given = [("ephemeris.source", 3.0), ("sun.position[1]", 5e10), ("sun.velocity[2]", 4e4)];
+    says(&[&[sun_line][..], &given].concat(), &["orbit.frame", "ephemeris.source inputs (3)"]);
+}
+
+#[test]
 fn strategies_without_a_downlink_or_with_downlinks_that_overlap() {
     let strategy = ("momentum.strategy", 2.0);
     let never = [("guided.downlinkEvery", 0.0)];

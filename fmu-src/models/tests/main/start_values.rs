@@ -265,12 +265,12 @@ const REFUSALS: &[(&str, &str)] = &[
         "my.toml:+2: start.\"orbit.center\": found 9, allowed: mercury (1), sun (2), venus (3), earth (4), mars (6), jupiter (7)",
     ),
     (
-        "[start]\n\"orbit.eccentricity\" = 1.5",
-        "my.toml:+2: start.\"orbit.eccentricity\": found 1.5, allowed: a number from 0 to 0.99",
+        "[start]\n\"orbit.eccentricity\" = -0.5",
+        "my.toml:+2: start.\"orbit.eccentricity\": found -0.5, allowed: a number from 0 to 1000",
     ),
     (
         "[start]\n\"orbit.eccentricity\" = nan",
-        "my.toml:+2: start.\"orbit.eccentricity\": found NaN, allowed: a number from 0 to 0.99",
+        "my.toml:+2: start.\"orbit.eccentricity\": found NaN, allowed: a number from 0 to 1000",
     ),
     (
         "[start]\n\"orbit.step\" = \"2 d\"",

@@ -46,7 +46,7 @@ impl Downlink {
     }
 }
 
-/// Where the Sun stands where a degree is weighed.
+/// Place of the Sun at which a degree is weighed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct WeighedSun {
     pub angles_deg: Angles,
@@ -55,7 +55,7 @@ pub(super) struct WeighedSun {
 }
 
 impl WeighedSun {
-    /// Where nothing else is known: on -Y.
+    /// Sun on -Y, for an attitude that is not known.
     const AHEAD: Self = Self { angles_deg: [0.0; 2], is_at_start: false };
 
     /// Whether it stands on -Y to the digits that are shown.
@@ -63,7 +63,7 @@ impl WeighedSun {
         self.angles_deg.iter().all(|angle_deg| angle_deg.abs() < 5e-4)
     }
 
-    /// Where the attitude of MomentumPlant has it at the start; on -Y where that does not start by itself.
+    /// Returns its place in the attitude of MomentumPlant at the start; on -Y where that does not start by itself.
     fn of_attitude(fmu: &Fmu) -> Self {
         let at_start = || -> Result<Option<Angles>, loader::Error> {
             let mut instance = started(fmu, "map", 0.0, &[])?;

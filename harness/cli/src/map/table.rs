@@ -77,7 +77,7 @@ fn head(spacecraft: &MappedSpacecraft, found: &Found, source: SourceKind) -> Str
     };
     row("Sun on -Y", [0.0; 2], found.ahead_n_m);
     if !spacecraft.sun.is_ahead() {
-        let what = if spacecraft.sun.is_at_start { "Sun at the start" } else { "Sun as by --sun" };
+        let what = if spacecraft.sun.is_at_start { "Sun at start" } else { "Sun by --sun" };
         row(what, spacecraft.sun.angles_deg, found.weighed.0);
     }
     let least = if found.zone.is_some() { "least in the zone" } else { "least of all" };

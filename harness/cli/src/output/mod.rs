@@ -33,7 +33,7 @@ use svg::Svg;
 pub(crate) use file::OutputFile;
 pub(crate) use known::Known;
 pub(crate) use limits::{Limit, LimitChecks};
-pub(crate) use origin::Origin;
+pub(crate) use origin::{EPOCH_KEY, Origin};
 pub(crate) use standing::{OutputKind, check as check_standing};
 pub(crate) use svg::{chart, is_lit_fraction, leave_out, panel, shade_eclipses};
 pub(crate) use svg_path::{check_path as check_svg_path, is_svg_path};

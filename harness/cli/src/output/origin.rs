@@ -13,6 +13,8 @@ use crate::{epoch, variables};
 pub(super) const HEAD: &str =
     "# The table beside this file, as `heliotorque run` wrote it: values and columns in SI.\n";
 
+/// The key of an FMU's epoch at the start.
+pub(crate) const EPOCH_KEY: &str = "epoch_s_past_j2000_tdb";
 /// The epoch of the start.
 const EPOCH: &str = "start.epoch";
 
@@ -81,7 +83,7 @@ impl Origin<'_> {
             if let Some(date) = epoch::date(epoch_s) {
                 table.insert("epoch", toml_edit::value(date));
             }
-            table.insert("epoch_s_past_j2000_tdb", toml_edit::value(epoch_s));
+            table.insert(EPOCH_KEY, toml_edit::value(epoch_s));
         }
         table
     }

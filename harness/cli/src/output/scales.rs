@@ -7,12 +7,12 @@ use model_description::{Description, VariableKind, value};
 
 use crate::variables::vector;
 
-/// What is less than this part of a quantity's scale is the rounding of its calculation.
+/// Part of a quantity's scale below which is the rounding of its calculation.
 pub(super) const ROUNDING: f64 = 1e-12;
 /// The unit of ratios.
 const RATIO: &str = "1";
 
-/// What is drawn together: the elements of a vector, or the same quantity of everything that is counted.
+/// Name of the group of a variable: the elements of a vector, or the same quantity of everything that is counted.
 pub(super) fn group(name: &str) -> String {
     match (vector(name), name.rsplit_once('[')) {
         (Some(vector), _) => vector.to_owned(),
@@ -32,7 +32,7 @@ pub(super) struct Scales {
 }
 
 impl Scales {
-    /// Of a recording.
+    /// Gathers the sizes in a recording.
     pub(super) fn of(described: &Description, recording: &Recording) -> Self {
         let mut scales = Self { units: BTreeMap::new(), sizes: BTreeMap::new() };
         let reals = described.variables.iter().filter(|it| matches!(it.kind, VariableKind::Real { .. }));

@@ -7,6 +7,10 @@ use toml_edit::{DocumentMut, Item, Table};
 use uuid::Uuid;
 
 use super::{file::CampaignFile, resolved::Campaign};
+use crate::{
+    epoch::{self, is_epoch},
+    output::EPOCH_KEY,
+};
 
 /// Names of digests are in a name space of their own.
 const NAME_SPACE: Uuid = Uuid::from_u128(0x8e5d_3f0a_71c4_4b52_9d26_c0f1_6a4e_92b7);
@@ -126,6 +130,14 @@ pub(super) fn to_toml(
     set_fmu("guid", &described.guid);
     for (key, text) in [("version", &described.version), ("made_by", &described.generation_tool)] {
         text.iter().for_each(|text| set_fmu(key, text));
+    }
+    // Runs that start at different epochs have no common dates.
+    let varied = campaign.design.varied();
+    let is_varied = |name: &str| varied.iter().any(|it| it.name == name);
+    let is_dated = described.variables.iter().all(|it| !is_varied(&it.name) || !is_epoch(described, it));
+    let epoch_s = epoch::zero_epoch_s(described, &campaign.settings.sets, 0.0).filter(|_| is_dated);
+    if let Some(epoch_s) = epoch_s {
+        fmu.insert(EPOCH_KEY, toml_edit::value(epoch_s));
     }
     set("fmu", Item::Table(fmu));
     let mut table = Table::new();

@@ -2,6 +2,8 @@
 
 use std::{collections::BTreeMap, io::ErrorKind, path::Path};
 
+use crate::output::EPOCH_KEY;
+
 /// What is known of a table's columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Sidecar {
@@ -54,8 +56,9 @@ impl Sidecar {
         let text = |key: &str| parsed.get(key).and_then(toml::Value::as_str).map(str::to_owned);
         let fmus = parsed.get("fmus").and_then(toml::Value::as_array).map_or(&[][..], Vec::as_slice);
         let start_s = parsed.get("start_s").and_then(number).unwrap_or(0.0);
-        let epochs_s: Vec<f64> =
-            fmus.iter().filter_map(|fmu| number(fmu.get("epoch_s_past_j2000_tdb")?)).collect();
+        // A campaign has one FMU.
+        let all = fmus.iter().chain(parsed.get("fmu"));
+        let epochs_s: Vec<f64> = all.filter_map(|fmu| number(fmu.get(EPOCH_KEY)?)).collect();
         // Parts of a system that start at different epochs have no common dates.
         let epoch_s = epochs_s.first().copied().filter(|first| epochs_s.iter().all(|other| other == first));
         let name = match fmus {
@@ -134,10 +137,10 @@ mod tests {
             ("angle [rad]".to_owned(), "mode".to_owned())
         );
 
-        let campaign =
-            "sampling = \"oneAtATime\"\n[units]\nx = \"m\"\ny = \"1\"\n[vary]\nx = { normal = [0, 1] }\n";
+        let campaign = "sampling = \"oneAtATime\"\nstart_s = 10\n[fmu]\nepoch_s_past_j2000_tdb = 30\n[units]\nx = \"m\"\ny = \"1\"\n[vary]\nx = { normal = [0, 1] }\n";
         let campaign = Sidecar::of(&campaign.parse().unwrap());
         assert_eq!((campaign.unit("x"), campaign.unit("y")), (Some("m"), None));
+        assert_eq!(campaign.zero_epoch_s, Some(20.0));
         assert_eq!(
             (campaign.sampling.as_deref(), &campaign.varied[..]),
             (Some("oneAtATime"), &["x".to_owned()][..])

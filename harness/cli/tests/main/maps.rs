@@ -1,6 +1,10 @@
 //! `map`: what it says of a spacecraft is what the FMU itself says, direction by direction; refusals name what is wrong.
 
-use std::{collections::HashMap, fs, path::PathBuf};
+use std::{
+    collections::HashMap,
+    fs,
+    path::{Path, PathBuf},
+};
 
 use loader::{Fmu, Instance, InstanceOptions, Value};
 use resvg::usvg::roxmltree::Document;
@@ -178,10 +182,18 @@ fn lines_and_balances_are_where_the_torque_vanishes() {
 #[test]
 fn a_degree_is_worth_what_differences_say() {
     let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
-    let fmu = Fmu::open(&fmu_path).unwrap();
+    for sun_deg in [[0.0, 0.0], [20.0, -40.0]] {
+        worth_at(&fmu_path, sun_deg);
+    }
+}
+
+/// A degree of tilt at an azimuth and elevation, by the map and by differences of torque.
+fn worth_at(fmu_path: &Path, [azimuth, elevation]: [f64; 2]) {
+    let fmu = Fmu::open(fmu_path).unwrap();
     let printed = mapped(&words(&format!(
-        "{MESSENGER} --template {} --distance 0.3 --step 10deg --no-picture --set spacecraft.centerOfMass=1cm,2cm,-3cm",
-        shown(&fmu_path)
+        "{MESSENGER} --template {} --distance 0.3 --step 10deg --no-picture --set spacecraft.centerOfMass=1cm,2cm,-3cm \
+         --sun {azimuth}deg,{elevation}deg",
+        shown(fmu_path)
     )));
     let reported = |what: &str| -> Vec<f64> {
         let line = printed
@@ -200,11 +212,18 @@ fn a_degree_is_worth_what_differences_say() {
     };
     const H: f64 = 0.05;
     let own = [65.0; 2];
-    for (what, plus, minus) in [
-        ("Sun azimuth", at(H, 0.0, own), at(-H, 0.0, own)),
-        ("Sun elevation", at(0.0, H, own), at(0.0, -H, own)),
-        ("Sun offset of the panels", at(0.0, 0.0, [65.0 + H; 2]), at(0.0, 0.0, [65.0 - H; 2])),
-        ("Sun offset of panel +X", at(0.0, 0.0, [65.0 + H, 65.0]), at(0.0, 0.0, [65.0 - H, 65.0])),
+    // A degree of tilt is more of azimuth off the equator.
+    let wide = H / elevation.to_radians().cos();
+    let mut offset = |offsets_deg: [f64; 2]| at(azimuth, elevation, offsets_deg);
+    let [both, one] = [[1.0, 1.0], [1.0, 0.0]]
+        .map(|share| [1.0, -1.0].map(|sign| offset(share.map(|share| 65.0 + sign * share * H))));
+    let azimuths = [1.0, -1.0].map(|sign| at(azimuth + sign * wide, elevation, own));
+    let elevations = [1.0, -1.0].map(|sign| at(azimuth, elevation + sign * H, own));
+    for (what, [plus, minus]) in [
+        ("Sun azimuth", azimuths),
+        ("Sun elevation", elevations),
+        ("Sun offset of the panels", both),
+        ("Sun offset of panel +X", one),
     ] {
         let reported = reported(what);
         for axis in 0..3 {
@@ -221,10 +240,45 @@ fn a_degree_is_worth_what_differences_say() {
 }
 
 #[test]
+fn a_degree_is_weighed_where_the_attitude_has_the_sun() {
+    let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
+    let map = [MESSENGER, "--template", shown(&fmu_path), "--step", "10deg", "--no-picture"];
+    let heading = |more: &[&str]| {
+        let printed = mapped(&[&map[..], more].concat());
+        printed.lines().find(|line| line.starts_with("What a degree")).unwrap().to_owned()
+    };
+    // A fixed attitude, EME2000 to body, and the Sun where the plant's own outputs have it.
+    let turned = ["--set", "attitude.source=commanded", "--set", "start.q=0.1,-0.3,0.3,0.9"];
+    let Some((_folder, plant)) =
+        library().and_then(|it| packed_from(&it, "MomentumPlant", "plant.fmu", &["--spacecraft", MESSENGER]))
+    else {
+        return;
+    };
+    let seen = words("--stop 1s --step 1s --record sun.azimuth,sun.elevation");
+    let printed = run(&[&["run", shown(&plant)][..], &seen, &turned].concat(), 0);
+    let shown_deg = |name: &str| -> f64 {
+        let row = printed.lines().find(|line| line.contains(name)).unwrap();
+        row.split_whitespace().last().unwrap().parse().unwrap()
+    };
+    let found = heading(&turned);
+    for name in ["azimuth", "elevation"] {
+        let text = format!("{name} {:.2}", shown_deg(&format!("sun.{name}")));
+        assert!(found.contains(text.trim_end_matches('0')), "{found}: {text}");
+    }
+    assert!(found.contains("as the attitude has it at the start (--sun)"), "{found}");
+    // On -Y where it is said, and where the plant waits for its place.
+    for more in [&["--sun", "0deg,0deg"][..], &["--set", "orbit.source=inputs"]] {
+        let found = heading(more);
+        assert_eq!(found, "What a degree of tilt is worth with the Sun on -Y, panels turning with it");
+    }
+}
+
+#[test]
 fn a_degree_off_the_sun_is_worth_something_from_the_sun_on() {
     let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
     let fmu = Fmu::open(&fmu_path).unwrap();
-    let map = [MESSENGER, "--template", shown(&fmu_path), "--distance", "0.3", "--step", "10deg"];
+    let at = ["--distance", "0.3", "--step", "10deg", "--sun", "0deg,0deg"];
+    let map = [&[MESSENGER, "--template", shown(&fmu_path)][..], &at].concat();
     let mut torque = Torque::of(&fmu);
     // With the Sun on -Y, across their axes, the offset is the angle itself, to the side of the tilt.
     let h_deg = 0.05;

@@ -72,14 +72,8 @@ fn a_recording_is_drawn_as_run_draws_it() {
     );
     let (dated, _) = drawn(scratch.path(), &["run.csv"]);
     says(&dated, &["uN.m", "AU", "UTC, from 2011-04-06"]);
-    // An FMU's own run has no dates, a mission's has.
-    let beside = scratch.path().join("run.csv.toml");
-    let origin = fs::read_to_string(&beside).unwrap();
-    let undated: Vec<&str> = origin.lines().filter(|line| !line.starts_with("epoch")).collect();
-    fs::write(&beside, undated.join("\n")).unwrap();
-    let (undated, _) = drawn(scratch.path(), &["run.csv"]);
-    assert!(undated == fs::read_to_string(of_run).unwrap(), "{undated}");
-    fs::write(&beside, origin).unwrap();
+    // A run has the dates of the epoch that the FMU starts at, as a mission's has.
+    assert!(dated == fs::read_to_string(of_run).unwrap(), "{dated}");
     let (svg, _) = drawn(scratch.path(), &["run.csv", "--names", "TORQUE.solar"]);
     assert!(svg.contains("torque.solar") && !svg.contains("momentum"), "{svg}");
     // Beside a table of its own, without what stands beside the first.

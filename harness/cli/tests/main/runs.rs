@@ -15,6 +15,24 @@ fn csv(path: &std::path::Path) -> (Vec<String>, Vec<Vec<f64>>) {
 }
 
 #[test]
+fn rows_too_sparse_for_an_orbit_are_named() {
+    let Some((_scratch, fmu)) = template() else { return };
+    // An orbit of 12 h, of which rows every 90 min are eight.
+    let printed = |line: &str| run(&[&["run", shown(&fmu)][..], &words(line)].concat(), 0);
+    let sparse = "warning: orbit.semiMajorAxis: rows 2 h apart show too little of an orbit of 12 h";
+    for line in ["--stop 2d --step 2h", "--stop 2d --step 10min --every 2h"] {
+        let text = printed(&format!("{line} --record sun.beta"));
+        assert!(text.contains(sparse), "{text}");
+    }
+    for line in
+        ["--stop 2d --step 90min", "--stop 11h --step 2h", "--stop 9d --step 1d --set orbit.center=sun"]
+    {
+        let text = printed(&format!("{line} --record sun.beta"));
+        assert!(!text.contains("rows"), "{text}");
+    }
+}
+
+#[test]
 fn a_simulation_leaves_csv_and_a_picture() {
     let Some((scratch, fmu)) = packed("AllTypes") else { return };
     let (table, picture) = (scratch.path().join("out.csv"), scratch.path().join("out.svg"));

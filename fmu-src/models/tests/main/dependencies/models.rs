@@ -212,7 +212,7 @@ impl<M: Model> Search<M> {
 }
 
 /// Downlinks of a strategy end before the next begins; no rotor out of balance, which makes for short segments. Flight between
-/// planets has planets, and none in the centre that it is on its way to.
+/// planets has planets, and none in the centre that it is on its way to; a Sun line has a Sun at the start, and another centre.
 fn prepare_plant(bench: &Bench<MomentumPlant>, values: &mut Tables) {
     bench.put(values, "guided.downlinkEnd", 12_000.0);
     let at = |name: &str| bench.variables.iter().position(|it| it.name == name).unwrap();
@@ -225,6 +225,9 @@ fn prepare_plant(bench: &Bench<MomentumPlant>, values: &mut Tables) {
         if bench.read(values, encounter) == bench.read(values, center) {
             bench.write(values, encounter, 0.0);
         }
+    }
+    if bench.read(values, center) == 2.0 || bench.read(values, at("ephemeris.source")) == 3.0 {
+        bench.put(values, "orbit.frame", 3.0);
     }
     if !bench.variables.iter().any(|it| it.name == "wheel[3].capacity") {
         let at = bench.variables.iter().position(|it| it.name == "attitude.source").unwrap();

@@ -192,7 +192,7 @@ struct Group {
     scale: Scale,
 }
 
-/// What values are large or small against.
+/// Size that values are large or small against.
 #[derive(Clone, Copy)]
 struct Scale {
     size: f64,

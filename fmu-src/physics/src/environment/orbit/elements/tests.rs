@@ -52,6 +52,9 @@ fn degenerate_orbits_follow_the_convention() {
     ] {
         let found = Elements::from_state(&given.state(MU).unwrap(), MU).unwrap();
         assert!((found.eccentricity - expected.eccentricity).abs() < 1e-13);
+        let latitude_rad = expected.periapsis_argument_rad + expected.true_anomaly_rad;
+        assert!(angle_between(found.argument_of_latitude_rad(), latitude_rad) < 1e-12);
+        assert!((0.0..TAU).contains(&found.argument_of_latitude_rad()));
         for (f, x) in [
             (found.inclination_rad, expected.inclination_rad),
             (found.ascending_node_rad, expected.ascending_node_rad),
