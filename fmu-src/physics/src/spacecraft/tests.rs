@@ -107,7 +107,7 @@ fn an_unknown_key_comes_with_the_nearest_allowed_one() {
 fn every_rule_has_its_message() {
     for rule in include_str!("rules.txt").lines().skip(1) {
         let [from, to, key, allowed] = rule.split(" => ").collect::<Vec<_>>()[..] else { panic!("{rule}") };
-        let problem = problem(from, &to.replace("\\n", "\n"));
+        let problem = problem(&from.replace("\\n", "\n"), &to.replace("\\n", "\n"));
         assert_eq!(problem.key, key, "{problem:?}");
         assert!(problem.allowed.contains(allowed), "{problem:?}");
         assert!(problem.line.is_some());

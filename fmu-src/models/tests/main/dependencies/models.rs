@@ -21,6 +21,9 @@ const CLOSE: &[DrawRule] = &[
 ];
 
 const PLANT: &[DrawRule] = &[
+    ("guided.attitude", Rotation, 1.0),
+    ("guided.align.target", Whole(1, 3), 1.0),
+    ("guided.constrain.target", Whole(4, 7), 1.0),
     ("attitude.source", Whole(1, 4), 1.0),
     // The theory of the planets costs most.
     ("ephemeris.source", Whole(2, 3), 1.0),
@@ -105,6 +108,9 @@ const SPIN: &[DrawRule] = &[
 ];
 
 const GUIDANCE: &[DrawRule] = &[
+    ("guided.attitude", Rotation, 1.0),
+    ("guided.align.target", Whole(1, 3), 1.0),
+    ("guided.constrain.target", Whole(4, 7), 1.0),
     ("ephemeris.source", Whole(2, 3), 1.0),
     ("momentum.strategy", Whole(1, 2), 1.0),
     ("guided.downlinkEvery", Whole(1, 2), 1.0),

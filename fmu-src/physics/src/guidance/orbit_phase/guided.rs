@@ -134,7 +134,7 @@ impl Guided {
             from: &from,
             to: &to,
             to_sun: lines_then.sun.direction,
-            sun_drift_rad_s: self.sun_drift_rad_s(window.activity, &lines_then, default_downlink),
+            sun_drift_rad_s: self.sun_drift_rad_s(window.activity, &lines_then, &to, default_downlink),
         };
         let slew = Slew::between(&start, self.keep_in.as_ref(), self.slew_rate_rad_s);
         let duration_s = slew.length_rad() / self.slew_rate_rad_s;
@@ -156,6 +156,7 @@ impl Guided {
         &self,
         activity: Activity,
         lines: &LinesOfSight,
+        to: &MovingFrame,
         default_downlink: &DefaultDownlink,
     ) -> f64 {
         let gain = match (activity, self.science) {
@@ -165,8 +166,11 @@ impl Guided {
             (Activity::Downlink, _) | (Activity::Science, ScienceRule::Unloading { .. }) => return 0.0,
             (Activity::Science, ScienceRule::Scaled { gain }) => gain.abs(),
             (Activity::Science, ScienceRule::Nadir | ScienceRule::PlanetOrbit) => 1.0,
-            // No frame of targets turns faster than their lines of sight but where they are near one line.
-            (Activity::Science, ScienceRule::Aligned { .. }) => 2.0,
+            (Activity::Science, ScienceRule::Aligned { .. }) => {
+                let to_body = to.inertial_from_body.inverse();
+                let turning = to.rate_body_rad_s.cross(&(to_body * lines.sun.direction));
+                return 2.0 * (to_body * lines.sun.rate_1_s - turning).norm();
+            }
         };
         let planet_rad_s = lines.planet.map_or(0.0, |planet| planet.rate_1_s.norm());
         2.0 * gain * (planet_rad_s + lines.sun.rate_1_s.norm())

@@ -78,6 +78,11 @@ mod tests {
         assert_eq!(roll(Some(ExternalRollOption::Sun)), roll(None));
         assert_eq!(roll(Some(ExternalRollOption::Earth)), value(&s.earth) - value(&s.position));
         assert_eq!(roll(Some(ExternalRollOption::Planet)), -value(&s.position));
+        assert_eq!(roll(Some(ExternalRollOption::Velocity)), value(&s.velocity));
+        let momentum = value(&s.position).cross(&value(&s.velocity));
+        assert_eq!(roll(Some(ExternalRollOption::OrbitNormal)), momentum);
+        let north = Vector3::new(0.0, -0.397_777_155_931_914, 0.917_482_062_069_182);
+        assert_relative_eq!(roll(Some(ExternalRollOption::EclipticNorth)), north, epsilon = 1e-14);
         assert_eq!(roll(Some(ExternalRollOption::Vector)), Vector3::new(3.0, 1.0, 0.0));
         let star = roll(Some(ExternalRollOption::RightAscensionDeclination));
         assert_relative_eq!(star, Vector3::y(), epsilon = 1e-15);

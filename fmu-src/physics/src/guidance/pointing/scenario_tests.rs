@@ -215,7 +215,7 @@ fn the_rate_is_the_derivative_for_every_combination_of_options() {
         }
     }
     println!("options: largest {largest:e} of {found}");
-    assert_eq!(found, 4 * 15 * 2 * 5);
+    assert_eq!(found, 4 * 18 * 2 * 8);
 }
 
 #[test]
@@ -259,8 +259,8 @@ fn the_rate_is_the_derivative_for_every_aimpoint_with_every_scan() {
             active += usize::from(solution.scan_active);
         }
     }
-    // Body and inertial rotations with 15, translations with 11 and 6, local rotations with 8.
-    assert_eq!(active, 15 + 15 + 11 + 6 + 8);
+    // Body and inertial rotations with 18, translations with 11 and 6, local rotations with 10.
+    assert_eq!(active, 18 + 18 + 11 + 6 + 10);
 }
 
 fn at(
