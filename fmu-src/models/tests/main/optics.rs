@@ -3,7 +3,6 @@
 
 use std::collections::BTreeMap;
 
-use approx::assert_relative_eq;
 use fmi_export::Model;
 use model_description::{Causality, Status, VariableKind};
 use models::{DisturbanceTorque, Guidance, MomentumPlant};
@@ -12,7 +11,10 @@ use nalgebra::{Rotation3, Unit, Vector3};
 use super::disturbance_torque::instance;
 use super::named_model::{NamedInstance, NamedModel, assert_cuts_change_nothing, assert_same};
 use super::plant_light::{BUSY, EFFECTS, SHADOWED};
-use super::random::RandomNumbers;
+
+fn assert_near(found: f64, expected: f64, allowed: f64) {
+    assert!((found - expected).abs() <= allowed, "{found} {expected}");
+}
 
 /// Two materials on surfaces that shadow one another, in air, with and without heat stored: a shade, a bus and a panel.
 const FILE: &str = r#"
@@ -143,16 +145,18 @@ fn rows_over_optics_equal_edited_files() {
             let edited = NamedModel::<MomentumPlant>::with("optics.toml", &file(&values, more));
             let mut edited = edited.initialize(0.0, &all).unwrap();
             let mut set = flight.initialize(0.0, &[all, borrowed(&given)].concat()).unwrap();
-            for end_s in [0.0, 2400.0, 7200.0] {
+            let mut largest = [0.0_f64; 2];
+            for end_s in [0.0, 1200.0, 3600.0] {
                 if end_s > 0.0 {
                     edited.step_to(end_s).unwrap();
                     set.step_to(end_s).unwrap();
                 }
                 assert_close(&set, &edited, 1e-12);
+                for (largest, name) in largest.iter_mut().zip(["torque.aerodynamic", "torque.solar"]) {
+                    *largest = largest.max(set.vector(name).norm());
+                }
             }
-            assert!(
-                set.vector("torque.aerodynamic").norm() > 1e-9 && set.vector("torque.solar").norm() > 1e-9
-            );
+            assert!(largest.iter().all(|torque| *torque > 1e-9), "{largest:?}");
         }
     }
 }
@@ -162,8 +166,12 @@ fn rows_over_optics_equal_edited_files() {
 fn what_is_set_in_flight_acts_from_there_on() {
     let named = NamedModel::<MomentumPlant>::with("optics.toml", &file(&row(99), SUNSHADE));
     let given = sets(&row(3));
-    let plain =
-        [EFFECTS, SHADOWED, EVERYTHING, &[("shadowing.enabled", 0.0), ("thermal.storage", 0.0)]].concat();
+    let plain = [
+        EFFECTS,
+        EVERYTHING,
+        &[("shadowing.enabled", 0.0), ("thermal.storage", 0.0), ("solver.disturbanceStep", 3600.0)],
+    ]
+    .concat();
     let mut set = named.initialize(0.0, &plain).unwrap();
     let mut from_start = named.initialize(0.0, &[plain, borrowed(&given)].concat()).unwrap();
     for flight in [&mut set, &mut from_start] {
@@ -177,10 +185,10 @@ fn what_is_set_in_flight_acts_from_there_on() {
         set.set(name, value);
     }
     for flight in [&mut set, &mut from_start] {
-        flight.step_to(1600.0).unwrap();
+        flight.step_to(1001.0).unwrap();
     }
     for (name, allowed) in
-        [("torque.solar", 1e-14), ("force.solar", 1e-14), ("force.aerodynamic", 1e-5), ("force.albedo", 1e-5)]
+        [("torque.solar", 1e-14), ("force.solar", 1e-14), ("force.thermal", 1e-5), ("force.albedo", 1e-5)]
     {
         let off = apart(&set, &from_start, name);
         assert!(off <= allowed, "{name} {off:e}");
@@ -199,13 +207,13 @@ fn neither_cuts_nor_restores_change_a_bit_of_a_flight_whose_optics_are_set() {
     let initialize = || named.initialize(0.0, &[EFFECTS, SHADOWED, EVERYTHING, BUSY].concat()).unwrap();
     assert_cuts_change_nothing(
         initialize,
-        (1..=13).map(|k| 1800.0 * f64::from(k)),
+        (1..=13).map(|k| 1777.0 * f64::from(k)),
         &[130.0, 97.3],
         |flight| {
-            let number = (flight.time_s() / 1800.0) as usize;
+            let number = (flight.time_s() / 1777.0) as usize;
             let (name, value) = &given[number % given.len()];
             flight.set(name, *value);
-            flight.set("panel[1].angleBias", 0.1 * number as f64);
+            flight.set("panel[1].angleBias", 0.1 * (number / 5) as f64);
         },
     );
     let memoryless = NamedModel::<DisturbanceTorque>::with("optics.toml", &file(&row(99), ""));
@@ -277,50 +285,6 @@ fn derivatives_by_reflectivities_are_differences_of_any_step() {
     }
 }
 
-/// Targets of guidance by optics that are set are those of an edited file.
-#[test]
-fn guidance_targets_by_the_optics_that_are_set() {
-    let shipped = include_str!("../../../resources/messenger.toml");
-    let aged = shipped.replace("specular = 0.52\ndiffuse = 0.07", "specular = 0.2\ndiffuse = 0.4");
-    assert_ne!(aged, shipped);
-    let sets: &[(&str, f64)] = &[
-        ("position[1]", 1e7),
-        ("pointing.scenario", 6.0),
-        ("momentum.strategy", 2.0),
-        ("momentum.targetAxes", 3.0),
-        ("momentum.body[1]", 0.4),
-        ("momentum.body[3]", -0.3),
-        ("estimate.q[1]", 0.6),
-        ("estimate.q[4]", 0.8),
-        ("hotPole.enabled", 0.0),
-        ("monitor.enabled", 0.0),
-    ];
-    let named = NamedModel::<Guidance>::with("messenger.toml", shipped);
-    let edited = NamedModel::<Guidance>::with("messenger.toml", &aged);
-    let commanded = |named: &NamedModel<Guidance>, more: &[(&str, f64)], tuned: &[(&str, f64)]| {
-        let mut flight = named.initialize(0.0, &[sets, more].concat()).unwrap();
-        tuned.iter().for_each(|(name, value)| flight.set(name, *value));
-        flight.step_to(1.0).unwrap();
-        flight.quaternion("command.q")
-    };
-    let optics = [("optics.solarCells.specular", 0.2), ("optics.solarCells.diffuse", 0.4)];
-    for method in [1.0, 2.0] {
-        let method = [("momentum.targeting", method)];
-        let expected = commanded(&edited, &method, &[]);
-        let own = commanded(&named, &method, &[]);
-        let apart = (0..4).map(|i| (own[i] - expected[i]).abs()).fold(0.0, f64::max);
-        // The linear formula knows the shade alone.
-        assert_eq!(apart > 1e-4, method[0].1 == 1.0, "{apart:e}");
-        for found in
-            [commanded(&named, &[&method[..], &optics].concat(), &[]), commanded(&named, &method, &optics)]
-        {
-            for i in 0..4 {
-                assert_relative_eq!(found[i], expected[i], epsilon = 1e-12);
-            }
-        }
-    }
-}
-
 #[test]
 fn a_bias_adds_to_the_angle_of_a_panel_under_every_control() {
     let named = NamedModel::<MomentumPlant>::with("optics.toml", &file(&row(99), ""));
@@ -338,7 +302,7 @@ fn a_bias_adds_to_the_angle_of_a_panel_under_every_control() {
         let own = simulated(&by);
         let biased = simulated(&[&by[..], &[("panel[1].angleBias", 0.3)]].concat());
         let angle_rad = own.real("panel[1].angleActual");
-        assert_relative_eq!(biased.real("panel[1].angleActual"), angle_rad + 0.3, epsilon = 1e-12);
+        assert_near(biased.real("panel[1].angleActual"), angle_rad + 0.3, 1e-12);
         let stands = simulated(&[("panel[1].control", 2.0), ("panel[1].angle", angle_rad + 0.3)]);
         let (found, expected) = (biased.vector("force.solar"), stands.vector("force.solar"));
         assert!((found - expected).norm() < 1e-12 * expected.norm(), "{control} {found} {expected}");
@@ -346,12 +310,8 @@ fn a_bias_adds_to_the_angle_of_a_panel_under_every_control() {
         let turned = Rotation3::from_axis_angle(&axis, angle_rad + 0.3) * -Vector3::y();
         let suns = turned.dot(&biased.vector("sun.direction")).max(0.0);
         let distance_au = biased.real("sun.distance") / 149_597_870_700.0;
-        assert_relative_eq!(
-            biased.real("panel[1].suns"),
-            suns / (distance_au * distance_au),
-            max_relative = 1e-9,
-            epsilon = 1e-12
-        );
+        let suns = suns / (distance_au * distance_au);
+        assert_near(biased.real("panel[1].suns"), suns, 1e-9 * suns);
     }
 }
 

@@ -316,3 +316,52 @@ fn targets_count_on_the_scale_of_sunlight() {
     };
     assert!(missed(1.2, 1.2) < 1e-9 && missed(1.0, 1.2) > 1e-3);
 }
+
+/// Optics that are set stand in targets, from the start on or from where they are set, as in an edited file, and a plant of the same
+/// optics reaches the target.
+#[test]
+fn targets_go_by_the_optics_that_are_set() {
+    let shipped = include_str!("../../../../resources/messenger.toml");
+    let aged = shipped
+        .replace("specular = 0.52\ndiffuse = 0.07", "specular = 0.2\ndiffuse = 0.4")
+        .replace("specular = 0.15\ndiffuse = 0.35", "specular = 0.4\ndiffuse = 0.1");
+    let optics = [
+        ("optics.solarCells.specular", 0.2),
+        ("optics.solarCells.diffuse", 0.4),
+        ("optics.shadeCloth.specular", 0.4),
+        ("optics.shadeCloth.diffuse", 0.1),
+    ];
+    let (named, edited) =
+        (NamedModel::<Guidance>::shipped(), NamedModel::<Guidance>::with("messenger.toml", &aged));
+    for method in [1.0, 2.0] {
+        let method = [("momentum.targeting", method)];
+        let commanded = |named: &NamedModel<Guidance>, more: &[(&str, f64)], tuned: &[(&str, f64)]| {
+            let mut guidance = named.initialize(0.0, &with(&[&still(60.0), QUIET, &method, more])).unwrap();
+            tuned.iter().for_each(|(name, value)| guidance.set(name, *value));
+            guidance.step_to(1.0).unwrap();
+            nalgebra::Vector4::from(guidance.quaternion("command.q"))
+        };
+        let expected = commanded(&edited, &[], &[]);
+        assert!((commanded(&named, &[], &[]) - expected).amax() > 1e-3);
+        for found in [commanded(&named, &optics, &[]), commanded(&named, &[], &optics)] {
+            assert!((found - expected).amax() < 1e-12, "{found} {expected}");
+        }
+    }
+    let plants = NamedModel::<MomentumPlant>::shipped();
+    let mut hit = 0;
+    for separation_deg in [20.0, 60.0, 75.0, 100.0, 160.0] {
+        let place = with(&[&still(separation_deg), &optics]);
+        let requested = [("momentum.target[1]", TARGET.x), ("momentum.target[3]", TARGET.z)];
+        let mut guidance = named.initialize(0.0, &with(&[&place, QUIET, &requested])).unwrap();
+        let mut plant = plants.initialize(0.0, &with(&[&place, FOLLOWS])).unwrap();
+        guidance.step_to(1.0).unwrap();
+        follow(&mut plant, &guidance);
+        plant.step_to(SPAN_S).unwrap();
+        if !guidance.boolean("momentum.targetClamped") {
+            hit += 1;
+            let off = (plant.vector("momentum.body") - TARGET).xz().amax();
+            assert!(off < 1e-9, "{separation_deg} {off:e}");
+        }
+    }
+    assert!(hit > 0);
+}
