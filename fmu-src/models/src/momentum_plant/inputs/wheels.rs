@@ -12,7 +12,8 @@ use crate::momentum_plant::variables::body::WheelVariables;
 /// Distribution of momentum over the wheels; those without a direction hold nothing.
 pub(in crate::momentum_plant) fn array(context: &Plan<'_>, values: &Values) -> WheelArray {
     let wheels = context.variables.wheel.iter();
-    let axes = wheels.map(|wheel| Vector3::from(values.vector(wheel.axis)).try_normalize(0.0).unwrap_or_default());
+    let axes =
+        wheels.map(|wheel| Vector3::from(values.vector(wheel.axis)).try_normalize(0.0).unwrap_or_default());
     WheelArray::of(&axes.collect::<Vec<_>>())
 }
 
