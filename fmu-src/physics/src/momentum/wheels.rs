@@ -26,7 +26,7 @@ impl WheelArray {
         Some(Self::of(axes_body)).filter(Self::spans_all)
     }
 
-    /// From unit spin axes in the body frame, which may lie in a plane or a line.
+    /// From unit spin axes in the body frame, which may lie in a plane or a line; a zero vector is a wheel that holds nothing.
     pub fn of(axes_body: &[Vector3<f64>]) -> Self {
         let gram: Matrix3<f64> = axes_body.iter().map(|axis| axis * axis.transpose()).sum();
         let eigenvalues = SymmetricEigen::new(gram).eigenvalues;
@@ -129,7 +129,8 @@ pub fn wheels_body_n_m_s(wheels: impl Iterator<Item = (Vector3<f64>, f64)>) -> V
 fn projection_across(axes_body: &[Vector3<f64>], rank: usize) -> Matrix3<f64> {
     let pairs = axes_body.iter().enumerate().flat_map(|(k, a)| axes_body[k + 1..].iter().map(|b| a.cross(b)));
     let normal = pairs.max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
-    match (rank, normal, axes_body.first()) {
+    let line = axes_body.iter().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
+    match (rank, normal, line) {
         (2, Some(normal), _) => {
             let normal = normal.normalize();
             normal * normal.transpose()

@@ -10,12 +10,12 @@ use super::{
 };
 use crate::{epoch::date, variables::item};
 
-/// What counts unless someone says otherwise, by the name of the variable.
-const UNSAID: [(&str, &str); 4] = [
-    ("start.epoch", "start.epoch"),
-    ("orbit.center", "orbit.center"),
-    ("orbit.semiMajorAxis", "orbit.*"),
-    ("guided.scienceRule", "guided.scienceRule"),
+/// What counts unless someone says otherwise: the variable, the key that sets it, and another that stands for it.
+const UNSAID: [(&str, &str, &str); 4] = [
+    ("start.epoch", "start.epoch", "start.epoch"),
+    ("orbit.center", "orbit.center", "orbit.center"),
+    ("orbit.semiMajorAxis", "orbit.*", "orbit.source"),
+    ("guided.scienceRule", "guided.scienceRule", "attitude.source"),
 ];
 
 /// The first line, and what no wheel holds.
@@ -89,7 +89,9 @@ pub(super) fn assumed(sized: &SizedSpacecraft, found: &Found) -> String {
     } else if found.unloadings.longest.is_some_and(|it| it.energy_j.is_none()) {
         row("energy of dumps", "unknown".to_owned(), "[[thrusters]] power_w");
     }
-    for (name, key) in UNSAID.into_iter().filter(|(name, _)| !sized.says(name)) {
+    for (name, key, _) in
+        UNSAID.into_iter().filter(|(name, _, other)| !sized.says(name) && !sized.says(other))
+    {
         row(name, value(sized, name), key);
     }
     if found.years.is_none() && sized.span_s == YEAR_S {

@@ -9,11 +9,12 @@ use physics::spacecraft::free_capacity_n_m_s;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::body::WheelVariables;
 
-/// Distribution of momentum over the wheels; none over axes of no direction.
+/// Distribution of momentum over the wheels; those without a direction hold nothing.
 pub(in crate::momentum_plant) fn array(context: &Plan<'_>, values: &Values) -> WheelArray {
     let wheels = context.variables.wheel.iter();
-    let axes = wheels.map(|wheel| Vector3::from(values.vector(wheel.axis)).try_normalize(0.0));
-    WheelArray::of(&axes.collect::<Option<Vec<_>>>().unwrap_or_default())
+    let axes =
+        wheels.map(|wheel| Vector3::from(values.vector(wheel.axis)).try_normalize(0.0).unwrap_or_default());
+    WheelArray::of(&axes.collect::<Vec<_>>())
 }
 
 /// What the wheels' biases come to, body frame, in N m s.

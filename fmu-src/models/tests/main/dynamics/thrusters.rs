@@ -364,8 +364,12 @@ fn thrusters_that_cannot_turn_the_body_leave_dumps_to_dump_torque() {
     flight.simulate_to(5.0, 1.0).unwrap();
     assert_eq!((flight.integer("dump.count"), reported(&named)), (0, 0));
     // To -9 N m s by 0.5 N m.
-    let thresholds: Start<'_> =
-        &[("dump.threshold[1]", 10.0), ("dump.threshold[2]", 10.0), ("dump.threshold[3]", 10.0)];
+    let thresholds: Start<'_> = &[
+        ("dump.threshold[1]", 10.0),
+        ("dump.threshold[2]", 10.0),
+        ("dump.threshold[3]", 10.0),
+        ("dump.reinitTo", 1.0),
+    ];
     let mut flight = initialize(&named, &[FREE, DARK, turning, thresholds]);
     flight.simulate_to(57.0, 1.0).unwrap();
     assert!(flight.boolean("dump.active"));

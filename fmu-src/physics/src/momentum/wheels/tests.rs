@@ -76,6 +76,30 @@ fn a_symmetric_pyramid_shares_equally() {
     }
 }
 
+/// Wheels along X and (0.6, 0.8, 0): h2 = y / 0.8 and h1 = x - 0.6 h2 by the two components; two on a line take half each.
+#[test]
+fn wheels_in_a_plane_or_a_line_hold_what_lies_in_it() {
+    let oblique = WheelArray::of(&[Vector3::x(), Vector3::new(0.6, 0.8, 0.0)]);
+    let momentum = Vector3::new(1.0, 2.0, 5.0);
+    assert_relative_eq!(oblique.momentum_n_m_s(0, &momentum), -0.5, epsilon = 1e-14);
+    assert_relative_eq!(oblique.momentum_n_m_s(1, &momentum), 2.5, epsilon = 1e-14);
+    assert_eq!(oblique.spanned(), [true, true, false]);
+    // |x| + 0.75 |y| and 1.25 |y| at the corner of the square.
+    let threshold = oblique.spanned_threshold_n_m_s([2.0, 2.0].into_iter());
+    assert_relative_eq!(threshold.x, 2.0 / 1.75, max_relative = 1e-14);
+    assert_eq!((threshold.y, threshold.z), (threshold.x, f64::INFINITY));
+    assert_eq!(oblique.guaranteed_threshold_n_m_s([2.0, 2.0].into_iter()), 0.0);
+    let line = WheelArray::of(&[Vector3::zeros(), Vector3::z(), -Vector3::z()]);
+    let each = [0, 1, 2].map(|k| line.momentum_n_m_s(k, &momentum));
+    assert_relative_eq!(Vector3::from(each), Vector3::new(0.0, 2.5, -2.5), epsilon = 1e-14);
+    assert_eq!(line.spanned(), [false, false, true]);
+    // Across a slanted line no body axis is spanned.
+    let slanted = WheelArray::of(&[Vector3::new(0.6, 0.0, 0.8)]);
+    assert_relative_eq!(slanted.momentum_n_m_s(0, &momentum), 4.6, epsilon = 1e-14);
+    assert_eq!(slanted.spanned(), [false; 3]);
+    assert_eq!(WheelArray::of(&[]).spanned(), [false; 3]);
+}
+
 fn shipped(text: &str) -> (Spacecraft, f64) {
     let spacecraft = Spacecraft::from_toml("shipped.toml", text).unwrap();
     let axes: Vec<Vector3<f64>> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();

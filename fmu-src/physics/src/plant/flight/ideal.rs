@@ -60,13 +60,16 @@ impl IdealFlight {
         self.integrator.is_valid() && self.spacing.is_valid() && self.maneuvers.count >= 0
     }
 
-    /// At the start of a flight in the attitude after `held`, where the system has this momentum, body frame, in N m s.
+    /// At the start of a flight in the attitude after `held`, where the system has this momentum from the wheels' bias, body frame,
+    /// in N m s.
     pub(super) fn begin(
         flight: &mut ConfiguredFlight<'_>,
         time_s: f64,
         held: &Attitude,
-        momentum_body_n_m_s: Vector3<f64>,
+        from_bias_n_m_s: Vector3<f64>,
     ) -> Result<Self, PlantError> {
+        let bias_body_n_m_s = flight.context.configuration.momentum.policy.bias_body_n_m_s;
+        let momentum_body_n_m_s = bias_body_n_m_s + from_bias_n_m_s;
         flight.context.begin_work(flight.given.work_limit);
         let frame = flight.plant().instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);

@@ -299,9 +299,7 @@ impl Flight {
         let held = held.attitude_at(time_s);
         *mode = match settings {
             ModeSettings::Ideal(IdealSettings { start_momentum_body_n_m_s: momentum, .. }) => {
-                let momentum_body_n_m_s =
-                    flight.context.configuration.momentum.policy.bias_body_n_m_s + *momentum;
-                Mode::Ideal(Box::new(IdealFlight::begin(&mut flight, time_s, &held, momentum_body_n_m_s)?))
+                Mode::Ideal(Box::new(IdealFlight::begin(&mut flight, time_s, &held, *momentum)?))
             }
             ModeSettings::Dynamic(settings) => {
                 Mode::Dynamic(Box::new(AttitudeDynamics::begin(settings, &mut flight, time_s, &held)?))
