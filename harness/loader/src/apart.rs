@@ -5,11 +5,11 @@ use crate::{Error, Instance};
 /// Events closer than a millionth of the step stay together.
 pub(crate) const MOST_HALVINGS: u32 = 20;
 
-/// Takes a step; one in which the counter, an Integer, rises by more than one is taken back and made in halves. `between` is reported
-/// every communication point within the step.
+/// Takes a step; one in which the counter, an Integer, rises by more than `most` is taken back and made in halves. `between` is
+/// reported every communication point within the step.
 pub(crate) fn step_apart(
     instance: &mut Instance,
-    counter: u32,
+    (counter, most): (u32, i32),
     (time_s, step_s): (f64, f64),
     halvings: u32,
     between: &mut dyn FnMut(&mut Instance, f64) -> Result<(), Error>,
@@ -17,7 +17,7 @@ pub(crate) fn step_apart(
     let before = count(instance, counter)?;
     let state = instance.save_state()?;
     instance.do_step(time_s, step_s, true)?;
-    let crowded = halvings > 0 && count(instance, counter)? > before + 1;
+    let crowded = halvings > 0 && count(instance, counter)? > before + most;
     if crowded {
         instance.restore_state(state)?;
     }
@@ -26,9 +26,9 @@ pub(crate) fn step_apart(
         return Ok(());
     }
     let (half_s, middle_s) = (0.5 * step_s, time_s + 0.5 * step_s);
-    step_apart(instance, counter, (time_s, half_s), halvings - 1, between)?;
+    step_apart(instance, (counter, most), (time_s, half_s), halvings - 1, between)?;
     between(instance, middle_s)?;
-    step_apart(instance, counter, (middle_s, half_s), halvings - 1, between)
+    step_apart(instance, (counter, most), (middle_s, half_s), halvings - 1, between)
 }
 
 fn count(instance: &mut Instance, counter: u32) -> Result<i32, Error> {

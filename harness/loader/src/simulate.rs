@@ -249,7 +249,7 @@ fn run_steps(
             (None, None, Some(watch)) => watch.step(instance, time_s, step_s),
             (None, None, None) => instance.do_step(time_s, step_s, true),
             (None, Some(counter), _) => {
-                step_apart(instance, counter, (time_s, step_s), MOST_HALVINGS, record)
+                step_apart(instance, (counter, 1), (time_s, step_s), MOST_HALVINGS, record)
             }
         };
         if let Err(error) = stepped {

@@ -1,6 +1,9 @@
 //! Looks at a run between its communication points, at times that the watcher names.
 
-use crate::{Error, Instance};
+use crate::{
+    Error, Instance,
+    apart::{MOST_HALVINGS, step_apart},
+};
 
 /// Watches a run. For FMUs that take steps of any size.
 pub trait Watcher {
@@ -10,6 +13,12 @@ pub trait Watcher {
     /// # Errors
     /// A value that cannot be read.
     fn look(&mut self, instance: &mut Instance, time_s: f64) -> Result<f64, Error>;
+
+    /// Reference of an Integer that counts events: a step in which it rises is taken again in halves, and looked at between them,
+    /// down to a millionth of it. For FMUs with states.
+    fn counter(&self) -> Option<u32> {
+        None
+    }
 }
 
 /// A watcher and when it looks next.
@@ -38,16 +47,22 @@ impl<'a> Watch<'a> {
         while self.next_s < end_s - self.resolution_s {
             if self.next_s > now_s {
                 let piece_s = span_to(now_s, self.next_s);
-                instance.do_step(now_s, piece_s, true)?;
+                self.piece(instance, now_s, piece_s)?;
                 now_s += piece_s;
             }
             let after_s = self.watcher.look(instance, now_s)?;
             // A watcher that names a time that is past looks at the end of the step.
             self.next_s = if after_s > now_s { after_s } else { f64::INFINITY };
         }
-        instance.do_step(now_s, span_to(now_s, end_s), true)?;
+        self.piece(instance, now_s, span_to(now_s, end_s))?;
         self.next_s = self.watcher.look(instance, end_s)?;
         Ok(())
+    }
+
+    fn piece(&mut self, instance: &mut Instance, time_s: f64, step_s: f64) -> Result<(), Error> {
+        let Some(counter) = self.watcher.counter() else { return instance.do_step(time_s, step_s, true) };
+        let between = &mut |instance: &mut Instance, at_s: f64| self.watcher.look(instance, at_s).map(|_| ());
+        step_apart(instance, (counter, 0), (time_s, step_s), MOST_HALVINGS, between)
     }
 }
 

@@ -40,9 +40,9 @@ fn the_body_turns_into_each_command_from_where_it_stands() {
         let [before, jumped_from] = stands(begin_s - 1e-6);
         let [at, target] = stands(begin_s);
         assert!(turned_rad(&before.0, &at.0) < 1e-8, "{begin_s}");
-        jumps += i32::from(turned_rad(&jumped_from.0, &target.0) > 0.1);
+        jumps += i32::from(turned_rad(&jumped_from.0, &target.0) > 0.05);
         let whole_rad = turned_rad(&at.0, &target.0);
-        assert!(whole_rad > 0.1, "{begin_s}: {whole_rad}");
+        assert!(whole_rad > 0.05, "{begin_s}: {whole_rad}");
         // Toward a fixed attitude the turn goes at the rate, about one axis.
         let [on_the_way, target] = stands(begin_s + 20.0);
         let left_rad = turned_rad(&on_the_way.0, &target.0);

@@ -231,7 +231,7 @@ fn simulation(arguments: &RunInChild, link: &mut Link) -> Result<Simulation, Box
     let cancel = AtomicBool::new(false);
     let mut check_cancel = |_: f64| cancel.store(cancel_word.load(Ordering::Relaxed) != 0, Ordering::Relaxed);
     check_cancel(0.0);
-    let mut visits = Visits::of(subject.description(), settings.times.stop_s);
+    let mut visits = Visits::of(&subject, &settings);
     let watcher = visits.as_mut().map(|visits| visits as &mut dyn Watcher);
     let watched = (&mut check_cancel as &mut dyn FnMut(f64), &cancel, watcher);
     let ran = settings.simulate_into(&subject, &simulated.run, watched, &mut RowSender(link));

@@ -1,13 +1,13 @@
 //! Visits of a run: a command of the timeline at a time, the Sun in the body frame, and the momentum gathered.
 //!
-//! Momentum gathered is the change of `momentum.inertial` without dumps: in a step with a dump the trapezoid of the torque stands for
-//! it. The Sun is that of the middle of a visit, when a slew into it is over.
+//! Momentum gathered is the change of `momentum.inertial` without dumps: steps are halved until one that has a dump is short, and while
+//! one lasts the trapezoid of the torque stands for the change. The Sun is that of the middle of a visit, when a slew into it is over.
 
 use loader::{Error, Instance, Watcher};
-use model_description::Description;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use crate::child::Payload;
+use super::{settings::Settings, subject::Subject};
+use crate::{carried, child::Payload};
 
 /// Reals that are read, in this order.
 const REALS: [&str; 13] = [
@@ -27,6 +27,10 @@ const REALS: [&str; 13] = [
 ];
 /// Integers, likewise.
 const INTEGERS: [&str; 2] = ["timeline.command", "dump.count"];
+/// Whether a dump lasts.
+const DUMPING: &str = "dump.active";
+/// Names of a thruster's variables begin with it.
+const THRUSTER: &str = "thruster[";
 /// Words of a visit in a payload.
 const WORDS: usize = 9;
 
@@ -77,6 +81,7 @@ struct Sample {
     momentum_inertial_n_m_s: Vector3<f64>,
     torque_inertial_n_m: Vector3<f64>,
     dumps: i32,
+    is_dumping: bool,
 }
 
 /// A visit under way.
@@ -89,7 +94,8 @@ struct Open {
 
 /// Makes visits of a flight by a timeline.
 pub(crate) struct Visits {
-    references: [Vec<u32>; 2],
+    references: [Vec<u32>; 3],
+    counts: bool,
     stop_s: f64,
     open: Option<Open>,
     /// Those that are over.
@@ -97,15 +103,27 @@ pub(crate) struct Visits {
 }
 
 impl Visits {
-    /// For an FMU that flies by a timeline and tells its momentum; `None` for others.
-    pub(crate) fn of(description: &Description, stop_s: f64) -> Option<Self> {
+    /// For an FMU that flies by a timeline with commands and tells its momentum; `None` for others, and where on-times of thrusters
+    /// are given, which count from the beginning of each step.
+    pub(crate) fn of(subject: &Subject, settings: &Settings) -> Option<Self> {
+        let Subject::Fmu(fmu) = subject else { return None };
+        let (description, stop_s) = (fmu.description(), settings.times.stop_s);
+        let has_commands = carried::timeline::names(fmu.folder()).is_some_and(|names| !names.is_empty());
+        let columns = settings.inputs.iter().flat_map(|table| table.positions());
+        let inputs = columns.map(|position| &description.variables[position].name);
+        let mut given = settings.sets.iter().map(|(name, _)| name).chain(inputs);
+        if !has_commands || given.any(|name| name.starts_with(THRUSTER)) {
+            return None;
+        }
         let reference = |name: &&str| {
             let found = description.variables.iter().find(|variable| variable.name == **name);
             found.map(|variable| variable.value_reference)
         };
         let reals = REALS.iter().map(reference).collect::<Option<Vec<u32>>>()?;
         let integers = INTEGERS.iter().map(reference).collect::<Option<Vec<u32>>>()?;
-        Some(Self { references: [reals, integers], stop_s, open: None, closed: Vec::new() })
+        let references = [reals, integers, vec![reference(&DUMPING)?]];
+        let counts = description.co_simulation.as_ref().is_some_and(|it| it.can_get_and_set_fmu_state);
+        Some(Self { references, counts, stop_s, open: None, closed: Vec::new() })
     }
 
     /// The visits up to where the run came; none where no command was ever in force.
@@ -119,6 +137,8 @@ impl Visits {
         let (mut reals, mut integers) = ([0.0; REALS.len()], [0; INTEGERS.len()]);
         instance.get_reals(&self.references[0], &mut reals)?;
         instance.get_integers(&self.references[1], &mut integers)?;
+        let mut is_dumping = [0];
+        instance.get_booleans(&self.references[2], &mut is_dumping)?;
         let [until_s, azimuth_rad, elevation_rad, ..] = reals;
         let vector = |at: usize| Vector3::new(reals[at], reals[at + 1], reals[at + 2]);
         let q = Quaternion::new(reals[12], reals[9], reals[10], reals[11]);
@@ -130,6 +150,7 @@ impl Visits {
             momentum_inertial_n_m_s: vector(3),
             torque_inertial_n_m: UnitQuaternion::new_normalize(q) * vector(6),
             dumps: integers[1],
+            is_dumping: is_dumping[0] != 0,
         })
     }
 
@@ -151,7 +172,7 @@ impl Visits {
         let mut open = self.open.unwrap_or_else(|| self.begin(now));
         let last = core::mem::replace(&mut open.last, now);
         let dumps = now.dumps - last.dumps;
-        open.visit.gathered_inertial_n_m_s += if dumps == 0 {
+        open.visit.gathered_inertial_n_m_s += if dumps == 0 && !last.is_dumping {
             now.momentum_inertial_n_m_s - last.momentum_inertial_n_m_s
         } else {
             (last.torque_inertial_n_m + now.torque_inertial_n_m) * (0.5 * (now.time_s - last.time_s))
@@ -176,5 +197,9 @@ impl Watcher for Visits {
     fn look(&mut self, instance: &mut Instance, time_s: f64) -> Result<f64, Error> {
         let now = self.read(instance, time_s)?;
         Ok(self.take(now))
+    }
+
+    fn counter(&self) -> Option<u32> {
+        self.references[1].last().copied().filter(|_| self.counts)
     }
 }

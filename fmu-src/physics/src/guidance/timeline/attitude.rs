@@ -5,8 +5,11 @@ use super::description::{AttitudeDescription, AxesDescription, CommandDescriptio
 use super::reads::{TABLES, keys};
 use crate::enumeration::Enumerated;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
-use crate::spacecraft::{AttitudePart, NamedAttitude, aligned};
-use crate::toml::KeyPath;
+use crate::spacecraft::{AttitudeName, AttitudePart, NamedAttitude, aligned};
+use crate::toml::{KeyPath, nearest};
+
+/// Attitudes that have a name.
+const NAMES: [AttitudeName; 3] = [AttitudeName::Lvlh, AttitudeName::YawSteering, AttitudeName::SunPointing];
 
 impl Commands<'_, '_> {
     /// The command of an attitude, without its scan.
@@ -23,18 +26,7 @@ impl Commands<'_, '_> {
         "the attitude".clone_into(&mut self.scenario);
         self.check_mode(&place, Scenario::Generic, given.mode);
         self.check_scenario_keys(at, TABLES, keys(&[], &["scan"]));
-        let attitude = match attitude {
-            AttitudeDescription::Name(_) if self.check.is_stand_in(&place) => {
-                return PointingCommand::default();
-            }
-            AttitudeDescription::Name(name) => (*name).into(),
-            AttitudeDescription::Quaternion(q) => NamedAttitude::Inertial(*q),
-            AttitudeDescription::Axes(AxesDescription { align, constrain, star }) => {
-                let found = aligned(&mut self.check, &place, [align, constrain], star.as_ref());
-                let Some(found) = found else { return PointingCommand::default() };
-                found
-            }
-        };
+        let Some(attitude) = self.attitude(&place, attitude) else { return PointingCommand::default() };
         match attitude.axes(&self.spacecraft.panels) {
             Ok(axes) => PointingCommand::aligned(&axes),
             Err(refusal) => {
@@ -46,6 +38,55 @@ impl Commands<'_, '_> {
                 };
                 self.check.report(&place, refusal.found, refusal.allowed);
                 PointingCommand::default()
+            }
+        }
+    }
+
+    /// The attitude of a description.
+    fn attitude(&mut self, at: &KeyPath, given: &AttitudeDescription) -> Option<NamedAttitude> {
+        match given {
+            AttitudeDescription::Name(name) => {
+                let found = NAMES.into_iter().find(|known| known.name() == name);
+                if found.is_none() {
+                    let names = NAMES.map(Enumerated::name);
+                    let allowed =
+                        format!("{}, or a quaternion, or `align` and `constrain`", names.join(", "));
+                    let hint = nearest(name, &names)
+                        .map_or_else(String::new, |it| format!(" (did you mean `{it}`?)"));
+                    self.check.report(at, format_args!("the unknown word `{name}`{hint}"), allowed);
+                }
+                found.map(NamedAttitude::from)
+            }
+            AttitudeDescription::Quaternion(numbers) => {
+                let q = <[f64; 4]>::try_from(numbers.as_slice()).ok();
+                if q.is_none() {
+                    let found = format!("{} numbers", numbers.len());
+                    self.check.report(at, found, "four: a quaternion from EME2000 to the body, scalar last");
+                }
+                q.map(NamedAttitude::Inertial)
+            }
+            AttitudeDescription::Axes(AxesDescription { align, constrain, star, unknown }) => {
+                for key in unknown {
+                    self.check.report(
+                        &at.key(key),
+                        format_args!("the unknown key `{key}`"),
+                        "align, constrain, star",
+                    );
+                }
+                if let (Some(align), Some(constrain)) = (align, constrain) {
+                    return aligned(&mut self.check, at, [align, constrain], star.as_ref());
+                }
+                let lacking = if align.is_none() { "align" } else { "constrain" };
+                self.check.report_lack(at, lacking, "both `align` and `constrain`");
+                None
+            }
+            AttitudeDescription::Other => {
+                self.check.report(
+                    at,
+                    "no attitude",
+                    "a name, a quaternion, or a table with `align` and `constrain`",
+                );
+                None
             }
         }
     }
@@ -65,9 +106,9 @@ impl Commands<'_, '_> {
             }
             (None, Some(scenario)) => named("", scenario).trim_start().to_owned(),
             (None, None) => match &given.attitude {
-                Some(AttitudeDescription::Name(name)) => name.name().to_owned(),
+                Some(AttitudeDescription::Name(name)) => name.clone(),
                 Some(AttitudeDescription::Quaternion(_)) => "inertial".to_owned(),
-                Some(AttitudeDescription::Axes(_)) => "aligned".to_owned(),
+                Some(AttitudeDescription::Axes(_) | AttitudeDescription::Other) => "aligned".to_owned(),
                 None => "guided".to_owned(),
             },
         }

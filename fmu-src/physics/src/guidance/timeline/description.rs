@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{self, IntoDeserializer, MapAccess, SeqAccess, Visitor};
+use serde::de::value::SeqAccessDeserializer;
+use serde::de::{self, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
 use super::entry::PlanStatus;
@@ -45,11 +45,30 @@ pub(crate) enum DumpDescription {
 #[cfg_attr(feature = "schema", schemars(untagged))]
 pub(crate) enum AttitudeDescription {
     /// By its name.
-    Name(AttitudeName),
+    Name(#[cfg_attr(feature = "schema", schemars(with = "AttitudeName"))] String),
     /// By a quaternion from EME2000 to the body, scalar last.
-    Quaternion([f64; 4]),
+    Quaternion(#[cfg_attr(feature = "schema", schemars(with = "[f64; 4]"))] Vec<f64>),
     /// By two axes and their targets.
     Axes(AxesDescription),
+    /// Anything else.
+    #[cfg_attr(feature = "schema", schemars(skip))]
+    Other,
+}
+
+/// Two body axes and their targets.
+#[derive(Debug, Default)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(deny_unknown_fields))]
+pub(crate) struct AxesDescription {
+    /// Axis that stands exactly at its target.
+    pub align: Option<TargetedAxisDescription>,
+    /// Axis that stands as near as possible to its target.
+    pub constrain: Option<TargetedAxisDescription>,
+    /// Direction of `to = "star"`.
+    pub star: Option<StarDescription>,
+    /// Other keys.
+    #[cfg_attr(feature = "schema", schemars(skip))]
+    pub unknown: Vec<String>,
 }
 
 impl<'de> Deserialize<'de> for AttitudeDescription {
@@ -58,26 +77,50 @@ impl<'de> Deserialize<'de> for AttitudeDescription {
     }
 }
 
-/// Reads each form by its own type, so that an error is that form's.
+/// Takes every form; what is wrong with one is reported with its place.
 struct AttitudeVisitor;
 
 impl<'de> Visitor<'de> for AttitudeVisitor {
     type Value = AttitudeDescription;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a name, a quaternion of four numbers, or a table with `align` and `constrain`")
+        f.write_str("an attitude")
     }
 
     fn visit_str<E: de::Error>(self, name: &str) -> Result<Self::Value, E> {
-        AttitudeName::deserialize(name.into_deserializer()).map(AttitudeDescription::Name)
+        Ok(AttitudeDescription::Name(name.to_owned()))
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, numbers: A) -> Result<Self::Value, A::Error> {
         Deserialize::deserialize(SeqAccessDeserializer::new(numbers)).map(AttitudeDescription::Quaternion)
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, table: A) -> Result<Self::Value, A::Error> {
-        Deserialize::deserialize(MapAccessDeserializer::new(table)).map(AttitudeDescription::Axes)
+    fn visit_map<A: MapAccess<'de>>(self, mut table: A) -> Result<Self::Value, A::Error> {
+        let mut axes = AxesDescription::default();
+        while let Some(key) = table.next_key::<String>()? {
+            match key.as_str() {
+                "align" => axes.align = Some(table.next_value()?),
+                "constrain" => axes.constrain = Some(table.next_value()?),
+                "star" => axes.star = Some(table.next_value()?),
+                _ => {
+                    table.next_value::<IgnoredAny>()?;
+                    axes.unknown.push(key);
+                }
+            }
+        }
+        Ok(AttitudeDescription::Axes(axes))
+    }
+
+    fn visit_bool<E: de::Error>(self, _: bool) -> Result<Self::Value, E> {
+        Ok(AttitudeDescription::Other)
+    }
+
+    fn visit_i64<E: de::Error>(self, _: i64) -> Result<Self::Value, E> {
+        Ok(AttitudeDescription::Other)
+    }
+
+    fn visit_f64<E: de::Error>(self, _: f64) -> Result<Self::Value, E> {
+        Ok(AttitudeDescription::Other)
     }
 }
 
@@ -161,15 +204,6 @@ struct CommandDescription {
     mode: Option<Mode>,
     /// For a plan: whether it may change this command. FMUs ignore it; fixed unless given.
     status: Option<PlanStatus>,
-}
-
-/// Two body axes and their targets.
-struct AxesDescription {
-    /// Axis that stands exactly at its target.
-    align: TargetedAxisDescription,
-    /// Axis that stands as near as possible to its target.
-    constrain: TargetedAxisDescription,
-    star: Option<StarDescription>,
 }
 
 /// Where the Sun stands in the body frame.
