@@ -105,7 +105,7 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
         let lit = angle_rad.filter(|_| sun.distance_m > 0.0);
         let suns = lit.map(|angle_rad| body.suns(angle_rad, &sun.direction_body, sun.distance_m));
         let continued_rad = |angle_rad| report.panel_turns.continued_rad(index, angle_rad, time_s);
-        let offsets_rad = setting.sun_offsets_rad(body, &sun).filter(|_| sun.distance_m > 0.0);
+        let offsets_rad = lit.map(|angle_rad| setting.sun_offsets_rad(body, &sun, angle_rad));
         values.set_real(panel.sun_offset_actual, offsets_rad.map_or(0.0, |[_, actual_rad]| actual_rad));
         values.set_boolean(panel.sun_offset_reached, offsets_rad.is_some_and(is_sun_offset_reached));
         values.set_real(panel.angle_actual, angle_rad.map_or(0.0, continued_rad));

@@ -14,7 +14,7 @@ const NEAR_AXIS_RAD: f64 = 10.0 * core::f64::consts::PI / 180.0;
 /// A part of the time that is little contact.
 const LITTLE_CONTACT: f64 = 0.1;
 /// Times that are looked at.
-const SAMPLES: u32 = 192;
+const SAMPLES: u32 = 96;
 /// Longest span that is looked at, in s, and the one of an orbit without a period.
 const SPANS_S: [f64; 2] = [10.0 * DAY_S, DAY_S];
 /// A panel whose axis is this near to Z cannot be turned across the Sun by a turn about Z, in rad.
