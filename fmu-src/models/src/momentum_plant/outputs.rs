@@ -96,8 +96,15 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
         .as_ref()
         .is_none_or(|shade| polynomial_valid(shade, configuration.sunshade, &instant.sun_body));
     values.set_boolean(variables.sunshade.polynomial_valid, valid);
+    write_panels(context, values, report);
+}
+
+/// Angles of the panels, and the light on their cells.
+fn write_panels(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
+    let Report { time_s, configuration, evaluation, .. } = report;
+    let (variables, time_s) = (context.variables, *time_s);
     let panels = context.setup.spacecraft.panels.iter().zip(&configuration.panels);
-    let sun = instant.sun_at(time_s);
+    let sun = evaluation.instant.sun_at(time_s);
     // The corridor was checked where the flight began.
     let corridor = variables.articulation.read(values).unwrap_or_default();
     for (index, (panel, (body, setting))) in variables.panel.iter().zip(panels).enumerate() {

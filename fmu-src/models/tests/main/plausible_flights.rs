@@ -96,7 +96,7 @@ fn each_setting_that_is_hardly_meant_raises_its_warning_alone() {
         (&off_x, &[], 6000.0, "panel[1].sunOffset of 0.0 deg is out of reach at "),
         (&eclipse, &[], 7200.0, "the Moon stands before the Sun on 2024-04-08"),
         (&dish, &[], 0.0, "antenna `dish` has the Earth in its beam for 0.0 % of the time"),
-        (&open, &[], 0.0, "`deck` faces inward: before it stands the rear of `bus -X`"),
+        (&open, &[], 0.0, "`deck` faces inward: before it stands the rear of `bus.-X`"),
     ];
     for (text, sets, end_s, part) in rows {
         let found = warned(text, sets, *end_s);

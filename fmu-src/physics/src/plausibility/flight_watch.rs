@@ -1,4 +1,4 @@
-//! What a flight shows that its settings leave out, each told once: forces on an orbit in closed form, bodies before the Sun, panels
+//! Warnings of a flight under way, each told once: forces on an orbit in closed form, bodies before the Sun, panels
 //! that do not come to where they are to stand.
 
 use nalgebra::Vector3;
@@ -19,7 +19,7 @@ const ROUNDING_RAD: f64 = 1e-6;
 /// Panels whose warnings are remembered, one bit each.
 const PANELS: usize = 64;
 
-/// What was told already.
+/// Warnings that were told already.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FlightWatch {
     force: bool,
@@ -35,7 +35,7 @@ pub fn is_sun_offset_reached([meant_rad, actual_rad]: [f64; 2]) -> bool {
 }
 
 impl FlightWatch {
-    /// What a flight that was reported at `time_s` shows for the first time; `is_reached` tells whether a panel stands where it is to
+    /// Tells what a flight that was reported at `time_s` shows for the first time; `is_reached` tells whether a panel stands where it is to
     /// stand.
     pub fn see(
         &mut self,

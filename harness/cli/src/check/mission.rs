@@ -23,8 +23,7 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let mut rows = Collector::new(subject.description(), positions);
     // Ended after the first step.
     let cancel = AtomicBool::new(true);
-    let (_, messages) =
-        settings.simulate_into(subject, &simulated.run, (&mut |_| {}, &cancel), &mut rows)?;
+    let (_, messages) = settings.simulate_into(subject, &simulated.run, (&mut |_| {}, &cancel), &mut rows)?;
     let short = terminal::short;
     let begin = simulated.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s.as_ref()?.it));
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));

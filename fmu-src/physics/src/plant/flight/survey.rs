@@ -20,7 +20,7 @@ const MOON_RATE_RAD_S: f64 = 3.3e-6;
 /// Perigee of the Moon, below all of them, in m.
 const MOON_NEAREST_M: f64 = 3.5e8;
 
-/// Less of the disc is not told of: a planet far away.
+/// Least share of the disc that is told of: planets far away hide less.
 const LEAST_SHARE: f64 = 1e-3;
 
 /// A body that stands before the Sun's disc.
@@ -33,7 +33,7 @@ pub struct Occultation {
 }
 
 impl Flight {
-    /// How the spacecraft stands at these times by its own guidance, followed ideally on the orbit under the centre's gravity alone;
+    /// Shows how the spacecraft stands at these times by its own guidance, followed ideally on the orbit under the centre's gravity alone;
     /// nothing where something else gives the attitude.
     pub fn survey(
         &self,
@@ -106,7 +106,7 @@ impl Flight {
     }
 }
 
-/// What a body there, seen from the spacecraft, with a name and a radius in m hides of the Sun's disc.
+/// Returns what a body there, seen from the spacecraft, with a name and a radius in m hides of the Sun's disc.
 fn hidden(
     geometry: &Geometry,
     to_body_m: &Vector3<f64>,
