@@ -198,7 +198,7 @@ fn with_file(text: &str) -> (InProcess, Names) {
 #[test]
 fn stored_heat_allocates_nothing() {
     let text = include_str!("../../fmu-src/resources/examples/mercury-orbiter.toml");
-    let (mut instance, names) = with_file(text);
+    let (mut instance, names) = with_file(&text.replace("\"shadowing.enabled\" = true\n", ""));
     ok(instance.set_debug_logging(false, &[]));
     Scenario::Lit.prepare(&mut instance, &names);
     ok(instance.start(0.0, None));
@@ -228,7 +228,7 @@ fn stored_heat_allocates_nothing() {
 #[test]
 fn predictions_allocate_nothing() {
     let text = include_str!("../../fmu-src/resources/examples/mercury-orbiter.toml");
-    let (mut instance, names) = with_file(text);
+    let (mut instance, names) = with_file(&text.replace("\"shadowing.enabled\" = true\n", ""));
     ok(instance.set_debug_logging(false, &[]));
     Scenario::Lit.prepare(&mut instance, &names);
     let integers = ["orbit.center", "orbit.source", "orbit.dynamics", "encounter.body", "ephemeris.source"]

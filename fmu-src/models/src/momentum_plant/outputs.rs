@@ -98,8 +98,15 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
         .as_ref()
         .is_none_or(|shade| polynomial_valid(shade, configuration.sunshade, &instant.sun_body));
     values.set_boolean(variables.sunshade.polynomial_valid, valid);
+    write_panels(context, values, report);
+}
+
+/// Angles of the panels, and the light on their cells.
+fn write_panels(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
+    let Report { time_s, configuration, evaluation, .. } = report;
+    let (variables, time_s) = (context.variables, *time_s);
     let panels = context.setup.spacecraft.panels.iter().zip(&configuration.panels);
-    let sun = instant.sun_at(time_s);
+    let sun = evaluation.instant.sun_at(time_s);
     // The corridor was checked where the flight began.
     let corridor = variables.articulation.read(values).unwrap_or_default();
     for (index, (panel, (body, setting))) in variables.panel.iter().zip(panels).enumerate() {
@@ -107,7 +114,7 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
         let lit = angle_rad.filter(|_| sun.distance_m > 0.0);
         let suns = lit.map(|angle_rad| body.suns(angle_rad, &sun.direction_body, sun.distance_m));
         let continued_rad = |angle_rad| report.panel_turns.continued_rad(index, angle_rad, time_s);
-        let offsets_rad = setting.sun_offsets_rad(body, &sun).filter(|_| sun.distance_m > 0.0);
+        let offsets_rad = lit.map(|angle_rad| setting.sun_offsets_rad(body, &sun, angle_rad));
         values.set_real(panel.sun_offset_actual, offsets_rad.map_or(0.0, |[_, actual_rad]| actual_rad));
         values.set_boolean(panel.sun_offset_reached, offsets_rad.is_some_and(is_sun_offset_reached));
         values.set_real(panel.angle_actual, angle_rad.map_or(0.0, continued_rad));

@@ -195,6 +195,9 @@ fn show(
     propulsion::warn_unserved(context, &report, &mut warned.thrusters);
     guidance::warn_degenerate(context, &report, &mut warned.degenerate);
     outputs::write(context, values, &report, reading.is_reconfigured);
-    warned.watch.see(flight, &context.setup.spacecraft, time_s, |text| context.log.warning(text));
+    let is_reached =
+        |k: usize| context.variables.panel.get(k).is_none_or(|it| values.boolean(it.sun_offset_reached));
+    let spacecraft = &context.setup.spacecraft;
+    warned.watch.see((flight, time_s), spacecraft, is_reached, |text| context.log.warning(text));
     outputs::write_faces(context, values, flight, (given.prepared, time_s))
 }

@@ -29,7 +29,7 @@ const JULIAN_DATES: [f64; 2] = [2.4e6, 2.5e6];
 pub struct WheelSettings {
     /// Greatest momentum, in N m s.
     pub capacity_n_m_s: f64,
-    /// Of the rotor about its axis, in kg m2.
+    /// Inertia of the rotor about its axis, in kg m2.
     pub inertia_kg_m2: f64,
     /// Its axis in the body frame, of any length.
     pub axis_body: Vector3<f64>,
@@ -38,13 +38,13 @@ pub struct WheelSettings {
 /// Settings of a flight where it begins.
 #[derive(Clone, Copy, Debug)]
 pub struct FlightSettings<'a> {
-    /// What its file comes to.
+    /// Figures of the file.
     pub figures: &'a Figures,
-    /// What the flight needs beside it.
+    /// Configuration of the flight.
     pub configuration: &'a Configuration,
     /// Epoch of the start, in s past J2000 TDB.
     pub epoch_s: f64,
-    /// Its wheels.
+    /// Wheels as they are set.
     pub wheels: &'a [WheelSettings],
     /// Angles that are set, by name, in rad.
     pub angles_rad: &'a [(&'static str, f64)],

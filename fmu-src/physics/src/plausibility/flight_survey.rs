@@ -14,27 +14,27 @@ const NEAR_AXIS_RAD: f64 = 10.0 * core::f64::consts::PI / 180.0;
 /// A part of the time that is little contact.
 const LITTLE_CONTACT: f64 = 0.1;
 /// Times that are looked at.
-const SAMPLES: u32 = 192;
+const SAMPLES: u32 = 96;
 /// Longest span that is looked at, in s, and the one of an orbit without a period.
 const SPANS_S: [f64; 2] = [10.0 * DAY_S, DAY_S];
 /// A panel whose axis is this near to Z cannot be turned across the Sun by a turn about Z, in rad.
 const ALONG_Z_RAD: f64 = 5.0 * core::f64::consts::PI / 180.0;
 
-/// What was seen along an orbit.
+/// Counts of what was seen along an orbit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FlightSurvey {
     /// Times that were looked at.
     count: u32,
-    /// Of these, by panel, those with the Sun near its axis.
+    /// Times, by panel, with the Sun near its axis.
     near_axis: Vec<u32>,
-    /// Those at which an antenna sees the Earth.
+    /// Times at which an antenna sees the Earth.
     contact: u32,
     /// Whether there is a planet.
     has_planet: bool,
 }
 
 impl FlightSurvey {
-    /// Of a flight from `start_s` over the orbits that bring all its windows.
+    /// Survey of a flight from `start_s` over the orbits that bring all its windows.
     pub fn of(flight: &Flight, given: StepContext<'_>, spacecraft: &Spacecraft, start_s: f64) -> Self {
         let mut survey = Self { near_axis: vec![0; spacecraft.panels.len()], ..Self::default() };
         let Some(configuration) = flight.configuration() else { return survey };

@@ -1,4 +1,4 @@
-//! What a flight shows that its settings leave out, each told once: forces on an orbit in closed form, bodies before the Sun, panels
+//! Warnings of a flight under way, each told once: forces on an orbit in closed form, bodies before the Sun, panels
 //! that do not come to where they are to stand.
 
 use nalgebra::Vector3;
@@ -19,7 +19,7 @@ const ROUNDING_RAD: f64 = 1e-6;
 /// Panels whose warnings are remembered, one bit each.
 const PANELS: usize = 64;
 
-/// What was told already.
+/// Warnings that were told already.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FlightWatch {
     force: bool,
@@ -35,12 +35,13 @@ pub fn is_sun_offset_reached([meant_rad, actual_rad]: [f64; 2]) -> bool {
 }
 
 impl FlightWatch {
-    /// What a flight that was reported at `time_s` shows for the first time.
+    /// Tells what a flight that was reported at `time_s` shows for the first time; `is_reached` tells whether a panel stands where it is to
+    /// stand.
     pub fn see(
         &mut self,
-        flight: &mut Flight,
+        (flight, time_s): (&mut Flight, f64),
         spacecraft: &Spacecraft,
-        time_s: f64,
+        is_reached: impl Fn(usize) -> bool,
         mut tell: impl FnMut(&str),
     ) {
         let Some((configuration, evaluation)) = flight.configuration().zip(flight.evaluation()) else {
@@ -57,10 +58,11 @@ impl FlightWatch {
         let panels = spacecraft.panels.iter().zip(&configuration.panels).take(PANELS);
         for (k, (panel, setting)) in panels.enumerate() {
             let bit = 1_u64 << k;
-            if self.panels & bit != 0 || !setting.is_by_sun() {
+            if self.panels & bit != 0 || is_reached(k) {
                 continue;
             }
-            let Some([meant_rad, actual_rad]) = setting.sun_offsets_rad(panel, &sun) else { continue };
+            let Some(angle_rad) = setting.angle_rad(panel, &sun) else { continue };
+            let [meant_rad, actual_rad] = setting.sun_offsets_rad(panel, &sun, angle_rad);
             if (meant_rad - actual_rad).abs() > OFF_RAD {
                 self.panels |= bit;
                 let [meant_deg, actual_deg] =

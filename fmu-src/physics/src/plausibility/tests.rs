@@ -100,6 +100,8 @@ fn shipped_spacecraft_look_right() {
         include_str!("../../../resources/examples/mercury-orbiter.toml"),
         include_str!("../../../resources/examples/flexible-craft.toml"),
         include_str!("../../../resources/examples/sunshield-telescope.toml"),
+        include_str!("../../../resources/examples/cubesat-12u.toml"),
+        include_str!("../../../resources/examples/leo-500kg.toml"),
     ] {
         assert_eq!(judged(text), [""; 0], "{}", text.lines().next().unwrap());
     }

@@ -1,4 +1,4 @@
-//! What is hardly meant of file, settings and flight, for the log; and the default of the orbit's dynamics.
+//! Warnings of file, settings and flight for the log, and the default of the orbit's dynamics.
 
 use fmi_export::{SetupValue, StartValue, Values};
 use nalgebra::Vector3;

@@ -3,8 +3,9 @@
 use nalgebra::Vector3;
 
 use super::{Flight, FlightSetup, StepContext};
+use crate::attitude::angle_between_rad;
 use crate::bodies::Body;
-use crate::constants::RADIUS_MOON_M;
+use crate::constants::{RADIUS_MOON_M, RADIUS_SUN_M};
 use crate::environment::eclipse::{Shadow, ShadowModel};
 use crate::environment::orbit::BodyEphemeris;
 use crate::plant::motion::command_slews::CommandSlews;
@@ -20,6 +21,9 @@ const MOON_RATE_RAD_S: f64 = 3.3e-6;
 /// Perigee of the Moon, below all of them, in m.
 const MOON_NEAREST_M: f64 = 3.5e8;
 
+/// Least share of the disc that is told of: planets far away hide less.
+const LEAST_SHARE: f64 = 1e-3;
+
 /// A body that stands before the Sun's disc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Occultation {
@@ -30,7 +34,7 @@ pub struct Occultation {
 }
 
 impl Flight {
-    /// How the spacecraft stands at these times by its own guidance, followed ideally on the orbit under the centre's gravity alone;
+    /// Shows how the spacecraft stands at these times by its own guidance, followed ideally on the orbit under the centre's gravity alone;
     /// nothing where something else gives the attitude.
     pub fn survey(
         &self,
@@ -73,7 +77,9 @@ impl Flight {
         let (configuration, ephemeris) = (&context.configuration, &mut context.ephemeris);
         let planet = configuration.planet();
         let known = |body: Body| Some(body) != planet && body != configuration.center;
-        let earth = known(Body::Earth).then(|| {
+        // An Earth that no input placed stands in the centre.
+        let is_placed = geometry.earth_from_center().position_m != Vector3::zeros();
+        let earth = (is_placed && known(Body::Earth)).then(|| {
             let data = Body::Earth.data();
             hidden(geometry, &geometry.to_earth.position_m, (data.name, data.radius_m))
         });
@@ -85,7 +91,7 @@ impl Flight {
             let away_m = geometry.spacecraft.position_m.norm();
             // By which the spacecraft's place moves Moon and Sun against one another, both discs included.
             let margin_rad = (away_m / MOON_NEAREST_M).min(1.0) * core::f64::consts::FRAC_PI_2 + 0.02;
-            let apart_rad = moon_m.angle(&sun_m);
+            let apart_rad = angle_between_rad(&moon_m, &sun_m);
             *quiet_until_s = Some(time_s + (apart_rad - margin_rad).max(0.0) / MOON_RATE_RAD_S);
             let found =
                 hidden(geometry, &(moon_m - geometry.spacecraft.position_m), ("the Moon", RADIUS_MOON_M));
@@ -103,14 +109,20 @@ impl Flight {
     }
 }
 
-/// What a body there, seen from the spacecraft, with a name and a radius in m hides of the Sun's disc.
+/// Returns what a body there, seen from the spacecraft, with a name and a radius in m hides of the Sun's disc.
 fn hidden(
     geometry: &Geometry,
     to_body_m: &Vector3<f64>,
     (name, radius_m): (&'static str, f64),
 ) -> Option<Occultation> {
+    let to_sun_m = &geometry.to_sun.position_m;
+    let limbs_m2 = radius_m * to_sun_m.norm() + RADIUS_SUN_M * to_body_m.norm();
+    // Discs whose centres are farther apart than both radii together, by their sines.
+    if to_body_m.dot(to_sun_m) <= 0.0 || to_body_m.cross(to_sun_m).norm() > limbs_m2 {
+        return None;
+    }
     let shadow = Shadow::new(ShadowModel::DiscOverlap, radius_m).ok()?;
-    let from_body_m = [-to_body_m, geometry.to_sun.position_m - to_body_m];
+    let from_body_m = [-to_body_m, to_sun_m - to_body_m];
     let (lit, _) = shadow.fraction_and_gaps(&from_body_m[0], &from_body_m[1]);
-    (lit < 1.0).then_some(Occultation { name, share: 1.0 - lit })
+    (1.0 - lit > LEAST_SHARE).then_some(Occultation { name, share: 1.0 - lit })
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
+use crate::attitude::angle_between_rad;
 use crate::guidance::timeline::{TimelinePanels, begun, simulation_time_s};
 use crate::math::{self, wrapped_rad};
 use crate::numerics::scalar::{Dual64, Scalar, sin_cos};
@@ -152,16 +153,14 @@ impl PanelSetting {
         })
     }
 
-    /// Angle from the Sun at which the cell normal is to stand, and at which it stands, in rad, 0 to pi; of a panel that is turned by an
-    /// angle of its own both are that at which it stands. `None` when left out.
-    pub fn sun_offsets_rad(&self, panel: &Panel, sun: &SunAt) -> Option<[f64; 2]> {
-        let normal = self.normal_body(panel, sun)?;
-        let actual_rad =
-            math::atan2(normal.cross(&sun.direction_body).norm(), normal.dot(&sun.direction_body));
-        Some(match self.commanded(sun)? {
-            Commanded::Angle(_) => [actual_rad; 2],
-            Commanded::SunOffset { offset_rad, .. } => [wrapped_rad(offset_rad).abs(), actual_rad],
-        })
+    /// Angle from the Sun at which the cell normal is to stand, and at which it stands at an angle about its axis, in rad, 0 to pi; of a
+    /// panel that is turned by an angle of its own, or left out, both are that at which it stands.
+    pub fn sun_offsets_rad(&self, panel: &Panel, sun: &SunAt, angle_rad: f64) -> [f64; 2] {
+        let actual_rad = angle_between_rad(&panel.normal_body(angle_rad), &sun.direction_body);
+        match self.commanded(sun) {
+            Some(Commanded::SunOffset { offset_rad, .. }) => [wrapped_rad(offset_rad).abs(), actual_rad],
+            Some(Commanded::Angle(_)) | None => [actual_rad; 2],
+        }
     }
 
     /// Unit normal of the cell side, body frame, with the Sun there; `None` when left out.
