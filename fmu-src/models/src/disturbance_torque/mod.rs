@@ -45,7 +45,7 @@ pub struct DisturbanceState {
 
 impl Model for DisturbanceTorque {
     const NAME: &'static str = "DisturbanceTorque";
-    const STATE_VERSION: u32 = 4;
+    const STATE_VERSION: u32 = 5;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger-thermal.toml");
     const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/DisturbanceTorque.csv");

@@ -25,7 +25,7 @@ use variables::PlantVariables;
 
 impl Model for MomentumPlant {
     const NAME: &'static str = "MomentumPlant";
-    const STATE_VERSION: u32 = 20;
+    const STATE_VERSION: u32 = 21;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const SCHEDULE_FILES: &'static [&'static str] = &[TIMELINE_FILE, EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");

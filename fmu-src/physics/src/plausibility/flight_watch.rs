@@ -6,14 +6,16 @@ use serde::{Deserialize, Serialize};
 
 use crate::environment::time;
 use crate::loads::Effect;
+use crate::math;
 use crate::plant::{Evaluation, Flight, Motion};
 use crate::spacecraft::Spacecraft;
 use crate::toml::dates;
 
 /// Greatest force over gravity of a spacecraft that a closed orbit describes.
 const FORCE_OVER_GRAVITY: f64 = 1e-4;
-/// Panels that stand this much off the angle that they are to have are told of, in rad.
-const OFF_RAD: f64 = core::f64::consts::PI / 180.0;
+/// Difference of light, as a share of the Sun's at normal incidence, from which a panel off its angle is told of: a comsat's
+/// arrays stay below it at the solstice.
+const LIGHT_OFF: f64 = 0.1;
 /// Rounding of an angle, in rad.
 const ROUNDING_RAD: f64 = 1e-6;
 /// Panels whose warnings are remembered, one bit each.
@@ -63,7 +65,7 @@ impl FlightWatch {
             }
             let Some(angle_rad) = setting.angle_rad(panel, &sun) else { continue };
             let [meant_rad, actual_rad] = setting.sun_offsets_rad(panel, &sun, angle_rad);
-            if (meant_rad - actual_rad).abs() > OFF_RAD {
+            if (math::cos(meant_rad) - math::cos(actual_rad)).abs() > LIGHT_OFF {
                 self.panels |= bit;
                 let [meant_deg, actual_deg] =
                     [meant_rad, actual_rad].map(|it| format!("{:.1}", it.to_degrees()));

@@ -89,8 +89,10 @@ pub(super) fn assumed(sized: &SizedSpacecraft, found: &Found) -> String {
     } else if found.unloadings.longest.is_some_and(|it| it.energy_j.is_none()) {
         row("energy of dumps", "unknown".to_owned(), "[[thrusters]] power_w");
     }
-    for (name, key, _) in
-        UNSAID.into_iter().filter(|(name, _, other)| !sized.says(name) && !sized.says(other))
+    let is_pointed = |name: &str| name == "guided.scienceRule" && spacecraft.pointing.is_some();
+    for (name, key, _) in UNSAID
+        .into_iter()
+        .filter(|(name, _, other)| !sized.says(name) && !sized.says(other) && !is_pointed(name))
     {
         row(name, value(sized, name), key);
     }
