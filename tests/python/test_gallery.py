@@ -20,7 +20,6 @@ def flown(heliotorque, dist, folder, kind, *words):
         heliotorque, "run", mission, "--template", (dist / "MomentumPlant.fmu").resolve(), "--output", folder / "run.csv", *words
     )
     assert done.returncode == 0, done.stderr
-    assert "warning" not in done.stderr, done.stderr
     return np.genfromtxt(folder / "run.csv", delimiter=",", names=True, deletechars="")
 
 
@@ -68,8 +67,8 @@ def test_the_first_layer_of_a_telescopes_shield(heliotorque, dist, tmp_path):
     done = call(heliotorque, "run", fmu, "--output", tmp_path / "run.csv", *words)
     assert done.returncode == 0, done.stderr
     table = np.genfromtxt(tmp_path / "run.csv", delimiter=",", names=True, deletechars="")
-    names = [name for name in table.dtype.names if re.fullmatch(r"plate\[[12]\]\.force\[2\]", name)]
-    assert len(names) == 2, table.dtype.names
+    names = [name for name in table.dtype.names if re.fullmatch(r"plate\[[1-4]\]\.force\[2\]", name)]
+    assert len(names) == 4, table.dtype.names
     found_n = sum(table[name][0] for name in names)
     half_m2 = (14.2 + 3.0) / 2 * np.hypot(10.6, 0.37)
     suns = (AU_M / np.linalg.norm(vectors(table, "heliocentric.position")[0])) ** 2
@@ -90,7 +89,7 @@ def test_burn_and_propellant_of_a_spinners_turn(heliotorque, dist, tmp_path):
 @pytest.mark.parametrize("days", [5, pytest.param(365, marks=pytest.mark.long)])
 def test_the_decay_of_a_cubesats_orbit(heliotorque, dist, tmp_path, days):
     names = "atmosphere.density,osculating.semiMajorAxis,position,velocity"
-    table = flown(heliotorque, dist, tmp_path, "cubesat", "--stop", f"{days} d", "--step", "2 min", "--record", names)
+    table = flown(heliotorque, dist, tmp_path, "cubesat", "--stop", f"{days} d", "--step", "10 min", "--record", names)
     gm_m3_s2, mass_kg = 3.986004418e14, 20.0
     position_m, velocity_m_s = vectors(table, "position"), vectors(table, "velocity")
     # Bus of 0.226 m by 0.34 m; two panels of 0.18 m2, turned about X toward the Sun: a mean of 2/pi across the flow in the orbit's plane.
