@@ -3,9 +3,9 @@
 
 mod dependencies;
 mod inputs;
-mod materials;
 mod outputs;
 mod setup;
+mod state;
 mod variables;
 
 use std::sync::Arc;
@@ -20,9 +20,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::common::start_values::of_spacecraft;
 use inputs::Prepared;
-use materials::Materials;
 use setup::Plan;
 pub use setup::{DisturbanceSetup, DisturbanceTorque};
+use state::Materials;
 use variables::DisturbanceVariables;
 
 /// What the last step was computed from; the rest is cache.

@@ -33,7 +33,7 @@ fn each_setting_that_is_hardly_meant_raises_its_warning_alone() {
     // The Sun in the plane of the orbit.
     let along_z = with(&along_z, "\"337.5 deg\"", "\"0 deg\"");
     let along_z = with(&along_z, "sun_offset_deg = 0.0", "sun_offset_deg = 90.0");
-    let off_x = with(LEO, AXIS, "axis = [0.9962, 0.0, 0.0872]\nzero_normal = [0.0, -1.0, 0.0]");
+    let off_x = with(LEO, AXIS, "axis = [0.8660, 0.0, 0.5]\nzero_normal = [0.0, -1.0, 0.0]");
     let high = with(&with(LEO, CLOSED, ""), "6878.137 km", "20000 km");
     let dish = with(
         LEO,

@@ -14,6 +14,7 @@ mod summary;
 mod svg;
 mod svg_path;
 mod time_axis;
+mod visit;
 mod visit_table;
 
 use std::{
@@ -38,6 +39,7 @@ pub(crate) use standing::{OutputKind, check as check_standing};
 pub(crate) use svg::{chart, is_lit_fraction, leave_out, panel, shade_eclipses};
 pub(crate) use svg_path::{check_path as check_svg_path, is_svg_path};
 pub(crate) use time_axis::TimeAxis;
+pub(crate) use visit::Visit;
 pub(crate) use visit_table::{VisitTable, open_visits};
 
 /// A picture of a run.

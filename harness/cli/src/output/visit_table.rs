@@ -7,8 +7,9 @@ use files::Destination;
 use super::{
     file::OutputFile,
     standing::{self, OutputKind},
+    visit::Visit,
 };
-use crate::{epoch, run::Visit};
+use crate::epoch;
 
 /// Name of what is flown where no command of the timeline is in force.
 const NO_COMMAND: &str = "-";

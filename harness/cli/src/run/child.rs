@@ -12,18 +12,13 @@ use std::{
 use clap::Args;
 use loader::{Collector, Ended, Error, LogMessage, Recording, Row, Rows, Status, Watcher};
 
-use super::{
-    options::Run,
-    settings::Settings,
-    simulated::Simulated,
-    subject::Subject,
-    visits::{Visit, Visits},
-};
+use super::{options::Run, settings::Settings, simulated::Simulated, subject::Subject, visits::Visits};
 use crate::{
     child::{
         Bounds, ChildProcess, EndReason, Link, NOT_REQUESTED, Payload, Shown, large, path_option, push_text,
     },
     outcome::Outcome,
+    output::Visit,
 };
 
 /// `heliotorque run-in-child`.

@@ -33,7 +33,6 @@ pub(crate) use options::Run;
 pub(crate) use settings::Settings;
 pub(crate) use simulated::{Assemble, Simulated, assemble_into};
 pub(crate) use subject::Subject;
-pub(crate) use visits::Visit;
 
 /// Warnings of an FMU that are shown without `--log`.
 const MOST_WARNINGS: usize = 20;

@@ -194,6 +194,9 @@ fn the_missions_of_the_examples_are_simulated() {
     missions.sort();
     let expected = [
         "ace",
+        "asteroid-orbiter",
+        "comsat",
+        "cubesat-12u",
         "mercury-orbiter",
         "messenger-cruise",
         "messenger-flyby1",

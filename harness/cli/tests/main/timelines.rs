@@ -218,7 +218,7 @@ fn a_plant_takes_a_timeline_without_burns_and_modes() {
     );
     let set = format!("{text}[set]\n\"panel[1].control\" = \"timeline\"\n");
     fs::write(&mission, set).unwrap();
-    assert!(!run(&check, 0).contains("warning"));
+    assert!(!run(&check, 0).contains("without effect"));
     run(&["run", shown(&mission), "--template", shown(&plain), "--quiet"], 0);
     let rows = fs::read_to_string(scratch.path().join("timed.csv")).unwrap();
     let row = |number: usize| {

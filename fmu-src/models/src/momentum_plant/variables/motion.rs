@@ -298,7 +298,7 @@ pub struct TimelineVariables {
     /// Row of the `[[command]]` in force, from 1; 0 where none is.
     #[output]
     pub command: Integer,
-    /// When it ends, or where none is in force the next one begins; -1 where none does.
+    /// When the timeline's command ends, or where none is in force the next one begins; -1 where none does.
     #[output(discrete, unit = "s", display = "d")]
     pub until: Real,
 }
