@@ -24,7 +24,7 @@ BLESS = "HELIOTORQUE_BLESS" in os.environ
 # Pictures that commands of a page write and the guide shows. A drawing is the same everywhere; a simulation's last digits are not.
 PICTURES = {
     "venus.svg": "venus.svg", "ten-days.svg": "ten-days.svg", "year.svg": "year.svg", "turn/burn.svg": "turn.svg",
-    "torques.svg": "torques.svg", "comsat.svg": "comsat.svg", "cubesat.svg": "cubesat.svg", "asteroid-orbiter.svg": "asteroid.svg",
+    "torques.svg": "torques.svg", "comsat.svg": "comsat.svg", "cubesat-12u.svg": "cubesat.svg", "asteroid-orbiter.svg": "asteroid.svg",
     "sunshield-telescope.svg": "telescope.svg", "spinner.svg": "spinner.svg",
 }
 DRAWINGS = ("venus.svg",)

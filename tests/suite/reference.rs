@@ -125,6 +125,7 @@ fn the_orbiter_runs_10_days_with_every_effect_as_recorded() {
         "--set=thermal.enabled=true",
         "--set=shadowing.enabled=true",
         "--set=orbit.dynamics=disturbed",
+        "--set=dump.reinitTo=opposite",
         "--record=momentum.body,momentum.inertial,deltaV,position,velocity,attitude.q,sun.litFraction",
         "--record=torque.solar,torque.albedo,torque.infrared,torque.thermal,torque.gravityGradient",
         "--record=force.solar,force.albedo,force.infrared,force.thermal",
