@@ -27,6 +27,9 @@ fn with(text: &str, part: &str, by: &str) -> String {
 const AXIS: &str = "axis = [1.0, 0.0, 0.0]\nzero_normal = [0.0, -1.0, 0.0]";
 const CLOSED: &str = "\"orbit.dynamics\" = \"disturbed\"\n";
 
+/// Names of variables and what they are set to.
+type Settings = &'static [(&'static str, f64)];
+
 #[test]
 fn each_setting_that_is_hardly_meant_raises_its_warning_alone() {
     let along_z = with(LEO, AXIS, "axis = [0.0, 0.0, 1.0]\nzero_normal = [0.0, -1.0, 0.0]");
@@ -64,7 +67,7 @@ fn each_setting_that_is_hardly_meant_raises_its_warning_alone() {
         .map(|y| plate(&format!("screen {y}"), "[0, -1, 0]", y, [-2.5, 2.5], 2.5, "rear_optics = \"mli\"\n"))
         .concat();
     let screened = with(LEO, "[start]", &format!("{screens}[start]"));
-    let rows: &[(&str, &[(&str, f64)], f64, &str)] = &[
+    let rows: &[(&str, Settings, f64, &str)] = &[
         (LEO, &[("orbit.ascendingNode", 97.4)], 0.0, "orbit.ascendingNode is 97.4 rad, more than a turn"),
         (
             LEO,

@@ -43,9 +43,9 @@ pub use articulation::Articulation;
 pub use assembly::{Spacecraft, SunKeepIn};
 pub use body::{BodyMotion, BodyOrbit, CustomBody, InertialFrame};
 pub use downlinks::{DownlinkWindows, TimeAfterPeriapsis};
-#[cfg(feature = "schema")]
 pub(crate) use file::description::{StarDescription, TargetedAxisDescription};
 pub(crate) use file::pointing::aligned;
+#[cfg(feature = "schema")]
 pub use file::schema;
 pub use gas_surface::GasSurface;
 pub use hot_pole::HotPoleZone;

@@ -39,10 +39,13 @@ pub struct OsculatingVariables {
     pub apoapsis_height: Real,
 }
 
+/// Number of an orbit that an output shows.
+type OfOrbit = fn(&OsculatingOrbit) -> f64;
+
 impl OsculatingVariables {
     /// Writes an orbit, or 0 where there is none.
     pub fn write(&self, values: &mut Values, orbit: Option<&OsculatingOrbit>) {
-        let outputs: [(Real, fn(&OsculatingOrbit) -> f64); 10] = [
+        let outputs: [(Real, OfOrbit); 10] = [
             (self.semi_major_axis, |it| it.elements.semi_major_axis_m),
             (self.eccentricity, |it| it.elements.eccentricity),
             (self.inclination, |it| it.elements.inclination_rad),
