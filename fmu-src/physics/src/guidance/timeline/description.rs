@@ -14,7 +14,7 @@ use crate::guidance::pointing::command::{
     AimpointOption, AzimuthReference, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame,
     Scenario,
 };
-use crate::spacecraft::{AttitudeName, StarDescription, TargetedAxisDescription};
+use crate::spacecraft::{StarDescription, TargetedAxisDescription};
 use crate::toml::tables;
 
 /// An angle for all, or one each.
@@ -45,7 +45,7 @@ pub(crate) enum DumpDescription {
 #[cfg_attr(feature = "schema", schemars(untagged))]
 pub(crate) enum AttitudeDescription {
     /// By its name.
-    Name(#[cfg_attr(feature = "schema", schemars(with = "AttitudeName"))] String),
+    Name(#[cfg_attr(feature = "schema", schemars(with = "crate::spacecraft::AttitudeName"))] String),
     /// By a quaternion from EME2000 to the body, scalar last.
     Quaternion(#[cfg_attr(feature = "schema", schemars(with = "[f64; 4]"))] Vec<f64>),
     /// By two axes and their targets.
