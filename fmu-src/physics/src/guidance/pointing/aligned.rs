@@ -12,25 +12,23 @@ use crate::guidance::geometry::lighting::SubsolarMethod;
 use crate::guidance::geometry::moving::fixed;
 use crate::spacecraft::{AlignedAxes, PointingTarget};
 
-impl PointingCommand {
-    /// The command of the scenario generic that aligns one axis and constrains the other.
-    pub fn aligned(axes: &AlignedAxes) -> Self {
-        Self {
-            scenario: Some(Scenario::Generic),
-            boresight: BoresightCommand {
-                option: Some(BoresightOption::Vector),
-                vector: axes.align.axis_body,
-                ..BoresightCommand::default()
-            },
-            aimpoint: aimpoint_at(axes.align.target),
-            body_roll: BodyRollCommand {
-                option: Some(BodyRollOption::Vector),
-                vector: axes.constrain.axis_body,
-                ..BodyRollCommand::default()
-            },
-            external_roll: roll_toward(axes.constrain.target),
-            ..Self::default()
-        }
+/// Returns the command of the scenario generic that aligns one axis and constrains the other.
+pub fn aligned_command(axes: &AlignedAxes) -> PointingCommand {
+    PointingCommand {
+        scenario: Some(Scenario::Generic),
+        boresight: BoresightCommand {
+            option: Some(BoresightOption::Vector),
+            vector: axes.align.axis_body,
+            ..BoresightCommand::default()
+        },
+        aimpoint: aimpoint_at(axes.align.target),
+        body_roll: BodyRollCommand {
+            option: Some(BodyRollOption::Vector),
+            vector: axes.constrain.axis_body,
+            ..BodyRollCommand::default()
+        },
+        external_roll: roll_toward(axes.constrain.target),
+        ..PointingCommand::default()
     }
 }
 

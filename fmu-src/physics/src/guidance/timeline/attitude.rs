@@ -1,117 +1,97 @@
 //! A command's attitude instead of a scenario, as a command of the scenario generic; and its name.
 
-use super::commands::{Commands, named};
 use super::description::{AttitudeDescription, AxesDescription, CommandDescription};
-use super::reads::{TABLES, keys};
 use crate::enumeration::Enumerated;
-use crate::guidance::pointing::command::{PointingCommand, Scenario};
-use crate::spacecraft::{AttitudeName, AttitudePart, NamedAttitude, aligned};
-use crate::toml::{KeyPath, nearest};
+use crate::guidance::pointing::aligned::aligned_command;
+use crate::guidance::pointing::command::PointingCommand;
+use crate::spacecraft::{AttitudeName, AttitudePart, NamedAttitude, Panel, aligned};
+use crate::toml::{Checker, KeyPath, nearest};
 
 /// Attitudes that have a name.
 const NAMES: [AttitudeName; 3] = [AttitudeName::Lvlh, AttitudeName::YawSteering, AttitudeName::SunPointing];
 
-impl Commands<'_, '_> {
-    /// The command of an attitude, without its scan.
-    pub(super) fn by_attitude(
-        &mut self,
-        at: &KeyPath,
-        attitude: &AttitudeDescription,
-        given: &CommandDescription,
-    ) -> PointingCommand {
-        let place = at.key("attitude");
-        if given.scenario.is_some() {
-            self.check.report(&place, "it beside `scenario`", "one of both");
-        }
-        "the attitude".clone_into(&mut self.scenario);
-        self.check_mode(&place, Scenario::Generic, given.mode);
-        self.check_scenario_keys(at, TABLES, keys(&[], &["scan"]));
-        let Some(attitude) = self.attitude(&place, attitude) else { return PointingCommand::default() };
-        match attitude.axes(&self.spacecraft.panels) {
-            Ok(axes) => PointingCommand::aligned(&axes),
-            Err(refusal) => {
-                let place = match refusal.part {
-                    AttitudePart::Name | AttitudePart::Quaternion => place,
-                    AttitudePart::AlignAxis => place.key("align").key("axis"),
-                    AttitudePart::ConstrainAxis => place.key("constrain").key("axis"),
-                    AttitudePart::ConstrainTarget => place.key("constrain").key("to"),
-                };
-                self.check.report(&place, refusal.found, refusal.allowed);
-                PointingCommand::default()
-            }
+/// Reads the command of an attitude at `place`, without its scan, for a spacecraft with these panels.
+pub(super) fn by_attitude(
+    check: &mut Checker<'_>,
+    place: KeyPath,
+    attitude: &AttitudeDescription,
+    panels: &[Panel],
+) -> PointingCommand {
+    let Some(attitude) = read(check, &place, attitude) else { return PointingCommand::default() };
+    match attitude.axes(panels) {
+        Ok(axes) => aligned_command(&axes),
+        Err(refusal) => {
+            let place = match refusal.part {
+                AttitudePart::Name | AttitudePart::Quaternion => place,
+                AttitudePart::AlignAxis => place.key("align").key("axis"),
+                AttitudePart::ConstrainAxis => place.key("constrain").key("axis"),
+                AttitudePart::ConstrainTarget => place.key("constrain").key("to"),
+            };
+            check.report(&place, refusal.found, refusal.allowed);
+            PointingCommand::default()
         }
     }
+}
 
-    /// The attitude of a description.
-    fn attitude(&mut self, at: &KeyPath, given: &AttitudeDescription) -> Option<NamedAttitude> {
-        match given {
-            AttitudeDescription::Name(name) => {
-                let found = NAMES.into_iter().find(|known| known.name() == name);
-                if found.is_none() {
-                    let names = NAMES.map(Enumerated::name);
-                    let allowed =
-                        format!("{}, or a quaternion, or `align` and `constrain`", names.join(", "));
-                    let hint = nearest(name, &names)
-                        .map_or_else(String::new, |it| format!(" (did you mean `{it}`?)"));
-                    self.check.report(at, format_args!("the unknown word `{name}`{hint}"), allowed);
-                }
-                found.map(NamedAttitude::from)
+/// The attitude of a description.
+fn read(check: &mut Checker<'_>, at: &KeyPath, given: &AttitudeDescription) -> Option<NamedAttitude> {
+    match given {
+        AttitudeDescription::Name(name) => {
+            let found = NAMES.into_iter().find(|known| known.name() == name);
+            if found.is_none() {
+                let names = NAMES.map(Enumerated::name);
+                let allowed = format!("{}, or a quaternion, or `align` and `constrain`", names.join(", "));
+                let hint =
+                    nearest(name, &names).map_or_else(String::new, |it| format!(" (did you mean `{it}`?)"));
+                check.report(at, format_args!("the unknown word `{name}`{hint}"), allowed);
             }
-            AttitudeDescription::Quaternion(numbers) => {
-                let q = <[f64; 4]>::try_from(numbers.as_slice()).ok();
-                if q.is_none() {
-                    let found = format!("{} numbers", numbers.len());
-                    self.check.report(at, found, "four: a quaternion from EME2000 to the body, scalar last");
-                }
-                q.map(NamedAttitude::Inertial)
+            found.map(NamedAttitude::from)
+        }
+        AttitudeDescription::Quaternion(numbers) => {
+            let q = <[f64; 4]>::try_from(numbers.as_slice()).ok();
+            if q.is_none() {
+                let found = format!("{} numbers", numbers.len());
+                check.report(at, found, "four: a quaternion from EME2000 to the body, scalar last");
             }
-            AttitudeDescription::Axes(AxesDescription { align, constrain, star, unknown }) => {
-                for key in unknown {
-                    self.check.report(
-                        &at.key(key),
-                        format_args!("the unknown key `{key}`"),
-                        "align, constrain, star",
-                    );
-                }
-                if let (Some(align), Some(constrain)) = (align, constrain) {
-                    return aligned(&mut self.check, at, [align, constrain], star.as_ref());
-                }
-                let lacking = if align.is_none() { "align" } else { "constrain" };
-                self.check.report_lack(at, lacking, "both `align` and `constrain`");
-                None
+            q.map(NamedAttitude::Inertial)
+        }
+        AttitudeDescription::Axes(AxesDescription { align, constrain, star, unknown }) => {
+            for key in unknown {
+                check.report(&at.key(key), format_args!("the unknown key `{key}`"), "align, constrain, star");
             }
-            AttitudeDescription::Other => {
-                self.check.report(
-                    at,
-                    "no attitude",
-                    "a name, a quaternion, or a table with `align` and `constrain`",
-                );
-                None
+            if let (Some(align), Some(constrain)) = (align, constrain) {
+                return aligned(check, at, [align, constrain], star.as_ref());
             }
+            let lacking = if align.is_none() { "align" } else { "constrain" };
+            check.report_lack(at, lacking, "both `align` and `constrain`");
+            None
+        }
+        AttitudeDescription::Other => {
+            check.report(at, "no attitude", "a name, a quaternion, or a table with `align` and `constrain`");
+            None
         }
     }
+}
 
-    /// The name of a command: its own, or its scenario's or attitude's.
-    pub(super) fn name(&mut self, at: &KeyPath, given: &CommandDescription) -> String {
-        /// Longest name in a report.
-        const MOST: usize = 60;
-        match (&given.name, given.scenario) {
-            (Some(name), _) => {
-                if name.trim().is_empty() || name.chars().count() > MOST || name.chars().any(char::is_control)
-                {
-                    let allowed = format!("a text of 1 to {MOST} characters on one line");
-                    self.check.report(&at.key("name"), format_args!("{name:?}"), allowed);
-                }
-                name.clone()
+/// The name of a command: its own, or its scenario's or attitude's.
+pub(super) fn name(check: &mut Checker<'_>, at: &KeyPath, given: &CommandDescription) -> String {
+    /// Longest name in a report.
+    const MOST: usize = 60;
+    match (&given.name, given.scenario) {
+        (Some(name), _) => {
+            if name.trim().is_empty() || name.chars().count() > MOST || name.chars().any(char::is_control) {
+                let allowed = format!("a text of 1 to {MOST} characters on one line");
+                check.report(&at.key("name"), format_args!("{name:?}"), allowed);
             }
-            (None, Some(scenario)) => named("", scenario).trim_start().to_owned(),
-            (None, None) => match &given.attitude {
-                Some(AttitudeDescription::Name(name)) => name.clone(),
-                Some(AttitudeDescription::Quaternion(_)) => "inertial".to_owned(),
-                Some(AttitudeDescription::Axes(_) | AttitudeDescription::Other) => "aligned".to_owned(),
-                None => "guided".to_owned(),
-            },
+            name.clone()
         }
+        (None, Some(scenario)) => scenario.name().to_owned(),
+        (None, None) => match &given.attitude {
+            Some(AttitudeDescription::Name(name)) => name.clone(),
+            Some(AttitudeDescription::Quaternion(_)) => "inertial".to_owned(),
+            Some(AttitudeDescription::Axes(_) | AttitudeDescription::Other) => "aligned".to_owned(),
+            None => "guided".to_owned(),
+        },
     }
 }
 
@@ -132,7 +112,7 @@ mod tests {
             let text = format!("[[command]]\nat = 0\nattitude = {attitude}\n");
             Timeline::of_plant("t.toml", &text, &spacecraft).unwrap().entries()[0].command
         };
-        assert_eq!(command("\"lvlh\""), PointingCommand::aligned(&AlignedAxes::LVLH));
+        assert_eq!(command("\"lvlh\""), aligned_command(&AlignedAxes::LVLH));
         let toward = |axis_body, target| TargetedAxis { axis_body, target };
         let star = PointingTarget::Star {
             right_ascension_rad: 10_f64.to_radians(),
@@ -144,7 +124,7 @@ mod tests {
         };
         let written = "{ align = { axis = [0, 0, 2], to = \"star\" }, constrain = { axis = [0, -1, 0], to = \"sun\" }, \
                        star = { right_ascension_deg = 10, declination_deg = -20 } }";
-        assert_eq!(command(written), PointingCommand::aligned(&axes));
+        assert_eq!(command(written), aligned_command(&axes));
         // A quarter turn about Z: the body's X stands along Y of EME2000.
         let half = core::f64::consts::FRAC_1_SQRT_2;
         let held = command(&format!("[0, 0, {half}, {half}]"));

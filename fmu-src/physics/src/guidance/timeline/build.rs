@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::attitude::name;
 use super::burn::{Span, burn as burn_of};
 use super::commands::{Commands, Reader};
 use super::description::TimelineDescription;
@@ -70,7 +71,7 @@ impl Timeline {
         for (index, (description, [at_s, until_s])) in list.iter().zip(spans.iter().copied()).enumerate() {
             let at = place.item(index);
             let command = commands.pointing(&at, description);
-            names.push(commands.name(&at, description));
+            names.push(name(&mut commands.check, &at, description));
             let next_s = spans.iter().skip(index + 1).find_map(|[next_s, _]| *next_s);
             let end_s = until_s.or(next_s).unwrap_or(f64::INFINITY);
             let span = Span { clock, at_s: at_s.unwrap_or(f64::NAN), end_s };

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
+use super::attitude::by_attitude;
 use super::description::{
     AimpointDescription, BodyRollDescription, BoresightDescription, CommandDescription,
     ExternalRollDescription, KeepInDescription, LimbDescription,
@@ -67,7 +68,14 @@ impl<'d, 'i> Commands<'d, 'i> {
         let scenario_place = at.key("scenario");
         self.check_reader(at, given);
         if let Some(attitude) = &given.attitude {
-            return self.by_attitude(at, attitude, given);
+            let place = at.key("attitude");
+            if given.scenario.is_some() {
+                self.check.report(&place, "it beside `scenario`", "one of both");
+            }
+            "the attitude".clone_into(&mut self.scenario);
+            self.check_mode(&place, Scenario::Generic, given.mode);
+            self.check_scenario_keys(at, TABLES, keys(&[], &["scan"]));
+            return by_attitude(&mut self.check, place, attitude, &self.spacecraft.panels);
         }
         let Some(scenario) = given.scenario else {
             self.report_lack_of_scenario(at, given);

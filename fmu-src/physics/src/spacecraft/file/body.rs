@@ -21,7 +21,9 @@ pub(crate) fn body(part: &mut PartReader<'_, '_>, description: &BodyDescription)
     part.check.within(&place, rate_rad_s, -1.0, 1.0, "a rate from -1 to 1 rad/s");
     let (gm_m3_s2, radii_m) =
         (description.gravitational_parameter_m3_s2.0, description.radii_m.map(f64::from));
-    let density_kg_m3 = impossible_density_kg_m3(gm_m3_s2, radii_m).filter(|_| gm_m3_s2 > 0.0);
+    // Values out of their own ranges are reported for themselves.
+    let is_judged = gm_m3_s2 > 0.0 && radii_m.iter().all(|radius_m| (1.0..=1e9).contains(radius_m));
+    let density_kg_m3 = impossible_density_kg_m3(gm_m3_s2, radii_m).filter(|_| is_judged);
     if let Some(density_kg_m3) = density_kg_m3 {
         let found = format_args!("{gm_m3_s2:?}, with radii_m a mean density of {density_kg_m3:.3e} kg/m3");
         part.report(
