@@ -258,6 +258,26 @@ impl Flight {
         Ok(())
     }
 
+    /// Shows how the spacecraft stands at these times by its own guidance, followed ideally on the orbit under the centre's gravity
+    /// alone; nothing where something else gives the attitude.
+    pub fn survey(
+        &self,
+        given: StepContext<'_>,
+        times_s: impl IntoIterator<Item = f64>,
+        see: impl FnMut(&Configuration, f64, &Instant),
+    ) {
+        if let Some(setup) = self.setup.as_deref() {
+            survey::survey(&setup.context, given, times_s, see);
+        }
+    }
+
+    /// Returns the body before the Sun's disc at `time_s`, where the flight was reported, which its shadow does not know; before
+    /// `quiet_until_s` the Moon cannot come there.
+    pub fn occultation(&mut self, time_s: f64, quiet_until_s: &mut Option<f64>) -> Option<Occultation> {
+        let FlightSetup { context, evaluation, .. } = self.setup.as_deref_mut()?;
+        survey::occultation(context, &evaluation.as_ref()?.instant.geometry, time_s, quiet_until_s)
+    }
+
     /// The schedule is another one from `time_s` on: what it has before is over, a downlink of it is chosen anew, and the body stands
     /// in the command that it has then.
     pub fn reschedule(&mut self, time_s: f64) {

@@ -2,12 +2,13 @@
 
 use nalgebra::Vector3;
 
-use super::{Flight, FlightSetup, StepContext};
+use super::configured::StepContext;
 use crate::attitude::angle_between_rad;
 use crate::bodies::Body;
 use crate::constants::{RADIUS_MOON_M, RADIUS_SUN_M};
 use crate::environment::eclipse::{Shadow, ShadowModel};
 use crate::environment::orbit::BodyEphemeris;
+use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::motion::command_slews::CommandSlews;
 use crate::plant::motion::geometry::{Geometry, SimulationEphemeris, body};
 use crate::plant::motion::instant::Instant;
@@ -33,80 +34,79 @@ pub struct Occultation {
     pub share: f64,
 }
 
-impl Flight {
-    /// Shows how the spacecraft stands at these times by its own guidance, followed ideally on the orbit under the centre's gravity alone;
-    /// nothing where something else gives the attitude.
-    pub fn survey(
-        &self,
-        given: StepContext<'_>,
-        times_s: impl IntoIterator<Item = f64>,
-        mut see: impl FnMut(&Configuration, f64, &Instant),
-    ) {
-        let Some(FlightSetup { context, .. }) = self.setup.as_deref() else { return };
-        let Some(guided) = context.configuration.attitude.guided().copied() else { return };
-        let configuration = Configuration {
-            attitude: AttitudeSource::Guided(guided),
-            motion: match context.configuration.motion {
-                held @ Motion::Held { .. } => held,
-                _ => Motion::TwoBody,
-            },
-            ..context.configuration.clone()
-        };
-        let mut kinematics = Kinematics {
-            configuration: &configuration,
-            trajectory: &mut Trajectory::default(),
-            // Commands are taken at once.
-            command_slews: &mut CommandSlews::beginning(f64::INFINITY),
-            ephemeris: &mut context.ephemeris.clone(),
-            default_downlink: given.prepared.default_downlink,
-            timeline: given.prepared.timeline,
-            work: &mut Work::new(u32::MAX, 0),
-            mass_at_zero: context.mass_at_zero,
-        };
-        for time_s in times_s {
-            let instant = kinematics.instant(time_s);
-            see(&configuration, time_s, &instant);
-        }
+/// Shows how the spacecraft stands at these times by its own guidance, followed ideally on the orbit under the centre's gravity alone;
+/// nothing where something else gives the attitude.
+pub(super) fn survey(
+    context: &SimulationContext,
+    given: StepContext<'_>,
+    times_s: impl IntoIterator<Item = f64>,
+    mut see: impl FnMut(&Configuration, f64, &Instant),
+) {
+    let Some(guided) = context.configuration.attitude.guided().copied() else { return };
+    let configuration = Configuration {
+        attitude: AttitudeSource::Guided(guided),
+        motion: match context.configuration.motion {
+            held @ Motion::Held { .. } => held,
+            _ => Motion::TwoBody,
+        },
+        ..context.configuration.clone()
+    };
+    let mut kinematics = Kinematics {
+        configuration: &configuration,
+        trajectory: &mut Trajectory::default(),
+        // Commands are taken at once.
+        command_slews: &mut CommandSlews::beginning(f64::INFINITY),
+        ephemeris: &mut context.ephemeris.clone(),
+        default_downlink: given.prepared.default_downlink,
+        timeline: given.prepared.timeline,
+        work: &mut Work::new(u32::MAX, 0),
+        mass_at_zero: context.mass_at_zero,
+    };
+    for time_s in times_s {
+        let instant = kinematics.instant(time_s);
+        see(&configuration, time_s, &instant);
     }
+}
 
-    /// The body before the Sun's disc at `time_s`, where the flight was reported, which its shadow does not know: the Earth, about it
-    /// the Moon, and in motion between bodies every planet. `quiet_until_s` is the time before which the Moon cannot come there.
-    pub fn occultation(&mut self, time_s: f64, quiet_until_s: &mut Option<f64>) -> Option<Occultation> {
-        let FlightSetup { context, evaluation, .. } = self.setup.as_deref_mut()?;
-        let geometry = &evaluation.as_ref()?.instant.geometry;
-        let (configuration, ephemeris) = (&context.configuration, &mut context.ephemeris);
-        let planet = configuration.planet();
-        let known = |body: Body| Some(body) != planet && body != configuration.center;
-        // An Earth that no input placed stands in the centre.
-        let is_placed = geometry.earth_from_center().position_m != Vector3::zeros();
-        let earth = (is_placed && known(Body::Earth)).then(|| {
-            let data = Body::Earth.data();
-            hidden(geometry, &geometry.to_earth.position_m, (data.name, data.radius_m))
-        });
-        let is_given = matches!(configuration.ephemeris, EphemerisSource::Given { .. });
-        if configuration.center == Body::Earth && !is_given {
-            let mut simulated = SimulationEphemeris { configuration, ephemeris };
-            let moon_m = simulated.moon_from_earth_m(time_s);
-            let sun_m = geometry.sun_from_center().position_m;
-            let away_m = geometry.spacecraft.position_m.norm();
-            // By which the spacecraft's place moves Moon and Sun against one another, both discs included.
-            let margin_rad = (away_m / MOON_NEAREST_M).min(1.0) * core::f64::consts::FRAC_PI_2 + 0.02;
-            let apart_rad = angle_between_rad(&moon_m, &sun_m);
-            *quiet_until_s = Some(time_s + (apart_rad - margin_rad).max(0.0) / MOON_RATE_RAD_S);
-            let found =
-                hidden(geometry, &(moon_m - geometry.spacecraft.position_m), ("the Moon", RADIUS_MOON_M));
-            return found.or(earth.flatten());
-        }
-        let others = Body::ALL.into_iter().filter(|body| *body != Body::Earth && body.is_planet());
-        let others = others.filter(|_| matches!(configuration.motion, Motion::NBody { .. }) && !is_given);
-        let epoch_s = time_s + configuration.epoch_minus_time_s;
-        let found = others.filter(|it| known(*it)).find_map(|other| {
-            let to_body_m =
-                body(configuration, ephemeris, other, epoch_s).position_m - geometry.spacecraft.position_m;
-            hidden(geometry, &to_body_m, (other.data().name, other.data().radius_m))
-        });
-        found.or(earth.flatten())
+/// The body before the Sun's disc at `time_s`, where the flight was reported, which its shadow does not know: the Earth, about it
+/// the Moon, and in motion between bodies every planet. `quiet_until_s` is the time before which the Moon cannot come there.
+pub(super) fn occultation(
+    context: &mut SimulationContext,
+    geometry: &Geometry,
+    time_s: f64,
+    quiet_until_s: &mut Option<f64>,
+) -> Option<Occultation> {
+    let (configuration, ephemeris) = (&context.configuration, &mut context.ephemeris);
+    let planet = configuration.planet();
+    let known = |body: Body| Some(body) != planet && body != configuration.center;
+    // An Earth that no input placed stands in the centre.
+    let is_placed = geometry.earth_from_center().position_m != Vector3::zeros();
+    let earth = (is_placed && known(Body::Earth)).then(|| {
+        let data = Body::Earth.data();
+        hidden(geometry, &geometry.to_earth.position_m, (data.name, data.radius_m))
+    });
+    let is_given = matches!(configuration.ephemeris, EphemerisSource::Given { .. });
+    if configuration.center == Body::Earth && !is_given {
+        let mut simulated = SimulationEphemeris { configuration, ephemeris };
+        let moon_m = simulated.moon_from_earth_m(time_s);
+        let sun_m = geometry.sun_from_center().position_m;
+        let away_m = geometry.spacecraft.position_m.norm();
+        // By which the spacecraft's place moves Moon and Sun against one another, both discs included.
+        let margin_rad = (away_m / MOON_NEAREST_M).min(1.0) * core::f64::consts::FRAC_PI_2 + 0.02;
+        let apart_rad = angle_between_rad(&moon_m, &sun_m);
+        *quiet_until_s = Some(time_s + (apart_rad - margin_rad).max(0.0) / MOON_RATE_RAD_S);
+        let found = hidden(geometry, &(moon_m - geometry.spacecraft.position_m), ("the Moon", RADIUS_MOON_M));
+        return found.or(earth.flatten());
     }
+    let others = Body::ALL.into_iter().filter(|body| *body != Body::Earth && body.is_planet());
+    let others = others.filter(|_| matches!(configuration.motion, Motion::NBody { .. }) && !is_given);
+    let epoch_s = time_s + configuration.epoch_minus_time_s;
+    let found = others.filter(|it| known(*it)).find_map(|other| {
+        let to_body_m =
+            body(configuration, ephemeris, other, epoch_s).position_m - geometry.spacecraft.position_m;
+        hidden(geometry, &to_body_m, (other.data().name, other.data().radius_m))
+    });
+    found.or(earth.flatten())
 }
 
 /// Returns what a body there, seen from the spacecraft, with a name and a radius in m hides of the Sun's disc.
