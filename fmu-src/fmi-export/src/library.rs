@@ -7,7 +7,7 @@ use crate::fmi2::description::{DescribeError, Prepared, prepare, start_names};
 use crate::location;
 use crate::model::{Manual, Model, SetupError};
 use crate::panics::contain;
-use crate::start_values::{OtherReaders, Reader};
+use crate::start_values::{OtherReader, Reader};
 
 /// One model of a library, its type erased.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +24,7 @@ pub struct Entry {
     pub reference_inputs: &'static str,
     /// The beginning of its manual.
     pub manual: Manual,
-    prepare: fn(&str, &str, OtherReaders<'_>) -> Result<Prepared, DescribeError>,
+    prepare: fn(&str, &str, &[OtherReader<'_>]) -> Result<Prepared, DescribeError>,
     start_names: fn(&str, &str) -> Option<BTreeSet<String>>,
 }
 
@@ -66,7 +66,9 @@ impl Entry {
             let names = contain(|| (other.start_names)(file, text)).ok().flatten()?;
             Some(Reader { model: other.name, names })
         };
-        let others = || library.iter().filter(|other| other.name != self.name).filter_map(reader).collect();
+        let others = library.iter().filter(|other| other.name != self.name);
+        let others: Vec<_> = others.map(|other| move || reader(other)).collect();
+        let others: Vec<OtherReader<'_>> = others.iter().map(|read| read as OtherReader<'_>).collect();
         // One model that panics here must not hide the others of the library.
         contain(|| (self.prepare)(file, text, &others)).unwrap_or_else(|text| Err(DescribeError::Panic(text)))
     }

@@ -16,7 +16,7 @@ use crate::dependencies::Dependencies;
 use crate::logger::Category;
 use crate::model::{About, Model, SetupError};
 use crate::runtime::{Runtime, Typed};
-use crate::start_values::{self, OtherReaders, Readers};
+use crate::start_values::{self, OtherReader, Readers};
 use crate::variables::{
     Declare, DeclareError, DeclaredEnumeration, DeclaredType, Element, Interface, Real, SetBits, Values,
     Variable, Variables,
@@ -54,7 +54,7 @@ pub enum DescribeError {
 
 /// The description of a model with this setup, GUID included.
 pub fn description_of<M: Model>(file: &str, setup_text: &str) -> Result<Description, DescribeError> {
-    prepare::<M>(file, setup_text, &Vec::new).map(|prepared| prepared.description)
+    prepare::<M>(file, setup_text, &[]).map(|prepared| prepared.description)
 }
 
 /// A description, and all that an instance is made from.
@@ -80,7 +80,7 @@ pub(crate) fn start_names<M: Model>(file: &str, setup_text: &str) -> Option<BTre
 pub(crate) fn prepare<M: Model>(
     file: &str,
     setup_text: &str,
-    others: OtherReaders<'_>,
+    others: &[OtherReader<'_>],
 ) -> Result<Prepared, DescribeError> {
     let setup = M::parse_setup(file, setup_text)?;
     let mut declare = Declare::new();
