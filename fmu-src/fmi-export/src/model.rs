@@ -322,17 +322,15 @@ impl<'a> InputsOverTime<'a> {
 pub struct StepEnd {
     /// The time, in s, for which the outputs are; the end of the step or earlier.
     pub time_s: f64,
-    /// Whether something happens there that importers may want to see at its time.
-    pub event: bool,
     /// Why the model ends the simulation here, if it does.
     pub terminate: Option<String>,
 }
 
 impl StepEnd {
-    /// A step that ended at `time_s` without an event.
+    /// A step that ended at `time_s`.
     #[inline]
     pub const fn at(time_s: f64) -> Self {
-        Self { time_s, event: false, terminate: None }
+        Self { time_s, terminate: None }
     }
 
     /// The simulation ends here, for this reason.

@@ -112,7 +112,7 @@ impl InstanceState {
             self.check_finite(values, access)?;
         }
         for &InputDerivative { input, order, value } in &self.input_derivatives {
-            let reference = references::of(input);
+            let reference = references::for_variable(input);
             let flags = access
                 .flags(BaseType::Real)
                 .get(references::index(BaseType::Real, reference))
