@@ -80,7 +80,7 @@ fn configure(
         state.flight.apply(changes, configuration, settings, step.start_s).map_err(failure)?;
     }
     // After what was computed ahead with those before is void.
-    if reading.is_reconfigured { inputs::take_materials(context, values, state) } else { Ok(()) }
+    if reading.is_reconfigured { inputs::update_materials(context, values, state) } else { Ok(()) }
 }
 
 /// The flight begins at `time_s`, where a first sample is taken: how to undo that.
@@ -106,7 +106,7 @@ fn begin(
     let log = &mut |event: &_| log_event(context, event);
     state.flight.begin(given, &state.command, time_s, log).map_err(failure)?;
     if let Some(estimate) = state.flight.estimate_at(time_s) {
-        state.take_first_command(estimate.attitude, time_s)?;
+        state.start_command(estimate.attitude, time_s)?;
     }
     let PlantState { flight, inputs, command, .. } = state;
     plausibility::report(context, values, (&*flight, given), time_s);

@@ -1,13 +1,13 @@
 //! From parameters, inputs and state to spacecraft, orbit and light of the simulation; refuses what cannot be simulated, by name.
 
-use fmi_export::{Elements, Failure, InputsOverTime, Real, Values};
+use fmi_export::{Elements, Failure, Real, Values};
 use nalgebra::Vector3;
 use physics::environment::time;
 use physics::momentum::{DumpPolicy, Reinitialise, Settings};
-use physics::plant::{Configuration, PanelSetting, RadiationSettings, Ramp, ThrusterEventSettings};
-use physics::spacecraft::PanelControl;
+use physics::plant::{Configuration, RadiationSettings, ThrusterEventSettings};
 
 use super::center::Center;
+use super::panels::{self, ActiveTimeline, MovingPanels};
 use super::{air_and_field, ephemeris_source, guidance, n_body, orbit, wheels};
 use crate::common::ephemeris;
 use crate::common::spacecraft::inertia_body_kg_m2;
@@ -15,14 +15,13 @@ use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::state::PlantState;
 use crate::momentum_plant::variables::choices::{AttitudeSource, DumpReinitTo, EphemerisSource};
 
-/// The configuration that parameters, inputs and state describe, about `center` and in the memory of `panels`; angles of panels
-/// move as the inputs do.
+/// The configuration that parameters, inputs and state describe, about `center`.
 pub(super) fn read(
     context: &Plan<'_>,
     values: &Values,
     state: &PlantState,
     center: &Center,
-    (over_time, mut panels): (InputsOverTime<'_>, Vec<PanelSetting>),
+    moving: MovingPanels<'_>,
 ) -> Result<Configuration, Failure> {
     let variables = context.variables;
     let epoch_s = values.real(variables.start.epoch);
@@ -40,32 +39,8 @@ pub(super) fn read(
     let centers = [center, &planet.center];
     let (orbit, motion) =
         orbit::read(variables, values, state, centers, (&frame, gravity, epoch_minus_time_s))?;
-    let corridor = variables.articulation.read(values)?;
-    let followed = context.setup.timeline.as_ref().filter(|_| values.boolean(variables.timeline.enabled));
-    let clock_minus_time_s = followed.map_or(0.0, |it| it.clock_minus_time_s(epoch_minus_time_s));
-    panels.clear();
-    panels.extend(variables.panel.iter().enumerate().map(|(k, panel)| {
-        if !values.boolean(panel.enabled) {
-            return PanelSetting::Disabled;
-        }
-        let since_s = over_time.start_s();
-        let ramp = |input: Real| Ramp::since(since_s, values.real(input), over_time.rate(input, since_s));
-        let tilt = values.choice(panel.tilt).sign().into();
-        let offset = |offset| PanelSetting::SunOffset { offset, tilt };
-        match values.choice(panel.control).0 {
-            PanelControl::Angle => PanelSetting::Angle(ramp(panel.angle)),
-            PanelControl::SunOffset => offset(Ramp::held(values.real(panel.sun_offset))),
-            PanelControl::Timeline => PanelSetting::Timeline {
-                steps: followed.and_then(|_| context.setup.panel_steps.get(k).cloned()).unwrap_or_default(),
-                clock_minus_time_s,
-                before_rad: values.real(panel.sun_offset),
-                tilt,
-            },
-            PanelControl::Command => offset(ramp(panel.sun_offset_command)),
-            PanelControl::Distance => PanelSetting::Distance { suns: corridor.target_suns, tilt },
-        }
-        .biased(values.real(panel.angle_bias))
-    }));
+    let timeline = ActiveTimeline::read(context, values, epoch_minus_time_s);
+    let panels = panels::read(context, values, moving, &timeline)?;
     let v = &variables.planet;
     let laws = [
         (v.gravitational_parameter, center.planet.gm_m3_s2),
@@ -75,9 +50,9 @@ pub(super) fn read(
     let of_planet = |real: Real| {
         laws.iter().find(|(own, _)| *own == real).map_or_else(|| values.real(real), |(_, value)| *value)
     };
-    let timeline = followed.map(|_| {
+    let attitudes = timeline.law.map(|_| {
         let center = (&center.data, planet.rotation);
-        guidance::timeline(variables, values, center, clock_minus_time_s)
+        guidance::timeline(variables, values, center, timeline.clock_minus_time_s)
     });
     Ok(Configuration {
         epoch_minus_time_s,
@@ -86,7 +61,7 @@ pub(super) fn read(
         eme2000_from_orbit_frame: frame,
         encounter,
         attitude: guidance::attitude(context, values, state, &orbit)?,
-        timeline: timeline.transpose()?,
+        timeline: attitudes.transpose()?,
         orbit,
         motion,
         ephemeris,
@@ -110,8 +85,8 @@ pub(super) fn read(
         laws: variables.laws.read(values, laws.map(|(parameter, _)| parameter), of_planet),
         momentum,
         thruster_events: ThrusterEventSettings {
-            schedule: followed.map(|it| it.events().clone()).unwrap_or_default(),
-            clock_minus_time_s,
+            schedule: timeline.law.map(|it| it.events().clone()).unwrap_or_default(),
+            clock_minus_time_s: timeline.clock_minus_time_s,
             thrusters: values.choice(variables.maneuver.thrusters).0,
             dumps: values.boolean(variables.maneuver.dump),
             magnitude_error: values.real(variables.maneuver.magnitude_error),
@@ -123,7 +98,7 @@ pub(super) fn read(
     })
 }
 
-/// Whether no dump begins by itself: in free flight, where the master controls, unless thresholds are set.
+/// Whether dumps begin by the master alone: in free flight, unless thresholds are set.
 fn is_left_to_master(context: &Plan<'_>, values: &Values) -> bool {
     let variables = context.variables;
     let is_free = matches!(values.choice(variables.attitude.source), AttitudeSource::Free);

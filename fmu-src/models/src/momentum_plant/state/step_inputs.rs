@@ -17,7 +17,7 @@ use crate::momentum_plant::variables::choices::{
     AttitudeSource, CommandSource, EphemerisSource, OrbitSource,
 };
 
-/// What was set when inputs were last read.
+/// Inputs and tunable parameters as they were last read.
 #[derive(Clone, Debug, Default)]
 pub struct StepInputs {
     /// Whether they have been read since the start or a restore.
@@ -30,7 +30,7 @@ pub struct StepInputs {
     pub orbit_is_given: bool,
     /// Position and velocity.
     pub orbit: [[f64; 3]; 2],
-    /// On which light and heat depend, beside command and orbit.
+    /// Numbers on which light and heat depend, next to command and orbit.
     pub light: Vec<f64>,
     /// Whether a panel's angle moves as an input.
     pub panels_move: bool,
@@ -42,11 +42,11 @@ pub struct StepInputs {
     pub unset_places: Vec<&'static str>,
     /// Whether the Earth's position is an input and not set yet.
     pub earth_is_unset: bool,
-    /// Whether a dump is requested, and what it leaves, body frame, in N m s.
+    /// Whether a dump is requested, and the momentum after it, body frame, in N m s.
     pub dump: (bool, Vector3<f64>),
-    /// Whether a maneuver is requested, and which.
+    /// Whether a maneuver is requested, and the maneuver.
     pub maneuver: (bool, Maneuver),
-    /// What wheels, sensors and thrusters are given; the controller's command follows from the state.
+    /// Inputs of wheels, sensors and thrusters; the controller's command follows from the state.
     pub dynamics: DynamicsInputs,
 }
 
@@ -87,7 +87,7 @@ pub struct CommandInputs {
 }
 
 impl CommandInputs {
-    /// What a command gives.
+    /// The kind of the command: which of its quantities count.
     pub fn kind(&self) -> GuidanceCommandKind {
         CommandKind::from_value(self.kind).unwrap_or(CommandKind::FIRST).0
     }
