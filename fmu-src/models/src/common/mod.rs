@@ -6,6 +6,7 @@ pub(crate) mod downlink;
 pub(crate) mod effects;
 pub(crate) mod ellipse;
 pub(crate) mod ephemeris;
+pub(crate) mod guided;
 pub(crate) mod loads;
 pub(crate) mod management;
 pub(crate) mod numbers;

@@ -12,9 +12,9 @@ use physics::spacecraft::{HotPoleZone, Spacecraft, SunKeepIn};
 use serde::{Serialize, Serializer};
 
 use crate::common::center::{CenterBodies, CenterBody, target_of};
+use crate::common::guided::GuidedDefaults;
 use crate::common::optics::SettableMaterials;
 use crate::common::spacecraft::{PreparedAntennas, PreparedShapes, wheel_array};
-use crate::common::variables::GuidedDefaults;
 
 /// Guidance.
 pub struct Guidance;

@@ -17,11 +17,11 @@ use serde::{Serialize, Serializer};
 
 use crate::common::center::{CenterBodies, CenterBody, center_of};
 use crate::common::effects::check_start;
+use crate::common::guided::GuidedDefaults;
 use crate::common::optics::SettableMaterials;
 use crate::common::spacecraft::{
     PreparedAntennas, PreparedShapes, ReportedFace, reported_faces, wheel_array,
 };
-use crate::common::variables::GuidedDefaults;
 
 /// The momentum plant.
 pub struct MomentumPlant;

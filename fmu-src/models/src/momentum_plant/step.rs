@@ -5,7 +5,8 @@ use physics::environment::ephemeris::Ephemeris;
 use physics::plant::{NEVER_DUMPED_N_M_S, SimulationContext, Undo};
 
 use super::inputs::{self, FixedParameters, Reading, guidance, plausibility, propulsion};
-use super::outputs::{self, failure, log_event};
+use super::outputs;
+use super::outputs::messages::{failure, log_event};
 use super::setup::Plan;
 use super::state::PlantState;
 use crate::common::management::window_warning;
@@ -112,7 +113,7 @@ fn begin(
     plausibility::report(context, values, (&*flight, given), time_s);
     let undo = flight.sample_at_start(given, &inputs.dynamics, time_s).map_err(failure)?;
     let report = flight.report(given, &inputs.dynamics, command, time_s).map_err(failure)?;
-    outputs::flyable(&report)?;
+    outputs::check_report(&report)?;
     Ok(undo)
 }
 
@@ -190,7 +191,7 @@ fn show(
         Err(error) => return Err(failure(error)),
     };
     if !*waiting {
-        outputs::flyable(&report)?;
+        outputs::check_report(&report)?;
     }
     propulsion::warn_unserved(context, &report, &mut warned.thrusters);
     guidance::warn_degenerate(context, &report, &mut warned.degenerate);

@@ -34,10 +34,10 @@ use super::variables::choices::EphemerisSource;
 use crate::common::choices::PlanetOrientation;
 use crate::common::downlink::ZERO_KEEP_IN_AXIS;
 use crate::common::ephemeris;
+use crate::common::guided::NO_GIMBAL;
 use crate::common::management::{NO_ANTENNA, check_windows_have_antenna};
 use crate::common::numbers::Numbers;
 use crate::common::pointing::RuleContext;
-use crate::common::variables::NO_GIMBAL;
 
 /// What parameters fix for a whole flight.
 #[derive(Clone, Debug)]

@@ -17,8 +17,9 @@ use physics::guidance::pointing::scan::DEFAULT_COMPATIBILITY;
 use super::setup::GuidanceSetup;
 use crate::common::choices::SunshadeShape;
 use crate::common::downlink::DownlinkVariables;
+use crate::common::guided::GuidedVariables;
 use crate::common::optics::OpticsVariables;
-use crate::common::variables::{GuidedVariables, SolarVariables, WorkLimit};
+use crate::common::variables::{SolarVariables, WorkLimit};
 use burn::{BurnVariables, ThrustVariables};
 use celestial_bodies::{
     EarthVariables, EstimateVariables, PlanetVariables, StartVariables, SunVariables, TargetVariables,
