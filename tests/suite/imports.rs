@@ -183,7 +183,7 @@ impl Crate {
 /// The others that each one uses.
 type Uses<T> = BTreeMap<T, BTreeSet<T>>;
 
-/// Those that use one another around a circle, each circle in order.
+/// Modules or folders that use one another around a circle, each circle in order.
 fn circles<T: Clone + Ord>(uses: &Uses<T>) -> BTreeSet<Vec<T>> {
     let reached = |from: &T| {
         let (mut reached, mut open) = (BTreeSet::new(), vec![from.clone()]);

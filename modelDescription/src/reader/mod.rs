@@ -15,14 +15,14 @@ use crate::{CoSimulation, Description, ModelExchange, validate};
 
 pub use xml::{MAX_BYTES, Start, Xml};
 
-/// What was read.
+/// Result of reading a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parsed {
     /// The content.
     pub description: Description,
-    /// What the reader lived with: unknown XML, wrong order of elements.
+    /// Faults that did not stop the reader: unknown XML, wrong order of elements.
     pub warnings: Vec<Finding>,
-    /// Where the elements stand.
+    /// Lines of the elements.
     pub lines: Lines,
 }
 

@@ -13,11 +13,11 @@ pub struct About {
     pub step_size_s: f64,
     /// Relative tolerance of the results.
     pub tolerance: f64,
-    /// Who made the model; empty: not stated.
+    /// Author of the model; empty: not stated.
     pub author: String,
     /// Version of the model; empty: not stated.
     pub version: String,
-    /// Who holds the copyright, and since when; empty: not stated.
+    /// Holder and year of the copyright; empty: not stated.
     pub copyright: String,
     /// Licence of the model in one line; empty: not stated.
     pub license: String,
@@ -53,13 +53,13 @@ pub enum SetupValue {
     Boolean(bool),
     /// A text: a number with its unit, the name of an item, or a String.
     Text(String),
-    /// Of a vector the elements, of a matrix the rows.
+    /// The elements of a vector, or the rows of a matrix.
     List(Vec<Self>),
-    /// What the setup's reader could not read.
+    /// A value that the setup's reader could not read.
     Refused {
-        /// What was found.
+        /// The value found.
         found: String,
-        /// What is allowed.
+        /// The values allowed.
         allowed: String,
     },
 }
@@ -67,7 +67,7 @@ pub enum SetupValue {
 /// The beginning of a model's manual.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Manual {
-    /// What the model is, in HTML.
+    /// Purpose of the model, in HTML.
     pub about: &'static str,
     /// A first example in Python, of the FMU `{fmu}`.
     pub example: &'static str,
@@ -83,11 +83,11 @@ pub struct Manual {
 }
 
 impl Manual {
-    /// Of a model without.
+    /// Manual of a model that has none.
     pub const NONE: Self =
         Self { about: "", example: "", closed_loop: "", frames: "", sources: "", shared_sources: "" };
 
-    /// What is computed, or named, and by what.
+    /// Returns each quantity or source that is named, with the paper, method or title behind it.
     pub fn sources(&self) -> impl Iterator<Item = (&'static str, String)> {
         let shared = self.shared_sources;
         blocks(self.sources).map(move |(what, by)| {

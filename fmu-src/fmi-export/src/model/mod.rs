@@ -1,7 +1,7 @@
 //! The model traits: what an author writes, and in which order it is called. They are free of any version of FMI.
 //!
 //! [`Model`] is for every model. [`OutputRates`] and [`Differentiable`] are optional and named in
-//! [`Model::EXTENSIONS`]; what else a model may offer (continuous states with rates and event indicators) becomes another
+//! [`Model::EXTENSIONS`]; other abilities (continuous states with rates and event indicators) would become another
 //! trait and another field there.
 
 mod about;
@@ -31,7 +31,7 @@ pub trait Model: Sized + 'static {
     const STATE_VERSION: u32;
     /// File under `resources/` that holds the setup, or `None` for a model without resources.
     const SETUP_FILE: Option<&'static str> = None;
-    /// Files under `resources/` that hold schedules, what is commanded or known over time, each of which may be there beside
+    /// Files under `resources/` that hold schedules, commands or data over time; each is optional next to
     /// the setup. A schedule does not enter the GUID: one FMU simulates many.
     const SCHEDULE_FILES: &'static [&'static str] = &[];
     /// The compiled-in setup text, used when an importer gives no resource location.
@@ -39,12 +39,12 @@ pub trait Model: Sized + 'static {
     /// Inputs of the reference flight that a packed FMU carries: CSV whose first column, `time`, counts steps of the default
     /// experiment. Columns that a setup has no input for are left out.
     const REFERENCE_INPUTS: &'static str = "";
-    /// What the model is and how it is used, for its manual.
+    /// Purpose and use of the model, for its manual.
     const MANUAL: Manual = Manual::NONE;
-    /// The optional traits that the model has beside this one.
+    /// The optional traits that the model implements.
     const EXTENSIONS: Extensions<Self> = Extensions::none();
 
-    /// What the resources describe; serialised only to enter the GUID.
+    /// Content of the resources; serialised only to enter the GUID.
     type Setup: Serialize + Send + Sync + 'static;
     /// The declared variables as handles.
     type Variables: Variables<Self::Setup> + Send + Sync + 'static;
@@ -103,7 +103,7 @@ pub trait Model: Sized + 'static {
     ) -> Result<StepEnd, Failure>;
 
     /// Writes the parameters that the importer left to the model as they act, so that they read back. Called once, when
-    /// initialization ends: [`Model::initialize`] may run again before, and goes by what was set.
+    /// initialization ends: [`Model::initialize`] may run again before, with the values that were set.
     fn resolve_parameters(_context: &Context<'_, Self>, _values: &mut Values) {}
 
     /// Checks a length or index inside a decoded state against the setup; an error refuses the blob.
@@ -124,7 +124,7 @@ pub trait Model: Sized + 'static {
         None
     }
 
-    /// What every output and calculated parameter depends on: the union over all values of all options but those that the setup
+    /// Dependencies of every output and calculated parameter: the union over all values of all options but those that the setup
     /// fixes. An unknown without a row is refused.
     fn dependencies(setup: &Self::Setup, variables: &Self::Variables) -> Dependencies;
 }
@@ -196,7 +196,7 @@ impl<M: Model> Extensions<M> {
     }
 }
 
-/// What every call of a model may read.
+/// Data that every call of a model may read.
 pub struct Context<'a, M: Model> {
     /// The parsed resources.
     pub setup: &'a M::Setup,
@@ -206,12 +206,12 @@ pub struct Context<'a, M: Model> {
     pub start: &'a Values,
     /// Whether the importer set every parameter that it may set, as tools do that write all of them.
     pub sets_all_parameters: bool,
-    /// Where events (dumps, eclipse edges ...) are reported; off costs nothing.
+    /// Receiver of events (dumps, eclipse edges ...); off costs nothing.
     pub log: &'a dyn Log,
 }
 
 impl<M: Model> Context<'_, M> {
-    /// Which variables of a group the user gave a value.
+    /// The variables of a group that the user gave a value.
     pub fn given<'v>(&'v self, values: &'v Values, group: &[Elements]) -> Given<'v> {
         Given::among(values, self.start, group)
     }

@@ -7,9 +7,9 @@ use crate::variables::{Real, RealVector, Values};
 /// One step.
 #[derive(Clone, Copy)]
 pub struct Step<'a> {
-    /// Where the last step ended, in s.
+    /// Time at which the last step ended, in s.
     pub start_s: f64,
-    /// Where this one ends, in s; later than `start_s`.
+    /// Time at which this step ends, in s; later than `start_s`.
     pub end_s: f64,
     /// Whether an input or tunable parameter was set to a *different* value since the last step, or inputs move in this one
     /// or did in the last: whatever was computed ahead of `start_s` is void.
@@ -94,7 +94,7 @@ impl<'a> InputsOverTime<'a> {
     }
 }
 
-/// Where a step ended.
+/// Time at which a step ended, and whether the simulation ends with it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepEnd {
     /// The time, in s, for which the outputs are; the end of the step or earlier.

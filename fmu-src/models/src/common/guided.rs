@@ -14,7 +14,7 @@ use super::center::CenterBody;
 use super::choices::{DownlinkReference, GuidedPhase, ScienceRule};
 use super::pointing::{AttitudeDefaults, NamedAttitudeVariables, RuleContext};
 
-/// What is lacking to turn an instrument.
+/// Reason why no instrument turns.
 pub(crate) const NO_GIMBAL: &str = "no instrument of the spacecraft has a gimbal ([[instruments]] gimbal)";
 
 /// Latest begin and end of a downlink, in s.
@@ -29,7 +29,7 @@ pub struct GuidedDefaults {
     pub end_s: f64,
     /// A downlink after every how many periapses.
     pub every: i32,
-    /// Begin and end as shares of the period, where the file gives them so.
+    /// Begin and end as fractions of the period, where the file gives them so.
     pub period_shares: [Option<f64>; 2],
     /// Whether the spacecraft has antennas, and its file has it about the Sun.
     pub antennas_and_cruise: [bool; 2],
@@ -38,10 +38,10 @@ pub struct GuidedDefaults {
 }
 
 impl GuidedDefaults {
-    /// Of a file; shares of the period are shown in the orbit that one about `center` begins with.
-    pub fn of(spacecraft: &Spacecraft, center: &CenterBody) -> Self {
+    /// The start values by a file; fractions of the period become times in the orbit about `center` with its start values.
+    pub fn new(spacecraft: &Spacecraft, center: &CenterBody) -> Self {
         let antennas_and_cruise = [!spacecraft.antennas.is_empty(), center.data.body == Body::Sun];
-        let attitude = AttitudeDefaults::of(spacecraft);
+        let attitude = AttitudeDefaults::new(spacecraft);
         let Some(windows) = &spacecraft.downlinks else {
             return Self { antennas_and_cruise, attitude, ..Self::default() };
         };
@@ -119,7 +119,7 @@ pub struct GuidedVariables {
 }
 
 impl GuidedVariables {
-    /// The law with begin and end of its windows as shares of the period, where the file gives them so and nobody set them.
+    /// The law with begin and end of its windows as fractions of the period, where the file gives them so and nobody set them.
     fn by_shares<M: Model>(
         &self,
         context: &Context<'_, M>,
@@ -140,7 +140,7 @@ impl GuidedVariables {
         Guided { schedule: schedule.in_orbit(schedule.period_s), ..law }
     }
 
-    /// The law by shares of the period, in the phase and by the rule that act: where nobody gave them, those about the Sun or about a
+    /// The law by fractions of the period, in the phase and by the rule that act: where nobody gave them, those about the Sun or about a
     /// planet.
     ///
     /// # Errors

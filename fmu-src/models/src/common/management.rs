@@ -22,7 +22,7 @@ choices! {
     MomentumTargeting(TargetingMethod);
 }
 
-/// What downlinks bring the momentum to.
+/// Momentum that downlinks aim at.
 #[derive(Variables)]
 pub struct TargetingVariables {
     /// Body components of momentum that sunlight brings to a target.
@@ -78,7 +78,7 @@ impl TargetingVariables {
     }
 }
 
-/// What is lacking for a downlink.
+/// Reason why there is no downlink.
 pub(crate) const NO_ANTENNA: &str = "the spacecraft has no antenna ([[antennas]])";
 
 /// Refuses downlink windows that no antenna serves.
@@ -134,7 +134,7 @@ pub(crate) fn check_windows(schedule: &Schedule) -> Result<(), Failure> {
     )))
 }
 
-/// What is wrong with windows that are requested, whatever the strategy; `None` where nothing is.
+/// Warns of windows that never come or overlap, whatever the strategy.
 pub(crate) fn window_warning(schedule: &Schedule) -> Option<String> {
     let Schedule { downlink_start_s, downlink_end_s, every, .. } = *schedule;
     let names = "guided.downlinkStart, guided.downlinkEnd, guided.downlinkEvery";

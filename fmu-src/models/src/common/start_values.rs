@@ -24,7 +24,7 @@ const DOWNLINKS: [&str; 2] = ["guided.downlinkStart", "guided.downlinkEnd"];
 /// From where downlinks are counted.
 const REFERENCE: &str = "guided.downlinkReference";
 
-/// Those of a spacecraft's file, which may describe a body of its own.
+/// Start values of a spacecraft's file, which may describe a body of its own.
 pub(crate) fn of_spacecraft(
     spacecraft: &Spacecraft,
     model: &str,

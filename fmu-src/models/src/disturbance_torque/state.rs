@@ -17,7 +17,7 @@ pub(super) struct Materials {
 }
 
 impl Materials {
-    /// Those of the spacecraft's file.
+    /// The materials of the spacecraft's file.
     pub(super) fn of_file(settable: &SettableMaterials) -> Self {
         let values = settable.all.iter().map(NamedMaterial::values).collect();
         Self { values, prepared: settable.all.iter().map(|it| it.material).collect() }
@@ -45,7 +45,7 @@ impl Materials {
         Ok(())
     }
 
-    /// Those of the last step, changing with these seeds of parameters.
+    /// The materials of the last step, changing with these seeds of parameters.
     ///
     /// # Errors
     /// Names parameters whose values no material has.

@@ -26,7 +26,7 @@ use crate::common::spacecraft::{
 /// The momentum plant.
 pub struct MomentumPlant;
 
-/// What every call of the model is given.
+/// Context of every call of the model.
 pub(super) type Plan<'a> = Context<'a, MomentumPlant>;
 
 /// The spacecraft of an instance.
@@ -76,17 +76,17 @@ impl PlantSetup {
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
         check_start(file, &spacecraft, MomentumPlant::NAME)?;
-        let bodies = CenterBodies::of(file, &spacecraft)?;
+        let bodies = CenterBodies::new(file, &spacecraft)?;
         let center = bodies.body(center_of(&spacecraft));
         Ok(Self {
-            optics: SettableMaterials::of(&spacecraft, center.data.body, MomentumPlant::NAME),
+            optics: SettableMaterials::new(&spacecraft, center.data.body, MomentumPlant::NAME),
             center,
             bodies,
-            guided: GuidedDefaults::of(&spacecraft, &center),
+            guided: GuidedDefaults::new(&spacecraft, &center),
             control: ControlDefaults::of(&spacecraft, &wheel_array(&spacecraft)),
             reported_faces: reported_faces(file, &spacecraft)?,
-            antennas: PreparedAntennas::of(&spacecraft),
-            shapes: PreparedShapes::of(&spacecraft),
+            antennas: PreparedAntennas::new(&spacecraft),
+            shapes: PreparedShapes::new(&spacecraft),
             ephemeris: None,
             timeline: None,
             schedules: 0,

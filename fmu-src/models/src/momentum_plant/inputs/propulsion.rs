@@ -98,7 +98,7 @@ pub(crate) fn warn_unserved(context: &Plan<'_>, report: &Report<'_>, warned: &mu
     }
 }
 
-/// What a step's commands to thrusters leave undone, once each.
+/// Warns once each of a step's commands to thrusters that are not carried out.
 pub(crate) fn warn(
     context: &Plan<'_>,
     inputs: &DynamicsInputs,

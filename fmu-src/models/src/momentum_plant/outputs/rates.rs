@@ -35,7 +35,7 @@ pub(in crate::momentum_plant) fn derivative(
     let mut by_source = variables.momentum.by_source.iter();
     let found = by_source.find_map(|(effect, handle)| Some((effect, handle, handle.index_of(output)?)));
     if let Some((effect, handle, axis)) = found {
-        let torque = variables.torque.by_source.of(effect).unwrap_or(variables.torque.applied);
+        let torque = variables.torque.by_source.output(effect).unwrap_or(variables.torque.applied);
         let [momentum_body, torque_body, rate_body] =
             [handle, torque, variables.attitude.rate].map(|handle| Vector3::from(values.vector(handle)));
         return Some(convention.momentum_rate_body_n_m(&momentum_body, &torque_body, &rate_body)[axis]);

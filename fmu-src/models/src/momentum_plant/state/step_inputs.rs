@@ -217,7 +217,7 @@ impl StepInputs {
         };
     }
 
-    /// Force and torque from outside over a step, of which they hold the values at its start.
+    /// Force and torque from outside over a step; the values at its start are those last read.
     pub fn applied_load<'a>(
         &self,
         variables: &PlantVariables,
