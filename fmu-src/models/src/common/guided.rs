@@ -150,7 +150,8 @@ impl GuidedVariables {
         context: &Context<'_, M>,
         values: &Values,
         defaults: &GuidedDefaults,
-        (law, about): (Guided, &RuleContext<'_>),
+        law: Guided,
+        about: &RuleContext<'_>,
     ) -> Result<Guided, Failure> {
         let law = self.by_shares(context, values, defaults, law);
         let throughout = self.phase(context, values, defaults, about.is_about_sun) == GuidedPhase::Cruise;

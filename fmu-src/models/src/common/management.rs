@@ -22,6 +22,19 @@ choices! {
     MomentumTargeting(TargetingMethod);
 }
 
+/// Spacecraft whose momentum is managed.
+#[derive(Clone, Copy)]
+pub(crate) struct ManagedSpacecraft<'s> {
+    pub spacecraft: &'s Spacecraft,
+    /// Form in which the shade takes the light.
+    pub sunshade: SunshadeModel,
+    pub antennas: &'s Antennas,
+    /// Limits of the Sun's azimuth and elevation about -Y.
+    pub sun_limits_rad: [f64; 2],
+    /// Sum of the wheels' biases, from which targets count.
+    pub bias_body_n_m_s: Vector3<f64>,
+}
+
 /// Momentum that downlinks aim at.
 #[derive(Variables)]
 pub struct TargetingVariables {
@@ -52,15 +65,15 @@ impl TargetingVariables {
         Vector3::from(values.vector(self.target))
     }
 
-    /// The manager by this strategy, the Sun staying within these limits of azimuth and elevation about -Y, targets counting from
-    /// this bias, of a spacecraft whose shade takes the light in this form.
+    /// The manager of a spacecraft's momentum by this strategy.
     pub fn manager<'s>(
         &self,
         values: &Values,
         strategy: Strategy,
-        ([azimuth_limit_rad, elevation_limit_rad], bias_body_n_m_s): ([f64; 2], Vector3<f64>),
-        (spacecraft, sunshade, antennas): (&'s Spacecraft, SunshadeModel, &'s Antennas),
+        managed: ManagedSpacecraft<'s>,
     ) -> Manager<'s> {
+        let ManagedSpacecraft { spacecraft, sunshade, antennas, sun_limits_rad, bias_body_n_m_s } = managed;
+        let [azimuth_limit_rad, elevation_limit_rad] = sun_limits_rad;
         Manager {
             strategy,
             targeting: Targeting {

@@ -192,7 +192,8 @@ impl OpticsVariables {
     /// Values of every material, as `read` reads a parameter.
     pub fn values<'v, M: Model, T: Scalar>(
         &'v self,
-        (context, values): (&'v Context<'_, M>, &'v Values),
+        context: &'v Context<'_, M>,
+        values: &'v Values,
         own: &'v SettableMaterials,
         read: impl Fn(Real) -> T + Copy + 'v,
     ) -> impl Iterator<Item = MaterialValues<T>> + 'v {
@@ -211,10 +212,11 @@ impl OpticsVariables {
     /// Names parameters whose values no material has.
     pub(crate) fn materials<'v, M: Model>(
         &'v self,
-        (context, values): (&'v Context<'_, M>, &'v Values),
+        context: &'v Context<'_, M>,
+        values: &'v Values,
         own: &'v SettableMaterials,
     ) -> impl Iterator<Item = Result<(usize, Material), Failure>> + 'v {
-        let found = self.values((context, values), own, |parameter| values.real(parameter));
+        let found = self.values(context, values, own, |parameter| values.real(parameter));
         let made = found.zip(&own.all).enumerate();
         made.map(|(place, (found, own))| Ok((place, material(own, &found)?)))
     }

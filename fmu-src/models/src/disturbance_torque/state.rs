@@ -36,7 +36,7 @@ impl Materials {
             prepared.extend(all.iter().map(|it| it.material));
         }
         let read = |parameter| values.real(parameter);
-        let found = context.variables.optics.values((context, values), &context.setup.optics, read);
+        let found = context.variables.optics.values(context, values, &context.setup.optics, read);
         for (((found, own), known), prepared) in found.zip(all).zip(known).zip(prepared) {
             if is_restored || *known != found {
                 (*prepared, *known) = (material(own, &found)?, found);
@@ -64,7 +64,7 @@ impl Materials {
         }
         // Parameters are seeded before the first step alone, of which their values are.
         let read = |parameter| Dual64::new(values.real(parameter), seed(parameter));
-        made(&mut variables.values((context, values), settable, &read))
+        made(&mut variables.values(context, values, settable, &read))
     }
 
     /// The materials.

@@ -20,7 +20,7 @@ pub(super) fn start(
 ) -> Result<(), Failure> {
     let start = Step { start_s: time_s, end_s: time_s, changed: true, inputs: InputsOverTime::held() };
     let reading = inputs::read(context, values, state, &start)?;
-    configure(context, values, state, (&reading, &start))?;
+    configure(context, values, state, &reading, &start)?;
     // Samples at the start are taken anew by the first step, with its inputs.
     let undo = if reading.begins { Some(begin(context, values, state, &reading, time_s)?) } else { None };
     show(context, values, state, &reading, time_s)?;
@@ -40,7 +40,7 @@ pub(super) fn step(
     let reading = inputs::read(context, values, state, step)?;
     state.warn_unset_inputs(context);
     state.warn_command_norm(context, step.start_s);
-    configure(context, values, state, (&reading, step))?;
+    configure(context, values, state, &reading, step)?;
     if reading.begins {
         let undo = begin(context, values, state, &reading, step.start_s)?;
         state.flight.undo(undo);
@@ -56,7 +56,8 @@ fn configure(
     context: &Plan<'_>,
     values: &Values,
     state: &mut PlantState,
-    (reading, step): (&Reading<'_>, &Step<'_>),
+    reading: &Reading<'_>,
+    step: &Step<'_>,
 ) -> Result<(), Failure> {
     let (mut configuration, mut settings) = (None, None);
     if reading.is_reconfigured {
@@ -110,7 +111,7 @@ fn begin(
         state.start_command(estimate.attitude, time_s)?;
     }
     let PlantState { flight, inputs, command, .. } = state;
-    plausibility::report(context, values, (&*flight, given), time_s);
+    plausibility::report(context, values, flight, given, time_s);
     let undo = flight.sample_at_start(given, &inputs.dynamics, time_s).map_err(failure)?;
     let report = flight.report(given, &inputs.dynamics, command, time_s).map_err(failure)?;
     outputs::check_report(&report)?;
@@ -200,5 +201,5 @@ fn show(
         |k: usize| context.variables.panel.get(k).is_none_or(|it| values.boolean(it.sun_offset_reached));
     let spacecraft = &context.setup.spacecraft;
     warned.watch.see((flight, time_s), spacecraft, is_reached, |text| context.log.warning(text));
-    outputs::write_faces(context, values, flight, (given.prepared, time_s))
+    outputs::write_faces(context, values, flight, given.prepared, time_s)
 }

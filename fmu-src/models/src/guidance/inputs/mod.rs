@@ -60,7 +60,7 @@ impl Fixed {
     /// Names parameters whose values no material has.
     pub fn tune(&mut self, context: &Plan<'_>, values: &Values) -> Result<(), Failure> {
         let v = context.variables;
-        for found in v.optics.materials((context, values), &context.setup.optics) {
+        for found in v.optics.materials(context, values, &context.setup.optics) {
             let (place, material) = found?;
             self.solar.set_material(place, &material);
         }
@@ -287,7 +287,7 @@ pub(super) fn settings<'a>(
                 panels: &context.setup.spacecraft.panels,
                 zone: None,
             };
-            v.guided.in_phase(context, values, &context.setup.guided, (law, &about))?
+            v.guided.in_phase(context, values, &context.setup.guided, law, &about)?
         },
         burn: fixed.burn,
     })

@@ -7,12 +7,14 @@ use physics::momentum::{DumpPolicy, Reinitialise, Settings};
 use physics::plant::{Configuration, RadiationSettings, ThrusterEventSettings};
 
 use super::center::Center;
+use super::orbit::OrbitReader;
 use super::panels::{self, ActiveTimeline, MovingPanels};
 use super::{air_and_field, ephemeris_source, guidance, n_body, orbit, wheels};
 use crate::common::ephemeris;
 use crate::common::spacecraft::inertia_body_kg_m2;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::state::PlantState;
+use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::choices::{AttitudeSource, DumpReinitTo, EphemerisSource};
 
 /// The configuration that parameters, inputs and state describe, about `center`.
@@ -36,9 +38,9 @@ pub(super) fn read(
     let (gravity, encounter) = n_body::read(context, values, &planet.center)?;
     let ephemeris = ephemeris_source::read(context, values, center.data.body, state.waiting)?;
     let frame = orbit::eme2000_from_frame(context, values, center, &ephemeris)?;
-    let centers = [center, &planet.center];
-    let (orbit, motion) =
-        orbit::read(variables, values, state, centers, (&frame, gravity, epoch_minus_time_s))?;
+    let reader = OrbitReader { variables, values, state, epoch_minus_time_s };
+    let orbit = reader.orbit(center, &frame)?;
+    let motion = reader.motion(&planet.center, gravity);
     let timeline = ActiveTimeline::read(context, values, epoch_minus_time_s);
     let panels = panels::read(context, values, moving, &timeline)?;
     let v = &variables.planet;
@@ -51,8 +53,7 @@ pub(super) fn read(
         laws.iter().find(|(own, _)| *own == real).map_or_else(|| values.real(real), |(_, value)| *value)
     };
     let attitudes = timeline.law.map(|_| {
-        let center = (&center.data, planet.rotation);
-        guidance::timeline(variables, values, center, timeline.clock_minus_time_s)
+        guidance::timeline(variables, values, &center.data, planet.rotation, timeline.clock_minus_time_s)
     });
     Ok(Configuration {
         epoch_minus_time_s,
@@ -84,18 +85,27 @@ pub(super) fn read(
         effects: planet.effects,
         laws: variables.laws.read(values, laws.map(|(parameter, _)| parameter), of_planet),
         momentum,
-        thruster_events: ThrusterEventSettings {
-            schedule: timeline.law.map(|it| it.events().clone()).unwrap_or_default(),
-            clock_minus_time_s: timeline.clock_minus_time_s,
-            thrusters: values.choice(variables.maneuver.thrusters).0,
-            dumps: values.boolean(variables.maneuver.dump),
-            magnitude_error: values.real(variables.maneuver.magnitude_error),
-            direction_error_rad: values.real(variables.maneuver.direction_error),
-            center_of_mass_shift_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass_shift)),
-            seed: values.integer(variables.noise_seed).unsigned_abs().into(),
-            requested_body_n_m_s: Vector3::from(values.vector(variables.dump.target)),
-        },
+        thruster_events: thruster_events(variables, values, &timeline),
     })
+}
+
+/// Maneuvers and dumps of the timeline and by request.
+fn thruster_events(
+    variables: &PlantVariables,
+    values: &Values,
+    timeline: &ActiveTimeline<'_>,
+) -> ThrusterEventSettings {
+    ThrusterEventSettings {
+        schedule: timeline.law.map(|it| it.events().clone()).unwrap_or_default(),
+        clock_minus_time_s: timeline.clock_minus_time_s,
+        thrusters: values.choice(variables.maneuver.thrusters).0,
+        dumps: values.boolean(variables.maneuver.dump),
+        magnitude_error: values.real(variables.maneuver.magnitude_error),
+        direction_error_rad: values.real(variables.maneuver.direction_error),
+        center_of_mass_shift_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass_shift)),
+        seed: values.integer(variables.noise_seed).unsigned_abs().into(),
+        requested_body_n_m_s: Vector3::from(values.vector(variables.dump.target)),
+    }
 }
 
 /// Whether dumps begin by the master alone: in free flight, unless thresholds are set.

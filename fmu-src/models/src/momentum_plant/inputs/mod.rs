@@ -33,6 +33,7 @@ use super::state::step_inputs::{AppliedLoad, StepInputs};
 use super::variables::choices::EphemerisSource;
 use crate::common::effects::unused_map;
 use crate::common::ephemeris;
+use crate::common::management::ManagedSpacecraft;
 
 /// Parameters and inputs of one step that [`PlantState::inputs`] do not hold.
 pub(super) struct Reading<'a> {
@@ -132,8 +133,13 @@ pub(super) fn read<'a>(
         manager: momentum.targeting.manager(
             values,
             strategy,
-            (limits_rad, wheels::bias_body_n_m_s(context, values)),
-            (spacecraft, sunshade, &context.setup.antennas.all),
+            ManagedSpacecraft {
+                spacecraft,
+                sunshade,
+                antennas: &context.setup.antennas.all,
+                sun_limits_rad: limits_rad,
+                bias_body_n_m_s: wheels::bias_body_n_m_s(context, values),
+            },
         ),
         prepared: context.setup.prepared_spacecraft(sunshade)?,
         work_limit: variables.solver.work.units(values),
@@ -188,7 +194,7 @@ pub(super) fn update_materials(
     state: &mut PlantState,
 ) -> Result<(), Failure> {
     let Some(flown) = state.flight.context_mut() else { return Ok(()) };
-    for found in context.variables.optics.materials((context, values), &context.setup.optics) {
+    for found in context.variables.optics.materials(context, values, &context.setup.optics) {
         let (place, material) = found?;
         flown.set_material(place, &material);
     }
@@ -202,7 +208,7 @@ pub(super) fn start(context: &Plan<'_>, values: &Values, start_s: f64) -> Result
     let q = values.vector(context.variables.start.q);
     let attitude = Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
     let thrusters = Thrusters::new(propulsion::reaction_control(context, values)?, start_s);
-    PlantState::new(inputs, attitude, thrusters, (start_s, context.setup.schedules))
+    PlantState::new(inputs, attitude, thrusters, start_s, context.setup.schedules)
 }
 
 /// Warns of settings, and keys of the file, that are without effect.

@@ -248,7 +248,8 @@ pub(super) fn write_faces(
     context: &Plan<'_>,
     values: &mut Values,
     flight: &mut Flight,
-    (prepared, time_s): (PreparedSpacecraft<'_>, f64),
+    prepared: PreparedSpacecraft<'_>,
+    time_s: f64,
 ) -> Result<(), Failure> {
     let v = context.variables;
     if v.plate.is_empty() || flight.is_waiting() {

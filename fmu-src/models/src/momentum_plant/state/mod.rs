@@ -120,7 +120,8 @@ impl PlantState {
         inputs: StepInputs,
         attitude: Attitude,
         thrusters: Thrusters,
-        (start_s, schedules): (f64, u64),
+        start_s: f64,
+        schedules: u64,
     ) -> Result<Self, Failure> {
         let mut state = Self {
             start_s,

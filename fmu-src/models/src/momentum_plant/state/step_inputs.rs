@@ -154,7 +154,7 @@ impl StepInputs {
                 .iter()
                 .flat_map(|it| [it.angle, it.sun_offset, it.sun_offset_command, it.angle_bias].map(real)),
         );
-        let materials = v.optics.values((context, values), &context.setup.optics, real);
+        let materials = v.optics.values(context, values, &context.setup.optics, real);
         self.light.extend(materials.flat_map(|it| it.acting()));
         let downlink = &v.downlink;
         self.light.extend([downlink.sun_azimuth, downlink.sun_elevation].map(real));
@@ -196,7 +196,12 @@ impl StepInputs {
         self.unset_places.clear();
         self.unset_places.extend(unset.map(|(_, _, name)| name));
         self.earth_is_unset = is_sun_given && is_unset(v.earth.position);
+        self.update_dynamics(v, values);
+    }
 
+    /// Reads the inputs of wheels, thrusters and sensors.
+    fn update_dynamics(&mut self, v: &PlantVariables, values: &Values) {
+        let real = |handle: Real| values.real(handle);
         let dynamics = &mut self.dynamics;
         refill(&mut dynamics.wheel_torques_n_m, v.wheel.iter().map(|it| real(it.torque_command)));
         refill(&mut dynamics.wheel_failed, v.wheel.iter().map(|it| values.boolean(it.failed)));
