@@ -1,6 +1,6 @@
-//! Which function may be called in which state, and what state it leads to: FMI 2.0.5 co-simulation, 4.2.4.
+//! The functions that may be called in each state, and the states they lead to: FMI 2.0.5 co-simulation, 4.2.4.
 //!
-//! The rows stand in [`functions!`](crate::functions!), beside the signatures. One table serves the exporter's guard, the
+//! The rows stand in [`functions!`](crate::functions!), next to the signatures. One table serves the exporter's guard, the
 //! harness's call checker and the generated documentation; the tests hold it against a second one.
 
 use crate::rules::effective_initial;
@@ -149,7 +149,7 @@ pub const fn allowed(function: Function, state: State) -> Access {
     CALL_TABLE[function as usize][state as usize]
 }
 
-/// Where a call leads.
+/// The state after a call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Next {
     /// To this state.

@@ -40,7 +40,7 @@ pub type CheckSchedule = unsafe extern "C" fn(
     Option<Receive>,
 ) -> c_int;
 
-/// What a received text is.
+/// Kinds of texts that are received.
 pub mod kind {
     /// The `modelDescription.xml`.
     pub const XML: i32 = 0;
@@ -58,7 +58,7 @@ pub mod kind {
     pub const SCHEDULE_FILE: i32 = 6;
     /// Inputs of the model's reference flight: CSV whose first column, `time`, counts steps of the default experiment.
     pub const REFERENCE_INPUTS: i32 = 7;
-    /// What the model is, in HTML, for its manual.
+    /// Purpose of the model, in HTML, for its manual.
     pub const ABOUT: i32 = 8;
     /// A first example in Python, of the FMU `{fmu}`.
     pub const EXAMPLE: i32 = 9;

@@ -7,14 +7,14 @@ element! {
     /// A whole model description of a co-simulation FMU.
     #[derive(Default)]
     pub struct Description {
-        /// What tools show.
+        /// Name of the model as tools show it.
         model_name: String = required "modelName",
         /// Ties the XML to the binary.
         guid: String = required "guid",
         /// One sentence about the model.
         description: Option<String> = optional "description",
         author: Option<String> = optional "author",
-        /// Of the model.
+        /// Version of the model.
         version: Option<String> = optional "version",
         copyright: Option<String> = optional "copyright",
         /// Name or one-line text.
@@ -132,8 +132,8 @@ impl BaseUnit {
         self.exponents_mut().map(|(symbol, exponent)| (symbol, *exponent))
     }
 
-    /// Of exponents that are read by their symbols.
-    pub fn of<E>(
+    /// Reads the exponents by their symbols.
+    pub fn from_exponents<E>(
         mut exponent: impl FnMut(&'static str) -> Result<i32, E>,
         factor: f64,
         offset: f64,
@@ -161,7 +161,7 @@ element! {
     pub struct SimpleType {
         /// As used in `declaredType="…"`.
         name: String = required "name",
-        /// What it means.
+        /// Meaning of the type.
         description: Option<String> = optional "description",
         ;
         /// Kind and attributes.
@@ -169,7 +169,7 @@ element! {
     }
 }
 
-/// What a `SimpleType` is.
+/// Kind of a `SimpleType`, with its attributes.
 #[derive(Clone, Debug, PartialEq, Default)]
 #[allow(missing_docs, reason = "the fields are the standard's own attribute names")]
 pub enum SimpleTypeKind {
@@ -237,7 +237,7 @@ element! {
         name: String = required "name",
         /// Dense per base type in ours.
         value_reference: u32 = required "valueReference",
-        /// What it means, with frame and convention.
+        /// Meaning of the variable, with frame and convention.
         description: Option<String> = optional "description",
         causality: Causality = or(Causality::Local) "causality",
         variability: Variability = or(Variability::Continuous) "variability",
@@ -326,7 +326,7 @@ element! {
     pub struct Unknown {
         /// 1-based index into the variables.
         index: u32 = required "index",
-        /// What it depends on; `None` (absent) means everything, an empty list nothing.
+        /// Indices of the knowns that it depends on; `None` (absent) means all of them, an empty list none.
         dependencies: Option<Vec<u32>> = optional "dependencies",
         /// As long as `dependencies` when present.
         dependencies_kind: Option<Vec<DependencyKind>> = optional "dependenciesKind",

@@ -1,4 +1,4 @@
-//! What the reader and the validator find: codes, severities, lines.
+//! Findings of the reader and the validator: codes, severities, lines.
 
 use core::fmt;
 
@@ -17,7 +17,7 @@ words! {
 macro_rules! codes {
     ($($variant:ident $word:literal $severity:ident $rule:literal)+) => {
         words! {
-            /// What is wrong; the word never changes its meaning.
+            /// Code of a fault; its word never changes its meaning.
             pub enum Code, as_str {
                 $(#[doc = $rule] $variant => $word,)+
             }
@@ -133,13 +133,13 @@ codes! {
 /// One thing that is wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// Which rule.
+    /// The broken rule.
     pub code: Code,
     /// The variable or element, for example ``variable `x` ``.
     pub subject: String,
     /// Line in the XML, 1-based, where the description was read from one.
     pub line: Option<u32>,
-    /// What was found and what is allowed.
+    /// The text, with what was found and what is allowed.
     pub message: String,
 }
 
@@ -160,7 +160,7 @@ impl fmt::Display for Finding {
     }
 }
 
-/// Where the elements of a description stand in its XML: 1-based lines, 0 where there is no element.
+/// Lines of the elements of a description in its XML: 1-based, 0 where there is no element.
 ///
 /// The lists are as long as the lists of the [`crate::Description`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -1,10 +1,10 @@
-//! What the user calls the groups of a description, as their variables' descriptions begin with it.
+//! Labels of the groups of a description: the user's names, with which their variables' descriptions begin.
 
 use std::collections::BTreeMap;
 
 use crate::description::Description;
 
-/// What separates the label of a group from the description of its variable: `IIIR: Thrust of the thruster.`
+/// Text between the label of a group and the description of its variable: `IIIR: Thrust of the thruster.`
 pub const LABEL_END: &str = ": ";
 
 /// The label of every numbered group, such as that of `thruster[3]`: what all descriptions of the group begin with, up to the last

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 /// A value that an attribute may hold.
 pub(crate) trait Lexical: Sized {
-    /// What is allowed, in words.
+    /// Names the texts that are allowed.
     #[cfg_attr(not(feature = "reader"), allow(dead_code, reason = "only the reader refuses"))]
     fn allowed() -> String {
         "any text".to_owned()

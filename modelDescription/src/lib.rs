@@ -31,9 +31,11 @@ pub use description::{
     ModelExchange, ModelStructure, RealAttributes, ScalarVariable, SimpleType, SimpleTypeKind, Unit, Unknown,
     VariableKind,
 };
+#[cfg(feature = "reader")]
+pub use element::ReadError;
 pub use finding::{Code, Finding, Lines, Severity};
 #[cfg(feature = "reader")]
-pub use reader::{MAX_BYTES, Parsed, ReadError, Start, Xml, parse};
+pub use reader::{MAX_BYTES, Parsed, Start, Xml, parse};
 pub use status::Status;
 pub use validate::validate;
 pub use words::{Causality, DependencyKind, Initial, NamingConvention, Variability};

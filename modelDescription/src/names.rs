@@ -71,7 +71,7 @@ impl Scan<'_> {
         found
     }
 
-    fn take_while(&mut self, allowed: impl Fn(u8) -> bool) -> bool {
+    fn skip_while(&mut self, allowed: impl Fn(u8) -> bool) -> bool {
         let start = self.at;
         while self.peek().is_some_and(&allowed) {
             self.at += 1;
@@ -98,14 +98,14 @@ impl Scan<'_> {
         if !self.peek().is_some_and(is_nondigit) {
             return Err(self.error("a letter, `_` or `'`"));
         }
-        self.take_while(|b| is_nondigit(b) || b.is_ascii_digit());
+        self.skip_while(|b| is_nondigit(b) || b.is_ascii_digit());
         Ok(())
     }
 
     fn quoted(&mut self) -> Result<(), String> {
         let start = self.at;
         loop {
-            if self.take_while(is_q_char) {
+            if self.skip_while(is_q_char) {
                 continue;
             }
             if self.take(b'\\') {
@@ -135,7 +135,7 @@ impl Scan<'_> {
     }
 
     fn unsigned(&mut self) -> Result<(), String> {
-        if self.take_while(|b| b.is_ascii_digit()) { Ok(()) } else { Err(self.error("a digit")) }
+        if self.skip_while(|b| b.is_ascii_digit()) { Ok(()) } else { Err(self.error("a digit")) }
     }
 
     fn error(&self, allowed: &str) -> String {

@@ -3,7 +3,7 @@
 use crate::words::words;
 
 words! {
-    /// What an FMI function answers (2.1.3); the discriminants are the C values.
+    /// Status that an FMI function returns (2.1.3); the discriminants are the C values.
     #[repr(i32)]
     pub enum Status, name {
         /// Done.

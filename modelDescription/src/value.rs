@@ -53,7 +53,7 @@ impl Value {
         }
     }
 
-    /// Of a type that is no text, from what [`Self::to_f64`] gives.
+    /// Returns the value of this base type, which is no text, that [`Self::to_f64`] turned into `number`.
     pub fn of_f64(base: BaseType, number: f64) -> Self {
         match base {
             BaseType::Integer => Self::Integer(number as i32),
@@ -66,14 +66,14 @@ impl Value {
 /// Why a value does not fit its variable.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Misfit {
-    /// What was found.
+    /// The value found.
     pub found: String,
-    /// What is allowed.
+    /// The values allowed.
     pub allowed: String,
 }
 
 impl Misfit {
-    /// Of what was found and what is allowed.
+    /// Returns the misfit of the value found with the values allowed.
     pub fn new(found: impl Into<String>, allowed: impl Into<String>) -> Self {
         Self { found: found.into(), allowed: allowed.into() }
     }
@@ -130,7 +130,7 @@ pub fn items<'a>(description: &'a Description, variable: &ScalarVariable) -> &'a
     }
 }
 
-/// What may be written for a variable, in words.
+/// Returns in words what may be written for a variable.
 pub fn allowed(description: &Description, variable: &ScalarVariable) -> String {
     match &variable.kind {
         VariableKind::Real { .. } => match units(description, variable).join(", ") {
@@ -289,13 +289,13 @@ pub fn check(description: &Description, variable: &ScalarVariable, value: &Value
 pub struct AngleMisfit {
     /// The angle with its unit.
     pub found: String,
-    /// What was probably meant.
+    /// The angle that was probably meant.
     pub meant: Option<String>,
     /// The limits in deg and rad.
     pub allowed: String,
 }
 
-/// What is wrong with an angle, a Real whose display unit is deg, that is beyond its limits; `None` for anything else.
+/// Reports an angle, a Real whose display unit is deg, that is beyond its limits; `None` for anything else.
 pub fn angle_misfit(
     description: &Description,
     variable: &ScalarVariable,

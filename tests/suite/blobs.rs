@@ -71,10 +71,10 @@ fn the_seal_is_the_documented_one() {
     }
 }
 
-/// What is done to a genuine payload before it is sealed again.
+/// Damage to a genuine payload before it is sealed again.
 #[derive(Clone, Debug)]
 enum Damage {
-    /// Nothing of it is left.
+    /// Other bytes in its place.
     Replaced(Vec<u8>),
     /// Bits flipped, by position in the payload (modulo its length).
     Flipped(Vec<(usize, u8)>),
@@ -88,7 +88,7 @@ enum Damage {
 }
 
 impl Damage {
-    fn of(&self, payload: &[u8]) -> Vec<u8> {
+    fn applied_to(&self, payload: &[u8]) -> Vec<u8> {
         let mut damaged = payload.to_vec();
         let length = damaged.len().max(1);
         match self {
@@ -206,7 +206,7 @@ fn resealed(model: &'static str, cases: u32) {
     let kept = std::cell::Cell::new(None);
     run(cases, (0..blobs.len(), damage()), |(which, damage)| {
         let mut target = kept.take().unwrap_or_else(|| Target::new(model));
-        target.offer(&seal(&blobs[which], &damage.of(&blobs[which][HEADER..])));
+        target.offer(&seal(&blobs[which], &damage.applied_to(&blobs[which][HEADER..])));
         kept.set(Some(target));
     });
     let accepted = kept.take().unwrap().accepted;

@@ -68,7 +68,7 @@ fn the_packed_fmus_carry_the_golden_descriptions() {
     }
 }
 
-/// What an FMI library exports: the standard's functions, our one, and nothing that could clash with another FMU.
+/// An FMI library exports the standard's functions, our own ones, and nothing that could clash with another FMU.
 #[test]
 #[cfg(target_os = "linux")]
 fn the_library_exports_what_it_must_and_nothing_else() {

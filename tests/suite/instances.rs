@@ -105,7 +105,7 @@ const SLACK_BYTES: usize = 4096;
 #[cfg(target_os = "linux")]
 const SLACK_KB: u64 = 1024;
 
-/// What the allocator of this process, which the libraries share, has given out and not got back.
+/// Returns the memory in use from the allocator of this process, which the libraries share.
 #[cfg(target_os = "linux")]
 #[expect(unsafe_code, reason = "glibc's count of its blocks has no safe form")]
 fn allocated_bytes() -> usize {
@@ -114,7 +114,7 @@ fn allocated_bytes() -> usize {
     counts.uordblks + counts.hblkhd
 }
 
-/// What this process holds beside mapped files, in kB, counted page by page: the figures of `/proc/self/status` are off
+/// Returns the memory of this process without mapped files, in kB, counted page by page: the figures of `/proc/self/status` are off
 /// by what each core has not yet added to them.
 #[cfg(target_os = "linux")]
 fn anonymous_kb() -> u64 {

@@ -10,7 +10,7 @@ const FILES: [&str; 6] = ["dependencies", "inputs", "mod", "outputs", "setup", "
 /// Files that a model may have besides.
 const OPTIONAL: [&str; 2] = ["state", "step"];
 
-/// What models share is no model.
+/// Folder of the parts that models share.
 const COMMON: &str = "common";
 
 #[test]

@@ -14,6 +14,7 @@ mod imports;
 mod instances;
 mod layout;
 mod plant;
+mod prose;
 mod public_names;
 mod reference;
 mod scenarios;

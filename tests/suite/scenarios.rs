@@ -252,7 +252,7 @@ impl Scenario {
     }
 }
 
-/// Where the planet is, in m: before the Sun half of the time.
+/// Draws the position of the planet, in m: before the Sun half of the time.
 fn behind_or_aside(random: &mut RandomNumbers) -> [f64; 3] {
     let aside_m = if random.below(2) == 0 { 2e6 } else { 5e6 };
     [aside_m * random.unit(), -3e6 - 1e6 * random.unit(), aside_m * random.unit()]

@@ -1,4 +1,4 @@
-//! Which values the importer set belongs to the state: it is saved, restored and reset with the values, to the bit.
+//! The set of values that the importer gave belongs to the state: it is saved, restored and reset with the values, to the bit.
 
 use client::{InProcess, Names, StatePointer};
 use fmi_export::Status;
@@ -9,7 +9,7 @@ use crate::support::{SHIPPED, description, fresh, names, ok};
 
 const MODEL: &str = "MomentumPlant";
 const VENUS: i32 = 3;
-/// Of the start values, which are about Mercury.
+/// Eccentricity of the start values, which are about Mercury.
 const ECCENTRICITY: f64 = 0.74;
 const SEMI_MAJOR_AXIS_M: f64 = 6e7;
 

@@ -70,7 +70,7 @@ fn the_unwinder_is_part_of_the_library() {
     }
 }
 
-/// Where the library of a platform is, if `cargo xtask dist` has built it: in a folder of its own beside that of this machine.
+/// Returns the library of a platform, if `cargo xtask dist` has built it: in a folder of its own beside that of this machine.
 fn of_platform(library: &Path, target: &str, name: &str) -> Option<PathBuf> {
     let (profile, folder) = (library.parent()?, library.parent()?.parent()?);
     let path = folder.join(target).join(profile.file_name()?).join(name);
@@ -109,7 +109,7 @@ fn the_libraries_for_old_systems_ask_for_no_later_glibc() {
     }
 }
 
-/// What Windows 7 has, without anything of mingw.
+/// The libraries of Windows 7 are enough, without those of mingw.
 #[test]
 fn the_library_for_windows_needs_windows_alone() {
     const OF_THE_SYSTEM: [&str; 7] = [

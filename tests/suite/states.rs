@@ -13,7 +13,7 @@ use crate::support::{self, RandomNumbers, everything, fresh, in_a_process_of_its
 const POINTS: usize = 12;
 const STEPS: u64 = 50;
 
-/// Where a state was saved.
+/// Step and time at which a state was saved.
 #[derive(Clone, Copy)]
 struct SavedPoint {
     step_number: u64,
@@ -92,7 +92,7 @@ fn saved_simulations_go_on(scenario: Scenario, child_test: &str) {
 
 const CHILD_FOLDER: &str = "HELIOTORQUE_TEST_STATES";
 
-/// What the other process does.
+/// Runs in the other process.
 fn child(scenario: Scenario, folder: &Path) {
     for number in 0..POINTS {
         let read = |kind: &str| std::fs::read(folder.join(format!("{number}.{kind}"))).unwrap();

@@ -7,7 +7,8 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 use client::{InProcess, Names};
-use fmi_export::{Entry, Library, Status};
+use fmi_export::fmi2::entry;
+use fmi_export::{Library, Status};
 use model_description::{BaseType, Description};
 use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
 use probe::{AllTypes, Empty, Panicking, RigidBody};
@@ -15,27 +16,26 @@ use probe::{AllTypes, Empty, Panicking, RigidBody};
 /// Every model here.
 pub(crate) static LIBRARY: Library = Library {
     entries: &[
-        Entry::of::<Empty>(),
-        Entry::of::<AllTypes>(),
-        Entry::of::<Panicking>(),
-        Entry::of::<RigidBody>(),
-        Entry::of::<MomentumPlant>(),
-        Entry::of::<SpinPlant>(),
-        Entry::of::<DisturbanceTorque>(),
-        Entry::of::<Guidance>(),
+        entry::<Empty>(),
+        entry::<AllTypes>(),
+        entry::<Panicking>(),
+        entry::<RigidBody>(),
+        entry::<MomentumPlant>(),
+        entry::<SpinPlant>(),
+        entry::<DisturbanceTorque>(),
+        entry::<Guidance>(),
     ],
 };
 
 /// Libraries of few models each, so that instantiating one does not describe all others: those that take a spacecraft's file
 /// stand together, for its `[start]` may have names of each.
 pub(crate) fn library(model: &str) -> &'static Library {
-    static EMPTY: Library = Library { entries: &[Entry::of::<Empty>()] };
-    static ALL_TYPES: Library = Library { entries: &[Entry::of::<AllTypes>()] };
-    static PANICKING: Library = Library { entries: &[Entry::of::<Panicking>()] };
-    static SPIN_PLANT: Library = Library { entries: &[Entry::of::<SpinPlant>()] };
-    static OF_SPACECRAFT: Library = Library {
-        entries: &[Entry::of::<MomentumPlant>(), Entry::of::<DisturbanceTorque>(), Entry::of::<Guidance>()],
-    };
+    static EMPTY: Library = Library { entries: &[entry::<Empty>()] };
+    static ALL_TYPES: Library = Library { entries: &[entry::<AllTypes>()] };
+    static PANICKING: Library = Library { entries: &[entry::<Panicking>()] };
+    static SPIN_PLANT: Library = Library { entries: &[entry::<SpinPlant>()] };
+    static OF_SPACECRAFT: Library =
+        Library { entries: &[entry::<MomentumPlant>(), entry::<DisturbanceTorque>(), entry::<Guidance>()] };
     match model {
         "SpinPlant" => &SPIN_PLANT,
         "Empty" => &EMPTY,

@@ -9,11 +9,11 @@ use crate::shell::{Outcome, cargo, command, need, output, root, run};
 use crate::test::compile_c;
 use crate::{dist, python};
 
-/// Kernel benchmarks, as examples of `physics`.
+/// Kernel benchmarks: examples of `physics`, built as the library is.
 const EXAMPLES: &[&str] = &["bench_solar", "bench_radiation"];
 /// Studies and systems are simulated this often; the median counts.
 const RUNS: usize = 3;
-/// Where processor times are compared, so many times by turns.
+/// Number of turns in which processor times are compared.
 const TURNS: usize = 5;
 
 type Part = fn(&Built) -> Outcome;
@@ -43,7 +43,7 @@ pub(crate) fn parts(names: &[String]) -> Outcome {
 
 fn kernels(_: &Built) -> Outcome {
     EXAMPLES.iter().try_for_each(|example| {
-        run(cargo("run --locked --quiet --release -p physics --example").arg(example))
+        run(cargo("run --locked --quiet --profile fmu -p physics --example").arg(example))
     })
 }
 

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use crate::shell::{self, cargo, root, run, target};
 
-/// What a build leaves.
+/// Products of a build.
 pub(crate) struct Built {
     /// The command line.
     pub heliotorque: PathBuf,
@@ -19,7 +19,7 @@ pub(crate) struct Built {
 }
 
 impl Built {
-    /// What a build for one platform leaves below `folder`, by prefix and suffix of its libraries and the suffix of its programs.
+    /// The products of a build for one platform below `folder`, by prefix and suffix of its libraries and the suffix of its programs.
     pub(crate) fn below(folder: &Path, (prefix, suffix): (&str, &str), program_suffix: &str) -> Self {
         let library = |name: &str| folder.join("fmu").join(format!("{prefix}{name}{suffix}"));
         Self {
@@ -46,7 +46,7 @@ pub(crate) fn build() -> Result<Built, String> {
     Ok(built())
 }
 
-/// Where a build leaves what it made.
+/// Returns the products of the host's build.
 pub(crate) fn built() -> Built {
     Built::below(&target(), (DLL_PREFIX, DLL_SUFFIX), EXE_SUFFIX)
 }
@@ -66,7 +66,7 @@ pub(crate) fn test_environment(built: &Built) -> [(&'static str, PathBuf); 4] {
     ]
 }
 
-/// Where the tests may leave files.
+/// Returns an existing folder for files of tests.
 pub(crate) fn scratch(name: &str) -> Result<PathBuf, String> {
     let folder = shell::target().join("scratch").join(name);
     std::fs::create_dir_all(&folder)

@@ -11,13 +11,13 @@ use crate::build::Built;
 use crate::shell::{self, Outcome, root, run};
 use crate::{build, dist};
 
-/// Where the program stands below the prefix.
+/// Folder of the program below the prefix.
 const PROGRAM_FOLDER: &str = "bin";
 
-/// Where the library and the FMUs stand below the prefix; the program looks there from its own folder.
+/// Folder of the library and the FMUs below the prefix; the program looks there from its own folder.
 const LIBRARY_FOLDER: [&str; 2] = ["lib", "heliotorque"];
 
-/// Where `man` looks for pages of commands, beside the folder with the program.
+/// Folder in which `man` looks for pages of commands, next to the folder of the program.
 const MANUAL_FOLDER: [&str; 3] = ["share", "man", "man1"];
 
 /// Leaves out building and packing.

@@ -6,12 +6,12 @@ use crate::shell::{command, lacks, need, run, target};
 
 /// Its name, as `setlocale` takes it.
 const NAME: &str = "de_DE.UTF-8";
-/// Where the C library searches for locales first.
+/// Variable with the folder in which the C library searches for locales first.
 const VARIABLE: &str = "LOCPATH";
-/// What it is built from.
+/// Definition of the locale.
 const SOURCE: &str = "/usr/share/i18n/locales/de_DE";
 
-/// What the tests' environment needs for it: nothing where it is there already, or cannot be built.
+/// Returns the variable that the tests need for the locale: none where it is installed already, or cannot be built.
 pub(crate) fn environment() -> Result<Option<(&'static str, PathBuf)>, String> {
     let given = std::env::var_os(VARIABLE).is_some_and(|folder| is_in(Path::new(&folder)));
     if given || !cfg!(target_os = "linux") {

@@ -14,7 +14,7 @@ use crate::{dist, guide, shell};
 const TARGETS: &[&str] = &["spacecraft", "model_description", "state", "calls", "zip"];
 /// How long each target runs, in s; another number by this variable.
 const SECONDS: &str = "60";
-/// Of each input: time, memory, length.
+/// Limits of each input: time, memory, length.
 const LIMITS: &str = "-timeout=20 -rss_limit_mb=2048 -max_len=32768 -len_control=0 -print_final_stats=1";
 const SECONDS_VARIABLE: &str = "HELIOTORQUE_FUZZ_SECONDS";
 /// Names the parts to run; without it `cargo xtask test` and all parts run. Tests have their long extent where it is set.
@@ -24,7 +24,7 @@ const FAILING: &[(&str, &str)] =
     &[("MomentumPlant", "600"), ("SpinPlant", "0.5"), ("DisturbanceTorque", "60"), ("Guidance", "1")];
 /// Allocations per model that fail in turn, evenly spread.
 const ALLOCATIONS: &str = "300";
-/// A command that still fails when its disk is full only after so many writes never ends well.
+/// Number of writes after which a command that still fails on a full disk counts as one that never succeeds.
 const MOST_WRITES: u32 = 2_000;
 
 type Part = (&'static str, fn() -> Outcome);
@@ -226,7 +226,7 @@ fn writes() -> Outcome {
     commands.into_iter().try_for_each(|command| on_a_full_disk(&built, &scratch, &full_disk, command))
 }
 
-/// What stood in the target before.
+/// Content of the target before the command.
 const OLD: &str = "old";
 
 fn on_a_full_disk(

@@ -1,4 +1,4 @@
-//! `cargo xtask demo | test [--long | --all-platforms | NAME] | bless | env | dist | wheel | install | bench [PART...] | guide | notices`: the project's own chores. No dependencies; spawns cargo and python.
+//! `cargo xtask demo | test [--long | --all-platforms | NAME] | bless | env | dist | wheel | install | bench [PART...] | lines | guide | notices`: the project's own chores. No dependencies; spawns cargo and python.
 
 mod archives;
 mod bench;
@@ -6,6 +6,7 @@ mod build;
 mod dist;
 mod guide;
 mod install;
+mod lines;
 mod locale;
 mod long;
 mod notices;
@@ -55,6 +56,7 @@ cargo xtask <task>
   bench [PART...]
           measure speed and memory; prints `bench <name> <value> <unit>` lines. Parts: kernels, c, system, study, plans, flybys,
           sweep, earth
+  lines   count lines of code by crate and by folder of physics: no blanks, comments, lone brackets, tests
   guide   build the guide of docs/ into target/guide
   notices write anew what licences the linked crates have, after Cargo.lock has changed
 ";
@@ -84,6 +86,7 @@ fn main() -> ExitCode {
         "wheel" => archives::wheels(),
         "install" => install::install(arguments.get(1..).unwrap_or_default()),
         "bench" => bench::parts(arguments.get(1..).unwrap_or_default()),
+        "lines" => lines::print(),
         "guide" => guide::build(),
         "notices" => notices::write(),
         "" | "help" | "--help" | "-h" => {
@@ -91,7 +94,7 @@ fn main() -> ExitCode {
             Ok(())
         }
         other => Err(format!(
-            "unknown task `{other}`; there are demo, test, bless, env, dist, wheel, install, bench, guide and notices"
+            "unknown task `{other}`; there are demo, test, bless, env, dist, wheel, install, bench, lines, guide and notices"
         )),
     };
     match outcome {

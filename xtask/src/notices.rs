@@ -69,7 +69,7 @@ struct Crate {
     license: String,
 }
 
-/// Where the notices are kept.
+/// File of the notices.
 fn path() -> PathBuf {
     shell::root().join("fmu-src").join("component").join("THIRD-PARTY.txt")
 }

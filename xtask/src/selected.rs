@@ -13,7 +13,7 @@ const FREE_STANDING: &[&str] = &["fmu-src", "modelDescription"];
 /// With this set, tests write what they compare with.
 const BLESS: (&str, &str) = ("HELIOTORQUE_BLESS", "1");
 
-/// What can be written anew: its name, the tests in Rust that do so, those in Python.
+/// Recordings that can be written anew: name, the tests in Rust that write them, those in Python.
 const RECORDED: &[(&str, Option<&str>, Option<&str>)] = &[
     ("golden", Some("golden::every_shipped_model"), None),
     ("reference", Some("reference::"), None),
@@ -110,7 +110,7 @@ fn test_program(line: &str) -> Option<TestProgram> {
 
 /// Whether a test in Python has `name` in its name.
 fn collects(name: &str) -> Result<bool, String> {
-    /// What pytest ends with where it collects nothing.
+    /// Exit status of pytest where it collects nothing.
     const NOTHING: i32 = 5;
     let ended = python::pytest()?.args(["--collect-only", "tests/python", "-k", name]).output();
     let ended = ended.map_err(|error| format!("cannot start pytest: {error}"))?;

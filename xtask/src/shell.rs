@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus};
 use std::time::Instant;
 
-/// What a task ends with; the text says what went wrong.
+/// Result of a task; the text of an error says what failed.
 pub(crate) type Outcome = Result<(), String>;
 
 /// The folder of the workspace that the task was started in, also after the checkout was copied or moved: nothing of where

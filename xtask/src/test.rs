@@ -44,7 +44,7 @@ fn build() -> Result<Built, String> {
     Ok(build::built())
 }
 
-/// Where the tests find what was built, and the seed of their draws.
+/// Variables by which the tests find the build's products, and the seed of their draws.
 pub(crate) fn environment(built: &Built) -> Result<Vec<(&'static str, PathBuf)>, String> {
     let mut environment = build::test_environment(built).to_vec();
     environment.push(("HELIOTORQUE_FOREIGN_FMU", foreign_fmu()?));

@@ -34,7 +34,7 @@ pub(crate) struct Group {
     pub setup: Option<Expr>,
 }
 
-/// What a field's attribute says.
+/// Content of a field's attribute.
 pub(crate) enum FieldAttribute {
     Declaration(Box<Declaration>),
     Group(Box<Group>),
@@ -66,7 +66,7 @@ pub(crate) fn of_field(name: &Ident, field: &Field) -> syn::Result<FieldAttribut
             return Err(syn::Error::new_spanned(word, format!("`{name}` is declared twice")));
         }
     }
-    let of_type = || FieldType::of(&field.ty).is_err().then(|| FieldAttribute::Group(Box::default()));
+    let of_type = || FieldType::from_type(&field.ty).is_err().then(|| FieldAttribute::Group(Box::default()));
     found.or_else(of_type).ok_or_else(|| {
         let problem = format!(
             "`{name}` needs one of #[parameter], #[calculated_parameter], #[input], #[output], #[local], #[group]"

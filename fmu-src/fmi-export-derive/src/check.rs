@@ -1,4 +1,4 @@
-//! What can be said of a declaration before the program runs.
+//! Checks of a declaration at compile time.
 
 use model_description::{
     Causality, Variability, names,

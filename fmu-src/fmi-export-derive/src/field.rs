@@ -2,7 +2,7 @@
 
 use syn::{GenericArgument, PathArguments, Type};
 
-/// What a field's type says.
+/// Handle type of a field.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FieldType {
     Real,
@@ -16,7 +16,7 @@ pub(crate) enum FieldType {
 
 impl FieldType {
     /// The kind of a type, by the last segment of its path.
-    pub(crate) fn of(ty: &Type) -> syn::Result<Self> {
+    pub(crate) fn from_type(ty: &Type) -> syn::Result<Self> {
         let name = match ty {
             Type::Path(path) => path.path.segments.last().map(|segment| segment.ident.to_string()),
             _ => None,
@@ -42,7 +42,7 @@ impl FieldType {
         matches!(self, Self::Real | Self::RealVector | Self::RealMatrix)
     }
 
-    /// What is appended to the first element's name.
+    /// Returns the indices in the name of the first element.
     pub(crate) fn first_element(self) -> &'static str {
         match self {
             Self::RealVector => "[1]",

@@ -1,4 +1,4 @@
-//! What is read off the source text: descriptions, names in lowerCamelCase, literal values, gathered errors.
+//! Reading of the source text: descriptions, names in lowerCamelCase, literal values, gathered errors.
 
 use syn::{Attribute, Expr, ExprLit, ExprUnary, Lit, Meta, UnOp};
 

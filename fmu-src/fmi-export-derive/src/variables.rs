@@ -98,7 +98,7 @@ fn declare(
     names: &mut Vec<String>,
     errors: &mut Errors,
 ) -> Option<TokenStream> {
-    let kind = errors.take(FieldType::of(&field.ty))?;
+    let kind = errors.take(FieldType::from_type(&field.ty))?;
     check::declaration(declared, kind, ident, errors);
     let name = check::name_or(declared.name.as_ref(), || camel_from_snake(&ident.to_string()));
     errors.take(match &declared.name {

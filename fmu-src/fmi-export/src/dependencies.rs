@@ -1,4 +1,4 @@
-//! What outputs and unknowns of initialization depend on, by handles.
+//! Dependencies of outputs and unknowns of initialization, by handles.
 //!
 //! A model writes one row a group of unknowns; whole sections of variables may stand on either side:
 //!

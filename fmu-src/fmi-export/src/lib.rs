@@ -19,6 +19,7 @@ mod location;
 pub mod logger;
 pub mod model;
 mod panics;
+mod prepared;
 mod runtime;
 mod start_values;
 mod state_bytes;

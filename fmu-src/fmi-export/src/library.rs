@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-use crate::fmi2::description::{DescribeError, Prepared, prepare, start_names};
 use crate::location;
 use crate::model::{Manual, Model, SetupError};
 use crate::panics::contain;
+use crate::prepared::{DescribeError, Prepared};
 use crate::start_values::{OtherReader, Reader};
 
 /// One model of a library, its type erased.
@@ -24,13 +24,18 @@ pub struct Entry {
     pub reference_inputs: &'static str,
     /// The beginning of its manual.
     pub manual: Manual,
-    prepare: fn(&str, &str, &[OtherReader<'_>]) -> Result<Prepared, DescribeError>,
-    start_names: fn(&str, &str) -> Option<BTreeSet<String>>,
+    prepare: Prepare,
+    start_names: StartNames,
 }
 
+/// Describes a model: name and text of its setup, and the models that the setup may serve beside it.
+type Prepare = fn(&str, &str, &[OtherReader<'_>]) -> Result<Prepared, DescribeError>;
+/// The names that start values may have, if a model takes the setup of this name and text.
+type StartNames = fn(&str, &str) -> Option<BTreeSet<String>>;
+
 impl Entry {
-    /// The entry of a model.
-    pub const fn of<M: Model>() -> Self {
+    /// The entry of a model that `prepare` describes for a version of FMI.
+    pub(crate) const fn new<M: Model>(prepare: Prepare, start_names: StartNames) -> Self {
         Self {
             name: M::NAME,
             setup_file: M::SETUP_FILE,
@@ -38,8 +43,8 @@ impl Entry {
             default_setup: M::DEFAULT_SETUP,
             reference_inputs: M::REFERENCE_INPUTS,
             manual: M::MANUAL,
-            prepare: prepare::<M>,
-            start_names: start_names::<M>,
+            prepare,
+            start_names,
         }
     }
 
@@ -82,20 +87,20 @@ impl Entry {
         let Ok(Some(folder)) = resources else { return Ok(prepared) };
         for file in self.schedule_files {
             if let Some(text) = location::read_if_there(folder, file)? {
-                Self::take_schedule(&mut prepared, file, file, &text).map_err(|error| error.to_string())?;
+                Self::set_schedule(&mut prepared, file, file, &text).map_err(|error| error.to_string())?;
             }
         }
         Ok(prepared)
     }
 
-    /// Has the prepared model take a schedule.
-    fn take_schedule(
+    /// Gives a schedule to the prepared model.
+    fn set_schedule(
         prepared: &mut Prepared,
         schedule: &str,
         file: &str,
         text: &str,
     ) -> Result<(), DescribeError> {
-        match contain(|| prepared.runtime.take_schedule(schedule, file, text)) {
+        match contain(|| prepared.runtime.set_schedule(schedule, file, text)) {
             Ok(taken) => taken.map_err(DescribeError::Setup),
             Err(panic) => Err(DescribeError::Panic(panic)),
         }
@@ -142,7 +147,7 @@ impl Library {
             return Err(SetupError(format!("{schedule_file}: {} takes no {schedule}", entry.name)).into());
         }
         let mut prepared = entry.prepare(file, setup_text, self.entries)?;
-        Entry::take_schedule(&mut prepared, schedule, schedule_file, schedule_text)?;
+        Entry::set_schedule(&mut prepared, schedule, schedule_file, schedule_text)?;
         Ok(())
     }
 

@@ -12,7 +12,7 @@ use model_description::Status;
 /// A log category (2.2.4). Messages carry one of the first five; `logAll` stands for all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Category {
-    /// What happens in the model: dumps, eclipse edges, pulses.
+    /// An event in the model: a dump, an edge of an eclipse, a pulse.
     Events,
     /// Something unusual that does not stop the instance; always logged.
     Warning,
@@ -88,7 +88,7 @@ impl Category {
     }
 }
 
-/// Where messages go: the master's logger, or a test's list.
+/// Receiver of messages: the master's logger, or a test's list.
 pub trait LogSink: Send {
     /// Takes one message; every text is ready for a `printf`-like receiver without arguments.
     fn write(&self, instance_name: &CStr, status: Status, category: &CStr, message: &CStr);

@@ -5,7 +5,7 @@ use std::any::Any;
 use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind, set_hook};
 use std::sync::Once;
 
-/// Where the last panic of a thread was.
+/// Source location of the last panic of a thread.
 #[derive(Clone, Copy)]
 struct PanicLocation {
     file: [u8; Self::LONGEST],

@@ -12,8 +12,8 @@ pub(crate) type ErasedState = Box<dyn Any + Send>;
 
 /// One model instance; every method is one call of the [`Model`] trait.
 pub(crate) trait Runtime: Send {
-    /// Takes a schedule, before anything else is called.
-    fn take_schedule(&mut self, schedule: &str, file: &str, text: &str) -> Result<(), SetupError>;
+    /// Parses a schedule into the setup, before anything else is called.
+    fn set_schedule(&mut self, schedule: &str, file: &str, text: &str) -> Result<(), SetupError>;
     fn initialize(&mut self, values: &mut Values, start_s: f64, log: &dyn Log) -> Result<(), Failure>;
     /// Writes parameters as they act.
     fn resolve_parameters(&self, values: &mut Values, log: &dyn Log);
@@ -74,7 +74,7 @@ impl<M: Model> Typed<M> {
 }
 
 impl<M: Model> Runtime for Typed<M> {
-    fn take_schedule(&mut self, schedule: &str, file: &str, text: &str) -> Result<(), SetupError> {
+    fn set_schedule(&mut self, schedule: &str, file: &str, text: &str) -> Result<(), SetupError> {
         M::parse_schedule(&mut self.setup, schedule, file, text)
     }
 

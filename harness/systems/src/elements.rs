@@ -134,7 +134,7 @@ fn base_unit(start: &Start) -> Result<BaseUnit, ReadError> {
         return Err(refuse(start, "attribute `factor`: found 0, allowed: any other number".to_owned()));
     }
     let offset = number(start, "offset")?.unwrap_or(0.0);
-    BaseUnit::of(|symbol| Ok(integer(start, symbol)?.unwrap_or(0)), factor, offset)
+    BaseUnit::from_exponents(|symbol| Ok(integer(start, symbol)?.unwrap_or(0)), factor, offset)
 }
 
 /// Reads `Enumerations`.

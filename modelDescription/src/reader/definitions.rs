@@ -2,10 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::fields::Fields;
 use super::xml::Start;
-use super::{Read, ReadError, lacks, twice};
-use crate::element::Element;
+use super::{Read, lacks, twice};
+use crate::element::{Element, ReadError};
 use crate::finding::Code;
 use crate::{RealAttributes, SimpleType, SimpleTypeKind, Unit};
 
@@ -22,9 +21,9 @@ impl Read<'_> {
                 return Err(twice(&child));
             }
             self.list(&mut child, "File", |read, file| {
-                let mut fields = Fields::of(file);
+                let mut fields = file.fields();
                 files.push(fields.required("name")?);
-                fields.finish(&mut read.xml);
+                read.xml.warn_of_unknown(&fields);
                 read.end(file)
             })?;
         }
@@ -62,7 +61,7 @@ impl Read<'_> {
     }
 
     fn type_kind(&mut self, start: &mut Start) -> Result<Option<SimpleTypeKind>, ReadError> {
-        let mut fields = Fields::of(start);
+        let mut fields = start.fields();
         let mut kind = match start.name.as_str() {
             "Real" => SimpleTypeKind::Real(RealAttributes::read(&mut fields)?),
             "Integer" => SimpleTypeKind::Integer {
@@ -80,7 +79,7 @@ impl Read<'_> {
                 return Ok(None);
             }
         };
-        fields.finish(&mut self.xml);
+        self.xml.warn_of_unknown(&fields);
         match &mut kind {
             SimpleTypeKind::Enumeration { items, .. } => self.list(start, "Item", |read, item| {
                 items.push(read.leaf(item)?);
@@ -95,7 +94,7 @@ impl Read<'_> {
     pub(super) fn annotations(&mut self, start: &mut Start) -> Result<(), ReadError> {
         let mut names = BTreeSet::new();
         self.list(start, "Tool", |read, tool| {
-            let name: String = Fields::of(tool).required("name")?;
+            let name: String = tool.fields().required("name")?;
             if !names.insert(name.clone()) {
                 let message = format!("tool `{name}` stands twice in one list; allowed is once");
                 read.xml.warn(Code::DuplicateTool, tool.line, &tool.name, message);

@@ -6,27 +6,23 @@
 //! time grows linearly with size.
 
 mod definitions;
-mod error;
-mod fields;
 mod variables;
 mod xml;
 
-use crate::element::Element;
+use crate::element::{Element, ReadError};
 use crate::finding::{Code, Finding, Lines};
 use crate::{CoSimulation, Description, ModelExchange, validate};
 
-pub use error::ReadError;
-pub(crate) use fields::Fields;
 pub use xml::{MAX_BYTES, Start, Xml};
 
-/// What was read.
+/// Result of reading a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parsed {
     /// The content.
     pub description: Description,
-    /// What the reader lived with: unknown XML, wrong order of elements.
+    /// Faults that did not stop the reader: unknown XML, wrong order of elements.
     pub warnings: Vec<Finding>,
-    /// Where the elements stand.
+    /// Lines of the elements.
     pub lines: Lines,
 }
 
@@ -80,14 +76,14 @@ impl Read<'_> {
             return Err(ReadError::new(Code::Root, root.line, &root.name, message));
         }
         self.lines.root = root.line;
-        let mut fields = Fields::of(root);
+        let mut fields = root.fields();
         let version: String = fields.required("fmiVersion")?;
         if version != "2.0" {
             let message = format!("fmiVersion is `{version}`; allowed is `2.0`");
             return Err(ReadError::new(Code::Version, root.line, &root.name, message));
         }
         self.description = Description::read(&mut fields)?;
-        fields.finish(&mut self.xml);
+        self.xml.warn_of_unknown(&fields);
         Ok(())
     }
 
@@ -177,7 +173,7 @@ impl Read<'_> {
         name: &str,
         mut item: impl FnMut(&mut Self, &mut Start) -> Result<(), ReadError>,
     ) -> Result<(), ReadError> {
-        Fields::of(start).finish(&mut self.xml);
+        self.xml.warn_of_unknown(&start.fields());
         let mut empty = true;
         while let Some(mut child) = self.xml.child(start)? {
             if child.name == name {
@@ -197,9 +193,9 @@ impl Read<'_> {
 
     /// The attributes of an element; others give warnings.
     fn attributes<T: Element>(&mut self, start: &mut Start) -> Result<T, ReadError> {
-        let mut fields = Fields::of(start);
+        let mut fields = start.fields();
         let read = T::read(&mut fields)?;
-        fields.finish(&mut self.xml);
+        self.xml.warn_of_unknown(&fields);
         Ok(read)
     }
 

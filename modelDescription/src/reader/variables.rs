@@ -1,8 +1,8 @@
 //! Model variables and model structure.
 
-use super::fields::Fields;
 use super::xml::Start;
-use super::{Read, ReadError, lacks, twice};
+use super::{Read, lacks, twice};
+use crate::element::ReadError;
 use crate::finding::Code;
 use crate::{ScalarVariable, VariableKind};
 
@@ -37,18 +37,18 @@ impl Read<'_> {
     }
 
     fn variable_kind(&mut self, start: &mut Start) -> Result<Option<VariableKind>, ReadError> {
-        let mut fields = Fields::of(start);
+        let mut fields = start.fields();
         let Some(kind) = VariableKind::read(&start.name, &mut fields)? else {
             self.unknown(start)?;
             return Ok(None);
         };
-        fields.finish(&mut self.xml);
+        self.xml.warn_of_unknown(&fields);
         self.end(start)?;
         Ok(Some(kind))
     }
 
     pub(super) fn structure(&mut self, start: &mut Start) -> Result<(), ReadError> {
-        Fields::of(start).finish(&mut self.xml);
+        self.xml.warn_of_unknown(&start.fields());
         self.ordered(start, LISTS, 0, |read, rank, child| {
             let (mut unknowns, mut lines) = (Vec::new(), Vec::new());
             read.list(child, "Unknown", |read, entry| {

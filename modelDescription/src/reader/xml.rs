@@ -4,7 +4,7 @@ use quick_xml::XmlVersion;
 use quick_xml::events::{BytesDecl, BytesStart, Event};
 use quick_xml::reader::Reader;
 
-use super::ReadError;
+use crate::element::{Fields, ReadError};
 use crate::finding::{Code, Finding};
 use crate::writer::is_xml_char;
 
@@ -29,6 +29,13 @@ pub struct Start {
     empty: bool,
 }
 
+impl Start {
+    /// Takes the attributes out of the tag.
+    pub(crate) fn fields(&mut self) -> Fields {
+        Fields::new(&self.name, self.line, core::mem::take(&mut self.attributes))
+    }
+}
+
 /// The document as a stream of start tags.
 pub struct Xml<'a> {
     reader: Reader<&'a [u8]>,
@@ -40,7 +47,7 @@ pub struct Xml<'a> {
 }
 
 impl<'a> Xml<'a> {
-    /// Of a whole file.
+    /// The stream of a whole file.
     ///
     /// # Errors
     /// Larger than any real file, not UTF-8, characters that XML does not allow.
@@ -152,6 +159,14 @@ impl<'a> Xml<'a> {
     pub fn warn(&mut self, code: Code, line: u32, element: &str, message: String) {
         if self.warnings.len() < MAX_WARNINGS {
             self.warnings.push(Finding { code, subject: format!("<{element}>"), line: Some(line), message });
+        }
+    }
+
+    /// Warns of every attribute that nobody has read.
+    pub(crate) fn warn_of_unknown(&mut self, fields: &Fields) {
+        for name in fields.unknown() {
+            let message = format!("attribute `{name}` is not one of FMI 2.0; it is ignored");
+            self.warn(Code::UnknownAttribute, fields.line, &fields.element, message);
         }
     }
 

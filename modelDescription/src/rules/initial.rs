@@ -2,12 +2,12 @@
 
 use crate::{Causality, Initial, ScalarVariable, Variability, value};
 
-/// What `initial` may be for one pair of causality and variability.
+/// Values of `initial` for one pair of causality and variability.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct InitialRule {
-    /// What an absent `initial` means; `None` where the attribute must be absent.
+    /// Meaning of an absent `initial`; `None` where the attribute must be absent.
     pub default: Option<Initial>,
-    /// What may be written; empty where the attribute must be absent.
+    /// Values that may be written; empty where the attribute must be absent.
     pub allowed: &'static [Initial],
 }
 
@@ -18,7 +18,7 @@ pub struct InitialRow {
     pub causality: Causality,
     /// Variability.
     pub variability: Variability,
-    /// What `initial` may be.
+    /// Values of `initial` of this pair.
     pub rule: InitialRule,
 }
 
@@ -115,7 +115,7 @@ pub fn has_start(variable: &ScalarVariable) -> bool {
     value::start(variable).is_some()
 }
 
-/// What of a declaration does not fit the standard's tables, in words.
+/// Part of a declaration that does not fit the standard's tables, in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RoleFault {
     /// Causality, variability and initial do not fit each other or the type.

@@ -1,4 +1,4 @@
-//! What `ModelStructure` must list (2.2.8).
+//! Variables that `ModelStructure` must list (2.2.8).
 
 use std::collections::BTreeSet;
 

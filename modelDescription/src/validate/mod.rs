@@ -37,7 +37,7 @@ pub fn with_lines(description: &Description, lines: &Lines) -> Vec<Finding> {
     check.findings
 }
 
-/// Which element a finding is about; list elements by 0-based position.
+/// The element that a finding is about; list elements by 0-based position.
 #[derive(Clone, Copy)]
 enum ElementLocation {
     Root,

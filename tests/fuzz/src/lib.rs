@@ -3,7 +3,8 @@
 use std::cell::RefCell;
 
 use client::{InProcess, Names};
-use fmi_export::{Entry, Library, Status};
+use fmi_export::fmi2::entry;
+use fmi_export::{Library, Status};
 use model_description::BaseType;
 use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
 use probe::{AllTypes, Empty};
@@ -14,14 +15,14 @@ pub const MODELS: [&str; 6] =
 
 /// A library of one model, so that instantiating it does not describe the others.
 pub fn library(model: &str) -> &'static Library {
-    static MOMENTUM_PLANT: Library = Library { entries: &[Entry::of::<MomentumPlant>()] };
-    static SPIN_PLANT: Library = Library { entries: &[Entry::of::<SpinPlant>()] };
+    static MOMENTUM_PLANT: Library = Library { entries: &[entry::<MomentumPlant>()] };
+    static SPIN_PLANT: Library = Library { entries: &[entry::<SpinPlant>()] };
     // The shipped file has start values for MomentumPlant.
     static DISTURBANCE_TORQUE: Library =
-        Library { entries: &[Entry::of::<DisturbanceTorque>(), Entry::of::<MomentumPlant>()] };
-    static GUIDANCE: Library = Library { entries: &[Entry::of::<Guidance>()] };
-    static ALL_TYPES: Library = Library { entries: &[Entry::of::<AllTypes>()] };
-    static EMPTY: Library = Library { entries: &[Entry::of::<Empty>()] };
+        Library { entries: &[entry::<DisturbanceTorque>(), entry::<MomentumPlant>()] };
+    static GUIDANCE: Library = Library { entries: &[entry::<Guidance>()] };
+    static ALL_TYPES: Library = Library { entries: &[entry::<AllTypes>()] };
+    static EMPTY: Library = Library { entries: &[entry::<Empty>()] };
     match model {
         "MomentumPlant" => &MOMENTUM_PLANT,
         "SpinPlant" => &SPIN_PLANT,

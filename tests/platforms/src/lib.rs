@@ -3,12 +3,13 @@
 //! The digest is FNV-1a (64 bits) over the bytes of every Real, Integer and Boolean output, little-endian.
 
 use client::NamedInstance;
-use fmi_export::{Entry, Library};
+use fmi_export::fmi2::entry;
+use fmi_export::Library;
 use model_description::{Causality, VariableKind};
 use models::{Guidance, MomentumPlant, SpinPlant};
 
 static LIBRARY: Library =
-    Library { entries: &[Entry::of::<MomentumPlant>(), Entry::of::<SpinPlant>(), Entry::of::<Guidance>()] };
+    Library { entries: &[entry::<MomentumPlant>(), entry::<SpinPlant>(), entry::<Guidance>()] };
 
 /// A simulation.
 pub struct DigestCase {

@@ -61,7 +61,7 @@ pub(super) enum Picked {
     Unknown(u32),
 }
 
-/// What an answer must be.
+/// Answer that is expected.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Answer {
     Ok,
@@ -83,7 +83,7 @@ pub(super) struct InstanceState {
     time_s: f64,
     terminated: bool,
     set_values: [Value; VARIABLES.len()],
-    /// What outputs show; none before the first computation.
+    /// Computation that the outputs show; none before the first one.
     computed: Option<Computed>,
     derivatives: Vec<(i32, f64)>,
 }
@@ -174,7 +174,7 @@ impl Master {
         }
     }
 
-    /// One that goes by a table with a cell broken.
+    /// A reference whose table has one broken cell.
     pub(super) fn misled(misprint: Misprint) -> Self {
         Self { misprint: Some(misprint), ..Self::new() }
     }

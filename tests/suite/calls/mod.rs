@@ -224,7 +224,7 @@ fn known(text: &str) -> &'static str {
     set.into_iter().chain(starts).find(|it| *it == text).unwrap_or("a text nobody set")
 }
 
-/// Where the reference stood before a call.
+/// State and time of the reference before a call.
 #[derive(Clone, Copy)]
 struct Before {
     state: char,
@@ -232,7 +232,7 @@ struct Before {
 }
 
 impl Before {
-    fn of(master: &Master) -> Self {
+    fn new(master: &Master) -> Self {
         Self { state: master.now.state, time_s: master.time_s() }
     }
 }
@@ -288,14 +288,14 @@ impl StateMachineTest for Sequence {
     type Reference = Master;
 
     fn init_test(master: &Master) -> Self {
-        Self { subject: Subject::new(), before: Before::of(master) }
+        Self { subject: Subject::new(), before: Before::new(master) }
     }
 
     fn apply(mut sequence: Self, master: &Master, call: Call) -> Self {
         let answer = sequence.subject.call(&call, sequence.before);
         let messages = sequence.subject.instance.take_messages();
         compare(master, &call, &answer, &messages).unwrap_or_else(|message| panic!("{message}"));
-        sequence.before = Before::of(master);
+        sequence.before = Before::new(master);
         sequence
     }
 
@@ -344,7 +344,7 @@ fn any_sequence_of_calls_is_answered_by_the_table() {
     }
 }
 
-/// Calls until an instance answers otherwise than a reference that goes by a broken table, if ever.
+/// Calls until an instance answers otherwise than a reference with a broken table, if ever.
 fn calls_until_noticed(misprint: Misprint, runner: &mut TestRunner) -> Option<u64> {
     let mut calls = 0;
     while calls < 10 * CALLS {
@@ -352,7 +352,7 @@ fn calls_until_noticed(misprint: Misprint, runner: &mut TestRunner) -> Option<u6
         let mut noticed = false;
         for _ in 0..LONGEST_SEQUENCE {
             let call = strategies::next(master.now.state).new_tree(runner).unwrap().current();
-            let before = Before::of(&master);
+            let before = Before::new(&master);
             master.call(&call);
             let answer = subject.call(&call, before);
             calls += 1;

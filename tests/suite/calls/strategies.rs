@@ -1,4 +1,4 @@
-//! Which calls are tried: in each state mostly those that lead on, often any other.
+//! Draws of calls: in each state mostly those that lead on, often any other.
 
 use model_description::BaseType;
 use proptest::prelude::*;
@@ -145,7 +145,7 @@ fn anything(state: char) -> BoxedStrategy<Call> {
     .boxed()
 }
 
-/// What leads on from a state.
+/// Calls that lead on from a state.
 fn useful(state: char) -> BoxedStrategy<Call> {
     let restore = (0_usize..2).prop_map(Call::SetState);
     match state {

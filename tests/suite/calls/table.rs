@@ -40,7 +40,7 @@ mod tests {
 
     use super::{STATES, cell, functions};
 
-    /// Where the exporter's table differs from this one: function, state letter, what the exporter has.
+    /// Cells in which the exporter's table differs from this one: function, state letter, what the exporter has.
     fn differences(cell: impl Fn(&'static str, char) -> char) -> Vec<(&'static str, char, char)> {
         let mut found = Vec::new();
         for (row, function) in Function::ALL.iter().enumerate() {

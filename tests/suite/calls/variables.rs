@@ -5,10 +5,10 @@ use std::sync::OnceLock;
 
 use crate::support;
 
-/// What a read gives.
+/// Content of a variable that is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Content {
-    /// What was set, or the start value.
+    /// The value that was set, or the start value.
     AsSet,
     /// The input or tunable parameter of this name, as the last computation saw it.
     Echo(&'static str),
@@ -156,7 +156,7 @@ pub(super) fn references() -> &'static [u32] {
     })
 }
 
-/// What each echo echoes, by row.
+/// Row of the variable that each echo repeats, by row of the echo.
 pub(super) fn echoes() -> &'static [Option<usize>] {
     static ECHOES: OnceLock<Vec<Option<usize>>> = OnceLock::new();
     ECHOES.get_or_init(|| {

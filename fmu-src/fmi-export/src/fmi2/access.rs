@@ -44,15 +44,13 @@ pub(crate) struct AccessTable {
     pub(crate) real_limits: Vec<(f64, f64)>,
     /// Smallest and largest admitted Integer.
     pub(crate) integer_limits: Vec<(i32, i32)>,
-    /// Of an enumeration, the item values in ascending order where they have gaps.
+    /// The item values of an enumeration that has gaps, in ascending order.
     pub(crate) integer_items: Vec<Option<Box<[i32]>>>,
 }
 
 impl AccessTable {
-    /// The table of a description whose value references are dense from [`references::first`] on.
-    ///
-    /// The error names a variable out of order or an enumeration without its type.
-    pub(crate) fn of(description: &Description) -> Result<Self, String> {
+    /// The table of a description whose value references [are dense](references::check_dense).
+    pub(crate) fn new(description: &Description) -> Self {
         let mut table = Self {
             references: description.variables.iter().map(|variable| variable.value_reference).collect(),
             outputs: description.structure.outputs.clone(),
@@ -61,31 +59,17 @@ impl AccessTable {
         };
         let unknowns = &description.structure.initial_unknowns;
         for (index, variable) in (1..).zip(&description.variables) {
-            let base_type = variable.kind.base_type();
-            let base = base_type as usize;
-            let count = table.flags[base].len();
-            if references::index(base_type, variable.value_reference) != count
-                || count >= references::MOST as usize
-            {
-                return Err(format!(
-                    "variable `{}` has value reference {}, expected {} of at most {} from {}",
-                    variable.name,
-                    variable.value_reference,
-                    references::first(base_type) as usize + count,
-                    references::MOST,
-                    references::first(base_type),
-                ));
-            }
+            let base = variable.kind.base_type() as usize;
             // Listed in ascending order.
             let initial_unknown = unknowns.binary_search_by_key(&index, |unknown| unknown.index).is_ok();
             table.flags[base].push(flags_of(variable, initial_unknown));
             table.names[base].push(variable.name.clone());
-            table.push_limits(description, variable)?;
+            table.push_limits(description, variable);
         }
-        Ok(table)
+        table
     }
 
-    fn push_limits(&mut self, description: &Description, variable: &ScalarVariable) -> Result<(), String> {
+    fn push_limits(&mut self, description: &Description, variable: &ScalarVariable) {
         match &variable.kind {
             VariableKind::Real { attributes, .. } => self
                 .real_limits
@@ -97,27 +81,19 @@ impl AccessTable {
                 self.integer_limits.push(if given { limits } else { (i32::MIN, i32::MAX) });
                 self.integer_items.push(None);
             }
-            VariableKind::Enumeration { declared_type, .. } => {
+            VariableKind::Enumeration { .. } => {
                 let items = value::items(description, variable);
                 let mut items: Vec<i32> = items.iter().map(|item| item.value).collect();
                 items.sort_unstable();
                 items.dedup();
-                let limits = match (items.first(), items.last()) {
-                    (Some(&first), Some(&last)) => (first, last),
-                    _ => {
-                        return Err(format!(
-                            "variable `{}`: no items of the type `{declared_type}`",
-                            variable.name
-                        ));
-                    }
-                };
-                let gapless = i64::from(limits.1) - i64::from(limits.0) + 1 == items.len() as i64;
-                self.integer_limits.push(limits);
+                let least = items.first().copied().unwrap_or(i32::MAX);
+                let greatest = items.last().copied().unwrap_or(i32::MIN);
+                let gapless = i64::from(greatest) - i64::from(least) + 1 == items.len() as i64;
+                self.integer_limits.push((least, greatest));
                 self.integer_items.push((!gapless).then(|| items.into_boxed_slice()));
             }
             VariableKind::Boolean { .. } | VariableKind::String { .. } => {}
         }
-        Ok(())
     }
 
     /// The flags of every variable of a base type, by value reference.
@@ -160,7 +136,7 @@ impl AccessTable {
         numbered.map(|(reference, &value)| (reference, value)).find(|(_, value)| !value.is_finite())
     }
 
-    /// What the Real `reference` depends on, by reference: after initialization if `initially`, else at a step's end.
+    /// The references that the Real `reference` depends on: after initialization if `initially`, else at a step's end.
     /// `None` where that is not declared.
     pub(crate) fn dependencies(&self, reference: u32, initially: bool) -> Option<Vec<u32>> {
         let index = self.references.iter().position(|it| *it == reference)? as u32 + 1;

@@ -29,7 +29,7 @@ fn state_mark() -> *const u8 {
     &raw const MARKS[1]
 }
 
-/// What `fmi2Component` points to.
+/// Target of an `fmi2Component`.
 #[repr(C)]
 struct Handle {
     mark: *const u8,
@@ -159,7 +159,7 @@ pub(super) unsafe fn free(component: Component) {
     let _ = contain(|| drop(logger));
 }
 
-/// What `fmi2FMUstate` points to.
+/// Target of an `fmi2FMUstate`.
 #[repr(C)]
 pub(super) struct StateHandle {
     mark: *const u8,

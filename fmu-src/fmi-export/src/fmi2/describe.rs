@@ -5,10 +5,10 @@ use core::ffi::{c_char, c_int, c_void};
 use model_description::describe::{Receive, kind};
 
 use super::arguments::text;
-use super::description::DescribeError;
 use crate::library::{Entry, Library};
 use crate::model::Manual;
 use crate::panics::contain;
+use crate::prepared::DescribeError;
 
 /// Sends texts to a caller.
 struct Sender {

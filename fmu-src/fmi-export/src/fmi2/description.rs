@@ -9,17 +9,17 @@ use model_description::{
 };
 use uuid::Uuid;
 
-use super::access::AccessTable;
 use super::references;
 use super::structure::structure;
 use crate::dependencies::Dependencies;
+use crate::library::Entry;
 use crate::logger::Category;
-use crate::model::{About, Model, SetupError};
-use crate::runtime::{Runtime, Typed};
+use crate::model::{About, Model};
+use crate::prepared::{DescribeError, Prepared};
+use crate::runtime::Typed;
 use crate::start_values::{self, OtherReader, Readers};
 use crate::variables::{
-    Declare, DeclareError, DeclaredEnumeration, DeclaredType, Element, Interface, Real, SetBits, Values,
-    Variable, Variables,
+    Declare, DeclaredEnumeration, DeclaredType, Element, Interface, SetBits, Values, Variable, Variables,
 };
 
 /// Name space of the GUIDs of this exporter.
@@ -29,43 +29,14 @@ const NAME_SPACE: Uuid = Uuid::from_u128(0xcc931cc2_33f1_4b24_a08d_a93a9fb26fe9)
 /// leaves no hole in the heap.
 const DIGESTED_BYTES: usize = 1 << 18;
 
-/// Why a model cannot be described.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum DescribeError {
-    /// The setup text is refused.
-    #[error(transparent)]
-    Setup(#[from] SetupError),
-    /// A declaration is refused.
-    #[error(transparent)]
-    Declare(#[from] DeclareError),
-    /// The declarations do not fit together.
-    #[error("{0}")]
-    Table(String),
-    /// Start values of the setup that no variable takes, one a line.
-    #[error("{0}")]
-    Start(String),
-    /// The setup cannot enter the GUID.
-    #[error("the setup cannot be digested: {0}")]
-    Digest(String),
-    /// The model panicked.
-    #[error("the model panicked: {0}")]
-    Panic(String),
+/// The entry of a model in a library of FMI 2.0.
+pub const fn entry<M: Model>() -> Entry {
+    Entry::new::<M>(prepare::<M>, start_names::<M>)
 }
 
 /// The description of a model with this setup, GUID included.
 pub fn description_of<M: Model>(file: &str, setup_text: &str) -> Result<Description, DescribeError> {
     prepare::<M>(file, setup_text, &[]).map(|prepared| prepared.description)
-}
-
-/// A description, and all that an instance is made from.
-pub(crate) struct Prepared {
-    pub(crate) description: Description,
-    pub(crate) access: AccessTable,
-    pub(crate) start: Arc<Values>,
-    pub(crate) runtime: Box<dyn Runtime>,
-    pub(crate) digest: Uuid,
-    /// The parameter that the experiment's tolerance stands in for.
-    pub(crate) tolerance: Option<Real>,
 }
 
 /// The names that start values may have, if the model takes the setup text.
@@ -126,15 +97,15 @@ pub(crate) fn prepare<M: Model>(
     interface.start.mark_none();
     let digest = digest_of::<M>((&interface, &fixed), &dependencies, &about, &setup)?;
     description.guid = format!("{{{digest}}}");
-    let access = AccessTable::of(&description).map_err(DescribeError::Table)?;
+    references::check_dense(&description.variables).map_err(DescribeError::Table)?;
     let tolerance = M::tolerance(&variables);
     let parameters = parameters_of(&description.variables, &interface.start);
     let runtime =
         Box::new(Typed::<M> { setup, variables, start: Arc::clone(&start), parameters, state: None });
-    Ok(Prepared { description, access, start, runtime, digest, tolerance })
+    Ok(Prepared { description, start, runtime, digest, tolerance })
 }
 
-/// Places of the parameters that an importer may set; `blank` are values of which none is set.
+/// Places of the parameters that an importer may set; in `blank` no value is marked as set.
 fn parameters_of(variables: &[ScalarVariable], blank: &Values) -> [SetBits; Element::TABLES] {
     let mut places = blank.set.clone();
     for variable in variables.iter().filter(|it| it.causality == Causality::Parameter) {
@@ -151,7 +122,7 @@ pub fn scalar_variables(interface: &Interface) -> Vec<ScalarVariable> {
         let role = variable.role;
         ScalarVariable {
             name,
-            value_reference: references::of(element),
+            value_reference: references::for_variable(element),
             description: Some(variable.description.clone()),
             causality: role.causality,
             variability: role.variability,
@@ -254,7 +225,7 @@ fn units_of(description: &Description) -> Vec<model_description::Unit> {
     units::UNITS.iter().filter(|row| used(row.name)).map(units::KnownUnit::to_unit).collect()
 }
 
-/// UUIDv5 of what is declared and what of it is fixed, the model's `About`, the setup's content, the model's name and optional traits, and the
+/// UUIDv5 of the declarations and those of them that are fixed, the model's `About`, the setup's content, the model's name and optional traits, and the
 /// version of its state. Default times do not enter.
 fn digest_of<M: Model>(
     interface: (&Interface, &BTreeSet<usize>),

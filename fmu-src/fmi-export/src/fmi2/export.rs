@@ -30,7 +30,7 @@ macro_rules! export {
     ($($model:ty),+ $(,)?) => {
         /// The models of this library.
         pub static LIBRARY: $crate::Library =
-            $crate::Library { entries: &[$($crate::Entry::of::<$model>()),+] };
+            $crate::Library { entries: &[$($crate::fmi2::entry::<$model>()),+] };
 
         #[allow(unsafe_code, reason = "symbols of the C interface, forwarded to fmi_export::fmi2")]
         #[allow(non_snake_case, reason = "the standard's names")]

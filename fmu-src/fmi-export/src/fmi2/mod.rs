@@ -23,7 +23,8 @@ mod structure;
 
 pub use crate::model::{SetupValue, StartValue};
 pub use crate::panics::silence as silence_panics;
+pub use crate::prepared::DescribeError;
 pub use describe::{check_schedule, describe};
-pub use description::{DescribeError, description_of, scalar_variables};
+pub use description::{description_of, entry, scalar_variables};
 pub use functions::*;
 pub use instance::MAX_INPUT_DERIVATIVE_ORDER;

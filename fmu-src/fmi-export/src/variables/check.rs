@@ -1,4 +1,4 @@
-//! What a declaration must fulfil at run time: roles, ranges and texts that may come from a setup file.
+//! Checks of a declaration at run time: roles, ranges and texts that may come from a setup file.
 
 use core::fmt::Display;
 

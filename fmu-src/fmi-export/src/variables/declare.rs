@@ -20,11 +20,11 @@ pub const GREATEST_SET: f64 = 1e100;
 pub struct DeclareError {
     /// Full structured name.
     pub name: String,
-    /// What is wrong and what is allowed.
+    /// The fault, and the declarations that are allowed.
     pub problem: String,
 }
 
-/// What is declared of a Real scalar, vector or matrix.
+/// Declaration of a Real scalar, vector or matrix.
 #[derive(Clone, Copy, Debug)]
 pub struct RealSpec<'a> {
     /// Last name segment.
@@ -45,7 +45,7 @@ pub struct RealSpec<'a> {
     pub nominal: Option<f64>,
 }
 
-/// What is declared of an Integer, Boolean, String or Enumeration.
+/// Declaration of an Integer, Boolean, String or Enumeration.
 #[derive(Clone, Copy, Debug)]
 pub struct ScalarSpec<'a> {
     /// Last name segment.
@@ -60,7 +60,7 @@ pub struct ScalarSpec<'a> {
 #[derive(Debug, Default)]
 pub struct Declare {
     prefix: String,
-    /// What the group being declared is called, with what separates it from descriptions.
+    /// Label of the group that is being declared, with the text between label and descriptions.
     label: String,
     names: BTreeSet<String>,
     interface: Interface,
@@ -72,7 +72,7 @@ impl Declare {
         Self::default()
     }
 
-    /// What was declared.
+    /// Returns the interface of all declarations.
     pub fn finish(mut self) -> Interface {
         self.interface.start.mark_none();
         self.interface

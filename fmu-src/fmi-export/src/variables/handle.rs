@@ -23,7 +23,7 @@ impl Elements {
     }
 }
 
-/// What a handle of this type stands for: base type and number of elements.
+/// Declares base type and number of elements of each type of handle.
 macro_rules! elements {
     ($([$($generics:tt)*] $handle:ty: $base:ident $count:expr;)*) => { $(
         impl<$($generics)*> From<$handle> for Elements {

@@ -17,7 +17,7 @@ pub struct Values {
     pub(crate) set: [SetBits; Element::TABLES],
 }
 
-/// Of every place of a table one bit: whether its value was set.
+/// One bit for every place of a table: whether its value was set.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct SetBits(Vec<u64>);
 
@@ -66,7 +66,7 @@ impl Values {
         [self.reals.len(), self.integers.len(), self.booleans.len(), self.strings.len()]
     }
 
-    /// Nothing is set yet.
+    /// Marks every value as not set.
     pub(crate) fn mark_none(&mut self) {
         let lengths = self.lengths();
         for (bits, length) in self.set.iter_mut().zip(lengths) {
@@ -215,7 +215,7 @@ impl Values {
     }
 }
 
-/// Which variables of a group the user gave a value, be it the start value: in the setup or by a set. Where the importer set every
+/// The variables of a group that the user gave a value, be it the start value: in the setup or by a set. Where the importer set every
 /// variable of the group to its start value, as tools do that write all of them, its sets say nothing.
 #[derive(Clone, Copy, Debug)]
 pub struct Given<'a> {
@@ -225,7 +225,7 @@ pub struct Given<'a> {
 }
 
 impl<'a> Given<'a> {
-    /// Of the variables of `group`; `start` are the start values.
+    /// Looks at the variables of `group`; `start` are the start values.
     pub fn among(values: &'a Values, start: &'a Values, group: &[Elements]) -> Self {
         let by_importer = !group.iter().all(|&elements| values.repeats(start, elements));
         Self { values, start, by_importer }

@@ -1,4 +1,4 @@
-//! What is declared of a variable. An array is one variable; its elements are counted row by row.
+//! Declaration of a variable. An array is one variable; its elements are counted row by row.
 
 use core::fmt::Write;
 
@@ -29,9 +29,9 @@ impl Serialize for Role {
 pub struct Variable {
     /// Full structured name, of an array without indices.
     pub name: String,
-    /// What it means.
+    /// Meaning of the variable, with frame and convention.
     pub description: String,
-    /// Role.
+    /// Causality, variability and `initial`.
     pub role: Role,
     /// Number of elements along each axis; none of a scalar.
     pub dimensions: Vec<usize>,
@@ -112,7 +112,7 @@ impl Variable {
         })
     }
 
-    /// Of the element counted row by row.
+    /// Returns the name of an element, counted row by row.
     pub(super) fn element_name(&self, at: usize) -> String {
         let mut name = String::with_capacity(self.name.len() + 4 * self.dimensions.len());
         name.push_str(&self.name);
@@ -129,12 +129,12 @@ impl Variable {
     }
 }
 
-/// What a Rust enum says of its enumeration type.
+/// Enumeration type of a Rust enum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct EnumerationType {
     /// Name of the type.
     pub name: &'static str,
-    /// What the choice is about.
+    /// Subject of the choice.
     pub description: &'static str,
     /// The items in the order of declaration.
     pub items: &'static [Item],
@@ -147,7 +147,7 @@ pub struct Item {
     pub name: &'static str,
     /// Value.
     pub value: i32,
-    /// What it means.
+    /// Meaning of the item.
     pub description: &'static str,
 }
 
@@ -156,7 +156,7 @@ pub struct Item {
 pub struct DeclaredEnumeration {
     /// Name of the type.
     pub name: &'static str,
-    /// What the choice is about.
+    /// Subject of the choice.
     pub description: &'static str,
     /// The items in the order of declaration.
     pub items: Vec<DeclaredItem>,
@@ -169,7 +169,7 @@ pub struct DeclaredItem {
     pub name: String,
     /// Value.
     pub value: i32,
-    /// What it means.
+    /// Meaning of the item.
     pub description: String,
 }
 

@@ -161,22 +161,22 @@ fn references_are_unique_and_dense_for_each_base_type_in_order() {
         next[base] += 1;
     }
     for (reference, name) in [
-        (references::of(variables.mass), "mass"),
-        (references::of(variables.inertia.element(1, 0)), "inertia[2,1]"),
-        (references::of(variables.center_of_mass.element(2)), "centerOfMass[3]"),
-        (references::of(variables.source), "source"),
-        (references::of(variables.label), "label"),
-        (references::of(variables.external.element(0)), "external[1]"),
-        (references::of(variables.dump_request), "dumpRequest"),
-        (references::of(variables.sun_elevation), "sun.elevation"),
-        (references::of(variables.count), "count"),
-        (references::of(variables.largest), "largest"),
-        (references::of(variables.work), "work"),
-        (references::of(variables.orbit.semi_major_axis), "orbit.semiMajorAxis"),
-        (references::of(variables.panel[1].angle), "panel[2].angle"),
-        (references::of(variables.panel[1].optics.number), "panel[2].optics.number"),
-        (references::of(variables.flat.flag), "flag"),
-        (references::of(variables.projected.half), "inner.half"),
+        (references::for_variable(variables.mass), "mass"),
+        (references::for_variable(variables.inertia.element(1, 0)), "inertia[2,1]"),
+        (references::for_variable(variables.center_of_mass.element(2)), "centerOfMass[3]"),
+        (references::for_variable(variables.source), "source"),
+        (references::for_variable(variables.label), "label"),
+        (references::for_variable(variables.external.element(0)), "external[1]"),
+        (references::for_variable(variables.dump_request), "dumpRequest"),
+        (references::for_variable(variables.sun_elevation), "sun.elevation"),
+        (references::for_variable(variables.count), "count"),
+        (references::for_variable(variables.largest), "largest"),
+        (references::for_variable(variables.work), "work"),
+        (references::for_variable(variables.orbit.semi_major_axis), "orbit.semiMajorAxis"),
+        (references::for_variable(variables.panel[1].angle), "panel[2].angle"),
+        (references::for_variable(variables.panel[1].optics.number), "panel[2].optics.number"),
+        (references::for_variable(variables.flat.flag), "flag"),
+        (references::for_variable(variables.projected.half), "inner.half"),
     ] {
         assert_eq!(reference, find(&table, name).value_reference, "{name}");
     }

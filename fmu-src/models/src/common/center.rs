@@ -22,11 +22,11 @@ const ELLIPSES: ([f64; 2], f64) = ([1e9, 1e13], 0.99);
 /// A body with what a spacecraft's file gives of it.
 #[derive(Clone, Copy, Debug)]
 pub struct CenterBody {
-    /// What is known of it.
+    /// Gravity, figure, rotation and surface of the body.
     pub data: BodyData,
     /// Radii of its ellipsoid, in m.
     pub radii_m: [f64; 3],
-    /// Where the file's own body is about the Sun, if that is this one and the file says it.
+    /// Orbit about the Sun of the file's own body, if that is this one and the file gives an orbit.
     pub motion: Option<KeplerPlanet>,
 }
 
@@ -56,11 +56,11 @@ pub struct CenterBodies {
 }
 
 impl CenterBodies {
-    /// Of a spacecraft.
+    /// The bodies of a spacecraft's file.
     ///
     /// # Errors
     /// A body in the file that is on no orbit about the Sun.
-    pub fn of(file: &str, spacecraft: &Spacecraft) -> Result<Self, SetupError> {
+    pub fn new(file: &str, spacecraft: &Spacecraft) -> Result<Self, SetupError> {
         let Some(custom) = &spacecraft.body else { return Ok(Self { custom: None }) };
         let motion = custom.motion.as_ref().map(KeplerPlanet::of_body).transpose();
         let motion = motion.map_err(|error| SetupError(format!("{file}: body: {error}")))?;

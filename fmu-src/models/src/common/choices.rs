@@ -80,7 +80,7 @@ macro_rules! optional_choices {
 }
 pub(crate) use optional_choices;
 
-/// Items by their numbers, behind the one that is none of them if that has a meaning.
+/// Items by their numbers, after the item `none` if that has a meaning.
 pub(crate) const fn items<E: Enumerated, const N: usize>(
     given: &[EnumeratedItem<E>],
     none: Option<&'static str>,
@@ -130,14 +130,14 @@ pub enum PlanetOrientation {
 
 impl PlanetOrientation {
     /// Default of a body.
-    pub fn of(body: Body) -> Self {
+    pub fn for_body(body: Body) -> Self {
         if body == Body::Earth { Self::Iau } else { Self::Uniform }
     }
 }
 
 impl SunshadeShape {
-    /// What a spacecraft file asks for; plates without a shade.
-    pub fn of(spacecraft: &Spacecraft) -> Self {
+    /// The shape that a spacecraft file requests; plates without a shade.
+    pub fn for_spacecraft(spacecraft: &Spacecraft) -> Self {
         Self(spacecraft.sunshade.as_ref().map_or(SunshadeModel::Plates, |shade| shade.model))
     }
 }
@@ -153,7 +153,7 @@ pub enum PanelTilt {
 
 impl PanelTilt {
     /// The sense in which a spacecraft file tilts a panel.
-    pub fn of(panel: &Panel) -> Self {
+    pub fn for_panel(panel: &Panel) -> Self {
         if panel.tilt_sign < 0.0 { Self::Negative } else { Self::Positive }
     }
 
@@ -200,13 +200,13 @@ choices! {
     PointingTarget(TargetItem);
 }
 
-/// The known bodies; the one that a spacecraft's file describes stands behind them.
+/// The built-in bodies; the one that a spacecraft's file describes follows them.
 pub(crate) const KNOWN_BODIES: &[EnumeratedItem<Body>] = match Body::ITEMS.split_last() {
     Some((_custom, known)) => known,
     None => &[],
 };
 
-/// The known bodies but for the Sun, which is the first of them.
+/// The built-in bodies but for the Sun, which is the first of them.
 pub(crate) const KNOWN_PLANETS: &[EnumeratedItem<Body>] = match KNOWN_BODIES.split_first() {
     Some((_sun, planets)) => planets,
     None => &[],

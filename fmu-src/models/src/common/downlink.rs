@@ -1,4 +1,4 @@
-//! Where downlinks have the Sun, as inputs say, and what comes of it.
+//! Direction of the Sun in downlinks: requests by inputs, and the reports of it.
 
 use fmi_export::{Boolean, Real, Values, Variables};
 use physics::attitude::SunAngles;
@@ -8,7 +8,7 @@ use physics::guidance::downlink::sun_place::SunRequest;
 /// The file of commands over time in an FMU.
 pub(crate) const TIMELINE_FILE: &str = "timeline.toml";
 
-/// What is reported of a keep-in zone without a direction.
+/// Refusal of a keep-in zone without a direction.
 pub(crate) const ZERO_KEEP_IN_AXIS: &str =
     "keepIn.axis: found (0, 0, 0), allowed: a vector of any length but zero";
 
@@ -35,7 +35,7 @@ pub struct DownlinkVariables {
 }
 
 impl DownlinkVariables {
-    /// What the inputs request.
+    /// Reads the request of the inputs.
     pub fn request(&self, values: &Values) -> SunRequest {
         SunRequest {
             sun: SunAngles {

@@ -13,7 +13,7 @@ use super::center::CenterBody;
 use super::choices::{AerodynamicLaw, Reemission};
 use super::start_values::entry_of;
 
-/// Surfaces are named in messages up to so many.
+/// Number of surfaces that a message names at most.
 const MOST_NAMES: usize = 6;
 
 /// Light of the planet.
@@ -146,7 +146,7 @@ impl AerodynamicVariables {
         shape: SunshadeModel,
     ) -> Result<AerodynamicOptions, Failure> {
         let shadowing = values.boolean(self.shadowing);
-        let outlines = Outlines::of(spacecraft, shape);
+        let outlines = Outlines::new(spacecraft, shape);
         if shadowing && outlines.given == 0 {
             let refusal = outlines.refusal(&spacecraft.name);
             return Err(Failure::new(format!("aerodynamics.shadowing: {refusal}")));
@@ -161,7 +161,7 @@ impl AerodynamicVariables {
 }
 
 impl ShadowingVariables {
-    /// What to warn of: surfaces that have no outline, among others that do.
+    /// Returns a warning of surfaces that have no outline, among others that do.
     ///
     /// # Errors
     /// Shadows requested where no surface has an outline.
@@ -174,7 +174,7 @@ impl ShadowingVariables {
         if !values.boolean(self.enabled) {
             return Ok(None);
         }
-        let outlines = Outlines::of(spacecraft, shape);
+        let outlines = Outlines::new(spacecraft, shape);
         if outlines.given == 0 {
             return Err(Failure::new(format!("shadowing.enabled: {}", outlines.refusal(&spacecraft.name))));
         }
@@ -193,7 +193,7 @@ pub(crate) fn check_start(file: &str, spacecraft: &Spacecraft, model: &str) -> R
     let entry = entry_of(&spacecraft.start, model, "shadowing.enabled");
     let Some(entry) = entry.filter(|entry| entry.value == StartValue::Boolean(true)) else { return Ok(()) };
     let shape = spacecraft.sunshade.as_ref().map_or(SunshadeModel::Plates, |shade| shade.model);
-    let outlines = Outlines::of(spacecraft, shape);
+    let outlines = Outlines::new(spacecraft, shape);
     if outlines.given > 0 {
         return Ok(());
     }
@@ -201,7 +201,7 @@ pub(crate) fn check_start(file: &str, spacecraft: &Spacecraft, model: &str) -> R
     Err(SetupError(format!("{file}:{}: {}: {refusal}", entry.line, entry.key)))
 }
 
-/// What to warn of where a file's `[planet_map]` is without effect.
+/// Returns a warning where a file's `[planet_map]` is without effect.
 pub(crate) fn unused_map(spacecraft: &Spacecraft) -> Option<String> {
     spacecraft.planet_map.as_ref().map(|_| {
         format!(
@@ -212,14 +212,14 @@ pub(crate) fn unused_map(spacecraft: &Spacecraft) -> Option<String> {
     })
 }
 
-/// Which surfaces have an outline.
+/// Number of surfaces with an outline, and names of those without.
 struct Outlines {
     given: usize,
     missing: Vec<String>,
 }
 
 impl Outlines {
-    fn of(spacecraft: &Spacecraft, shape: SunshadeModel) -> Self {
+    fn new(spacecraft: &Spacecraft, shape: SunshadeModel) -> Self {
         let (given, missing) = spacecraft.outlines(shape);
         Self { given, missing }
     }

@@ -57,8 +57,8 @@ impl EllipseVariables {
         numbers.read_or(context.given(values, &numbers.group()), &body.ellipse())
     }
 
-    /// The planet on the ellipse of `ephemeris.source` kepler; a body of the file's own of which nothing is given here, as that file
-    /// places it.
+    /// The planet on the ellipse of `ephemeris.source` kepler; the file's own body without parameters here is placed by
+    /// that file.
     ///
     /// # Errors
     /// Elements that are none, a body that its file does not place.

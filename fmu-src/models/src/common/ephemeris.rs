@@ -1,4 +1,4 @@
-//! Where Sun and planets stand: what parameters and the file of onboard ephemerides say, checked by name.
+//! Positions of Sun and planets by parameters and the file of onboard ephemerides, checked by name.
 
 use std::sync::Arc;
 
@@ -40,7 +40,7 @@ pub(crate) fn kepler(ellipse: Elements, epoch_s: f64) -> Result<KeplerPlanet, Fa
     KeplerPlanet::new(ellipse, epoch_s).map_err(|error| Failure::new(format!("ephemeris elements: {error}")))
 }
 
-/// Where the body of the spacecraft's file is about the Sun where nothing else says it: by that file.
+/// Returns the orbit about the Sun that the spacecraft's file gives its own body, for sources that do not place it.
 pub(crate) fn custom(body: &CenterBody, source: &str) -> Result<KeplerPlanet, Failure> {
     body.motion.ok_or_else(|| {
         Failure::new(format!(

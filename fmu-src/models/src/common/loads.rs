@@ -1,4 +1,4 @@
-//! What acts on the spacecraft, by source, and its faces one by one.
+//! Forces and torques on the spacecraft by source, and on its faces one by one.
 
 use fmi_export::variables::{Causality, RealSpec, Role, Variability};
 use fmi_export::{Declare, DeclareError, Knowns, Real, RealVector, Section, Variables};
@@ -39,8 +39,8 @@ pub(crate) const FORCE: Quantity = Quantity {
     nominal: EffectRow::usual_force_n,
 };
 
-/// What an effect did to the momentum since the last dump, by momentum.convention. All of them add up to what the momentum
-/// changed by, but for thrusters in use.
+/// Change of the momentum by an effect since the last dump, by momentum.convention. All of them add up to the change of the
+/// momentum, but for thrusters in use.
 pub(crate) const MOMENTUM: Quantity = Quantity {
     unit: "N.m.s",
     display_unit: None,
@@ -86,7 +86,7 @@ impl BySource {
     }
 
     /// The output of an effect.
-    pub fn of(&self, effect: Effect) -> Option<RealVector<3>> {
+    pub fn output(&self, effect: Effect) -> Option<RealVector<3>> {
         self.iter().find_map(|(known, output)| (known == effect).then_some(output))
     }
 }

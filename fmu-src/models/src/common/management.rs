@@ -22,7 +22,20 @@ choices! {
     MomentumTargeting(TargetingMethod);
 }
 
-/// What downlinks bring the momentum to.
+/// Spacecraft whose momentum is managed.
+#[derive(Clone, Copy)]
+pub(crate) struct ManagedSpacecraft<'s> {
+    pub spacecraft: &'s Spacecraft,
+    /// Form in which the shade takes the light.
+    pub sunshade: SunshadeModel,
+    pub antennas: &'s Antennas,
+    /// Limits of the Sun's azimuth and elevation about -Y.
+    pub sun_limits_rad: [f64; 2],
+    /// Sum of the wheels' biases, from which targets count.
+    pub bias_body_n_m_s: Vector3<f64>,
+}
+
+/// Momentum that downlinks aim at.
 #[derive(Variables)]
 pub struct TargetingVariables {
     /// Body components of momentum that sunlight brings to a target.
@@ -52,15 +65,15 @@ impl TargetingVariables {
         Vector3::from(values.vector(self.target))
     }
 
-    /// The manager by this strategy, the Sun staying within these limits of azimuth and elevation about -Y, targets counting from
-    /// this bias, of a spacecraft whose shade takes the light in this form.
-    pub fn manager<'s>(
+    /// The manager of a spacecraft's momentum by this strategy.
+    pub(crate) fn manager<'s>(
         &self,
         values: &Values,
         strategy: Strategy,
-        ([azimuth_limit_rad, elevation_limit_rad], bias_body_n_m_s): ([f64; 2], Vector3<f64>),
-        (spacecraft, sunshade, antennas): (&'s Spacecraft, SunshadeModel, &'s Antennas),
+        managed: ManagedSpacecraft<'s>,
     ) -> Manager<'s> {
+        let ManagedSpacecraft { spacecraft, sunshade, antennas, sun_limits_rad, bias_body_n_m_s } = managed;
+        let [azimuth_limit_rad, elevation_limit_rad] = sun_limits_rad;
         Manager {
             strategy,
             targeting: Targeting {
@@ -78,7 +91,7 @@ impl TargetingVariables {
     }
 }
 
-/// What is lacking for a downlink.
+/// Reason why there is no downlink.
 pub(crate) const NO_ANTENNA: &str = "the spacecraft has no antenna ([[antennas]])";
 
 /// Refuses downlink windows that no antenna serves.
@@ -134,7 +147,7 @@ pub(crate) fn check_windows(schedule: &Schedule) -> Result<(), Failure> {
     )))
 }
 
-/// What is wrong with windows that are requested, whatever the strategy; `None` where nothing is.
+/// Warns of windows that never come or overlap, whatever the strategy.
 pub(crate) fn window_warning(schedule: &Schedule) -> Option<String> {
     let Schedule { downlink_start_s, downlink_end_s, every, .. } = *schedule;
     let names = "guided.downlinkStart, guided.downlinkEnd, guided.downlinkEvery";

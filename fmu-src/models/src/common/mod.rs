@@ -1,4 +1,4 @@
-//! What several models have in common: choices, groups of variables, what they read from a spacecraft.
+//! Parts that several models share: choices, groups of variables, readings of a spacecraft.
 
 pub(crate) mod center;
 pub(crate) mod choices;
@@ -6,6 +6,7 @@ pub(crate) mod downlink;
 pub(crate) mod effects;
 pub(crate) mod ellipse;
 pub(crate) mod ephemeris;
+pub(crate) mod guided;
 pub(crate) mod loads;
 pub(crate) mod management;
 pub(crate) mod numbers;
@@ -18,7 +19,7 @@ pub(crate) mod variables;
 
 use fmi_export::About;
 
-/// What every model says of itself alike.
+/// Facts that every model states alike.
 pub(crate) fn about() -> About {
     About {
         author: "the heliotorque authors".to_owned(),

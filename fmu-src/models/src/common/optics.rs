@@ -22,7 +22,7 @@ pub struct SettableMaterials {
 impl SettableMaterials {
     /// For a model with every effect. Numbers for air are there about the Earth, and where the file turns air on or says what it
     /// does to a material; not where it fixes that air does not act.
-    pub fn of(spacecraft: &Spacecraft, center: Body, model: &str) -> Self {
+    pub fn new(spacecraft: &Spacecraft, center: Body, model: &str) -> Self {
         let entry = entry_of(&spacecraft.start, model, "aerodynamics.enabled");
         let is_on = entry.map(|entry| entry.value == StartValue::Boolean(true));
         let air = match entry {
@@ -179,7 +179,7 @@ impl OpticsVariables {
         self.0.iter().flat_map(|it| it.light).collect()
     }
 
-    /// What light and heat go by.
+    /// The parameters that act on light and heat.
     pub fn light_and_heat(&self) -> Knowns {
         self.0.iter().flat_map(|it| it.light.into_iter().chain(it.heat.into_iter().flatten())).collect()
     }
@@ -192,7 +192,8 @@ impl OpticsVariables {
     /// Values of every material, as `read` reads a parameter.
     pub fn values<'v, M: Model, T: Scalar>(
         &'v self,
-        (context, values): (&'v Context<'_, M>, &'v Values),
+        context: &'v Context<'_, M>,
+        values: &'v Values,
         own: &'v SettableMaterials,
         read: impl Fn(Real) -> T + Copy + 'v,
     ) -> impl Iterator<Item = MaterialValues<T>> + 'v {
@@ -211,10 +212,11 @@ impl OpticsVariables {
     /// Names parameters whose values no material has.
     pub(crate) fn materials<'v, M: Model>(
         &'v self,
-        (context, values): (&'v Context<'_, M>, &'v Values),
+        context: &'v Context<'_, M>,
+        values: &'v Values,
         own: &'v SettableMaterials,
     ) -> impl Iterator<Item = Result<(usize, Material), Failure>> + 'v {
-        let found = self.values((context, values), own, |parameter| values.real(parameter));
+        let found = self.values(context, values, own, |parameter| values.real(parameter));
         let made = found.zip(&own.all).enumerate();
         made.map(|(place, (found, own))| Ok((place, material(own, &found)?)))
     }

@@ -25,7 +25,7 @@ pub struct RotationVariables {
     pub rotation_rate: Real,
     /// Rotation model: iau, the Earth's default and the Earth's alone, uses neither pole nor prime meridian nor rotation rate given
     /// here; other planets rotate uniformly.
-    #[parameter(start = PlanetOrientation::of(setup.data.body))]
+    #[parameter(start = PlanetOrientation::for_body(setup.data.body))]
     pub orientation: Choice<PlanetOrientation>,
 }
 
@@ -35,7 +35,7 @@ impl RotationVariables {
         if given.has(self.orientation) {
             values.choice(self.orientation)
         } else {
-            PlanetOrientation::of(body)
+            PlanetOrientation::for_body(body)
         }
     }
 }

@@ -23,8 +23,8 @@ pub struct AttitudeDefaults {
 }
 
 impl AttitudeDefaults {
-    /// Of a file.
-    pub fn of(spacecraft: &Spacecraft) -> Self {
+    /// The defaults by a spacecraft's file.
+    pub fn new(spacecraft: &Spacecraft) -> Self {
         let needs_yaw_steering =
             spacecraft.sun_keep_in.is_none() && panels_need_yaw_steering(&spacecraft.panels);
         Self { pointing: spacecraft.pointing, needs_yaw_steering }

@@ -1,4 +1,4 @@
-//! What several models read from their spacecraft alike.
+//! Surfaces, antennas, wheels and inertia of a spacecraft, for several models.
 
 use fmi_export::{Failure, RealMatrix, SetupError, Values};
 use nalgebra::{Matrix3, Vector3};
@@ -33,8 +33,8 @@ pub struct PreparedShapes {
 }
 
 impl PreparedShapes {
-    /// Of one spacecraft.
-    pub fn of(spacecraft: &Spacecraft) -> Self {
+    /// Prepares the shapes of one spacecraft.
+    pub fn new(spacecraft: &Spacecraft) -> Self {
         let prepared = |model| SolarModel::new(spacecraft, Some(model)).ok();
         Self { plates: prepared(SunshadeModel::Plates), cylinder: prepared(SunshadeModel::Cylinder) }
     }
@@ -71,8 +71,8 @@ pub struct PreparedAntennas {
 }
 
 impl PreparedAntennas {
-    /// Of one spacecraft.
-    pub fn of(spacecraft: &Spacecraft) -> Self {
+    /// Prepares the antennas of one spacecraft.
+    pub fn new(spacecraft: &Spacecraft) -> Self {
         let all = Antennas::of(&spacecraft.antennas);
         Self { default_downlink: DefaultDownlink::of(&all), all }
     }
@@ -83,7 +83,7 @@ pub(crate) fn wheel_array(spacecraft: &Spacecraft) -> WheelArray {
     WheelArray::of(&spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect::<Vec<_>>())
 }
 
-/// What the biases of the wheels of a file come to, body frame, in N m s.
+/// Sum of the biases of a file's wheels, body frame, in N m s.
 pub(crate) fn bias_body_n_m_s(spacecraft: &Spacecraft) -> Vector3<f64> {
     wheels_body_n_m_s(spacecraft.wheels.iter().map(|wheel| (wheel.axis_body, wheel.bias_n_m_s)))
 }
@@ -96,7 +96,7 @@ pub(crate) fn dump_threshold_n_m_s(spacecraft: &Spacecraft) -> [f64; 3] {
 /// A face whose temperature and force are reported.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ReportedFace {
-    /// What the file calls its surface, and whether it is the rear.
+    /// The file's name of its surface, and whether it is the rear.
     pub name: String,
     /// The panel it belongs to, if to one.
     pub panel: Option<usize>,

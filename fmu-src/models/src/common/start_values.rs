@@ -24,7 +24,7 @@ const DOWNLINKS: [&str; 2] = ["guided.downlinkStart", "guided.downlinkEnd"];
 /// From where downlinks are counted.
 const REFERENCE: &str = "guided.downlinkReference";
 
-/// Those of a spacecraft's file, which may describe a body of its own.
+/// Start values of a spacecraft's file, which may describe a body of its own.
 pub(crate) fn of_spacecraft(
     spacecraft: &Spacecraft,
     model: &str,
@@ -51,7 +51,7 @@ pub(crate) fn start_values(
             _ if !dates::looks_like_date(text) => given(&entry.value),
             EPOCH => date(text),
             name if is_of_model && (name == BURN || DOWNLINKS.contains(&name)) => match default_epoch_s {
-                Some(default_epoch_s) => time(entries, model, entry, (text, default_epoch_s)),
+                Some(default_epoch_s) => time(entries, model, entry, text, default_epoch_s),
                 None => given(&entry.value),
             },
             _ => given(&entry.value),
@@ -73,7 +73,8 @@ fn time(
     entries: &[StartEntry],
     model: &str,
     entry: &StartEntry,
-    (text, default_epoch_s): (&str, f64),
+    text: &str,
+    default_epoch_s: f64,
 ) -> SetupValue {
     let refused = |found: String, allowed: String| SetupValue::Refused { found, allowed };
     let of_model = |name: &str| entry_of(entries, model, name).map(|entry| &entry.value);

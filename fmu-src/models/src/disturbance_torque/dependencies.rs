@@ -1,4 +1,4 @@
-//! What each output depends on, by groups. There is no memory: in steps the same inputs count as at the start.
+//! Dependencies of each output, by groups. There is no memory: in steps the same inputs count as at the start.
 
 use fmi_export::{Dependencies, knowns};
 use physics::loads::Effect;

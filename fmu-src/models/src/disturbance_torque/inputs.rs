@@ -16,7 +16,7 @@ use super::variables::{DisturbanceVariables, PlanetLightVariables, PlanetMethod}
 use crate::common::effects::unused_map;
 use crate::common::spacecraft::inertia_body_kg_m2;
 
-/// What parameters and spacecraft amount to.
+/// Models and numbers by parameters and spacecraft.
 #[derive(Clone, Debug)]
 pub(super) struct Prepared {
     model: DisturbanceModel,

@@ -25,7 +25,7 @@ pub use setup::{DisturbanceSetup, DisturbanceTorque};
 use state::Materials;
 use variables::DisturbanceVariables;
 
-/// What the last step was computed from; the rest is cache.
+/// Inputs of the last step; the rest is cache.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct DisturbanceState {
     positions: Positions<f64>,

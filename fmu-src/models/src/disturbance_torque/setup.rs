@@ -11,7 +11,7 @@ use crate::common::optics::SettableMaterials;
 /// The memoryless disturbance model.
 pub struct DisturbanceTorque;
 
-/// What every call of the model is given.
+/// Context of every call of the model.
 pub(super) type Plan<'a> = Context<'a, DisturbanceTorque>;
 
 /// The spacecraft of an instance.
@@ -36,9 +36,9 @@ impl DisturbanceSetup {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
         check_start(file, &spacecraft, DisturbanceTorque::NAME)?;
         let reported_faces = crate::common::spacecraft::reported_faces(file, &spacecraft)?;
-        let center = CenterBodies::of(file, &spacecraft)?.body(center_of(&spacecraft));
+        let center = CenterBodies::new(file, &spacecraft)?.body(center_of(&spacecraft));
         Ok(Self {
-            optics: SettableMaterials::of(&spacecraft, center.data.body, DisturbanceTorque::NAME),
+            optics: SettableMaterials::new(&spacecraft, center.data.body, DisturbanceTorque::NAME),
             center,
             spacecraft,
             reported_faces,

@@ -17,7 +17,7 @@ pub(super) struct Materials {
 }
 
 impl Materials {
-    /// Those of the spacecraft's file.
+    /// The materials of the spacecraft's file.
     pub(super) fn of_file(settable: &SettableMaterials) -> Self {
         let values = settable.all.iter().map(NamedMaterial::values).collect();
         Self { values, prepared: settable.all.iter().map(|it| it.material).collect() }
@@ -36,7 +36,7 @@ impl Materials {
             prepared.extend(all.iter().map(|it| it.material));
         }
         let read = |parameter| values.real(parameter);
-        let found = context.variables.optics.values((context, values), &context.setup.optics, read);
+        let found = context.variables.optics.values(context, values, &context.setup.optics, read);
         for (((found, own), known), prepared) in found.zip(all).zip(known).zip(prepared) {
             if is_restored || *known != found {
                 (*prepared, *known) = (material(own, &found)?, found);
@@ -45,7 +45,7 @@ impl Materials {
         Ok(())
     }
 
-    /// Those of the last step, changing with these seeds of parameters.
+    /// The materials of the last step, changing with these seeds of parameters.
     ///
     /// # Errors
     /// Names parameters whose values no material has.
@@ -64,7 +64,7 @@ impl Materials {
         }
         // Parameters are seeded before the first step alone, of which their values are.
         let read = |parameter| Dual64::new(values.real(parameter), seed(parameter));
-        made(&mut variables.values((context, values), settable, &read))
+        made(&mut variables.values(context, values, settable, &read))
     }
 
     /// The materials.

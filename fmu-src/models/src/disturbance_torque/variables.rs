@@ -34,7 +34,7 @@ pub struct DisturbanceVariables {
     pub magnetic_field_body: RealVector<3>,
     pub spacecraft: SpacecraftVariables,
     /// Which model of the shade takes the light; without a shade it does not count.
-    #[parameter(name = "sunshade.shape", start = SunshadeShape::of(&setup.spacecraft))]
+    #[parameter(name = "sunshade.shape", start = SunshadeShape::for_spacecraft(&setup.spacecraft))]
     pub sunshade_shape: Choice<SunshadeShape>,
     #[group(setup = &setup.optics)]
     pub optics: OpticsVariables,

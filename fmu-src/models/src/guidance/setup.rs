@@ -12,9 +12,9 @@ use physics::spacecraft::{HotPoleZone, Spacecraft, SunKeepIn};
 use serde::{Serialize, Serializer};
 
 use crate::common::center::{CenterBodies, CenterBody, target_of};
+use crate::common::guided::GuidedDefaults;
 use crate::common::optics::SettableMaterials;
 use crate::common::spacecraft::{PreparedAntennas, PreparedShapes, wheel_array};
-use crate::common::variables::GuidedDefaults;
 
 /// Guidance.
 pub struct Guidance;
@@ -58,14 +58,14 @@ impl GuidanceSetup {
     /// From TOML text.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
-        let bodies = CenterBodies::of(file, &spacecraft)?;
+        let bodies = CenterBodies::new(file, &spacecraft)?;
         let target = bodies.body(target_of(&spacecraft, Guidance::NAME));
         Ok(Self {
             target,
             bodies,
-            guided: GuidedDefaults::of(&spacecraft, &target),
-            antennas: PreparedAntennas::of(&spacecraft),
-            shapes: PreparedShapes::of(&spacecraft),
+            guided: GuidedDefaults::new(&spacecraft, &target),
+            antennas: PreparedAntennas::new(&spacecraft),
+            shapes: PreparedShapes::new(&spacecraft),
             optics: SettableMaterials::in_sunlight(&spacecraft),
             spacecraft,
             ephemeris_cache: EphemerisCache::default(),

@@ -1,14 +1,16 @@
-//! What outputs and calculated parameters depend on, by groups.
+//! Dependencies of outputs and calculated parameters, by groups.
 
-use fmi_export::{Dependencies, Knowns, knowns};
+use fmi_export::{Dependencies, Knowns, Model, knowns};
 
-use super::setup::{OpenChoices, PlantSetup};
+use super::setup::{MomentumPlant, PlantSetup};
 use super::variables::PlantVariables;
+use super::variables::choices::{AttitudeSource, CommandSource, EphemerisSource, OrbitSource, StartAttitude};
+use crate::common::start_values::fixed_item;
 
 /// Rows by groups of outputs.
 pub(super) fn table(setup: &PlantSetup, v: &PlantVariables) -> Dependencies {
-    let choice = setup.open_choices();
-    let (inputs, parameters) = (&Inputs::of(setup, choice, v), &Parameters::of(choice, v));
+    let choice = OpenChoices::new(setup);
+    let (inputs, parameters) = (&Inputs::new(setup, choice, v), &Parameters::new(choice, v));
     let mut table = Dependencies::new();
     motion(&mut table, v, inputs, parameters);
     loads(&mut table, v, inputs, parameters);
@@ -18,6 +20,63 @@ pub(super) fn table(setup: &PlantSetup, v: &PlantVariables) -> Dependencies {
         table.begins(turned(v), &v.command);
     }
     table
+}
+
+/// Ways to turn the spacecraft that the options of the setup leave open.
+#[derive(Clone, Copy, Debug)]
+struct OpenChoices {
+    /// The attitude follows a command or guidance, and dumps take the momentum at once.
+    ideal: bool,
+    /// The body turns by torque.
+    by_torque: bool,
+    /// The orbit phase's own guidance sets the attitude, if only where a flight by torque begins.
+    guided: bool,
+    /// The orbit phase's guidance gives the attitude where a free flight begins, for the file has none.
+    begins_guided: bool,
+    /// The command gives the attitude where a controlled flight begins, likewise.
+    begins_commanded: bool,
+    /// Orbit or Sun may come by inputs: until they do, the attitude is the commanded one in any flight.
+    waits: bool,
+}
+
+impl OpenChoices {
+    /// The ways that stay open with what the setup fixes.
+    fn new(setup: &PlantSetup) -> Self {
+        use AttitudeSource::{Commanded, Controlled, Free, Guided};
+        let start = &setup.spacecraft.start;
+        let source = fixed_item::<AttitudeSource>(start, MomentumPlant::NAME, "attitude.source");
+        let command = fixed_item::<CommandSource>(start, MomentumPlant::NAME, "command.source");
+        let is_inputs = matches!(command, Some(CommandSource::Inputs));
+        let orbit = fixed_item::<OrbitSource>(start, MomentumPlant::NAME, "orbit.source");
+        let ephemeris = fixed_item::<EphemerisSource>(start, MomentumPlant::NAME, "ephemeris.source");
+        let has_places = matches!(orbit, Some(OrbitSource::Elements))
+            && !matches!(ephemeris, None | Some(EphemerisSource::Inputs));
+        let is_given = |name: &str| {
+            let for_this = start
+                .iter()
+                .filter(|it| it.model.as_deref().is_none_or(|model| model == MomentumPlant::NAME));
+            for_this.into_iter().any(|it| it.name == name || it.name.starts_with(&format!("{name}[")))
+        };
+        let begins_pointed = match fixed_item::<StartAttitude>(start, MomentumPlant::NAME, "start.attitude") {
+            None | Some(StartAttitude::Guided) => true,
+            Some(StartAttitude::Automatic) => !is_given("start.q") && !is_given("start.rate"),
+            Some(StartAttitude::Given) => false,
+        };
+        Self {
+            ideal: matches!(source, None | Some(Guided | Commanded)),
+            by_torque: matches!(source, None | Some(Controlled | Free)),
+            guided: match source {
+                None | Some(Guided) => true,
+                Some(Commanded | Controlled) => !is_inputs,
+                Some(Free) => false,
+            },
+            begins_guided: begins_pointed && matches!(source, Some(Free)),
+            begins_commanded: begins_pointed
+                && matches!(source, Some(Controlled))
+                && !matches!(command, Some(CommandSource::Guidance)),
+            waits: !has_places,
+        }
+    }
 }
 
 /// Outputs that follow the attitude.
@@ -40,7 +99,7 @@ fn turned(v: &PlantVariables) -> Knowns {
 
 /// Inputs by what they act on directly, over the values of `attitude.source` and `command.source` that are open.
 struct Inputs {
-    /// Where spacecraft, Sun and Earth are.
+    /// Positions of spacecraft, Sun and Earth.
     places: Knowns,
     /// How the spacecraft is turned. A body that moves by torque follows the places where the flight begins, and the angles of
     /// panels that have a mass.
@@ -49,16 +108,16 @@ struct Inputs {
     dumped_at_once: Knowns,
     /// Air and magnetic field as they are given.
     environment: Knowns,
-    /// What fails.
+    /// Failures of sensors and wheels.
     failures: Knowns,
-    /// What fires thrusters and turns wheels.
+    /// Commands of thrusters, wheels and panels.
     commanded: Knowns,
     /// Inputs by which a turn by torque is foreseen where a flight begins.
     foreseen: Knowns,
 }
 
 impl Inputs {
-    fn of(setup: &PlantSetup, choice: OpenChoices, v: &PlantVariables) -> Self {
+    fn new(setup: &PlantSetup, choice: OpenChoices, v: &PlantVariables) -> Self {
         // A maneuver puts it on another orbit at once.
         let maneuver = knowns![&v.maneuver].only_if(choice.ideal);
         let places = knowns![v.orbit.position, v.orbit.velocity, &v.sun, &v.earth, &maneuver];
@@ -98,7 +157,7 @@ struct Parameters {
 }
 
 impl Parameters {
-    fn of(choice: OpenChoices, v: &PlantVariables) -> Self {
+    fn new(choice: OpenChoices, v: &PlantVariables) -> Self {
         // A maneuver of the timeline at the start puts it on another orbit.
         let maneuver = knowns![&v.timeline, &v.maneuver, v.noise_seed].only_if(choice.ideal);
         let between = knowns![&v.encounter, maneuver];
@@ -162,7 +221,7 @@ impl Parameters {
     }
 }
 
-/// Orbit and attitude, Sun, planet and Earth as they are seen, and what sensors make of it.
+/// Orbit and attitude, directions of Sun, planet and Earth, and the sensors' readings.
 fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, parameters: &Parameters) {
     table.output(v.epoch, knowns![], v.start.epoch);
     let sun = knowns![v.sun.position_inertial, v.sun.velocity_inertial, v.sun.distance, v.sun.lit_fraction];
@@ -205,7 +264,7 @@ fn predicted(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, para
     table.output(&v.prediction, knowns![pushed, turned], ahead);
 }
 
-/// Forces and torques by source, what they add up to, and faces one by one.
+/// Forces and torques by source, their sums, and those of single faces.
 fn loads(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, parameters: &Parameters) {
     let lit = &knowns![&inputs.attitude, &inputs.dumped_at_once, &v.panel, &inputs.environment];
     let by_source = knowns![&v.torque.by_source, &v.force.by_source, &v.plate];
@@ -225,7 +284,7 @@ fn loads(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramete
     table.calculated(v.sunshade.coefficient, shape);
 }
 
-/// System momentum, dumps, and what they take.
+/// System momentum, dumps, and the propellant of dumps.
 fn momentum(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, parameters: &Parameters) {
     let momentum = &parameters.momentum;
     let dumped = &knowns![&inputs.attitude, &inputs.dumped_at_once];
@@ -246,7 +305,7 @@ fn momentum(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, param
     table.calculated(v.dump.guaranteed_threshold, &v.wheel);
 }
 
-/// Wheels, thrusters, and the controller that drives them; what swings on the body starts at rest.
+/// Wheels, thrusters and the controller that drives them; flexible modes and propellant start at rest.
 fn actuators(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, parameters: &Parameters) {
     let all = &knowns![&inputs.attitude, &inputs.commanded, &inputs.failures];
     let fired = knowns![v.thrust.active, &v.thruster, v.torque.thruster, v.force.thruster];

@@ -17,11 +17,12 @@ use physics::environment::time;
 
 use crate::common::downlink::TIMELINE_FILE;
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
-use crate::common::start_values::of_spacecraft;
+use crate::common::start_values::{entry_of, item, of_spacecraft};
 use setup::Plan;
 pub use setup::{MomentumPlant, PlantSetup};
 use state::PlantState;
 use variables::PlantVariables;
+use variables::choices::AttitudeSource;
 
 impl Model for MomentumPlant {
     const NAME: &'static str = "MomentumPlant";
@@ -52,7 +53,7 @@ impl Model for MomentumPlant {
             setup.ephemeris = Some(ephemeris::read(file, text)?);
             return Ok(());
         }
-        setup.take_timeline(file, text)
+        setup.set_timeline(file, text)
     }
 
     fn start_values(setup: &PlantSetup) -> Vec<StartValue> {
@@ -70,7 +71,7 @@ impl Model for MomentumPlant {
     fn about(setup: &PlantSetup) -> About {
         // 90 days of the momentum; dynamics are computed at 50 Hz.
         let (stop_time_s, step_size_s) =
-            if setup.starts_with_dynamics() { (86_400.0, 1.0) } else { (7_776_000.0, 600.0) };
+            if starts_with_dynamics(setup) { (86_400.0, 1.0) } else { (7_776_000.0, 600.0) };
         About {
             description: format!(
                 "{}: torque of solar radiation, planet light, thermal recoil, air, magnetic field and gravity gradient, \
@@ -121,7 +122,7 @@ impl Model for MomentumPlant {
     }
 
     fn check_time(state: &PlantState, time_s: f64) -> Result<(), Failure> {
-        match state.flight.uncovered(time_s) {
+        match state.flight.first_uncovered(time_s) {
             Some(what) => Err(Failure::new(format!("{what} elsewhere than at {time_s:?} s"))),
             None => Ok(()),
         }
@@ -132,4 +133,11 @@ impl OutputRates for MomentumPlant {
     fn output_rate(context: &Plan<'_>, values: &Values, state: &PlantState, output: Real) -> Option<f64> {
         outputs::derivative(context, values, state, output)
     }
+}
+
+/// Whether the spacecraft's file asks for controlled or free flight.
+fn starts_with_dynamics(setup: &PlantSetup) -> bool {
+    let source = entry_of(&setup.spacecraft.start, MomentumPlant::NAME, "attitude.source");
+    let source = source.and_then(|entry| item(&entry.value));
+    matches!(source, Some(AttitudeSource::Controlled | AttitudeSource::Free))
 }

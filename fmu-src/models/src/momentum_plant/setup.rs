@@ -15,20 +15,18 @@ use physics::plant::{ControlDefaults, PanelStep, PreparedSpacecraft};
 use physics::spacecraft::{Spacecraft, SunKeepIn, SunshadeModel};
 use serde::{Serialize, Serializer};
 
-use super::variables::choices::{AttitudeSource, CommandSource, EphemerisSource, OrbitSource, StartAttitude};
 use crate::common::center::{CenterBodies, CenterBody, center_of};
 use crate::common::effects::check_start;
+use crate::common::guided::GuidedDefaults;
 use crate::common::optics::SettableMaterials;
 use crate::common::spacecraft::{
     PreparedAntennas, PreparedShapes, ReportedFace, reported_faces, wheel_array,
 };
-use crate::common::start_values::{entry_of, fixed_item, item};
-use crate::common::variables::GuidedDefaults;
 
 /// The momentum plant.
 pub struct MomentumPlant;
 
-/// What every call of the model is given.
+/// Context of every call of the model.
 pub(super) type Plan<'a> = Context<'a, MomentumPlant>;
 
 /// The spacecraft of an instance.
@@ -78,17 +76,17 @@ impl PlantSetup {
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
         check_start(file, &spacecraft, MomentumPlant::NAME)?;
-        let bodies = CenterBodies::of(file, &spacecraft)?;
+        let bodies = CenterBodies::new(file, &spacecraft)?;
         let center = bodies.body(center_of(&spacecraft));
         Ok(Self {
-            optics: SettableMaterials::of(&spacecraft, center.data.body, MomentumPlant::NAME),
+            optics: SettableMaterials::new(&spacecraft, center.data.body, MomentumPlant::NAME),
             center,
             bodies,
-            guided: GuidedDefaults::of(&spacecraft, &center),
+            guided: GuidedDefaults::new(&spacecraft, &center),
             control: ControlDefaults::of(&spacecraft, &wheel_array(&spacecraft)),
             reported_faces: reported_faces(file, &spacecraft)?,
-            antennas: PreparedAntennas::of(&spacecraft),
-            shapes: PreparedShapes::of(&spacecraft),
+            antennas: PreparedAntennas::new(&spacecraft),
+            shapes: PreparedShapes::new(&spacecraft),
             ephemeris: None,
             timeline: None,
             schedules: 0,
@@ -99,8 +97,8 @@ impl PlantSetup {
         })
     }
 
-    /// Takes the commands of a timeline.
-    pub fn take_timeline(&mut self, file: &str, text: &str) -> Result<(), SetupError> {
+    /// Reads the commands of a timeline.
+    pub fn set_timeline(&mut self, file: &str, text: &str) -> Result<(), SetupError> {
         let timeline = Timeline::of_plant(file, text, &self.spacecraft);
         let timeline = timeline.map_err(|error| SetupError(error.to_string()))?;
         let panels = self.spacecraft.panels.iter().enumerate();
@@ -116,13 +114,6 @@ impl PlantSetup {
         let everywhere =
             SunKeepIn { azimuth_rad: PI, elevation_rad: FRAC_PI_2, distance_m: SunKeepIn::FARTHEST_M };
         self.spacecraft.sun_keep_in.unwrap_or(everywhere)
-    }
-
-    /// Whether the file asks for controlled or free flight.
-    pub fn starts_with_dynamics(&self) -> bool {
-        let source = entry_of(&self.spacecraft.start, MomentumPlant::NAME, "attitude.source");
-        let source = source.and_then(|entry| item(&entry.value));
-        matches!(source, Some(AttitudeSource::Controlled | AttitudeSource::Free))
     }
 
     /// The spacecraft, with its shade modelled as requested.
@@ -145,59 +136,4 @@ impl PlantSetup {
             }),
         })
     }
-
-    /// Which ways to turn the spacecraft are open.
-    pub fn open_choices(&self) -> OpenChoices {
-        use AttitudeSource::{Commanded, Controlled, Free, Guided};
-        let start = &self.spacecraft.start;
-        let source = fixed_item::<AttitudeSource>(start, MomentumPlant::NAME, "attitude.source");
-        let command = fixed_item::<CommandSource>(start, MomentumPlant::NAME, "command.source");
-        let is_inputs = matches!(command, Some(CommandSource::Inputs));
-        let orbit = fixed_item::<OrbitSource>(start, MomentumPlant::NAME, "orbit.source");
-        let ephemeris = fixed_item::<EphemerisSource>(start, MomentumPlant::NAME, "ephemeris.source");
-        let has_places = matches!(orbit, Some(OrbitSource::Elements))
-            && !matches!(ephemeris, None | Some(EphemerisSource::Inputs));
-        let is_given = |name: &str| {
-            let for_this = start
-                .iter()
-                .filter(|it| it.model.as_deref().is_none_or(|model| model == MomentumPlant::NAME));
-            for_this.into_iter().any(|it| it.name == name || it.name.starts_with(&format!("{name}[")))
-        };
-        let begins_pointed = match fixed_item::<StartAttitude>(start, MomentumPlant::NAME, "start.attitude") {
-            None | Some(StartAttitude::Guided) => true,
-            Some(StartAttitude::Automatic) => !is_given("start.q") && !is_given("start.rate"),
-            Some(StartAttitude::Given) => false,
-        };
-        OpenChoices {
-            ideal: matches!(source, None | Some(Guided | Commanded)),
-            by_torque: matches!(source, None | Some(Controlled | Free)),
-            guided: match source {
-                None | Some(Guided) => true,
-                Some(Commanded | Controlled) => !is_inputs,
-                Some(Free) => false,
-            },
-            begins_guided: begins_pointed && matches!(source, Some(Free)),
-            begins_commanded: begins_pointed
-                && matches!(source, Some(Controlled))
-                && !matches!(command, Some(CommandSource::Guidance)),
-            waits: !has_places,
-        }
-    }
-}
-
-/// Which ways to turn the spacecraft are open.
-#[derive(Clone, Copy, Debug)]
-pub struct OpenChoices {
-    /// The attitude follows a command or guidance, and dumps take the momentum at once.
-    pub ideal: bool,
-    /// The body turns by torque.
-    pub by_torque: bool,
-    /// The orbit phase's own guidance sets the attitude, if only where a flight by torque begins.
-    pub guided: bool,
-    /// It gives the attitude where a free flight begins, for the file has none.
-    pub begins_guided: bool,
-    /// The command gives the attitude where a controlled flight begins, likewise.
-    pub begins_commanded: bool,
-    /// Orbit or Sun may come by inputs: until they do, the attitude is the commanded one in any flight.
-    pub waits: bool,
 }

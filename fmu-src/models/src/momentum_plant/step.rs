@@ -5,7 +5,8 @@ use physics::environment::ephemeris::Ephemeris;
 use physics::plant::{NEVER_DUMPED_N_M_S, SimulationContext, Undo};
 
 use super::inputs::{self, FixedParameters, Reading, guidance, plausibility, propulsion};
-use super::outputs::{self, failure, log_event};
+use super::outputs;
+use super::outputs::messages::{failure, log_event};
 use super::setup::Plan;
 use super::state::PlantState;
 use crate::common::management::window_warning;
@@ -19,7 +20,7 @@ pub(super) fn start(
 ) -> Result<(), Failure> {
     let start = Step { start_s: time_s, end_s: time_s, changed: true, inputs: InputsOverTime::held() };
     let reading = inputs::read(context, values, state, &start)?;
-    configure(context, values, state, (&reading, &start))?;
+    configure(context, values, state, &reading, &start)?;
     // Samples at the start are taken anew by the first step, with its inputs.
     let undo = if reading.begins { Some(begin(context, values, state, &reading, time_s)?) } else { None };
     show(context, values, state, &reading, time_s)?;
@@ -39,7 +40,7 @@ pub(super) fn step(
     let reading = inputs::read(context, values, state, step)?;
     state.warn_unset_inputs(context);
     state.warn_command_norm(context, step.start_s);
-    configure(context, values, state, (&reading, step))?;
+    configure(context, values, state, &reading, step)?;
     if reading.begins {
         let undo = begin(context, values, state, &reading, step.start_s)?;
         state.flight.undo(undo);
@@ -55,7 +56,8 @@ fn configure(
     context: &Plan<'_>,
     values: &Values,
     state: &mut PlantState,
-    (reading, step): (&Reading<'_>, &Step<'_>),
+    reading: &Reading<'_>,
+    step: &Step<'_>,
 ) -> Result<(), Failure> {
     let (mut configuration, mut settings) = (None, None);
     if reading.is_reconfigured {
@@ -80,7 +82,7 @@ fn configure(
         state.flight.apply(changes, configuration, settings, step.start_s).map_err(failure)?;
     }
     // After what was computed ahead with those before is void.
-    if reading.is_reconfigured { inputs::take_materials(context, values, state) } else { Ok(()) }
+    if reading.is_reconfigured { inputs::update_materials(context, values, state) } else { Ok(()) }
 }
 
 /// The flight begins at `time_s`, where a first sample is taken: how to undo that.
@@ -106,13 +108,13 @@ fn begin(
     let log = &mut |event: &_| log_event(context, event);
     state.flight.begin(given, &state.command, time_s, log).map_err(failure)?;
     if let Some(estimate) = state.flight.estimate_at(time_s) {
-        state.take_first_command(estimate.attitude, time_s)?;
+        state.start_command(estimate.attitude, time_s)?;
     }
     let PlantState { flight, inputs, command, .. } = state;
-    plausibility::report(context, values, (&*flight, given), time_s);
+    plausibility::report(context, values, flight, given, time_s);
     let undo = flight.sample_at_start(given, &inputs.dynamics, time_s).map_err(failure)?;
     let report = flight.report(given, &inputs.dynamics, command, time_s).map_err(failure)?;
-    outputs::flyable(&report)?;
+    outputs::check_report(&report)?;
     Ok(undo)
 }
 
@@ -190,7 +192,7 @@ fn show(
         Err(error) => return Err(failure(error)),
     };
     if !*waiting {
-        outputs::flyable(&report)?;
+        outputs::check_report(&report)?;
     }
     propulsion::warn_unserved(context, &report, &mut warned.thrusters);
     guidance::warn_degenerate(context, &report, &mut warned.degenerate);
@@ -199,5 +201,5 @@ fn show(
         |k: usize| context.variables.panel.get(k).is_none_or(|it| values.boolean(it.sun_offset_reached));
     let spacecraft = &context.setup.spacecraft;
     warned.watch.see((flight, time_s), spacecraft, is_reached, |text| context.log.warning(text));
-    outputs::write_faces(context, values, flight, (given.prepared, time_s))
+    outputs::write_faces(context, values, flight, given.prepared, time_s)
 }

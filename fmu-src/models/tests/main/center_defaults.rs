@@ -1,15 +1,15 @@
 //! What follows the centre of a spacecraft's orbit: start values by the file's, and what is left at them by another's.
 
-use fmi_export::{Entry, Library, Model};
+use fmi_export::fmi2::entry;
+use fmi_export::{Library, Model};
 use model_description::{Description, VariableKind};
 use models::{DisturbanceTorque, Guidance, MomentumPlant};
 use physics::bodies::Body;
 
 use super::named_model::NamedModel;
 
-static LIBRARY: Library = Library {
-    entries: &[Entry::of::<MomentumPlant>(), Entry::of::<DisturbanceTorque>(), Entry::of::<Guidance>()],
-};
+static LIBRARY: Library =
+    Library { entries: &[entry::<MomentumPlant>(), entry::<DisturbanceTorque>(), entry::<Guidance>()] };
 
 const SAILER: &str = include_str!("../../../resources/examples/solar-sailer.toml");
 

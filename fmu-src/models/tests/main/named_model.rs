@@ -1,5 +1,6 @@
 //! Drives a model by its trait, with variables by name.
 
+use fmi_export::fmi2::entry;
 use fmi_export::model::Log;
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -8,7 +9,7 @@ use fmi_export::fmi2::{references, scalar_variables};
 use fmi_export::model::InputDerivative;
 use fmi_export::model_description::{Causality, Description, Variability, VariableKind};
 use fmi_export::{
-    BaseType, Context, Declare, Entry, Failure, InputsOverTime, Library, Model, Step, Values, Variables,
+    BaseType, Context, Declare, Failure, InputsOverTime, Library, Model, Step, Values, Variables,
 };
 use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
 use nalgebra::{Quaternion, UnitQuaternion};
@@ -17,10 +18,10 @@ use physics::numerics::intervals::next_multiple_s;
 /// Every model: a file may give start values to another than the one that is described.
 pub(crate) static LIBRARY: Library = Library {
     entries: &[
-        Entry::of::<MomentumPlant>(),
-        Entry::of::<SpinPlant>(),
-        Entry::of::<DisturbanceTorque>(),
-        Entry::of::<Guidance>(),
+        entry::<MomentumPlant>(),
+        entry::<SpinPlant>(),
+        entry::<DisturbanceTorque>(),
+        entry::<Guidance>(),
     ],
 };
 

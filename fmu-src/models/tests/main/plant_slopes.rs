@@ -1,11 +1,12 @@
 //! MomentumPlant's output derivatives are the slopes of its outputs, and its accelerations those of its velocities.
 
 use client::{NamedInstance, StatePointer};
-use fmi_export::{Entry, Library, Status};
+use fmi_export::fmi2::entry;
+use fmi_export::{Library, Status};
 use models::{Guidance, MomentumPlant};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-static LIBRARY: Library = Library { entries: &[Entry::of::<MomentumPlant>(), Entry::of::<Guidance>()] };
+static LIBRARY: Library = Library { entries: &[entry::<MomentumPlant>(), entry::<Guidance>()] };
 
 fn momentum_plant() -> NamedInstance {
     NamedInstance::of(&LIBRARY, "MomentumPlant")

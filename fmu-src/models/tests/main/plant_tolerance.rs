@@ -1,11 +1,12 @@
 //! A tolerance given to `fmi2SetupExperiment` is `solver.tolerance`, unless the user set that.
 
 use client::InProcess;
-use fmi_export::{Entry, Library};
+use fmi_export::Library;
+use fmi_export::fmi2::entry;
 use model_description::Status::Ok;
 use models::{Guidance, MomentumPlant};
 
-static LIBRARY: Library = Library { entries: &[Entry::of::<MomentumPlant>(), Entry::of::<Guidance>()] };
+static LIBRARY: Library = Library { entries: &[entry::<MomentumPlant>(), entry::<Guidance>()] };
 
 /// A tolerance loose enough to change results.
 const LOOSE: f64 = 1e-3;

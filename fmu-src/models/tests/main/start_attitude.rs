@@ -1,11 +1,12 @@
 //! start.attitude: whether a flight by torque starts in start.q at start.rate or as guidance points, and what the log says of it.
 
 use client::NamedInstance;
+use fmi_export::fmi2::entry;
 use fmi_export::model_description::{Causality, ScalarVariable, VariableKind};
-use fmi_export::{Entry, Library, Status};
+use fmi_export::{Library, Status};
 use models::{Guidance, MomentumPlant};
 
-static LIBRARY: Library = Library { entries: &[Entry::of::<MomentumPlant>(), Entry::of::<Guidance>()] };
+static LIBRARY: Library = Library { entries: &[entry::<MomentumPlant>(), entry::<Guidance>()] };
 
 const IDENTITY: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 

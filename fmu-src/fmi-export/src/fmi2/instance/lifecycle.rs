@@ -69,29 +69,32 @@ impl Instance {
             Problem::error("fmi2SetupExperiment must be called before fmi2EnterInitializationMode")
         })?;
         self.state.time_s = experiment.start_s;
-        self.take_tolerance(experiment.tolerance);
+        self.set_tolerance(experiment.tolerance);
         self.state.needs_initialization = true;
         Ok(())
     }
 
     /// The tolerance of the experiment becomes the value of the model's parameter, unless the master set that: so it is
     /// read, saved and restored like any value.
-    fn take_tolerance(&mut self, tolerance: Option<f64>) {
+    fn set_tolerance(&mut self, tolerance: Option<f64>) {
         let is_settable = |at: &Real| {
-            let (base, reference) = (BaseType::Real, references::of(*at));
+            let (base, reference) = (BaseType::Real, references::for_variable(*at));
             let flags = self.access.flags(base).get(references::index(base, reference));
             flags.is_some_and(|flags| flags & SET_BY_IMPORTER != 0)
         };
         let is_open = |at: &Real| !self.state.values.is_set(*at) && is_settable(at);
         let Some(at) = self.tolerance.filter(is_open) else { return };
         let default = self.start.real(at);
-        let limits =
-            self.access.real_limits.get(references::index(BaseType::Real, references::of(at))).copied();
+        let limits = self
+            .access
+            .real_limits
+            .get(references::index(BaseType::Real, references::for_variable(at)))
+            .copied();
         let (min, max) = limits.unwrap_or((f64::MIN, f64::MAX));
         // Not `clamp`, which panics where the limits are no range.
         let taken = tolerance.map_or(default, |tolerance| tolerance.max(min).min(max));
         if let Some(tolerance) = tolerance.filter(|tolerance| *tolerance != taken) {
-            let name = self.access.any_name(references::of(at)).unwrap_or_default();
+            let name = self.access.any_name(references::for_variable(at)).unwrap_or_default();
             self.logger.log(
                 Status::Warning,
                 format_args!(
@@ -101,7 +104,7 @@ impl Instance {
             );
         }
         if taken != default {
-            let name = self.access.any_name(references::of(at)).unwrap_or_default();
+            let name = self.access.any_name(references::for_variable(at)).unwrap_or_default();
             let message =
                 format!("{name} = {taken:?}, the tolerance of fmi2SetupExperiment, as it is not set");
             self.logger.event(self.state.time_s, &message);

@@ -13,10 +13,10 @@ mod values;
 use std::sync::Arc;
 
 use crate::fmi2::access::AccessTable;
-use crate::fmi2::description::Prepared;
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
 use crate::logger::Logger;
+use crate::prepared::Prepared;
 use crate::runtime::Runtime;
 use crate::variables::{Real, Values};
 use model_description::BaseType;
@@ -43,7 +43,7 @@ pub(crate) struct Instance {
     pub(super) start: Arc<Values>,
     pub(super) digest: uuid::Uuid,
     pub(super) logger: Logger,
-    /// Which of the messages in [`once`] were logged.
+    /// The messages of [`once`] that were logged.
     reported: u8,
     /// No FMU state before this time will be set, by `noSetFMUStatePriorToCurrentPoint`.
     earliest_s: f64,
@@ -61,7 +61,8 @@ pub(crate) struct Instance {
 impl Instance {
     /// A fresh instance.
     pub(crate) fn new(prepared: Prepared, logger: Logger) -> Self {
-        let Prepared { description, access, start, runtime, digest, tolerance } = prepared;
+        let Prepared { description, start, runtime, digest, tolerance } = prepared;
+        let access = AccessTable::new(&description);
         let mut state = InstanceState::new(&start);
         state.input_derivatives.reserve(access.real_limits.len());
         Self {

@@ -36,7 +36,7 @@ pub(crate) struct InstanceState {
     #[serde(with = "mode_as_number")]
     pub(crate) mode: State,
     pub(crate) experiment: Option<Experiment>,
-    /// Where the last step ended.
+    /// Time at which the last step ended, in s.
     pub(crate) time_s: f64,
     /// The model ended by itself.
     pub(crate) terminated: bool,
@@ -112,7 +112,7 @@ impl InstanceState {
             self.check_finite(values, access)?;
         }
         for &InputDerivative { input, order, value } in &self.input_derivatives {
-            let reference = references::of(input);
+            let reference = references::for_variable(input);
             let flags = access
                 .flags(BaseType::Real)
                 .get(references::index(BaseType::Real, reference))
@@ -129,7 +129,7 @@ impl InstanceState {
         Ok(())
     }
 
-    /// What an instance in the error state holds is for debugging; all else may be read under OK.
+    /// Refuses Reals that are not finite; an instance in the error state may hold them, for debugging.
     fn check_finite(&self, values: &Values, access: &AccessTable) -> Result<(), Failure> {
         match access.first_not_finite(values) {
             Some((reference, value)) if self.mode != State::Error => {

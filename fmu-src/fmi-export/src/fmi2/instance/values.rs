@@ -164,7 +164,7 @@ impl Instance {
         }
     }
 
-    /// Which flag a variable needs to be set now. The guard has admitted the state.
+    /// The flag that a variable needs to be set now. The guard has admitted the state.
     #[inline]
     fn settable_flag(&self) -> u16 {
         match self.state.mode {

@@ -9,7 +9,7 @@ use physics::plant::{PanelSetting, Ramp, SunlitConfiguration};
 use physics::spacecraft::MassProperties;
 
 use super::Fixed;
-use crate::common::management::check_strategy_has_antenna;
+use crate::common::management::{ManagedSpacecraft, check_strategy_has_antenna};
 use crate::common::spacecraft::bias_body_n_m_s;
 use crate::guidance::setup::Plan;
 use crate::guidance::variables::choices::DumpReinitTo;
@@ -60,8 +60,13 @@ pub(crate) fn manager<'a>(
         manager: v.momentum.targeting.manager(
             values,
             strategy,
-            ([keep_in.azimuth_rad, keep_in.elevation_rad], bias_body_n_m_s(spacecraft)),
-            (spacecraft, sunshade, &context.setup.antennas.all),
+            ManagedSpacecraft {
+                spacecraft,
+                sunshade,
+                antennas: &context.setup.antennas.all,
+                sun_limits_rad: [keep_in.azimuth_rad, keep_in.elevation_rad],
+                bias_body_n_m_s: bias_body_n_m_s(spacecraft),
+            },
         ),
         default_downlink: &context.setup.antennas.default_downlink,
         spacecraft: SunlitConfiguration {

@@ -34,10 +34,10 @@ use super::variables::choices::EphemerisSource;
 use crate::common::choices::PlanetOrientation;
 use crate::common::downlink::ZERO_KEEP_IN_AXIS;
 use crate::common::ephemeris;
+use crate::common::guided::NO_GIMBAL;
 use crate::common::management::{NO_ANTENNA, check_windows_have_antenna};
 use crate::common::numbers::Numbers;
 use crate::common::pointing::RuleContext;
-use crate::common::variables::NO_GIMBAL;
 
 /// What parameters fix for a whole flight.
 #[derive(Clone, Debug)]
@@ -60,7 +60,7 @@ impl Fixed {
     /// Names parameters whose values no material has.
     pub fn tune(&mut self, context: &Plan<'_>, values: &Values) -> Result<(), Failure> {
         let v = context.variables;
-        for found in v.optics.materials((context, values), &context.setup.optics) {
+        for found in v.optics.materials(context, values, &context.setup.optics) {
             let (place, material) = found?;
             self.solar.set_material(place, &material);
         }
@@ -287,7 +287,7 @@ pub(super) fn settings<'a>(
                 panels: &context.setup.spacecraft.panels,
                 zone: None,
             };
-            v.guided.in_phase(context, values, &context.setup.guided, (law, &about))?
+            v.guided.in_phase(context, values, &context.setup.guided, law, &about)?
         },
         burn: fixed.burn,
     })

@@ -17,8 +17,9 @@ use physics::guidance::pointing::scan::DEFAULT_COMPATIBILITY;
 use super::setup::GuidanceSetup;
 use crate::common::choices::SunshadeShape;
 use crate::common::downlink::DownlinkVariables;
+use crate::common::guided::GuidedVariables;
 use crate::common::optics::OpticsVariables;
-use crate::common::variables::{GuidedVariables, SolarVariables, WorkLimit};
+use crate::common::variables::{SolarVariables, WorkLimit};
 use burn::{BurnVariables, ThrustVariables};
 use celestial_bodies::{
     EarthVariables, EstimateVariables, PlanetVariables, StartVariables, SunVariables, TargetVariables,
@@ -92,7 +93,7 @@ pub struct GuidanceVariables {
     #[parameter(name = "spacecraft.centerOfMass", tunable, unit = "m", display = "cm", min = -1e4, max = 1e4, start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
     pub spacecraft_center_of_mass: RealVector<3>,
     /// Which model of the shade takes the light; without a shade it does not count.
-    #[parameter(name = "sunshade.shape", start = SunshadeShape::of(&setup.spacecraft))]
+    #[parameter(name = "sunshade.shape", start = SunshadeShape::for_spacecraft(&setup.spacecraft))]
     pub sunshade_shape: Choice<SunshadeShape>,
     #[group(setup = &setup.optics)]
     pub optics: OpticsVariables,

@@ -20,7 +20,7 @@ pub struct PanelVariables {
     #[parameter(tunable, unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1], start = setup.spacecraft.panels[index].sun_offset_rad)]
     pub nominal_sun_offset: Real,
     /// Sense of tilt of a positive offset; the paper does not print it.
-    #[parameter(start = PanelTilt::of(&setup.spacecraft.panels[index]))]
+    #[parameter(start = PanelTilt::for_panel(&setup.spacecraft.panels[index]))]
     pub tilt: Choice<PanelTilt>,
     /// Whether the panel takes part; here in the torque that targets count on.
     #[parameter(start = true)]

@@ -19,7 +19,7 @@ use crate::momentum_plant::variables::air_and_field::{AtmosphereMethod, Magnetic
 
 /// The planet as it acts on the spacecraft.
 pub(super) struct PlanetEnvironment {
-    /// Effects that are on, with those that follow the planet.
+    /// Effects that are on, with those that default by the planet.
     pub effects: Active,
     /// Air and field where one of them acts.
     pub air_and_field: Option<AirAndFieldSettings>,
@@ -41,9 +41,9 @@ pub(super) fn read(
     center: &Center,
 ) -> Result<PlanetEnvironment, Failure> {
     let (v, planet) = (context.variables, &center.planet);
-    let followed = Followed::read(context, values, planet.body);
+    let defaults = BodyDefaults::read(context, values, planet.body);
     let switches = [v.planet_light.enabled, v.thermal.enabled];
-    let effects = v.laws.active(switches, |switch| followed.is_on(values, switch));
+    let effects = v.laws.active(switches, |switch| defaults.is_on(values, switch));
     let [rotation, of_planet] = [&center.data, planet].map(|body| orientation(context, values, body));
     let (rotation, of_planet) = (rotation?, of_planet?);
     let ellipsoid =
@@ -79,7 +79,7 @@ fn orientation(
     if !planet.body.is_planet() {
         return Ok(None);
     }
-    let orientation = Followed::read(context, values, planet.body).orientation;
+    let orientation = BodyDefaults::read(context, values, planet.body).orientation;
     orientation.about(planet, values.real(context.variables.earth.ut1_offset)).map(Some)
 }
 
@@ -141,16 +141,16 @@ fn field(v: &PlantVariables, values: &Values, planet: &BodyData) -> Result<Field
     }
 }
 
-/// What follows the planet unless it is set.
+/// Orientation and effects that default by the planet unless they are set.
 #[derive(Clone, Copy)]
-pub(super) struct Followed {
+pub(super) struct BodyDefaults {
     /// Rotation model.
     pub orientation: PlanetOrientation,
     /// Switches of effects, whether each is on, and whether it was set.
     switches: [(Boolean, bool, bool); PLANET_SWITCHES],
 }
 
-impl Followed {
+impl BodyDefaults {
     /// Values set for a body; the defaults are true and iau for the Earth only.
     pub(super) fn read(context: &Plan<'_>, values: &Values, body: Body) -> Self {
         let (laws, planet) = (&context.variables.laws, &context.variables.planet);
@@ -172,7 +172,7 @@ impl Followed {
         own.map_or_else(|| values.boolean(switch), |(_, is_on, _)| *is_on)
     }
 
-    /// Writes it as it acts.
+    /// Writes orientation and switches as they act.
     pub(super) fn write(self, variables: &PlantVariables, values: &mut Values) {
         values.set_choice(variables.planet.rotation.orientation, self.orientation);
         for (switch, is_on, _) in self.switches {
@@ -181,12 +181,12 @@ impl Followed {
     }
 }
 
-/// What to report of air and field that act by default, and to warn of where they are switched on and cannot act.
+/// Reports air and field that act by default, and warns where they are switched on without a planet.
 pub(super) fn report(context: &Plan<'_>, values: &Values, start_s: f64) {
     let planet = Center::read(context, values).planet.body;
-    let followed = Followed::read(context, values, planet);
+    let defaults = BodyDefaults::read(context, values, planet);
     let names = context.variables.laws.planet_switches().map(|(name, _)| name);
-    for (name, (_, is_on, is_set)) in names.into_iter().zip(followed.switches) {
+    for (name, (_, is_on, is_set)) in names.into_iter().zip(defaults.switches) {
         if is_on && !planet.is_planet() {
             context.log.warning(&format!(
                 "{name} = true is without effect: there is no planet about which it could act"

@@ -1,4 +1,4 @@
-//! What follows `orbit.center`: a parameter that nobody gave takes the centre's own value.
+//! Parameters that default by `orbit.center`: those that nobody gave take the centre's own value.
 
 use fmi_export::{Failure, Values};
 use physics::bodies::air::ExponentialAir;
@@ -128,8 +128,8 @@ impl Center {
     }
 }
 
-/// Warns of elements that nobody gave and that are another's than the centre of the start values, before they are resolved.
-pub(super) fn say_followed(context: &Plan<'_>, values: &Values) {
+/// Warns of elements that nobody gave and that default by another centre than that of the start values, before they are resolved.
+pub(super) fn warn_defaulted(context: &Plan<'_>, values: &Values) {
     let orbit = &context.variables.orbit;
     let body = values.choice(orbit.center).0;
     if body == context.setup.center.data.body || values.choice(orbit.source).is_given() {
@@ -144,9 +144,9 @@ pub(super) fn say_followed(context: &Plan<'_>, values: &Values) {
         ("orbit.ascendingNode", orbit.ascending_node, found.ascending_node_rad, "rad"),
         ("orbit.periapsisArgument", orbit.periapsis_argument, found.periapsis_argument_rad, "rad"),
     ];
-    let followed = elements.iter().filter(|(_, parameter, own, _)| values.real(*parameter) != *own);
+    let defaulted = elements.iter().filter(|(_, parameter, own, _)| values.real(*parameter) != *own);
     let mut reported: Vec<String> =
-        followed.map(|(name, _, own, unit)| format!("{name} = {}", shown(*own, unit).trim_end())).collect();
+        defaulted.map(|(name, _, own, unit)| format!("{name} = {}", shown(*own, unit).trim_end())).collect();
     if values.choice(orbit.frame).0 != center.frame {
         reported.push(format!("orbit.frame = {}", center.frame.name()));
     }

@@ -1,28 +1,29 @@
 //! From parameters, inputs and state to spacecraft, orbit and light of the simulation; refuses what cannot be simulated, by name.
 
-use fmi_export::{Elements, Failure, InputsOverTime, Real, Values};
+use fmi_export::{Elements, Failure, Real, Values};
 use nalgebra::Vector3;
 use physics::environment::time;
 use physics::momentum::{DumpPolicy, Reinitialise, Settings};
-use physics::plant::{Configuration, PanelSetting, RadiationSettings, Ramp, ThrusterEventSettings};
-use physics::spacecraft::PanelControl;
+use physics::plant::{Configuration, RadiationSettings, ThrusterEventSettings};
 
 use super::center::Center;
+use super::orbit::OrbitReader;
+use super::panels::{self, ActiveTimeline, MovingPanels};
 use super::{air_and_field, ephemeris_source, guidance, n_body, orbit, wheels};
 use crate::common::ephemeris;
 use crate::common::spacecraft::inertia_body_kg_m2;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::state::PlantState;
+use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::choices::{AttitudeSource, DumpReinitTo, EphemerisSource};
 
-/// The configuration that parameters, inputs and state describe, about `center` and in the memory of `panels`; angles of panels
-/// move as the inputs do.
+/// The configuration that parameters, inputs and state describe, about `center`.
 pub(super) fn read(
     context: &Plan<'_>,
     values: &Values,
     state: &PlantState,
     center: &Center,
-    (over_time, mut panels): (InputsOverTime<'_>, Vec<PanelSetting>),
+    moving: MovingPanels<'_>,
 ) -> Result<Configuration, Failure> {
     let variables = context.variables;
     let epoch_s = values.real(variables.start.epoch);
@@ -37,35 +38,11 @@ pub(super) fn read(
     let (gravity, encounter) = n_body::read(context, values, &planet.center)?;
     let ephemeris = ephemeris_source::read(context, values, center.data.body, state.waiting)?;
     let frame = orbit::eme2000_from_frame(context, values, center, &ephemeris)?;
-    let centers = [center, &planet.center];
-    let (orbit, motion) =
-        orbit::read(variables, values, state, centers, (&frame, gravity, epoch_minus_time_s))?;
-    let corridor = variables.articulation.read(values)?;
-    let followed = context.setup.timeline.as_ref().filter(|_| values.boolean(variables.timeline.enabled));
-    let clock_minus_time_s = followed.map_or(0.0, |it| it.clock_minus_time_s(epoch_minus_time_s));
-    panels.clear();
-    panels.extend(variables.panel.iter().enumerate().map(|(k, panel)| {
-        if !values.boolean(panel.enabled) {
-            return PanelSetting::Disabled;
-        }
-        let since_s = over_time.start_s();
-        let ramp = |input: Real| Ramp::since(since_s, values.real(input), over_time.rate(input, since_s));
-        let tilt = values.choice(panel.tilt).sign().into();
-        let offset = |offset| PanelSetting::SunOffset { offset, tilt };
-        match values.choice(panel.control).0 {
-            PanelControl::Angle => PanelSetting::Angle(ramp(panel.angle)),
-            PanelControl::SunOffset => offset(Ramp::held(values.real(panel.sun_offset))),
-            PanelControl::Timeline => PanelSetting::Timeline {
-                steps: followed.and_then(|_| context.setup.panel_steps.get(k).cloned()).unwrap_or_default(),
-                clock_minus_time_s,
-                before_rad: values.real(panel.sun_offset),
-                tilt,
-            },
-            PanelControl::Command => offset(ramp(panel.sun_offset_command)),
-            PanelControl::Distance => PanelSetting::Distance { suns: corridor.target_suns, tilt },
-        }
-        .biased(values.real(panel.angle_bias))
-    }));
+    let reader = OrbitReader { variables, values, state, epoch_minus_time_s };
+    let orbit = reader.orbit(center, &frame)?;
+    let motion = reader.motion(&planet.center, gravity);
+    let timeline = ActiveTimeline::read(context, values, epoch_minus_time_s);
+    let panels = panels::read(context, values, moving, &timeline)?;
     let v = &variables.planet;
     let laws = [
         (v.gravitational_parameter, center.planet.gm_m3_s2),
@@ -75,9 +52,8 @@ pub(super) fn read(
     let of_planet = |real: Real| {
         laws.iter().find(|(own, _)| *own == real).map_or_else(|| values.real(real), |(_, value)| *value)
     };
-    let timeline = followed.map(|_| {
-        let center = (&center.data, planet.rotation);
-        guidance::timeline(variables, values, center, clock_minus_time_s)
+    let attitudes = timeline.law.map(|_| {
+        guidance::timeline(variables, values, &center.data, planet.rotation, timeline.clock_minus_time_s)
     });
     Ok(Configuration {
         epoch_minus_time_s,
@@ -86,7 +62,7 @@ pub(super) fn read(
         eme2000_from_orbit_frame: frame,
         encounter,
         attitude: guidance::attitude(context, values, state, &orbit)?,
-        timeline: timeline.transpose()?,
+        timeline: attitudes.transpose()?,
         orbit,
         motion,
         ephemeris,
@@ -109,21 +85,30 @@ pub(super) fn read(
         effects: planet.effects,
         laws: variables.laws.read(values, laws.map(|(parameter, _)| parameter), of_planet),
         momentum,
-        thruster_events: ThrusterEventSettings {
-            schedule: followed.map(|it| it.events().clone()).unwrap_or_default(),
-            clock_minus_time_s,
-            thrusters: values.choice(variables.maneuver.thrusters).0,
-            dumps: values.boolean(variables.maneuver.dump),
-            magnitude_error: values.real(variables.maneuver.magnitude_error),
-            direction_error_rad: values.real(variables.maneuver.direction_error),
-            center_of_mass_shift_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass_shift)),
-            seed: values.integer(variables.noise_seed).unsigned_abs().into(),
-            requested_body_n_m_s: Vector3::from(values.vector(variables.dump.target)),
-        },
+        thruster_events: thruster_events(variables, values, &timeline),
     })
 }
 
-/// Whether no dump begins by itself: in free flight, where the master controls, unless thresholds are set.
+/// Maneuvers and dumps of the timeline and by request.
+fn thruster_events(
+    variables: &PlantVariables,
+    values: &Values,
+    timeline: &ActiveTimeline<'_>,
+) -> ThrusterEventSettings {
+    ThrusterEventSettings {
+        schedule: timeline.law.map(|it| it.events().clone()).unwrap_or_default(),
+        clock_minus_time_s: timeline.clock_minus_time_s,
+        thrusters: values.choice(variables.maneuver.thrusters).0,
+        dumps: values.boolean(variables.maneuver.dump),
+        magnitude_error: values.real(variables.maneuver.magnitude_error),
+        direction_error_rad: values.real(variables.maneuver.direction_error),
+        center_of_mass_shift_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass_shift)),
+        seed: values.integer(variables.noise_seed).unsigned_abs().into(),
+        requested_body_n_m_s: Vector3::from(values.vector(variables.dump.target)),
+    }
+}
+
+/// Whether dumps begin by the master alone: in free flight, unless thresholds are set.
 fn is_left_to_master(context: &Plan<'_>, values: &Values) -> bool {
     let variables = context.variables;
     let is_free = matches!(values.choice(variables.attitude.source), AttitudeSource::Free);

@@ -1,4 +1,4 @@
-//! From parameters to the dynamics of body, wheels, what swings, sensors and controller; refuses what cannot be simulated, by name.
+//! Dynamics of body, wheels, flexible modes, propellant, sensors and controller by parameters; refuses by name.
 
 use fmi_export::{Failure, Real, RealVector, Values};
 use nalgebra::Vector3;
@@ -21,7 +21,7 @@ fn or_none(value: f64) -> f64 {
     if value == 0.0 { f64::INFINITY } else { value }
 }
 
-/// What parameters set about dynamics and control.
+/// Settings of dynamics and control by parameters.
 pub(super) fn dynamic(
     context: &Plan<'_>,
     values: &Values,
@@ -44,30 +44,7 @@ pub(super) fn dynamic(
         )));
     }
     wheels::check(context, values)?;
-    let rotors: Vec<ReactionWheel> = v
-        .wheel
-        .iter()
-        .map(|wheel| ReactionWheel {
-            axis_body: Vector3::from(values.vector(wheel.axis)),
-            inertia_kg_m2: real(wheel.inertia),
-            max_torque_n_m: real(wheel.max_torque),
-            capacity_n_m_s: real(wheel.capacity),
-            bias_n_m_s: real(wheel.bias_momentum),
-            coulomb_friction_n_m: real(wheel.coulomb_friction),
-            viscous_friction_n_m_s: real(wheel.viscous_friction),
-            locked: values.boolean(wheel.locked),
-        })
-        .collect();
-    for (index, (wheel, body)) in v.wheel.iter().zip(&rotors).enumerate() {
-        let (number, found) = (index + 1, wheels::start_n_m_s(context, values, wheel));
-        let allowed_n_m_s = if body.locked { 0.0 } else { body.capacity_n_m_s };
-        if found.abs() > allowed_n_m_s {
-            let why = if body.locked { "the rotor is locked" } else { "its capacity" };
-            return Err(Failure::new(format!(
-                "wheel[{number}].startMomentum: found {found:?} N.m.s, allowed: up to {allowed_n_m_s:?} N.m.s either way, {why}"
-            )));
-        }
-    }
+    let rotors = rotors(context, values)?;
     let shift = values.vector(v.spacecraft.center_of_mass_shift);
     if shift != [0.0; 3] {
         return Err(Failure::new(format!(
@@ -82,19 +59,12 @@ pub(super) fn dynamic(
             rigid.with_appendages(appendages, configuration.mass_kg, configuration.center_of_mass_body_m)
         })
         .map_err(|error| Failure::new(format!("spacecraft.inertia, wheel[k].*: {error}")))?;
-    let controlled = matches!(values.choice(v.attitude.source), AttitudeSource::Controlled);
-    let control = if controlled {
-        let turns = |k: usize| !gyrostat.wheels()[k].locked;
-        if WheelAllocator::new(&axes, turns).is_none() {
-            return Err(Failure::new(format!(
-                "wheel[k].axis: found {} wheels whose axes lie in a plane or are locked, allowed with attitude.source \
-                 controlled (3): wheels in all directions",
-                axes.len()
-            )));
+    let control = match values.choice(v.attitude.source) {
+        AttitudeSource::Controlled => {
+            check_axes(&gyrostat, &axes)?;
+            Some(control(context, values)?)
         }
-        Some(control(context, values)?)
-    } else {
-        None
+        _ => None,
     };
     let seed = values.integer(v.noise_seed).unsigned_abs().into();
     let controller = controller(context, values);
@@ -129,6 +99,52 @@ pub(super) fn dynamic(
         panels_have_mass: context.setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some()),
         start,
     })
+}
+
+/// The reaction wheels by parameters.
+///
+/// # Errors
+/// Momentum at the start beyond a wheel's capacity.
+fn rotors(context: &Plan<'_>, values: &Values) -> Result<Vec<ReactionWheel>, Failure> {
+    let v = context.variables;
+    let real = |handle: Real| values.real(handle);
+    let rotors: Vec<ReactionWheel> = v
+        .wheel
+        .iter()
+        .map(|wheel| ReactionWheel {
+            axis_body: Vector3::from(values.vector(wheel.axis)),
+            inertia_kg_m2: real(wheel.inertia),
+            max_torque_n_m: real(wheel.max_torque),
+            capacity_n_m_s: real(wheel.capacity),
+            bias_n_m_s: real(wheel.bias_momentum),
+            coulomb_friction_n_m: real(wheel.coulomb_friction),
+            viscous_friction_n_m_s: real(wheel.viscous_friction),
+            locked: values.boolean(wheel.locked),
+        })
+        .collect();
+    for (index, (wheel, body)) in v.wheel.iter().zip(&rotors).enumerate() {
+        let (number, found) = (index + 1, wheels::start_n_m_s(context, values, wheel));
+        let allowed_n_m_s = if body.locked { 0.0 } else { body.capacity_n_m_s };
+        if found.abs() > allowed_n_m_s {
+            let why = if body.locked { "the rotor is locked" } else { "its capacity" };
+            return Err(Failure::new(format!(
+                "wheel[{number}].startMomentum: found {found:?} N.m.s, allowed: up to {allowed_n_m_s:?} N.m.s either way, {why}"
+            )));
+        }
+    }
+    Ok(rotors)
+}
+
+/// Refuses a controller whose wheels do not turn the body in every direction.
+fn check_axes(gyrostat: &Gyrostat, axes: &[Vector3<f64>]) -> Result<(), Failure> {
+    if WheelAllocator::new(axes, |k: usize| !gyrostat.wheels()[k].locked).is_none() {
+        return Err(Failure::new(format!(
+            "wheel[k].axis: found {} wheels whose axes lie in a plane or are locked, allowed with attitude.source \
+             controlled (3): wheels in all directions",
+            axes.len()
+        )));
+    }
+    Ok(())
 }
 
 fn controller(context: &Plan<'_>, values: &Values) -> ControllerSettings {

@@ -12,7 +12,7 @@ use crate::common::ephemeris;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::choices::EphemerisSource;
 
-/// Where Sun, Earth and planets come from.
+/// Reads the source of the positions of Sun, Earth and planets.
 pub(super) fn read(
     context: &Plan<'_>,
     values: &Values,

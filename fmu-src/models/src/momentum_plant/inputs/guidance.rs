@@ -49,7 +49,8 @@ fn zone_in_force(variables: &PlantVariables, values: &Values) -> Result<Option<S
 pub(super) fn timeline(
     variables: &PlantVariables,
     values: &Values,
-    (center, rotation): (&BodyData, Option<Orientation>),
+    center: &BodyData,
+    rotation: Option<Orientation>,
     clock_minus_time_s: f64,
 ) -> Result<TimelineSettings, Failure> {
     let v = &variables.keep_in;
@@ -82,7 +83,7 @@ fn law(context: &Plan<'_>, values: &Values, orbit: &TwoBodyOrbit) -> Result<Guid
         panels: &context.setup.spacecraft.panels,
         zone: zone_in_force(variables, values)?,
     };
-    variables.guided.in_phase(context, values, &context.setup.guided, (law, &about))
+    variables.guided.in_phase(context, values, &context.setup.guided, law, &about)
 }
 
 /// The attitude's source: commands, the orbit phase's own guidance, or the dynamics that follow one of them.

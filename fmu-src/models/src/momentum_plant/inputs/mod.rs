@@ -1,4 +1,4 @@
-//! One reading of parameters and inputs into what the physics takes; refuses what cannot be simulated, by name.
+//! One reading of parameters and inputs into settings of the physics; refuses by name.
 
 mod air_and_field;
 mod center;
@@ -8,10 +8,10 @@ mod ephemeris_source;
 pub(super) mod guidance;
 mod n_body;
 mod orbit;
+mod panels;
 pub(super) mod plausibility;
 pub(super) mod propulsion;
 mod solvers;
-pub(super) mod step_inputs;
 pub(super) mod wheels;
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
@@ -26,20 +26,22 @@ use physics::plant::{
 use physics::radiation::SolarModel;
 
 use self::center::Center;
-use self::step_inputs::{AppliedLoad, StepInputs};
+use self::panels::MovingPanels;
 use super::setup::Plan;
 use super::state::PlantState;
+use super::state::step_inputs::{AppliedLoad, StepInputs};
 use super::variables::choices::EphemerisSource;
 use crate::common::effects::unused_map;
 use crate::common::ephemeris;
+use crate::common::management::ManagedSpacecraft;
 
-/// Parameters and inputs of one step, beside what [`PlantState::inputs`] hold.
+/// Parameters and inputs of one step that [`PlantState::inputs`] do not hold.
 pub(super) struct Reading<'a> {
-    /// What is another than at the last step; `None` where nothing was set.
+    /// Changes since the last step; `None` where nothing was set.
     pub changes: Option<Changes>,
-    /// Whether the flight begins, everything it needs being known.
+    /// Whether the flight begins, with all inputs that it needs set.
     pub begins: bool,
-    /// Whether the configuration changed since the last step, or is not known yet.
+    /// Whether the configuration changed since the last step, or was never read.
     pub is_reconfigured: bool,
     /// Whether fixed parameters are read too: the simulation begins, was restored or waits for inputs.
     is_complete: bool,
@@ -51,15 +53,15 @@ pub(super) struct Reading<'a> {
 
 /// A configuration and settings.
 pub(super) struct Configured {
-    /// What follows from inputs and tunable parameters, among others.
+    /// Configuration by inputs and tunable parameters, among others.
     pub configuration: Configuration,
-    /// Settings, where they follow from them too.
+    /// Settings, where they depend on inputs and tunable parameters too.
     pub settings: Option<ModeSettings>,
-    /// What follows from other parameters alone, where it is not known yet.
+    /// Solvers and thrusters by fixed parameters, where they were not read before.
     pub fixed: Option<FixedParameters>,
 }
 
-/// What follows from parameters that stay.
+/// Solvers and thrusters, which depend on fixed parameters alone.
 pub(super) struct FixedParameters {
     /// Surfaces in air.
     pub air: Option<AerodynamicSolver>,
@@ -80,14 +82,14 @@ impl Reading<'_> {
         |time_s| self.applied.at(time_s)
     }
 
-    /// The choice of the Sun's place.
+    /// The selection of the Sun's direction in downlinks.
     pub(super) fn planner(
         &self,
     ) -> impl Fn(&mut DownlinkForecast<'_>) -> Result<Option<ChosenPlace>, PlantError> + '_ {
         |forecast| self.manager.choose(forecast)
     }
 
-    /// What the flight is given with the load from outside.
+    /// The context of a step of the flight, with the load from outside.
     pub(super) fn given<'r>(
         &'r self,
         external: &'r External<'r>,
@@ -97,7 +99,7 @@ impl Reading<'_> {
     }
 }
 
-/// Reads what a step goes by; `state` takes over what is another than before.
+/// Reads the parameters and inputs of a step; `state` stores those that changed.
 pub(super) fn read<'a>(
     context: &Plan<'a>,
     values: &Values,
@@ -108,8 +110,8 @@ pub(super) fn read<'a>(
     let mut changes = None;
     if step.changed || !state.inputs.are_read {
         state.inputs.update(context, values, step.inputs);
-        changes = Some(state.take_inputs(step.start_s)?).filter(|_| step.changed);
-        if state.take_schedules(context.setup.schedules, step.start_s) {
+        changes = Some(state.update_inputs(step.start_s)?).filter(|_| step.changed);
+        if state.update_schedules(context.setup.schedules, step.start_s) {
             changes = Some(Changes { light: true, ..changes.unwrap_or_default() });
         }
     }
@@ -134,8 +136,13 @@ pub(super) fn read<'a>(
         manager: momentum.targeting.manager(
             values,
             strategy,
-            (limits_rad, bias_body_n_m_s.unwrap_or_else(|| wheels::bias_body_n_m_s(context, values))),
-            (spacecraft, sunshade, &context.setup.antennas.all),
+            ManagedSpacecraft {
+                spacecraft,
+                sunshade,
+                antennas: &context.setup.antennas.all,
+                sun_limits_rad: limits_rad,
+                bias_body_n_m_s: bias_body_n_m_s.unwrap_or_else(|| wheels::bias_body_n_m_s(context, values)),
+            },
         ),
         prepared: context.setup.prepared_spacecraft(sunshade)?,
         work_limit: variables.solver.work.units(values),
@@ -153,7 +160,7 @@ pub(super) fn configured(
     let is_dynamic = state.inputs.source.is_dynamic && !state.waiting;
     let is_complete = reading.is_complete;
     let center = Center::read(context, values);
-    let moving = (over_time, state.flight.take_panels());
+    let moving = MovingPanels { over_time, memory: state.flight.take_panels() };
     let configuration = configuration::read(context, values, state, &center, moving)?;
     let settings = if is_dynamic {
         let start = guidance::start_motion(context, values, &configuration, state)?;
@@ -184,33 +191,33 @@ pub(super) fn configured(
 ///
 /// # Errors
 /// Names parameters whose values no material has.
-pub(super) fn take_materials(
+pub(super) fn update_materials(
     context: &Plan<'_>,
     values: &Values,
     state: &mut PlantState,
 ) -> Result<(), Failure> {
     let Some(flown) = state.flight.context_mut() else { return Ok(()) };
-    for found in context.variables.optics.materials((context, values), &context.setup.optics) {
+    for found in context.variables.optics.materials(context, values, &context.setup.optics) {
         let (place, material) = found?;
         flown.set_material(place, &material);
     }
     Ok(())
 }
 
-/// Reads what a flight begins with.
+/// Reads the state in which a flight begins.
 pub(super) fn start(context: &Plan<'_>, values: &Values, start_s: f64) -> Result<PlantState, Failure> {
     let mut inputs = StepInputs::default();
     inputs.update(context, values, InputsOverTime::held());
     let q = values.vector(context.variables.start.q);
     let attitude = Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
     let thrusters = Thrusters::new(propulsion::reaction_control(context, values)?, start_s);
-    PlantState::new(inputs, attitude, thrusters, (start_s, context.setup.schedules))
+    PlantState::new(inputs, attitude, thrusters, start_s, context.setup.schedules)
 }
 
-/// Warns of what is set, or stands in the file, and is without effect.
+/// Warns of settings, and keys of the file, that are without effect.
 ///
 /// # Errors
-/// A setting that cannot have any.
+/// A setting that cannot have an effect.
 pub(super) fn check_effects(context: &Plan<'_>, values: &Values, start_s: f64) -> Result<(), Failure> {
     let (variables, spacecraft) = (context.variables, &context.setup.spacecraft);
     let shape = values.choice(variables.sunshade.shape).0;
@@ -220,7 +227,7 @@ pub(super) fn check_effects(context: &Plan<'_>, values: &Values, start_s: f64) -
     for warning in [shadows, unused_map(spacecraft), encounter, prediction].into_iter().flatten() {
         context.log.warning(&warning);
     }
-    center::say_followed(context, values);
+    center::warn_defaulted(context, values);
     air_and_field::report(context, values, start_s);
     Ok(())
 }
@@ -232,13 +239,13 @@ pub(super) fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     let elements = ellipse.read(context, values, &context.setup.bodies.body(center.data.body));
     ellipse.write(values, &elements);
     center.write(context.variables, values);
-    air_and_field::Followed::read(context, values, center.planet.body).write(context.variables, values);
+    air_and_field::BodyDefaults::read(context, values, center.planet.body).write(context.variables, values);
     wheels::write_start(context, values);
     let is_about_sun = !center.data.body.is_planet();
     context.variables.guided.resolve_start(context, values, &context.setup.guided, is_about_sun);
 }
 
-/// Refuses a step that leaves the span of the onboard ephemerides it goes by.
+/// Refuses a step that leaves the span of the onboard ephemerides in use.
 pub(super) fn check_span(
     context: &Plan<'_>,
     values: &Values,

@@ -13,7 +13,7 @@ use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::choices::EphemerisSource;
 
-/// What to say of an encounter that has no effect.
+/// Returns a warning of an encounter that has no effect.
 pub(super) fn unused_encounter(variables: &PlantVariables, values: &Values) -> Option<String> {
     let body = values.choice(variables.encounter.body).0.filter(|_| !variables.orbit.is_n_body(values))?;
     Some(format!(
@@ -22,7 +22,7 @@ pub(super) fn unused_encounter(variables: &PlantVariables, values: &Values) -> O
     ))
 }
 
-/// What to say of predictions of no encounter.
+/// Returns a warning of predictions without an encounter.
 pub(super) fn unused_prediction(variables: &PlantVariables, values: &Values) -> Option<String> {
     let refresh_s = values.real(variables.prediction.refresh);
     let has_encounter = variables.encounter.body(&variables.orbit, values).is_some();
@@ -116,7 +116,7 @@ fn last_epoch_s(context: &Plan<'_>, values: &Values) -> f64 {
     spans_s.map(|[_, last_s]| last_s).fold(VALID_EPOCH_S, f64::min)
 }
 
-/// What ephemerides have to place, each from another body: all that attracts, and the planet of the encounter.
+/// Bodies that ephemerides have to place, each relative to another: all that attract, and the planet of the encounter.
 fn placed<'a>(
     variables: &PlantVariables,
     values: &'a Values,

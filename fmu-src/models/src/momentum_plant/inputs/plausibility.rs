@@ -68,11 +68,12 @@ pub(in crate::momentum_plant) fn following_dynamics(
     })
 }
 
-/// Warns of what is hardly meant where the flight begins at `time_s`.
+/// Warns of settings that are hardly meant where the flight begins at `time_s`.
 pub(in crate::momentum_plant) fn report(
     context: &Plan<'_>,
     values: &Values,
-    (flight, given): (&Flight, StepContext<'_>),
+    flight: &Flight,
+    given: StepContext<'_>,
     time_s: f64,
 ) {
     let Some(configuration) = flight.configuration() else { return };

@@ -7,6 +7,7 @@ use physics::propulsion::{PulseCommand, ThrustErrors};
 use physics::spacecraft::{Tank, Thruster, ValveTiming};
 
 use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::state::ThrusterWarnings;
 
 /// Thrusters and tanks as parameters set them.
 pub(crate) fn reaction_control(
@@ -97,7 +98,7 @@ pub(crate) fn warn_unserved(context: &Plan<'_>, report: &Report<'_>, warned: &mu
     }
 }
 
-/// What a step's commands to thrusters leave undone, once each.
+/// Warns once each of a step's commands to thrusters that are not carried out.
 pub(crate) fn warn(
     context: &Plan<'_>,
     inputs: &DynamicsInputs,
@@ -141,13 +142,4 @@ pub(crate) fn drop_empty_maneuver(context: &Plan<'_>, inputs: &mut DynamicsInput
             "maneuver.request rose at {time_s:?} s with maneuver.deltaV = (0, 0, 0) m/s: nothing is executed, and no dump with it"
         ));
     }
-}
-
-/// Which warnings were given.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct ThrusterWarnings {
-    cut: bool,
-    no_set: bool,
-    unserved: bool,
-    unfed: bool,
 }

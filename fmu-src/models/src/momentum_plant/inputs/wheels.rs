@@ -17,7 +17,7 @@ pub(in crate::momentum_plant) fn array(context: &Plan<'_>, values: &Values) -> W
     WheelArray::of(&axes.collect::<Vec<_>>())
 }
 
-/// What the wheels' biases come to, body frame, in N m s.
+/// Sum of the wheels' biases, body frame, in N m s.
 pub(in crate::momentum_plant) fn bias_body_n_m_s(context: &Plan<'_>, values: &Values) -> Vector3<f64> {
     let wheels = context.variables.wheel.iter();
     wheels_body_n_m_s(

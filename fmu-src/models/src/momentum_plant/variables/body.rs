@@ -35,7 +35,7 @@ pub struct SpacecraftVariables {
 #[variables(setup = PlantSetup)]
 pub struct SunshadeVariables {
     /// Which model of the shade takes the light; without a shade it does not count.
-    #[parameter(start = SunshadeShape::of(&setup.spacecraft))]
+    #[parameter(start = SunshadeShape::for_spacecraft(&setup.spacecraft))]
     pub shape: Choice<SunshadeShape>,
     /// Coefficients of paper 000's eq 3 for the shade in use, about the centre of mass, in the shade's frame: rows are
     /// torque components x, y, z; columns the monomials x, y, z, xy, xz, yz, xx, yy, zz of the Sun direction. Torque
@@ -61,7 +61,7 @@ pub struct PanelVariables {
     #[parameter(tunable, unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1], start = 0.0)]
     pub angle_bias: Real,
     /// Sense of tilt of a positive offset; the paper does not print it.
-    #[parameter(start = PanelTilt::of(&setup.spacecraft.panels[index]))]
+    #[parameter(start = PanelTilt::for_panel(&setup.spacecraft.panels[index]))]
     pub tilt: Choice<PanelTilt>,
     /// Whether the panel takes part; paper 000's Tables 2 and 3 leave the panels out.
     #[parameter(start = true)]

@@ -1,4 +1,4 @@
-//! Light, heat and gravity gradient, and what they add up to.
+//! Forces and torques by source, system momentum, dumps, and the solver.
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
@@ -48,7 +48,7 @@ pub struct ForceVariables {
     pub inertial: RealVector<3>,
 }
 
-/// How the accumulation is carried out.
+/// Steps and tolerances of the integration.
 #[derive(Variables)]
 pub struct SolverVariables {
     /// Longest internal step; steps end at its multiples, at attitude changes and at dumps.

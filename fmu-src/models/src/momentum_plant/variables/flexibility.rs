@@ -1,4 +1,4 @@
-//! What swings on the spacecraft: flexible modes and propellant.
+//! Flexible modes and sloshing propellant of the spacecraft.
 
 use fmi_export::{Real, RealVector, Variables};
 

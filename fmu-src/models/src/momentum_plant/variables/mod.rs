@@ -36,9 +36,10 @@ use super::setup::PlantSetup;
 use crate::common::downlink::DownlinkVariables;
 use crate::common::effects::{LawVariables, PlanetLightVariables, RecoilVariables, ShadowingVariables};
 use crate::common::ellipse::EllipseVariables;
+use crate::common::guided::GuidedVariables;
 use crate::common::loads::PlateVariables;
 use crate::common::optics::OpticsVariables;
-use crate::common::variables::{EclipseVariables, GuidedVariables, SolarVariables};
+use crate::common::variables::{EclipseVariables, SolarVariables};
 
 /// Every variable of the plant, in the order of the XML.
 #[derive(Variables)]

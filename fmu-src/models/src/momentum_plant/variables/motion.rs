@@ -1,4 +1,4 @@
-//! Attitude and orbit: where they come from and what they are.
+//! Attitude, its commands, and the orbit.
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Values, Variables};
 
@@ -12,7 +12,7 @@ use super::choices::{
 };
 use crate::common::choices::{CommandKind, OrbitCenter, custom_body};
 
-/// Attitude: where it comes from, and what it is.
+/// Source of the attitude, attitude quaternion and rate.
 #[derive(Variables)]
 pub struct AttitudeVariables {
     /// Where the attitude comes from.
@@ -51,7 +51,7 @@ pub struct CommandVariables {
     pub error: RealVector<4>,
 }
 
-/// Where the flight starts.
+/// Epoch, attitude, rate and momentum at the start.
 #[derive(Variables)]
 pub struct StartVariables {
     /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.

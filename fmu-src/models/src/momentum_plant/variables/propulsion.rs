@@ -93,7 +93,7 @@ pub struct ThrustVariables {
 }
 
 /// A delta-v as an impulse through the centre of mass, in guided and commanded flight; in controlled and free flight burns are
-/// thrust.*, and a request is refused. Momentum stays as it is, and the orbit is another from there on; one that is held stays.
+/// thrust.*, and a request is refused. Momentum stays as it is, and the orbit changes there unless it is held.
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct ManeuverVariables {

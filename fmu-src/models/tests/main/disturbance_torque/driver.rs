@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use client::{InProcess, NamedInstance};
-use fmi_export::{Entry, Library, Status};
+use fmi_export::fmi2::entry;
+use fmi_export::{Library, Status};
 use model_description::Causality;
 use models::{DisturbanceTorque, Guidance, MomentumPlant};
 
@@ -13,9 +14,8 @@ use super::super::random::RandomNumbers;
 use super::super::spacecraft::RADIATING;
 
 /// The models of a spacecraft's file, whose `[start]` may have names of each.
-pub(super) static LIBRARY: Library = Library {
-    entries: &[Entry::of::<DisturbanceTorque>(), Entry::of::<MomentumPlant>(), Entry::of::<Guidance>()],
-};
+pub(super) static LIBRARY: Library =
+    Library { entries: &[entry::<DisturbanceTorque>(), entry::<MomentumPlant>(), entry::<Guidance>()] };
 
 /// Air and field that random inputs are about.
 pub(crate) const DENSITY_KG_M3: f64 = 1e-13;

@@ -3,11 +3,12 @@
 use core::ops::{Deref, DerefMut};
 
 use client::{Message, NamedInstance};
-use fmi_export::{Entry, Library, Status};
+use fmi_export::fmi2::entry;
+use fmi_export::{Library, Status};
 use model_description::{Causality, VariableKind};
 use models::SpinPlant;
 
-static LIBRARY: Library = Library { entries: &[Entry::of::<SpinPlant>()] };
+static LIBRARY: Library = Library { entries: &[entry::<SpinPlant>()] };
 
 pub(super) struct Spinner {
     named: NamedInstance,

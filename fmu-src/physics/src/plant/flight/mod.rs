@@ -135,7 +135,7 @@ impl Flight {
     }
 
     /// What was computed elsewhere than at `time_s`, if anything.
-    pub fn uncovered(&self, time_s: f64) -> Option<&'static str> {
+    pub fn first_uncovered(&self, time_s: f64) -> Option<&'static str> {
         let PropagatorState { light, trajectory, air_and_field, .. } = &self.propagator;
         let is_lit = light.as_ref().is_none_or(|it| it.covers(time_s));
         let (is_covered, what) = match &self.mode {

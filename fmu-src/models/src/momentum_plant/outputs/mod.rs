@@ -1,26 +1,28 @@
 //! From a report of the flight to the output variables.
 
-use fmi_export::{Failure, Real, Values};
+mod encounter;
+pub(super) mod messages;
+mod rates;
+
+use fmi_export::{Failure, Values};
 use nalgebra::Vector3;
-use physics::attitude::{Attitude, SunAngles};
+use physics::attitude::SunAngles;
 use physics::environment::time;
 use physics::loads::Effect;
-use physics::plant::{
-    AirAndField, Cost, Evaluation, Flight, PlantError, PreparedSpacecraft, Report, ThrusterEvent,
-};
+use physics::plant::{AirAndField, Evaluation, Flight, PreparedSpacecraft, Report};
 use physics::plausibility::is_sun_offset_reached;
 use physics::propulsion::surface_in_plume;
 use physics::radiation::{TorquePolynomial, polynomial_valid};
 use physics::spacecraft::light_suns;
 
+use self::messages::failure;
 use super::inputs::wheels;
 use super::setup::Plan;
-use super::state::PlantState;
 use crate::common::choices::OrbitCenter;
 use crate::common::loads;
-use crate::momentum_plant::variables::motion::{EncounterVariables, PredictionVariables};
+pub(super) use rates::derivative;
 
-/// Writes every output but those of single faces, and what follows from parameters where these are others.
+/// Writes every output but those of single faces, and calculated parameters where the configuration changed.
 pub(super) fn write(context: &Plan<'_>, values: &mut Values, report: &Report<'_>, is_reconfigured: bool) {
     if is_reconfigured {
         write_polynomial(context, values, report);
@@ -87,8 +89,8 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let osculating = report.osculating_orbit();
     variables.osculating.write(values, osculating.as_ref());
     values.set_real(variables.sun.beta, osculating.map_or(0.0, |orbit| orbit.sun_elevation_rad));
-    write_encounter(&variables.encounter, values, report);
-    write_prediction(&variables.prediction, values, report);
+    encounter::write(&variables.encounter, values, report);
+    encounter::write_prediction(&variables.prediction, values, report);
     values.set_real(variables.mass, mass.mass_kg);
     values.set_vector(variables.center_of_mass, mass.center_of_mass_body_m.into());
 
@@ -151,41 +153,7 @@ fn write_air_and_field(context: &Plan<'_>, values: &mut Values, report: &Report<
     }
 }
 
-/// The encounter's planet and closest approaches to it.
-fn write_encounter(v: &EncounterVariables, values: &mut Values, report: &Report<'_>) {
-    let Some(encounter) = report.encounter() else {
-        values.set_real(v.last_time, -1.0);
-        return;
-    };
-    values.set_vector(v.position, encounter.body.position_m.into());
-    values.set_vector(v.velocity, encounter.body.velocity_m_s.into());
-    values.set_real(v.distance, encounter.distance_m);
-    let (b_plane, (count, last)) = (encounter.b_plane, report.approaches);
-    values.set_boolean(v.hyperbolic, b_plane.is_some());
-    values.set_real(v.b_t, b_plane.map_or(0.0, |it| it.b_t_m));
-    values.set_real(v.b_r, b_plane.map_or(0.0, |it| it.b_r_m));
-    values.set_real(v.excess_speed, b_plane.map_or(0.0, |it| it.excess_speed_m_s));
-    values.set_integer(v.count, count);
-    values.set_real(v.last_time, last.map_or(-1.0, |it| it.at_s));
-    values.set_real(v.last_altitude, last.map_or(0.0, |it| it.altitude_m));
-}
-
-/// The last prediction of the encounter.
-fn write_prediction(v: &PredictionVariables, values: &mut Values, report: &Report<'_>) {
-    let (prediction, arrival) = (report.prediction, report.prediction.and_then(|it| it.arrival));
-    let epoch_minus_time_s = report.configuration.epoch_minus_time_s;
-    values.set_real(v.since, prediction.map_or(-1.0, |it| it.since_s));
-    values.set_boolean(v.valid, arrival.is_some());
-    values.set_real(v.arrival, arrival.map_or(-1.0, |it| it.at_s));
-    values.set_real(v.altitude, arrival.map_or(0.0, |it| it.altitude_m));
-    values.set_real(v.excess_speed, arrival.map_or(0.0, |it| it.b_plane.excess_speed_m_s));
-    values.set_real(v.b_t, arrival.map_or(0.0, |it| it.b_plane.b_t_m));
-    values.set_real(v.b_r, arrival.map_or(0.0, |it| it.b_plane.b_r_m));
-    let epoch_s = arrival.map_or(0.0, |it| time::epoch_at_s(it.osculates_s, epoch_minus_time_s));
-    values.set_real(v.epoch, epoch_s);
-}
-
-/// System momentum, wheels, dumps, what swings.
+/// System momentum, wheels, dumps, flexible modes, propellant.
 fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let v = context.variables;
     let shown = &report.shown;
@@ -277,12 +245,13 @@ fn write_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>)
     values.set_real(v.propellant_used, propellant.total_used_kg(time_s));
 }
 
-/// Writes the faces that are reported one by one; those of panels that are left out stay 0, and all while the flight waits.
+/// Writes the faces that are reported one by one; those of disabled panels stay 0, and all while the flight waits.
 pub(super) fn write_faces(
     context: &Plan<'_>,
     values: &mut Values,
     flight: &mut Flight,
-    (prepared, time_s): (PreparedSpacecraft<'_>, f64),
+    prepared: PreparedSpacecraft<'_>,
+    time_s: f64,
 ) -> Result<(), Failure> {
     let v = context.variables;
     if v.plate.is_empty() || flight.is_waiting() {
@@ -310,104 +279,14 @@ fn write_polynomial(context: &Plan<'_>, values: &mut Values, report: &Report<'_>
     values.set_matrix(context.variables.sunshade.coefficient, polynomial.map_or([[0.0; 9]; 3], |p| p.k));
 }
 
-/// Writes what dump thresholds the wheels guarantee, which follows from parameters alone.
+/// Writes the dump threshold that the wheels guarantee, which follows from parameters alone.
 pub(super) fn write_guaranteed(context: &Plan<'_>, values: &mut Values) {
     let guaranteed_n_m_s = wheels::guaranteed_threshold_n_m_s(context, values);
     values.set_real(context.variables.dump.guaranteed_threshold, guaranteed_n_m_s);
 }
 
-/// First derivative of what the plant integrates, from the rates at the same time.
-pub(super) fn derivative(
-    context: &Plan<'_>,
-    values: &Values,
-    state: &PlantState,
-    output: Real,
-) -> Option<f64> {
-    if state.waiting {
-        return None;
-    }
-    let variables = context.variables;
-    let convention = state.flight.configuration()?.momentum.convention;
-    let mut torque_body = Vector3::from(values.vector(variables.torque.total));
-    if values.boolean(variables.dump.active) {
-        torque_body = state.flight.with_dump_body_n_m(&torque_body);
-    }
-    if let Some(element) = variables.attitude.q.index_of(output) {
-        let attitude = Attitude::from_quaternion(values.vector(variables.attitude.q)).ok()?;
-        return Some(attitude.quaternion_rate(&values.vector(variables.attitude.rate).into())[element]);
-    }
-    if let Some(axis) = variables.momentum.body.index_of(output) {
-        let [momentum_body, rate_body] = [variables.momentum.body, variables.attitude.rate]
-            .map(|handle| Vector3::from(values.vector(handle)));
-        return Some(convention.momentum_rate_body_n_m(&momentum_body, &torque_body, &rate_body)[axis]);
-    }
-    let mut by_source = variables.momentum.by_source.iter();
-    let found = by_source.find_map(|(effect, handle)| Some((effect, handle, handle.index_of(output)?)));
-    if let Some((effect, handle, axis)) = found {
-        let torque = variables.torque.by_source.of(effect).unwrap_or(variables.torque.applied);
-        let [momentum_body, torque_body, rate_body] =
-            [handle, torque, variables.attitude.rate].map(|handle| Vector3::from(values.vector(handle)));
-        return Some(convention.momentum_rate_body_n_m(&momentum_body, &torque_body, &rate_body)[axis]);
-    }
-    if let Some(axis) = variables.momentum.inertial.index_of(output) {
-        let attitude = Attitude::from_quaternion(values.vector(variables.attitude.q)).ok()?;
-        return Some(attitude.to_inertial(&torque_body)[axis]);
-    }
-    if let Some(axis) = variables.delta_v.index_of(output) {
-        return Some(values.vector(variables.acceleration)[axis]);
-    }
-    let moving = [
-        (variables.position, variables.velocity),
-        (variables.sun.position_inertial, variables.sun.velocity_inertial),
-        (variables.earth.position_inertial, variables.earth.velocity_inertial),
-    ];
-    let found = moving.iter().find_map(|(place, rate)| place.index_of(output).map(|axis| (rate, axis)));
-    found.map(|(rate, axis)| values.vector(*rate)[axis])
-}
-
-/// Why a flight ends, with the variables to look at.
-pub(super) fn failure(error: PlantError) -> Failure {
-    let hint = match &error {
-        PlantError::WithoutPosition { .. } | PlantError::Light { .. } => {
-            "; see orbit.*, sun.position and planet.radius"
-        }
-        PlantError::Maneuver { .. } => "; see maneuver.request, maneuver.deltaV and maneuver.thrusters",
-        PlantError::Dumps(_) => "; see dump.threshold, dump.reinitTo and torque.applied",
-        PlantError::Work(exceeded) => {
-            let most = match exceeded.most {
-                Cost::Segment => {
-                    "internal steps, which solver.step, orbit.step and solver.disturbanceStep keep short"
-                }
-                Cost::Refinement => {
-                    "internal steps shortened for solver.tolerance, which is small for this torque and attitude rate"
-                }
-                Cost::Search => {
-                    "searches for changes of attitude, light and eclipse: see orbit.*, guided.* and command.rate"
-                }
-                Cost::Dump => {
-                    "dumps: dump.threshold is low for this torque; see torque.applied and spacecraft.centerOfMass"
-                }
-                Cost::Light => {
-                    "light and heat: see solver.disturbanceStep, solver.disturbanceTolerance and planetLight.nodes"
-                }
-                Cost::Air => "air and magnetic field along the orbit; see atmosphere.tolerance",
-                Cost::Orbit => "integrating the orbit in steps of orbit.step",
-                Cost::Ephemeris => {
-                    "the positions of planets far apart in time: see guided.slewRate and guided.downlinkEvery"
-                }
-            };
-            return Failure::new(format!(
-                "{error} (solver.workLimit = {}); most went into {most}. Take a shorter step or raise solver.workLimit",
-                exceeded.limit
-            ));
-        }
-        _ => "",
-    };
-    Failure::new(format!("{error}{hint}"))
-}
-
-/// Refuses a place where there is no flight: inside the planet or the Sun, or without position.
-pub(super) fn flyable(report: &Report<'_>) -> Result<(), Failure> {
+/// Refuses a report from inside the planet or the Sun, or without position.
+pub(super) fn check_report(report: &Report<'_>) -> Result<(), Failure> {
     let time_s = report.time_s;
     if !report.shown.totals.is_finite() {
         return Err(Failure::new(format!(
@@ -416,30 +295,4 @@ pub(super) fn flyable(report: &Report<'_>) -> Result<(), Failure> {
         )));
     }
     report.evaluation.check(time_s).map_err(failure)
-}
-
-/// Reports a dump or a maneuver.
-pub(super) fn log_event(context: &Plan<'_>, event: &ThrusterEvent) {
-    if !context.log.events_enabled() {
-        return;
-    }
-    let (time_s, message) = match event {
-        ThrusterEvent::Dump(event) => (
-            event.time_s,
-            format!(
-                "thruster dump: momentum {:?} -> {:?} N.m.s (body)",
-                event.before_body_n_m_s.as_slice(),
-                event.after_body_n_m_s.as_slice()
-            ),
-        ),
-        ThrusterEvent::Maneuver { time_s, requested_m_s, executed_m_s } => (
-            *time_s,
-            format!(
-                "maneuver: {:?} m/s requested, {:?} m/s executed (EME2000)",
-                requested_m_s.as_slice(),
-                executed_m_s.as_slice()
-            ),
-        ),
-    };
-    context.log.event(time_s, &message);
 }

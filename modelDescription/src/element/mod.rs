@@ -4,8 +4,16 @@
 //! that value. Rows are in the order of the XML schema. What follows a `;` is no attribute.
 
 #[cfg(feature = "reader")]
-use crate::reader::{Fields, ReadError};
+mod error;
+#[cfg(feature = "reader")]
+mod fields;
+
 use crate::writer::Writer;
+
+#[cfg(feature = "reader")]
+pub use error::ReadError;
+#[cfg(feature = "reader")]
+pub(crate) use fields::Fields;
 
 /// An element with attributes.
 pub(crate) trait Element: Sized {
@@ -74,7 +82,7 @@ macro_rules! element {
 
         impl $crate::element::Element for $type {
             #[cfg(feature = "reader")]
-            fn read(fields: &mut $crate::reader::Fields) -> Result<Self, $crate::reader::ReadError> {
+            fn read(fields: &mut $crate::element::Fields) -> Result<Self, $crate::element::ReadError> {
                 Ok(Self {
                     $($field: $crate::element::read_attribute!(fields, $presence $(($default))? $name),)*
                     $($($child: Default::default(),)+)?
@@ -121,8 +129,8 @@ macro_rules! elements {
             #[cfg(feature = "reader")]
             pub(crate) fn read(
                 name: &str,
-                fields: &mut $crate::reader::Fields,
-            ) -> Result<Option<Self>, $crate::reader::ReadError> {
+                fields: &mut $crate::element::Fields,
+            ) -> Result<Option<Self>, $crate::element::ReadError> {
                 Ok(Some(match name {
                     $(stringify!($variant) => Self::$variant {
                         $($field: $crate::element::read_attribute!(fields, $presence $($name)?),)*

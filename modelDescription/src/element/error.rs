@@ -7,18 +7,18 @@ use crate::finding::{Code, Finding};
 /// Why a file cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReadError {
-    /// Which rule is broken.
+    /// The broken rule.
     pub code: Code,
     /// Line, 1-based.
     pub line: u32,
     /// The element, empty where there is none.
     pub element: String,
-    /// What was found and what is allowed.
+    /// The text, with what was found and what is allowed.
     pub message: String,
 }
 
 impl ReadError {
-    /// Of an element in a line.
+    /// The error of an element in a line.
     pub fn new(code: Code, line: u32, element: &str, message: String) -> Self {
         Self { code, line, element: element.to_owned(), message }
     }

@@ -1,4 +1,6 @@
-//! What the plant remembers between steps.
+//! State of the plant between steps: the flight, the command in effect, and the inputs last read.
+
+pub(super) mod step_inputs;
 
 use fmi_export::Failure;
 use nalgebra::Vector3;
@@ -9,8 +11,7 @@ use physics::plausibility::FlightWatch;
 use physics::spacecraft::Spacecraft;
 use serde::{Deserialize, Serialize};
 
-use super::inputs::propulsion::ThrusterWarnings;
-use super::inputs::step_inputs::{CommandInputs, StepInputs};
+use self::step_inputs::{CommandInputs, StepInputs};
 use super::setup::Plan;
 
 /// A commanded quaternion whose norm is off 1 by more is warned of.
@@ -29,15 +30,15 @@ pub struct PlantState {
     pub command: Command,
     /// Inputs and tunables at the last change.
     last: LastInputs,
-    /// Digest of the files of timeline and ephemeris that it goes by.
+    /// Digest of the files of timeline and ephemeris that the flight follows.
     schedules: u64,
     /// `dump.request` at the last step.
     pub request: Request,
     /// `maneuver.request` at the last step.
     pub maneuver_request: Request,
-    /// Which warnings were given.
+    /// Warnings that were given.
     pub warned: Warned,
-    /// What inputs and tunables set.
+    /// Inputs and tunable parameters of the step; not saved, read anew after a restore.
     #[serde(skip)]
     pub inputs: StepInputs,
 }
@@ -45,19 +46,32 @@ pub struct PlantState {
 /// Warnings that are given once.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Warned {
-    /// About what the flight shows.
+    /// Warnings of the watch over the flight.
     pub watch: FlightWatch,
-    /// About thrusters.
+    /// Warnings about thrusters.
     pub thrusters: ThrusterWarnings,
-    /// Which inputs are not set yet.
+    /// Inputs that are not set yet were named.
     unset_inputs: bool,
-    /// A commanded quaternion far from unit length.
+    /// A commanded quaternion was far from unit length.
     command_norm: bool,
-    /// Targets of the attitude on one line.
+    /// Targets of the attitude were on one line.
     pub degenerate: bool,
 }
 
-/// What was set at the last change.
+/// Warnings about thrusters that were given.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ThrusterWarnings {
+    /// A pulse was cut at the end of its step.
+    pub cut: bool,
+    /// A delta-v was requested from a set without thrusters.
+    pub no_set: bool,
+    /// A dump found no thrusters about every axis both ways.
+    pub unserved: bool,
+    /// A dump found thrusters that no tank fed.
+    pub unfed: bool,
+}
+
+/// Inputs and tunable parameters at their last change.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct LastInputs {
     command: CommandInputs,
@@ -66,7 +80,7 @@ struct LastInputs {
     orbit: [[f64; 3]; 2],
     /// When they changed, in s.
     orbit_since_s: f64,
-    /// On which light and heat depend, beside command and orbit.
+    /// Numbers on which light and heat depend, next to command and orbit.
     light: Vec<f64>,
     /// Whether a panel's angle moved as an input.
     panels_moved: bool,
@@ -81,7 +95,7 @@ struct LastInputs {
 pub struct Request(bool);
 
 impl Request {
-    /// Takes the present value; true when it rose.
+    /// Stores the present value and returns whether it rose.
     pub fn rises(&mut self, now: bool) -> bool {
         let before = std::mem::replace(&mut self.0, now);
         now && !before
@@ -101,12 +115,13 @@ impl PlantState {
         }
     }
 
-    /// At the start, before anything is accumulated.
+    /// State at the start, before anything is accumulated.
     pub fn new(
         inputs: StepInputs,
         attitude: Attitude,
         thrusters: Thrusters,
-        (start_s, schedules): (f64, u64),
+        start_s: f64,
+        schedules: u64,
     ) -> Result<Self, Failure> {
         let mut state = Self {
             start_s,
@@ -130,7 +145,7 @@ impl PlantState {
             inputs,
         };
         if state.inputs.source.is_commanded {
-            state.take_command(start_s)?;
+            state.update_command(start_s)?;
         }
         Ok(state)
     }
@@ -140,8 +155,8 @@ impl PlantState {
         self.last.orbit_since_s
     }
 
-    /// Takes over inputs and tunables that differ from the last ones.
-    pub fn take_inputs(&mut self, time_s: f64) -> Result<Changes, Failure> {
+    /// Compares inputs and tunables with the last ones, stores them, and returns what changed.
+    pub fn update_inputs(&mut self, time_s: f64) -> Result<Changes, Failure> {
         let (command, is_commanded) = (self.inputs.command, self.inputs.source.is_commanded);
         let before = core::mem::replace(&mut self.last.command, command);
         let is_applied = self.last.error_is_applied;
@@ -150,7 +165,7 @@ impl PlantState {
             self.last.error_is_applied = false;
         }
         if commanded {
-            self.take_command(time_s)?;
+            self.update_command(time_s)?;
         }
         self.track();
         // A command moves light through the attitude, which in dynamics does not jump.
@@ -177,22 +192,22 @@ impl PlantState {
         })
     }
 
-    /// Goes by the files with this digest from `time_s` on; whether they are others, with which nothing computed ahead holds.
-    pub fn take_schedules(&mut self, schedules: u64, time_s: f64) -> bool {
-        let are_others = core::mem::replace(&mut self.schedules, schedules) != schedules;
-        if are_others {
+    /// Follows the files with this digest from `time_s` on; returns whether they changed, which ends everything computed ahead.
+    pub fn update_schedules(&mut self, schedules: u64, time_s: f64) -> bool {
+        let changed = core::mem::replace(&mut self.schedules, schedules) != schedules;
+        if changed {
             self.flight.reschedule(time_s);
         }
-        are_others
+        changed
     }
 
-    /// The command that stands at the start of a flight with dynamics; until one comes `attitude` is held.
-    pub fn take_first_command(&mut self, attitude: Attitude, time_s: f64) -> Result<(), Failure> {
+    /// Begins a flight with dynamics at the command that stands at its start; `attitude` is held where there is none.
+    pub fn start_command(&mut self, attitude: Attitude, time_s: f64) -> Result<(), Failure> {
         self.command = Command { attitude, rate_body_rad_s: Vector3::from([0.0; 3]), since_s: time_s };
         // An error applied before there was a body to turn counts for nothing.
         self.last.error_is_applied = false;
         if self.inputs.source.is_commanded {
-            self.take_command(time_s)?;
+            self.update_command(time_s)?;
         }
         self.track();
         Ok(())
@@ -214,7 +229,7 @@ impl PlantState {
         };
     }
 
-    fn take_command(&mut self, time_s: f64) -> Result<(), Failure> {
+    fn update_command(&mut self, time_s: f64) -> Result<(), Failure> {
         let CommandInputs { q, rate, error, .. } = self.last.command;
         let quaternion = |name: &str, q| {
             Attitude::along_quaternion(q).map_err(|error| Failure::new(format!("{name}: {error}")))
@@ -257,7 +272,7 @@ impl PlantState {
         ));
     }
 
-    /// Warns once which inputs are not set yet, if any.
+    /// Names once the inputs that are not set yet.
     pub fn warn_unset_inputs(&mut self, context: &Plan<'_>) {
         if self.warned.unset_inputs {
             return;

@@ -1,13 +1,19 @@
 //! The model traits: what an author writes, and in which order it is called. They are free of any version of FMI.
 //!
 //! [`Model`] is for every model. [`OutputRates`] and [`Differentiable`] are optional and named in
-//! [`Model::EXTENSIONS`]; what else a model may offer (continuous states with rates and event indicators) becomes another
+//! [`Model::EXTENSIONS`]; other abilities (continuous states with rates and event indicators) would become another
 //! trait and another field there.
 
-use serde::{Deserialize, Serialize, de::DeserializeOwned};
+mod about;
+mod step;
+
+use serde::{Serialize, de::DeserializeOwned};
 
 use crate::dependencies::Dependencies;
-use crate::variables::{Elements, Given, Real, RealVector, Values, Variables};
+use crate::variables::{Elements, Given, Real, Values, Variables};
+
+pub use about::{About, Manual, SetupValue, StartValue};
+pub use step::{InputDerivative, InputsOverTime, Step, StepEnd};
 
 /// A co-simulation model.
 ///
@@ -25,7 +31,7 @@ pub trait Model: Sized + 'static {
     const STATE_VERSION: u32;
     /// File under `resources/` that holds the setup, or `None` for a model without resources.
     const SETUP_FILE: Option<&'static str> = None;
-    /// Files under `resources/` that hold schedules, what is commanded or known over time, each of which may be there beside
+    /// Files under `resources/` that hold schedules, commands or data over time; each is optional next to
     /// the setup. A schedule does not enter the GUID: one FMU simulates many.
     const SCHEDULE_FILES: &'static [&'static str] = &[];
     /// The compiled-in setup text, used when an importer gives no resource location.
@@ -33,12 +39,12 @@ pub trait Model: Sized + 'static {
     /// Inputs of the reference flight that a packed FMU carries: CSV whose first column, `time`, counts steps of the default
     /// experiment. Columns that a setup has no input for are left out.
     const REFERENCE_INPUTS: &'static str = "";
-    /// What the model is and how it is used, for its manual.
+    /// Purpose and use of the model, for its manual.
     const MANUAL: Manual = Manual::NONE;
-    /// The optional traits that the model has beside this one.
+    /// The optional traits that the model implements.
     const EXTENSIONS: Extensions<Self> = Extensions::none();
 
-    /// What the resources describe; serialised only to enter the GUID.
+    /// Content of the resources; serialised only to enter the GUID.
     type Setup: Serialize + Send + Sync + 'static;
     /// The declared variables as handles.
     type Variables: Variables<Self::Setup> + Send + Sync + 'static;
@@ -97,7 +103,7 @@ pub trait Model: Sized + 'static {
     ) -> Result<StepEnd, Failure>;
 
     /// Writes the parameters that the importer left to the model as they act, so that they read back. Called once, when
-    /// initialization ends: [`Model::initialize`] may run again before, and goes by what was set.
+    /// initialization ends: [`Model::initialize`] may run again before, with the values that were set.
     fn resolve_parameters(_context: &Context<'_, Self>, _values: &mut Values) {}
 
     /// Checks a length or index inside a decoded state against the setup; an error refuses the blob.
@@ -118,7 +124,7 @@ pub trait Model: Sized + 'static {
         None
     }
 
-    /// What every output and calculated parameter depends on: the union over all values of all options but those that the setup
+    /// Dependencies of every output and calculated parameter: the union over all values of all options but those that the setup
     /// fixes. An unknown without a row is refused.
     fn dependencies(setup: &Self::Setup, variables: &Self::Variables) -> Dependencies;
 }
@@ -190,7 +196,7 @@ impl<M: Model> Extensions<M> {
     }
 }
 
-/// What every call of a model may read.
+/// Data that every call of a model may read.
 pub struct Context<'a, M: Model> {
     /// The parsed resources.
     pub setup: &'a M::Setup,
@@ -200,12 +206,12 @@ pub struct Context<'a, M: Model> {
     pub start: &'a Values,
     /// Whether the importer set every parameter that it may set, as tools do that write all of them.
     pub sets_all_parameters: bool,
-    /// Where events (dumps, eclipse edges ...) are reported; off costs nothing.
+    /// Receiver of events (dumps, eclipse edges ...); off costs nothing.
     pub log: &'a dyn Log,
 }
 
 impl<M: Model> Context<'_, M> {
-    /// Which variables of a group the user gave a value.
+    /// The variables of a group that the user gave a value.
     pub fn given<'v>(&'v self, values: &'v Values, group: &[Elements]) -> Given<'v> {
         Given::among(values, self.start, group)
     }
@@ -225,226 +231,6 @@ pub trait Log {
     fn event(&self, time_s: f64, message: &str);
     /// Reports something that the simulation continues with and its user should know.
     fn warning(&self, message: &str);
-}
-
-/// One step.
-#[derive(Clone, Copy)]
-pub struct Step<'a> {
-    /// Where the last step ended, in s.
-    pub start_s: f64,
-    /// Where this one ends, in s; later than `start_s`.
-    pub end_s: f64,
-    /// Whether an input or tunable parameter was set to a *different* value since the last step, or inputs move in this one
-    /// or did in the last: whatever was computed ahead of `start_s` is void.
-    pub changed: bool,
-    /// The inputs within the step.
-    pub inputs: InputsOverTime<'a>,
-}
-
-/// Continuous inputs as functions of time: u(t) = u + sum u_k (t - start)^k / k!, with u as [`Values`] hold it.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct InputsOverTime<'a> {
-    start_s: f64,
-    derivatives: &'a [InputDerivative],
-}
-
-/// One derivative of an input.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct InputDerivative {
-    /// The input.
-    pub input: Real,
-    /// Order, from 1.
-    pub order: u32,
-    /// Value at the start, in the input's unit over s to the power of the order.
-    pub value: f64,
-}
-
-impl<'a> InputsOverTime<'a> {
-    /// Inputs that keep their values.
-    #[inline]
-    pub const fn held() -> Self {
-        Self { start_s: 0.0, derivatives: &[] }
-    }
-
-    /// Inputs with these derivatives at `start_s`, in no particular order.
-    #[inline]
-    pub const fn new(start_s: f64, derivatives: &'a [InputDerivative]) -> Self {
-        Self { start_s, derivatives }
-    }
-
-    /// The time at which the derivatives hold, in s.
-    #[inline]
-    pub const fn start_s(&self) -> f64 {
-        self.start_s
-    }
-
-    /// The derivatives of an input, by order and value.
-    #[inline]
-    pub fn derivatives(&self, input: Real) -> impl Iterator<Item = (u32, f64)> + use<'a> {
-        self.derivatives.iter().filter(move |it| it.input == input).map(|it| (it.order, it.value))
-    }
-
-    /// An input at `time_s`.
-    #[inline]
-    pub fn real(&self, values: &Values, input: Real, time_s: f64) -> f64 {
-        self.from_held(values.real(input), input, time_s)
-    }
-
-    /// An input that has the value `held` where the derivatives hold, at `time_s`.
-    #[inline]
-    pub fn from_held(&self, held: f64, input: Real, time_s: f64) -> f64 {
-        let mut sum = held;
-        for &InputDerivative { input: of, order, value } in self.derivatives {
-            if of == input {
-                let dt_s = time_s - self.start_s;
-                sum += (1..=order).fold(value, |term, k| term * dt_s / f64::from(k));
-            }
-        }
-        sum
-    }
-
-    /// How fast an input changes at `time_s`, per second.
-    #[inline]
-    pub fn rate(&self, input: Real, time_s: f64) -> f64 {
-        let dt_s = time_s - self.start_s;
-        let of_input = self.derivatives.iter().filter(|it| it.input == input);
-        of_input.map(|it| (1..it.order).fold(it.value, |term, k| term * dt_s / f64::from(k))).sum()
-    }
-
-    /// A vector of inputs at `time_s`.
-    pub fn vector<const N: usize>(&self, values: &Values, inputs: RealVector<N>, time_s: f64) -> [f64; N] {
-        core::array::from_fn(|i| self.real(values, inputs.element(i), time_s))
-    }
-}
-
-/// Where a step ended.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StepEnd {
-    /// The time, in s, for which the outputs are; the end of the step or earlier.
-    pub time_s: f64,
-    /// Whether something happens there that importers may want to see at its time.
-    pub event: bool,
-    /// Why the model ends the simulation here, if it does.
-    pub terminate: Option<String>,
-}
-
-impl StepEnd {
-    /// A step that ended at `time_s` without an event.
-    #[inline]
-    pub const fn at(time_s: f64) -> Self {
-        Self { time_s, event: false, terminate: None }
-    }
-
-    /// The simulation ends here, for this reason.
-    #[must_use]
-    pub fn terminate(self, reason: impl Into<String>) -> Self {
-        Self { terminate: Some(reason.into()), ..self }
-    }
-}
-
-/// Facts of a model beside its variables.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct About {
-    /// One or two sentences.
-    pub description: String,
-    /// Default start, stop and step in s.
-    pub start_time_s: f64,
-    /// See `start_time_s`.
-    pub stop_time_s: f64,
-    /// See `start_time_s`.
-    pub step_size_s: f64,
-    /// Relative tolerance of the results.
-    pub tolerance: f64,
-    /// Who made the model; empty: not stated.
-    pub author: String,
-    /// Version of the model; empty: not stated.
-    pub version: String,
-    /// Who holds the copyright, and since when; empty: not stated.
-    pub copyright: String,
-    /// Licence of the model in one line; empty: not stated.
-    pub license: String,
-    /// The tool that generates the FMU, with its version; empty: this exporter.
-    pub tool: String,
-}
-
-/// A start value that a setup gives to a variable.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StartValue {
-    /// The key as it stands in the setup, for messages.
-    pub key: String,
-    /// Line from 1, where it is known.
-    pub line: Option<usize>,
-    /// The only model that it is for.
-    pub model: Option<String>,
-    /// Whether the variable is a local constant with this value.
-    pub is_fixed: bool,
-    /// The variable, or the bare name of a vector or matrix.
-    pub name: String,
-    /// The value.
-    pub value: SetupValue,
-}
-
-/// A value as a setup gives it.
-#[derive(Clone, Debug, PartialEq)]
-pub enum SetupValue {
-    /// A number, in the variable's unit.
-    Number(f64),
-    /// A whole number.
-    Integer(i64),
-    /// True or false.
-    Boolean(bool),
-    /// A text: a number with its unit, the name of an item, or a String.
-    Text(String),
-    /// Of a vector the elements, of a matrix the rows.
-    List(Vec<Self>),
-    /// What the setup's reader could not read.
-    Refused {
-        /// What was found.
-        found: String,
-        /// What is allowed.
-        allowed: String,
-    },
-}
-
-/// The beginning of a model's manual.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Manual {
-    /// What the model is, in HTML.
-    pub about: &'static str,
-    /// A first example in Python, of the FMU `{fmu}`.
-    pub example: &'static str,
-    /// The same for a loop around the FMU.
-    pub closed_loop: &'static str,
-    /// Frames and units, in HTML with a drawing.
-    pub frames: &'static str,
-    /// By what the model computes, in blocks between empty lines: a quantity or the name of a source, then lines with paper
-    /// and equation, method or title.
-    pub sources: &'static str,
-    /// Blocks that several models have: one without lines in `sources` has those that it has here.
-    pub shared_sources: &'static str,
-}
-
-impl Manual {
-    /// Of a model without.
-    pub const NONE: Self =
-        Self { about: "", example: "", closed_loop: "", frames: "", sources: "", shared_sources: "" };
-
-    /// What is computed, or named, and by what.
-    pub fn sources(&self) -> impl Iterator<Item = (&'static str, String)> {
-        let shared = self.shared_sources;
-        blocks(self.sources).map(move |(what, by)| {
-            let is_shared = |(known, _): &(&str, String)| by.is_empty() && *known == what;
-            blocks(shared).find(is_shared).unwrap_or((what, by))
-        })
-    }
-}
-
-/// First line and joined rest of every block of a text.
-fn blocks(text: &'static str) -> impl Iterator<Item = (&'static str, String)> {
-    text.split("\n\n").filter_map(|block| {
-        let mut lines = block.lines().map(str::trim);
-        Some((lines.next()?, lines.collect::<Vec<_>>().join(" ")))
-    })
 }
 
 /// Why a model cannot continue; the text reaches the log.

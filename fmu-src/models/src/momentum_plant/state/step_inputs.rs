@@ -17,7 +17,7 @@ use crate::momentum_plant::variables::choices::{
     AttitudeSource, CommandSource, EphemerisSource, OrbitSource,
 };
 
-/// What was set when inputs were last read.
+/// Inputs and tunable parameters as they were last read.
 #[derive(Clone, Debug, Default)]
 pub struct StepInputs {
     /// Whether they have been read since the start or a restore.
@@ -30,7 +30,7 @@ pub struct StepInputs {
     pub orbit_is_given: bool,
     /// Position and velocity.
     pub orbit: [[f64; 3]; 2],
-    /// On which light and heat depend, beside command and orbit.
+    /// Numbers on which light and heat depend, next to command and orbit.
     pub light: Vec<f64>,
     /// Whether a panel's angle moves as an input.
     pub panels_move: bool,
@@ -42,11 +42,11 @@ pub struct StepInputs {
     pub unset_places: Vec<&'static str>,
     /// Whether the Earth's position is an input and not set yet.
     pub earth_is_unset: bool,
-    /// Whether a dump is requested, and what it leaves, body frame, in N m s.
+    /// Whether a dump is requested, and the momentum after it, body frame, in N m s.
     pub dump: (bool, Vector3<f64>),
-    /// Whether a maneuver is requested, and which.
+    /// Whether a maneuver is requested, and the maneuver.
     pub maneuver: (bool, Maneuver),
-    /// What wheels, sensors and thrusters are given; the controller's command follows from the state.
+    /// Inputs of wheels, sensors and thrusters; the controller's command follows from the state.
     pub dynamics: DynamicsInputs,
 }
 
@@ -87,7 +87,7 @@ pub struct CommandInputs {
 }
 
 impl CommandInputs {
-    /// What a command gives.
+    /// The kind of the command: which of its quantities count.
     pub fn kind(&self) -> GuidanceCommandKind {
         CommandKind::from_value(self.kind).unwrap_or(CommandKind::FIRST).0
     }
@@ -154,7 +154,7 @@ impl StepInputs {
                 .iter()
                 .flat_map(|it| [it.angle, it.sun_offset, it.sun_offset_command, it.angle_bias].map(real)),
         );
-        let materials = v.optics.values((context, values), &context.setup.optics, real);
+        let materials = v.optics.values(context, values, &context.setup.optics, real);
         self.light.extend(materials.flat_map(|it| it.acting()));
         let downlink = &v.downlink;
         self.light.extend([downlink.sun_azimuth, downlink.sun_elevation].map(real));
@@ -196,7 +196,12 @@ impl StepInputs {
         self.unset_places.clear();
         self.unset_places.extend(unset.map(|(_, _, name)| name));
         self.earth_is_unset = is_sun_given && is_unset(v.earth.position);
+        self.update_dynamics(v, values);
+    }
 
+    /// Reads the inputs of wheels, thrusters and sensors.
+    fn update_dynamics(&mut self, v: &PlantVariables, values: &Values) {
+        let real = |handle: Real| values.real(handle);
         let dynamics = &mut self.dynamics;
         refill(&mut dynamics.wheel_torques_n_m, v.wheel.iter().map(|it| real(it.torque_command)));
         refill(&mut dynamics.wheel_failed, v.wheel.iter().map(|it| values.boolean(it.failed)));
@@ -217,7 +222,7 @@ impl StepInputs {
         };
     }
 
-    /// Force and torque from outside over a step, of which they hold the values at its start.
+    /// Force and torque from outside over a step; the values at its start are those last read.
     pub fn applied_load<'a>(
         &self,
         variables: &PlantVariables,

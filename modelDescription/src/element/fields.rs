@@ -1,28 +1,26 @@
 //! The attributes of one element, taken by name and converted to their schema types.
 
-use super::ReadError;
-use super::xml::{Start, Xml};
+use super::error::ReadError;
 use crate::finding::Code;
 use crate::lexical::Lexical;
 
-/// What is left of an element's attributes.
+/// The attributes of one element that nobody has read yet.
 pub(crate) struct Fields {
-    element: String,
-    line: u32,
-    left: Vec<(String, String)>,
+    pub(crate) element: String,
+    pub(crate) line: u32,
+    unread: Vec<(String, String)>,
 }
 
 impl Fields {
-    /// Takes the attributes of `start`.
-    pub(crate) fn of(start: &mut Start) -> Self {
-        let left = core::mem::take(&mut start.attributes);
-        Self { element: start.name.clone(), line: start.line, left }
+    /// The attributes of the element of this name in a line.
+    pub(crate) fn new(element: &str, line: u32, attributes: Vec<(String, String)>) -> Self {
+        Self { element: element.to_owned(), line, unread: attributes }
     }
 
     /// A value that may be missing.
     pub(crate) fn optional<T: Lexical>(&mut self, name: &str) -> Result<Option<T>, ReadError> {
-        let Some(at) = self.left.iter().position(|(key, _)| key == name) else { return Ok(None) };
-        let (_, text) = self.left.swap_remove(at);
+        let Some(at) = self.unread.iter().position(|(key, _)| key == name) else { return Ok(None) };
+        let (_, text) = self.unread.swap_remove(at);
         T::parse(&text).map(Some).ok_or_else(|| self.bad(name, &text, &T::allowed()))
     }
 
@@ -34,15 +32,10 @@ impl Fields {
         })
     }
 
-    /// Warns of every attribute that nobody took; those of XML itself and of the schema instance are fine.
-    pub(crate) fn finish(self, xml: &mut Xml<'_>) {
-        for (name, _) in self.left {
-            let prefix = name.split(':').next().unwrap_or_default();
-            if !matches!(prefix, "xmlns" | "xsi" | "xml") {
-                let message = format!("attribute `{name}` is not one of FMI 2.0; it is ignored");
-                xml.warn(Code::UnknownAttribute, self.line, &self.element, message);
-            }
-        }
+    /// The names of attributes that nobody has read, without those of XML itself and of the schema instance.
+    pub(crate) fn unknown(&self) -> impl Iterator<Item = &str> {
+        let names = self.unread.iter().map(|(name, _)| name.as_str());
+        names.filter(|name| !matches!(name.split(':').next().unwrap_or_default(), "xmlns" | "xsi" | "xml"))
     }
 
     fn bad(&self, name: &str, text: &str, allowed: &str) -> ReadError {
