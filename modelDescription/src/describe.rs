@@ -1,4 +1,4 @@
-//! The functions beside FMI's that a library of this project exports: packers obtain a model's description from
+//! The functions that a library of this project exports next to FMI's: packers obtain a model's description from
 //! `fmi_export_describe`, and have a schedule judged by `fmi_export_check_schedule_file`.
 
 use core::ffi::{c_char, c_int, c_void};

@@ -1,4 +1,4 @@
-//! The standard's words: enumerations whose variants stand beside their words, one table for writer, reader and messages.
+//! The standard's words: enumerations whose variants stand next to their words, one table for writer, reader and messages.
 
 /// Declares an enumeration; `$method` gives a variant's word.
 macro_rules! words {

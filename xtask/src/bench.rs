@@ -18,7 +18,7 @@ const TURNS: usize = 5;
 
 type Part = fn(&Built) -> Outcome;
 
-/// Kernels (Rust examples of `physics`), the C interface, a system, a whole study, plans, a campaign, a day beside Basilisk.
+/// Kernels (Rust examples of `physics`), the C interface, a system, a whole study, plans, a campaign, a day compared with Basilisk.
 const PARTS: &[(&str, Part)] = &[
     ("kernels", kernels),
     ("c", c_interface),
@@ -63,7 +63,7 @@ fn c_interface(built: &Built) -> Outcome {
     Ok(())
 }
 
-/// A day of ten plates about the Earth beside Basilisk.
+/// A day of ten plates about the Earth, compared with Basilisk.
 fn earth(built: &Built) -> Outcome {
     let script = root().join("tests").join("python").join("bench_earth.py");
     run(command(python::basilisk()?)
@@ -72,8 +72,8 @@ fn earth(built: &Built) -> Outcome {
         .arg(root().join("dist").join("MomentumPlant.fmu")))
 }
 
-/// Flights of ten days in one step each: `sweep` beside a C program with the same values, with one and two workers and its memory; then
-/// steps of a minute beside FMPy.
+/// Flights of ten days in one step each: `sweep` compared with a C program with the same values, with one and two workers and its memory; then
+/// steps of a minute compared with FMPy.
 fn sweep(built: &Built) -> Outcome {
     const FLIGHTS: u32 = 1000;
     let folder = Folder::new(built, "bench-sweep")?;

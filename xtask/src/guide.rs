@@ -25,7 +25,7 @@ pub(crate) fn test(environment: impl IntoIterator<Item = (&'static str, impl Int
     run(in_workspace("test --locked").envs(environment))
 }
 
-/// Cargo in the folder of the guide's builder; what it builds stands beside everything else's.
+/// Cargo in the folder of the guide's builder; its products stand next to all others.
 fn in_workspace(arguments: &str) -> std::process::Command {
     let mut command = cargo(arguments);
     command.current_dir(root().join("tests").join("guide")).env("CARGO_TARGET_DIR", target());

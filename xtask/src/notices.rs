@@ -136,7 +136,7 @@ fn linked(package: &str, target: &str) -> Result<Vec<Crate>, String> {
     Ok(crates)
 }
 
-/// A line of the tree: `name vVersion|license`, for ours with the folder behind the version.
+/// A line of the tree: `name vVersion|license`, for ours with the folder after the version.
 fn crate_of(line: &str) -> Option<Crate> {
     let (package, license) = line.split_once('|')?;
     let mut words = package.split_whitespace();

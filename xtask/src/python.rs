@@ -10,7 +10,7 @@ pub(crate) fn interpreter() -> Result<PathBuf, String> {
     environment("python", &root().join("tests/python/requirements.txt"))
 }
 
-/// `pytest` in that environment, which leaves no compiled files beside the tests.
+/// `pytest` in that environment, which leaves no compiled files among the tests.
 pub(crate) fn pytest() -> Result<Command, String> {
     let mut pytest = command(interpreter()?);
     pytest.args(["-m", "pytest", "-q"]).env("PYTHONDONTWRITEBYTECODE", "1");

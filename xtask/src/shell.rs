@@ -62,7 +62,7 @@ fn ended(shown: &str, start: Instant, status: ExitStatus) -> Outcome {
     if status.success() { Ok(()) } else { Err(format!("`{shown}` ended with {status}")) }
 }
 
-/// A program that runs beside this one; it ends with it.
+/// A program that runs at the same time and ends with this one.
 pub(crate) struct Beside {
     child: Child,
     shown: String,

@@ -114,7 +114,7 @@ pub(crate) fn pack(built: &Built, scratch: &Path) -> Outcome {
 /// Time between two rows of a reference flight, in s.
 const EVERY: &str = "600";
 
-/// The default experiment beside the system, outputs at the start being exchanged in initialization.
+/// The default experiment of the system, with outputs at the start exchanged in initialization.
 fn record(built: &Built, file: &str) -> Command {
     let system = root().join("dist").join(file);
     let mut simulation = command(&built.heliotorque);

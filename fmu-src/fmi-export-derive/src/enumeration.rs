@@ -1,4 +1,4 @@
-//! The code behind `#[derive(Enumeration)]`.
+//! The code of `#[derive(Enumeration)]`.
 
 use proc_macro2::TokenStream;
 use quote::quote;

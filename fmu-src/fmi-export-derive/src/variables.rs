@@ -1,4 +1,4 @@
-//! The code behind `#[derive(Variables)]`: one call of the builder a field.
+//! The code of `#[derive(Variables)]`: one call of the builder a field.
 
 use model_description::Variability;
 use proc_macro2::{Span, TokenStream};

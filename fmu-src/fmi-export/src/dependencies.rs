@@ -179,7 +179,7 @@ impl Dependencies {
         &self.at_steps
     }
 
-    /// The inputs that count for an output after initialization beside those.
+    /// The further inputs that count for an output after initialization.
     pub(crate) fn inputs_at_start(&self) -> &BTreeMap<Element, Knowns> {
         &self.inputs_at_start
     }

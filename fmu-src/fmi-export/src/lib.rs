@@ -3,7 +3,7 @@
 //!
 //! A model implements [`Model`] and declares its variables with `#[derive(Variables)]`, free of any version of FMI.
 //! Everything an importer sees (XML, value references, states, status codes, logging) is made in [`fmi2`]; an adapter for
-//! another version would stand beside it. Nothing here knows what a model is about.
+//! another version would stand next to it. Nothing here knows what a model is about.
 //!
 //! A shared library is one line, `fmi_export::export!(ModelA, ModelB);` in a crate of type cdylib.
 

@@ -28,7 +28,7 @@ pub struct Entry {
     start_names: StartNames,
 }
 
-/// Describes a model: name and text of its setup, and the models that the setup may serve beside it.
+/// Describes a model: name and text of its setup, and the other models that the setup may serve.
 type Prepare = fn(&str, &str, &[OtherReader<'_>]) -> Result<Prepared, DescribeError>;
 /// The names that start values may have, if a model takes the setup of this name and text.
 type StartNames = fn(&str, &str) -> Option<BTreeSet<String>>;

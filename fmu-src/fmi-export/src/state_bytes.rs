@@ -49,7 +49,7 @@ pub(crate) fn seal(header: &mut [u8], digest: Uuid, payload: &[u8]) {
     }
 }
 
-/// The payload behind a valid header of this digest.
+/// The payload after a valid header of this digest.
 pub(crate) fn unsealed(bytes: &[u8], expected: Uuid) -> Result<&[u8], Failure> {
     let short = || wrong_length(bytes.len(), HEADER as u64);
     let (mark, rest) = bytes.split_first_chunk::<8>().ok_or_else(short)?;

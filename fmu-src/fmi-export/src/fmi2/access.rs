@@ -223,12 +223,12 @@ impl AccessTable {
         ))
     }
 
-    /// The name behind a value reference of whatever type.
+    /// The name of the variable with a value reference of any type.
     pub(crate) fn any_name(&self, reference: u32) -> Option<&str> {
         self.name(references::base_type(reference)?, reference)
     }
 
-    /// The name behind a value reference.
+    /// The name of the variable with a value reference.
     pub(crate) fn name(&self, base: BaseType, reference: u32) -> Option<&str> {
         self.names[base as usize].get(references::index(base, reference)).map(String::as_str)
     }

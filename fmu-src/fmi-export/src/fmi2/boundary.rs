@@ -73,7 +73,7 @@ pub(super) fn handle_of(instance: Instance) -> Component {
     Box::into_raw(Box::new(handle)).cast()
 }
 
-/// The handle behind a component, unless it is NULL or not ours.
+/// The handle of a component, unless it is NULL or not ours.
 ///
 /// # Safety
 /// A `component` that is not NULL points to a live handle, of whatever FMU.
@@ -171,7 +171,7 @@ pub(super) fn state_handle_of(saved: SavedState) -> FmuState {
     Box::into_raw(Box::new(StateHandle { mark: state_mark(), saved })).cast()
 }
 
-/// The saved state behind an FMU state.
+/// The saved state of an FMU state.
 ///
 /// # Safety
 /// A `state` that is not NULL points to a live FMU state, of whatever FMU, that nobody else uses meanwhile.

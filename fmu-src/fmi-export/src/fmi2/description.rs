@@ -47,7 +47,7 @@ pub(crate) fn start_names<M: Model>(file: &str, setup_text: &str) -> Option<BTre
     Some(start_values::settable_names(&scalar_variables(&declare.finish())))
 }
 
-/// Describes a model; `others` are the models that the setup may serve beside it.
+/// Describes a model; `others` are the other models that the setup may serve.
 pub(crate) fn prepare<M: Model>(
     file: &str,
     setup_text: &str,

@@ -1,6 +1,6 @@
 //! Facts of a model next to its variables: description, start values by its setup, manual.
 
-/// Facts of a model beside its variables.
+/// Facts of a model next to its variables.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct About {
     /// One or two sentences.
@@ -87,7 +87,7 @@ impl Manual {
     pub const NONE: Self =
         Self { about: "", example: "", closed_loop: "", frames: "", sources: "", shared_sources: "" };
 
-    /// Returns each quantity or source that is named, with the paper, method or title behind it.
+    /// Returns each quantity or source that is named, with its paper, method or title.
     pub fn sources(&self) -> impl Iterator<Item = (&'static str, String)> {
         let shared = self.shared_sources;
         blocks(self.sources).map(move |(what, by)| {

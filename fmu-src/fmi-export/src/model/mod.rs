@@ -144,7 +144,7 @@ pub trait OutputRates: Model {
 pub trait Differentiable: Model {
     /// The Jacobian d(unknowns)/d(knowns) at the last communication point times a vector: `seeds` are the knowns, each with
     /// its component of the vector, one known perhaps several times; `products` is as long as `unknowns`. Six arguments: those of
-    /// `fmi2GetDirectionalDerivative` beside the three that every function of a model has.
+    /// `fmi2GetDirectionalDerivative` and the three that every function of a model has.
     fn jacobian_vector_product(
         context: &Context<'_, Self>,
         values: &Values,

@@ -1,4 +1,4 @@
-//! Effects beside sunlight: the switches and laws that several models have, and what in a file is without effect.
+//! Effects other than sunlight: switches and laws that several models have, and warnings of parts of a file without effect.
 
 use fmi_export::{Boolean, Choice, Failure, Integer, Real, RealVector, SetupError, Values, Variables};
 use nalgebra::Vector3;

@@ -24,10 +24,12 @@ choices! {
 
 /// Spacecraft whose momentum is managed.
 #[derive(Clone, Copy)]
-pub(crate) struct ManagedSpacecraft<'s> {
+pub struct ManagedSpacecraft<'s> {
+    /// The spacecraft.
     pub spacecraft: &'s Spacecraft,
     /// Form in which the shade takes the light.
     pub sunshade: SunshadeModel,
+    /// Its antennas.
     pub antennas: &'s Antennas,
     /// Limits of the Sun's azimuth and elevation about -Y.
     pub sun_limits_rad: [f64; 2],

@@ -1,4 +1,4 @@
-//! FMU states: kept in memory, and as bytes that another process can read: behind the header of [`crate::state_bytes`],
+//! FMU states: kept in memory, and as bytes that another process can read: after the header of [`crate::state_bytes`],
 //! [`InstanceState`] and the model's state in postcard's format.
 
 use uuid::Uuid;

@@ -1,4 +1,4 @@
-//! All that changes in an instance beside the model's own state: one value, saved and restored as a whole.
+//! Everything in an instance that changes, but for the model's own state: one value, saved and restored as a whole.
 
 use crate::fmi2::references;
 use model_description::BaseType;

@@ -34,7 +34,7 @@ pub(super) fn unused_prediction(variables: &PlantVariables, values: &Values) -> 
     })
 }
 
-/// The bodies that attract beside the Sun and the centre.
+/// The bodies that attract, apart from the Sun and the centre.
 fn attracting<'a>(variables: &PlantVariables, values: &'a Values) -> impl Iterator<Item = Body> + 'a {
     let planets = variables.orbit.attraction.planets().into_iter();
     planets.filter(|(_, attracts)| values.boolean(*attracts)).map(|(body, _)| body)
