@@ -4,7 +4,7 @@ use fmi_export::{Failure, RealVector, Step, Values};
 use nalgebra::Vector3;
 use physics::spacecraft::{MOST_THRUSTERS, ValveTiming};
 use physics::spin::{
-    burn::BurnRequest,
+    burn_request::BurnRequest,
     execution::PulseExecution,
     geometry::{L1Ephemeris, L1Phases},
     plant::{Commands, Directions, PulseCommand, Start},

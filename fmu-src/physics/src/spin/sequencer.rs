@@ -170,7 +170,8 @@ impl Sequencer {
         let k = self.fired;
         let period_s = self.burn.assumed_period_s();
         // From the opening of the valve to the centre of the thrust, and on to the closing.
-        let [before_s, after_s] = self.burn.about_centre_s(k);
+        let about = self.burn.about_centre(k);
+        let (before_s, after_s) = (-about.start_s, about.end_s);
         let offset_s = train.offset_turns(k) * period_s;
         let turns = |k: u32| 0.5 * f64::from(train.half_turns(k));
         // Earliest exact centre: after the burn's start, now, and three quarters of the spacing since the last.
@@ -207,8 +208,7 @@ impl Sequencer {
     pub fn note_centre(&mut self) {
         if let Phase::Waiting { off_s, .. } = self.phase {
             let k = self.fired;
-            let [_, after_s] = self.burn.about_centre_s(k);
-            let centre_s = off_s - after_s;
+            let centre_s = off_s - self.burn.about_centre(k).end_s;
             if k == 0 {
                 self.first_centre_s = centre_s;
             }

@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 use super::directions::{has_directions, is_unit};
 use super::propulsion::MassSource;
 use super::sensors::Sampling;
-use crate::attitude::{InertiaError, Quaternion, angle_between_rad};
+use crate::attitude::{Inertia, InertiaError, Quaternion, angle_between_rad};
 use crate::math;
 use crate::spacecraft::MOST_THRUSTERS;
 use crate::spin::{
-    burn::BurnRequest,
     burn_error::{BurnError, ParameterError},
+    burn_request::BurnRequest,
     damper::SHORTEST_TIME_CONSTANT_S,
     execution::PulseExecution,
     forecast::Timing,
@@ -103,6 +103,25 @@ impl InitialConditions {
 }
 
 impl Start {
+    /// Inertia at the start.
+    ///
+    /// # Errors
+    /// Moments that no body has.
+    pub(super) fn inertia(&self, spinner: &Spinner) -> Result<Inertia, InertiaError> {
+        match self.mass_source {
+            MassSource::Fixed => Inertia::with_products(self.inertia_kg_m2, self.products_kg_m2),
+            MassSource::Propellant => spinner.mass_properties.inertia(self.propellant_kg),
+        }
+    }
+
+    /// Angular momentum in the frame of the spin axis, in N m s.
+    pub(super) fn momentum_spin_frame_n_m_s(&self, inertia: &Inertia) -> Vector3<f64> {
+        let spin_n_m_s = inertia.spin_kg_m2() * self.spin_rate_rad_s;
+        let across = spin_n_m_s * math::tan(self.nutation_rad);
+        let (sine, cosine) = math::sin_cos(self.nutation_phase_rad);
+        Vector3::new(across * cosine, across * sine, spin_n_m_s)
+    }
+
     /// What can be wrong with its numbers, and the attitude they give.
     pub(super) fn check(&self, spinner: &Spinner) -> Result<Quaternion, StartError> {
         let refuse =
