@@ -53,6 +53,8 @@ pub struct BodyData {
     pub body: Body,
     /// Its name.
     pub name: &'static str,
+    /// Body that it orbits, whose tide it feels; `None` for the Sun.
+    pub parent: Option<Body>,
     /// Gravitational parameter of the body alone, without moons, in m3/s2.
     pub gm_m3_s2: f64,
     /// Mean radius, in m.
@@ -121,12 +123,18 @@ pub fn impossible_density_kg_m3(gm_m3_s2: f64, [a_m, b_m, c_m]: [f64; 3]) -> Opt
     (!(least..=most).contains(&density_kg_m3)).then_some(density_kg_m3)
 }
 
-/// Radius of the sphere of influence of a body that attracts like that on an orbit of this semi-major axis about the Sun, in m.
-pub fn sphere_of_influence_m(gm_m3_s2: f64, semi_major_axis_m: f64) -> f64 {
-    semi_major_axis_m * math::powf(gm_m3_s2 / constants::GM_SUN_M3_S2, 0.4)
+/// Radius of the sphere of influence of a body that attracts like that on an orbit of this semi-major axis about its parent, in m.
+pub fn sphere_of_influence_m(gm_m3_s2: f64, semi_major_axis_m: f64, parent: Body) -> f64 {
+    semi_major_axis_m * math::powf(gm_m3_s2 / parent.data().gm_m3_s2, 0.4)
 }
 
 impl BodyData {
+    /// Radius of the sphere of influence, in m; 0 for a body without parent or known orbit.
+    pub fn sphere_of_influence_m(&self) -> f64 {
+        self.parent
+            .map_or(0.0, |parent| sphere_of_influence_m(self.gm_m3_s2, self.orbit_semi_major_axis_m, parent))
+    }
+
     /// Where the Sun stands for a spacecraft about this body unless somebody says otherwise, from the spacecraft in body axes, in m:
     /// on -Y, at the planet's mean distance from it (Mercury's as paper 004 has it), 1 AU where none is known.
     pub fn usual_sun_body_m(&self) -> [f64; 3] {
@@ -182,6 +190,7 @@ const fn gray(radius_m: f64, bond_albedo: f64, effective_temperature_k: f64) -> 
 const CUSTOM: BodyData = BodyData {
     body: Body::Custom,
     name: "the body of the spacecraft's file",
+    parent: Some(Body::Sun),
     gm_m3_s2: 0.0,
     radius_m: 1.0,
     j2: 0.0,
@@ -207,6 +216,7 @@ pub const BODIES: [BodyData; Body::COUNT] = [
     BodyData {
         body: Body::Sun,
         name: "the Sun",
+        parent: None,
         gm_m3_s2: constants::GM_SUN_M3_S2,
         radius_m: constants::RADIUS_SUN_M,
         j2_radius_m: constants::RADIUS_SUN_M,
@@ -266,6 +276,7 @@ pub const BODIES: [BodyData; Body::COUNT] = [
     BodyData {
         body: Body::Earth,
         name: "the Earth",
+        parent: Some(Body::Sun),
         gm_m3_s2: constants::GM_EARTH_M3_S2,
         radius_m: constants::RADIUS_EARTH_M,
         // EGM2008.
@@ -312,6 +323,7 @@ pub const BODIES: [BodyData; Body::COUNT] = [
     BodyData {
         body: Body::Jupiter,
         name: "Jupiter",
+        parent: Some(Body::Sun),
         gm_m3_s2: constants::GM_JUPITER_M3_S2,
         radius_m: constants::RADIUS_JUPITER_M,
         // Iess et al. 2018.

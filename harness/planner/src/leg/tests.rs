@@ -2,19 +2,20 @@
 
 use nalgebra::Vector3;
 use physics::{
-    bodies::{Body, BodyData},
+    bodies::Body,
     constants::{ASTRONOMICAL_UNIT_M, DAY_S, GM_MERCURY_M3_S2, GM_SUN_M3_S2, RADIUS_MERCURY_M},
     environment::{
         CartesianState, dates,
         ephemeris::Ephemeris,
         orbit::{
-            BPlane, BodyEphemeris, DisturbedOrbit, LambertArc, LambertBranch, LambertError, NBodyGravity,
-            NBodySettings, OrbitMethod, TwoBodyOrbit,
+            Attractor, BPlane, BodyEphemeris, DisturbedOrbit, GravityModel, NBodyGravity, NBodySettings,
+            OrbitMethod, TwoBodyOrbit,
         },
     },
 };
 
 use super::*;
+use crate::orbit::{LambertArc, LambertBranch, LambertError};
 
 /// 2008-01-14 19:05 TDB, the first flyby of Mercury.
 const FLYBY_S: f64 = 253_609_500.0;
@@ -52,17 +53,11 @@ impl Flights<'_> {
         times_s: &[f64],
         mercury: bool,
     ) -> Result<Vec<CartesianState>, Failure> {
-        let settings = NBodySettings {
-            relativity: false,
-            changes_center: true,
-            moon: false,
-            cell_s: DAY_S,
-            tolerance_m: 1e-3,
-        };
+        let settings = NBodySettings { changes_center: true, cell_s: DAY_S, tolerance_m: 1e-3 };
         let all = [Body::Venus, Body::Earth, Body::Jupiter].into_iter();
-        let all =
-            all.chain(mercury.then_some(Body::Mercury)).map(|body| BodyData { j2: 0.0, ..*body.data() });
-        let gravity = NBodyGravity::new(settings, Body::Sun.data(), all, None);
+        let all = all.chain(mercury.then_some(Body::Mercury)).chain([Body::Sun]);
+        let rows = all.map(|body| Attractor::point_mass(body.data()));
+        let gravity = NBodyGravity::new(settings, GravityModel::new(Body::Sun, rows, false));
         let start = CartesianState { position_m: self.task.position_m, velocity_m_s: *velocity_m_s };
         let mut orbit = DisturbedOrbit::between_bodies(&start, self.task.start_s, &gravity)?;
         let method = OrbitMethod::default();

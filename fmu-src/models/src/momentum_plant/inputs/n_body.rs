@@ -4,7 +4,7 @@ use fmi_export::{Failure, Values};
 use physics::bodies::{Body, BodyData};
 use physics::environment::ephemeris::VALID_EPOCH_S;
 use physics::environment::onboard::{OnboardEphemeris, OnboardTarget};
-use physics::environment::orbit::{NBodyGravity, NBodySettings};
+use physics::environment::orbit::{Attractor, GravityModel, NBodyGravity, NBodySettings};
 use physics::plant::{Encounter, PredictionSettings};
 
 use super::center::Center;
@@ -89,20 +89,21 @@ pub(super) fn read(
 fn gravity(variables: &PlantVariables, values: &Values, center: &Center) -> NBodyGravity {
     let orbit = &variables.orbit;
     let settings = NBodySettings {
-        relativity: values.boolean(orbit.relativity),
         changes_center: values.boolean(orbit.change_center),
-        moon: values.boolean(orbit.attraction.moon),
         cell_s: values.real(orbit.n_body_step),
         tolerance_m: values.real(orbit.n_body_tolerance),
     };
     let planet = &center.planet;
     let data = |body: Body| if body == planet.body { *planet } else { *body.data() };
-    let encounter = Some(*planet).filter(|planet| planet.body != center.data.body);
-    let bodies: [Option<BodyData>; Body::COUNT] = {
-        let mut all = attracting(variables, values).map(data).chain(encounter);
-        core::array::from_fn(|_| all.next())
+    let row = |data: &BodyData| match data.body == planet.body {
+        true => Attractor::flattened(data),
+        false => Attractor::point_mass(data),
     };
-    NBodyGravity::new(settings, &center.data, bodies.into_iter().flatten(), Some(planet))
+    let bodies = [Body::Sun].into_iter().chain(attracting(variables, values)).map(data);
+    let bodies = bodies.chain([*planet, center.data]);
+    let moon = values.boolean(orbit.attraction.moon).then_some(Attractor::MOON);
+    let rows = bodies.map(|data| row(&data)).chain(moon);
+    NBodyGravity::new(settings, GravityModel::new(center.data.body, rows, values.boolean(orbit.relativity)))
 }
 
 /// Until when the ephemerides place all that attracts, in s past J2000 TDB.

@@ -278,13 +278,20 @@ fn node(normal: &Vector3<f64>) -> Vector3<f64> {
     Vector3::new(-normal.y, normal.x, 0.0) / sin_inclination
 }
 
-pub(super) fn check_mu(mu_m3_s2: f64) -> Result<(), OrbitError> {
+/// Refuses a gravitational parameter that is none.
+///
+/// # Errors
+/// [`OrbitError::OutOfRange`].
+pub fn check_mu(mu_m3_s2: f64) -> Result<(), OrbitError> {
     let is_allowed = mu_m3_s2.is_finite() && mu_m3_s2 > 0.0;
     check("gravitational parameter in m3/s2", mu_m3_s2, is_allowed, "a finite number above 0")
 }
 
-/// Refuses a number that was found not to be allowed.
-pub(super) fn check(
+/// Refuses a number that is not allowed.
+///
+/// # Errors
+/// [`OrbitError::OutOfRange`].
+pub fn check(
     what: &'static str,
     found: f64,
     is_allowed: bool,

@@ -13,10 +13,10 @@ use core::f64::consts::PI;
 use nalgebra::Vector3;
 use thiserror::Error;
 
-use super::elements::{OrbitError, check, check_mu};
-use crate::constants::DAY_S;
-use crate::math;
-use crate::numerics::roots::{RootError, bracketed};
+use physics::constants::DAY_S;
+use physics::environment::orbit::{OrbitError, check, check_mu};
+use physics::math;
+use physics::numerics::roots::{RootError, bracketed};
 
 /// Places nearer than this to one line with the centre have no plane, sine of the angle between them.
 const IN_LINE: f64 = 1e-6;
