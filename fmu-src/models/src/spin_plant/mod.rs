@@ -139,7 +139,7 @@ impl OutputRates for SpinPlant {
     }
 }
 
-/// What a burn that can be simulated will not do as one may expect.
+/// Warns of a burn that can be simulated and will not do what one may expect.
 fn warn_of_burn(context: &Plan<'_>, plant: &Plant) {
     let (log, seen) = (context.log, Predictions::from_plant(plant));
     if plant.propulsion().is_dry() {

@@ -41,12 +41,12 @@ enumeration! {
         /// Jupiter.
         7 => Jupiter,
         /// The body that the spacecraft's file describes.
-        // Of which [`Spacecraft::body`](crate::spacecraft::Spacecraft) says what is known; 8 to 99 are left to bodies to come.
+        // [`Spacecraft::body`](crate::spacecraft::Spacecraft) has its data; 8 to 99 are free for bodies to come.
         100 => Custom,
     }
 }
 
-/// What is known of a body.
+/// Data of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyData {
     /// The body.
@@ -94,14 +94,14 @@ pub struct BodyData {
 }
 
 impl Body {
-    /// How many there are, that of a spacecraft's file among them.
+    /// Number of bodies, with that of a spacecraft's file.
     pub const COUNT: usize = Self::ALL.len() + 1;
 
     /// The known bodies.
     pub const ALL: [Self; 6] =
         [Self::Sun, Self::Mercury, Self::Venus, Self::Earth, Self::Mars, Self::Jupiter];
 
-    /// What is known of it; of that of a spacecraft's file nothing but its name here.
+    /// Data of the body; of the body of a spacecraft's file its name alone.
     pub const fn data(self) -> &'static BodyData {
         &BODIES[self as usize]
     }
@@ -135,7 +135,7 @@ impl BodyData {
             .map_or(0.0, |parent| sphere_of_influence_m(self.gm_m3_s2, self.orbit_semi_major_axis_m, parent))
     }
 
-    /// Where the Sun stands for a spacecraft about this body unless somebody says otherwise, from the spacecraft in body axes, in m:
+    /// Default position of the Sun for a spacecraft about this body, from the spacecraft in body axes, in m:
     /// on -Y, at the planet's mean distance from it (Mercury's as paper 004 has it), 1 AU where none is known.
     pub fn usual_sun_body_m(&self) -> [f64; 3] {
         let distance_m = match self.body {
@@ -146,7 +146,7 @@ impl BodyData {
         [0.0, -distance_m, 0.0]
     }
 
-    /// Where the planet stands likewise, in m: four radii away.
+    /// Default position of the planet likewise, in m: four radii away.
     pub fn usual_planet_body_m(&self) -> [f64; 3] {
         let radii = self.radius_m / Body::Mercury.data().radius_m;
         [2e6, 3e6, 9e6].map(|along_m| along_m * radii)
@@ -186,7 +186,7 @@ const fn gray(radius_m: f64, bond_albedo: f64, effective_temperature_k: f64) -> 
     }
 }
 
-/// A body of which nothing is known but that its pole is the north of EME2000.
+/// Data of a body before its file is read: a point with its pole to the north of EME2000.
 const CUSTOM: BodyData = BodyData {
     body: Body::Custom,
     name: "the body of the spacecraft's file",

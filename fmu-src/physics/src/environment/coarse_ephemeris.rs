@@ -1,7 +1,7 @@
 //! Coarse ephemerides of the planets by VSOP87, for a spacecraft that carries none of its own.
 //!
 //! Classical elements of VSOP87 are averaged over windows of ten Julian years with edges fixed past J2000: polynomials of
-//! fourth degree, as in [`super::simulated`]. A window is a pure function of its number: what was requested before never changes a
+//! fourth degree, as in [`super::onboard::CoarseElements`]. A window is a pure function of its number: what was requested before never changes a
 //! bit. The Earth is its barycentre with the Moon.
 //!
 //! Error against [`Ephemeris`](super::ephemeris::Ephemeris) between 1950 and 2050 (tested): as a direction from the Sun

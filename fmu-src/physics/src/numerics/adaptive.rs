@@ -16,7 +16,7 @@ use super::intervals::next_multiple_s;
 use super::or_infinite;
 use crate::math;
 
-/// Of what the estimate allows, as much is used.
+/// Fraction of the length that the estimate allows which is used.
 const SAFETY: f64 = 0.9;
 
 /// The segment that is being fitted: where it begins and where this attempt ends.
@@ -39,12 +39,12 @@ impl AdaptiveInterval {
         Self { start_s, end_s, longest_s, shortest_s, shortened: false }
     }
 
-    /// Where the segment begins, in s.
+    /// Start of the segment, in s.
     pub fn start_s(&self) -> f64 {
         self.start_s
     }
 
-    /// Where this attempt ends, in s.
+    /// End of this attempt, in s.
     pub fn end_s(&self) -> f64 {
         self.end_s
     }

@@ -104,18 +104,18 @@ pub fn first_crossing(span: Span, rounding: f64, mut function: impl FnMut(f64) -
     }
 }
 
-/// What a fit tells of a function's zeros.
+/// Zeros of a function by a fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Zero {
     /// There is none, or the function is not finite.
     Excluded,
-    /// Those of the fit are the function's.
+    /// The zeros of the fit are the function's.
     Resolved,
     /// The fit is too coarse.
     Unresolved,
 }
 
-/// What a fit tells of the zeros of its row `k`: what it misses is of the size of its last two coefficients.
+/// Zeros of row `k` of a fit, whose error is of the size of its last two coefficients.
 fn zero_of_row<const K: usize, const N: usize>(fitted: &Segment<K, N>, k: usize, rounding: f64) -> Zero {
     let terms = fitted.coefficients().row(k);
     if !terms.iter().all(|term| term.is_finite()) {

@@ -21,14 +21,14 @@ pub const SLOWEST_RAD_S: f64 = 1e-4;
 /// See [`SLOWEST_RAD_S`].
 pub const FASTEST_RAD_S: f64 = 1e4;
 
-/// Where the sequence stands.
+/// Phase of the sequence.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Phase {
     /// No edge is known: no Sun crossing seen yet, or the body does not bring the thruster round.
     Idle,
     /// Too early to follow the motion to the next pulse: it will be timed later.
     Later {
-        /// When, in s.
+        /// Time, in s.
         at_s: f64,
     },
     /// The next pulse is timed.
@@ -88,7 +88,7 @@ impl Sequencer {
         self.fired
     }
 
-    /// Where it stands.
+    /// Present phase.
     pub fn phase(&self) -> Phase {
         self.phase
     }

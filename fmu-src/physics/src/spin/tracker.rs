@@ -47,7 +47,7 @@ pub struct NutationEstimator {
     pub count: u32,
 }
 
-/// What the samples say.
+/// Nutation estimated from the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NutationEstimate {
     /// Nutation angle, in rad.

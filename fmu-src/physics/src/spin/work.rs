@@ -1,9 +1,9 @@
-//! What a step of the spinner may cost, and which parameter asks for most of it.
+//! Work of a step of the spinner, and the parameter that asks for most of it.
 
 use super::damper::Damper;
 use crate::numerics;
 
-/// What work is spent on.
+/// Kind of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cost {
     /// Segments of the motion.
@@ -53,7 +53,7 @@ const SEGMENTS: &str = "segments of the motion, a few in each turn: requested by
 pub struct Work(numerics::work::Work<{ CAUSES.len() }>);
 
 impl Work {
-    /// Nothing spent of `limit` units.
+    /// Returns a count of 0 under this limit.
     pub fn new(limit: u32) -> Self {
         Self(numerics::work::Work::new(limit))
     }
@@ -100,10 +100,10 @@ impl Work {
      Take shorter steps or raise solver.workLimit"
 )]
 pub struct WorkExceeded {
-    /// What was allowed.
+    /// Limit that was set.
     pub limit: u32,
-    /// How far it came, in s.
+    /// Time to which the step came, in s.
     pub time_s: f64,
-    /// What most of it went into.
+    /// Cause of most of the work.
     pub cause: &'static str,
 }

@@ -133,7 +133,7 @@ pub fn coarse(
             if node.is_none()
                 && let Some(found) = motion.state(*at_s)
             {
-                error = error.worst(FitError::of(&found, state));
+                error = error.worst(FitError::from_states(&found, state));
             }
         }
         models.push(FittedBody { target, center: about, motion, error });

@@ -62,7 +62,7 @@ impl Encounter {
             [-AROUND_S, 0.0, AROUND_S].map(|off_s| from.state_at(epoch_s + off_s));
         let at_epoch = at_epoch?;
         let of = |state: &CartesianState| {
-            let plane = BPlane::of(state, force_model.gm_m3_s2);
+            let plane = BPlane::from_state(state, force_model.gm_m3_s2);
             plane.ok_or_else(|| {
                 format!("the orbit about {} at {epoch_s} s: found no hyperbola", name(force_model))
             })

@@ -94,7 +94,7 @@ impl SimulatesLeg for Flights<'_> {
         let states = self.states(velocity_m_s, &times_s, true)?;
         let rows = times_s.iter().zip(states).map(|(&time_s, state)| {
             let state = from_mercury(&state, &self.sky.heliocentric(Body::Mercury, time_s));
-            ApproachRow { time_s, state, b_plane: BPlane::of(&state, GM_MERCURY_M3_S2).unwrap() }
+            ApproachRow { time_s, state, b_plane: BPlane::from_state(&state, GM_MERCURY_M3_S2).unwrap() }
         });
         let rows = rows.collect();
         Ok(Approach { rows, closest: None, mu_m3_s2: GM_MERCURY_M3_S2, radius_m: RADIUS_MERCURY_M })
@@ -163,7 +163,7 @@ fn an_aim_by_components_is_met_six_hours_before() {
     let before_s = leg.encounter.arrival_s - LEAD_S;
     let state = flights.states(&leg.velocity_m_s, &[before_s], true).unwrap()[0];
     let mercury = flights.sky.heliocentric(Body::Mercury, before_s);
-    let found = BPlane::of(&from_mercury(&state, &mercury), GM_MERCURY_M3_S2).unwrap();
+    let found = BPlane::from_state(&from_mercury(&state, &mercury), GM_MERCURY_M3_S2).unwrap();
     let miss_m = (found.b_t_m + 4.1e6).hypot(found.b_r_m - 1.3e6);
     assert!(miss_m < 2.0, "{miss_m}");
 }

@@ -90,7 +90,7 @@ fn start(spinner: &Spinner, task: &Task, row: &TrainForecast) -> Start {
         products_kg_m2: task.products_kg_m2,
         mass_source: MassSource::Fixed,
         propellant_kg: task.propellant_kg,
-        execution: PulseExecution::of(spinner),
+        execution: PulseExecution::from_spinner(spinner),
         spin_rate_rad_s: case.spin.rate_rad_s,
         attitude: task.attitude().0,
         nutation_rad: 0.0,

@@ -27,7 +27,7 @@ pub type KeplerianElements = SVector<f64, 6>;
 /// The polynomials of one body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoarseElements {
-    /// What it moves about.
+    /// Body about which it moves.
     pub center: Body,
     /// First and last epoch; those of the polynomials are rounded otherwise.
     pub span_s: [f64; 2],
@@ -36,7 +36,7 @@ pub struct CoarseElements {
 }
 
 impl CoarseElements {
-    /// Of elements given at the nodes of a span, [`Segment::nodes`]; mean anomalies run on over full turns.
+    /// Fits elements at the nodes of a span, [`Segment::nodes`]; mean anomalies run on over full turns.
     pub fn of_elements<const N: usize>(
         center: Body,
         span_s: [f64; 2],
@@ -48,7 +48,7 @@ impl CoarseElements {
         Self { center, span_s, elements: Segment::from_coefficients(start_s, end_s, lowest) }
     }
 
-    /// Of states about the centre at the nodes of a span, from the last to the first; `None` where one is no ellipse.
+    /// Fits states about the centre at the nodes of a span, from the last to the first; `None` where one is no ellipse.
     pub fn of_states(
         center: Body,
         span_s: [f64; 2],

@@ -18,9 +18,9 @@ use crate::toml::{Checker, Document, FileError, KeyPath};
 /// A model of a body's motion with the error it was made with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FittedBody<M> {
-    /// What moves.
+    /// Body that moves, or the spacecraft.
     pub target: OnboardTarget,
-    /// About what.
+    /// Body about which it moves.
     pub center: Body,
     /// Its motion.
     pub motion: M,
@@ -28,10 +28,10 @@ pub struct FittedBody<M> {
     pub error: FitError,
 }
 
-/// What a spacecraft carries. No body stands in it twice, and no body is, by way of others, its own centre.
+/// Ephemerides that a spacecraft carries. No body stands in it twice, and no body is, by way of others, its own centre.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OnboardEphemeris {
-    /// Where the positions come from, for people.
+    /// Source of the positions, for people.
     pub source: Option<String>,
     /// The precise models.
     pub precise: Vec<FittedBody<SegmentTable>>,

@@ -11,9 +11,9 @@ use crate::numerics::chebyshev::series_at;
 /// A polynomial of position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EphemerisSegment {
-    /// Where it begins, in s past J2000 TDB.
+    /// Start, in s past J2000 TDB.
     pub start_s: f64,
-    /// Where it ends.
+    /// End, in s past J2000 TDB.
     pub end_s: f64,
     /// Coefficients of x, y and z in m, item k for `T_k`.
     pub coefficients_m: Vec<[f64; 3]>,
@@ -46,7 +46,7 @@ impl SegmentTable {
         (!segments.is_empty() && is_ordered && is_whole).then_some(Self { segments })
     }
 
-    /// Of segments that are known to be in order and without gaps, at least one.
+    /// Joins segments in order and without gaps, at least one.
     pub(super) fn joined(segments: Vec<EphemerisSegment>) -> Self {
         Self { segments }
     }

@@ -69,7 +69,7 @@ fn stated_errors_bound_the_fit_and_are_nearly_reached() {
         for i in 0..short_or_long(3_000, 20_000) {
             let epoch_s = SPAN_S[0] + (SPAN_S[1] - SPAN_S[0]) * (f64::from(i) * 0.618_033_988_75).fract();
             let state = body.motion.state(epoch_s).unwrap();
-            found = found.worst(FitError::of(&state, &truth(epoch_s)));
+            found = found.worst(FitError::from_states(&state, &truth(epoch_s)));
         }
         let [position, velocity] =
             [found.position_m / body.error.position_m, found.velocity_m_s / body.error.velocity_m_s];
@@ -191,7 +191,7 @@ fn coarse_error(body: Body) -> (f64, FitError) {
     for i in 0..count {
         let epoch_s = (f64::from(2 * i) / f64::from(count) - 1.0) * 50.0 * 365.25 * DAY_S;
         let (truth, found) = (ephemeris.state(body, epoch_s), coarse.state(body, epoch_s));
-        error = error.worst(FitError::of(&found, &truth));
+        error = error.worst(FitError::from_states(&found, &truth));
         let across = found.position_m.cross(&truth.position_m).norm();
         angle_rad = angle_rad.max(across.atan2(found.position_m.dot(&truth.position_m)));
     }

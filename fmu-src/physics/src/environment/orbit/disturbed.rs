@@ -122,7 +122,7 @@ impl DisturbedOrbit {
         self.chain.end_s()
     }
 
-    /// Where the present segment starts, s.
+    /// Start of the present segment, s.
     pub fn start_s(&self) -> f64 {
         self.chain.start_s()
     }

@@ -42,11 +42,11 @@ pub enum OrbitError {
     /// A number outside its range.
     #[error("{what} is {found}, allowed is {allowed}")]
     OutOfRange {
-        /// Which quantity, with its unit.
+        /// Name of the quantity, with its unit.
         what: &'static str,
-        /// What it was.
+        /// Number that was found.
         found: f64,
-        /// What it may be.
+        /// Range that is allowed.
         allowed: &'static str,
     },
     /// Position and velocity are parallel, or one is zero: a fall along a line has no orbital plane.

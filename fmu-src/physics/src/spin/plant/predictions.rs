@@ -14,7 +14,7 @@ use crate::spin::{
     tracker::{observation_time_eq20_s, observation_time_s},
 };
 
-/// A Sun-timed burn that comes closer to the Sun's line than so many pulses and kicks is not well timed.
+/// Least clearance of a Sun-timed burn from the Sun's line, in pulses and kicks: closer it is not well timed.
 const SUN_CLEARANCE: f64 = 4.0;
 
 /// Values that hold for a whole flight.

@@ -22,13 +22,13 @@ use crate::spin::{
     work::{Cost, Work},
 };
 
-/// A communication point this close to an edge, as a share of the step's later or earlier end, counts as the edge.
+/// A communication point this close to an edge, as a fraction of the step's later or earlier end, counts as the edge.
 const SAME_TIME: f64 = 1e-13;
 
 /// A motion is followed at least this far through a ramp of thrust at once, in s.
 const SHORTEST_RAMP_HINT_S: f64 = 2e-5;
 
-/// By which share of a turn times of one flight may be out of order.
+/// Fraction of a turn by which times of one flight may be out of order.
 const OUT_OF_ORDER: f64 = 1e-3;
 
 /// A spinner in flight: everything a step needs from the steps before.
@@ -47,7 +47,7 @@ pub struct Plant {
     directions: DirectionSource,
     propulsion: Propulsion,
     sensors: Sensors,
-    /// What a step may cost.
+    /// Greatest work of a step.
     work_limit: u32,
 }
 
@@ -115,7 +115,7 @@ impl Plant {
         Ok(plant)
     }
 
-    /// Where communication stands, in s.
+    /// Present time of communication, in s.
     pub fn time_s(&self) -> f64 {
         self.time_s
     }
@@ -130,7 +130,7 @@ impl Plant {
         &self.motion
     }
 
-    /// What it started with.
+    /// Conditions at the start.
     pub fn initial(&self) -> &InitialConditions {
         &self.initial
     }
