@@ -126,7 +126,8 @@ impl EphemerisCache {
     fn segment<const D: usize, const N: usize>(
         &self,
         of: impl FnOnce(&mut Segments) -> &mut Option<SegmentCache<D, N>>,
-        (epoch_s, length_s): (f64, f64),
+        epoch_s: f64,
+        length_s: f64,
         fit: impl FnOnce(f64, f64) -> Segment<D, N>,
     ) -> Segment<D, N> {
         // A panic leaves only whole segments.
@@ -144,9 +145,7 @@ impl EphemerisCache {
         position_m: impl Fn(f64) -> Vector3<f64>,
     ) -> &'s Segment<3, N> {
         held.segment(epoch_s, MIDDLE_S, |_, _| {
-            self.segment(of, (epoch_s, MIDDLE_S), |start_s, end_s| {
-                fit_rectangular(start_s, end_s, position_m)
-            })
+            self.segment(of, epoch_s, MIDDLE_S, |start_s, end_s| fit_rectangular(start_s, end_s, position_m))
         })
     }
 }
@@ -294,7 +293,8 @@ impl FittedSegments {
             let middle_s = ((epoch_s / LONG_S).floor() + 0.5) * LONG_S;
             let slow = cache.segment(
                 |all| &mut all.elements[body as usize],
-                (epoch_s, LONG_S),
+                epoch_s,
+                LONG_S,
                 |start_s, end_s| fit_elements(theory, mean_motion_rad_s, [start_s, middle_s, end_s]),
             );
             Segment::fit(start_s, end_s, |node_s| {

@@ -205,7 +205,7 @@ impl Sequencer {
     }
 
     /// Records where the pulse that starts now is centred; called at its first edge.
-    pub fn note_centre(&mut self) {
+    pub fn record_centre(&mut self) {
         if let Phase::Waiting { off_s, .. } = self.phase {
             let k = self.fired;
             let centre_s = off_s - self.burn.about_centre(k).end_s;

@@ -111,10 +111,10 @@ fn last_epoch_s(context: &Plan<'_>, values: &Values) -> f64 {
     let variables = context.variables;
     let is_onboard = matches!(values.choice(variables.ephemeris_source), EphemerisSource::Chebyshev);
     let carried = precise(context.setup.ephemeris.as_ref()).filter(|_| is_onboard);
-    let spans_s = carried.into_iter().flat_map(|carried| {
-        placed(variables, values).filter_map(|(target, from)| carried.span_s(target, from))
+    let spans = carried.into_iter().flat_map(|carried| {
+        placed(variables, values).filter_map(|(target, from)| carried.span(target, from))
     });
-    spans_s.map(|[_, last_s]| last_s).fold(VALID_EPOCH_S, f64::min)
+    spans.map(|span| span.end_s).fold(VALID_EPOCH_S, f64::min)
 }
 
 /// What ephemerides have to place, each from another body: all that attracts, and the planet of the encounter.
@@ -140,14 +140,14 @@ pub(super) fn check_onboard(
         return Ok(());
     }
     for (target, from) in placed(variables, values) {
-        let span_s = carried.span_s(target, from).ok_or_else(|| {
+        let span = carried.span(target, from).ok_or_else(|| {
             Failure::new(format!(
                 "{EPHEMERIS_FILE}: found no [[body]] that joins {target} with {}, allowed with orbit.dynamics nBody (3): one of \
                  each that attracts (heliotorque ephemeris --bodies ...,{target}), or orbit.attraction.{target} = false",
                 OnboardTarget::from(from)
             ))
         })?;
-        check_epoch(target, span_s, what, epoch_s)?;
+        check_epoch(target, span, what, epoch_s)?;
     }
     Ok(())
 }

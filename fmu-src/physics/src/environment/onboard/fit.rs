@@ -9,6 +9,7 @@ use nalgebra::SVector;
 
 use super::table::{EphemerisSegment, SegmentTable};
 use crate::environment::CartesianState;
+use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
 
 /// Nodes of a segment.
@@ -65,7 +66,8 @@ enum Purpose {
 impl FitPlan {
     /// Segments over a span; inner edges are whole multiples of their length past J2000.
     /// A length that is not above 0 makes one segment of the whole span.
-    pub fn new([start_s, end_s]: [f64; 2], segment_s: f64) -> Self {
+    pub fn new(span: Span, segment_s: f64) -> Self {
+        let Span { start_s, end_s } = span;
         let mut edges_s = vec![start_s];
         if segment_s > 0.0 {
             let mut number = (start_s / segment_s).floor() + 1.0;

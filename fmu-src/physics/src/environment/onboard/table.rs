@@ -6,6 +6,7 @@
 use nalgebra::Vector3;
 
 use crate::environment::CartesianState;
+use crate::numerics::Span;
 use crate::numerics::chebyshev::series_at;
 
 /// A polynomial of position.
@@ -57,9 +58,9 @@ impl SegmentTable {
     }
 
     /// First and last epoch.
-    pub fn span_s(&self) -> [f64; 2] {
+    pub fn span(&self) -> Span {
         let start_s = self.segments.first().map_or(f64::NAN, |segment| segment.start_s);
-        [start_s, self.segments.last().map_or(f64::NAN, |segment| segment.end_s)]
+        Span::new(start_s, self.segments.last().map_or(f64::NAN, |segment| segment.end_s))
     }
 
     /// Position and velocity; `None` outside the span.

@@ -1,7 +1,7 @@
 //! An orbit integrated under gravity with its disturbances: the planet's flattening, and whatever acceleration the caller adds: tides,
 //! forces known in advance, or forces that depend on the simulated attitude (`deviation`).
 
-use nalgebra::{SVector, Vector3};
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -203,7 +203,8 @@ impl DisturbedOrbit {
         }
         next.advance_to(&method.0, limit_s, |at_s, y| {
             let state = unpack(y);
-            rate(gravity, gravity.center, (at_s, &state), ephemeris, extra_m_s2(at_s))
+            let total_m_s2 = gravity.total_m_s2(gravity.center, at_s, &state, ephemeris, extra_m_s2(at_s));
+            pack(&CartesianState { position_m: state.velocity_m_s, velocity_m_s: total_m_s2 })
         })?;
         // The lowest point of a segment is near an end or where the radial speed changes sign: look at nine points.
         for i in 0..=8 {
@@ -250,7 +251,10 @@ impl DisturbedOrbit {
             let mut next = chain;
             next.advance_to(&method.0, to_s, |at_s, y| {
                 let state = unpack(y);
-                rate(&gravity.model, bodies.about, (at_s, &state), bodies.ephemeris, extra_m_s2(at_s))
+                let (about, further_m_s2) = (bodies.about, extra_m_s2(at_s));
+                let total_m_s2 =
+                    gravity.model.total_m_s2(about, at_s, &state, bodies.ephemeris, further_m_s2);
+                pack(&CartesianState { position_m: state.velocity_m_s, velocity_m_s: total_m_s2 })
             })?;
             Ok::<_, IntegrationError>(next)
         };
@@ -296,19 +300,6 @@ impl DisturbedOrbit {
             center.cut(at_s);
         }
     }
-}
-
-/// Time derivative of a packed state from `about`, EME2000, under the list's gravity and a further acceleration.
-fn rate(
-    model: &GravityModel,
-    about: Body,
-    (at_s, state): (f64, &CartesianState),
-    ephemeris: &mut impl BodyEphemeris,
-    mut sum_m_s2: Vector3<f64>,
-) -> SVector<f64, 6> {
-    model.add_others_m_s2(&mut sum_m_s2, about, at_s, state, ephemeris);
-    let acceleration_m_s2 = model.central_m_s2(about, &state.position_m) + sum_m_s2;
-    pack(&CartesianState { position_m: state.velocity_m_s, velocity_m_s: acceleration_m_s2 })
 }
 
 fn check_above(distance_m: f64, at_s: f64, radius_m: f64) -> Result<(), OrbitIntegrationError> {

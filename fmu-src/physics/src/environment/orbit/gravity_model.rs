@@ -131,7 +131,7 @@ impl GravityModel {
     }
 
     /// Adds the acceleration by all other rows and relativity, m/s2, EME2000, of a spacecraft at `state` from `about`, relative to that.
-    pub(super) fn add_others_m_s2(
+    fn add_others_m_s2(
         &self,
         sum: &mut Vector3<f64>,
         about: Body,
@@ -172,6 +172,20 @@ impl GravityModel {
                 *sum -= relativity_m_s2(&center, sun_m3_s2);
             }
         }
+    }
+
+    /// Acceleration of a spacecraft at `state` from `about`, relative to that, with a further one, m/s2, EME2000.
+    pub(super) fn total_m_s2(
+        &self,
+        about: Body,
+        at_s: f64,
+        state: &CartesianState,
+        ephemeris: &mut impl BodyEphemeris,
+        further_m_s2: Vector3<f64>,
+    ) -> Vector3<f64> {
+        let mut sum = further_m_s2;
+        self.add_others_m_s2(&mut sum, about, at_s, state, ephemeris);
+        self.central_m_s2(about, &state.position_m) + sum
     }
 
     /// Acceleration of a spacecraft at `state` from the centre, relative to that, m/s2, EME2000.

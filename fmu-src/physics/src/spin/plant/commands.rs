@@ -41,7 +41,7 @@ impl Commands {
         self.pulses.iter().position(|pulse| pulse.is_cut(start_s, end_s))
     }
 
-    /// Whether decoded commands can be some.
+    /// Rejects decoded commands that no simulation can produce.
     pub(super) fn is_valid(&self) -> bool {
         self.pulses.iter().all(PulseCommand::is_valid)
     }

@@ -18,7 +18,7 @@ use crate::spin::{
     nutation::{LinearNutation, Spin},
     series::BodyTorque,
     spinner::Spinner,
-    work::{Cost, Work, WorkExceeded},
+    work::{Work, WorkExceeded, WorkKind},
 };
 
 /// A turning force is summed over intervals of this much turn.
@@ -171,9 +171,9 @@ impl Propulsion {
     }
 
     /// Sums delta-v to the end of the motion's present segment.
-    pub(super) fn leave_segment(&mut self, spinner: &Spinner, motion: &Motion, work: &mut Work) {
+    pub(super) fn close_segment(&mut self, spinner: &Spinner, motion: &Motion, work: &mut Work) {
         if !self.valves.law.is_none() {
-            work.spend(Cost::Impulse);
+            work.spend(WorkKind::Impulse);
             let end_s = motion.segment_end_s();
             self.delta_v_inertial_m_s = self.delta_v_at(spinner, motion, end_s);
             self.delta_v_until_s = end_s;
@@ -203,7 +203,7 @@ impl Propulsion {
                 return Ok(());
             }
             work.check(self.delta_v_until_s)?;
-            work.spend(Cost::Impulse);
+            work.spend(WorkKind::Impulse);
             self.delta_v_inertial_m_s = self.delta_v_at(spinner, motion, panel_end_s);
             self.delta_v_until_s = panel_end_s;
         }
@@ -240,7 +240,7 @@ impl Propulsion {
         delta_v
     }
 
-    /// Whether decoded thrusters and tank can be some by `latest_s`.
+    /// Rejects decoded thrusters and a tank that no simulation can produce by `latest_s`.
     pub(super) fn is_valid(&self, spinner: &Spinner, latest_s: f64) -> bool {
         // A tank that is never empty and has nothing left would be emptied without end.
         (0.0..=spinner.mass_properties.most_propellant_kg()).contains(&self.initial_propellant_kg)

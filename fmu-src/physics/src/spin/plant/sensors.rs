@@ -17,7 +17,7 @@ use crate::spin::{
     nutation::Spin,
     spinner::Spinner,
     tracker::{NutationEstimator, picket_of, searched},
-    work::{Cost, Work},
+    work::{Work, WorkKind},
 };
 
 enumeration! {
@@ -163,7 +163,7 @@ impl Sensors {
             return Some((Sensor::Sun, sun_s));
         }
         if self.sampling == Sampling::Clock {
-            work.spend(Cost::ClockSample);
+            work.spend(WorkKind::ClockSample);
         }
         Some((Sensor::StarTracker, star_s))
     }
@@ -224,7 +224,7 @@ impl Sensors {
         self.estimator.add(phase, declination_rad);
     }
 
-    /// Whether decoded sensors can be some at `time_s`.
+    /// Rejects decoded sensors that no simulation can produce at `time_s`.
     pub(super) fn is_valid(&self, time_s: f64) -> bool {
         let tick_s = self.clock_start_s + self.clock_count as f64 * self.clock_period_s;
         self.sun.is_valid()

@@ -19,7 +19,7 @@ use crate::spin::{
     sequencer::{Phase, Sequencer},
     series::{Anchor, BodyTorque},
     spinner::Spinner,
-    work::{Cost, Work},
+    work::{Work, WorkKind},
 };
 
 /// A communication point this close to an edge, as a fraction of the step's later or earlier end, counts as the edge.
@@ -228,9 +228,9 @@ impl Plant {
                 break;
             }
             (now_s, reached_s) = (edge_s, edge_s);
-            work.spend(Cost::Edge);
+            work.spend(WorkKind::Edge);
             if self.directions.refresh_s <= edge_s {
-                work.spend(Cost::Direction);
+                work.spend(WorkKind::Direction);
                 if let Some(from_s) = self.directions.refresh() {
                     self.sensors.sun.forget(from_s);
                 }
@@ -239,7 +239,7 @@ impl Plant {
             if plan_s <= edge_s
                 && let Some(sequencer) = &mut self.sequencer
             {
-                sequencer.note_centre();
+                sequencer.record_centre();
                 // A little longer than the pulse, so that rounding needs no second segment.
                 hint_s = sequencer.pass_edge(now_s).map_or(f64::INFINITY, |width_s| 1.001 * width_s);
             }
@@ -341,7 +341,7 @@ impl Plant {
         self.motion.check()?;
         let end_s = self.motion.segment_end_s();
         work.spend_segment(self.motion.damper());
-        self.propulsion.leave_segment(spinner, &self.motion, work);
+        self.propulsion.close_segment(spinner, &self.motion, work);
         self.motion.next_segment();
         self.sensors.forget_motion(end_s);
         Ok(())
