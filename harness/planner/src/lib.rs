@@ -9,6 +9,7 @@ mod failure;
 pub mod flyby;
 pub mod leg;
 pub mod momentum;
+pub mod orbit;
 pub mod refit;
 pub mod spin;
 pub mod torque_map;

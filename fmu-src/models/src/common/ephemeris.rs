@@ -8,6 +8,7 @@ use physics::environment::ephemeris::VALID_EPOCH_S;
 use physics::environment::kepler_planet::KeplerPlanet;
 use physics::environment::onboard::{OnboardEphemeris, OnboardTarget};
 use physics::environment::orbit::Elements;
+use physics::numerics::Span;
 
 use super::center::CenterBody;
 
@@ -60,7 +61,7 @@ pub(crate) fn check_onboard(
     let from = OnboardTarget::from(center);
     let targets = [OnboardTarget::Sun, OnboardTarget::Earth].into_iter().filter(|target| *target != from);
     for target in targets {
-        let found = carried.span_s(target, center).ok_or_else(|| {
+        let found = carried.span(target, center).ok_or_else(|| {
             Failure::new(format!(
                 "{EPHEMERIS_FILE}: found no [[body]] that joins {target} with {from}, allowed: positions of sun and earth \
                  that lead to {from}, from whose centre this model counts"
@@ -74,11 +75,12 @@ pub(crate) fn check_onboard(
 /// Refuses an epoch, which `what` gives, outside the span over which the onboard ephemerides place a target.
 pub(crate) fn check_epoch(
     target: OnboardTarget,
-    [start_s, end_s]: [f64; 2],
+    span: Span,
     what: &str,
     epoch_s: f64,
 ) -> Result<(), Failure> {
-    if (start_s..=end_s).contains(&epoch_s) {
+    let Span { start_s, end_s } = span;
+    if span.contains(epoch_s) {
         return Ok(());
     }
     Err(Failure::new(format!(

@@ -1,4 +1,4 @@
-//! What outputs and calculated parameters depend on, by groups.
+//! Dependencies of outputs and calculated parameters, by groups.
 
 use fmi_export::{Dependencies, knowns};
 use physics::spin::spinner::Spinner;

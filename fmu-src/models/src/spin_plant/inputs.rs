@@ -4,7 +4,7 @@ use fmi_export::{Failure, RealVector, Step, Values};
 use nalgebra::Vector3;
 use physics::spacecraft::{MOST_THRUSTERS, ValveTiming};
 use physics::spin::{
-    burn::BurnRequest,
+    burn_request::BurnRequest,
     execution::PulseExecution,
     geometry::{L1Ephemeris, L1Phases},
     plant::{Commands, Directions, PulseCommand, Start},
@@ -100,7 +100,7 @@ fn burn(context: &Plan<'_>, values: &Values) -> Option<BurnRequest> {
     })
 }
 
-/// What the master commands from now on.
+/// Commands of the master from now on.
 pub(super) fn commands(context: &Plan<'_>, values: &Values) -> Commands {
     let v = context.variables;
     let resolution_s = values.real(v.pulse_resolution);
@@ -141,7 +141,7 @@ pub(super) fn takes_directions(context: &Plan<'_>, values: &Values) -> bool {
     values.choice(context.variables.geometry.source) != GeometrySource::L1Orbit
 }
 
-/// Where Sun, Earth and star stand, as unit vectors; 0 where the input is, and Sun and Earth where the L1 orbit has them.
+/// Unit vectors to Sun, Earth and star; 0 where the input is 0, and for Sun and Earth where the L1 orbit has them.
 ///
 /// # Errors
 /// A vector that is used, and so short or long that rounding takes its direction.

@@ -13,8 +13,7 @@ use fmi_export::{
 };
 use nalgebra::Vector3;
 use physics::spin::{
-    plant::{Directions, Plant},
-    predictions::Predictions,
+    plant::{Directions, Plant, Predictions},
     spinner::Spinner,
 };
 
@@ -140,9 +139,9 @@ impl OutputRates for SpinPlant {
     }
 }
 
-/// What a burn that can be simulated will not do as one may expect.
+/// Warns of a burn that can be simulated and will not do what one may expect.
 fn warn_of_burn(context: &Plan<'_>, plant: &Plant) {
-    let (log, seen) = (context.log, Predictions::of(plant));
+    let (log, seen) = (context.log, Predictions::from_plant(plant));
     if plant.propulsion().is_dry() {
         log.warning("there is no propellant (propellant.loaded): no thruster fires");
     }

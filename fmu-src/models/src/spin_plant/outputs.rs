@@ -2,19 +2,14 @@
 
 use fmi_export::{Real, RealVector, Values};
 use nalgebra::Vector3;
-use physics::spin::{
-    outputs::{Bounds, Outputs},
-    plant::Plant,
-    predictions::Predictions,
-    rates::Rates,
-};
+use physics::spin::plant::{Bounds, Outputs, Plant, Predictions, Rates};
 
 use super::setup::Plan;
 
 /// Writes what holds for the whole flight.
 pub(super) fn write_calculated(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     let v = context.variables;
-    let seen = Predictions::of(plant);
+    let seen = Predictions::from_plant(plant);
     values.set_integer(v.burn.planned_count, count(seen.count));
     values.set_real(v.burn.planned_duration, seen.duration_s);
     values.set_real(v.burn.planned_angle, seen.manoeuvre_rad);
@@ -30,7 +25,7 @@ pub(super) fn write_calculated(context: &Plan<'_>, values: &mut Values, plant: &
 pub(super) fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     let v = context.variables;
     let spinner = context.setup;
-    let seen = Outputs::of(plant, spinner);
+    let seen = Outputs::from_plant(plant, spinner);
     values.set_vector(v.attitude.q, seen.state.attitude.0);
     values.set_vector(v.attitude.rate, seen.rate_rad_s.into());
     values.set_vector(v.momentum.inertial, seen.state.momentum_inertial.into());
@@ -98,7 +93,7 @@ fn count(number: impl TryInto<i32>) -> i32 {
 /// First time derivative of an output that is continuous in time.
 pub(super) fn derivative(context: &Plan<'_>, plant: &Plant, output: Real) -> Option<f64> {
     let v = context.variables;
-    let rates = Rates::of(plant, context.setup);
+    let rates = Rates::from_plant(plant, context.setup);
     let of = |handle: Real, value: f64| (handle == output).then_some(value);
     let of_vector =
         |handle: RealVector<3>, value: &Vector3<f64>| handle.index_of(output).map(|index| value[index]);

@@ -5,5 +5,5 @@ use fmi_export::Context;
 /// The spinner.
 pub struct SpinPlant;
 
-/// What every call of the model is given.
+/// Context of every call of the model.
 pub(super) type Plan<'a> = Context<'a, SpinPlant>;

@@ -10,7 +10,8 @@ use physics::constants::{DAY_S, GM_MERCURY_M3_S2, RADIUS_MERCURY_M};
 use physics::environment::CartesianState;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::orbit::{
-    BodyEphemeris, DisturbedOrbit, Elements, NBodyGravity, NBodySettings, OrbitMethod,
+    Attractor, BodyEphemeris, DisturbedOrbit, Elements, GravityModel, NBodyGravity, NBodySettings,
+    OrbitMethod,
 };
 
 use super::named_model::{NamedModel, assert_cuts_change_nothing};
@@ -53,15 +54,12 @@ pub(super) fn start(altitude_m: f64, down_rad: f64) -> CartesianState {
         position_m: mercury.position_m + below * radius_m,
         velocity_m_s: -(mercury.velocity_m_s + (ahead * down_rad.cos() - below * down_rad.sin()) * speed_m_s),
     };
-    let settings = NBodySettings {
-        relativity: true,
-        changes_center: true,
-        moon: true,
-        cell_s: DAY_S,
-        tolerance_m: 1e-3,
-    };
-    let planets = BODIES.iter().map(|body| *body.data());
-    let gravity = NBodyGravity::new(settings, Body::Sun.data(), planets, Some(Body::Mercury.data()));
+    let settings = NBodySettings { changes_center: true, cell_s: DAY_S, tolerance_m: 1e-3 };
+    let rows = BODIES.iter().map(|body| Attractor::point_mass(body.data()));
+    let rows =
+        rows.chain([Attractor::point_mass(Body::Sun.data()), Attractor::flattened(Body::Mercury.data())]);
+    let model = GravityModel::new(Body::Sun, rows.chain([Attractor::MOON]), true);
+    let gravity = NBodyGravity::new(settings, model);
     let mut sky = Backward(Ephemeris::default());
     let mut orbit = DisturbedOrbit::between_bodies(&at_periapsis, 0.0, &gravity).unwrap();
     while orbit.end_s() < AHEAD_S {

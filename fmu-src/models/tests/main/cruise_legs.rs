@@ -8,6 +8,7 @@ use physics::environment::CartesianState;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::onboard::OnboardTarget;
 use physics::environment::orbit::TwoBodyOrbit;
+use physics::numerics::Span;
 
 use super::cruise::{AHEAD_S, FLYBY_S, sets, start};
 use super::named_model::{NamedInstance, NamedModel};
@@ -191,7 +192,7 @@ fn nothing_has_a_kink_where_the_centre_changes() {
 fn a_file_places_all_that_attracts_over_the_whole_flight_or_is_refused() {
     let mut ephemeris = Ephemeris::default();
     let mut file = |targets: &[OnboardTarget], days: f64| {
-        from_sun_file(targets, [FLYBY_S - AHEAD_S, FLYBY_S - AHEAD_S + days * DAY_S], &mut ephemeris)
+        from_sun_file(targets, Span::new(FLYBY_S - AHEAD_S, FLYBY_S - AHEAD_S + days * DAY_S), &mut ephemeris)
     };
     use OnboardTarget::{Earth, Jupiter, Mars, Mercury, Moon, Venus};
     let all = [Mercury, Venus, Earth, Mars, Jupiter, Moon];

@@ -7,6 +7,7 @@ use physics::environment::CartesianState;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::onboard::{FitPlan, FittedBody, OnboardEphemeris, OnboardTarget, to_toml};
 use physics::environment::time::MOMENTUM_STUDY_START_S;
+use physics::numerics::Span;
 
 /// The file's name in the resources.
 pub(crate) const FILE: &str = "ephemeris.toml";
@@ -26,7 +27,7 @@ pub(crate) fn from_mercury(body: Body, epoch_s: f64) -> CartesianState {
 
 /// A file over a span after [`START_S`], with the Sun turned about the north of EME2000, and its stated error in m.
 pub(crate) fn file(span_s: f64, turned_rad: f64) -> (String, f64) {
-    let plan = FitPlan::new([START_S, START_S + span_s], 2.0 * 86_400.0);
+    let plan = FitPlan::new(Span::new(START_S, START_S + span_s), 2.0 * 86_400.0);
     let mut ephemeris = Ephemeris::default();
     let mut precise = Vec::new();
     for (target, body) in [(OnboardTarget::Sun, Body::Sun), (OnboardTarget::Earth, Body::Earth)] {
@@ -48,12 +49,8 @@ pub(crate) fn file(span_s: f64, turned_rad: f64) -> (String, f64) {
 }
 
 /// A file of planets from the Sun, and of the Moon from the Earth, by VSOP87 over a span of epochs.
-pub(crate) fn from_sun_file(
-    targets: &[OnboardTarget],
-    span_s: [f64; 2],
-    ephemeris: &mut Ephemeris,
-) -> String {
-    let plan = FitPlan::new(span_s, 2.0 * 86_400.0);
+pub(crate) fn from_sun_file(targets: &[OnboardTarget], span: Span, ephemeris: &mut Ephemeris) -> String {
+    let plan = FitPlan::new(span, 2.0 * 86_400.0);
     let body =
         |target: OnboardTarget| Body::ALL.into_iter().find(|body| OnboardTarget::from(*body) == target);
     let fitted = targets.iter().map(|target| {

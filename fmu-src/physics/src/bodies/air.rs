@@ -1,4 +1,4 @@
-//! What is known of a body's air by an exponential model.
+//! Air of a body by an exponential model.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 pub struct ExponentialAir {
     /// Density at the reference height, in kg/m3.
     pub reference_density_kg_m3: f64,
-    /// The height at which it has that, in m.
+    /// Reference height, in m.
     pub reference_height_m: f64,
     /// Height over which it falls to 1/e, in m.
     pub scale_height_m: f64,
@@ -18,7 +18,7 @@ pub struct ExponentialAir {
 }
 
 impl ExponentialAir {
-    /// None.
+    /// No air.
     pub const NONE: Self = Self {
         reference_density_kg_m3: 0.0,
         reference_height_m: 0.0,
@@ -28,7 +28,7 @@ impl ExponentialAir {
     };
 }
 
-/// The Earth's between 400 and 450 km (Vallado, Fundamentals of Astrodynamics, table 8-4). Temperature and molar mass, of atomic
+/// Air of the Earth between 400 and 450 km (Vallado, Fundamentals of Astrodynamics, table 8-4). Temperature and molar mass, of atomic
 /// oxygen, are assumptions.
 pub const EARTH: ExponentialAir = ExponentialAir {
     reference_density_kg_m3: 3.725e-12,
@@ -37,7 +37,7 @@ pub const EARTH: ExponentialAir = ExponentialAir {
     ..ExponentialAir::NONE
 };
 
-/// That of Venus by density, scale height and temperature at its surface (NASA planetary fact sheet): at heights of orbits an
+/// Air of Venus by density, scale height and temperature at its surface (NASA planetary fact sheet): at heights of orbits an
 /// assumption.
 pub const VENUS: ExponentialAir = ExponentialAir {
     reference_density_kg_m3: 65.0,
@@ -47,7 +47,7 @@ pub const VENUS: ExponentialAir = ExponentialAir {
     molar_mass_kg_mol: 0.043_45,
 };
 
-/// That of Mars where orbits dip into it: 0.11 kg/km3 at 145 km and 3.0 kg/km3 at 121 km, as MAVEN's fourth deep dip met it in
+/// Air of Mars where orbits dip into it: 0.11 kg/km3 at 145 km and 3.0 kg/km3 at 121 km, as MAVEN's fourth deep dip met it in
 /// September 2015 (NASA and the Space Sciences Laboratory, Berkeley). Temperature and molar mass, of carbon dioxide at that scale
 /// height, are assumptions.
 pub const MARS: ExponentialAir = ExponentialAir {
@@ -58,7 +58,7 @@ pub const MARS: ExponentialAir = ExponentialAir {
     molar_mass_kg_mol: 0.044,
 };
 
-/// That of Jupiter at 1 bar, likewise an assumption at heights of orbits.
+/// Air of Jupiter at 1 bar, likewise an assumption at heights of orbits.
 pub const JUPITER: ExponentialAir = ExponentialAir {
     reference_density_kg_m3: 0.16,
     reference_height_m: 0.0,

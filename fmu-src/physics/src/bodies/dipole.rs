@@ -1,6 +1,6 @@
-//! What is known of a body's magnetic field as a dipole, tilted and off its centre.
+//! Magnetic field of a body as a dipole, tilted and off its centre.
 //!
-//! Equation: m = a^3 (g11, h11, g10) of the Gauss coefficients; the place from those of the second degree.
+//! Equation: m = a^3 (g11, h11, g10) of the Gauss coefficients; the position from those of the second degree.
 //! Reference: Fraser-Smith, Centered and eccentric geomagnetic dipoles and their poles, Reviews of Geophysics 25, 1987.
 
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct DipoleField {
     /// Field on its equator times the cube of the distance there, toward the north pole of the field, in T m3.
     pub moment_fixed_t_m3: [f64; 3],
-    /// Where it is, in m.
+    /// Position of the dipole from the body's centre, body-fixed axes, in m.
     pub place_fixed_m: [f64; 3],
 }
 
@@ -18,7 +18,7 @@ pub struct DipoleField {
 const ROOT_3: f64 = 1.732_050_807_568_877_2;
 
 impl DipoleField {
-    /// Of the Gauss coefficients g10, g11, h11 and g20, g21, h21, g22, h22 in T at this radius in m.
+    /// Returns the dipole of the Gauss coefficients g10, g11, h11 and g20, g21, h21, g22, h22 in T at this radius in m.
     pub const fn eccentric(radius_m: f64, first: [f64; 3], second: [f64; 5]) -> Self {
         let ([g10, g11, h11], [g20, g21, h21, g22, h22]) = (first, second);
         let l0 = 2.0 * g10 * g20 + ROOT_3 * (g11 * g21 + h11 * h21);

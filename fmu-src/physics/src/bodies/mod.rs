@@ -41,18 +41,20 @@ enumeration! {
         /// Jupiter.
         7 => Jupiter,
         /// The body that the spacecraft's file describes.
-        // Of which [`Spacecraft::body`](crate::spacecraft::Spacecraft) says what is known; 8 to 99 are left to bodies to come.
+        // [`Spacecraft::body`](crate::spacecraft::Spacecraft) has its data; 8 to 99 are free for bodies to come.
         100 => Custom,
     }
 }
 
-/// What is known of a body.
+/// Data of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyData {
     /// The body.
     pub body: Body,
     /// Its name.
     pub name: &'static str,
+    /// Body that it orbits, whose tide it feels; `None` for the Sun.
+    pub parent: Option<Body>,
     /// Gravitational parameter of the body alone, without moons, in m3/s2.
     pub gm_m3_s2: f64,
     /// Mean radius, in m.
@@ -92,14 +94,14 @@ pub struct BodyData {
 }
 
 impl Body {
-    /// How many there are, that of a spacecraft's file among them.
+    /// Number of bodies, with that of a spacecraft's file.
     pub const COUNT: usize = Self::ALL.len() + 1;
 
     /// The known bodies.
     pub const ALL: [Self; 6] =
         [Self::Sun, Self::Mercury, Self::Venus, Self::Earth, Self::Mars, Self::Jupiter];
 
-    /// What is known of it; of that of a spacecraft's file nothing but its name here.
+    /// Data of the body; of the body of a spacecraft's file its name alone.
     pub const fn data(self) -> &'static BodyData {
         &BODIES[self as usize]
     }
@@ -121,13 +123,19 @@ pub fn impossible_density_kg_m3(gm_m3_s2: f64, [a_m, b_m, c_m]: [f64; 3]) -> Opt
     (!(least..=most).contains(&density_kg_m3)).then_some(density_kg_m3)
 }
 
-/// Radius of the sphere of influence of a body that attracts like that on an orbit of this semi-major axis about the Sun, in m.
-pub fn sphere_of_influence_m(gm_m3_s2: f64, semi_major_axis_m: f64) -> f64 {
-    semi_major_axis_m * math::powf(gm_m3_s2 / constants::GM_SUN_M3_S2, 0.4)
+/// Radius of the sphere of influence of a body that attracts like that on an orbit of this semi-major axis about its parent, in m.
+pub fn sphere_of_influence_m(gm_m3_s2: f64, semi_major_axis_m: f64, parent: Body) -> f64 {
+    semi_major_axis_m * math::powf(gm_m3_s2 / parent.data().gm_m3_s2, 0.4)
 }
 
 impl BodyData {
-    /// Where the Sun stands for a spacecraft about this body unless somebody says otherwise, from the spacecraft in body axes, in m:
+    /// Radius of the sphere of influence, in m; 0 for a body without parent or known orbit.
+    pub fn sphere_of_influence_m(&self) -> f64 {
+        self.parent
+            .map_or(0.0, |parent| sphere_of_influence_m(self.gm_m3_s2, self.orbit_semi_major_axis_m, parent))
+    }
+
+    /// Default position of the Sun for a spacecraft about this body, from the spacecraft in body axes, in m:
     /// on -Y, at the planet's mean distance from it (Mercury's as paper 004 has it), 1 AU where none is known.
     pub fn usual_sun_body_m(&self) -> [f64; 3] {
         let distance_m = match self.body {
@@ -138,7 +146,7 @@ impl BodyData {
         [0.0, -distance_m, 0.0]
     }
 
-    /// Where the planet stands likewise, in m: four radii away.
+    /// Default position of the planet likewise, in m: four radii away.
     pub fn usual_planet_body_m(&self) -> [f64; 3] {
         let radii = self.radius_m / Body::Mercury.data().radius_m;
         [2e6, 3e6, 9e6].map(|along_m| along_m * radii)
@@ -178,10 +186,11 @@ const fn gray(radius_m: f64, bond_albedo: f64, effective_temperature_k: f64) -> 
     }
 }
 
-/// A body of which nothing is known but that its pole is the north of EME2000.
+/// Data of a body before its file is read: a point with its pole to the north of EME2000.
 const CUSTOM: BodyData = BodyData {
     body: Body::Custom,
     name: "the body of the spacecraft's file",
+    parent: Some(Body::Sun),
     gm_m3_s2: 0.0,
     radius_m: 1.0,
     j2: 0.0,
@@ -207,6 +216,7 @@ pub const BODIES: [BodyData; Body::COUNT] = [
     BodyData {
         body: Body::Sun,
         name: "the Sun",
+        parent: None,
         gm_m3_s2: constants::GM_SUN_M3_S2,
         radius_m: constants::RADIUS_SUN_M,
         j2_radius_m: constants::RADIUS_SUN_M,
@@ -266,6 +276,7 @@ pub const BODIES: [BodyData; Body::COUNT] = [
     BodyData {
         body: Body::Earth,
         name: "the Earth",
+        parent: Some(Body::Sun),
         gm_m3_s2: constants::GM_EARTH_M3_S2,
         radius_m: constants::RADIUS_EARTH_M,
         // EGM2008.
@@ -312,6 +323,7 @@ pub const BODIES: [BodyData; Body::COUNT] = [
     BodyData {
         body: Body::Jupiter,
         name: "Jupiter",
+        parent: Some(Body::Sun),
         gm_m3_s2: constants::GM_JUPITER_M3_S2,
         radius_m: constants::RADIUS_JUPITER_M,
         // Iess et al. 2018.
@@ -336,64 +348,4 @@ pub const BODIES: [BodyData; Body::COUNT] = [
 ];
 
 #[cfg(test)]
-mod tests {
-    //! Days, obliquities and surface gravities that every almanac prints follow from the rows.
-    use super::*;
-    use approx::assert_relative_eq;
-
-    #[test]
-    fn every_body_stands_in_its_row() {
-        for body in Body::ALL {
-            assert_eq!(body.data().body, body);
-            assert_eq!(body.is_planet(), body.data().surface.is_some());
-            if let Some(surface) = body.data().surface {
-                assert_eq!(surface.validate(), Ok(()));
-                assert_eq!(surface.radius_m, body.data().radius_m);
-            }
-        }
-    }
-
-    #[test]
-    fn surface_gravity_and_sidereal_day_are_the_almanacs() {
-        for (body, gravity_m_s2, day_h) in [
-            (Body::Sun, 274.0, 609.12),
-            (Body::Mercury, 3.70, 1407.5),
-            (Body::Venus, 8.87, -5832.4),
-            (Body::Earth, 9.82, 23.9345),
-            (Body::Mars, 3.73, 24.6229),
-            (Body::Jupiter, 25.92, 9.9250),
-        ] {
-            let data = body.data();
-            let gravity = data.gm_m3_s2 / data.radius_m.powi(2);
-            assert_relative_eq!(gravity, gravity_m_s2, max_relative = 2e-3);
-            let day = core::f64::consts::TAU / data.rotation_rate_rad_s / 3600.0;
-            assert_relative_eq!(day, day_h, max_relative = 1e-3);
-        }
-    }
-
-    #[test]
-    fn equators_lean_on_their_orbits_as_the_almanac_says() {
-        let obliquity_j2000_rad = (84_381.448_f64 / 3600.0).to_radians();
-        for (body, obliquity_deg, within_deg) in [
-            (Body::Sun, 7.25, 0.01),
-            (Body::Mercury, 0.034, 0.02),
-            (Body::Venus, 2.64, 0.02),
-            (Body::Earth, 23.44, 0.01),
-            (Body::Mars, 25.19, 0.02),
-            (Body::Jupiter, 3.13, 0.02),
-        ] {
-            let data = body.data();
-            let (sin_node, cos_node) = data.orbit_node_rad.sin_cos();
-            let (sin_i, cos_i) = data.orbit_inclination_rad.sin_cos();
-            let ecliptic = Vector3::new(sin_node * sin_i, -cos_node * sin_i, cos_i);
-            let (sin, cos) = obliquity_j2000_rad.sin_cos();
-            let normal = Vector3::new(
-                ecliptic.x,
-                cos * ecliptic.y - sin * ecliptic.z,
-                sin * ecliptic.y + cos * ecliptic.z,
-            );
-            let found_deg = data.pole().angle(&normal).to_degrees();
-            assert!((found_deg - obliquity_deg).abs() < within_deg, "{body:?}: {found_deg}");
-        }
-    }
-}
+mod tests;

@@ -54,7 +54,7 @@ pub const MERCURY: PlanetSurface = PlanetSurface {
     day_temperature: DayTemperature::Uniform,
 };
 
-/// What leaves one square metre of the surface in W/m2, as a function of c = cos z: reflected light
+/// Exitance of the surface in W/m2, as a function of c = cos z: reflected light
 /// `reflected_cosine * c` where lit; infrared `day_constant + day_cosine * c` where lit, `night` elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceExitance<T: Scalar> {
@@ -88,7 +88,7 @@ impl PlanetSurface {
         Ok(())
     }
 
-    /// The same properties, none of which depends on the seed.
+    /// Returns the same properties without derivatives.
     #[inline]
     pub fn constant<T: Scalar>(&self) -> PlanetSurface<T> {
         PlanetSurface {
@@ -110,7 +110,7 @@ impl<T: Scalar> PlanetSurface<T> {
         self.emissivity * STEFAN_BOLTZMANN_W_M2_K4 * (squared_k2 * squared_k2)
     }
 
-    /// What leaves the surface while `solar_flux_w_m2` arrives at the planet.
+    /// Exitance of the surface while `solar_flux_w_m2` arrives at the planet.
     #[inline]
     pub fn exitance(&self, solar_flux_w_m2: T) -> SurfaceExitance<T> {
         let night_w_m2 = self.night_exitance_w_m2();

@@ -1,7 +1,7 @@
 //! Coarse ephemerides of the planets by VSOP87, for a spacecraft that carries none of its own.
 //!
 //! Classical elements of VSOP87 are averaged over windows of ten Julian years with edges fixed past J2000: polynomials of
-//! fourth degree, as in [`super::simulated`]. A window is a pure function of its number: what was requested before never changes a
+//! fourth degree, as in [`super::onboard::CoarseElements`]. A window is a pure function of its number: what was requested before never changes a
 //! bit. The Earth is its barycentre with the Moon.
 //!
 //! Error against [`Ephemeris`](super::ephemeris::Ephemeris) between 1950 and 2050 (tested): as a direction from the Sun
@@ -19,6 +19,7 @@ use super::time::julian_date;
 use crate::bodies::Body;
 use crate::constants::{ASTRONOMICAL_UNIT_M, DAY_S};
 use crate::math;
+use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
 
 /// Length of a window.
@@ -49,7 +50,7 @@ impl CoarseEphemeris {
             Some((held, fitted)) if *held == number => fitted,
             _ => {
                 let start_s = number as f64 * WINDOW_S;
-                &mut slot.insert((number, averaged(theory, [start_s, start_s + WINDOW_S]))).1
+                &mut slot.insert((number, averaged(theory, Span::new(start_s, start_s + WINDOW_S)))).1
             }
         };
         fitted.state(epoch_s).unwrap_or(unknown)
@@ -76,11 +77,11 @@ impl CoarseEphemeris {
 }
 
 /// The elements averaged over a span.
-fn averaged(theory: &Theory, span_s: [f64; 2]) -> CoarseElements {
+fn averaged(theory: &Theory, span: Span) -> CoarseElements {
     let motion_rad_s = theory.mean_motion_rad_s();
-    let middle_s = 0.5 * (span_s[0] + span_s[1]);
+    let middle_s = 0.5 * (span.start_s + span.end_s);
     let mut first: Option<KeplerianElements> = None;
-    let elements = Segment::<6, SAMPLES>::nodes(span_s[0], span_s[1]).map(|at_s| {
+    let elements = Segment::<6, SAMPLES>::nodes(span.start_s, span.end_s).map(|at_s| {
         let turned_rad = motion_rad_s * (at_s - middle_s);
         let mut found = classical(&(theory.elements)(julian_date(at_s)));
         found[5] -= turned_rad;
@@ -92,7 +93,7 @@ fn averaged(theory: &Theory, span_s: [f64; 2]) -> CoarseElements {
         found[5] += turned_rad;
         found
     });
-    CoarseElements::of_elements(Body::Sun, span_s, &elements)
+    CoarseElements::from_elements(Body::Sun, span, &elements)
 }
 
 /// VSOP87's elements as classical ones in EME2000.

@@ -26,17 +26,21 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::{Matrix3, SVector, Vector3};
 
+mod segments;
+
 use super::{
     CartesianState,
     orbit::kepler::eccentric_anomaly,
     time::{julian_date, julian_date_rounding_s},
 };
 use crate::math;
+use crate::numerics::Span;
 use crate::{
     bodies::Body,
     constants::{ASTRONOMICAL_UNIT_M, DAY_S, EARTH_TO_MOON_MASS},
     numerics::chebyshev::Segment,
 };
+use segments::{SegmentCache, SegmentCounter};
 
 /// Nodes within an element segment.
 const ELEMENT_NODES: usize = 11;
@@ -82,8 +86,8 @@ const EARTH_MOON: Theory = Theory { elements: vsop87::earth_moon, mean_motion: 6
 const MARS: Theory = Theory { elements: vsop87::mars, mean_motion: 3_340.612_434_14 };
 const JUPITER: Theory = Theory { elements: vsop87::jupiter, mean_motion: 529.690_965_09 };
 
-/// The theory of a planet's orbit, the Earth's being that of its barycentre with the Moon; `None` for the Sun and a body of
-/// which the spacecraft's file tells.
+/// Theory of a planet's orbit, the Earth's being that of its barycentre with the Moon; `None` for the Sun and the body of the
+/// spacecraft's file.
 pub(super) fn theory(body: Body) -> Option<&'static Theory> {
     Some(match body {
         Body::Sun | Body::Custom => return None,
@@ -96,7 +100,7 @@ pub(super) fn theory(body: Body) -> Option<&'static Theory> {
 }
 
 impl Theory {
-    /// In rad/s.
+    /// Mean motion, in rad/s.
     pub(super) fn mean_motion_rad_s(&self) -> f64 {
         self.mean_motion / (365_250.0 * DAY_S)
     }
@@ -109,40 +113,39 @@ const CACHED_S: f64 = 1000.0 * DAY_S;
 #[derive(Clone, Debug, Default)]
 pub struct EphemerisCache(Arc<Mutex<Segments>>);
 
-/// Allocated by body, with its first segment.
+/// Caches by body, allocated with the first segment.
 #[derive(Debug, Default)]
 struct Segments {
-    elements: [Option<Slots<6, ELEMENT_TERMS>>; Body::COUNT],
-    earth: Option<Slots<3, EARTH_TERMS>>,
-    moon: Option<Slots<3, MOON_TERMS>>,
+    elements: [Option<SegmentCache<6, ELEMENT_TERMS>>; Body::COUNT],
+    earth: Option<SegmentCache<3, EARTH_TERMS>>,
+    moon: Option<SegmentCache<3, MOON_TERMS>>,
 }
 
 impl EphemerisCache {
     /// Segment that contains `epoch_s`, of the body that `of` selects.
     fn segment<const D: usize, const N: usize>(
         &self,
-        of: impl FnOnce(&mut Segments) -> &mut Option<Slots<D, N>>,
-        (epoch_s, length_s): (f64, f64),
+        of: impl FnOnce(&mut Segments) -> &mut Option<SegmentCache<D, N>>,
+        epoch_s: f64,
+        length_s: f64,
         fit: impl FnOnce(f64, f64) -> Segment<D, N>,
     ) -> Segment<D, N> {
         // A panic leaves only whole segments.
         let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let slots = of(&mut all).get_or_insert_with(|| Slots::spanning(CACHED_S, length_s));
+        let slots = of(&mut all).get_or_insert_with(|| SegmentCache::spanning(CACHED_S, length_s));
         *slots.segment(epoch_s, length_s, fit)
     }
 
-    /// The same, held in `held` too, of a body whose place by the Julian date is known.
-    fn of_places<'s, const N: usize>(
+    /// Segment that contains `epoch_s`, held in `held` too, of a body whose position is a function of the Julian date.
+    fn rectangular_segment<'s, const N: usize>(
         &self,
-        held: &'s mut Slots<3, N>,
-        of: impl FnOnce(&mut Segments) -> &mut Option<Slots<3, N>>,
+        held: &'s mut SegmentCache<3, N>,
+        of: impl FnOnce(&mut Segments) -> &mut Option<SegmentCache<3, N>>,
         epoch_s: f64,
         position_m: impl Fn(f64) -> Vector3<f64>,
     ) -> &'s Segment<3, N> {
         held.segment(epoch_s, MIDDLE_S, |_, _| {
-            self.segment(of, (epoch_s, MIDDLE_S), |start_s, end_s| {
-                fit_rectangular(start_s, end_s, position_m)
-            })
+            self.segment(of, epoch_s, MIDDLE_S, |start_s, end_s| fit_rectangular(start_s, end_s, position_m))
         })
     }
 }
@@ -152,51 +155,30 @@ impl EphemerisCache {
 #[derive(Clone, Debug)]
 pub struct Ephemeris {
     fitted: FittedSegments,
-    interpolated: [Slots<3, INTERPOLATION_TERMS>; Body::COUNT],
-    moon_interpolated: Slots<3, INTERPOLATION_TERMS>,
-    entered: [Entered; Body::COUNT],
-    moon_entered: Entered,
+    interpolated: [SegmentCache<3, INTERPOLATION_TERMS>; Body::COUNT],
+    moon_interpolated: SegmentCache<3, INTERPOLATION_TERMS>,
+    entered: [SegmentCounter; Body::COUNT],
+    moon_entered: SegmentCounter,
 }
 
 /// Segments of positions fitted to VSOP87.
 #[derive(Clone, Debug, Default)]
 struct FittedSegments {
-    planets: [Slots<3, PLANET_TERMS>; Body::COUNT],
-    earth: Slots<3, EARTH_TERMS>,
-    moon: Slots<3, MOON_TERMS>,
+    planets: [SegmentCache<3, PLANET_TERMS>; Body::COUNT],
+    earth: SegmentCache<3, EARTH_TERMS>,
+    moon: SegmentCache<3, MOON_TERMS>,
     cache: EphemerisCache,
-}
-
-/// The long segments that a count of work has seen, whatever is held of them.
-#[derive(Clone, Copy, Debug, Default)]
-struct Entered {
-    /// One of even and one of odd number, as [`Slots`] hold them.
-    numbers: [Option<i64>; 2],
-    /// How many were entered after the first one.
-    count: u64,
-}
-
-impl Entered {
-    fn enter(&mut self, epoch_s: f64, length_s: f64) {
-        let number = math::floor(epoch_s / length_s);
-        let is_first = self.numbers == [None; 2];
-        let slot = &mut self.numbers[(number & 1) as usize];
-        if *slot != Some(number) {
-            *slot = Some(number);
-            self.count += u64::from(!is_first);
-        }
-    }
 }
 
 impl Default for Ephemeris {
     fn default() -> Self {
-        let interpolated = || Slots::spanning(INTERPOLATED_S, INTERPOLATION_S);
+        let interpolated = || SegmentCache::spanning(INTERPOLATED_S, INTERPOLATION_S);
         Self {
             fitted: FittedSegments::default(),
             interpolated: core::array::from_fn(|_| interpolated()),
             moon_interpolated: interpolated(),
             entered: Default::default(),
-            moon_entered: Entered::default(),
+            moon_entered: SegmentCounter::default(),
         }
     }
 }
@@ -222,10 +204,10 @@ impl Ephemeris {
         };
         self.entered[body as usize].enter(epoch_s, FittedSegments::length_s(body));
         let segment = self.interpolated[body as usize].segment(epoch_s, INTERPOLATION_S, |start_s, end_s| {
-            let span_s = [start_s, end_s];
+            let span = Span::new(start_s, end_s);
             match body {
-                Body::Earth => interpolation(self.fitted.earth(epoch_s), span_s),
-                _ => interpolation(self.fitted.planet(body, theory, epoch_s), span_s),
+                Body::Earth => interpolation(self.fitted.earth(epoch_s), span),
+                _ => interpolation(self.fitted.planet(body, theory, epoch_s), span),
             }
         });
         let (position_m, velocity_m_s) = segment.value_and_derivative(epoch_s);
@@ -241,7 +223,7 @@ impl Ephemeris {
     pub fn moon_from_earth(&mut self, epoch_s: f64) -> CartesianState {
         self.moon_entered.enter(epoch_s, MIDDLE_S);
         let segment = self.moon_interpolated.segment(epoch_s, INTERPOLATION_S, |start_s, end_s| {
-            interpolation(self.fitted.moon(epoch_s), [start_s, end_s])
+            interpolation(self.fitted.moon(epoch_s), Span::new(start_s, end_s))
         });
         let (position_m, velocity_m_s) = segment.value_and_derivative(epoch_s);
         CartesianState { position_m, velocity_m_s }
@@ -250,7 +232,7 @@ impl Ephemeris {
     /// Begins a count of work: of each body the segment that is requested first counts as held.
     pub fn count_from_here(&mut self) {
         for entered in self.entered.iter_mut().chain([&mut self.moon_entered]) {
-            entered.numbers = [None; 2];
+            entered.restart();
         }
     }
 
@@ -281,7 +263,7 @@ impl FittedSegments {
     }
 
     fn earth(&mut self, epoch_s: f64) -> &Segment<3, EARTH_TERMS> {
-        self.cache.of_places(
+        self.cache.rectangular_segment(
             &mut self.earth,
             |all| &mut all.earth,
             epoch_s,
@@ -290,7 +272,7 @@ impl FittedSegments {
     }
 
     fn moon(&mut self, epoch_s: f64) -> &Segment<3, MOON_TERMS> {
-        self.cache.of_places(
+        self.cache.rectangular_segment(
             &mut self.moon,
             |all| &mut all.moon,
             epoch_s,
@@ -311,7 +293,8 @@ impl FittedSegments {
             let middle_s = ((epoch_s / LONG_S).floor() + 0.5) * LONG_S;
             let slow = cache.segment(
                 |all| &mut all.elements[body as usize],
-                (epoch_s, LONG_S),
+                epoch_s,
+                LONG_S,
                 |start_s, end_s| fit_elements(theory, mean_motion_rad_s, [start_s, middle_s, end_s]),
             );
             Segment::fit(start_s, end_s, |node_s| {
@@ -323,58 +306,9 @@ impl FittedSegments {
     }
 }
 
-/// Segments, each in the place that the remainder of its number says: two, one for even and one for odd numbers, or more.
-#[derive(Clone, Debug)]
-struct Slots<const D: usize, const N: usize> {
-    held: Box<[Option<(i64, Segment<D, N>)>]>,
-}
-
-impl<const D: usize, const N: usize> Default for Slots<D, N> {
-    fn default() -> Self {
-        Self { held: Box::new([None; 2]) }
-    }
-}
-
-impl<const D: usize, const N: usize> Slots<D, N> {
-    /// For all segments of this length that a span touches, wherever it begins, and a neighbour.
-    fn spanning(span_s: f64, length_s: f64) -> Self {
-        let count = (span_s / length_s).ceil() as usize + 2;
-        Self { held: vec![None; count].into_boxed_slice() }
-    }
-
-    fn place(&self, number: i64) -> usize {
-        let count = self.held.len() as i64;
-        // An integer division is slow.
-        let place = if count & (count - 1) == 0 { number & (count - 1) } else { number.rem_euclid(count) };
-        place as usize
-    }
-
-    fn segment(
-        &mut self,
-        epoch_s: f64,
-        length_s: f64,
-        fit: impl FnOnce(f64, f64) -> Segment<D, N>,
-    ) -> &Segment<D, N> {
-        let number = math::floor(epoch_s / length_s);
-        let place = self.place(number);
-        let slot = &mut self.held[place];
-        if slot.as_ref().is_some_and(|(held, _)| *held != number) {
-            *slot = None;
-        }
-        let (_, segment) = slot.get_or_insert_with(|| {
-            let start_s = number as f64 * length_s;
-            (number, fit(start_s, start_s + length_s))
-        });
-        segment
-    }
-}
-
 /// Interpolates a part of a fitted segment.
-fn interpolation<const N: usize>(
-    fitted: &Segment<3, N>,
-    [start_s, end_s]: [f64; 2],
-) -> Segment<3, INTERPOLATION_TERMS> {
-    fitted.part::<{ INTERPOLATION_TERMS - 1 }, INTERPOLATION_TERMS>(start_s, end_s)
+fn interpolation<const N: usize>(fitted: &Segment<3, N>, span: Span) -> Segment<3, INTERPOLATION_TERMS> {
+    fitted.part::<{ INTERPOLATION_TERMS - 1 }, INTERPOLATION_TERMS>(span.start_s, span.end_s)
 }
 
 /// Elements with the slow remainder of the longitude, in segments that continue smoothly: their ends have values, and rates by

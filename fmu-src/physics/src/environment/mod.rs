@@ -1,4 +1,4 @@
-//! Where everything is and what light falls there: time, ephemerides, orbits, eclipse.
+//! Environment of a spacecraft: time, ephemerides, orbits, eclipse, atmosphere, magnetic field.
 
 pub mod atmosphere;
 pub mod bodies_from_center;

@@ -14,7 +14,7 @@ pub enum SunError {
     /// The distance to the Sun is no positive number.
     #[error("the distance to the Sun is {found_m} m, allowed is a finite number above 0")]
     Distance {
-        /// What it was, m.
+        /// Distance that was found, m.
         found_m: f64,
     },
 }

@@ -1,7 +1,7 @@
 //! Epochs: seconds past J2000 (2000-01-01 12:00) in barycentric dynamical time, as plain `f64`.
 //!
 //! One second past J2000 in this century is resolved to 6e-8 s or better. TDB runs 32.184 s plus the leap seconds
-//! ahead of UTC (66.184 s in 2009), and a periodic term of 1.7 ms; [`super::dates`] reads dates with all three.
+//! ahead of UTC (66.184 s in 2009), and a periodic term of 1.7 ms; [`crate::toml::dates`] reads dates with all three.
 
 use crate::constants::DAY_S;
 
@@ -15,7 +15,7 @@ pub const fn midnight_s(year: i32, month: u32, day: u32) -> f64 {
     (days_from_civil(year as i64, month, day) as f64 - 0.5) * DAY_S
 }
 
-/// What turns the time of a flight into epochs, in s: at `time_s` the epoch is `epoch_s`.
+/// Difference of epoch and time of a flight, in s: at `time_s` the epoch is `epoch_s`.
 pub fn epoch_minus_time_s(epoch_s: f64, time_s: f64) -> f64 {
     epoch_s - time_s
 }

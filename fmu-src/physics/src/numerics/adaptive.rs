@@ -12,11 +12,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Span;
 use super::intervals::next_multiple_s;
 use super::or_infinite;
 use crate::math;
 
-/// Of what the estimate allows, as much is used.
+/// Fraction of the length that the estimate allows which is used.
 const SAFETY: f64 = 0.9;
 
 /// The segment that is being fitted: where it begins and where this attempt ends.
@@ -39,12 +40,12 @@ impl AdaptiveInterval {
         Self { start_s, end_s, longest_s, shortest_s, shortened: false }
     }
 
-    /// Where the segment begins, in s.
+    /// Start of the segment, in s.
     pub fn start_s(&self) -> f64 {
         self.start_s
     }
 
-    /// Where this attempt ends, in s.
+    /// End of this attempt, in s.
     pub fn end_s(&self) -> f64 {
         self.end_s
     }
@@ -113,14 +114,14 @@ impl SegmentSpan {
         self.start_s == f64::INFINITY
     }
 
-    /// Whether a simulation can produce it.
+    /// Rejects decoded spans that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         (self.is_before() || self.start_s.is_finite() && self.end_s.is_finite()) && self.next_longest_s > 0.0
     }
 
     /// Start and end, in s; a segment that was cut before its start has no length.
-    pub fn bounds_s(&self) -> [f64; 2] {
-        [self.start_s, self.end_s.max(self.start_s)]
+    pub fn span(&self) -> Span {
+        Span::new(self.start_s, self.end_s.max(self.start_s))
     }
 
     /// Whether the segment is valid from `time_s` on.

@@ -118,12 +118,12 @@ impl<const D: usize, const N: usize> Segment<D, N> {
         Segment { center: self.center, half_length: self.half_length, coefficients }
     }
 
-    /// Where the segment starts.
+    /// Start of the segment.
     pub fn start(&self) -> f64 {
         self.center - self.half_length
     }
 
-    /// Where the segment ends.
+    /// End of the segment.
     pub fn end(&self) -> f64 {
         self.center + self.half_length
     }

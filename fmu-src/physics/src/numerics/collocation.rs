@@ -11,7 +11,7 @@
 //! Reference: Hairer, Lubich, Wanner, Geometric Numerical Integration, II.1.3 and IV.2.
 //!
 //! [`Collocation`] holds the method's coefficients (computed, no state). [`SegmentChain`] is the state of one integration:
-//! a chain of segments with edges at whole multiples of their length, serialisable, of which the last is kept.
+//! a chain of segments with edges at whole multiples of their length, serialisable; it keeps the last one.
 
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
@@ -41,7 +41,7 @@ pub enum IntegrationError {
     /// The right-hand side or the start is not a finite number.
     #[error("the motion is not finite at {at_s} s")]
     NotFinite {
-        /// Where, s.
+        /// Time, s.
         at_s: f64,
     },
 }
@@ -193,8 +193,8 @@ fn is_finite<const D: usize>(vector: &SVector<f64, D>) -> bool {
     vector.iter().all(|x| x.is_finite())
 }
 
-/// A chain of segments with edges at `k * length_s`, of which the last one is kept with its dense output: the state of an
-/// integration. Everything a restored copy needs is in here.
+/// State of an integration: a chain of segments with edges at `k * length_s`, which keeps the last one with its dense output and is
+/// all that a restored copy needs.
 ///
 /// The first segment starts wherever the integration starts, and a [`SegmentChain::cut`] ends a segment early; after both, edges
 /// are whole multiples again. Segments depend on nothing but their start: asking more or less often changes no bit.
@@ -236,7 +236,7 @@ impl<const D: usize, const M: usize> SegmentChain<D, M> {
         self.length_s
     }
 
-    /// Where the present segment starts, s.
+    /// Start of the present segment, s.
     pub fn start_s(&self) -> f64 {
         self.start_s
     }
@@ -300,7 +300,7 @@ fn edge_after(at_s: f64, length_s: f64) -> i64 {
     if is_there { edge.saturating_add(1) } else { edge }
 }
 
-/// That edge; see [`SegmentChain::advance_to`].
+/// First whole multiple of a segment's length after a time; see [`SegmentChain::advance_to`].
 pub fn edge_after_s(at_s: f64, length_s: f64) -> f64 {
     edge_after(at_s, length_s) as f64 * length_s
 }

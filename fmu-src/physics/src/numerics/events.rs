@@ -11,7 +11,7 @@
 
 use nalgebra::SVector;
 
-use super::{chebyshev::Segment, intervals::first_change_s};
+use super::{Span, chebyshev::Segment, intervals::first_change_s};
 
 /// Coefficients of one fit.
 const TERMS: usize = 16;
@@ -84,18 +84,38 @@ pub fn first_event<const K: usize, const N: usize>(
     None
 }
 
-/// What a fit tells of a function's zeros.
+/// Nodes of a span at which [`first_crossing`] looks at a function.
+const CROSSING_NODES: usize = 9;
+
+/// First number in a span, to the last bit, at which a smooth `function` has fallen from above zero to zero or below; `rounding` as for
+/// [`first_event`]. Edges of spheres, closest approaches and periapses are such crossings: of a distance less a radius, and of
+/// minus position times velocity.
+pub fn first_crossing(span: Span, rounding: f64, mut function: impl FnMut(f64) -> f64) -> Option<f64> {
+    let Span { start_s, end_s } = span;
+    let samples = Segment::<1, CROSSING_NODES>::nodes(start_s, end_s).map(|at| SVector::from([function(at)]));
+    let mut after = start_s;
+    loop {
+        let bounds = [after, start_s, end_s];
+        let event = first_event(bounds, rounding, &samples, |at| SVector::from([function(at)]))?;
+        if function(event) <= 0.0 {
+            return Some(event);
+        }
+        after = event;
+    }
+}
+
+/// Zeros of a function by a fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Zero {
     /// There is none, or the function is not finite.
     Excluded,
-    /// Those of the fit are the function's.
+    /// The zeros of the fit are the function's.
     Resolved,
     /// The fit is too coarse.
     Unresolved,
 }
 
-/// What a fit tells of the zeros of its row `k`: what it misses is of the size of its last two coefficients.
+/// Zeros of row `k` of a fit, whose error is of the size of its last two coefficients.
 fn zero_of_row<const K: usize, const N: usize>(fitted: &Segment<K, N>, k: usize, rounding: f64) -> Zero {
     let terms = fitted.coefficients().row(k);
     if !terms.iter().all(|term| term.is_finite()) {

@@ -1,4 +1,4 @@
-//! Where an interval of time ends: at the next multiple of a step, or where something changes.
+//! End of an interval of time: the next multiple of a step, or the time at which something changes.
 
 /// The first multiple of `step_s` clearly after `time_s`.
 pub fn next_multiple_s(time_s: f64, step_s: f64) -> f64 {

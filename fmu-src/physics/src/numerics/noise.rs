@@ -10,7 +10,7 @@ use rand_chacha::{
 
 use crate::math;
 
-/// Who draws.
+/// Consumer of random draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
     /// Star tracker declination of a spinner.

@@ -31,7 +31,7 @@ pub enum RootError {
     /// The function or an end is not a number.
     #[error("the function is not finite at {at}")]
     NotFinite {
-        /// Where.
+        /// Argument at which it is not.
         at: f64,
     },
 }
@@ -166,7 +166,7 @@ pub fn bernstein_sign_changes<const N: usize>(coefficients: &[f64; N], from: f64
     while height > 0 {
         height -= 1;
         let (piece, start, end) = stack[height];
-        let signs = Signs::of(&piece);
+        let signs = Signs::from_coefficients(&piece);
         if signs.changes > 1 && end - start > NARROW && height + 2 <= STACK {
             let middle = 0.5 * (start + end);
             let (left, right) = split(&piece, 0.5);
@@ -204,7 +204,7 @@ struct Signs {
 }
 
 impl Signs {
-    fn of(coefficients: &[f64]) -> Self {
+    fn from_coefficients(coefficients: &[f64]) -> Self {
         let mut signs = Self { first: 0.0, last: 0.0, changes: 0 };
         for sign in coefficients.iter().filter(|c| **c != 0.0).map(|c| c.signum()) {
             if signs.first == 0.0 {

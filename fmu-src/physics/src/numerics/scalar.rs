@@ -14,7 +14,7 @@ use crate::math;
 /// rounding functions (`floor`, `round` ...) have no derivative and must not be called in generic kernels.
 pub use num_dual::Dual64;
 
-/// What a radiation kernel computes with: real arithmetic, also directly with `f64` on the right-hand side.
+/// Scalar of the radiation kernels: real arithmetic, also directly with `f64` on the right-hand side.
 pub trait Scalar:
     RealField
     + Copy

@@ -1,4 +1,4 @@
-//! What a step has cost so far against what it may cost: counted, never measured, so that equal steps end alike.
+//! Work of a step against its limit: counted, never measured, so that equal steps end alike.
 
 /// Work of one step in units of about a microsecond, by kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,12 +9,12 @@ pub struct Work<const KINDS: usize> {
 }
 
 impl<const KINDS: usize> Work<KINDS> {
-    /// Nothing spent of `limit`.
+    /// Returns a count of 0 under this limit.
     pub fn new(limit: u32) -> Self {
         Self { limit, total: 0, spent: [0; KINDS] }
     }
 
-    /// What may be spent.
+    /// Greatest work that is allowed.
     pub fn limit(&self) -> u32 {
         self.limit
     }

@@ -111,14 +111,14 @@ fn beyond_influence(of: &FlightSettings<'_>, found: &mut Vec<String>) {
     let Configuration { center, orbit, motion, ephemeris, .. } = of.configuration;
     let elements = orbit.elements();
     let is_alone = matches!(motion, Motion::TwoBody | Motion::Disturbed { .. });
-    if *center == Body::Sun || !is_alone || elements.eccentricity >= 1.0 {
+    let Some(parent) = center.data().parent.filter(|_| is_alone && elements.eccentricity < 1.0) else {
         return;
-    }
+    };
     let axis_m = match ephemeris {
         EphemerisSource::Kepler(planet) => planet.elements().semi_major_axis_m,
         _ => center.data().orbit_semi_major_axis_m,
     };
-    let sphere_m = sphere_of_influence_m(orbit.mu_m3_s2(), axis_m);
+    let sphere_m = sphere_of_influence_m(orbit.mu_m3_s2(), axis_m, parent);
     let farthest_m = elements.semi_major_axis_m * (1.0 + elements.eccentricity);
     if axis_m > 0.0 && farthest_m > sphere_m {
         found.push(format!(

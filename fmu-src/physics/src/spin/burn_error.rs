@@ -1,4 +1,4 @@
-//! Why a flight of the spinner does not begin: parameters out of their ranges, burns that cannot be simulated.
+//! Errors at the start of a flight of the spinner: parameters out of their ranges, burns that cannot be simulated.
 
 use super::train::TrainError;
 
@@ -8,20 +8,20 @@ use super::train::TrainError;
 pub struct ParameterError {
     /// FMI name.
     pub name: &'static str,
-    /// What was found.
+    /// Value that was found.
     pub found: String,
-    /// What is allowed.
+    /// Values that are allowed.
     pub allowed: String,
 }
 
 impl ParameterError {
-    /// Of a parameter by its FMI name.
+    /// Returns the error of a parameter by its FMI name.
     pub fn new(name: &'static str, found: impl ToString, allowed: impl Into<String>) -> Self {
         Self { name, found: found.to_string(), allowed: allowed.into() }
     }
 }
 
-/// Why a burn is refused.
+/// Reason why a burn is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BurnError {
     /// A parameter out of its range.
@@ -33,11 +33,11 @@ pub enum BurnError {
     /// Limits that the plan breaks.
     #[error("the burn does not fit its limits: {what} would be {found}, the limit is {limit}")]
     Limit {
-        /// What.
+        /// Name of the quantity.
         what: &'static str,
-        /// What it would be.
+        /// Value it would have.
         found: String,
-        /// What is allowed.
+        /// Limit.
         limit: String,
     },
 }

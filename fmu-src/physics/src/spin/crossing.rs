@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::{
     motion::Motion,
-    work::{Cost, Work},
+    work::{Work, WorkKind},
 };
 use crate::attitude::RigidBodyState;
 use crate::math;
@@ -69,7 +69,7 @@ impl Crossing {
     /// First crossing at or after `from_s`, a time within the motion's present segment or after it; `None` if the body
     /// does not bring the direction round within 2 1/2 turns.
     pub fn next_s(&self, motion: &Motion, from_s: f64, work: &mut Work) -> Option<f64> {
-        work.spend(Cost::Crossing);
+        work.spend(WorkKind::Crossing);
         let inertia = motion.inertia();
         if motion.segment_end_s().is_infinite() {
             let state = motion.at(from_s);
@@ -109,7 +109,7 @@ impl Crossing {
         if from_s >= end_s {
             return None;
         }
-        work.spend(Cost::Crossing);
+        work.spend(WorkKind::Crossing);
         let rate = motion.at(from_s).rate_rad_s(motion.inertia()).z.abs();
         self.within(motion, from_s, end_s, rate)
     }

@@ -10,13 +10,13 @@ use crate::spacecraft::{MOST_THRUSTERS, Thruster, ValveTiming};
 pub struct PulseExecution {
     /// How its valve opens and closes.
     pub valve: ValveTiming,
-    /// Standard deviation of the thrust from pulse to pulse, as a share of it.
+    /// Standard deviation of the thrust from pulse to pulse, as a fraction of it.
     pub scatter: f64,
 }
 
 impl PulseExecution {
-    /// As the spinner's file says, thruster by thruster.
-    pub fn of(spinner: &Spinner) -> [Self; MOST_THRUSTERS] {
+    /// Returns the execution by the spinner's file, thruster by thruster.
+    pub fn from_spinner(spinner: &Spinner) -> [Self; MOST_THRUSTERS] {
         let mut execution = [Self::default(); MOST_THRUSTERS];
         for (of_one, Thruster { valve, scatter, .. }) in execution.iter_mut().zip(&spinner.thrusters) {
             *of_one = Self { valve: *valve, scatter: *scatter };
@@ -24,7 +24,7 @@ impl PulseExecution {
         execution
     }
 
-    /// Whether its numbers can be some.
+    /// Rejects decoded numbers that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         self.valve.is_valid() && (0.0..=1.0).contains(&self.scatter)
     }

@@ -1,4 +1,4 @@
-//! What a train does by the linear theory: final and peak nutation, and how far the momentum moves.
+//! Effect of a train by the linear theory: final and peak nutation, and the angle by which the momentum moves.
 
 use core::f64::consts::PI;
 
@@ -9,7 +9,7 @@ use crate::enumeration::enumeration;
 use crate::math;
 
 enumeration! {
-    /// What pulses are timed by.
+    /// Reference by which pulses are timed.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     pub enum Timing {
         /// The first pulse by phase, the others at fixed intervals of the assumed spin period.
@@ -34,12 +34,12 @@ pub struct ForecastCase {
     pub torque_n_m: f64,
 }
 
-/// What the linear theory predicts.
+/// Prediction of the linear theory.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Forecast {
-    /// After the last pulse, in rad.
+    /// Nutation after the last pulse, in rad.
     pub final_nutation_rad: f64,
-    /// Greatest after any pulse, in rad.
+    /// Greatest nutation after any pulse, in rad.
     pub peak_nutation_rad: f64,
     /// Momentum moved toward the target, in rad.
     pub moved_rad: f64,
@@ -102,9 +102,9 @@ const FEWEST: u32 = 8;
 /// Most intervals for any train; more only while the samples of a sweep follow fewer than [`MOST_PULSES`] in all.
 const MOST: u32 = 400;
 const MOST_PULSES: f64 = 4e6;
-/// Fewer, whatever the train, so that no sweep follows more than so many pulses.
+/// Greatest number of pulses that a sweep follows, whatever the train.
 const MOST_FOLLOWED: f64 = 6e7;
-/// A maximum between samples is looked for where it could exceed the greatest so far by this share.
+/// A maximum between samples is looked for where it could exceed the greatest so far by this fraction.
 const WORTH_LOOKING: f64 = 1e-5;
 
 impl Range {
@@ -145,14 +145,14 @@ impl Range {
         if ratios == 1 {
             worst.sweep(rates, |share| at(0.0, share));
         } else {
-            (0..rates).for_each(|j| worst.sweep(ratios, |share| at(share, share_of(j, rates))));
+            (0..rates).for_each(|j| worst.sweep(ratios, |share| at(share, position_of(j, rates))));
         }
         worst
     }
 }
 
-/// Where sample `i` of `count` lies in a range from -1 to 1.
-fn share_of(i: u32, count: u32) -> f64 {
+/// Position of sample `i` of `count` in a range from -1 to 1.
+fn position_of(i: u32, count: u32) -> f64 {
     if count == 1 { 0.0 } else { 2.0 * f64::from(i) / f64::from(count - 1) - 1.0 }
 }
 
@@ -181,7 +181,7 @@ impl Worst {
     fn sweep(&mut self, count: u32, at: impl Fn(f64) -> Forecast) {
         let mut window = [[0.0; 2]; 3];
         for i in 0..count {
-            let seen = at(share_of(i, count));
+            let seen = at(position_of(i, count));
             self.include(&seen);
             window = [window[1], window[2], [seen.final_nutation_rad, seen.peak_nutation_rad]];
             if i < 2 {
@@ -193,14 +193,14 @@ impl Worst {
                     && top > greatest * (1.0 + WORTH_LOOKING)
                 {
                     let spacing = 2.0 / f64::from(count - 1);
-                    self.include(&at(share_of(i - 1, count) + offset * spacing));
+                    self.include(&at(position_of(i - 1, count) + offset * spacing));
                 }
             }
         }
     }
 }
 
-/// Where the parabola through (-1, a), (0, b), (1, c) is greatest, if that is within -1 to 1, and how great it is.
+/// Abscissa and value of the maximum of the parabola through (-1, a), (0, b), (1, c), if it lies within -1 to 1.
 fn vertex([a, b, c]: [f64; 3]) -> Option<(f64, f64)> {
     let curvature = 2.0 * b - a - c;
     let offset = 0.5 * (c - a) / curvature;

@@ -1,4 +1,4 @@
-//! Where Sun and Earth stand for a spacecraft on a Lissajous orbit about the Sun-Earth L1 point.
+//! Directions of Sun and Earth for a spacecraft on a Lissajous orbit about the Sun-Earth L1 point.
 //!
 //! The Earth-Sun line turns at a steady rate in the ecliptic; about L1 the motion is linear (paper 002 gives the rate,
 //! amplitudes are parameters).

@@ -2,6 +2,7 @@
 
 pub mod burn;
 pub mod burn_error;
+pub mod burn_request;
 pub mod coast;
 pub mod crossing;
 pub mod crossing_detector;
@@ -11,10 +12,7 @@ pub mod forecast;
 pub mod geometry;
 pub mod motion;
 pub mod nutation;
-pub mod outputs;
 pub mod plant;
-pub mod predictions;
-pub mod rates;
 pub mod sequencer;
 pub mod series;
 pub mod sizing;

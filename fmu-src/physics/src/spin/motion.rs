@@ -105,12 +105,12 @@ impl Motion {
         &self.damper
     }
 
-    /// Where the present closed form or segment starts, in s.
+    /// Start of the present closed form or segment, in s.
     pub fn anchor_s(&self) -> f64 {
         self.anchor.time_s
     }
 
-    /// Where the present segment ends, in s; infinite for a closed form.
+    /// End of the present segment, in s; infinite for a closed form.
     pub fn segment_end_s(&self) -> f64 {
         match &self.path {
             Path::Coast(_) => f64::INFINITY,

@@ -21,14 +21,14 @@ pub const SLOWEST_RAD_S: f64 = 1e-4;
 /// See [`SLOWEST_RAD_S`].
 pub const FASTEST_RAD_S: f64 = 1e4;
 
-/// Where the sequence stands.
+/// Phase of the sequence.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Phase {
     /// No edge is known: no Sun crossing seen yet, or the body does not bring the thruster round.
     Idle,
     /// Too early to follow the motion to the next pulse: it will be timed later.
     Later {
-        /// When, in s.
+        /// Time, in s.
         at_s: f64,
     },
     /// The next pulse is timed.
@@ -88,7 +88,7 @@ impl Sequencer {
         self.fired
     }
 
-    /// Where it stands.
+    /// Present phase.
     pub fn phase(&self) -> Phase {
         self.phase
     }
@@ -170,7 +170,8 @@ impl Sequencer {
         let k = self.fired;
         let period_s = self.burn.assumed_period_s();
         // From the opening of the valve to the centre of the thrust, and on to the closing.
-        let [before_s, after_s] = self.burn.about_centre_s(k);
+        let about = self.burn.about_centre(k);
+        let (before_s, after_s) = (-about.start_s, about.end_s);
         let offset_s = train.offset_turns(k) * period_s;
         let turns = |k: u32| 0.5 * f64::from(train.half_turns(k));
         // Earliest exact centre: after the burn's start, now, and three quarters of the spacing since the last.
@@ -204,11 +205,10 @@ impl Sequencer {
     }
 
     /// Records where the pulse that starts now is centred; called at its first edge.
-    pub fn note_centre(&mut self) {
+    pub fn record_centre(&mut self) {
         if let Phase::Waiting { off_s, .. } = self.phase {
             let k = self.fired;
-            let [_, after_s] = self.burn.about_centre_s(k);
-            let centre_s = off_s - after_s;
+            let centre_s = off_s - self.burn.about_centre(k).end_s;
             if k == 0 {
                 self.first_centre_s = centre_s;
             }

@@ -29,7 +29,7 @@ pub const TORQUE_TERMS: usize = 8;
 /// N m.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyTorque {
-    /// Where the polynomial is anchored, in s.
+    /// Origin of the polynomial, in s.
     pub origin_s: f64,
     /// c[k].
     pub coefficients_n_m: [Vector3<f64>; TORQUE_TERMS],

@@ -47,7 +47,7 @@ pub struct NutationEstimator {
     pub count: u32,
 }
 
-/// What the samples say.
+/// Nutation estimated from the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NutationEstimate {
     /// Nutation angle, in rad.
@@ -69,7 +69,7 @@ impl NutationEstimator {
         self.count += 1;
     }
 
-    /// Whether decoded sums can be some: no term is greater than a declination with noise of 30 rad.
+    /// Rejects decoded sums that no simulation can produce: no term is greater than a declination with noise of 30 rad.
     pub fn is_valid(&self) -> bool {
         let most = f64::from(self.count) * 30.0;
         self.sums.iter().chain(&self.right).all(|sum| sum.abs() <= most)

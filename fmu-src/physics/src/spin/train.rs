@@ -42,7 +42,7 @@ pub enum TrainError {
     /// Spacing.
     #[error("{turns} turns per pulse: allowed are 0.5, 1, 1.5 and so on")]
     Turns {
-        /// What was requested.
+        /// Spacing that was requested.
         turns: f64,
     },
     /// Half turns with one thruster.
@@ -57,17 +57,17 @@ pub enum TrainError {
     /// Count.
     #[error("{count} pulses; {allowed}")]
     Count {
-        /// What was requested.
+        /// Number that was requested.
         count: u32,
-        /// What is allowed.
+        /// Range that is allowed.
         allowed: String,
     },
     /// Width.
     #[error("a pulse of {width_s} s; {allowed}")]
     Width {
-        /// What was requested.
+        /// Width that was requested.
         width_s: f64,
-        /// What is allowed.
+        /// Range that is allowed.
         allowed: String,
     },
     /// Split trains need a nutation that turns in the body.
@@ -89,7 +89,7 @@ pub enum TrainError {
     },
 }
 
-/// What the pulses of a train are, whatever their number.
+/// Pulses of a train, whatever their number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulses {
     /// Shape of the train.

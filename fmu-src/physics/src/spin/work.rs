@@ -1,11 +1,11 @@
-//! What a step of the spinner may cost, and which parameter asks for most of it.
+//! Work of a step of the spinner, and the parameter that asks for most of it.
 
 use super::damper::Damper;
 use crate::numerics;
 
-/// What work is spent on.
+/// Kind of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cost {
+pub enum WorkKind {
     /// Segments of the motion.
     TaylorSegment,
     /// Segments of the motion with a damper, whose gain takes several rounds.
@@ -22,7 +22,7 @@ pub enum Cost {
     Impulse,
 }
 
-impl Cost {
+impl WorkKind {
     /// Units of about a microsecond, a little more than each takes.
     fn units(self) -> u32 {
         match self {
@@ -34,7 +34,7 @@ impl Cost {
     }
 }
 
-/// By [`Cost`]: what it is and what asks for it.
+/// Cause of each [`WorkKind`], and the parameter that asks for it.
 const CAUSES: [&str; 7] = [
     SEGMENTS,
     SEGMENTS,
@@ -53,30 +53,30 @@ const SEGMENTS: &str = "segments of the motion, a few in each turn: requested by
 pub struct Work(numerics::work::Work<{ CAUSES.len() }>);
 
 impl Work {
-    /// Nothing spent of `limit` units.
+    /// Returns a count of 0 under this limit.
     pub fn new(limit: u32) -> Self {
         Self(numerics::work::Work::new(limit))
     }
 
-    /// Counts one of these.
+    /// Counts one unit of a kind of work.
     #[inline]
-    pub fn spend(&mut self, cost: Cost) {
-        self.0.spend(cost as usize, cost.units());
+    pub fn spend(&mut self, kind: WorkKind) {
+        self.0.spend(kind as usize, kind.units());
     }
 
     /// Counts a segment of a motion with this damper.
     #[inline]
     pub fn spend_segment(&mut self, damper: &Damper) {
-        self.spend(if damper.acts() { Cost::DampedCell } else { Cost::TaylorSegment });
+        self.spend(if damper.acts() { WorkKind::DampedCell } else { WorkKind::TaylorSegment });
     }
 
-    /// Whether more was spent than may be.
+    /// Tells whether the limit is exceeded.
     #[inline]
     pub fn is_exhausted(&self) -> bool {
         self.0.is_exhausted()
     }
 
-    /// Whether a flight that has come to `time_s` may continue.
+    /// Refuses to continue a flight that has come to `time_s` beyond the limit.
     ///
     /// # Errors
     /// More was spent than may be.
@@ -100,10 +100,10 @@ impl Work {
      Take shorter steps or raise solver.workLimit"
 )]
 pub struct WorkExceeded {
-    /// What was allowed.
+    /// Limit that was set.
     pub limit: u32,
-    /// How far it came, in s.
+    /// Time to which the step came, in s.
     pub time_s: f64,
-    /// What most of it went into.
+    /// Cause of most of the work.
     pub cause: &'static str,
 }

@@ -7,7 +7,7 @@ use physics::attitude::Attitude;
 use physics::bodies::Body;
 use physics::constants::{GM_MERCURY_M3_S2 as MU, RADIUS_MERCURY_M};
 use physics::environment::CartesianState;
-use physics::environment::orbit::{Flattening, Gravity, Tides};
+use physics::environment::orbit::{Attractor, Flattening, Gravity, GravityModel};
 use physics::loads::ForceTorque;
 use physics::momentum::{MomentumIntegrator, Totals};
 use physics::plant::{AttitudeSource, Command, Configuration, Motion, Plant, PropagatorState, Regime};
@@ -16,14 +16,11 @@ use super::plant_flight::{EPOCH_S, Rig, configuration, guided, orbit};
 
 fn disturbed(gravity: Gravity, attitude: AttitudeSource) -> Configuration {
     // With a flattening the Sun's tide acts too.
-    let tides = Tides { sun: gravity.flattening.is_some(), moon: false };
-    let motion = Motion::Disturbed {
-        gravity,
-        tides,
-        segment_length_s: 300.0,
-        radius_m: RADIUS_MERCURY_M,
-        feedback: true,
-    };
+    let sun = gravity.flattening.map(|_| Attractor::point_mass(Body::Sun.data()));
+    let planet = Attractor::point_mass(Body::Mercury.data()).with_gravity(gravity);
+    let gravity = GravityModel::new(Body::Mercury, [planet].into_iter().chain(sun), false);
+    let motion =
+        Motion::Disturbed { gravity, segment_length_s: 300.0, radius_m: RADIUS_MERCURY_M, feedback: true };
     Configuration { motion, ..configuration(orbit(), attitude) }
 }
 
@@ -130,8 +127,8 @@ fn a_force_moves_the_spacecraft_as_newton_says() {
 #[test]
 fn periapses_are_counted_where_they_are_passed() {
     // Flattened a hundred times more than Mercury, so that the start's period is soon of no use.
-    let flattening = Flattening { j2: 5e-3, ..Flattening::of(Body::Mercury.data()) };
-    let gravity = Gravity { flattening: Some(flattening), ..Gravity::of(Body::Mercury.data()) };
+    let flattening = Flattening { j2: 5e-3, ..Flattening::from_body(Body::Mercury.data()) };
+    let gravity = Gravity { flattening: Some(flattening), ..Gravity::from_body(Body::Mercury.data()) };
     let configuration = disturbed(gravity, guided(&orbit()));
     let times = (1..=7200).map(|i| f64::from(i) * 60.0);
     let seen = simulate(&configuration, Vector3::zeros(), times, |plant, time_s| {
@@ -218,8 +215,8 @@ fn downlinks_begin_and_end_to_the_second_after_a_periapsis_that_was_met() {
 /// A slew that lasts longer than the cells of the orbit continues from where it began.
 #[test]
 fn a_long_slew_turns_as_its_rate_says() {
-    let flattening = Flattening { j2: 5e-3, ..Flattening::of(Body::Mercury.data()) };
-    let gravity = Gravity { flattening: Some(flattening), ..Gravity::of(Body::Mercury.data()) };
+    let flattening = Flattening { j2: 5e-3, ..Flattening::from_body(Body::Mercury.data()) };
+    let gravity = Gravity { flattening: Some(flattening), ..Gravity::from_body(Body::Mercury.data()) };
     let mut configuration = disturbed(gravity, guided(&orbit()));
     if let AttitudeSource::Guided(guided) = &mut configuration.attitude {
         guided.slew_rate_rad_s = 3e-4;

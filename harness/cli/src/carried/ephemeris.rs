@@ -8,6 +8,7 @@ use physics::{
         dates,
         onboard::{FittedBody, OnboardEphemeris, OnboardTarget},
     },
+    numerics::Span,
 };
 
 /// Its name in the resources.
@@ -22,7 +23,7 @@ pub(crate) fn read(resources: &Path) -> Result<String, String> {
 /// Which bodies, in a line.
 fn summary(ephemeris: &OnboardEphemeris) -> String {
     let precise = ephemeris.precise.iter().map(|body| {
-        let [start_s, end_s] = body.motion.span_s();
+        let Span { start_s, end_s } = body.motion.span();
         format!(
             "{} from {}, {} to {}, to {} m",
             body.target,
@@ -47,27 +48,22 @@ pub(crate) fn table(ephemeris: &OnboardEphemeris, bytes: usize) -> String {
         let longest_s = segments.iter().map(|it| it.end_s - it.start_s).fold(0.0, f64::max);
         let degree = segments.first().map_or(0, |it| it.coefficients_m.len().saturating_sub(1));
         let segments = format!("{} of up to {} d", segments.len(), terminal::short(longest_s / DAY_S));
-        table.add_row(row("precise", body, body.motion.span_s(), [segments, degree.to_string()]));
+        table.add_row(row("precise", body, body.motion.span(), [segments, degree.to_string()]));
     }
     for body in &ephemeris.coarse {
-        table.add_row(row("coarse", body, body.motion.span_s, ["1".to_owned(), "4".to_owned()]));
+        table.add_row(row("coarse", body, body.motion.span, ["1".to_owned(), "4".to_owned()]));
     }
     let source = ephemeris.source.as_deref().map_or_else(String::new, |source| format!(", {source}"));
     format!("{} kB{source}\n{table}", bytes.div_ceil(1000))
 }
 
-fn row<M>(
-    model: &str,
-    body: &FittedBody<M>,
-    [start_s, end_s]: [f64; 2],
-    [segments, degree]: [String; 2],
-) -> [String; 9] {
+fn row<M>(model: &str, body: &FittedBody<M>, span: Span, [segments, degree]: [String; 2]) -> [String; 9] {
     [
         model.to_owned(),
         body.target.to_string(),
         OnboardTarget::from(body.center).to_string(),
-        dates::utc(start_s),
-        dates::utc(end_s),
+        dates::utc(span.start_s),
+        dates::utc(span.end_s),
         segments,
         degree,
         format!("{} m", terminal::short(body.error.position_m)),

@@ -16,6 +16,7 @@ use files::Destination;
 #[cfg(feature = "spk")]
 use physics::environment::onboard::OnboardTarget;
 use physics::environment::onboard::{OnboardEphemeris, to_toml};
+use physics::numerics::Span;
 #[cfg(feature = "spk")]
 use planner::ephemeris::spk::Kernels;
 use planner::ephemeris::{Failure, Requested, Source, coarse, precise};
@@ -39,7 +40,7 @@ pub(crate) fn run(arguments: &Ephemeris) -> Outcome {
     let source = Shown { source: source(arguments, [start_s, stop_s])?, is_quiet: arguments.quiet };
     let mut made = OnboardEphemeris { source: Some(source.title()), ..OnboardEphemeris::default() };
     let requested = Requested {
-        span_s: [start_s, stop_s],
+        span: Span::new(start_s, stop_s),
         segment_s: arguments.segment,
         degree: arguments.degree.map(usize::from),
         tolerance_m: arguments.tolerance,
@@ -51,8 +52,8 @@ pub(crate) fn run(arguments: &Ephemeris) -> Outcome {
         }
     }
     if arguments.coarse {
-        let span_s = [start_s, arguments.coarse_until_s(stop_s)?];
-        made.coarse = coarse(&source, &arguments.targets(), span_s)?;
+        let span = Span::new(start_s, arguments.coarse_until_s(stop_s)?);
+        made.coarse = coarse(&source, &arguments.targets(), span)?;
     }
     let text = terminal::unsigned_zeros(&to_toml(&made)).into_owned();
     // What a spacecraft will read is what was made.

@@ -5,6 +5,7 @@ use std::fs;
 use physics::bodies::Body;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::onboard::{OnboardEphemeris, OnboardTarget};
+use physics::numerics::Span;
 
 use crate::{packed, run, says, shown, template};
 
@@ -67,7 +68,7 @@ fn placed_by_theory(text: &str, bodies: &[Body], within_m: f64) {
     let mut theory = Ephemeris::default();
     for (model, body) in read.precise.iter().zip(bodies) {
         assert_eq!(model.target, OnboardTarget::from(*body));
-        let [first_s, last_s] = model.motion.span_s();
+        let Span { start_s: first_s, end_s: last_s } = model.motion.span();
         for share in [0.1, 0.55, 0.9] {
             let at_s = first_s + share * (last_s - first_s);
             let from_mercury_m = theory.position_m(*body, at_s) - theory.position_m(Body::Mercury, at_s);

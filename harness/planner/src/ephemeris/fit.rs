@@ -10,7 +10,7 @@ use physics::{
             SegmentTable,
         },
     },
-    numerics::chebyshev::Segment,
+    numerics::{Span, chebyshev::Segment},
 };
 
 use super::source::Source;
@@ -35,7 +35,7 @@ const COARSE_CHECKS: u32 = 2_000;
 #[derive(Clone, Copy, Debug)]
 pub struct Requested {
     /// First and last epoch, in s past J2000 TDB.
-    pub span_s: [f64; 2],
+    pub span: Span,
     /// Length of the segments, if given.
     pub segment_s: Option<f64>,
     /// Degree, if given.
@@ -58,7 +58,7 @@ pub fn precise(
         return Err(format!("--bodies: {target} is the center, from where positions count").into());
     }
     let sampled = |segment_s: f64| -> Result<(FitPlan, Vec<CartesianState>), Failure> {
-        let plan = FitPlan::new(requested.span_s, segment_s);
+        let plan = FitPlan::new(requested.span, segment_s);
         let states = source.states(&[target], &plan.epochs_s(), &mut || Ok(()))?.pop();
         Ok((plan, states.unwrap_or_default()))
     };
@@ -106,13 +106,13 @@ pub fn precise(
 pub fn coarse(
     source: &dyn Source,
     targets: &[OnboardTarget],
-    span_s: [f64; 2],
+    span: Span,
 ) -> Result<Vec<FittedBody<CoarseElements>>, Failure> {
-    let nodes_s = Segment::<6, COARSE_SAMPLES>::nodes(span_s[0], span_s[1]);
-    let length_s = span_s[1] - span_s[0];
+    let nodes_s = Segment::<6, COARSE_SAMPLES>::nodes(span.start_s, span.end_s);
+    let length_s = span.length_s();
     let checks =
-        (0..=COARSE_CHECKS).map(|k| span_s[0] + length_s * (f64::from(k) / f64::from(COARSE_CHECKS)));
-    let mut epochs: Vec<(f64, Option<usize>)> = checks.map(|at_s| (at_s.min(span_s[1]), None)).collect();
+        (0..=COARSE_CHECKS).map(|k| span.start_s + length_s * (f64::from(k) / f64::from(COARSE_CHECKS)));
+    let mut epochs: Vec<(f64, Option<usize>)> = checks.map(|at_s| (at_s.min(span.end_s), None)).collect();
     epochs.extend(nodes_s.into_iter().enumerate().map(|(node, at_s)| (at_s, Some(node))));
     epochs.sort_by(|a, b| a.0.total_cmp(&b.0));
     let epochs_s: Vec<f64> = epochs.iter().map(|(at_s, _)| *at_s).collect();
@@ -125,7 +125,7 @@ pub fn coarse(
                 samples[*node] = *state;
             }
         }
-        let motion = CoarseElements::of_states(about, span_s, &samples).ok_or_else(|| {
+        let motion = CoarseElements::from_states(about, span, &samples).ok_or_else(|| {
             format!("--coarse: {target} is on no ellipse about {}", OnboardTarget::from(about))
         })?;
         let mut error = FitError::default();
@@ -133,7 +133,7 @@ pub fn coarse(
             if node.is_none()
                 && let Some(found) = motion.state(*at_s)
             {
-                error = error.worst(FitError::of(&found, state));
+                error = error.worst(FitError::from_states(&found, state));
             }
         }
         models.push(FittedBody { target, center: about, motion, error });

@@ -9,12 +9,13 @@ use nalgebra::{Matrix3x6, Matrix6, RowVector6, Vector3};
 use physics::{
     environment::{
         CartesianState,
-        orbit::{BPlane, DisturbedOrbit, NBodyGravity, OrbitMethod, TwoBodyOrbit, transition},
+        orbit::{BPlane, DisturbedOrbit, NBodyGravity, OrbitMethod, TwoBodyOrbit},
     },
-    numerics::roots,
+    numerics::{Span, roots},
 };
 
 use super::flight::{ForceModel, Path, Planets};
+use crate::orbit::transition;
 
 /// Before and after the epoch of osculation B is looked at, in s.
 const AROUND_S: f64 = 60.0;
@@ -61,7 +62,7 @@ impl Encounter {
             [-AROUND_S, 0.0, AROUND_S].map(|off_s| from.state_at(epoch_s + off_s));
         let at_epoch = at_epoch?;
         let of = |state: &CartesianState| {
-            let plane = BPlane::of(state, force_model.gm_m3_s2);
+            let plane = BPlane::from_state(state, force_model.gm_m3_s2);
             plane.ok_or_else(|| {
                 format!("the orbit about {} at {epoch_s} s: found no hyperbola", name(force_model))
             })
@@ -104,7 +105,7 @@ fn name(force_model: &ForceModel) -> &'static str {
 
 /// About when the flight is nearest, by rows on both sides of it, or by the hyperbola of its last row.
 fn first_guess_s(path: &Path<'_>, force_model: &ForceModel) -> Result<f64, String> {
-    let near_m = SPHERES * force_model.gravity(force_model.body).sphere_m(force_model.body);
+    let near_m = SPHERES * force_model.gravity(force_model.body).model.sphere_m(force_model.body);
     let is_approaching = |state: &CartesianState| state.position_m.dot(&state.velocity_m_s) < 0.0;
     let passed = path.rows.windows(2).find(|pair| {
         let [from, to] = [pair[0], pair[1]].map(|it| it.motion.from_body());
@@ -150,9 +151,9 @@ impl Cell<'_> {
     /// The transition matrix over it.
     pub(super) fn transition(&mut self) -> Result<Matrix6<f64>, String> {
         let Self { orbit, method, gravity, planets } = self;
-        let found = transition(method, [orbit.start_s(), orbit.end_s()], |at_s| {
+        let found = transition(method, Span::new(orbit.start_s(), orbit.end_s()), |at_s| {
             let position_m = orbit.state_at(at_s).position_m;
-            gravity.gradient_per_s2(gravity.center, at_s, &position_m, *planets)
+            gravity.model.gradient_per_s2(gravity.model.center, at_s, &position_m, *planets)
         });
         found.map_err(|error| error.to_string())
     }

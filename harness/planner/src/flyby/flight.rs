@@ -6,7 +6,7 @@ use physics::{
     environment::{
         CartesianState,
         ephemeris::Ephemeris,
-        orbit::{BodyEphemeris, NBodyGravity, NBodySettings},
+        orbit::{Attractor, BodyEphemeris, GravityModel, NBodyGravity, NBodySettings},
     },
 };
 
@@ -82,18 +82,15 @@ impl ForceModel {
 
     /// Gravity of all of it, positions counting from `center`.
     pub(super) fn gravity(&self, center: Body) -> NBodyGravity {
-        let settings = NBodySettings {
-            relativity: self.relativity,
-            changes_center: true,
-            moon: self.moon,
-            cell_s: CELL_S,
-            tolerance_m: TOLERANCE_M,
-        };
+        let settings = NBodySettings { changes_center: true, cell_s: CELL_S, tolerance_m: TOLERANCE_M };
         let data = |body: Body| match body == self.body {
             true => BodyData { gm_m3_s2: self.gm_m3_s2, ..*body.data() },
             false => *body.data(),
         };
-        NBodyGravity::new(settings, &data(center), self.attracting.iter().map(|body| data(*body)), None)
+        let bodies = [Body::Sun].into_iter().chain(self.attracting.iter().copied()).chain([center]);
+        let rows = bodies.map(|body| Attractor::point_mass(&data(body)));
+        let rows = rows.chain(self.moon.then_some(Attractor::MOON));
+        NBodyGravity::new(settings, GravityModel::new(center, rows, self.relativity))
     }
 
     /// Where the planets are by VSOP87.

@@ -7,7 +7,8 @@
 use nalgebra::{Matrix3, Matrix3x6, Vector2, Vector3};
 use physics::{
     bodies::Body,
-    environment::orbit::{BodyEphemeris, OrbitMethod, Partials, partials_over},
+    environment::orbit::{BodyEphemeris, OrbitMethod},
+    numerics::Span,
 };
 
 use super::{
@@ -16,6 +17,7 @@ use super::{
     light::LightAlong,
 };
 use crate::momentum::{simulated::SimulatedFlight, torque::SunlitSpacecraft};
+use crate::orbit::{Partials, partials_over};
 
 /// Longest cell, in s.
 const LONGEST_S: f64 = 86_400.0;
@@ -63,16 +65,16 @@ impl Sensitivity {
             let flip_s = flip.map_or(f64::NEG_INFINITY, |flip| flip.time_s);
             let from_s = (end_s - long_s).max(start_s).max(flip_s);
             if from_s < end_s {
-                let span_s = [from_s, end_s];
+                let span = Span::new(from_s, end_s);
                 // Within the cell: at its very end the nearest row may be one of the other side.
                 let inside_s = |at_s: f64| at_s.clamp(from_s + 1e-3, end_s - 1e-3);
                 let gradient = |at_s: f64| {
                     let position_m = path.at(at_s).from_sun.position_m;
-                    gravity.gradient_per_s2(Body::Sun, at_s, &position_m, &mut ephemeris)
+                    gravity.model.gradient_per_s2(Body::Sun, at_s, &position_m, &mut ephemeris)
                         + light.gradient_per_s2(inside_s(at_s))
                 };
                 let cell =
-                    partials_over(&method, span_s, &partials, gradient).map_err(|error| error.to_string())?;
+                    partials_over(&method, span, &partials, gradient).map_err(|error| error.to_string())?;
                 partials = *cell.at_start();
                 cells.push(cell);
             }
@@ -89,7 +91,7 @@ impl Sensitivity {
     /// B.T (m), B.R (m) and the time of closest approach (s) by position (m) and velocity (m/s), EME2000, at a time of the flight;
     /// before its start as there, behind the epoch of osculation as at that.
     pub fn at(&self, time_s: f64) -> Matrix3x6<f64> {
-        let index = self.cells.partition_point(|cell| cell.span_s[1] <= time_s);
+        let index = self.cells.partition_point(|cell| cell.span.end_s <= time_s);
         match self.cells.get(index) {
             Some(cell) => cell.at(time_s),
             None => self.encounter.at_epoch_partials,

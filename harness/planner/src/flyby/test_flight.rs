@@ -242,7 +242,8 @@ impl Leg {
         }
         let epoch_s = closest_s - force_model().lead_s;
         let there = unpacked(&self.propagated(there, [closest_s, epoch_s]));
-        let plane = BPlane::of(&(there - self.body(Body::Mercury, epoch_s)), GM_MERCURY_M3_S2).unwrap();
+        let plane =
+            BPlane::from_state(&(there - self.body(Body::Mercury, epoch_s)), GM_MERCURY_M3_S2).unwrap();
         Vector3::new(plane.b_t_m, plane.b_r_m, closest_s)
     }
 

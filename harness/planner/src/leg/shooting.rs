@@ -15,9 +15,11 @@ use physics::{
     environment::{
         CartesianState,
         frames::dcm_eme2000_from_ecliptic,
-        orbit::{LambertArc, LambertBranch, LambertError, OrbitError, TwoBodyOrbit},
+        orbit::{OrbitError, TwoBodyOrbit},
     },
 };
+
+use crate::orbit::{LambertArc, LambertBranch, LambertError};
 
 use super::{
     aimpoint::{FlybyAimpoint, impact_parameter_m},

@@ -2,19 +2,20 @@
 
 use nalgebra::Vector3;
 use physics::{
-    bodies::{Body, BodyData},
+    bodies::Body,
     constants::{ASTRONOMICAL_UNIT_M, DAY_S, GM_MERCURY_M3_S2, GM_SUN_M3_S2, RADIUS_MERCURY_M},
     environment::{
         CartesianState, dates,
         ephemeris::Ephemeris,
         orbit::{
-            BPlane, BodyEphemeris, DisturbedOrbit, LambertArc, LambertBranch, LambertError, NBodyGravity,
-            NBodySettings, OrbitMethod, TwoBodyOrbit,
+            Attractor, BPlane, BodyEphemeris, DisturbedOrbit, GravityModel, NBodyGravity, NBodySettings,
+            OrbitMethod, TwoBodyOrbit,
         },
     },
 };
 
 use super::*;
+use crate::orbit::{LambertArc, LambertBranch, LambertError};
 
 /// 2008-01-14 19:05 TDB, the first flyby of Mercury.
 const FLYBY_S: f64 = 253_609_500.0;
@@ -52,17 +53,11 @@ impl Flights<'_> {
         times_s: &[f64],
         mercury: bool,
     ) -> Result<Vec<CartesianState>, Failure> {
-        let settings = NBodySettings {
-            relativity: false,
-            changes_center: true,
-            moon: false,
-            cell_s: DAY_S,
-            tolerance_m: 1e-3,
-        };
+        let settings = NBodySettings { changes_center: true, cell_s: DAY_S, tolerance_m: 1e-3 };
         let all = [Body::Venus, Body::Earth, Body::Jupiter].into_iter();
-        let all =
-            all.chain(mercury.then_some(Body::Mercury)).map(|body| BodyData { j2: 0.0, ..*body.data() });
-        let gravity = NBodyGravity::new(settings, Body::Sun.data(), all, None);
+        let all = all.chain(mercury.then_some(Body::Mercury)).chain([Body::Sun]);
+        let rows = all.map(|body| Attractor::point_mass(body.data()));
+        let gravity = NBodyGravity::new(settings, GravityModel::new(Body::Sun, rows, false));
         let start = CartesianState { position_m: self.task.position_m, velocity_m_s: *velocity_m_s };
         let mut orbit = DisturbedOrbit::between_bodies(&start, self.task.start_s, &gravity)?;
         let method = OrbitMethod::default();
@@ -99,7 +94,7 @@ impl SimulatesLeg for Flights<'_> {
         let states = self.states(velocity_m_s, &times_s, true)?;
         let rows = times_s.iter().zip(states).map(|(&time_s, state)| {
             let state = from_mercury(&state, &self.sky.heliocentric(Body::Mercury, time_s));
-            ApproachRow { time_s, state, b_plane: BPlane::of(&state, GM_MERCURY_M3_S2).unwrap() }
+            ApproachRow { time_s, state, b_plane: BPlane::from_state(&state, GM_MERCURY_M3_S2).unwrap() }
         });
         let rows = rows.collect();
         Ok(Approach { rows, closest: None, mu_m3_s2: GM_MERCURY_M3_S2, radius_m: RADIUS_MERCURY_M })
@@ -168,7 +163,7 @@ fn an_aim_by_components_is_met_six_hours_before() {
     let before_s = leg.encounter.arrival_s - LEAD_S;
     let state = flights.states(&leg.velocity_m_s, &[before_s], true).unwrap()[0];
     let mercury = flights.sky.heliocentric(Body::Mercury, before_s);
-    let found = BPlane::of(&from_mercury(&state, &mercury), GM_MERCURY_M3_S2).unwrap();
+    let found = BPlane::from_state(&from_mercury(&state, &mercury), GM_MERCURY_M3_S2).unwrap();
     let miss_m = (found.b_t_m + 4.1e6).hypot(found.b_r_m - 1.3e6);
     assert!(miss_m < 2.0, "{miss_m}");
 }

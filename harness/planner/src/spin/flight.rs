@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use physics::{
     attitude::{RigidBodyState, angle_between_rad},
     spin::{
-        burn::BurnRequest,
+        burn_request::BurnRequest,
         execution::PulseExecution,
         plant::{Commands, Directions, MOST_WORK, MassSource, Plant, Sampling, Start},
         sequencer::{Phase, Sequencer},
@@ -90,7 +90,7 @@ fn start(spinner: &Spinner, task: &Task, row: &TrainForecast) -> Start {
         products_kg_m2: task.products_kg_m2,
         mass_source: MassSource::Fixed,
         propellant_kg: task.propellant_kg,
-        execution: PulseExecution::of(spinner),
+        execution: PulseExecution::from_spinner(spinner),
         spin_rate_rad_s: case.spin.rate_rad_s,
         attitude: task.attitude().0,
         nutation_rad: 0.0,
@@ -225,15 +225,15 @@ impl Flyer<'_> {
         let Some(sequencer) = self.plant.sequencer() else { return Ok(()) };
         let k = sequencer.fired();
         let (burn, mask) = (sequencer.burn(), sequencer.mask());
-        let [before_s, after_s] = burn.about_centre_s(k);
+        let about = burn.about_centre(k);
         let mut centred = self.plant.clone();
-        centred.advance(self.spinner, time_s + before_s).map_err(failed)?;
+        centred.advance(self.spinner, time_s - about.start_s).map_err(failed)?;
         let sun = centred.state().attitude.body_from_inertial(&self.task.geometry.sun_inertial);
         let slit_rad = self.spinner.sun_sensor.azimuth_deg.to_radians();
         let last_s = self.plant.sensors().sun.last_s;
         self.opened = Some(Pulse {
             time_s,
-            on_time_s: before_s + after_s,
+            on_time_s: about.length_s(),
             thruster: self.name(mask),
             after_sun_s: last_s.map(|crossing_s| time_s - crossing_s),
             phase_rad: (slit_rad - sun.y.atan2(sun.x)).rem_euclid(TAU),

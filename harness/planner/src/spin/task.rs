@@ -5,7 +5,7 @@ use physics::{
     attitude::{Inertia, Quaternion},
     constants::RPM_RAD_S,
     spin::{
-        burn::opposes,
+        burn_request::opposes,
         forecast::{ForecastCase, Range, Timing},
         nutation::{Spin, allowed_nutation_rad},
         spinner::Spinner,

@@ -149,7 +149,7 @@ impl<'a> Reader<'a> {
         let (sun_and_earth, spacecraft) = match precise.filter(|_| is_onboard) {
             Some(carried) => (
                 onboard(OnboardTarget::Sun).zip(onboard(OnboardTarget::Earth)),
-                match carried.span_s(OnboardTarget::Spacecraft, center) {
+                match carried.span(OnboardTarget::Spacecraft, center) {
                     Some(_) => onboard(OnboardTarget::Spacecraft),
                     None => Some(given),
                 },

@@ -4,7 +4,7 @@ use fmi_export::{Failure, Values};
 use physics::bodies::{Body, BodyData};
 use physics::environment::ephemeris::VALID_EPOCH_S;
 use physics::environment::onboard::{OnboardEphemeris, OnboardTarget};
-use physics::environment::orbit::{NBodyGravity, NBodySettings};
+use physics::environment::orbit::{Attractor, GravityModel, NBodyGravity, NBodySettings};
 use physics::plant::{Encounter, PredictionSettings};
 
 use super::center::Center;
@@ -89,20 +89,21 @@ pub(super) fn read(
 fn gravity(variables: &PlantVariables, values: &Values, center: &Center) -> NBodyGravity {
     let orbit = &variables.orbit;
     let settings = NBodySettings {
-        relativity: values.boolean(orbit.relativity),
         changes_center: values.boolean(orbit.change_center),
-        moon: values.boolean(orbit.attraction.moon),
         cell_s: values.real(orbit.n_body_step),
         tolerance_m: values.real(orbit.n_body_tolerance),
     };
     let planet = &center.planet;
     let data = |body: Body| if body == planet.body { *planet } else { *body.data() };
-    let encounter = Some(*planet).filter(|planet| planet.body != center.data.body);
-    let bodies: [Option<BodyData>; Body::COUNT] = {
-        let mut all = attracting(variables, values).map(data).chain(encounter);
-        core::array::from_fn(|_| all.next())
+    let row = |data: &BodyData| match data.body == planet.body {
+        true => Attractor::flattened(data),
+        false => Attractor::point_mass(data),
     };
-    NBodyGravity::new(settings, &center.data, bodies.into_iter().flatten(), Some(planet))
+    let bodies = [Body::Sun].into_iter().chain(attracting(variables, values)).map(data);
+    let bodies = bodies.chain([*planet, center.data]);
+    let moon = values.boolean(orbit.attraction.moon).then_some(Attractor::MOON);
+    let rows = bodies.map(|data| row(&data)).chain(moon);
+    NBodyGravity::new(settings, GravityModel::new(center.data.body, rows, values.boolean(orbit.relativity)))
 }
 
 /// Until when the ephemerides place all that attracts, in s past J2000 TDB.
@@ -110,10 +111,10 @@ fn last_epoch_s(context: &Plan<'_>, values: &Values) -> f64 {
     let variables = context.variables;
     let is_onboard = matches!(values.choice(variables.ephemeris_source), EphemerisSource::Chebyshev);
     let carried = precise(context.setup.ephemeris.as_ref()).filter(|_| is_onboard);
-    let spans_s = carried.into_iter().flat_map(|carried| {
-        placed(variables, values).filter_map(|(target, from)| carried.span_s(target, from))
+    let spans = carried.into_iter().flat_map(|carried| {
+        placed(variables, values).filter_map(|(target, from)| carried.span(target, from))
     });
-    spans_s.map(|[_, last_s]| last_s).fold(VALID_EPOCH_S, f64::min)
+    spans.map(|span| span.end_s).fold(VALID_EPOCH_S, f64::min)
 }
 
 /// Bodies that ephemerides have to place, each relative to another: all that attract, and the planet of the encounter.
@@ -139,14 +140,14 @@ pub(super) fn check_onboard(
         return Ok(());
     }
     for (target, from) in placed(variables, values) {
-        let span_s = carried.span_s(target, from).ok_or_else(|| {
+        let span = carried.span(target, from).ok_or_else(|| {
             Failure::new(format!(
                 "{EPHEMERIS_FILE}: found no [[body]] that joins {target} with {}, allowed with orbit.dynamics nBody (3): one of \
                  each that attracts (heliotorque ephemeris --bodies ...,{target}), or orbit.attraction.{target} = false",
                 OnboardTarget::from(from)
             ))
         })?;
-        check_epoch(target, span_s, what, epoch_s)?;
+        check_epoch(target, span, what, epoch_s)?;
     }
     Ok(())
 }

@@ -6,7 +6,7 @@ use physics::bodies::Body;
 use physics::environment::CartesianState;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::frames::Frame;
-use physics::environment::orbit::{Flattening, Gravity, NBodyGravity, OrbitError, Tides, TwoBodyOrbit};
+use physics::environment::orbit::{Attractor, GravityModel, NBodyGravity, OrbitError, TwoBodyOrbit};
 use physics::environment::time;
 use physics::plant::{self, Motion};
 
@@ -114,16 +114,13 @@ impl OrbitReader<'_> {
             return Motion::TwoBody;
         }
         let center = &center.data;
-        let flattening = Flattening::of(center);
+        let parent = center.parent.filter(|_| values.boolean(orbit.sun_tide));
+        let has_moon = center.body == Attractor::MOON_PARENT && values.boolean(orbit.moon_tide);
+        let tides = parent.map(|parent| Attractor::point_mass(parent.data())).into_iter();
+        let tides = tides.chain(has_moon.then_some(Attractor::MOON));
+        let attractors = [Attractor::flattened(center)].into_iter().chain(tides);
         Motion::Disturbed {
-            gravity: Gravity {
-                mu_m3_s2: center.gm_m3_s2,
-                flattening: (flattening.j2 != 0.0).then_some(flattening),
-            },
-            tides: Tides {
-                sun: center.body.is_planet() && values.boolean(orbit.sun_tide),
-                moon: center.body == Body::Earth && values.boolean(orbit.moon_tide),
-            },
+            gravity: GravityModel::new(center.body, attractors, false),
             segment_length_s: values.real(orbit.step),
             radius_m: center.radius_m,
             feedback,

@@ -67,7 +67,7 @@ pub struct SpinRateVariables {
     pub sun_crossings: Integer,
 }
 
-/// Where the flight starts.
+/// Start of the flight.
 #[derive(Variables)]
 pub struct StartVariables {
     /// Attitude quaternion at the start, scalar last, from EME2000 to body.

@@ -10,7 +10,7 @@ use physics::spin::{plant::Sampling, spinner::Spinner};
 
 use physics::math;
 
-/// Where Sun and Earth stand.
+/// Directions of Sun and Earth.
 #[derive(Variables)]
 #[variables(setup = Spinner)]
 pub struct GeometryVariables {

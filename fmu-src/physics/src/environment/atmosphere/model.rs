@@ -15,7 +15,7 @@ pub const BREAKS: usize = 7;
 /// Lower limit of free molecular flow, in m.
 pub const FLOOR_M: f64 = 1e5;
 
-/// Where the air comes from.
+/// Model of the air.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum AtmosphereModel {
     /// Exponential decrease with height.

@@ -76,15 +76,15 @@ pub enum EclipseError {
     /// A position that is not finite.
     #[error("position of {of} is not finite")]
     NotFinite {
-        /// Of what.
+        /// Name of the body.
         of: &'static str,
     },
     /// A radius that cannot be.
     #[error("radius of {of} is {found_m} m, allowed is a finite number above 0")]
     Radius {
-        /// Of what.
+        /// Name of the body.
         of: &'static str,
-        /// What it was, m.
+        /// Radius that was found, m.
         found_m: f64,
     },
 }
@@ -133,7 +133,7 @@ impl Shadow {
         self.sun_radius_m
     }
 
-    /// What the spacecraft sees.
+    /// Discs of planet and Sun as seen from the spacecraft.
     fn discs<T: Scalar>(
         &self,
         [planet_radius_m, sun_radius_m]: [T; 2],

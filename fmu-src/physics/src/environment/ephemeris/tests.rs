@@ -263,7 +263,7 @@ fn a_shared_cache_changes_no_bit() {
             [start_s, start_s + f64::from(days) * DAY_S].map(|at_s| (at_s / length_s).floor());
         1 + (last - first) as usize
     };
-    fn held<const D: usize, const N: usize>(slots: &Option<Slots<D, N>>) -> usize {
+    fn held<const D: usize, const N: usize>(slots: &Option<SegmentCache<D, N>>) -> usize {
         slots.iter().flat_map(|slots| &slots.held).flatten().count()
     }
     let all = cache.0.lock().unwrap();

@@ -7,7 +7,7 @@ use super::igrf14::{self, FIRST_YEAR, LAST_YEAR};
 use crate::bodies::dipole::DipoleField;
 use crate::environment::utc;
 
-/// Where the field comes from.
+/// Model of the magnetic field.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum MagneticField {
     /// A dipole.

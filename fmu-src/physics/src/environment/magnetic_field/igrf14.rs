@@ -61,7 +61,7 @@ fn pairs(n: usize) -> &'static Pairs {
     })
 }
 
-/// What Schmidt's functions are times those that are not normalised.
+/// Ratio of Schmidt's functions to those that are not normalised.
 fn schmidt(n: usize, m: usize) -> f64 {
     let quotient: f64 = (n - m + 1..=n + m).map(|k| k as f64).product();
     let doubled = if m == 0 { 1.0 } else { 2.0 };

@@ -13,6 +13,7 @@ use crate::environment::CartesianState;
 use crate::environment::orbit::Elements;
 use crate::environment::orbit::kepler::{Anomaly, eccentric_anomaly};
 use crate::math;
+use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
 
 /// Coefficients of an element: fourth degree.
@@ -27,34 +28,30 @@ pub type KeplerianElements = SVector<f64, 6>;
 /// The polynomials of one body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoarseElements {
-    /// What it moves about.
+    /// Body about which it moves.
     pub center: Body,
     /// First and last epoch; those of the polynomials are rounded otherwise.
-    pub span_s: [f64; 2],
+    pub span: Span,
     /// The elements over the span.
     pub elements: Segment<6, COARSE_TERMS>,
 }
 
 impl CoarseElements {
-    /// Of elements given at the nodes of a span, [`Segment::nodes`]; mean anomalies run on over full turns.
-    pub fn of_elements<const N: usize>(
+    /// Fits elements at the nodes of a span, [`Segment::nodes`]; mean anomalies run on over full turns.
+    pub fn from_elements<const N: usize>(
         center: Body,
-        span_s: [f64; 2],
+        span: Span,
         elements: &[KeplerianElements; N],
     ) -> Self {
-        let [start_s, end_s] = span_s;
+        let Span { start_s, end_s } = span;
         let whole = Segment::from_samples(start_s, end_s, elements);
         let lowest = whole.coefficients().fixed_columns::<COARSE_TERMS>(0).into_owned();
-        Self { center, span_s, elements: Segment::from_coefficients(start_s, end_s, lowest) }
+        Self { center, span, elements: Segment::from_coefficients(start_s, end_s, lowest) }
     }
 
-    /// Of states about the centre at the nodes of a span, from the last to the first; `None` where one is no ellipse.
-    pub fn of_states(
-        center: Body,
-        span_s: [f64; 2],
-        states: &[CartesianState; COARSE_SAMPLES],
-    ) -> Option<Self> {
-        let nodes_s = Segment::<6, COARSE_SAMPLES>::nodes(span_s[0], span_s[1]);
+    /// Fits states about the centre at the nodes of a span, from the last to the first; `None` where one is no ellipse.
+    pub fn from_states(center: Body, span: Span, states: &[CartesianState; COARSE_SAMPLES]) -> Option<Self> {
+        let nodes_s = Segment::<6, COARSE_SAMPLES>::nodes(span.start_s, span.end_s);
         let mut elements = [KeplerianElements::zeros(); COARSE_SAMPLES];
         let mut later: Option<(f64, KeplerianElements)> = None;
         for ((state, at_s), slot) in states.iter().zip(nodes_s).zip(&mut elements) {
@@ -72,13 +69,12 @@ impl CoarseElements {
             later = Some((at_s, found));
             *slot = found;
         }
-        Some(Self::of_elements(center, span_s, &elements))
+        Some(Self::from_elements(center, span, &elements))
     }
 
     /// Position and velocity about the centre; `None` outside the span and where the polynomials give no ellipse.
     pub fn state(&self, epoch_s: f64) -> Option<CartesianState> {
-        let [start_s, end_s] = self.span_s;
-        if !(start_s..=end_s).contains(&epoch_s) {
+        if !self.span.contains(epoch_s) {
             return None;
         }
         let elements = self.elements.value(epoch_s);

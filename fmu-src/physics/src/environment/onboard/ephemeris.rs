@@ -12,15 +12,16 @@ use super::target::OnboardTarget;
 use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::ephemeris::VALID_EPOCH_S;
+use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
 use crate::toml::{Checker, Document, FileError, KeyPath};
 
 /// A model of a body's motion with the error it was made with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FittedBody<M> {
-    /// What moves.
+    /// Body that moves, or the spacecraft.
     pub target: OnboardTarget,
-    /// About what.
+    /// Body about which it moves.
     pub center: Body,
     /// Its motion.
     pub motion: M,
@@ -28,10 +29,10 @@ pub struct FittedBody<M> {
     pub error: FitError,
 }
 
-/// What a spacecraft carries. No body stands in it twice, and no body is, by way of others, its own centre.
+/// Ephemerides that a spacecraft carries. No body stands in it twice, and no body is, by way of others, its own centre.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OnboardEphemeris {
-    /// Where the positions come from, for people.
+    /// Source of the positions, for people.
     pub source: Option<String>,
     /// The precise models.
     pub precise: Vec<FittedBody<SegmentTable>>,
@@ -114,17 +115,17 @@ impl OnboardEphemeris {
     }
 
     /// Epochs at which the precise models place `target` from `center`; `None` where nothing joins them.
-    pub fn span_s(&self, target: OnboardTarget, center: Body) -> Option<[f64; 2]> {
-        let mut span_s = [f64::NEG_INFINITY, f64::INFINITY];
+    pub fn span(&self, target: OnboardTarget, center: Body) -> Option<Span> {
+        let mut span = Span::new(f64::NEG_INFINITY, f64::INFINITY);
         let center = center.into();
         for (from, other) in [(target, center), (center, target)] {
             self.climb(from, other, |body| {
-                let [start_s, end_s] = body.motion.span_s();
-                span_s = [span_s[0].max(start_s), span_s[1].min(end_s)];
+                let Span { start_s, end_s } = body.motion.span();
+                span = Span::new(span.start_s.max(start_s), span.end_s.min(end_s));
                 Some(())
             })?;
         }
-        Some(span_s)
+        Some(span)
     }
 
     /// The first end of a segment of a precise model after an epoch, in s past J2000 TDB; within a microsecond of one, the one behind
@@ -156,8 +157,8 @@ impl OnboardEphemeris {
         center: Body,
         epoch_s: f64,
     ) -> Option<CartesianState> {
-        let [start_s, end_s] = self.span_s(target, center)?;
-        let inside_s = epoch_s.clamp(start_s, end_s);
+        let span = self.span(target, center)?;
+        let inside_s = epoch_s.clamp(span.start_s, span.end_s);
         let state = self.state(target, center, inside_s)?;
         let position_m = state.position_m + state.velocity_m_s * (epoch_s - inside_s);
         Some(CartesianState { position_m, ..state })
@@ -210,7 +211,8 @@ fn error(check: &mut Checker<'_>, at: &KeyPath, position_m: f64, velocity_m_s: f
 }
 
 /// Epochs within the years that a body can be placed in, one after the other.
-fn span(check: &mut Checker<'_>, at: &KeyPath, [start_s, end_s]: [f64; 2]) -> [f64; 2] {
+fn span(check: &mut Checker<'_>, at: &KeyPath, span: Span) -> Span {
+    let Span { start_s, end_s } = span;
     for (key, epoch_s) in [("start_s", start_s), ("end_s", end_s)] {
         let allowed = "s past J2000 TDB, within 4000 years of it";
         check.within(&at.key(key), epoch_s, -VALID_EPOCH_S, VALID_EPOCH_S, allowed);
@@ -218,7 +220,7 @@ fn span(check: &mut Checker<'_>, at: &KeyPath, [start_s, end_s]: [f64; 2]) -> [f
     if end_s <= start_s {
         check.report(&at.key("end_s"), format_args!("{end_s:e}"), format!("more than start_s, {start_s:e}"));
     }
-    [start_s, end_s]
+    span
 }
 
 /// The polynomials of a body; `None` where they leave a gap or something was reported.
@@ -260,7 +262,7 @@ fn segment(
     described: &SegmentDescription,
     degree: usize,
 ) -> EphemerisSegment {
-    let [start_s, end_s] = span(check, at, [described.start_s, described.end_s]);
+    let Span { start_s, end_s } = span(check, at, Span::new(described.start_s, described.end_s));
     let lists = [("x_m", &described.x_m), ("y_m", &described.y_m), ("z_m", &described.z_m)];
     for (key, list) in lists {
         let place = at.key(key);
@@ -284,7 +286,8 @@ fn segment(
 const LOOKS: u32 = 400;
 
 fn coarse(check: &mut Checker<'_>, at: &KeyPath, body: &CoarseDescription) -> CoarseElements {
-    let [start_s, end_s] = span(check, at, [body.start_s, body.end_s]);
+    let span = span(check, at, Span::new(body.start_s, body.end_s));
+    let Span { start_s, end_s } = span;
     let rows = [
         ("semi_major_axis_m", &body.semi_major_axis_m),
         ("eccentricity", &body.eccentricity),
@@ -301,7 +304,7 @@ fn coarse(check: &mut Checker<'_>, at: &KeyPath, body: &CoarseDescription) -> Co
     let coefficients = SMatrix::<f64, 6, COARSE_TERMS>::from_fn(|row, k| rows[row].1[k]);
     let motion = CoarseElements {
         center: body.center,
-        span_s: [start_s, end_s],
+        span,
         elements: Segment::from_coefficients(start_s, end_s, coefficients),
     };
     if !check.has_reported(at) {

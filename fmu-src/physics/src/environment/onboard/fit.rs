@@ -2,13 +2,14 @@
 //!
 //! A segment is sampled at [`SAMPLES`] Chebyshev nodes; the series through them, cut off at a degree, is the fit of least
 //! squares with Chebyshev's weight, near the best there is. Its error is the greatest at [`CHECKS`] evenly spaced epochs
-//! from the segment's start to its end, of which none is a node. At the end itself the next segment counts, and the source
+//! from the segment's start to its end, none a node. At the end itself the next segment counts, and the source
 //! may have an edge there: the last check lies just before it.
 
 use nalgebra::SVector;
 
 use super::table::{EphemerisSegment, SegmentTable};
 use crate::environment::CartesianState;
+use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
 
 /// Nodes of a segment.
@@ -25,9 +26,9 @@ pub const GREATEST_DEGREE: usize = 24;
 /// Greatest error of a fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FitError {
-    /// Of position, in m.
+    /// Error of position, in m.
     pub position_m: f64,
-    /// Of velocity, in m/s.
+    /// Error of velocity, in m/s.
     pub velocity_m_s: f64,
 }
 
@@ -40,8 +41,8 @@ impl FitError {
         }
     }
 
-    /// Of a state against the truth.
-    pub fn of(found: &CartesianState, truth: &CartesianState) -> Self {
+    /// Returns the error of a state against the truth.
+    pub fn from_states(found: &CartesianState, truth: &CartesianState) -> Self {
         Self {
             position_m: (found.position_m - truth.position_m).norm(),
             velocity_m_s: (found.velocity_m_s - truth.velocity_m_s).norm(),
@@ -55,7 +56,7 @@ pub struct FitPlan {
     edges_s: Vec<f64>,
 }
 
-/// What an epoch of the plan is for.
+/// Purpose of an epoch of the plan.
 #[derive(Clone, Copy)]
 enum Purpose {
     Node(usize),
@@ -65,7 +66,8 @@ enum Purpose {
 impl FitPlan {
     /// Segments over a span; inner edges are whole multiples of their length past J2000.
     /// A length that is not above 0 makes one segment of the whole span.
-    pub fn new([start_s, end_s]: [f64; 2], segment_s: f64) -> Self {
+    pub fn new(span: Span, segment_s: f64) -> Self {
+        let Span { start_s, end_s } = span;
         let mut edges_s = vec![start_s];
         if segment_s > 0.0 {
             let mut number = (start_s / segment_s).floor() + 1.0;
@@ -115,7 +117,7 @@ impl FitPlan {
             let segment = EphemerisSegment { start_s, end_s, coefficients_m: lowest.copied().collect() };
             for ((at_s, purpose), state) in purposes.iter().zip(states) {
                 if matches!(purpose, Purpose::Check) {
-                    error = error.worst(FitError::of(&segment.state(*at_s), state));
+                    error = error.worst(FitError::from_states(&segment.state(*at_s), state));
                 }
             }
             fitted.push(segment);

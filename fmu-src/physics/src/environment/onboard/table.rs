@@ -6,14 +6,15 @@
 use nalgebra::Vector3;
 
 use crate::environment::CartesianState;
+use crate::numerics::Span;
 use crate::numerics::chebyshev::series_at;
 
 /// A polynomial of position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EphemerisSegment {
-    /// Where it begins, in s past J2000 TDB.
+    /// Start, in s past J2000 TDB.
     pub start_s: f64,
-    /// Where it ends.
+    /// End, in s past J2000 TDB.
     pub end_s: f64,
     /// Coefficients of x, y and z in m, item k for `T_k`.
     pub coefficients_m: Vec<[f64; 3]>,
@@ -46,7 +47,7 @@ impl SegmentTable {
         (!segments.is_empty() && is_ordered && is_whole).then_some(Self { segments })
     }
 
-    /// Of segments that are known to be in order and without gaps, at least one.
+    /// Joins segments in order and without gaps, at least one.
     pub(super) fn joined(segments: Vec<EphemerisSegment>) -> Self {
         Self { segments }
     }
@@ -57,9 +58,9 @@ impl SegmentTable {
     }
 
     /// First and last epoch.
-    pub fn span_s(&self) -> [f64; 2] {
+    pub fn span(&self) -> Span {
         let start_s = self.segments.first().map_or(f64::NAN, |segment| segment.start_s);
-        [start_s, self.segments.last().map_or(f64::NAN, |segment| segment.end_s)]
+        Span::new(start_s, self.segments.last().map_or(f64::NAN, |segment| segment.end_s))
     }
 
     /// Position and velocity; `None` outside the span.

@@ -1,4 +1,4 @@
-//! What an onboard ephemeris places: a body or the spacecraft.
+//! Target of an onboard ephemeris: a body or the spacecraft.
 
 use core::fmt;
 
@@ -32,7 +32,7 @@ pub enum OnboardTarget {
 }
 
 impl OnboardTarget {
-    /// Those that are bodies, in their order.
+    /// Targets that are bodies, in their order.
     const BODIES: [Self; Body::COUNT] =
         [Self::Sun, Self::Mercury, Self::Venus, Self::Earth, Self::Mars, Self::Jupiter, Self::Custom];
     /// As they are written in the file.

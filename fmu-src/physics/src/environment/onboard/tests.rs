@@ -12,10 +12,11 @@ use crate::environment::kepler_planet::MESSENGER_AS_PRINTED;
 use crate::environment::orbit::{Elements, TwoBodyOrbit};
 use crate::environment::time::MOMENTUM_STUDY_START_S as START_S;
 use crate::math;
+use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
 use crate::tests::short_or_long;
 
-const SPAN_S: [f64; 2] = [START_S, START_S + 40.0 * DAY_S];
+const SPAN: Span = Span::new(START_S, START_S + 40.0 * DAY_S);
 
 fn negative(state: CartesianState) -> CartesianState {
     CartesianState { position_m: -state.position_m, velocity_m_s: -state.velocity_m_s }
@@ -33,7 +34,7 @@ fn motion(target: OnboardTarget) -> impl FnMut(f64) -> CartesianState {
 }
 
 fn fitted(target: OnboardTarget, center: Body, segment_s: f64, degree: usize) -> FittedBody<SegmentTable> {
-    let plan = FitPlan::new(SPAN_S, segment_s);
+    let plan = FitPlan::new(SPAN, segment_s);
     let states: Vec<_> = plan.epochs_s().into_iter().map(motion(target)).collect();
     let (motion, error) = plan.fit(&states, degree);
     FittedBody { target, center, motion, error }
@@ -48,15 +49,15 @@ fn mission() -> OnboardEphemeris {
             fitted(OnboardTarget::Spacecraft, Body::Mercury, 1800.0, 12),
         ],
         // A span whose ends the middle and half its length do not give back.
-        coarse: vec![coarse_mercury([START_S + 0.1, START_S + 4.0 * 365.25 * DAY_S + 0.7])],
+        coarse: vec![coarse_mercury(Span::new(START_S + 0.1, START_S + 4.0 * 365.25 * DAY_S + 0.7))],
     }
 }
 
-fn coarse_mercury(span_s: [f64; 2]) -> FittedBody<CoarseElements> {
+fn coarse_mercury(span: Span) -> FittedBody<CoarseElements> {
     let mut ephemeris = Ephemeris::default();
-    let nodes = Segment::<6, COARSE_SAMPLES>::nodes(span_s[0], span_s[1]);
+    let nodes = Segment::<6, COARSE_SAMPLES>::nodes(span.start_s, span.end_s);
     let states = nodes.map(|epoch_s| ephemeris.state(Body::Mercury, epoch_s));
-    let motion = CoarseElements::of_states(Body::Sun, span_s, &states).unwrap();
+    let motion = CoarseElements::from_states(Body::Sun, span, &states).unwrap();
     FittedBody { target: OnboardTarget::Mercury, center: Body::Sun, motion, error: FitError::default() }
 }
 
@@ -67,9 +68,9 @@ fn stated_errors_bound_the_fit_and_are_nearly_reached() {
         let mut found = FitError::default();
         // Epochs that are neither nodes nor checks, an irrational part of the span apart.
         for i in 0..short_or_long(3_000, 20_000) {
-            let epoch_s = SPAN_S[0] + (SPAN_S[1] - SPAN_S[0]) * (f64::from(i) * 0.618_033_988_75).fract();
+            let epoch_s = SPAN.start_s + SPAN.length_s() * (f64::from(i) * 0.618_033_988_75).fract();
             let state = body.motion.state(epoch_s).unwrap();
-            found = found.worst(FitError::of(&state, &truth(epoch_s)));
+            found = found.worst(FitError::from_states(&state, &truth(epoch_s)));
         }
         let [position, velocity] =
             [found.position_m / body.error.position_m, found.velocity_m_s / body.error.velocity_m_s];
@@ -84,7 +85,7 @@ fn stated_errors_bound_the_fit_and_are_nearly_reached() {
 fn velocity_is_the_derivative_of_position() {
     let body = fitted(OnboardTarget::Spacecraft, Body::Mercury, 1800.0, 12);
     for i in 0..500 {
-        let epoch_s = SPAN_S[0] + 1.0 + 1000.0 * f64::from(i);
+        let epoch_s = SPAN.start_s + 1.0 + 1000.0 * f64::from(i);
         let [before, after] = [-0.5, 0.5].map(|step_s| body.motion.state(epoch_s + step_s).unwrap());
         let slope = after.position_m - before.position_m;
         // Positions near 1e7 m at epochs near 3e8 s: 6e-8 s of rounding at 3 km/s.
@@ -97,22 +98,22 @@ fn velocity_is_the_derivative_of_position() {
 fn what_lies_outside_the_span_is_refused() {
     let carried = mission();
     for (target, center) in [(OnboardTarget::Sun, Body::Mercury), (OnboardTarget::Earth, Body::Mercury)] {
-        assert_eq!(carried.span_s(target, center), Some(SPAN_S));
-        for inside_s in SPAN_S {
+        assert_eq!(carried.span(target, center), Some(SPAN));
+        for inside_s in [SPAN.start_s, SPAN.end_s] {
             assert!(carried.state(target, center, inside_s).is_some());
         }
-        for outside_s in [SPAN_S[0].next_down(), SPAN_S[1].next_up(), f64::NAN] {
+        for outside_s in [SPAN.start_s.next_down(), SPAN.end_s.next_up(), f64::NAN] {
             assert!(carried.state(target, center, outside_s).is_none());
         }
         // For an integrator that looks ahead the last state moves on evenly.
-        let last = carried.state(target, center, SPAN_S[1]).unwrap();
-        let ahead = carried.state_carried_on(target, center, SPAN_S[1] + 64.0).unwrap();
+        let last = carried.state(target, center, SPAN.end_s).unwrap();
+        let ahead = carried.state_carried_on(target, center, SPAN.end_s + 64.0).unwrap();
         assert_eq!(ahead.velocity_m_s, last.velocity_m_s);
         assert!((ahead.position_m - last.position_m - last.velocity_m_s * 64.0).norm() < 1e-3);
     }
     assert!(carried.coarse_state(OnboardTarget::Mercury, START_S).is_none());
-    assert_eq!(carried.span_s(OnboardTarget::Venus, Body::Mercury), None);
-    assert!(carried.state_carried_on(OnboardTarget::Venus, Body::Mercury, SPAN_S[0]).is_none());
+    assert_eq!(carried.span(OnboardTarget::Venus, Body::Mercury), None);
+    assert!(carried.state_carried_on(OnboardTarget::Venus, Body::Mercury, SPAN.start_s).is_none());
 }
 
 #[test]
@@ -142,7 +143,7 @@ fn a_file_is_read_back_to_the_bit() {
 
 #[test]
 fn edges_lie_at_whole_multiples_of_the_length() {
-    let plan = FitPlan::new([-12.0, 31.0], 10.0);
+    let plan = FitPlan::new(Span::new(-12.0, 31.0), 10.0);
     let epochs_s = plan.epochs_s();
     assert_eq!(plan.len(), 6);
     for edge_s in [-10.0, 0.0, 10.0, 20.0, 30.0] {
@@ -150,14 +151,14 @@ fn edges_lie_at_whole_multiples_of_the_length() {
     }
     assert!(epochs_s.is_sorted_by(|a, b| a < b) && epochs_s[0] == -12.0);
     assert!((epochs_s.last().unwrap() - 31.0).abs() < 2e-6);
-    assert_eq!(FitPlan::new([0.0, 1.0], 0.0).len(), 1);
-    assert_eq!(FitPlan::new([0.0, 20.0], 10.0).len(), 2);
+    assert_eq!(FitPlan::new(Span::new(0.0, 1.0), 0.0).len(), 1);
+    assert_eq!(FitPlan::new(Span::new(0.0, 20.0), 10.0).len(), 2);
 }
 
 /// An ellipse whose elements drift evenly is given back, over many turns.
 #[test]
 fn a_coarse_model_follows_elements_that_drift() {
-    let span_s = [START_S, START_S + 365.0 * DAY_S];
+    let span = Span::new(START_S, START_S + 365.0 * DAY_S);
     let drifting = |epoch_s: f64| {
         let elapsed = (epoch_s - START_S) / (365.0 * DAY_S);
         let orbit = TwoBodyOrbit::from_elements(MESSENGER_AS_PRINTED, GM_MERCURY_M3_S2, START_S).unwrap();
@@ -170,14 +171,14 @@ fn a_coarse_model_follows_elements_that_drift() {
         .state(GM_MERCURY_M3_S2)
         .unwrap()
     };
-    let nodes = Segment::<6, COARSE_SAMPLES>::nodes(span_s[0], span_s[1]);
+    let nodes = Segment::<6, COARSE_SAMPLES>::nodes(span.start_s, span.end_s);
     let first = Elements::from_state(&drifting(START_S), GM_MERCURY_M3_S2).unwrap();
-    let motion = CoarseElements::of_states(Body::Mercury, span_s, &nodes.map(drifting)).unwrap();
-    let found = motion.elements.value(span_s[1]);
+    let motion = CoarseElements::from_states(Body::Mercury, span, &nodes.map(drifting)).unwrap();
+    let found = motion.elements.value(span.end_s);
     assert!((found[4] - first.periapsis_argument_rad - 0.05).abs() < 1e-6 * 0.05, "{found}");
     assert!((found[1] - first.eccentricity - 0.01).abs() < 1e-8);
     // 730 turns, give or take what the drift of the eccentricity makes of the mean anomaly.
-    let turns = (found[5] - motion.elements.value(span_s[0])[5]) / core::f64::consts::TAU;
+    let turns = (found[5] - motion.elements.value(span.start_s)[5]) / core::f64::consts::TAU;
     let period_s =
         core::f64::consts::TAU * (MESSENGER_AS_PRINTED.semi_major_axis_m.powi(3) / GM_MERCURY_M3_S2).sqrt();
     assert!((turns - 365.0 * DAY_S / period_s).abs() < 0.05, "{turns}");
@@ -191,7 +192,7 @@ fn coarse_error(body: Body) -> (f64, FitError) {
     for i in 0..count {
         let epoch_s = (f64::from(2 * i) / f64::from(count) - 1.0) * 50.0 * 365.25 * DAY_S;
         let (truth, found) = (ephemeris.state(body, epoch_s), coarse.state(body, epoch_s));
-        error = error.worst(FitError::of(&found, &truth));
+        error = error.worst(FitError::from_states(&found, &truth));
         let across = found.position_m.cross(&truth.position_m).norm();
         angle_rad = angle_rad.max(across.atan2(found.position_m.dot(&truth.position_m)));
     }
@@ -219,8 +220,8 @@ fn coarse_planets_stay_within_the_stated_error_of_vsop87() {
 /// Kepler's third law holds for the mean motion of a coarse planet.
 #[test]
 fn coarse_mercury_keeps_its_period() {
-    let motion = coarse_mercury([START_S, START_S + 10.0 * 365.25 * DAY_S]).motion;
-    let [start_s, end_s] = motion.span_s;
+    let motion = coarse_mercury(Span::new(START_S, START_S + 10.0 * 365.25 * DAY_S)).motion;
+    let Span { start_s, end_s } = motion.span;
     let [first, last] = [start_s, end_s].map(|at_s| motion.elements.value(at_s));
     let motion_rad_s = (last[5] - first[5]) / (end_s - start_s);
     let a_m = math::cbrt(GM_SUN_M3_S2 / (motion_rad_s * motion_rad_s));

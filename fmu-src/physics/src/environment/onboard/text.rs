@@ -4,6 +4,7 @@ use core::fmt::Write;
 
 use super::ephemeris::OnboardEphemeris;
 use super::target::OnboardTarget;
+use crate::numerics::Span;
 
 /// The file of an ephemeris.
 pub fn to_toml(ephemeris: &OnboardEphemeris) -> String {
@@ -29,7 +30,7 @@ pub fn to_toml(ephemeris: &OnboardEphemeris) -> String {
         }
     }
     for body in &ephemeris.coarse {
-        let [start_s, end_s] = body.motion.span_s;
+        let Span { start_s, end_s } = body.motion.span;
         let center = OnboardTarget::from(body.center);
         let _ = writeln!(text, "\n[[coarse]]\nbody = \"{}\"\ncenter = \"{center}\"", body.target);
         let _ = writeln!(text, "start_s = {start_s:e}\nend_s = {end_s:e}");

@@ -25,8 +25,8 @@ pub struct BPlane {
 }
 
 impl BPlane {
-    /// Of a state in EME2000 about a body of gravitational parameter `mu_m3_s2`; `None` on an ellipse or a straight line.
-    pub fn of(state: &CartesianState, mu_m3_s2: f64) -> Option<Self> {
+    /// Returns the B-plane of a state in EME2000 about a body of gravitational parameter `mu_m3_s2`; `None` on an ellipse or a straight line.
+    pub fn from_state(state: &CartesianState, mu_m3_s2: f64) -> Option<Self> {
         let [b_t_m, b_r_m, excess_speed_m_s] = components(&state.position_m, &state.velocity_m_s, mu_m3_s2)?;
         Some(Self { b_t_m, b_r_m, excess_speed_m_s })
     }
@@ -111,7 +111,7 @@ mod tests {
         let t = s.cross(&north).normalize();
         let r = s.cross(&t);
         for at_s in [-1e5, -3e3, 0.0, 700.0, 1e5] {
-            let found = BPlane::of(&orbit.state_at(at_s), GM_MERCURY_M3_S2).unwrap();
+            let found = BPlane::from_state(&orbit.state_at(at_s), GM_MERCURY_M3_S2).unwrap();
             // b = |a| sqrt(e^2 - 1), v^2 = mu / |a|.
             let size_m = 8.1e5 * (4.3_f64.powi(2) - 1.0).sqrt();
             assert!((found.b_t_m.hypot(found.b_r_m) / size_m - 1.0).abs() < 1e-9, "{at_s}");
@@ -124,9 +124,12 @@ mod tests {
 
     #[test]
     fn ellipses_have_none() {
-        assert_eq!(BPlane::of(&CartesianState::on_circle(3e6, GM_MERCURY_M3_S2), GM_MERCURY_M3_S2), None);
+        assert_eq!(
+            BPlane::from_state(&CartesianState::on_circle(3e6, GM_MERCURY_M3_S2), GM_MERCURY_M3_S2),
+            None
+        );
         let falling = CartesianState { position_m: Vector3::x() * 1e7, velocity_m_s: Vector3::x() * -9e3 };
-        assert_eq!(BPlane::of(&falling, GM_MERCURY_M3_S2), None);
+        assert_eq!(BPlane::from_state(&falling, GM_MERCURY_M3_S2), None);
     }
 
     #[test]
@@ -142,7 +145,7 @@ mod tests {
                 let mut moved = state;
                 let part = if axis < 3 { &mut moved.position_m } else { &mut moved.velocity_m_s };
                 part[axis % 3] += step;
-                let plane = BPlane::of(&moved, GM_MERCURY_M3_S2).unwrap();
+                let plane = BPlane::from_state(&moved, GM_MERCURY_M3_S2).unwrap();
                 Vector3::new(plane.b_t_m, plane.b_r_m, plane.excess_speed_m_s)
             });
             let difference = (after - before) / (2.0 * step);
@@ -165,7 +168,7 @@ mod tests {
             let orbit = TwoBodyOrbit::from_state(&start(aside_m), GM_MERCURY_M3_S2, 0.0).unwrap();
             orbit.state_at(1.2e7).velocity_m_s
         };
-        let plane = BPlane::of(&start(Vector3::zeros()), GM_MERCURY_M3_S2).unwrap();
+        let plane = BPlane::from_state(&start(Vector3::zeros()), GM_MERCURY_M3_S2).unwrap();
         let turned = outgoing(Vector3::zeros()).angle(&Vector3::x());
         assert!((turned / plane.turn_rad(GM_MERCURY_M3_S2) - 1.0).abs() < 1e-3, "{turned}");
         for across in [Vector3::y(), Vector3::z(), Vector3::new(0.0, 0.6, -0.8)] {

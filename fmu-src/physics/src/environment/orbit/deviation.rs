@@ -13,6 +13,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::environment::CartesianState;
+use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::collocation::IntegrationError;
 
@@ -31,18 +32,19 @@ pub(super) struct Deviation {
 }
 
 impl Deviation {
-    /// Integrates the deviation from its value `before` at `start_s` to `end_s`, under `perturbation_m_s2(t)` and the
+    /// Integrates the deviation from its value `before` at the start of `span` to its end, under `perturbation_m_s2(t)` and the
     /// difference of `gravity_m_s2(r)` from that on the reference orbit `reference_m(t)`.
     ///
     /// # Errors
     /// [`IntegrationError`].
     pub(super) fn integrate(
         before: &CartesianState,
-        [start_s, end_s]: [f64; 2],
+        span: Span,
         reference_m: impl Fn(f64) -> Vector3<f64>,
         gravity_m_s2: impl Fn(&Vector3<f64>) -> Vector3<f64>,
         perturbation_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
     ) -> Result<Self, IntegrationError> {
+        let Span { start_s, end_s } = span;
         let CartesianState { position_m, velocity_m_s } = *before;
         let node_s = Segment::<3, NODES>::nodes(start_s, end_s);
         let known = node_s.map(|at_s| {

@@ -7,14 +7,15 @@ use thiserror::Error;
 
 use super::deviation::Deviation;
 use super::elements::{OrbitError, check, check_mu};
-use super::gravity::Gravity;
-use super::n_body::{
-    BodiesAbout, BodyEphemeris, Collision, IntegrationCenter, NBodyGravity, Reached, pack, unpack,
-};
+use super::gravity_model::{BodyEphemeris, GravityModel};
+use super::integration_center::{IntegrationCenter, pack, unpack};
+use super::n_body::NBodyGravity;
 use super::orbit_method::{OrbitMethod, TERMS};
+use super::spheres::{BodiesAbout, Collision, SphereCrossing};
 use crate::{
     bodies::Body,
     environment::CartesianState,
+    numerics::Span,
     numerics::collocation::{IntegrationError, SegmentChain, edge_after_s},
 };
 
@@ -99,8 +100,8 @@ impl DisturbedOrbit {
         start_s: f64,
         gravity: &NBodyGravity,
     ) -> Result<Self, OrbitIntegrationError> {
-        let center = Some(IntegrationCenter::new(gravity.center));
-        Ok(Self { center, ..Self::new(state, start_s, gravity.cell_s, 0.0)? })
+        let center = Some(IntegrationCenter::new(gravity.model.center));
+        Ok(Self { center, ..Self::new(state, start_s, gravity.settings.cell_s, 0.0)? })
     }
 
     /// The body that the present segment counts from, where that may change.
@@ -121,7 +122,7 @@ impl DisturbedOrbit {
         self.chain.end_s()
     }
 
-    /// Where the present segment starts, s.
+    /// Start of the present segment, s.
     pub fn start_s(&self) -> f64 {
         self.chain.start_s()
     }
@@ -154,25 +155,27 @@ impl DisturbedOrbit {
         self.deviation.as_ref().map_or(f64::NEG_INFINITY, Deviation::end_s)
     }
 
-    /// Integrates the deviation under the perturbing acceleration `extra_m_s2(t)`, EME2000, smooth from `start_s` to `end_s`, within the
+    /// Integrates the deviation under the perturbing acceleration `extra_m_s2(t)`, EME2000, smooth over `span`, within the
     /// present segment and not before the last such interval; `None`: none acts. Tides are those of the segment.
     ///
     /// # Errors
     /// [`OrbitIntegrationError`]; the orbit stays as it was.
     pub fn accelerate(
         &mut self,
-        gravity: &Gravity,
-        [start_s, end_s]: [f64; 2],
+        gravity: &GravityModel,
+        span: Span,
         extra_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
     ) -> Result<(), OrbitIntegrationError> {
+        let Span { start_s, end_s } = span;
         if end_s <= start_s || (extra_m_s2.is_none() && self.deviation.is_none()) {
             return Ok(());
         }
         // Over a deviation tides change by less than 1e-10 m/s2 a kilometre.
-        let near_m_s2 = |position_m: &Vector3<f64>| gravity.acceleration_m_s2(position_m);
+        let about = self.integration_center().unwrap_or(gravity.center);
+        let near_m_s2 = |position_m: &Vector3<f64>| gravity.central_m_s2(about, position_m);
         let before = self.deviation.as_ref().map_or_else(CartesianState::default, |it| it.value(start_s));
         let reference_m = |at_s: f64| unpack(&self.chain.value(at_s)).position_m;
-        let next = Deviation::integrate(&before, [start_s, end_s], reference_m, near_m_s2, extra_m_s2)?;
+        let next = Deviation::integrate(&before, span, reference_m, near_m_s2, extra_m_s2)?;
         let distance_m = (reference_m(end_s) + next.value(end_s).position_m).norm();
         check_above(distance_m, end_s, self.radius_m)?;
         self.deviation = Some(next);
@@ -180,7 +183,7 @@ impl DisturbedOrbit {
     }
 
     /// Integrates one more segment, to `limit_s` if that comes first: because an acceleration changes there. Later segments end at
-    /// whole multiples again. `extra(t, state)` is any further acceleration, m/s2, EME2000, smooth within the segment, called 20 to 40
+    /// whole multiples again. `extra_m_s2(t)` is any further acceleration, EME2000, smooth within the segment, called 20 to 40
     /// times a segment.
     ///
     /// # Errors
@@ -189,18 +192,19 @@ impl DisturbedOrbit {
         &mut self,
         limit_s: f64,
         method: &OrbitMethod,
-        gravity: &Gravity,
-        mut extra: impl FnMut(f64, &CartesianState) -> Vector3<f64>,
+        gravity: &GravityModel,
+        ephemeris: &mut impl BodyEphemeris,
+        mut extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
     ) -> Result<(), OrbitIntegrationError> {
-        check_mu(gravity.mu_m3_s2)?;
+        check_mu(gravity.gm_m3_s2(gravity.center))?;
         let mut next = self.chain;
         if self.deviation.is_some() {
             next.cut(next.end_s(), pack(&self.own_state_at(next.end_s())));
         }
         next.advance_to(&method.0, limit_s, |at_s, y| {
             let state = unpack(y);
-            let acceleration = gravity.acceleration_m_s2(&state.position_m) + extra(at_s, &state);
-            pack(&CartesianState { position_m: state.velocity_m_s, velocity_m_s: acceleration })
+            let total_m_s2 = gravity.total_m_s2(gravity.center, at_s, &state, ephemeris, extra_m_s2(at_s));
+            pack(&CartesianState { position_m: state.velocity_m_s, velocity_m_s: total_m_s2 })
         })?;
         // The lowest point of a segment is near an end or where the radial speed changes sign: look at nine points.
         for i in 0..=8 {
@@ -230,8 +234,9 @@ impl DisturbedOrbit {
         let start_s = chain.end_s();
         let limit_s = limit_s.min(ephemeris.smooth_until_s(start_s));
         let mut state = self.own_state_at(start_s);
-        let mut center = self.center.unwrap_or(IntegrationCenter::new(gravity.center));
-        let mut bodies = BodiesAbout { gravity, about: center.body, ephemeris };
+        let mut center = self.center.unwrap_or(IntegrationCenter::new(gravity.model.center));
+        let changes_center = gravity.settings.changes_center;
+        let mut bodies = BodiesAbout { model: &gravity.model, changes_center, about: center.body, ephemeris };
         let body = center.next_body(&mut bodies, &state, start_s)?;
         if body != center.body {
             let [before, after] =
@@ -246,15 +251,17 @@ impl DisturbedOrbit {
             let mut next = chain;
             next.advance_to(&method.0, to_s, |at_s, y| {
                 let state = unpack(y);
-                let acceleration_m_s2 = bodies.acceleration_m_s2(at_s, &state) + extra_m_s2(at_s);
-                pack(&CartesianState { position_m: state.velocity_m_s, velocity_m_s: acceleration_m_s2 })
+                let (about, further_m_s2) = (bodies.about, extra_m_s2(at_s));
+                let total_m_s2 =
+                    gravity.model.total_m_s2(about, at_s, &state, bodies.ephemeris, further_m_s2);
+                pack(&CartesianState { position_m: state.velocity_m_s, velocity_m_s: total_m_s2 })
             })?;
             Ok::<_, IntegrationError>(next)
         };
         center.level = center.level.saturating_sub(1);
         let mut count = 0;
         let mut next = loop {
-            let length_s = gravity.cell_s / f64::from(1_u32 << center.level);
+            let length_s = gravity.settings.cell_s / f64::from(1_u32 << center.level);
             let to_s = edge_after_s(start_s, length_s).min(limit_s);
             count += 1;
             let may_halve = center.level < IntegrationCenter::FINEST;
@@ -267,17 +274,17 @@ impl DisturbedOrbit {
         };
         center.reaches = None;
         let path = |next: &SegmentChain<6, TERMS>, at_s: f64| unpack(&next.value(at_s));
-        let span_s = [start_s, next.end_s()];
-        if let Some(reached) = bodies.sphere_reached(span_s, |at_s| path(&next, at_s))
+        let span = Span::new(start_s, next.end_s());
+        if let Some(reached) = bodies.sphere_reached(span, |at_s| path(&next, at_s))
             && reached.at_s > start_s
         {
             count += 1;
             next = integrate(reached.at_s, &mut bodies)?;
-            center.reaches = Some(Reached { at_s: next.end_s(), ..reached });
+            center.reaches = Some(SphereCrossing { at_s: next.end_s(), ..reached });
         }
-        let span_s = [start_s, next.end_s()];
-        bodies.check_above(span_s, |at_s| path(&next, at_s))?;
-        center.set_offset(span_s, &mut bodies);
+        let span = Span::new(start_s, next.end_s());
+        bodies.check_above(span, |at_s| path(&next, at_s))?;
+        center.set_offset(span, gravity.model.center, bodies.ephemeris);
         (self.chain, self.deviation, self.center) = (next, None, Some(center));
         Ok(count)
     }

@@ -5,6 +5,7 @@ use core::f64::consts::TAU;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
+use super::gravity::tide_m_s2;
 use super::*;
 use crate::{
     bodies::Body,
@@ -14,12 +15,38 @@ use crate::{
 
 const SUN: Vector3<f64> = Vector3::new(3.5e10, 4.5e10, 1.0e10);
 
-fn free(_: f64, _: &CartesianState) -> Vector3<f64> {
+fn free(_: f64) -> Vector3<f64> {
     Vector3::zeros()
 }
 
-fn tide_of(sun_m: Vector3<f64>) -> impl Fn(f64, &CartesianState) -> Vector3<f64> {
-    move |_, state| tide_m_s2(&state.position_m, &sun_m, GM_SUN_M3_S2)
+/// Sun that stands still at a position from the planet.
+#[derive(Clone, Copy)]
+struct FixedSun(Vector3<f64>);
+
+impl BodyEphemeris for FixedSun {
+    fn heliocentric(&mut self, _: Body, _: f64) -> CartesianState {
+        CartesianState { position_m: -self.0, velocity_m_s: Vector3::zeros() }
+    }
+
+    fn smooth_until_s(&self, _: f64) -> f64 {
+        f64::INFINITY
+    }
+
+    fn moon_from_earth_m(&mut self, _: f64) -> Vector3<f64> {
+        Vector3::zeros()
+    }
+}
+
+/// Gravity of a planet alone.
+fn alone(gravity: Gravity) -> GravityModel {
+    let planet = Attractor::point_mass(Body::Mercury.data()).with_gravity(gravity);
+    GravityModel::new(Body::Mercury, [planet], false)
+}
+
+/// Gravity of a planet and the tide of the Sun.
+fn with_sun(gravity: Gravity) -> GravityModel {
+    let planet = Attractor::point_mass(Body::Mercury.data()).with_gravity(gravity);
+    GravityModel::new(Body::Mercury, [planet, Attractor::point_mass(Body::Sun.data())], false)
 }
 
 /// Simulates until `end_s` at a whole number of segments and returns the state there.
@@ -27,14 +54,13 @@ fn simulated(
     elements: Elements,
     segment_length_s: f64,
     end_s: f64,
-    gravity: &Gravity,
-    extra: impl Fn(f64, &CartesianState) -> Vector3<f64>,
+    model: &GravityModel,
 ) -> (CartesianState, DisturbedOrbit) {
     let method = OrbitMethod::default();
-    let start = elements.state(gravity.mu_m3_s2).unwrap();
+    let start = elements.state(MU).unwrap();
     let mut orbit = DisturbedOrbit::new(&start, 0.0, segment_length_s, RADIUS_MERCURY_M).unwrap();
     while orbit.end_s() < end_s {
-        orbit.advance_to(f64::INFINITY, &method, gravity, &extra).unwrap();
+        orbit.advance_to(f64::INFINITY, &method, model, &mut FixedSun(SUN), free).unwrap();
     }
     (orbit.state_at(end_s), orbit)
 }
@@ -48,7 +74,9 @@ fn agrees_with_the_closed_form_between_the_edges_too() {
         let mut orbit = DisturbedOrbit::new(&start, 0.0, segment_length_s, RADIUS_MERCURY_M).unwrap();
         let mut worst_m = 0.0_f64;
         while orbit.end_s() < closed.period_s() {
-            orbit.advance_to(f64::INFINITY, &method, &Gravity::point_mass(MU), free).unwrap();
+            orbit
+                .advance_to(f64::INFINITY, &method, &alone(Gravity::point_mass(MU)), &mut FixedSun(SUN), free)
+                .unwrap();
             for i in 0..7 {
                 let at_s = orbit.start_s() + segment_length_s * f64::from(i) / 7.0;
                 let off_m = (orbit.state_at(at_s).position_m - closed.state_at(at_s).position_m).norm();
@@ -77,7 +105,7 @@ fn flattening_turns_node_and_periapsis_at_the_known_rates() {
         for i in 0..samples {
             let at_s = period_s * (200.0 * window as f64 + 10.0 * (f64::from(i) + 0.5) / f64::from(samples));
             while orbit.end_s() < at_s {
-                orbit.advance_to(f64::INFINITY, &method, &gravity, free).unwrap();
+                orbit.advance_to(f64::INFINITY, &method, &alone(gravity), &mut FixedSun(SUN), free).unwrap();
             }
             let found = Elements::from_state(&orbit.state_at(at_s), MU).unwrap();
             mean[0] += found.ascending_node_rad / f64::from(samples);
@@ -121,7 +149,7 @@ fn flattening_is_the_gradient_of_its_potential() {
 #[test]
 fn segments_keep_the_jacobi_like_energy_of_flattening() {
     // Point mass and flattening are conservative, and the momentum along the pole is constant.
-    let flattening = Flattening::of(Body::Mercury.data());
+    let flattening = Flattening::from_body(Body::Mercury.data());
     let gravity = Gravity { flattening: Some(flattening), ..Gravity::point_mass(MU) };
     let energy = |s: &CartesianState| {
         let (d, sin) = (s.position_m.norm(), s.position_m.normalize().dot(&flattening.pole));
@@ -130,7 +158,7 @@ fn segments_keep_the_jacobi_like_energy_of_flattening() {
     };
     let momentum = |s: &CartesianState| s.position_m.cross(&s.velocity_m_s).dot(&flattening.pole);
     let start = MESSENGER_AS_PRINTED.state(MU).unwrap();
-    let (end, _) = simulated(MESSENGER_AS_PRINTED, 300.0, 30.0 * 86_400.0, &gravity, free);
+    let (end, _) = simulated(MESSENGER_AS_PRINTED, 300.0, 30.0 * 86_400.0, &alone(gravity));
     assert!((energy(&end) / energy(&start) - 1.0).abs() < 1e-11);
     assert!((momentum(&end) / momentum(&start) - 1.0).abs() < 1e-12);
 }
@@ -160,7 +188,7 @@ fn a_constant_push_moves_the_orbit_as_it_should() {
     let method = OrbitMethod::default();
     let mut orbit = DisturbedOrbit::new(&start, 50.0, 600.0, 0.0).unwrap();
     while orbit.end_s() < 6000.0 {
-        orbit.advance_to(f64::INFINITY, &method, &gravity, |_, _| push).unwrap();
+        orbit.advance_to(f64::INFINITY, &method, &alone(gravity), &mut FixedSun(SUN), |_| push).unwrap();
     }
     let elapsed_s = 5950.0;
     let expected = start.position_m + start.velocity_m_s * elapsed_s + push * (0.5 * elapsed_s * elapsed_s);
@@ -168,16 +196,24 @@ fn a_constant_push_moves_the_orbit_as_it_should() {
     orbit.cut(5700.0, &Vector3::new(0.0, 0.0, 1.0));
     let kicked = orbit.state_at(5700.0).velocity_m_s;
     assert!((kicked - (start.velocity_m_s + push * 5650.0 + Vector3::z())).norm() < 1e-12);
-    orbit.advance_to(f64::INFINITY, &method, &gravity, |_, _| push).unwrap();
+    orbit.advance_to(f64::INFINITY, &method, &alone(gravity), &mut FixedSun(SUN), |_| push).unwrap();
     assert_eq!((orbit.start_s(), orbit.end_s()), (5700.0, 6000.0));
 }
 
 #[test]
 fn halving_the_segment_changes_nothing_that_matters() {
-    let (coarse, _) =
-        simulated(MESSENGER_AS_PRINTED, 300.0, 864_000.0, &Gravity::of(Body::Mercury.data()), tide_of(SUN));
-    let (fine, orbit) =
-        simulated(MESSENGER_AS_PRINTED, 150.0, 864_000.0, &Gravity::of(Body::Mercury.data()), tide_of(SUN));
+    let (coarse, _) = simulated(
+        MESSENGER_AS_PRINTED,
+        300.0,
+        864_000.0,
+        &with_sun(Gravity::from_body(Body::Mercury.data())),
+    );
+    let (fine, orbit) = simulated(
+        MESSENGER_AS_PRINTED,
+        150.0,
+        864_000.0,
+        &with_sun(Gravity::from_body(Body::Mercury.data())),
+    );
     assert!((coarse.position_m - fine.position_m).norm() < 0.02);
     // The disturbances are no more than they should be: the undisturbed spacecraft is some tens of kilometres away.
     let plain = TwoBodyOrbit::from_elements(MESSENGER_AS_PRINTED, MU, 0.0).unwrap().state_at(864_000.0);
@@ -195,7 +231,13 @@ fn impact_and_bad_starts_are_named() {
     let mut orbit = DisturbedOrbit::new(&start, 0.0, 60.0, RADIUS_MERCURY_M).unwrap();
     let method = OrbitMethod::default();
     let error = loop {
-        if let Err(error) = orbit.advance_to(f64::INFINITY, &method, &Gravity::point_mass(MU), free) {
+        if let Err(error) = orbit.advance_to(
+            f64::INFINITY,
+            &method,
+            &alone(Gravity::point_mass(MU)),
+            &mut FixedSun(SUN),
+            free,
+        ) {
             break error;
         }
     };
@@ -216,7 +258,7 @@ proptest! {
 
     #[test]
     fn asking_often_changes_no_bit(at in prop::collection::vec(0.0..5000.0f64, 1..20)) {
-        let (expected, _) = simulated(MESSENGER_AS_PRINTED, 60.0, 5000.0, &Gravity::of(Body::Mercury.data()), tide_of(SUN));
+        let (expected, _) = simulated(MESSENGER_AS_PRINTED, 60.0, 5000.0, &with_sun(Gravity::from_body(Body::Mercury.data())));
         let method = OrbitMethod::default();
         let mut at = at;
         at.sort_by(f64::total_cmp);
@@ -225,7 +267,7 @@ proptest! {
         let mut orbit = DisturbedOrbit::new(&start, 0.0, 60.0, RADIUS_MERCURY_M).unwrap();
         for at_s in at {
             while orbit.end_s() < at_s {
-                orbit.advance_to(f64::INFINITY, &method, &Gravity::of(Body::Mercury.data()), tide_of(SUN)).unwrap();
+                orbit.advance_to(f64::INFINITY, &method, &with_sun(Gravity::from_body(Body::Mercury.data())), &mut FixedSun(SUN), free).unwrap();
             }
             orbit.state_at(at_s);
         }
@@ -245,12 +287,12 @@ proptest! {
         let end = |start: &CartesianState, gravity: &Gravity, sun: Vector3<f64>| {
             let mut orbit = DisturbedOrbit::new(start, 0.0, 120.0, RADIUS_MERCURY_M).unwrap();
             for _ in 0..60 {
-                orbit.advance_to(f64::INFINITY, &method, gravity, tide_of(sun)).unwrap();
+                orbit.advance_to(f64::INFINITY, &method, &with_sun(*gravity), &mut FixedSun(sun), free).unwrap();
             }
             orbit.state_at(7200.0).position_m
         };
-        let plain = end(&start, &Gravity::of(Body::Mercury.data()), SUN);
-        let other = end(&turned, &turned_gravity(Gravity::of(Body::Mercury.data())), turn * SUN);
+        let plain = end(&start, &Gravity::from_body(Body::Mercury.data()), SUN);
+        let other = end(&turned, &turned_gravity(Gravity::from_body(Body::Mercury.data())), turn * SUN);
         prop_assert!((turn * plain - other).norm() < 1e-5);
     }
 }

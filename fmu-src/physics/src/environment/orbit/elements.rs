@@ -42,11 +42,11 @@ pub enum OrbitError {
     /// A number outside its range.
     #[error("{what} is {found}, allowed is {allowed}")]
     OutOfRange {
-        /// Which quantity, with its unit.
+        /// Name of the quantity, with its unit.
         what: &'static str,
-        /// What it was.
+        /// Number that was found.
         found: f64,
-        /// What it may be.
+        /// Range that is allowed.
         allowed: &'static str,
     },
     /// Position and velocity are parallel, or one is zero: a fall along a line has no orbital plane.
@@ -278,13 +278,20 @@ fn node(normal: &Vector3<f64>) -> Vector3<f64> {
     Vector3::new(-normal.y, normal.x, 0.0) / sin_inclination
 }
 
-pub(super) fn check_mu(mu_m3_s2: f64) -> Result<(), OrbitError> {
+/// Refuses a gravitational parameter that is none.
+///
+/// # Errors
+/// [`OrbitError::OutOfRange`].
+pub fn check_mu(mu_m3_s2: f64) -> Result<(), OrbitError> {
     let is_allowed = mu_m3_s2.is_finite() && mu_m3_s2 > 0.0;
     check("gravitational parameter in m3/s2", mu_m3_s2, is_allowed, "a finite number above 0")
 }
 
-/// Refuses a number that was found not to be allowed.
-pub(super) fn check(
+/// Refuses a number that is not allowed.
+///
+/// # Errors
+/// [`OrbitError::OutOfRange`].
+pub fn check(
     what: &'static str,
     found: f64,
     is_allowed: bool,

@@ -1,5 +1,5 @@
-//! Spacecraft orbits: Kepler's equation, elements and state, two-body motion in closed form, arcs between places, disturbed motion integrated, about one
-//! body or between several.
+//! Spacecraft orbits: Kepler's equation, elements and state, two-body motion in closed form, and motion integrated under a list
+//! of what attracts, about one body or between several.
 
 mod b_plane;
 mod deviation;
@@ -7,25 +7,23 @@ mod disturbed;
 #[cfg(test)]
 mod disturbed_tests;
 mod elements;
-mod first_fall;
 mod gravity;
+mod gravity_model;
+mod integration_center;
 pub mod kepler;
-mod lambert;
 mod n_body;
 #[cfg(test)]
 mod n_body_tests;
 mod orbit_method;
-mod transition;
-#[cfg(test)]
-mod transition_tests;
+mod spheres;
 mod two_body;
 
 pub use b_plane::BPlane;
 pub use disturbed::{DisturbedOrbit, OrbitIntegrationError};
-pub use elements::{Elements, OrbitError, period_s, semi_major_axis_m};
-pub use gravity::{Flattening, Gravity, Tides, tide_m_s2};
-pub use lambert::{LambertArc, LambertBranch, LambertError, LambertVelocities};
-pub use n_body::{BodyEphemeris, Collision, NBodyGravity, NBodySettings};
-pub use orbit_method::OrbitMethod;
-pub use transition::{Partials, partials_over, transition};
+pub use elements::{Elements, OrbitError, check, check_mu, period_s, semi_major_axis_m};
+pub use gravity::{Flattening, Gravity};
+pub use gravity_model::{Attractor, BodyEphemeris, GravityModel};
+pub use n_body::{NBodyGravity, NBodySettings};
+pub use orbit_method::{OrbitMethod, TERMS};
+pub use spheres::Collision;
 pub use two_body::TwoBodyOrbit;

@@ -4,8 +4,10 @@ use nalgebra::{Rotation3, SVector, Vector3};
 
 use super::disturbed::{DisturbedOrbit, OrbitIntegrationError};
 use super::elements::Elements;
-use super::n_body::{BodyEphemeris, Collision, NBodyGravity, NBodySettings};
+use super::gravity_model::{Attractor, BodyEphemeris, GravityModel};
+use super::n_body::{NBodyGravity, NBodySettings};
 use super::orbit_method::OrbitMethod;
+use super::spheres::Collision;
 use super::two_body::TwoBodyOrbit;
 use crate::bodies::{Body, BodyData};
 use crate::constants::{DAY_S, GM_MERCURY_M3_S2, GM_MOON_M3_S2, GM_SUN_M3_S2, RADIUS_MERCURY_M};
@@ -55,12 +57,17 @@ impl BodyEphemeris for Sky {
 }
 
 fn settings() -> NBodySettings {
-    NBodySettings { relativity: false, changes_center: true, moon: false, cell_s: DAY_S, tolerance_m: 1e-3 }
+    NBodySettings { changes_center: true, cell_s: DAY_S, tolerance_m: 1e-3 }
 }
 
 fn gravity(settings: NBodySettings, center: Body, attracting: &[Body]) -> NBodyGravity {
-    let attracting = attracting.iter().map(|body| BodyData { j2: 0.0, ..*body.data() });
-    NBodyGravity::new(settings, center.data(), attracting, None)
+    NBodyGravity::new(settings, model(center, attracting, false))
+}
+
+/// The Sun, a centre and other bodies as point masses.
+fn model(center: Body, attracting: &[Body], relativity: bool) -> GravityModel {
+    let bodies = attracting.iter().copied().chain([Body::Sun, center]);
+    GravityModel::new(center, bodies.map(|body| Attractor::point_mass(body.data())), relativity)
 }
 
 /// Propagates to a time and gives the state there.
@@ -313,10 +320,11 @@ struct Case {
 
 impl Case {
     fn gravity(&self, changes_center: bool) -> NBodyGravity {
-        let settings =
-            NBodySettings { relativity: self.relativity, moon: self.moon, changes_center, ..settings() };
-        let planets = self.planets.iter().map(|body| BodyData { j2: 0.0, ..*body.data() });
-        NBodyGravity::new(settings, &self.center, planets, None)
+        let settings = NBodySettings { changes_center, ..settings() };
+        let bodies = self.planets.iter().map(|body| *body.data()).chain([*Body::Sun.data(), self.center]);
+        let rows =
+            bodies.map(|data| Attractor::point_mass(&data)).chain(self.moon.then_some(Attractor::MOON));
+        NBodyGravity::new(settings, GravityModel::new(self.center.body, rows, self.relativity))
     }
 
     /// Acceleration from the centre by Newton's law, typed a second time: what the list does to the spacecraft less what it does to the
@@ -406,7 +414,7 @@ fn relativity_turns_an_ellipse_as_einstein_says() {
         position_m: Vector3::x() * (a * (1.0 - e)),
         velocity_m_s: Vector3::y() * (GM_SUN_M3_S2 / a * (1.0 + e) / (1.0 - e)).sqrt(),
     };
-    let gravity = gravity(NBodySettings { relativity: true, ..settings() }, Body::Sun, &[]);
+    let gravity = NBodyGravity::new(settings(), model(Body::Sun, &[], true));
     let (mut sky, days) = (Sky::at(0.0), 880.0);
     let mut orbit = DisturbedOrbit::between_bodies(&start, 0.0, &gravity).unwrap();
     let state = propagated(&mut orbit, &gravity, &mut sky, days * DAY_S);

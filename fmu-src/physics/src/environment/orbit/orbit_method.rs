@@ -5,8 +5,8 @@ use crate::numerics::collocation::Collocation;
 /// Nodes of a segment.
 const NODES: usize = 8;
 /// Coefficients of a segment's dense output.
-pub(super) const TERMS: usize = NODES + 1;
+pub const TERMS: usize = NODES + 1;
 
-/// The integration method of a [`DisturbedOrbit`](super::DisturbedOrbit): computed once, shared, no state.
+/// Integration method of a [`DisturbedOrbit`](super::DisturbedOrbit): computed once, shared, no state.
 #[derive(Clone, Debug, Default)]
-pub struct OrbitMethod(pub(super) Collocation<NODES, TERMS>);
+pub struct OrbitMethod(pub Collocation<NODES, TERMS>);

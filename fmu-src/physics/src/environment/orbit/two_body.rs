@@ -3,7 +3,7 @@
 //! Equation: r / |a| = gap + e versed, along periapsis gap - versed, gap = |1 - e| and versed = |1 - cos E| of the eccentric, |1 -
 //! cosh H| of the hyperbolic anomaly; the gap of a state is that of its energy, periapsis distance / |a|.
 //! Error measure: below 1e-11 of the distance for every eccentricity from 0 to 10 (tested), but for what 1 / a is rounded by: a state
-//! tells it to some 1e-16 of 2 / r, which moves the place by that share of its distance over r.
+//! tells it to some 1e-16 of 2 / r, which moves the position by that fraction of its distance over r.
 
 use core::f64::consts::TAU;
 
@@ -38,7 +38,7 @@ impl TwoBodyOrbit {
     /// # Errors
     /// See [`Elements::check`].
     pub fn from_elements(elements: Elements, mu_m3_s2: f64, epoch_s: f64) -> Result<Self, OrbitError> {
-        Self::new((elements, (1.0 - elements.eccentricity).abs()), mu_m3_s2, epoch_s)
+        Self::new(elements, (1.0 - elements.eccentricity).abs(), mu_m3_s2, epoch_s)
     }
 
     /// The orbit through `state` at `epoch_s`.
@@ -47,10 +47,10 @@ impl TwoBodyOrbit {
     /// [`OrbitError::Rectilinear`], or a number that is not finite.
     pub fn from_state(state: &CartesianState, mu_m3_s2: f64, epoch_s: f64) -> Result<Self, OrbitError> {
         let (elements, gap) = Elements::osculating(state, mu_m3_s2)?;
-        Self::new((elements, gap), mu_m3_s2, epoch_s)
+        Self::new(elements, gap, mu_m3_s2, epoch_s)
     }
 
-    fn new((elements, gap): (Elements, f64), mu_m3_s2: f64, epoch_s: f64) -> Result<Self, OrbitError> {
+    fn new(elements: Elements, gap: f64, mu_m3_s2: f64, epoch_s: f64) -> Result<Self, OrbitError> {
         elements.check()?;
         check_mu(mu_m3_s2)?;
         check("epoch in s", epoch_s, epoch_s.is_finite(), "a finite number")?;

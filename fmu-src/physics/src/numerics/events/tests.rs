@@ -77,3 +77,35 @@ proptest! {
         prop_assert!((found - built_in).abs() < 1e-11 / half, "{} {}", found, built_in);
     }
 }
+
+#[test]
+fn a_crossing_is_the_first_fall_through_zero() {
+    // Rises at 1, falls at 2, rises at 4 and falls at 5.
+    let function = |t: f64| -(t - 1.0) * (t - 2.0) * (t - 4.0) * (t - 5.0);
+    for (start_s, end_s, expected) in [
+        (0.0, 6.0, Some(2.0)),
+        (1.5, 6.0, Some(2.0)),
+        (2.5, 6.0, Some(5.0)),
+        (2.5, 4.5, None),
+        (0.0, 1.5, None),
+    ] {
+        let found = first_crossing(Span::new(start_s, end_s), 0.0, function);
+        assert_eq!(found.is_some(), expected.is_some(), "{start_s} {end_s}: {found:?}");
+        if let (Some(found), Some(expected)) = (found, expected) {
+            assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        }
+    }
+}
+
+#[test]
+fn a_short_passage_within_a_sphere_is_found() {
+    // A straight path 1 m within the edge of a sphere of 1e8 m, in a span of a day.
+    let radius_m = 1e8_f64;
+    let across_m = radius_m - 1.0;
+    let along_m = |t: f64| 1e4 * (t - 43_210.0);
+    let outside = |t: f64| across_m * across_m + along_m(t) * along_m(t) - radius_m * radius_m;
+    let found = first_crossing(Span::new(0.0, 86_400.0), 1.2e-7, outside).unwrap();
+    let expected_s = 43_210.0 - (radius_m * radius_m - across_m * across_m).sqrt() / 1e4;
+    assert!((found - expected_s).abs() < 1e-6, "{found} {expected_s}");
+    assert_eq!(first_crossing(Span::new(44_000.0, 86_400.0), 1.2e-7, outside), None);
+}

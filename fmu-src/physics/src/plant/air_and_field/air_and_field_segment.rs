@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::environment::atmosphere::Air;
 use crate::math;
+use crate::numerics::Span;
 use crate::numerics::adaptive::SegmentSpan;
 use crate::numerics::chebyshev::Segment;
 use crate::plant::settings::air_and_field_settings::{
@@ -57,7 +58,7 @@ pub struct AirAndFieldSegment {
 impl AirAndFieldSegment {
     /// Whether a simulation can produce it.
     pub(crate) fn is_valid(&self) -> bool {
-        let [start_s, end_s] = self.span.bounds_s();
+        let Span { start_s, end_s } = self.span.span();
         let series = [&self.position, &self.air, &self.air_velocity, &self.field];
         let largest = |it: &Series| it.coefficients().row(0).iter().map(|c| c.abs()).sum::<f64>();
         self.span.is_valid()

@@ -89,7 +89,7 @@ impl Report<'_> {
         Some(EncounterReport {
             body: geometry.spacecraft - from_body,
             distance_m: from_body.position_m.norm(),
-            b_plane: BPlane::of(&from_body, encounter.gm_m3_s2),
+            b_plane: BPlane::from_state(&from_body, encounter.gm_m3_s2),
         })
     }
 }

@@ -13,6 +13,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::loads::{ByEffect, ForceTorque, Loads};
+use crate::numerics::Span;
 use crate::numerics::adaptive::SegmentSpan;
 use crate::numerics::chebyshev::Segment;
 
@@ -49,7 +50,7 @@ impl RadiationSegment {
     /// Whether a simulation can produce it.
     pub fn is_valid(&self) -> bool {
         let hot = |kelvin: &f64| (0.0..=HOTTEST_K).contains(kelvin);
-        let [start_s, end_s] = self.span.bounds_s();
+        let Span { start_s, end_s } = self.span.span();
         self.span.is_valid()
             && self.loads.present().all(|(_, it)| it.is_valid() && it.spans(start_s, end_s))
             && self.temperatures_k.iter().all(|it| {

@@ -3,12 +3,11 @@
 use nalgebra::Vector3;
 
 use crate::bodies::Body;
-use crate::constants::{GM_MOON_M3_S2, GM_SUN_M3_S2};
 use crate::environment::CartesianState;
 use crate::environment::bodies_from_center::{BodiesFromCenter, fixed};
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::onboard::OnboardTarget;
-use crate::environment::orbit::{BodyEphemeris, Tides, tide_m_s2};
+use crate::environment::orbit::BodyEphemeris;
 use crate::guidance::{EphemerisAtTime, LinesOfSight, Sight, TargetPlanet};
 
 use crate::plant::settings::configuration::{Configuration, EphemerisSource, Motion};
@@ -163,31 +162,8 @@ impl SimulationEphemeris<'_> {
     pub(super) fn gravity_m_s2(&mut self, at_s: f64, spacecraft: &CartesianState) -> Option<Vector3<f64>> {
         match &self.configuration.motion {
             Motion::TwoBody | Motion::Held { .. } => None,
-            Motion::Disturbed { gravity, tides, .. } => {
-                let mut sum = gravity.acceleration_m_s2(&spacecraft.position_m);
-                self.add_tides(&mut sum, tides, at_s, &spacecraft.position_m);
-                Some(sum)
-            }
-            Motion::NBody { gravity, .. } => Some(gravity.acceleration_m_s2(at_s, spacecraft, self)),
-        }
-    }
-
-    /// Adds the tides of distant bodies at `at_s`, m/s2, EME2000, at a position from the orbit's centre.
-    pub(super) fn add_tides(
-        &mut self,
-        sum: &mut Vector3<f64>,
-        tides: &Tides,
-        at_s: f64,
-        position_m: &Vector3<f64>,
-    ) {
-        if tides.sun {
-            let epoch_s = self.epoch_s(at_s);
-            let sun_m = body(self.configuration, self.ephemeris, Body::Sun, epoch_s).position_m;
-            *sum += tide_m_s2(position_m, &sun_m, GM_SUN_M3_S2);
-        }
-        if tides.moon {
-            let moon_m = self.moon_from_earth_m(at_s);
-            *sum += tide_m_s2(position_m, &moon_m, GM_MOON_M3_S2);
+            Motion::Disturbed { gravity, .. } => Some(gravity.acceleration_m_s2(at_s, spacecraft, self)),
+            Motion::NBody { gravity, .. } => Some(gravity.model.acceleration_m_s2(at_s, spacecraft, self)),
         }
     }
 }
@@ -197,6 +173,17 @@ impl BodyEphemeris for SimulationEphemeris<'_> {
         let epoch_s = self.epoch_s(at_s);
         match &self.configuration.ephemeris {
             _ if body == Body::Sun => CartesianState::default(),
+            // About one body the Sun is where the centre's source says.
+            _ if matches!(self.configuration.motion, Motion::Disturbed { .. }) => {
+                let mut from_center =
+                    |body| self::body(self.configuration, &mut *self.ephemeris, body, epoch_s);
+                let sun = from_center(Body::Sun);
+                if body == self.configuration.center {
+                    CartesianState::default() - sun
+                } else {
+                    from_center(body) - sun
+                }
+            }
             EphemerisSource::Simulated(carried) => carried
                 .state_carried_on(body.into(), Body::Sun, epoch_s)
                 .unwrap_or_else(|| fixed(Vector3::repeat(f64::NAN))),

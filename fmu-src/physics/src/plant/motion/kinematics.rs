@@ -422,7 +422,7 @@ impl Kinematics<'_> {
         let ellipse = match configuration.motion {
             Motion::TwoBody => Some(*self.trajectory.two_body(configuration)),
             Motion::Disturbed { gravity, .. } => {
-                TwoBodyOrbit::from_state(&now, gravity.mu_m3_s2, from_epoch_s).ok()
+                TwoBodyOrbit::from_state(&now, gravity.gm_m3_s2(gravity.center), from_epoch_s).ok()
             }
             Motion::NBody { .. } => {
                 let gm_m3_s2 = configuration.orbit.mu_m3_s2();

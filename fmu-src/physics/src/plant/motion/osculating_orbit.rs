@@ -36,7 +36,7 @@ impl Focus {
     fn of(configuration: &Configuration, body: Body) -> Self {
         match configuration.motion {
             Motion::NBody { gravity, .. } => {
-                Self { gm_m3_s2: gravity.near(Some(body)).mu_m3_s2, radius_m: gravity.radius_m(body) }
+                Self { gm_m3_s2: gravity.model.gm_m3_s2(body), radius_m: gravity.model.radius_m(body) }
             }
             Motion::TwoBody | Motion::Disturbed { .. } | Motion::Held { .. } => {
                 Self { gm_m3_s2: configuration.orbit.mu_m3_s2(), radius_m: configuration.center_radius_m }

@@ -10,8 +10,8 @@ use crate::environment::orbit::{
     BodyEphemeris, DisturbedOrbit, OrbitError, OrbitIntegrationError, OrbitMethod, TwoBodyOrbit,
 };
 use crate::guidance::Window;
-use crate::numerics::roots;
 use crate::numerics::spacing::spacing;
+use crate::numerics::{Span, roots};
 
 use super::approaches::{Approach, Approaches};
 use super::geometry::SimulationEphemeris;
@@ -274,8 +274,8 @@ impl Trajectory {
             return Ok(());
         };
         let gravity = match &configuration.motion {
-            Motion::Disturbed { gravity, .. } => *gravity,
-            Motion::NBody { gravity, .. } => gravity.near(orbit.integration_center()),
+            Motion::Disturbed { gravity, .. } => gravity,
+            Motion::NBody { gravity, .. } => &gravity.model,
             Motion::TwoBody | Motion::Held { .. } => return Ok(()),
         };
         if !orbit.is_deviated() {
@@ -285,7 +285,7 @@ impl Trajectory {
             self.remember_window(configuration, [orbit.start_s(), span_s[0]]);
         }
         let Some(orbit) = &mut self.orbit else { return Ok(()) };
-        orbit.accelerate(&gravity, span_s, extra_m_s2)?;
+        orbit.accelerate(gravity, Span::new(span_s[0], span_s[1]), extra_m_s2)?;
         if configuration.motion.uses_encke() {
             self.periapses.forget_after(span_s[0], || radial(&orbit.state_at(span_s[0])));
             self.periapses.detect_periapsis(orbit, configuration, span_s);
@@ -380,22 +380,13 @@ impl Trajectory {
         ephemeris: &mut Ephemeris,
         method: &OrbitMethod,
         limit_s: f64,
-        mut extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
+        extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
     ) -> Result<u32, OrbitIntegrationError> {
         let Some(mut orbit) = self.orbit else { return Ok(0) };
         let shortened = match &configuration.motion {
-            Motion::Disturbed { gravity, tides, .. } => {
-                let extra_m_s2 = |at_s: f64, state: &CartesianState| {
-                    let mut sum = extra_m_s2(at_s);
-                    SimulationEphemeris { configuration, ephemeris }.add_tides(
-                        &mut sum,
-                        tides,
-                        at_s,
-                        &state.position_m,
-                    );
-                    sum
-                };
-                orbit.advance_to(limit_s, method, gravity, extra_m_s2)?;
+            Motion::Disturbed { gravity, .. } => {
+                let bodies = &mut SimulationEphemeris { configuration, ephemeris };
+                orbit.advance_to(limit_s, method, gravity, bodies, extra_m_s2)?;
                 0
             }
             Motion::NBody { gravity, .. } => {
@@ -403,7 +394,7 @@ impl Trajectory {
                 let count =
                     orbit.advance_between_bodies(limit_s, method, gravity, body_ephemeris, extra_m_s2)?;
                 if let Some(Encounter { body, radius_m, .. }) = configuration.encounter {
-                    let sizes_m = [radius_m, gravity.sphere_m(body)];
+                    let sizes_m = [radius_m, gravity.model.sphere_m(body)];
                     self.approaches.detect([orbit.start_s(), orbit.end_s()], sizes_m, |at_s| {
                         let [center, body] =
                             [configuration.center, body].map(|body| body_ephemeris.heliocentric(body, at_s));

@@ -11,7 +11,7 @@ use crate::environment::CartesianState;
 use crate::environment::eclipse::Shadow;
 use crate::environment::kepler_planet::KeplerPlanet;
 use crate::environment::onboard::OnboardEphemeris;
-use crate::environment::orbit::{Gravity, NBodyGravity, Tides, TwoBodyOrbit};
+use crate::environment::orbit::{GravityModel, NBodyGravity, TwoBodyOrbit};
 use crate::environment::sun::pressure_n_m2;
 use crate::guidance::timeline::TimelineSettings;
 use crate::guidance::{Guided, SunPlace};
@@ -196,10 +196,8 @@ pub enum Motion {
     TwoBody,
     /// The same orbit at the start, then integrated.
     Disturbed {
-        /// The centre's gravity with its flattening.
-        gravity: Gravity,
-        /// Tides of distant bodies.
-        tides: Tides,
+        /// Gravity of the centre with its flattening, and tides.
+        gravity: GravityModel,
         /// Length of the integrator's segments, in s.
         segment_length_s: f64,
         /// Radius of the centre, in m: a flight below it ends.

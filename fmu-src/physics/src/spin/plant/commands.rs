@@ -1,4 +1,4 @@
-//! What the master commands: thrusters over a step, pulses within it, torque from outside.
+//! Commands of the master: thrusters over a step, pulses within it, torque from outside.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -7,7 +7,7 @@ use crate::propulsion::PulseCommand;
 use crate::spacecraft::MOST_THRUSTERS;
 use crate::spin::series::BodyTorque;
 
-/// What the master commands for a step.
+/// Commands of the master for a step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Commands {
     /// Thrusters that fire over the whole step.
@@ -21,7 +21,7 @@ pub struct Commands {
 }
 
 impl Commands {
-    /// Nothing.
+    /// Returns commands that fire no thruster and exert no torque.
     pub fn none() -> Self {
         Self {
             fire: 0,
@@ -41,7 +41,7 @@ impl Commands {
         self.pulses.iter().position(|pulse| pulse.is_cut(start_s, end_s))
     }
 
-    /// Whether decoded commands can be some.
+    /// Rejects decoded commands that no simulation can produce.
     pub(super) fn is_valid(&self) -> bool {
         self.pulses.iter().all(PulseCommand::is_valid)
     }

@@ -24,15 +24,15 @@ pub struct Directions {
     pub star_inertial: Vector3<f64>,
 }
 
-/// Where the sensors' directions come from.
+/// Source of the directions of the sensors.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct DirectionSource {
-    /// Those the sensors look for now.
+    /// Directions that the sensors look for now.
     pub present: Directions,
     /// The L1 orbit; without it Sun and Earth stand where they are given.
     l1: Option<L1Ephemeris>,
     refresh_count: i64,
-    /// When those of the L1 orbit are next looked up, in s; infinite without it.
+    /// Time at which the directions of the L1 orbit are next computed, in s; infinite without it.
     #[serde(with = "or_infinite")]
     pub refresh_s: f64,
 }

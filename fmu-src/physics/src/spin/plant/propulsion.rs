@@ -1,4 +1,4 @@
-//! What the thrusters use and do: propellant, delta-v, inertia, predicted nutation.
+//! Thrusters and tank of a spinner: propellant, delta-v, inertia, predicted nutation.
 
 use std::sync::LazyLock;
 
@@ -18,7 +18,7 @@ use crate::spin::{
     nutation::{LinearNutation, Spin},
     series::BodyTorque,
     spinner::Spinner,
-    work::{Cost, Work, WorkExceeded},
+    work::{Work, WorkExceeded, WorkKind},
 };
 
 /// A turning force is summed over intervals of this much turn.
@@ -27,15 +27,15 @@ const IMPULSE_PANEL_RAD: f64 = 2.0;
 /// And over intervals in which the mass falls by this factor, its logarithm.
 const IMPULSE_PANEL_MASS: f64 = 0.25;
 
-/// What the edges of many pulses have lost to rounding by a time, as a share of it and of the time a full tank lasts.
+/// Rounding of the edges of many pulses by a time, as a fraction of it and of the time a full tank lasts.
 const EDGE_ROUNDING: f64 = 1e-11;
 
-/// For the impulse of a turning thruster.
+/// Quadrature of the impulse of a turning thruster.
 const _: () = assert!(!core::mem::needs_drop::<Rule<8>>());
 static IMPULSE_RULE: LazyLock<Rule<8>> = LazyLock::new(Rule::gauss_legendre);
 
 enumeration! {
-    /// What the inertia follows.
+    /// Source of the inertia.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     pub enum MassSource {
         /// The parameters inertia and productsOfInertia, unchanged by propellant use; no jet damping.
@@ -123,7 +123,7 @@ impl Propulsion {
         true
     }
 
-    /// Nothing is left in the tank at `now_s`; what flowed out was accumulated before.
+    /// Empties the tank at `now_s`; the flow up to there was accumulated before.
     pub(super) fn empty(&mut self, now_s: f64) {
         self.used_kg = self.initial_propellant_kg;
         self.valves.shut(now_s);
@@ -171,9 +171,9 @@ impl Propulsion {
     }
 
     /// Sums delta-v to the end of the motion's present segment.
-    pub(super) fn leave_segment(&mut self, spinner: &Spinner, motion: &Motion, work: &mut Work) {
+    pub(super) fn close_segment(&mut self, spinner: &Spinner, motion: &Motion, work: &mut Work) {
         if !self.valves.law.is_none() {
-            work.spend(Cost::Impulse);
+            work.spend(WorkKind::Impulse);
             let end_s = motion.segment_end_s();
             self.delta_v_inertial_m_s = self.delta_v_at(spinner, motion, end_s);
             self.delta_v_until_s = end_s;
@@ -203,7 +203,7 @@ impl Propulsion {
                 return Ok(());
             }
             work.check(self.delta_v_until_s)?;
-            work.spend(Cost::Impulse);
+            work.spend(WorkKind::Impulse);
             self.delta_v_inertial_m_s = self.delta_v_at(spinner, motion, panel_end_s);
             self.delta_v_until_s = panel_end_s;
         }
@@ -240,7 +240,7 @@ impl Propulsion {
         delta_v
     }
 
-    /// Whether decoded thrusters and tank can be some by `latest_s`.
+    /// Rejects decoded thrusters and a tank that no simulation can produce by `latest_s`.
     pub(super) fn is_valid(&self, spinner: &Spinner, latest_s: f64) -> bool {
         // A tank that is never empty and has nothing left would be emptied without end.
         (0.0..=spinner.mass_properties.most_propellant_kg()).contains(&self.initial_propellant_kg)

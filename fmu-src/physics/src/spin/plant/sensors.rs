@@ -1,4 +1,4 @@
-//! What the sensors see: Sun crossings and star samples.
+//! Readings of the sensors: Sun crossings and star samples.
 
 use core::f64::consts::PI;
 
@@ -17,7 +17,7 @@ use crate::spin::{
     nutation::Spin,
     spinner::Spinner,
     tracker::{NutationEstimator, picket_of, searched},
-    work::{Cost, Work},
+    work::{Work, WorkKind},
 };
 
 enumeration! {
@@ -38,11 +38,11 @@ pub struct StarSample {
     pub time_s: f64,
     /// Measured declination in the sensor, in rad.
     pub declination_rad: f64,
-    /// How many so far.
+    /// Number of samples so far.
     pub count: u32,
 }
 
-/// Which sensor has a reading.
+/// Sensor that has a reading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sensor {
     Sun,
@@ -61,7 +61,7 @@ pub struct Sensors {
     clock_period_s: f64,
     clock_start_s: f64,
     clock_count: u64,
-    /// One turn in so many sees the star.
+    /// Turns from one reading of the star to the next.
     every: u32,
     /// Last star tracker sample.
     pub sample: StarSample,
@@ -72,7 +72,7 @@ pub struct Sensors {
     seed: u64,
 }
 
-/// Where the slits point, body frame.
+/// Directions of the slits, body frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct SensorAzimuths {
     sun: Vector3<f64>,
@@ -80,7 +80,7 @@ struct SensorAzimuths {
 }
 
 impl Sensors {
-    /// Nothing seen yet; `nominal_rate_rad_s` sets the clock of the star tracker.
+    /// Returns sensors before their first reading; `nominal_rate_rad_s` sets the clock of the star tracker.
     pub(super) fn new(
         spinner: &Spinner,
         sampling: Sampling,
@@ -120,7 +120,7 @@ impl Sensors {
         }
     }
 
-    /// The motion is another from `now_s` on.
+    /// Forgets the motion from `now_s` on, where it changed.
     pub(super) fn forget_motion(&mut self, now_s: f64) {
         self.sun.forget(now_s);
         self.star.forget(now_s);
@@ -163,7 +163,7 @@ impl Sensors {
             return Some((Sensor::Sun, sun_s));
         }
         if self.sampling == Sampling::Clock {
-            work.spend(Cost::ClockSample);
+            work.spend(WorkKind::ClockSample);
         }
         Some((Sensor::StarTracker, star_s))
     }
@@ -224,7 +224,7 @@ impl Sensors {
         self.estimator.add(phase, declination_rad);
     }
 
-    /// Whether decoded sensors can be some at `time_s`.
+    /// Rejects decoded sensors that no simulation can produce at `time_s`.
     pub(super) fn is_valid(&self, time_s: f64) -> bool {
         let tick_s = self.clock_start_s + self.clock_count as f64 * self.clock_period_s;
         self.sun.is_valid()

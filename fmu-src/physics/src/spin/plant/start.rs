@@ -1,4 +1,4 @@
-//! How a flight starts, checked.
+//! Start of a flight, checked.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 use super::directions::{has_directions, is_unit};
 use super::propulsion::MassSource;
 use super::sensors::Sampling;
-use crate::attitude::{InertiaError, Quaternion, angle_between_rad};
+use crate::attitude::{Inertia, InertiaError, Quaternion, angle_between_rad};
 use crate::math;
 use crate::spacecraft::MOST_THRUSTERS;
 use crate::spin::{
-    burn::BurnRequest,
     burn_error::{BurnError, ParameterError},
+    burn_request::BurnRequest,
     damper::SHORTEST_TIME_CONSTANT_S,
     execution::PulseExecution,
     forecast::Timing,
@@ -24,19 +24,19 @@ use crate::spin::{
 
 /// Least work of a step that may be allowed, in units of about a microsecond.
 pub const LEAST_WORK: u32 = 1000;
-/// Most.
+/// Greatest work of a step that may be allowed.
 pub const MOST_WORK: u32 = 1_000_000_000;
 
-/// How a flight starts.
+/// Start of a flight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
     /// Moments about the body axes, in kg m2; used with [`MassSource::Fixed`].
     pub inertia_kg_m2: [f64; 3],
     /// Products of inertia 12, 13, 23, in kg m2: elements of the tensor; used with [`MassSource::Fixed`].
     pub products_kg_m2: [f64; 3],
-    /// What the inertia follows.
+    /// Source of the inertia.
     pub mass_source: MassSource,
-    /// On board, in kg.
+    /// Propellant on board, in kg.
     pub propellant_kg: f64,
     /// How thrusters execute their pulses.
     pub execution: [PulseExecution; MOST_THRUSTERS],
@@ -58,13 +58,13 @@ pub struct Start {
     pub sampling: Sampling,
     /// Nominal spin rate, in rad/s: sets the clock of the star tracker.
     pub nominal_rate_rad_s: f64,
-    /// Of all random draws.
+    /// Seed of all random draws.
     pub seed: u64,
-    /// What a step may cost, [`LEAST_WORK`] to [`MOST_WORK`].
+    /// Greatest work of a step, [`LEAST_WORK`] to [`MOST_WORK`].
     pub work_limit: u32,
 }
 
-/// Why a flight cannot start.
+/// Reason why a flight cannot start.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StartError {
     /// Inertia.
@@ -81,7 +81,7 @@ pub enum StartError {
     Parameter(#[from] ParameterError),
 }
 
-/// What a flight started with.
+/// Conditions at the start of a flight.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InitialConditions {
     /// Momentum, inertial, in N m s.
@@ -93,7 +93,7 @@ pub struct InitialConditions {
 }
 
 impl InitialConditions {
-    /// Whether decoded conditions can be some.
+    /// Rejects decoded conditions that no simulation can produce.
     pub(super) fn is_valid(&self) -> bool {
         let theory = self.theory;
         is_unit(&self.spin_axis_inertial)
@@ -103,7 +103,29 @@ impl InitialConditions {
 }
 
 impl Start {
-    /// What can be wrong with its numbers, and the attitude they give.
+    /// Inertia at the start.
+    ///
+    /// # Errors
+    /// Moments that no body has.
+    pub(super) fn inertia(&self, spinner: &Spinner) -> Result<Inertia, InertiaError> {
+        match self.mass_source {
+            MassSource::Fixed => Inertia::with_products(self.inertia_kg_m2, self.products_kg_m2),
+            MassSource::Propellant => spinner.mass_properties.inertia(self.propellant_kg),
+        }
+    }
+
+    /// Angular momentum in the frame of the spin axis, in N m s.
+    pub(super) fn momentum_spin_frame_n_m_s(&self, inertia: &Inertia) -> Vector3<f64> {
+        let spin_n_m_s = inertia.spin_kg_m2() * self.spin_rate_rad_s;
+        let across = spin_n_m_s * math::tan(self.nutation_rad);
+        let (sine, cosine) = math::sin_cos(self.nutation_phase_rad);
+        Vector3::new(across * cosine, across * sine, spin_n_m_s)
+    }
+
+    /// Checks the numbers and returns the attitude that they give.
+    ///
+    /// # Errors
+    /// The first parameter that is refused.
     pub(super) fn check(&self, spinner: &Spinner) -> Result<Quaternion, StartError> {
         let refuse =
             |name, found: String, allowed: &str| Err(ParameterError::new(name, found, allowed).into());

@@ -5,42 +5,31 @@ use serde::{Deserialize, Serialize};
 
 use super::commands::Commands;
 use super::directions::{DirectionSource, Directions};
-use super::propulsion::{MassSource, Propulsion};
+use super::error::SpinPlantError;
+use super::propulsion::Propulsion;
 use super::sensors::{Sensor, Sensors};
 use super::start::{InitialConditions, LEAST_WORK, MOST_WORK, Start, StartError};
-use crate::attitude::{Inertia, RigidBodyState};
-use crate::math;
+use crate::attitude::RigidBodyState;
 use crate::propulsion::due_s;
 use crate::spin::{
     burn::{Burn, BurnInitialConditions},
     damper::Damper,
-    motion::{Motion, MotionError},
+    motion::Motion,
     nutation::Spin,
     sequencer::{Phase, Sequencer},
     series::{Anchor, BodyTorque},
     spinner::Spinner,
-    work::{Cost, Work, WorkExceeded},
+    work::{Work, WorkKind},
 };
 
-/// A communication point this close to an edge, as a share of the step's later or earlier end, counts as the edge.
+/// A communication point this close to an edge, as a fraction of the step's later or earlier end, counts as the edge.
 const SAME_TIME: f64 = 1e-13;
 
 /// A motion is followed at least this far through a ramp of thrust at once, in s.
 const SHORTEST_RAMP_HINT_S: f64 = 2e-5;
 
-/// By which share of a turn times of one flight may be out of order.
+/// Fraction of a turn by which times of one flight may be out of order.
 const OUT_OF_ORDER: f64 = 1e-3;
-
-/// Why a flight does not come to the end of a step.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum SpinPlantError {
-    /// The motion.
-    #[error(transparent)]
-    MotionError(#[from] MotionError),
-    /// The effort.
-    #[error(transparent)]
-    Work(#[from] WorkExceeded),
-}
 
 /// A spinner in flight: everything a step needs from the steps before.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,7 +47,7 @@ pub struct Plant {
     directions: DirectionSource,
     propulsion: Propulsion,
     sensors: Sensors,
-    /// What a step may cost.
+    /// Greatest work of a step.
     work_limit: u32,
 }
 
@@ -71,35 +60,25 @@ impl Plant {
         commands: Commands,
         start_s: f64,
     ) -> Result<Self, StartError> {
-        let inertia = match start.mass_source {
-            MassSource::Fixed => Inertia::with_products(start.inertia_kg_m2, start.products_kg_m2)?,
-            MassSource::Propellant => spinner.mass_properties.inertia(start.propellant_kg)?,
-        };
+        let inertia = start.inertia(spinner)?;
         let attitude = start.check(spinner)?;
-        let spin_n_m_s = inertia.spin_kg_m2() * start.spin_rate_rad_s;
-        let across = spin_n_m_s * math::tan(start.nutation_rad);
-        let (sine, cosine) = math::sin_cos(start.nutation_phase_rad);
-        let momentum = Vector3::new(across * cosine, across * sine, spin_n_m_s);
+        let momentum = start.momentum_spin_frame_n_m_s(&inertia);
         let momentum_inertial = attitude.inertial_from_body(&inertia.body_from_spin_frame(&momentum));
         let theory = Spin {
             rate_rad_s: start.spin_rate_rad_s,
             ratio: inertia.inertial_nutation_ratio().unwrap_or(inertia.ratio()),
             inertia_kg_m2: inertia.spin_kg_m2(),
         };
-        let sequencer = match &start.burn {
-            None => None,
-            Some(request) => {
-                let initial = BurnInitialConditions {
-                    spin: theory,
-                    inertia,
-                    momentum_inertial,
-                    propellant_kg: start.propellant_kg,
-                    execution: &start.execution,
-                };
-                let burn = Burn::new(spinner, request, &initial)?;
-                Some(Sequencer::new(burn, spinner.sun_sensor.azimuth_deg.to_radians()))
-            }
+        let initial = BurnInitialConditions {
+            spin: theory,
+            inertia,
+            momentum_inertial,
+            propellant_kg: start.propellant_kg,
+            execution: &start.execution,
         };
+        let burn = start.burn.as_ref().map(|request| Burn::new(spinner, request, &initial)).transpose()?;
+        let slit_rad = spinner.sun_sensor.azimuth_deg.to_radians();
+        let sequencer = burn.map(|burn| Sequencer::new(burn, slit_rad));
         let damper = Damper::new(start.damper_time_constant_s, &inertia);
         let quiet = BodyTorque::constant(Vector3::zeros());
         let anchor = Anchor { time_s: start_s, attitude, momentum_inertial };
@@ -136,7 +115,7 @@ impl Plant {
         Ok(plant)
     }
 
-    /// Where communication stands, in s.
+    /// Present time of communication, in s.
     pub fn time_s(&self) -> f64 {
         self.time_s
     }
@@ -151,7 +130,7 @@ impl Plant {
         &self.motion
     }
 
-    /// What it started with.
+    /// Conditions at the start.
     pub fn initial(&self) -> &InitialConditions {
         &self.initial
     }
@@ -249,9 +228,9 @@ impl Plant {
                 break;
             }
             (now_s, reached_s) = (edge_s, edge_s);
-            work.spend(Cost::Edge);
+            work.spend(WorkKind::Edge);
             if self.directions.refresh_s <= edge_s {
-                work.spend(Cost::Direction);
+                work.spend(WorkKind::Direction);
                 if let Some(from_s) = self.directions.refresh() {
                     self.sensors.sun.forget(from_s);
                 }
@@ -260,7 +239,7 @@ impl Plant {
             if plan_s <= edge_s
                 && let Some(sequencer) = &mut self.sequencer
             {
-                sequencer.note_centre();
+                sequencer.record_centre();
                 // A little longer than the pulse, so that rounding needs no second segment.
                 hint_s = sequencer.pass_edge(now_s).map_or(f64::INFINITY, |width_s| 1.001 * width_s);
             }
@@ -362,7 +341,7 @@ impl Plant {
         self.motion.check()?;
         let end_s = self.motion.segment_end_s();
         work.spend_segment(self.motion.damper());
-        self.propulsion.leave_segment(spinner, &self.motion, work);
+        self.propulsion.close_segment(spinner, &self.motion, work);
         self.motion.next_segment();
         self.sensors.forget_motion(end_s);
         Ok(())

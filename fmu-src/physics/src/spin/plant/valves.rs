@@ -15,9 +15,9 @@ pub struct Valves {
     valves: [Valve; MOST_THRUSTERS],
     /// Pulses that were commanded.
     schedule: [PulseSchedule; MOST_THRUSTERS],
-    /// Of the scatter.
+    /// Seed of the scatter.
     seed: u64,
-    /// What the thrusters exert.
+    /// Force and torque of the thrusters over time.
     pub law: ThrustLaw,
 }
 
@@ -105,7 +105,7 @@ impl Valves {
         self.law = ThrustLaw::none(now_s);
     }
 
-    /// What the thrusters exert from `since_s` on with the valves as they are.
+    /// Law of the thrusters from `since_s` on with the valves as they are.
     fn law_from(&self, spinner: &Spinner, since_s: f64) -> ThrustLaw {
         let mut law = ThrustLaw::none(since_s);
         self.firing(spinner, since_s).for_each(|(thruster, share)| law.add(&thruster.thrust(), share));
@@ -121,7 +121,7 @@ impl Valves {
         jet_damping
     }
 
-    /// Thrusters that thrust from `since_s` on, each with the share of its thrust there and per second.
+    /// Thrusters that thrust from `since_s` on, each with the fraction of its thrust there and per second.
     fn firing<'a>(
         &'a self,
         spinner: &'a Spinner,
@@ -133,7 +133,7 @@ impl Valves {
         shares.filter(|(_, share)| *share != [0.0; 2])
     }
 
-    /// Whether decoded valves can be some by `latest_s`.
+    /// Rejects decoded valves that no simulation can produce by `latest_s`.
     pub(super) fn is_valid(&self, spinner: &Spinner, latest_s: f64) -> bool {
         let since_s = self.law.since_s;
         self.execution.iter().all(PulseExecution::is_valid)

@@ -1,4 +1,4 @@
-//! What a spinner's file says: its tables and keys, and what stands for those that are left out.
+//! Description of a spinner by its file: tables, keys, and defaults.
 
 use super::hardware::{Limits, MassTable, StarTracker, SunSensor};
 use crate::environment::frames::OBLIQUITY_J2000_RAD;

@@ -54,7 +54,7 @@ impl Spinner {
         builder.check.finish(spinner)
     }
 
-    /// What the thrusters of `mask` do together.
+    /// Thrust of the thrusters of `mask` together.
     pub fn thrust(&self, mask: u32) -> Thrust {
         let mut sum =
             Thrust { force_body_n: Vector3::zeros(), torque_body_n_m: Vector3::zeros(), flow_kg_s: 0.0 };
@@ -281,7 +281,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Which of the names in `list` this is.
+    /// Index of a name in `list`; reports one that is not there.
     fn known(&mut self, list: &KeyPath, at: &KeyPath, name: &str, names: &[&str]) -> Option<usize> {
         let index = names.iter().position(|known| *known == name);
         if index.is_none() {

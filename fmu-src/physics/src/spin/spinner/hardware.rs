@@ -86,7 +86,7 @@ pub struct StarTracker {
     pub field_of_view_deg: f64,
     /// Pickets in a turn.
     pub pickets: u32,
-    /// One in so many is searched in a turn.
+    /// Spacing of the pickets that are searched in a turn: 1 searches all.
     pub every: u32,
     /// Standard deviation of a declination, in deg.
     pub noise_deg: f64,

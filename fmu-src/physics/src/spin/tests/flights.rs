@@ -9,12 +9,10 @@ use super::{
 use crate::attitude::angle_between_rad;
 use crate::spacecraft::ValveTiming;
 use crate::spin::{
-    burn::BurnRequest,
+    burn_request::BurnRequest,
     forecast::Timing,
     nutation::Spin,
-    outputs::Outputs,
-    plant::{Commands, MassSource, Plant, PulseExecution, Start},
-    predictions::Predictions,
+    plant::{Commands, MassSource, Outputs, Plant, Predictions, PulseExecution, Start},
     spinner::Spinner,
     train::Shape,
 };
@@ -97,9 +95,9 @@ fn the_momentum_moves_toward_the_target_by_the_sum_of_eq_3() {
         ] {
             let start = burning(BurnRequest { shape, count, turns_per_pulse: turns, timing, ..request() });
             let plant = simulate(&spinner, &start, 3000.0);
-            let outputs = Outputs::of(&plant, &spinner);
+            let outputs = Outputs::from_plant(&plant, &spinner);
             assert!(outputs.burn_done, "{timing:?} {shape:?} {turns}: {} pulses", outputs.pulses_fired);
-            let expected = Predictions::of(&plant).manoeuvre_rad;
+            let expected = Predictions::from_plant(&plant).manoeuvre_rad;
             let moved = outputs.momentum_displacement_rad;
             // A split train's halves miss the direction by a share of a turn; the Sun pulse's azimuth is seen from the
             // nutating axis.
@@ -121,11 +119,11 @@ fn the_tapered_train_turns_2_deg_in_11_4_min_and_stays_under_0_0033_deg() {
         let mut start = undamped(ratio);
         start.burn = Some(BurnRequest { shape: Shape::Tapered { order: 1 }, count: 58, ..request() });
         let plant = simulate(&spinner, &start, 720.0);
-        let outputs = Outputs::of(&plant, &spinner);
+        let outputs = Outputs::from_plant(&plant, &spinner);
         assert!(outputs.burn_done);
         assert!(outputs.nutation_rad.to_degrees() < 0.0033, "{ratio}: {}", outputs.nutation_rad.to_degrees());
         assert_relative_eq!(outputs.momentum_displacement_rad.to_degrees(), 2.0, max_relative = 0.01);
-        assert!((Predictions::of(&plant).duration_s / 60.0 - 11.4).abs() < 0.05);
+        assert!((Predictions::from_plant(&plant).duration_s / 60.0 - 11.4).abs() < 0.05);
     }
 }
 
@@ -134,7 +132,7 @@ fn a_split_train_leaves_no_nutation_when_the_ratio_is_known() {
     let spinner = ace();
     let mut start = undamped(1.483);
     start.burn = Some(BurnRequest { shape: Shape::Split, count: 114, ..request() });
-    let outputs = Outputs::of(&simulate(&spinner, &start, 3000.0), &spinner);
+    let outputs = Outputs::from_plant(&simulate(&spinner, &start, 3000.0), &spinner);
     assert!(outputs.burn_done);
     assert!(outputs.nutation_rad.to_degrees() < 2e-5, "{}", outputs.nutation_rad.to_degrees());
 }
@@ -161,7 +159,7 @@ fn any_grid_gives_the_same_bits() {
         start.damper_time_constant_s = tau;
         start.nutation_rad = 1e-3;
         start.burn = Some(BurnRequest { timing, count: 8, pulse_width_s: 0.96, ..request() });
-        let whole = Outputs::of(&simulate(&spinner, &start, 140.0), &spinner);
+        let whole = Outputs::from_plant(&simulate(&spinner, &start, 140.0), &spinner);
         for step in [0.001, 0.032, 0.7, 12.0] {
             let mut plant = launch(&spinner, &start);
             let count = (140.0_f64 / step).floor() as u32;
@@ -169,7 +167,7 @@ fn any_grid_gives_the_same_bits() {
                 plant.advance(&spinner, f64::from(i) * step).unwrap();
             }
             plant.advance(&spinner, 140.0).unwrap();
-            assert_eq!(Outputs::of(&plant, &spinner), whole, "{quotient} {timing:?} {step}");
+            assert_eq!(Outputs::from_plant(&plant, &spinner), whole, "{quotient} {timing:?} {step}");
         }
     }
 }
@@ -180,7 +178,7 @@ fn commanded_pulses_and_held_thrusters_do_what_the_plan_does() {
     let mut start = burning(BurnRequest { count: 5, ..request() });
     let planned = launch(&spinner, &start);
     let (first, period) = (planned.sequencer().unwrap().next_edge_s(), planned.initial().theory.period_s());
-    let expected = Outputs::of(&simulate(&spinner, &start, 60.0), &spinner);
+    let expected = Outputs::from_plant(&simulate(&spinner, &start, 60.0), &spinner);
     // The same edges as pulses within steps of one turn.
     start.burn = None;
     let mut plant = launch(&spinner, &start);
@@ -191,7 +189,7 @@ fn commanded_pulses_and_held_thrusters_do_what_the_plan_does() {
     }
     plant.command(Commands::none(), directions());
     plant.advance(&spinner, 60.0).unwrap();
-    let seen = Outputs::of(&plant, &spinner);
+    let seen = Outputs::from_plant(&plant, &spinner);
     assert!((seen.state.momentum_inertial - expected.state.momentum_inertial).norm() < 1e-11);
     assert_relative_eq!(seen.nutation_rad, expected.nutation_rad, max_relative = 1e-9);
     // And as thrusters held over steps that end at the edges.
@@ -205,7 +203,7 @@ fn commanded_pulses_and_held_thrusters_do_what_the_plan_does() {
         plant.command(Commands::none(), directions());
     }
     plant.advance(&spinner, 60.0).unwrap();
-    let seen = Outputs::of(&plant, &spinner);
+    let seen = Outputs::from_plant(&plant, &spinner);
     assert!((seen.state.momentum_inertial - expected.state.momentum_inertial).norm() < 1e-11);
     assert_relative_eq!(seen.propellant_used_kg, expected.propellant_used_kg, max_relative = 1e-10);
 }
@@ -215,7 +213,7 @@ fn spin_couples_change_the_rate_alone() {
     let spinner = ace();
     for (group, sign) in [("spin up", 1.0), ("spin down", -1.0)] {
         let start = burning(BurnRequest { group: group.into(), count: 3, pulse_width_s: 4.0, ..request() });
-        let outputs = Outputs::of(&simulate(&spinner, &start, 60.0), &spinner);
+        let outputs = Outputs::from_plant(&simulate(&spinner, &start, 60.0), &spinner);
         // Two arms of 0.78 m, canted by 45 deg.
         let torque = 2.0 * 4.448 * 0.78 * std::f64::consts::FRAC_1_SQRT_2;
         let expected = std::f64::consts::PI / 6.0 + sign * torque * 12.0 / 353.82;
@@ -229,7 +227,7 @@ fn spin_couples_change_the_rate_alone() {
 fn delta_v_of_one_pulse_is_that_of_a_turning_force() {
     let spinner = ace();
     let mut start = burning(BurnRequest { count: 1, pulse_width_s: 3.0, ..request() });
-    let outputs = Outputs::of(&simulate(&spinner, &start, 30.0), &spinner);
+    let outputs = Outputs::from_plant(&simulate(&spinner, &start, 30.0), &spinner);
     let rate = std::f64::consts::PI / 6.0;
     let mass_kg = 562.0 + 97.5 - 1.5 * 4.448 / (220.0 * 9.80665);
     let expected = 4.448 / mass_kg * 2.0 * (0.5 * rate * 3.0_f64).sin() / rate;
@@ -243,7 +241,7 @@ fn delta_v_of_one_pulse_is_that_of_a_turning_force() {
     for i in 1..=20 {
         plant.advance(&spinner, 5.0 * f64::from(i)).unwrap();
     }
-    let outputs = Outputs::of(&plant, &spinner);
+    let outputs = Outputs::from_plant(&plant, &spinner);
     let exhaust_m_s = 220.0 * 9.80665;
     let ratio = 659.5_f64 / (659.5 - 2.0 * 4.448 * 100.0 / exhaust_m_s);
     assert_relative_eq!(outputs.delta_v_inertial_m_s.z, exhaust_m_s * ratio.ln(), max_relative = 1e-12);
@@ -257,12 +255,12 @@ fn inertia_follows_the_propellant_when_requested() {
     start.mass_source = MassSource::Propellant;
     start.burn = None;
     let mut plant = launch(&spinner, &start);
-    let before = Outputs::of(&plant, &spinner);
+    let before = Outputs::from_plant(&plant, &spinner);
     plant.command(firing(&[7, 9]), directions());
     plant.advance(&spinner, 5000.0).unwrap();
     plant.command(Commands::none(), directions());
     plant.advance(&spinner, 5001.0).unwrap();
-    let after = Outputs::of(&plant, &spinner);
+    let after = Outputs::from_plant(&plant, &spinner);
     let used = 2.0 * 5000.0 * 4.448 / (220.0 * 9.80665);
     assert_relative_eq!(after.propellant_used_kg, used, max_relative = 1e-9);
     assert_relative_eq!(
@@ -341,7 +339,7 @@ fn a_clock_that_runs_wrong_turns_the_burn_away_and_sun_pulses_do_not() {
     let mut moved = Vec::new();
     for timing in [Timing::Clock, Timing::SunCrossing] {
         let start = burning(BurnRequest { timing, spin_rate_error: 0.002, count: 114, ..request() });
-        let outputs = Outputs::of(&simulate(&spinner, &start, 1600.0), &spinner);
+        let outputs = Outputs::from_plant(&simulate(&spinner, &start, 1600.0), &spinner);
         assert!(outputs.burn_done);
         moved.push(outputs.momentum_displacement_rad.to_degrees());
     }
@@ -359,11 +357,11 @@ fn outside_torque_precesses_the_spin_axis() {
     start.burn = None;
     start.damper_time_constant_s = 0.0;
     let mut plant = launch(&spinner, &start);
-    let before = Outputs::of(&plant, &spinner);
+    let before = Outputs::from_plant(&plant, &spinner);
     let torque = crate::spin::series::BodyTorque::constant(Vector3::new(0.0, 0.0, 0.01));
     plant.command(Commands { torque, ..Commands::none() }, directions());
     plant.advance(&spinner, 1000.0).unwrap();
-    let after = Outputs::of(&plant, &spinner);
+    let after = Outputs::from_plant(&plant, &spinner);
     assert_relative_eq!(after.rate_rad_s.z - before.rate_rad_s.z, 10.0 / 353.82, max_relative = 1e-9);
     assert!(angle_between_rad(&after.state.momentum_inertial, &before.state.momentum_inertial) < 1e-10);
 }
@@ -376,16 +374,16 @@ fn a_burn_far_ahead_waits_without_following_the_motion_there() {
         start.inertia_kg_m2[0] = 230.0;
         start.nutation_rad = 1e-3;
         start.burn = Some(BurnRequest { timing, start_s: 4000.0, count: 3, ..request() });
-        let whole = Outputs::of(&simulate(&spinner, &start, 4100.0), &spinner);
+        let whole = Outputs::from_plant(&simulate(&spinner, &start, 4100.0), &spinner);
         assert_eq!(whole.pulses_fired, 3);
         assert!(whole.burn_done);
         let mut cut = launch(&spinner, &start);
-        assert!(Outputs::of(&cut, &spinner).next_edge_s < 0.0);
+        assert!(Outputs::from_plant(&cut, &spinner).next_edge_s < 0.0);
         for i in 1..=410 {
             cut.advance(&spinner, 10.0 * f64::from(i)).unwrap();
-            assert!(cut.time_s() > 4000.0 || Outputs::of(&cut, &spinner).pulses_fired == 0);
+            assert!(cut.time_s() > 4000.0 || Outputs::from_plant(&cut, &spinner).pulses_fired == 0);
         }
-        assert_eq!(Outputs::of(&cut, &spinner), whole);
+        assert_eq!(Outputs::from_plant(&cut, &spinner), whole);
     }
 }
 
@@ -395,7 +393,7 @@ fn where_the_sun_sensor_sits_does_not_turn_the_burn() {
         let mut spinner = ace();
         spinner.sun_sensor.azimuth_deg = azimuth_deg;
         let start = burning(BurnRequest { timing: Timing::SunCrossing, ..request() });
-        let outputs = Outputs::of(&simulate(&spinner, &start, 1600.0), &spinner);
+        let outputs = Outputs::from_plant(&simulate(&spinner, &start, 1600.0), &spinner);
         assert!(outputs.burn_done && !outputs.burn_active);
         // The momentum began along Z and was to move toward the target, square to it.
         let moved = outputs.state.momentum_inertial.normalize();
@@ -418,7 +416,7 @@ fn a_sun_pulse_at_the_time_of_a_pulse_does_not_cost_a_turn() {
             let target_inertial = Vector3::new(cos, sin, 0.0);
             start.burn =
                 Some(BurnRequest { timing: Timing::SunCrossing, count: 30, target_inertial, ..request() });
-            let outputs = Outputs::of(&simulate(&spinner, &start, 33.0 * period_s), &spinner);
+            let outputs = Outputs::from_plant(&simulate(&spinner, &start, 33.0 * period_s), &spinner);
             assert!(outputs.burn_done, "{nutation_deg} {degrees}: {}", outputs.pulses_fired);
         }
     }

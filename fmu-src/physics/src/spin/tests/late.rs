@@ -4,15 +4,13 @@ use super::{ace, directions, paper_start, request};
 use crate::attitude::angle_between_rad;
 use crate::numerics::spacing::spacing;
 use crate::spin::{
-    burn::BurnRequest,
+    burn_request::BurnRequest,
     forecast::Timing,
-    outputs::Outputs,
-    plant::{Commands, Plant, Start},
-    predictions::Predictions,
+    plant::{Commands, Outputs, Plant, Predictions, Start},
 };
 
 /// A flight of 1600 s from `start_s` with 114 pulses, and what it shows.
-fn simulated(inertia_kg_m2: [f64; 3], timing: Timing, start_s: f64) -> crate::spin::outputs::Outputs {
+fn simulated(inertia_kg_m2: [f64; 3], timing: Timing, start_s: f64) -> crate::spin::plant::Outputs {
     let spinner = ace();
     let burn = Some(BurnRequest { timing, start_s, ..request() });
     let start = Start { inertia_kg_m2, burn, damper_time_constant_s: 0.0, ..paper_start(1.483) };
@@ -20,7 +18,7 @@ fn simulated(inertia_kg_m2: [f64; 3], timing: Timing, start_s: f64) -> crate::sp
     for i in 1..=16 {
         plant.advance(&spinner, start_s + 100.0 * f64::from(i)).unwrap();
     }
-    Outputs::of(&plant, &spinner)
+    Outputs::from_plant(&plant, &spinner)
 }
 
 #[test]
@@ -54,9 +52,9 @@ fn a_burn_that_waits_for_11_days_fires_every_pulse() {
         start.burn = Some(BurnRequest { timing, start_s: 1e6, ..request() });
         let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
         plant.advance(&spinner, 1e6 + 1600.0).unwrap();
-        let outputs = Outputs::of(&plant, &spinner);
+        let outputs = Outputs::from_plant(&plant, &spinner);
         assert_eq!((outputs.pulses_fired, outputs.burn_done), (114, true), "{timing:?}");
-        let expected = Predictions::of(&plant).manoeuvre_rad;
+        let expected = Predictions::from_plant(&plant).manoeuvre_rad;
         assert!((outputs.momentum_displacement_rad / expected - 1.0).abs() < 2e-3, "{timing:?}");
         // A crossing of the Sun in every turn.
         let turns = (1e6 + 1600.0) / 12.0;

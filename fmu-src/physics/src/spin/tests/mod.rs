@@ -20,7 +20,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::attitude::{Inertia, Quaternion, RigidBodyState, angle_between_rad};
 
 use super::{
-    burn::BurnRequest,
+    burn_request::BurnRequest,
     damper::Damper,
     forecast::Timing,
     motion::Motion,

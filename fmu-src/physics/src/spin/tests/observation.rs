@@ -10,8 +10,7 @@ use crate::numerics::noise::{Channel, normal};
 use crate::spin::{
     geometry::L1Ephemeris,
     nutation::period_variation_s,
-    outputs::Outputs,
-    plant::{Commands, Directions, Plant, Sampling},
+    plant::{Commands, Directions, Outputs, Plant, Sampling},
     tracker::{NutationEstimator, picket_of, searched},
 };
 
@@ -45,7 +44,7 @@ fn a_quiet_spinner_crosses_the_sun_once_a_period() {
     let spinner = ace();
     let mut plant = launch(&spinner, &paper_start(1.483));
     plant.advance(&spinner, 1200.5).unwrap();
-    let outputs = Outputs::of(&plant, &spinner);
+    let outputs = Outputs::from_plant(&plant, &spinner);
     assert_eq!(plant.sensors().sun.count, 101);
     assert_relative_eq!(outputs.period_s, 12.0, max_relative = 1e-12);
     assert!(outputs.sector_error.abs() < 1e-6);
@@ -95,7 +94,7 @@ fn declination_swings_by_the_nutation_angle_either_way() {
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     for i in 1..10_000 {
         plant.advance(&spinner, 0.01 * f64::from(i)).unwrap();
-        let declination = Outputs::of(&plant, &spinner).declination_rad;
+        let declination = Outputs::from_plant(&plant, &spinner).declination_rad;
         least = least.min(declination);
         most = most.max(declination);
     }
@@ -113,7 +112,7 @@ fn the_estimator_finds_the_nutation_angle_within_its_own_error() {
         start.seed = seed;
         let mut plant = launch(&spinner, &start);
         plant.advance(&spinner, 4.0 * 3600.0).unwrap();
-        let estimate = Outputs::of(&plant, &spinner).estimate;
+        let estimate = Outputs::from_plant(&plant, &spinner).estimate;
         assert!(plant.sensors().estimator.count > 100);
         assert!(estimate.sigma_rad.to_degrees() < 0.004);
         hits += i32::from((estimate.nutation_rad - start.nutation_rad).abs() < estimate.sigma_rad);
@@ -189,7 +188,7 @@ fn directions_on_the_l1_orbit_do_not_depend_on_the_grid() {
     for i in 1..=4000 {
         cut.advance(&spinner, f64::from(i)).unwrap();
     }
-    assert_eq!(Outputs::of(&whole, &spinner), Outputs::of(&cut, &spinner));
+    assert_eq!(Outputs::from_plant(&whole, &spinner), Outputs::from_plant(&cut, &spinner));
     assert!(whole.sensors().sun.count > 330);
 }
 
@@ -207,7 +206,7 @@ fn the_sector_error_is_what_a_spin_divided_by_the_period_before_is_off() {
             crossings.extend(seen_s);
         }
         let [.., a, b, c] = crossings[..] else { continue };
-        let outputs = Outputs::of(&plant, &spinner);
+        let outputs = Outputs::from_plant(&plant, &spinner);
         assert_relative_eq!(outputs.period_s, c - b, max_relative = 1e-12);
         assert_relative_eq!(outputs.period_change_s, (c - b) - (b - a), epsilon = 1e-12);
         // Sectors of the width learnt in one spin, counted over the next.
@@ -235,7 +234,7 @@ fn a_star_is_sampled_where_it_passes_the_boresight_also_after_another_is_chosen(
     // 30 deg a second: from 90 to 210 deg in 4 s.
     plant.advance(&spinner, 26.0).unwrap();
     assert_relative_eq!(
-        Outputs::of(&plant, &spinner).declination_rad.to_degrees(),
+        Outputs::from_plant(&plant, &spinner).declination_rad.to_degrees(),
         3.0,
         max_relative = 1e-12
     );
@@ -266,7 +265,7 @@ fn a_pulse_begins_the_estimate_anew() {
     start.nutation_rad = 0.05_f64.to_radians();
     let mut plant = launch(&spinner, &start);
     plant.advance(&spinner, 4.0 * 3600.0).unwrap();
-    let before = Outputs::of(&plant, &spinner);
+    let before = Outputs::from_plant(&plant, &spinner);
     assert_relative_eq!(before.estimate.nutation_rad, before.nutation_rad, max_relative = 0.01);
     plant.command(Commands { fire: 1 << 7, ..Commands::none() }, directions());
     plant.advance(&spinner, 4.0 * 3600.0 + 0.2).unwrap();
@@ -274,7 +273,7 @@ fn a_pulse_begins_the_estimate_anew() {
     plant.advance(&spinner, 4.0 * 3600.0 + 3.0).unwrap();
     assert_eq!(plant.sensors().estimator.count, 0);
     plant.advance(&spinner, 8.0 * 3600.0).unwrap();
-    let after = Outputs::of(&plant, &spinner);
+    let after = Outputs::from_plant(&plant, &spinner);
     assert!((after.nutation_rad - before.nutation_rad).abs() > 0.2 * before.nutation_rad);
     assert_relative_eq!(after.estimate.nutation_rad, after.nutation_rad, max_relative = 0.01);
 }

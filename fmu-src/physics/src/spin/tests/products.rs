@@ -8,12 +8,10 @@ use super::{
 };
 use crate::attitude::{Inertia, Quaternion};
 use crate::spin::{
-    burn::BurnRequest,
+    burn_request::BurnRequest,
     forecast::Timing,
     motion::Motion,
-    outputs::Outputs,
-    plant::{Commands, Plant, PulseCommand},
-    predictions::Predictions,
+    plant::{Commands, Outputs, Plant, Predictions, PulseCommand},
     spinner::Spinner,
 };
 
@@ -100,7 +98,7 @@ fn the_same_body_described_in_principal_axes_moves_the_same() {
                 plant.command(commands, directions());
                 plant.advance(spinner, f64::from(i + 1)).unwrap();
             }
-            Outputs::of(&plant, spinner)
+            Outputs::from_plant(&plant, spinner)
         };
         let (one, two) = (simulate(&in_body, &start), simulate(&in_principal, &other));
         let attitude = inertia.principal_attitude(one.state.attitude);
@@ -146,16 +144,16 @@ fn a_start_without_nutation_turns_about_the_principal_axis() {
     (start.inertia_kg_m2, start.products_kg_m2) = (DIAGONAL, PRODUCTS);
     let mut plant = launch(&spinner, &start);
     let body = tensor(DIAGONAL, PRODUCTS);
-    let w = Outputs::of(&plant, &spinner).rate_rad_s;
+    let w = Outputs::from_plant(&plant, &spinner).rate_rad_s;
     assert!(w.cross(&(body * w)).norm() < 1e-13 * (body * w).norm());
     assert_relative_eq!(w.norm(), start.spin_rate_rad_s, max_relative = 1e-14);
     plant.advance(&spinner, 100.0).unwrap();
-    let later = Outputs::of(&plant, &spinner);
+    let later = Outputs::from_plant(&plant, &spinner);
     assert!((later.rate_rad_s - w).norm() < 1e-13 && later.nutation_rad < 1e-13);
     // With nutation: the angle and the azimuth requested.
     (start.nutation_rad, start.nutation_phase_rad) = (0.1, 2.0);
     let plant = launch(&spinner, &start);
-    let seen = Outputs::of(&plant, &spinner);
+    let seen = Outputs::from_plant(&plant, &spinner);
     assert_relative_eq!(seen.nutation_rad, 0.1, max_relative = 1e-13);
     assert_relative_eq!(seen.nutation_phase_rad, 2.0, max_relative = 1e-13);
     let axis = w.normalize();
@@ -173,9 +171,9 @@ fn burns_of_a_coning_spacecraft_point_at_their_target() {
         let mut plant = launch(&spinner, &start);
         let from = plant.state().momentum_inertial.normalize();
         plant.advance(&spinner, 1500.0).unwrap();
-        let seen = Outputs::of(&plant, &spinner);
+        let seen = Outputs::from_plant(&plant, &spinner);
         assert!(seen.burn_done && seen.coning_rad > 0.009);
-        let moved = Predictions::of(&plant).manoeuvre_rad;
+        let moved = Predictions::from_plant(&plant).manoeuvre_rad;
         assert_relative_eq!(seen.momentum_displacement_rad, moved, max_relative = 2e-3);
         let target = Vector3::new(0.8, 0.6, 0.0);
         let aside = from.cross(&target).normalize().dot(&seen.state.momentum_inertial.normalize());

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::{ACE, ace, directions, paper_start, request};
 use crate::spin::{
-    burn::BurnRequest,
+    burn_request::BurnRequest,
     forecast::Timing,
     plant::{Commands, Directions, Plant},
     spinner::Spinner,

@@ -5,8 +5,7 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::{ace, directions, firing, launch, paper_start, pulses};
 use crate::spin::{
-    outputs::Outputs,
-    plant::{Commands, Plant, Start},
+    plant::{Commands, Outputs, Plant, Start},
     spinner::Spinner,
 };
 
@@ -31,7 +30,7 @@ fn axial_thrust_follows_the_rocket_equation_at_every_reading() {
         for share in [1e-9, 1e-6, 1e-4, 0.01, 0.1, 0.123, 0.5, 0.87, 0.99, 0.999_999, 1.01, 1.1] {
             let time_s = share * depletion_time_s;
             plant.advance(&spinner, time_s).unwrap();
-            let outputs = Outputs::of(&plant, &spinner);
+            let outputs = Outputs::from_plant(&plant, &spinner);
             let burnt_kg = (flow_kg_s * time_s).min(97.5);
             let expected = -EXHAUST_M_S * (-burnt_kg / FULL_KG).ln_1p();
             assert_relative_eq!(outputs.delta_v_inertial_m_s.z, expected, max_relative = 1e-10);
@@ -55,7 +54,7 @@ fn radial_thrust_turns_with_the_body() {
         if i > 0 {
             plant.advance(&spinner, time_s).unwrap();
         }
-        let [x, y, z, w] = Outputs::of(&plant, &spinner).state.attitude.0;
+        let [x, y, z, w] = Outputs::from_plant(&plant, &spinner).state.attitude.0;
         let inertial_from_body = UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z));
         let acceleration = inertial_from_body * force_body_n / (FULL_KG - FORCE_N / EXHAUST_M_S * time_s);
         let weight = if i == 0 || i == intervals {
@@ -68,12 +67,12 @@ fn radial_thrust_turns_with_the_body() {
         integral += acceleration * (weight * step_s / 3.0);
         if i == 5_000 {
             // In the midst of the pulse: the same rule closed here.
-            let seen = Outputs::of(&plant, &spinner).delta_v_inertial_m_s;
+            let seen = Outputs::from_plant(&plant, &spinner).delta_v_inertial_m_s;
             let closed = integral - acceleration * (step_s / 3.0);
             assert!((seen - closed).norm() < 1e-10 * 50.0 * FORCE_N / FULL_KG, "{seen} {closed}");
         }
     }
-    let seen = Outputs::of(&plant, &spinner).delta_v_inertial_m_s;
+    let seen = Outputs::from_plant(&plant, &spinner).delta_v_inertial_m_s;
     // Relative to what the thrust would have given without turning.
     assert!((seen - integral).norm() < 1e-10 * 120.0 * FORCE_N / FULL_KG, "{seen} {integral}");
 }
@@ -94,7 +93,7 @@ fn a_pulse_fired_in_two_gives_what_it_gives_in_one() {
         two.advance(&spinner, 1.3 * whole_s).unwrap();
         two.command(Commands::none(), directions());
         two.advance(&spinner, 2.0 * whole_s).unwrap();
-        let (one, two) = (Outputs::of(&one, &spinner), Outputs::of(&two, &spinner));
+        let (one, two) = (Outputs::from_plant(&one, &spinner), Outputs::from_plant(&two, &spinner));
         let apart = (one.delta_v_inertial_m_s - two.delta_v_inertial_m_s).norm();
         assert!(apart < 1e-11 * one.delta_v_inertial_m_s.norm(), "{thruster} {whole_s}: {apart}");
         assert_relative_eq!(one.propellant_used_kg, two.propellant_used_kg, max_relative = 1e-12);

@@ -2,11 +2,9 @@
 
 use super::{ace, directions, launch, paper_spin, paper_start, request, train, undamped};
 use crate::spin::{
-    burn::BurnRequest,
+    burn_request::BurnRequest,
     forecast::Timing,
-    outputs::Outputs,
-    plant::{Commands, Plant},
-    predictions::Predictions,
+    plant::{Commands, Outputs, Plant, Predictions},
     train::{Shape, TrainError},
 };
 
@@ -23,9 +21,9 @@ fn simulated(ratio: f64, turns_per_pulse: f64) -> (f64, f64, f64) {
         ..request()
     });
     let mut plant = launch(&spinner, &start);
-    let planned = Predictions::of(&plant);
+    let planned = Predictions::from_plant(&plant);
     plant.advance(&spinner, planned.duration_s + 60.0).unwrap();
-    let outputs = Outputs::of(&plant, &spinner);
+    let outputs = Outputs::from_plant(&plant, &spinner);
     assert!(!outputs.burn_active);
     (planned.manoeuvre_rad, outputs.momentum_displacement_rad, outputs.nutation_rad)
 }

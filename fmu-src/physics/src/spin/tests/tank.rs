@@ -4,10 +4,8 @@ use approx::assert_relative_eq;
 
 use super::{ace, directions, firing, paper_start, pulses, request};
 use crate::spin::{
-    burn::BurnRequest,
-    outputs::Outputs,
-    plant::{Commands, Plant, Start},
-    predictions::Predictions,
+    burn_request::BurnRequest,
+    plant::{Commands, Outputs, Plant, Predictions, Start},
     spinner::Spinner,
 };
 
@@ -30,7 +28,7 @@ fn a_held_thruster_goes_off_when_the_last_drop_is_gone() {
         let mut plant = launch(&spinner, &start(0.01), firing(&[8]));
         for i in 1..=(20.0_f64 / step_s).floor() as u32 {
             plant.advance(&spinner, f64::from(i) * step_s).unwrap();
-            let outputs = Outputs::of(&plant, &spinner);
+            let outputs = Outputs::from_plant(&plant, &spinner);
             assert_eq!(outputs.thrusters_on == 0, plant.time_s() >= depletion_time_s);
             assert_relative_eq!(
                 outputs.propellant_used_kg,
@@ -40,7 +38,7 @@ fn a_held_thruster_goes_off_when_the_last_drop_is_gone() {
         }
         plant.advance(&spinner, 20.0).unwrap();
         assert!(plant.propulsion().is_dry());
-        ends.push(Outputs::of(&plant, &spinner));
+        ends.push(Outputs::from_plant(&plant, &spinner));
     }
     let end = &ends[0];
     assert!(ends.iter().all(|other| other == end));
@@ -48,7 +46,7 @@ fn a_held_thruster_goes_off_when_the_last_drop_is_gone() {
     // A pulse of that length does the same to a spinner that has enough.
     let mut rich = launch(&spinner, &start(97.5), pulses(&[8], 0.0, depletion_time_s));
     rich.advance(&spinner, 20.0).unwrap();
-    let expected = Outputs::of(&rich, &spinner);
+    let expected = Outputs::from_plant(&rich, &spinner);
     assert!((end.state.momentum_inertial - expected.state.momentum_inertial).norm() < 1e-9);
     assert_relative_eq!(end.predicted_nutation_rad, expected.predicted_nutation_rad, max_relative = 1e-9);
     assert_relative_eq!(expected.propellant_used_kg, 0.01, max_relative = 1e-12);
@@ -58,9 +56,9 @@ fn a_held_thruster_goes_off_when_the_last_drop_is_gone() {
 fn nothing_fires_from_an_empty_tank() {
     let spinner = ace();
     let mut plant = launch(&spinner, &start(0.0), firing(&[7, 8, 9]));
-    let before = Outputs::of(&plant, &spinner);
+    let before = Outputs::from_plant(&plant, &spinner);
     plant.advance(&spinner, 100.0).unwrap();
-    let after = Outputs::of(&plant, &spinner);
+    let after = Outputs::from_plant(&plant, &spinner);
     assert_eq!(after.state.momentum_inertial, before.state.momentum_inertial);
     assert_eq!((after.propellant_used_kg, after.delta_v_inertial_m_s.norm()), (0.0, 0.0));
 }
@@ -80,12 +78,12 @@ fn a_burn_is_refused_what_is_not_on_board_and_simulated_with_the_last_drop() {
     start.propellant_kg = needed_kg;
     let mut plant = launch(&spinner, &start, Commands::none());
     plant.advance(&spinner, 1400.0).unwrap();
-    let outputs = Outputs::of(&plant, &spinner);
+    let outputs = Outputs::from_plant(&plant, &spinner);
     assert!(outputs.burn_done && outputs.pulses_fired == 114);
     assert_relative_eq!(outputs.propellant_used_kg, needed_kg, max_relative = 1e-12);
     assert_relative_eq!(
         outputs.momentum_displacement_rad,
-        Predictions::of(&plant).manoeuvre_rad,
+        Predictions::from_plant(&plant).manoeuvre_rad,
         max_relative = 1e-3
     );
 }
@@ -100,7 +98,7 @@ fn a_burn_whose_propellant_others_take_ends_in_the_midst_of_its_pulse() {
     plant.advance(&spinner, 0.75).unwrap();
     plant.command(Commands::none(), directions());
     plant.advance(&spinner, 200.0).unwrap();
-    let outputs = Outputs::of(&plant, &spinner);
+    let outputs = Outputs::from_plant(&plant, &spinner);
     assert_eq!(outputs.pulses_fired, 2);
     assert!(!outputs.burn_done && !outputs.burn_active && outputs.next_edge_s < 0.0);
     assert_eq!(outputs.propellant_left_kg, 0.0);
@@ -126,7 +124,7 @@ fn a_lighter_spinner_gains_more_speed() {
         mass_kg -= 2.0 * FLOW_KG_S * 5000.0;
         expected += 220.0 * 9.806_65 * (before_kg / mass_kg).ln();
         assert_relative_eq!(
-            Outputs::of(&plant, &spinner).delta_v_inertial_m_s.norm(),
+            Outputs::from_plant(&plant, &spinner).delta_v_inertial_m_s.norm(),
             expected,
             max_relative = 1e-9
         );

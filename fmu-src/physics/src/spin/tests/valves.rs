@@ -7,12 +7,10 @@ use super::{ACE, ace, assert_same_attitude, directions, launch, paper_start, pul
 use crate::numerics::noise::{Channel, normal};
 use crate::spacecraft::ValveTiming;
 use crate::spin::{
-    burn::BurnRequest,
+    burn_request::BurnRequest,
     forecast::Timing,
     nutation::{LinearNutation, Spin},
-    outputs::Outputs,
-    plant::{Commands, Plant, PulseExecution, Start},
-    predictions::Predictions,
+    plant::{Commands, Outputs, Plant, Predictions, PulseExecution, Start},
     spinner::Spinner,
     train::Shape,
 };
@@ -48,13 +46,13 @@ fn the_impulse_is_the_nominal_thrust_times_the_area_of_the_valve_law() {
     let spinner = ace();
     for on_s in [0.02, 0.045, 0.06, 0.5, 1.1, 40.0] {
         // Along the axis without torque: propellant and the rocket equation.
-        let seen = Outputs::of(&pulsed(&spinner, &start(TIMING, 0.0), &[7, 9], on_s), &spinner);
+        let seen = Outputs::from_plant(&pulsed(&spinner, &start(TIMING, 0.0), &[7, 9], on_s), &spinner);
         let burnt_kg = 2.0 * FORCE_N / EXHAUST_M_S * area_s(on_s);
         assert_relative_eq!(seen.propellant_used_kg, burnt_kg, max_relative = 1e-12);
         let delta_v = -EXHAUST_M_S * (-burnt_kg / (562.0 + 97.5)).ln_1p();
         assert_relative_eq!(seen.delta_v_inertial_m_s.z, delta_v, max_relative = 1e-12);
         // A couple about the axis: force times lever times time.
-        let seen = Outputs::of(&pulsed(&spinner, &start(TIMING, 0.0), &[2, 5], on_s), &spinner);
+        let seen = Outputs::from_plant(&pulsed(&spinner, &start(TIMING, 0.0), &[2, 5], on_s), &spinner);
         let lever_m = 0.78 * core::f64::consts::FRAC_1_SQRT_2;
         let spun_up = 353.82 * core::f64::consts::PI / 6.0 + 2.0 * FORCE_N * lever_m * area_s(on_s);
         assert_relative_eq!(seen.state.momentum_inertial.z, spun_up, max_relative = 1e-13);
@@ -77,7 +75,7 @@ fn a_train_of_pulses_leaves_the_integral_of_its_torque_over_the_turning_body() {
         + spinner.thrusters[0].position_body_m.cross(&spinner.thrusters[0].force_body_n);
     let force = spinner.thrusters[7].force_body_n + spinner.thrusters[0].force_body_n;
     let flow_kg_s = 2.0 * FORCE_N / EXHAUST_M_S;
-    let mut w = Outputs::of(&plant, &spinner).rate_rad_s;
+    let mut w = Outputs::from_plant(&plant, &spinner).rate_rad_s;
     let mut m = Matrix3::identity();
     let (mut delta_v, mut used_kg) = (Vector3::zeros(), 0.0);
     // Opened each second for a while from 0.5 s on: rising 0.06 s, falling 0.15 s.
@@ -113,7 +111,7 @@ fn a_train_of_pulses_leaves_the_integral_of_its_torque_over_the_turning_body() {
         plant.command(pulses(&[8, 1], 0.5, on_s), directions());
         plant.advance(&spinner, plant.time_s() + 1.0).unwrap();
     }
-    let seen = Outputs::of(&plant, &spinner);
+    let seen = Outputs::from_plant(&plant, &spinner);
     let expected = m * (body * w);
     let moved = (expected - plant.initial().momentum_inertial).norm();
     assert!(moved > 1.0);
@@ -180,13 +178,13 @@ fn burns_with_slow_valves_move_by_what_they_plan() {
                 plant
             };
             let plant = simulate(TIMING);
-            let seen = Outputs::of(&plant, &spinner);
+            let seen = Outputs::from_plant(&plant, &spinner);
             assert!(seen.burn_done, "{timing:?} {shape:?}");
             let burn = *plant.sequencer().unwrap().burn();
             let needed_kg = burn.train.on_time_s() * FORCE_N / EXHAUST_M_S;
             assert_relative_eq!(seen.propellant_used_kg, needed_kg, max_relative = 1e-12);
             assert_relative_eq!(burn.propellant_kg(&spinner), needed_kg, max_relative = 1e-12);
-            let moved = Predictions::of(&plant).manoeuvre_rad;
+            let moved = Predictions::from_plant(&plant).manoeuvre_rad;
             assert_relative_eq!(seen.momentum_displacement_rad, moved, max_relative = 1e-3);
             // The thrust, not the valve, is centred on the instant that points at the target: else 0.03 of it goes aside. Sun
             // pulses are seen from the nutating axis, and nutation turns a little otherwise under slow pulses.
@@ -210,9 +208,9 @@ fn thrust_scatters_by_seed_thruster_and_number_alone() {
         let mut plant = launch(&spinner, &start);
         for i in 0..20_u32 {
             plant.command(pulses(&[8], 0.1, 0.4), directions());
-            let before_kg = Outputs::of(&plant, &spinner).propellant_used_kg;
+            let before_kg = Outputs::from_plant(&plant, &spinner).propellant_used_kg;
             plant.advance(&spinner, f64::from(i + 1)).unwrap();
-            let used_kg = Outputs::of(&plant, &spinner).propellant_used_kg - before_kg;
+            let used_kg = Outputs::from_plant(&plant, &spinner).propellant_used_kg - before_kg;
             let drawn = 1.0 + 0.05 * normal(seed, Channel::Thruster(7), i.into());
             let expected = FORCE_N / EXHAUST_M_S * area_s(0.4) * drawn;
             assert_relative_eq!(used_kg, expected, max_relative = 1e-10);
@@ -228,11 +226,11 @@ fn pulses_too_short_for_their_valve_do_not_fire() {
     commands.pulses[9].on_s = 0.02;
     plant.command(commands, directions());
     plant.advance(&spinner, 0.01).unwrap();
-    let seen = Outputs::of(&plant, &spinner);
+    let seen = Outputs::from_plant(&plant, &spinner);
     assert_eq!((seen.thrusters_on, seen.too_short), (1 << 9, 1 << 7));
     plant.command(Commands::none(), directions());
     plant.advance(&spinner, 1.0).unwrap();
-    let seen = Outputs::of(&plant, &spinner);
+    let seen = Outputs::from_plant(&plant, &spinner);
     assert_eq!(seen.too_short, 0);
     // Its step ends at 0.01 s, and the valve does not close before 0.02 s.
     assert_relative_eq!(seen.propellant_used_kg, FORCE_N / EXHAUST_M_S * area_s(0.02), max_relative = 1e-12);
@@ -284,18 +282,18 @@ fn an_empty_tank_shuts_a_rising_valve() {
         let mut plant = Plant::start(&spinner, &start, directions(), fire.clone(), 0.0).unwrap();
         for i in 1..=(5.0_f64 / step_s).round() as u32 {
             plant.advance(&spinner, (f64::from(i) * step_s).min(5.0)).unwrap();
-            let seen = Outputs::of(&plant, &spinner);
+            let seen = Outputs::from_plant(&plant, &spinner);
             assert_eq!(seen.thrusters_on == 0, plant.time_s() > 8f64.sqrt());
             let share = if seen.thrusters_on == 0 { 0.0 } else { plant.time_s() / 4.0 };
             assert_relative_eq!(seen.force_body_n.norm(), FORCE_N * share, max_relative = 1e-12);
         }
         plant.advance(&spinner, 5.0).unwrap();
-        ends.push(Outputs::of(&plant, &spinner));
+        ends.push(Outputs::from_plant(&plant, &spinner));
     }
     let mut plant = Plant::start(&spinner, &start, directions(), fire, 0.0).unwrap();
     for (time_s, on) in [(8f64.sqrt() - 1e-7, true), (8f64.sqrt() + 1e-7, false)] {
         plant.advance(&spinner, time_s).unwrap();
-        assert_eq!(Outputs::of(&plant, &spinner).thrusters_on != 0, on, "{time_s}");
+        assert_eq!(Outputs::from_plant(&plant, &spinner).thrusters_on != 0, on, "{time_s}");
     }
     assert_eq!(ends[0].propellant_left_kg, 0.0);
     assert!(ends.iter().all(|end| *end == ends[0]));
@@ -306,7 +304,7 @@ fn the_file_says_how_thrusters_execute_pulses() {
     let keys =
         "name = \"IIIR\"\nmin_on_time_s = 0.02\nrise_time_s = 0.01\ntail_off_time_s = 0.03\nscatter = 0.05";
     let spinner = Spinner::parse("my.toml", &ACE.replacen("name = \"IIIR\"", keys, 1)).unwrap();
-    let execution = PulseExecution::of(&spinner);
+    let execution = PulseExecution::from_spinner(&spinner);
     let valve = ValveTiming { min_on_s: 0.02, rise_s: 0.01, tail_off_s: 0.03 };
     assert_eq!(execution[7], PulseExecution { valve, scatter: 0.05 });
     assert_eq!(execution[6], PulseExecution::default());

@@ -4,9 +4,8 @@ use std::time::Instant;
 
 use super::{ace, directions, paper_start, request, train};
 use crate::spin::{
-    burn::BurnRequest,
-    plant::{Commands, Plant, Sampling, SpinPlantError, Start},
-    predictions::Predictions,
+    burn_request::BurnRequest,
+    plant::{Commands, Plant, Predictions, Sampling, SpinPlantError, Start},
     train::Shape,
 };
 
@@ -76,7 +75,7 @@ fn the_longest_trains_are_planned_in_time() {
         let begun = Instant::now();
         let planned = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0);
         let took_s = begun.elapsed().as_secs_f64();
-        println!("{shape:?}: {took_s:.2} s, {:?}", planned.map(|p| Predictions::of(&p).count));
+        println!("{shape:?}: {took_s:.2} s, {:?}", planned.map(|p| Predictions::from_plant(&p).count));
         assert!(took_s < 60.0);
     }
 }

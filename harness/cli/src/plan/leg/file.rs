@@ -3,11 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use nalgebra::Vector3;
-use physics::{
-    environment::{dates, orbit::LambertBranch},
-    toml::KeyPath,
-};
-use planner::leg::FlybyAimpoint;
+use physics::{environment::dates, toml::KeyPath};
+use planner::{leg::FlybyAimpoint, orbit::LambertBranch};
 
 use super::description::{ArcBranch, ArriveDescription, LegDescription};
 use crate::{

@@ -15,11 +15,11 @@ use std::{
 };
 
 use ::files::{OutputFolder, Scratch};
-use physics::{
-    constants::DAY_S,
-    environment::{dates, orbit::LambertError},
+use physics::{constants::DAY_S, environment::dates};
+use planner::{
+    leg::{FlybyAimpoint, Leg, LegError, LegTask, MOST_LEG_S, report, shoot},
+    orbit::LambertError,
 };
-use planner::leg::{FlybyAimpoint, Leg, LegError, LegTask, MOST_LEG_S, report, shoot};
 use toml_edit::{DocumentMut, value};
 
 pub(crate) use self::options::LegOptions;

@@ -1,14 +1,12 @@
 //! Where the attitude turns over, and what that does to a change of the place, against flights with light ten thousand times as strong.
 
 use nalgebra::SVector;
-use physics::{
-    bodies::Body,
-    environment::orbit::{OrbitMethod, transition},
-};
+use physics::{bodies::Body, environment::orbit::OrbitMethod, numerics::Span};
 
 use super::*;
 use crate::flyby::test_flight::{LONG_S, Leg, fixed_in_the_body, force_model, packed};
 use crate::momentum::test_spacecraft::sunlit;
+use crate::orbit::transition;
 
 #[test]
 fn the_attitude_turns_over_later_where_the_place_says_so() {
@@ -37,9 +35,9 @@ fn the_attitude_turns_over_later_where_the_place_says_so() {
     assert_eq!(found.len(), 1);
     let (gravity, mut planets) = (force_model().gravity(Body::Sun), force_model().planets());
     let mut over = |span_s: [f64; 2]| {
-        transition(&OrbitMethod::default(), span_s, |at_s| {
+        transition(&OrbitMethod::default(), Span::new(span_s[0], span_s[1]), |at_s| {
             let position_m = path.at(at_s).from_sun.position_m;
-            gravity.gradient_per_s2(Body::Sun, at_s, &position_m, &mut planets)
+            gravity.model.gradient_per_s2(Body::Sun, at_s, &position_m, &mut planets)
                 + light.gradient_per_s2(at_s.clamp(span_s[0] + 1.0, span_s[1] - 1.0))
         })
         .unwrap()

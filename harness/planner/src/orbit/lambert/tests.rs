@@ -3,9 +3,9 @@ use approx::assert_relative_eq;
 use proptest::prelude::*;
 
 use super::*;
-use crate::constants::GM_SUN_M3_S2;
-use crate::environment::CartesianState;
-use crate::environment::orbit::{Elements, TwoBodyOrbit};
+use physics::constants::GM_SUN_M3_S2;
+use physics::environment::CartesianState;
+use physics::environment::orbit::{Elements, TwoBodyOrbit};
 
 const BRANCHES: [LambertBranch; 2] = [LambertBranch::Left, LambertBranch::Right];
 

@@ -1,20 +1,20 @@
-//! What theory says about a flight before it starts, and where it does not hold.
+//! Predictions of theory for a flight before it starts, and the limits of their validity.
 
 use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::{
+use super::state::Plant;
+use crate::attitude::angle_between_rad;
+use crate::math;
+use crate::spin::{
     forecast::Timing,
     nutation::exact_envelope_rad,
-    plant::Plant,
     sequencer::Sequencer,
     tracker::{observation_time_eq20_s, observation_time_s},
 };
-use crate::attitude::angle_between_rad;
-use crate::math;
 
-/// A Sun-timed burn that comes closer to the Sun's line than so many pulses and kicks is not well timed.
+/// Least clearance of a Sun-timed burn from the Sun's line, in pulses and kicks: closer it is not well timed.
 const SUN_CLEARANCE: f64 = 4.0;
 
 /// Values that hold for a whole flight.
@@ -41,8 +41,8 @@ pub struct Predictions {
 }
 
 impl Predictions {
-    /// What theory says about the flight before it starts.
-    pub fn of(plant: &Plant) -> Self {
+    /// Returns the predictions of theory before the flight starts.
+    pub fn from_plant(plant: &Plant) -> Self {
         let spin = plant.initial().theory;
         let nutation_rad_s = spin.ratio * spin.rate_rad_s;
         let mut seen = Self {
@@ -96,12 +96,12 @@ impl Predictions {
         }
         let from = plant.initial().momentum_inertial.normalize();
         let toward = (burn.target_inertial - from * from.dot(&burn.target_inertial)).normalize();
-        let way_rad = self.manoeuvre_rad;
+        let travel_rad = self.manoeuvre_rad;
         let clearance = |line: Vector3<f64>| {
             let nearest = math::atan2(line.dot(&toward), line.dot(&from)).rem_euclid(2.0 * PI);
             let along = |angle: f64| from * math::cos(angle) + toward * math::sin(angle);
-            let ends = angle_between_rad(&line, &from).min(angle_between_rad(&line, &along(way_rad)));
-            if nearest <= way_rad { ends.min(angle_between_rad(&line, &along(nearest))) } else { ends }
+            let ends = angle_between_rad(&line, &from).min(angle_between_rad(&line, &along(travel_rad)));
+            if nearest <= travel_rad { ends.min(angle_between_rad(&line, &along(nearest))) } else { ends }
         };
         Some(clearance(sun).min(clearance(-sun)))
     }

@@ -2,16 +2,23 @@
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-use super::disturbed::DisturbedOrbit;
-use super::gravity::gradient_per_s2;
-use super::n_body::{BodyEphemeris, NBodyGravity, NBodySettings};
-use super::orbit_method::OrbitMethod;
-use super::transition::{partials_over, transition};
-use super::two_body::TwoBodyOrbit;
-use crate::bodies::{Body, BodyData};
-use crate::constants::{DAY_S, GM_MERCURY_M3_S2, RADIUS_MERCURY_M};
-use crate::environment::CartesianState;
-use crate::environment::ephemeris::Ephemeris;
+use physics::bodies::Body;
+use physics::constants::{DAY_S, GM_MERCURY_M3_S2, RADIUS_MERCURY_M};
+use physics::environment::CartesianState;
+use physics::environment::ephemeris::Ephemeris;
+use physics::environment::orbit::{
+    Attractor, BodyEphemeris, DisturbedOrbit, GravityModel, NBodyGravity, NBodySettings, OrbitMethod,
+    TwoBodyOrbit,
+};
+use physics::numerics::Span;
+
+use super::{partials_over, transition};
+
+/// Gradient toward Mercury alone, 1/s2.
+fn gradient_per_s2(position_m: &Vector3<f64>) -> Matrix3<f64> {
+    let (r, r_m) = (position_m, position_m.norm());
+    (r * r.transpose() * (3.0 / (r_m * r_m)) - Matrix3::identity()) * (GM_MERCURY_M3_S2 / r_m.powi(3))
+}
 
 fn packed(state: &CartesianState) -> Vector6<f64> {
     let (r, v) = (state.position_m, state.velocity_m_s);
@@ -71,14 +78,14 @@ fn a_hyperbola_within_a_third_of_its_distance_over_speed_is_held_to_1e_9() {
     };
     let orbit = TwoBodyOrbit::from_state(&start, GM_MERCURY_M3_S2, 0.0).unwrap();
     let method = OrbitMethod::default();
-    let gradient = |at_s: f64| gradient_per_s2(&orbit.state_at(at_s).position_m, GM_MERCURY_M3_S2);
+    let gradient = |at_s: f64| gradient_per_s2(&orbit.state_at(at_s).position_m);
     let (mut at_s, mut whole) = (0.0, Matrix6::identity());
     let mut cells = Vec::new();
     while at_s < 9000.0 {
         let state = orbit.state_at(at_s);
         let end_s = 9000_f64.min(at_s + 0.3 * state.position_m.norm() / state.velocity_m_s.norm());
-        whole = transition(&method, [at_s, end_s], gradient).unwrap() * whole;
-        cells.push([at_s, end_s]);
+        whole = transition(&method, Span::new(at_s, end_s), gradient).unwrap() * whole;
+        cells.push(Span::new(at_s, end_s));
         at_s = end_s;
     }
     assert!(off_symplectic(&whole, 1000.0) < 1e-9);
@@ -88,18 +95,19 @@ fn a_hyperbola_within_a_third_of_its_distance_over_speed_is_held_to_1e_9() {
     assert!(off(&whole, &expected) < 2e-7, "{}", off(&whole, &expected));
     // Backward the same matrix, at any time within; many short intervals say the same to 1e-9.
     let mut back = Matrix6::identity();
-    for span_s in cells.iter().rev() {
-        let partials = partials_over(&method, *span_s, &back, gradient).unwrap();
-        let middle_s = 0.5 * (span_s[0] + span_s[1]);
-        let rest = transition(&method, [middle_s, span_s[1]], gradient).unwrap();
+    for span in cells.iter().rev() {
+        let partials = partials_over(&method, *span, &back, gradient).unwrap();
+        let middle_s = 0.5 * (span.start_s + span.end_s);
+        let rest = transition(&method, Span::new(middle_s, span.end_s), gradient).unwrap();
         assert!(off(&partials.at(middle_s), &(back * rest)) < 1e-8);
-        assert_eq!(partials.at(span_s[0]), *partials.at_start());
+        assert_eq!(partials.at(span.start_s), *partials.at_start());
         back = *partials.at_start();
     }
     let mut fine = Matrix6::identity();
     for piece in 0..900 {
-        let span_s = [0.0, 10.0].map(|it| it + 10.0 * f64::from(piece));
-        fine = transition(&method, span_s, gradient).unwrap() * fine;
+        let start_s = 10.0 * f64::from(piece);
+        let span = Span::new(start_s, start_s + 10.0);
+        fine = transition(&method, span, gradient).unwrap() * fine;
     }
     assert!(off(&back, &fine) < 1e-9 && off(&whole, &fine) < 1e-9, "{}", off(&whole, &fine));
 }
@@ -129,16 +137,12 @@ impl BodyEphemeris for Sky {
 /// Along the path of a flight, cell by cell, about whatever body that is integrated.
 #[test]
 fn over_a_flyby_between_bodies_it_is_what_propagated_paths_differ_by() {
-    let settings = NBodySettings {
-        relativity: false,
-        changes_center: true,
-        moon: true,
-        cell_s: DAY_S,
-        tolerance_m: 1e-4,
-    };
+    let settings = NBodySettings { changes_center: true, cell_s: DAY_S, tolerance_m: 1e-4 };
     let bodies = [Body::Mercury, Body::Venus, Body::Jupiter];
-    let data = bodies.iter().map(|body| BodyData { j2: 0.0, ..*body.data() });
-    let gravity = NBodyGravity::new(settings, Body::Sun.data(), data, None);
+    let rows = bodies.iter().map(|body| Attractor::point_mass(body.data()));
+    let sun = Attractor::point_mass(Body::Sun.data());
+    let model = GravityModel::new(Body::Sun, rows.chain([sun, Attractor::MOON]), false);
+    let gravity = NBodyGravity::new(settings, model);
     let (mut sky, method, end_s) = (Sky::default(), OrbitMethod::default(), 1.5 * DAY_S);
     let mercury = sky.heliocentric(Body::Mercury, 0.6 * DAY_S);
     let radius_m = RADIUS_MERCURY_M + 2e6;
@@ -157,8 +161,8 @@ fn over_a_flyby_between_bodies_it_is_what_propagated_paths_differ_by() {
     let none = |_: f64| Vector3::zeros();
     while orbit.end_s() < end_s {
         orbit.advance_between_bodies(end_s, &method, &gravity, &mut sky, none).unwrap();
-        let cell = transition(&method, [orbit.start_s(), orbit.end_s()], |at_s| {
-            gravity.gradient_per_s2(Body::Sun, at_s, &orbit.state_at(at_s).position_m, &mut sky)
+        let cell = transition(&method, Span::new(orbit.start_s(), orbit.end_s()), |at_s| {
+            gravity.model.gradient_per_s2(Body::Sun, at_s, &orbit.state_at(at_s).position_m, &mut sky)
         });
         whole = cell.unwrap() * whole;
     }

@@ -13,34 +13,34 @@ use core::f64::consts::PI;
 use nalgebra::Vector3;
 use thiserror::Error;
 
-use super::elements::{OrbitError, check, check_mu};
-use crate::constants::DAY_S;
-use crate::math;
-use crate::numerics::roots::{RootError, bracketed};
+use physics::constants::DAY_S;
+use physics::environment::orbit::{OrbitError, check, check_mu};
+use physics::math;
+use physics::numerics::roots::{RootError, bracketed};
 
 /// Places nearer than this to one line with the centre have no plane, sine of the angle between them.
 const IN_LINE: f64 = 1e-6;
-/// Where the series for the parabola takes over, distance of x from 1.
+/// Distance of x from 1 within which the series for the parabola takes over.
 const NEAR_PARABOLA: f64 = 0.1;
 /// Nearest that x comes to -1, and with revolutions to 1.
 const NEAREST: f64 = 1e-12;
 
-/// An arc about a centre that is looked for.
+/// Lambert's problem: an arc about a centre between two positions in a given time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LambertArc {
-    /// Where it begins, from the centre in an inertial frame, m.
+    /// Position at the begin, from the centre in an inertial frame, m.
     pub from_m: Vector3<f64>,
-    /// Where it ends, m.
+    /// Position at the end, m.
     pub to_m: Vector3<f64>,
-    /// How long it takes, s.
+    /// Duration, s.
     pub time_s: f64,
-    /// The side on which its angular momentum is: north of the ecliptic for one that goes around as planets do.
+    /// Direction on whose side the angular momentum lies: north of the ecliptic for an arc that goes around as planets do.
     pub north: Vector3<f64>,
     /// Gravitational parameter of the centre, m3/s2.
     pub mu_m3_s2: f64,
 }
 
-/// Which of the two arcs with the same whole revolutions.
+/// One of the two arcs with the same whole revolutions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LambertBranch {
     /// With the smaller x, whose time would be longer with less x.
@@ -58,7 +58,7 @@ pub struct LambertVelocities {
     pub to_m_s: Vector3<f64>,
 }
 
-/// Why there is no arc.
+/// Reason why there is no arc.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum LambertError {
     /// A number outside its range.
@@ -72,7 +72,7 @@ pub enum LambertError {
         /// Angle between them, deg.
         angle_deg: f64,
     },
-    /// So many revolutions take longer.
+    /// The revolutions take longer.
     #[error(
         "found {:.3} d, revolutions {revolutions}, allowed: {:.3} d or more, or fewer revolutions", .time_s / DAY_S, .least_s / DAY_S
     )]
@@ -81,7 +81,7 @@ pub enum LambertError {
         revolutions: u32,
         /// Least time, s.
         least_s: f64,
-        /// That of the arc, s.
+        /// Time of the arc, s.
         time_s: f64,
     },
     /// A time so long or short that no double is near enough to it.
@@ -89,7 +89,7 @@ pub enum LambertError {
         "found {time_s} s between the places, out of all proportion, allowed: less, or places farther apart"
     )]
     Time {
-        /// It, s.
+        /// Time that was asked for, s.
         time_s: f64,
     },
 }
@@ -100,7 +100,7 @@ impl LambertArc {
     /// # Errors
     /// Places in line with the centre, numbers that are none.
     pub fn direct(&self) -> Result<LambertVelocities, LambertError> {
-        let shape = Shape::of(self)?;
+        let shape = Shape::new(self)?;
         let x = shape.root(0, None).map_err(|_| LambertError::Time { time_s: self.time_s })?;
         Ok(self.velocities(&shape, x))
     }
@@ -114,7 +114,7 @@ impl LambertArc {
         revolutions: u32,
         branch: LambertBranch,
     ) -> Result<LambertVelocities, LambertError> {
-        let shape = Shape::of(self)?;
+        let shape = Shape::new(self)?;
         let lost = |_: RootError| LambertError::Time { time_s: self.time_s };
         let least_x = shape.least(revolutions).map_err(lost)?;
         let least_time = shape.time(least_x, revolutions);
@@ -156,7 +156,7 @@ struct Shape {
 }
 
 impl Shape {
-    fn of(arc: &LambertArc) -> Result<Self, LambertError> {
+    fn new(arc: &LambertArc) -> Result<Self, LambertError> {
         check_mu(arc.mu_m3_s2)?;
         check("time in s", arc.time_s, arc.time_s.is_finite() && arc.time_s > 0.0, "above 0")?;
         let (r1_m, r2_m) = (arc.from_m.norm(), arc.to_m.norm());

@@ -1,55 +1,56 @@
-//! How fast the continuous outputs of a spinner in flight change.
+//! Time derivatives of the continuous outputs of a spinner in flight.
 
 use nalgebra::Vector3;
 
-use super::{plant::Plant, spinner::Spinner};
+use super::state::Plant;
+use crate::spin::spinner::Spinner;
 
 /// First time derivatives of the continuous outputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates {
-    /// Of the quaternion.
+    /// Rate of the quaternion.
     pub attitude_1_s: [f64; 4],
-    /// Of the angular rate, body components.
+    /// Rate of the angular rate, body components.
     pub rate_rad_s2: Vector3<f64>,
-    /// Of the rate about the third principal axis.
+    /// Rate of the spin about the third principal axis.
     pub spin_rate_rad_s2: f64,
-    /// Of the thrusters' force, body components.
+    /// Rate of the thrusters' force, body components.
     pub force_body_n_s: Vector3<f64>,
-    /// Of the thrusters' torque, body components.
+    /// Rate of the thrusters' torque, body components.
     pub torque_body_n_m_s: Vector3<f64>,
-    /// Of the momentum, inertial.
+    /// Rate of the momentum, inertial.
     pub momentum_inertial_n_m: Vector3<f64>,
-    /// Of the momentum, body components.
+    /// Rate of the momentum, body components.
     pub momentum_body_n_m: Vector3<f64>,
-    /// Of the spin axis, inertial.
+    /// Rate of the spin axis, inertial.
     pub spin_axis_1_s: Vector3<f64>,
-    /// Of the thrusters' delta-v, inertial.
+    /// Rate of the thrusters' delta-v, inertial.
     pub delta_v_m_s2: Vector3<f64>,
-    /// Of the nutation angle.
+    /// Rate of the nutation angle.
     pub nutation_rad_s: f64,
-    /// Of the azimuth of the transverse momentum.
+    /// Rate of the azimuth of the transverse momentum.
     pub nutation_phase_rad_s: f64,
-    /// Of the Sun angle, for a Sun that stands still.
+    /// Rate of the Sun angle, for a Sun that stands still.
     pub sun_angle_rad_s: f64,
-    /// Of the Earth angle, for an Earth that stands still.
+    /// Rate of the Earth angle, for an Earth that stands still.
     pub earth_angle_rad_s: f64,
-    /// Of the spin axis's angle from its start.
+    /// Rate of the spin axis's angle from its start.
     pub spin_axis_displacement_rad_s: f64,
-    /// Of the momentum's angle from its start.
+    /// Rate of the momentum's angle from its start.
     pub momentum_displacement_rad_s: f64,
-    /// Of the star's declination.
+    /// Rate of the star's declination.
     pub declination_rad_s: f64,
-    /// Of the kinetic energy.
+    /// Rate of the kinetic energy.
     pub power_w: f64,
-    /// Of the propellant used.
+    /// Rate of the propellant used.
     pub flow_kg_s: f64,
-    /// Of the mass and of the propellant left.
+    /// Rate of the mass and of the propellant left.
     pub mass_kg_s: f64,
 }
 
 impl Rates {
-    /// How fast the continuous outputs change at the present time.
-    pub fn of(plant: &Plant, spinner: &Spinner) -> Self {
+    /// Returns the derivatives at the present time.
+    pub fn from_plant(plant: &Plant, spinner: &Spinner) -> Self {
         let time_s = plant.time_s();
         let motion = plant.motion();
         let state = plant.state();

@@ -10,14 +10,14 @@
 
 use nalgebra::{Matrix3, Matrix6, SMatrix, SVector, Vector3, Vector6};
 
-use super::orbit_method::{OrbitMethod, TERMS};
-use crate::numerics::{chebyshev::Segment, collocation::IntegrationError};
+use physics::environment::orbit::{OrbitMethod, TERMS};
+use physics::numerics::{Span, chebyshev::Segment, collocation::IntegrationError};
 
 /// Partials of `R` quantities by position (m) and velocity (m/s), EME2000, at all times of an interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Partials<const R: usize> {
-    /// When the interval starts and ends, s.
-    pub span_s: [f64; 2],
+    /// Interval.
+    pub span: Span,
     /// A row a quantity, by time before the end.
     rows: [Segment<6, TERMS>; R],
     at_start: SMatrix<f64, R, 6>,
@@ -31,7 +31,7 @@ impl<const R: usize> Partials<R> {
 
     /// By the state at a time of the interval, s.
     pub fn at(&self, time_s: f64) -> SMatrix<f64, R, 6> {
-        let [start_s, end_s] = self.span_s;
+        let Span { start_s, end_s } = self.span;
         if time_s <= start_s {
             return self.at_start;
         }
@@ -43,24 +43,25 @@ impl<const R: usize> Partials<R> {
     }
 }
 
-/// Partials over an interval from `start_s` to `end_s` of quantities whose partials by the state at its end are `at_end`;
+/// Partials over an interval of quantities whose partials by the state at its end are `at_end`;
 /// `gradient_per_s2(t)` is that of the acceleration along the path, in EME2000.
 ///
 /// # Errors
 /// [`IntegrationError`]: a gradient that is not finite, an interval that is too long.
 pub fn partials_over<const R: usize>(
     method: &OrbitMethod,
-    [start_s, end_s]: [f64; 2],
+    span: Span,
     at_end: &SMatrix<f64, R, 6>,
     mut gradient_per_s2: impl FnMut(f64) -> Matrix3<f64>,
 ) -> Result<Partials<R>, IntegrationError> {
-    let mut known: Vec<(f64, Matrix3<f64>)> = Vec::with_capacity(TERMS);
+    let Span { start_s, end_s } = span;
+    let mut computed: Vec<(f64, Matrix3<f64>)> = Vec::with_capacity(TERMS);
     let mut gradient = |before_end_s: f64| {
-        if let Some((_, gradient)) = known.iter().find(|(at_s, _)| *at_s == before_end_s) {
+        if let Some((_, gradient)) = computed.iter().find(|(at_s, _)| *at_s == before_end_s) {
             return *gradient;
         }
         let gradient = gradient_per_s2(end_s - before_end_s);
-        known.push((before_end_s, gradient));
+        computed.push((before_end_s, gradient));
         gradient
     };
     let mut at_start = SMatrix::<f64, R, 6>::zeros();
@@ -80,7 +81,7 @@ pub fn partials_over<const R: usize>(
         *segment = found;
         at_start.set_row(row, &at_the_start.transpose());
     }
-    Ok(Partials { span_s: [start_s, end_s], rows, at_start })
+    Ok(Partials { span, rows, at_start })
 }
 
 /// The transition matrix from the start of an interval to its end: partials of the state there by that here.
@@ -89,8 +90,11 @@ pub fn partials_over<const R: usize>(
 /// See [`partials_over`].
 pub fn transition(
     method: &OrbitMethod,
-    span_s: [f64; 2],
+    span: Span,
     gradient_per_s2: impl FnMut(f64) -> Matrix3<f64>,
 ) -> Result<Matrix6<f64>, IntegrationError> {
-    Ok(partials_over(method, span_s, &Matrix6::identity(), gradient_per_s2)?.at_start)
+    Ok(partials_over(method, span, &Matrix6::identity(), gradient_per_s2)?.at_start)
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,19 +1,20 @@
-//! What a spinner in flight shows: values and flags at the last communication point.
+//! Outputs of a spinner in flight: values and flags at the last communication point.
 
 use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::{
+use super::predictions::finite;
+use super::sensors::StarSample;
+use super::state::Plant;
+use crate::attitude::{RigidBodyState, angle_between_rad};
+use crate::math;
+use crate::spin::{
     nutation::period_variation_s,
-    plant::{Plant, StarSample},
-    predictions::finite,
     sequencer::{Phase, Sequencer},
     spinner::Spinner,
     tracker::NutationEstimate,
 };
-use crate::attitude::{RigidBodyState, angle_between_rad};
-use crate::math;
 
 /// Limits in SI units, as the master may have set them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,21 +31,21 @@ pub struct Bounds {
     pub period_variation_s: f64,
 }
 
-/// Which limits are violated.
+/// Violated limits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Violations {
-    /// The Sun angle's.
+    /// Limit on the Sun angle.
     pub sun_angle: bool,
-    /// The Earth angle's.
+    /// Limit on the Earth angle.
     pub earth_angle: bool,
-    /// The spin rate's.
+    /// Limit on the spin rate.
     pub spin_rate: bool,
-    /// The variation of the spin period's.
+    /// Limit on the variation of the spin period.
     pub period_variation: bool,
 }
 
 impl Violations {
-    /// Whether any is violated.
+    /// Tells whether any is violated.
     pub fn any(&self) -> bool {
         self.sun_angle || self.earth_angle || self.spin_rate || self.period_variation
     }
@@ -129,9 +130,31 @@ pub struct Outputs {
     pub mass_kg: f64,
 }
 
+/// Time between crossings of the Sun.
+struct SunPeriod {
+    /// Time between the last two, s.
+    last_s: f64,
+    /// Change from the time before, s.
+    change_s: f64,
+    /// Change as a fraction of the time before.
+    change: f64,
+}
+
+impl SunPeriod {
+    /// Returns the last period; `nominal_period_s` before there are two crossings.
+    fn new(plant: &Plant, nominal_period_s: f64) -> Self {
+        let sun = &plant.sensors().sun;
+        let (change_s, change) = match (sun.period_s, sun.period_before_s) {
+            (Some(last), Some(before)) => (last - before, (last - before) / before),
+            _ => (0.0, 0.0),
+        };
+        Self { last_s: sun.period_s.unwrap_or(nominal_period_s), change_s, change }
+    }
+}
+
 impl Outputs {
-    /// What the flight shows at its present time.
-    pub fn of(plant: &Plant, spinner: &Spinner) -> Self {
+    /// Returns the outputs at the present time of the flight.
+    pub fn from_plant(plant: &Plant, spinner: &Spinner) -> Self {
         let time_s = plant.time_s();
         let state = plant.state();
         let inertia = plant.motion().inertia();
@@ -143,19 +166,12 @@ impl Outputs {
         let directions = plant.directions_at(time_s);
         let sun_angle_rad = angle_to_rad(&spin_axis_inertial, &directions.sun_inertial);
         let nominal_period_s = finite(2.0 * PI / spin_rate_rad_s.abs());
-        let sun = &plant.sensors().sun;
-        let period_s = sun.period_s.unwrap_or(nominal_period_s);
-        let (period_change_s, share) = match (sun.period_s, sun.period_before_s) {
-            (Some(last), Some(before)) => (last - before, (last - before) / before),
-            _ => (0.0, 0.0),
-        };
+        let period = SunPeriod::new(plant, nominal_period_s);
         let sectors = f64::from(spinner.sun_sensor.sectors);
         // Without a Sun there is no period of its crossings.
-        let sun_known = directions.sun_inertial != Vector3::zeros();
-        let variation_s = if sun_known {
-            period_variation_s(nutation_rad, spin_rate_rad_s, sun_angle_rad).abs()
-        } else {
-            0.0
+        let variation_s = match directions.sun_inertial == Vector3::zeros() {
+            true => 0.0,
+            false => period_variation_s(nutation_rad, spin_rate_rad_s, sun_angle_rad).abs(),
         };
         let (law, sequencer) = (&plant.propulsion().valves.law, plant.sequencer());
         let next_edge_s = match sequencer.map(Sequencer::phase) {
@@ -183,9 +199,9 @@ impl Outputs {
                 &state.momentum_inertial,
                 &plant.initial().momentum_inertial,
             ),
-            period_s,
-            period_change_s,
-            sector_error: sectors * share,
+            period_s: period.last_s,
+            period_change_s: period.change_s,
+            sector_error: sectors * period.change,
             // A NaN (no nutation, Sun on the axis) counts as no variation.
             period_variation_s: if variation_s.is_nan() { 0.0 } else { variation_s.min(nominal_period_s) },
             sun_inertial: directions.sun_inertial,
@@ -213,7 +229,7 @@ impl Outputs {
         }
     }
 
-    /// Which of these limits are violated.
+    /// Returns the limits that are violated.
     pub fn violations(&self, bounds: &Bounds) -> Violations {
         let off_rad_s = (self.spin_rate_rad_s - bounds.spin_rate_rad_s).abs();
         Violations {
@@ -225,7 +241,7 @@ impl Outputs {
     }
 }
 
-/// Angle from an axis to a direction in rad; 0 where the direction is 0 and so not known.
+/// Angle from an axis to a direction in rad; 0 where the direction is 0, for lack of one.
 fn angle_to_rad(axis: &Vector3<f64>, direction: &Vector3<f64>) -> f64 {
     if *direction == Vector3::zeros() { 0.0 } else { angle_between_rad(axis, direction) }
 }
