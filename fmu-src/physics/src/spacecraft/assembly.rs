@@ -90,7 +90,7 @@ pub struct Spacecraft {
     pub downlinks: Option<DownlinkWindows>,
     /// Corridor of light on the cells.
     pub articulation: Articulation,
-    /// Where -Z does not look at the planet.
+    /// Zone in which -Z keeps away from the planet.
     pub hot_pole: Option<HotPoleZone>,
     /// Whether models report temperature and force of every face.
     pub per_plate_outputs: bool,

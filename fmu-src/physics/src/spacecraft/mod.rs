@@ -1,4 +1,4 @@
-//! What the spacecraft is made of: plates, cylinder, panels, optics, mass, wheels; parsed and validated once, here.
+//! Parts of the spacecraft: plates, cylinder, panels, optics, mass, wheels; parsed and validated once, here.
 //!
 //! A spacecraft is described in one TOML file ([`Spacecraft::from_toml`]). In the file lengths, areas, masses and
 //! momenta are SI with the unit in the key (`area_m2`); angles are in degrees (`_deg`) because people write them.

@@ -24,7 +24,7 @@ impl ValveTiming {
         on_s + 0.5 * (self.tail_off_s - self.rise_s)
     }
 
-    /// How long the valve is open for so many seconds of full thrust.
+    /// Returns how long the valve is open so that a pulse has this many seconds of full thrust.
     pub fn on_s(&self, full_thrust_s: f64) -> f64 {
         full_thrust_s - 0.5 * (self.tail_off_s - self.rise_s)
     }
@@ -52,7 +52,7 @@ impl ValveTiming {
 pub struct Thruster {
     /// Name.
     pub name: String,
-    /// Where it stands, body frame, in m. A spinner's is from the centre of mass.
+    /// Position of the thruster, body frame, in m; a spinner's is relative to the centre of mass.
     pub position_body_m: Vector3<f64>,
     /// Force on the spacecraft at full thrust, body components, in N.
     pub force_body_n: Vector3<f64>,

@@ -79,7 +79,7 @@ impl<'t> Document<'t> {
         self.find(place).1
     }
 
-    /// Where the text of a place begins, or of the innermost table around it that exists, and whether the place does.
+    /// Returns the offset at which the text of a place, or of the innermost existing table around it, begins, and whether the place exists.
     fn find(&self, place: &KeyPath) -> (usize, bool) {
         let mut start = self.root.span().start;
         let mut table = self.root.get_ref().as_table();
@@ -115,7 +115,7 @@ fn excerpt(line: &str) -> String {
     }
 }
 
-/// What TOML allows where its reader says this.
+/// Returns the text that TOML allows where its parser gives this message.
 fn grammar(message: &str) -> &'static str {
     const WORDS: [(&str, &str); 4] = [
         ("duplicate key", "each key once in its table"),

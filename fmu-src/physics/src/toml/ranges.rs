@@ -16,8 +16,8 @@ pub(super) struct Range {
 }
 
 impl Range {
-    /// That of the type of this name, if it has one.
-    pub(super) fn of(name: &str) -> Option<&'static Self> {
+    /// Range of the type with this name; `None` for a type that is no range.
+    pub(super) fn of_type(name: &str) -> Option<&'static Self> {
         RANGES.iter().find(|range| range.name == name)
     }
 }

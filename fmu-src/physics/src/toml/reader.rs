@@ -13,17 +13,17 @@ use super::place::KeyPath;
 use super::ranges::{Range, short};
 use super::spelling::{hint, nearest};
 
-/// Problems that are kept, of which the first by line are listed.
+/// Most problems that are kept; the first by line are listed.
 pub(super) const MOST_KEPT: usize = 10 * MOST_PROBLEMS;
 
-/// What a reading found.
+/// Problems found while a document was read into a type.
 #[derive(Default)]
 pub struct Findings {
     /// Place, what was found there and what is allowed.
     pub problems: Vec<(KeyPath, String, String)>,
     /// How many more were found than are kept.
     pub unlisted: usize,
-    /// Where a value stands in that nobody wrote.
+    /// Keys whose value was not written or not usable, so that a placeholder stands in for it.
     pub stand_ins: Vec<KeyPath>,
 }
 
@@ -32,16 +32,16 @@ pub(super) struct Reader<'r> {
     value: Option<&'r DeValue<'r>>,
     /// Whether a lack is a problem of its own; inside of what is missing it is not.
     is_expected: bool,
-    /// Where a number must lie.
+    /// Range that a number must lie in.
     range: Option<&'static Range>,
     place: KeyPath,
     findings: &'r RefCell<Findings>,
-    /// Of this kind of file.
+    /// Most items of lists by key in this kind of file.
     own_limits: &'static [(&'static str, usize)],
 }
 
 impl<'r> Reader<'r> {
-    /// Of a whole file.
+    /// Reads a whole file.
     pub(super) fn new(
         root: &'r DeValue<'r>,
         findings: &'r RefCell<Findings>,
@@ -195,7 +195,7 @@ fn remedy(value: &DeValue<'_>, allowed: &str, key: &str) -> String {
 impl<'de> Deserializer<'de> for Reader<'_> {
     type Error = Error;
 
-    /// Of values whose type nobody demands.
+    /// Reads a value whose type the caller leaves open.
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
         match self.value {
             Some(DeValue::String(_)) => self.deserialize_string(visitor),
@@ -238,7 +238,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         name: &'static str,
         visitor: V,
     ) -> Result<V::Value, Error> {
-        visitor.visit_newtype_struct(Self { range: Range::of(name), ..self })
+        visitor.visit_newtype_struct(Self { range: Range::of_type(name), ..self })
     }
 
     fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {

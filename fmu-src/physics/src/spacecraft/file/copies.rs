@@ -15,7 +15,7 @@ pub(crate) const MOST_PLATES: usize = 2000;
 /// Two plates are one if they differ by no more than this part of their size.
 const SAME_PLACE: f64 = 1e-6;
 
-/// Where a copy is: turned or mirrored by a matrix, then shifted.
+/// Motion from the original to a copy: turned or mirrored by a matrix, then shifted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Motion {
     matrix: Matrix3<f64>,
@@ -24,13 +24,13 @@ pub(crate) struct Motion {
 
 impl Motion {
     /// The point after the motion.
-    pub(super) fn of(&self, point_m: &Vector3<f64>) -> Vector3<f64> {
+    pub(super) fn moved_point(&self, point_m: &Vector3<f64>) -> Vector3<f64> {
         self.matrix * point_m + self.shift_m
     }
 
     /// The outline after the motion; a mirrored one runs the other way round, so that its front stays in front.
-    pub(super) fn of_outline(&self, outline: &Polygon) -> Polygon {
-        let moved = outline.moved(|vertex| self.of(vertex));
+    pub(super) fn moved_outline(&self, outline: &Polygon) -> Polygon {
+        let moved = outline.moved(|vertex| self.moved_point(vertex));
         if self.matrix.determinant() < 0.0 { moved.reversed() } else { moved }
     }
 
@@ -96,9 +96,9 @@ pub(crate) fn check_apart(part: &mut PartReader<'_, '_>, plates: &[Plate], count
 pub(crate) fn plate_copies(plate: &Plate, motions: &[Motion]) -> Vec<Plate> {
     let copy = |(index, motion): (usize, &Motion)| Plate {
         name: copy_name(&plate.name, index, motions.len()),
-        center_m: motion.of(&plate.center_m),
+        center_m: motion.moved_point(&plate.center_m),
         normal: motion.matrix * plate.normal,
-        polygon: plate.polygon.as_ref().map(|outline| motion.of_outline(outline)),
+        polygon: plate.polygon.as_ref().map(|outline| motion.moved_outline(outline)),
         ..plate.clone()
     };
     if motions.len() == 1 {

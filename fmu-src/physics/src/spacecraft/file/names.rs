@@ -11,13 +11,13 @@ use std::collections::BTreeMap;
 
 /// A part that has a name, or the name of its kind and its number from 1.
 pub(crate) trait Named {
-    /// What such a part is.
+    /// Word for such a part.
     const KIND: &'static str;
 
     /// The name that the file gives.
     fn name(&self) -> Option<&str>;
 
-    /// What the part is called.
+    /// Returns the part's name, or its kind and number.
     fn called(&self, index: usize) -> String {
         self.name().map_or_else(|| format!("{} {}", Self::KIND, index + 1), str::to_owned)
     }
@@ -67,7 +67,7 @@ always_named! {
     AntennaDescription: "antenna",
 }
 
-/// Where a part stands, what it is called, and whether the file says so.
+/// Key path of a part, its name, and whether the file gives the name.
 type Name = (KeyPath, String, bool);
 
 fn names<D: Named>(at: KeyPath, items: Option<&[D]>) -> Vec<Name> {
@@ -174,7 +174,7 @@ const MODELICA_KEYWORDS: &[&str] = &[
     "within",
 ];
 
-/// What a name may be.
+/// Form of an item's name, for messages.
 const ALLOWED: &str = "letters and digits, the first a letter; not `none` and no keyword of Modelica";
 
 /// Refuses a name that no item of an enumeration can have.

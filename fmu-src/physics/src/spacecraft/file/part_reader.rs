@@ -11,7 +11,7 @@ use crate::toml::{Checker, KeyPath};
 pub(crate) struct PartReader<'p, 'd> {
     /// Reports an invalid value of the part.
     pub check: &'p mut Checker<'d>,
-    /// Those of the file.
+    /// Materials of the file.
     pub materials: &'p Materials,
     /// Key path of the part.
     pub at: KeyPath,
@@ -88,7 +88,7 @@ impl<'d> PartReader<'_, 'd> {
         self.materials.find(self.check, &self.at.key(key), name)
     }
 
-    /// That of its rear, if it has one.
+    /// Returns the material of the rear face; `None` for a one-sided surface.
     pub(crate) fn rear(&mut self, name: Option<&str>) -> Option<ChosenMaterial> {
         name.map(|name| self.material("rear_optics", name))
     }

@@ -32,7 +32,7 @@ pub(crate) fn body_plates(file: &mut PartReader<'_, '_>, description: &Spacecraf
     found.into_iter().flat_map(|(_, plates)| plates).collect()
 }
 
-/// Where items stand, with the plates of each.
+/// Key path and plates of every item.
 type Found = Vec<(KeyPath, Vec<Plate>)>;
 
 fn surfaces(found: &Found) -> usize {
@@ -165,8 +165,8 @@ pub(crate) fn panel(part: &mut PartReader<'_, '_>, description: &PanelDescriptio
     }
 }
 
-/// On which side of the plane across its axis a panel's centre is that lies so far along it, in m: 1 or -1, 0 within rounding of the
-/// plane.
+/// Returns the side of the plane across the axis on which a panel's centre lies, by its distance along the axis in m: 1 or -1, or 0
+/// within rounding of the plane.
 fn side_of(along_axis_m: f64) -> f64 {
     const ROUNDING_M: f64 = 1e-9;
     if along_axis_m.abs() <= ROUNDING_M { 0.0 } else { along_axis_m.signum() }

@@ -19,7 +19,7 @@ use crate::spacecraft::surface::Plate;
 use crate::spacecraft::thermal::Thermal;
 use crate::toml::{Checker, KeyPath, hint};
 
-/// What all shapes have.
+/// Data common to all shapes.
 struct Shape<'s> {
     name: String,
     /// From the shape's own axes to the body frame: turn, then shift.
@@ -169,7 +169,7 @@ impl Shape<'_> {
                 match Polygon::new(in_body) {
                     Ok(outline) => {
                         let material = material(&facet.name);
-                        plates.push(self.plate(&name, facet, motion.of_outline(&outline), material));
+                        plates.push(self.plate(&name, facet, motion.moved_outline(&outline), material));
                     }
                     Err(error) => {
                         let found = format!("lengths that make no outline of `{}` ({error})", facet.name);
@@ -178,7 +178,7 @@ impl Shape<'_> {
                     }
                 }
             }
-            self.share_heat(&mut plates[index * self.facets.len()..]);
+            self.divide_heat(&mut plates[index * self.facets.len()..]);
         }
         check_apart(part, &plates, motions.len());
         plates
@@ -195,12 +195,12 @@ impl Shape<'_> {
         Plate { thermal, gas_surface, materials, ..plate }
     }
 
-    /// Heat from inside leaves through all plates alike.
-    fn share_heat(&self, plates: &mut [Plate]) {
+    /// Divides the heat from inside among all plates by area.
+    fn divide_heat(&self, plates: &mut [Plate]) {
         let whole_m2: f64 = plates.iter().map(|plate| plate.area_m2).sum();
         for plate in plates {
-            let share = plate.area_m2 / whole_m2;
-            plate.thermal.internal_heat_w = self.thermal.internal_heat_w.map(|heat_w| heat_w * share);
+            let fraction = plate.area_m2 / whole_m2;
+            plate.thermal.internal_heat_w = self.thermal.internal_heat_w.map(|heat_w| heat_w * fraction);
         }
     }
 }
