@@ -7,6 +7,14 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
 pub struct ThrusterSet(pub u16);
 
+impl ThrusterSet {
+    /// Returns the set of this name among the spacecraft's sets.
+    pub(super) fn named(sets: &[String], name: &str) -> Option<Self> {
+        let index = sets.iter().position(|set| set == name)?;
+        u16::try_from(index).ok().map(Self)
+    }
+}
+
 /// How a valve opens and closes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, serde::Deserialize)]
 pub struct ValveTiming {

@@ -8,9 +8,11 @@ use serde::de::{Deserializer, IntoDeserializer, Visitor};
 use serde::forward_to_deserialize_any;
 use toml::de::{DeTable, DeValue};
 
+use super::directions;
 use super::limits::{MOST_PROBLEMS, most_items};
+use super::numbers::short;
 use super::place::KeyPath;
-use super::ranges::{Range, short};
+use super::ranges::Range;
 use super::spelling::{hint, nearest};
 
 /// Most problems that are kept; the first by line are listed.
@@ -144,6 +146,18 @@ impl<'r> Reader<'r> {
         }
     }
 
+    /// Notes three numbers that are no unit vector.
+    fn check_unit_vector(&self) {
+        if let Some(vector) = self.value.and_then(vector)
+            && directions::unit(vector).is_none()
+        {
+            self.note(|| {
+                let (found, allowed) = directions::refusal(vector);
+                (self.place.clone(), found, allowed)
+            });
+        }
+    }
+
     fn integer<T: TryFrom<i64>>(&self, allowed: &str) -> Option<T> {
         let whole = |value: &DeValue<'_>| {
             let integer = value.as_integer()?;
@@ -158,7 +172,13 @@ pub(super) fn get<'r>(table: &'r DeTable<'r>, key: &str) -> Option<&'r DeValue<'
     table.get(key).map(|value| value.get_ref())
 }
 
-fn real(value: &DeValue<'_>) -> Option<f64> {
+/// Three numbers.
+pub(super) fn vector(value: &DeValue<'_>) -> Option<[f64; 3]> {
+    let numbers: Option<Vec<f64>> = value.as_array()?.iter().map(|item| real(item.get_ref())).collect();
+    numbers?.try_into().ok()
+}
+
+pub(super) fn real(value: &DeValue<'_>) -> Option<f64> {
     if let Some(integer) = value.as_integer() {
         return i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|integer| integer as f64);
     }
@@ -238,6 +258,9 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         name: &'static str,
         visitor: V,
     ) -> Result<V::Value, Error> {
+        if name == "UnitVector" {
+            self.check_unit_vector();
+        }
         visitor.visit_newtype_struct(Self { range: Range::of_type(name), ..self })
     }
 

@@ -279,7 +279,8 @@ impl<T: Scalar> Ring<T> {
         self.seen = Arc::from_linear_condition(plate.normal.z * self.cos_eta, plate.reach * self.sin_eta);
         // Surface normal at the ring: (t s - d nadir) / R.
         self.sun_level = plate.sun.z * (self.distance * self.cos_eta - view.relative_distance);
-        self.lit = Arc::from_linear_condition(self.sun_level, view.sun_reach * (self.distance * self.sin_eta));
+        self.lit =
+            Arc::from_linear_condition(self.sun_level, view.sun_reach * (self.distance * self.sin_eta));
     }
 
     /// Adds the ring's reflected and infrared light.

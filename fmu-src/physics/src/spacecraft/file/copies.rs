@@ -7,7 +7,7 @@ use super::facets::sincos_deg;
 use super::part_reader::PartReader;
 use crate::spacecraft::polygon::Polygon;
 use crate::spacecraft::surface::Plate;
-use crate::toml::Copies;
+use crate::toml::{Copies, Written};
 
 /// Most plates that one shape and its copies may come to.
 pub(crate) const MOST_PLATES: usize = 2000;
@@ -51,10 +51,8 @@ pub(crate) fn motions(
     repeat: Option<&RepeatDescription>,
 ) -> Vec<Motion> {
     let itself = Motion { matrix: Matrix3::identity(), shift_m: Vector3::zeros() };
-    let mut motions = match repeat {
-        None => vec![itself],
-        Some(repeat) => repeated(&mut part.table("repeat"), repeat).unwrap_or_else(|| vec![itself]),
-    };
+    let repeated = part.optional("repeat", repeat, |_, repeat| repeated(repeat)).flatten();
+    let mut motions = repeated.unwrap_or_else(|| vec![itself]);
     let planes = mirror.unwrap_or_default();
     if mirror.is_some_and(<[_]>::is_empty) {
         part.report("mirror", "an empty list", "at least one of x, y, z, or no such key");
@@ -107,22 +105,17 @@ pub(crate) fn plate_copies(plate: &Plate, motions: &[Motion]) -> Vec<Plate> {
     motions.iter().enumerate().map(copy).collect()
 }
 
-fn repeated(part: &mut PartReader<'_, '_>, repeat: &RepeatDescription) -> Option<Vec<Motion>> {
+fn repeated(repeat: &RepeatDescription) -> Option<Vec<Motion>> {
     let Copies(count) = repeat.count;
-    let turning = [("angle_deg", repeat.angle_deg.is_some()), ("point_m", repeat.point_m.is_some())];
-    for (key, _) in turning.into_iter().filter(|(_, is_given)| *is_given && repeat.axis.is_none()) {
-        part.report_across(key, "no `axis` beside it", "with `axis` alone");
-    }
     let numbers = 0..count;
     match (repeat.step_m, repeat.axis) {
         (Some(step_m), None) => {
-            let step_m = part.vector("step_m", step_m);
+            let step_m = step_m.value();
             let shifted = |k: u32| Motion { matrix: Matrix3::identity(), shift_m: step_m * f64::from(k) };
             Some(numbers.map(shifted).collect())
         }
         (None, Some(axis)) => {
-            let axis = part.unit_vector("axis", axis);
-            let point_m = part.vector("point_m", repeat.point_m());
+            let (axis, point_m) = (axis.value(), repeat.point_m());
             let angle_deg = repeat.angle_deg.map_or(360.0 / f64::from(count), f64::from);
             let turned = |k: u32| {
                 let matrix = turn(&axis, angle_deg * f64::from(k));
@@ -130,12 +123,7 @@ fn repeated(part: &mut PartReader<'_, '_>, repeat: &RepeatDescription) -> Option
             };
             Some(numbers.map(turned).collect())
         }
-        (step_m, _) => {
-            let found =
-                if step_m.is_some() { "both `step_m` and `axis`" } else { "neither `step_m` nor `axis`" };
-            part.check.report(&part.at, found, "one of them");
-            None
-        }
+        _ => None,
     }
 }
 

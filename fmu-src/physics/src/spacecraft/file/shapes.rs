@@ -11,13 +11,12 @@ use super::describe_shapes::{
 };
 use super::facets::{BOX_FACES, Facet, box_faces, cylinder_facets, disc, dish_facets};
 use super::materials::ChosenMaterial;
-use super::names::Named;
 use super::part_reader::PartReader;
 use super::thermal::thermal;
 use crate::spacecraft::polygon::Polygon;
 use crate::spacecraft::surface::Plate;
 use crate::spacecraft::thermal::Thermal;
-use crate::toml::{Checker, KeyPath, hint};
+use crate::toml::{Checker, KeyPath, Named, hint};
 
 /// Data common to all shapes.
 struct Shape<'s> {
@@ -55,8 +54,8 @@ pub(crate) fn box_plates(part: &mut PartReader<'_, '_>, description: &BoxDescrip
     let size_m = Vector3::from(description.size_m.map(f64::from));
     let shape = Shape {
         name: description.called(part.index),
-        turn: part.check.rotation(&part.at, ("rotation_deg", description.rotation_deg), ("", None)),
-        shift_m: part.vector("center_m", description.center_m),
+        turn: part.check.rotation(&part.at, description.rotation_rad(), None),
+        shift_m: description.center_body_m(),
         facets: box_faces(&size_m, description.open_faces.as_deref().unwrap_or_default()),
         rear,
         thermal: thermal(part, description.thermal.as_ref(), front, rear),
@@ -76,13 +75,13 @@ pub(crate) fn cylinder_plates(
     let end = description.end_optics.as_ref();
     let end = end.map_or(front, |name| part.material("end_optics", name));
     let rear = part.rear(description.rear_optics.as_deref());
-    let axis = part.unit_vector("axis", description.axis());
+    let axis = description.axis_body();
     let (radius_m, height_m) = (description.radius_m.0, description.height_m.0);
     let open = description.open_ends.as_deref().unwrap_or_default();
     let shape = Shape {
         name: description.called(part.index),
         turn: frame(&axis),
-        shift_m: part.vector("center_m", description.center_m),
+        shift_m: description.center_body_m(),
         facets: cylinder_facets(radius_m, height_m, description.facets(), open),
         rear,
         thermal: thermal(part, description.thermal.as_ref(), front, rear),
@@ -97,11 +96,11 @@ pub(crate) fn cylinder_plates(
 pub(crate) fn disc_plates(part: &mut PartReader<'_, '_>, description: &DiscDescription) -> Vec<Plate> {
     let front = part.material("optics", &description.optics);
     let rear = part.rear(description.rear_optics.as_deref());
-    let normal = part.unit_vector("normal", description.normal);
+    let normal = description.normal_body();
     let shape = Shape {
         name: description.called(part.index),
         turn: frame(&normal),
-        shift_m: part.vector("center_m", description.center_m),
+        shift_m: description.center_body_m(),
         facets: disc(description.radius_m.0, description.corners()),
         rear,
         thermal: thermal(part, description.thermal.as_ref(), front, rear),
@@ -115,12 +114,12 @@ pub(crate) fn disc_plates(part: &mut PartReader<'_, '_>, description: &DiscDescr
 pub(crate) fn dish_plates(part: &mut PartReader<'_, '_>, description: &DishDescription) -> Vec<Plate> {
     let front = part.material("optics", &description.optics);
     let rear = part.rear(description.rear_optics.as_deref());
-    let axis = part.unit_vector("axis", description.axis);
+    let axis = description.axis_body();
     let (radius_m, depth_m) = (description.radius_m.0, description.depth_m.0);
     let shape = Shape {
         name: description.called(part.index),
         turn: frame(&axis),
-        shift_m: part.vector("vertex_m", description.vertex_m),
+        shift_m: description.vertex_body_m(),
         facets: dish_facets(radius_m, depth_m, description.facets(), description.rings()),
         rear,
         thermal: thermal(part, description.thermal.as_ref(), front, rear),
