@@ -134,6 +134,8 @@ def type_of(schema, entry):
         if any("properties" in resolved(schema, it) for it in entry.get("oneOf", [])):
             return "table"
         return "item"
+    if entry.get("format") == "unit vector":
+        return "unit vector"
     types = entry.get("type", "any")
     kinds = [it for it in ([types] if isinstance(types, str) else types) if it != "null"]
     if kinds == ["array"]:
@@ -154,6 +156,22 @@ def items(schema, entry):
     return f" One of {', '.join(f'`{item}`' for item in listed)}." if listed else ""
 
 
+def rules(table, key):
+    """The rules of a table that a key makes, as text."""
+    def names(choices):
+        return " or ".join(f"`{required}`" for choice in choices for required in choice["required"])
+
+    found = ""
+    for rule in table.get("allOf", []):
+        if rule.get("if", {}).get("required") == [key]:
+            above = " if above 0" if "properties" in rule["if"] else ""
+            excluded = rule["then"].get("not")
+            found += f" Not with {names(excluded['anyOf'])}." if excluded else f" Needs {names(rule['then']['anyOf'])}{above}."
+        elif {"required": [key]} in rule.get("anyOf", []):
+            found += f" Needed: {names(rule['anyOf'])}."
+    return found
+
+
 def key_table(name, described):
     """The table of keys by a schema."""
     schema = json.loads((ROOT / "fmu-src" / "resources" / f"{name}.schema.json").read_text(encoding="utf-8"))
@@ -167,7 +185,7 @@ def key_table(name, described):
         default = whole.get("default")
         default = "" if default is None else "`" + re.sub(r"\.0\b", "", json.dumps(default)) + "`"
         shown = "*" if key in table.get("required", []) else default
-        meaning = (UNIT.sub("", meaning, count=1) + items(schema, entry)).replace("|", "\\|")
+        meaning = (UNIT.sub("", meaning, count=1) + items(schema, entry) + rules(table, key)).replace("|", "\\|")
         rows.append(f"| `{key}` | {type_of(schema, entry)} | {unit} | {shown} | {meaning} |")
     return "\n".join(rows) + "\n"
 

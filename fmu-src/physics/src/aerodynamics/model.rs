@@ -11,7 +11,7 @@ use crate::radiation::shadow::{ShadowScene, ShadowWorkspace};
 use crate::refusal::Refusal;
 use crate::spacecraft::{Material, Spacecraft, SunshadeModel};
 
-/// What an evaluation takes into account.
+/// Laws and effects of an evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AerodynamicOptions {
     /// Law of the force on a face.
@@ -89,7 +89,7 @@ impl AerodynamicModel {
     /// The file has a sunshade but not in this form.
     pub fn new(spacecraft: &Spacecraft, options: &AerodynamicOptions) -> Result<Self, Refusal> {
         let mut faces = Faces::new(spacecraft, options.sunshade_model)?;
-        let scene = if options.shadowing { faces.take_scene() } else { None };
+        let scene = if options.shadowing { faces.into_scene() } else { None };
         Ok(Self { faces, law: options.law, reemission: options.reemission, scene })
     }
 

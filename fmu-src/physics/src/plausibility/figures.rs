@@ -16,7 +16,7 @@ use crate::spacecraft::{MassProperties, Optics, Spacecraft, Wheel, with_panels};
 /// could be proved.
 const OUTSIDE: f64 = 0.01;
 
-/// What a spacecraft's file comes to, with the Sun on -Y and the panels as the file turns them for it.
+/// Figures of a spacecraft's file, with the Sun on -Y and the panels at the angles that the file gives for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figures {
     /// Least coordinates of any surface, body frame, in m.
@@ -44,17 +44,17 @@ pub struct Figures {
     pub solar: Option<(Vector3<f64>, Vector3<f64>)>,
     /// The same where surfaces with an outline shadow one another.
     pub shadowed_solar: Option<(Vector3<f64>, Vector3<f64>)>,
-    /// What the wheels hold; `None` where they do not span all directions.
+    /// Momentum capacity of the wheels; `None` where they do not span all directions.
     pub wheels: Option<WheelCapacity>,
     /// Each thruster, in the file's order.
     pub thrusters: Vec<ThrusterFigures>,
-    /// What those that may control the attitude do together; `None` without any.
+    /// Torque of the thrusters that may control the attitude together; `None` without any.
     pub thruster_torque: Option<TorqueBothWays>,
 }
 
 impl Figures {
-    /// Of a spacecraft.
-    pub fn of(spacecraft: &Spacecraft) -> Self {
+    /// Computes the figures of a spacecraft.
+    pub fn new(spacecraft: &Spacecraft) -> Self {
         let surfaces = surfaces(spacecraft);
         let angles_rad: Vec<f64> = spacecraft.panels.iter().map(panel_angle_rad).collect();
         let corners_m: Vec<_> =
@@ -97,8 +97,8 @@ impl Figures {
             solar: sunlit(spacecraft, false),
             shadowed_solar: sunlit(spacecraft, true),
             wheels: WheelCapacity::of(&axes, &capacities_n_m_s),
-            thrusters: ThrusterFigures::of_all(spacecraft, &angles_rad, &center_m),
-            thruster_torque: TorqueBothWays::of(spacecraft, &center_m),
+            thrusters: ThrusterFigures::for_all(spacecraft, &angles_rad, &center_m),
+            thruster_torque: TorqueBothWays::new(spacecraft, &center_m),
         }
     }
 }
@@ -118,7 +118,7 @@ fn sunlight(
     Some((solar.force_body_n, solar.torque_body_n_m))
 }
 
-/// The same surfaces, all of which absorb every light: its force along the light is that of its shadow.
+/// Returns the spacecraft with surfaces that absorb all light: the force along the light is then that on its shadow.
 fn black(spacecraft: &Spacecraft) -> Spacecraft {
     let black = Optics::from_reflectivities(0.0, 0.0);
     let mut spacecraft = spacecraft.clone();

@@ -35,7 +35,7 @@ pub struct FlightSurvey {
 
 impl FlightSurvey {
     /// Survey of a flight from `start_s` over the orbits that bring all its windows.
-    pub fn of(flight: &Flight, given: StepContext<'_>, spacecraft: &Spacecraft, start_s: f64) -> Self {
+    pub fn new(flight: &Flight, given: StepContext<'_>, spacecraft: &Spacecraft, start_s: f64) -> Self {
         let mut survey = Self { near_axis: vec![0; spacecraft.panels.len()], ..Self::default() };
         let Some(configuration) = flight.configuration() else { return survey };
         survey.has_planet = configuration.planet().is_some();

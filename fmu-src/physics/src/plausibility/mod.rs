@@ -1,4 +1,4 @@
-//! What a spacecraft's file comes to, for a person to judge: extents, areas, gyration, torque, and what cannot belong
+//! Figures of a spacecraft's file for a person to judge: extents, areas, gyration, torque, and what cannot belong
 //! together.
 
 mod figures;

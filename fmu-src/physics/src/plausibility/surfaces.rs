@@ -13,7 +13,7 @@ pub(super) struct Surface {
     pub name: String,
     pub area_m2: f64,
     pub normal: Vector3<f64>,
-    /// Of its outline; without one, of a square of its area.
+    /// Corners of its outline, or of a square of its area where it has none, body frame, in m.
     pub corners_m: Vec<Vector3<f64>>,
     /// Whether those corners are its own.
     pub has_outline: bool,

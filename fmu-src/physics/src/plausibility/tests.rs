@@ -20,12 +20,12 @@ fn spacecraft(text: &str) -> Spacecraft {
 
 fn judged(text: &str) -> Vec<String> {
     let spacecraft = spacecraft(text);
-    warnings(&spacecraft, &Figures::of(&spacecraft))
+    warnings(&spacecraft, &Figures::new(&spacecraft))
 }
 
 #[test]
 fn a_solid_box_has_the_figures_of_the_textbook() {
-    let figures = Figures::of(&spacecraft(SOLID));
+    let figures = Figures::new(&spacecraft(SOLID));
     assert_eq!(figures.least_body_m, Vector3::new(-0.5, -1.0, -1.5));
     assert_eq!(figures.greatest_body_m, Vector3::new(0.5, 1.0, 1.5));
     let sides = Vector3::new(6.0, 3.0, 2.0);
@@ -68,7 +68,7 @@ fn panels_count_where_they_turn_and_both_sides_where_light_reaches_both() {
         "{SOLID}[[panels]]\narea_m2 = 4\ncenter_m = [3, 0, 0]\noptics = \"black\"\nrear_optics = \"black\"\n\
          sun_offset_deg = 60\n"
     );
-    let figures = Figures::of(&spacecraft(&text));
+    let figures = Figures::new(&spacecraft(&text));
     assert_relative_eq!(figures.sunlit_area_m2, 3.0 + 4.0 * 0.5, max_relative = 1e-12);
     assert_relative_eq!(figures.area_toward_plus_m2.y, 3.0 + 2.0, max_relative = 1e-12);
     assert_relative_eq!(figures.area_toward_minus_m2.z, 2.0 + 4.0 * 0.75_f64.sqrt(), max_relative = 1e-12);
@@ -84,7 +84,7 @@ fn a_cylindrical_shade_counts_with_what_it_shows() {
     let shade = spacecraft.sunshade.as_ref().unwrap().cylinder.unwrap();
     let mut alone = spacecraft.clone();
     alone.panels.clear();
-    let figures = Figures::of(&alone);
+    let figures = Figures::new(&alone);
     let shown_m2 = 2.0 * shade.radius_m * shade.half_angle_rad.min(PI / 2.0).sin() * shade.height_m;
     assert_relative_eq!(figures.sunlit_area_m2, shown_m2, max_relative = 1e-9);
     assert_relative_eq!(figures.area_toward_minus_m2.y, shown_m2, max_relative = 2e-3);
@@ -133,7 +133,7 @@ fn with_jets(jets: &[([f64; 3], [i32; 3])], sign: i32) -> String {
 #[test]
 fn thrusters_are_judged_about_the_centre_of_mass() {
     let text = with_jets(&JETS, 1);
-    let figures = Figures::of(&spacecraft(&text));
+    let figures = Figures::new(&spacecraft(&text));
     // Arms of 0.8 m and 1.2 m along Y, 1.2 m and 1.8 m along Z, at 2 N; the first two turn about X alone.
     assert_relative_eq!(figures.thrusters[0].torque_body_n_m, Vector3::new(1.6, 0.0, 0.0), epsilon = 1e-12);
     let torque = figures.thruster_torque.unwrap();
@@ -142,7 +142,7 @@ fn thrusters_are_judged_about_the_centre_of_mass() {
     assert_eq!(judged(&text), [""; 0]);
     // A plate in the first jet's way.
     let plate = "[[plates]]\nname = 'deck'\nnormal = [0, 0, 1]\narea_m2 = 0.1\ncenter_m = [0.1, 1.0, -2]\noptics = 'black'\n";
-    let figures = Figures::of(&spacecraft(&format!("{text}{plate}")));
+    let figures = Figures::new(&spacecraft(&format!("{text}{plate}")));
     let met = figures.thrusters.iter().map(|it| it.meets.as_deref()).collect::<Vec<_>>();
     assert_eq!(met, [Some("deck"), None, None, None, None, None]);
 }

@@ -1,4 +1,4 @@
-//! What thrusters do: torque about the centre of mass, each way about the body axes, and which surface a plume meets.
+//! Torque of thrusters about the centre of mass, each way about the body axes, and the surface that a plume meets.
 
 use nalgebra::Vector3;
 
@@ -8,7 +8,7 @@ use crate::spacecraft::Spacecraft;
 /// Torque below this part of force times arm is rounding of the arm.
 const ROUNDING: f64 = 1e-9;
 
-/// What one thruster does at full thrust.
+/// Force and torque of one thruster at full thrust.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThrusterFigures {
     /// Its name.
@@ -22,8 +22,8 @@ pub struct ThrusterFigures {
 }
 
 impl ThrusterFigures {
-    /// Of all thrusters with the panels at these angles, in rad, about a centre of mass, in m.
-    pub(super) fn of_all(
+    /// Computes the figures of all thrusters, with the panels at these angles in rad, about a centre of mass in m.
+    pub(super) fn for_all(
         spacecraft: &Spacecraft,
         panel_angles_rad: &[f64],
         center_of_mass_body_m: &Vector3<f64>,
@@ -49,8 +49,8 @@ pub struct TorqueBothWays {
 }
 
 impl TorqueBothWays {
-    /// Of the thrusters that may control the attitude.
-    pub(super) fn of(spacecraft: &Spacecraft, center_of_mass_body_m: &Vector3<f64>) -> Option<Self> {
+    /// Computes the torque of the thrusters that may control the attitude, each way about every axis.
+    pub(super) fn new(spacecraft: &Spacecraft, center_of_mass_body_m: &Vector3<f64>) -> Option<Self> {
         let may_control = spacecraft.thrusters.iter().filter(|it| it.attitude_control);
         let torques_n_m = may_control.map(|thruster| {
             let arm_m = (thruster.position_body_m - center_of_mass_body_m).norm();

@@ -1,4 +1,4 @@
-//! What in a spacecraft's file can be, but is hardly meant.
+//! Warnings about values in a spacecraft's file that are possible but hardly meant.
 
 use nalgebra::Vector3;
 

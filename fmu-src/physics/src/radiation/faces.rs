@@ -19,11 +19,11 @@ const CYLINDER_STRIPS: u32 = 24;
 /// One side of a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Face {
-    /// Which of the distinct normals.
+    /// Index of its normal among the distinct ones.
     pub normal: usize,
-    /// Which of the surfaces.
+    /// Index of its surface.
     pub surface: usize,
-    /// Which of the materials.
+    /// Index of its material.
     pub material: usize,
     /// Heat from inside, in W.
     pub internal_heat_w: f64,
@@ -58,7 +58,7 @@ impl Surface {
         self.first_face..self.first_face + if self.two_sided { 2 } else { 1 }
     }
 
-    /// What front and rear give off heat to, `faces` being its own; a face there is not gives off none.
+    /// Returns the thermal surroundings of front and rear from the surface's own `faces`; a missing face emits no heat.
     pub(super) fn environments<T: Scalar>(
         &self,
         faces: &[Face],
@@ -77,8 +77,8 @@ impl Surface {
         })
     }
 
-    /// Temperatures of its faces, all of which are `faces`, `duration_s` later, in place, for the heat of every face at the start and
-    /// at the end; left as they are where it stores no heat.
+    /// Advances the temperatures of the surface's faces by `duration_s` in place, from the heat of every face at the start and at the end;
+    /// `faces` and `temperatures_k` are those of the whole model. Does nothing where the surface stores no heat.
     fn advance_temperatures(
         &self,
         (faces, materials): (&[Face], &[Material]),
@@ -111,7 +111,7 @@ impl Surface {
     }
 }
 
-/// Where a normal comes from.
+/// Source of a normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Normal {
     /// Fixed in the body.
@@ -132,7 +132,7 @@ pub(super) fn no_such_sunshade(form: SunshadeModel) -> Refusal {
 pub(crate) struct Faces {
     pub surfaces: Vec<Surface>,
     pub faces: Vec<Face>,
-    /// Those of the spacecraft in its order, then those of faces without a named one.
+    /// The spacecraft's materials in its order, then materials of faces without a named one.
     pub materials: Vec<Material>,
     pub normals: Vec<Normal>,
     /// Temperature of the space that all of them see, in K.
@@ -198,8 +198,8 @@ impl Faces {
         }
     }
 
-    /// Shadows among the outlines, which it takes; none where no surface can shadow another.
-    pub(crate) fn take_scene(&mut self) -> Option<ShadowScene> {
+    /// Moves the outlines into a scene of shadows; `None` where no surface can shadow another.
+    pub(crate) fn into_scene(&mut self) -> Option<ShadowScene> {
         let scene = ShadowScene::new(core::mem::take(&mut self.outlines));
         scene.has_pairs().then_some(scene)
     }
@@ -217,14 +217,14 @@ impl Faces {
         }
     }
 
-    /// Sets the material in this place of the spacecraft's.
+    /// Sets the spacecraft's material of this index.
     pub(crate) fn set_material(&mut self, place: usize, material: &Material) {
         if let Some(known) = self.materials.get_mut(place) {
             *known = *material;
         }
     }
 
-    /// Where among the materials this one is: in its place among the spacecraft's, or where surfaces were given another, by itself.
+    /// Returns the index of a surface's material: that in the spacecraft's list, or a new entry where the surface was given another.
     fn material(&mut self, place: Option<usize>, material: Material) -> usize {
         place.filter(|&place| self.materials.get(place) == Some(&material)).unwrap_or_else(|| {
             self.materials.push(material);

@@ -15,7 +15,7 @@ pub struct Beam<T: Scalar> {
 }
 
 impl<T: Scalar> Beam<T> {
-    /// What a face with this outward unit normal receives of the beam; nothing from behind.
+    /// Returns the light that a face with this outward unit normal receives from the beam; none from behind.
     pub fn received(&self, normal_body: &Vector3<T>) -> ReceivedLight<T> {
         let cos = normal_body.dot(&self.source_body);
         if cos.value() <= 0.0 {

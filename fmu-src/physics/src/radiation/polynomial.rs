@@ -32,9 +32,8 @@ pub struct TorquePolynomial {
 }
 
 impl TorquePolynomial {
-    /// Of the sunshade in one of its forms with these materials in their places of the spacecraft's, in the shade frame; a surface
-    /// without a named one has its own. The torque in the body frame is
-    /// `dcm_body_from_shade` times it (eq 12).
+    /// Returns the polynomial of the sunshade in one of its forms, in the shade frame; `materials` are the spacecraft's, and a surface
+    /// that names none keeps its own. The torque in the body frame is `dcm_body_from_shade` times it (eq 12).
     ///
     /// # Errors
     ///
@@ -57,7 +56,7 @@ impl TorquePolynomial {
         }
     }
 
-    /// Of the front faces of plates (eqs 6-8), in the plates' frame.
+    /// Returns the polynomial of the plates' front faces (eqs 6-8), in the plates' frame.
     pub fn of_plates(plates: &[Plate], materials: &[Material], center_of_mass_m: &Vector3<f64>) -> Self {
         let mut sum = Self { k: [[0.0; 9]; 3] };
         for plate in plates {
@@ -67,7 +66,7 @@ impl TorquePolynomial {
         sum
     }
 
-    /// Of a cylindrical section (eqs 4-5), in its own frame.
+    /// Returns the polynomial of a cylindrical section (eqs 4-5), in its own frame.
     pub fn of_cylinder(cylinder: &Cylinder, materials: &[Material], center_of_mass_m: &Vector3<f64>) -> Self {
         let mut sum = Self { k: [[0.0; 9]; 3] };
         let optics = optics(cylinder.material, materials).unwrap_or(&cylinder.optics);

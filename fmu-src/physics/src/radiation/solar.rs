@@ -17,7 +17,7 @@ use crate::spacecraft::{Material, Optics, Panel, Spacecraft, SunshadeModel};
 /// Evaluation does not allocate and costs a few nanoseconds a face.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolarModel {
-    /// Those of the spacecraft in its order, then those of faces without a named one.
+    /// The spacecraft's materials in its order, then materials of faces without a named one.
     materials: Vec<Material>,
     fixed: Vec<FixedFace>,
     /// Area in m2 and material of every fixed face.
@@ -66,7 +66,7 @@ impl SolarModel {
         &self.materials
     }
 
-    /// Sets the material in this place of the spacecraft's where it is another than so far; allocates nothing.
+    /// Sets the spacecraft's material of this index if it differs from the present one; allocates nothing.
     pub fn set_material(&mut self, place: usize, material: &Material) {
         let Some(known) = self.materials.get_mut(place).filter(|known| *known != material) else { return };
         *known = *material;

@@ -17,7 +17,7 @@ pub struct NamedAntenna {
 /// An antenna.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Antenna {
-    /// Where it can look.
+    /// Directions in which its beam can point.
     pub range: AntennaRange,
     /// Full width of the beam across the XY plane, in rad.
     pub across_rad: f64,
@@ -25,7 +25,7 @@ pub struct Antenna {
     pub along_rad: f64,
 }
 
-/// Where an antenna can look.
+/// Directions in which an antenna's beam can point.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum AntennaRange {
     /// In the XY plane, steered over these azimuths.
@@ -74,7 +74,7 @@ impl FanAzimuths {
 }
 
 impl fmt::Display for AntennaRange {
-    /// Where the antenna looks, as a participle: "fixed along (0, 0, 1)".
+    /// Writes the directions as a participle: "fixed along (0, 0, 1)".
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rounded = |number: f64| (number * 1e6).round() / 1e6 + 0.0;
         match self {

@@ -9,7 +9,7 @@ pub struct Articulation {
     pub min_suns: f64,
     /// Greatest light, for temperature.
     pub max_suns: f64,
-    /// What [`super::PanelControl::Distance`] keeps.
+    /// Light that [`super::PanelControl::Distance`] keeps.
     pub target_suns: f64,
 }
 

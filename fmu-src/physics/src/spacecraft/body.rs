@@ -57,7 +57,7 @@ pub enum InertialFrame {
     Eme2000,
 }
 
-/// Where it is about the Sun.
+/// Orbit of the body about the Sun.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum BodyOrbit {
     /// By Keplerian elements.

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 pub struct GasSurface<T = f64> {
     /// Force along the flow over dynamic pressure and projected area.
     pub drag_coefficient: T,
-    /// Energy accommodation: share of the way from the incident energy to that of the wall, 0 to 1.
+    /// Energy accommodation: fraction of the difference between incident energy and wall energy that is given up, 0 to 1.
     pub energy_accommodation: T,
     /// Accommodation of normal momentum, 0 (specular) to 1 (diffuse).
     pub normal_accommodation: T,
@@ -29,7 +29,7 @@ impl GasSurface {
 }
 
 impl<T> GasSurface<T> {
-    /// What `of` makes of every parameter.
+    /// Applies `of` to every parameter.
     pub fn map<U>(self, of: impl Fn(T) -> U) -> GasSurface<U> {
         GasSurface {
             drag_coefficient: of(self.drag_coefficient),

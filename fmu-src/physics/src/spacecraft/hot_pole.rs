@@ -1,4 +1,4 @@
-//! Where a spacecraft's top deck does not look at the planet, by its file.
+//! Zone above the planet's hot subsolar point in which the top deck keeps away from the planet.
 
 use serde::Serialize;
 

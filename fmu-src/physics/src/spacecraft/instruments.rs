@@ -10,7 +10,7 @@ pub struct Instrument {
     pub name: String,
     /// Unit vector of its boresight; on a gimbal at angle 0.
     pub boresight_body: Vector3<f64>,
-    /// What turns it, if anything does.
+    /// Gimbal that turns the instrument; `None` if it is fixed to the body.
     pub gimbal: Option<GimbalMount>,
 }
 

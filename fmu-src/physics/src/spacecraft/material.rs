@@ -22,7 +22,7 @@ pub struct Material<T = f64> {
 }
 
 impl<T> Material<T> {
-    /// What `of` makes of every number that can be set, and of what follows from it.
+    /// Applies `of` to every number, settable or derived.
     pub fn map<U>(self, of: impl Fn(T) -> U) -> Material<U> {
         let FaceThermal { infrared_optics, emission } = self.thermal;
         Material {
@@ -70,7 +70,7 @@ pub struct MaterialValues<T = f64> {
 }
 
 impl<T> MaterialValues<T> {
-    /// What `of` makes of every number.
+    /// Applies `of` to every number.
     pub fn map<U>(self, of: impl Fn(T) -> U) -> MaterialValues<U> {
         let following =
             |it: Following<T>, of: &dyn Fn(T) -> U| Following { value: of(it.value), follows: it.follows };

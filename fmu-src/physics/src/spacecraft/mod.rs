@@ -1,4 +1,4 @@
-//! What the spacecraft is made of: plates, cylinder, panels, optics, mass, wheels; parsed and validated once, here.
+//! Parts of the spacecraft: plates, cylinder, panels, optics, mass, wheels; parsed and validated once, here.
 //!
 //! A spacecraft is described in one TOML file ([`Spacecraft::from_toml`]). In the file lengths, areas, masses and
 //! momenta are SI with the unit in the key (`area_m2`); angles are in degrees (`_deg`) because people write them.
@@ -9,7 +9,6 @@
 
 mod antennas;
 mod articulation;
-mod assembly;
 mod body;
 mod downlinks;
 mod file;
@@ -33,6 +32,7 @@ mod tank;
 mod thermal;
 mod thruster;
 mod wheels;
+mod whole;
 
 #[cfg(test)]
 mod tests;
@@ -40,10 +40,9 @@ mod tests;
 pub use crate::toml::{MOST_ANTENNAS, MOST_THRUSTERS};
 pub use antennas::{Antenna, AntennaRange, FanAzimuths, NamedAntenna};
 pub use articulation::Articulation;
-pub use assembly::{Spacecraft, SunKeepIn};
 pub use body::{BodyMotion, BodyOrbit, CustomBody, InertialFrame};
 pub use downlinks::{DownlinkWindows, TimeAfterPeriapsis};
-pub(crate) use file::description::{StarDescription, TargetedAxisDescription};
+pub(crate) use file::describe_operation::{StarDescription, TargetedAxisDescription};
 pub(crate) use file::pointing::aligned;
 #[cfg(feature = "schema")]
 pub use file::schema;
@@ -75,6 +74,7 @@ pub use thermal::{
 };
 pub use thruster::{Thrust, Thruster, ThrusterSet, ValveTiming};
 pub use wheels::{Wheel, free_capacity_n_m_s};
+pub use whole::{Spacecraft, SunKeepIn};
 
 /// MESSENGER as paper 000 describes it, for callers without a file.
 pub const MESSENGER_TOML: &str = include_str!("../../../resources/messenger.toml");

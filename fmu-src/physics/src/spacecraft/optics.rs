@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::numerics::scalar::Scalar;
 
-/// What a surface does with light; the three fractions sum to 1.
+/// Optical coefficients of a surface; the three fractions sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Optics<T = f64> {
     /// Absorbed fraction (alpha).
@@ -34,7 +34,7 @@ impl<T: Scalar> Optics<T> {
 }
 
 impl<T> Optics<T> {
-    /// What `of` makes of every fraction.
+    /// Applies `of` to every fraction.
     pub fn map<U>(self, of: impl Fn(T) -> U) -> Optics<U> {
         Optics { absorptivity: of(self.absorptivity), specular: of(self.specular), diffuse: of(self.diffuse) }
     }

@@ -66,9 +66,9 @@ pub struct Panel {
     /// Angle between cell normal and Sun for [`PanelControl::SunOffset`], in rad, -pi to pi; the sign
     /// is a sense of tilt.
     pub sun_offset_rad: f64,
-    /// Which way the panel tilts off the Sun: +1 or -1 about the axis.
+    /// Sense of the tilt off the Sun: +1 or -1 about the axis.
     pub tilt_sign: f64,
-    /// Which way a windmill angle turns the panel about its axis: +1, -1, or 0, not at all.
+    /// Sense of a windmill angle about the panel's axis: +1, -1, or 0 if it does not turn the panel.
     pub windmill_side: f64,
     /// Angle for [`PanelControl::Angle`], in rad.
     pub angle_rad: f64,

@@ -13,7 +13,7 @@ pub(super) const MOST_BELTS: usize = 180;
 /// Hottest a cell may be, in K.
 pub(super) const HOTTEST_K: f64 = 1e4;
 
-/// What one cell does with light.
+/// Optical properties and temperature of one cell.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlanetCell {
     /// Diffusely reflected fraction of sunlight.
@@ -48,7 +48,7 @@ impl PlanetCell {
 }
 
 /// Every cell of n belts of latitude from south to north, each of 2 n cells from midnight over morning, noon and evening:
-/// a map goes by local time.
+/// columns are local times, not longitudes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlanetMap {
     belts: usize,

@@ -71,24 +71,24 @@ impl From<AttitudeName> for NamedAttitude {
 pub enum PointingTarget {
     /// To the planet's centre.
     Nadir,
-    /// Of the velocity about the orbit's centre.
+    /// Along the velocity about the orbit's centre.
     Velocity,
-    /// Of position x velocity about that centre.
+    /// Along position x velocity about that centre.
     OrbitNormal,
     /// To the Sun.
     Sun,
     /// To the Earth.
     Earth,
-    /// Of a right ascension and declination in EME2000, in rad.
+    /// Toward a right ascension and declination in EME2000.
     Star {
         /// Right ascension, in rad.
         right_ascension_rad: f64,
         /// Declination, in rad.
         declination_rad: f64,
     },
-    /// Of ecliptic north.
+    /// Toward ecliptic north.
     EclipticNorth,
-    /// Of a vector in EME2000, of any length.
+    /// Along a vector in EME2000, of any length.
     Inertial(Vector3<f64>),
 }
 

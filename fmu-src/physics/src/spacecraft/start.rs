@@ -45,7 +45,7 @@ pub enum StartValue {
 #[serde(transparent)]
 pub(crate) struct StartTable(BTreeMap<String, Item>);
 
-/// What stands for a name: a value, or what may hold tables where none belongs.
+/// Entry of a name: a value, or a list or table that contains names.
 #[derive(Debug, Deserialize)]
 #[serde(untagged)]
 enum Item {

@@ -1,4 +1,4 @@
-//! What swings on the spacecraft: flexible modes, propellant as pendulums.
+//! Oscillators on the spacecraft: flexible modes, and propellant as pendulums.
 
 use serde::Serialize;
 

@@ -20,7 +20,7 @@ pub struct Blowdown {
 pub struct Tank {
     /// Name.
     pub name: String,
-    /// Where its propellant is, body frame, in m.
+    /// Position of the propellant, taken as a point, body frame, in m.
     pub position_body_m: Vector3<f64>,
     /// Propellant loaded, in kg; a part of the spacecraft's mass.
     pub propellant_kg: f64,

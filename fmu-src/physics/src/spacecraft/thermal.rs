@@ -25,7 +25,7 @@ pub struct Emission<T = f64> {
     pub reference_temperature_k: f64,
 }
 
-/// What a face does in the infrared.
+/// Infrared optics and emission of a face.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FaceThermal<T = f64> {
     /// Optics for the planet's infrared light.
@@ -43,7 +43,7 @@ pub struct Conduction {
     pub radiative_exchange: f64,
 }
 
-/// What a honeycomb panel is made of (paper 004 eqs 45, 47).
+/// Structure of a honeycomb panel (paper 004 eqs 45, 47).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Honeycomb {
     /// Conductivity of the core's material k_SP, in W/m/K.

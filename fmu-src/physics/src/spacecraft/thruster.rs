@@ -7,6 +7,14 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
 pub struct ThrusterSet(pub u16);
 
+impl ThrusterSet {
+    /// Returns the set of this name among the spacecraft's sets.
+    pub(super) fn named(sets: &[String], name: &str) -> Option<Self> {
+        let index = sets.iter().position(|set| set == name)?;
+        u16::try_from(index).ok().map(Self)
+    }
+}
+
 /// How a valve opens and closes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, serde::Deserialize)]
 pub struct ValveTiming {
@@ -24,7 +32,7 @@ impl ValveTiming {
         on_s + 0.5 * (self.tail_off_s - self.rise_s)
     }
 
-    /// How long the valve is open for so many seconds of full thrust.
+    /// Returns how long the valve is open so that a pulse has this many seconds of full thrust.
     pub fn on_s(&self, full_thrust_s: f64) -> f64 {
         full_thrust_s - 0.5 * (self.tail_off_s - self.rise_s)
     }
@@ -52,7 +60,7 @@ impl ValveTiming {
 pub struct Thruster {
     /// Name.
     pub name: String,
-    /// Where it stands, body frame, in m. A spinner's is from the centre of mass.
+    /// Position of the thruster, body frame, in m; a spinner's is relative to the centre of mass.
     pub position_body_m: Vector3<f64>,
     /// Force on the spacecraft at full thrust, body components, in N.
     pub force_body_n: Vector3<f64>,

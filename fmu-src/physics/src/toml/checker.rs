@@ -5,18 +5,16 @@ use std::collections::BTreeSet;
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::directions::{UNIT_TOLERANCE, refusal, unit};
 use super::document::Document;
 use super::error::{FileError, Problem};
+use super::numbers::short;
 use super::place::KeyPath;
-use super::ranges::{GREATEST, TurnEither, short};
+use super::ranges::GREATEST;
 use super::reader::{Findings, MOST_KEPT};
+use super::rules::{Demand, Rule};
 
 use crate::math;
-
-/// How far a direction's length, or a matrix's orthonormality, may be off before it is refused.
-///
-/// Printed tables round to three or four digits; what is off by more is a mistake, not rounding.
-const UNIT_TOLERANCE: f64 = 1e-3;
 
 /// Gathers the problems of one document.
 pub struct Checker<'d> {
@@ -154,51 +152,35 @@ impl<'d> Checker<'d> {
 
     /// A direction: refused when its length is off 1 by more than 1e-3, renormalised otherwise.
     pub fn unit_vector(&mut self, at: &KeyPath, value: [f64; 3]) -> Vector3<f64> {
-        let vector = Vector3::from(value);
-        let norm = vector.norm();
-        if (norm - 1.0).abs() <= UNIT_TOLERANCE {
-            return vector / norm;
-        }
-        let unit = (norm > f64::MIN_POSITIVE && norm.is_finite()).then(|| vector / norm);
-        let shown = unit.map(|unit| {
-            let [x, y, z] = unit.map(|component| (component * 1e6).round() / 1e6 + 0.0).into();
-            format!(", here [{x}, {y}, {z}]")
-        });
-        self.report(
-            at,
-            format_args!("{value:?} of length {}", short(rounded(norm))),
-            format_args!(
-                "a unit vector (length 1 within 1e-3; it is then renormalised){}",
-                shown.unwrap_or_default()
-            ),
-        );
-        Vector3::x()
+        unit(value).unwrap_or_else(|| {
+            let (found, allowed) = refusal(value);
+            self.report(at, found, allowed);
+            Vector3::x()
+        })
     }
 
     /// A direction perpendicular to another: refused when off by more than 1e-3 rad, squared up otherwise.
     pub fn perpendicular(
         &mut self,
         at: &KeyPath,
-        value: [f64; 3],
+        unit: Vector3<f64>,
         to: &Vector3<f64>,
         to_key: &str,
     ) -> Vector3<f64> {
-        let unit = self.unit_vector(at, value);
-        if (Vector3::from(value).norm() - 1.0).abs() > UNIT_TOLERANCE {
-            // No direction, which is reported.
-            return unit;
-        }
         let along = unit.dot(to);
         let square = unit - to * along;
         if along.abs() <= UNIT_TOLERANCE {
             return square / square.norm();
         }
-        self.report_across(
-            &at.split().0,
-            at,
-            format_args!("{value:?}, whose component along `{to_key}` is {along}"),
-            format_args!("a direction perpendicular to `{to_key}` within 1e-3"),
-        );
+        if !self.has_reported(at) {
+            let written = self.document.vector(at).unwrap_or(unit.into());
+            self.report_across(
+                &at.split().0,
+                at,
+                format_args!("{written:?}, whose component along `{to_key}` is {along}"),
+                format_args!("a direction perpendicular to `{to_key}` within 1e-3"),
+            );
+        }
         unit
     }
 
@@ -208,30 +190,21 @@ impl<'d> Checker<'d> {
     /// frame to components in the body frame.
     pub fn rotation(
         &mut self,
-        at: &KeyPath,
-        (angles_key, angles_deg): (&str, Option<[TurnEither; 3]>),
-        (matrix_key, matrix): (&str, Option<[[f64; 3]; 3]>),
+        matrix_at: &KeyPath,
+        angles_rad: Option<[f64; 3]>,
+        matrix: Option<[[f64; 3]; 3]>,
     ) -> Matrix3<f64> {
-        match (angles_deg, matrix) {
+        match (angles_rad, matrix) {
             (None, None) => Matrix3::identity(),
-            (Some(angles_deg), None) => {
+            (Some(angles_rad), _) => {
                 // The matrix enters an FMU's GUID: no digit may hang on the machine's own library of functions.
-                let [(sx, cx), (sy, cy), (sz, cz)] =
-                    angles_deg.map(|angle| math::sin_cos(angle.0.to_radians()));
+                let [(sx, cx), (sy, cy), (sz, cz)] = angles_rad.map(math::sin_cos);
                 let about_x = Matrix3::new(1.0, 0.0, 0.0, 0.0, cx, -sx, 0.0, sx, cx);
                 let about_y = Matrix3::new(cy, 0.0, sy, 0.0, 1.0, 0.0, -sy, 0.0, cy);
                 let about_z = Matrix3::new(cz, -sz, 0.0, sz, cz, 0.0, 0.0, 0.0, 1.0);
                 about_z * about_y * about_x
             }
-            (None, Some(rows)) => self.rotation_matrix(&at.key(matrix_key), rows),
-            (Some(_), Some(_)) => {
-                self.report(
-                    &at.key(matrix_key),
-                    format_args!("both `{angles_key}` and `{matrix_key}`"),
-                    "one of them",
-                );
-                Matrix3::identity()
-            }
+            (None, Some(rows)) => self.rotation_matrix(matrix_at, rows),
         }
     }
 
@@ -253,12 +226,36 @@ impl<'d> Checker<'d> {
     }
 }
 
+impl Checker<'_> {
+    /// Reports the rules that a table at `at` breaks.
+    pub fn rules(&mut self, at: &KeyPath, rules: &[Rule]) {
+        for rule in rules {
+            let has = |key: &&str| self.is_written(&at.key(key));
+            let is_meant = |key: &&str| has(key) || self.is_stand_in(&at.key(key));
+            let place = rule.keys.first().filter(|key| has(key)).map(|key| at.key(key));
+            match (rule.demand, place) {
+                (Demand::RequiresIfPositive, Some(place)) if !self.document.is_positive(&place) => {}
+                (Demand::Requires | Demand::RequiresIfPositive, Some(place))
+                    if !rule.others.iter().any(is_meant) =>
+                {
+                    self.report(&place, rule.found, rule.allowed);
+                }
+                (Demand::Excludes, Some(place)) if rule.others.iter().any(has) => {
+                    self.report(&place, rule.found, rule.allowed);
+                }
+                (Demand::Either, Some(_)) if rule.others.iter().any(has) => {
+                    self.push(at, rule.found, rule.allowed);
+                }
+                (Demand::AnyOf, _) if !rule.keys.iter().any(is_meant) => {
+                    self.push(at, rule.found, rule.allowed);
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
 /// Whether one of the places is this one or inside of it.
 fn has_inside(places: &BTreeSet<KeyPath>, at: &KeyPath) -> bool {
     places.range(at..).next().is_some_and(|place| place.is_in(at))
-}
-
-/// To twelve significant digits: without the noise of a sum.
-pub(crate) fn rounded(value: f64) -> f64 {
-    format!("{value:.11e}").parse().unwrap_or(value)
 }

@@ -12,7 +12,7 @@ use hifitime::{Epoch, TimeScale, Unit};
 
 use crate::constants::DAY_S;
 
-/// What a date looks like, for messages.
+/// Examples of a date, for messages.
 pub const ALLOWED_DATE: &str = "a date such as \"2008-03-19T19:30:00 UTC\" or \"JD 2454544.5 TDB\"";
 
 /// Endings of a date and the time scales they name.
@@ -32,16 +32,16 @@ const MOST_JULIAN_DIGITS: usize = 7;
 /// First year of UTC with leap seconds.
 const FIRST_UTC_YEAR: i32 = 1972;
 
-/// What is wrong with a date.
+/// Reason why a text is not a date.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DateError {
-    /// It is written otherwise.
+    /// The text does not have the form of a date.
     Form,
-    /// It does not end in a known time scale.
+    /// The text does not end in a known time scale.
     Scale,
-    /// There is no such day.
+    /// The calendar has no such day.
     Day,
-    /// There is no such time on that day.
+    /// The day has no such time.
     Time,
     /// UTC had no leap seconds yet.
     BeforeUtc,
@@ -74,7 +74,7 @@ pub fn looks_like_date(text: &str) -> bool {
     is_calendar || SCALES.iter().any(|(name, _)| ends(name)) || julian(text).is_some()
 }
 
-/// The number beside `JD`.
+/// Returns the number before or after `JD`.
 fn julian(text: &str) -> Option<&str> {
     let number = text.strip_prefix(JULIAN).or_else(|| text.strip_suffix(JULIAN))?.trim();
     number.starts_with(|first: char| first.is_ascii_digit()).then_some(number)
@@ -127,7 +127,7 @@ pub fn epoch_s(text: &str) -> Result<f64, DateError> {
     Ok(before.to_tdb_seconds() + 1.0)
 }
 
-/// The epoch of a Julian date, of which the decimals are read on their own: 1e-9 d is 0.1 ms.
+/// Returns the epoch of a Julian date. Its decimals are read apart from the whole days, so that 1e-9 d (0.1 ms) is kept.
 fn julian_epoch_s(text: &str, scale: TimeScale) -> Result<f64, DateError> {
     let (whole, decimals) = text.split_once('.').unwrap_or((text, "0"));
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
@@ -181,7 +181,7 @@ pub fn utc(epoch_s: f64) -> String {
     dates.iter().find(|date| is_right(date)).unwrap_or(&dates[0]).clone()
 }
 
-/// Numbers of so many digits between separators.
+/// Returns the numbers between separators, each with the given count of digits.
 fn numbers<const N: usize>(text: &str, separator: char, digits: [usize; N]) -> Option<[u32; N]> {
     let mut parts = text.split(separator);
     let mut found = [0; N];
@@ -191,7 +191,7 @@ fn numbers<const N: usize>(text: &str, separator: char, digits: [usize; N]) -> O
     parts.next().is_none().then_some(found)
 }
 
-/// A number of so many digits.
+/// Returns the number if the text has exactly this count of digits.
 fn number(text: &str, digits: usize) -> Option<u32> {
     let is_number = text.len() == digits && text.bytes().all(|byte| byte.is_ascii_digit());
     if is_number { text.parse().ok() } else { None }

@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 use super::error::{FileError, Problem};
 use super::limits::{MOST_PROBLEMS, MOST_TEXT_BYTES};
 use super::place::{KeyPath, Part};
-use super::reader::{Findings, Reader};
+use super::reader::{Findings, Reader, real, vector};
 
 /// A parsed text with its file name.
 pub struct Document<'t> {
@@ -76,14 +76,24 @@ impl<'t> Document<'t> {
 
     /// Whether somebody wrote what is at a place.
     pub fn is_written(&self, place: &KeyPath) -> bool {
-        self.find(place).1
+        self.find(place).1.is_some()
     }
 
-    /// Where the text of a place begins, or of the innermost table around it that exists, and whether the place does.
-    fn find(&self, place: &KeyPath) -> (usize, bool) {
+    /// Whether a number above 0 is written at a place.
+    pub(super) fn is_positive(&self, place: &KeyPath) -> bool {
+        self.find(place).1.and_then(real).is_some_and(|number| number > 0.0)
+    }
+
+    /// Three numbers that are written at a place.
+    pub(super) fn vector(&self, place: &KeyPath) -> Option<[f64; 3]> {
+        self.find(place).1.and_then(vector)
+    }
+
+    /// Returns the offset at which the text of a place, or of the innermost existing table around it, begins, and the place's value.
+    fn find(&self, place: &KeyPath) -> (usize, Option<&DeValue<'t>>) {
         let mut start = self.root.span().start;
         let mut table = self.root.get_ref().as_table();
-        let mut value: Option<&DeValue<'_>> = None;
+        let mut value = Some(self.root.get_ref());
         for part in &place.0 {
             let next = match part {
                 Part::Key(key) => table
@@ -94,12 +104,12 @@ impl<'t> Document<'t> {
                     .and_then(|list| list.get(*index))
                     .map(|value| (value.span().start, value)),
             };
-            let Some((next_start, next_value)) = next else { return (start, false) };
+            let Some((next_start, next_value)) = next else { return (start, None) };
             start = next_start;
             value = Some(next_value.get_ref());
             table = next_value.get_ref().as_table();
         }
-        (start, true)
+        (start, value)
     }
 }
 
@@ -115,7 +125,7 @@ fn excerpt(line: &str) -> String {
     }
 }
 
-/// What TOML allows where its reader says this.
+/// Returns the text that TOML allows where its parser gives this message.
 fn grammar(message: &str) -> &'static str {
     const WORDS: [(&str, &str); 4] = [
         ("duplicate key", "each key once in its table"),

@@ -1,4 +1,4 @@
-//! What is wrong with a spacecraft file: file, line, key, what was found and what is allowed.
+//! Errors of a TOML file: file, line, key, what was found and what is allowed.
 
 use core::fmt;
 
@@ -9,9 +9,9 @@ pub struct Problem {
     pub line: Option<usize>,
     /// The key with its tables, items counted from 1: `sunshade.plates[3].area_m2`.
     pub key: String,
-    /// What stands there.
+    /// Text or value found there.
     pub found: String,
-    /// What may stand there.
+    /// Values allowed there.
     pub allowed: String,
 }
 

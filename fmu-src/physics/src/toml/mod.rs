@@ -5,29 +5,36 @@
 
 mod checker;
 pub mod dates;
+mod directions;
 mod document;
 mod error;
 mod limits;
+mod numbers;
 mod place;
 mod ranges;
 mod reader;
+pub mod rules;
 mod spelling;
-pub(crate) mod tables;
+pub mod tables;
+mod written;
 
+pub use crate::tables;
 pub use checker::Checker;
-pub(crate) use checker::rounded;
 pub use document::Document;
 pub use error::{FileError, Problem};
 pub use limits::{
     LIMITS, MOST_ANTENNAS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES, MOST_THRUSTERS, TIMELINE_LIMITS,
 };
+pub(crate) use numbers::rounded;
 pub use place::KeyPath;
 pub use ranges::{
-    AtLeastOne, BodyRadius, Copies, Corners, Deviation, Distance, Emissivity, FieldOfView, Finite, Fraction,
-    Frequency, GravitationalParameter, HalfTurn, HalfTurnEither, Kelvin, NotNegative, OrbitAxis, Orbits,
-    Positive, QuarterTurn, Rings, SpecificImpulse, SubtendedAngle, TurnEither,
+    AtLeastOne, BodyRadius, Copies, Corners, Deviation, Distance, Eccentricity, Emissivity, FieldOfView,
+    Finite, Fraction, Frequency, GravitationalParameter, HalfTurn, HalfTurnEither, Kelvin, Kilometers,
+    NotNegative, OrbitAxis, Orbits, Positive, QuarterTurn, QuarterTurnEither, Rings, RotationRate,
+    SpecificImpulse, SubtendedAngle, TurnEither, ZonalHarmonic,
 };
 pub use reader::Findings;
 pub use spelling::{hint, nearest};
-pub use tables::{NonEmpty, Written};
-pub(crate) use tables::{plain, tables};
+pub use tables::{List, Named, NonEmpty, Point, Table, UnitVector};
+pub use written::Written;
+pub(crate) use written::plain;

@@ -1,6 +1,6 @@
 //! Ranges of numbers in files: a type each, which the reader checks by and the schema shows.
 //!
-//! A field says by its type what it may hold, as in `radius_m: Positive`. The type's name reaches the reader through serde.
+//! A field says by its type what it may hold, as in `radius_m: Positive`; `deg` and `km` are converted to SI units. The type's name reaches the reader through serde.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,8 +16,8 @@ pub(super) struct Range {
 }
 
 impl Range {
-    /// That of the type of this name, if it has one.
-    pub(super) fn of(name: &str) -> Option<&'static Self> {
+    /// Range of the type with this name; `None` for a type that is no range.
+    pub(super) fn of_type(name: &str) -> Option<&'static Self> {
         RANGES.iter().find(|range| range.name == name)
     }
 }
@@ -41,13 +41,8 @@ fn bounded(mut schema: schemars::Schema, low: f64, high: f64) -> schemars::Schem
     schema
 }
 
-/// A number without a row of zeros.
-pub(super) fn short(value: f64) -> String {
-    if value == 0.0 || (1e-5..1e16).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
-}
-
 macro_rules! ranges {
-    ($($name:ident($number:ty): $low:expr, $high:expr, $allowed:literal;)+) => {
+    ($($name:ident($number:ident $($unit:ident)?): $low:expr, $high:expr, $allowed:literal;)+) => {
         $(
             #[doc = concat!("Allowed: ", $allowed, ".")]
             #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -59,11 +54,16 @@ macro_rules! ranges {
                 }
             }
 
-            impl super::tables::Written for $name {
+            impl super::written::Written for $name {
+                type Plain = $number;
                 type Value = $number;
 
+                fn from_plain(plain: $number) -> Self {
+                    Self(plain)
+                }
+
                 fn value(self) -> $number {
-                    self.0
+                    ranges!(@si self.0 $(, $unit)?)
                 }
             }
 
@@ -86,6 +86,9 @@ macro_rules! ranges {
         const RANGES: &[Range] =
             &[$(Range { name: stringify!($name), low: $low, high: $high, allowed: $allowed }),+];
     };
+    (@si $number:expr) => { $number };
+    (@si $number:expr, deg) => { $number.to_radians() };
+    (@si $number:expr, km) => { $number * 1e3 };
 }
 
 ranges! {
@@ -101,13 +104,18 @@ ranges! {
     BodyRadius(f64): 1.0, 1e9, "1 to 1e9 m";
     OrbitAxis(f64): 1e9, 1e13, "1e9 to 1e13 m";
     Distance(f64): f64::MIN_POSITIVE, 1e13, "a distance above 0 and at most 1e13 m";
-    QuarterTurn(f64): 0.0, 90.0, "an angle from 0 to 90 deg";
-    HalfTurn(f64): 0.0, 180.0, "an angle from 0 to 180 deg";
-    HalfTurnEither(f64): -180.0, 180.0, "an angle from -180 to 180 deg";
-    FieldOfView(f64): f64::MIN_POSITIVE, 180.0, "an angle above 0 and at most 180 deg";
-    SubtendedAngle(f64): f64::MIN_POSITIVE, 360.0, "an angle above 0 and at most 360 deg";
-    TurnEither(f64): -360.0, 360.0, "an angle from -360 to 360 deg";
-    Deviation(f64): 0.0, 180.0, "a standard deviation from 0 to 180 deg";
+    Kilometers(f64 km): 0.0, GREATEST, "a number from 0 to 1e12";
+    Eccentricity(f64): 0.0, 0.99, "a number from 0 to 0.99";
+    ZonalHarmonic(f64): -1.0, 1.0, "a number from -1 to 1";
+    RotationRate(f64): -1.0, 1.0, "a rate from -1 to 1 rad/s";
+    QuarterTurnEither(f64 deg): -90.0, 90.0, "an angle from -90 to 90 deg";
+    QuarterTurn(f64 deg): 0.0, 90.0, "an angle from 0 to 90 deg";
+    HalfTurn(f64 deg): 0.0, 180.0, "an angle from 0 to 180 deg";
+    HalfTurnEither(f64 deg): -180.0, 180.0, "an angle from -180 to 180 deg";
+    FieldOfView(f64 deg): f64::MIN_POSITIVE, 180.0, "an angle above 0 and at most 180 deg";
+    SubtendedAngle(f64 deg): f64::MIN_POSITIVE, 360.0, "an angle above 0 and at most 360 deg";
+    TurnEither(f64 deg): -360.0, 360.0, "an angle from -360 to 360 deg";
+    Deviation(f64 deg): 0.0, 180.0, "a standard deviation from 0 to 180 deg";
     AtLeastOne(u32): 1.0, GREATEST, "at least 1";
     Copies(u32): 2.0, 100.0, "a whole number from 2 to 100";
     Orbits(u32): 0.0, 1000.0, "a whole number of orbits from 0 to 1000";

@@ -8,22 +8,24 @@ use serde::de::{Deserializer, IntoDeserializer, Visitor};
 use serde::forward_to_deserialize_any;
 use toml::de::{DeTable, DeValue};
 
+use super::directions;
 use super::limits::{MOST_PROBLEMS, most_items};
+use super::numbers::short;
 use super::place::KeyPath;
-use super::ranges::{Range, short};
+use super::ranges::Range;
 use super::spelling::{hint, nearest};
 
-/// Problems that are kept, of which the first by line are listed.
+/// Most problems that are kept; the first by line are listed.
 pub(super) const MOST_KEPT: usize = 10 * MOST_PROBLEMS;
 
-/// What a reading found.
+/// Problems found while a document was read into a type.
 #[derive(Default)]
 pub struct Findings {
     /// Place, what was found there and what is allowed.
     pub problems: Vec<(KeyPath, String, String)>,
     /// How many more were found than are kept.
     pub unlisted: usize,
-    /// Where a value stands in that nobody wrote.
+    /// Keys whose value was not written or not usable, so that a placeholder stands in for it.
     pub stand_ins: Vec<KeyPath>,
 }
 
@@ -32,16 +34,16 @@ pub(super) struct Reader<'r> {
     value: Option<&'r DeValue<'r>>,
     /// Whether a lack is a problem of its own; inside of what is missing it is not.
     is_expected: bool,
-    /// Where a number must lie.
+    /// Range that a number must lie in.
     range: Option<&'static Range>,
     place: KeyPath,
     findings: &'r RefCell<Findings>,
-    /// Of this kind of file.
+    /// Most items of lists by key in this kind of file.
     own_limits: &'static [(&'static str, usize)],
 }
 
 impl<'r> Reader<'r> {
-    /// Of a whole file.
+    /// Reads a whole file.
     pub(super) fn new(
         root: &'r DeValue<'r>,
         findings: &'r RefCell<Findings>,
@@ -144,6 +146,18 @@ impl<'r> Reader<'r> {
         }
     }
 
+    /// Notes three numbers that are no unit vector.
+    fn check_unit_vector(&self) {
+        if let Some(vector) = self.value.and_then(vector)
+            && directions::unit(vector).is_none()
+        {
+            self.note(|| {
+                let (found, allowed) = directions::refusal(vector);
+                (self.place.clone(), found, allowed)
+            });
+        }
+    }
+
     fn integer<T: TryFrom<i64>>(&self, allowed: &str) -> Option<T> {
         let whole = |value: &DeValue<'_>| {
             let integer = value.as_integer()?;
@@ -158,7 +172,13 @@ pub(super) fn get<'r>(table: &'r DeTable<'r>, key: &str) -> Option<&'r DeValue<'
     table.get(key).map(|value| value.get_ref())
 }
 
-fn real(value: &DeValue<'_>) -> Option<f64> {
+/// Three numbers.
+pub(super) fn vector(value: &DeValue<'_>) -> Option<[f64; 3]> {
+    let numbers: Option<Vec<f64>> = value.as_array()?.iter().map(|item| real(item.get_ref())).collect();
+    numbers?.try_into().ok()
+}
+
+pub(super) fn real(value: &DeValue<'_>) -> Option<f64> {
     if let Some(integer) = value.as_integer() {
         return i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|integer| integer as f64);
     }
@@ -195,7 +215,7 @@ fn remedy(value: &DeValue<'_>, allowed: &str, key: &str) -> String {
 impl<'de> Deserializer<'de> for Reader<'_> {
     type Error = Error;
 
-    /// Of values whose type nobody demands.
+    /// Reads a value whose type the caller leaves open.
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
         match self.value {
             Some(DeValue::String(_)) => self.deserialize_string(visitor),
@@ -238,7 +258,10 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         name: &'static str,
         visitor: V,
     ) -> Result<V::Value, Error> {
-        visitor.visit_newtype_struct(Self { range: Range::of(name), ..self })
+        if name == "UnitVector" {
+            self.check_unit_vector();
+        }
+        visitor.visit_newtype_struct(Self { range: Range::of_type(name), ..self })
     }
 
     fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {

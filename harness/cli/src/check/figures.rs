@@ -24,7 +24,7 @@ pub(super) struct Sunlight {
 
 /// Lines of figures and warnings of a file that is good.
 pub(super) fn report(spacecraft: &Spacecraft, sunlight: Sunlight) -> String {
-    let figures = Figures::of(spacecraft);
+    let figures = Figures::new(spacecraft);
     let rows = body(&figures, sunlight).into_iter().chain(devices(spacecraft, &figures));
     let mut text: String = rows.map(|(name, value)| row(name, &value)).collect();
     for warning in warnings(spacecraft, &figures) {

@@ -78,7 +78,7 @@ pub(in crate::momentum_plant) fn report(
 ) {
     let Some(configuration) = flight.configuration() else { return };
     let (v, spacecraft) = (context.variables, &context.setup.spacecraft);
-    let figures = Figures::of(spacecraft);
+    let figures = Figures::new(spacecraft);
     let wheels: Vec<WheelSettings> = v
         .wheel
         .iter()
@@ -109,7 +109,7 @@ pub(in crate::momentum_plant) fn report(
         chooses_air: context.given_deliberately(values, &[method.into()]).has(method),
         has_default_dynamics: !context.given_deliberately(values, &[dynamics.into()]).has(dynamics),
     };
-    let survey = FlightSurvey::of(flight, given, spacecraft, time_s);
+    let survey = FlightSurvey::new(flight, given, spacecraft, time_s);
     let timeline = given.prepared.timeline.filter(|_| configuration.timeline.is_some());
     let rolled = timeline.and_then(|TimelineLaw { timeline, hardware }| {
         timeline.entries().iter().find(|entry| is_rolled_about_boresight(&entry.command, &hardware))

@@ -1,4 +1,4 @@
-//! Where Sun, planet and panels are when light and heat are computed.
+//! Positions of Sun and planet and angles of panels for which light and heat are computed.
 
 use nalgebra::Vector3;
 
@@ -15,9 +15,9 @@ pub struct Geometry<'a, T: Scalar> {
     pub sun_direction_body: Vector3<T>,
     /// Sine of the Sun's angular radius, its radius over its distance; counts where shadows are softened.
     pub sun_sine: T,
-    /// The Sun's flux at the spacecraft were nothing in between, in W/m2.
+    /// Solar flux at the spacecraft without eclipses, in W/m2.
     pub sun_flux_w_m2: T,
-    /// Factor of the force of direct sunlight; its heat goes by the flux alone.
+    /// Factor of the force of direct sunlight; the heat follows from the flux alone.
     pub solar_scale: T,
     /// Visible fraction of the Sun's disc (of its light), 1 outside eclipses.
     pub lit_fraction: T,
@@ -42,7 +42,7 @@ pub struct PlanetGeometry<T: Scalar> {
     pub pole_body: Vector3<T>,
 }
 
-/// Which temperatures heat is radiated at.
+/// Temperatures at which faces radiate heat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Recoil<'a> {
     /// Every surface is in balance with the light it receives.

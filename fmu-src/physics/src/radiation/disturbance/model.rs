@@ -16,7 +16,7 @@ use crate::radiation::shadow::{DIRECTIONS, ShadowScene, SunDisc};
 use crate::refusal::Refusal;
 use crate::spacecraft::{Material, Spacecraft, SunshadeModel};
 
-/// What an evaluation takes into account.
+/// Effects and methods of an evaluation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// The planet's surface; without it albedo and infrared are nothing.
@@ -64,7 +64,7 @@ impl DisturbanceModel {
             planet.validate()?;
         }
         let mut faces = Faces::new(spacecraft, options.sunshade_model)?;
-        let scene = if options.self_shadowing { faces.take_scene() } else { None };
+        let scene = if options.self_shadowing { faces.into_scene() } else { None };
         Ok(Self {
             faces,
             planet_light: PlanetRule::new(&options.planet_light)?,

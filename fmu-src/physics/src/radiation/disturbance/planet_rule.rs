@@ -11,12 +11,12 @@ use crate::radiation::ring::{PlanetView, RingRule};
 use crate::refusal::Refusal;
 use crate::spacecraft::PlanetMap;
 
-/// What is requested.
+/// Method by which the planet's light is summed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PlanetLightMethod {
-    /// Rings about the nadir with so many quadrature nodes a segment: 6 for 1e-4, 16 for 1e-5.
+    /// Rings about the nadir, with this number of quadrature nodes per segment: 6 for 1e-4, 16 for 1e-5.
     Rings(usize),
-    /// The paper's cells in so many belts of latitude: slow, and results bend as each cell rises or sets.
+    /// The paper's cells in this number of belts of latitude: slow, and results bend as each cell rises or sets.
     Cells(usize),
     /// Cells with properties of their own, which go before those of the planet's surface.
     Map(PlanetMap),
@@ -60,7 +60,7 @@ impl PlanetRule {
         })
     }
 
-    /// About how many microseconds the light on so many faces takes.
+    /// Returns the estimated time of the light on `faces` faces, in microseconds.
     pub(super) fn evaluation_units(&self, faces: u32) -> u32 {
         match self {
             Self::Rings(rings) => {
@@ -72,7 +72,7 @@ impl PlanetRule {
         }
     }
 
-    /// What does not depend on the face.
+    /// Returns the part of the computation that all faces have in common.
     pub(super) fn planet_source<T: Scalar>(
         &self,
         surface: &PlanetSurface<T>,

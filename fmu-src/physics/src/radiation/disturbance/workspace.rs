@@ -1,4 +1,4 @@
-//! What an evaluation writes: results by face, and scratch space that is allocated once.
+//! Results of an evaluation by face, and scratch space that is allocated once.
 
 use nalgebra::Vector3;
 
@@ -8,7 +8,7 @@ use crate::radiation::planet_light::PlanetLight;
 use crate::radiation::shadow::ShadowWorkspace;
 use crate::spacecraft::Material;
 
-/// What one face receives, gives off and feels.
+/// Light, heat and forces of one face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceResult<T: Scalar> {
     /// Force of each effect of light and heat, body frame, in N. They add up to the effects' forces, but for sunlight on the
@@ -79,7 +79,7 @@ impl<T: Scalar> Workspace<T> {
         self.shadow.clipped_pairs()
     }
 
-    /// As after an evaluation in which no light reaches any of so many faces, and none is known to be warm.
+    /// Sets the results of `faces` faces to those without light and heat.
     pub fn darken(&mut self, faces: usize) {
         self.faces.clear();
         self.faces.resize(faces, FaceResult::dark());

@@ -26,7 +26,7 @@ pub(super) enum Arc<T> {
 impl<T: Scalar> Arc<T> {
     /// The arc of a linear condition; `reach` is not negative.
     #[inline]
-    pub(super) fn of(level: T, reach: T) -> Self {
+    pub(super) fn from_linear_condition(level: T, reach: T) -> Self {
         let (level_value, reach_value) = (level.value(), reach.value());
         if level_value >= reach_value {
             return if level_value > 0.0 { Self::Full } else { Self::Empty };
@@ -56,7 +56,7 @@ pub(super) struct Azimuth<T> {
 
 impl<T: Scalar> Azimuth<T> {
     /// The azimuth of a horizontal vector and the vector's length; east when it has none.
-    pub(super) fn of(east: T, north: T) -> (Self, T) {
+    pub(super) fn with_length(east: T, north: T) -> (Self, T) {
         let length_squared = east * east + north * north;
         if length_squared.value() <= 0.0 {
             return (Self { cos: T::constant(1.0), sin: T::constant(0.0) }, T::constant(0.0));
@@ -86,7 +86,7 @@ impl<T: Scalar> Azimuth<T> {
         Vector3::new(v.x * self.cos - v.y * self.sin, v.y * self.cos + v.x * self.sin, v.z)
     }
 
-    /// The azimuth farther on by an angle of which cosine and sine are given.
+    /// Returns the azimuth advanced by the angle with this cosine and sine.
     #[inline]
     fn turned(&self, cos: T, sin: T) -> Self {
         Self { cos: self.cos * cos - self.sin * sin, sin: self.sin * cos + self.cos * sin }

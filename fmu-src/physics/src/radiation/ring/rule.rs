@@ -25,9 +25,9 @@ const MOST_NODES: usize = 64;
 /// Rings computed side by side.
 const AT_ONCE: usize = 8;
 
-/// Where a plate's horizon or its crossing with the terminator touches the limb or a ring, or where plate and Sun are
-/// nearly aligned, the break moves as the inverse of how near that is. Nearer than this it is held: its speed would turn
-/// the quadrature's error into a slope.
+/// Closest distance of a break to a degenerate geometry: a plate's horizon, or its crossing with the terminator, touching the limb
+/// or a ring, or plate and Sun nearly aligned. The break's speed grows as the inverse of that distance; closer than this the break
+/// is held, because its speed would turn the quadrature's error into a slope.
 const RACING: f64 = 0.02;
 
 /// A normal whose horizontal part is shorter has no azimuth.
@@ -133,7 +133,7 @@ impl RingRule {
 impl<T: Scalar> Plate<T> {
     fn new(view: &PlanetView<T>, normal: &Vector3<T>) -> Self {
         // A normal along nadir has no azimuth; every ring is then seen all or not at all, in any frame.
-        let (azimuth, reach) = match Azimuth::of(normal.x, normal.y) {
+        let (azimuth, reach) = match Azimuth::with_length(normal.x, normal.y) {
             (azimuth, reach) if reach.value() > LEAST_REACH => (azimuth, reach),
             (_, reach) => (Azimuth { cos: T::constant(1.0), sin: T::constant(0.0) }, reach),
         };
@@ -189,7 +189,7 @@ impl<T: Scalar> Plate<T> {
         breaks
     }
 
-    /// Where both arcs end at one point of a ring: points p with n.p = 0, sun.p = d sun.nadir on the sphere.
+    /// Reports the rings on which both arcs end at one point: points p with n.p = 0, sun.p = d sun.nadir on the sphere.
     fn crossings(&self, view: &PlanetView<T>, inside: &mut impl FnMut(T, bool)) {
         let (n, sun) = (&self.normal, &self.sun);
         let n_dot_sun = n.dot(sun);
@@ -238,9 +238,9 @@ struct Ring<T: Scalar> {
     solid_angle: T,
     /// cos z = `sun_level + distance sin(eta) (sun.x cos + sun.y sin)` around the ring.
     sun_level: T,
-    /// What the plate sees of it.
+    /// Arc that the plate sees.
     seen: Arc<T>,
-    /// What the Sun lights of it.
+    /// Arc that the Sun lights.
     lit: Arc<T>,
 }
 
@@ -276,10 +276,11 @@ impl<T: Scalar> Ring<T> {
 
     #[inline]
     fn find_arcs(&mut self, view: &PlanetView<T>, plate: &Plate<T>) {
-        self.seen = Arc::of(plate.normal.z * self.cos_eta, plate.reach * self.sin_eta);
+        self.seen = Arc::from_linear_condition(plate.normal.z * self.cos_eta, plate.reach * self.sin_eta);
         // Surface normal at the ring: (t s - d nadir) / R.
         self.sun_level = plate.sun.z * (self.distance * self.cos_eta - view.relative_distance);
-        self.lit = Arc::of(self.sun_level, view.sun_reach * (self.distance * self.sin_eta));
+        self.lit =
+            Arc::from_linear_condition(self.sun_level, view.sun_reach * (self.distance * self.sin_eta));
     }
 
     /// Adds the ring's reflected and infrared light.

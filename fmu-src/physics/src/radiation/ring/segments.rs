@@ -1,4 +1,4 @@
-//! Where the range of rings is split, and the variable that makes each piece smooth.
+//! Splits of the range of rings, and the variable that makes each piece smooth.
 //!
 //! Equation: the integrand behaves like sqrt(x - a) where an arc is born at the ring a.
 //! Method: breaks at every birth, and on each piece the variable y with x = a + (b - a) y2, whose derivative is 0 at the
@@ -24,7 +24,7 @@ pub(super) const SPLIT_RATIO: f64 = 30.0;
 /// ... up to here.
 pub(super) const FARTHEST_SPLIT: f64 = 0.6001;
 
-/// Where to split, at most six places.
+/// Points at which the range is split, at most six.
 pub(super) struct Breaks<T> {
     at: [T; 6],
     pub born: [bool; 6],

@@ -1,4 +1,4 @@
-//! What the rings add up to: moments of the planet's radiance over directions.
+//! Sums over the rings: moments of the planet's radiance over directions.
 //!
 //! Equation: sums over the rings of weight times the integrals of L s and L s s^T over the common arcs, from which both
 //! members of [`crate::radiation::flat_plate::ReceivedLight`] follow by a product with the plate's normal.
@@ -44,7 +44,7 @@ impl<T: Scalar> Tensors<T> {
         self.second[5] += cos_eta * one;
     }
 
-    /// What a plate of this normal receives, all in one frame: E = n.V / pi, I = M n / pi, over the speed of light.
+    /// Returns the light that a plate of this normal receives, all in one frame: E = n.V / pi, I = M n / pi, over the speed of light.
     pub(super) fn on(&self, n: &Vector3<T>) -> ReceivedLight<T> {
         const PER_LAMBERT_S_M: f64 = 1.0 / (PI * SPEED_OF_LIGHT_M_S);
         let [xx, xy, yy, xz, yz, zz] = self.second;

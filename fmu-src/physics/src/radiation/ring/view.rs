@@ -63,7 +63,7 @@ impl<T: Scalar> PlanetView<T> {
         let sun = sun_from_planet_m / sun_distance_m;
         let (east, north) = horizon(&nadir);
         let sun_local = Vector3::new(sun.dot(&east), sun.dot(&north), sun.dot(&nadir));
-        let (sun_azimuth, sun_reach) = Azimuth::of(sun_local.x, sun_local.y);
+        let (sun_azimuth, sun_reach) = Azimuth::with_length(sun_local.x, sun_local.y);
         let relative_distance = distance_m / radius_m;
         let limb_squared = (relative_distance - 1.0) * (relative_distance + 1.0);
         let limb = limb_squared.sqrt();

@@ -70,29 +70,29 @@ impl<T: Scalar> Pieces<T> {
         (area, moments)
     }
 
-    /// What is left of these pieces outside a convex counter-clockwise `hole`; `left` is overwritten.
+    /// Writes into `remaining` the parts of these pieces outside a convex counter-clockwise `hole`.
     pub(super) fn subtract_into(
         &self,
         hole: &[Vector2<T>],
         scratch: &mut [Vec<Vector2<T>>; 2],
-        left: &mut Self,
+        remaining: &mut Self,
     ) {
-        left.points.clear();
-        left.ends.clear();
-        left.flat_m2 = self.flat_m2;
+        remaining.points.clear();
+        remaining.ends.clear();
+        remaining.flat_m2 = self.flat_m2;
         for piece in self.iter() {
             if apart(piece, hole) {
-                left.points.extend_from_slice(piece);
-                left.ends.push(left.points.len());
+                remaining.points.extend_from_slice(piece);
+                remaining.ends.push(remaining.points.len());
                 continue;
             }
             let [inside, next] = scratch;
             inside.clear();
             inside.extend_from_slice(piece);
             for (a, b) in edges(hole) {
-                // What lies right of this edge is outside the hole; the rest faces the other edges.
-                clip(inside, &b, &a, &mut left.points);
-                left.close();
+                // The part to the right of this edge is outside the hole; the rest faces the other edges.
+                clip(inside, &b, &a, &mut remaining.points);
+                remaining.close();
                 next.clear();
                 clip(inside, &a, &b, next);
                 core::mem::swap(inside, next);
@@ -110,10 +110,10 @@ pub(super) fn flat_m2(size_m: f64) -> f64 {
 }
 
 /// Makes the convex counter-clockwise outline from `start` on strictly convex: drops repeated corners, those in line with
-/// their neighbours and those that turn right, up to twice the area `flat_m2` a triangle. Nothing stays of an outline
-/// without area.
+/// their neighbours and those that turn right, up to twice the area `flat_m2` a triangle. An outline without area
+/// becomes empty.
 ///
-/// What is left turns at every corner by at least 64 times the angle by which rounding can turn its edges.
+/// The remaining outline turns at every corner by at least 64 times the angle by which rounding can turn its edges.
 pub(super) fn drop_flat_corners<T: Scalar>(points: &mut Vec<Vector2<T>>, start: usize, flat_m2: f64) {
     if points.len() < start + 3 {
         points.truncate(start);
@@ -122,7 +122,7 @@ pub(super) fn drop_flat_corners<T: Scalar>(points: &mut Vec<Vector2<T>>, start: 
     }
 }
 
-/// Of an outline with at least two corners.
+/// Whether the outline has a corner that turns right or by a triangle of at most `flat_m2`; true of less than two corners.
 #[inline]
 fn has_flat_corner<T: Scalar>(outline: &[Vector2<T>], flat_m2: f64) -> bool {
     let [.., before, last] = outline else { return true };

@@ -8,7 +8,7 @@ use super::disc::{DIRECTIONS, LitMean, SunDisc};
 use crate::numerics::scalar::{Scalar, constant_vector, sin_cos};
 use crate::spacecraft::Polygon;
 
-/// What lies nearer to a plane than this part of the scene's size is in it and casts no shadow on it.
+/// Distance from a plane, relative to the scene's size, below which an outline lies in the plane and casts no shadow on it.
 const IN_PLANE: f64 = 1e-9;
 
 /// A surface that shadows and is shadowed.
@@ -16,7 +16,7 @@ const IN_PLANE: f64 = 1e-9;
 pub struct Outline {
     /// Outline in the body frame, at angle 0 if it turns.
     pub polygon: Polygon,
-    /// What it turns about; `None` if it is fixed.
+    /// Axis that the surface turns about; `None` if it is fixed.
     pub hinge: Option<Hinge>,
     /// Whether light on its rear counts. The outline casts its shadow either way.
     pub two_sided: bool,
@@ -25,7 +25,7 @@ pub struct Outline {
 /// The axis of a panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hinge {
-    /// Which panel's angle counts, from 0.
+    /// Index of the panel, from 0, whose angle applies.
     pub panel: usize,
     /// A point on the axis, body frame, in m.
     pub point_body_m: Vector3<f64>,
@@ -37,7 +37,7 @@ pub struct Hinge {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShadowScene {
     surfaces: Vec<ShadowSurface>,
-    /// Of the sphere about the body frame's origin that holds everything, in m.
+    /// Radius of the sphere about the body frame's origin that contains all outlines, in m.
     size_m: f64,
 }
 
@@ -47,13 +47,13 @@ struct ShadowSurface {
     hinge: Option<Hinge>,
     two_sided: bool,
     area_m2: f64,
-    /// Of the sphere about the centre that holds the outline, in m.
+    /// Radius of the sphere about the outline's centre that contains the outline, in m.
     radius_m: f64,
     /// Surfaces that can stand before the front, and before the rear.
     before: [Vec<usize>; 2],
 }
 
-/// Where a surface is at the panels' present angles.
+/// Position and axes of a surface at the panels' present angles.
 #[derive(Clone, Copy, Debug)]
 struct Pose<T: Scalar> {
     origin: Vector3<T>,
@@ -199,7 +199,7 @@ impl ShadowScene {
         workspace.poses.extend(self.surfaces.iter().map(|surface| surface.pose(panel_angles_rad)));
     }
 
-    /// What one direction lights, the surfaces posed.
+    /// Computes the areas lit from one direction; the surfaces' poses are up to date.
     fn light<T: Scalar>(&self, sun_body: &Vector3<T>, workspace: &mut ShadowWorkspace<T>) {
         workspace.lit.clear();
         workspace.lit.resize(self.surfaces.len(), None);

@@ -19,7 +19,7 @@ pub fn exitance_w_m2<T: Scalar>(emission: &Emission<T>, temperature_k: T) -> (T,
     (emissivity * fourth, emissivity * cube * 4.0 + slope * fourth)
 }
 
-/// What a face gives off heat to: space all around, and the bus behind it.
+/// Surroundings that a face gives off heat to: space in front, and the bus behind it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceEnvironment<T = f64> {
     /// Emission of the face.
@@ -97,7 +97,7 @@ pub fn face_temperature_k<T: Scalar>(face: &FaceEnvironment<T>, heat_w_m2: T) ->
 /// Temperatures of front and rear of a thin structure that take in `heat_w_m2` each (eqs 44-49).
 ///
 /// Newton's method on the two energy balances, from the temperature both faces had in common; the balances close to
-/// 1e-12 of the heat. No heat gives the temperature of space, of which both faces see the same. Heat must not be negative;
+/// 1e-12 of the heat. Without heat both faces have the temperature of space, which must be the same for both. Heat must not be negative;
 /// radiative exchange or conductance may be 0, not both.
 pub fn conducting_temperatures_k<T: Scalar>(
     faces: &[FaceEnvironment<T>; 2],

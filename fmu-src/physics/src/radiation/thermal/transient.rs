@@ -30,7 +30,7 @@ const MOST_STEPS: u32 = 10_000;
 /// One surface that stores heat in each of its faces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeatStore {
-    /// What front and rear give off heat to; the rear of a one-sided surface is not used.
+    /// Surroundings of front and rear; those of the rear of a one-sided surface are not used.
     pub faces: [FaceEnvironment; 2],
     /// Heat flow between the faces.
     pub conduction: Option<Conduction>,

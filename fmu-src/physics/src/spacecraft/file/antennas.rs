@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use super::description::AntennaDescription;
+use super::describe_devices::AntennaDescription;
 use super::names::check_item_name;
 use super::part_reader::PartReader;
 use crate::spacecraft::antennas::{Antenna, AntennaRange, FanAzimuths, NamedAntenna};
@@ -12,24 +12,16 @@ const WIDEST_FAN_DEG: f64 = 180.0;
 
 pub(crate) fn antenna(part: &mut PartReader<'_, '_>, description: &AntennaDescription) -> NamedAntenna {
     check_item_name(part.check, &part.at.key("name"), &description.name);
-    let range = match (description.azimuth_deg, description.axis) {
-        (Some(azimuth_deg), None) => AntennaRange::Fan(fan(part, azimuth_deg.map(f64::from))),
-        (None, Some(axis)) => AntennaRange::Axis(part.unit_vector("axis", axis)),
-        (azimuth_deg, _) => {
-            let are_stand_ins = ["azimuth_deg", "axis"].iter().any(|key| part.is_stand_in(key));
-            if azimuth_deg.is_some() {
-                let allowed = "one of both: a fan has `azimuth_deg`, a fixed antenna `axis`";
-                part.report("axis", "an axis beside `azimuth_deg`", allowed);
-            } else if !are_stand_ins {
-                let allowed =
-                    "`azimuth_deg = [from, to]` of a fan in the XY plane, or `axis` of a fixed antenna";
-                part.check.push(&part.at, "neither `azimuth_deg` nor `axis`", allowed);
-            }
-            AntennaRange::Fan(FanAzimuths { middle_rad: 0.0, half_rad: 0.0 })
-        }
+    let range = match (description.azimuth_deg, description.axis_body()) {
+        (None, Some(axis_body)) => AntennaRange::Axis(axis_body),
+        (azimuth_deg, _) => AntennaRange::Fan(
+            azimuth_deg.map_or(FanAzimuths { middle_rad: 0.0, half_rad: 0.0 }, |azimuth_deg| {
+                fan(part, azimuth_deg.map(f64::from))
+            }),
+        ),
     };
-    let [across_deg, along_deg] = description.beam_deg.map(f64::from);
-    let antenna = Antenna { range, across_rad: across_deg.to_radians(), along_rad: along_deg.to_radians() };
+    let [across_rad, along_rad] = description.beam_rad();
+    let antenna = Antenna { range, across_rad, along_rad };
     NamedAntenna { name: description.name.clone(), antenna }
 }
 

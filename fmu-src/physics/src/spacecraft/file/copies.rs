@@ -7,7 +7,7 @@ use super::facets::sincos_deg;
 use super::part_reader::PartReader;
 use crate::spacecraft::polygon::Polygon;
 use crate::spacecraft::surface::Plate;
-use crate::toml::Copies;
+use crate::toml::{Copies, Written};
 
 /// Most plates that one shape and its copies may come to.
 pub(crate) const MOST_PLATES: usize = 2000;
@@ -15,7 +15,7 @@ pub(crate) const MOST_PLATES: usize = 2000;
 /// Two plates are one if they differ by no more than this part of their size.
 const SAME_PLACE: f64 = 1e-6;
 
-/// Where a copy is: turned or mirrored by a matrix, then shifted.
+/// Motion from the original to a copy: turned or mirrored by a matrix, then shifted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Motion {
     matrix: Matrix3<f64>,
@@ -24,13 +24,13 @@ pub(crate) struct Motion {
 
 impl Motion {
     /// The point after the motion.
-    pub(super) fn of(&self, point_m: &Vector3<f64>) -> Vector3<f64> {
+    pub(super) fn moved_point(&self, point_m: &Vector3<f64>) -> Vector3<f64> {
         self.matrix * point_m + self.shift_m
     }
 
     /// The outline after the motion; a mirrored one runs the other way round, so that its front stays in front.
-    pub(super) fn of_outline(&self, outline: &Polygon) -> Polygon {
-        let moved = outline.moved(|vertex| self.of(vertex));
+    pub(super) fn moved_outline(&self, outline: &Polygon) -> Polygon {
+        let moved = outline.moved(|vertex| self.moved_point(vertex));
         if self.matrix.determinant() < 0.0 { moved.reversed() } else { moved }
     }
 
@@ -51,10 +51,8 @@ pub(crate) fn motions(
     repeat: Option<&RepeatDescription>,
 ) -> Vec<Motion> {
     let itself = Motion { matrix: Matrix3::identity(), shift_m: Vector3::zeros() };
-    let mut motions = match repeat {
-        None => vec![itself],
-        Some(repeat) => repeated(&mut part.table("repeat"), repeat).unwrap_or_else(|| vec![itself]),
-    };
+    let repeated = part.optional("repeat", repeat, |_, repeat| repeated(repeat)).flatten();
+    let mut motions = repeated.unwrap_or_else(|| vec![itself]);
     let planes = mirror.unwrap_or_default();
     if mirror.is_some_and(<[_]>::is_empty) {
         part.report("mirror", "an empty list", "at least one of x, y, z, or no such key");
@@ -96,9 +94,9 @@ pub(crate) fn check_apart(part: &mut PartReader<'_, '_>, plates: &[Plate], count
 pub(crate) fn plate_copies(plate: &Plate, motions: &[Motion]) -> Vec<Plate> {
     let copy = |(index, motion): (usize, &Motion)| Plate {
         name: copy_name(&plate.name, index, motions.len()),
-        center_m: motion.of(&plate.center_m),
+        center_m: motion.moved_point(&plate.center_m),
         normal: motion.matrix * plate.normal,
-        polygon: plate.polygon.as_ref().map(|outline| motion.of_outline(outline)),
+        polygon: plate.polygon.as_ref().map(|outline| motion.moved_outline(outline)),
         ..plate.clone()
     };
     if motions.len() == 1 {
@@ -107,22 +105,17 @@ pub(crate) fn plate_copies(plate: &Plate, motions: &[Motion]) -> Vec<Plate> {
     motions.iter().enumerate().map(copy).collect()
 }
 
-fn repeated(part: &mut PartReader<'_, '_>, repeat: &RepeatDescription) -> Option<Vec<Motion>> {
+fn repeated(repeat: &RepeatDescription) -> Option<Vec<Motion>> {
     let Copies(count) = repeat.count;
-    let turning = [("angle_deg", repeat.angle_deg.is_some()), ("point_m", repeat.point_m.is_some())];
-    for (key, _) in turning.into_iter().filter(|(_, is_given)| *is_given && repeat.axis.is_none()) {
-        part.report_across(key, "no `axis` beside it", "with `axis` alone");
-    }
     let numbers = 0..count;
     match (repeat.step_m, repeat.axis) {
         (Some(step_m), None) => {
-            let step_m = part.vector("step_m", step_m);
+            let step_m = step_m.value();
             let shifted = |k: u32| Motion { matrix: Matrix3::identity(), shift_m: step_m * f64::from(k) };
             Some(numbers.map(shifted).collect())
         }
         (None, Some(axis)) => {
-            let axis = part.unit_vector("axis", axis);
-            let point_m = part.vector("point_m", repeat.point_m());
+            let (axis, point_m) = (axis.value(), repeat.point_m());
             let angle_deg = repeat.angle_deg.map_or(360.0 / f64::from(count), f64::from);
             let turned = |k: u32| {
                 let matrix = turn(&axis, angle_deg * f64::from(k));
@@ -130,12 +123,7 @@ fn repeated(part: &mut PartReader<'_, '_>, repeat: &RepeatDescription) -> Option
             };
             Some(numbers.map(turned).collect())
         }
-        (step_m, _) => {
-            let found =
-                if step_m.is_some() { "both `step_m` and `axis`" } else { "neither `step_m` nor `axis`" };
-            part.check.report(&part.at, found, "one of them");
-            None
-        }
+        _ => None,
     }
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::describe_thermal::ThermalDescription;
-use crate::toml::{Copies, Corners, Positive, Rings, TurnEither, tables};
+use crate::toml::{Copies, Corners, Point, Positive, Rings, TurnEither, UnitVector, tables};
 
 /// A plane of the body frame, through its origin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
@@ -54,26 +54,31 @@ struct RepeatDescription {
     /// How many there are, the one that is written among them.
     count: Copies,
     /// From each to the next, in m.
-    step_m: Option<[f64; 3]>,
+    step_m: Option<Point>,
     /// Unit vector of the axis that each is turned about from the one before.
-    axis: Option<[f64; 3]>,
+    axis: Option<UnitVector>,
     /// Angle from each to the next, right-handed about `axis`, in deg; 360 over the count unless given.
     angle_deg: Option<TurnEither>,
     /// A point of the axis, in m.
-    point_m: [f64; 3] = [0.0, 0.0, 0.0],
+    point_m: Point = [0.0, 0.0, 0.0],
+} rules {
+    Requires angle_deg => axis: "no `axis` beside it", "with `axis` alone";
+    Requires point_m => axis: "no `axis` beside it", "with `axis` alone";
+    Either step_m => axis: "both `step_m` and `axis`", "one of them";
+    AnyOf step_m axis: "neither `step_m` nor `axis`", "one of them";
 }
 
 /// A box: six rectangles, fronts outside, called `name.+X` to `name.-Z`.
-struct BoxDescription {
+struct BoxDescription called "box" {
     /// Name that those of its faces begin with; numbered unless given.
     name: Option<String>,
     /// Centre, in m.
-    center_m: [f64; 3],
+    center_m as center_body_m: Point,
     /// Lengths along its own X, Y and Z axis, in m.
     size_m: [Positive; 3],
     /// Turns of the box about the body's X, then Y, then Z direction through its centre, in deg; its axes are the body's
     /// unless given.
-    rotation_deg: Option<[TurnEither; 3]>,
+    rotation_deg as rotation_rad: Option<[TurnEither; 3]>,
     /// Material of the outside.
     optics: String,
     /// Materials of single faces instead: `+X`, `-X`, `+Y`, `-Y`, `+Z`, `-Z`.
@@ -95,13 +100,13 @@ struct BoxDescription {
 /// directions around the axis; from one direction it is off by at most 1 - x / tan x with x = pi / facets: 5.2 % with 8
 /// facets, 1.3 % with 16, 0.32 % with 32. For that it is shorter by half of this part. The first facet faces along the body axis that is most
 /// across the cylinder's, made perpendicular; the others follow right-handed about the axis.
-struct FacetedCylinderDescription {
+struct FacetedCylinderDescription called "cylinder" {
     /// Name that those of its facets begin with; numbered unless given.
     name: Option<String>,
     /// Middle of its axis, in m.
-    center_m: [f64; 3],
+    center_m as center_body_m: Point,
     /// Unit vector of its axis.
-    axis: [f64; 3] = [0.0, 0.0, 1.0],
+    axis as axis_body: UnitVector = [0.0, 0.0, 1.0],
     /// Radius, in m.
     radius_m: Positive,
     /// Length along the axis, in m.
@@ -124,13 +129,13 @@ struct FacetedCylinderDescription {
 }
 
 /// A round disc: one plate with a regular outline of the disc's area.
-struct DiscDescription {
+struct DiscDescription called "disc" {
     /// Name of the plate; numbered unless given.
     name: Option<String>,
     /// Centre, in m.
-    center_m: [f64; 3],
+    center_m as center_body_m: Point,
     /// Unit vector out of the front face.
-    normal: [f64; 3],
+    normal as normal_body: UnitVector,
     /// Radius, in m.
     radius_m: Positive,
     /// How many corners its outline has.
@@ -152,13 +157,13 @@ struct DiscDescription {
 /// deeper than `depth_m`, by up to 15 % with 2 rings, 7.6 % with 3, 4.8 % with 4, and its corners lie outside of `radius_m`
 /// by (pi / facets)^2 / 3: 2.3 % with 12 facets. The first facet of a ring faces along the body axis that is most across the
 /// dish's, made perpendicular; the others follow right-handed about the axis.
-struct DishDescription {
+struct DishDescription called "dish" {
     /// Name that those of its facets begin with; numbered unless given.
     name: Option<String>,
     /// Its deepest point, in m.
-    vertex_m: [f64; 3],
+    vertex_m as vertex_body_m: Point,
     /// Unit vector of its axis, from the vertex out of the hollow.
-    axis: [f64; 3],
+    axis as axis_body: UnitVector,
     /// Radius of the rim, in m.
     radius_m: Positive,
     /// From the vertex to the plane of the rim, in m.

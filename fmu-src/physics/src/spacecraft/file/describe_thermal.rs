@@ -11,6 +11,10 @@ struct ConductionDescription {
     /// Radiative exchange from face to face as a fraction of that between black plates.
     radiative_exchange: Option<Fraction>,
     honeycomb: Option<HoneycombDescription>,
+} rules {
+    AnyOf honeycomb conductance_w_m2_k radiative_exchange: "no conduction",
+        "`honeycomb`, or `conductance_w_m2_k` and `radiative_exchange` or one of them";
+    Either honeycomb => conductance_w_m2_k radiative_exchange: "both numbers and a `honeycomb`", "one of them";
 }
 
 /// A honeycomb between face sheets.
@@ -53,5 +57,8 @@ struct ThermalDescription {
     bus_temperature_k: Option<Kelvin>,
     /// Heat capacity of each face, in J/m2/K; used by the transient heat balance.
     heat_capacity_j_m2_k: NotNegative = 0.0,
+} rules {
+    Requires bus_temperature_k => bus_conductance_w_m2_k rear_bus_conductance_w_m2_k: "no conductance to the bus",
+        "`bus_conductance_w_m2_k` beside it";
 }
 }

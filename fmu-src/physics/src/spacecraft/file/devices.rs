@@ -2,21 +2,17 @@
 
 use nalgebra::Vector3;
 
-use super::description::{GimbalDescription, InstrumentDescription, SunSensorDescription, WheelDescription};
-use super::names::Named;
+use super::describe_devices::{
+    GimbalDescription, InstrumentDescription, SunSensorDescription, WheelDescription,
+};
 use super::part_reader::PartReader;
 use crate::spacecraft::instruments::{GimbalMount, Instrument};
 use crate::spacecraft::sun_sensors::MountedSunSensor;
 use crate::spacecraft::wheels::{SPEED_AT_CAPACITY_RAD_S, TIME_TO_CAPACITY_S, Wheel};
-use crate::toml::{Checker, KeyPath};
+use crate::toml::{Checker, KeyPath, Named};
 
 pub(crate) fn wheel(part: &mut PartReader<'_, '_>, description: &WheelDescription) -> Wheel {
     let capacity_n_m_s = description.capacity_n_m_s.0;
-    let static_imbalance_kg_m = description.static_imbalance_kg_m();
-    if static_imbalance_kg_m > 0.0 && description.position_m.is_none() {
-        let allowed = "with the rotor's place, position_m";
-        part.report("static_imbalance_kg_m", "no position_m beside it", allowed);
-    }
     let bias_n_m_s = description.bias_momentum_n_m_s();
     if bias_n_m_s.abs() > capacity_n_m_s {
         let allowed = format_args!("up to capacity_n_m_s either way, {capacity_n_m_s}");
@@ -24,14 +20,12 @@ pub(crate) fn wheel(part: &mut PartReader<'_, '_>, description: &WheelDescriptio
     }
     Wheel {
         bias_n_m_s,
-        static_imbalance_kg_m,
-        position_body_m: description
-            .position_m
-            .map_or(Vector3::zeros(), |place| part.vector("position_m", place)),
+        static_imbalance_kg_m: description.static_imbalance_kg_m(),
+        position_body_m: description.position_body_m().unwrap_or_default(),
         name: description.called(part.index),
         coulomb_friction_n_m: description.coulomb_friction_n_m(),
         viscous_friction_n_m_s: description.viscous_friction_n_m_s(),
-        axis_body: part.unit_vector("axis", description.axis),
+        axis_body: description.axis_body(),
         capacity_n_m_s,
         inertia_kg_m2: description.inertia_kg_m2.map_or(capacity_n_m_s / SPEED_AT_CAPACITY_RAD_S, f64::from),
         max_torque_n_m: description.max_torque_n_m.map_or(capacity_n_m_s / TIME_TO_CAPACITY_S, f64::from),
@@ -44,15 +38,15 @@ pub(crate) fn sun_sensor(
 ) -> MountedSunSensor {
     MountedSunSensor {
         name: description.called(part.index),
-        axis_body: part.unit_vector("axis", description.axis),
-        half_field_of_view_rad: description.half_field_of_view_deg().to_radians(),
+        axis_body: description.axis_body(),
+        half_field_of_view_rad: description.half_field_of_view_rad(),
     }
 }
 
 pub(crate) fn instrument(part: &mut PartReader<'_, '_>, description: &InstrumentDescription) -> Instrument {
-    let boresight_body = part.unit_vector("boresight", description.boresight);
-    let given = description.gimbal.as_ref();
-    let gimbal = given.map(|given| gimbal(&mut part.table("gimbal"), given, &boresight_body));
+    let boresight_body = description.boresight_body();
+    let gimbal =
+        part.optional("gimbal", description.gimbal.as_ref(), |part, it| gimbal(part, it, &boresight_body));
     Instrument { name: description.name.clone(), boresight_body, gimbal }
 }
 
@@ -67,9 +61,9 @@ fn gimbal(
         part.report("maximum_deg", maximum_deg, allowed);
     }
     GimbalMount {
-        axis_body: part.perpendicular("axis", description.axis, ("boresight", boresight_body)),
-        minimum_rad: minimum_deg.to_radians(),
-        maximum_rad: maximum_deg.to_radians(),
+        axis_body: part.perpendicular("axis", description.axis_body(), ("boresight", boresight_body)),
+        minimum_rad: description.minimum_rad(),
+        maximum_rad: description.maximum_rad(),
     }
 }
 

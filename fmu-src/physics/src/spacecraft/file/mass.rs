@@ -2,16 +2,17 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::description::{MassDescription, PanelDescription};
+use super::describe_surfaces::PanelDescription;
+use super::description::MassDescription;
 use super::part_reader::PartReader;
 use crate::spacecraft::mass::{MassProperties, PanelMass, check_inertia};
-use crate::toml::{Checker, KeyPath, Positive};
+use crate::toml::{Checker, KeyPath, Point, Positive, Written};
 
 pub(crate) fn mass(part: &mut PartReader<'_, '_>, description: &MassDescription) -> MassProperties {
     MassProperties {
         inertia_body_kg_m2: inertia_kg_m2(part, description.inertia_kg_m2),
         mass_kg: description.mass_kg.0,
-        center_of_mass_body_m: part.vector("center_of_mass_m", description.center_of_mass_m),
+        center_of_mass_body_m: description.center_of_mass_m.value(),
     }
 }
 
@@ -52,19 +53,9 @@ pub(crate) fn panel_mass(
     center_m: Vector3<f64>,
     normal: &Vector3<f64>,
 ) -> Option<PanelMass> {
-    let Some(Positive(mass_kg)) = description.mass_kg else {
-        for (key, is_given) in [
-            ("mass_center_m", description.mass_center_m.is_some()),
-            ("inertia_kg_m2", description.inertia_kg_m2.is_some()),
-        ] {
-            if is_given {
-                part.report(key, "no mass_kg beside it", "with mass_kg alone");
-            }
-        }
-        return None;
-    };
-    let place = description.mass_center_m.map(|place| part.vector("mass_center_m", place));
-    let mut mass = PanelMass::square_plate(mass_kg, area_m2, place.unwrap_or(center_m), normal);
+    let Positive(mass_kg) = description.mass_kg?;
+    let place = description.mass_center_m.map_or(center_m, Point::value);
+    let mut mass = PanelMass::square_plate(mass_kg, area_m2, place, normal);
     if let Some(rows) = description.inertia_kg_m2 {
         mass.inertia_body_kg_m2 = inertia_kg_m2(part, rows);
     }

@@ -40,11 +40,11 @@ impl ChosenMaterial {
     }
 }
 
-/// What every surface exchanges heat with.
+/// Surroundings that every surface exchanges heat with.
 #[derive(Clone, Copy)]
 pub(crate) struct ThermalEnvironment {
     pub background_k: f64,
-    /// Of the bus, if the file gives one for all surfaces.
+    /// Temperature of the bus, in K, if the file gives one for all surfaces.
     pub bus_temperature_k: Option<f64>,
 }
 
@@ -57,7 +57,7 @@ pub(crate) struct Materials {
 }
 
 impl Materials {
-    /// Those of a file.
+    /// Reads the materials of a file.
     pub(crate) fn read(check: &mut Checker<'_>, description: &SpacecraftDescription) -> Self {
         let none = SurroundingsDescription::default();
         let thermal = description.thermal.as_ref().unwrap_or(&none);
@@ -82,7 +82,7 @@ impl Materials {
         Self { by_name: materials.collect(), used: Cell::new(0), environment }
     }
 
-    /// Those that surfaces name, in the order in which they first do.
+    /// Returns the materials that surfaces name, in the order of their first use.
     pub(crate) fn in_use(&self) -> Vec<NamedMaterial> {
         let mut used: Vec<_> = self.by_name.values().filter(|(_, place)| place.get().is_some()).collect();
         used.sort_by_key(|(_, place)| place.get());

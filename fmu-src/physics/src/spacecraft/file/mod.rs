@@ -1,31 +1,36 @@
 //! The spacecraft's file: its shape as people write it, and one function for each part that checks and turns it into data.
 
-pub(super) mod antennas;
-pub(super) mod body;
-pub(crate) mod description;
-pub(super) mod devices;
-pub(super) mod mass;
-pub(super) mod materials;
-pub(super) mod names;
-pub(super) mod part_reader;
-pub(super) mod planet_map;
-pub(super) mod plates;
+pub(crate) mod describe_operation;
 pub(crate) mod pointing;
-pub(super) mod propulsion;
-pub(super) mod swinging;
-pub(super) mod thruster_sets;
-pub(super) mod windows;
 
+mod antennas;
+mod assembly;
+mod body;
 mod copies;
+mod describe_body;
+mod describe_devices;
 mod describe_shapes;
+mod describe_surfaces;
 mod describe_swinging;
 mod describe_thermal;
+mod description;
+mod devices;
 mod facets;
+mod mass;
+mod materials;
+mod names;
 mod outline;
+mod part_reader;
+mod planet_map;
+mod plates;
+mod propulsion;
 #[cfg(feature = "schema")]
 mod schema;
 mod shapes;
+mod swinging;
 mod thermal;
+mod thruster_sets;
+mod windows;
 mod written_time;
 
 #[cfg(feature = "schema")]

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::part_reader::PartReader;
 use crate::math;
 use crate::spacecraft::polygon::Polygon;
-use crate::toml::Positive;
+use crate::toml::{Point, Positive, Written};
 
 /// How far area, centre and normal may be off the polygon's, relative to its size: printed tables are rounded ...
 const OUTLINE_TOLERANCE: f64 = 1e-3;
@@ -28,15 +28,11 @@ fn short(tolerance: f64) -> String {
 /// The outline with its front where the normal is, if both are given.
 pub(crate) fn checked_outline(
     part: &mut PartReader<'_, '_>,
-    vertices_m: Option<&[[f64; 3]]>,
+    vertices_m: Option<&[Point]>,
     normal: Option<&Vector3<f64>>,
 ) -> Option<Polygon> {
-    let place = part.at.key("polygon_m");
     let vertices_m = vertices_m?;
-    for (i, vertex) in vertices_m.iter().enumerate() {
-        part.check.vector(&place.item(i), *vertex);
-    }
-    match Polygon::new(vertices_m.iter().map(|v| Vector3::from(*v)).collect()) {
+    match Polygon::new(vertices_m.iter().map(|v| v.value()).collect()) {
         Ok(polygon) => {
             let along = normal.map_or(1.0, |normal| polygon.normal().dot(normal));
             let off = tolerance(&polygon);
@@ -83,11 +79,10 @@ pub(crate) fn checked_area(
 
 pub(crate) fn checked_center(
     part: &mut PartReader<'_, '_>,
-    given_m: Option<[f64; 3]>,
+    given_m: Option<Point>,
     outline: Option<&Polygon>,
 ) -> Vector3<f64> {
-    let given_m = given_m.map(|center_m| part.vector("center_m", center_m));
-    match (given_m, outline) {
+    match (given_m.map(Point::value), outline) {
         (Some(center_m), None) => center_m,
         (None, None) => missing(part, "center_m", Vector3::zeros()),
         (given_m, Some(outline)) => {

@@ -5,13 +5,13 @@ use core::fmt::Display;
 use nalgebra::Vector3;
 
 use super::materials::{ChosenMaterial, Materials};
-use crate::toml::{Checker, KeyPath};
+use crate::toml::{Checker, KeyPath, Table};
 
 /// A table of the file, or an item of one of its lists.
 pub(crate) struct PartReader<'p, 'd> {
     /// Reports an invalid value of the part.
     pub check: &'p mut Checker<'d>,
-    /// Those of the file.
+    /// Materials of the file.
     pub materials: &'p Materials,
     /// Key path of the part.
     pub at: KeyPath,
@@ -25,8 +25,22 @@ impl<'d> PartReader<'_, 'd> {
         PartReader { check: self.check, materials: self.materials, at: self.at.key(key), index: 0 }
     }
 
-    /// A list in it, which may be left out but not be empty.
-    pub(crate) fn list<D, S>(
+    /// Reads a table in it, which may be left out.
+    pub(crate) fn optional<D: Table, S>(
+        &mut self,
+        key: &str,
+        description: Option<&D>,
+        read: impl FnOnce(&mut PartReader<'_, 'd>, &D) -> S,
+    ) -> Option<S> {
+        let part = &mut self.table(key);
+        description.map(|description| {
+            part.check.rules(&part.at, D::RULES);
+            read(part, description)
+        })
+    }
+
+    /// Reads a list in it, which may be left out but not be empty.
+    pub(crate) fn list<D: Table, S>(
         &mut self,
         key: &str,
         items: Option<&[D]>,
@@ -40,6 +54,7 @@ impl<'d> PartReader<'_, 'd> {
         let items = items.unwrap_or_default().iter().enumerate();
         let made = items.map(|(index, item)| {
             (part.at, part.index) = (list.item(index), index);
+            part.check.rules(&part.at, D::RULES);
             read(&mut part, item)
         });
         made.collect()
@@ -65,22 +80,14 @@ impl<'d> PartReader<'_, 'd> {
         self.check.is_stand_in(&self.at.key(key))
     }
 
-    pub(crate) fn vector(&mut self, key: &str, value: [f64; 3]) -> Vector3<f64> {
-        self.check.vector(&self.at.key(key), value)
-    }
-
-    pub(crate) fn unit_vector(&mut self, key: &str, value: [f64; 3]) -> Vector3<f64> {
-        self.check.unit_vector(&self.at.key(key), value)
-    }
-
     /// A direction perpendicular to that of another key.
     pub(crate) fn perpendicular(
         &mut self,
         key: &str,
-        value: [f64; 3],
+        unit: Vector3<f64>,
         (to_key, to): (&str, &Vector3<f64>),
     ) -> Vector3<f64> {
-        self.check.perpendicular(&self.at.key(key), value, to, to_key)
+        self.check.perpendicular(&self.at.key(key), unit, to, to_key)
     }
 
     /// The material that a key names.
@@ -88,7 +95,7 @@ impl<'d> PartReader<'_, 'd> {
         self.materials.find(self.check, &self.at.key(key), name)
     }
 
-    /// That of its rear, if it has one.
+    /// Returns the material of the rear face; `None` for a one-sided surface.
     pub(crate) fn rear(&mut self, name: Option<&str>) -> Option<ChosenMaterial> {
         name.map(|name| self.material("rear_optics", name))
     }

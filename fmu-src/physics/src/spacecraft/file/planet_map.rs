@@ -1,6 +1,6 @@
 //! The planet's surface cell by cell, from its description.
 
-use super::description::PlanetMapDescription;
+use super::describe_body::PlanetMapDescription;
 use super::part_reader::PartReader;
 use crate::spacecraft::planet_map::{HOTTEST_K, MOST_BELTS, PlanetCell, PlanetMap};
 

@@ -1,19 +1,19 @@
 //! Plates, sunshade and panels, from their descriptions.
 
 use super::copies::{check_apart, motions, plate_copies};
-use super::description::{
-    CylinderDescription, PanelDescription, PlateDescription, SpacecraftDescription, SunshadeDescription,
+use super::describe_surfaces::{
+    CylinderDescription, PanelDescription, PlateDescription, SunshadeDescription,
 };
+use super::description::SpacecraftDescription;
 use super::mass::panel_mass;
 use super::materials::ChosenMaterial;
-use super::names::Named;
 use super::outline::{checked_area, checked_center, checked_normal, checked_outline};
 use super::part_reader::PartReader;
 use super::shapes::{box_plates, cylinder_plates, disc_plates, dish_plates, distinct_plates};
 use super::thermal::thermal;
 use crate::spacecraft::panel::Panel;
 use crate::spacecraft::surface::{Cylinder, MOST_SURFACES, Plate, Sunshade, SunshadeModel};
-use crate::toml::KeyPath;
+use crate::toml::{KeyPath, Named, Table, UnitVector, Written};
 
 /// The plates that the file lists, then those of its shapes; none beyond the most that a spacecraft may have.
 pub(crate) fn body_plates(file: &mut PartReader<'_, '_>, description: &SpacecraftDescription) -> Vec<Plate> {
@@ -32,7 +32,7 @@ pub(crate) fn body_plates(file: &mut PartReader<'_, '_>, description: &Spacecraf
     found.into_iter().flat_map(|(_, plates)| plates).collect()
 }
 
-/// Where items stand, with the plates of each.
+/// Key path and plates of every item.
 type Found = Vec<(KeyPath, Vec<Plate>)>;
 
 fn surfaces(found: &Found) -> usize {
@@ -40,7 +40,7 @@ fn surfaces(found: &Found) -> usize {
 }
 
 /// Adds the plates of every item under a key.
-fn shaped<D>(
+fn shaped<D: Table>(
     file: &mut PartReader<'_, '_>,
     found: &mut Found,
     (key, items): (&str, Option<&[D]>),
@@ -69,7 +69,7 @@ fn plates(part: &mut PartReader<'_, '_>, description: &PlateDescription) -> Vec<
 fn plate(part: &mut PartReader<'_, '_>, description: &PlateDescription) -> Plate {
     let front = part.material("optics", &description.optics);
     let rear = part.rear(description.rear_optics.as_deref());
-    let normal = description.normal.map(|normal| part.unit_vector("normal", normal));
+    let normal = description.normal.map(UnitVector::value);
     let outline = checked_outline(part, description.polygon_m.as_deref(), normal.as_ref());
     Plate {
         name: description.called(part.index),
@@ -89,12 +89,12 @@ pub(crate) fn sunshade(part: &mut PartReader<'_, '_>, description: &SunshadeDesc
     let sunshade = Sunshade {
         model: description.model,
         dcm_body_from_shade: part.check.rotation(
-            &part.at,
-            ("rotation_deg", description.rotation_deg),
-            ("dcm_body_from_shade", description.dcm_body_from_shade),
+            &part.at.key("dcm_body_from_shade"),
+            description.rotation_rad(),
+            description.dcm_body_from_shade,
         ),
         plates: part.list("plates", description.plates.as_deref(), plates).concat(),
-        cylinder: description.cylinder.as_ref().map(|c| cylinder(&mut part.table("cylinder"), c)),
+        cylinder: part.optional("cylinder", description.cylinder.as_ref(), cylinder),
     };
     if !sunshade.has(description.model) {
         let (found, allowed) = match description.model {
@@ -111,7 +111,7 @@ fn cylinder(part: &mut PartReader<'_, '_>, description: &CylinderDescription) ->
     Cylinder {
         radius_m: description.radius_m.0,
         height_m: description.height_m.0,
-        half_angle_rad: description.subtended_angle_deg.0.to_radians() / 2.0,
+        half_angle_rad: description.subtended_angle_rad() / 2.0,
         optics: material.optics,
         gas_surface: material.gas_surface,
         thermal: material.thermal,
@@ -121,11 +121,11 @@ fn cylinder(part: &mut PartReader<'_, '_>, description: &CylinderDescription) ->
 
 pub(crate) fn panel(part: &mut PartReader<'_, '_>, description: &PanelDescription) -> Panel {
     let dcm_body_from_panel = part.check.rotation(
-        &part.at,
-        ("rotation_deg", description.rotation_deg),
-        ("dcm_body_from_panel", description.dcm_body_from_panel),
+        &part.at.key("dcm_body_from_panel"),
+        description.rotation_rad(),
+        description.dcm_body_from_panel,
     );
-    let axis = part.unit_vector("axis", description.axis());
+    let axis = description.axis();
     let zero_normal = part.perpendicular("zero_normal", description.zero_normal(), ("axis", &axis));
     let tilt_sign = description.tilt_sign();
     if tilt_sign.abs() != 1 {
@@ -158,15 +158,15 @@ pub(crate) fn panel(part: &mut PartReader<'_, '_>, description: &PanelDescriptio
         thermal: thermal(part, description.thermal.as_ref(), front, rear),
         polygon: outline.as_ref().map(|polygon| polygon.moved(|v| dcm_body_from_panel * v)),
         control: description.control(),
-        sun_offset_rad: description.sun_offset_deg().to_radians(),
+        sun_offset_rad: description.sun_offset_rad(),
         tilt_sign: if tilt_sign < 0 { -1.0 } else { 1.0 },
         windmill_side,
-        angle_rad: description.angle_deg().to_radians(),
+        angle_rad: description.angle_rad(),
     }
 }
 
-/// On which side of the plane across its axis a panel's centre is that lies so far along it, in m: 1 or -1, 0 within rounding of the
-/// plane.
+/// Returns the side of the plane across the axis on which a panel's centre lies, by its distance along the axis in m: 1 or -1, or 0
+/// within rounding of the plane.
 fn side_of(along_axis_m: f64) -> f64 {
     const ROUNDING_M: f64 = 1e-9;
     if along_axis_m.abs() <= ROUNDING_M { 0.0 } else { along_axis_m.signum() }

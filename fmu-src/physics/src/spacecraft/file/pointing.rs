@@ -1,6 +1,6 @@
 //! Attitude by name, by a quaternion or by two axes and their targets, from its description.
 
-use super::description::{PointingDescription, StarDescription, TargetedAxisDescription};
+use super::describe_operation::{PointingDescription, StarDescription, TargetedAxisDescription};
 use super::part_reader::PartReader;
 use crate::spacecraft::panel::Panel;
 use crate::spacecraft::pointing::{
@@ -83,14 +83,9 @@ pub(crate) fn aligned(
         }
         _ => {}
     }
-    let degrees = star.map_or([0.0; 2], |star| [star.right_ascension_deg.0, star.declination_deg]);
-    let star = &at.key("star").key("declination_deg");
-    check.within(star, degrees[1], -90.0, 90.0, "an angle from -90 to 90 deg");
-    let mut axis = |key: &str, given: &TargetedAxisDescription| TargetedAxis {
-        axis_body: check.vector(&at.key(key).key("axis"), given.axis),
-        target: given.to.target(degrees.map(f64::to_radians)),
-    };
-    let [align, constrain] = [axis("align", align), axis("constrain", constrain)];
+    let star_rad = star.map_or([0.0; 2], |star| [star.right_ascension_rad(), star.declination_rad()]);
+    let [align, constrain] = [align, constrain]
+        .map(|given| TargetedAxis { axis_body: given.axis_body(), target: given.to.target(star_rad) });
     Some(NamedAttitude::Aligned(AlignedAxes { align, constrain }))
 }
 

@@ -1,13 +1,11 @@
 //! Tanks and thrusters, from their descriptions: checks every value, and that they belong together.
 
-use super::description::{TankDescription, ThrusterDescription};
-use super::names::Named;
+use super::describe_devices::{TankDescription, ThrusterDescription};
 use super::part_reader::PartReader;
-use super::thruster_sets::set_of;
 use crate::constants::STANDARD_GRAVITY_M_S2;
 use crate::spacecraft::tank::{Blowdown, Tank};
-use crate::spacecraft::thruster::{Thruster, ValveTiming};
-use crate::toml::{KeyPath, hint};
+use crate::spacecraft::thruster::{Thruster, ThrusterSet, ValveTiming};
+use crate::toml::{KeyPath, Named, hint};
 
 /// A tank that holds a part of `mass_kg`.
 pub(crate) fn tank(part: &mut PartReader<'_, '_>, description: &TankDescription) -> Tank {
@@ -15,9 +13,6 @@ pub(crate) fn tank(part: &mut PartReader<'_, '_>, description: &TankDescription)
     let blowdown = description
         .ullage_m3
         .map(|ullage_m3| Blowdown { ullage_m3: ullage_m3.0, density_kg_m3: description.density_kg_m3() });
-    if blowdown.is_none() && description.density_kg_m3.is_some() {
-        part.report("density_kg_m3", "no ullage_m3 beside it", "with ullage_m3 alone (blowdown)");
-    }
     let allowed_pa = description.allowed_pressure_pa.unwrap_or([0.0, f64::MAX]);
     let [least_pa, greatest_pa] = allowed_pa;
     if !(least_pa >= 0.0 && greatest_pa > least_pa) {
@@ -32,7 +27,7 @@ pub(crate) fn tank(part: &mut PartReader<'_, '_>, description: &TankDescription)
     }
     Tank {
         name: description.called(part.index),
-        position_body_m: part.vector("position_m", description.position_m),
+        position_body_m: description.position_body_m(),
         propellant_kg: description.propellant_kg.0,
         pressure_pa,
         allowed_pa,
@@ -53,8 +48,8 @@ pub(crate) fn thruster(
         rise_s: description.rise_time_s(),
         tail_off_s: description.tail_off_time_s(),
     };
-    let position_body_m = part.vector("position_m", description.position_m);
-    let force_body_n = part.unit_vector("direction", description.direction) * force_n;
+    let position_body_m = description.position_body_m();
+    let force_body_n = description.direction_body() * force_n;
     Thruster {
         name: description.called(part.index),
         position_body_m,
@@ -64,11 +59,11 @@ pub(crate) fn thruster(
         valve,
         scatter: description.scatter(),
         power_w: description.power_w.map(f64::from),
-        set: set_of(sets, description.set.as_deref()),
+        set: description.set.as_deref().and_then(|name| ThrusterSet::named(sets, name)),
         attitude_control: description.attitude_control(),
         tank: tank_of(part, tanks, description.tank.as_deref()),
         at_pressure_pa: description.at_pressure_pa.map(f64::from),
-        plume_half_angle_rad: description.plume_half_angle_deg().to_radians(),
+        plume_half_angle_rad: description.plume_half_angle_rad(),
     }
 }
 

@@ -11,15 +11,14 @@ use super::describe_shapes::{
 };
 use super::facets::{BOX_FACES, Facet, box_faces, cylinder_facets, disc, dish_facets};
 use super::materials::ChosenMaterial;
-use super::names::Named;
 use super::part_reader::PartReader;
 use super::thermal::thermal;
 use crate::spacecraft::polygon::Polygon;
 use crate::spacecraft::surface::Plate;
 use crate::spacecraft::thermal::Thermal;
-use crate::toml::{Checker, KeyPath, hint};
+use crate::toml::{Checker, KeyPath, Named, hint};
 
-/// What all shapes have.
+/// Data common to all shapes.
 struct Shape<'s> {
     name: String,
     /// From the shape's own axes to the body frame: turn, then shift.
@@ -55,8 +54,8 @@ pub(crate) fn box_plates(part: &mut PartReader<'_, '_>, description: &BoxDescrip
     let size_m = Vector3::from(description.size_m.map(f64::from));
     let shape = Shape {
         name: description.called(part.index),
-        turn: part.check.rotation(&part.at, ("rotation_deg", description.rotation_deg), ("", None)),
-        shift_m: part.vector("center_m", description.center_m),
+        turn: part.check.rotation(&part.at, description.rotation_rad(), None),
+        shift_m: description.center_body_m(),
         facets: box_faces(&size_m, description.open_faces.as_deref().unwrap_or_default()),
         rear,
         thermal: thermal(part, description.thermal.as_ref(), front, rear),
@@ -76,13 +75,13 @@ pub(crate) fn cylinder_plates(
     let end = description.end_optics.as_ref();
     let end = end.map_or(front, |name| part.material("end_optics", name));
     let rear = part.rear(description.rear_optics.as_deref());
-    let axis = part.unit_vector("axis", description.axis());
+    let axis = description.axis_body();
     let (radius_m, height_m) = (description.radius_m.0, description.height_m.0);
     let open = description.open_ends.as_deref().unwrap_or_default();
     let shape = Shape {
         name: description.called(part.index),
         turn: frame(&axis),
-        shift_m: part.vector("center_m", description.center_m),
+        shift_m: description.center_body_m(),
         facets: cylinder_facets(radius_m, height_m, description.facets(), open),
         rear,
         thermal: thermal(part, description.thermal.as_ref(), front, rear),
@@ -97,11 +96,11 @@ pub(crate) fn cylinder_plates(
 pub(crate) fn disc_plates(part: &mut PartReader<'_, '_>, description: &DiscDescription) -> Vec<Plate> {
     let front = part.material("optics", &description.optics);
     let rear = part.rear(description.rear_optics.as_deref());
-    let normal = part.unit_vector("normal", description.normal);
+    let normal = description.normal_body();
     let shape = Shape {
         name: description.called(part.index),
         turn: frame(&normal),
-        shift_m: part.vector("center_m", description.center_m),
+        shift_m: description.center_body_m(),
         facets: disc(description.radius_m.0, description.corners()),
         rear,
         thermal: thermal(part, description.thermal.as_ref(), front, rear),
@@ -115,12 +114,12 @@ pub(crate) fn disc_plates(part: &mut PartReader<'_, '_>, description: &DiscDescr
 pub(crate) fn dish_plates(part: &mut PartReader<'_, '_>, description: &DishDescription) -> Vec<Plate> {
     let front = part.material("optics", &description.optics);
     let rear = part.rear(description.rear_optics.as_deref());
-    let axis = part.unit_vector("axis", description.axis);
+    let axis = description.axis_body();
     let (radius_m, depth_m) = (description.radius_m.0, description.depth_m.0);
     let shape = Shape {
         name: description.called(part.index),
         turn: frame(&axis),
-        shift_m: part.vector("vertex_m", description.vertex_m),
+        shift_m: description.vertex_body_m(),
         facets: dish_facets(radius_m, depth_m, description.facets(), description.rings()),
         rear,
         thermal: thermal(part, description.thermal.as_ref(), front, rear),
@@ -169,7 +168,7 @@ impl Shape<'_> {
                 match Polygon::new(in_body) {
                     Ok(outline) => {
                         let material = material(&facet.name);
-                        plates.push(self.plate(&name, facet, motion.of_outline(&outline), material));
+                        plates.push(self.plate(&name, facet, motion.moved_outline(&outline), material));
                     }
                     Err(error) => {
                         let found = format!("lengths that make no outline of `{}` ({error})", facet.name);
@@ -178,7 +177,7 @@ impl Shape<'_> {
                     }
                 }
             }
-            self.share_heat(&mut plates[index * self.facets.len()..]);
+            self.divide_heat(&mut plates[index * self.facets.len()..]);
         }
         check_apart(part, &plates, motions.len());
         plates
@@ -195,12 +194,12 @@ impl Shape<'_> {
         Plate { thermal, gas_surface, materials, ..plate }
     }
 
-    /// Heat from inside leaves through all plates alike.
-    fn share_heat(&self, plates: &mut [Plate]) {
+    /// Divides the heat from inside among all plates by area.
+    fn divide_heat(&self, plates: &mut [Plate]) {
         let whole_m2: f64 = plates.iter().map(|plate| plate.area_m2).sum();
         for plate in plates {
-            let share = plate.area_m2 / whole_m2;
-            plate.thermal.internal_heat_w = self.thermal.internal_heat_w.map(|heat_w| heat_w * share);
+            let fraction = plate.area_m2 / whole_m2;
+            plate.thermal.internal_heat_w = self.thermal.internal_heat_w.map(|heat_w| heat_w * fraction);
         }
     }
 }

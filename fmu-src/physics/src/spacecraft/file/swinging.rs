@@ -1,12 +1,11 @@
 //! Flexible modes and propellant, from their descriptions: checks every value, and that the body has an inertia without them.
 
 use super::describe_swinging::{FlexibleModeDescription, SloshDescription};
-use super::names::Named;
 use super::part_reader::PartReader;
 use crate::attitude::{Appendages, FlexibleMode, Gyrostat, GyrostatError, SloshPendulum};
 use crate::spacecraft::mass::MassProperties;
 use crate::spacecraft::swinging::{NamedMode, NamedSlosh};
-use crate::toml::{Checker, KeyPath};
+use crate::toml::{Checker, KeyPath, Named};
 
 /// A flexible mode.
 pub(crate) fn mode(part: &mut PartReader<'_, '_>, description: &FlexibleModeDescription) -> NamedMode {
@@ -15,7 +14,7 @@ pub(crate) fn mode(part: &mut PartReader<'_, '_>, description: &FlexibleModeDesc
         mode: FlexibleMode {
             frequency_hz: description.frequency_hz.0,
             damping: description.damping(),
-            coupling_body_sqrt_kg_m: part.vector("coupling_sqrt_kg_m", description.coupling_sqrt_kg_m),
+            coupling_body_sqrt_kg_m: description.coupling_body_sqrt_kg_m(),
         },
     }
 }
@@ -27,8 +26,8 @@ pub(crate) fn slosh(part: &mut PartReader<'_, '_>, description: &SloshDescriptio
         pendulum: SloshPendulum {
             mass_kg: description.mass_kg.0,
             length_m: description.length_m.0,
-            pivot_body_m: part.vector("pivot_m", description.pivot_m),
-            axis_body: part.unit_vector("axis", description.axis),
+            pivot_body_m: description.pivot_body_m(),
+            axis_body: description.axis_body(),
             damping: description.damping(),
             coast_frequency_hz: description.coast_frequency_hz(),
         },

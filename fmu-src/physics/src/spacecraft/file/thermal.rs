@@ -4,7 +4,7 @@ use super::describe_thermal::{ConductionDescription, ThermalDescription};
 use super::materials::ChosenMaterial;
 use super::part_reader::PartReader;
 use crate::spacecraft::thermal::{BusLink, Conduction, Honeycomb, Thermal};
-use crate::toml::NotNegative;
+use crate::toml::{NotNegative, Table};
 
 /// Heat of a surface whose faces are of these materials.
 pub(crate) fn thermal(
@@ -14,9 +14,10 @@ pub(crate) fn thermal(
     rear: Option<ChosenMaterial>,
 ) -> Thermal {
     let nothing = ThermalDescription::default();
-    let description = description.unwrap_or(&nothing);
     let has_rear = rear.is_some() || part.is_stand_in("rear_optics");
     let mut part = part.table("thermal");
+    part.check.rules(&part.at, ThermalDescription::RULES);
+    let description = description.unwrap_or(&nothing);
     if !has_rear {
         let needs_rear = [
             ("conduction", description.conduction.is_some()),
@@ -34,7 +35,7 @@ pub(crate) fn thermal(
         bus,
         internal_heat_w: [description.internal_heat_w(), description.rear_internal_heat_w()],
         heat_capacity_j_m2_k: description.heat_capacity_j_m2_k(),
-        conduction: description.conduction.as_ref().map(|it| conduction(&mut part.table("conduction"), it)),
+        conduction: part.optional("conduction", description.conduction.as_ref(), |_, it| conduction(it)),
     }
 }
 
@@ -45,9 +46,6 @@ fn bus(part: &mut PartReader<'_, '_>, description: &ThermalDescription) -> [BusL
         ("bus_conductance_w_m2_k", description.bus_conductance_w_m2_k),
         ("rear_bus_conductance_w_m2_k", description.rear_bus_conductance_w_m2_k),
     ];
-    if own_k.is_some() && faces.iter().all(|(_, given)| given.is_none()) {
-        part.report("bus_temperature_k", "no conductance to the bus", "`bus_conductance_w_m2_k` beside it");
-    }
     faces.map(|(key, given)| {
         let Some(NotNegative(conductance_w_m2_k)) = given else { return BusLink::NONE };
         let temperature_k = own_k.or(part.materials.environment.bus_temperature_k);
@@ -59,20 +57,13 @@ fn bus(part: &mut PartReader<'_, '_>, description: &ThermalDescription) -> [BusL
     })
 }
 
-fn conduction(part: &mut PartReader<'_, '_>, description: &ConductionDescription) -> Conduction {
+fn conduction(description: &ConductionDescription) -> Conduction {
     let Some(honeycomb) = &description.honeycomb else {
-        if (description.conductance_w_m2_k, description.radiative_exchange) == (None, None) {
-            let allowed = "`honeycomb`, or `conductance_w_m2_k` and `radiative_exchange` or one of them";
-            part.check.report(&part.at, "no conduction", allowed);
-        }
         return Conduction {
             conductance_w_m2_k: description.conductance_w_m2_k.map_or(0.0, f64::from),
             radiative_exchange: description.radiative_exchange.map_or(0.0, f64::from),
         };
     };
-    if (description.conductance_w_m2_k, description.radiative_exchange) != (None, None) {
-        part.check.report(&part.at, "both numbers and a `honeycomb`", "one of them");
-    }
     Honeycomb {
         conductivity_w_m_k: honeycomb.conductivity_w_m_k.0,
         thickness_m: honeycomb.thickness_m.0,

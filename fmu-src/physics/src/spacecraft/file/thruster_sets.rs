@@ -2,7 +2,6 @@
 
 use super::description::SpacecraftDescription;
 use super::names::check_item_name;
-use crate::spacecraft::thruster::ThrusterSet;
 use crate::toml::{Checker, KeyPath};
 
 /// The names of the sets: those that `sets` lists, then others in the order of their first thruster.
@@ -25,10 +24,4 @@ pub(crate) fn thruster_sets(check: &mut Checker<'_>, description: &SpacecraftDes
         sets.push(name.clone());
     }
     sets
-}
-
-/// The set of this name, which is among `sets`.
-pub(crate) fn set_of(sets: &[String], name: Option<&str>) -> Option<ThrusterSet> {
-    let index = sets.iter().position(|set| Some(set.as_str()) == name)?;
-    u16::try_from(index).ok().map(ThrusterSet)
 }

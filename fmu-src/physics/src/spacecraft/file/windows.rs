@@ -1,6 +1,6 @@
 //! Downlink windows, hot pole, corridor of light and what wheels are sized for, from their descriptions.
 
-use super::description::{
+use super::describe_operation::{
     ArticulationDescription, DownlinksDescription, HotPoleDescription, MomentumDescription,
 };
 use super::part_reader::PartReader;
@@ -74,9 +74,9 @@ pub(crate) fn slew(part: &mut PartReader<'_, '_>, description: &MomentumDescript
 
 pub(crate) fn hot_pole(description: &HotPoleDescription) -> HotPoleZone {
     HotPoleZone {
-        altitude_m: description.altitude_km.0 * 1e3,
-        angle_rad: description.angle_deg.0.to_radians(),
-        cone_rad: description.cone_deg.0.to_radians(),
+        altitude_m: description.altitude_m(),
+        angle_rad: description.angle_rad(),
+        cone_rad: description.cone_rad(),
     }
 }
 

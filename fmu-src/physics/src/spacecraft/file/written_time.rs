@@ -9,7 +9,7 @@ use crate::spacecraft::downlinks::TimeAfterPeriapsis;
 /// Latest time, in s, and greatest share.
 const LATEST_S: f64 = 1e9;
 const GREATEST_SHARE: f64 = 1000.0;
-/// What may stand there.
+/// Forms of a time, for messages.
 pub(crate) const ALLOWED_TIME: &str = "a time from 0 to 1e9 s: a number in s or a string with a unit (s, ms, min, h, d, a), or a share of the period (\"20 %\")";
 
 /// A time after periapsis as it is written.
@@ -20,7 +20,7 @@ pub(crate) enum WrittenTime {
     Number(f64),
     /// A string.
     Text(String),
-    /// What is no time.
+    /// A value that is neither a number nor a string.
     Other(IgnoredAny),
 }
 
@@ -41,7 +41,7 @@ impl WrittenTime {
         })
     }
 
-    /// What stands there, for messages.
+    /// Returns the value as messages show it.
     pub(crate) fn found(&self) -> String {
         match self {
             Self::Number(number) => number.to_string(),
