@@ -24,7 +24,7 @@ choices! {
 
 /// Spacecraft whose momentum is managed.
 #[derive(Clone, Copy)]
-pub struct ManagedSpacecraft<'s> {
+pub(crate) struct ManagedSpacecraft<'s> {
     /// The spacecraft.
     pub spacecraft: &'s Spacecraft,
     /// Form in which the shade takes the light.
