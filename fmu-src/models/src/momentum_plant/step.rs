@@ -2,7 +2,7 @@
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use physics::environment::ephemeris::Ephemeris;
-use physics::plant::{NEVER_DUMPED_N_M_S, SimulationContext, Undo};
+use physics::plant::{NEVER_DUMPED_N_M_S, SimulationContext, ThrusterAllocator, Undo};
 
 use super::inputs::{self, FixedParameters, Reading, guidance, plausibility, propulsion};
 use super::outputs;
@@ -70,9 +70,9 @@ fn configure(
                     solar: Some(reading.solar().clone()),
                     light,
                     air,
+                    allocator: ThrusterAllocator::new(thrusters),
                     ..SimulationContext::new(read.configuration)
                 };
-                state.flight.thrusters.settings = thrusters;
                 state.flight.configure(simulation, settings);
             }
             (_, changed) => (configuration, settings) = (Some(read.configuration), changed),
@@ -163,7 +163,10 @@ fn advance(
     step: &Step<'_>,
 ) -> Result<(), Failure> {
     let PlantState { flight, inputs, request, maneuver_request, warned, .. } = state;
-    propulsion::warn(context, &inputs.dynamics, &flight.thrusters.settings, &mut warned.thrusters, step);
+    if let Some(flown) = flight.context() {
+        let settings = &flown.allocator.settings;
+        propulsion::warn(context, &inputs.dynamics, settings, &mut warned.thrusters, step);
+    }
     let (is_requested, target_body_n_m_s) = inputs.dump;
     inputs.dynamics.dump_to_body_n_m_s = request.rises(is_requested).then_some(target_body_n_m_s);
     let (is_requested, maneuver) = inputs.maneuver;

@@ -21,20 +21,19 @@ mod light;
 mod mass;
 mod motion;
 mod settings;
+mod state;
 mod thrusters;
 
 pub use air_and_field::aerodynamic_solver::AerodynamicSolver;
 pub use air_and_field::air_and_field_segment::AirAndField;
 pub use disturbances::by_source::{BySource, Parameters, PositionError, Positions, Surfaces, Workspaces};
 pub use disturbances::evaluation::{Evaluation, External, Plant};
-pub use disturbances::laws::{Laws, LocalEnvironment, TUNABLE_COUNT};
+pub use disturbances::laws::LocalEnvironment;
 pub use disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
 pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 pub use flight::ideal::Maneuvers;
-pub use flight::propagator_state::PropagatorState;
 pub use flight::report::{ControlReport, EncounterReport, Report, Shown, WheelReport};
-pub use flight::sun_choice::SunChoice;
-pub use flight::wheel_control::{WheelControl, WheelControlSettings};
+pub use flight::wheel_control::WheelControl;
 pub use flight::{
     Changes, EncounterPrediction, Flight, ForecastMomentum, ModeSettings, Occultation, PredictedArrival,
     StepContext, Undo,
@@ -64,11 +63,15 @@ pub use settings::dynamics_settings::{
 };
 pub use settings::error::{ManeuverError, PlantError};
 pub use settings::ideal_settings::{IdealSettings, IdealWheel};
+pub use settings::laws::{Laws, TUNABLE_COUNT};
 pub use settings::panel_setting::{PanelSetting, PanelStep, Ramp, SunAt, Tilt};
 pub use settings::radiation_settings::RadiationSettings;
 pub use settings::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
 pub use settings::thruster_events::{Maneuver, ThrusterEvent, ThrusterEventSettings};
+pub use settings::wheel_control_settings::WheelControlSettings;
 pub use settings::work::{Cost, Work, WorkExceeded};
+pub use state::propagator_state::PropagatorState;
+pub use state::sun_choice::SunChoice;
+pub use thrusters::allocation::{ThrusterAllocator, UnservedDumps};
 pub use thrusters::reaction_control::Thrusters;
-pub use thrusters::selected::UnservedDumps;
 pub use thrusters::thruster_load::{ThrusterLoad, ThrusterTotals};

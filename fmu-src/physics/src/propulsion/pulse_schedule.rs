@@ -124,7 +124,7 @@ impl PulseSchedule {
     }
 
     /// Takes note that the current pulse is over; whether it is by `due_s`, in s.
-    pub fn take_closing(&mut self, due_s: f64) -> bool {
+    pub fn close_if_due(&mut self, due_s: f64) -> bool {
         let closes = self.closes_s() <= due_s;
         if closes {
             self.open = None;
@@ -133,7 +133,7 @@ impl PulseSchedule {
     }
 
     /// Takes note that the pulse ahead began; whether it did by `due_s`, in s.
-    pub fn take_opening(&mut self, timing: &ValveTiming, due_s: f64) -> bool {
+    pub fn open_if_due(&mut self, timing: &ValveTiming, due_s: f64) -> bool {
         let Some(NextPulse { opens_s, closes_s }) = self.next.filter(|next| next.opens_s <= due_s) else {
             return false;
         };

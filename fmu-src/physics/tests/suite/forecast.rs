@@ -48,7 +48,7 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
         planner: &planner,
         work_limit: u32::MAX,
     };
-    let mut flight = Flight::waiting(Thrusters::new(Default::default(), 0.0));
+    let mut flight = Flight::waiting(Thrusters::new(0, 0, 0.0));
     let settings = IdealSettings {
         array: WheelArray::of(&[]),
         wheels: Vec::new(),

@@ -210,7 +210,8 @@ pub(super) fn start(context: &Plan<'_>, values: &Values, start_s: f64) -> Result
     inputs.update(context, values, InputsOverTime::held());
     let q = values.vector(context.variables.start.q);
     let attitude = Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
-    let thrusters = Thrusters::new(propulsion::reaction_control(context, values)?, start_s);
+    let settings = propulsion::reaction_control(context, values)?;
+    let thrusters = Thrusters::new(settings.thrusters.len(), settings.tanks.len(), start_s);
     PlantState::new(inputs, attitude, thrusters, start_s, context.setup.schedules)
 }
 

@@ -2,7 +2,9 @@
 
 use fmi_export::{Failure, Step, Values};
 use nalgebra::Vector3;
-use physics::plant::{Configuration, DynamicsInputs, Flight, ReactionControlSettings, Report, UnservedDumps};
+use physics::plant::{
+    Configuration, DynamicsInputs, Flight, ReactionControlSettings, Report, SimulationContext, UnservedDumps,
+};
 use physics::propulsion::{PulseCommand, ThrustErrors};
 use physics::spacecraft::{Tank, Thruster, ValveTiming};
 
@@ -58,8 +60,9 @@ pub(crate) fn reaction_control(
 
 /// Refuses tanks that hold more than there is.
 pub(crate) fn check(flight: &Flight) -> Result<(), Failure> {
-    let Some(Configuration { mass_kg, .. }) = flight.configuration() else { return Ok(()) };
-    let held_kg: f64 = flight.thrusters.settings.tanks.iter().map(|tank| tank.propellant_kg).sum();
+    let Some(SimulationContext { configuration, allocator, .. }) = flight.context() else { return Ok(()) };
+    let Configuration { mass_kg, .. } = configuration;
+    let held_kg: f64 = allocator.settings.tanks.iter().map(|tank| tank.propellant_kg).sum();
     if held_kg >= *mass_kg {
         return Err(Failure::new(format!(
             "tank[k].propellant: found {held_kg:?} kg in all tanks, allowed: less than spacecraft.mass = {mass_kg:?} kg, of which \
@@ -74,7 +77,7 @@ pub(crate) fn warn_unserved(context: &Plan<'_>, report: &Report<'_>, warned: &mu
     let UnservedDumps { unfed, one_sided } = report.thrusters.unserved_dumps();
     if unfed > 0 && !warned.unfed {
         warned.unfed = true;
-        let ReactionControlSettings { tanks, .. } = &report.thrusters.settings;
+        let ReactionControlSettings { tanks, .. } = report.reaction_control;
         let propellant = &report.thrusters.propellant;
         let dry = tanks.iter().enumerate().filter(|(k, it)| !it.feeds(propellant.used_kg(*k, report.time_s)));
         let names: Vec<&str> = dry.map(|(_, tank)| tank.name.as_str()).collect();
@@ -88,7 +91,7 @@ pub(crate) fn warn_unserved(context: &Plan<'_>, report: &Report<'_>, warned: &mu
         return;
     }
     let center_of_mass_body_m = report.evaluation.mass.center_of_mass_body_m;
-    if let Err(error) = report.thrusters.settings.dump_selection(|_| true, &center_of_mass_body_m) {
+    if let Err(error) = report.reaction_control.dump_selection(|_| true, &center_of_mass_body_m) {
         warned.unserved = true;
         context.log.warning(&format!(
             "dump.count: {error} (centerOfMass = {:?} m); dumps are as those of a file without [[thrusters]]: at once in guided \

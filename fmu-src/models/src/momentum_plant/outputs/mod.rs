@@ -220,8 +220,8 @@ fn write_sensors(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
 /// Thrusters and tanks.
 fn write_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let (v, time_s, thrusters) = (context.variables, report.time_s, report.thrusters);
-    for (k, (thruster, variables)) in thrusters.settings.thrusters.iter().zip(&v.thruster).enumerate() {
-        let thrust_n = thrusters.thrust_n(k, time_s);
+    for (k, (thruster, variables)) in report.reaction_control.thrusters.iter().zip(&v.thruster).enumerate() {
+        let thrust_n = thrusters.thrust_n(report.reaction_control, k, time_s);
         let hits = thrust_n > 0.0 && {
             let angle = |panel: usize| {
                 let enabled = v.panel.get(panel).filter(|it| values.boolean(it.enabled));
@@ -230,13 +230,13 @@ fn write_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>)
             surface_in_plume(&context.setup.spacecraft, thruster, angle).is_some()
         };
         values.set_real(variables.thrust, thrust_n);
-        values.set_integer(variables.pulses, i32::try_from(thrusters.pulses(k)).unwrap_or(i32::MAX));
-        values.set_boolean(variables.too_short, thrusters.was_too_short(k));
+        values.set_integer(variables.pulses, i32::try_from(thrusters.valves().pulses(k)).unwrap_or(i32::MAX));
+        values.set_boolean(variables.too_short, thrusters.valves().was_too_short(k));
         values.set_boolean(variables.plume, hits);
     }
     values.set_boolean(v.thrust.active, thrusters.burning().is_some());
     let propellant = &thrusters.propellant;
-    for (k, (tank, variables)) in thrusters.settings.tanks.iter().zip(&v.tank).enumerate() {
+    for (k, (tank, variables)) in report.reaction_control.tanks.iter().zip(&v.tank).enumerate() {
         let used_kg = propellant.used_kg(k, time_s);
         values.set_real(variables.propellant_left, tank.left_kg(used_kg));
         values.set_real(variables.pressure_actual, tank.pressure_pa(used_kg));

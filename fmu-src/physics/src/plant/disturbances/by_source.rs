@@ -4,12 +4,13 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::laws::{Laws, LocalEnvironment};
+use super::laws::{self, LocalEnvironment};
 use crate::aerodynamics::{AerodynamicModel, AerodynamicWorkspace, AirFlow, Walls};
 use crate::bodies::surface::PlanetSurface;
 use crate::environment::eclipse::{EclipseError, Shadow};
 use crate::loads::{Active, Effect, ForceTorque, Loads};
 use crate::numerics::scalar::Scalar;
+use crate::plant::settings::laws::Laws;
 use crate::radiation::disturbance::{self, DisturbanceModel, Geometry, Recoil};
 use crate::refusal::Refusal;
 use crate::spacecraft::Material;
@@ -204,7 +205,7 @@ impl<T: Scalar> BySource<T> {
             field_body_t: Vector3::from(positions.field_t),
             air: air.unwrap_or_else(ForceTorque::zero),
         };
-        parameters.laws.exert(active, &at, &mut loads);
+        laws::write_loads(&parameters.laws, active, &at, &mut loads);
         Ok(Self { active, loads, lit_fraction })
     }
 }

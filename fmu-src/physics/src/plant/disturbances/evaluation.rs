@@ -18,13 +18,11 @@ use crate::numerics::chebyshev::Segment;
 use crate::radiation::Beam;
 use crate::spacecraft::MassProperties;
 
-use super::laws::LocalEnvironment;
+use super::laws::{self, LocalEnvironment};
 use super::simulation_context::{PreparedSpacecraft, SimulationContext};
 use crate::plant::air_and_field::aerodynamic_solver::AerodynamicSolver;
 use crate::plant::air_and_field::air_and_field_builder::AirAndFieldBuilder;
 use crate::plant::air_and_field::air_and_field_segment::{AirAndField, AirAndFieldSegment};
-use crate::plant::flight::propagator_state::PropagatorState;
-use crate::plant::flight::sun_choice::SunChoice;
 use crate::plant::light::light_and_heat::RadiationBuilder;
 use crate::plant::light::radiation_segment::RadiationSegment;
 use crate::plant::light::radiation_solver::RadiationSolver;
@@ -35,6 +33,8 @@ use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::configuration::{AttitudeSource, Configuration};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::work::Cost;
+use crate::plant::state::propagator_state::PropagatorState;
+use crate::plant::state::sun_choice::SunChoice;
 
 /// Nodes at which the acceleration of a segment is taken.
 const NODES: usize = 8;
@@ -209,7 +209,7 @@ impl<'a> Plant<'a> {
                 },
                 air: self.air_load(time_s, &instant, &air_and_field, &mass.center_of_mass_body_m),
             };
-            configuration.laws.exert(configuration.effects, &at, &mut loads);
+            laws::write_loads(&configuration.laws, configuration.effects, &at, &mut loads);
         }
         [loads[Effect::Applied], _] = (self.external)(time_s);
         let panels_body_n_m_s = self.panel_momentum_body_n_m_s(&instant, &mass, time_s);

@@ -5,11 +5,12 @@ use crate::environment::orbit::OrbitMethod;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::timeline::TimelineLaw;
 use crate::plant::air_and_field::aerodynamic_solver::AerodynamicSolver;
-use crate::plant::flight::propagator_state::PropagatorState;
 use crate::plant::light::radiation_solver::RadiationSolver;
 use crate::plant::light::sunlit::SunlitConfiguration;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::work::Work;
+use crate::plant::state::propagator_state::PropagatorState;
+use crate::plant::thrusters::allocation::ThrusterAllocator;
 use crate::radiation::SolarModel;
 use crate::spacecraft::{MassProperties, Material, Panel};
 
@@ -28,7 +29,9 @@ pub struct SimulationContext {
     pub light: Option<RadiationSolver>,
     /// Surfaces in air.
     pub air: Option<AerodynamicSolver>,
-    /// What the step has cost so far.
+    /// Settings of thrusters and tanks, and the last selections among them.
+    pub allocator: ThrusterAllocator,
+    /// Work of the step so far.
     pub work: Work,
     /// Scratch states of forks, reused without allocation.
     pub fork_room: [PropagatorState; 3],
@@ -44,6 +47,7 @@ impl SimulationContext {
             solar: None,
             light: None,
             air: None,
+            allocator: ThrusterAllocator::default(),
             work: Work::new(u32::MAX, 0),
             fork_room: Default::default(),
         }

@@ -7,15 +7,17 @@ use crate::guidance::{Activity, Guided, Schedule, ScienceRule, Window};
 use crate::momentum::{TorqueModel, Totals};
 
 use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
-use super::propagator_state::PropagatorState;
 use crate::plant::disturbances::disturbance_interval::DisturbanceInterval;
 use crate::plant::disturbances::evaluation::{External, Plant};
 use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
 use crate::plant::settings::configuration::{AttitudeSource, Command, DynamicAttitude};
 use crate::plant::settings::error::PlantError;
+use crate::plant::settings::reaction_control_settings::ThrustCommand;
 use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::settings::work::Cost;
+use crate::plant::state::propagator_state::PropagatorState;
 use crate::plant::thrusters::reaction_control::Thrusters;
+use crate::spacecraft::MassProperties;
 
 /// A window computed in epochs begins this near its number in flight time, in s.
 const EPOCH_ROUNDING_S: f64 = 1e-6;
@@ -60,6 +62,21 @@ pub(crate) struct ConfiguredFlight<'a> {
 }
 
 impl ConfiguredFlight<'_> {
+    /// Commands a delta-v from `time_s` on; true if that changes the present one.
+    pub(super) fn command_thrust(&mut self, command: &ThrustCommand, time_s: f64) -> bool {
+        self.thrusters.command_thrust(&self.context.allocator.settings, command, time_s)
+    }
+
+    /// Time of the next edge of a valve or of an empty tank, in s.
+    pub(super) fn next_thruster_edge_s(&self) -> f64 {
+        self.thrusters.next_edge_s(&self.context.allocator.settings)
+    }
+
+    /// Mass properties at `time_s` without the propellant used, panels at angle 0; `None` while none is used.
+    pub(super) fn used_mass(&self, wet: &MassProperties, time_s: f64) -> Option<MassProperties> {
+        self.thrusters.mass_properties_stowed(&self.context.allocator.settings, wet, time_s)
+    }
+
     /// Frame and rate that this guidance commands where the flight begins.
     pub(super) fn frame_by(&mut self, law: &Guided, time_s: f64) -> Result<MovingFrame, PlantError> {
         self.context.begin_work(self.given.work_limit);

@@ -17,6 +17,7 @@ use super::wheel_control::WheelControl;
 use crate::plant::settings::configuration::Command;
 use crate::plant::settings::dynamics_settings::{Control, Tracked};
 use crate::plant::settings::error::PlantError;
+use crate::plant::thrusters::allocation::ThrusterAllocator;
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::MassProperties;
 
@@ -137,7 +138,7 @@ impl ControlLoop {
     pub(super) fn control(
         &mut self,
         control: &Control,
-        thrusters: &mut Thrusters,
+        (thrusters, allocator): (&mut Thrusters, &mut ThrusterAllocator),
         target: &ControlTarget,
         sampled: &Sampled<'_>,
     ) {
@@ -145,7 +146,7 @@ impl ControlLoop {
         let time_s = motion.end_s();
         let burning = thrusters.burning();
         let lacks_wheels = !self.wheels.spans(gyrostat);
-        let by_thrusters = (burning.is_some() || lacks_wheels) && thrusters.spans(mass, time_s);
+        let by_thrusters = (burning.is_some() || lacks_wheels) && thrusters.spans(allocator, mass, time_s);
         let is_new = by_thrusters != self.by_thrusters;
         if is_new {
             self.by_thrusters = by_thrusters;
@@ -167,7 +168,7 @@ impl ControlLoop {
         let rotors_body_n_m_s = gyrostat.along_axes(axial);
         let mut known_body_n_m = sampled.dump_body_n_m + thrusters.dump_torque_body_n_m();
         if let Some(set) = burning {
-            let [_, torque] = thrusters.settings.nominal_thrust(set, &mass.center_of_mass_body_m);
+            let [_, torque] = allocator.settings.nominal_thrust(set, &mass.center_of_mass_body_m);
             known_body_n_m += torque;
         }
         let limits = if by_thrusters { &control.thrusters.controller } else { &control.controller };
@@ -180,7 +181,7 @@ impl ControlLoop {
             &known_body_n_m,
         );
         let given = if by_thrusters {
-            let given = thrusters.give(&torque_body_n_m, mass, limits.interval_s(), time_s);
+            let given = thrusters.give(allocator, &torque_body_n_m, mass, [time_s, limits.interval_s()]);
             self.thrusters_limited = given != Some(1.0);
             given.unwrap_or(0.0)
         } else {

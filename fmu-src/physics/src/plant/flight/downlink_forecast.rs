@@ -6,7 +6,6 @@
 use nalgebra::Vector3;
 
 use super::fork::{ForecastMomentum, Fork};
-use super::propagator_state::PropagatorState;
 use crate::guidance::{ChosenPlace, Guided, ScienceCourse};
 use crate::loads::ForceTorque;
 use crate::momentum::{Convention, Totals};
@@ -14,6 +13,7 @@ use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, Simulat
 use crate::plant::light::sunlit::SunlitConfiguration;
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
+use crate::plant::state::propagator_state::PropagatorState;
 use crate::spacecraft::Material;
 
 /// Momentum where a downlink begins, in N m s.

@@ -155,8 +155,12 @@ impl AttitudeDynamics {
             self.cut(start_s, false);
             self.dump_to(step, target_body_n_m_s);
         }
-        let pulses = step.flight.thrusters.command_pulses(&step.inputs.pulses, [start_s, end_s]);
-        if step.flight.thrusters.command_thrust(&step.inputs.thrust, start_s) || pulses {
+        let pulses = step.flight.thrusters.command_pulses(
+            &step.flight.context.allocator.settings,
+            &step.inputs.pulses,
+            [start_s, end_s],
+        );
+        if step.flight.command_thrust(&step.inputs.thrust, start_s) || pulses {
             self.cut(start_s, false);
         }
         Ok(())
@@ -171,7 +175,7 @@ impl AttitudeDynamics {
             let evaluations = step.flight.context.ephemeris.evaluations();
             step.flight.context.work.spend(Cost::Segment, units, evaluations, time_s)?;
             self.process_events(step)?;
-            let edge_s = step.flight.thrusters.next_edge_s();
+            let edge_s = step.flight.next_thruster_edge_s();
             let limit_s = self.sensing.next_s().min(self.disturbance.end_s()).min(edge_s);
             let events = &step.flight.context.configuration.thruster_events;
             let limit_s = limit_s.min(self.dumps.until_s()).min(events.next_s(self.scheduled));
@@ -214,12 +218,13 @@ impl AttitudeDynamics {
         self.motion.remembered_at(&step.settings.gyrostat, time_s);
         self.dumps.accumulate(&self.motion, self.dumps.is_dumping(step.flight.thrusters, time_s));
         if !step.flight.thrusters.load().law.is_none() {
-            let Thrusters { propellant, settings: known, .. } = &*step.flight.thrusters;
-            let mass = propellant.mass_properties_since(&self.mass.now, &known.tanks, time_s);
+            let (flight, tanks) = (&*step.flight, &step.flight.context.allocator.settings.tanks);
+            let mass = flight.thrusters.propellant.mass_properties_since(&self.mass.now, tanks, time_s);
             self.set_mass(step.settings, mass);
         }
-        step.flight.thrusters.accumulate(&self.motion, time_s);
-        step.flight.thrusters.process_valve_events(time_s);
+        let settings = &step.flight.context.allocator.settings;
+        step.flight.thrusters.accumulate(settings, &self.motion, time_s);
+        step.flight.thrusters.process_valve_events(settings, time_s);
         self.dumps.end(due_s);
         self.control.wheels.fail(&step.inputs.wheel_failed);
         if step.settings.control.is_none() {
@@ -232,12 +237,14 @@ impl AttitudeDynamics {
         self.dump_as_scheduled(step, due_s)?;
         if sample_due {
             self.sample(step)?;
-            step.flight.thrusters.process_valve_events(time_s);
+            let settings = &step.flight.context.allocator.settings;
+            step.flight.thrusters.process_valve_events(settings, time_s);
         }
         self.turn_mass(step.settings, step.flight);
         let used_kg = step.flight.thrusters.propellant.total_used_kg(time_s);
         self.mass.now.mass_kg = step.flight.context.configuration.mass_kg - used_kg;
-        step.flight.thrusters.exert(&self.mass.now, time_s);
+        let settings = &step.flight.context.allocator.settings;
+        step.flight.thrusters.update_load(settings, &self.mass.now, time_s);
         Ok(())
     }
 
@@ -248,7 +255,8 @@ impl AttitudeDynamics {
         let body = self.motion.at(&settings.gyrostat, time_s);
         let context = &mut *flight.context;
         let loaded = context.configuration.loaded();
-        self.mass.left = flight.thrusters.left(&loaded, time_s);
+        self.mass.left =
+            flight.thrusters.mass_properties_stowed(&context.allocator.settings, &loaded, time_s);
         context.mass_at_zero = self.mass.left.unwrap_or(loaded);
         let begins = self.disturbance.is_before();
         if begins || !context.configuration.motion.uses_encke() {
@@ -257,7 +265,7 @@ impl AttitudeDynamics {
             flight.propagator.cut_light(time_s);
         }
         let rate_terms_body = self.predicted_rate_terms(settings, flight, &body);
-        let has_thrusters = !flight.thrusters.settings.thrusters.is_empty();
+        let has_thrusters = !flight.context.allocator.settings.thrusters.is_empty();
         let mut plant = flight.turning_plant(time_s, &body, rate_terms_body);
         if settings.panels_have_mass
             && let Some(body) = self.follow_panels(settings, &mut plant)
@@ -304,7 +312,7 @@ impl AttitudeDynamics {
         torque += now.torque_body_n_m;
         slope += per_s.torque_body_n_m;
         // A pulse that ends before the interval says little of it.
-        let steady_until_s = flight.thrusters.next_edge_s().min(self.dumps.until_s());
+        let steady_until_s = flight.next_thruster_edge_s().min(self.dumps.until_s());
         if steady_until_s >= time_s + settings.grid_s {
             let [turn, turn_slope] = flight.thrusters.load().law.torque_body_n_m;
             torque += self.dumps.torque_body_n_m() + turn;
@@ -348,7 +356,7 @@ impl AttitudeDynamics {
         }
         let time_s = self.motion.end_s();
         let loaded = flight.context.configuration.loaded();
-        let left = self.mass.left.and_then(|_| flight.thrusters.left(&loaded, time_s)).unwrap_or(loaded);
+        let left = self.mass.left.and_then(|_| flight.used_mass(&loaded, time_s)).unwrap_or(loaded);
         self.set_mass(settings, self.panels.mass_properties(&left, flight.given.prepared.panels, time_s));
     }
 
@@ -375,7 +383,13 @@ impl AttitudeDynamics {
             self.begin_dump(flight, &momentum_body, policy.after(&momentum_body));
             self.dumps.dumps.check()?;
         }
-        flight.thrusters.sample_dump(&self.motion, &body.momentum_inertial_n_m_s, &self.mass.known);
+        let allocator = &mut flight.context.allocator;
+        flight.thrusters.sample_dump(
+            allocator,
+            &self.motion,
+            &body.momentum_inertial_n_m_s,
+            &self.mass.known,
+        );
         let Some(control) = &settings.control else { return Ok(()) };
         let sampled = Sampled {
             number,
@@ -387,7 +401,7 @@ impl AttitudeDynamics {
             dump_body_n_m: self.dumps.torque_body_n_m(),
         };
         let target = self.control.target(flight, inputs.tracked, &sampled)?;
-        self.control.control(control, flight.thrusters, &target, &sampled);
+        self.control.control(control, (flight.thrusters, &mut flight.context.allocator), &target, &sampled);
         Ok(())
     }
 
@@ -417,7 +431,7 @@ impl AttitudeDynamics {
     fn begin_dump(&mut self, flight: &mut ConfiguredFlight<'_>, before: &Vector3<f64>, after: Vector3<f64>) {
         let time_s = self.motion.end_s();
         let event = DumpEvent { time_s, before_body_n_m_s: *before, after_body_n_m_s: after };
-        if self.dumps.begin(event, flight.thrusters, &self.motion, &self.mass.known) {
+        if self.dumps.begin(event, flight, &self.motion, &self.mass.known) {
             (flight.log)(&ThrusterEvent::Dump(event));
         }
     }
@@ -473,7 +487,7 @@ impl AttitudeDynamics {
         time_s: f64,
     ) -> Evaluation {
         let loaded = flight.context.configuration.loaded();
-        flight.context.mass_at_zero = flight.thrusters.left(&loaded, time_s).unwrap_or(loaded);
+        flight.context.mass_at_zero = flight.used_mass(&loaded, time_s).unwrap_or(loaded);
         let mass_kg = loaded.mass_kg - flight.thrusters.propellant.total_used_kg(time_s);
         let mut plant = flight.plant_at(time_s, body);
         let instant = plant.instant(time_s);

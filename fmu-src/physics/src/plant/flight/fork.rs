@@ -6,7 +6,6 @@
 
 use nalgebra::{Rotation3, Vector3};
 
-use super::propagator_state::PropagatorState;
 use crate::guidance::timeline::TimelineManeuver;
 use crate::loads::ForceTorque;
 use crate::momentum::{MomentumIntegrator, Settings, Stop, StopTimes, Totals};
@@ -18,6 +17,7 @@ use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::radiation_settings::RadiationSettings;
 use crate::plant::settings::thruster_events::SchedulePlace;
+use crate::plant::state::propagator_state::PropagatorState;
 use crate::spacecraft::MassProperties;
 
 /// Greatest last Chebyshev term of a forecast's totals, in N m s and m/s: far below any threshold.

@@ -130,7 +130,11 @@ impl IdealFlight {
         let executed_m_s = configuration.thruster_events.executed_m_s(&found_m_s, number);
         if let Some(set) = maneuver.thrusters {
             let mass_kg = flight.context.mass_at_zero.mass_kg;
-            let given = flight.thrusters.at_once(time_s).delta_v(set, executed_m_s.norm(), mass_kg);
+            let given = flight.thrusters.at_once(&mut flight.context.allocator, time_s).delta_v(
+                set,
+                executed_m_s.norm(),
+                mass_kg,
+            );
             given.map_err(refused)?;
         }
         let moved = flight.propagator.maneuver(configuration, time_s, &executed_m_s);
@@ -206,11 +210,12 @@ impl IdealFlight {
         let time_s = due.time_s;
         let mut dump = DumpAtOnce { event: *due, push_body_n_s: None };
         let mut pushed = None;
-        if !flight.thrusters.settings.thrusters.is_empty() {
+        if !flight.context.allocator.settings.thrusters.is_empty() {
             let mut plant = flight.plant();
             let instant = plant.instant(time_s);
             let mass = plant.mass_properties(&instant, time_s);
-            let given = flight.thrusters.at_once(time_s).dump(due, &mass.center_of_mass_body_m);
+            let mut at_once = flight.thrusters.at_once(&mut flight.context.allocator, time_s);
+            let given = at_once.dump(due, &mass.center_of_mass_body_m);
             let Some(given) = given else { return };
             dump = given;
             let inertial_from_body = instant.frame.inertial_from_body;
@@ -252,6 +257,6 @@ impl IdealFlight {
     /// Mass properties of what is left at `time_s`.
     fn set_mass(&self, flight: &mut ConfiguredFlight<'_>, time_s: f64) {
         let loaded = flight.propagator.center_of_mass.of(&flight.context.configuration);
-        flight.context.mass_at_zero = flight.thrusters.left(&loaded, time_s).unwrap_or(loaded);
+        flight.context.mass_at_zero = flight.used_mass(&loaded, time_s).unwrap_or(loaded);
     }
 }

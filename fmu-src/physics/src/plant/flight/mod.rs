@@ -2,7 +2,6 @@
 //!
 //! Parameters and inputs are no state: a restored flight is configured anew before it advances.
 
-mod center_of_mass;
 mod configured;
 mod control_loop;
 mod dynamic;
@@ -14,9 +13,7 @@ mod survey;
 
 pub(super) mod downlink_forecast;
 pub(super) mod ideal;
-pub(super) mod propagator_state;
 pub(super) mod report;
-pub(super) mod sun_choice;
 pub(super) mod wheel_control;
 
 pub use configured::StepContext;
@@ -41,15 +38,15 @@ use crate::plant::settings::error::PlantError;
 use crate::plant::settings::ideal_settings::IdealSettings;
 use crate::plant::settings::panel_setting::PanelSetting;
 use crate::plant::settings::thruster_events::ThrusterEvent;
+use crate::plant::state::propagator_state::PropagatorState;
+use crate::plant::state::sun_choice::SunChoice;
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::radiation::SolarModel;
 use crate::spacecraft::Spacecraft;
 use configured::ConfiguredFlight;
 use dynamic::{AttitudeDynamics, DynamicStep};
 use ideal::IdealFlight;
-use propagator_state::PropagatorState;
 use report::{Report, dynamic, ideal};
-use sun_choice::SunChoice;
 
 /// A flight.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -196,7 +193,12 @@ impl Flight {
         self.set_left();
     }
 
-    /// What the flight is simulated with, where it is configured.
+    /// Configuration, environment and caches; `None` before the first configuration.
+    pub fn context(&self) -> Option<&SimulationContext> {
+        self.setup.as_ref().map(|setup| &setup.context)
+    }
+
+    /// Configuration, environment and caches, to be changed; `None` before the first configuration.
     pub fn context_mut(&mut self) -> Option<&mut SimulationContext> {
         self.setup.as_mut().map(|setup| &mut setup.context)
     }
@@ -210,7 +212,9 @@ impl Flight {
     fn set_left(&mut self) {
         if let Some(FlightSetup { context, .. }) = self.setup.as_deref_mut() {
             let loaded = self.propagator.center_of_mass.of(&context.configuration);
-            context.mass_at_zero = self.thrusters.left(&loaded, 0.0).unwrap_or(loaded);
+            let settings = &context.allocator.settings;
+            let current = self.thrusters.mass_properties_stowed(settings, &loaded, 0.0);
+            context.mass_at_zero = current.unwrap_or(loaded);
         }
     }
 
@@ -511,6 +515,7 @@ impl Flight {
             configuration,
             materials: context.solar.as_ref().map_or(&[], SolarModel::materials),
             thrusters,
+            reaction_control: &context.allocator.settings,
             since_periapsis_s,
             downlink,
             is_degenerate,

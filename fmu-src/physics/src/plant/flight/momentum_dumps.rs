@@ -4,12 +4,13 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::configured::ConfiguredFlight;
 use crate::attitude::GyrostatMotion;
 use crate::loads::{ByEffect, Effect};
 use crate::momentum::{DumpEvent, DumpSpacing, Dumps, SourceMomenta};
 use crate::plant::disturbances::disturbance_interval::Linear;
+use crate::plant::thrusters::allocation::Unserved;
 use crate::plant::thrusters::reaction_control::Thrusters;
-use crate::plant::thrusters::selected::Unserved;
 use crate::spacecraft::MassProperties;
 
 /// A dump by a constant torque.
@@ -92,14 +93,17 @@ impl MomentumDumps {
     pub(super) fn begin(
         &mut self,
         event: DumpEvent,
-        thrusters: &mut Thrusters,
+        flight: &mut ConfiguredFlight<'_>,
         motion: &GyrostatMotion,
         mass: &MassProperties,
     ) -> bool {
         let target = motion.attitude_at(event.time_s).inertial_from_body(&event.after_body_n_m_s);
-        let has_thrusters = !thrusters.settings.thrusters.is_empty();
-        let by_thrusters =
-            has_thrusters.then(|| thrusters.begin_dump(motion, target, &mass.center_of_mass_body_m));
+        let allocator = &mut flight.context.allocator;
+        let has_thrusters = !allocator.settings.thrusters.is_empty();
+        let by_thrusters = has_thrusters.then(|| {
+            let center_of_mass_body_m = &mass.center_of_mass_body_m;
+            flight.thrusters.begin_dump(allocator, motion, target, center_of_mass_body_m)
+        });
         if by_thrusters == Some(Err(Unserved::Unfed)) {
             return false;
         }
@@ -110,7 +114,7 @@ impl MomentumDumps {
             return true;
         }
         let impulse_body_n_m_s = event.impulse_body_n_m_s();
-        let duration_s = impulse_body_n_m_s.amax() / thrusters.settings.dump_torque_n_m;
+        let duration_s = impulse_body_n_m_s.amax() / flight.context.allocator.settings.dump_torque_n_m;
         if duration_s > 0.0 {
             let torque_body_n_m = impulse_body_n_m_s / duration_s;
             self.constant = Some(ConstantDump { torque_body_n_m, until_s: event.time_s + duration_s });

@@ -16,6 +16,7 @@ use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
 use crate::plant::settings::ideal_settings::{IdealSettings, IdealWheel};
+use crate::plant::settings::reaction_control_settings::ReactionControlSettings;
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::Material;
 
@@ -33,6 +34,8 @@ pub struct Report<'a> {
     pub materials: &'a [Material],
     /// Thrusters and tanks.
     pub thrusters: &'a Thrusters,
+    /// Settings of thrusters and tanks.
+    pub reaction_control: &'a ReactionControlSettings,
     /// Time since the last periapsis, in s; 0 where the flight waits.
     pub since_periapsis_s: f64,
     /// What is reported of a downlink.

@@ -6,19 +6,9 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::attitude::control::{Allocation, WheelAllocator};
+use crate::attitude::control::WheelAllocator;
 use crate::attitude::{Gyrostat, Motor};
-
-/// How torque reaches the wheels.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WheelControlSettings {
-    /// How torque is spread over the wheels.
-    pub allocation: Allocation,
-    /// Time constant with which the wheels' momenta are brought to the same distribution, in s; infinite = not at all.
-    pub balance_time_s: f64,
-    /// Whether the motors make up for the wheels' known friction.
-    pub compensates_friction: bool,
-}
+use crate::plant::settings::wheel_control_settings::WheelControlSettings;
 
 /// Motors of the wheels.
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
+use super::laws::Laws;
 use crate::attitude::{Attitude, MovingFrame, SunAngles};
 use crate::bodies::Body;
 use crate::environment::CartesianState;
@@ -20,7 +21,6 @@ use crate::momentum::Settings;
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::scalar::Dual64;
 use crate::numerics::spacing::spacing;
-use crate::plant::disturbances::laws::Laws;
 use crate::spacecraft::{MassProperties, Panel, Spacecraft, SunshadeModel, hinged_masses, with_panels};
 
 use super::air_and_field_settings::{AirAndFieldSettings, PlanetFigure};

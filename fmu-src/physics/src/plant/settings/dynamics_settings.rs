@@ -13,7 +13,7 @@ use crate::spacecraft::MassProperties;
 use super::configuration::Command;
 use super::reaction_control_settings::ThrustCommand;
 use super::thruster_events::Maneuver;
-use crate::plant::flight::wheel_control::WheelControlSettings;
+use super::wheel_control_settings::WheelControlSettings;
 
 /// What parameters set about dynamics and control.
 #[derive(Clone, Debug)]

@@ -80,6 +80,12 @@ impl Feed<'_> {
         tank.is_some_and(|tank| tank.feeds(self.propellant.used_kg(index, self.time_s)))
     }
 
+    /// Whether a thruster of the set is fed.
+    pub(crate) fn feeds_any_of(&self, set: ThrusterSet) -> bool {
+        let mut members = self.settings.thrusters.iter().enumerate().filter(|(_, it)| it.set == Some(set));
+        members.any(|(k, _)| self.feeds(k))
+    }
+
     /// Thrust of thruster `k` over its nominal one, by the pressure of its tank.
     pub(crate) fn pressure_ratio(&self, k: usize) -> f64 {
         let thruster = &self.settings.thrusters[k];

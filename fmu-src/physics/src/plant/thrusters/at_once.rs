@@ -2,11 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::selected::{Purpose, Selected, Unserved, UnservedDumps};
+use super::allocation::{Purpose, ThrusterAllocator, Unserved, UnservedDumps};
 use crate::math;
 use crate::momentum::DumpEvent;
 use crate::plant::settings::error::ManeuverError;
-use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSettings};
 use crate::propulsion::PropellantState;
 use crate::spacecraft::{Tank, ThrusterSet};
 
@@ -15,9 +14,8 @@ const LEAST_FORCE: f64 = 1e-6;
 
 /// Thrusters and tanks at a time, in s.
 pub(crate) struct AtOnce<'a> {
-    pub(super) settings: &'a ReactionControlSettings,
+    pub(super) allocator: &'a mut ThrusterAllocator,
     pub(super) propellant: &'a mut PropellantState,
-    pub(super) for_dumps: &'a mut Selected,
     pub(super) unserved: &'a mut UnservedDumps,
     pub(super) time_s: f64,
 }
@@ -42,10 +40,11 @@ impl AtOnce<'_> {
         let whole_body_n_m_s = event.impulse_body_n_m_s();
         let (mut left, mut push_body_n_s) = (1.0, Vector3::zeros());
         // Each pass but the last leaves a tank that feeds no longer.
-        for _ in 0..=self.settings.tanks.len() {
-            let feed = Feed { settings: self.settings, propellant: self.propellant, time_s: self.time_s };
-            let selection = match self.for_dumps.about(&feed, Purpose::Dump, center_of_mass_body_m) {
-                Ok(selection) => selection,
+        for _ in 0..=self.allocator.settings.tanks.len() {
+            let selected =
+                self.allocator.select(self.propellant, self.time_s, Purpose::Dump, center_of_mass_body_m);
+            let selection = match selected {
+                Ok((_, selection)) => *selection,
                 Err(unserved) => {
                     self.unserved.count(unserved);
                     if unserved == Unserved::OneSided && left == 1.0 {
@@ -55,7 +54,7 @@ impl AtOnce<'_> {
                 }
             };
             let on_times = selection.on_times_s(&(whole_body_n_m_s * left));
-            let thrusters = self.settings.thrusters.iter().zip(on_times);
+            let thrusters = self.allocator.settings.thrusters.iter().zip(on_times);
             let needed_kg = |index: usize| -> f64 {
                 let fed = thrusters.clone().filter(|(thruster, _)| thruster.tank == index);
                 fed.map(|(thruster, full_s)| thruster.flow_kg_s * full_s).sum()
@@ -63,7 +62,7 @@ impl AtOnce<'_> {
             let part = self.tanks().map(|(k, _, feedable_kg)| feedable_kg / needed_kg(k)).fold(1.0, f64::min);
             push_body_n_s +=
                 thrusters.clone().map(|(it, full_s)| it.force_body_n * full_s).sum::<Vector3<f64>>() * part;
-            for (k, tank) in self.settings.tanks.iter().enumerate() {
+            for (k, tank) in self.allocator.settings.tanks.iter().enumerate() {
                 self.propellant.take(k, tank, needed_kg(k) * part);
             }
             left *= 1.0 - part;
@@ -87,7 +86,7 @@ impl AtOnce<'_> {
         delta_v_m_s: f64,
         mass_kg: f64,
     ) -> Result<(), ManeuverError> {
-        let settings = self.settings;
+        let settings = &self.allocator.settings;
         let members = || settings.thrusters.iter().filter(|it| it.set == Some(set));
         if members().next().is_none() {
             return Ok(());
@@ -118,7 +117,7 @@ impl AtOnce<'_> {
 
     /// The tanks with what each can still feed, in kg.
     fn tanks(&self) -> impl Iterator<Item = (usize, &Tank, f64)> {
-        let tanks = self.settings.tanks.iter().enumerate();
+        let tanks = self.allocator.settings.tanks.iter().enumerate();
         tanks.map(|(k, tank)| (k, tank, tank.feedable_kg(self.propellant.used_kg(k, self.time_s))))
     }
 }

@@ -1,7 +1,8 @@
-//! Thrusters at work: what they exert, dumps, reaction control.
+//! Thrusters at work: valves, allocation of torque, dumps, force and torque.
 
+pub(super) mod allocation;
 pub(super) mod at_once;
 pub(super) mod pulsed_dump;
 pub(super) mod reaction_control;
-pub(super) mod selected;
 pub(super) mod thruster_load;
+pub(super) mod valves;

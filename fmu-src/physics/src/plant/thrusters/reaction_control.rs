@@ -1,137 +1,88 @@
-//! Reaction control of the plant: pulses of the thrusters, on command from outside, for a delta-v, a dump or the attitude, and
-//! what they exert.
+//! Reaction control of the plant: valves, dump by pulses, propellant, and the force and torque that follow from them.
 //!
-//! Every thruster has a valve and at most one pulse ahead of it. Edges of pulses, ends of ramps and an empty tank are times at
-//! which the motion's segments end; between them force, torque and flow are linear in time:
-//! F = F0 f p(u) / p0 with the valve's fraction f and the tank's pressure p, T = (r - c) x F about the centre of mass c, which
-//! moves as the tanks drain ([`super::thruster_load`]).
+//! Edges of pulses, ends of ramps and an empty tank are times at which the motion's segments end; between them force, torque
+//! and flow are linear in time: F = F0 f p(u) / p0 with the valve's fraction f and the tank's pressure p, T = (r - c) x F about the
+//! centre of mass c, which moves as the tanks drain ([`super::thruster_load`]).
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::GyrostatMotion;
-use crate::numerics::or_infinite;
 use crate::numerics::quadrature::GAUSS_3;
-use crate::propulsion::{PropellantState, PulseCommand, PulseSchedule, Valve, due_s};
+use crate::propulsion::{PropellantState, PulseCommand, due_s};
 use crate::spacecraft::{MassProperties, Spacecraft, Thrust, Thruster, ThrusterSet};
 
+use super::allocation::{Purpose, ThrusterAllocator, Unserved, UnservedDumps};
 use super::at_once::AtOnce;
 use super::pulsed_dump::PulsedDump;
-use super::selected::{Purpose, Selected, Unserved, UnservedDumps};
 use super::thruster_load::{ThrusterLoad, ThrusterTotals};
+use super::valves::Valves;
 use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSettings, ThrustCommand};
 
-/// The current delta-v.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct Burn {
-    set: ThrusterSet,
-    since_s: f64,
-    #[serde(with = "or_infinite")]
-    stop_s: f64,
-}
-
-/// Thrusters of the plant: what they are, what is left in their tanks, and what their valves do.
+/// State of thrusters and tanks: propellant, valves, the current dump, load and totals.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Thrusters {
-    /// What parameters set; in a state that was restored nothing, until it is said again.
-    #[serde(skip)]
-    pub settings: ReactionControlSettings,
     /// Propellant used so far.
     pub propellant: PropellantState,
-    valves: Vec<Valve>,
-    schedule: Vec<PulseSchedule>,
-    burn: Option<Burn>,
+    valves: Valves,
     dump: Option<PulsedDump>,
     load: ThrusterLoad,
     totals: ThrusterTotals,
     unserved: UnservedDumps,
-    #[serde(skip)]
-    for_dumps: Selected,
-    #[serde(skip)]
-    for_attitude: Selected,
 }
 
 impl Thrusters {
-    /// With every valve closed and every tank as loaded.
-    pub fn new(settings: ReactionControlSettings, time_s: f64) -> Self {
-        let count = settings.thrusters.len();
+    /// State with closed valves and full tanks, of a spacecraft with these numbers of thrusters and tanks.
+    pub fn new(thrusters: usize, tanks: usize, time_s: f64) -> Self {
         Self {
-            propellant: PropellantState::new(settings.tanks.len(), time_s),
-            settings,
-            valves: vec![Valve::default(); count],
-            schedule: vec![PulseSchedule::default(); count],
-            burn: None,
+            propellant: PropellantState::new(tanks, time_s),
+            valves: Valves::new(thrusters),
             dump: None,
             load: ThrusterLoad::none(time_s, 1.0),
             totals: ThrusterTotals::default(),
             unserved: UnservedDumps::default(),
-            for_dumps: Selected::default(),
-            for_attitude: Selected::default(),
         }
     }
 
-    /// Whether a simulation of this spacecraft can produce it; a decoded state has no settings yet.
+    /// Rejects decoded states that no simulation of this spacecraft can produce.
     pub fn is_valid(&self, spacecraft: &Spacecraft) -> bool {
-        let thrusters = &spacecraft.thrusters;
-        let has_members = |set: ThrusterSet| thrusters.iter().any(|thruster| thruster.set == Some(set));
-        self.valves.len() == thrusters.len()
-            && self.schedule.len() == thrusters.len()
+        self.valves.is_valid(&spacecraft.thrusters)
             && self.propellant.is_valid(spacecraft.tanks.len())
-            && self.valves.iter().all(Valve::is_valid)
-            && self.schedule.iter().all(PulseSchedule::is_valid)
-            && self.burn.is_none_or(|it| it.stop_s > f64::NEG_INFINITY && has_members(it.set))
             && self.dump.as_ref().is_none_or(PulsedDump::is_valid)
             && self.load.is_valid()
     }
 
-    /// Takes the pulses commanded for the step over `span_s`, by the law of [`PulseSchedule`]. Whether there are any.
-    pub fn command_pulses(&mut self, pulses: &[PulseCommand], span_s: [f64; 2]) -> bool {
-        let mut any = false;
+    /// Valves, their pulses and the current delta-v.
+    pub fn valves(&self) -> &Valves {
+        &self.valves
+    }
+
+    /// Commands these pulses for the step over `span_s`, by the law of [`crate::propulsion::PulseSchedule`]; true if there are any.
+    pub fn command_pulses(
+        &mut self,
+        settings: &ReactionControlSettings,
+        pulses: &[PulseCommand],
+        span_s: [f64; 2],
+    ) -> bool {
         let is_dumping = self.is_dumping();
-        for (k, (thruster, pulse)) in self.settings.thrusters.iter().zip(pulses).enumerate() {
-            // What thrusters do on their own continues.
-            let is_own = self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) || is_dumping;
-            any |= self.schedule[k].command(&thruster.valve, pulse, span_s, !is_own);
-        }
-        any
+        self.valves.command_pulses(&settings.thrusters, pulses, span_s, is_dumping)
     }
 
-    /// Takes the command of a delta-v that holds from `time_s` on; whether it changes what was going to happen.
-    pub fn command_thrust(&mut self, command: &ThrustCommand, time_s: f64) -> bool {
-        // A set without thrusters that are fed gives no delta-v.
-        let requested =
-            command.set.filter(|set| command.stop_s > due_s(time_s) && self.can_burn(*set, time_s));
-        let before = self.burn.map(|burn| (burn.set, burn.stop_s));
-        if requested.map(|set| (set, command.stop_s)) == before {
-            return false;
-        }
-        for (k, thruster) in self.settings.thrusters.iter().enumerate() {
-            if self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) {
-                self.schedule[k].end(time_s);
-            }
-            if requested.is_some() && thruster.set == requested {
-                self.schedule[k].plan(&thruster.valve, time_s, command.stop_s);
-            }
-        }
-        let goes_on = self.burn.filter(|burn| Some(burn.set) == requested);
-        self.burn = requested.map(|set| Burn {
-            set,
-            since_s: goes_on.map_or(time_s, |burn| burn.since_s),
-            stop_s: command.stop_s,
-        });
-        true
+    /// Commands a delta-v from `time_s` on; true if that changes the present one.
+    pub fn command_thrust(
+        &mut self,
+        settings: &ReactionControlSettings,
+        command: &ThrustCommand,
+        time_s: f64,
+    ) -> bool {
+        self.valves.command_thrust(&Feed { settings, propellant: &self.propellant, time_s }, command)
     }
 
-    /// When something about the thrusters next changes by itself, in s.
-    pub fn next_edge_s(&self) -> f64 {
-        let mut next_s = f64::INFINITY;
-        for (k, thruster) in self.settings.thrusters.iter().enumerate() {
-            let (valve, pulse) = (&self.valves[k], &self.schedule[k]);
-            let edge_s = pulse.next_edge_s();
-            next_s = next_s.min(edge_s).min(valve.ramp_end_s(&thruster.valve));
-        }
+    /// Time of the next edge of a valve or of an empty tank, in s.
+    pub fn next_edge_s(&self, settings: &ReactionControlSettings) -> f64 {
+        let mut next_s = self.valves.next_edge_s(&settings.thrusters);
         if !self.load.law.is_none() {
-            for (k, tank) in self.settings.tanks.iter().enumerate() {
+            for (k, tank) in settings.tanks.iter().enumerate() {
                 next_s = next_s.min(self.propellant.depletion_time_s(k, tank));
             }
         }
@@ -139,52 +90,29 @@ impl Thrusters {
     }
 
     /// Opens and closes the valves whose time has come.
-    pub fn process_valve_events(&mut self, time_s: f64) {
-        let due_s = due_s(time_s);
-        let Self { settings, propellant, .. } = self;
-        let feed = Feed { settings, propellant, time_s };
-        for (k, thruster) in settings.thrusters.iter().enumerate() {
-            let (valve, pulse) = (&mut self.valves[k], &mut self.schedule[k]);
-            if pulse.is_idle() && valve.is_shut() {
-                continue;
-            }
-            if !feed.feeds(k) {
-                valve.shut(time_s);
-                pulse.clear();
-                continue;
-            }
-            if valve.ramp_end_s(&thruster.valve) <= due_s {
-                valve.end_ramp(time_s);
-            }
-            if pulse.take_closing(due_s) {
-                valve.close(&thruster.valve, time_s);
-            }
-            if pulse.take_opening(&thruster.valve, due_s) {
-                valve.open(&thruster.valve, time_s, thruster.scatter, settings.errors.seed, k as u16);
-            }
-        }
-        self.burn = self.burn.filter(|burn| burn.stop_s > due_s && self.can_burn(burn.set, time_s));
+    pub fn process_valve_events(&mut self, settings: &ReactionControlSettings, time_s: f64) {
+        self.valves.process_events(&Feed { settings, propellant: &self.propellant, time_s });
     }
 
-    /// Counts what thrusters did up to `time_s`, the end of the motion's present segment.
-    pub fn accumulate(&mut self, motion: &GyrostatMotion, time_s: f64) {
+    /// Adds impulse, velocity change and propellant up to `time_s`, the end of the motion's present segment.
+    pub fn accumulate(&mut self, settings: &ReactionControlSettings, motion: &GyrostatMotion, time_s: f64) {
         if !self.load.law.is_none() {
             self.totals = self.totals_at(motion, time_s);
-            self.propellant.accumulate(&self.settings.tanks, time_s);
+            self.propellant.accumulate(&settings.tanks, time_s);
         }
     }
 
-    /// Works out what the thrusters exert from `time_s` on, on a spacecraft with these mass properties then.
-    pub fn exert(&mut self, mass: &MassProperties, time_s: f64) {
+    /// Updates force, torque and flow from `time_s` on, about the centre of mass of these mass properties.
+    pub fn update_load(&mut self, settings: &ReactionControlSettings, mass: &MassProperties, time_s: f64) {
         self.load = ThrusterLoad::none(time_s, mass.mass_kg);
-        let (thrusters, valves) = (&self.settings.thrusters, &self.valves);
-        let thrust = |k: usize| valves[k].thrust(&thrusters[k].valve, time_s);
+        let (thrusters, valves) = (&settings.thrusters, &self.valves);
+        let thrust = |k: usize| valves.thrust(k, &thrusters[k], time_s);
         if (0..thrusters.len()).all(|k| thrust(k) == [0.0; 2]) {
             return;
         }
-        self.propellant.accumulate(&self.settings.tanks, time_s);
+        self.propellant.accumulate(&settings.tanks, time_s);
         let mut nozzles_kg_m_s = Vector3::zeros();
-        for (index, tank) in self.settings.tanks.iter().enumerate() {
+        for (index, tank) in settings.tanks.iter().enumerate() {
             let fed = || thrusters.iter().enumerate().filter(|(_, thruster)| thruster.tank == index);
             let used_kg = self.propellant.used_kg(index, time_s);
             // Pressure over that of the nominal thrust, and its slope.
@@ -196,43 +124,31 @@ impl Thrusters {
                 fed().map(|(k, thruster)| thruster.flow_kg_s * thrust(k)[0] * over(thruster)[0]).sum();
             for (k, thruster) in fed() {
                 let ([fraction, slope], [pressure, per_kg]) = (thrust(k), over(thruster));
-                let share = [fraction * pressure, slope * pressure + fraction * per_kg * flow_kg_s];
-                if share == [0.0; 2] {
+                let opening = [fraction * pressure, slope * pressure + fraction * per_kg * flow_kg_s];
+                if opening == [0.0; 2] {
                     continue;
                 }
-                let force_body_n = self.force_body_n(k, time_s);
+                let force_body_n = valves.force_body_n(k, settings, time_s);
                 let arm_m = thruster.position_body_m - mass.center_of_mass_body_m;
                 let torque_body_n_m = arm_m.cross(&force_body_n);
                 let flow_kg_s = thruster.flow_kg_s;
-                self.propellant.add_flow(index, share.map(|part| flow_kg_s * part));
-                nozzles_kg_m_s += arm_m * (flow_kg_s * share[0]);
-                self.load.add(&Thrust { force_body_n, torque_body_n_m, flow_kg_s }, &arm_m, share);
+                self.propellant.add_flow(index, opening.map(|part| flow_kg_s * part));
+                nozzles_kg_m_s += arm_m * (flow_kg_s * opening[0]);
+                self.load.add(&Thrust { force_body_n, torque_body_n_m, flow_kg_s }, &arm_m, opening);
             }
         }
-        let drained = self.settings.tanks.iter().enumerate().map(|(k, tank)| {
+        let drained = settings.tanks.iter().enumerate().map(|(k, tank)| {
             (self.propellant.flow_kg_s(k), tank.position_body_m - mass.center_of_mass_body_m)
         });
         self.load.drain(drained, &nozzles_kg_m_s);
     }
 
-    /// Full thrust of thruster `k` as it points now.
-    fn force_body_n(&self, k: usize, time_s: f64) -> Vector3<f64> {
-        let thruster = &self.settings.thrusters[k];
-        match self.burn {
-            Some(burn) if thruster.set == Some(burn.set) => {
-                let [along, _] = self.settings.nominal_thrust(burn.set, &Vector3::zeros());
-                self.settings.errors.turned(&thruster.force_body_n, &along, time_s - burn.since_s)
-            }
-            _ => thruster.force_body_n,
-        }
-    }
-
-    /// What the thrusters exert in the motion's present segment.
+    /// Force, torque and flow of the thrusters in the motion's present segment.
     pub fn load(&self) -> &ThrusterLoad {
         &self.load
     }
 
-    /// What they did up to `time_s` in the motion's present segment.
+    /// Impulse and velocity change up to `time_s` in the motion's present segment.
     pub fn totals_at(&self, motion: &GyrostatMotion, time_s: f64) -> ThrusterTotals {
         let mut totals = self.totals;
         if self.load.law.is_none() {
@@ -250,20 +166,9 @@ impl Thrusters {
         totals
     }
 
-    /// Thrusters as their tanks feed them at `time_s`.
-    fn feed(&self, time_s: f64) -> Feed<'_> {
-        Feed { settings: &self.settings, propellant: &self.propellant, time_s }
-    }
-
-    /// Whether a thruster of the set is fed.
-    fn can_burn(&self, set: ThrusterSet, time_s: f64) -> bool {
-        let mut members = self.settings.thrusters.iter().enumerate().filter(|(_, it)| it.set == Some(set));
-        members.any(|(k, _)| self.feed(time_s).feeds(k))
-    }
-
     /// The set that gives the current delta-v.
     pub fn burning(&self) -> Option<ThrusterSet> {
-        self.burn.map(|burn| burn.set)
+        self.valves.burning()
     }
 
     /// Dumps so far that thrusters did not carry out, or not to their end.
@@ -272,25 +177,26 @@ impl Thrusters {
     }
 
     /// Impulsive dumps and velocity changes at `time_s`.
-    pub(crate) fn at_once(&mut self, time_s: f64) -> AtOnce<'_> {
-        let Self { settings, propellant, unserved, for_dumps, .. } = self;
-        AtOnce { settings, propellant, for_dumps, unserved, time_s }
+    pub(crate) fn at_once<'a>(&'a mut self, allocator: &'a mut ThrusterAllocator, time_s: f64) -> AtOnce<'a> {
+        let Self { propellant, unserved, .. } = self;
+        AtOnce { allocator, propellant, unserved, time_s }
     }
 
     /// Begins a dump by pulses toward a total momentum, EME2000, in N m s, at the end of the motion.
     ///
     /// # Errors
-    /// No thrusters that are fed give torque all ways about this centre of mass.
+    /// No thrusters that are fed give torque in both senses about every axis through this centre of mass.
     pub(crate) fn begin_dump(
         &mut self,
+        allocator: &mut ThrusterAllocator,
         motion: &GyrostatMotion,
         target_inertial_n_m_s: Vector3<f64>,
         center_of_mass_body_m: &Vector3<f64>,
     ) -> Result<(), Unserved> {
         let time_s = motion.end_s();
-        let Self { settings, propellant, for_dumps, .. } = self;
-        let feed = Feed { settings, propellant, time_s };
-        if let Err(unserved) = for_dumps.about(&feed, Purpose::Dump, center_of_mass_body_m) {
+        let selection =
+            allocator.select(&self.propellant, time_s, Purpose::Dump, center_of_mass_body_m).map(|_| ());
+        if let Err(unserved) = selection {
             self.unserved.count(unserved);
             if unserved == Unserved::OneSided {
                 self.dump = None;
@@ -329,6 +235,7 @@ impl Thrusters {
     /// N m s.
     pub fn sample_dump(
         &mut self,
+        allocator: &mut ThrusterAllocator,
         motion: &GyrostatMotion,
         momentum_inertial_n_m_s: &Vector3<f64>,
         mass: &MassProperties,
@@ -339,51 +246,49 @@ impl Thrusters {
             return;
         };
         let totals = self.totals_at(motion, time_s);
-        let Self { settings, propellant, valves, schedule, for_dumps, .. } = self;
+        let Self { propellant, valves, .. } = self;
         let center_of_mass_body_m = &mass.center_of_mass_body_m;
-        let feed = Feed { settings, propellant, time_s };
-        let selection = for_dumps.about(&feed, Purpose::Dump, center_of_mass_body_m);
+        let fires = valves.fire(&allocator.settings.thrusters, time_s);
+        let selection = allocator.select(propellant, time_s, Purpose::Dump, center_of_mass_body_m);
         if let Err(unserved) = selection {
             self.unserved.count(unserved);
         }
-        let mut pairs = valves.iter().zip(&settings.thrusters);
-        let fires = pairs.any(|(valve, it)| valve.thrust(&it.valve, time_s) != [0.0; 2]);
         match selection {
-            Ok(selection) if !dump.is_last => {
+            Ok((feed, selection)) if !dump.is_last => {
                 let attitude = motion.attitude_at(time_s);
-                let left_body_n_m_s =
+                let remaining_body_n_m_s =
                     attitude.body_from_inertial(&(dump.target_inertial_n_m_s - momentum_inertial_n_m_s));
-                let opened_s = dump.decide(&feed, selection, &left_body_n_m_s, center_of_mass_body_m);
+                let opened_s = dump.decide(&feed, selection, &remaining_body_n_m_s, center_of_mass_body_m);
                 for (k, on_s) in opened_s.iter().enumerate().filter(|(_, on_s)| **on_s > 0.0) {
-                    schedule[k].plan(&settings.thrusters[k].valve, time_s, time_s + on_s);
+                    valves.open(k, &feed.settings.thrusters[k], [time_s, time_s + on_s]);
                 }
             }
-            // What is left in the valves still comes out.
+            // Open valves deliver the rest of their pulses.
             _ if fires => return,
             _ => dump.after = Some(totals),
         }
         self.dump = Some(dump);
     }
 
-    /// Pulses over `period_s` from `time_s` on whose mean is this torque, body frame, in N m; the part of it that they give, none
-    /// where no thrusters give torque all ways.
+    /// Plans pulses over `period_s` from `time_s` on with this mean torque, body frame, in N m; returns the fraction of it that they
+    /// give, `None` without thrusters that give torque in both senses about every axis.
     pub fn give(
         &mut self,
+        allocator: &mut ThrusterAllocator,
         torque_body_n_m: &Vector3<f64>,
         mass: &MassProperties,
-        period_s: f64,
-        time_s: f64,
+        [time_s, period_s]: [f64; 2],
     ) -> Option<f64> {
         let purpose = Purpose::Attitude { burning: self.burning() };
-        let Self { settings, propellant, schedule, for_attitude, .. } = self;
-        let feed = Feed { settings, propellant, time_s };
-        let selection = for_attitude.about(&feed, purpose, &mass.center_of_mass_body_m).ok()?;
+        let Self { propellant, valves, .. } = self;
+        let selected = allocator.select(propellant, time_s, purpose, &mass.center_of_mass_body_m);
+        let (feed, selection) = selected.ok()?;
         let impulse_body_n_m_s = torque_body_n_m * period_s;
         let times = selection.on_times_s(&impulse_body_n_m_s).enumerate();
         let longest_s = times.clone().map(|(k, full_s)| feed.opens_for_s(k, full_s)).fold(0.0, f64::max);
         let given = if longest_s > period_s { period_s / longest_s } else { 1.0 };
         for (k, full_s) in times {
-            let shortest_s = settings.thrusters[k].valve.min_on_s;
+            let shortest_s = feed.settings.thrusters[k].valve.min_on_s;
             let commanded_s = feed.opens_for_s(k, full_s * given).min(period_s);
             let opens_s = if commanded_s >= shortest_s {
                 commanded_s
@@ -393,45 +298,39 @@ impl Thrusters {
                 0.0
             };
             if opens_s > 0.0 {
-                schedule[k].plan(&settings.thrusters[k].valve, time_s, time_s + opens_s);
+                valves.open(k, &feed.settings.thrusters[k], [time_s, time_s + opens_s]);
             }
         }
         Some(given)
     }
 
-    /// Whether thrusters that are fed at `time_s`, other than a delta-v's, give torque all ways.
-    pub fn spans(&mut self, mass: &MassProperties, time_s: f64) -> bool {
+    /// Whether thrusters that are fed at `time_s`, other than a delta-v's, give torque in both senses about every axis.
+    pub fn spans(&self, allocator: &mut ThrusterAllocator, mass: &MassProperties, time_s: f64) -> bool {
         let purpose = Purpose::Attitude { burning: self.burning() };
-        let Self { settings, propellant, for_attitude, .. } = self;
-        let feed = Feed { settings, propellant, time_s };
-        !settings.thrusters.is_empty()
-            && for_attitude.about(&feed, purpose, &mass.center_of_mass_body_m).is_ok()
+        !allocator.settings.thrusters.is_empty()
+            && allocator.select(&self.propellant, time_s, purpose, &mass.center_of_mass_body_m).is_ok()
     }
 
     /// Thrust of thruster `k` at `time_s`, in N.
-    pub fn thrust_n(&self, k: usize, time_s: f64) -> f64 {
-        let thruster = &self.settings.thrusters[k];
-        let [fraction, slope] = self.valves[k].thrust(&thruster.valve, self.load.law.since_s);
-        let share = fraction + slope * (time_s - self.load.law.since_s).max(0.0);
-        if share == 0.0 {
+    pub fn thrust_n(&self, settings: &ReactionControlSettings, k: usize, time_s: f64) -> f64 {
+        let (thruster, since_s) = (&settings.thrusters[k], self.load.law.since_s);
+        let [fraction, slope] = self.valves.thrust(k, thruster, since_s);
+        let opening = fraction + slope * (time_s - since_s).max(0.0);
+        if opening == 0.0 {
             return 0.0;
         }
-        thruster.force_body_n.norm() * share * self.feed(time_s).pressure_ratio(k)
+        let feed = Feed { settings, propellant: &self.propellant, time_s };
+        thruster.force_body_n.norm() * opening * feed.pressure_ratio(k)
     }
 
-    /// Pulses that thruster `k` has begun.
-    pub fn pulses(&self, k: usize) -> u32 {
-        self.valves[k].pulses()
-    }
-
-    /// Whether the last step commanded a pulse of thruster `k` that does not open its valve.
-    pub fn was_too_short(&self, k: usize) -> bool {
-        self.schedule[k].was_too_short()
-    }
-
-    /// Mass properties at `time_s` with every panel at angle 0; none while no propellant is used.
-    pub fn left(&self, loaded: &MassProperties, time_s: f64) -> Option<MassProperties> {
+    /// Mass properties at `time_s` with every panel at angle 0; `None` while no propellant is used.
+    pub fn mass_properties_stowed(
+        &self,
+        settings: &ReactionControlSettings,
+        wet: &MassProperties,
+        time_s: f64,
+    ) -> Option<MassProperties> {
         let is_used = self.propellant.total_used_kg(time_s) > 0.0;
-        is_used.then(|| self.propellant.mass_properties(loaded, &self.settings.tanks, time_s))
+        is_used.then(|| self.propellant.mass_properties(wet, &settings.tanks, time_s))
     }
 }

@@ -61,8 +61,8 @@ impl Valves {
         let due_s = due_s(now_s);
         let mut mask = 0;
         for (k, schedule) in self.schedule.iter_mut().enumerate() {
-            schedule.take_closing(due_s);
-            schedule.take_opening(&self.execution[k].valve, due_s);
+            schedule.close_if_due(due_s);
+            schedule.open_if_due(&self.execution[k].valve, due_s);
             mask |= u32::from(schedule.is_open()) << k;
         }
         mask

@@ -7,22 +7,9 @@ use nalgebra::{Matrix3, Vector3};
 use crate::attitude::{OblatePlanet, gravity_gradient_n_m, oblate_gravity_gradient_n_m};
 use crate::loads::{Active, Effect, ForceTorque, Loads};
 use crate::numerics::scalar::Scalar;
+use crate::plant::settings::laws::Laws;
 
-/// Number of tunable parameters.
-pub const TUNABLE_COUNT: usize = 3;
-
-/// Parameters of the laws, constant during a step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Laws<T = f64> {
-    /// Gravitational parameter of the planet, in m3/s2.
-    pub gm_m3_s2: T,
-    /// Flattening of its gravity, where that acts on the gradient: J2 and the radius in m to which it refers.
-    pub flattening: Option<[T; 2]>,
-    /// The spacecraft's residual dipole, body frame, in A m2.
-    pub dipole_body_a_m2: Vector3<T>,
-}
-
-/// What the laws read at the spacecraft: planet, inertia, magnetic field and air.
+/// Quantities at the spacecraft that the laws depend on: planet, inertia, magnetic field and air.
 #[derive(Clone, Copy, Debug)]
 pub struct LocalEnvironment<T: Scalar> {
     /// From the spacecraft to the planet's centre, body frame, in m; `None` where it is not known.
@@ -37,43 +24,41 @@ pub struct LocalEnvironment<T: Scalar> {
     pub air: ForceTorque<T>,
 }
 
-impl<T: Scalar> Laws<T> {
-    /// Tunable parameters.
-    pub fn tunable_mut(&mut self) -> impl Iterator<Item = &mut T> {
-        self.dipole_body_a_m2.iter_mut()
+/// Writes the loads of the active effects that have a closed form.
+pub(super) fn write_loads<T: Scalar>(
+    laws: &Laws<T>,
+    active: Active,
+    at: &LocalEnvironment<T>,
+    loads: &mut Loads<T>,
+) {
+    for effect in active.disturbances().filter(|effect| !effect.is_light()) {
+        loads[effect] = load(laws, effect, at);
     }
+}
 
-    /// Writes the loads of those effects in closed form that act.
-    pub fn exert(&self, active: Active, at: &LocalEnvironment<T>, loads: &mut Loads<T>) {
-        for effect in active.disturbances().filter(|effect| !effect.is_light()) {
-            loads[effect] = self.load(effect, at);
-        }
-    }
-
-    fn load(&self, effect: Effect, at: &LocalEnvironment<T>) -> ForceTorque<T> {
-        let torque = |torque_body_n_m: Option<Vector3<T>>| ForceTorque {
-            torque_body_n_m: torque_body_n_m.unwrap_or_else(Vector3::zeros),
-            ..ForceTorque::zero()
-        };
-        match effect {
-            Effect::GravityGradient => torque(at.planet_body_m.map(|planet_body_m| match self.flattening {
-                None => gravity_gradient_n_m(self.gm_m3_s2, &at.inertia_body_kg_m2, &planet_body_m),
-                Some([j2, j2_radius_m]) => {
-                    let (gm_m3_s2, pole_body) = (self.gm_m3_s2, at.pole_body);
-                    let planet = OblatePlanet { gm_m3_s2, j2, j2_radius_m, pole_body };
-                    oblate_gravity_gradient_n_m(&planet, &at.inertia_body_kg_m2, &planet_body_m)
-                }
-            })),
-            Effect::Aerodynamic => at.air,
-            Effect::Magnetic => torque(Some(magnetic::torque_n_m(&self.dipole_body_a_m2, &at.field_body_t))),
-            Effect::Solar
-            | Effect::Albedo
-            | Effect::Infrared
-            | Effect::Thermal
-            | Effect::Applied
-            | Effect::Thrusters
-            | Effect::Imbalance
-            | Effect::Slosh => ForceTorque::zero(),
-        }
+fn load<T: Scalar>(laws: &Laws<T>, effect: Effect, at: &LocalEnvironment<T>) -> ForceTorque<T> {
+    let torque = |torque_body_n_m: Option<Vector3<T>>| ForceTorque {
+        torque_body_n_m: torque_body_n_m.unwrap_or_else(Vector3::zeros),
+        ..ForceTorque::zero()
+    };
+    match effect {
+        Effect::GravityGradient => torque(at.planet_body_m.map(|planet_body_m| match laws.flattening {
+            None => gravity_gradient_n_m(laws.gm_m3_s2, &at.inertia_body_kg_m2, &planet_body_m),
+            Some([j2, j2_radius_m]) => {
+                let (gm_m3_s2, pole_body) = (laws.gm_m3_s2, at.pole_body);
+                let planet = OblatePlanet { gm_m3_s2, j2, j2_radius_m, pole_body };
+                oblate_gravity_gradient_n_m(&planet, &at.inertia_body_kg_m2, &planet_body_m)
+            }
+        })),
+        Effect::Aerodynamic => at.air,
+        Effect::Magnetic => torque(Some(magnetic::torque_n_m(&laws.dipole_body_a_m2, &at.field_body_t))),
+        Effect::Solar
+        | Effect::Albedo
+        | Effect::Infrared
+        | Effect::Thermal
+        | Effect::Applied
+        | Effect::Thrusters
+        | Effect::Imbalance
+        | Effect::Slosh => ForceTorque::zero(),
     }
 }

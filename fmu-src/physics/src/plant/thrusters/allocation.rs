@@ -1,0 +1,109 @@
+//! Allocation of torque to thrusters: selections about a centre of mass, made anew where that or the feed of the tanks changes.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSettings};
+use crate::propulsion::{PropellantState, ThrusterSelection};
+use crate::spacecraft::{MOST_THRUSTERS, ThrusterSet};
+
+/// Purpose of a selection of thrusters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Purpose {
+    /// A dump.
+    Dump,
+    /// The attitude, while those of a set give a delta-v.
+    Attitude { burning: Option<ThrusterSet> },
+}
+
+/// Reason why no thrusters give torque in both senses about every axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unserved {
+    /// The thrusters that give the torque are not fed.
+    Unfed,
+    /// No thrusters give the torque about this centre of mass, fed or not.
+    OneSided,
+}
+
+/// How many dumps thrusters did not carry out, or not to their end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct UnservedDumps {
+    /// For want of propellant.
+    pub unfed: u32,
+    /// For want of thrusters that give torque in both senses about every axis through the centre of mass.
+    pub one_sided: u32,
+}
+
+impl UnservedDumps {
+    /// Counts one.
+    pub(super) fn count(&mut self, unserved: Unserved) {
+        let count = match unserved {
+            Unserved::Unfed => &mut self.unfed,
+            Unserved::OneSided => &mut self.one_sided,
+        };
+        *count = count.saturating_add(1);
+    }
+}
+
+/// Data that determine a selection.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Basis {
+    center_of_mass_body_m: Vector3<f64>,
+    purpose: Purpose,
+    fed: [bool; MOST_THRUSTERS],
+}
+
+/// The last selection for one purpose.
+type Selected = Option<(Basis, Result<ThrusterSelection, Unserved>)>;
+
+/// Settings of thrusters and tanks, with the last selections made from them; a cache that no state holds.
+#[derive(Clone, Debug, Default)]
+pub struct ThrusterAllocator {
+    /// Settings of thrusters and tanks.
+    pub settings: ReactionControlSettings,
+    for_dumps: Selected,
+    for_attitude: Selected,
+}
+
+impl ThrusterAllocator {
+    /// Allocator without selections yet.
+    pub fn new(settings: ReactionControlSettings) -> Self {
+        Self { settings, for_dumps: None, for_attitude: None }
+    }
+
+    /// Returns the feed of the tanks at `time_s` and the fed thrusters selected for this purpose about this centre of mass.
+    ///
+    /// # Errors
+    /// They do not give torque in both senses about every axis.
+    pub(super) fn select<'a>(
+        &'a mut self,
+        propellant: &'a PropellantState,
+        time_s: f64,
+        purpose: Purpose,
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> Result<(Feed<'a>, &'a ThrusterSelection), Unserved> {
+        let Self { settings, for_dumps, for_attitude } = self;
+        let settings = &*settings;
+        let feed = Feed { settings, propellant, time_s };
+        let selected = if purpose == Purpose::Dump { for_dumps } else { for_attitude };
+        let fed = core::array::from_fn(|k| k < settings.thrusters.len() && feed.feeds(k));
+        let basis = Basis { center_of_mass_body_m: *center_of_mass_body_m, purpose, fed };
+        if selected.as_ref().is_none_or(|(last, _)| *last != basis) {
+            *selected = None;
+        }
+        let (_, selection) = selected.get_or_insert_with(|| {
+            let select = |is_fed: &dyn Fn(usize) -> bool| match purpose {
+                Purpose::Dump => settings.dump_selection(is_fed, center_of_mass_body_m),
+                Purpose::Attitude { burning } => {
+                    settings.attitude_selection(burning, is_fed, center_of_mass_body_m)
+                }
+            };
+            let selection = select(&|k| fed[k]).map_err(|_| match select(&|_| true) {
+                Ok(_) => Unserved::Unfed,
+                Err(_) => Unserved::OneSided,
+            });
+            (basis, selection)
+        });
+        selection.as_ref().map(|selection| (feed, selection)).map_err(|unserved| *unserved)
+    }
+}

@@ -1,0 +1,173 @@
+//! Valves of the thrusters with at most one pulse ahead of each, and the current delta-v, which points its thrusters.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::numerics::or_infinite;
+use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSettings, ThrustCommand};
+use crate::propulsion::{PulseCommand, PulseSchedule, Valve, due_s};
+use crate::spacecraft::{Thruster, ThrusterSet};
+
+/// The current delta-v.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Burn {
+    set: ThrusterSet,
+    since_s: f64,
+    #[serde(with = "or_infinite")]
+    stop_s: f64,
+}
+
+/// Valves, their pulses and the current delta-v.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Valves {
+    valves: Vec<Valve>,
+    schedule: Vec<PulseSchedule>,
+    burn: Option<Burn>,
+}
+
+impl Valves {
+    /// Closed valves of `count` thrusters.
+    pub(super) fn new(count: usize) -> Self {
+        Self {
+            valves: vec![Valve::default(); count],
+            schedule: vec![PulseSchedule::default(); count],
+            burn: None,
+        }
+    }
+
+    /// Rejects decoded states that no simulation of these thrusters can produce.
+    pub(super) fn is_valid(&self, thrusters: &[Thruster]) -> bool {
+        let has_members = |set: ThrusterSet| thrusters.iter().any(|thruster| thruster.set == Some(set));
+        self.valves.len() == thrusters.len()
+            && self.schedule.len() == thrusters.len()
+            && self.valves.iter().all(Valve::is_valid)
+            && self.schedule.iter().all(PulseSchedule::is_valid)
+            && self.burn.is_none_or(|it| it.stop_s > f64::NEG_INFINITY && has_members(it.set))
+    }
+
+    /// Commands these pulses for the step over `span_s`; thrusters of the delta-v, and all during a dump, keep their own.
+    pub(super) fn command_pulses(
+        &mut self,
+        thrusters: &[Thruster],
+        pulses: &[PulseCommand],
+        span_s: [f64; 2],
+        is_dumping: bool,
+    ) -> bool {
+        let mut any = false;
+        for (k, (thruster, pulse)) in thrusters.iter().zip(pulses).enumerate() {
+            let is_own = self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) || is_dumping;
+            any |= self.schedule[k].command(&thruster.valve, pulse, span_s, !is_own);
+        }
+        any
+    }
+
+    /// Commands a delta-v from the time of `feed` on; true if that changes the present one.
+    pub(super) fn command_thrust(&mut self, feed: &Feed<'_>, command: &ThrustCommand) -> bool {
+        let time_s = feed.time_s;
+        // A set without thrusters that are fed gives no delta-v.
+        let requested = command.set.filter(|set| command.stop_s > due_s(time_s) && feed.feeds_any_of(*set));
+        let before = self.burn.map(|burn| (burn.set, burn.stop_s));
+        if requested.map(|set| (set, command.stop_s)) == before {
+            return false;
+        }
+        for (k, thruster) in feed.settings.thrusters.iter().enumerate() {
+            if self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) {
+                self.schedule[k].end(time_s);
+            }
+            if requested.is_some() && thruster.set == requested {
+                self.schedule[k].plan(&thruster.valve, time_s, command.stop_s);
+            }
+        }
+        let goes_on = self.burn.filter(|burn| Some(burn.set) == requested);
+        self.burn = requested.map(|set| Burn {
+            set,
+            since_s: goes_on.map_or(time_s, |burn| burn.since_s),
+            stop_s: command.stop_s,
+        });
+        true
+    }
+
+    /// Plans a pulse of thruster `k` from the first to the second time, in s.
+    pub(super) fn open(&mut self, k: usize, thruster: &Thruster, [from_s, to_s]: [f64; 2]) {
+        self.schedule[k].plan(&thruster.valve, from_s, to_s);
+    }
+
+    /// Time of the next edge of a pulse or end of a ramp, in s.
+    pub(super) fn next_edge_s(&self, thrusters: &[Thruster]) -> f64 {
+        let mut next_s = f64::INFINITY;
+        for (k, thruster) in thrusters.iter().enumerate() {
+            let edge_s = self.schedule[k].next_edge_s();
+            next_s = next_s.min(edge_s).min(self.valves[k].ramp_end_s(&thruster.valve));
+        }
+        next_s
+    }
+
+    /// Opens and closes the valves whose time has come; those that no tank feeds shut.
+    pub(super) fn process_events(&mut self, feed: &Feed<'_>) {
+        let Feed { settings, time_s, .. } = *feed;
+        let due_s = due_s(time_s);
+        for (k, thruster) in settings.thrusters.iter().enumerate() {
+            let (valve, pulse) = (&mut self.valves[k], &mut self.schedule[k]);
+            if pulse.is_idle() && valve.is_shut() {
+                continue;
+            }
+            if !feed.feeds(k) {
+                valve.shut(time_s);
+                pulse.clear();
+                continue;
+            }
+            if valve.ramp_end_s(&thruster.valve) <= due_s {
+                valve.end_ramp(time_s);
+            }
+            if pulse.close_if_due(due_s) {
+                valve.close(&thruster.valve, time_s);
+            }
+            if pulse.open_if_due(&thruster.valve, due_s) {
+                valve.open(&thruster.valve, time_s, thruster.scatter, settings.errors.seed, k as u16);
+            }
+        }
+        self.burn = self.burn.filter(|burn| burn.stop_s > due_s && feed.feeds_any_of(burn.set));
+    }
+
+    /// Fraction of full thrust by the valve of thruster `k` at `time_s`, and its slope in 1/s.
+    pub(super) fn thrust(&self, k: usize, thruster: &Thruster, time_s: f64) -> [f64; 2] {
+        self.valves[k].thrust(&thruster.valve, time_s)
+    }
+
+    /// Whether a valve lets propellant through at `time_s`.
+    pub(super) fn fire(&self, thrusters: &[Thruster], time_s: f64) -> bool {
+        (0..thrusters.len().min(self.valves.len())).any(|k| self.thrust(k, &thrusters[k], time_s) != [0.0; 2])
+    }
+
+    /// Full thrust of thruster `k` at `time_s`, body frame, in N, turned by the errors of a delta-v that it belongs to.
+    pub(super) fn force_body_n(
+        &self,
+        k: usize,
+        settings: &ReactionControlSettings,
+        time_s: f64,
+    ) -> Vector3<f64> {
+        let thruster = &settings.thrusters[k];
+        match self.burn {
+            Some(burn) if thruster.set == Some(burn.set) => {
+                let [along, _] = settings.nominal_thrust(burn.set, &Vector3::zeros());
+                settings.errors.turned(&thruster.force_body_n, &along, time_s - burn.since_s)
+            }
+            _ => thruster.force_body_n,
+        }
+    }
+
+    /// The set that gives the current delta-v.
+    pub(super) fn burning(&self) -> Option<ThrusterSet> {
+        self.burn.map(|burn| burn.set)
+    }
+
+    /// Number of pulses that thruster `k` has begun.
+    pub fn pulses(&self, k: usize) -> u32 {
+        self.valves[k].pulses()
+    }
+
+    /// Whether the last step commanded a pulse of thruster `k` that does not open its valve.
+    pub fn was_too_short(&self, k: usize) -> bool {
+        self.schedule[k].was_too_short()
+    }
+}
