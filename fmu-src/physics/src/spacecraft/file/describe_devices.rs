@@ -26,7 +26,7 @@ struct WheelDescription called "wheel" {
     coulomb_friction_n_m: NotNegative = 0.0,
     /// Viscous friction, in N m per rad/s.
     viscous_friction_n_m_s: NotNegative = 0.0,
-    /// Static imbalance of the rotor, in kg m; it needs position_m.
+    /// Static imbalance of the rotor, in kg m.
     static_imbalance_kg_m: NotNegative = 0.0,
     /// Place of the rotor, body frame, in m.
     position_m as position_body_m: Option<Point>,
