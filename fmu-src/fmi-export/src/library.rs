@@ -7,7 +7,7 @@ use crate::location;
 use crate::model::{Manual, Model, SetupError};
 use crate::panics::contain;
 use crate::prepared::{DescribeError, Prepared};
-use crate::start_values::{OtherReaders, Reader};
+use crate::start_values::{OtherReader, Reader};
 
 /// One model of a library, its type erased.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +29,7 @@ pub struct Entry {
 }
 
 /// Describes a model: name and text of its setup, and the other models that the setup may serve.
-type Prepare = fn(&str, &str, OtherReaders<'_>) -> Result<Prepared, DescribeError>;
+type Prepare = fn(&str, &str, &[OtherReader<'_>]) -> Result<Prepared, DescribeError>;
 /// The names that start values may have, if a model takes the setup of this name and text.
 type StartNames = fn(&str, &str) -> Option<BTreeSet<String>>;
 
@@ -71,7 +71,9 @@ impl Entry {
             let names = contain(|| (other.start_names)(file, text)).ok().flatten()?;
             Some(Reader { model: other.name, names })
         };
-        let others = || library.iter().filter(|other| other.name != self.name).filter_map(reader).collect();
+        let others = library.iter().filter(|other| other.name != self.name);
+        let others: Vec<_> = others.map(|other| move || reader(other)).collect();
+        let others: Vec<OtherReader<'_>> = others.iter().map(|read| read as OtherReader<'_>).collect();
         // One model that panics here must not hide the others of the library.
         contain(|| (self.prepare)(file, text, &others)).unwrap_or_else(|text| Err(DescribeError::Panic(text)))
     }

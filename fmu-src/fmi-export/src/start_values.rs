@@ -46,8 +46,7 @@ pub(crate) struct Readers<'a> {
     /// The model whose description is made.
     pub own: &'static str,
     pub file: &'a str,
-    read_others: OtherReaders<'a>,
-    others: OnceCell<Vec<Reader>>,
+    others: Vec<(OtherReader<'a>, OnceCell<Option<Reader>>)>,
 }
 
 /// Another model that takes the text.
@@ -56,21 +55,21 @@ pub(crate) struct Reader {
     pub names: BTreeSet<String>,
 }
 
-/// The other models of the library that take the text; each of them reads it anew.
-pub(crate) type OtherReaders<'a> = &'a dyn Fn() -> Vec<Reader>;
+/// Another model of the library, which reads the text anew; `None` where it does not take it.
+pub(crate) type OtherReader<'a> = &'a dyn Fn() -> Option<Reader>;
 
 impl<'a> Readers<'a> {
-    pub(crate) fn new(own: &'static str, file: &'a str, read_others: OtherReaders<'a>) -> Self {
-        Self { own, file, read_others, others: OnceCell::new() }
+    pub(crate) fn new(own: &'static str, file: &'a str, others: &[OtherReader<'a>]) -> Self {
+        Self { own, file, others: others.iter().map(|read| (*read, OnceCell::new())).collect() }
     }
 
-    /// Called only when a name is not the model's own.
-    fn others(&self) -> &[Reader] {
-        self.others.get_or_init(self.read_others)
+    /// Models that read the text when they are asked for: only a name that is not the model's own needs them.
+    fn others(&self) -> impl DoubleEndedIterator<Item = &Reader> {
+        self.others.iter().filter_map(|(read, reader)| reader.get_or_init(read).as_ref())
     }
 
     fn models(&self) -> Vec<&'static str> {
-        core::iter::once(self.own).chain(self.others().iter().map(|other| other.model)).collect()
+        core::iter::once(self.own).chain(self.others().map(|other| other.model)).collect()
     }
 }
 
@@ -185,7 +184,7 @@ fn targets(
             );
             return Err(Misfit::new(found, allowed));
         }
-        let other = readers.others().iter().find(|other| other.model == *model);
+        let other = readers.others().find(|other| other.model == *model);
         return match other {
             Some(other) if !other.names.contains(&entry.name) => {
                 Err(unknown(&entry.name, &[model.as_str()], other.names.iter().map(String::as_str)))
@@ -200,22 +199,22 @@ fn targets(
         None => names::elements(&description.variables, &entry.name),
     };
     let is_for_others =
-        entry.model.is_none() && readers.others().iter().any(|other| other.names.contains(&entry.name));
+        || entry.model.is_none() && readers.others().rev().any(|other| other.names.contains(&entry.name));
     let Some(first) = elements.first().and_then(own) else {
-        if is_for_others {
+        if is_for_others() {
             return Ok(Vec::new());
         }
         let mut known = settable_names(&description.variables);
         let mut models = vec![readers.own];
         if entry.model.is_none() {
             models = readers.models();
-            known.extend(readers.others().iter().flat_map(|other| other.names.iter().cloned()));
+            known.extend(readers.others().flat_map(|other| other.names.iter().cloned()));
         }
         return Err(unknown(&entry.name, &models, known.iter().map(String::as_str)));
     };
     if !is_settable(first) {
         // Another model may take what this one gives.
-        if is_for_others {
+        if is_for_others() {
             return Ok(Vec::new());
         }
         let found = format!("the {} {}", first.causality, entry.name);

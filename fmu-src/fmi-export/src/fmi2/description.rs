@@ -17,7 +17,7 @@ use crate::logger::Category;
 use crate::model::{About, Model};
 use crate::prepared::{DescribeError, Prepared};
 use crate::runtime::Typed;
-use crate::start_values::{self, OtherReaders, Readers};
+use crate::start_values::{self, OtherReader, Readers};
 use crate::variables::{
     Declare, DeclaredEnumeration, DeclaredType, Element, Interface, SetBits, Values, Variable, Variables,
 };
@@ -36,7 +36,7 @@ pub const fn entry<M: Model>() -> Entry {
 
 /// The description of a model with this setup, GUID included.
 pub fn description_of<M: Model>(file: &str, setup_text: &str) -> Result<Description, DescribeError> {
-    prepare::<M>(file, setup_text, &Vec::new).map(|prepared| prepared.description)
+    prepare::<M>(file, setup_text, &[]).map(|prepared| prepared.description)
 }
 
 /// The names that start values may have, if the model takes the setup text.
@@ -51,7 +51,7 @@ pub(crate) fn start_names<M: Model>(file: &str, setup_text: &str) -> Option<BTre
 pub(crate) fn prepare<M: Model>(
     file: &str,
     setup_text: &str,
-    others: OtherReaders<'_>,
+    others: &[OtherReader<'_>],
 ) -> Result<Prepared, DescribeError> {
     let setup = M::parse_setup(file, setup_text)?;
     let mut declare = Declare::new();

@@ -20,6 +20,7 @@ use crate::guidance::pointing::antenna::Antennas;
 use crate::guidance::{ChosenPlace, LinesOfSight, ScienceCourse, SunPlace, downlink_toward};
 use crate::math;
 use crate::momentum::Convention;
+use crate::numerics::golden_section::{Bracket, golden_section};
 use crate::numerics::roots;
 use crate::plant::StartMomentum;
 
@@ -407,22 +408,7 @@ fn newton(start: SunAngles, left: impl Fn(f64, f64) -> Vector2<f64>, tolerance: 
 
 /// Where a function of one lowest value has it in [`low`, `high`], and that value; the ends count.
 pub(super) fn golden(low: f64, high: f64, mut function: impl FnMut(f64) -> f64) -> (f64, f64) {
-    const SHARE: f64 = 0.618_033_988_749_894_9;
-    let (mut from, mut to) = (low, high);
-    let (mut a, mut b) = (to - SHARE * (to - from), from + SHARE * (to - from));
-    let (mut f_a, mut f_b) = (function(a), function(b));
-    for _ in 0..GOLDEN_STEPS {
-        if f_a <= f_b {
-            (to, b, f_b) = (b, a, f_a);
-            a = to - SHARE * (to - from);
-            f_a = function(a);
-        } else {
-            (from, a, f_a) = (a, b, f_b);
-            b = from + SHARE * (to - from);
-            f_b = function(b);
-        }
-    }
-    let middle = 0.5 * (from + to);
+    let middle = golden_section(Bracket { low, high }, GOLDEN_STEPS, &mut function).middle();
     let ends = [low, high, middle].map(|at| (at, function(at)));
     ends.into_iter().fold((middle, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
 }

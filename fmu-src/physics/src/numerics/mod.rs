@@ -6,6 +6,7 @@ pub mod chebyshev;
 pub mod collocation;
 pub mod error_function;
 pub mod events;
+pub mod golden_section;
 pub mod intervals;
 pub mod noise;
 pub mod or_infinite;
@@ -13,4 +14,8 @@ pub mod quadrature;
 pub mod roots;
 pub mod scalar;
 pub mod spacing;
+pub mod span;
 pub mod work;
+
+pub use golden_section::golden_section;
+pub use span::Span;

@@ -18,6 +18,8 @@ const FORCE_OVER_GRAVITY: f64 = 1e-4;
 const LIGHT_OFF: f64 = 0.1;
 /// Rounding of an angle, in rad.
 const ROUNDING_RAD: f64 = 1e-6;
+/// Time between two looks at the forces, in s, which change along an orbit.
+const LOOK_EVERY_S: f64 = 600.0;
 /// Panels whose warnings are remembered, one bit each.
 const PANELS: usize = 64;
 
@@ -27,8 +29,15 @@ pub struct FlightWatch {
     force: bool,
     occultation: bool,
     panels: u64,
-    /// Before this time the Moon cannot hide the Sun, in s.
+    /// Time of the next look at forces, in s.
+    force_from_s: Option<f64>,
+    /// Time of the next look at what may hide the Sun, in s.
     quiet_until_s: Option<f64>,
+}
+
+/// Whether a time in s lies before another, if there is one.
+fn is_before(time_s: f64, from_s: Option<f64>) -> bool {
+    from_s.is_some_and(|from_s| time_s < from_s)
 }
 
 /// Whether a panel stands at the angle from the Sun, both in rad, at which it is to stand.
@@ -49,7 +58,9 @@ impl FlightWatch {
         let Some((configuration, evaluation)) = flight.configuration().zip(flight.evaluation()) else {
             return;
         };
-        if !self.force && matches!(configuration.motion, Motion::TwoBody) {
+        let is_closed_orbit = matches!(configuration.motion, Motion::TwoBody);
+        if !self.force && is_closed_orbit && !is_before(time_s, self.force_from_s) {
+            self.force_from_s = Some(time_s + LOOK_EVERY_S);
             let mu_m3_s2 = configuration.orbit.mu_m3_s2();
             if let Some(text) = force_over_gravity(evaluation, mu_m3_s2) {
                 self.force = true;
@@ -64,7 +75,7 @@ impl FlightWatch {
                 continue;
             }
             let Some(angle_rad) = setting.angle_rad(panel, &sun) else { continue };
-            let [meant_rad, actual_rad] = setting.sun_offsets_rad(panel, &sun, angle_rad);
+            let [meant_rad, actual_rad] = setting.sun_offsets_rad(&panel.normal_body(angle_rad), &sun);
             if (math::cos(meant_rad) - math::cos(actual_rad)).abs() > LIGHT_OFF {
                 self.panels |= bit;
                 let [meant_deg, actual_deg] =
@@ -79,7 +90,7 @@ impl FlightWatch {
             }
         }
         let epoch_s = time::epoch_at_s(time_s, configuration.epoch_minus_time_s);
-        if self.occultation || self.quiet_until_s.is_some_and(|quiet_until_s| time_s < quiet_until_s) {
+        if self.occultation || is_before(time_s, self.quiet_until_s) {
             return;
         }
         if let Some(found) = flight.occultation(time_s, &mut self.quiet_until_s) {

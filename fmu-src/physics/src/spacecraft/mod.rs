@@ -54,7 +54,7 @@ pub(crate) use mass::steiner;
 pub use mass::{MassProperties, PanelMass, check_inertia};
 pub use material::{Following, Material, MaterialError, MaterialValues, NamedMaterial};
 pub use optics::Optics;
-pub use panel::{Panel, PanelControl, offset_for_suns};
+pub use panel::{Panel, PanelControl, light_suns, offset_for_suns};
 pub use panel_mass::{hinged_masses, with_panels};
 pub use planet_map::{PlanetCell, PlanetMap};
 pub use pointing::{

@@ -166,17 +166,17 @@ impl Panel {
         [facing, tilt]
     }
 
-    /// Light on the cells in suns, at an angle about the axis and this far from the Sun, whose direction is a unit vector in the
-    /// body frame: 1 is full sunlight across the cells at 1 AU.
-    pub fn suns(&self, angle_rad: f64, sun_body: &Vector3<f64>, sun_distance_m: f64) -> f64 {
-        let distance_au = sun_distance_m / ASTRONOMICAL_UNIT_M;
-        self.normal_body(angle_rad).dot(sun_body).max(0.0) / (distance_au * distance_au)
-    }
-
     /// Unit normal of the cell side at 90 deg, body frame.
     pub fn quarter_normal(&self) -> Vector3<f64> {
         self.axis_body.cross(&self.zero_normal_body)
     }
+}
+
+/// Light on cells in suns by their unit normal, the Sun's direction, both body frame, and its distance in m: 1 is full sunlight across
+/// the cells at 1 AU.
+pub fn light_suns(normal_body: &Vector3<f64>, sun_body: &Vector3<f64>, sun_distance_m: f64) -> f64 {
+    let distance_au = sun_distance_m / ASTRONOMICAL_UNIT_M;
+    normal_body.dot(sun_body).max(0.0) / (distance_au * distance_au)
 }
 
 /// Angle between cell normal and Sun, in rad, at which the light on the cells is `suns`, this far from the Sun; 0 where not even full

@@ -124,10 +124,13 @@ pub(super) fn read<'a>(
     let is_dynamic = state.inputs.source.is_dynamic && !state.waiting;
     let is_complete = begins || !state.flight.is_configured() || (state.waiting && changes.is_some());
     let is_changed = changes.is_some_and(|it| !is_dynamic || it.orbit || it.light || it.tunables);
+    let is_reconfigured = is_complete || is_changed;
+    let current = state.flight.configuration().filter(|_| !is_reconfigured);
+    let bias_body_n_m_s = current.map(|it| it.momentum.policy.bias_body_n_m_s);
     Ok(Reading {
         changes,
         begins,
-        is_reconfigured: is_complete || is_changed,
+        is_reconfigured,
         is_complete,
         applied: state.inputs.applied_load(variables, step.inputs),
         manager: momentum.targeting.manager(
@@ -138,7 +141,7 @@ pub(super) fn read<'a>(
                 sunshade,
                 antennas: &context.setup.antennas.all,
                 sun_limits_rad: limits_rad,
-                bias_body_n_m_s: wheels::bias_body_n_m_s(context, values),
+                bias_body_n_m_s: bias_body_n_m_s.unwrap_or_else(|| wheels::bias_body_n_m_s(context, values)),
             },
         ),
         prepared: context.setup.prepared_spacecraft(sunshade)?,

@@ -13,6 +13,7 @@ use physics::plant::{AirAndField, Evaluation, Flight, PreparedSpacecraft, Report
 use physics::plausibility::is_sun_offset_reached;
 use physics::propulsion::surface_in_plume;
 use physics::radiation::{TorquePolynomial, polynomial_valid};
+use physics::spacecraft::light_suns;
 
 use self::messages::failure;
 use super::inputs::wheels;
@@ -113,10 +114,11 @@ fn write_panels(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let corridor = variables.articulation.read(values).unwrap_or_default();
     for (index, (panel, (body, setting))) in variables.panel.iter().zip(panels).enumerate() {
         let angle_rad = setting.angle_rad(body, &sun);
-        let lit = angle_rad.filter(|_| sun.distance_m > 0.0);
-        let suns = lit.map(|angle_rad| body.suns(angle_rad, &sun.direction_body, sun.distance_m));
+        let normal_body = angle_rad.filter(|_| sun.distance_m > 0.0).map(|it| body.normal_body(it));
+        let suns =
+            normal_body.map(|normal_body| light_suns(&normal_body, &sun.direction_body, sun.distance_m));
         let continued_rad = |angle_rad| report.panel_turns.continued_rad(index, angle_rad, time_s);
-        let offsets_rad = lit.map(|angle_rad| setting.sun_offsets_rad(body, &sun, angle_rad));
+        let offsets_rad = normal_body.map(|normal_body| setting.sun_offsets_rad(&normal_body, &sun));
         values.set_real(panel.sun_offset_actual, offsets_rad.map_or(0.0, |[_, actual_rad]| actual_rad));
         values.set_boolean(panel.sun_offset_reached, offsets_rad.is_some_and(is_sun_offset_reached));
         values.set_real(panel.angle_actual, angle_rad.map_or(0.0, continued_rad));

@@ -3,10 +3,13 @@
 //! Method: signs at the ends of eight pieces; between them a lowest point is sought where the slopes to both sides leave room for one,
 //! then the root is bracketed.
 
+use crate::numerics::golden_section::{Bracket, golden_section};
 use crate::numerics::roots;
 
 /// Pieces of a segment at whose ends heights are looked at.
 const PIECES: usize = 8;
+/// Golden sections to a lowest point: below rounding of the time.
+const LOWEST_STEPS: usize = 40;
 
 /// A segment that begins this near the edge of a sphere of influence and goes over it counts as beyond it, in m: light moves the
 /// path by centimetres after the edge was sought.
@@ -36,25 +39,12 @@ pub(super) fn first_fall(
         let begins_there = piece == 0 && now < EDGE_M;
         let dips = !begins_there && now < slopes.min(reach_m) && now <= before && now <= after;
         if dips && now > 0.0 && before > 0.0 {
-            let lowest_s = lowest(from_s, at((piece + 1).min(PIECES)), height_m);
+            let around = Bracket { low: from_s, high: at((piece + 1).min(PIECES)) };
+            let lowest_s = golden_section(around, LOWEST_STEPS, &mut *height_m).middle();
             if height_m(lowest_s) < 0.0 {
                 return roots::bracketed(from_s, lowest_s, 0.0, height_m).ok();
             }
         }
     }
     None
-}
-
-/// Where a function with one lowest point is lowest, by golden sections.
-fn lowest(mut from_s: f64, mut to_s: f64, function: &mut impl FnMut(f64) -> f64) -> f64 {
-    const SHARE: f64 = 0.618_033_988_749_894_9;
-    for _ in 0..40 {
-        let [left_s, right_s] = [to_s - SHARE * (to_s - from_s), from_s + SHARE * (to_s - from_s)];
-        if function(left_s) < function(right_s) {
-            to_s = right_s;
-        } else {
-            from_s = left_s;
-        }
-    }
-    0.5 * (from_s + to_s)
 }

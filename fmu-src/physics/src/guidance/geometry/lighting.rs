@@ -17,6 +17,7 @@ use super::moving::{Moving, MovingVector, unit, unit_normal};
 use super::planet_point::radius_m;
 use crate::enumeration::enumeration;
 use crate::math;
+use crate::numerics::golden_section::{Bracket, golden_section};
 use crate::numerics::scalar::{Scalar, sin_cos};
 
 enumeration! {
@@ -80,27 +81,14 @@ fn nadir_angle_rad(alpha_rad: Moving, ratio: Moving) -> Moving {
 }
 
 /// The maximum of F within a bracket on which F' falls from positive to negative.
-fn solve(mut low_rad: f64, mut high_rad: f64, alpha_rad: f64, ratio: f64) -> f64 {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+fn solve(low_rad: f64, high_rad: f64, alpha_rad: f64, ratio: f64) -> f64 {
     // The bracket shrinks to 2 %; from there Newton converges quadratically.
     const GOLDEN_STEPS: usize = 8;
     const NEWTON_STEPS: usize = 60;
-    let f = |beta_rad| value(beta_rad, alpha_rad, ratio);
-    let (mut left_rad, mut right_rad) =
-        (high_rad - GOLDEN * (high_rad - low_rad), low_rad + GOLDEN * (high_rad - low_rad));
-    let (mut left, mut right) = (f(left_rad), f(right_rad));
-    for _ in 0..GOLDEN_STEPS {
-        if left < right {
-            (low_rad, left_rad, left) = (left_rad, right_rad, right);
-            right_rad = low_rad + GOLDEN * (high_rad - low_rad);
-            right = f(right_rad);
-        } else {
-            (high_rad, right_rad, right) = (right_rad, left_rad, left);
-            left_rad = high_rad - GOLDEN * (high_rad - low_rad);
-            left = f(left_rad);
-        }
-    }
-    let mut beta_rad = 0.5 * (low_rad + high_rad);
+    let bracket = Bracket { low: low_rad, high: high_rad };
+    let bracket = golden_section(bracket, GOLDEN_STEPS, |beta_rad| -value(beta_rad, alpha_rad, ratio));
+    let mut beta_rad = bracket.middle();
+    let Bracket { low: mut low_rad, high: mut high_rad } = bracket;
     for _ in 0..NEWTON_STEPS {
         let (slope, curvature) = slope_and_curvature(beta_rad, alpha_rad, ratio);
         if slope > 0.0 {

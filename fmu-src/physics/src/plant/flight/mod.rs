@@ -271,8 +271,8 @@ impl Flight {
         }
     }
 
-    /// Returns the body before the Sun's disc at `time_s`, where the flight was reported, which its shadow does not know; before
-    /// `quiet_until_s` the Moon cannot come there.
+    /// Returns the body before the Sun's disc at `time_s`, where the flight was reported, which its shadow does not know; `quiet_until_s`
+    /// becomes the time of the next look.
     pub fn occultation(&mut self, time_s: f64, quiet_until_s: &mut Option<f64>) -> Option<Occultation> {
         let FlightSetup { context, evaluation, .. } = self.setup.as_deref_mut()?;
         survey::occultation(context, &evaluation.as_ref()?.instant.geometry, time_s, quiet_until_s)

@@ -22,6 +22,9 @@ const MOON_RATE_RAD_S: f64 = 3.3e-6;
 /// Perigee of the Moon, below all of them, in m.
 const MOON_NEAREST_M: f64 = 3.5e8;
 
+/// Shorter than the transit of a planet, in s.
+const TRANSIT_S: f64 = 600.0;
+
 /// Least share of the disc that is told of: planets far away hide less.
 const LEAST_SHARE: f64 = 1e-3;
 
@@ -69,7 +72,7 @@ pub(super) fn survey(
 }
 
 /// The body before the Sun's disc at `time_s`, where the flight was reported, which its shadow does not know: the Earth, about it
-/// the Moon, and in motion between bodies every planet. `quiet_until_s` is the time before which the Moon cannot come there.
+/// the Moon, and in motion between bodies every planet. `quiet_until_s` becomes the time of the next look.
 pub(super) fn occultation(
     context: &mut SimulationContext,
     geometry: &Geometry,
@@ -98,6 +101,7 @@ pub(super) fn occultation(
         let found = hidden(geometry, &(moon_m - geometry.spacecraft.position_m), ("the Moon", RADIUS_MOON_M));
         return found.or(earth.flatten());
     }
+    *quiet_until_s = Some(time_s + TRANSIT_S);
     let others = Body::ALL.into_iter().filter(|body| *body != Body::Earth && body.is_planet());
     let others = others.filter(|_| matches!(configuration.motion, Motion::NBody { .. }) && !is_given);
     let epoch_s = time_s + configuration.epoch_minus_time_s;

@@ -153,10 +153,10 @@ impl PanelSetting {
         })
     }
 
-    /// Angle from the Sun at which the cell normal is to stand, and at which it stands at an angle about its axis, in rad, 0 to pi; of a
+    /// Angle from the Sun at which the cell normal is to stand, and at which this one stands, body frame, in rad, 0 to pi; of a
     /// panel that is turned by an angle of its own, or left out, both are that at which it stands.
-    pub fn sun_offsets_rad(&self, panel: &Panel, sun: &SunAt, angle_rad: f64) -> [f64; 2] {
-        let actual_rad = angle_between_rad(&panel.normal_body(angle_rad), &sun.direction_body);
+    pub fn sun_offsets_rad(&self, normal_body: &Vector3<f64>, sun: &SunAt) -> [f64; 2] {
+        let actual_rad = angle_between_rad(normal_body, &sun.direction_body);
         match self.commanded(sun) {
             Some(Commanded::SunOffset { offset_rad, .. }) => [wrapped_rad(offset_rad).abs(), actual_rad],
             Some(Commanded::Angle(_)) | None => [actual_rad; 2],

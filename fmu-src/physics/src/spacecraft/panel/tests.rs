@@ -91,7 +91,7 @@ fn the_light_on_the_cells_is_what_the_offset_was_chosen_for() {
         // By the inverse square of the distance and the cosine.
         let found = panel().normal_body(angle).dot(&sun) / (distance_au * distance_au);
         assert!((found - suns).abs() < 1e-12 * suns, "{suns} {distance_au}: {found}");
-        assert!((panel().suns(angle, &sun, distance_m) - suns).abs() < 1e-12 * suns);
+        assert!((light_suns(&panel().normal_body(angle), &sun, distance_m) - suns).abs() < 1e-12 * suns);
         let step_m = 1e3;
         let [before, after] = [-step_m, step_m].map(|step_m| offset_for_suns(suns, distance_m + step_m));
         let rate = offset_for_suns(suns, Dual64::new(distance_m, 1.0)).eps;
@@ -100,7 +100,10 @@ fn the_light_on_the_cells_is_what_the_offset_was_chosen_for() {
     // Beyond 1 / sqrt(3) AU not even full sunlight is three suns.
     assert_eq!(offset_for_suns(3.0, Dual64::new(0.6 * ASTRONOMICAL_UNIT_M, 1.0)), Dual64::new(0.0, 0.0));
     // Cells that look away are dark.
-    assert_eq!(panel().suns(core::f64::consts::PI, &-Vector3::y(), ASTRONOMICAL_UNIT_M), 0.0);
+    assert_eq!(
+        light_suns(&panel().normal_body(core::f64::consts::PI), &-Vector3::y(), ASTRONOMICAL_UNIT_M),
+        0.0
+    );
 }
 
 proptest! {
