@@ -16,7 +16,7 @@ pub struct ByEffect<V>([V; Effect::COUNT]);
 pub type Loads<T = f64> = ByEffect<ForceTorque<T>>;
 
 impl<V> ByEffect<V> {
-    /// What `value` gives for each.
+    /// Calls `value` for each effect.
     pub fn of(value: impl FnMut(Effect) -> V) -> Self {
         Self(Effect::ALL.map(value))
     }
@@ -40,12 +40,12 @@ impl<V> ByEffect<Option<V>> {
 }
 
 impl<T: Scalar> ByEffect<ForceTorque<T>> {
-    /// Nothing acts.
+    /// Loads that are all zero.
     pub fn zero() -> Self {
         Self([ForceTorque::zero(); Effect::COUNT])
     }
 
-    /// Those of the effects that act.
+    /// Loads of the effects that act.
     #[must_use]
     pub fn of_active(self, active: Active) -> Self {
         Self::of(|effect| if active.has(effect) { self[effect] } else { ForceTorque::zero() })

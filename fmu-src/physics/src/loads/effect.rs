@@ -15,7 +15,7 @@ pub enum Grid {
     MovingParts,
 }
 
-/// What turns effects on and off.
+/// Switch of effects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Switch {
     /// Light of the planet.
@@ -35,9 +35,9 @@ pub enum Switch {
 pub struct EffectRow {
     /// Name under which loads and momentum are reported, in lower camel case.
     pub name: &'static str,
-    /// What it is, in a sentence.
+    /// Description in a sentence.
     pub about: &'static str,
-    /// What turns it on; without a switch it always acts.
+    /// Switch of the effect; without one it always acts.
     pub switch: Option<Switch>,
     /// At which times it is computed.
     pub grid: Grid,
@@ -45,7 +45,7 @@ pub struct EffectRow {
     pub exerts_force: bool,
     /// Whether what it does to the momentum is kept apart from dump to dump.
     pub momentum_apart: bool,
-    /// What it usually does to the momentum from dump to dump, in N m s.
+    /// Typical change of momentum from dump to dump, in N m s.
     pub usual_momentum_n_m_s: f64,
 }
 
@@ -140,12 +140,12 @@ impl Effect {
     }
 }
 
-/// Which effects act.
+/// Effects that act.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Active([bool; Effect::COUNT]);
 
 impl Active {
-    /// Those whose switch is on, or that have none.
+    /// Effects whose switch is on, or that have none.
     pub fn by(is_on: impl Fn(Switch) -> bool) -> Self {
         Self(Effect::ALL.map(|effect| effect.row().switch.is_none_or(&is_on)))
     }
@@ -160,7 +160,7 @@ impl Active {
         Effect::ALL.into_iter().filter(move |effect| effect.is_disturbance() && self.has(*effect))
     }
 
-    /// Those of light and heat that act.
+    /// Active effects of light and heat.
     pub fn light(self) -> impl Iterator<Item = Effect> {
         self.disturbances().filter(|effect| effect.is_light())
     }

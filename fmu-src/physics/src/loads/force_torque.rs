@@ -38,7 +38,7 @@ impl<T: Scalar> ForceTorque<T> {
         Self { torque_body_n_m: self.torque_body_n_m - displacement_body_m.cross(&self.force_body_n), ..self }
     }
 
-    /// So many times as much.
+    /// Force and torque multiplied by `factor`.
     pub fn scaled(&self, factor: T) -> Self {
         Self { force_body_n: self.force_body_n * factor, torque_body_n_m: self.torque_body_n_m * factor }
     }

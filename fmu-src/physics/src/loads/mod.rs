@@ -1,4 +1,4 @@
-//! What acts on a spacecraft: the table of effects, and their loads as data. Their laws stand in later modules.
+//! Loads on a spacecraft: the table of effects, and force and torque of each as data. Their laws stand in later modules.
 
 mod by_effect;
 mod effect;

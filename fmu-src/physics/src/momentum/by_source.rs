@@ -1,4 +1,4 @@
-//! What each effect did to the momentum since the last dump.
+//! Change of momentum by each effect since the last dump.
 
 use nalgebra::{Rotation3, Vector3};
 use serde::{Deserialize, Serialize};

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// counts as exceeding, in N m s.
 pub(super) const EXCEEDED_N_M_S: f64 = 0.5e-9;
 
-/// What a component is set to that exceeded its threshold.
+/// Target of a component that exceeded its threshold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reinitialise {
     /// The opposite sign at this fraction of the threshold; the paper uses 1.
@@ -27,7 +27,7 @@ pub enum Reinitialise {
 pub struct DumpPolicy {
     /// Magnitude that triggers a dump, per body axis, in N m s; infinite = never.
     pub threshold_body_n_m_s: Vector3<f64>,
-    /// Where a component goes that exceeded its threshold.
+    /// Target of a component that exceeded its threshold.
     pub reinitialise: Reinitialise,
     /// Momentum of the wheels' bias, body frame, in N m s: thresholds and what a dump leaves count from there.
     pub bias_body_n_m_s: Vector3<f64>,

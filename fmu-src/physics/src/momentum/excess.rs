@@ -31,7 +31,7 @@ pub(super) struct Excess {
     pub(super) components: [bool; 3],
 }
 
-/// Where an excess is sought.
+/// Interval of the search for an excess, with the rounding of its times and the rate of the momentum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Watched {
     /// Start of the interval, in s.

@@ -79,7 +79,7 @@ impl MomentumIntegrator {
         self.segment.totals(time_s)
     }
 
-    /// What each effect did to the momentum since the last dump, at a time inside the current segment.
+    /// Change of momentum by each effect since the last dump, at a time inside the current segment.
     pub fn by_source(&self, time_s: f64) -> SourceMomenta {
         self.segment.by_source(time_s)
     }

@@ -1,4 +1,4 @@
-//! What the torques add up to: system momentum, delta-v, thruster dumps.
+//! Integrals of the loads: system momentum, delta-v, thruster dumps.
 //!
 //! A flight is cut into *segments* on which everything is smooth: a segment ends at the next multiple of the
 //! grid step, at an event (the attitude law changes form, an edge of the shadow), or where a thruster dump falls. Inside a segment the totals are a

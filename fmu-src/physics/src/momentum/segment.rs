@@ -37,7 +37,7 @@ pub struct Settings {
     pub grid_s: f64,
     /// Largest last Chebyshev term of a segment's totals, in N m s and m/s.
     pub tolerance: f64,
-    /// Which momentum the dump thresholds watch.
+    /// Momentum that the dump thresholds watch.
     pub convention: Convention,
     /// Thresholds and what follows.
     pub policy: DumpPolicy,
@@ -211,7 +211,7 @@ impl MomentumSegment {
         }
     }
 
-    /// What each effect did since the last dump, at a time inside the segment.
+    /// Change of momentum by each effect since the last dump, at a time inside the segment.
     pub(super) fn by_source(&self, time_s: f64) -> SourceMomenta {
         SourceMomenta(ByEffect::of(|effect| match &self.by_source[effect] {
             Some(momentum) if time_s > self.start_s => momentum.value(time_s),

@@ -9,12 +9,12 @@ use crate::numerics::spacing::spacing;
 /// An event this soon after the start of a segment is the one that it starts with, in s: an orbit computed anew moves it.
 const EVENT_GAP_S: f64 = 1e-4;
 
-/// The first time after `start_s` at which an event is another than the one there.
+/// Returns the earliest time at which an event is a new one and not the one at `start_s`, in s.
 pub fn after_event_s(start_s: f64) -> f64 {
     start_s + EVENT_GAP_S.max(4.0 * spacing(start_s))
 }
 
-/// What a flight gives at one time.
+/// Attitude, torque and acceleration of a flight at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TorqueSample {
     /// Matrix that takes body components to inertial components.
@@ -38,7 +38,7 @@ pub struct TorqueSample {
 /// Values of the event functions of a flight.
 pub type EventValues = SVector<f64, 4>;
 
-/// What the integration of momentum costs.
+/// Kind of work of the integration of momentum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
     /// A segment as long as the grid and the flight let it be.
@@ -51,7 +51,7 @@ pub enum Effort {
     Dump,
 }
 
-/// What gives attitude, torque and acceleration at any time.
+/// Model of attitude, torque and acceleration over time.
 pub trait TorqueModel {
     /// Why a flight cannot continue.
     type Failure: From<TooManyDumps>;
@@ -78,7 +78,7 @@ pub trait TorqueModel {
     /// The event functions of the sample alone.
     fn events(&mut self, time_s: f64) -> EventValues;
 
-    /// What the flight rounds `time_s` to, in s: samples and event functions are constant over less.
+    /// Resolution of `time_s` in the flight, in s: samples and event functions are constant over less.
     fn time_rounding_s(&self, time_s: f64) -> f64 {
         spacing(time_s)
     }

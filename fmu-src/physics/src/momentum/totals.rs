@@ -10,7 +10,7 @@ use crate::enumeration::enumeration;
 pub(super) const RATES: usize = 9;
 
 enumeration! {
-    /// What "system momentum in the body frame" means.
+    /// Meaning of "system momentum in the body frame".
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Convention {
         /// Physical: the inertial total shown in body components.
@@ -21,7 +21,7 @@ enumeration! {
     }
 }
 
-/// What is integrated over time.
+/// Integrals over time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Totals {
     /// Angular momentum of the whole spacecraft in the inertial frame, in N m s: dH/dt = T.

@@ -140,7 +140,7 @@ fn projection_across(axes_body: &[Vector3<f64>], rank: usize) -> Matrix3<f64> {
     }
 }
 
-/// What wheels hold by the three meanings of their capacity, in N m s.
+/// Momentum that wheels hold by the three meanings of their capacity, in N m s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelCapacity {
     /// Radius of the sphere inscribed in all momenta that some allocation holds: any direction.

@@ -1,6 +1,6 @@
 //! Flow of propellant that is linear in time: q(t) = flow + slope t.
 
-/// What flows out in `elapsed_s`, in kg, at a flow in kg/s with its slope in kg/s2.
+/// Mass that flows out in `elapsed_s`, in kg, at a flow in kg/s with its slope in kg/s2.
 pub(super) fn flowed_kg([flow, slope]: [f64; 2], elapsed_s: f64) -> f64 {
     (flow + 0.5 * slope * elapsed_s) * elapsed_s
 }

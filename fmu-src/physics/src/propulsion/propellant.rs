@@ -34,7 +34,7 @@ impl PropellantState {
         Self { since_s: time_s, tanks: vec![TankUse::default(); tanks] }
     }
 
-    /// Rejects decoded states that no simulation with so many tanks can produce.
+    /// Rejects decoded states that no simulation with this number of tanks can produce.
     pub fn is_valid(&self, tanks: usize) -> bool {
         self.tanks.len() == tanks && self.tanks.iter().all(|tank| tank.used_kg >= 0.0)
     }

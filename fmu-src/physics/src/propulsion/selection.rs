@@ -23,7 +23,7 @@ const SENSES: [(usize, f64, &str); 6] =
 /// Seconds of full thrust by thruster.
 type OnTimes = [f64; MOST_THRUSTERS];
 
-/// What is preferred among the thrusters that give a torque.
+/// Preference among the thrusters that give a torque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Preference {
     /// The least force beside the torque: couples, where there are some.
@@ -40,11 +40,11 @@ pub enum Preference {
 pub struct SelectionError {
     /// The body axis and the way about it.
     pub axis: &'static str,
-    /// Which thrusters, for people.
+    /// Thrusters in question, for the message.
     pub of: &'static str,
 }
 
-/// Which thrusters give which torque.
+/// On-times of the selected thrusters for torque about each axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThrusterSelection {
     /// Seconds of full thrust for 1 N m s about each of +X, -X, +Y, -Y, +Z, -Z.

@@ -16,7 +16,7 @@ pub struct ThrustErrors {
     pub drift_rad_s: f64,
     /// Standard deviation about each axis across the thrust, anew every second, in rad.
     pub jitter_rad: f64,
-    /// Of the draws.
+    /// Seed of the random draws.
     pub seed: u64,
 }
 

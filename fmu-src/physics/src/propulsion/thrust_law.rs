@@ -1,4 +1,4 @@
-//! What thrusters exert between two edges of their valves: linear in time.
+//! Force, torque and flow of thrusters between two edges of their valves: linear in time.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::flow::{flowed_kg, lasts_s};
 use crate::spacecraft::Thrust;
 
-/// What thrusters exert from a time on: values then, and their slopes a second.
+/// Force, torque and flow of thrusters from a time on: values then, and their slopes a second.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ThrustLaw {
     /// From when on, in s.
@@ -55,7 +55,7 @@ impl ThrustLaw {
         self.flow_kg_s[0] + self.flow_kg_s[1] * (time_s - self.since_s)
     }
 
-    /// What flowed out until `time_s`, in kg.
+    /// Mass that flowed out until `time_s`, in kg.
     pub fn burnt_kg(&self, time_s: f64) -> f64 {
         flowed_kg(self.flow_kg_s, time_s - self.since_s)
     }

@@ -1,7 +1,7 @@
 //! Valve of a thruster: its thrust over time as a fraction of the full one, from edge to edge.
 //!
 //! The fraction rises linearly to 1 while the valve is open and falls linearly to 0 after it closes ([`ValveTiming`]). It is
-//! the same from the last edge or the end of a ramp on, whoever asks when. A pulse's thrust is scattered about the nominal one
+//! the same from the last edge or the end of a ramp on, at whatever times it is asked for. A pulse's thrust is scattered about the nominal one
 //! by a draw that depends on seed, thruster and number of the pulse alone.
 
 use serde::{Deserialize, Serialize};

@@ -15,7 +15,7 @@ use crate::radiation::disturbance::{self, DisturbanceModel, Geometry, Recoil};
 use crate::refusal::Refusal;
 use crate::spacecraft::Material;
 
-/// Where everything is, body frame.
+/// Positions, directions, air and field, body frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Positions<T> {
     /// From the spacecraft to the Sun, in m; zero = there is no light yet, and nothing acts.
@@ -36,7 +36,7 @@ pub struct Positions<T> {
     pub panel_angles_rad: Vec<T>,
 }
 
-/// What else forces and torques follow from.
+/// Parameters of forces and torques.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<T: Scalar> {
     /// The Sun's flux at 1 AU, in W/m2.
@@ -49,18 +49,18 @@ pub struct Parameters<T: Scalar> {
     pub inertia_body_kg_m2: Matrix3<T>,
     /// The planet's surface.
     pub planet: PlanetSurface<T>,
-    /// What effects in closed form go by.
+    /// Parameters of the effects in closed form.
     pub laws: Laws<T>,
 }
 
-/// What the spacecraft is prepared as.
+/// Spacecraft as prepared for light and air.
 #[derive(Clone, Copy, Debug)]
 pub struct Surfaces<'a, T: Scalar> {
     /// In light.
     pub light: &'a DisturbanceModel,
     /// In air, where that acts.
     pub air: Option<&'a AerodynamicModel>,
-    /// Of these materials, in the order of [`DisturbanceModel::materials`].
+    /// Materials, in the order of [`DisturbanceModel::materials`].
     pub materials: &'a [Material<T>],
     /// The effects that act.
     pub active: Active,
@@ -120,7 +120,7 @@ impl<T> Positions<T> {
         positions.into_iter().chain(air_and_field).flatten().chain(&mut self.panel_angles_rad)
     }
 
-    /// What `of` makes of every number.
+    /// Applies `of` to every number.
     pub fn map<U>(&self, of: impl Fn(&T) -> U) -> Positions<U> {
         Positions {
             sun_m: self.sun_m.each_ref().map(&of),

@@ -49,7 +49,7 @@ const ORDER: usize = 4;
 /// A vector that changes linearly: at the start, and per second.
 pub(crate) type Linear = [Vector3<f64>; 2];
 
-/// What acts on the body and where the Sun stands, over one interval.
+/// Loads on the body and direction of the Sun over one interval.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct DisturbanceInterval {
     #[serde(with = "or_infinite")]

@@ -42,9 +42,9 @@ const NODES: usize = 8;
 /// Everything about one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluation {
-    /// Where everything is and how the body stands.
+    /// Geometry and attitude.
     pub instant: Instant,
-    /// What acts on it.
+    /// Force and torque by effect.
     pub loads: Loads,
     /// Mass, centre of mass and inertia as the panels stand.
     pub mass: MassProperties,
@@ -55,7 +55,7 @@ pub struct Evaluation {
 }
 
 impl Evaluation {
-    /// Of a spacecraft of which nothing is known but how it stands: no Sun, no planet, no force.
+    /// Spacecraft with a known attitude and no position: no Sun, no planet, no force.
     pub fn without_position(frame: MovingFrame, mass: MassProperties) -> Self {
         Self {
             instant: Instant::without_position(frame),
@@ -281,7 +281,7 @@ impl<'a> Plant<'a> {
         Hinged { panels: self.prepared.panels, configuration, mass_at_zero }
     }
 
-    /// Where everything is and how the body stands at `time_s`.
+    /// Geometry and attitude at `time_s`.
     pub fn instant(&mut self, time_s: f64) -> Instant {
         self.kinematics.instant(time_s)
     }

@@ -1,4 +1,4 @@
-//! What acts on the body at an instant and over an interval.
+//! Disturbances of the body at an instant and over an interval.
 
 pub(super) mod by_source;
 pub(super) mod disturbance_interval;

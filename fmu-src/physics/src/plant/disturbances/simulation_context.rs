@@ -38,7 +38,7 @@ pub struct SimulationContext {
 }
 
 impl SimulationContext {
-    /// Of this configuration with full tanks, without light and heat beyond direct sunlight.
+    /// Context of this configuration with full tanks, without light and heat beyond direct sunlight.
     pub fn new(configuration: Configuration) -> Self {
         Self {
             mass_at_zero: configuration.loaded(),
@@ -58,7 +58,7 @@ impl SimulationContext {
         PreparedSpacecraft { solar: self.solar.as_ref().unwrap_or(prepared.solar), ..prepared }
     }
 
-    /// Sets the material in this place of the spacecraft's where it is another than so far; allocates nothing.
+    /// Sets the material with this index where it differs from the present one; allocates nothing.
     pub fn set_material(&mut self, place: usize, material: &Material) {
         let Self { solar, light, air, .. } = self;
         let Some(solar) = solar.as_mut().filter(|it| it.materials().get(place) != Some(material)) else {

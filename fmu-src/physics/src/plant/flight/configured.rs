@@ -38,14 +38,14 @@ fn end_epoch_s(schedule: &Schedule, window: &Window, now_epoch_s: f64) -> f64 {
     if counted.activity == Activity::Science { counted.until_s } else { f64::INFINITY }
 }
 
-/// What a step is given from outside.
+/// Spacecraft, loads from outside, planner and work limit of a step.
 #[derive(Clone, Copy)]
 pub struct StepContext<'a> {
     /// The spacecraft.
     pub prepared: PreparedSpacecraft<'a>,
     /// Force and torque from outside.
     pub external: &'a External<'a>,
-    /// Who chooses the Sun's place in downlinks and in science that unloads; called where the guidance is managed.
+    /// Planner of the Sun's direction in downlinks and in science that unloads; called where the guidance is managed.
     pub planner: &'a SunPlanner<'a>,
     /// Units of about a microsecond that a step may take.
     pub work_limit: u32,

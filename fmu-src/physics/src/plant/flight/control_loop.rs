@@ -33,7 +33,7 @@ pub(crate) struct ControlLoop {
     pub wheels: WheelControl,
     /// What guidance commanded last.
     guidance: Option<Command>,
-    /// What it reported of a downlink.
+    /// Downlink as the last sample of guidance reported it.
     pub downlink: DownlinkStatus,
     /// Whether a substitute stood in for a target of its law.
     pub is_degenerate: bool,
@@ -57,7 +57,7 @@ pub(crate) struct Sampled<'a> {
 }
 
 impl ControlLoop {
-    /// At the start of a flight with so many wheels.
+    /// Control loop at the start of a flight with `wheels` wheels.
     pub(super) fn new(wheels: usize, time_s: f64, attitude: Attitude, rate_body_rad_s: Vector3<f64>) -> Self {
         Self {
             controller: ControllerState::new(attitude, rate_body_rad_s),
@@ -71,7 +71,7 @@ impl ControlLoop {
         }
     }
 
-    /// Whether a simulation with so many wheels can produce it.
+    /// Rejects decoded states that no simulation with this number of wheels can produce.
     pub(super) fn is_valid(&self, wheels: usize) -> bool {
         self.controller.is_valid()
             && self.wheels.is_valid(wheels)

@@ -1,4 +1,4 @@
-//! What can be known where a downlink begins, or science that unloads: Sun and Earth, torque by the Sun's place, and momentum ahead.
+//! Forecast where a downlink begins, or science that unloads: Sun and Earth, torque by the Sun's direction, and momentum ahead.
 //!
 //! A forecast is a fork of the flight in default attitudes (the Sun on -Y in downlinks and in science that unloads), without
 //! dumps, what is applied from outside being held.
@@ -46,7 +46,7 @@ impl StartMomentum {
 /// simulated. Called once a downlink or science that unloads, and again after a dump at its very beginning.
 pub type SunPlanner<'a> = dyn Fn(&mut DownlinkForecast<'_>) -> Result<Option<ChosenPlace>, PlantError> + 'a;
 
-/// Where a downlink begins, or science that unloads.
+/// Start of a downlink, or of science that unloads, from which it is forecast.
 pub struct DownlinkForecast<'o> {
     pub(crate) prepared: PreparedSpacecraft<'o>,
     pub(crate) context: &'o mut SimulationContext,

@@ -115,7 +115,7 @@ impl AttitudeDynamics {
         Ok(begun)
     }
 
-    /// Whether a simulation with so many wheels, modal coordinates and panels can produce it.
+    /// Rejects decoded states that no simulation with these numbers of wheels, modal coordinates and panels can produce.
     pub(super) fn is_valid(&self, wheels: usize, oscillators: usize, panels: usize) -> bool {
         self.motion.is_valid(wheels, oscillators)
             && self.mass.is_valid()
@@ -142,7 +142,7 @@ impl AttitudeDynamics {
         }
     }
 
-    /// What a step requests from its start on: dumps, pulses, thrust.
+    /// Applies the requests of a step from its start on: dumps, pulses, thrust.
     pub(super) fn take_requests(
         &mut self,
         step: &mut DynamicStep<'_, '_>,
@@ -190,7 +190,7 @@ impl AttitudeDynamics {
         Ok(())
     }
 
-    /// What a fork stands in from `time_s` on: the commanded attitude, followed ideally; without one the present attitude is held.
+    /// Attitude of a fork from `time_s` on: the commanded one, followed ideally; without a command the present one, held.
     pub(super) fn ideal_attitude(&self, step: &DynamicStep<'_, '_>, time_s: f64) -> AttitudeSource {
         let guided = step.flight.context.configuration.attitude.guided();
         match (&step.settings.control, step.inputs.tracked, guided) {
@@ -436,7 +436,7 @@ impl AttitudeDynamics {
         }
     }
 
-    /// What acts from `time_s` on.
+    /// Force, torque and mass flow on the body from `time_s` on.
     fn load(&self, [now, slope]: &[ForceTorque; 2], thrusters: &Thrusters, time_s: f64) -> BodyLoad {
         let [[force, force_slope], [torque, torque_slope]] = self.disturbance.total_at(time_s);
         let dump = self.dumps.torque_body_n_m();
@@ -478,7 +478,7 @@ impl AttitudeDynamics {
         })
     }
 
-    /// Where everything is and what acts at `time_s`, as the motion takes it.
+    /// Geometry, attitude and loads at `time_s`, as the motion integrates them.
     pub(super) fn evaluation(
         &self,
         settings: &DynamicsSettings,

@@ -23,7 +23,7 @@ const UNITS: u32 = 10;
 pub struct EncounterPrediction {
     /// When it was made, in s.
     pub since_s: f64,
-    /// What it found; `None`: no closest approach before the horizon, or no hyperbola.
+    /// Predicted arrival; `None`: no closest approach before the horizon, or no hyperbola.
     pub arrival: Option<PredictedArrival>,
 }
 
@@ -82,7 +82,7 @@ impl EncounterPrediction {
     }
 }
 
-/// Where a fork that begins at `time_s` arrives.
+/// Arrival of a fork that begins at `time_s`.
 fn arrival(
     fork: &mut Fork<'_>,
     encounter: &Encounter,

@@ -59,7 +59,7 @@ pub(crate) struct Fork<'f> {
     flight: (AttitudeSource, Settings, RadiationSettings, MassProperties),
 }
 
-/// Where a fork was, beside its propagator there.
+/// Time, schedule and mass of a fork at a checkpoint; its propagator is kept next to it.
 #[derive(Clone, Copy, Debug)]
 struct Waypoint {
     time_s: f64,
@@ -88,7 +88,7 @@ impl<'f> Fork<'f> {
         Self { prepared, context, propagator: own, integrator, applied, scheduled, waypoints, flight }
     }
 
-    /// What the flight computed ahead of `time_s` is void: something else acts from there on.
+    /// Discards what the flight computed ahead of `time_s`, where other loads begin to act.
     pub(super) fn cut(&mut self, time_s: f64) {
         self.propagator.cut(&self.context.configuration, time_s, true);
     }
@@ -169,7 +169,7 @@ impl<'f> Fork<'f> {
         Some(time_s)
     }
 
-    /// What the schedule has at `time_s`, where the fork has come; gives the velocity change, EME2000, in m/s.
+    /// Executes the scheduled event at `time_s`, the end of the fork; returns its velocity change, EME2000, in m/s.
     fn take_event(&mut self, time_s: f64) -> Result<Vector3<f64>, PlantError> {
         let Self { context, propagator, .. } = self;
         let configuration = &context.configuration;

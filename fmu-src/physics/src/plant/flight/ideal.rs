@@ -86,7 +86,7 @@ impl IdealFlight {
         Ok(begun)
     }
 
-    /// What a step requests from `start_s` on: a maneuver, a dump.
+    /// Applies the requests of a step from `start_s` on: a maneuver, a dump.
     pub(super) fn take_requests(
         &mut self,
         flight: &mut ConfiguredFlight<'_>,
@@ -150,7 +150,7 @@ impl IdealFlight {
         Ok(())
     }
 
-    /// What the schedule has at `time_s`, where the momentum has come.
+    /// Executes the scheduled event at `time_s`, the end of the integrated momentum.
     fn scheduled_event(&mut self, flight: &mut ConfiguredFlight<'_>, time_s: f64) -> Result<(), PlantError> {
         let configuration = &flight.context.configuration;
         let Some(event) = configuration.thruster_events.next(self.scheduled).copied() else { return Ok(()) };

@@ -64,47 +64,47 @@ pub struct Flight {
 /// How the attitude comes about.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 enum Mode {
-    /// Nothing acts yet, and the attitude is held.
+    /// Flight that waits for its inputs: no loads, the attitude held.
     Waiting,
     Ideal(Box<IdealFlight>),
     Dynamic(Box<AttitudeDynamics>),
 }
 
-/// What parameters and inputs set.
+/// Configuration, settings and caches, none of them saved.
 #[derive(Clone, Debug)]
 struct FlightSetup {
     context: SimulationContext,
     settings: ModeSettings,
-    /// Where everything was and what acted at the last report, kept in place: it is large.
+    /// Geometry, attitude and loads at the last report, kept in place because they are large.
     evaluation: Option<Evaluation>,
 }
 
-/// What parameters set beside the configuration.
+/// Settings of a mode, next to the configuration.
 #[derive(Clone, Debug)]
 pub enum ModeSettings {
-    /// Of a flight whose attitude is followed ideally, and of one that waits.
+    /// Settings of a flight whose attitude is followed ideally, and of one that waits.
     Ideal(IdealSettings),
-    /// Of a flight by torque.
+    /// Settings of a flight by torque.
     Dynamic(Box<DynamicsSettings>),
 }
 
-/// What changes.
+/// Groups of parameters and inputs that changed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Changes {
-    /// Position and velocity are given anew.
+    /// Position and velocity were given.
     pub orbit: bool,
-    /// Light and heat are no longer what they were going to be.
+    /// Attitude, panels or Sun changed, on which light and heat depend.
     pub light: bool,
-    /// The mass is another.
+    /// Mass, centre of mass or inertia changed.
     pub mass: bool,
-    /// The force from outside is another.
+    /// The force from outside changed.
     pub force: bool,
-    /// Mass, thresholds or target of dumps are others.
+    /// Mass, thresholds or target of dumps changed.
     pub tunables: bool,
 }
 
 impl Flight {
-    /// That waits.
+    /// Flight that waits for its inputs.
     pub fn waiting(thrusters: Thrusters) -> Self {
         Self {
             propagator: PropagatorState::default(),
@@ -131,7 +131,7 @@ impl Flight {
             }
     }
 
-    /// What was computed elsewhere than at `time_s`, if anything.
+    /// Names a part of the flight that was not computed at `time_s`, if any.
     pub fn first_uncovered(&self, time_s: f64) -> Option<&'static str> {
         let PropagatorState { light, trajectory, air_and_field, .. } = &self.propagator;
         let is_lit = light.as_ref().is_none_or(|it| it.covers(time_s));
@@ -156,7 +156,7 @@ impl Flight {
         self.setup.as_ref().map(|setup| &setup.context.configuration)
     }
 
-    /// Where everything was and what acted at the last report; `None` before any.
+    /// Geometry, attitude and loads at the last report; `None` before any.
     pub fn evaluation(&self) -> Option<&Evaluation> {
         self.setup.as_ref()?.evaluation.as_ref().filter(|_| !self.is_waiting())
     }
@@ -182,7 +182,7 @@ impl Flight {
         }
     }
 
-    /// Where the Sun stands during downlinks.
+    /// Direction of the Sun during downlinks.
     pub fn sun_choice(&self) -> &SunChoice {
         &self.propagator.sun_choice
     }

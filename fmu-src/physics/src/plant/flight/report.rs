@@ -1,4 +1,4 @@
-//! What a flight shows at one time, in whichever way its attitude comes about.
+//! Report of a flight at one time, alike for every source of its attitude.
 
 use nalgebra::Vector3;
 
@@ -38,7 +38,7 @@ pub struct Report<'a> {
     pub reaction_control: &'a ReactionControlSettings,
     /// Time since the last periapsis, in s; 0 where the flight waits.
     pub since_periapsis_s: f64,
-    /// What is reported of a downlink.
+    /// Downlink of guidance at this time.
     pub downlink: DownlinkStatus,
     /// Whether a substitute stands in for a target of the attitude law on one line with the other.
     pub is_degenerate: bool,
@@ -48,7 +48,7 @@ pub struct Report<'a> {
     pub timeline_until_s: Option<f64>,
     /// Whether a downlink lasts whose target of momentum is out of reach.
     pub target_is_clamped: bool,
-    /// Where everything is and what acts.
+    /// Geometry, attitude and loads.
     pub evaluation: &'a Evaluation,
     /// The body that the path is integrated about.
     pub integration_center: Body,
@@ -97,12 +97,12 @@ impl Report<'_> {
     }
 }
 
-/// What depends on how the attitude comes about.
+/// Values that depend on the mode of the flight.
 pub struct Shown<'a> {
     time_s: f64,
     /// Momentum and velocity change so far.
     pub totals: Totals,
-    /// What each effect did to the momentum since the last dump.
+    /// Change of momentum by each effect since the last dump.
     pub by_source: SourceMomenta,
     /// Dumps so far.
     pub dumps: Dumps,

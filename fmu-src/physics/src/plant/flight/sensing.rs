@@ -10,7 +10,7 @@ use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings
 /// Turn below which the quaternion keeps its nearer sign, in rad; a half turn at the most.
 const SAME_SIGN_RAD: f64 = 1.0;
 
-/// What the sensors measured last.
+/// Last measurements of the sensors.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Sensing {
     /// Number of the next sample and its time, in s.

@@ -30,12 +30,12 @@ struct CachedAllocator {
 }
 
 impl WheelControl {
-    /// Of so many wheels, without torque.
+    /// Motors of `wheels` wheels, without torque.
     pub fn new(wheels: usize) -> Self {
         Self { motors: vec![Motor::default(); wheels], is_limited: false, allocator: None }
     }
 
-    /// Whether a simulation with so many wheels can produce it.
+    /// Rejects decoded states that no simulation with this number of wheels can produce.
     pub fn is_valid(&self, wheels: usize) -> bool {
         self.motors.len() == wheels
     }
@@ -50,7 +50,7 @@ impl WheelControl {
         self.is_limited
     }
 
-    /// Takes note of which wheels (0-based) failed: their motors give nothing.
+    /// Sets which wheels failed, one flag a wheel: their motors give no torque.
     pub fn fail(&mut self, failed: &[bool]) {
         for (motor, failed) in self.motors.iter_mut().zip(failed) {
             motor.failed = *failed;

@@ -17,7 +17,7 @@ pub struct CommandSlews {
 }
 
 impl CommandSlews {
-    /// Of a flight, or a timeline, that begins at `time_s`.
+    /// Slews of a flight, or a timeline, that begins at `time_s`.
     pub fn beginning(time_s: f64) -> Self {
         Self { begun_s: time_s, last: [None; 2] }
     }

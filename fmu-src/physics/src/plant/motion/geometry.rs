@@ -1,4 +1,4 @@
-//! Where everything is at one time, as seen from the spacecraft.
+//! Sun, planet and Earth at one time, as seen from the spacecraft.
 
 use nalgebra::Vector3;
 

@@ -12,7 +12,7 @@ use crate::plant::settings::panel_setting::SunAt;
 /// Everything about one time but what acts on the spacecraft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Instant {
-    /// Where everything is.
+    /// Sun, planet and Earth as the spacecraft sees them.
     pub geometry: Geometry,
     /// Body frame and rate.
     pub frame: MovingFrame,
@@ -26,7 +26,7 @@ pub struct Instant {
     pub planet_body_m: Option<Vector3<f64>>,
     /// Visible part of the Sun's disc, 0 to 1.
     pub lit_fraction: f64,
-    /// Which form the attitude law and the shadow have.
+    /// Forms of the attitude law and of the shadow.
     pub regime: Regime,
     /// Outer and inner gap of the shadow, in rad, and the margins of the attitude law; see [`EventValues`].
     pub events: EventValues,
@@ -39,7 +39,7 @@ pub struct Instant {
 }
 
 impl Instant {
-    /// Of a spacecraft of which nothing is known but how it stands.
+    /// Spacecraft with a known attitude and no position: no Sun, no planet, no field.
     pub fn without_position(frame: MovingFrame) -> Self {
         Self {
             geometry: Geometry::default(),
@@ -95,7 +95,7 @@ impl Instant {
     }
 }
 
-/// Which form the attitude law and the shadow have.
+/// Forms of the attitude law and of the shadow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Regime {
     /// Since when the window of science or downlink lasts, in s past J2000 TDB; minus infinity where there is none.

@@ -91,7 +91,7 @@ pub(crate) struct Kinematics<'a> {
     pub timeline: Option<TimelineLaw<'a>>,
     /// Slews into them.
     pub command_slews: &'a mut CommandSlews,
-    /// What the step has cost so far.
+    /// Work of the step so far.
     pub work: &'a mut Work,
     /// With every panel at angle 0, of what is left of the propellant.
     pub mass_at_zero: MassProperties,
@@ -121,7 +121,7 @@ impl Kinematics<'_> {
         self.attitude(time_s, &geometry).frame.inertial_from_body
     }
 
-    /// What `time_s` is rounded to, in s: everything is constant over less.
+    /// Resolution of `time_s`, in s: everything is constant over less.
     pub(crate) fn time_rounding_s(&self, time_s: f64) -> f64 {
         spacing(time_s).max(spacing(time_s + self.configuration.epoch_minus_time_s))
     }
@@ -166,7 +166,7 @@ impl Kinematics<'_> {
         spacecraft - geometry::body(self.configuration, self.ephemeris, planet, epoch_s)
     }
 
-    /// Where everything is at `time_s`.
+    /// Geometry, attitude and regime at `time_s`.
     fn geometry(&mut self, time_s: f64) -> Geometry {
         let spacecraft = self.trajectory.state_at(self.configuration, time_s);
         Geometry::at(self.configuration, self.ephemeris, time_s, spacecraft)
@@ -206,7 +206,7 @@ impl Kinematics<'_> {
         }
     }
 
-    /// What the timeline commands at `time_s`, else the orbit phase's own guidance.
+    /// Attitude that the timeline commands at `time_s`, else the orbit phase's own guidance.
     fn guided(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let distance_m = geometry.to_sun.position_m.norm();
         let Some((law, settings)) = self.timeline.zip(self.configuration.timeline) else {
@@ -224,7 +224,7 @@ impl Kinematics<'_> {
         self.slewed(guided, slew.as_ref(), time_s, (geometry, target))
     }
 
-    /// What a command is on the way of a slew into it.
+    /// Attitude during the slew into a command.
     fn slewed(
         &self,
         guided: &Guided,
@@ -297,7 +297,7 @@ impl Kinematics<'_> {
         }
     }
 
-    /// What a slot of the timeline commands at `time_s`, without the slew into it.
+    /// Attitude that a slot of the timeline commands at `time_s`, without the slew into it.
     fn by_slot(
         &mut self,
         guided: &Guided,
@@ -358,7 +358,7 @@ impl Kinematics<'_> {
         law.attitude(settings, entry, time_s, &ephemeris_at_time, sun)
     }
 
-    /// What the orbit phase's own guidance commands at `time_s`.
+    /// Attitude that the orbit phase's own guidance commands at `time_s`.
     fn by_orbit_phase(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
         let (trajectory, default_downlink) = (&*self.trajectory, self.default_downlink);
@@ -377,13 +377,13 @@ impl Kinematics<'_> {
         })
     }
 
-    /// What guidance commands at `time_s`; `None` where there is none.
+    /// Attitude that guidance commands at `time_s`; `None` without guidance.
     pub(crate) fn guided_attitude(&mut self, time_s: f64) -> Option<GuidedAttitude> {
         let configuration = self.configuration;
         configuration.attitude.guided().map(|law| self.attitude_by(law, time_s))
     }
 
-    /// What this guidance commands at `time_s`.
+    /// Attitude that this guidance commands at `time_s`.
     pub(crate) fn attitude_by(&mut self, law: &Guided, time_s: f64) -> GuidedAttitude {
         let geometry = self.geometry(time_s);
         self.guided(law, time_s, &geometry)

@@ -1,4 +1,4 @@
-//! Where the spacecraft is and how it moves: orbit, geometry, attitude, turning panels.
+//! Position and motion of the spacecraft: orbit, geometry, attitude, turning panels.
 
 pub(super) mod approaches;
 pub(super) mod command_slews;

@@ -25,7 +25,7 @@ use crate::plant::settings::panel_setting::SunAt;
 const STEP_RAD: f64 = 0.02;
 /// Gauss nodes of a step.
 const NODES: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
-/// Where the law bends by more within an interval, in rad, its rate at the start says nothing and the panel turns evenly.
+/// Greatest departure of a law from its rate at the start of an interval, in rad; beyond it the panel turns evenly.
 const GREATEST_BEND_RAD: f64 = 0.5;
 /// Rounds until angles that the Sun gives and the body's turn agree; each gains a share of the panels in the inertia.
 const ROUNDS: usize = 40;
@@ -53,7 +53,7 @@ pub struct PanelMotion {
     turns: Vec<PanelTurn>,
 }
 
-/// What the panels belong to.
+/// Spacecraft that carries the panels.
 #[derive(Clone, Copy)]
 pub(crate) struct Hinged<'a> {
     pub panels: &'a [Panel],
@@ -110,7 +110,7 @@ impl PanelMotion {
         with_panels(at_zero, panels, |index| self.turn_at(index, time_s)[0])
     }
 
-    /// What the panels do to a body of these mass properties from `time_s` on; `None` where none turns.
+    /// Motion of the panels inside a body of these mass properties from `time_s` on; `None` where none turns.
     pub(crate) fn internal(
         &self,
         panels: &[Panel],

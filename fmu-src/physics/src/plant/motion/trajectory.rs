@@ -1,4 +1,4 @@
-//! Where the spacecraft is: in closed form, or on an integrated orbit with what has to be remembered of it.
+//! Orbit of the spacecraft: in closed form, or integrated with the states that have to be kept of it.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

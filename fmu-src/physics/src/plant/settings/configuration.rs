@@ -28,7 +28,7 @@ use super::panel_setting::{PanelSetting, SunAt};
 use super::radiation_settings::RadiationSettings;
 use super::thruster_events::ThrusterEventSettings;
 
-/// Where the attitude comes from.
+/// Source of the attitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AttitudeSource {
     /// The orbit phase's own guidance; its schedule runs in epochs (s past J2000 TDB).
@@ -164,7 +164,7 @@ pub struct PredictionSettings {
 }
 
 impl PredictionSettings {
-    /// None is ever due.
+    /// Settings without predictions.
     pub(crate) const NEVER: Self = Self { refresh_s: 0.0, horizon_s: 0.0, last_epoch_s: 0.0, lead_s: 0.0 };
 
     /// The times from `start_s` on and before `end_s` at which a prediction is due, in s.
@@ -189,7 +189,7 @@ impl PredictionSettings {
     }
 }
 
-/// What moves the spacecraft.
+/// Motion of the spacecraft's centre of mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
     /// The centre's gravity alone: the orbit in closed form.
@@ -392,7 +392,7 @@ pub struct Configuration {
     pub eme2000_from_orbit_frame: Matrix3<f64>,
     /// Orbit about it, in EME2000, by epoch; of an integrated orbit the one it starts on.
     pub orbit: TwoBodyOrbit,
-    /// What moves the spacecraft along or off that orbit.
+    /// Motion along that orbit or off it.
     pub motion: Motion,
     /// Sun and Earth.
     pub ephemeris: EphemerisSource,
@@ -408,7 +408,7 @@ pub struct Configuration {
     pub light_and_heat: RadiationSettings,
     /// Attitude.
     pub attitude: AttitudeSource,
-    /// What a timeline goes by; `None`: none is followed.
+    /// Settings of the timeline; `None`: no timeline is followed.
     pub timeline: Option<TimelineSettings>,
     /// Model of the shade.
     pub sunshade: SunshadeModel,
@@ -420,12 +420,12 @@ pub struct Configuration {
     pub mass_kg: f64,
     /// Inertia about the centre of mass, body frame, in kg m2, with every panel at angle 0 and full tanks.
     pub inertia_body_kg_m2: Matrix3<f64>,
-    /// Which effects act.
+    /// Effects that act.
     pub effects: Active,
     /// Parameters of effects in closed form.
     pub laws: Laws,
     /// Integration of momentum.
     pub momentum: Settings,
-    /// What thruster events go by, and those that are scheduled.
+    /// Settings of thruster events, and the scheduled ones.
     pub thruster_events: ThrusterEventSettings,
 }

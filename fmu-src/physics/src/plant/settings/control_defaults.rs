@@ -51,7 +51,7 @@ pub struct ControlDefaults {
 }
 
 impl ControlDefaults {
-    /// Of a spacecraft with these wheels.
+    /// Defaults of a spacecraft with these wheels.
     pub fn of(spacecraft: &Spacecraft, wheels: &WheelArray) -> Self {
         let guaranteed = |of_wheel: fn(&Wheel) -> f64| {
             wheels.guaranteed_threshold_n_m_s(spacecraft.wheels.iter().map(of_wheel))

@@ -1,4 +1,4 @@
-//! What parameters and inputs set about attitude dynamics and control.
+//! Settings and inputs of attitude dynamics and control.
 
 use nalgebra::Vector3;
 
@@ -15,7 +15,7 @@ use super::reaction_control_settings::ThrustCommand;
 use super::thruster_events::Maneuver;
 use super::wheel_control_settings::WheelControlSettings;
 
-/// What parameters set about dynamics and control.
+/// Settings of dynamics and control.
 #[derive(Clone, Debug)]
 pub struct DynamicsSettings {
     /// Body and wheels.
@@ -34,7 +34,7 @@ pub struct DynamicsSettings {
     pub grid_s: f64,
     /// Whether panels that turn have a mass: the inertia then follows them from one edge of the grid to the next.
     pub panels_have_mass: bool,
-    /// Where the flight begins.
+    /// Attitude, rate and wheel momenta at the start of the flight.
     pub start: StartMotion,
 }
 
@@ -101,7 +101,7 @@ impl ThrusterControl {
     }
 }
 
-/// What is commanded to the controller.
+/// Command to the controller.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Tracked {
     /// The orbit phase's own guidance.
@@ -113,16 +113,16 @@ pub enum Tracked {
     Rate(Vector3<f64>),
 }
 
-/// What the inputs of a step say; filled anew in every step.
+/// Inputs of a step; filled anew in every step.
 #[derive(Clone, Debug, Default)]
 pub struct DynamicsInputs {
-    /// What the controller tracks.
+    /// Attitude or rate that the controller tracks.
     pub tracked: Tracked,
     /// Torque that each wheel is commanded in free flight, in N m.
     pub wheel_torques_n_m: Vec<f64>,
-    /// Which wheels failed.
+    /// Failure of each wheel.
     pub wheel_failed: Vec<bool>,
-    /// Which Sun sensors failed.
+    /// Failure of each Sun sensor.
     pub sun_sensor_failed: Vec<bool>,
     /// Pulse that each thruster is commanded within the step.
     pub pulses: Vec<PulseCommand>,

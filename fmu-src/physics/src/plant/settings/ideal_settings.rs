@@ -1,4 +1,4 @@
-//! What parameters set about wheels and sensors where the attitude is followed ideally.
+//! Settings of wheels and sensors where the attitude is followed ideally.
 
 use nalgebra::Vector3;
 
@@ -27,7 +27,7 @@ pub struct IdealSettings {
     pub sun_sensors: Vec<SunSensor>,
     /// Samples of the sensors a second.
     pub rate_hz: f64,
-    /// Of the sensors' noise.
+    /// Seed of the sensors' noise.
     pub seed: u64,
     /// The system's momentum where the flight begins, body frame, from the wheels' bias, in N m s.
     pub start_momentum_body_n_m_s: Vector3<f64>,
@@ -41,7 +41,7 @@ impl IdealSettings {
         self.wheels.get(k).map_or(0.0, |wheel| wheel.bias_n_m_s + self.array.momentum_n_m_s(k, &from_bias))
     }
 
-    /// What the wheels' biases come to, body frame, in N m s.
+    /// Sum of the wheels' biases, body frame, in N m s.
     fn bias_body_n_m_s(&self) -> Vector3<f64> {
         self.array.sum_body_n_m_s(self.wheels.iter().map(|wheel| wheel.bias_n_m_s))
     }

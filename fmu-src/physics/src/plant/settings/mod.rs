@@ -1,4 +1,4 @@
-//! What is set for a flight: configuration, dynamics, thrusters, light, bounds of work.
+//! Settings of a flight: configuration, dynamics, thrusters, light, bounds of work.
 
 pub(super) mod air_and_field_settings;
 pub(super) mod configuration;

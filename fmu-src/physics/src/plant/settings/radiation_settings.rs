@@ -1,6 +1,6 @@
 //! Settings of light and heat: what they take into account, and how finely they are resolved in time.
 
-/// What light and heat take into account, and how finely they are resolved in time.
+/// Parts of the light and heat that are computed, and their resolution in time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RadiationSettings {
     /// Whether surfaces with a heat capacity store heat; otherwise all are in balance with their light.

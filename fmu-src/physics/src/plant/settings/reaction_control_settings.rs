@@ -1,11 +1,11 @@
-//! What parameters and commands say about thrusters and tanks, and which thrusters dump or control the attitude.
+//! Settings and commands of thrusters and tanks, and the thrusters that dump or control the attitude.
 
 use nalgebra::Vector3;
 
 use crate::propulsion::{Preference, PropellantState, SelectionError, ThrustErrors, ThrusterSelection};
 use crate::spacecraft::{Tank, Thruster, ThrusterSet};
 
-/// What parameters set about thrusters and tanks.
+/// Settings of thrusters and tanks.
 #[derive(Clone, Debug, Default)]
 pub struct ReactionControlSettings {
     /// Thrusters.
@@ -21,7 +21,7 @@ pub struct ReactionControlSettings {
 }
 
 impl ReactionControlSettings {
-    /// The thrusters that dump: the weakest that are fed and give torque all ways.
+    /// The thrusters that dump: the weakest that are fed and give torque in both senses about every axis.
     ///
     /// # Errors
     /// A way about an axis that no thruster gives.
@@ -95,7 +95,7 @@ impl Feed<'_> {
         })
     }
 
-    /// How long the valve of thruster `k` opens for so many seconds of nominal thrust; not below zero.
+    /// Open time of the valve of thruster `k` for `full_s` seconds of nominal thrust, in s; not below zero.
     pub(crate) fn opens_for_s(&self, k: usize, full_s: f64) -> f64 {
         if full_s <= 0.0 {
             return 0.0;
@@ -104,7 +104,7 @@ impl Feed<'_> {
     }
 }
 
-/// What is commanded for a delta-v.
+/// Command of a delta-v.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ThrustCommand {
     /// The thrusters that are to fire; none = no thrust.

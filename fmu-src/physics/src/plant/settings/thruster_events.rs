@@ -74,7 +74,7 @@ impl SchedulePlace {
     }
 }
 
-/// What thruster events go by.
+/// Settings of thruster events.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThrusterEventSettings {
     /// Events of a timeline, in the order of their times.
@@ -91,7 +91,7 @@ pub struct ThrusterEventSettings {
     pub direction_error_rad: f64,
     /// Standard deviation of the centre of mass about its nominal place, body frame, in m.
     pub center_of_mass_shift_m: Vector3<f64>,
-    /// Of the draws.
+    /// Seed of the random draws.
     pub seed: u64,
     /// Momentum that dumps on request leave, body frame, in N m s.
     pub requested_body_n_m_s: Vector3<f64>,
@@ -114,7 +114,7 @@ impl Default for ThrusterEventSettings {
 }
 
 impl ThrusterEventSettings {
-    /// What maneuver `number` (from 0 on) executes of a delta-v, EME2000, in m/s.
+    /// Velocity change that maneuver `number` (from 0 on) executes for a requested delta-v, EME2000, in m/s.
     pub fn executed_m_s(&self, delta_v_m_s: &Vector3<f64>, number: u64) -> Vector3<f64> {
         let mut executed_m_s = *delta_v_m_s;
         if self.magnitude_error != 0.0 {

@@ -1,9 +1,9 @@
-//! What a step of the plant may cost, and which settings ask for most of it.
+//! Work limit of a step of the plant, and the settings that ask for most of it.
 
 use crate::momentum::Effort;
 use crate::numerics;
 
-/// What work is spent on.
+/// Kind of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cost {
     /// Segments of momentum as long as their grid.
@@ -76,7 +76,7 @@ impl Work {
     /// One evaluation of VSOP87.
     const EVALUATION_UNITS: u64 = 200;
 
-    /// Nothing spent of `limit` units; the ephemeris counts this many evaluations of its theory so far.
+    /// Work of a step that begins, with `limit` units; the ephemeris counts this many evaluations of its theory so far.
     pub fn new(limit: u32, evaluations: u64) -> Self {
         Self { spent: numerics::work::Work::new(limit), evaluations, searched: [0; 2] }
     }

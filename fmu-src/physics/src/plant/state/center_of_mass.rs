@@ -13,7 +13,7 @@ struct Placed {
     parameter_body_m: Vector3<f64>,
 }
 
-/// What has become of the centre of mass, body frame, with every panel at angle 0 and full tanks.
+/// Centre of mass as events have moved it, body frame, with every panel at angle 0 and full tanks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CenterOfMass {
     placed: Option<Placed>,

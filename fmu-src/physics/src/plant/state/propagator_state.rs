@@ -18,15 +18,15 @@ use crate::plant::settings::error::PlantError;
 /// configuration it fixes everything that follows.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PropagatorState {
-    /// Where the spacecraft is.
+    /// Orbit of the spacecraft.
     pub trajectory: Trajectory,
     /// Light and heat of the present segment; absent before the first one.
     pub light: Option<RadiationSegment>,
     /// Air and magnetic field of the present segment.
     pub air_and_field: AirAndFieldSegment,
-    /// Where the Sun stands during downlinks.
+    /// Direction of the Sun during downlinks.
     pub sun_choice: SunChoice,
-    /// Where the centre of mass lies.
+    /// Centre of mass as events have moved it.
     pub center_of_mass: CenterOfMass,
     /// Whole turns of the panels.
     pub panel_turns: PanelTurns,

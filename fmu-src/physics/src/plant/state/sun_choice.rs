@@ -1,4 +1,4 @@
-//! Where the Sun stands during a downlink, and in science that unloads momentum, chosen where either begins.
+//! Direction of the Sun during a downlink, and in science that unloads momentum, chosen where either begins.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,9 +8,9 @@ use crate::guidance::{ChosenPlace, SunPlace};
 /// The last choices; the slew after a downlink starts from its attitude, and that after science from its own.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SunChoice {
-    /// What was chosen for a downlink.
+    /// Last choice for a downlink.
     pub chosen: Option<ChosenPlace>,
-    /// And for science that unloads.
+    /// Last choice for science that unloads.
     pub science: Option<ChosenPlace>,
     /// When the last of both was, in s.
     pub(crate) chosen_s: Option<f64>,

@@ -30,7 +30,7 @@ pub(crate) struct DumpAtOnce {
 
 impl AtOnce<'_> {
     /// A dump without a shortest pulse, about this centre of mass: takes the propellant. What the tanks of the weakest thrusters do
-    /// not feed is left to the next ones, and what none feeds is not dumped; without thrusters that give torque all ways all of it
+    /// not feed is left to the next ones, and what none feeds is not dumped; without thrusters for every axis and sense all of it
     /// is. `None` where nothing feeds.
     pub(crate) fn dump(
         &mut self,

@@ -22,7 +22,7 @@ const MOST_CORRECTIONS: u8 = 4;
 /// The current dump by pulses, or the last one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PulsedDump {
-    /// Where the momentum is to go, EME2000, in N m s.
+    /// Target of the total momentum, EME2000, in N m s.
     pub(crate) target_inertial_n_m_s: Vector3<f64>,
     pub(crate) attitude_at_start: Quaternion,
     pub(crate) before: ThrusterTotals,
@@ -30,7 +30,7 @@ pub(crate) struct PulsedDump {
     pub(crate) after: Option<ThrusterTotals>,
     /// When pulses are next decided, in s.
     pub(crate) next_s: f64,
-    /// What each thruster still has to give of what was decided, in s of full thrust: less than its shortest pulse.
+    /// Time that each thruster owes of its decided pulses, in s of full thrust: less than its shortest pulse.
     pub(crate) residual_s: [f64; MOST_THRUSTERS],
     /// How often the end was corrected.
     pub(crate) corrections: u8,

@@ -1,4 +1,4 @@
-//! What thrusters exert, and what that adds up to.
+//! Force, torque and flow of thrusters, and their integrals.
 //!
 //! Equations: of tanks at r_k that lose q_k from a body of mass M about r_c, r_c' = -sum of q_k (r_k - r_c) / M and
 //! J' = -sum of q_k [r_k - r_c] with [r] = r.r 1 - r r^T; T(t) = T(0) + (T' - r_c' x F) t; jet damping as in
@@ -11,7 +11,7 @@ use crate::attitude::MassFlow;
 use crate::propulsion::ThrustLaw;
 use crate::spacecraft::{Thrust, steiner};
 
-/// What thrusters exert, torque about the centre of mass, on a spacecraft whose mass they take with them.
+/// Force, flow and torque about the centre of mass of thrusters, which drain the spacecraft's mass.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ThrusterLoad {
     /// Force, torque and flow; torque without jet damping.
@@ -23,7 +23,7 @@ pub struct ThrusterLoad {
 }
 
 impl ThrusterLoad {
-    /// Nothing, on a spacecraft of this mass.
+    /// Load without thrust, on a spacecraft of this mass.
     pub(crate) fn none(time_s: f64, mass_kg: f64) -> Self {
         Self { law: ThrustLaw::none(time_s), mass_kg, mass_flow: MassFlow::default() }
     }
@@ -70,7 +70,7 @@ impl ThrusterLoad {
     }
 }
 
-/// What thrusters did so far, EME2000.
+/// Impulse and velocity change by thrusters so far, EME2000.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ThrusterTotals {
     /// Angular impulse about the centre of mass with jet damping, in N m s.
