@@ -22,7 +22,7 @@ use physics::guidance::modes::mode::{Mode, ModeReason};
 use physics::guidance::modes::sample_inputs::{GuidanceSettings, SampleInputs, TimedEntries};
 use physics::guidance::modes::system::{GuidanceState, SAMPLE_WORK};
 use physics::guidance::pointing::command::Scenario;
-use physics::guidance::pointing::scenario::is_rolled_about_boresight;
+use physics::guidance::scenario::is_rolled_about_boresight;
 use physics::guidance::timeline::{TimelineDump, begun};
 use physics::management::{DumpRequests, SampledManager};
 use physics::numerics::work::Work;

@@ -9,7 +9,7 @@ use physics::environment::orbit::OrbitMethod;
 use physics::guidance::geometry::lighting::SubsolarMethod;
 use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::pointing::scan::ScanCompatibility;
-use physics::guidance::pointing::scenario::GuidanceHardware;
+use physics::guidance::scenario::GuidanceHardware;
 use physics::guidance::timeline::{Timeline, TimelineLaw};
 use physics::plant::{ControlDefaults, PanelStep, PreparedSpacecraft};
 use physics::spacecraft::{Spacecraft, SunKeepIn, SunshadeModel};

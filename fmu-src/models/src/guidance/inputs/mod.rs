@@ -24,7 +24,7 @@ use physics::guidance::modes::transitions::ModeSettings;
 use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::pointing::command::{BoresightOption, PointingCommand, Scenario};
 use physics::guidance::pointing::scan::ScanCompatibility;
-use physics::guidance::pointing::scenario::GuidanceHardware;
+use physics::guidance::scenario::GuidanceHardware;
 use physics::plant::PanelSetting;
 use physics::radiation::SolarModel;
 

@@ -11,7 +11,7 @@ use crate::guidance::orbit_phase::guided::DownlinkStatus;
 use crate::guidance::pointing::antenna::{AntennaRow, Beam};
 use crate::guidance::pointing::boresight::DeviceAngle;
 use crate::guidance::pointing::law::{Pointing, PointingVectors};
-use crate::guidance::pointing::scenario::PointingSolution;
+use crate::guidance::scenario::PointingSolution;
 
 /// Status of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

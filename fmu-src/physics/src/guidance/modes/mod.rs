@@ -12,6 +12,4 @@ pub mod monitor;
 pub mod sample_inputs;
 pub mod sun_line;
 pub mod system;
-#[cfg(test)]
-pub(crate) mod test_burn;
 pub mod transitions;

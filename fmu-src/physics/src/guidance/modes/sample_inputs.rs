@@ -10,7 +10,7 @@ use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::downlink::sun_place::{LinkLimits, SunRequest};
 use crate::guidance::orbit_phase::guided::Guided;
 use crate::guidance::pointing::command::PointingCommand;
-use crate::guidance::pointing::scenario::GuidanceHardware;
+use crate::guidance::scenario::GuidanceHardware;
 
 /// Everything that parameters set.
 #[derive(Clone, Copy, Debug)]

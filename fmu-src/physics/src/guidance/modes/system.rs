@@ -19,11 +19,11 @@ use crate::guidance::burn::delta_v::{BurnState, MeasuredMotion};
 use crate::guidance::constraints::command_slew::CommandSlew;
 use crate::guidance::constraints::constrained::{ConstrainedPointing, Constraints};
 use crate::guidance::constraints::hot_pole::TurnSide;
-use crate::guidance::downlink::downlink_sun::{DownlinkSun, WindowStart};
 use crate::guidance::downlink::sun_place::{ChosenPlace, SunPlace, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::orbit_phase::attitudes::{ScienceRule, Sight};
+use crate::guidance::orbit_phase::downlink_sun::{DownlinkSun, WindowStart};
 use crate::guidance::orbit_phase::guided::{DownlinkStatus, Guided};
 use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
 use crate::guidance::orbit_phase::predicted_orbit::ellipse_of;
@@ -35,9 +35,7 @@ use crate::guidance::pointing::command::{
 };
 use crate::guidance::pointing::law::Pointing;
 use crate::guidance::pointing::scan::ScanTime;
-use crate::guidance::pointing::scenario::{
-    GuidanceHardware, PointingProgress, PointingSolution, pointing_solution,
-};
+use crate::guidance::scenario::{GuidanceHardware, PointingProgress, PointingSolution, pointing_solution};
 use crate::numerics::spacing::spacing;
 
 /// Time between two samples, in s.

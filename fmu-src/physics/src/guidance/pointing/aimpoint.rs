@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::command::{AimpointCommand, AimpointOption, AzimuthReference};
+use super::command::{AimpointCommand, AimpointOption};
 use crate::bodies::Body;
 use crate::environment::frames::ecliptic_north;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::{SubsolarMethod, optimal_lighting_m, subsolar_m};
-use crate::guidance::geometry::lvlh::lvlh_direction;
+use crate::guidance::geometry::lvlh::{AzimuthReference, lvlh_direction};
 use crate::guidance::geometry::moving::{MovingVector, fixed, moving, spherical, value};
 use crate::guidance::geometry::planet_point::{geographic_m, planet_fixed};
 

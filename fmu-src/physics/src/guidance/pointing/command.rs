@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bodies::Body;
 use crate::enumeration::enumeration;
+use crate::guidance::geometry::lvlh::AzimuthReference;
 
 /// Greatest azimuth, longitude or right ascension either way, in rad.
 pub const FULL_TURN_RAD: f64 = core::f64::consts::TAU;
@@ -153,20 +154,6 @@ enumeration! {
         7 => OrbitNormal,
         /// North of the ecliptic of J2000.
         8 => EclipticNorth,
-    }
-}
-
-enumeration! {
-    /// From which horizontal direction an azimuth about the local vertical counts.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-    #[serde(rename_all = "camelCase")]
-    pub enum AzimuthReference {
-        /// The horizontal part of the velocity.
-        #[default]
-        1 => Downtrack,
-        /// The horizontal part of the direction from the planet to the Sun.
-        2 => Sun,
     }
 }
 

@@ -14,7 +14,7 @@ use crate::guidance::geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet
 use crate::guidance::geometry::moving::value;
 use crate::guidance::pointing::command::{AimpointOption, PointingCommand};
 use crate::guidance::pointing::scan::{ScanTime, next_corner_s};
-use crate::guidance::pointing::scenario::{GuidanceHardware, PointingProgress, pointing_solution};
+use crate::guidance::scenario::{GuidanceHardware, PointingProgress, pointing_solution};
 use crate::numerics::spacing::spacing;
 
 /// What parameters set.

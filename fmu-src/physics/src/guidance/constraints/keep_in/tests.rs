@@ -6,9 +6,7 @@ use approx::assert_relative_eq;
 use super::*;
 use crate::attitude::{angle_between_rad, direction_from_angles};
 use crate::guidance::geometry::moving::{matrix_value, moving, rate};
-use crate::guidance::geometry::test_geometry::{
-    Motion, Random, cube_directions, difference_rad_s, nearest_zone,
-};
+use crate::guidance::tests::geometry::{Motion, Random, cube_directions, difference_rad_s, nearest_zone};
 use crate::tests::short_or_long;
 
 const METHODS: [KeepInMethod; 2] = [KeepInMethod::Nearest, KeepInMethod::Clamp];

@@ -1,7 +1,7 @@
 //! The choice by its table against the choice made anew, and what MESSENGER's antennas are known to do.
 use super::*;
-use crate::guidance::geometry::test_geometry::Random;
 use crate::guidance::pointing::antenna::tests::{antennas, fan, fixed_along, quadrants};
+use crate::guidance::tests::geometry::Random;
 
 #[test]
 fn messenger_changes_its_antenna_at_90_deg_alone() {

@@ -6,10 +6,10 @@ use nalgebra::Vector3;
 use super::*;
 use crate::bodies::Body;
 use crate::guidance::geometry::moving::moving;
-use crate::guidance::geometry::test_geometry::{Motion, Random, difference_rad_s};
-use crate::guidance::geometry::test_orbit::about_mercury;
 use crate::guidance::pointing::antenna::AntennaRow;
 use crate::guidance::pointing::antenna::tests::{BACK, SUNSHADE, antennas, fixed_along, quadrants};
+use crate::guidance::tests::geometry::{Motion, Random, difference_rad_s};
+use crate::guidance::tests::orbit::about_mercury;
 
 /// Azimuth in -90..0 or 90..180 deg, typed anew, -180 counting as 180.
 fn in_quadrant(antenna: Option<AntennaRow>, azimuth_rad: f64) -> bool {

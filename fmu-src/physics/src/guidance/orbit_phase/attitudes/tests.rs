@@ -1,6 +1,6 @@
 //! What the paper demands of each attitude: where the Sun, the planet and the Earth stand in the body frame.
 use super::*;
-use crate::guidance::pointing::scenario_tests::camera;
+use crate::guidance::scenario::scenario_tests::camera;
 use approx::assert_relative_eq;
 
 const LIMIT_RAD: f64 = 13.0 * std::f64::consts::PI / 180.0;
@@ -180,8 +180,8 @@ fn every_law_gives_a_proper_rotation_even_when_degenerate() {
 #[test]
 fn the_default_downlink_is_that_of_the_scenario_with_any_antennas() {
     use crate::guidance::downlink::sun_place::{DownlinkRequest, downlink as by_scenario};
-    use crate::guidance::geometry::test_geometry::Random;
     use crate::guidance::pointing::antenna::tests::{antennas, fan, fixed_along, quadrants};
+    use crate::guidance::tests::geometry::Random;
     let mut random = Random(27);
     for _ in 0..200 {
         let axis = fixed_along(random.direction());

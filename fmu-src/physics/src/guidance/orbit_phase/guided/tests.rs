@@ -1,7 +1,7 @@
 //! A slew begins where the old attitude was, ends at the new one, and its rate is the derivative of its axes.
 use super::*;
 use crate::attitude::{MovingUnit, rotation_vector};
-use crate::guidance::pointing::scenario_tests::camera;
+use crate::guidance::scenario::scenario_tests::camera;
 use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
@@ -20,7 +20,7 @@ fn lines(t: f64) -> LinesOfSight {
 }
 
 fn guided(slew_rate_rad_s: f64) -> Guided {
-    let law = crate::guidance::geometry::test_orbit::guided;
+    let law = crate::guidance::tests::orbit::guided;
     Guided { slew_rate_rad_s, ..law(ScienceRule::Nadir, 43_200.0, [7200.0, 36_000.0], 2) }
 }
 

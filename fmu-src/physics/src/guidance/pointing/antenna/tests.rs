@@ -1,6 +1,6 @@
 //! Which antenna is nearest, and what a beam covers.
 use super::*;
-use crate::guidance::geometry::test_geometry::Random;
+use crate::guidance::tests::geometry::Random;
 
 /// MESSENGER's antenna on the sunshade.
 pub(crate) const SUNSHADE: Option<AntennaRow> = Some(AntennaRow(0));

@@ -3,7 +3,7 @@ use super::*;
 use crate::constants::DEG_RAD;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::pointing::antenna::tests::quadrants;
-use crate::guidance::pointing::scenario_tests::camera;
+use crate::guidance::scenario::scenario_tests::camera;
 use crate::spacecraft::GimbalMount;
 use approx::assert_relative_eq;
 

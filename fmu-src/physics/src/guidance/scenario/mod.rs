@@ -4,21 +4,21 @@
 
 use nalgebra::Vector3;
 
-use super::aimpoint::{Aimpoint, AimpointKind, aimpoint};
-use super::antenna::{Antennas, Beam};
-use super::boresight::{Boresight, DeviceAngle, Gimbal, boresight, instrument_boresight};
-use super::command::{BodyRollCommand, BoresightOption, LimbCommand, PointingCommand, Scenario};
-use super::law::{Pointing, PointingVectors};
-use super::roll::{body_roll, external_roll};
-use super::scan::{ScanCompatibility, ScanTime, scanned};
-use crate::guidance::DownlinkStatus;
 use crate::guidance::burn::delta_v::BurnPointing;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::downlink::sun_place::{DownlinkRequest, SunPlace, SunRequest, downlink, half_turned};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::SubsolarMethod;
 use crate::guidance::geometry::limb::{LimbPoint, generic_limb, terminator_limb};
-use crate::guidance::geometry::moving::{MovingVector, fixed, unit, unit_normal, value};
+use crate::guidance::geometry::moving::{Moving, MovingVector, fixed, unit, unit_normal, value};
+use crate::guidance::orbit_phase::guided::DownlinkStatus;
+use crate::guidance::pointing::aimpoint::{Aimpoint, AimpointKind, aimpoint};
+use crate::guidance::pointing::antenna::{Antennas, Beam};
+use crate::guidance::pointing::boresight::{Boresight, DeviceAngle, Gimbal, boresight, instrument_boresight};
+use crate::guidance::pointing::command::{BodyRollCommand, BoresightOption, PointingCommand, Scenario};
+use crate::guidance::pointing::law::{Pointing, PointingVectors};
+use crate::guidance::pointing::roll::{body_roll, external_roll};
+use crate::guidance::pointing::scan::{ScanCompatibility, ScanTime, scanned};
 use crate::spacecraft::Instrument;
 
 /// What the spacecraft has, and how the options are read.
@@ -76,9 +76,6 @@ pub struct PointingSolution {
     pub margins: [f64; 2],
 }
 
-/// A limb point by its command and how long its scan lasts.
-type LimbLaw = fn(&EphemerisAtTime, &LimbCommand, f64) -> Option<LimbPoint>;
-
 /// What a scenario reads.
 struct Reading<'a> {
     command: &'a PointingCommand,
@@ -119,8 +116,11 @@ pub fn pointing_solution(
             PointingSolution { second, ..r.sunward(r.instrument()?, r.aimpoint()?) }
         }
         Scenario::Downlink => r.antenna_at_the_earth()?,
-        Scenario::LimbTerminator => r.limb(terminator_limb)?,
-        Scenario::LimbGeneric => r.limb(generic_limb)?,
+        Scenario::LimbTerminator => r.limb(terminator_limb(ephemeris, r.limb_height()))?,
+        Scenario::LimbGeneric => {
+            let reference = command.limb.reference.unwrap_or_default();
+            r.limb(generic_limb(ephemeris, reference, command.limb.azimuth_rad, r.limb_height()))?
+        }
         Scenario::Burn => {
             let burn = progress.burn.as_ref()?;
             PointingSolution::at(r.rolled_sunward(fixed(burn.boresight_body), burn.direction))
@@ -181,8 +181,14 @@ impl Reading<'_> {
         aimpoint(&self.command.aimpoint, self.ephemeris, self.hardware.subsolar)
     }
 
-    fn limb(&self, law: LimbLaw) -> Option<PointingSolution> {
-        let limb = law(self.ephemeris, &self.command.limb, self.progress.limb_elapsed_s)?;
+    /// Height along the radius of the limb point, in m.
+    fn limb_height(&self) -> Moving {
+        let limb = &self.command.limb;
+        Moving::new(limb.height_m + limb.height_rate_m_s * self.progress.limb_elapsed_s, limb.height_rate_m_s)
+    }
+
+    fn limb(&self, limb: Option<LimbPoint>) -> Option<PointingSolution> {
+        let limb = limb?;
         let aimpoint = Aimpoint::new(self.ephemeris.to_planet() + limb.position, AimpointKind::PlanetPoint)?;
         Some(self.sunward(self.instrument()?, Aimpoint { reachable: limb.exists, ..aimpoint }))
     }
@@ -245,3 +251,6 @@ impl Reading<'_> {
         })
     }
 }
+
+#[cfg(test)]
+pub(crate) mod scenario_tests;

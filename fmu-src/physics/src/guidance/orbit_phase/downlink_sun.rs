@@ -6,11 +6,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::sun_place::{ChosenPlace, SunPlace};
+use super::guided::Guided;
+use super::schedule::Activity;
 use crate::attitude::{Attitude, SunAngles};
+use crate::guidance::downlink::sun_place::{ChosenPlace, SunPlace};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
-use crate::guidance::orbit_phase::guided::Guided;
-use crate::guidance::orbit_phase::schedule::Activity;
 use crate::guidance::pointing::command::Scenario;
 
 /// Where a downlink begins, or science that unloads.

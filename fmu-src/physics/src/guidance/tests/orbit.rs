@@ -4,13 +4,13 @@ use core::cell::RefCell;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
-use super::moving::{MovingMatrix, fixed, matrix_value, moving};
 use crate::bodies::Body;
 use crate::constants::DEG_RAD;
 use crate::environment::CartesianState;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::{Elements, TwoBodyOrbit, semi_major_axis_m};
+use crate::guidance::geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
+use crate::guidance::geometry::moving::{MovingMatrix, fixed, matrix_value, moving};
 use crate::guidance::{Guided, Schedule, ScienceRule};
 
 /// 2011-04-06, a whole number of seconds past J2000: times in steps of powers of two are exact.
@@ -131,6 +131,6 @@ pub(crate) fn rate_error(
     let expected =
         Vector3::new(skew[(2, 1)] - skew[(1, 2)], skew[(0, 2)] - skew[(2, 0)], skew[(1, 0)] - skew[(0, 1)])
             * 0.5;
-    let found = super::moving::angular_rate_rad_s(&here);
+    let found = crate::guidance::geometry::moving::angular_rate_rad_s(&here);
     Some((found - expected).norm() / found.norm().max(floor_rad_s))
 }
