@@ -10,7 +10,7 @@ use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::orbit;
 use physics::environment::sun::SOLAR_FLUX_W_M2;
 use physics::guidance::constraints::keep_in::KeepIn;
-use physics::guidance::downlink::sun_place::SunRequest;
+use physics::guidance::downlink::sun_direction::SunRequest;
 use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::{self, Guided, Schedule};
 use physics::plant::{LightSource, SunLight};
@@ -411,7 +411,7 @@ impl GuidedVariables {
             elevation_limit_rad: keep_in.elevation_rad,
             slew_rate_rad_s: values.real(self.slew_rate),
             keep_in: Some(keep_in),
-            sun_place: None,
+            sun_direction: None,
             requested: SunRequest::default(),
             managed: false,
         })

@@ -17,7 +17,7 @@ use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
 use physics::guidance::burn::delta_v::{BurnPhase, BurnSettings, BurnState, Interruption};
-use physics::guidance::downlink::sun_place::SunRequest;
+use physics::guidance::downlink::sun_direction::SunRequest;
 use physics::guidance::modes::mode::{Mode, ModeReason};
 use physics::guidance::modes::sample_inputs::{GuidanceSettings, SampleInputs, TimedEntries};
 use physics::guidance::modes::system::{GuidanceState, SAMPLE_WORK};
@@ -67,7 +67,7 @@ impl Model for Guidance {
             setup.ephemeris = Some(ephemeris::read(file, text)?);
             return Ok(());
         }
-        setup.take_timeline(file, text)
+        setup.set_timeline(file, text)
     }
 
     fn start_values(setup: &GuidanceSetup) -> Vec<StartValue> {

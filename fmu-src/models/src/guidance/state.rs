@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::inputs::Fixed;
 
-/// What guidance remembers between steps.
+/// State of guidance between steps.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct State {
     /// Modes, constraints, scans and the command in force.

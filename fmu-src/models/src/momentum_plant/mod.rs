@@ -52,7 +52,7 @@ impl Model for MomentumPlant {
             setup.ephemeris = Some(ephemeris::read(file, text)?);
             return Ok(());
         }
-        setup.take_timeline(file, text)
+        setup.set_timeline(file, text)
     }
 
     fn start_values(setup: &PlantSetup) -> Vec<StartValue> {

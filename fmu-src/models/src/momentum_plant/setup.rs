@@ -100,7 +100,7 @@ impl PlantSetup {
     }
 
     /// Takes the commands of a timeline.
-    pub fn take_timeline(&mut self, file: &str, text: &str) -> Result<(), SetupError> {
+    pub fn set_timeline(&mut self, file: &str, text: &str) -> Result<(), SetupError> {
         let timeline = Timeline::of_plant(file, text, &self.spacecraft);
         let timeline = timeline.map_err(|error| SetupError(error.to_string()))?;
         let panels = self.spacecraft.panels.iter().enumerate();
@@ -136,7 +136,7 @@ impl PlantSetup {
                 timeline,
                 hardware: GuidanceHardware {
                     instruments: &self.spacecraft.instruments,
-                    gimbal: Gimbal::of(&self.spacecraft.instruments),
+                    gimbal: Gimbal::from_instruments(&self.spacecraft.instruments),
                     antennas: &self.antennas.all,
                     default_downlink: &self.antennas.default_downlink,
                     subsolar: SubsolarMethod::default(),

@@ -13,7 +13,7 @@ pub mod scenario;
 pub(crate) mod tests;
 pub mod timeline;
 
-pub use downlink::sun_place::{ChosenPlace, SunPlace};
+pub use downlink::sun_direction::{DownlinkSunDirection, SelectedSunDirection};
 pub use geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
 pub use orbit_phase::attitudes::{
     AttitudeCommand, LinesOfSight, ScienceRule, Sight, downlink_toward, science, sun_pointing, unloading,
@@ -22,5 +22,5 @@ pub use orbit_phase::downlink_sun::{DownlinkSun, WindowStart};
 pub use orbit_phase::guided::{DownlinkStatus, Guided, GuidedAttitude};
 pub use orbit_phase::predicted_orbit::PredictedOrbit;
 pub use orbit_phase::schedule::{Activity, NoCycle, Schedule, Window};
-pub use orbit_phase::science_course::{CoursePoint, ScienceCourse};
+pub use orbit_phase::science_arc::{ArcPoint, ScienceArc};
 pub use pointing::law::{Pointing, PointingVectors};

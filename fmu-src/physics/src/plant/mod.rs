@@ -33,7 +33,7 @@ pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner}
 pub use flight::ideal::Maneuvers;
 pub use flight::propagator_state::PropagatorState;
 pub use flight::report::{ControlReport, EncounterReport, Report, Shown, WheelReport};
-pub use flight::sun_choice::SunChoice;
+pub use flight::sun_choice::SunDirectionSelection;
 pub use flight::wheel_control::{WheelControl, WheelControlSettings};
 pub use flight::{
     Changes, EncounterPrediction, Flight, ForecastMomentum, ModeSettings, Occultation, PredictedArrival,

@@ -17,7 +17,7 @@ use physics::guidance::burn::velocity_path::VelocityPath;
 use physics::guidance::constraints::constrained::Constraints;
 use physics::guidance::constraints::hot_pole::HotPole;
 use physics::guidance::constraints::keep_in::KeepIn;
-use physics::guidance::downlink::sun_place::LinkLimits;
+use physics::guidance::downlink::sun_direction::LinkLimits;
 use physics::guidance::modes::monitor::Monitor;
 use physics::guidance::modes::sample_inputs::GuidanceSettings;
 use physics::guidance::modes::transitions::ModeSettings;
@@ -39,7 +39,7 @@ use crate::common::numbers::Numbers;
 use crate::common::pointing::RuleContext;
 use crate::common::variables::NO_GIMBAL;
 
-/// What parameters fix for a whole flight.
+/// Settings that parameters fix for a whole flight.
 #[derive(Clone, Debug)]
 pub struct Fixed {
     planet: TargetPlanet,
@@ -131,7 +131,7 @@ fn planet(v: &PlanetVariables) -> Numbers<BodyData, 5> {
 }
 
 impl Target {
-    /// What is given of `planet.*`, else the body's own.
+    /// Reads the parameters `planet.*`; those not given are the body's own.
     fn read(context: &Plan<'_>, values: &Values) -> Self {
         let v = &context.variables.planet;
         let own = context.setup.bodies.body(values.choice(context.variables.target.planet).0);
@@ -236,7 +236,7 @@ pub(super) fn settings<'a>(
     });
     let keep_in = zone(v.keep_in.azimuth, v.keep_in.elevation);
     let beam = context.given(values, &[v.link.beam.into()]);
-    let gimbal = Gimbal::of(&context.setup.spacecraft.instruments);
+    let gimbal = Gimbal::from_instruments(&context.setup.spacecraft.instruments);
     let gimbal = gimbal.map(|gimbal| Gimbal { minimum_rad, maximum_rad, ..gimbal });
     if gimbal.is_none() && [minimum_rad, maximum_rad] != [0.0; 2] {
         return refused(&format!("0 and 0; {NO_GIMBAL}"));
@@ -336,7 +336,7 @@ pub(super) fn check_devices(
     Ok(())
 }
 
-/// Which scans go with which aimpoints.
+/// Scan frames allowed for each kind of aimpoint.
 fn scans(context: &Plan<'_>, values: &Values) -> ScanCompatibility {
     let mut scans = ScanCompatibility::default();
     for (allowed, frame) in scans.allowed.iter_mut().zip(&context.variables.scan_compatibility) {

@@ -11,7 +11,7 @@ use crate::constants::DEG_RAD;
 use crate::guidance::constraints::constrained::Constraints;
 use crate::guidance::constraints::hot_pole::HotPole;
 use crate::guidance::constraints::keep_in::KeepIn;
-use crate::guidance::downlink::sun_place::SunPlace;
+use crate::guidance::downlink::sun_direction::DownlinkSunDirection;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::limb::terminator_limb;
 use crate::guidance::geometry::moving::{Moving, value};
@@ -181,7 +181,7 @@ fn random_flights_with_slews_stay_in_the_zone() {
         let start_s = random.within(0.0, 80.0 * 86_400.0);
         let mut place = || {
             let share = random.one_of(&[-1.0, 1.0, 0.4]);
-            SunPlace {
+            DownlinkSunDirection {
                 angles: SunAngles {
                     azimuth_rad: zone.azimuth_rad * share,
                     elevation_rad: zone.elevation_rad * random.within(-0.3, 0.3),
@@ -189,7 +189,7 @@ fn random_flights_with_slews_stay_in_the_zone() {
                 earth_ahead: random.within(0.0, 1.0) < 0.5,
             }
         };
-        let sun_place = (flight % 3 > 0).then(&mut place);
+        let sun_direction = (flight % 3 > 0).then(&mut place);
         let begin_s = orbit.ephemeris(start_s).epoch_s + random.within(0.0, 9.0 * 3600.0);
         let length_s = random.within(3_000.0, 9_000.0);
         let base = law(science, random.within(5e-4, 1e-2));
@@ -205,7 +205,7 @@ fn random_flights_with_slews_stay_in_the_zone() {
             schedule,
             elevation_limit_rad: zone.elevation_rad,
             keep_in: Some(zone),
-            sun_place,
+            sun_direction,
             ..base
         };
         let eigenaxis = Guided { keep_in: None, ..law };

@@ -1,4 +1,4 @@
-//! What a sample of guidance reads: settings by parameters, commands and their timeline entries, positions and measurements.
+//! Inputs of a sample of guidance: settings by parameters, commands and their timeline entries, positions and measurements.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -7,12 +7,12 @@ use super::body_positions::BodyPositions;
 use super::transitions::{ModeSettings, Sensed};
 use crate::guidance::burn::delta_v::BurnSettings;
 use crate::guidance::constraints::keep_in::KeepIn;
-use crate::guidance::downlink::sun_place::{LinkLimits, SunRequest};
+use crate::guidance::downlink::sun_direction::{LinkLimits, SunRequest};
 use crate::guidance::orbit_phase::guided::Guided;
 use crate::guidance::pointing::command::PointingCommand;
 use crate::guidance::scenario::GuidanceHardware;
 
-/// Everything that parameters set.
+/// Settings of guidance by parameters.
 #[derive(Clone, Copy, Debug)]
 pub struct GuidanceSettings<'a> {
     /// Instruments, gimbal, scans.
@@ -31,20 +31,20 @@ pub struct GuidanceSettings<'a> {
     pub burn: BurnSettings,
 }
 
-/// Everything that a sample reads.
+/// Inputs of one sample.
 #[derive(Clone, Copy, Debug)]
 pub struct SampleInputs {
-    /// What is commanded.
+    /// Pointing command.
     pub command: PointingCommand,
-    /// Where downlinks are to have the Sun where no strategy chooses it.
+    /// Requested direction of the Sun in downlinks; a strategy replaces it.
     pub requested_sun: SunRequest,
-    /// Whether the timeline says where the Sun stands, so that no strategy does.
+    /// Whether the timeline gives the Sun's direction, so that no strategy does.
     pub sun_is_placed: bool,
     /// Whether an input commands the scenario.
     pub is_commanded: bool,
     /// The timeline's entries that say scan, limb and mode, where they and no input do: each begins with its entry.
     pub entries: TimedEntries,
-    /// Where everything is.
+    /// Positions of spacecraft and bodies.
     pub positions: BodyPositions,
     /// Mode request, estimate and Sun sensors at the sample's time.
     pub sensed: Sensed,

@@ -19,7 +19,7 @@ use crate::guidance::burn::delta_v::{BurnState, MeasuredMotion};
 use crate::guidance::constraints::command_slew::CommandSlew;
 use crate::guidance::constraints::constrained::{ConstrainedPointing, Constraints};
 use crate::guidance::constraints::hot_pole::TurnSide;
-use crate::guidance::downlink::sun_place::{ChosenPlace, SunPlace, SunRequest};
+use crate::guidance::downlink::sun_direction::{DownlinkSunDirection, SelectedSunDirection, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::orbit_phase::attitudes::{ScienceRule, Sight};
@@ -54,7 +54,7 @@ pub struct GuidanceState {
     periapses: PeriapsisCount,
     /// The scan and since when it is commanded, in s.
     scan: Option<(ScanCommand, f64)>,
-    /// Where the turn away from the hot pole ends, while it lasts.
+    /// Side on which the turn away from the hot pole ends, while it lasts.
     hot_pole_turn: Option<TurnSide>,
     /// The timeline's entries at the last sample.
     entries: TimedEntries,
@@ -69,7 +69,7 @@ pub struct GuidanceState {
     next_sample_s: f64,
 }
 
-/// What a sample works with.
+/// Context of a sample.
 struct SampleContext<'a> {
     settings: &'a GuidanceSettings<'a>,
     constraints: Constraints,
@@ -125,7 +125,7 @@ impl GuidanceState {
         self.modes.ephemeris.is_valid()
     }
 
-    /// Whether the mode goes by the coarse ephemerides, where modes choose.
+    /// Whether the mode uses the coarse ephemerides, where modes choose.
     pub fn uses_coarse_ephemeris(&self) -> bool {
         self.modes.ephemeris.uses_coarse(self.modes.mode)
     }
@@ -135,7 +135,7 @@ impl GuidanceState {
         &self.burn
     }
 
-    /// Where the Sun stands in downlink.
+    /// Direction of the Sun in downlink.
     pub fn downlink_sun(&self) -> &DownlinkSun {
         &self.downlink_sun
     }
@@ -162,7 +162,7 @@ impl GuidanceState {
         &mut self,
         settings: &GuidanceSettings<'_>,
         inputs: &SampleInputs,
-        choose: impl Fn(&WindowStart<'_>) -> Option<ChosenPlace>,
+        choose: impl Fn(&WindowStart<'_>) -> Option<SelectedSunDirection>,
     ) -> bool {
         let mut is_chosen = false;
         let time_s = self.next_sample_s;
@@ -262,7 +262,7 @@ impl GuidanceState {
         command: &PointingCommand,
         ephemeris: &EphemerisAtTime,
         attitude: Attitude,
-        choose: impl Fn(&WindowStart<'_>) -> Option<ChosenPlace>,
+        choose: impl Fn(&WindowStart<'_>) -> Option<SelectedSunDirection>,
     ) -> bool {
         let epoch_s = ephemeris.epoch_s;
         let windows = &in_present_orbit(&settings.orbit_phase.schedule, ephemeris);
@@ -299,7 +299,7 @@ impl GuidanceState {
     }
 
     /// The Sun's place in the downlinks of the mode; `None`: on -Y.
-    fn sun_place(&self) -> Option<SunPlace> {
+    fn sun_direction(&self) -> Option<DownlinkSunDirection> {
         self.downlink_sun.place().filter(|_| self.modes.mode == Mode::Operational)
     }
 
@@ -322,7 +322,7 @@ impl GuidanceState {
         (time_s - tolerance_s..=time_s + SAMPLE_INTERVAL_S + tolerance_s).contains(&self.next_sample_s)
     }
 
-    /// What is commanded now: where no scenario is, the last command that gave an attitude, without its scans.
+    /// Command in force: without a scenario the last one that gave an attitude, without its scans.
     pub fn continued(&self, command: &PointingCommand) -> PointingCommand {
         match self.law {
             Some(law) if command.scenario.is_none() => without_scans(&law),
@@ -379,12 +379,12 @@ impl GuidanceState {
         self.hot_pole_turn = constrained.hot_pole;
         self.command = self.command.followed_by(&constrained.pointing.frame(), now.time_s);
         let (_, is_sun_moved) = now.requested_sun;
-        self.status = CommandStatus::of(now.settings, now.ephemeris, &solution, &constrained, is_sun_moved);
+        self.status = CommandStatus::new(now.settings, now.ephemeris, &solution, &constrained, is_sun_moved);
         self.status.degenerate |= !is_given;
         self.status.reachable &= !is_slewing;
     }
 
-    /// Where the slew into the command stands on the way to `target`, kept away from the hot pole; `None` where it is over.
+    /// Attitude of the slew into the command on the way to `target`, kept away from the hot pole; `None` where it is over.
     fn slewed(&mut self, now: &SampleContext<'_>, target: &Pointing) -> Option<ConstrainedPointing> {
         let slew = self.slew.as_mut()?;
         let rate_rad_s = now.settings.orbit_phase.slew_rate_rad_s;
@@ -396,7 +396,7 @@ impl GuidanceState {
             self.slew = None;
             return None;
         };
-        let vectors = Pointing::of(&slewed.frame).vectors();
+        let vectors = Pointing::from_frame(&slewed.frame).vectors();
         let constraints = Constraints { keep_in: None, ..now.constraints };
         constraints.applied(&vectors, now.ephemeris, self.hot_pole_turn)
     }
@@ -416,7 +416,7 @@ impl GuidanceState {
     fn solution(&mut self, now: &SampleContext<'_>, command: &PointingCommand) -> Option<PointingSolution> {
         if command.scenario == Some(Scenario::OrbitPhase) {
             let science = self.downlink_sun.in_science().filter(|_| self.modes.mode == Mode::Operational);
-            let law = now.settings.orbit_phase.with_sun_places(self.sun_place(), science);
+            let law = now.settings.orbit_phase.with_sun_directions(self.sun_direction(), science);
             let law = Guided { requested: now.requested_sun.0, ..law };
             return Some(self.orbit_phase(&law, now.ephemeris, &now.settings.hardware));
         }
@@ -426,7 +426,7 @@ impl GuidanceState {
                 tolerance_s: 4.0 * spacing(now.time_s),
             }),
             limb_elapsed_s: self.limb.map_or(0.0, |(_, since_s)| now.time_s - since_s),
-            downlink_sun: self.sun_place().filter(|_| !now.sun_is_placed),
+            downlink_sun: self.sun_direction().filter(|_| !now.sun_is_placed),
             requested: now.requested_sun.0,
             burn: self.burn.pointing(&now.settings.burn),
         };
@@ -442,7 +442,7 @@ impl GuidanceState {
         hardware: &GuidanceHardware<'_>,
     ) -> PointingSolution {
         let attitude = self.periapses.attitude(law, hardware.default_downlink, ephemeris);
-        let pointing = Pointing::of(&attitude.frame);
+        let pointing = Pointing::from_frame(&attitude.frame);
         let is_downlink = attitude.window.activity == Activity::Downlink && !attitude.slewing;
         let keeps_nadir = attitude.window.activity == Activity::Science && law.science.unloads();
         let earth_body = || value(&pointing.to_body(&ephemeris.to_earth()));
@@ -457,7 +457,7 @@ impl GuidanceState {
             second: keeps_nadir.then(|| ephemeris.to_planet()),
             antenna: (is_downlink && !law.requested.alternate)
                 .then(|| Beam::AtTheEarth(hardware.antennas.toward(&earth_body()))),
-            downlink: DownlinkStatus::of(&attitude),
+            downlink: DownlinkStatus::from_attitude(&attitude),
             reachable: !attitude.slewing
                 && (is_downlink || attitude.margins.iter().all(|margin| *margin >= 0.0)),
             ..PointingSolution::at(aligned.unwrap_or_else(|| pointing.vectors()))
@@ -477,7 +477,7 @@ impl GuidanceState {
     }
 }
 
-/// The windows, of which shares of the period follow the orbit that the spacecraft is on.
+/// Windows with fractions of the period taken of the orbit that the spacecraft is on.
 fn in_present_orbit(windows: &Schedule, ephemeris: &EphemerisAtTime) -> Schedule {
     if windows.period_shares == [None; 2] {
         return *windows;

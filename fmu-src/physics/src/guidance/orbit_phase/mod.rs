@@ -6,4 +6,4 @@ pub mod guided;
 pub mod periapsis_count;
 pub mod predicted_orbit;
 pub mod schedule;
-pub mod science_course;
+pub mod science_arc;

@@ -29,7 +29,7 @@ pub enum AimpointKind {
 pub struct Aimpoint {
     /// From the spacecraft, EME2000: a direction of any length, or m to a point. Never zero, never NaN.
     pub toward: MovingVector,
-    /// What it is.
+    /// Kind of the aimpoint.
     pub kind: AimpointKind,
     /// Whether it is what was requested, and no substitute.
     pub reachable: bool,

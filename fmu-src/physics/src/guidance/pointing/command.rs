@@ -1,4 +1,4 @@
-//! What can be commanded: options of the four vectors (paper 001, Tables 1 to 4), scenarios (Table 5), limb and scan.
+//! Commands of pointing: options of the four vectors (paper 001, Tables 1 to 4), scenarios (Table 5), limb and scan.
 //!
 //! A command holds every number any option reads; an option reads its own and no other. Options and scenarios that are
 //! `None` are not commanded. Angles in rad, lengths in m, body-frame angles as in [`crate::attitude::SunAngles`]. In a file
@@ -216,7 +216,7 @@ commands! {
 
     /// An aimpoint.
     pub struct AimpointCommand {
-        /// What it is.
+        /// Kind of aimpoint.
         pub option: Option<AimpointOption>,
         /// EME2000 direction, of any length.
         pub vector: Vector3<f64>,
@@ -266,7 +266,7 @@ commands! {
         pub declination_rad: f64,
     }
 
-    /// Where at the limb, and how it is scanned.
+    /// Point at the limb and its scan.
     pub struct LimbCommand {
         /// Azimuth about the local vertical, right-handed about up.
         pub azimuth_rad: f64,
@@ -299,10 +299,10 @@ commands! {
     }
 }
 
-/// Everything that says where to point.
+/// Pointing command of all scenarios and options.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PointingCommand {
-    /// What is done.
+    /// Scenario; `None` commands nothing.
     pub scenario: Option<Scenario>,
     /// Boresight.
     pub boresight: BoresightCommand,

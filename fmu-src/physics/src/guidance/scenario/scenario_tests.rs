@@ -61,7 +61,7 @@ pub(crate) fn hardware() -> GuidanceHardware<'static> {
 /// MESSENGER's antennas, and no instrument.
 pub(crate) fn no_instruments() -> GuidanceHardware<'static> {
     static ANTENNAS: LazyLock<(Antennas, DefaultDownlink)> =
-        LazyLock::new(|| (quadrants(), DefaultDownlink::of(&quadrants())));
+        LazyLock::new(|| (quadrants(), DefaultDownlink::new(&quadrants())));
     let (antennas, default_downlink) = &*ANTENNAS;
     GuidanceHardware {
         instruments: &[],

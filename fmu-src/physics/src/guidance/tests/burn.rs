@@ -12,7 +12,7 @@ use crate::constants::DEG_RAD;
 use crate::guidance::burn::delta_v::{BurnPhase, BurnSettings, GAIN, LOOK_AHEAD_S};
 use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::guidance::constraints::constrained::Constraints;
-use crate::guidance::downlink::sun_place::{LinkLimits, SunRequest};
+use crate::guidance::downlink::sun_direction::{LinkLimits, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::modes::body_positions::BodyPositions;
 use crate::guidance::modes::sample_inputs::{GuidanceSettings, SampleInputs, TimedEntries};

@@ -34,7 +34,7 @@ pub(crate) fn guided(science: ScienceRule, period_s: f64, [start_s, end_s]: [f64
         elevation_limit_rad: 0.2,
         slew_rate_rad_s: 0.0,
         keep_in: None,
-        sun_place: None,
+        sun_direction: None,
         requested: Default::default(),
         managed: false,
     }
@@ -48,7 +48,7 @@ pub(crate) fn about_mercury(
 ) -> EphemerisAtTime {
     EphemerisAtTime {
         epoch_s: 0.0,
-        planet: TargetPlanet::of(Body::Mercury.data()),
+        planet: TargetPlanet::from_body(Body::Mercury.data()),
         position: fixed(position),
         velocity: fixed(Vector3::y() * 3e3),
         sun: fixed(sun),
@@ -80,7 +80,7 @@ impl TestOrbit {
         let orbit = TwoBodyOrbit::from_elements(elements, data.gm_m3_s2, EPOCH_S).unwrap();
         let planet = TargetPlanet {
             radii_m: Vector3::new(2_445_000.0, 2_440_000.0, 2_431_000.0),
-            ..TargetPlanet::of(data)
+            ..TargetPlanet::from_body(data)
         };
         Self { orbit, ephemeris: RefCell::default(), planet }
     }

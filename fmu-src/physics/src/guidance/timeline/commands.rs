@@ -39,7 +39,7 @@ const AIMPOINT: &[&str] = &[
     "body",
 ];
 
-/// Who reads a timeline.
+/// Model that reads a timeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Reader {
     /// Guidance.
@@ -63,7 +63,7 @@ impl<'d, 'i> Commands<'d, 'i> {
         Self { check, spacecraft, reader, scenario: String::new() }
     }
 
-    /// Where a command points, without its scan.
+    /// Returns the pointing of a command without its scan.
     pub(super) fn pointing(&mut self, at: &KeyPath, given: &CommandDescription) -> PointingCommand {
         let scenario_place = at.key("scenario");
         self.check_reader(at, given);
@@ -144,7 +144,7 @@ impl<'d, 'i> Commands<'d, 'i> {
         }
     }
 
-    /// Where the Sun stands in a downlink.
+    /// Returns a command's direction of the Sun in a downlink.
     pub(super) fn downlink(&mut self, at: &KeyPath, given: &CommandDescription) -> DownlinkOverride {
         let alternate = given.alternate.unwrap_or_default();
         let (place, is_written) = (at.key("sun"), |it: &Self, key| it.check.is_written(&at.key(key)));

@@ -24,7 +24,7 @@ use crate::plant::air_and_field::aerodynamic_solver::AerodynamicSolver;
 use crate::plant::air_and_field::air_and_field_builder::AirAndFieldBuilder;
 use crate::plant::air_and_field::air_and_field_segment::{AirAndField, AirAndFieldSegment};
 use crate::plant::flight::propagator_state::PropagatorState;
-use crate::plant::flight::sun_choice::SunChoice;
+use crate::plant::flight::sun_choice::SunDirectionSelection;
 use crate::plant::light::light_and_heat::RadiationBuilder;
 use crate::plant::light::radiation_segment::RadiationSegment;
 use crate::plant::light::radiation_solver::RadiationSolver;
@@ -138,7 +138,7 @@ pub struct Plant<'a> {
     light: Option<&'a mut RadiationSolver>,
     air_and_field: &'a mut AirAndFieldSegment,
     air: Option<&'a mut AerodynamicSolver>,
-    sun_choice: SunChoice,
+    sun_choice: SunDirectionSelection,
     panel_turns: &'a mut PanelTurns,
     external: &'a External<'a>,
 }

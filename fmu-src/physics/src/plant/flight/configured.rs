@@ -72,7 +72,7 @@ impl ConfiguredFlight<'_> {
     /// where it is over, the next one may choose. A downlink of the timeline is chosen as one as long as the windows'. Science that
     /// unloads is alike. At the `first` time of a flight nothing is
     /// forecast, and a downlink that has begun before keeps its default attitude; science that has is chosen for what is left of it.
-    pub(super) fn choose_sun_place(
+    pub(super) fn select_sun_direction(
         &mut self,
         time_s: f64,
         totals: &Totals,
@@ -121,7 +121,7 @@ impl ConfiguredFlight<'_> {
             let instant = plant.instant(time_s);
             let pressure_pa = plant.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
             let separations_rad = plant.kinematics.separations_rad(time_s, until_s);
-            let science = gimbal.map(|gimbal| plant.kinematics.science_course(gimbal, time_s, until_s));
+            let science = gimbal.map(|gimbal| plant.kinematics.science_arc(gimbal, time_s, until_s));
             if science.is_some() {
                 let evaluations = self.context.ephemeris.evaluations();
                 self.context.work.spend(Cost::Search, SCIENCE_UNITS, evaluations, time_s)?;
@@ -155,7 +155,7 @@ impl ConfiguredFlight<'_> {
         } else {
             choice.science = chosen;
         }
-        self.context.configuration.attitude.set_sun_places(choice.place(), choice.in_science());
+        self.context.configuration.attitude.set_sun_directions(choice.place(), choice.in_science());
         self.propagator.command_slews.cut(time_s);
         Ok(())
     }

@@ -49,7 +49,7 @@ use dynamic::{AttitudeDynamics, DynamicStep};
 use ideal::IdealFlight;
 use propagator_state::PropagatorState;
 use report::{Report, dynamic, ideal};
-use sun_choice::SunChoice;
+use sun_choice::SunDirectionSelection;
 
 /// A flight.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -186,7 +186,7 @@ impl Flight {
     }
 
     /// Where the Sun stands during downlinks.
-    pub fn sun_choice(&self) -> &SunChoice {
+    pub fn sun_choice(&self) -> &SunDirectionSelection {
         &self.propagator.sun_choice
     }
 

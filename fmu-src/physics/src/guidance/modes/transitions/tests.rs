@@ -9,7 +9,7 @@ use crate::attitude::angle_between_rad;
 use crate::bodies::Body;
 use crate::guidance::constraints::hot_pole::HotPole;
 use crate::guidance::constraints::keep_in::KeepIn;
-use crate::guidance::downlink::sun_place::{DownlinkRequest, downlink};
+use crate::guidance::downlink::sun_direction::{DownlinkRequest, downlink};
 use crate::guidance::geometry::moving::unit;
 use crate::guidance::pointing::antenna::tests::quadrants;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};

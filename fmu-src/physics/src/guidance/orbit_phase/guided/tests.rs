@@ -6,7 +6,7 @@ use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
 fn lines(t: f64) -> LinesOfSight {
-    let moving = |p: Vector3<f64>, v: Vector3<f64>| MovingUnit::of(p, v).unwrap();
+    let moving = |p: Vector3<f64>, v: Vector3<f64>| MovingUnit::from_vector(p, v).unwrap();
     let w = 2e-4;
     LinesOfSight {
         sun: moving(Vector3::new(1.0, 1e-7 * t, 0.1), Vector3::new(0.0, 1e-7, 0.0)),
@@ -46,11 +46,11 @@ fn a_slew_is_continuous_and_arrives() {
 #[test]
 fn rate_is_the_derivative_of_the_axes_everywhere() {
     let angles = SunAngles { azimuth_rad: -0.1, elevation_rad: 0.15 };
-    let off_sun = SunPlace { angles, earth_ahead: false };
-    for sun_place in [None, Some(off_sun)] {
-        rate_is_the_derivative(&Guided { sun_place, ..guided(2e-3) });
+    let off_sun = DownlinkSunDirection { angles, earth_ahead: false };
+    for sun_direction in [None, Some(off_sun)] {
+        rate_is_the_derivative(&Guided { sun_direction, ..guided(2e-3) });
         let science = ScienceRule::Unloading { sun: angles, gimbal: camera() };
-        rate_is_the_derivative(&Guided { sun_place, science, ..guided(2e-3) });
+        rate_is_the_derivative(&Guided { sun_direction, science, ..guided(2e-3) });
     }
 }
 

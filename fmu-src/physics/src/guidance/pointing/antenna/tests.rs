@@ -19,7 +19,7 @@ pub(crate) fn fixed_along(axis_body: Vector3<f64>) -> Antenna {
 
 pub(crate) fn antennas(list: &[Antenna]) -> Antennas {
     let named = |antenna: &Antenna| NamedAntenna { name: String::new(), antenna: *antenna };
-    Antennas::of(&list.iter().map(named).collect::<Vec<_>>())
+    Antennas::new(&list.iter().map(named).collect::<Vec<_>>())
 }
 
 /// MESSENGER's.
