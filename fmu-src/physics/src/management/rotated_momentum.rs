@@ -10,7 +10,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::profile::ControlAuthority;
-use super::targeting::golden;
+use super::searches::golden;
 
 /// Momentum in the body frame at one time of the science to come: R h + d.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,10 +10,11 @@
 //! no admissible place reaches the target, the one that comes nearest to it in momentum, by golden section search.
 //! Error measure: none at run time; the equation holds to rounding where a root is found.
 
-use nalgebra::{Matrix2, Vector2, Vector3};
+use nalgebra::Vector3;
 
 use super::admissible::{Branch, Branches, KeepInLimits};
 use super::linear::LinearTorque;
+use super::searches::{golden, newton};
 use crate::attitude::{MovingUnit, SunAngles, angle_between_rad, direction_from_angles};
 use crate::enumeration::enumeration;
 use crate::guidance::pointing::antenna::Antennas;
@@ -22,7 +23,6 @@ use crate::guidance::{
 };
 use crate::math;
 use crate::momentum::Convention;
-use crate::numerics::golden_section::{Bracket, golden_section};
 use crate::numerics::roots;
 use crate::plant::StartMomentum;
 
@@ -103,14 +103,8 @@ pub struct ScienceUnload<'a> {
     pub convention: Convention,
 }
 
-/// Newton steps.
-const NEWTON_STEPS: usize = 30;
-/// Half width of central differences, in rad.
-const DIFFERENCE_RAD: f64 = 1e-5;
 /// A residual below this fraction of momentum and target, and of 1 N m s, counts as rounding.
 const ROUNDING: f64 = 1e-13;
-/// Steps of a golden section search.
-const GOLDEN_STEPS: usize = 44;
 /// Intervals looked through for a root.
 const INTERVALS: usize = 16;
 
@@ -375,46 +369,6 @@ impl DownlinkState<'_> {
         }
         self.momentum_body_n_m_s(place) + torque * self.span_s - target
     }
-}
-
-/// A root by Newton's method, steps halved while they make it worse.
-fn newton(start: SunAngles, left: impl Fn(f64, f64) -> Vector2<f64>, tolerance: f64) -> Option<SunAngles> {
-    let mut at = Vector2::new(start.azimuth_rad, start.elevation_rad);
-    let mut now = left(at.x, at.y);
-    for _ in 0..NEWTON_STEPS {
-        if now.norm() <= tolerance {
-            break;
-        }
-        let slope = |axis: usize| {
-            let step = Vector2::ith(axis, DIFFERENCE_RAD);
-            let (ahead, behind) = (at + step, at - step);
-            (left(ahead.x, ahead.y) - left(behind.x, behind.y)) / (2.0 * DIFFERENCE_RAD)
-        };
-        let step = Matrix2::from_columns(&[slope(0), slope(1)]).try_inverse()? * now;
-        let mut share = 1.0;
-        let (next, then) = loop {
-            let next = at - step * share;
-            let then = left(next.x, next.y);
-            if then.norm() < now.norm() || share < 1e-3 {
-                break (next, then);
-            }
-            share *= 0.5;
-        };
-        if then.norm() >= now.norm() {
-            break;
-        }
-        (at, now) = (next, then);
-    }
-    let is_angle = at.amax() < core::f64::consts::FRAC_PI_2;
-    (is_angle && now.norm() <= 10.0 * tolerance)
-        .then_some(SunAngles { azimuth_rad: at.x, elevation_rad: at.y })
-}
-
-/// Returns the position and value of the minimum of a function with one minimum in [`low`, `high`]; the ends count.
-pub(super) fn golden(low: f64, high: f64, mut function: impl FnMut(f64) -> f64) -> (f64, f64) {
-    let middle = golden_section(Bracket { low, high }, GOLDEN_STEPS, &mut function).middle();
-    let ends = [low, high, middle].map(|at| (at, function(at)));
-    ends.into_iter().fold((middle, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
 }
 
 #[cfg(test)]

@@ -6,8 +6,10 @@ use serde::{Deserialize, Serialize};
 use super::body_positions::BodyPositions;
 use super::transitions::{ModeSettings, Sensed};
 use crate::guidance::burn::delta_v::BurnSettings;
+use crate::guidance::constraints::constrained::Constraints;
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::downlink::sun_direction::{LinkLimits, SunRequest};
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::orbit_phase::guided::Guided;
 use crate::guidance::pointing::command::PointingCommand;
 use crate::guidance::scenario::GuidanceHardware;
@@ -63,4 +65,20 @@ pub struct TimedEntries {
     pub mode: Option<f64>,
     /// Whether the burn is one of an entry that is no longer in force; its attitude is held.
     pub burn_is_over: bool,
+}
+
+/// Context of a sample that points.
+pub(super) struct SampleContext<'a> {
+    /// Settings with the zone of the mode.
+    pub settings: &'a GuidanceSettings<'a>,
+    /// Constraints of the mode.
+    pub constraints: Constraints,
+    /// Positions that the mode uses.
+    pub ephemeris: &'a EphemerisAtTime,
+    /// Requested direction of the Sun in downlinks, and whether the zone moved it.
+    pub requested_sun: (SunRequest, bool),
+    /// Whether the timeline gives the Sun's direction.
+    pub sun_is_placed: bool,
+    /// Time of the sample, in s.
+    pub time_s: f64,
 }

@@ -335,4 +335,11 @@ impl PointingCommand {
             scan: self.scan.over(&planned.scan),
         }
     }
+
+    /// Returns the command as it continues after its end: without its scans.
+    #[must_use]
+    pub fn without_scans(&self) -> Self {
+        let limb = LimbCommand { height_rate_m_s: 0.0, ..self.limb };
+        Self { scan: ScanCommand::default(), limb, ..*self }
+    }
 }

@@ -2,6 +2,8 @@
 //!
 //! All but the generic one roll -Y toward the Sun. A scan may move any but downlink and burn.
 
+pub mod orbit_phase_solution;
+
 use nalgebra::Vector3;
 
 use crate::guidance::burn::delta_v::BurnPointing;
