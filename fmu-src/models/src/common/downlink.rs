@@ -3,7 +3,7 @@
 use fmi_export::{Boolean, Real, Values, Variables};
 use physics::attitude::SunAngles;
 use physics::constants::{HALF_TURNS_RAD, QUARTER_TURNS_RAD};
-use physics::guidance::downlink::sun_place::SunRequest;
+use physics::guidance::downlink::sun_direction::SunRequest;
 
 /// The file of commands over time in an FMU.
 pub(crate) const TIMELINE_FILE: &str = "timeline.toml";

@@ -5,7 +5,7 @@ use physics::attitude::SunAngles;
 use physics::bodies::Body;
 use physics::environment::orbit;
 use physics::guidance::constraints::keep_in::KeepIn;
-use physics::guidance::downlink::sun_place::SunRequest;
+use physics::guidance::downlink::sun_direction::SunRequest;
 use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::{self, Guided, Schedule};
 use physics::spacecraft::{Spacecraft, TimeAfterPeriapsis};
@@ -269,7 +269,7 @@ impl GuidedVariables {
             elevation_limit_rad: keep_in.elevation_rad,
             slew_rate_rad_s: values.real(self.slew_rate),
             keep_in: Some(keep_in),
-            sun_place: None,
+            sun_direction: None,
             requested: SunRequest::default(),
             managed: false,
         })

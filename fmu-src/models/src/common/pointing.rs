@@ -4,7 +4,7 @@ use fmi_export::{Choice, Failure, Real, RealVector, Values, Variables};
 use nalgebra::Vector3;
 use physics::enumeration::Enumerated;
 use physics::guidance;
-use physics::guidance::downlink::sun_place::SunZone;
+use physics::guidance::downlink::sun_direction::SunZone;
 use physics::guidance::pointing::command;
 use physics::spacecraft::{
     AlignedAxes, AttitudePart, AttitudeRefusal, NamedAttitude, Panel, PointingSettings, PointingTarget,

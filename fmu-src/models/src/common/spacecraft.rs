@@ -73,8 +73,8 @@ pub struct PreparedAntennas {
 impl PreparedAntennas {
     /// Prepares the antennas of one spacecraft.
     pub fn new(spacecraft: &Spacecraft) -> Self {
-        let all = Antennas::of(&spacecraft.antennas);
-        Self { default_downlink: DefaultDownlink::of(&all), all }
+        let all = Antennas::new(&spacecraft.antennas);
+        Self { default_downlink: DefaultDownlink::new(&all), all }
     }
 }
 

@@ -1,4 +1,4 @@
-//! What each output depends on, by groups. A sample decides the mode, then whether there is an attitude, then which: all that is
+//! Dependencies of the outputs, by groups. A sample decides the mode, then whether there is an attitude, then which: all that is
 //! judged with an attitude depends on all inputs.
 
 use fmi_export::{Dependencies, Section, knowns};

@@ -10,7 +10,7 @@ use super::state::State;
 use super::variables::choices::{ActiveMode, AntennaSelect, EphemerisModel, EphemerisSource, ModeReason};
 use crate::common::choices::{CommandKind, ThrustRequest};
 
-/// What `thrust.stop` says without thrust, in s, and `timeline.until` without an edge to come.
+/// Value of `thrust.stop` without thrust, in s, and of `timeline.until` without an edge to come.
 const NEVER_S: f64 = -1.0;
 
 /// Writes every output at the communication point reached, the epoch there being `epoch_s`.

@@ -19,7 +19,7 @@ use crate::common::spacecraft::{PreparedAntennas, PreparedShapes, wheel_array};
 /// Guidance.
 pub struct Guidance;
 
-/// What every call of the model is given.
+/// Context of every call of the model.
 pub(super) type Plan<'a> = Context<'a, Guidance>;
 
 /// The spacecraft of an instance.
@@ -80,7 +80,7 @@ impl GuidanceSetup {
     }
 
     /// Takes the commands of a timeline.
-    pub fn take_timeline(&mut self, file: &str, text: &str) -> Result<(), SetupError> {
+    pub fn set_timeline(&mut self, file: &str, text: &str) -> Result<(), SetupError> {
         let timeline = Timeline::from_toml(file, text, &self.spacecraft);
         self.timeline = Some(timeline.map_err(|error| SetupError(error.to_string()))?);
         Ok(())
@@ -101,7 +101,7 @@ impl GuidanceSetup {
 
     /// Least and greatest angle of the gimbal by the file, in rad.
     pub fn gimbal_range_rad(&self) -> [f64; 2] {
-        Gimbal::of(&self.spacecraft.instruments)
+        Gimbal::from_instruments(&self.spacecraft.instruments)
             .map_or([0.0; 2], |gimbal| [gimbal.minimum_rad, gimbal.maximum_rad])
     }
 

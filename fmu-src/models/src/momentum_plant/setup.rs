@@ -9,7 +9,7 @@ use physics::environment::orbit::OrbitMethod;
 use physics::guidance::geometry::lighting::SubsolarMethod;
 use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::pointing::scan::ScanCompatibility;
-use physics::guidance::pointing::scenario::GuidanceHardware;
+use physics::guidance::scenario::GuidanceHardware;
 use physics::guidance::timeline::{Timeline, TimelineLaw};
 use physics::plant::{ControlDefaults, PanelStep, PreparedSpacecraft};
 use physics::spacecraft::{Spacecraft, SunKeepIn, SunshadeModel};
@@ -127,7 +127,7 @@ impl PlantSetup {
                 timeline,
                 hardware: GuidanceHardware {
                     instruments: &self.spacecraft.instruments,
-                    gimbal: Gimbal::of(&self.spacecraft.instruments),
+                    gimbal: Gimbal::from_instruments(&self.spacecraft.instruments),
                     antennas: &self.antennas.all,
                     default_downlink: &self.antennas.default_downlink,
                     subsolar: SubsolarMethod::default(),

@@ -15,8 +15,8 @@ pub struct SunAngles {
 }
 
 impl SunAngles {
-    /// Of a body-frame direction of any length; along the Z axis the azimuth is 0.
-    pub fn of(direction_body: &Vector3<f64>) -> Self {
+    /// Angles of a body-frame direction of any length; along the Z axis the azimuth is 0.
+    pub fn from_direction(direction_body: &Vector3<f64>) -> Self {
         let across = direction_body.xy().norm();
         let azimuth_rad = if across == 0.0 { 0.0 } else { math::atan2(direction_body.x, -direction_body.y) };
         Self { azimuth_rad, elevation_rad: math::atan2(-direction_body.z, across) }
@@ -50,7 +50,7 @@ mod tests {
 
     #[test]
     fn the_axes_have_the_angles_the_paper_says() {
-        let of = |x, y, z| SunAngles::of(&Vector3::new(x, y, z));
+        let of = |x, y, z| SunAngles::from_direction(&Vector3::new(x, y, z));
         assert_eq!(of(0.0, -1.0, 0.0), SunAngles { azimuth_rad: 0.0, elevation_rad: 0.0 });
         assert_relative_eq!(of(1.0, 0.0, 0.0).azimuth_rad, FRAC_PI_2);
         assert_relative_eq!(of(0.0, 1.0, 0.0).azimuth_rad.abs(), PI);
@@ -64,7 +64,7 @@ mod tests {
             for e in -7..=7 {
                 let angles =
                     SunAngles { azimuth_rad: f64::from(a) * 0.39, elevation_rad: f64::from(e) * 0.22 };
-                let back = SunAngles::of(&(3.0 * direction_from_angles(angles)));
+                let back = SunAngles::from_direction(&(3.0 * direction_from_angles(angles)));
                 assert_relative_eq!(back.azimuth_rad, angles.azimuth_rad, epsilon = 1e-14);
                 assert_relative_eq!(back.elevation_rad, angles.elevation_rad, epsilon = 1e-14);
             }

@@ -1,4 +1,4 @@
-//! What acts on a body over a segment of its motion, and the body at one time.
+//! Load on a body over a segment of its motion, and the body at one time.
 
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -8,7 +8,7 @@ use super::internal_motion::InternalMotion;
 use super::mass_flow::MassFlow;
 use super::quaternion::Quaternion;
 
-/// What acts on the body over a segment, body frame, polynomials of the time since its start.
+/// Load on the body over a segment, body frame, by polynomials of the time since its start.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyLoad {
     /// Torque about the centre of mass in N m, and its slope in N m/s.
@@ -17,18 +17,18 @@ pub struct BodyLoad {
     pub force_body_n: [Vector3<f64>; 2],
     /// Mass in kg at the start.
     pub mass_kg: f64,
-    /// What leaves the body in kg/s at the start, and its slope in kg/s2.
+    /// Mass flow out of the body in kg/s at the start, and its slope in kg/s2.
     pub flow_kg_s: [f64; 2],
-    /// What that does to the body beside its force; absent where nothing flows.
+    /// Effect of that flow on the body, its force apart; absent where nothing flows.
     pub mass_flow: Option<MassFlow>,
     /// A dipole in a magnetic field; absent where none is.
     pub dipole: Option<DipoleInField>,
-    /// What turns on hinges; absent where nothing does.
+    /// Motion of masses on hinges; absent where none turns.
     pub internal: Option<InternalMotion>,
 }
 
 impl BodyLoad {
-    /// Nothing, on a body of this mass.
+    /// No load, on a body of this mass.
     pub fn none(mass_kg: f64) -> Self {
         let nothing = [Vector3::zeros(); 2];
         Self {

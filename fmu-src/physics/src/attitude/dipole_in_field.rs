@@ -46,7 +46,7 @@ impl FieldSeries {
     }
 
     /// Coefficient `j` of the torque in N m, whose terms up to there are known; computes the next terms from those of the body's
-    /// rate, of which so many are known.
+    /// rate known so far.
     pub(super) fn extend(
         &mut self,
         dipole_body_a_m2: &Vector3<f64>,

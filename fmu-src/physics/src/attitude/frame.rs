@@ -15,7 +15,7 @@ pub struct MovingUnit {
 
 impl MovingUnit {
     /// Direction of `vector`, which changes by `rate` per second; `None` where it has no direction.
-    pub fn of(vector: Vector3<f64>, rate: Vector3<f64>) -> Option<Self> {
+    pub fn from_vector(vector: Vector3<f64>, rate: Vector3<f64>) -> Option<Self> {
         let length = vector.norm();
         if !(length.is_finite() && length > 0.0) {
             return None;
@@ -36,7 +36,7 @@ impl MovingUnit {
         }
         let cosine_rate = self.rate_1_s.dot(&other.direction) + self.direction.dot(&other.rate_1_s);
         let part_rate = other.rate_1_s - self.rate_1_s * cosine - self.direction * cosine_rate;
-        Some((Self::of(part, part_rate)?, math::atan2(sine, cosine), -cosine_rate / sine))
+        Some((Self::from_vector(part, part_rate)?, math::atan2(sine, cosine), -cosine_rate / sine))
     }
 }
 
@@ -114,8 +114,8 @@ mod tests {
 
     fn frame(t: f64) -> MovingFrame {
         let [a, b] = vectors(t);
-        let y = MovingUnit::of(a.0, a.1).unwrap();
-        let z = y.perpendicular_part(&MovingUnit::of(b.0, b.1).unwrap()).unwrap().0;
+        let y = MovingUnit::from_vector(a.0, a.1).unwrap();
+        let z = y.perpendicular_part(&MovingUnit::from_vector(b.0, b.1).unwrap()).unwrap().0;
         MovingFrame::from_yz(&y, &z).pitched(0.2 * t, 0.2).offset(
             &Vector3::new(0.1, -0.2, 0.3),
             1.0 - t,
@@ -138,8 +138,8 @@ mod tests {
     fn angle_between_and_its_rate() {
         let angle = |t: f64| {
             let [a, b] = vectors(t);
-            let y = MovingUnit::of(a.0, a.1).unwrap();
-            let (_, angle, rate) = y.perpendicular_part(&MovingUnit::of(b.0, b.1).unwrap()).unwrap();
+            let y = MovingUnit::from_vector(a.0, a.1).unwrap();
+            let (_, angle, rate) = y.perpendicular_part(&MovingUnit::from_vector(b.0, b.1).unwrap()).unwrap();
             (angle, rate)
         };
         let (t, dt) = (0.7, 1e-6);
@@ -150,8 +150,11 @@ mod tests {
 
     #[test]
     fn parallel_directions_have_no_perpendicular_part() {
-        let x = MovingUnit::of(Vector3::x(), Vector3::y()).unwrap();
-        assert!(x.perpendicular_part(&MovingUnit::of(-Vector3::x(), Vector3::zeros()).unwrap()).is_none());
-        assert!(MovingUnit::of(Vector3::zeros(), Vector3::x()).is_none());
+        let x = MovingUnit::from_vector(Vector3::x(), Vector3::y()).unwrap();
+        assert!(
+            x.perpendicular_part(&MovingUnit::from_vector(-Vector3::x(), Vector3::zeros()).unwrap())
+                .is_none()
+        );
+        assert!(MovingUnit::from_vector(Vector3::zeros(), Vector3::x()).is_none());
     }
 }

@@ -10,7 +10,7 @@ use super::oscillator::{FlexibleMode, Oscillator};
 use super::slosh::SloshPendulum;
 use super::wheel::{ReactionWheel, Rotor};
 
-/// What moves besides the body and its wheels.
+/// Moving parts of the body other than its wheels.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Appendages {
     /// Flexible modes.
@@ -30,7 +30,7 @@ pub struct Gyrostat {
     inverse_carrier: Option<Matrix3<f64>>,
     wheels: Vec<ReactionWheel>,
     appendages: Appendages,
-    /// Where what swings and what is out of balance is counted from.
+    /// Centre of mass, from which the positions of propellant and unbalanced rotors count, in m.
     center_of_mass_body_m: Vector3<f64>,
 }
 
@@ -50,7 +50,7 @@ pub enum GyrostatError {
     Axis {
         /// 1-based.
         wheel: usize,
-        /// What was found.
+        /// Axis found.
         found: [f64; 3],
     },
     /// The body less its rotors.
@@ -138,7 +138,7 @@ impl Gyrostat {
         if found > 0.0 { Ok(self) } else { Err(GyrostatError::Swinging { found }) }
     }
 
-    /// What moves besides the body and its wheels.
+    /// Moving parts of the body other than its wheels.
     pub fn appendages(&self) -> &Appendages {
         &self.appendages
     }

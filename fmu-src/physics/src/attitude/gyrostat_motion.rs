@@ -45,12 +45,12 @@ pub struct GyrostatMotion {
     load: BodyLoad,
     momentum_inertial_n_m_s: Vector3<f64>,
     delta_v_inertial_m_s: Vector3<f64>,
-    /// What was evaluated last; a cache.
+    /// Last evaluation; a cache.
     #[serde(skip)]
     known: Option<Known>,
 }
 
-/// The body so many seconds after the start of a segment, and its attitudes at the nodes of the quadrature up to there.
+/// Body `elapsed_s` after the start of a segment, and its attitudes at the nodes of the quadrature up to there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Known {
     elapsed_s: f64,
@@ -96,7 +96,7 @@ impl GyrostatMotion {
         motion
     }
 
-    /// Whether a simulation with so many wheels and modal coordinates can produce it.
+    /// Rejects decoded states that no simulation with these numbers of wheels and modal coordinates can produce.
     pub fn is_valid(&self, wheels: usize, oscillators: usize) -> bool {
         self.rotors.len() == wheels
             && self.oscillators.len() == oscillators
@@ -119,9 +119,9 @@ impl GyrostatMotion {
         self.forget();
     }
 
-    /// At the end the body stands like this at once, of the inertia that it has now, and what turns on hinges does so like this
+    /// Sets the attitude at the end at once, with the present inertia, and the motion of what turns on hinges
     /// from there on: the momentum is kept, those of rotors and modal coordinates along their axes too, and the rate follows.
-    pub fn displace(&mut self, gyrostat: &Gyrostat, attitude: Quaternion, internal: Option<InternalMotion>) {
+    pub fn reorient(&mut self, gyrostat: &Gyrostat, attitude: Quaternion, internal: Option<InternalMotion>) {
         let elapsed_s = self.end_s - self.start_s;
         [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s] = self.totals_after(elapsed_s);
         for it in &mut self.rotors {
@@ -129,7 +129,7 @@ impl GyrostatMotion {
         }
         self.forget();
         for it in &mut self.oscillators {
-            it.stand(self.series.order, elapsed_s);
+            it.hold(self.series.order, elapsed_s);
         }
         for (it, imbalance) in self.imbalances.iter_mut().zip(&gyrostat.appendages().imbalances) {
             it.begin(imbalance, gyrostat.center_of_mass_body_m(), self.series.order, elapsed_s);
@@ -141,19 +141,19 @@ impl GyrostatMotion {
         self.inverse_inertia = self.inverse_inertia_of(gyrostat);
     }
 
-    /// What turns the body at once by a momentum within, in 1/(kg m2), where it has the inertia of `gyrostat`: rotors that turn
-    /// and what swings stay behind.
+    /// Inverse inertia that gives the change of rate by an internal momentum, in 1/(kg m2), with the inertia of `gyrostat`: rotors that turn
+    /// and modal coordinates keep their own.
     pub fn inverse_inertia_of(&self, gyrostat: &Gyrostat) -> Matrix3<f64> {
         let swinging = self.oscillators.iter().map(OscillatorMotion::inertia_body_kg_m2);
         gyrostat.inverse_inertia(self.rotors.iter().map(|it| &it.rotor), swinging)
     }
 
-    /// Up to where the motion is known, in s.
+    /// End of the present segment, in s.
     pub fn end_s(&self) -> f64 {
         self.end_s
     }
 
-    /// Since when the present segment lasts, in s.
+    /// Start of the present segment, in s.
     pub fn start_s(&self) -> f64 {
         self.start_s
     }
@@ -166,7 +166,7 @@ impl GyrostatMotion {
         }
     }
 
-    /// The body at `time_s` within the segment, remembered for whoever asks next.
+    /// Returns the body at `time_s` within the segment and keeps it for the next call at that time.
     pub fn remembered_at(&mut self, gyrostat: &Gyrostat, time_s: f64) -> BodyMotion {
         let elapsed_s = time_s - self.start_s;
         if let Some(known) = self.known.filter(|it| it.elapsed_s == elapsed_s) {
@@ -180,7 +180,7 @@ impl GyrostatMotion {
         body
     }
 
-    /// The segment changes.
+    /// Drops the cached evaluation; the segment changes.
     fn forget(&mut self) {
         self.known = None;
         self.rotors.iter_mut().for_each(|it| it.known = None);

@@ -23,7 +23,7 @@ pub(super) struct GyrostatSeries<'a> {
     pub rotors: &'a mut [RotorMotion],
     pub oscillators: &'a mut [OscillatorMotion],
     pub imbalances: &'a mut [ImbalanceMotion],
-    /// Of body and held rotors alone at the start, in 1/(kg m2).
+    /// Inverse inertia of body and held rotors at the start, in 1/(kg m2).
     pub inverse_inertia: &'a Matrix3<f64>,
     pub load: &'a BodyLoad,
 }
@@ -114,7 +114,7 @@ impl GyrostatSeries<'_> {
             .max(phase * (ROUNDING / PHASE_ROUNDING))
     }
 
-    /// What momenta are compared with, in N m s.
+    /// Scale of momenta, in N m s, that terms are compared with.
     fn momentum_scale_n_m_s(&self) -> f64 {
         let rotors = self.rotors.iter().map(|it| it.axial[0].abs()).fold(0.0, f64::max);
         // Of a body at rest every change counts.

@@ -18,7 +18,7 @@ use crate::math;
 /// Static imbalance of one rotor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotorImbalance {
-    /// Which wheel, from 0.
+    /// Index of the wheel, from 0.
     pub wheel: usize,
     /// Mass times its distance from the axis, in kg m.
     pub static_imbalance_kg_m: f64,

@@ -31,7 +31,7 @@ pub enum InertiaError {
     NotPositive {
         /// 1-based.
         index: usize,
-        /// What was given.
+        /// Value found, in kg m2.
         value: f64,
     },
     /// No distribution of mass has these moments.
@@ -42,7 +42,7 @@ pub enum InertiaError {
     Triangle {
         /// 1-based.
         index: usize,
-        /// What was given.
+        /// Value found, in kg m2.
         value: f64,
         /// Sum of the other two.
         sum: f64,
@@ -52,7 +52,7 @@ pub enum InertiaError {
     Product {
         /// 1-based.
         index: usize,
-        /// What was given.
+        /// Value found, in kg m2.
         value: f64,
     },
     /// Moments and products together are those of no body.

@@ -99,8 +99,8 @@ pub struct InternalMotion {
 }
 
 impl InternalMotion {
-    /// Of these masses in a whole of `whole_kg` that has its centre there.
-    pub fn of(
+    /// Motion of these masses in a whole of `whole_kg` with this centre of mass.
+    pub fn new(
         masses: impl Iterator<Item = HingedMass> + Clone,
         whole_kg: f64,
         center_of_mass_body_m: &Vector3<f64>,
@@ -151,7 +151,7 @@ impl InternalMotion {
         polynomial(&self.momentum, elapsed_s)
     }
 
-    /// By how much the inertia is another after `elapsed_s`, in kg m2.
+    /// Change of the inertia after `elapsed_s`, in kg m2.
     pub(super) fn inertia_change_after(&self, elapsed_s: f64) -> Matrix3<f64> {
         polynomial(&self.inertia[1..], elapsed_s) * elapsed_s
     }

@@ -43,7 +43,7 @@ impl JetDamping {
     }
 }
 
-/// What a flow that is linear in time does to the body beside thrust, body frame.
+/// Effect on the body of a flow that is linear in time, thrust apart, body frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MassFlow {
     /// J', in kg m2/s.

@@ -37,12 +37,12 @@ impl FlexibleMode {
     }
 }
 
-/// What a modal coordinate obeys over a segment; displacement in sqrt(kg) m.
+/// Coefficients of a modal coordinate over a segment; displacement in sqrt(kg) m.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Oscillator {
     /// d, body frame.
     pub(super) coupling_body_sqrt_kg_m: Vector3<f64>,
-    /// m: share of the mass that moves when the rest of the body gives way.
+    /// m: fraction of the mass that moves when the rest of the body gives way.
     pub(super) mass_share: f64,
     /// k.
     pub(super) stiffness_1_s2: f64,
@@ -55,7 +55,7 @@ pub(super) struct Oscillator {
 }
 
 impl Oscillator {
-    /// What of the body's inertia moves with it, d d^T / m, in kg m2.
+    /// Part of the body's inertia that moves with it, d d^T / m, in kg m2.
     pub(super) fn inertia_body_kg_m2(&self) -> Matrix3<f64> {
         let d = &self.coupling_body_sqrt_kg_m;
         d * (d / self.mass_share).transpose()
@@ -85,7 +85,7 @@ impl OscillatorMotion {
         [polynomial(&self.displacement[..=order], elapsed_s), self.speed(momentum, rate_body_rad_s)]
     }
 
-    /// What the body's momentum holds of it beside the reduced inertia's, body frame, in N m s.
+    /// Part of the body's momentum that the reduced inertia does not hold, d p / m, body frame, in N m s.
     pub(super) fn carried_after(&self, order: usize, elapsed_s: f64) -> Vector3<f64> {
         self.carried(polynomial(&self.momentum[..=order], elapsed_s))
     }
@@ -108,8 +108,8 @@ impl OscillatorMotion {
         self.momentum[0] = oscillator.mass_share * speed + oscillator.coupling_body_sqrt_kg_m.dot(rate);
     }
 
-    /// Stands still in time at `elapsed_s`.
-    pub(super) fn stand(&mut self, order: usize, elapsed_s: f64) {
+    /// Holds the values of `elapsed_s` as the start of a segment.
+    pub(super) fn hold(&mut self, order: usize, elapsed_s: f64) {
         self.displacement[0] = polynomial(&self.displacement[..=order], elapsed_s);
         self.momentum[0] = polynomial(&self.momentum[..=order], elapsed_s);
     }
@@ -137,7 +137,7 @@ impl OscillatorMotion {
             (drive - stiffness_1_s2 * self.displacement[j] - damping_1_s * speed) / divisor;
     }
 
-    /// What of the body's inertia moves with it, in kg m2.
+    /// Part of the body's inertia that moves with it, in kg m2.
     pub(super) fn inertia_body_kg_m2(&self) -> Matrix3<f64> {
         self.oscillator.inertia_body_kg_m2()
     }

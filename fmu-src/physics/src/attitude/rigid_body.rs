@@ -10,7 +10,7 @@ use super::quaternion::Quaternion;
 
 use crate::math;
 
-/// Where the body is and how it turns.
+/// Attitude and angular momentum of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidBodyState {
     /// EME2000 to body.

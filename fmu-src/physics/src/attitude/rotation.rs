@@ -17,11 +17,11 @@ pub struct Attitude {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("quaternion [{}, {}, {}, {}] has norm {norm}, needed is {allowed}", .found[0], .found[1], .found[2], .found[3])]
 pub struct QuaternionError {
-    /// What was given, scalar last.
+    /// Quaternion found, scalar last.
     pub found: [f64; 4],
     /// Its norm.
     pub norm: f64,
-    /// What the norm may be.
+    /// Allowed norm.
     pub allowed: &'static str,
 }
 
@@ -67,7 +67,7 @@ impl Attitude {
 
     /// From the body axes as columns in inertial components.
     pub fn from_rotation(inertial_from_body: &Rotation3<f64>) -> Self {
-        Self::of(&UnitQuaternion::from_rotation_matrix(inertial_from_body))
+        Self::from_unit_quaternion(&UnitQuaternion::from_rotation_matrix(inertial_from_body))
     }
 
     /// Scalar-last quaternion (EME2000 to body), of the two signs the one nearest to `near`.
@@ -105,12 +105,12 @@ impl Attitude {
 
     /// The attitude after a rotation by the body-fixed vector `angle_body_rad`.
     pub fn turned(&self, angle_body_rad: Vector3<f64>) -> Self {
-        Self::of(&(self.unit() * UnitQuaternion::from_scaled_axis(angle_body_rad)))
+        Self::from_unit_quaternion(&(self.unit() * UnitQuaternion::from_scaled_axis(angle_body_rad)))
     }
 
     /// The opposite rotation: from the body frame to the inertial one.
     pub fn inverse(&self) -> Self {
-        Self::of(&self.unit().inverse())
+        Self::from_unit_quaternion(&self.unit().inverse())
     }
 
     /// A vector's inertial components from those in the body frame.
@@ -125,7 +125,7 @@ impl Attitude {
 
     /// The attitude after the rotation `by` (from this body frame to the new one).
     pub fn then(&self, by: &Self) -> Self {
-        Self::of(&(self.unit() * by.unit()))
+        Self::from_unit_quaternion(&(self.unit() * by.unit()))
     }
 
     /// A vector's body components from those in the inertial frame.
@@ -145,7 +145,7 @@ impl Attitude {
         Self { quaternion: self.quaternion.normalized() }
     }
 
-    fn of(inertial_from_body: &UnitQuaternion<f64>) -> Self {
+    fn from_unit_quaternion(inertial_from_body: &UnitQuaternion<f64>) -> Self {
         let q = inertial_from_body.coords;
         Self { quaternion: Quaternion([q.x, q.y, q.z, q.w]) }
     }

@@ -15,7 +15,7 @@ pub(super) struct RotorMotion {
     pub next: Option<Rotor>,
     /// Series of h + I a.w, in N m s; unused while it is held.
     pub axial: [f64; TERMS],
-    /// Its value so many seconds after the start; a cache.
+    /// Time since the start in s and the momentum then; a cache.
     #[serde(skip)]
     pub known: Option<(f64, f64)>,
 }
@@ -149,7 +149,7 @@ pub(super) fn first_event_s(
     at_s.max(longest_s * 1e-9)
 }
 
-/// What drives a held rotor off its speed at the start, along its axis, as a polynomial in time, in N m.
+/// Torque that drives a held rotor off its speed at the start, along its axis, as a polynomial in time, in N m.
 fn drive_n_m(wheel: &ReactionWheel, motor: &Motor, held_n_m_s: f64, rate: &[Vector3<f64>]) -> [f64; TERMS] {
     let mut drive = [0.0; TERMS];
     for ((j, rate), term) in rate.iter().enumerate().skip(1).zip(&mut drive) {

@@ -21,10 +21,10 @@ use crate::math;
 pub(super) const ORDER: usize = 10;
 /// Its terms.
 pub(super) const TERMS: usize = ORDER + 1;
-/// Terms below this share of the whole are rounding.
+/// Terms below this fraction of the whole are rounding.
 pub(crate) const ROUNDING: f64 = 1e-17;
 
-/// What a polynomial in time can be of.
+/// Coefficient of a polynomial in time.
 pub(crate) trait Term: Copy + Default + Add<Output = Self> + Mul<f64, Output = Self> + Sum {}
 
 impl<T: Copy + Default + Add<Output = T> + Mul<f64, Output = T> + Sum> Term for T {}

@@ -42,7 +42,7 @@ impl ReactionWheel {
         !self.locked && momentum_n_m_s.abs() >= self.capacity_n_m_s * (1.0 - AT_CAPACITY)
     }
 
-    /// What the rotor has of the body's rotation along its axis, I a.w, in N m s.
+    /// Momentum of the rotor by the body's rotation along its axis, I a.w, in N m s.
     pub fn carried_n_m_s(&self, rate_body_rad_s: &Vector3<f64>) -> f64 {
         self.inertia_kg_m2 * self.axis_body.dot(rate_body_rad_s)
     }
@@ -69,7 +69,7 @@ pub fn wheel_speed_rad_s(momentum_n_m_s: f64, inertia_kg_m2: f64) -> f64 {
     momentum_n_m_s / inertia_kg_m2
 }
 
-/// What the motor of a wheel does until something changes.
+/// Torque of a wheel's motor until its next command.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Motor {
     /// Torque on the rotor along the axis, in N m, within what the motor can give.
@@ -94,7 +94,7 @@ pub enum Rotor {
 }
 
 impl Rotor {
-    /// Of `wheel` at the start, with this momentum relative to the body.
+    /// Motion of the rotor of `wheel` at the start, with this momentum relative to the body.
     pub fn at_start(wheel: &ReactionWheel, momentum_n_m_s: f64) -> Self {
         let at_rest = momentum_n_m_s == 0.0 && wheel.coulomb_friction_n_m > 0.0;
         if wheel.locked || at_rest {

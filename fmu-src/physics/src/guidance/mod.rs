@@ -8,16 +8,19 @@ pub mod geometry;
 pub mod modes;
 pub mod orbit_phase;
 pub mod pointing;
+pub mod scenario;
+#[cfg(test)]
+pub(crate) mod tests;
 pub mod timeline;
 
-pub use downlink::downlink_sun::{DownlinkSun, WindowStart};
-pub use downlink::sun_place::{ChosenPlace, SunPlace};
+pub use downlink::sun_direction::{DownlinkSunDirection, SelectedSunDirection};
 pub use geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
 pub use orbit_phase::attitudes::{
     AttitudeCommand, LinesOfSight, ScienceRule, Sight, downlink_toward, science, sun_pointing, unloading,
 };
+pub use orbit_phase::downlink_sun::{DownlinkSun, WindowStart};
 pub use orbit_phase::guided::{DownlinkStatus, Guided, GuidedAttitude};
 pub use orbit_phase::predicted_orbit::PredictedOrbit;
 pub use orbit_phase::schedule::{Activity, NoCycle, Schedule, Window};
-pub use orbit_phase::science_course::{CoursePoint, ScienceCourse};
+pub use orbit_phase::science_arc::{ArcPoint, ScienceArc};
 pub use pointing::law::{Pointing, PointingVectors};

@@ -1,4 +1,4 @@
-//! Where the Sun may stand during a downlink: inside the keep-in zone, with the Earth in the plane of the antennas and inside
+//! Admissible directions of the Sun during a downlink: inside the keep-in zone, with the Earth in the plane of the antennas and inside
 //! the range of one of them.
 //!
 //! The Earth's azimuth is A - delta or A + delta, cos delta = cos theta / cos E (eq 20), which needs
@@ -11,8 +11,8 @@
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::attitude::SunAngles;
-use crate::guidance::SunPlace;
-use crate::guidance::downlink::sun_place::is_ahead;
+use crate::guidance::DownlinkSunDirection;
+use crate::guidance::downlink::sun_direction::is_ahead;
 use crate::guidance::pointing::antenna::Antennas;
 use crate::math;
 use crate::spacecraft::{FanAzimuths, MOST_ANTENNAS};
@@ -98,7 +98,7 @@ impl Branch {
     }
 
     /// The place with these angles if it is admissible.
-    pub(super) fn place(&self, angles: SunAngles) -> Option<SunPlace> {
+    pub(super) fn place(&self, angles: SunAngles) -> Option<DownlinkSunDirection> {
         let nearest = self.nearest(angles)?;
         let off_rad = (nearest.angles.azimuth_rad - angles.azimuth_rad)
             .abs()
@@ -107,12 +107,15 @@ impl Branch {
     }
 
     /// The admissible place nearest to these angles, elevation first.
-    pub(super) fn nearest(&self, angles: SunAngles) -> Option<SunPlace> {
+    pub(super) fn nearest(&self, angles: SunAngles) -> Option<DownlinkSunDirection> {
         let most_rad = self.elevation_rad();
         let elevation_rad = angles.elevation_rad.clamp(-most_rad, most_rad);
         let [low_rad, high_rad] = self.azimuths_rad(elevation_rad)?;
         let azimuth_rad = angles.azimuth_rad.clamp(low_rad, high_rad);
-        Some(SunPlace { angles: SunAngles { azimuth_rad, elevation_rad }, earth_ahead: self.earth_ahead })
+        Some(DownlinkSunDirection {
+            angles: SunAngles { azimuth_rad, elevation_rad },
+            earth_ahead: self.earth_ahead,
+        })
     }
 }
 
@@ -149,7 +152,7 @@ impl Branches {
         self.list.get(..self.count).unwrap_or_default()
     }
 
-    /// That of the default attitude; `None` without a fan.
+    /// Branch of the default attitude; `None` without a fan.
     pub(super) fn first(&self) -> Option<&Branch> {
         self.as_slice().first()
     }

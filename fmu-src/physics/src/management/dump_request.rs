@@ -12,7 +12,7 @@ pub struct DumpRequests {
     exceeded: [bool; 3],
     /// Whether one came beyond its threshold there.
     request: bool,
-    /// Where the last request leaves the momentum, body frame, from the wheels' bias, in N m s.
+    /// Momentum after the last request, body frame, from the wheels' bias, in N m s.
     target_body_n_m_s: Vector3<f64>,
 }
 
@@ -41,7 +41,7 @@ impl DumpRequests {
         self.request
     }
 
-    /// Where the last request leaves the momentum, body frame, from the wheels' bias, in N m s; zero before any.
+    /// Momentum after the last request, body frame, from the wheels' bias, in N m s; zero before any.
     pub fn target_body_n_m_s(&self) -> &Vector3<f64> {
         &self.target_body_n_m_s
     }

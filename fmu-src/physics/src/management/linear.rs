@@ -19,7 +19,7 @@ pub struct LinearTorque {
 }
 
 impl LinearTorque {
-    /// Of the shade's polynomial about the centre of mass, in its own frame.
+    /// Linear formula of the shade's polynomial about the centre of mass, in its own frame.
     pub fn new(polynomial: &TorquePolynomial, dcm_body_from_shade: Matrix3<f64>) -> Self {
         let k = |axis, term| polynomial.coefficient(axis, term).unwrap_or(0.0);
         Self {
@@ -29,7 +29,7 @@ impl LinearTorque {
         }
     }
 
-    /// Where the Sun stands for this torque, body frame, in N m, of which X and Z of the shade count where they are requested
+    /// Direction of the Sun for this torque, body frame, in N m; X and Z of the shade count where they are requested
     /// for; `None` where the shade gives no torque that way.
     pub fn sun_angles(
         &self,
@@ -46,7 +46,7 @@ impl LinearTorque {
             azimuth_rad: solve(requested[1], torque_m3.z, self.along_z_m3)?,
             elevation_rad: solve(requested[0], torque_m3.x, self.along_x_m3)?,
         };
-        Some(SunAngles::of(&(self.dcm_body_from_shade * direction_from_angles(in_shade))))
+        Some(SunAngles::from_direction(&(self.dcm_body_from_shade * direction_from_angles(in_shade))))
     }
 }
 

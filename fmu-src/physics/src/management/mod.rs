@@ -9,6 +9,7 @@ mod profile;
 mod rotated_momentum;
 mod sampled;
 mod sampled_forecast;
+mod searches;
 mod strategy;
 mod targeting;
 

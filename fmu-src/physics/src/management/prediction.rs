@@ -1,4 +1,4 @@
-//! What lies ahead of a downlink's begin, or of science that unloads: momentum and light through the coming cycles, simulated in default attitudes and without
+//! Forecast after the begin of a downlink, or of science that unloads: momentum and light through the coming cycles, simulated in default attitudes and without
 //! dumps.
 //!
 //! Components that are integrated on their own are noted one by one over the whole horizon ([`super::profile`]); the physical
@@ -26,7 +26,7 @@ const SAMPLES: usize = 96;
 /// Times of a forecast, which momentum is watched, and how it is dumped.
 #[derive(Clone, Copy, Debug)]
 pub struct ForecastTerms {
-    /// Where the downlink begins, or science that unloads, in s.
+    /// Begin of the downlink, or of science that unloads, in s.
     pub begin_s: f64,
     /// Length of a cycle of science and downlink, in s; infinite or 0 where none follows.
     pub cycle_s: f64,
@@ -36,7 +36,7 @@ pub struct ForecastTerms {
     pub begins_in_science: bool,
     /// Length of a coming downlink, in s.
     pub downlink_s: f64,
-    /// Which momentum is watched.
+    /// Convention of the momentum that is watched.
     pub convention: Convention,
     /// When thrusters dump, and what they leave.
     pub policy: DumpPolicy,
@@ -62,31 +62,33 @@ pub trait Forecast {
     ) -> Result<(), Self::Error>;
 }
 
-/// What was forecast.
+/// Forecast of the coming cycles.
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::large_enum_variant, reason = "a step allocates nothing")]
 pub enum Prediction {
     /// By components, where each is integrated on its own.
     Components(Components),
-    /// Of the physical momentum.
+    /// Forecast of the physical momentum.
     Science(PredictedScience),
 }
 
 impl Prediction {
-    /// What `horizon` cycles bring, or the next science where the body turns under the momentum; `None` without a cycle.
+    /// Forecasts `horizon` cycles, or the next science where the body turns under the momentum; `None` without a cycle.
     ///
     /// # Errors
     /// What ends a forecast.
-    pub fn of<F: Forecast>(forecast: &mut F, horizon: u32) -> Result<Option<Self>, F::Error> {
+    pub fn new<F: Forecast>(forecast: &mut F, horizon: u32) -> Result<Option<Self>, F::Error> {
         let ForecastTerms { cycle_s, downlink_s, convention, begins_in_science, .. } = forecast.terms();
         let science_s = cycle_s - downlink_s;
         if !(cycle_s.is_finite() && science_s > 0.0 && horizon > 0) {
             return Ok(None);
         }
         Ok(match convention {
-            Convention::BodyIntegral => Some(Self::Components(Components::of(forecast, science_s, horizon)?)),
+            Convention::BodyIntegral => {
+                Some(Self::Components(Components::new(forecast, science_s, horizon)?))
+            }
             Convention::Inertial if begins_in_science => None,
-            Convention::Inertial => PredictedScience::of(forecast, cycle_s)?.map(Self::Science),
+            Convention::Inertial => PredictedScience::new(forecast, cycle_s)?.map(Self::Science),
         })
     }
 }
@@ -100,7 +102,7 @@ pub struct PredictedDownlink {
     pub separations_rad: Option<[f64; 2]>,
     /// Pressure of sunlight there, in Pa.
     pub pressure_pa: f64,
-    /// What its default attitude adds to X and Z, in N m s.
+    /// Momentum that its default attitude adds to X and Z, in N m s.
     pub added: [f64; 2],
 }
 
@@ -111,11 +113,11 @@ impl PredictedDownlink {
     }
 }
 
-/// What each coming span of science and each downlink does to X and Z of the momentum.
+/// Changes of X and Z of the momentum through each coming span of science and each downlink.
 #[derive(Clone, Copy, Debug)]
 pub struct Components {
     count: usize,
-    swings: [[Excursion; LONGEST_HORIZON]; 2],
+    excursions: [[Excursion; LONGEST_HORIZON]; 2],
     downlinks: [PredictedDownlink; LONGEST_HORIZON],
     path: [[f64; NEXT_SAMPLES]; 2],
     /// When thrusters dump, and what they leave.
@@ -123,13 +125,13 @@ pub struct Components {
 }
 
 impl Components {
-    fn of<F: Forecast>(forecast: &mut F, science_s: f64, horizon: u32) -> Result<Self, F::Error> {
+    fn new<F: Forecast>(forecast: &mut F, science_s: f64, horizon: u32) -> Result<Self, F::Error> {
         let ForecastTerms { begin_s, cycle_s, span_s, begins_in_science, downlink_s, policy, .. } =
             forecast.terms();
         let count = (horizon as usize).min(LONGEST_HORIZON);
         let mut components = Self {
             count,
-            swings: [[Excursion::default(); LONGEST_HORIZON]; 2],
+            excursions: [[Excursion::default(); LONGEST_HORIZON]; 2],
             downlinks: [PredictedDownlink::default(); LONGEST_HORIZON],
             path: [[0.0; NEXT_SAMPLES]; 2],
             policy,
@@ -157,7 +159,7 @@ impl Components {
             match sample {
                 0 => {
                     if let Some(ended) = cycle.checked_sub(1) {
-                        components.note(ended, samples_of(ended) - 1, since);
+                        components.record(ended, samples_of(ended) - 1, since);
                     }
                     if let Some(downlink) = components.downlinks.get_mut(cycle) {
                         *downlink = PredictedDownlink {
@@ -180,17 +182,17 @@ impl Components {
                     }
                     base = momentum;
                 }
-                _ => components.note(cycle, sample - 2, since),
+                _ => components.record(cycle, sample - 2, since),
             }
         })?;
         Ok(components)
     }
 
-    /// Takes note of a sample of a span of science.
-    fn note(&mut self, cycle: usize, sample: usize, since: [f64; 2]) {
-        for ((swings, path), since) in self.swings.iter_mut().zip(&mut self.path).zip(since) {
-            if let Some(swing) = swings.get_mut(cycle) {
-                swing.note(since);
+    /// Takes record of a sample of a span of science.
+    fn record(&mut self, cycle: usize, sample: usize, since: [f64; 2]) {
+        for ((excursions, path), since) in self.excursions.iter_mut().zip(&mut self.path).zip(since) {
+            if let Some(excursion) = excursions.get_mut(cycle) {
+                excursion.record(since);
             }
             if let Some(path) = path.get_mut(sample).filter(|_| cycle == 0) {
                 *path = since;
@@ -215,7 +217,7 @@ impl Components {
                 self.downlinks.get(cycle + 1).filter(|_| cycle + 1 < self.count).map(&authority);
             for (axis, cycles) in cycles.iter_mut().enumerate() {
                 cycles[cycle] = Cycle {
-                    swing: self.swings[axis][cycle],
+                    excursion: self.excursions[axis][cycle],
                     authority: authorities.map_or([0.0; 2], |it| it[axis]),
                 };
             }
@@ -245,7 +247,7 @@ fn visits_before(cycle: usize) -> usize {
     first + cycle.saturating_sub(1) * (LATER_SAMPLES + 1)
 }
 
-/// Which cycle a visit is in, and its number there.
+/// Cycle of a visit, and its number there.
 fn cycle_and_sample(visit: usize) -> (usize, usize) {
     match visit.checked_sub(visits_before(1)) {
         None => (0, visit),
@@ -260,13 +262,13 @@ pub struct PredictedScience {
     pub end_body_n_m_s: Vector3<f64>,
     /// Attitude at the downlink's end.
     pub inertial_from_body: Rotation3<f64>,
-    /// What becomes of the momentum left with.
+    /// Sum of squares of the momentum through the science, by the momentum at the downlink's end.
     pub squares: SquareSum,
 }
 
 impl PredictedScience {
     /// The next science; `None` where none follows.
-    fn of<F: Forecast>(forecast: &mut F, cycle_s: f64) -> Result<Option<Self>, F::Error> {
+    fn new<F: Forecast>(forecast: &mut F, cycle_s: f64) -> Result<Option<Self>, F::Error> {
         let ForecastTerms { begin_s, policy, .. } = forecast.terms();
         let step_s = cycle_s / SAMPLES as f64;
         // Half a sample before the next downlink: rounding must not say how many samples there are.

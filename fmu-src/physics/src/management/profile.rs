@@ -1,4 +1,4 @@
-//! Which momentum to leave a downlink with so that no threshold is exceeded on the way through the coming ones: predictive
+//! Momentum at the end of a downlink from which no threshold is exceeded through the coming ones: predictive
 //! targets (paper 000, "Momentum management strategies").
 //!
 //! Of one component, left with h after this downlink: science k lets it swing by [low_k, high_k] and ends at h + change_k; the
@@ -11,7 +11,7 @@
 //! horizon that cannot be kept, with a little of the threshold to spare, is shortened until it can. Where a dump cannot be
 //! avoided in the science that follows, and would not stay the only one there, the nearest target within reach with fewer is taken.
 
-/// What a span of science does to one component, in N m s, from its start.
+/// Excursion of one component through a span of science, in N m s, from its start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Excursion {
     /// At its end.
@@ -23,23 +23,23 @@ pub struct Excursion {
 }
 
 impl Excursion {
-    /// Takes note of a momentum on the way, relative to the start.
-    pub fn note(&mut self, since_start: f64) {
+    /// Records a momentum on the way, relative to the start.
+    pub fn record(&mut self, since_start: f64) {
         self.change = since_start;
         self.lowest = self.lowest.min(since_start);
         self.highest = self.highest.max(since_start);
     }
 }
 
-/// What a downlink can add to one component, in N m s: least and most.
+/// Least and greatest momentum that a downlink can add to one component, in N m s.
 pub type ControlAuthority = [f64; 2];
 
 /// Science to come and the downlink after it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cycle {
-    /// Of the science.
-    pub swing: Excursion,
-    /// Of the downlink.
+    /// Excursion through the science.
+    pub excursion: Excursion,
+    /// Authority of the downlink.
     pub authority: ControlAuthority,
 }
 
@@ -48,15 +48,15 @@ pub struct Cycle {
 pub struct Component<'a, D: Fn(f64) -> f64> {
     /// Momentum, in N m s.
     pub momentum_n_m_s: f64,
-    /// Of the downlink that begins.
+    /// Authority of the downlink that begins.
     pub authority: ControlAuthority,
-    /// What follows it.
+    /// Cycles after it.
     pub cycles: &'a [Cycle],
     /// Momentum through the first science, relative to its start, in N m s, in the order of time.
     pub path: &'a [f64],
     /// Magnitude that triggers a dump, in N m s.
     pub threshold: f64,
-    /// Where a dump at a momentum leaves it, in N m s.
+    /// Momentum after a dump at a momentum, in N m s.
     pub dumped: D,
 }
 
@@ -106,7 +106,7 @@ impl<D: Fn(f64) -> f64> Component<'_, D> {
 }
 
 /// The middle of the momenta before the longest part of a horizon that can be kept; of one that no momentum keeps, the middle of
-/// the first swing.
+/// the first excursion.
 fn middle(cycles: &[Cycle], threshold: f64) -> f64 {
     let parts = (1..=cycles.len()).map(|count| bounds(cycles.get(..count).unwrap_or_default()));
     // What a longer part keeps a shorter one keeps too.
@@ -120,11 +120,11 @@ fn middle(cycles: &[Cycle], threshold: f64) -> f64 {
 /// positive one.
 fn bounds(cycles: &[Cycle]) -> [f64; 2] {
     let mut later: Option<[f64; 2]> = None;
-    for Cycle { swing, authority } in cycles.iter().rev() {
-        let mut bounds = [-swing.lowest, -swing.highest];
+    for Cycle { excursion, authority } in cycles.iter().rev() {
+        let mut bounds = [-excursion.lowest, -excursion.highest];
         if let Some([least, most]) = later {
-            bounds[0] = bounds[0].max(least - swing.change - authority[1]);
-            bounds[1] = bounds[1].min(most - swing.change - authority[0]);
+            bounds[0] = bounds[0].max(least - excursion.change - authority[1]);
+            bounds[1] = bounds[1].min(most - excursion.change - authority[0]);
         }
         later = Some(bounds);
     }

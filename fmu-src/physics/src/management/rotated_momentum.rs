@@ -1,4 +1,4 @@
-//! Which momentum to leave a downlink with where the spacecraft turns under it: predictive targets for the physical momentum.
+//! Momentum at the end of a downlink where the spacecraft turns under it: predictive targets for the physical momentum.
 //!
 //! Through the science to come the momentum h left with shows as R_k h + d_k in the body frame, R_k the turn since the downlink
 //! and d_k what torques have added until then. The mean square of its X and Z components, in parts of their thresholds, is convex in h,
@@ -10,7 +10,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::profile::ControlAuthority;
-use super::targeting::golden;
+use super::searches::golden;
 
 /// Momentum in the body frame at one time of the science to come: R h + d.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,15 +45,15 @@ impl SquareSum {
         }
     }
 
-    /// Of this momentum left with, body frame, in N m s.
-    fn of(&self, momentum: &Vector3<f64>) -> f64 {
+    /// Returns the sum for a momentum that the downlink leaves, body frame, in N m s.
+    fn at(&self, momentum: &Vector3<f64>) -> f64 {
         momentum.dot(&(self.quadratic * momentum + self.linear * 2.0)) + self.constant
     }
 }
 
 /// The momentum to leave a downlink with, body frame, in N m s: X and Z within these ranges, Y as given.
 pub fn best_turned(squares: &SquareSum, [x, z]: [ControlAuthority; 2], y: f64) -> Vector3<f64> {
-    let along_z = |x_n_m_s: f64| golden(z[0], z[1], |z_n_m_s| squares.of(&Vector3::new(x_n_m_s, y, z_n_m_s)));
+    let along_z = |x_n_m_s: f64| golden(z[0], z[1], |z_n_m_s| squares.at(&Vector3::new(x_n_m_s, y, z_n_m_s)));
     let (best_x, _) = golden(x[0], x[1], |x_n_m_s| along_z(x_n_m_s).1);
     Vector3::new(best_x, y, along_z(best_x).0)
 }

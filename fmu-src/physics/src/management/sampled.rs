@@ -12,7 +12,7 @@ use crate::attitude::angle_between_rad;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::{
-    Activity, ChosenPlace, CoursePoint, Guided, PredictedOrbit, ScienceCourse, ScienceRule, WindowStart,
+    Activity, ArcPoint, Guided, PredictedOrbit, ScienceArc, ScienceRule, SelectedSunDirection, WindowStart,
 };
 use crate::momentum::{Convention, DumpPolicy, Totals};
 use crate::numerics::intervals::sampled_range;
@@ -25,11 +25,11 @@ pub struct SampledManager<'a> {
     pub manager: Manager<'a>,
     /// The default downlink of the spacecraft's antennas.
     pub default_downlink: &'a DefaultDownlink,
-    /// What the light meets.
+    /// Spacecraft in sunlight.
     pub spacecraft: SunlitConfiguration<'a>,
     /// Sunlight.
     pub light: SunLight,
-    /// What the momentum means.
+    /// Convention of the momentum.
     pub convention: Convention,
     /// When thrusters dump, and what they leave.
     pub policy: DumpPolicy,
@@ -39,7 +39,7 @@ pub struct SampledManager<'a> {
 
 impl SampledManager<'_> {
     /// The Sun's place where a downlink begins, or science that unloads; `None` where it is to stand on -Y.
-    pub fn choose(&self, start: &WindowStart<'_>) -> Option<ChosenPlace> {
+    pub fn choose(&self, start: &WindowStart<'_>) -> Option<SelectedSunDirection> {
         if self.manager.strategy == Strategy::DumpsOnly {
             return None;
         }
@@ -49,16 +49,16 @@ impl SampledManager<'_> {
         let pressure_pa = self.light.pressure_pa(to_sun_m.norm());
         let totals = Totals::at_start(self.momentum_body_n_m_s, &start.attitude.inertial_from_body());
         let torque = |sun_body: &Vector3<f64>| spacecraft.torque_body_n_m(sun_body, pressure_pa);
-        let science = self.science_course(start);
+        let science = self.science_arc(start);
         let state = DownlinkState {
             to_sun: to_sun_m.try_normalize(0.0)?,
             to_earth: to_earth_m.try_normalize(0.0)?,
             momentum: StartMomentum::of(&totals, self.convention),
-            span_s: science.as_ref().map_or(start.span_s, ScienceCourse::light_s),
+            span_s: science.as_ref().map_or(start.span_s, ScienceArc::light_s),
             torque_body_n_m: &torque,
             pressure_pa,
             linear: self.manager.linear(spacecraft.solar.materials(), &spacecraft.center_of_mass_body_m()),
-            science: science.as_ref().map(|course| ScienceUnload { course, convention: self.convention }),
+            science: science.as_ref().map(|arc| ScienceUnload { arc, convention: self.convention }),
         };
         let separations_rad = separations_rad(start);
         self.manager.place(state, self.predict(start, totals).as_ref(), separations_rad)
@@ -68,7 +68,7 @@ impl SampledManager<'_> {
 /// Least and greatest angle between Sun and Earth while the downlink lasts, in rad; that at its begin where the spacecraft is on
 /// no ellipse about its planet.
 fn separations_rad(start: &WindowStart<'_>) -> [f64; 2] {
-    let orbit = PredictedOrbit::of(start.ephemeris);
+    let orbit = PredictedOrbit::new(start.ephemeris);
     let at = |share: f64| {
         let epoch_s = start.ephemeris.epoch_s + start.span_s * share;
         let then = orbit.map_or(*start.ephemeris, |orbit| orbit.at(epoch_s));
@@ -96,17 +96,17 @@ impl SampledManager<'_> {
     }
 
     /// The science that begins; `None` where a downlink does.
-    fn science_course(&self, start: &WindowStart<'_>) -> Option<ScienceCourse> {
+    fn science_arc(&self, start: &WindowStart<'_>) -> Option<ScienceArc> {
         let ScienceRule::Unloading { gimbal, .. } = start.law.science else { return None };
         if start.activity == Activity::Downlink {
             return None;
         }
-        let orbit = PredictedOrbit::of(start.ephemeris);
-        Some(ScienceCourse::of(gimbal, start.span_s, |share| {
+        let orbit = PredictedOrbit::new(start.ephemeris);
+        Some(ScienceArc::new(gimbal, start.span_s, |share| {
             let epoch_s = start.ephemeris.epoch_s + start.span_s * share;
             let then = orbit.map_or(*start.ephemeris, |orbit| orbit.at(epoch_s));
             let to_sun_m = value(&then.to_sun());
-            CoursePoint {
+            ArcPoint {
                 to_sun_m,
                 to_planet_m: value(&then.to_planet()),
                 pressure_pa: self.light.pressure_pa(to_sun_m.norm()),
@@ -114,12 +114,12 @@ impl SampledManager<'_> {
         }))
     }
 
-    /// What lies ahead; nothing where the spacecraft is on no ellipse about its planet.
+    /// Forecast of the coming cycles; `None` where the spacecraft is on no ellipse about its planet.
     fn predict(&self, start: &WindowStart<'_>, totals: Totals) -> Option<Prediction> {
         if self.manager.strategy != Strategy::Predictive {
             return None;
         }
-        let orbit = PredictedOrbit::of(start.ephemeris)?;
+        let orbit = PredictedOrbit::new(start.ephemeris)?;
         let schedule = start.law.schedule.in_orbit(orbit.period_s());
         let mut forecast = SampledForecast {
             orbit,

@@ -20,13 +20,13 @@ use crate::plant::{ForecastMomentum, SunLight, SunlitConfiguration};
 /// Momentum ahead by sunlight alone.
 #[derive(Clone, Copy, Debug)]
 pub struct SampledForecast<'a> {
-    /// Where everything will be.
+    /// Orbits of spacecraft and bodies ahead.
     pub orbit: PredictedOrbit<'a>,
     /// Windows and attitudes, the Sun on -Y in downlink and in science that unloads.
     pub law: Guided,
     /// The default downlink of the spacecraft's antennas.
     pub default_downlink: &'a DefaultDownlink,
-    /// What the light meets.
+    /// Spacecraft in sunlight.
     pub spacecraft: SunlitConfiguration<'a>,
     /// Sunlight.
     pub light: SunLight,

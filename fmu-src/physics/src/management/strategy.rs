@@ -17,7 +17,7 @@ use super::rotated_momentum::best_turned;
 use super::targeting::{DownlinkState, ScienceUnload, Targeting};
 use crate::attitude::{SunAngles, direction_from_angles};
 use crate::enumeration::enumeration;
-use crate::guidance::{ChosenPlace, ScienceCourse};
+use crate::guidance::{ScienceArc, SelectedSunDirection};
 use crate::momentum::Settings;
 use crate::plant::{DownlinkForecast, ForecastMomentum, PlantError, StartMomentum};
 use crate::radiation::TorquePolynomial;
@@ -86,7 +86,10 @@ impl Manager<'_> {
     ///
     /// # Errors
     /// What ends a flight.
-    pub fn choose(&self, forecast: &mut DownlinkForecast<'_>) -> Result<Option<ChosenPlace>, PlantError> {
+    pub fn choose(
+        &self,
+        forecast: &mut DownlinkForecast<'_>,
+    ) -> Result<Option<SelectedSunDirection>, PlantError> {
         let Some(to_earth) = forecast.to_earth.filter(|_| self.strategy != Strategy::DumpsOnly) else {
             return Ok(None);
         };
@@ -98,11 +101,11 @@ impl Manager<'_> {
             to_sun: forecast.to_sun,
             to_earth,
             momentum: forecast.momentum,
-            span_s: forecast.science.as_ref().map_or(forecast.span_s, ScienceCourse::light_s),
+            span_s: forecast.science.as_ref().map_or(forecast.span_s, ScienceArc::light_s),
             torque_body_n_m: &torque,
             pressure_pa: forecast.pressure_pa,
             linear,
-            science: forecast.science.as_ref().map(|course| ScienceUnload { course, convention }),
+            science: forecast.science.as_ref().map(|arc| ScienceUnload { arc, convention }),
         };
         let separations_rad = forecast.separations_rad;
         Ok(self.place(state, prediction.as_ref(), separations_rad))
@@ -120,22 +123,22 @@ impl Manager<'_> {
         Some(LinearTorque::new(&polynomial, shade.dcm_body_from_shade))
     }
 
-    /// What lies ahead, where targets are predicted from it; `None` where nothing is to come.
+    /// Forecast for predicted targets; `None` where no cycle is to come.
     ///
     /// # Errors
     /// What ends a forecast.
     pub(super) fn predict<F: Forecast>(&self, forecast: &mut F) -> Result<Option<Prediction>, F::Error> {
-        if self.strategy == Strategy::Predictive { Prediction::of(forecast, self.horizon) } else { Ok(None) }
+        if self.strategy == Strategy::Predictive { Prediction::new(forecast, self.horizon) } else { Ok(None) }
     }
 
-    /// Where the Sun is to stand for the target predicted from what lies ahead, or else the one target; `None` where no place is
+    /// Direction of the Sun for the predicted target, or else the one target; `None` where no direction is
     /// admissible.
     pub(super) fn place(
         &self,
         mut state: DownlinkState<'_>,
         prediction: Option<&Prediction>,
         separations_rad: [f64; 2],
-    ) -> Option<ChosenPlace> {
+    ) -> Option<SelectedSunDirection> {
         let predicted = match (prediction, state.momentum) {
             (Some(Prediction::Science(science)), StartMomentum::Inertial(momentum)) => {
                 // A target in the body would be another one under the other antenna: what is off it in space is brought to zero.
@@ -149,7 +152,7 @@ impl Manager<'_> {
             _ => None,
         };
         let target = predicted.unwrap_or(self.bias_body_n_m_s + self.target_body_n_m_s);
-        self.targeting.sun_place_throughout(&state, &target, separations_rad)
+        self.targeting.sun_direction_throughout(&state, &target, separations_rad)
     }
 
     /// The target from which X and Z stay below their thresholds through the coming cycles.

@@ -1,26 +1,28 @@
-//! Where the Sun should stand during a downlink so that components of momentum end at a target (paper 000, eqs 14 to 22).
+//! Direction of the Sun during a downlink that brings components of momentum to a target (paper 000, eqs 14 to 22).
 //!
 //! Equation: C(A, E) H + span T(A, E) = target on the targeted axes, C the downlink attitude with the Sun at azimuth A and
 //! elevation E, T the whole torque of sunlight there; with momentum by the body integral, H + span T(A, E) = target. With one
 //! axis the other angle stays 0, or as near to it as the antennas allow. In science that unloads the attitude turns about the Sun
-//! line: C(end) (H + sum of w C_k^T T(A, E)) = target ([`crate::guidance::ScienceCourse`]), and the zone alone bounds the place. The
+//! line: C(end) (H + sum of w C_k^T T(A, E)) = target ([`crate::guidance::ScienceArc`]), and the zone alone bounds the place. The
 //! linear method takes H in the default attitude and
 //! the shade's torque to first order in the angles (eq 17).
 //! Method: Newton with central differences on both sides of the Sun and for both antennas; for one axis a bracketed root. Where
 //! no admissible place reaches the target, the one that comes nearest to it in momentum, by golden section search.
 //! Error measure: none at run time; the equation holds to rounding where a root is found.
 
-use nalgebra::{Matrix2, Vector2, Vector3};
+use nalgebra::Vector3;
 
 use super::admissible::{Branch, Branches, KeepInLimits};
 use super::linear::LinearTorque;
+use super::searches::{golden, newton};
 use crate::attitude::{MovingUnit, SunAngles, angle_between_rad, direction_from_angles};
 use crate::enumeration::enumeration;
 use crate::guidance::pointing::antenna::Antennas;
-use crate::guidance::{ChosenPlace, LinesOfSight, ScienceCourse, SunPlace, downlink_toward};
+use crate::guidance::{
+    DownlinkSunDirection, LinesOfSight, ScienceArc, SelectedSunDirection, downlink_toward,
+};
 use crate::math;
 use crate::momentum::Convention;
-use crate::numerics::golden_section::{Bracket, golden_section};
 use crate::numerics::roots;
 use crate::plant::StartMomentum;
 
@@ -57,7 +59,7 @@ enumeration! {
     }
 }
 
-/// What targeting may do.
+/// Settings of targeting.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Targeting<'a> {
     /// Components with a target.
@@ -66,13 +68,13 @@ pub struct Targeting<'a> {
     pub method: TargetingMethod,
     /// Keep-in limits of the Sun about -Y: greatest magnitude of the azimuth, in rad.
     pub azimuth_limit_rad: f64,
-    /// Of the elevation, in rad.
+    /// Greatest magnitude of the elevation, in rad.
     pub elevation_limit_rad: f64,
-    /// The antennas, of which one has the Earth in its range.
+    /// Antennas; one of them keeps the Earth in its range.
     pub antennas: &'a Antennas,
 }
 
-/// What a downlink starts from, or science that unloads, and what its light does.
+/// State at the start of a downlink, or of science that unloads, with the torque of its light.
 pub struct DownlinkState<'a> {
     /// Unit vector to the Sun, EME2000.
     pub to_sun: Vector3<f64>,
@@ -95,41 +97,35 @@ pub struct DownlinkState<'a> {
 /// Science that unloads.
 #[derive(Clone, Copy, Debug)]
 pub struct ScienceUnload<'a> {
-    /// How it goes.
-    pub course: &'a ScienceCourse,
+    /// Positions and light through the science.
+    pub arc: &'a ScienceArc,
     /// Whether the body turns under the momentum.
     pub convention: Convention,
 }
 
-/// Newton steps.
-const NEWTON_STEPS: usize = 30;
-/// Half width of central differences, in rad.
-const DIFFERENCE_RAD: f64 = 1e-5;
-/// What is left of a target counts as rounding below this part of momentum and target, and of 1 N m s.
+/// A residual below this fraction of momentum and target, and of 1 N m s, counts as rounding.
 const ROUNDING: f64 = 1e-13;
-/// Steps of a golden section search.
-const GOLDEN_STEPS: usize = 44;
 /// Intervals looked through for a root.
 const INTERVALS: usize = 16;
 
 impl Targeting<'_> {
     /// The place of the Sun for `target_body_n_m_s` at the downlink's end; `None` where Sun and Earth give no downlink attitude,
     /// or no place is admissible.
-    pub fn sun_place(
+    pub fn sun_direction(
         &self,
         state: &DownlinkState<'_>,
         target_body_n_m_s: &Vector3<f64>,
-    ) -> Option<ChosenPlace> {
-        self.sun_place_throughout(state, target_body_n_m_s, [state.separation_rad(); 2])
+    ) -> Option<SelectedSunDirection> {
+        self.sun_direction_throughout(state, target_body_n_m_s, [state.separation_rad(); 2])
     }
 
     /// The same where Sun and Earth come from the least to the greatest of these angles apart while the downlink lasts.
-    pub fn sun_place_throughout(
+    pub fn sun_direction_throughout(
         &self,
         state: &DownlinkState<'_>,
         target_body_n_m_s: &Vector3<f64>,
         separations_rad: [f64; 2],
-    ) -> Option<ChosenPlace> {
+    ) -> Option<SelectedSunDirection> {
         let (zone, sides);
         let branches: &[Branch] = if state.science.is_some() {
             zone = [self.zone()];
@@ -218,9 +214,9 @@ struct MomentumAim<'a> {
 }
 
 impl MomentumAim<'_> {
-    fn exact(&self, branches: &[Branch]) -> Option<ChosenPlace> {
+    fn exact(&self, branches: &[Branch]) -> Option<SelectedSunDirection> {
         let tolerance = ROUNDING * (1.0 + self.state.momentum.magnitude_n_m_s() + self.target.norm());
-        let mut best: Option<(f64, ChosenPlace)> = None;
+        let mut best: Option<(f64, SelectedSunDirection)> = None;
         for branch in branches {
             let found = match self.axes {
                 TargetAxes::Xz => self.both(branch, tolerance),
@@ -229,20 +225,22 @@ impl MomentumAim<'_> {
             let Some((place, left)) = found else { continue };
             let is_reached = left <= 10.0 * tolerance;
             if is_reached {
-                return Some(ChosenPlace { place, clamped: false });
+                return Some(SelectedSunDirection { place, clamped: false });
             }
             if best.is_none_or(|(least, _)| left < least - tolerance) {
-                best = Some((left, ChosenPlace { place, clamped: true }));
+                best = Some((left, SelectedSunDirection { place, clamped: true }));
             }
         }
         best.map(|(_, targeted)| targeted)
     }
 
     /// The place for both axes on one branch, and what is left of the target.
-    fn both(&self, branch: &Branch, tolerance: f64) -> Option<(SunPlace, f64)> {
+    fn both(&self, branch: &Branch, tolerance: f64) -> Option<(DownlinkSunDirection, f64)> {
         let left = |azimuth_rad: f64, elevation_rad: f64| {
             let angles = SunAngles { azimuth_rad, elevation_rad };
-            self.state.left(&SunPlace { angles, earth_ahead: branch.earth_ahead }, self.target).xz()
+            self.state
+                .left(&DownlinkSunDirection { angles, earth_ahead: branch.earth_ahead }, self.target)
+                .xz()
         };
         let start = branch.nearest(SunAngles::default())?.angles;
         if let Some(angles) = newton(start, left, tolerance)
@@ -263,7 +261,7 @@ impl MomentumAim<'_> {
     }
 
     /// The same for one axis, the other angle at 0 as far as that is admissible.
-    fn one(&self, branch: &Branch) -> Option<(SunPlace, f64)> {
+    fn one(&self, branch: &Branch) -> Option<(DownlinkSunDirection, f64)> {
         let by_elevation = self.axes == TargetAxes::X;
         let angles = |angle_rad: f64| {
             if by_elevation {
@@ -302,7 +300,7 @@ impl MomentumAim<'_> {
         left.is_finite().then_some((place, left))
     }
 
-    fn linear(&self, branches: &[Branch]) -> Option<ChosenPlace> {
+    fn linear(&self, branches: &[Branch]) -> Option<SelectedSunDirection> {
         let linear = self.state.linear.as_ref()?;
         let start = branches.iter().find_map(|branch| branch.nearest(SunAngles::default()))?;
         let [by_x, by_z] = self.axes.requested();
@@ -315,17 +313,17 @@ impl MomentumAim<'_> {
         }
         let solution = linear.sun_angles(&(change / self.state.span_s), self.state.pressure_pa, [by_x, by_z]);
         let requested = solution.unwrap_or_default();
-        let distance_rad = |place: &SunPlace| {
+        let distance_rad = |place: &DownlinkSunDirection| {
             let to = direction_from_angles(place.angles);
             angle_between_rad(&to, &direction_from_angles(requested))
         };
         let places = branches.iter().filter_map(|branch| branch.nearest(requested));
-        let nearest = |best: SunPlace, next: SunPlace| {
+        let nearest = |best: DownlinkSunDirection, next: DownlinkSunDirection| {
             if distance_rad(&next) < distance_rad(&best) - ROUNDING { next } else { best }
         };
         let place = places.reduce(nearest)?;
         let clamped = solution.is_none() || distance_rad(&place) > 1e-9;
-        Some(ChosenPlace { place, clamped })
+        Some(SelectedSunDirection { place, clamped })
     }
 }
 
@@ -336,9 +334,9 @@ impl DownlinkState<'_> {
     }
 
     /// Momentum at the start in the attitude with the Sun at `place`, body frame, in N m s; of science in its attitude at the end.
-    fn momentum_body_n_m_s(&self, place: &SunPlace) -> Vector3<f64> {
-        if let Some((course, momentum)) = self.turning(place) {
-            return course.carried_body_n_m_s(place.angles, &momentum);
+    fn momentum_body_n_m_s(&self, place: &DownlinkSunDirection) -> Vector3<f64> {
+        if let Some((arc, momentum)) = self.turning(place) {
+            return arc.carried_body_n_m_s(place.angles, &momentum);
         }
         match self.momentum {
             StartMomentum::Body(momentum) => momentum,
@@ -352,65 +350,25 @@ impl DownlinkState<'_> {
     }
 
     /// Science in which the body turns under the momentum, and that in EME2000 at its start; `None` in any other.
-    fn turning(&self, place: &SunPlace) -> Option<(&ScienceCourse, Vector3<f64>)> {
-        let ScienceUnload { course, convention } = self.science?;
+    fn turning(&self, place: &DownlinkSunDirection) -> Option<(&ScienceArc, Vector3<f64>)> {
+        let ScienceUnload { arc, convention } = self.science?;
         match (self.momentum, convention) {
-            (StartMomentum::Inertial(momentum), _) => Some((course, momentum)),
+            (StartMomentum::Inertial(momentum), _) => Some((arc, momentum)),
             (StartMomentum::Body(momentum), Convention::Inertial) => {
-                Some((course, course.begin_inertial_n_m_s(place.angles, &momentum)))
+                Some((arc, arc.begin_inertial_n_m_s(place.angles, &momentum)))
             }
             (StartMomentum::Body(_), Convention::BodyIntegral) => None,
         }
     }
 
     /// Momentum at the end less the target, body frame, in N m s.
-    fn left(&self, place: &SunPlace, target: &Vector3<f64>) -> Vector3<f64> {
+    fn left(&self, place: &DownlinkSunDirection, target: &Vector3<f64>) -> Vector3<f64> {
         let torque = (self.torque_body_n_m)(&direction_from_angles(place.angles));
-        if let Some((course, momentum)) = self.turning(place) {
-            return course.end_body_n_m_s(place.angles, &momentum, &torque) - target;
+        if let Some((arc, momentum)) = self.turning(place) {
+            return arc.end_body_n_m_s(place.angles, &momentum, &torque) - target;
         }
         self.momentum_body_n_m_s(place) + torque * self.span_s - target
     }
-}
-
-/// A root by Newton's method, steps halved while they make it worse.
-fn newton(start: SunAngles, left: impl Fn(f64, f64) -> Vector2<f64>, tolerance: f64) -> Option<SunAngles> {
-    let mut at = Vector2::new(start.azimuth_rad, start.elevation_rad);
-    let mut now = left(at.x, at.y);
-    for _ in 0..NEWTON_STEPS {
-        if now.norm() <= tolerance {
-            break;
-        }
-        let slope = |axis: usize| {
-            let step = Vector2::ith(axis, DIFFERENCE_RAD);
-            let (ahead, behind) = (at + step, at - step);
-            (left(ahead.x, ahead.y) - left(behind.x, behind.y)) / (2.0 * DIFFERENCE_RAD)
-        };
-        let step = Matrix2::from_columns(&[slope(0), slope(1)]).try_inverse()? * now;
-        let mut share = 1.0;
-        let (next, then) = loop {
-            let next = at - step * share;
-            let then = left(next.x, next.y);
-            if then.norm() < now.norm() || share < 1e-3 {
-                break (next, then);
-            }
-            share *= 0.5;
-        };
-        if then.norm() >= now.norm() {
-            break;
-        }
-        (at, now) = (next, then);
-    }
-    let is_angle = at.amax() < core::f64::consts::FRAC_PI_2;
-    (is_angle && now.norm() <= 10.0 * tolerance)
-        .then_some(SunAngles { azimuth_rad: at.x, elevation_rad: at.y })
-}
-
-/// Where a function of one lowest value has it in [`low`, `high`], and that value; the ends count.
-pub(super) fn golden(low: f64, high: f64, mut function: impl FnMut(f64) -> f64) -> (f64, f64) {
-    let middle = golden_section(Bracket { low, high }, GOLDEN_STEPS, &mut function).middle();
-    let ends = [low, high, middle].map(|at| (at, function(at)));
-    ends.into_iter().fold((middle, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
 }
 
 #[cfg(test)]

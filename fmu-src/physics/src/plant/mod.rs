@@ -71,7 +71,7 @@ pub use settings::thruster_events::{Maneuver, ThrusterEvent, ThrusterEventSettin
 pub use settings::wheel_control_settings::WheelControlSettings;
 pub use settings::work::{Cost, Work, WorkExceeded};
 pub use state::propagator_state::PropagatorState;
-pub use state::sun_choice::SunChoice;
+pub use state::sun_choice::SunDirectionSelection;
 pub use thrusters::allocation::{ThrusterAllocator, UnservedDumps};
 pub use thrusters::reaction_control::Thrusters;
 pub use thrusters::thruster_load::{ThrusterLoad, ThrusterTotals};

@@ -100,7 +100,7 @@ impl FlightSurvey {
 
 /// Whether the beam of an antenna can be put on a direction in the body frame.
 fn sees(antenna: &Antenna, direction_body: &Vector3<f64>) -> bool {
-    let angles = SunAngles::of(direction_body);
+    let angles = SunAngles::from_direction(direction_body);
     match antenna.fan() {
         Some(fan) => {
             let off_rad = crate::math::wrapped_rad(angles.azimuth_rad - fan.middle_rad).abs();

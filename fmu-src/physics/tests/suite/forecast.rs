@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
-use physics::guidance::ChosenPlace;
+use physics::guidance::SelectedSunDirection;
 use physics::guidance::timeline::{TimelineEvent, TimelineManeuver};
 use physics::loads::ForceTorque;
 use physics::momentum::WheelArray;
@@ -29,7 +29,7 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
     configured.thruster_events =
         ThrusterEventSettings { schedule: events.into(), ..ThrusterEventSettings::default() };
     let (rig, found) = (Rig::new(), RefCell::new(History::new()));
-    let planner = |forecast: &mut DownlinkForecast<'_>| -> Result<Option<ChosenPlace>, PlantError> {
+    let planner = |forecast: &mut DownlinkForecast<'_>| -> Result<Option<SelectedSunDirection>, PlantError> {
         let mut found = found.borrow_mut();
         if found.is_empty() {
             let times_s = behind_s.iter().map(|behind_s| forecast.time_s + behind_s);

@@ -97,7 +97,7 @@ pub(crate) fn guided(orbit: &TwoBodyOrbit) -> AttitudeSource {
         elevation_limit_rad: 0.2269,
         slew_rate_rad_s: 3e-3,
         keep_in: None,
-        sun_place: None,
+        sun_direction: None,
         requested: Default::default(),
         managed: false,
     })

@@ -6,10 +6,10 @@ use std::path::Path;
 
 use physics::bodies::Body;
 use physics::enumeration::Enumerated;
+use physics::guidance::geometry::lvlh::AzimuthReference;
 use physics::guidance::modes::mode::Mode;
 use physics::guidance::pointing::command::{
-    AimpointOption, AzimuthReference, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame,
-    Scenario,
+    AimpointOption, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame, Scenario,
 };
 use physics::guidance::timeline::Timeline;
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft};

@@ -99,7 +99,7 @@ impl<'a> LightAlong<'a> {
 /// Attitude of a downlink at a row with the Sun where it stands in the body frame at another.
 fn law(sunlit: &SunlitSpacecraft, row: &FlightRow, place: &FlightRow) -> Option<Rotation3<f64>> {
     let sun_body = place.inertial_from_body.inverse() * place.to_sun_m;
-    let SunAngles { azimuth_rad, elevation_rad } = SunAngles::of(&sun_body);
+    let SunAngles { azimuth_rad, elevation_rad } = SunAngles::from_direction(&sun_body);
     sunlit.downlink_attitude(row, azimuth_rad, elevation_rad)
 }
 

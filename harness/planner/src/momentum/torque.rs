@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use physics::{
     attitude::SunAngles,
     guidance::{
-        downlink::sun_place::{Downlink, DownlinkRequest, downlink},
+        downlink::sun_direction::{Downlink, DownlinkRequest, downlink},
         geometry::moving::fixed,
         pointing::antenna::Antennas,
     },
@@ -128,7 +128,7 @@ impl SunlitSpacecraft {
     ) -> Result<Self, Refusal> {
         Ok(Self {
             solar: SolarModel::new(&spacecraft, sunshade)?,
-            antennas: Antennas::of(&spacecraft.antennas),
+            antennas: Antennas::new(&spacecraft.antennas),
             mass_at_zero: spacecraft.mass_properties,
             panels: spacecraft.panels.iter().map(|panel| (true, panel.tilt_sign)).collect(),
             panel_biases_rad: vec![0.0; spacecraft.panels.len()],

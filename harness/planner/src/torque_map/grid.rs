@@ -33,7 +33,7 @@ pub fn direction([azimuth_deg, elevation_deg]: Angles) -> Vector3<f64> {
 
 /// Azimuth and elevation of a direction.
 pub(super) fn angles_deg(direction: &Vector3<f64>) -> Angles {
-    let of = SunAngles::of(direction);
+    let of = SunAngles::from_direction(direction);
     [of.azimuth_rad.to_degrees(), of.elevation_rad.to_degrees()]
 }
 

@@ -33,7 +33,7 @@ pub(crate) fn is_managed(context: &Plan<'_>, values: &Values) -> bool {
     values.choice(context.variables.momentum.strategy).0 != Strategy::DumpsOnly
 }
 
-/// Who puts the Sun in its place, where this momentum begins a downlink.
+/// Manager that selects the Sun's direction where this momentum begins a downlink.
 ///
 /// # Errors
 /// A strategy without a downlink.

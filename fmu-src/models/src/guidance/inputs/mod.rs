@@ -17,14 +17,14 @@ use physics::guidance::burn::velocity_path::VelocityPath;
 use physics::guidance::constraints::constrained::Constraints;
 use physics::guidance::constraints::hot_pole::HotPole;
 use physics::guidance::constraints::keep_in::KeepIn;
-use physics::guidance::downlink::sun_place::LinkLimits;
+use physics::guidance::downlink::sun_direction::LinkLimits;
 use physics::guidance::modes::monitor::Monitor;
 use physics::guidance::modes::sample_inputs::GuidanceSettings;
 use physics::guidance::modes::transitions::ModeSettings;
 use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::pointing::command::{BoresightOption, PointingCommand, Scenario};
 use physics::guidance::pointing::scan::ScanCompatibility;
-use physics::guidance::pointing::scenario::GuidanceHardware;
+use physics::guidance::scenario::GuidanceHardware;
 use physics::plant::PanelSetting;
 use physics::radiation::SolarModel;
 
@@ -39,7 +39,7 @@ use crate::common::management::{NO_ANTENNA, check_windows_have_antenna};
 use crate::common::numbers::Numbers;
 use crate::common::pointing::RuleContext;
 
-/// What parameters fix for a whole flight.
+/// Settings that parameters fix for a whole flight.
 #[derive(Clone, Debug)]
 pub struct Fixed {
     planet: TargetPlanet,
@@ -131,7 +131,7 @@ fn planet(v: &PlanetVariables) -> Numbers<BodyData, 5> {
 }
 
 impl Target {
-    /// What is given of `planet.*`, else the body's own.
+    /// Reads the parameters `planet.*`; those not given are the body's own.
     fn read(context: &Plan<'_>, values: &Values) -> Self {
         let v = &context.variables.planet;
         let own = context.setup.bodies.body(values.choice(context.variables.target.planet).0);
@@ -201,6 +201,29 @@ fn burn(context: &Plan<'_>, values: &Values) -> Result<BurnSettings, Failure> {
     })
 }
 
+/// Gimbal of the spacecraft with the angles of the parameters; `None` without one.
+///
+/// # Errors
+/// A minimum above the maximum, or angles without a gimbal.
+fn gimbal(context: &Plan<'_>, values: &Values) -> Result<Option<Gimbal>, Failure> {
+    let v = &context.variables.gimbal;
+    let [minimum_rad, maximum_rad] = [v.minimum, v.maximum].map(|handle| values.real(handle));
+    let refused = |allowed: &str| {
+        Err(Failure::new(format!(
+            "gimbal.minimum, gimbal.maximum: found {minimum_rad:?} and {maximum_rad:?} rad, allowed: {allowed}"
+        )))
+    };
+    if minimum_rad > maximum_rad {
+        return refused("a minimum not above the maximum");
+    }
+    let gimbal = Gimbal::from_instruments(&context.setup.spacecraft.instruments);
+    let gimbal = gimbal.map(|gimbal| Gimbal { minimum_rad, maximum_rad, ..gimbal });
+    if gimbal.is_none() && [minimum_rad, maximum_rad] != [0.0; 2] {
+        return refused(&format!("0 and 0; {NO_GIMBAL}"));
+    }
+    Ok(gimbal)
+}
+
 /// Parameters, as a sample uses them. The timeline may override the keep-in zone.
 pub(super) fn settings<'a>(
     context: &'a Plan<'_>,
@@ -214,15 +237,7 @@ pub(super) fn settings<'a>(
     if axis_body == Vector3::from([0.0; 3]) {
         return Err(Failure::new(ZERO_KEEP_IN_AXIS));
     }
-    let [minimum_rad, maximum_rad] = [v.gimbal.minimum, v.gimbal.maximum].map(real);
-    let refused = |allowed: &str| {
-        Err(Failure::new(format!(
-            "gimbal.minimum, gimbal.maximum: found {minimum_rad:?} and {maximum_rad:?} rad, allowed: {allowed}"
-        )))
-    };
-    if minimum_rad > maximum_rad {
-        return refused("a minimum not above the maximum");
-    }
+    let gimbal = gimbal(context, values)?;
     let zone = |azimuth, elevation| KeepIn {
         axis_body,
         azimuth_rad: real(azimuth),
@@ -236,11 +251,6 @@ pub(super) fn settings<'a>(
     });
     let keep_in = zone(v.keep_in.azimuth, v.keep_in.elevation);
     let beam = context.given(values, &[v.link.beam.into()]);
-    let gimbal = Gimbal::of(&context.setup.spacecraft.instruments);
-    let gimbal = gimbal.map(|gimbal| Gimbal { minimum_rad, maximum_rad, ..gimbal });
-    if gimbal.is_none() && [minimum_rad, maximum_rad] != [0.0; 2] {
-        return refused(&format!("0 and 0; {NO_GIMBAL}"));
-    }
     Ok(GuidanceSettings {
         hardware: GuidanceHardware {
             instruments: &context.setup.spacecraft.instruments,
@@ -336,7 +346,7 @@ pub(super) fn check_devices(
     Ok(())
 }
 
-/// Which scans go with which aimpoints.
+/// Scan frames allowed for each kind of aimpoint.
 fn scans(context: &Plan<'_>, values: &Values) -> ScanCompatibility {
     let mut scans = ScanCompatibility::default();
     for (allowed, frame) in scans.allowed.iter_mut().zip(&context.variables.scan_compatibility) {

@@ -71,7 +71,7 @@ impl<'a> Reader<'a> {
         inner(self.values.choice(handle))
     }
 
-    /// What the inputs command.
+    /// Pointing command of the inputs.
     pub(crate) fn command(&self) -> PointingCommand {
         let v = self.context.variables;
         let (boresight, body_roll, external_roll) = (&v.boresight, &v.body_roll, &v.external_roll);
@@ -119,7 +119,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Where everything is at `epoch_s`, by every model that a mode may go by.
+    /// Positions at `epoch_s`, by every model that a mode may use.
     pub(crate) fn positions(
         &self,
         fixed: &Fixed,

@@ -1,4 +1,4 @@
-//! Where everything is, and what is known of the spacecraft.
+//! Variables of bodies and spacecraft: positions, shape, attitude of the start.
 
 use core::f64::consts::PI;
 

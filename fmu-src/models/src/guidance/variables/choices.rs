@@ -4,7 +4,7 @@ use fmi_export::Enumeration;
 use fmi_export::variables::{DeclaredItem, EnumerationType, Item};
 use physics::bodies::Body;
 use physics::enumeration::Enumerated;
-use physics::guidance::geometry::lighting;
+use physics::guidance::geometry::{lighting, lvlh};
 use physics::guidance::modes::mode;
 use physics::guidance::pointing::antenna::AntennaRow;
 use physics::guidance::pointing::command;
@@ -26,7 +26,7 @@ optional_choices! {
     /// How the external roll reference is given (paper 001, Table 4).
     ExternalRollOption(command::ExternalRollOption) or "Not given.";
     /// From where an azimuth about the local vertical counts.
-    AzimuthReference(command::AzimuthReference) or "As downtrack.";
+    AzimuthReference(lvlh::AzimuthReference) or "As downtrack.";
     /// Frame of a scan.
     ScanFrame(command::ScanFrame) or "No scan.";
     /// Why a mode is in force.

@@ -1,4 +1,4 @@
-//! What is commanded: scenario, the options of the four vectors, limb, scan, mode.
+//! Inputs of commands: scenario, the options of the four vectors, limb, scan, mode.
 
 use crate::common::choices::custom_body;
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};

@@ -5,7 +5,7 @@ use core::f64::consts::{FRAC_PI_2, PI};
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 use physics::constants::HALF_TURNS_RAD;
 use physics::guidance::constraints::keep_in;
-use physics::guidance::downlink::sun_place;
+use physics::guidance::downlink::sun_direction;
 use physics::guidance::modes::transitions;
 use physics::guidance::pointing::command;
 use physics::spacecraft::SunKeepIn;
@@ -121,7 +121,7 @@ pub struct AntennaVariables {
 #[variables(setup = GuidanceSetup)]
 pub struct LinkVariables {
     /// The Sun's neighbourhood in the sky, where there is no link (assumed; paper 001 names no angle).
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = sun_place::SOLAR_EXCLUSION_RAD)]
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = sun_direction::SOLAR_EXCLUSION_RAD)]
     pub sun_exclusion: Real,
     /// Half width of every antenna's beam across the XY plane; unless set each has its own by beam_deg of [[antennas]], of which the
     /// first stands here.

@@ -7,7 +7,7 @@ use physics::bodies::BodyData;
 use physics::environment::orbit::TwoBodyOrbit;
 use physics::environment::orientation::Orientation;
 use physics::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
-use physics::guidance::downlink::sun_place::{SunRequest, SunZone};
+use physics::guidance::downlink::sun_direction::{SunRequest, SunZone};
 use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::timeline::TimelineSettings;
 use physics::guidance::{Guided, TargetPlanet};
@@ -54,7 +54,7 @@ pub(super) fn timeline(
     clock_minus_time_s: f64,
 ) -> Result<TimelineSettings, Failure> {
     let v = &variables.keep_in;
-    let own = TargetPlanet::of(center);
+    let own = TargetPlanet::from_body(center);
     Ok(TimelineSettings {
         keep_in: zone(variables, values)?,
         keep_in_is_enabled: values.boolean(v.enabled),
@@ -76,7 +76,7 @@ fn law(context: &Plan<'_>, values: &Values, orbit: &TwoBodyOrbit) -> Result<Guid
         method: KeepInMethod::Nearest,
     };
     let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
-    let gimbal = Gimbal::of(&context.setup.spacecraft.instruments);
+    let gimbal = Gimbal::from_instruments(&context.setup.spacecraft.instruments);
     let law = variables.guided.read(values, [periapsis_s, period_s, start_s], keep_in, gimbal)?;
     let about = RuleContext {
         is_about_sun: !is_planet,
@@ -131,7 +131,7 @@ fn managed_law(
     } else {
         SunRequest { zone: zone_in_force(variables, values)?, ..variables.downlink.request(values) }
     };
-    let law = law.with_sun_places(choice.place(), choice.in_science());
+    let law = law.with_sun_directions(choice.place(), choice.in_science());
     Ok(Guided { managed, requested, ..law })
 }
 

@@ -17,7 +17,7 @@ pub(super) mod wheels;
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use physics::attitude::Attitude;
 use physics::environment::time;
-use physics::guidance::ChosenPlace;
+use physics::guidance::SelectedSunDirection;
 use physics::management::Manager;
 use physics::plant::{
     AerodynamicSolver, Changes, Configuration, DownlinkForecast, External, ModeSettings, PlantError,
@@ -85,7 +85,7 @@ impl Reading<'_> {
     /// The selection of the Sun's direction in downlinks.
     pub(super) fn planner(
         &self,
-    ) -> impl Fn(&mut DownlinkForecast<'_>) -> Result<Option<ChosenPlace>, PlantError> + '_ {
+    ) -> impl Fn(&mut DownlinkForecast<'_>) -> Result<Option<SelectedSunDirection>, PlantError> + '_ {
         |forecast| self.manager.choose(forecast)
     }
 

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use physics::bodies::Body;
 use physics::environment::CartesianState;
 use physics::environment::orbit::{Elements, TwoBodyOrbit};
-use physics::guidance::pointing::scenario::is_rolled_about_boresight;
+use physics::guidance::scenario::is_rolled_about_boresight;
 use physics::guidance::timeline::TimelineLaw;
 use physics::plant::{Flight, StepContext};
 use physics::plausibility::{

@@ -56,7 +56,7 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     values.set_vector(variables.force.inertial, force_inertial_n.into());
     values.set_vector(variables.acceleration, acceleration_inertial_m_s2.into());
 
-    let sun = SunAngles::of(&instant.sun_body);
+    let sun = SunAngles::from_direction(&instant.sun_body);
     let planet_body_m = instant.planet_body_m.unwrap_or_default();
     values.set_vector(variables.sun.position_body, instant.sun_position_body_m().into());
     values.set_vector(variables.planet.position_body, planet_body_m.into());
@@ -66,7 +66,7 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     values.set_real(variables.sun.elevation, sun.elevation_rad);
     values.set_real(variables.sun.lit_fraction, instant.lit_fraction);
     values.set_real(variables.sun.distance, instant.sun_distance_m);
-    let earth = SunAngles::of(&instant.earth_body());
+    let earth = SunAngles::from_direction(&instant.earth_body());
     values.set_real(variables.earth.azimuth, earth.azimuth_rad);
     values.set_real(variables.earth.elevation, earth.elevation_rad);
     let (azimuth_limit_rad, elevation_limit_rad) =

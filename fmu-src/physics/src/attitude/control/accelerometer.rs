@@ -19,11 +19,11 @@ pub struct AccelerometerSettings {
     pub noise_m_s2: f64,
     /// Random walk of the bias, in m/s2/sqrt(s).
     pub drift_m_s2_sqrt_s: f64,
-    /// Of the random draws.
+    /// Seed of the random draws.
     pub seed: u64,
 }
 
-/// What the accelerometers gave so far.
+/// State of the accelerometers: biases and increments so far.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AccelerometerState {
     /// Bias at the last sample, in m/s2.

@@ -17,7 +17,7 @@ use crate::attitude::rotation::Attitude;
 /// The reference begins anew at the estimate where the error asks for this many times the slew acceleration.
 const LOST_REFERENCE: f64 = 2.0;
 
-/// What the controller keeps from one sample to the next.
+/// State of the controller from one sample to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ControllerState {
     reference: Reference,
@@ -29,7 +29,7 @@ pub struct ControllerState {
     last_rate_error_rad_s: Vector3<f64>,
     /// Torque that the last sample requested, in N m, body frame.
     requested_body_n_m: Vector3<f64>,
-    /// What of it could not be given, in N m, body frame.
+    /// Part of it that the wheels could not give, in N m, body frame.
     missing_body_n_m: Vector3<f64>,
     /// Whether the reference continues from the last sample.
     has_reference: bool,

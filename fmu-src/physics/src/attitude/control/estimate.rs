@@ -1,4 +1,4 @@
-//! What the spacecraft believes of its attitude and rate.
+//! Estimate of attitude and rate.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

@@ -19,7 +19,7 @@ use crate::attitude::rotation::Attitude;
 use crate::math;
 use crate::numerics::noise::{Channel, normal_vector};
 
-/// Variance of a rate of which nothing is known, in rad2/s2.
+/// Variance of an unknown rate, in rad2/s2.
 const UNKNOWN_RATE_RAD2_S2: f64 = 1.0;
 
 /// As many measurements of an attitude give a rate.
@@ -29,7 +29,7 @@ const FIXES_FOR_A_RATE: u8 = 2;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct RateFilter {
     rate_body_rad_s: Vector3<f64>,
-    /// Of attitude and negative rate.
+    /// Covariance of attitude and negative rate.
     covariance: Covariance,
     /// Measurements of the attitude since nothing was known; the second gives a rate.
     fixes: u8,
@@ -133,7 +133,7 @@ impl EstimatorState {
         sample: u64,
     ) -> Estimate {
         let (angle, rate) = self.gyro(settings, truth_attitude, truth_rate_body_rad_s, sample);
-        self.take_health(settings, health);
+        self.update_health(settings, health);
         self.propagate(settings, health, angle);
         let is_fix = health.star_tracker && sample.is_multiple_of(settings.samples_per_fix());
         if is_fix {
@@ -201,7 +201,7 @@ impl EstimatorState {
     }
 
     /// Begins or ends to estimate the rate without gyros, as the sensors work.
-    fn take_health(&mut self, settings: &SensorSettings, health: SensorHealth) {
+    fn update_health(&mut self, settings: &SensorSettings, health: SensorHealth) {
         match (health, self.without_gyros) {
             (SensorHealth { gyro: false, star_tracker: true }, None) => {
                 let known = self.rate_body_rad_s.filter(|_| self.last_truth.is_some() && !self.is_lost);

@@ -21,7 +21,7 @@ const APPROACH_SAMPLES: f64 = 50.0;
 /// Time constant of the rate, in samples; below a fourth of the approach's for no overshoot.
 const LAG_SAMPLES: f64 = 10.0;
 
-/// What the controller is to follow.
+/// Target of the controller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ControlTarget {
     /// An attitude that turns at a rate.
@@ -113,7 +113,7 @@ impl Reference {
                     self.rate_body_rad_s = *rate_body_rad_s;
                     Vector3::zeros()
                 } else {
-                    Approach { from_command, relative_rate, command_rate, interval_s }
+                    RelativeMotion { from_command, relative_rate, command_rate, interval_s }
                         .change_rad_s(slew_rad_s, acceleration_rad_s2)
                 }
             }
@@ -131,7 +131,7 @@ impl Reference {
 }
 
 /// Motion of the reference relative to the command, in the reference's axes.
-struct Approach {
+struct RelativeMotion {
     /// Rotation vector from the command to the reference, in rad.
     from_command: Vector3<f64>,
     /// In rad/s.
@@ -141,7 +141,7 @@ struct Approach {
     interval_s: f64,
 }
 
-impl Approach {
+impl RelativeMotion {
     /// Change of the reference's rate over the interval, in rad/s.
     fn change_rad_s(&self, slew_rad_s: f64, acceleration_rad_s2: f64) -> Vector3<f64> {
         let dt = self.interval_s;

@@ -34,12 +34,12 @@ pub struct SensorSettings {
     pub star_tracker: StarTracker,
     /// Gyros.
     pub gyro: Gyro,
-    /// Of the random draws.
+    /// Seed of the random draws.
     pub seed: u64,
     /// Time between two control samples, in s.
     pub interval_s: f64,
     /// Angular acceleration of the body that an estimate without gyros expects between two measurements of the star tracker, in
-    /// rad/s2; infinite where nothing is known of it.
+    /// rad/s2; infinite where it is unknown.
     pub acceleration_rad_s2: f64,
     /// How long after the last star tracker measurement the propagated attitude counts as known, in s.
     pub longest_without_tracker_s: f64,
@@ -50,7 +50,7 @@ pub fn sample_number(time_s: f64, rate_hz: f64) -> u64 {
     ((time_s * rate_hz + 1e-6).floor() as i64) as u64
 }
 
-/// Which sensors work.
+/// Health of the sensors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SensorHealth {
     /// Whether the star tracker works.

@@ -5,7 +5,7 @@
 //! P = kp dt^2, D = kd dt, Q = ki dt^3, the loop's characteristic polynomial is
 //! (z-1)^3 + P/2 (z+1)(z-1) + D (z-1)^2 + Q/2 z (z+1), whose roots Jury's conditions hold inside the unit circle.
 
-/// What the controller is set to.
+/// Settings of the controller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ControllerSettings {
     /// Samples a second.
@@ -41,13 +41,13 @@ pub enum GainError {
     /// A number is outside its range.
     #[error("the controller's {what} is {found} {unit}; allowed is {allowed}")]
     Range {
-        /// Which.
+        /// Name of the setting.
         what: &'static str,
-        /// What was given.
+        /// Value found.
         found: f64,
         /// Its unit.
         unit: &'static str,
-        /// What may be given.
+        /// Allowed range.
         allowed: &'static str,
     },
     /// The sampled loop is not stable.
@@ -56,7 +56,7 @@ pub enum GainError {
          integral ratio {integral}, the loop is stable below {allowed_rad_s} rad/s; lower the bandwidth or sample faster"
     )]
     Unstable {
-        /// What was given, in rad/s.
+        /// Bandwidth found, in rad/s.
         bandwidth_rad_s: f64,
         /// Samples a second.
         rate_hz: f64,

@@ -35,7 +35,7 @@ impl SunSensor {
         angle_between_rad(&self.axis_body, sun_body) <= self.half_field_of_view_rad
     }
 
-    /// What it measures of the unit vector `sun_body`.
+    /// Measured direction of the Sun, `sun_body` being the true unit vector.
     fn measured(&self, number: usize, sun_body: &Vector3<f64>, seed: u64, sample: u64) -> Vector3<f64> {
         if self.noise_rad == 0.0 {
             return *sun_body;

@@ -3,7 +3,7 @@
 //! Once a second the accelerometers' increment, turned by the estimate at mid-interval, is added to velocity and magnitude.
 //! The magnitude tells the point of the path where the burn should be (2 in the figure), a look-ahead further on is the aimpoint
 //! (4). Steering starts from the path's tangent and has two corrections:
-//! - theta, predictive: the thrust direction in the body frame, the boresight, turns by a share `gain` of the angle to the
+//! - theta, predictive: the thrust direction in the body frame, the boresight, turns by a fraction `gain` of the angle to the
 //!   measured direction. That accumulates until the offset from nominal is found.
 //! - beta, reactive: the tangent turns by the rotation that takes the line from 2 to 4 onto the line from the actual
 //!   velocity to 4, so that an offset decays over the look-ahead.
@@ -27,20 +27,20 @@ use crate::spacecraft::ThrusterSet;
 /// Look-ahead, assumed; paper 001 gives none.
 pub const LOOK_AHEAD_S: f64 = 10.0;
 
-/// Share of a measured direction that the predictive correction takes over each second, assumed.
+/// Fraction of a measured direction that the predictive correction takes over each second, assumed.
 pub const GAIN: f64 = 0.3;
 
-/// A measured acceleration below this share of the nominal one is no thrust.
-const LEAST_SHARE: f64 = 0.1;
+/// A measured acceleration below this fraction of the nominal one is no thrust.
+const LEAST_FRACTION: f64 = 0.1;
 
-/// Where there is no nominal one: least acceleration that counts as thrust, in m/s2.
+/// Least acceleration that counts as thrust without a nominal one, in m/s2.
 const LEAST_ACCELERATION_M_S2: f64 = 1e-3;
 
 /// How near the estimated attitude brings the thrust to its aimpoint where a burn begins with that, in rad: it costs 2e-4 of the
 /// first seconds' delta-v along the path, and the reactive correction takes back what it puts across.
 const ATTITUDE_REACHED_RAD: f64 = DEG_RAD;
 
-/// What parameters or a timeline say of a burn.
+/// Settings of a burn, by parameters or a timeline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BurnSettings {
     /// The velocity to add; `None` where that has no direction.
@@ -53,7 +53,7 @@ pub struct BurnSettings {
     pub awaits_attitude: bool,
     /// How far ahead the path is aimed at, in s at the estimated acceleration.
     pub look_ahead_s: f64,
-    /// Share of a measured direction that the predictive correction takes over each second.
+    /// Fraction of a measured direction that the predictive correction takes over each second.
     pub gain: f64,
     /// Whether theta is corrected.
     pub predictive: bool,
@@ -69,7 +69,7 @@ pub struct BurnSettings {
     pub wait_s: f64,
 }
 
-/// What a sample knows of the motion.
+/// Measured motion at a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeasuredMotion {
     /// When, in s.
@@ -83,7 +83,7 @@ pub struct MeasuredMotion {
 /// How far a burn is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum BurnPhase {
-    /// None is commanded.
+    /// No burn is commanded.
     #[default]
     None,
     /// The thrust is pointed at the beginning of the path.
@@ -100,7 +100,7 @@ pub enum BurnPhase {
         /// Until when.
         stop_s: f64,
     },
-    /// It is over; what it found stays.
+    /// The burn is over; its results stay.
     Ended {
         /// Whether its time was up before its magnitude, or it ended before it began.
         timed_out: bool,
@@ -112,7 +112,7 @@ pub enum BurnPhase {
 pub struct BurnPointing {
     /// Unit vector of the estimated thrust in the body frame.
     pub boresight_body: Vector3<f64>,
-    /// Where it is to point, EME2000.
+    /// Commanded direction of the thrust, EME2000.
     pub direction: MovingVector,
 }
 
@@ -129,7 +129,7 @@ pub struct BurnState {
     magnitude_m_s: f64,
     /// Estimated thrust direction, a unit vector; `None` before a burn: the nominal one.
     thrust_body: Option<Vector3<f64>>,
-    /// Of the last two intervals, the later one first, in m/s2.
+    /// Accelerations over the last two intervals, the later one first, in m/s2.
     accelerations_m_s2: [f64; 2],
     interruption: Option<Interruption>,
 }
@@ -137,7 +137,7 @@ pub struct BurnState {
 /// How a burn ended that was not over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Interruption {
-    /// It had not begun.
+    /// Thrust had not begun.
     BeforeThrust,
     /// Its thrust was cut off before its stop.
     CutOff,
@@ -146,7 +146,7 @@ pub enum Interruption {
 impl BurnSettings {
     fn is_thrust(&self, acceleration_m_s2: f64) -> bool {
         let least_m_s2 = if self.acceleration_m_s2 > 0.0 {
-            LEAST_SHARE * self.acceleration_m_s2
+            LEAST_FRACTION * self.acceleration_m_s2
         } else {
             LEAST_ACCELERATION_M_S2
         };
@@ -223,7 +223,7 @@ impl BurnState {
         }
     }
 
-    /// What the last sample did to a burn that was not over.
+    /// Interruption of a burn at the last sample.
     pub fn interruption(&self) -> Option<Interruption> {
         self.interruption
     }
@@ -256,7 +256,7 @@ impl BurnState {
         matches!(self.phase, BurnPhase::Waiting { refused: true, .. } | BurnPhase::Ended { timed_out: true })
     }
 
-    /// Takes in what is measured at a sample; `None` while there is no estimate.
+    /// Integrates the motion measured at a sample; `None` while there is no estimate.
     pub fn measure(&mut self, settings: &BurnSettings, motion: Option<MeasuredMotion>) {
         let last = core::mem::replace(&mut self.last, motion);
         let BurnPhase::Burning { since_s, stop_s } = self.phase else { return };
@@ -276,7 +276,7 @@ impl BurnState {
         };
     }
 
-    /// Where the thrust is to point; `None` without a path.
+    /// Commanded direction of the thrust; `None` without a path.
     pub fn pointing(&self, settings: &BurnSettings) -> Option<BurnPointing> {
         let path = settings.path.as_ref()?;
         let here = path.point(self.magnitude_m_s);
@@ -342,10 +342,10 @@ impl BurnState {
     }
 }
 
-/// A `share` of the smallest rotation that takes the direction of one vector to that of the other; none where they are
+/// A `fraction` of the smallest rotation that takes the direction of one vector to that of the other; none where they are
 /// opposite or one is zero.
-fn rotation(from: &Vector3<f64>, to: &Vector3<f64>, share: f64) -> Rotation3<f64> {
+fn rotation(from: &Vector3<f64>, to: &Vector3<f64>, fraction: f64) -> Rotation3<f64> {
     let normal = from.cross(to);
-    let angle_rad = angle_between_rad(from, to) * share;
+    let angle_rad = angle_between_rad(from, to) * fraction;
     normal.try_normalize(0.0).map_or_else(Rotation3::identity, |axis| Rotation3::new(axis * angle_rad))
 }

@@ -17,7 +17,7 @@ pub struct NominalThrust {
 }
 
 impl NominalThrust {
-    /// Of the thrusters of `set` along `direction_body`, of any length. Where that is zero: along the sum of their forces, or
+    /// Nominal thrust of the thrusters of `set` along `direction_body`, of any length. Where that is zero: along the sum of their forces, or
     /// along +Z where they have none. Those count that push along it at all.
     pub fn new(spacecraft: &Spacecraft, set: Option<ThrusterSet>, direction_body: Vector3<f64>) -> Self {
         let firing = spacecraft.thrusters.iter().filter(|it| set.is_some() && it.set == set);

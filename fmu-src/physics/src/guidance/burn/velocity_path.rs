@@ -16,13 +16,13 @@ const NODES: usize = 8;
 /// Panels from the beginning to the point requested.
 const PANELS: u8 = 4;
 
-/// Bisection alone would need so many steps.
+/// Iterations of Newton with bisection; bisection alone needs as many.
 const MOST_ITERATIONS: u8 = 60;
 
 /// A path in velocity space, EME2000.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VelocityPath {
-    /// Of the powers 1, 2 and 3 of the progress, in m/s.
+    /// Coefficients of the powers 1, 2 and 3 of the progress, in m/s.
     coefficients_m_s: [Vector3<f64>; 3],
     length_m_s: f64,
     rule: Rule<NODES>,
@@ -32,7 +32,7 @@ pub struct VelocityPath {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("the coefficients add up to ({}, {}, {}) m/s, not to the delta-v", .end_m_s.x, .end_m_s.y, .end_m_s.z)]
 pub struct PathError {
-    /// Where it ends, in m/s.
+    /// Velocity at the end of the path, in m/s.
     pub end_m_s: Vector3<f64>,
 }
 

@@ -12,7 +12,7 @@ use crate::attitude::{Attitude, MovingFrame, MovingUnit};
 pub struct CommandSlew {
     /// When it begins, in s.
     pub begin_s: f64,
-    /// Where the body stood then.
+    /// Attitude of the body at the begin.
     from: Attitude,
     /// Its course; `None` until the command's own attitude at the beginning is known.
     slew: Option<Slew>,

@@ -7,12 +7,12 @@ use super::keep_in::KeepIn;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::pointing::law::{Pointing, PointingVectors};
 
-/// What holds in a mode.
+/// Constraints in force in a mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Constraints {
-    /// Where the Sun must stand; `None` is off.
+    /// Zone that keeps the Sun; `None` is off.
     pub keep_in: Option<KeepIn>,
-    /// Where the planet must not stand; `None` is off.
+    /// Hot-pole keep-out; `None` is off.
     pub hot_pole: Option<HotPole>,
 }
 
@@ -23,7 +23,7 @@ pub struct ConstrainedPointing {
     pub pointing: Pointing,
     /// Whether the vectors were exchanged to keep the Sun in (Table 6).
     pub sun_keep_in: bool,
-    /// Where a turn about the Sun line ends; `None`: the attitude was not turned.
+    /// Side on which a turn about the Sun line ends; `None`: the attitude was not turned.
     pub hot_pole: Option<TurnSide>,
     /// Whether the hot-pole cone is kept; where no turn about the Sun line reaches its boundary the attitude is the best.
     pub hot_pole_reached: bool,
@@ -40,7 +40,7 @@ pub struct Excess {
 }
 
 impl Excess {
-    /// Nothing is watched.
+    /// Excess without any constraint.
     pub const NONE: Self = Self { sun_rad: f64::NEG_INFINITY, planet_rad: f64::NEG_INFINITY };
 
     /// The greater of both.

@@ -5,12 +5,12 @@ use super::hot_pole::HotPole;
 use super::keep_in::{KeepIn, KeepInMethod};
 use crate::attitude::SunAngles;
 use crate::guidance::geometry::moving::{unit, value};
-use crate::guidance::geometry::test_orbit::{TestOrbit, rate_error};
 use crate::guidance::pointing::command::{ExternalRollOption, PointingCommand, Scenario};
-use crate::guidance::pointing::scenario::{PointingProgress, pointing_solution};
-use crate::guidance::pointing::scenario_tests::{
+use crate::guidance::scenario::scenario_tests::{
     FLOOR_RAD_S, SCENARIOS, STEP_S, aimpoint, command, every, hardware,
 };
+use crate::guidance::scenario::{PointingProgress, pointing_solution};
+use crate::guidance::tests::orbit::{TestOrbit, rate_error};
 use crate::guidance::{EphemerisAtTime, Pointing, PointingVectors};
 use nalgebra::Vector3;
 

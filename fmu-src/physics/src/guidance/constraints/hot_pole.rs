@@ -45,7 +45,7 @@ pub enum TurnSide {
 pub struct KeptOut {
     /// The attitude.
     pub pointing: Pointing,
-    /// Where the turn ends; `None`: the cone would not have been violated.
+    /// Side on which the turn ends; `None`: the cone would not have been violated.
     pub side: Option<TurnSide>,
     /// Whether the cone is kept.
     pub reached: bool,

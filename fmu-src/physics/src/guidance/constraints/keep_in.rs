@@ -39,7 +39,7 @@ enumeration! {
     }
 }
 
-/// Where the Sun may stand.
+/// Sun keep-in zone about a body axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KeepIn {
     /// Centre of the zone, body frame, of any length.
@@ -118,7 +118,7 @@ impl KeepIn {
 
     /// Azimuth and elevation of a body direction in the zone's frame; `None` where the axis has no direction.
     pub fn angles(&self, sun_body: &Vector3<f64>) -> Option<SunAngles> {
-        Some(SunAngles::of(&self.body_from_zone()?.tr_mul(sun_body)))
+        Some(SunAngles::from_direction(&self.body_from_zone()?.tr_mul(sun_body)))
     }
 
     /// How far the Sun is outside, the greater of both angles' excesses, in rad; negative inside. `None` where the axis has
@@ -129,7 +129,7 @@ impl KeepIn {
 
     /// Azimuth and elevation in the body frame of the point that takes the place of a Sun outside; `None` inside.
     pub fn boundary_angles(&self, sun_body: &Vector3<f64>) -> Option<SunAngles> {
-        Some(SunAngles::of(&value(&self.boundary_point(&fixed(*sun_body))??)))
+        Some(SunAngles::from_direction(&value(&self.boundary_point(&fixed(*sun_body))??)))
     }
 
     /// The boundary point for the unit vector `sun_body`, inner `None` inside the zone; outer `None` where the axis has no
@@ -137,7 +137,7 @@ impl KeepIn {
     fn boundary_point(&self, sun_body: &MovingVector) -> Option<Option<MovingVector>> {
         let body_from_zone = fixed_matrix(&self.body_from_zone()?);
         let sun = body_from_zone.tr_mul(sun_body);
-        let now = SunAngles::of(&value(&sun));
+        let now = SunAngles::from_direction(&value(&sun));
         if now.keep_in_margin_rad(self.azimuth_rad, self.elevation_rad) >= -BOUNDARY_RAD {
             return Some(None);
         }

@@ -1,4 +1,4 @@
-//! What a pointing must keep: the zone of the Sun, the hot pole, and turns within the zone.
+//! Constraints of a pointing: the zone of the Sun, the hot pole, and turns within the zone.
 
 pub mod command_slew;
 pub mod constrained;

@@ -20,7 +20,7 @@ use crate::guidance::pointing::law::Pointing;
 use crate::math;
 use crate::numerics::scalar::Scalar;
 
-/// Where a turn begins.
+/// Start of a turn.
 #[derive(Clone, Copy, Debug)]
 pub struct SlewStart<'a> {
     /// The old attitude.
@@ -93,7 +93,7 @@ impl Slew {
         if least >= drift_rad - BOUNDARY_RAD {
             return eigenaxis;
         }
-        let angles = |sun: &Vector3<f64>| SunAngles::of(&body_from_zone.tr_mul(sun));
+        let angles = |sun: &Vector3<f64>| SunAngles::from_direction(&body_from_zone.tr_mul(sun));
         let (angles_from, angles_to) = (angles(&sun_from), angles(&sun_to));
         let frame = |angles: SunAngles| body_from_zone * pointed(angles);
         let back = frame(angles_to).transpose() * (to.inverse() * from).matrix() * frame(angles_from);
@@ -128,7 +128,7 @@ impl Slew {
             return target.offset(back_body_rad, left, rate_1_s);
         };
         let left = Moving::new(left, rate_1_s);
-        let target = Pointing::of(target);
+        let target = Pointing::from_frame(target);
         let zone = body_from_zone.map(Moving::from_re);
         let to_sun = crate::guidance::geometry::moving::moving(to_sun.direction, to_sun.rate_1_s);
         let [azimuth_to, elevation_to] = moving_angles(&zone.tr_mul(&target.to_body(&to_sun)));
@@ -148,11 +148,11 @@ fn pointed(angles: SunAngles) -> Matrix3<f64> {
     (about(2, angles.azimuth_rad) * about(0, angles.elevation_rad)).map(|it| it.re)
 }
 
-/// Azimuth and elevation of a moving direction, as [`SunAngles::of`]; at the pole the azimuth is 0.
+/// Azimuth and elevation of a moving direction, as [`SunAngles::from_direction`]; at the pole the azimuth is 0.
 fn moving_angles(sun: &MovingVector) -> [Moving; 2] {
     let [x, y, z] = [sun.x, sun.y, sun.z];
     if math::hypot(x.re, y.re) < PARALLEL_RAD {
-        let SunAngles { elevation_rad, .. } = SunAngles::of(&value(sun));
+        let SunAngles { elevation_rad, .. } = SunAngles::from_direction(&value(sun));
         return [Moving::constant(0.0), Moving::constant(elevation_rad)];
     }
     let across = nalgebra::ComplexField::sqrt(x * x + y * y);

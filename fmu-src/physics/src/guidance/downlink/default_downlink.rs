@@ -9,12 +9,12 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::Vector3;
 
-use super::sun_place::is_ahead;
+use super::sun_direction::is_ahead;
 use crate::attitude::angle_between_rad;
 use crate::guidance::pointing::antenna::{Antennas, BOUND_RAD};
 use crate::math;
 
-/// Where the Earth is in the body frame.
+/// Direction of the Earth in the body frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EarthBoresight {
     /// In the XY plane at the azimuth -theta.
@@ -25,7 +25,7 @@ pub enum EarthBoresight {
     Fixed(Vector3<f64>),
 }
 
-/// What looks at the Earth, by the angle between Sun and Earth.
+/// Boresight that looks at the Earth, by the angle between Sun and Earth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DefaultDownlink {
     antennas: Antennas,
@@ -36,13 +36,13 @@ pub struct DefaultDownlink {
 
 impl Default for DefaultDownlink {
     fn default() -> Self {
-        Self::of(&Antennas::default())
+        Self::new(&Antennas::default())
     }
 }
 
 impl DefaultDownlink {
     /// With these antennas; without one, as with fans all round.
-    pub fn of(antennas: &Antennas) -> Self {
+    pub fn new(antennas: &Antennas) -> Self {
         let mut all = Self { antennas: antennas.clone(), first: EarthBoresight::Behind, changes: Vec::new() };
         let mut last = None;
         for pair in candidates_rad(antennas).windows(2) {
@@ -68,7 +68,7 @@ impl DefaultDownlink {
         &self.antennas
     }
 
-    /// Where the Earth is with this cosine of the angle between Sun and Earth.
+    /// Direction of the Earth at this cosine of the angle between Sun and Earth.
     pub fn boresight(&self, cosine: f64) -> EarthBoresight {
         let passed = self.changes.iter().take_while(|(at, _)| cosine <= *at).last();
         passed.map_or(self.first, |(_, chosen)| *chosen)
@@ -87,7 +87,7 @@ impl DefaultDownlink {
     }
 }
 
-/// What looks at the Earth at an angle between Sun and Earth, in rad.
+/// Boresight that looks at the Earth at an angle between Sun and Earth, in rad.
 fn chosen(antennas: &Antennas, separation_rad: f64) -> EarthBoresight {
     let azimuths_rad = [-separation_rad, separation_rad];
     let ahead = is_ahead(antennas, azimuths_rad, math::cos(separation_rad));

@@ -1,5 +1,4 @@
-//! Where the Sun stands in a downlink, and the link to the Earth.
+//! Direction of the Sun in a downlink, and the link to the Earth.
 
 pub mod default_downlink;
-pub mod downlink_sun;
-pub mod sun_place;
+pub mod sun_direction;

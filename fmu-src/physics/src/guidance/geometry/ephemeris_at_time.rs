@@ -1,4 +1,4 @@
-//! What the pointing options look at: spacecraft, Sun, Earth and bodies about the target planet, with their motion.
+//! Targets of the pointing options: spacecraft, Sun, Earth and bodies about the target planet, with their motion.
 
 use nalgebra::Vector3;
 
@@ -21,7 +21,7 @@ pub struct TargetPlanet {
 
 impl TargetPlanet {
     /// A sphere of the mean radius with the body's uniform rotation.
-    pub fn of(data: &BodyData) -> Self {
+    pub fn from_body(data: &BodyData) -> Self {
         Self {
             radii_m: Vector3::repeat(data.radius_m),
             orientation: Orientation::uniform(data),
@@ -62,7 +62,7 @@ pub struct EphemerisAtTime {
 }
 
 impl EphemerisAtTime {
-    /// Of a spacecraft, the Sun and the Earth about the planet.
+    /// Positions of spacecraft, Sun and Earth about the planet.
     pub fn new(
         epoch_s: f64,
         planet: TargetPlanet,
@@ -94,7 +94,7 @@ impl EphemerisAtTime {
         Self { velocity: moving(value(&self.velocity), *acceleration_m_s2), ..self }
     }
 
-    /// Sets where a body is.
+    /// Sets position and velocity of a body.
     pub fn place_body(&mut self, body: Body, place: &CartesianState) {
         self.bodies[body as usize] = Some(moving(place.position_m, place.velocity_m_s));
     }

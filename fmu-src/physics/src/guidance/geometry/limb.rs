@@ -10,9 +10,8 @@
 use nalgebra::{ComplexField, Vector3};
 
 use super::ephemeris_at_time::EphemerisAtTime;
-use super::lvlh::{lvlh_axes, lvlh_direction};
+use super::lvlh::{AzimuthReference, lvlh_axes, lvlh_direction};
 use super::moving::{Moving, MovingVector, fixed, unit, unit_normal, value};
-use crate::guidance::pointing::command::{AzimuthReference, LimbCommand};
 use crate::numerics::scalar::Scalar;
 
 /// A limb point.
@@ -24,27 +23,29 @@ pub struct LimbPoint {
     pub exists: bool,
 }
 
-/// The limb point at the azimuth of the command, `elapsed_s` into its scan; `None` where the azimuth has no reference.
-pub fn generic_limb(ephemeris: &EphemerisAtTime, command: &LimbCommand, elapsed_s: f64) -> Option<LimbPoint> {
-    let side = lvlh_direction(ephemeris, command.reference.unwrap_or_default(), command.azimuth_rad, 0.0)?;
+/// Limb point at an azimuth about the local vertical and a height in m along its radius; `None` where the azimuth has no
+/// reference.
+pub fn generic_limb(
+    ephemeris: &EphemerisAtTime,
+    reference: AzimuthReference,
+    azimuth_rad: f64,
+    height: Moving,
+) -> Option<LimbPoint> {
+    let side = lvlh_direction(ephemeris, reference, azimuth_rad, 0.0)?;
     let normal = unit_normal(&ephemeris.position, &side)?;
     let solutions = limb_points(ephemeris, &normal);
     let chosen = solutions.map(|[a, b]| if value(&(a - b)).dot(&value(&side)) >= 0.0 { a } else { b });
-    Some(raised(chosen, command, elapsed_s))
+    Some(raised(chosen, height))
 }
 
-/// The limb point on the terminator, `elapsed_s` into its scan; `None` without a Sun.
-pub fn terminator_limb(
-    ephemeris: &EphemerisAtTime,
-    command: &LimbCommand,
-    elapsed_s: f64,
-) -> Option<LimbPoint> {
+/// Limb point on the terminator at a height in m along its radius; `None` without a Sun.
+pub fn terminator_limb(ephemeris: &EphemerisAtTime, height: Moving) -> Option<LimbPoint> {
     let solutions = limb_points(ephemeris, &unit(&ephemeris.sun)?);
     let downtrack = lvlh_axes(ephemeris, AzimuthReference::Downtrack)
         .map_or(Vector3::zeros(), |axes| value(&axes.column(0).into_owned()));
     let along = |point: &MovingVector| value(&(point - ephemeris.position)).normalize().dot(&downtrack);
     let chosen = solutions.map(|[a, b]| if along(&a) >= along(&b) { a } else { b });
-    Some(raised(chosen, command, elapsed_s))
+    Some(raised(chosen, height))
 }
 
 /// Both limb points in the plane through the centre that `normal` (EME2000) is normal to.
@@ -67,13 +68,12 @@ fn root(number: Moving) -> Option<Moving> {
     if number.re > 0.0 { Some(number.sqrt()) } else { (number.re == 0.0).then(|| Moving::constant(0.0)) }
 }
 
-/// The point at the height of the command.
-fn raised(point: Option<MovingVector>, command: &LimbCommand, elapsed_s: f64) -> LimbPoint {
+/// Returns the point raised by `height`; the planet's centre where there is none.
+fn raised(point: Option<MovingVector>, height: Moving) -> LimbPoint {
     let up = point.and_then(|position| Some((position, unit(&position)?)));
-    up.map_or(LimbPoint { position: fixed(Vector3::zeros()), exists: false }, |(position, up)| {
-        let height =
-            Moving::new(command.height_m + command.height_rate_m_s * elapsed_s, command.height_rate_m_s);
-        LimbPoint { position: position + up * height, exists: true }
+    up.map_or(LimbPoint { position: fixed(Vector3::zeros()), exists: false }, |(position, up)| LimbPoint {
+        position: position + up * height,
+        exists: true,
     })
 }
 

@@ -4,9 +4,25 @@
 //! the direction from the planet to the Sun), up x reference, and up. Azimuth is right-handed about up from the reference,
 //! elevation is toward up.
 
+use serde::{Deserialize, Serialize};
+
 use super::ephemeris_at_time::EphemerisAtTime;
 use super::moving::{MovingMatrix, MovingVector, fixed, spherical, unit, unit_normal};
-use crate::guidance::pointing::command::AzimuthReference;
+use crate::enumeration::enumeration;
+
+enumeration! {
+    /// From which horizontal direction an azimuth about the local vertical counts.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    #[serde(rename_all = "camelCase")]
+    pub enum AzimuthReference {
+        /// The horizontal part of the velocity.
+        #[default]
+        1 => Downtrack,
+        /// The horizontal part of the direction from the planet to the Sun.
+        2 => Sun,
+    }
+}
 
 /// Axes of the local frame as columns in EME2000; `None` where the reference has no horizontal part.
 pub fn lvlh_axes(ephemeris: &EphemerisAtTime, reference: AzimuthReference) -> Option<MovingMatrix> {
@@ -33,8 +49,8 @@ pub fn lvlh_direction(
 mod tests {
     //! What the words say, in a geometry where the axes are known.
     use super::super::moving::{moving, rate, value};
-    use super::super::test_orbit::TestOrbit;
     use super::*;
+    use crate::guidance::tests::orbit::TestOrbit;
     use approx::assert_relative_eq;
     use core::f64::consts::FRAC_PI_2;
     use nalgebra::Vector3;

@@ -6,7 +6,3 @@ pub mod limb;
 pub mod lvlh;
 pub mod moving;
 pub mod planet_point;
-#[cfg(test)]
-pub(crate) mod test_geometry;
-#[cfg(test)]
-pub(crate) mod test_orbit;

@@ -36,9 +36,9 @@ pub fn planet_fixed(ephemeris: &EphemerisAtTime, position_planet: &MovingVector)
 mod tests {
     //! Against closed forms of poles, equator and rotation.
     use super::super::moving::{fixed, rate, value};
-    use super::super::test_orbit::TestOrbit;
     use super::*;
     use crate::bodies::Body;
+    use crate::guidance::tests::orbit::TestOrbit;
     use approx::assert_relative_eq;
     use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 

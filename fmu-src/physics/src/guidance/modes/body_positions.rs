@@ -1,4 +1,4 @@
-//! Where everything is by the ephemerides a spacecraft carries, and whether the precise ones are trusted (paper 001,
+//! Positions by the ephemerides that a spacecraft carries, and trust in the precise ones (paper 001,
 //! "Inertial pointing options").
 //!
 //! Operational uses the precise models alone. Safe Hold uses them until they are unavailable, then the coarse ones. Earth
@@ -38,13 +38,13 @@ impl BodyPositions {
         Self { precise: ephemeris, coarse: None, by_mode: false }
     }
 
-    /// What a mode goes by.
+    /// Positions that a mode uses; `None` while one is unknown.
     pub fn in_mode(&self, mode: Mode, trust: &EphemerisTrust) -> Option<&EphemerisAtTime> {
         let chosen = if self.by_mode && trust.uses_coarse(mode) { &self.coarse } else { &self.precise };
         chosen.as_ref()
     }
 
-    /// Whether anything is known of the places.
+    /// Whether the positions of either model are known.
     pub fn are_known(&self) -> bool {
         self.precise.is_some() || self.coarse.is_some()
     }
@@ -63,7 +63,7 @@ impl EphemerisTrust {
         !self.is_lost
     }
 
-    /// Whether a mode goes by the coarse models where modes choose.
+    /// Whether a mode uses the coarse models where modes choose.
     pub fn uses_coarse(&self, mode: Mode) -> bool {
         match mode {
             Mode::Operational => false,

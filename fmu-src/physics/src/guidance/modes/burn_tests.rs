@@ -5,13 +5,15 @@ use nalgebra::Vector3;
 
 use super::sample_inputs::SampleInputs;
 use super::system::GuidanceState;
-use super::test_burn::{BurnFlight, ephemeris, guidance_settings, sample_inputs, settings, still_inputs};
 use crate::attitude::Attitude;
 use crate::attitude::control::AccelerometerSettings;
 use crate::constants::DEG_RAD;
 use crate::guidance::burn::delta_v::{BurnPhase, BurnSettings};
 use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::guidance::pointing::command::Scenario;
+use crate::guidance::tests::burn::{
+    BurnFlight, ephemeris, guidance_settings, sample_inputs, settings, still_inputs,
+};
 
 /// Where a path ends.
 fn end_m_s(path: &VelocityPath) -> Vector3<f64> {

@@ -1,17 +1,17 @@
-//! Status of a guidance command: what of it is reached, clamped and linked in the attitude that the constraints allow.
+//! Status of a guidance command in the attitude that the constraints allow: reached, clamped, linked.
 
 use serde::{Deserialize, Serialize};
 
 use super::sample_inputs::GuidanceSettings;
 use crate::guidance::constraints::constrained::ConstrainedPointing;
-use crate::guidance::downlink::sun_place::link;
+use crate::guidance::downlink::sun_direction::link;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{MovingVector, value};
 use crate::guidance::orbit_phase::guided::DownlinkStatus;
 use crate::guidance::pointing::antenna::{AntennaRow, Beam};
 use crate::guidance::pointing::boresight::DeviceAngle;
 use crate::guidance::pointing::law::{Pointing, PointingVectors};
-use crate::guidance::pointing::scenario::PointingSolution;
+use crate::guidance::scenario::PointingSolution;
 
 /// Status of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,7 +20,7 @@ pub struct CommandStatus {
     pub gimbal: DeviceAngle,
     /// The antenna in use.
     pub antenna: Option<AntennaRow>,
-    /// Where it looks, in rad.
+    /// Azimuth of that antenna, in rad.
     pub antenna_azimuth_rad: f64,
     /// Angle between Sun and Earth, in rad.
     pub sun_separation_rad: f64,
@@ -32,7 +32,7 @@ pub struct CommandStatus {
     pub degenerate: bool,
     /// Whether a scan moves boresight or aim.
     pub scan_active: bool,
-    /// What is reported of a downlink.
+    /// Status of a downlink.
     pub downlink: DownlinkStatus,
     /// Whether the keep-in zone changed the attitude.
     pub sun_keep_in: bool,
@@ -45,7 +45,7 @@ pub struct CommandStatus {
 }
 
 impl CommandStatus {
-    /// Of no attitude.
+    /// Status without an attitude.
     pub(super) const NOTHING: Self = Self {
         gimbal: DeviceAngle { angle_rad: 0.0, in_range: true },
         antenna: None,
@@ -62,8 +62,8 @@ impl CommandStatus {
         clamped: false,
     };
 
-    /// Of an attitude within the constraints; `is_sun_moved`: a zone moved the Sun's place that was requested.
-    pub(super) fn of(
+    /// Status of an attitude within the constraints; `is_sun_moved`: a zone moved the requested direction of the Sun.
+    pub(super) fn new(
         settings: &GuidanceSettings<'_>,
         ephemeris: &EphemerisAtTime,
         solution: &PointingSolution,

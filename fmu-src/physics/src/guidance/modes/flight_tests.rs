@@ -6,21 +6,21 @@ use super::body_positions::BodyPositions;
 use super::command_status::CommandStatus;
 use super::sample_inputs::{GuidanceSettings, SampleInputs};
 use super::system::GuidanceState;
-use super::test_burn::{guidance_settings, sample_inputs, settings, still_inputs};
 use crate::attitude::{Attitude, SunAngles};
 use crate::constants::DEG_RAD;
 use crate::guidance::constraints::constrained::Constraints;
 use crate::guidance::constraints::hot_pole::HotPole;
 use crate::guidance::constraints::keep_in::KeepIn;
-use crate::guidance::downlink::sun_place::SunPlace;
+use crate::guidance::downlink::sun_direction::DownlinkSunDirection;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::limb::terminator_limb;
-use crate::guidance::geometry::moving::value;
-use crate::guidance::geometry::test_geometry::{Random, nearest_zone};
-use crate::guidance::geometry::test_orbit::{TestOrbit, guided};
+use crate::guidance::geometry::moving::{Moving, value};
 use crate::guidance::orbit_phase::schedule::Schedule;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
-use crate::guidance::pointing::scenario_tests::{SCENARIOS, command, hardware};
+use crate::guidance::scenario::scenario_tests::{SCENARIOS, command, hardware};
+use crate::guidance::tests::burn::{guidance_settings, sample_inputs, settings, still_inputs};
+use crate::guidance::tests::geometry::{Random, nearest_zone};
+use crate::guidance::tests::orbit::{TestOrbit, guided};
 use crate::guidance::{Guided, ScienceRule, Sight};
 use crate::tests::short_or_long;
 
@@ -149,8 +149,8 @@ fn no_flag_flickers_and_no_command_jumps_over_half_a_day_of_every_scenario() {
                     && [7_200, 36_000].iter().any(|edge| second.abs_diff(*edge) <= 1);
                 // The limb and the terminator meet or part.
                 let has_limb = |at: u32| {
-                    let elapsed_s = f64::from(at);
-                    terminator_limb(&positions[at as usize], &command.limb, elapsed_s).map(|limb| limb.exists)
+                    let height = Moving::from_re(command.limb.height_m);
+                    terminator_limb(&positions[at as usize], height).map(|limb| limb.exists)
                 };
                 let at_limb = command.scenario == Some(Scenario::LimbTerminator)
                     && has_limb(*second) != has_limb(second - 1);
@@ -181,7 +181,7 @@ fn random_flights_with_slews_stay_in_the_zone() {
         let start_s = random.within(0.0, 80.0 * 86_400.0);
         let mut place = || {
             let share = random.one_of(&[-1.0, 1.0, 0.4]);
-            SunPlace {
+            DownlinkSunDirection {
                 angles: SunAngles {
                     azimuth_rad: zone.azimuth_rad * share,
                     elevation_rad: zone.elevation_rad * random.within(-0.3, 0.3),
@@ -189,7 +189,7 @@ fn random_flights_with_slews_stay_in_the_zone() {
                 earth_ahead: random.within(0.0, 1.0) < 0.5,
             }
         };
-        let sun_place = (flight % 3 > 0).then(&mut place);
+        let sun_direction = (flight % 3 > 0).then(&mut place);
         let begin_s = orbit.ephemeris(start_s).epoch_s + random.within(0.0, 9.0 * 3600.0);
         let length_s = random.within(3_000.0, 9_000.0);
         let base = law(science, random.within(5e-4, 1e-2));
@@ -205,7 +205,7 @@ fn random_flights_with_slews_stay_in_the_zone() {
             schedule,
             elevation_limit_rad: zone.elevation_rad,
             keep_in: Some(zone),
-            sun_place,
+            sun_direction,
             ..base
         };
         let eigenaxis = Guided { keep_in: None, ..law };

@@ -26,7 +26,7 @@ enumeration! {
 /// A command, propagated by its rate from its sample on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GuidanceCommand {
-    /// What it gives.
+    /// Kind of the command.
     pub kind: CommandKind,
     /// When it was computed, in s.
     pub since_s: f64,

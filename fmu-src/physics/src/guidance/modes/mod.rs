@@ -4,14 +4,14 @@ pub mod body_positions;
 #[cfg(test)]
 pub(crate) mod burn_tests;
 pub mod command_status;
+mod command_timers;
 #[cfg(test)]
 pub(crate) mod flight_tests;
 pub mod guidance_command;
 pub mod mode;
 pub mod monitor;
+mod present_window;
 pub mod sample_inputs;
 pub mod sun_line;
 pub mod system;
-#[cfg(test)]
-pub(crate) mod test_burn;
 pub mod transitions;

@@ -53,6 +53,15 @@ impl Mode {
         }
     }
 
+    /// Whether this mode follows a scenario.
+    pub fn follows(self, scenario: Scenario) -> bool {
+        match self {
+            Self::Operational => true,
+            Self::SafeHold => scenario == Scenario::Downlink,
+            Self::EarthAcquisition => false,
+        }
+    }
+
     /// The command as this mode takes it: Safe Hold replaces all but downlink by the default downlink, and scans never.
     pub fn allowed(self, command: &PointingCommand) -> PointingCommand {
         match self {

@@ -15,7 +15,7 @@ use crate::guidance::geometry::moving::value;
 /// How far beyond a boundary counts as a violation, assumed: a degree.
 pub const MARGIN_RAD: f64 = crate::constants::DEG_RAD;
 
-/// What the monitor allows.
+/// Limits of the monitor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Monitor {
     /// By how much a constraint may be exceeded, in rad.

@@ -1,4 +1,4 @@
-//! What a sample of guidance reads: settings by parameters, commands and their timeline entries, positions and measurements.
+//! Inputs of a sample of guidance: settings by parameters, commands and their timeline entries, positions and measurements.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -6,13 +6,15 @@ use serde::{Deserialize, Serialize};
 use super::body_positions::BodyPositions;
 use super::transitions::{ModeSettings, Sensed};
 use crate::guidance::burn::delta_v::BurnSettings;
+use crate::guidance::constraints::constrained::Constraints;
 use crate::guidance::constraints::keep_in::KeepIn;
-use crate::guidance::downlink::sun_place::{LinkLimits, SunRequest};
+use crate::guidance::downlink::sun_direction::{LinkLimits, SunRequest};
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::orbit_phase::guided::Guided;
 use crate::guidance::pointing::command::PointingCommand;
-use crate::guidance::pointing::scenario::GuidanceHardware;
+use crate::guidance::scenario::GuidanceHardware;
 
-/// Everything that parameters set.
+/// Settings of guidance by parameters.
 #[derive(Clone, Copy, Debug)]
 pub struct GuidanceSettings<'a> {
     /// Instruments, gimbal, scans.
@@ -31,20 +33,20 @@ pub struct GuidanceSettings<'a> {
     pub burn: BurnSettings,
 }
 
-/// Everything that a sample reads.
+/// Inputs of one sample.
 #[derive(Clone, Copy, Debug)]
 pub struct SampleInputs {
-    /// What is commanded.
+    /// Pointing command.
     pub command: PointingCommand,
-    /// Where downlinks are to have the Sun where no strategy chooses it.
+    /// Requested direction of the Sun in downlinks; a strategy replaces it.
     pub requested_sun: SunRequest,
-    /// Whether the timeline says where the Sun stands, so that no strategy does.
+    /// Whether the timeline gives the Sun's direction, so that no strategy does.
     pub sun_is_placed: bool,
     /// Whether an input commands the scenario.
     pub is_commanded: bool,
     /// The timeline's entries that say scan, limb and mode, where they and no input do: each begins with its entry.
     pub entries: TimedEntries,
-    /// Where everything is.
+    /// Positions of spacecraft and bodies.
     pub positions: BodyPositions,
     /// Mode request, estimate and Sun sensors at the sample's time.
     pub sensed: Sensed,
@@ -63,4 +65,20 @@ pub struct TimedEntries {
     pub mode: Option<f64>,
     /// Whether the burn is one of an entry that is no longer in force; its attitude is held.
     pub burn_is_over: bool,
+}
+
+/// Context of a sample that points.
+pub(super) struct SampleContext<'a> {
+    /// Settings with the zone of the mode.
+    pub settings: &'a GuidanceSettings<'a>,
+    /// Constraints of the mode.
+    pub constraints: Constraints,
+    /// Positions that the mode uses.
+    pub ephemeris: &'a EphemerisAtTime,
+    /// Requested direction of the Sun in downlinks, and whether the zone moved it.
+    pub requested_sun: (SunRequest, bool),
+    /// Whether the timeline gives the Sun's direction.
+    pub sun_is_placed: bool,
+    /// Time of the sample, in s.
+    pub time_s: f64,
 }

@@ -34,7 +34,8 @@ impl SunLine {
     /// Azimuth and elevation of the Sun in the frame of `attitude` at `time_s`; both 0 while it is not known.
     pub fn angles_at(&self, attitude: &Attitude, time_s: f64) -> SunAngles {
         let to_body = attitude.inertial_from_body().inverse();
-        self.at(time_s).map_or_else(SunAngles::default, |to_sun_m| SunAngles::of(&(to_body * to_sun_m)))
+        self.at(time_s)
+            .map_or_else(SunAngles::default, |to_sun_m| SunAngles::from_direction(&(to_body * to_sun_m)))
     }
 
     /// Their rates under a command, in rad/s.

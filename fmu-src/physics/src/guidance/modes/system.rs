@@ -4,14 +4,15 @@
 //! Samples lie at whole seconds of time, and at the start. Without a scenario, or a direction of boresight or aimpoint, the last
 //! law stays that gave an attitude, within its constraints; without spacecraft, Sun or Earth the last command, not judged.
 
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::body_positions::BodyPositions;
 use super::command_status::CommandStatus;
+use super::command_timers::CommandTimers;
 use super::guidance_command::{CommandKind, GuidanceCommand};
 use super::mode::{Mode, ModeReason};
-use super::sample_inputs::{GuidanceSettings, SampleInputs, TimedEntries};
+use super::present_window::PresentWindow;
+use super::sample_inputs::{GuidanceSettings, SampleContext, SampleInputs, TimedEntries};
 use super::sun_line::SunLine;
 use super::transitions::{ModeState, Sensed, Steering};
 use crate::attitude::Attitude;
@@ -19,31 +20,24 @@ use crate::guidance::burn::delta_v::{BurnState, MeasuredMotion};
 use crate::guidance::constraints::command_slew::CommandSlew;
 use crate::guidance::constraints::constrained::{ConstrainedPointing, Constraints};
 use crate::guidance::constraints::hot_pole::TurnSide;
-use crate::guidance::downlink::downlink_sun::{DownlinkSun, WindowStart};
-use crate::guidance::downlink::sun_place::{ChosenPlace, SunPlace, SunRequest};
+use crate::guidance::downlink::sun_direction::{DownlinkSunDirection, SelectedSunDirection, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::value;
-use crate::guidance::orbit_phase::attitudes::{ScienceRule, Sight};
+use crate::guidance::orbit_phase::attitudes::Sight;
+use crate::guidance::orbit_phase::downlink_sun::{DownlinkSun, WindowStart};
 use crate::guidance::orbit_phase::guided::{DownlinkStatus, Guided};
 use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
-use crate::guidance::orbit_phase::predicted_orbit::ellipse_of;
 use crate::guidance::orbit_phase::schedule::{Activity, Schedule};
-use crate::guidance::pointing::aligned::aligned_vectors;
-use crate::guidance::pointing::antenna::Beam;
-use crate::guidance::pointing::command::{
-    BoresightOption, LimbCommand, PointingCommand, ScanCommand, Scenario,
-};
+use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use crate::guidance::pointing::law::Pointing;
-use crate::guidance::pointing::scan::ScanTime;
-use crate::guidance::pointing::scenario::{
-    GuidanceHardware, PointingProgress, PointingSolution, pointing_solution,
-};
+use crate::guidance::scenario::orbit_phase_solution::orbit_phase_solution;
+use crate::guidance::scenario::{PointingProgress, PointingSolution, pointing_solution};
 use crate::numerics::spacing::spacing;
 
 /// Time between two samples, in s.
 pub const SAMPLE_INTERVAL_S: f64 = 1.0;
 
-/// Units of about a microsecond that a sample takes at most, a choice of the Sun's place aside.
+/// Units of about a microsecond that a sample takes at most, a selection of the Sun's direction aside.
 pub const SAMPLE_WORK: u32 = 4;
 
 /// State of the sampled system.
@@ -54,31 +48,16 @@ pub struct GuidanceState {
     sun_line: SunLine,
     modes: ModeState,
     periapses: PeriapsisCount,
-    /// The scan and since when it is commanded, in s.
-    scan: Option<(ScanCommand, f64)>,
-    /// Where the turn away from the hot pole ends, while it lasts.
+    /// Side on which the turn away from the hot pole ends, while it lasts.
     hot_pole_turn: Option<TurnSide>,
-    /// The timeline's entries at the last sample.
-    entries: TimedEntries,
+    timers: CommandTimers,
     /// The last command that gave an attitude; it stays where none is given, and where a new one has no direction.
     law: Option<PointingCommand>,
-    /// The limb scenario and since when it is commanded, in s.
-    limb: Option<(Scenario, f64)>,
     burn: BurnState,
     downlink_sun: DownlinkSun,
     /// The slew into the timeline's command.
     slew: Option<CommandSlew>,
     next_sample_s: f64,
-}
-
-/// What a sample works with.
-struct SampleContext<'a> {
-    settings: &'a GuidanceSettings<'a>,
-    constraints: Constraints,
-    ephemeris: &'a EphemerisAtTime,
-    requested_sun: (SunRequest, bool),
-    sun_is_placed: bool,
-    time_s: f64,
 }
 
 impl GuidanceState {
@@ -90,11 +69,9 @@ impl GuidanceState {
             sun_line: SunLine::default(),
             modes: ModeState::default(),
             periapses: PeriapsisCount::default(),
-            scan: None,
             hot_pole_turn: None,
-            entries: TimedEntries::default(),
+            timers: CommandTimers::default(),
             law: None,
-            limb: None,
             burn: BurnState::default(),
             downlink_sun: DownlinkSun::default(),
             slew: None,
@@ -127,7 +104,7 @@ impl GuidanceState {
         self.modes.ephemeris.is_valid()
     }
 
-    /// Whether the mode goes by the coarse ephemerides, where modes choose.
+    /// Whether the mode uses the coarse ephemerides, where modes choose.
     pub fn uses_coarse_ephemeris(&self) -> bool {
         self.modes.ephemeris.uses_coarse(self.modes.mode)
     }
@@ -137,7 +114,7 @@ impl GuidanceState {
         &self.burn
     }
 
-    /// Where the Sun stands in downlink.
+    /// Direction of the Sun in downlink.
     pub fn downlink_sun(&self) -> &DownlinkSun {
         &self.downlink_sun
     }
@@ -164,11 +141,12 @@ impl GuidanceState {
         &mut self,
         settings: &GuidanceSettings<'_>,
         inputs: &SampleInputs,
-        choose: impl Fn(&WindowStart<'_>) -> Option<ChosenPlace>,
+        choose: impl Fn(&WindowStart<'_>) -> Option<SelectedSunDirection>,
     ) -> bool {
         let mut is_chosen = false;
         let time_s = self.next_sample_s;
-        self.next_sample_s = next_whole_s(time_s);
+        // A time within rounding of a whole second counts as it.
+        self.next_sample_s = (time_s + 4.0 * spacing(time_s)).floor() + SAMPLE_INTERVAL_S;
         let sensed = Sensed { time_s, ..inputs.sensed };
         let mut modes = settings.modes;
         let before = self.modes.ephemeris_in_mode(&inputs.positions).map(EphemerisAtTime::to_sun);
@@ -193,43 +171,17 @@ impl GuidanceState {
         }
         match steering {
             Some(Steering::Pointing(constraints)) => {
-                let command = self.modes.mode.allowed(&inputs.command);
-                let orbit_phase = Guided {
-                    keep_in: constraints.keep_in,
-                    science: settings.orbit_phase.science.within(constraints.keep_in),
-                    ..settings.orbit_phase
-                };
-                let settings = &GuidanceSettings { orbit_phase, ..*settings };
-                if let Some(ephemeris) = ephemeris.filter(|_| command.scenario.is_some()) {
-                    let attitude = sensed.estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
-                    is_chosen = self.place_sun(settings, &command, ephemeris, attitude, choose);
-                    self.compute_attitude(
-                        &SampleContext {
-                            settings,
-                            constraints,
-                            ephemeris,
-                            requested_sun: match self.modes.mode {
-                                Mode::Operational => {
-                                    inputs.requested_sun.within(constraints.keep_in.as_ref())
-                                }
-                                _ => (SunRequest::default(), false),
-                            },
-                            sun_is_placed: inputs.sun_is_placed,
-                            time_s,
-                        },
-                        &command,
-                    );
-                    let is_law = self.law.is_some_and(|law| law.scenario == Some(Scenario::Burn));
-                    if self.modes.mode == Mode::Operational {
-                        self.burn.begin(&settings.burn, time_s, is_law && self.status.reachable);
-                    }
-                }
+                is_chosen = self.point(settings, inputs, &constraints, &sensed, choose);
             }
             Some(Steering::ErrorQuaternion { error, rate_body_rad_s }) => {
-                self.set_rate_command(CommandKind::ErrorQuaternion, error.0, rate_body_rad_s, time_s);
+                let kind = CommandKind::ErrorQuaternion;
+                self.command = self.command.followed_by_rate(kind, error.0, rate_body_rad_s, time_s);
+                self.status = CommandStatus::NOTHING;
             }
             Some(Steering::RateOnly(rate_body_rad_s)) => {
-                self.set_rate_command(CommandKind::RateOnly, [0.0, 0.0, 0.0, 1.0], rate_body_rad_s, time_s);
+                let (kind, error) = (CommandKind::RateOnly, [0.0, 0.0, 0.0, 1.0]);
+                self.command = self.command.followed_by_rate(kind, error, rate_body_rad_s, time_s);
+                self.status = CommandStatus::NOTHING;
             }
             None => self.status = CommandStatus { degenerate: true, ..CommandStatus::NOTHING },
         }
@@ -244,13 +196,46 @@ impl GuidanceState {
         is_chosen
     }
 
+    /// Points as the command of a sample says, within the constraints of its mode. Returns whether a direction of the Sun was requested.
+    fn point(
+        &mut self,
+        settings: &GuidanceSettings<'_>,
+        inputs: &SampleInputs,
+        constraints: &Constraints,
+        sensed: &Sensed,
+        choose: impl Fn(&WindowStart<'_>) -> Option<SelectedSunDirection>,
+    ) -> bool {
+        let command = self.modes.mode.allowed(&inputs.command);
+        let ephemeris = self.modes.ephemeris_in_mode(&inputs.positions);
+        let Some(ephemeris) = ephemeris.filter(|_| command.scenario.is_some()) else { return false };
+        let keep_in = constraints.keep_in;
+        let science = settings.orbit_phase.science.within(keep_in);
+        let orbit_phase = Guided { keep_in, science, ..settings.orbit_phase };
+        let settings = &GuidanceSettings { orbit_phase, ..*settings };
+        let time_s = sensed.time_s;
+        let attitude = sensed.estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
+        let is_chosen = self.place_sun(settings, &command, ephemeris, attitude, choose);
+        let is_operational = self.modes.mode == Mode::Operational;
+        let requested_sun = match is_operational {
+            true => inputs.requested_sun.within(keep_in.as_ref()),
+            false => (SunRequest::default(), false),
+        };
+        let (constraints, sun_is_placed) = (*constraints, inputs.sun_is_placed);
+        let now = SampleContext { settings, constraints, ephemeris, requested_sun, sun_is_placed, time_s };
+        self.compute_attitude(&now, &command);
+        if is_operational {
+            let is_law = self.law.is_some_and(|law| law.scenario == Some(Scenario::Burn));
+            self.burn.begin(&settings.burn, time_s, is_law && self.status.reachable);
+        }
+        is_chosen
+    }
+
     /// Begins the slew into a command of the timeline, from what was commanded so far; an input's command is taken at once.
     fn begin_slew(&mut self, settings: &GuidanceSettings<'_>, inputs: &SampleInputs, time_s: f64) {
         if inputs.is_commanded {
             self.slew = None;
         }
-        let TimedEntries { scenario, .. } = inputs.entries;
-        let is_new = scenario.is_some() && scenario != self.entries.scenario;
+        let is_new = self.timers.is_new_scenario(&inputs.entries);
         if is_new && self.command.kind == CommandKind::Attitude && settings.orbit_phase.slew_rate_rad_s > 0.0
         {
             self.slew = Some(CommandSlew::new(time_s, &self.command.frame_at(time_s)));
@@ -264,27 +249,13 @@ impl GuidanceState {
         command: &PointingCommand,
         ephemeris: &EphemerisAtTime,
         attitude: Attitude,
-        choose: impl Fn(&WindowStart<'_>) -> Option<ChosenPlace>,
+        choose: impl Fn(&WindowStart<'_>) -> Option<SelectedSunDirection>,
     ) -> bool {
-        let epoch_s = ephemeris.epoch_s;
-        let windows = &in_present_orbit(&settings.orbit_phase.schedule, ephemeris);
-        let found = match command.scenario {
-            _ if self.modes.mode != Mode::Operational => None,
-            Some(scenario @ Scenario::Downlink) => {
-                let is_free = command.boresight.option != Some(BoresightOption::PhasedArray);
-                let span_s = windows.downlink_end_s - windows.downlink_start_s;
-                is_free.then(|| (scenario, Activity::Downlink, windows.begun_at(epoch_s), span_s))
-            }
-            Some(scenario @ Scenario::OrbitPhase) => {
-                let windows = self.periapses.windows(windows, ephemeris);
-                let window = windows.window(epoch_s);
-                let has_place =
-                    window.activity == Activity::Downlink || settings.orbit_phase.science.unloads();
-                has_place.then_some((scenario, window.activity, windows, window.until_s - epoch_s))
-            }
-            _ => None,
-        };
-        let Some((scenario, activity, schedule, span_s)) = found else {
+        let is_operational = self.modes.mode == Mode::Operational;
+        let found = is_operational
+            .then(|| PresentWindow::find(&settings.orbit_phase, command, ephemeris, &mut self.periapses))
+            .flatten();
+        let Some(PresentWindow { scenario, activity, schedule, span_s }) = found else {
             self.downlink_sun.end();
             return false;
         };
@@ -295,13 +266,13 @@ impl GuidanceState {
             is_span.then(|| choose(&start)).flatten()
         };
         match activity {
-            Activity::Downlink => self.downlink_sun.last(scenario, self.entries.scenario, chosen),
+            Activity::Downlink => self.downlink_sun.last(scenario, self.timers.entries().scenario, chosen),
             Activity::Science => self.downlink_sun.last_in_science(chosen),
         }
     }
 
     /// The Sun's place in the downlinks of the mode; `None`: on -Y.
-    fn sun_place(&self) -> Option<SunPlace> {
+    fn sun_direction(&self) -> Option<DownlinkSunDirection> {
         self.downlink_sun.place().filter(|_| self.modes.mode == Mode::Operational)
     }
 
@@ -324,47 +295,29 @@ impl GuidanceState {
         (time_s - tolerance_s..=time_s + SAMPLE_INTERVAL_S + tolerance_s).contains(&self.next_sample_s)
     }
 
-    /// What is commanded now: where no scenario is, the last command that gave an attitude, without its scans.
+    /// Command in force: without a scenario the last one that gave an attitude, without its scans.
     pub fn continued(&self, command: &PointingCommand) -> PointingCommand {
         match self.law {
-            Some(law) if command.scenario.is_none() => without_scans(&law),
+            Some(law) if command.scenario.is_none() => law.without_scans(),
             _ => *command,
         }
     }
 
-    /// A scan begins where it is first commanded or changes, a limb scenario and a burn where they are, in whatever mode; one of
-    /// a timeline with its entry.
+    /// Updates burn, request and timers by the command of a sample, in whatever mode.
     fn update_timers(&mut self, command: &PointingCommand, entries: TimedEntries, time_s: f64) {
-        if entries.scan != self.entries.scan {
-            self.scan = None;
-        }
-        if entries.scenario != self.entries.scenario {
-            self.limb = None;
-        }
-        let is_new = entries.scenario.is_some() && entries.scenario != self.entries.scenario;
         let is_burn = command.scenario == Some(Scenario::Burn) && !entries.burn_is_over;
-        self.burn.command(is_burn, is_new, time_s);
-        if entries.mode != self.entries.mode {
+        self.burn.command(is_burn, self.timers.is_new_scenario(&entries), time_s);
+        if entries.mode != self.timers.entries().mode {
             self.modes.renew_request();
         }
-        self.entries = entries;
-        self.scan = command.scan.frame.map(|_| match self.scan {
-            Some((before, since_s)) if before == command.scan => (before, since_s),
-            _ => (command.scan, time_s),
-        });
-        let limb =
-            command.scenario.filter(|it| matches!(it, Scenario::LimbTerminator | Scenario::LimbGeneric));
-        self.limb = limb.map(|scenario| match self.limb {
-            Some((before, since_s)) if before == scenario => (scenario, since_s),
-            _ => (scenario, time_s),
-        });
+        self.timers.update(command, entries, time_s);
     }
 
     /// Computes an attitude; without a direction the last law stays that gave one.
     fn compute_attitude(&mut self, now: &SampleContext<'_>, command: &PointingCommand) {
         let mut found = self.constrained(now, command);
         let is_given = found.is_some();
-        if !is_given && let Some(law) = self.law.map(|law| self.modes.mode.allowed(&without_scans(&law))) {
+        if !is_given && let Some(law) = self.law.map(|law| self.modes.mode.allowed(&law.without_scans())) {
             found = self.constrained(now, &law);
         } else if is_given && self.modes.mode == Mode::Operational {
             self.law = Some(*command);
@@ -381,12 +334,12 @@ impl GuidanceState {
         self.hot_pole_turn = constrained.hot_pole;
         self.command = self.command.followed_by(&constrained.pointing.frame(), now.time_s);
         let (_, is_sun_moved) = now.requested_sun;
-        self.status = CommandStatus::of(now.settings, now.ephemeris, &solution, &constrained, is_sun_moved);
+        self.status = CommandStatus::new(now.settings, now.ephemeris, &solution, &constrained, is_sun_moved);
         self.status.degenerate |= !is_given;
         self.status.reachable &= !is_slewing;
     }
 
-    /// Where the slew into the command stands on the way to `target`, kept away from the hot pole; `None` where it is over.
+    /// Attitude of the slew into the command on the way to `target`, kept away from the hot pole; `None` where it is over.
     fn slewed(&mut self, now: &SampleContext<'_>, target: &Pointing) -> Option<ConstrainedPointing> {
         let slew = self.slew.as_mut()?;
         let rate_rad_s = now.settings.orbit_phase.slew_rate_rad_s;
@@ -398,7 +351,7 @@ impl GuidanceState {
             self.slew = None;
             return None;
         };
-        let vectors = Pointing::of(&slewed.frame).vectors();
+        let vectors = Pointing::from_frame(&slewed.frame).vectors();
         let constraints = Constraints { keep_in: None, ..now.constraints };
         constraints.applied(&vectors, now.ephemeris, self.hot_pole_turn)
     }
@@ -418,86 +371,19 @@ impl GuidanceState {
     fn solution(&mut self, now: &SampleContext<'_>, command: &PointingCommand) -> Option<PointingSolution> {
         if command.scenario == Some(Scenario::OrbitPhase) {
             let science = self.downlink_sun.in_science().filter(|_| self.modes.mode == Mode::Operational);
-            let law = now.settings.orbit_phase.with_sun_places(self.sun_place(), science);
+            let law = now.settings.orbit_phase.with_sun_directions(self.sun_direction(), science);
             let law = Guided { requested: now.requested_sun.0, ..law };
-            return Some(self.orbit_phase(&law, now.ephemeris, &now.settings.hardware));
+            let hardware = &now.settings.hardware;
+            let attitude = self.periapses.attitude(&law, hardware.default_downlink, now.ephemeris);
+            return Some(orbit_phase_solution(&attitude, &law, now.ephemeris, hardware));
         }
         let progress = PointingProgress {
-            scan: self.scan.map(|(_, since_s)| ScanTime {
-                elapsed_s: now.time_s - since_s,
-                tolerance_s: 4.0 * spacing(now.time_s),
-            }),
-            limb_elapsed_s: self.limb.map_or(0.0, |(_, since_s)| now.time_s - since_s),
-            downlink_sun: self.sun_place().filter(|_| !now.sun_is_placed),
+            scan: self.timers.scan_time(now.time_s),
+            limb_elapsed_s: self.timers.limb_elapsed_s(now.time_s),
+            downlink_sun: self.sun_direction().filter(|_| !now.sun_is_placed),
             requested: now.requested_sun.0,
             burn: self.burn.pointing(&now.settings.burn),
         };
         pointing_solution(command, &now.settings.hardware, now.ephemeris, &progress)
     }
-
-    /// The orbit phase's attitude as vectors: axes and targets of its science where those are its law, else +Z at where it looks,
-    /// -Y rolled to where it is.
-    fn orbit_phase(
-        &mut self,
-        law: &Guided,
-        ephemeris: &EphemerisAtTime,
-        hardware: &GuidanceHardware<'_>,
-    ) -> PointingSolution {
-        let attitude = self.periapses.attitude(law, hardware.default_downlink, ephemeris);
-        let pointing = Pointing::of(&attitude.frame);
-        let is_downlink = attitude.window.activity == Activity::Downlink && !attitude.slewing;
-        let keeps_nadir = attitude.window.activity == Activity::Science && law.science.unloads();
-        let earth_body = || value(&pointing.to_body(&ephemeris.to_earth()));
-        // The zone exchanges the vectors of the targets themselves.
-        let aligned = match law.science {
-            ScienceRule::Aligned { axes, .. } if attitude.window.activity == Activity::Science => {
-                aligned_vectors(&axes, ephemeris).filter(|_| !attitude.slewing)
-            }
-            _ => None,
-        };
-        PointingSolution {
-            second: keeps_nadir.then(|| ephemeris.to_planet()),
-            antenna: (is_downlink && !law.requested.alternate)
-                .then(|| Beam::AtTheEarth(hardware.antennas.toward(&earth_body()))),
-            downlink: DownlinkStatus::of(&attitude),
-            reachable: !attitude.slewing
-                && (is_downlink || attitude.margins.iter().all(|margin| *margin >= 0.0)),
-            ..PointingSolution::at(aligned.unwrap_or_else(|| pointing.vectors()))
-        }
-    }
-
-    /// A command without an attitude of its own: the attitude reached is held by the rate.
-    fn set_rate_command(
-        &mut self,
-        kind: CommandKind,
-        error: [f64; 4],
-        rate_body_rad_s: Vector3<f64>,
-        time_s: f64,
-    ) {
-        self.command = self.command.followed_by_rate(kind, error, rate_body_rad_s, time_s);
-        self.status = CommandStatus::NOTHING;
-    }
-}
-
-/// The windows, of which shares of the period follow the orbit that the spacecraft is on.
-fn in_present_orbit(windows: &Schedule, ephemeris: &EphemerisAtTime) -> Schedule {
-    if windows.period_shares == [None; 2] {
-        return *windows;
-    }
-    ellipse_of(ephemeris).map_or(*windows, |orbit| Schedule {
-        period_s: windows.period_s,
-        ..windows.in_orbit(orbit.period_s())
-    })
-}
-
-/// A command that continues after its end: its scans do not.
-fn without_scans(command: &PointingCommand) -> PointingCommand {
-    let limb = LimbCommand { height_rate_m_s: 0.0, ..command.limb };
-    PointingCommand { scan: ScanCommand::default(), limb, ..*command }
-}
-
-/// The next whole second after a sample at `time_s`; a time within rounding of a whole second counts as it.
-fn next_whole_s(time_s: f64) -> f64 {
-    let tolerance_s = 4.0 * spacing(time_s);
-    (time_s + tolerance_s).floor() + SAMPLE_INTERVAL_S
 }

@@ -36,9 +36,9 @@ pub const SUN_SEARCH_DURATION_S: f64 = core::f64::consts::TAU / SUN_SEARCH_RATE_
 /// Parameters of the modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModeSettings {
-    /// What holds in Operational.
+    /// Constraints in Operational.
     pub operational: Constraints,
-    /// What holds in Safe Hold.
+    /// Constraints in Safe Hold.
     pub safe_hold: Constraints,
     /// `None` is off.
     pub monitor: Option<Monitor>,
@@ -56,7 +56,7 @@ pub struct ModeSettings {
     pub sun_search_duration_s: f64,
 }
 
-/// What a sample knows.
+/// Measurements and requests at a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sensed {
     /// Time of the sample, in s.
@@ -71,7 +71,7 @@ pub struct Sensed {
     pub sun_body: Option<Vector3<f64>>,
 }
 
-/// What the mode makes of a sample.
+/// Steering that a mode takes at a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Steering {
     /// An attitude within these constraints.
@@ -100,7 +100,7 @@ pub struct ModeState {
     pub search_since_s: Option<f64>,
     /// Constraint monitor.
     pub monitor: MonitorState,
-    /// Of the precise ephemerides.
+    /// Trust in the precise ephemerides.
     pub ephemeris: EphemerisTrust,
 }
 
@@ -110,8 +110,8 @@ impl ModeState {
         self.last_request = None;
     }
 
-    /// Takes a sample: changes the mode, and says how to steer in it. `None` where no boresight has a direction.
-    /// While no place is known nothing is judged.
+    /// Changes the mode by a sample and returns the steering in it; `None` where no boresight has a direction.
+    /// While positions are unknown no constraint is judged.
     pub fn sample(
         &mut self,
         settings: &ModeSettings,
@@ -135,7 +135,7 @@ impl ModeState {
         })
     }
 
-    /// Where everything is by the ephemerides that the mode goes by.
+    /// Positions by the ephemerides that the mode uses.
     pub fn ephemeris_in_mode<'p>(&self, positions: &'p BodyPositions) -> Option<&'p EphemerisAtTime> {
         positions.in_mode(self.mode, &self.ephemeris)
     }

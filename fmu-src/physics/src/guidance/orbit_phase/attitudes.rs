@@ -7,7 +7,9 @@ use crate::attitude::{MovingFrame, MovingUnit, SunAngles, angle_between_rad, dir
 use crate::environment::CartesianState;
 use crate::guidance::constraints::keep_in::{KeepIn, within_zone};
 use crate::guidance::downlink::default_downlink::{DefaultDownlink, EarthBoresight};
-use crate::guidance::downlink::sun_place::{self, DownlinkRequest, SunPlace, SunZone, both_solutions};
+use crate::guidance::downlink::sun_direction::{
+    self, DownlinkRequest, DownlinkSunDirection, SunZone, both_solutions,
+};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{Moving, direction, fixed, moving, state, value};
 use crate::guidance::pointing::aligned::aligned_vectors;
@@ -32,10 +34,10 @@ pub struct LinesOfSight {
 }
 
 impl LinesOfSight {
-    /// Those to these places and motions from the spacecraft; a body at zero distance counts as lying toward +X.
+    /// Directions to bodies with these positions and velocities from the spacecraft; a body at zero distance counts as lying toward +X.
     pub fn to([sun, earth]: [&CartesianState; 2], planet: Option<&CartesianState>) -> Self {
         let unit = |to: &CartesianState| {
-            MovingUnit::of(to.position_m, to.velocity_m_s)
+            MovingUnit::from_vector(to.position_m, to.velocity_m_s)
                 .unwrap_or(MovingUnit { direction: Vector3::x(), rate_1_s: Vector3::zeros() })
         };
         Self { sun: unit(sun), planet: planet.map(unit), earth: unit(earth), sun_from_planet: None }
@@ -91,7 +93,7 @@ pub enum ScienceRule {
     PlanetOrbit,
     /// Off-pointed to unload momentum ([`unloading`]).
     Unloading {
-        /// Where the Sun stands in the body frame during the present science, and during the slew out of it.
+        /// Direction of the Sun in the body frame during the present science, and during the slew out of it.
         sun: SunAngles,
         /// The camera's gimbal that keeps nadir.
         gimbal: Gimbal,
@@ -106,17 +108,17 @@ pub enum ScienceRule {
 }
 
 impl ScienceRule {
-    /// Whether the Sun's place is chosen by the momentum.
+    /// Whether momentum management selects the Sun's direction.
     pub fn unloads(&self) -> bool {
         matches!(self, Self::Unloading { .. })
     }
 
-    /// Whether it reads motions about the orbit's centre beside directions.
+    /// Whether it reads motions about the orbit's centre as well as directions.
     pub fn reads_motion(&self) -> bool {
         matches!(self, Self::Aligned { .. })
     }
 
-    /// The same with the Sun there, where it has a place of its own.
+    /// Rule with the Sun in this direction, where it has a direction of its own.
     #[must_use]
     pub fn with_sun(self, sun: SunAngles) -> Self {
         match self {
@@ -261,9 +263,9 @@ fn aligned(
 /// Paper 004's attitude; without a planet that moves about the Sun, [`sun_pointing`].
 fn planet_orbit(lines: &LinesOfSight) -> AttitudeCommand {
     let frame = lines.sun_from_planet.as_ref().and_then(|sun| {
-        let toward = MovingUnit::of(sun.position_m, sun.velocity_m_s)?;
+        let toward = MovingUnit::from_vector(sun.position_m, sun.velocity_m_s)?;
         // The normal stands still as long as the Sun alone moves the planet.
-        let north = MovingUnit::of(sun.position_m.cross(&sun.velocity_m_s), Vector3::zeros())?;
+        let north = MovingUnit::from_vector(sun.position_m.cross(&sun.velocity_m_s), Vector3::zeros())?;
         Some(MovingFrame::from_yz(&opposite(&toward), &opposite(&north)))
     });
     frame.map_or_else(|| sun_pointing(lines), |frame| AttitudeCommand::new(frame, NO_MARGINS))
@@ -293,14 +295,14 @@ pub fn downlink(lines: &LinesOfSight, law: &DefaultDownlink) -> AttitudeCommand 
     if normal.norm() < 1e-9 {
         return sun_pointing(lines);
     }
-    match MovingUnit::of(normal, normal_rate) {
+    match MovingUnit::from_vector(normal, normal_rate) {
         Some(z) => AttitudeCommand::new(MovingFrame::from_yz(&opposite(sun), &z), margins),
         None => sun_pointing(lines),
     }
 }
 
 /// Downlink attitude with the Sun off -Y (eqs 19 to 22): the Sun at `place`, the Earth in the XY plane on that side of it.
-pub fn downlink_toward(lines: &LinesOfSight, place: &SunPlace) -> AttitudeCommand {
+pub fn downlink_toward(lines: &LinesOfSight, place: &DownlinkSunDirection) -> AttitudeCommand {
     let [to_sun, to_earth] = [&lines.sun, &lines.earth].map(|to| moving(to.direction, to.rate_1_s));
     let Some(solutions) = both_solutions(&to_sun, &to_earth, place.angles) else {
         return sun_pointing(lines);
@@ -326,7 +328,7 @@ pub fn downlink_toward(lines: &LinesOfSight, place: &SunPlace) -> AttitudeComman
 pub fn downlink_with(lines: &LinesOfSight, sun: SunAngles, antennas: &Antennas) -> AttitudeCommand {
     let [to_sun, to_earth] = [&lines.sun, &lines.earth].map(|to| moving(to.direction, to.rate_1_s));
     let request = DownlinkRequest { sun_body: sun, ..DownlinkRequest::default() };
-    let found = sun_place::downlink(&to_sun, &to_earth, antennas, &request);
+    let found = sun_direction::downlink(&to_sun, &to_earth, antennas, &request);
     let Some((found, pointing)) = found.and_then(|found| Some((found, found.vectors.pointing()?))) else {
         return sun_pointing(lines);
     };

@@ -11,7 +11,7 @@ use super::schedule::{Activity, Schedule, Window};
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::constraints::slew::{Slew, SlewStart};
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
-use crate::guidance::downlink::sun_place::{SunPlace, SunRequest};
+use crate::guidance::downlink::sun_direction::{DownlinkSunDirection, SunRequest};
 
 /// The guidance law of the orbital phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,11 +26,11 @@ pub struct Guided {
     pub slew_rate_rad_s: f64,
     /// Zone that turns do not leave where it holds both ends; `None`: they go about one axis.
     pub keep_in: Option<KeepIn>,
-    /// Where the Sun stands during the present downlink, and during the slew out of it; `None`: on -Y.
-    pub sun_place: Option<SunPlace>,
-    /// Where downlinks are to have the Sun where no such place is chosen, and whether they are turned about the Sun line.
+    /// Direction of the Sun during the present downlink, and during the slew out of it; `None`: on -Y.
+    pub sun_direction: Option<DownlinkSunDirection>,
+    /// Requested direction of the Sun in downlinks without a selected one, and whether they are turned about the Sun line.
     pub requested: SunRequest,
-    /// Whether that place is chosen anew where a downlink begins, and that of science where it unloads.
+    /// Whether that direction is selected anew where a downlink begins, and that of science where it unloads.
     pub managed: bool,
 }
 
@@ -39,7 +39,7 @@ pub struct Guided {
 pub struct GuidedAttitude {
     /// Body frame and rate.
     pub frame: MovingFrame,
-    /// What the spacecraft is doing, and since when.
+    /// Present window: the activity, its begin and its end.
     pub window: Window,
     /// The timeline's command, from 1, whose window it is; 0 of none.
     pub row: usize,
@@ -58,7 +58,7 @@ pub struct GuidedAttitude {
     pub until_s: f64,
 }
 
-/// What is reported of a downlink.
+/// Status of a downlink, as the outputs report it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DownlinkStatus {
     /// Whether one lasts, the turn to it done.
@@ -68,18 +68,22 @@ pub struct DownlinkStatus {
 }
 
 impl DownlinkStatus {
-    /// Of what guidance commands.
-    pub fn of(guided: &GuidedAttitude) -> Self {
+    /// Status of the downlink in a guided attitude.
+    pub fn from_attitude(guided: &GuidedAttitude) -> Self {
         let active = guided.window.activity == Activity::Downlink && !guided.slewing;
         Self { active, clamped: active && guided.clamped }
     }
 }
 
 impl Guided {
-    /// The same with the Sun at these places in downlink and in science that unloads; `None`: on -Y.
+    /// Returns the law with these directions of the Sun in downlink and in science that unloads; `None`: on -Y.
     #[must_use]
-    pub fn with_sun_places(self, sun_place: Option<SunPlace>, science: Option<SunAngles>) -> Self {
-        Self { sun_place, science: self.science.with_sun(science.unwrap_or_default()), ..self }
+    pub fn with_sun_directions(
+        self,
+        sun_direction: Option<DownlinkSunDirection>,
+        science: Option<SunAngles>,
+    ) -> Self {
+        Self { sun_direction, science: self.science.with_sun(science.unwrap_or_default()), ..self }
     }
 
     /// Attitude at `time_s` (time scale of the schedule) with the antennas of this default downlink. `sight_at` gives what
@@ -160,7 +164,7 @@ impl Guided {
         default_downlink: &DefaultDownlink,
     ) -> f64 {
         let gain = match (activity, self.science) {
-            (Activity::Downlink, _) if self.sun_place.is_none() && default_downlink.moves_the_sun() => {
+            (Activity::Downlink, _) if self.sun_direction.is_none() && default_downlink.moves_the_sun() => {
                 return 2.0 * (lines.earth.rate_1_s.norm() + lines.sun.rate_1_s.norm());
             }
             (Activity::Downlink, _) | (Activity::Science, ScienceRule::Unloading { .. }) => return 0.0,
@@ -187,7 +191,7 @@ impl Guided {
             Activity::Downlink => {
                 let lines = &sight.lines();
                 let SunRequest { sun, alternate, .. } = self.requested;
-                let command = match &self.sun_place {
+                let command = match &self.sun_direction {
                     Some(place) => downlink_toward(lines, place),
                     None if sun != SunAngles::default() => {
                         downlink_with(lines, sun, default_downlink.antennas())

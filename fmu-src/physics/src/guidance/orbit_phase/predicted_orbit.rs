@@ -31,12 +31,12 @@ struct PredictedBody {
 
 impl<'a> PredictedOrbit<'a> {
     /// From where everything is now; `None` where the spacecraft is on no ellipse about the planet.
-    pub fn of(present: &'a EphemerisAtTime) -> Option<Self> {
+    pub fn new(present: &'a EphemerisAtTime) -> Option<Self> {
         Some(Self {
             present,
             spacecraft: ellipse_of(present)?,
-            planet_from_sun: PredictedBody::of(state(&-present.sun), present.epoch_s),
-            earth_from_sun: PredictedBody::of(state(&(present.earth - present.sun)), present.epoch_s),
+            planet_from_sun: PredictedBody::new(state(&-present.sun), present.epoch_s),
+            earth_from_sun: PredictedBody::new(state(&(present.earth - present.sun)), present.epoch_s),
         })
     }
 
@@ -56,7 +56,7 @@ impl<'a> PredictedOrbit<'a> {
 }
 
 impl PredictedBody {
-    fn of(state: CartesianState, epoch_s: f64) -> Self {
+    fn new(state: CartesianState, epoch_s: f64) -> Self {
         let ellipse = TwoBodyOrbit::from_state(&state, GM_SUN_M3_S2, epoch_s).ok();
         Self { epoch_s, state, ellipse: ellipse.filter(|orbit| orbit.period_s().is_finite()) }
     }

@@ -5,7 +5,7 @@
 
 use crate::numerics::spacing::spacing;
 
-/// What the spacecraft is doing.
+/// Activity of an orbiter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Activity {
     /// Instruments look at the planet.
@@ -25,7 +25,7 @@ pub struct Schedule {
     pub downlink_start_s: f64,
     /// End of downlink, in s after periapsis.
     pub downlink_end_s: f64,
-    /// Begin and end as shares of the period, where they are given so: they follow it.
+    /// Begin and end as fractions of the period, where they are given so: they follow it.
     pub period_shares: [Option<f64>; 2],
     /// A window after every how many periapses; 0 = never.
     pub every: u32,
@@ -41,7 +41,7 @@ pub enum NoCycle {
     /// No window is ever open.
     #[error("no downlink")]
     Never,
-    /// Nothing else is done.
+    /// Downlink fills the whole orbit.
     #[error("downlink throughout")]
     Throughout,
     /// A window is still open when the next one begins.
@@ -55,7 +55,7 @@ pub enum NoCycle {
 /// The activity at a time, when it began and when it ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
-    /// What is being done.
+    /// Activity of the window.
     pub activity: Activity,
     /// Since when, in the schedule's time scale; minus infinity where it never changes.
     pub since_s: f64,
@@ -101,7 +101,7 @@ impl Schedule {
         } else if time_s >= start_of(cycle + 1.0) {
             cycle += 1.0;
         }
-        Window::of(start_of(cycle), length_s, start_of(cycle + 1.0), time_s)
+        Window::new(start_of(cycle), length_s, start_of(cycle + 1.0), time_s)
     }
 
     /// Length of a cycle of science and downlink, in s; infinite where none follows.
@@ -131,7 +131,7 @@ impl Schedule {
         }
     }
 
-    /// The same windows, one of which begins at `time_s`.
+    /// Returns the same windows, moved so that one begins at `time_s`.
     pub fn begun_at(&self, time_s: f64) -> Self {
         // Rounding must not put the begin after it.
         let begin_s = time_s - 4.0 * spacing(time_s.abs().max(self.downlink_start_s));
@@ -152,7 +152,7 @@ impl Schedule {
         let last_s = starts_s().filter(|start_s| *start_s <= time_s).reduce(f64::max);
         let next_s = starts_s().filter(|start_s| *start_s > time_s).fold(f64::INFINITY, f64::min);
         last_s.map_or(Window { until_s: next_s, ..Window::NEVER }, |start_s| {
-            Window::of(start_s, length_s, next_s, time_s)
+            Window::new(start_s, length_s, next_s, time_s)
         })
     }
 }
@@ -163,7 +163,7 @@ impl Window {
         Self { activity: Activity::Science, since_s: f64::NEG_INFINITY, until_s: f64::INFINITY };
 
     /// The window at `time_s` when the last downlink began at `start_s` and the next one begins at `next_s`.
-    fn of(start_s: f64, length_s: f64, next_s: f64, time_s: f64) -> Self {
+    fn new(start_s: f64, length_s: f64, next_s: f64, time_s: f64) -> Self {
         let end_s = start_s + length_s;
         if time_s < end_s {
             Self { activity: Activity::Downlink, since_s: start_s, until_s: end_s.min(next_s) }

@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::command::{AimpointCommand, AimpointOption, AzimuthReference};
+use super::command::{AimpointCommand, AimpointOption};
 use crate::bodies::Body;
 use crate::environment::frames::ecliptic_north;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::{SubsolarMethod, optimal_lighting_m, subsolar_m};
-use crate::guidance::geometry::lvlh::lvlh_direction;
+use crate::guidance::geometry::lvlh::{AzimuthReference, lvlh_direction};
 use crate::guidance::geometry::moving::{MovingVector, fixed, moving, spherical, value};
 use crate::guidance::geometry::planet_point::{geographic_m, planet_fixed};
 
@@ -29,7 +29,7 @@ pub enum AimpointKind {
 pub struct Aimpoint {
     /// From the spacecraft, EME2000: a direction of any length, or m to a point. Never zero, never NaN.
     pub toward: MovingVector,
-    /// What it is.
+    /// Kind of the aimpoint.
     pub kind: AimpointKind,
     /// Whether it is what was requested, and no substitute.
     pub reachable: bool,

@@ -20,7 +20,7 @@ pub struct Antennas {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AntennaRow(pub u16);
 
-/// Where an antenna looks.
+/// Azimuth of an antenna's boresight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AntennaAzimuth {
     /// The antenna; `None`: there is none.
@@ -31,7 +31,7 @@ pub struct AntennaAzimuth {
     pub outside_rad: f64,
 }
 
-/// What an antenna's beam is for.
+/// Aim of an antenna's beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Beam {
     /// The Earth, wherever constraints leave it.
@@ -41,8 +41,8 @@ pub enum Beam {
 }
 
 impl Antennas {
-    /// Those of a spacecraft.
-    pub fn of(antennas: &[NamedAntenna]) -> Self {
+    /// Antennas of a spacecraft, in the order of its file.
+    pub fn new(antennas: &[NamedAntenna]) -> Self {
         Self { list: antennas.iter().map(|named| named.antenna).collect() }
     }
 
@@ -70,7 +70,7 @@ impl Antennas {
         self.fans().next().is_some()
     }
 
-    /// That of a row.
+    /// Antenna of a row.
     pub fn get(&self, AntennaRow(row): AntennaRow) -> Option<&Antenna> {
         self.list.get(usize::from(row))
     }
@@ -81,7 +81,7 @@ impl Antennas {
         fan.map_or(f64::INFINITY, |fan| fan.half_rad - wrapped_rad(azimuth_rad - fan.middle_rad).abs())
     }
 
-    /// Of the fan nearest to an azimuth; midway between two bounds, and of two with one bound, that of the first.
+    /// Azimuth of the fan nearest to an azimuth; midway between two bounds, and of two with one bound, that of the first.
     pub fn nearest_fan(&self, azimuth_rad: f64) -> AntennaAzimuth {
         let none = AntennaAzimuth { antenna: None, azimuth_rad, outside_rad: f64::INFINITY };
         let nearer = |best: AntennaAzimuth, next: AntennaAzimuth| {
@@ -90,9 +90,9 @@ impl Antennas {
         self.fans().map(|(row, fan)| fan_at(row, &fan, azimuth_rad)).fold(none, nearer)
     }
 
-    /// Of the antenna nearest to a body-frame direction: a fan, unless one along an axis is nearer.
+    /// Azimuth of the antenna nearest to a body-frame direction: a fan, unless one along an axis is nearer.
     pub fn toward(&self, direction_body: &Vector3<f64>) -> AntennaAzimuth {
-        let fan = self.nearest_fan(SunAngles::of(direction_body).azimuth_rad);
+        let fan = self.nearest_fan(SunAngles::from_direction(direction_body).azimuth_rad);
         let nearest = self.nearest_axis(&fan, direction_body, 0.0);
         nearest.map_or(fan, |(row, axis_body)| AntennaAzimuth::fixed(row, &axis_body))
     }
@@ -116,10 +116,10 @@ impl Antennas {
         nearest.1
     }
 
-    /// Where the beam looks after a constraint moved it off the Earth: a fan follows it.
+    /// Azimuth of the beam after a constraint moved it off the Earth: a fan follows it.
     pub fn following(&self, beam: AntennaAzimuth, earth_body: &Vector3<f64>) -> AntennaAzimuth {
         let is_fixed = beam.antenna.is_some_and(|row| self.axes().any(|(other, _)| other == row));
-        if is_fixed { beam } else { self.nearest_fan(SunAngles::of(earth_body).azimuth_rad) }
+        if is_fixed { beam } else { self.nearest_fan(SunAngles::from_direction(earth_body).azimuth_rad) }
     }
 
     /// Whether a beam covers a body-frame direction, `across_rad` being half its width across the XY plane where that is given. A
@@ -137,7 +137,7 @@ impl Antennas {
         let along_rad = 0.5 * antenna.along_rad;
         match antenna.range {
             AntennaRange::Fan(fan) => {
-                let SunAngles { azimuth_rad, elevation_rad } = SunAngles::of(direction_body);
+                let SunAngles { azimuth_rad, elevation_rad } = SunAngles::from_direction(direction_body);
                 let reach_rad = across_rad + BOUND_RAD;
                 elevation_rad.abs() <= reach_rad
                     && beam.off_rad(azimuth_rad) <= along_rad
@@ -172,12 +172,16 @@ fn fan_at(row: AntennaRow, fan: &FanAzimuths, azimuth_rad: f64) -> AntennaAzimut
 }
 
 impl AntennaAzimuth {
-    /// Of an antenna along an axis.
+    /// Azimuth of an antenna along an axis.
     pub fn fixed(row: AntennaRow, axis_body: &Vector3<f64>) -> Self {
-        Self { antenna: Some(row), azimuth_rad: SunAngles::of(axis_body).azimuth_rad, outside_rad: 0.0 }
+        Self {
+            antenna: Some(row),
+            azimuth_rad: SunAngles::from_direction(axis_body).azimuth_rad,
+            outside_rad: 0.0,
+        }
     }
 
-    /// Where that azimuth is in the XY plane, body frame.
+    /// Unit vector of the azimuth in the XY plane, body frame.
     pub fn direction_body(&self) -> Vector3<f64> {
         direction_from_angles(SunAngles { azimuth_rad: self.azimuth_rad, elevation_rad: 0.0 })
     }

@@ -42,8 +42,8 @@ pub struct DeviceAngle {
 }
 
 impl Gimbal {
-    /// Of the instrument that has one; `None` without.
-    pub fn of(instruments: &[Instrument]) -> Option<Self> {
+    /// Gimbal of the instrument that has one; `None` without.
+    pub fn from_instruments(instruments: &[Instrument]) -> Option<Self> {
         instruments.iter().find_map(|instrument| {
             let mount = instrument.gimbal?;
             Some(Self {
@@ -98,20 +98,20 @@ pub struct Boresight {
 
 impl Boresight {
     /// A boresight without a device.
-    pub fn of(body: Vector3<f64>) -> Self {
+    pub fn fixed(body: Vector3<f64>) -> Self {
         Self { body: fixed(body), gimbal: None, antenna: None }
     }
 
     /// The instrument on the gimbal at the angle nearest to `angle_rad`.
     pub fn gimbal(angle_rad: f64, gimbal: &Gimbal) -> Self {
         let angle = gimbal.nearest(angle_rad);
-        Self { gimbal: Some(angle), ..Self::of(gimbal.boresight(angle.angle_rad)) }
+        Self { gimbal: Some(angle), ..Self::fixed(gimbal.boresight(angle.angle_rad)) }
     }
 
     /// The fan at the azimuth nearest to `azimuth_rad`; `None` without a fan.
     pub fn antenna(azimuth_rad: f64, antennas: &Antennas) -> Option<Self> {
         let antenna = antennas.nearest_fan(azimuth_rad);
-        antenna.antenna.map(|_| Self { antenna: Some(antenna), ..Self::of(antenna.direction_body()) })
+        antenna.antenna.map(|_| Self { antenna: Some(antenna), ..Self::fixed(antenna.direction_body()) })
     }
 }
 
@@ -122,8 +122,8 @@ pub fn boresight(
     antennas: &Antennas,
 ) -> Option<Boresight> {
     Some(match command.option? {
-        BoresightOption::Vector => Boresight::of(command.vector),
-        BoresightOption::AzimuthElevation => Boresight::of(direction_from_angles(SunAngles {
+        BoresightOption::Vector => Boresight::fixed(command.vector),
+        BoresightOption::AzimuthElevation => Boresight::fixed(direction_from_angles(SunAngles {
             azimuth_rad: command.azimuth_rad,
             elevation_rad: command.elevation_rad,
         })),

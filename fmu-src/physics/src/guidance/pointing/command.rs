@@ -1,4 +1,4 @@
-//! What can be commanded: options of the four vectors (paper 001, Tables 1 to 4), scenarios (Table 5), limb and scan.
+//! Commands of pointing: options of the four vectors (paper 001, Tables 1 to 4), scenarios (Table 5), limb and scan.
 //!
 //! A command holds every number any option reads; an option reads its own and no other. Options and scenarios that are
 //! `None` are not commanded. Angles in rad, lengths in m, body-frame angles as in [`crate::attitude::SunAngles`]. In a file
@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bodies::Body;
 use crate::enumeration::enumeration;
+use crate::guidance::geometry::lvlh::AzimuthReference;
 
 /// Greatest azimuth, longitude or right ascension either way, in rad.
 pub const FULL_TURN_RAD: f64 = core::f64::consts::TAU;
@@ -157,20 +158,6 @@ enumeration! {
 }
 
 enumeration! {
-    /// From which horizontal direction an azimuth about the local vertical counts.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-    #[serde(rename_all = "camelCase")]
-    pub enum AzimuthReference {
-        /// The horizontal part of the velocity.
-        #[default]
-        1 => Downtrack,
-        /// The horizontal part of the direction from the planet to the Sun.
-        2 => Sun,
-    }
-}
-
-enumeration! {
     /// Frame of a scan.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -229,7 +216,7 @@ commands! {
 
     /// An aimpoint.
     pub struct AimpointCommand {
-        /// What it is.
+        /// Kind of aimpoint.
         pub option: Option<AimpointOption>,
         /// EME2000 direction, of any length.
         pub vector: Vector3<f64>,
@@ -279,7 +266,7 @@ commands! {
         pub declination_rad: f64,
     }
 
-    /// Where at the limb, and how it is scanned.
+    /// Point at the limb and its scan.
     pub struct LimbCommand {
         /// Azimuth about the local vertical, right-handed about up.
         pub azimuth_rad: f64,
@@ -312,10 +299,10 @@ commands! {
     }
 }
 
-/// Everything that says where to point.
+/// Pointing command of all scenarios and options.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PointingCommand {
-    /// What is done.
+    /// Scenario; `None` commands nothing.
     pub scenario: Option<Scenario>,
     /// Boresight.
     pub boresight: BoresightCommand,
@@ -347,5 +334,12 @@ impl PointingCommand {
             limb: self.limb.over(&planned.limb),
             scan: self.scan.over(&planned.scan),
         }
+    }
+
+    /// Returns the command as it continues after its end: without its scans.
+    #[must_use]
+    pub fn without_scans(&self) -> Self {
+        let limb = LimbCommand { height_rate_m_s: 0.0, ..self.limb };
+        Self { scan: ScanCommand::default(), limb, ..*self }
     }
 }

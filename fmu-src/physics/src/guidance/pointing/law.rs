@@ -16,7 +16,7 @@ use crate::guidance::geometry::moving::{
 };
 use crate::numerics::scalar::sin_cos;
 
-/// What paper 001 aims: two vectors in the body frame, two in EME2000, of any length, with their rates.
+/// Vectors that paper 001 aims: two vectors in the body frame, two in EME2000, of any length, with their rates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointingVectors {
     /// B: the body axis that points at the aimpoint.
@@ -53,8 +53,8 @@ impl PointingVectors {
 }
 
 impl Pointing {
-    /// Of a body frame in motion.
-    pub fn of(frame: &MovingFrame) -> Self {
+    /// Attitude and rate of a body frame in motion.
+    pub fn from_frame(frame: &MovingFrame) -> Self {
         let axes = frame.inertial_from_body.matrix();
         let rates = axes * frame.rate_body_rad_s.cross_matrix();
         Self { inertial_from_body: axes.zip_map(&rates, Moving::new), degenerate: false }

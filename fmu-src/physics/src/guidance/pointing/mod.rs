@@ -8,6 +8,3 @@ pub mod command;
 pub mod law;
 pub mod roll;
 pub mod scan;
-pub mod scenario;
-#[cfg(test)]
-pub(crate) mod scenario_tests;

@@ -43,7 +43,7 @@ mod tests {
     //! Each option is the vector its name says.
     use super::*;
     use crate::guidance::geometry::moving::value;
-    use crate::guidance::geometry::test_orbit::TestOrbit;
+    use crate::guidance::tests::orbit::TestOrbit;
     use approx::assert_relative_eq;
     use core::f64::consts::FRAC_PI_2;
 

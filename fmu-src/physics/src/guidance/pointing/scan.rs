@@ -16,7 +16,7 @@ use crate::guidance::geometry::lvlh::lvlh_axes;
 use crate::guidance::geometry::moving::{Moving, MovingMatrix, MovingVector, rotation_about};
 use crate::numerics::spacing::spacing;
 
-/// Which scan frames go with which kind of aimpoint. The paper prints no matrix; the default is an assumption.
+/// Scan frames allowed for each kind of aimpoint. The paper prints no matrix; the default is an assumption.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ScanCompatibility {
     /// By [`ScanFrame`], then by [`AimpointKind`].
@@ -48,7 +48,7 @@ impl ScanCompatibility {
     }
 }
 
-/// What a scan moves.
+/// Boresight and aimpoint under a scan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scanned {
     /// The boresight, body frame.
@@ -62,7 +62,7 @@ pub struct Scanned {
 pub struct ScanTime {
     /// Since it began, in s.
     pub elapsed_s: f64,
-    /// What the two times are rounded to that it is the difference of, in s: a corner so near counts as reached.
+    /// Rounding of the two times whose difference it is, in s: a corner so near counts as reached.
     pub tolerance_s: f64,
 }
 
@@ -95,7 +95,7 @@ pub fn scanned(
     Aimpoint::new(moved.toward, aimpoint.kind).is_some().then_some(moved)
 }
 
-/// Where one axis is, and its rate: `speed` per second in each motion.
+/// Offset of one axis and its rate: `speed` per second in each motion.
 pub fn axis_offset(command: &ScanCommand, axis: usize, speed: f64, time: ScanTime) -> Moving {
     let elapsed_s = time.elapsed_s;
     let tolerance_s = time.tolerance_s + 4.0 * spacing(elapsed_s);

@@ -126,7 +126,7 @@ impl Timeline {
         &self.panels
     }
 
-    /// What happens at one time, in the order of the times.
+    /// Events, each at one time, in the order of the times.
     pub fn events(&self) -> &Arc<[TimelineEvent]> {
         &self.events
     }
@@ -144,12 +144,12 @@ impl Timeline {
         self.entries.get(self.entries.binary_search_by(|entry| entry.at_s.total_cmp(&at_s)).ok()?)
     }
 
-    /// What was in force until `since_s` of the simulation.
+    /// Entry in force until `since_s` of the simulation.
     pub fn slot_before(&self, since_s: f64, clock_minus_time_s: f64) -> Slot<'_> {
         self.slot(since_s.next_down(), clock_minus_time_s)
     }
 
-    /// What is in force at a time of the simulation, in s, the clock being `clock_minus_time_s` ahead of it.
+    /// Returns the entry in force at a time of the simulation, in s, the clock being `clock_minus_time_s` ahead of it.
     pub fn slot(&self, now_s: f64, clock_minus_time_s: f64) -> Slot<'_> {
         let entries = self.entries();
         let time_s = |at_s: f64| simulation_time_s(at_s, clock_minus_time_s);

@@ -8,6 +8,7 @@ use super::description::{
     AimpointDescription, BodyRollDescription, BoresightDescription, CommandDescription,
     ExternalRollDescription, KeepInDescription, LimbDescription,
 };
+use super::devices::{body, check_fan, check_gimbal, instrument};
 use super::entry::{DownlinkOverride, KeepInOverride};
 use super::quantity::{LATITUDE, LENGTH, QUARTER_TURN, Quantity, QuantityKind, SPEED, TURN};
 use super::reads::{
@@ -15,15 +16,13 @@ use super::reads::{
     limb_keys, own_aimpoint, tables,
 };
 use crate::attitude::SunAngles;
-use crate::bodies::Body;
-use crate::enumeration::Enumerated;
 use crate::guidance::modes::mode::Mode;
 use crate::guidance::pointing::command::{
     AimpointCommand, BodyRollCommand, BoresightCommand, BoresightOption, ExternalRollCommand, LimbCommand,
     PointingCommand, Scenario,
 };
 use crate::spacecraft::Spacecraft;
-use crate::toml::{Checker, KeyPath, nearest};
+use crate::toml::{Checker, KeyPath};
 
 const BORESIGHT: &[&str] = &["option", "vector", "azimuth", "elevation", "angle", "instrument"];
 const AIMPOINT: &[&str] = &[
@@ -39,7 +38,7 @@ const AIMPOINT: &[&str] = &[
     "body",
 ];
 
-/// Who reads a timeline.
+/// Model that reads a timeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Reader {
     /// Guidance.
@@ -63,7 +62,7 @@ impl<'d, 'i> Commands<'d, 'i> {
         Self { check, spacecraft, reader, scenario: String::new() }
     }
 
-    /// Where a command points, without its scan.
+    /// Returns the pointing of a command without its scan.
     pub(super) fn pointing(&mut self, at: &KeyPath, given: &CommandDescription) -> PointingCommand {
         let scenario_place = at.key("scenario");
         self.check_reader(at, given);
@@ -87,7 +86,7 @@ impl<'d, 'i> Commands<'d, 'i> {
         self.scenario = named("the scenario", scenario);
         self.check_mode(&scenario_place, scenario, given.mode);
         if matches!(scenario, Scenario::Gimbal | Scenario::DoubleTarget) {
-            self.needs_gimbal(&scenario_place, named("the scenario", scenario));
+            check_gimbal(&mut self.check, self.spacecraft, &scenario_place, named("the scenario", scenario));
         }
         if scenario == Scenario::Downlink && self.spacecraft.antennas.is_empty() {
             let allowed = "a scenario without a downlink: the spacecraft has no antenna ([[antennas]])";
@@ -119,7 +118,7 @@ impl<'d, 'i> Commands<'d, 'i> {
 
     /// Reports what the mode beside it does not follow.
     pub(super) fn check_mode(&mut self, at: &KeyPath, scenario: Scenario, mode: Option<Mode>) {
-        if let Some(mode) = mode.filter(|mode| !follows(*mode, scenario)) {
+        if let Some(mode) = mode.filter(|mode| !mode.follows(scenario)) {
             let allowed = match mode {
                 Mode::SafeHold => "downlink, which alone Safe Hold follows, or no scenario",
                 _ => "no scenario: Earth Acquisition follows none",
@@ -144,7 +143,7 @@ impl<'d, 'i> Commands<'d, 'i> {
         }
     }
 
-    /// Where the Sun stands in a downlink.
+    /// Returns a command's direction of the Sun in a downlink.
     pub(super) fn downlink(&mut self, at: &KeyPath, given: &CommandDescription) -> DownlinkOverride {
         let alternate = given.alternate.unwrap_or_default();
         let (place, is_written) = (at.key("sun"), |it: &Self, key| it.check.is_written(&at.key(key)));
@@ -236,10 +235,10 @@ impl<'d, 'i> Commands<'d, 'i> {
         match (scenario, given.option.filter(|_| !self.check.is_stand_in(&place))) {
             (Scenario::Generic, Some(option)) => {
                 if option == BoresightOption::Gimbal {
-                    self.needs_gimbal(&place, named("the option", option));
+                    check_gimbal(&mut self.check, self.spacecraft, &place, named("the option", option));
                 }
                 if option == BoresightOption::PhasedArray {
-                    self.needs_fan(&place, named("the option", option));
+                    check_fan(&mut self.check, self.spacecraft, &place, named("the option", option));
                 }
                 let read = Keys { optional: &["option"], ..boresight_keys(option) };
                 self.check_option_keys(at, BORESIGHT, read, option);
@@ -253,7 +252,12 @@ impl<'d, 'i> Commands<'d, 'i> {
                 let is_given = ["option", "azimuth"].iter().any(|key| self.check.is_written(&at.key(key)));
                 let read = if is_given { keys(&["option", "azimuth"], &[]) } else { NOTHING };
                 if is_given && !self.spacecraft.antennas.is_empty() {
-                    self.needs_fan(&place, named("the option", BoresightOption::PhasedArray));
+                    check_fan(
+                        &mut self.check,
+                        self.spacecraft,
+                        &place,
+                        named("the option", BoresightOption::PhasedArray),
+                    );
                 }
                 self.check_scenario_keys(at, BORESIGHT, read);
             }
@@ -266,60 +270,16 @@ impl<'d, 'i> Commands<'d, 'i> {
             }
             _ => self.check_scenario_keys(at, BORESIGHT, keys(&[], &["instrument"])),
         }
-        let instrument = given.instrument.as_ref();
+        let named_instrument = given.instrument.as_ref();
         BoresightCommand {
             option: given.option,
             vector: self.direction(&at.key("vector"), given.vector),
             azimuth_rad: self.or_zero(&at.key("azimuth"), &given.azimuth, &TURN),
             elevation_rad: self.or_zero(&at.key("elevation"), &given.elevation, &LATITUDE),
             angle_rad: self.or_zero(&at.key("angle"), &given.angle, &TURN),
-            instrument: instrument.map_or(0, |name| self.instrument(&at.key("instrument"), name)),
+            instrument: named_instrument
+                .map_or(0, |name| instrument(&mut self.check, self.spacecraft, &at.key("instrument"), name)),
         }
-    }
-
-    /// Reports what points the instrument on the gimbal where none has one.
-    fn needs_gimbal(&mut self, at: &KeyPath, found: String) {
-        if !self.spacecraft.instruments.iter().any(|instrument| instrument.gimbal.is_some()) {
-            let allowed =
-                "what needs no gimbal: no instrument of the spacecraft has one ([[instruments]] gimbal)";
-            self.check.report(at, found, allowed);
-        }
-    }
-
-    /// Reports what points an antenna that is steered where none is.
-    fn needs_fan(&mut self, at: &KeyPath, found: String) {
-        if !self.spacecraft.antennas.iter().any(|named| named.antenna.fan().is_some()) {
-            let allowed = "another option, or none in a downlink: no antenna of the spacecraft is steered in the XY plane \
-                           ([[antennas]] azimuth_deg)";
-            self.check.report(at, found, allowed);
-        }
-    }
-
-    /// The number of an instrument given by name or number.
-    fn instrument(&mut self, at: &KeyPath, given: &Quantity) -> u32 {
-        let names: Vec<&str> =
-            self.spacecraft.instruments.iter().map(|instrument| instrument.name.as_str()).collect();
-        let (found, hint) = match given {
-            Quantity::Text(text) => {
-                let found = names.iter().position(|name| name == text).map(|index| index + 1);
-                (found, nearest(text, &names))
-            }
-            Quantity::Number(number) => ((0..=names.len()).find(|index| *index as f64 == *number), None),
-            _ => (None, None),
-        };
-        if found.is_none() {
-            let hint = hint.map(|name| format!(" (did you mean {name:?}?)")).unwrap_or_default();
-            let allowed = if names.is_empty() {
-                "0, which is +Z: the spacecraft has no [[instruments]]".to_owned()
-            } else {
-                format!(
-                    "0 for +Z, or of the spacecraft's [[instruments]] the name or row: {}",
-                    names.join(", ")
-                )
-            };
-            self.check.report(at, format_args!("the unknown instrument {given}{hint}"), allowed);
-        }
-        found.and_then(|index| u32::try_from(index).ok()).unwrap_or_default()
     }
 
     fn aimpoint(&mut self, at: &KeyPath, given: &AimpointDescription, scenario: Scenario) -> AimpointCommand {
@@ -342,18 +302,8 @@ impl<'d, 'i> Commands<'d, 'i> {
             height_m: self.or_zero(&at.key("height"), &given.height, &LENGTH),
             azimuth_rad: self.or_zero(&at.key("azimuth"), &given.azimuth, &TURN),
             elevation_rad: self.or_zero(&at.key("elevation"), &given.elevation, &LATITUDE),
-            body: self.body(&at.key("body"), given.body),
+            body: body(&mut self.check, self.spacecraft, &at.key("body"), given.body),
         }
-    }
-
-    /// A known body, or the one that the spacecraft's file describes.
-    fn body(&mut self, at: &KeyPath, given: Option<Body>) -> Option<Body> {
-        if given == Some(Body::Custom) && self.spacecraft.body.is_none() {
-            let known = Body::ALL.map(Enumerated::name).join(", ");
-            let allowed = format!("{known}, and custom where the spacecraft's file has a table [body]");
-            self.check.report(at, "\"custom\"", allowed);
-        }
-        given
     }
 
     fn body_roll(&mut self, at: &KeyPath, given: &BodyRollDescription) -> BodyRollCommand {
@@ -440,14 +390,5 @@ pub(super) fn named(what: &str, item: impl Serialize) -> String {
     match toml::Value::try_from(item) {
         Ok(toml::Value::String(name)) => format!("{what} {name}"),
         _ => what.to_owned(),
-    }
-}
-
-/// Whether a mode follows a scenario.
-fn follows(mode: Mode, scenario: Scenario) -> bool {
-    match mode {
-        Mode::Operational => true,
-        Mode::SafeHold => scenario == Scenario::Downlink,
-        Mode::EarthAcquisition => false,
     }
 }

@@ -9,10 +9,10 @@ use serde::{Deserialize, Deserializer};
 use super::entry::PlanStatus;
 use super::quantity::Quantity;
 use crate::bodies::Body;
+use crate::guidance::geometry::lvlh::AzimuthReference;
 use crate::guidance::modes::mode::Mode;
 use crate::guidance::pointing::command::{
-    AimpointOption, AzimuthReference, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame,
-    Scenario,
+    AimpointOption, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame, Scenario,
 };
 use crate::spacecraft::{StarDescription, TargetedAxisDescription};
 use crate::toml::tables;

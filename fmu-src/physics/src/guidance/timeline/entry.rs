@@ -1,4 +1,4 @@
-//! What a timeline holds: commands (when, where to point, what else it changes), panels, events.
+//! Contents of a timeline: commands (when, where to point, what else it changes), panels, events.
 
 use nalgebra::Vector3;
 use serde::Deserialize;
@@ -9,7 +9,7 @@ use crate::guidance::burn::delta_v::BurnSettings;
 use crate::guidance::burn::nominal_thrust::NominalThrust;
 use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::guidance::constraints::keep_in::KeepIn;
-use crate::guidance::downlink::sun_place::SunRequest;
+use crate::guidance::downlink::sun_direction::SunRequest;
 use crate::guidance::modes::mode::Mode;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use crate::spacecraft::ThrusterSet;
@@ -65,9 +65,9 @@ pub struct TimelineEntry {
     pub at_s: f64,
     /// When it ends, if that is before the next one begins; at this instant it no longer counts.
     pub until_s: Option<f64>,
-    /// Where to point; without a scenario nothing is commanded.
+    /// Pointing command; without a scenario nothing is commanded.
     pub command: PointingCommand,
-    /// Where the Sun stands in its downlink, where it says so, and whether that is turned about the Sun line.
+    /// Direction of the Sun in its downlink, if it gives one, and whether the attitude is turned about the Sun line.
     pub downlink: DownlinkOverride,
     /// Changes of the Sun keep-in zone while it lasts.
     pub keep_in: KeepInOverride,
@@ -79,7 +79,7 @@ pub struct TimelineEntry {
     pub status: PlanStatus,
 }
 
-/// What is in force over a span of the simulation's time.
+/// Entry in force over a span of the simulation's time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slot<'a> {
     /// The command; `None`: nothing is commanded.
@@ -98,7 +98,7 @@ impl Slot<'_> {
         self.entry.and_then(|entry| entry.command.scenario).filter(|it| *it != Scenario::OrbitPhase)
     }
 
-    /// Where its downlink is to have the Sun, where `requested` by an input says nothing.
+    /// Returns the requested direction of the Sun in its downlink; `requested` by an input goes first.
     pub fn sun_request(&self, requested: SunRequest) -> SunRequest {
         self.entry.map_or(requested, |entry| entry.downlink.under(requested))
     }
@@ -117,7 +117,7 @@ pub struct TimelinePanels {
     pub windmill_rad: f64,
 }
 
-/// What happens at a time: the centre of mass is placed, then the maneuver, then the dump.
+/// Events at one time: the centre of mass is placed, then the maneuver, then the dump.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TimelineEvent {
     /// Line in the file, from 1.
@@ -132,10 +132,10 @@ pub struct TimelineEvent {
     pub center_of_mass_body_m: Option<Vector3<f64>>,
 }
 
-/// Where a dump takes the momentum.
+/// Target of a dump.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TimelineDump {
-    /// Where dumps on request take it.
+    /// Target of dumps on request.
     Requested,
     /// To this momentum, body frame, by the flight's convention, in N m s.
     To {
@@ -155,7 +155,7 @@ pub struct TimelineManeuver {
     pub dumps: Option<bool>,
 }
 
-/// Where the Sun stands in a downlink.
+/// Direction of the Sun in a downlink, as a command gives it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DownlinkOverride {
     /// In the body frame.
@@ -199,7 +199,7 @@ impl TimelineBurn {
 }
 
 impl DownlinkOverride {
-    /// Where the downlink is to have the Sun, where `requested` by an input says nothing.
+    /// Returns the requested direction of the Sun; `requested` by an input goes first.
     pub fn under(&self, requested: SunRequest) -> SunRequest {
         let is_set = requested.sun != SunAngles::default();
         SunRequest {
@@ -210,7 +210,7 @@ impl DownlinkOverride {
     }
 }
 
-/// What takes the place of the Sun keep-in zone's parameters; `None` leaves them.
+/// Replacement of the Sun keep-in zone's parameters; `None` leaves them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct KeepInOverride {
     /// Whether the zone is in force.

@@ -1,4 +1,4 @@
-//! What happens at one time: dumps, impulsive maneuvers, another centre of mass.
+//! Events at one time: dumps, impulsive maneuvers, another centre of mass.
 
 use nalgebra::Vector3;
 

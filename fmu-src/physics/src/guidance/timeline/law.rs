@@ -9,15 +9,15 @@ use super::entry::{TimelineEntry, simulation_time_s};
 use crate::attitude::MovingFrame;
 use crate::bodies::Body;
 use crate::guidance::constraints::keep_in::{KeepIn, within_zone};
-use crate::guidance::downlink::sun_place::{SunPlace, SunRequest};
+use crate::guidance::downlink::sun_direction::{DownlinkSunDirection, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
 use crate::guidance::geometry::moving::value;
 use crate::guidance::pointing::command::{AimpointOption, PointingCommand};
 use crate::guidance::pointing::scan::{ScanTime, next_corner_s};
-use crate::guidance::pointing::scenario::{GuidanceHardware, PointingProgress, pointing_solution};
+use crate::guidance::scenario::{GuidanceHardware, PointingProgress, pointing_solution};
 use crate::numerics::spacing::spacing;
 
-/// What parameters set.
+/// Settings by parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimelineSettings {
     /// The keep-in zone, in force or not.
@@ -80,7 +80,7 @@ impl TimelineLaw<'_> {
         entry: &TimelineEntry,
         time_s: f64,
         ephemeris: &EphemerisAtTime,
-        (chosen, requested): (Option<SunPlace>, SunRequest),
+        (chosen, requested): (Option<DownlinkSunDirection>, SunRequest),
     ) -> Option<TimelineAttitude> {
         let begin_s = simulation_time_s(entry.at_s, settings.clock_minus_time_s);
         let elapsed_s = time_s - begin_s;

@@ -8,6 +8,7 @@ mod build;
 mod burn;
 mod commands;
 mod description;
+mod devices;
 mod entry;
 mod events;
 mod instant;

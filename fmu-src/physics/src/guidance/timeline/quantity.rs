@@ -11,7 +11,7 @@ use crate::guidance::pointing::command::{
     BACK_HALF_TURN_RAD, BACK_TURN_RAD, DOWN_ANGLE_RAD, FULL_TURN_RAD, RIGHT_ANGLE_RAD,
 };
 
-/// What stands in the file.
+/// Quantity as written in the file.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Quantity {
@@ -34,7 +34,7 @@ pub(super) struct QuantityKind {
     name: &'static str,
     /// Names and how much of the SI unit they are.
     units: &'static [(&'static str, f64)],
-    /// Where an angle must lie, in words as well.
+    /// Allowed range of an angle, with its words for messages.
     pub range_rad: Option<(RangeInclusive<f64>, &'static str)>,
 }
 

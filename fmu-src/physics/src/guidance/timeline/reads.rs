@@ -1,4 +1,4 @@
-//! What scenarios and options read: tables of a command and keys of its tables.
+//! Keys that scenarios and options read: tables of a command and keys of its tables.
 
 use crate::guidance::pointing::command::{
     AimpointOption, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame, Scenario,
@@ -7,9 +7,9 @@ use crate::guidance::pointing::command::{
 /// Keys of a table.
 #[derive(Clone, Copy)]
 pub(super) struct Keys {
-    /// Those that have no default.
+    /// Keys without a default.
     pub needed: &'static [&'static str],
-    /// Those that have one.
+    /// Keys with a default.
     pub optional: &'static [&'static str],
 }
 
@@ -62,7 +62,7 @@ pub(super) fn tables(scenario: Scenario) -> Keys {
     }
 }
 
-/// What a scenario always aims at, which may be written.
+/// Fixed aimpoint of a scenario, which may be written.
 pub(super) fn own_aimpoint(scenario: Scenario) -> Option<AimpointOption> {
     match scenario {
         Scenario::Nadir => Some(AimpointOption::Nadir),
@@ -71,7 +71,7 @@ pub(super) fn own_aimpoint(scenario: Scenario) -> Option<AimpointOption> {
     }
 }
 
-/// What a scenario at the limb reads of its table.
+/// Keys that a scenario at the limb reads of its table.
 pub(super) fn limb_keys(scenario: Scenario) -> Keys {
     match scenario {
         Scenario::LimbGeneric => keys(&["azimuth"], &["reference", "height", "heightRate"]),
@@ -79,7 +79,7 @@ pub(super) fn limb_keys(scenario: Scenario) -> Keys {
     }
 }
 
-/// What an option of the boresight reads.
+/// Keys that an option of the boresight reads.
 pub(super) fn boresight_keys(option: BoresightOption) -> Keys {
     match option {
         BoresightOption::Vector => VECTOR,
@@ -89,7 +89,7 @@ pub(super) fn boresight_keys(option: BoresightOption) -> Keys {
     }
 }
 
-/// What an option of an aimpoint reads.
+/// Keys that an option of an aimpoint reads.
 pub(super) fn aimpoint_keys(option: AimpointOption) -> Keys {
     match option {
         AimpointOption::Vector => VECTOR,
@@ -112,7 +112,7 @@ pub(super) fn aimpoint_keys(option: AimpointOption) -> Keys {
     }
 }
 
-/// What an option of the body roll vector reads.
+/// Keys that an option of the body roll vector reads.
 pub(super) fn body_roll_keys(option: BodyRollOption) -> Keys {
     match option {
         BodyRollOption::Vector => VECTOR,
@@ -120,7 +120,7 @@ pub(super) fn body_roll_keys(option: BodyRollOption) -> Keys {
     }
 }
 
-/// What an option of the external roll reference reads.
+/// Keys that an option of the external roll reference reads.
 pub(super) fn external_roll_keys(option: ExternalRollOption) -> Keys {
     match option {
         ExternalRollOption::Vector => VECTOR,
@@ -134,7 +134,7 @@ pub(super) fn external_roll_keys(option: ExternalRollOption) -> Keys {
     }
 }
 
-/// What a scan in a frame reads.
+/// Keys that a scan in a frame reads.
 pub(super) fn scan_keys(frame: ScanFrame) -> Keys {
     match frame {
         ScanFrame::Body | ScanFrame::InertialRotation => {

@@ -78,7 +78,7 @@ fn check_motions(commands: &mut Commands<'_, '_>, at: &KeyPath, given: &ScanDesc
     }
 }
 
-/// What a scenario aims at; `None` where no aimpoint is given.
+/// Kind of the aimpoint of a scenario; `None` where no aimpoint is given.
 fn aimpoint_kind(scenario: Scenario, aimpoint: Option<AimpointOption>) -> Option<AimpointKind> {
     match scenario {
         Scenario::Nadir | Scenario::LimbTerminator | Scenario::LimbGeneric => Some(AimpointKind::PlanetPoint),

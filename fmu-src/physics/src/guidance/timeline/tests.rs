@@ -10,6 +10,7 @@ use crate::bodies::Body;
 use crate::constants::DEG_RAD;
 use crate::enumeration::Enumerated;
 use crate::guidance::burn::velocity_path::VelocityPath;
+use crate::guidance::geometry::lvlh::AzimuthReference;
 use crate::guidance::modes::mode::Mode;
 use crate::guidance::pointing::command::*;
 use crate::spacecraft::{Antenna, AntennaRange, Instrument, MESSENGER_TOML, NamedAntenna, Spacecraft};

@@ -12,7 +12,7 @@ pub(super) struct Times<'c, 'd> {
 }
 
 impl<'c, 'd> Times<'c, 'd> {
-    /// Nothing read yet.
+    /// State before the first time is read.
     pub(super) fn new(check: &'c mut Checker<'d>) -> Self {
         Self { check, clock: None }
     }

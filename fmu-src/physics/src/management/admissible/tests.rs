@@ -32,10 +32,10 @@ fn admissible_places_have_the_earth_in_a_quadrant_and_others_have_not() {
                         assert_eq!(branch.place(angles), None);
                         continue;
                     }
-                    let place = SunPlace { angles, earth_ahead: branch.earth_ahead };
+                    let place = DownlinkSunDirection { angles, earth_ahead: branch.earth_ahead };
                     let frame = downlink_toward(&lines, &place).frame;
                     let earth = frame.inertial_from_body.inverse() * lines.earth.direction;
-                    let azimuth_rad = SunAngles::of(&earth).azimuth_rad;
+                    let azimuth_rad = SunAngles::from_direction(&earth).azimuth_rad;
                     let off_rad = (azimuth_rad - branch.fan.unwrap().middle_rad + PI).rem_euclid(TAU) - PI;
                     if (off_rad.abs() - FRAC_PI_4).abs() < 1e-9 {
                         continue;
@@ -67,10 +67,10 @@ fn while_a_downlink_lasts_the_earth_stays_in_the_quadrant() {
                         if k.abs() > separation_rad.min(PI - separation_rad) {
                             return f64::INFINITY;
                         }
-                        let place = SunPlace { angles, earth_ahead: branch.earth_ahead };
+                        let place = DownlinkSunDirection { angles, earth_ahead: branch.earth_ahead };
                         let frame = downlink_toward(lines, &place).frame;
                         let earth = frame.inertial_from_body.inverse() * lines.earth.direction;
-                        let azimuth_rad = SunAngles::of(&earth).azimuth_rad;
+                        let azimuth_rad = SunAngles::from_direction(&earth).azimuth_rad;
                         let off_rad =
                             (azimuth_rad - branch.fan.unwrap().middle_rad + PI).rem_euclid(TAU) - PI;
                         off_rad.abs() - FRAC_PI_4

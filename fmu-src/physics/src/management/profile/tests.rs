@@ -4,13 +4,13 @@ use approx::assert_relative_eq;
 use proptest::prelude::*;
 
 fn drift(change: f64) -> Excursion {
-    let mut swing = Excursion::default();
-    swing.note(change);
-    swing
+    let mut excursion = Excursion::default();
+    excursion.record(change);
+    excursion
 }
 
 fn cycles(changes: &[f64], authority: ControlAuthority) -> Vec<Cycle> {
-    changes.iter().map(|change| Cycle { swing: drift(*change), authority }).collect()
+    changes.iter().map(|change| Cycle { excursion: drift(*change), authority }).collect()
 }
 
 /// The target without dumps in sight.
@@ -57,9 +57,9 @@ fn a_dump_that_would_not_stay_alone_is_brought_on_earlier() {
     let path: Vec<f64> = (1..=32)
         .map(|k| if k <= 30 { -0.643 * f64::from(k) / 30.0 } else { -0.643 + 0.0205 * f64::from(k - 30) })
         .collect();
-    let mut swing = Excursion::default();
-    path.iter().for_each(|at| swing.note(*at));
-    let ahead = [Cycle { swing, authority: [0.0; 2] }];
+    let mut excursion = Excursion::default();
+    path.iter().for_each(|at| excursion.record(*at));
+    let ahead = [Cycle { excursion, authority: [0.0; 2] }];
     let with = |authority: ControlAuthority, fraction: f64| {
         let component = Component {
             momentum_n_m_s: -3.6,
@@ -85,9 +85,9 @@ fn a_dump_that_would_not_stay_alone_is_brought_on_earlier() {
 fn what_stays_just_below_the_threshold_is_not_given_up_for_a_dump() {
     // The dip of 0.1 and the rise behind it leave 0.02 to the threshold; a little lower two dumps would follow, much lower one.
     let path = [-0.05, -0.1, -0.08, -0.06];
-    let mut swing = Excursion::default();
-    path.iter().for_each(|at| swing.note(*at));
-    let ahead = [Cycle { swing, authority: [0.0; 2] }];
+    let mut excursion = Excursion::default();
+    path.iter().for_each(|at| excursion.record(*at));
+    let ahead = [Cycle { excursion, authority: [0.0; 2] }];
     let dumped = |at: f64| -at.signum() * 4.0;
     let component = Component {
         momentum_n_m_s: -4.0,
@@ -105,13 +105,13 @@ fn what_stays_just_below_the_threshold_is_not_given_up_for_a_dump() {
 
 /// Whether the threshold can be kept from a momentum before the first science, on a grid of what downlinks add.
 fn can_keep(start: f64, cycles: &[Cycle], threshold: f64) -> bool {
-    let Some((Cycle { swing, authority }, rest)) = cycles.split_first() else { return true };
-    let is_kept = start + swing.lowest >= -threshold && start + swing.highest <= threshold;
+    let Some((Cycle { excursion, authority }, rest)) = cycles.split_first() else { return true };
+    let is_kept = start + excursion.lowest >= -threshold && start + excursion.highest <= threshold;
     let added =
         (0..=GRID).map(|k| authority[0] + (authority[1] - authority[0]) * f64::from(k) / f64::from(GRID));
     is_kept
         && (rest.is_empty()
-            || added.into_iter().any(|it| can_keep(start + swing.change + it, rest, threshold)))
+            || added.into_iter().any(|it| can_keep(start + excursion.change + it, rest, threshold)))
 }
 
 const GRID: u32 = 40;
@@ -119,7 +119,7 @@ const GRID: u32 = 40;
 fn any_cycle() -> impl Strategy<Value = Cycle> {
     let parts = (-3.0..3.0_f64, 0.0..1.0_f64, 0.0..1.0_f64, -2.0..1.0_f64, 0.05..2.0_f64);
     parts.prop_map(|(change, below, above, least, width)| Cycle {
-        swing: Excursion { change, lowest: change.min(0.0) - below, highest: change.max(0.0) + above },
+        excursion: Excursion { change, lowest: change.min(0.0) - below, highest: change.max(0.0) + above },
         authority: [least, least + width],
     })
 }
@@ -179,12 +179,12 @@ proptest! {
     ) {
         let authority = [authority.0, authority.0 + authority.1];
         let mut path = vec![];
-        let mut swing = Excursion::default();
+        let mut excursion = Excursion::default();
         for step in steps {
             path.push(path.last().unwrap_or(&0.0) + step);
-            swing.note(path[path.len() - 1]);
+            excursion.record(path[path.len() - 1]);
         }
-        let cycles = [Cycle { swing, authority: [0.0; 2] }];
+        let cycles = [Cycle { excursion, authority: [0.0; 2] }];
         let component = Component { momentum_n_m_s, authority, cycles: &cycles, path: &path, threshold: 2.0, dumped: |at: f64| -at.signum() * fraction * 2.0 };
         let found = component.target();
         let dumps = component.dumps_about(found);
@@ -194,7 +194,7 @@ proptest! {
             prop_assert!(!is_fewer, "{other}: {} < {dumps} of {found}", component.dumps_about(other));
         }
         // What needs no dump is never given up for what does.
-        let inside = |at: f64| at + swing.lowest >= -2.0 && at + swing.highest <= 2.0;
+        let inside = |at: f64| at + excursion.lowest >= -2.0 && at + excursion.highest <= 2.0;
         let any_inside = (0..=1000).any(|k| inside(momentum_n_m_s + authority[0] + (authority[1] - authority[0]) * f64::from(k) / 1000.0));
         prop_assert!(!any_inside || component.dumps(found) == 0 || dumps <= 1, "{found}");
     }

@@ -91,7 +91,7 @@ fn target_x(separations_rad: [f64; 4], horizon: u32) -> f64 {
         sunshade: None,
     };
     let torque = |sun_body: &Vector3<f64>| {
-        let SunAngles { azimuth_rad, elevation_rad } = SunAngles::of(sun_body);
+        let SunAngles { azimuth_rad, elevation_rad } = SunAngles::from_direction(sun_body);
         Vector3::new(0.0025 * elevation_rad, 0.0, 0.0025 * azimuth_rad)
     };
     let state = DownlinkState {
@@ -128,14 +128,14 @@ fn a_conjunction_to_come_is_held_over() {
 #[test]
 fn science_that_unloads_looks_ahead_over_the_next_downlink() {
     let mut forecast = ByHand { separations_rad: [1.0; 4], begins_in_science: true };
-    let Ok(Some(Prediction::Components(components))) = Prediction::of(&mut forecast, 3) else {
+    let Ok(Some(Prediction::Components(components))) = Prediction::new(&mut forecast, 3) else {
         panic!("no forecast")
     };
     assert_eq!(components.present().span_s, SCIENCE_S);
     // What it adds by itself, then nothing before the next downlink, then two sciences of -1.
     assert_relative_eq!(components.present().added[0], -1.0, epsilon = 1e-12);
     let [x, _] = components.cycles(|downlink| [[-downlink.span_s, downlink.span_s]; 2]);
-    let changes: Vec<f64> = x.iter().take(3).map(|cycle| cycle.swing.change).collect();
+    let changes: Vec<f64> = x.iter().take(3).map(|cycle| cycle.excursion.change).collect();
     assert_relative_eq!(changes.as_slice(), [0.0, -1.0, -1.0].as_slice(), epsilon = 1e-12);
     assert_eq!(
         [x[0].authority, x[1].authority, x[2].authority],

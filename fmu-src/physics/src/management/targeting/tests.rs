@@ -63,7 +63,11 @@ fn earth(separation_deg: f64) -> Vector3<f64> {
 }
 
 /// The body frame of a place typed anew: rows of the body axes from Sun and Earth.
-fn body_from_inertial(to_sun: &Vector3<f64>, to_earth: &Vector3<f64>, place: &SunPlace) -> Rotation3<f64> {
+fn body_from_inertial(
+    to_sun: &Vector3<f64>,
+    to_earth: &Vector3<f64>,
+    place: &DownlinkSunDirection,
+) -> Rotation3<f64> {
     let separation_rad = to_sun.angle(to_earth);
     let SunAngles { azimuth_rad, elevation_rad } = place.angles;
     let delta_rad = (separation_rad.cos() / elevation_rad.cos()).acos();
@@ -109,7 +113,8 @@ fn an_attainable_target_is_hit_to_rounding() {
             for (axes, count) in [(TargetAxes::X, 0), (TargetAxes::Z, 1), (TargetAxes::Xz, 2)] {
                 let targeting = Targeting { axes, ..targeting() };
                 let target = Vector3::new(-0.05, 7.0, 0.1);
-                let Some(ChosenPlace { place, clamped }) = targeting.sun_place(&state, &target) else {
+                let Some(SelectedSunDirection { place, clamped }) = targeting.sun_direction(&state, &target)
+                else {
                     panic!("{degrees} {momentum:?}")
                 };
                 if clamped {
@@ -129,7 +134,7 @@ fn an_attainable_target_is_hit_to_rounding() {
                 }
                 assert!(place.angles.azimuth_rad.abs() <= targeting.azimuth_limit_rad);
                 assert!(place.angles.elevation_rad.abs() <= targeting.elevation_limit_rad);
-                let earth_rad = SunAngles::of(&(body * to_earth)).azimuth_rad.to_degrees();
+                let earth_rad = SunAngles::from_direction(&(body * to_earth)).azimuth_rad.to_degrees();
                 assert!(
                     (-90.0 - 1e-9..=1e-9).contains(&earth_rad) || earth_rad >= 90.0 - 1e-9,
                     "{earth_rad}"
@@ -160,7 +165,7 @@ fn no_admissible_place_comes_nearer_to_a_target_out_of_reach() {
         for target in
             [Vector3::new(5.0, 0.0, 3.0), Vector3::new(-4.0, 0.0, 0.1), Vector3::new(0.0, 0.0, -6.0)]
         {
-            let found = targeting().sun_place(&state, &target).unwrap();
+            let found = targeting().sun_direction(&state, &target).unwrap();
             clamped += i32::from(found.clamped);
             let best = state.left(&found.place, &target).xz().norm();
             for branch in targeting().branches(state.separation_rad()).unwrap().as_slice() {
@@ -202,7 +207,7 @@ fn the_linear_formula_falls_short_by_a_few_per_cent() {
         science: None,
     };
     let by = |method, target: &Vector3<f64>| {
-        Targeting { method, ..targeting() }.sun_place(&state, target).unwrap()
+        Targeting { method, ..targeting() }.sun_direction(&state, target).unwrap()
     };
     let mut worst = 0.0_f64;
     for share in [-0.9, -0.4, 0.3, 0.9] {
@@ -230,6 +235,6 @@ fn without_a_plane_of_sun_and_earth_there_is_no_place() {
             linear: None,
             science: None,
         };
-        assert_eq!(targeting().sun_place(&state, &Vector3::zeros()), None);
+        assert_eq!(targeting().sun_direction(&state, &Vector3::zeros()), None);
     }
 }

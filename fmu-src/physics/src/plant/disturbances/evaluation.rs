@@ -34,7 +34,7 @@ use crate::plant::settings::configuration::{AttitudeSource, Configuration};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::work::Cost;
 use crate::plant::state::propagator_state::PropagatorState;
-use crate::plant::state::sun_choice::SunChoice;
+use crate::plant::state::sun_choice::SunDirectionSelection;
 
 /// Nodes at which the acceleration of a segment is taken.
 const NODES: usize = 8;
@@ -138,7 +138,7 @@ pub struct Plant<'a> {
     light: Option<&'a mut RadiationSolver>,
     air_and_field: &'a mut AirAndFieldSegment,
     air: Option<&'a mut AerodynamicSolver>,
-    sun_choice: SunChoice,
+    sun_choice: SunDirectionSelection,
     panel_turns: &'a mut PanelTurns,
     external: &'a External<'a>,
 }

@@ -3,7 +3,8 @@
 use nalgebra::Vector3;
 
 use crate::attitude::{Attitude, BodyMotion, GyrostatMotion, MovingFrame};
-use crate::guidance::{Activity, Guided, Schedule, ScienceRule, Window};
+use crate::guidance::pointing::boresight::Gimbal;
+use crate::guidance::{Activity, Guided, Schedule, ScienceRule, SelectedSunDirection, Window};
 use crate::momentum::{TorqueModel, Totals};
 
 use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
@@ -61,6 +62,18 @@ pub(crate) struct ConfiguredFlight<'a> {
     pub log: &'a mut dyn FnMut(&ThrusterEvent),
 }
 
+/// Start of a downlink, or of science that unloads, for which the Sun's direction is selected.
+struct SunSelectionStart {
+    law: Guided,
+    /// The camera's gimbal in science that unloads; `None` in a downlink.
+    gimbal: Option<Gimbal>,
+    momentum: StartMomentum,
+    /// Whether the planner may forecast.
+    forecasts: bool,
+    time_s: f64,
+    until_s: f64,
+}
+
 impl ConfiguredFlight<'_> {
     /// Commands a delta-v from `time_s` on; true if that changes the present one.
     pub(super) fn command_thrust(&mut self, command: &ThrustCommand, time_s: f64) -> bool {
@@ -85,11 +98,11 @@ impl ConfiguredFlight<'_> {
         Ok(plant.kinematics.attitude_by(law, time_s).frame)
     }
 
-    /// Chooses the Sun's place where a downlink has begun at `time_s`, or began right there and its momentum is another since;
-    /// where it is over, the next one may choose. A downlink of the timeline is chosen as one as long as the windows'. Science that
-    /// unloads is alike. At the `first` time of a flight nothing is
-    /// forecast, and a downlink that has begun before keeps its default attitude; science that has is chosen for what is left of it.
-    pub(super) fn choose_sun_place(
+    /// Selects the Sun's direction where a downlink has begun at `time_s`, or began right there and its momentum changed since;
+    /// where it is over, the next one may select. A downlink of the timeline is planned as long as the windows'. Science that
+    /// unloads is alike. At the `first` time of a flight nothing is forecast, and a downlink that has begun before keeps its
+    /// default attitude; science that has is planned for its remaining time.
+    pub(super) fn select_sun_direction(
         &mut self,
         time_s: f64,
         totals: &Totals,
@@ -133,48 +146,56 @@ impl ConfiguredFlight<'_> {
         };
         let since_s = guided.window.since_s - epoch_minus_time_s;
         let is_under_way = first && downlink && since_s < time_s - EPOCH_ROUNDING_S;
-        let chosen = if until_s.is_finite() && until_s > time_s && !is_under_way {
-            let mut plant = self.plant();
-            let instant = plant.instant(time_s);
-            let pressure_pa = plant.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
-            let separations_rad = plant.kinematics.separations_rad(time_s, until_s);
-            let science = gimbal.map(|gimbal| plant.kinematics.science_course(gimbal, time_s, until_s));
-            if science.is_some() {
-                let evaluations = self.context.ephemeris.evaluations();
-                self.context.work.spend(Cost::Search, SCIENCE_UNITS, evaluations, time_s)?;
-            }
-            let [applied, _] = (self.given.external)(time_s);
-            let mut downlink_forecast = DownlinkForecast {
-                prepared: self.given.prepared,
-                context: self.context,
-                propagator: self.propagator,
-                applied,
-                law,
-                totals: *totals,
-                forecasts: !first,
-                time_s,
-                span_s: until_s - time_s,
-                momentum,
-                to_sun: instant.geometry.to_sun.position_m.normalize(),
-                to_earth: instant.geometry.to_earth.position_m.try_normalize(0.0),
-                sun_distance_m: instant.sun_distance_m,
-                pressure_pa,
-                separations_rad,
-                science,
-            };
-            (self.given.planner)(&mut downlink_forecast)?
-        } else {
-            None
-        };
+        let is_ahead = until_s.is_finite() && until_s > time_s && !is_under_way;
+        let start = SunSelectionStart { law, gimbal, momentum, forecasts: !first, time_s, until_s };
+        let chosen = if is_ahead { self.plan_sun_direction(&start, totals)? } else { None };
         let choice = &mut self.propagator.sun_choice;
         if downlink {
             choice.chosen = chosen;
         } else {
             choice.science = chosen;
         }
-        self.context.configuration.attitude.set_sun_places(choice.place(), choice.in_science());
+        self.context.configuration.attitude.set_sun_directions(choice.place(), choice.in_science());
         self.propagator.command_slews.cut(time_s);
         Ok(())
+    }
+
+    /// Direction of the Sun that the planner selects for a window; `None`: on -Y.
+    fn plan_sun_direction(
+        &mut self,
+        start: &SunSelectionStart,
+        totals: &Totals,
+    ) -> Result<Option<SelectedSunDirection>, PlantError> {
+        let SunSelectionStart { law, gimbal, momentum, forecasts, time_s, until_s } = *start;
+        let mut plant = self.plant();
+        let instant = plant.instant(time_s);
+        let pressure_pa = plant.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
+        let separations_rad = plant.kinematics.separations_rad(time_s, until_s);
+        let science = gimbal.map(|gimbal| plant.kinematics.science_arc(gimbal, time_s, until_s));
+        if science.is_some() {
+            let evaluations = self.context.ephemeris.evaluations();
+            self.context.work.spend(Cost::Search, SCIENCE_UNITS, evaluations, time_s)?;
+        }
+        let [applied, _] = (self.given.external)(time_s);
+        let mut downlink_forecast = DownlinkForecast {
+            prepared: self.given.prepared,
+            context: self.context,
+            propagator: self.propagator,
+            applied,
+            law,
+            totals: *totals,
+            forecasts,
+            time_s,
+            span_s: until_s - time_s,
+            momentum,
+            to_sun: instant.geometry.to_sun.position_m.normalize(),
+            to_earth: instant.geometry.to_earth.position_m.try_normalize(0.0),
+            sun_distance_m: instant.sun_distance_m,
+            pressure_pa,
+            separations_rad,
+            science,
+        };
+        (self.given.planner)(&mut downlink_forecast)
     }
 
     /// Integrates the deviation of the orbit under thrust over the present segment of the motion, and with Encke's method under the

@@ -122,9 +122,9 @@ impl ControlLoop {
             delta_v_inertial_m_s: body.delta_v_inertial_m_s,
         };
         let momentum = StartMomentum::Inertial(body.momentum_inertial_n_m_s);
-        flight.choose_sun_place(time_s, &totals, momentum, self.guidance.is_none())?;
+        flight.select_sun_direction(time_s, &totals, momentum, self.guidance.is_none())?;
         let guided = flight.plant_at(time_s, body).kinematics.guided_attitude(time_s);
-        self.downlink = guided.as_ref().map(DownlinkStatus::of).unwrap_or_default();
+        self.downlink = guided.as_ref().map(DownlinkStatus::from_attitude).unwrap_or_default();
         self.is_degenerate = guided.as_ref().is_some_and(|guided| guided.degenerate);
         let (attitude, rate_body_rad_s) =
             guided.map_or((sampled.estimate.attitude, Vector3::zeros()), |guided| {

@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 
 use super::fork::{ForecastMomentum, Fork};
-use crate::guidance::{ChosenPlace, Guided, ScienceCourse};
+use crate::guidance::{SelectedSunDirection, Guided, ScienceArc};
 use crate::loads::ForceTorque;
 use crate::momentum::{Convention, Totals};
 use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
@@ -44,7 +44,8 @@ impl StartMomentum {
 
 /// Chooses the Sun's place, and tells whether limits keep the momentum from its target; no place where the default attitude is to be
 /// simulated. Called once a downlink or science that unloads, and again after a dump at its very beginning.
-pub type SunPlanner<'a> = dyn Fn(&mut DownlinkForecast<'_>) -> Result<Option<ChosenPlace>, PlantError> + 'a;
+pub type SunPlanner<'a> =
+    dyn Fn(&mut DownlinkForecast<'_>) -> Result<Option<SelectedSunDirection>, PlantError> + 'a;
 
 /// Start of a downlink, or of science that unloads, from which it is forecast.
 pub struct DownlinkForecast<'o> {
@@ -72,7 +73,7 @@ pub struct DownlinkForecast<'o> {
     /// Least and greatest angle between Sun and Earth while the downlink lasts, in rad.
     pub separations_rad: [f64; 2],
     /// The science that begins; `None`: a downlink does.
-    pub science: Option<ScienceCourse>,
+    pub science: Option<ScienceArc>,
 }
 
 impl DownlinkForecast<'_> {
@@ -110,7 +111,7 @@ impl DownlinkForecast<'_> {
         let begin = (self.time_s, self.totals);
         let held = [self.applied, ForceTorque::zero()];
         // Default attitudes.
-        let law = Guided { managed: false, ..self.law.with_sun_places(None, None) };
+        let law = Guided { managed: false, ..self.law.with_sun_directions(None, None) };
         let attitude = AttitudeSource::Guided(law);
         let mut fork = Fork::new(self.prepared, self.context, self.propagator, (attitude, held), begin);
         fork.coarsen(self.time_s, step_s);

@@ -288,7 +288,7 @@ impl AttitudeDynamics {
             if was_turning || self.panels.is_turning() {
                 self.turn_mass(settings, flight);
                 let internal = self.panels.internal(flight.given.prepared.panels, &self.mass.now, time_s);
-                self.motion.displace(&settings.gyrostat, self.motion.attitude_at(time_s), internal);
+                self.motion.reorient(&settings.gyrostat, self.motion.attitude_at(time_s), internal);
             }
         }
         Ok(())
@@ -345,7 +345,7 @@ impl AttitudeDynamics {
         let mass = self.panels.mass_properties(&hinged.mass_at_zero, hinged.panels, time_s);
         self.set_known_mass(settings, mass);
         let internal = self.panels.internal(hinged.panels, &mass, time_s);
-        self.motion.displace(&settings.gyrostat, attitude, internal);
+        self.motion.reorient(&settings.gyrostat, attitude, internal);
         Some(self.motion.at(&settings.gyrostat, time_s))
     }
 

@@ -73,7 +73,7 @@ impl IdealFlight {
         flight.context.begin_work(flight.given.work_limit);
         let frame = flight.plant().instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-        flight.choose_sun_place(time_s, &totals, StartMomentum::Body(momentum_body_n_m_s), true)?;
+        flight.select_sun_direction(time_s, &totals, StartMomentum::Body(momentum_body_n_m_s), true)?;
         flight.context.begin_work(flight.given.work_limit);
         let mut plant = flight.plant();
         plant.prepare(time_s, time_s)?;
@@ -200,7 +200,7 @@ impl IdealFlight {
             };
             let totals = self.integrator.totals(at_s);
             let momentum = StartMomentum::of(&totals, settings.convention);
-            flight.choose_sun_place(at_s, &totals, momentum, false)?;
+            flight.select_sun_direction(at_s, &totals, momentum, false)?;
         }
     }
 

@@ -39,7 +39,7 @@ use crate::plant::settings::ideal_settings::IdealSettings;
 use crate::plant::settings::panel_setting::PanelSetting;
 use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::state::propagator_state::PropagatorState;
-use crate::plant::state::sun_choice::SunChoice;
+use crate::plant::state::sun_choice::SunDirectionSelection;
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::radiation::SolarModel;
 use crate::spacecraft::Spacecraft;
@@ -183,7 +183,7 @@ impl Flight {
     }
 
     /// Direction of the Sun during downlinks.
-    pub fn sun_choice(&self) -> &SunChoice {
+    pub fn sun_choice(&self) -> &SunDirectionSelection {
         &self.propagator.sun_choice
     }
 

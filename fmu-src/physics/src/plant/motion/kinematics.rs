@@ -12,14 +12,14 @@ use crate::guidance::constraints::command_slew::{CommandSlew, SlewedFrame};
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::constraints::slew::Slew;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
-use crate::guidance::downlink::sun_place::SunRequest;
+use crate::guidance::downlink::sun_direction::SunRequest;
 use crate::guidance::pointing::boresight::Gimbal;
 use crate::guidance::pointing::command::Scenario;
 use crate::guidance::timeline::{
     Slot, TimelineAttitude, TimelineEntry, TimelineLaw, TimelineSettings, bodies_of,
 };
 use crate::guidance::{
-    Activity, CoursePoint, DownlinkStatus, Guided, GuidedAttitude, ScienceCourse, Sight, SunPlace,
+    Activity, ArcPoint, DownlinkStatus, DownlinkSunDirection, Guided, GuidedAttitude, ScienceArc, Sight,
     TargetPlanet, Window,
 };
 use crate::math;
@@ -195,7 +195,7 @@ impl Kinematics<'_> {
                         corner_s: guided.corner_s,
                         in_shadow: false,
                     },
-                    status: DownlinkStatus::of(&guided),
+                    status: DownlinkStatus::from_attitude(&guided),
                     degenerate: guided.degenerate,
                     margins: guided.margins,
                     until_s: guided.until_s - self.configuration.epoch_minus_time_s,
@@ -311,7 +311,7 @@ impl Kinematics<'_> {
         let commanded = slot.entry.filter(|_| slot.scenario().is_some());
         if let Some(entry) = commanded
             && let Some(found) =
-                self.commanded((law, settings, entry), time_s, geometry, (guided.sun_place, requested))
+                self.commanded((law, settings, entry), time_s, geometry, (guided.sun_direction, requested))
         {
             let activity = match slot.scenario() {
                 Some(Scenario::Downlink) => Activity::Downlink,
@@ -346,7 +346,7 @@ impl Kinematics<'_> {
         (law, settings, entry): (&TimelineLaw<'_>, &TimelineSettings, &TimelineEntry),
         time_s: f64,
         geometry: &Geometry,
-        sun: (Option<SunPlace>, SunRequest),
+        sun: (Option<DownlinkSunDirection>, SunRequest),
     ) -> Option<TimelineAttitude> {
         let epoch_s = time_s + self.configuration.epoch_minus_time_s;
         let sight = sight(self.configuration, self.ephemeris, time_s, *geometry, Some(settings.planet));
@@ -363,7 +363,8 @@ impl Kinematics<'_> {
         let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
         let (trajectory, default_downlink) = (&*self.trajectory, self.default_downlink);
         let epoch_s = time_s + configuration.epoch_minus_time_s;
-        let planet = guided.science.reads_motion().then(|| TargetPlanet::of(configuration.center.data()));
+        let planet =
+            guided.science.reads_motion().then(|| TargetPlanet::from_body(configuration.center.data()));
         let window =
             trajectory.window(configuration, time_s).unwrap_or_else(|| guided.schedule.window(epoch_s));
         guided.within(window, epoch_s, default_downlink, |at_epoch_s| {
@@ -400,13 +401,13 @@ impl Kinematics<'_> {
     }
 
     /// Sun and planet from one time to a later one, likewise.
-    pub(crate) fn science_course(&mut self, gimbal: Gimbal, from_s: f64, to_s: f64) -> ScienceCourse {
+    pub(crate) fn science_arc(&mut self, gimbal: Gimbal, from_s: f64, to_s: f64) -> ScienceArc {
         let light = self.configuration.light;
         let mut ahead = self.geometry_ahead(from_s);
-        ScienceCourse::of(gimbal, to_s - from_s, |share| {
+        ScienceArc::new(gimbal, to_s - from_s, |share| {
             let geometry = ahead(from_s + (to_s - from_s) * share);
             let to_sun_m = geometry.to_sun.position_m;
-            CoursePoint {
+            ArcPoint {
                 to_sun_m,
                 to_planet_m: geometry.to_planet.map_or(Vector3::zeros(), |planet| planet.position_m),
                 pressure_pa: light.pressure_pa(to_sun_m.norm()),

@@ -15,7 +15,7 @@ use crate::environment::onboard::OnboardEphemeris;
 use crate::environment::orbit::{GravityModel, NBodyGravity, TwoBodyOrbit};
 use crate::environment::sun::pressure_n_m2;
 use crate::guidance::timeline::TimelineSettings;
-use crate::guidance::{Guided, SunPlace};
+use crate::guidance::{DownlinkSunDirection, Guided};
 use crate::loads::{Active, Effect};
 use crate::momentum::Settings;
 use crate::numerics::chebyshev::Segment;
@@ -50,9 +50,13 @@ impl AttitudeSource {
     }
 
     /// Puts the Sun there during downlinks and in science that unloads.
-    pub(crate) fn set_sun_places(&mut self, place: Option<SunPlace>, science: Option<SunAngles>) {
+    pub(crate) fn set_sun_directions(
+        &mut self,
+        place: Option<DownlinkSunDirection>,
+        science: Option<SunAngles>,
+    ) {
         if let Self::Guided(guided) | Self::Dynamic(DynamicAttitude { guided: Some(guided), .. }) = self {
-            *guided = guided.with_sun_places(place, science);
+            *guided = guided.with_sun_directions(place, science);
         }
     }
 }

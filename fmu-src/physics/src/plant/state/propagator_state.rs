@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::center_of_mass::CenterOfMass;
-use super::sun_choice::SunChoice;
+use super::sun_choice::SunDirectionSelection;
 use crate::environment::orbit::OrbitError;
 use crate::plant::air_and_field::air_and_field_segment::AirAndFieldSegment;
 use crate::plant::light::radiation_segment::RadiationSegment;
@@ -25,7 +25,7 @@ pub struct PropagatorState {
     /// Air and magnetic field of the present segment.
     pub air_and_field: AirAndFieldSegment,
     /// Direction of the Sun during downlinks.
-    pub sun_choice: SunChoice,
+    pub sun_choice: SunDirectionSelection,
     /// Centre of mass as events have moved it.
     pub center_of_mass: CenterOfMass,
     /// Whole turns of the panels.

@@ -3,15 +3,15 @@
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::SunAngles;
-use crate::guidance::{ChosenPlace, SunPlace};
+use crate::guidance::{DownlinkSunDirection, SelectedSunDirection};
 
 /// The last choices; the slew after a downlink starts from its attitude, and that after science from its own.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct SunChoice {
+pub struct SunDirectionSelection {
     /// Last choice for a downlink.
-    pub chosen: Option<ChosenPlace>,
+    pub chosen: Option<SelectedSunDirection>,
     /// Last choice for science that unloads.
-    pub science: Option<ChosenPlace>,
+    pub science: Option<SelectedSunDirection>,
     /// When the last of both was, in s.
     pub(crate) chosen_s: Option<f64>,
     /// Whether its downlink lasts.
@@ -20,14 +20,14 @@ pub struct SunChoice {
     pub(crate) row: usize,
 }
 
-impl SunChoice {
+impl SunDirectionSelection {
     /// Whether a simulation can produce it.
     pub fn is_valid(&self) -> bool {
         [self.chosen, self.science].into_iter().flatten().all(|chosen| chosen.place.is_valid())
     }
 
     /// The Sun's place in the downlink attitude; `None`: on -Y.
-    pub fn place(&self) -> Option<SunPlace> {
+    pub fn place(&self) -> Option<DownlinkSunDirection> {
         self.chosen.map(|chosen| chosen.place)
     }
 

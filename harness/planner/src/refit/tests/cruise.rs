@@ -109,7 +109,7 @@ impl Cruise {
                 elevation_limit_rad: 0.2269,
                 slew_rate_rad_s: 0.0,
                 keep_in: None,
-                sun_place: None,
+                sun_direction: None,
                 requested: Default::default(),
                 managed: false,
             }),

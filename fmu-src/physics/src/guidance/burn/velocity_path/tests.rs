@@ -2,7 +2,7 @@
 use approx::assert_relative_eq;
 
 use super::*;
-use crate::guidance::geometry::test_geometry::Random;
+use crate::guidance::tests::geometry::Random;
 
 /// A powered turn: the direction changes by less than a right angle.
 fn turn(random: &mut Random) -> VelocityPath {

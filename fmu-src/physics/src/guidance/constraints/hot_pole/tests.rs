@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 use super::*;
 use crate::bodies::Body;
 use crate::guidance::geometry::moving::{MovingMatrix, MovingVector, moving};
-use crate::guidance::geometry::test_geometry::{Motion, Random, difference_rad_s};
-use crate::guidance::geometry::test_orbit::about_mercury;
 use crate::guidance::pointing::law::PointingVectors;
+use crate::guidance::tests::geometry::{Motion, Random, difference_rad_s};
+use crate::guidance::tests::orbit::about_mercury;
 use crate::tests::short_or_long;
 
 fn ephemeris(position: MovingVector, sun: MovingVector) -> EphemerisAtTime {

@@ -6,9 +6,7 @@ use approx::assert_relative_eq;
 use super::*;
 use crate::attitude::{angle_between_rad, direction_from_angles};
 use crate::guidance::geometry::moving::{matrix_value, moving, rate};
-use crate::guidance::geometry::test_geometry::{
-    Motion, Random, cube_directions, difference_rad_s, nearest_zone,
-};
+use crate::guidance::tests::geometry::{Motion, Random, cube_directions, difference_rad_s, nearest_zone};
 use crate::tests::short_or_long;
 
 const METHODS: [KeepInMethod; 2] = [KeepInMethod::Nearest, KeepInMethod::Clamp];
@@ -43,7 +41,7 @@ fn zone_from_body(axis_body: &Vector3<f64>) -> nalgebra::UnitQuaternion<f64> {
 
 /// Angle from a direction to the zone, by the part of it that is nearest: inside 0.
 fn distance_outside_rad(zone: &KeepIn, sun_body: &Vector3<f64>) -> f64 {
-    let angles = SunAngles::of(&(zone_from_body(&zone.axis_body) * sun_body));
+    let angles = SunAngles::from_direction(&(zone_from_body(&zone.axis_body) * sun_body));
     let over_rad = (angles.azimuth_rad.abs() - zone.azimuth_rad).max(0.0);
     let above_rad = (angles.elevation_rad.abs() - zone.elevation_rad).max(0.0);
     // A step along a parallel is as long as the cosine of its elevation.
@@ -120,7 +118,7 @@ fn clamping_cuts_both_angles() {
         let zone = KeepIn { method: KeepInMethod::Clamp, ..random_zone(&mut random) };
         let sun_body = random.direction();
         let Some(point) = zone.boundary_point(&fixed(sun_body)).unwrap() else { continue };
-        let angles = SunAngles::of(&(zone_from_body(&zone.axis_body) * sun_body));
+        let angles = SunAngles::from_direction(&(zone_from_body(&zone.axis_body) * sun_body));
         let cut = SunAngles {
             azimuth_rad: angles.azimuth_rad.clamp(-zone.azimuth_rad, zone.azimuth_rad),
             elevation_rad: angles.elevation_rad.clamp(-zone.elevation_rad, zone.elevation_rad),
@@ -236,7 +234,7 @@ fn the_clamp_is_up_to_half_a_degree_farther_in_the_quarter_about_the_axis() {
 
 /// Edge and quadrant of a boundary point; what changes at a corner or where two points are as near.
 fn edge(zone: &KeepIn, sun_body: &Vector3<f64>) -> [i8; 4] {
-    let at = SunAngles::of(&(zone_from_body(&zone.axis_body) * sun_body));
+    let at = SunAngles::from_direction(&(zone_from_body(&zone.axis_body) * sun_body));
     let side = |x: f64| if x.abs() < 1e-9 { 0 } else { x.signum() as i8 };
     [
         side(at.azimuth_rad * at.elevation_rad.cos()),

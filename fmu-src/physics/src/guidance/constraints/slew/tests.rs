@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, Unit};
 use super::*;
 use crate::attitude::{angle_between_rad, direction_from_angles};
 use crate::guidance::constraints::keep_in::KeepInMethod;
-use crate::guidance::geometry::test_geometry::{Random, nearest_zone};
+use crate::guidance::tests::geometry::{Random, nearest_zone};
 use crate::tests::short_or_long;
 
 const RATE_RAD_S: f64 = 5e-3;

@@ -1,11 +1,11 @@
 //! The choice by its table against the choice made anew, and what MESSENGER's antennas are known to do.
 use super::*;
-use crate::guidance::geometry::test_geometry::Random;
 use crate::guidance::pointing::antenna::tests::{antennas, fan, fixed_along, quadrants};
+use crate::guidance::tests::geometry::Random;
 
 #[test]
 fn messenger_changes_its_antenna_at_90_deg_alone() {
-    let law = DefaultDownlink::of(&quadrants());
+    let law = DefaultDownlink::new(&quadrants());
     assert_eq!(law.first, EarthBoresight::Behind);
     assert_eq!(law.changes, [(0.0, EarthBoresight::Ahead)]);
     for cosine in [-1.0, -0.3, -1e-300, 0.0, 1e-300, 0.7, 1.0] {
@@ -21,7 +21,7 @@ fn messenger_changes_its_antenna_at_90_deg_alone() {
 #[test]
 fn one_fixed_antenna_looks_at_the_earth_always() {
     let axis_body = Vector3::new(0.0, 0.6, 0.8);
-    let law = DefaultDownlink::of(&antennas(&[fixed_along(axis_body)]));
+    let law = DefaultDownlink::new(&antennas(&[fixed_along(axis_body)]));
     assert_eq!((law.first, law.changes.len()), (EarthBoresight::Fixed(axis_body), 0));
     assert!(law.moves_the_sun() && law.margin(0.2) == f64::INFINITY);
 }
@@ -29,7 +29,7 @@ fn one_fixed_antenna_looks_at_the_earth_always() {
 #[test]
 fn of_two_fixed_antennas_the_one_that_leaves_the_sun_nearer_looks() {
     let (near, far) = (Vector3::new(0.0, -0.8, 0.6), Vector3::z());
-    let law = DefaultDownlink::of(&antennas(&[fixed_along(far), fixed_along(near)]));
+    let law = DefaultDownlink::new(&antennas(&[fixed_along(far), fixed_along(near)]));
     // 36.87 and 90 deg from -Y: midway lies 63.43 deg.
     let midway_rad = 0.5 * (0.6_f64.asin() + FRAC_PI_2);
     assert_eq!((law.first, law.changes.len()), (EarthBoresight::Fixed(near), 1));
@@ -52,7 +52,7 @@ fn the_table_says_at_every_angle_what_is_chosen_there() {
             })
             .collect();
         let all = antennas(&list);
-        let law = DefaultDownlink::of(&all);
+        let law = DefaultDownlink::new(&all);
         most = most.max(law.changes.len());
         for _ in 0..50 {
             let separation_rad = random.within(0.0, PI);

@@ -1,8 +1,8 @@
 //! Against a search over the whole sphere, the incidence, and differences over time.
 use super::super::moving::{fixed, rate, value as now};
-use super::super::test_orbit::TestOrbit;
 use super::*;
 use crate::attitude::angle_between_rad;
+use crate::guidance::tests::orbit::TestOrbit;
 use approx::assert_relative_eq;
 use core::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::Vector3;

@@ -1,7 +1,7 @@
 //! Eqs 20 to 22 themselves, the sphere's closed form, and the number of solutions.
 use super::super::moving::rate;
-use super::super::test_orbit::TestOrbit;
 use super::*;
+use crate::guidance::tests::orbit::TestOrbit;
 use approx::assert_relative_eq;
 use core::f64::consts::TAU;
 
@@ -21,8 +21,9 @@ fn assert_solves(s: &EphemerisAtTime, point: &LimbPoint, normal: &Vector3<f64>) 
     assert!(residuals.iter().all(|x| x.abs() < 1e-12), "{residuals:?}");
 }
 
-fn without_height(azimuth_rad: f64, reference: AzimuthReference) -> LimbCommand {
-    LimbCommand { azimuth_rad, reference: Some(reference), ..LimbCommand::default() }
+/// A height that stays.
+fn still(height_m: f64) -> Moving {
+    Moving::from_re(height_m)
 }
 
 #[test]
@@ -33,7 +34,7 @@ fn the_generic_point_solves_the_equations_on_the_azimuths_side() {
         for step in 0..16 {
             let azimuth = TAU * f64::from(step) / 16.0;
             for reference in [AzimuthReference::Downtrack, AzimuthReference::Sun] {
-                let point = generic_limb(&s, &without_height(azimuth, reference), 7.0).unwrap();
+                let point = generic_limb(&s, reference, azimuth, still(0.0)).unwrap();
                 let side = value(&lvlh_direction(&s, reference, azimuth, 0.0).unwrap());
                 assert_solves(&s, &point, &value(&s.position).cross(&side));
                 assert!(value(&point.position).dot(&side) > 0.0);
@@ -77,7 +78,7 @@ fn on_a_sphere_the_limb_is_at_the_known_angle_from_nadir() {
     s.planet.radii_m = Vector3::repeat(2.44e6);
     let (up, distance_m) = (value(&s.position).normalize(), value(&s.position).norm());
     let side = value(&lvlh_direction(&s, AzimuthReference::Sun, 0.4, 0.0).unwrap());
-    let point = generic_limb(&s, &without_height(0.4, AzimuthReference::Sun), 0.0).unwrap();
+    let point = generic_limb(&s, AzimuthReference::Sun, 0.4, still(0.0)).unwrap();
     let angle: f64 = (2.44e6 / distance_m).acos();
     let expected = (up * angle.cos() + side * angle.sin()) * 2.44e6;
     assert_relative_eq!(value(&point.position), expected, epsilon = 1e-8);
@@ -89,7 +90,7 @@ fn the_terminator_point_solves_the_equations_and_is_the_one_ahead() {
     let mut found = 0;
     for step in 0..400 {
         let s = orbit.ephemeris(f64::from(step) * 108.0 + 3.0);
-        let point = terminator_limb(&s, &LimbCommand::default(), 0.0).unwrap();
+        let point = terminator_limb(&s, still(0.0)).unwrap();
         let sun = value(&s.sun);
         // On a sphere the limb meets the terminator where the Sun's angle from up is within limb angle of 90 deg.
         let above = value(&s.position).dot(&sun.normalize()).abs();
@@ -142,18 +143,12 @@ fn two_solutions_become_one_and_none_as_the_terminator_leaves_the_disc() {
 #[test]
 fn height_grows_along_the_radius() {
     let s = TestOrbit::new(12.0).ephemeris(2000.0);
-    let ground = generic_limb(&s, &without_height(1.0, AzimuthReference::Downtrack), 0.0).unwrap();
-    let command = LimbCommand {
-        height_m: 1e4,
-        height_rate_m_s: -50.0,
-        ..without_height(1.0, AzimuthReference::Downtrack)
-    };
-    let raised = generic_limb(&s, &command, 20.0).unwrap();
+    let point = |height| generic_limb(&s, AzimuthReference::Downtrack, 1.0, height).unwrap();
+    let ground = point(still(0.0));
+    let raised = point(Moving::new(9000.0, -50.0));
     let at = value(&ground.position);
     assert_relative_eq!(value(&raised.position) - at, at.normalize() * 9000.0, epsilon = 1e-8);
-    let still =
-        generic_limb(&s, &LimbCommand { height_m: 9000.0, height_rate_m_s: 0.0, ..command }, 0.0).unwrap();
-    let growth = rate(&raised.position) - rate(&still.position);
+    let growth = rate(&raised.position) - rate(&point(still(9000.0)).position);
     assert_relative_eq!(growth, at.normalize() * -50.0, epsilon = 1e-9);
 }
 
@@ -161,10 +156,7 @@ fn height_grows_along_the_radius() {
 fn inside_the_planet_there_is_no_limb() {
     let s = TestOrbit::new(12.0).ephemeris(2000.0);
     let inside = EphemerisAtTime { position: s.position * Moving::from_re(0.01), ..s };
-    assert!(!generic_limb(&inside, &LimbCommand::default(), 0.0).unwrap().exists);
-    assert!(!terminator_limb(&inside, &LimbCommand::default(), 0.0).unwrap().exists);
-    assert!(
-        terminator_limb(&EphemerisAtTime { sun: MovingVector::zeros(), ..s }, &LimbCommand::default(), 0.0)
-            .is_none()
-    );
+    assert!(!generic_limb(&inside, AzimuthReference::Downtrack, 0.0, still(0.0)).unwrap().exists);
+    assert!(!terminator_limb(&inside, still(0.0)).unwrap().exists);
+    assert!(terminator_limb(&EphemerisAtTime { sun: MovingVector::zeros(), ..s }, still(0.0)).is_none());
 }

@@ -11,7 +11,7 @@ const CHECK: Monitor = Monitor { margin_rad: SUN_TOLERANCE_RAD, persistence_s: 3
 
 fn ephemeris(sun_m: Vector3<f64>) -> EphemerisAtTime {
     let spacecraft = CartesianState { position_m: Vector3::x(), velocity_m_s: Vector3::y() };
-    let planet = TargetPlanet::of(Body::Mercury.data());
+    let planet = TargetPlanet::from_body(Body::Mercury.data());
     EphemerisAtTime::new(0.0, planet, &spacecraft, &fixed(sun_m), &fixed(Vector3::z() * 1e11))
 }
 

@@ -1,11 +1,11 @@
 //! Excesses sample by sample, and what the monitor makes of them.
-use crate::guidance::geometry::test_geometry::nearest_zone;
+use crate::guidance::tests::geometry::nearest_zone;
 use nalgebra::{Rotation3, Vector3};
 
 use super::*;
 use crate::bodies::Body;
 use crate::guidance::constraints::hot_pole::HotPole;
-use crate::guidance::geometry::test_orbit::about_mercury;
+use crate::guidance::tests::orbit::about_mercury;
 
 const MONITOR: Monitor = Monitor { margin_rad: 0.1, persistence_s: 3.0 };
 

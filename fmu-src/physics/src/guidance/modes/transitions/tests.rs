@@ -9,12 +9,12 @@ use crate::attitude::angle_between_rad;
 use crate::bodies::Body;
 use crate::guidance::constraints::hot_pole::HotPole;
 use crate::guidance::constraints::keep_in::KeepIn;
-use crate::guidance::downlink::sun_place::{DownlinkRequest, downlink};
+use crate::guidance::downlink::sun_direction::{DownlinkRequest, downlink};
 use crate::guidance::geometry::moving::unit;
-use crate::guidance::geometry::test_geometry::{Random, cube_directions, nearest_zone};
-use crate::guidance::geometry::test_orbit::about_mercury;
 use crate::guidance::pointing::antenna::tests::quadrants;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
+use crate::guidance::tests::geometry::{Random, cube_directions, nearest_zone};
+use crate::guidance::tests::orbit::about_mercury;
 use Mode::{EarthAcquisition, Operational, SafeHold};
 
 fn zone(limit_rad: f64) -> KeepIn {

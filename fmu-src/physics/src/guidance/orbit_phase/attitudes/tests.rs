@@ -1,12 +1,12 @@
 //! What the paper demands of each attitude: where the Sun, the planet and the Earth stand in the body frame.
 use super::*;
-use crate::guidance::pointing::scenario_tests::camera;
+use crate::guidance::scenario::scenario_tests::camera;
 use approx::assert_relative_eq;
 
 const LIMIT_RAD: f64 = 13.0 * std::f64::consts::PI / 180.0;
 
 fn unit(x: f64, y: f64, z: f64) -> MovingUnit {
-    MovingUnit::of(Vector3::new(x, y, z), Vector3::new(0.1 * y, -0.2 * z, 0.3 * x)).unwrap()
+    MovingUnit::from_vector(Vector3::new(x, y, z), Vector3::new(0.1 * y, -0.2 * z, 0.3 * x)).unwrap()
 }
 
 fn many() -> impl Iterator<Item = LinesOfSight> {
@@ -40,15 +40,15 @@ fn a_downlink_off_the_sun_has_sun_and_earth_where_they_are_requested() {
         }
         checked += 1;
         for earth_ahead in [false, true] {
-            let frame = downlink_toward(&lines, &SunPlace { angles, earth_ahead }).frame;
+            let frame = downlink_toward(&lines, &DownlinkSunDirection { angles, earth_ahead }).frame;
             let body = |direction: &Vector3<f64>| frame.inertial_from_body.inverse() * direction;
-            let sun = SunAngles::of(&body(&lines.sun.direction));
+            let sun = SunAngles::from_direction(&body(&lines.sun.direction));
             let earth = body(&lines.earth.direction);
             assert_relative_eq!(sun.azimuth_rad, angles.azimuth_rad, epsilon = 1e-12);
             assert_relative_eq!(sun.elevation_rad, angles.elevation_rad, epsilon = 1e-12);
             assert_relative_eq!(earth.z, 0.0, epsilon = 1e-12);
             // Ahead of the Sun's azimuth about -Z, by less than half a turn.
-            let ahead = (SunAngles::of(&earth).azimuth_rad - sun.azimuth_rad).sin();
+            let ahead = (SunAngles::from_direction(&earth).azimuth_rad - sun.azimuth_rad).sin();
             assert!(theta_rad > 3.0 || (ahead > 0.0) == earth_ahead, "{ahead} {earth_ahead}");
         }
     }
@@ -60,7 +60,7 @@ fn nadir_rule_points_z_at_the_planet_inside_the_zone() {
     let mut free = 0;
     for lines in many() {
         let requested = science(&lines, ScienceRule::Nadir, LIMIT_RAD);
-        let sun = SunAngles::of(&in_body(&requested, &lines.sun));
+        let sun = SunAngles::from_direction(&in_body(&requested, &lines.sun));
         let planet = in_body(&requested, lines.planet.as_ref().unwrap());
         assert_relative_eq!(sun.azimuth_rad, 0.0, epsilon = 1e-12);
         assert!(sun.elevation_rad.abs() <= LIMIT_RAD + 1e-12);
@@ -80,7 +80,7 @@ fn scaled_rule_shows_the_sun_at_a_quarter_of_the_angle() {
         let requested = science(&lines, ScienceRule::Scaled { gain: 0.25 }, LIMIT_RAD);
         let angle_rad = lines.sun.direction.angle(&lines.planet.unwrap().direction);
         let expected = (0.25 * (angle_rad - std::f64::consts::FRAC_PI_2)).clamp(-LIMIT_RAD, LIMIT_RAD);
-        let sun = SunAngles::of(&in_body(&requested, &lines.sun));
+        let sun = SunAngles::from_direction(&in_body(&requested, &lines.sun));
         assert_relative_eq!(sun.elevation_rad, expected, epsilon = 1e-12);
     }
 }
@@ -93,7 +93,7 @@ fn unloading_has_the_sun_in_its_place_and_the_camera_as_near_to_nadir_as_it_come
         let k = i as f64;
         let sun = SunAngles { azimuth_rad: 0.26 * (0.7 * k).sin(), elevation_rad: 0.22 * (1.3 * k).cos() };
         let requested = science(&lines, ScienceRule::Unloading { sun, gimbal }, 0.0);
-        let found = SunAngles::of(&in_body(&requested, &lines.sun));
+        let found = SunAngles::from_direction(&in_body(&requested, &lines.sun));
         assert_relative_eq!(found.azimuth_rad, sun.azimuth_rad, epsilon = 1e-12);
         assert_relative_eq!(found.elevation_rad, sun.elevation_rad, epsilon = 1e-12);
         let planet = in_body(&requested, lines.planet.as_ref().unwrap());
@@ -179,9 +179,9 @@ fn every_law_gives_a_proper_rotation_even_when_degenerate() {
 
 #[test]
 fn the_default_downlink_is_that_of_the_scenario_with_any_antennas() {
-    use crate::guidance::downlink::sun_place::{DownlinkRequest, downlink as by_scenario};
-    use crate::guidance::geometry::test_geometry::Random;
+    use crate::guidance::downlink::sun_direction::{DownlinkRequest, downlink as by_scenario};
     use crate::guidance::pointing::antenna::tests::{antennas, fan, fixed_along, quadrants};
+    use crate::guidance::tests::geometry::Random;
     let mut random = Random(27);
     for _ in 0..200 {
         let axis = fixed_along(random.direction());
@@ -192,7 +192,7 @@ fn the_default_downlink_is_that_of_the_scenario_with_any_antennas() {
             antennas(&[fan(from_deg, from_deg + 60.0)]),
             antennas(&[fan(from_deg, from_deg + 30.0), axis]),
         ] {
-            let law = DefaultDownlink::of(&all);
+            let law = DefaultDownlink::new(&all);
             for lines in many().take(20) {
                 let found = downlink(&lines, &law);
                 let [to_sun, to_earth] =

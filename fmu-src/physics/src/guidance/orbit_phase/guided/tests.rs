@@ -1,12 +1,12 @@
 //! A slew begins where the old attitude was, ends at the new one, and its rate is the derivative of its axes.
 use super::*;
 use crate::attitude::{MovingUnit, rotation_vector};
-use crate::guidance::pointing::scenario_tests::camera;
+use crate::guidance::scenario::scenario_tests::camera;
 use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
 fn lines(t: f64) -> LinesOfSight {
-    let moving = |p: Vector3<f64>, v: Vector3<f64>| MovingUnit::of(p, v).unwrap();
+    let moving = |p: Vector3<f64>, v: Vector3<f64>| MovingUnit::from_vector(p, v).unwrap();
     let w = 2e-4;
     LinesOfSight {
         sun: moving(Vector3::new(1.0, 1e-7 * t, 0.1), Vector3::new(0.0, 1e-7, 0.0)),
@@ -20,7 +20,7 @@ fn lines(t: f64) -> LinesOfSight {
 }
 
 fn guided(slew_rate_rad_s: f64) -> Guided {
-    let law = crate::guidance::geometry::test_orbit::guided;
+    let law = crate::guidance::tests::orbit::guided;
     Guided { slew_rate_rad_s, ..law(ScienceRule::Nadir, 43_200.0, [7200.0, 36_000.0], 2) }
 }
 
@@ -46,11 +46,11 @@ fn a_slew_is_continuous_and_arrives() {
 #[test]
 fn rate_is_the_derivative_of_the_axes_everywhere() {
     let angles = SunAngles { azimuth_rad: -0.1, elevation_rad: 0.15 };
-    let off_sun = SunPlace { angles, earth_ahead: false };
-    for sun_place in [None, Some(off_sun)] {
-        rate_is_the_derivative(&Guided { sun_place, ..guided(2e-3) });
+    let off_sun = DownlinkSunDirection { angles, earth_ahead: false };
+    for sun_direction in [None, Some(off_sun)] {
+        rate_is_the_derivative(&Guided { sun_direction, ..guided(2e-3) });
         let science = ScienceRule::Unloading { sun: angles, gimbal: camera() };
-        rate_is_the_derivative(&Guided { sun_place, science, ..guided(2e-3) });
+        rate_is_the_derivative(&Guided { sun_direction, science, ..guided(2e-3) });
     }
 }
 

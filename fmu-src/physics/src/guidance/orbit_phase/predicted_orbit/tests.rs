@@ -20,7 +20,7 @@ fn start() -> CartesianState {
 }
 
 fn ephemeris_at_time(center: Body, sun: &CartesianState, earth: &CartesianState) -> EphemerisAtTime {
-    EphemerisAtTime::new(EPOCH_S, TargetPlanet::of(center.data()), &start(), sun, earth)
+    EphemerisAtTime::new(EPOCH_S, TargetPlanet::from_body(center.data()), &start(), sun, earth)
 }
 
 #[test]
@@ -30,7 +30,7 @@ fn sun_and_earth_stand_where_the_theory_has_them() {
         let bodies = BodiesFromCenter { center, ellipse: None, custom: None };
         let (sun, earth) = bodies.sun_and_earth(&mut ephemeris, EPOCH_S);
         let present = ephemeris_at_time(center, &sun, &earth);
-        let predicted = PredictedOrbit::of(&present).unwrap();
+        let predicted = PredictedOrbit::new(&present).unwrap();
         for days in [0.5, 1.0, 4.0] {
             let epoch_s = EPOCH_S + days * DAY_S;
             let (sun, earth) = bodies.sun_and_earth(&mut ephemeris, epoch_s);
@@ -60,7 +60,7 @@ fn the_spacecraft_falls_about_its_planet() {
         r += v * step_s;
         v += pull(&r) * (0.5 * step_s);
     }
-    let predicted = PredictedOrbit::of(&present).unwrap();
+    let predicted = PredictedOrbit::new(&present).unwrap();
     let then = predicted.at(EPOCH_S + step_s * f64::from(steps));
     assert!((value(&then.position) - r).norm() < 1.0, "{:?} {r:?}", then.position);
     // What is given without a velocity stands still.
@@ -73,5 +73,5 @@ fn what_escapes_has_no_orbit_ahead() {
     let still = fixed(Vector3::new(6e10, 0.0, 0.0));
     let mut present = ephemeris_at_time(Body::Mercury, &still, &still);
     present.velocity *= crate::guidance::geometry::moving::Moving::from_re(10.0);
-    assert!(PredictedOrbit::of(&present).is_none());
+    assert!(PredictedOrbit::new(&present).is_none());
 }

@@ -1,8 +1,8 @@
 //! Every option against positions and angles known by other means.
-use super::super::scenario_tests::aimpoint as command;
 use super::*;
 use crate::guidance::geometry::moving::matrix_value;
-use crate::guidance::geometry::test_orbit::TestOrbit;
+use crate::guidance::scenario::scenario_tests::aimpoint as command;
+use crate::guidance::tests::orbit::TestOrbit;
 use approx::assert_relative_eq;
 use nalgebra::Vector3;
 

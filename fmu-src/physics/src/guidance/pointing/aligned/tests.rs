@@ -5,8 +5,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::*;
 use crate::guidance::geometry::moving::{moving, rotation_value};
-use crate::guidance::geometry::test_geometry::Random;
-use crate::guidance::geometry::test_orbit::{TestOrbit, about_mercury, rate_error};
+use crate::guidance::tests::geometry::Random;
+use crate::guidance::tests::orbit::{TestOrbit, about_mercury, rate_error};
 use crate::spacecraft::{NamedAttitude, TargetItem, TargetedAxis};
 
 const ITEMS: [TargetItem; 7] = [

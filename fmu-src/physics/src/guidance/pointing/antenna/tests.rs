@@ -1,6 +1,6 @@
 //! Which antenna is nearest, and what a beam covers.
 use super::*;
-use crate::guidance::geometry::test_geometry::Random;
+use crate::guidance::tests::geometry::Random;
 
 /// MESSENGER's antenna on the sunshade.
 pub(crate) const SUNSHADE: Option<AntennaRow> = Some(AntennaRow(0));
@@ -19,7 +19,7 @@ pub(crate) fn fixed_along(axis_body: Vector3<f64>) -> Antenna {
 
 pub(crate) fn antennas(list: &[Antenna]) -> Antennas {
     let named = |antenna: &Antenna| NamedAntenna { name: String::new(), antenna: *antenna };
-    Antennas::of(&list.iter().map(named).collect::<Vec<_>>())
+    Antennas::new(&list.iter().map(named).collect::<Vec<_>>())
 }
 
 /// MESSENGER's.

@@ -3,7 +3,7 @@ use super::*;
 use crate::constants::DEG_RAD;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::pointing::antenna::tests::quadrants;
-use crate::guidance::pointing::scenario_tests::camera;
+use crate::guidance::scenario::scenario_tests::camera;
 use crate::spacecraft::GimbalMount;
 use approx::assert_relative_eq;
 
@@ -101,8 +101,8 @@ fn a_gimbal_turns_right_handed_about_its_axis() {
     let mount = GimbalMount { axis_body: axis, minimum_rad: -1.0, maximum_rad: 0.3 };
     let fixed = Instrument { name: "fixed".into(), boresight_body: Vector3::z(), gimbal: None };
     let turned = Instrument { name: "turned".into(), boresight_body, gimbal: Some(mount) };
-    assert_eq!(Gimbal::of(core::slice::from_ref(&fixed)), None);
-    let gimbal = Gimbal::of(&[fixed, turned]).unwrap();
+    assert_eq!(Gimbal::from_instruments(core::slice::from_ref(&fixed)), None);
+    let gimbal = Gimbal::from_instruments(&[fixed, turned]).unwrap();
     for k in -20..=20 {
         let angle_rad = 0.1 * f64::from(k);
         let expected = nalgebra::Rotation3::new(axis * angle_rad) * boresight_body;

@@ -1,8 +1,8 @@
 //! Against a stepped integration of the motion, and what each frame says.
-use super::super::command::AzimuthReference;
 use super::*;
+use crate::guidance::geometry::lvlh::AzimuthReference;
 use crate::guidance::geometry::moving::{fixed, value};
-use crate::guidance::geometry::test_orbit::TestOrbit;
+use crate::guidance::tests::orbit::TestOrbit;
 use approx::assert_relative_eq;
 use core::f64::consts::FRAC_PI_2;
 

@@ -29,41 +29,41 @@ use crate::guidance::pointing::law::PointingVectors;
 use crate::math;
 use crate::numerics::scalar::Scalar;
 
-/// What a downlink attitude is requested.
+/// Request of a downlink attitude.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DownlinkRequest {
     /// Azimuth of the antenna's boresight, with -Y rolled toward the Sun; `None`: as the Sun's place needs it.
     pub antenna_azimuth_rad: Option<f64>,
-    /// Where the Sun is to stand in the body frame; zero is on -Y. Read where no azimuth is given.
+    /// Requested direction of the Sun in the body frame; zero is on -Y. Read where no azimuth is given.
     pub sun_body: SunAngles,
-    /// Which of both azimuths the Earth has; `None`: as above. Read where no azimuth is given.
+    /// Whether the Earth's azimuth is A + delta; `None`: as the file's head says. Read where no azimuth is given.
     pub earth_ahead: Option<bool>,
 }
 
-/// Where the Sun stands in the body frame during a downlink, and on which side of it the Earth: one of eq 20's two solutions.
+/// Direction of the Sun in the body frame during a downlink, and the side of it on which the Earth stands: one of eq 20's two solutions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SunPlace {
-    /// Of the Sun.
+pub struct DownlinkSunDirection {
+    /// Azimuth and elevation of the Sun.
     pub angles: SunAngles,
     /// Whether the Earth's azimuth is A + delta; else A - delta.
     pub earth_ahead: bool,
 }
 
-impl SunPlace {
+impl DownlinkSunDirection {
     /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         [self.angles.azimuth_rad, self.angles.elevation_rad].iter().all(|angle_rad| angle_rad.abs() <= TAU)
     }
 }
 
-/// Where a downlink is to have the Sun.
+/// Requested direction of the Sun in a downlink.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SunRequest {
     /// In the body frame; zero is on -Y.
     pub sun: SunAngles,
     /// Whether the attitude is turned by 180 deg about the Sun line: the Sun stays in its place, there is no link.
     pub alternate: bool,
-    /// What that place stays inside of.
+    /// Zone that holds that direction.
     pub zone: Option<SunZone>,
 }
 
@@ -92,11 +92,11 @@ impl SunRequest {
     }
 }
 
-/// A place of the Sun that was chosen for a downlink.
+/// Direction of the Sun that was selected for a downlink.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ChosenPlace {
-    /// Of the Sun.
-    pub place: SunPlace,
+pub struct SelectedSunDirection {
+    /// Direction of the Sun.
+    pub place: DownlinkSunDirection,
     /// Whether limits keep the momentum from its target.
     pub clamped: bool,
 }
@@ -115,7 +115,7 @@ pub struct Downlink {
     pub margins: [f64; 2],
 }
 
-/// Where the Earth can stand in the XY plane for one place of the Sun.
+/// Azimuths of the Earth in the XY plane for one direction of the Sun.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EarthAzimuths {
     /// A - delta and A + delta, in rad, in no particular turn.
@@ -245,7 +245,7 @@ pub(crate) fn is_ahead(antennas: &Antennas, [minus_rad, plus_rad]: [f64; 2], cos
 /// Least angle between Sun and Earth for a link, assumed: no paper names it.
 pub const SOLAR_EXCLUSION_RAD: f64 = 3.0 * DEG_RAD;
 
-/// What a link needs.
+/// Conditions of a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkLimits {
     /// Least angle between Sun and Earth seen from the spacecraft, in rad.

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::moving::{MovingVector, matrix_value, moving};
 use crate::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
+use crate::guidance::geometry::moving::{MovingVector, matrix_value, moving};
 use crate::guidance::pointing::law::Pointing;
 
 /// The zone about -Y with its nearest boundary point.

@@ -4,13 +4,13 @@ use core::cell::RefCell;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
-use super::moving::{MovingMatrix, fixed, matrix_value, moving};
 use crate::bodies::Body;
 use crate::constants::DEG_RAD;
 use crate::environment::CartesianState;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::{Elements, TwoBodyOrbit, semi_major_axis_m};
+use crate::guidance::geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
+use crate::guidance::geometry::moving::{MovingMatrix, fixed, matrix_value, moving};
 use crate::guidance::{Guided, Schedule, ScienceRule};
 
 /// 2011-04-06, a whole number of seconds past J2000: times in steps of powers of two are exact.
@@ -34,7 +34,7 @@ pub(crate) fn guided(science: ScienceRule, period_s: f64, [start_s, end_s]: [f64
         elevation_limit_rad: 0.2,
         slew_rate_rad_s: 0.0,
         keep_in: None,
-        sun_place: None,
+        sun_direction: None,
         requested: Default::default(),
         managed: false,
     }
@@ -48,7 +48,7 @@ pub(crate) fn about_mercury(
 ) -> EphemerisAtTime {
     EphemerisAtTime {
         epoch_s: 0.0,
-        planet: TargetPlanet::of(Body::Mercury.data()),
+        planet: TargetPlanet::from_body(Body::Mercury.data()),
         position: fixed(position),
         velocity: fixed(Vector3::y() * 3e3),
         sun: fixed(sun),
@@ -80,7 +80,7 @@ impl TestOrbit {
         let orbit = TwoBodyOrbit::from_elements(elements, data.gm_m3_s2, EPOCH_S).unwrap();
         let planet = TargetPlanet {
             radii_m: Vector3::new(2_445_000.0, 2_440_000.0, 2_431_000.0),
-            ..TargetPlanet::of(data)
+            ..TargetPlanet::from_body(data)
         };
         Self { orbit, ephemeris: RefCell::default(), planet }
     }
@@ -131,6 +131,6 @@ pub(crate) fn rate_error(
     let expected =
         Vector3::new(skew[(2, 1)] - skew[(1, 2)], skew[(0, 2)] - skew[(2, 0)], skew[(1, 0)] - skew[(0, 1)])
             * 0.5;
-    let found = super::moving::angular_rate_rad_s(&here);
+    let found = crate::guidance::geometry::moving::angular_rate_rad_s(&here);
     Some((found - expected).norm() / found.norm().max(floor_rad_s))
 }

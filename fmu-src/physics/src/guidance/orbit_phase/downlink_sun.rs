@@ -1,4 +1,4 @@
-//! Where the Sun stands during a downlink: chosen at the sample where the downlink begins, held while it lasts.
+//! Direction of the Sun during a downlink: selected at the sample where the downlink begins, held while it lasts.
 //!
 //! A downlink begins where the scenario becomes downlink without an azimuth of its own, with each entry of the timeline that
 //! names it, and where a window of the orbit phase begins. Science of the orbit phase that unloads momentum is alike: chosen where it
@@ -6,39 +6,39 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::sun_place::{ChosenPlace, SunPlace};
+use super::guided::Guided;
+use super::schedule::Activity;
 use crate::attitude::{Attitude, SunAngles};
+use crate::guidance::downlink::sun_direction::{DownlinkSunDirection, SelectedSunDirection};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
-use crate::guidance::orbit_phase::guided::Guided;
-use crate::guidance::orbit_phase::schedule::Activity;
 use crate::guidance::pointing::command::Scenario;
 
-/// Where a downlink begins, or science that unloads.
+/// Begin of a downlink, or of science that unloads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WindowStart<'a> {
-    /// Which of both.
+    /// Activity that begins.
     pub activity: Activity,
-    /// Where everything is.
+    /// Positions and motions at the begin.
     pub ephemeris: &'a EphemerisAtTime,
     /// The attitude as it is estimated.
     pub attitude: Attitude,
-    /// How long it lasts, in s.
+    /// Duration, in s.
     pub span_s: f64,
     /// Science and downlink from here on, in s past J2000 TDB; the scenario downlink counts on the windows of the orbit phase, of
     /// which one begins here. Places of the Sun are those of default attitudes.
     pub law: Guided,
 }
 
-/// The last choice.
+/// Last selection.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DownlinkSun {
-    chosen: Option<ChosenPlace>,
+    chosen: Option<SelectedSunDirection>,
     /// The scenario whose downlink lasts.
     lasts: Option<Scenario>,
     /// The timeline's entry that named the downlink, by when it begins on the timeline's clock, in s.
     entry: Option<f64>,
     /// The last choice for science.
-    science: Option<ChosenPlace>,
+    science: Option<SelectedSunDirection>,
     /// Whether that science lasts.
     science_lasts: bool,
 }
@@ -49,12 +49,12 @@ impl DownlinkSun {
         [self.chosen, self.science].into_iter().flatten().all(|chosen| chosen.place.is_valid())
     }
 
-    /// The Sun's place; the slew after a window starts from it.
-    pub fn place(&self) -> Option<SunPlace> {
+    /// Direction of the Sun; the slew after a window starts from it.
+    pub fn place(&self) -> Option<DownlinkSunDirection> {
         self.chosen.map(|chosen| chosen.place)
     }
 
-    /// The Sun's place in science that unloads; the slew after it starts from it.
+    /// Direction of the Sun in science that unloads; the slew after it starts from it.
     pub fn in_science(&self) -> Option<SunAngles> {
         self.science.map(|chosen| chosen.place.angles)
     }
@@ -66,13 +66,13 @@ impl DownlinkSun {
         present.is_some_and(|chosen| chosen.clamped)
     }
 
-    /// Neither a downlink lasts nor science.
+    /// Ends the downlink or the science that lasts.
     pub fn end(&mut self) {
         (self.lasts, self.science_lasts) = (None, false);
     }
 
     /// Science lasts that unloads; where it begins `choose` gives its place. Whether it begins.
-    pub fn last_in_science(&mut self, choose: impl FnOnce() -> Option<ChosenPlace>) -> bool {
+    pub fn last_in_science(&mut self, choose: impl FnOnce() -> Option<SelectedSunDirection>) -> bool {
         self.lasts = None;
         let begins = !self.science_lasts;
         if begins {
@@ -87,7 +87,7 @@ impl DownlinkSun {
         &mut self,
         scenario: Scenario,
         entry: Option<f64>,
-        choose: impl FnOnce() -> Option<ChosenPlace>,
+        choose: impl FnOnce() -> Option<SelectedSunDirection>,
     ) -> bool {
         self.science_lasts = false;
         let is_new_entry = scenario == Scenario::Downlink && entry.is_some() && entry != self.entry;
@@ -114,8 +114,8 @@ mod tests {
         let mut last = |scenario, entry| {
             sun.last(scenario, entry, || {
                 count.set(count.get() + 1);
-                let place = SunPlace { angles: SunAngles::default(), earth_ahead: false };
-                Some(ChosenPlace { place, clamped: true })
+                let place = DownlinkSunDirection { angles: SunAngles::default(), earth_ahead: false };
+                Some(SelectedSunDirection { place, clamped: true })
             });
             assert!(sun.is_clamped());
             count.get()
@@ -133,8 +133,10 @@ mod tests {
         assert!(!sun.is_clamped() && sun.place().is_none());
         // Science is chosen once too, and a downlink keeps its place for the slew out of it.
         let angles = SunAngles { azimuth_rad: 0.1, elevation_rad: -0.2 };
-        let place = SunPlace { angles, earth_ahead: false };
-        assert!(sun.last_in_science(|| Some(ChosenPlace { place, clamped: true })) && sun.is_clamped());
+        let place = DownlinkSunDirection { angles, earth_ahead: false };
+        assert!(
+            sun.last_in_science(|| Some(SelectedSunDirection { place, clamped: true })) && sun.is_clamped()
+        );
         assert!(!sun.last_in_science(|| None) && sun.is_clamped());
         sun.last(Scenario::OrbitPhase, Some(6.0), || None);
         assert!(!sun.is_clamped() && sun.in_science() == Some(angles));

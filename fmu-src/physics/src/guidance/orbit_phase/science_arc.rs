@@ -1,4 +1,4 @@
-//! Science ahead with the Sun at a fixed place in the body: what sunlight makes of the momentum until its end.
+//! Science arc ahead with the Sun fixed in the body: momentum at its end under sunlight.
 //!
 //! Equation: H(end) = C(end)^T (H + sum of w_k C_k T), C_k the attitude of [`unloading`] at a node, T the torque at the begin, w_k the
 //! time that it would take to do what it does about the node, by the pressure there.
@@ -17,9 +17,9 @@ const INTERVALS: usize = 16;
 /// Nodes.
 const NODES: usize = 3 * INTERVALS;
 
-/// Where Sun and planet stand.
+/// Positions of Sun and planet at a time of the arc.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct CoursePoint {
+pub struct ArcPoint {
     /// From the spacecraft to the Sun, EME2000, in m.
     pub to_sun_m: Vector3<f64>,
     /// To the planet's centre, in m.
@@ -28,21 +28,21 @@ pub struct CoursePoint {
     pub pressure_pa: f64,
 }
 
-/// Science ahead.
+/// Science ahead, with the nodes of its quadrature.
 #[derive(Clone, Copy, Debug)]
-pub struct ScienceCourse {
+pub struct ScienceArc {
     gimbal: Gimbal,
-    nodes: [(CoursePoint, f64); NODES],
-    begin: CoursePoint,
-    end: CoursePoint,
+    nodes: [(ArcPoint, f64); NODES],
+    begin: ArcPoint,
+    end: ArcPoint,
 }
 
-impl ScienceCourse {
-    /// Science of `span_s` by points at shares of it from 0 to 1.
-    pub fn of(gimbal: Gimbal, span_s: f64, mut at: impl FnMut(f64) -> CoursePoint) -> Self {
+impl ScienceArc {
+    /// Science of `span_s`, from its points at fractions of the span from 0 to 1.
+    pub fn new(gimbal: Gimbal, span_s: f64, mut at: impl FnMut(f64) -> ArcPoint) -> Self {
         let begin = at(0.0);
         let interval = 1.0 / INTERVALS as f64;
-        let mut nodes = [(CoursePoint::default(), 0.0); NODES];
+        let mut nodes = [(ArcPoint::default(), 0.0); NODES];
         let shares = (0..INTERVALS).flat_map(|k| GAUSS_3.map(|(node, weight)| (k as f64 + node, weight)));
         for (node, (share, weight)) in nodes.iter_mut().zip(shares) {
             let point = at(share * interval);
@@ -83,8 +83,8 @@ impl ScienceCourse {
         self.attitude(&self.end, sun).inverse() * momentum_inertial_n_m_s
     }
 
-    fn attitude(&self, point: &CoursePoint, sun: SunAngles) -> Rotation3<f64> {
-        let still = |to_m: Vector3<f64>| MovingUnit::of(to_m, Vector3::zeros());
+    fn attitude(&self, point: &ArcPoint, sun: SunAngles) -> Rotation3<f64> {
+        let still = |to_m: Vector3<f64>| MovingUnit::from_vector(to_m, Vector3::zeros());
         let to_sun = still(point.to_sun_m)
             .unwrap_or(MovingUnit { direction: Vector3::x(), rate_1_s: Vector3::zeros() });
         let lines = LinesOfSight {

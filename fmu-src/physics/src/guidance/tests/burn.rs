@@ -2,13 +2,9 @@
 //!
 //! Guidance and spacecraft exchange as a master does that calls both over the same step: each sees the other's last results.
 
-use crate::guidance::geometry::test_geometry::nearest_zone;
+use crate::guidance::tests::geometry::nearest_zone;
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::body_positions::BodyPositions;
-use super::sample_inputs::{GuidanceSettings, SampleInputs, TimedEntries};
-use super::system::GuidanceState;
-use super::transitions::{ModeSettings, Sensed};
 use crate::attitude::Attitude;
 use crate::attitude::control::{AccelerometerSettings, AccelerometerState};
 use crate::bodies::Body;
@@ -16,12 +12,16 @@ use crate::constants::DEG_RAD;
 use crate::guidance::burn::delta_v::{BurnPhase, BurnSettings, GAIN, LOOK_AHEAD_S};
 use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::guidance::constraints::constrained::Constraints;
-use crate::guidance::downlink::sun_place::{LinkLimits, SunRequest};
+use crate::guidance::downlink::sun_direction::{LinkLimits, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
-use crate::guidance::geometry::test_orbit::{about_mercury, guided};
+use crate::guidance::modes::body_positions::BodyPositions;
+use crate::guidance::modes::sample_inputs::{GuidanceSettings, SampleInputs, TimedEntries};
+use crate::guidance::modes::system::GuidanceState;
+use crate::guidance::modes::transitions::{ModeSettings, Sensed};
 use crate::guidance::orbit_phase::attitudes::ScienceRule;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
-use crate::guidance::pointing::scenario_tests::no_instruments;
+use crate::guidance::scenario::scenario_tests::no_instruments;
+use crate::guidance::tests::orbit::{about_mercury, guided};
 use crate::numerics::noise::{Channel, normal_vector};
 
 /// Control samples a second.

@@ -1,27 +1,31 @@
 //! The scenarios of paper 001's Table 5: which vectors each sets, with limb and scan.
 //!
-//! All but the generic one roll -Y toward the Sun. A scan continues  top of any but downlink and burn.
+//! All but the generic one roll -Y toward the Sun. A scan may move any but downlink and burn.
+
+pub mod orbit_phase_solution;
 
 use nalgebra::Vector3;
 
-use super::aimpoint::{Aimpoint, AimpointKind, aimpoint};
-use super::antenna::{Antennas, Beam};
-use super::boresight::{Boresight, DeviceAngle, Gimbal, boresight, instrument_boresight};
-use super::command::{BodyRollCommand, BoresightOption, LimbCommand, PointingCommand, Scenario};
-use super::law::{Pointing, PointingVectors};
-use super::roll::{body_roll, external_roll};
-use super::scan::{ScanCompatibility, ScanTime, scanned};
-use crate::guidance::DownlinkStatus;
 use crate::guidance::burn::delta_v::BurnPointing;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
-use crate::guidance::downlink::sun_place::{DownlinkRequest, SunPlace, SunRequest, downlink, half_turned};
+use crate::guidance::downlink::sun_direction::{
+    DownlinkRequest, DownlinkSunDirection, SunRequest, downlink, half_turned,
+};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::SubsolarMethod;
 use crate::guidance::geometry::limb::{LimbPoint, generic_limb, terminator_limb};
-use crate::guidance::geometry::moving::{MovingVector, fixed, unit, unit_normal, value};
+use crate::guidance::geometry::moving::{Moving, MovingVector, fixed, unit, unit_normal, value};
+use crate::guidance::orbit_phase::guided::DownlinkStatus;
+use crate::guidance::pointing::aimpoint::{Aimpoint, AimpointKind, aimpoint};
+use crate::guidance::pointing::antenna::{Antennas, Beam};
+use crate::guidance::pointing::boresight::{Boresight, DeviceAngle, Gimbal, boresight, instrument_boresight};
+use crate::guidance::pointing::command::{BodyRollCommand, BoresightOption, PointingCommand, Scenario};
+use crate::guidance::pointing::law::{Pointing, PointingVectors};
+use crate::guidance::pointing::roll::{body_roll, external_roll};
+use crate::guidance::pointing::scan::{ScanCompatibility, ScanTime, scanned};
 use crate::spacecraft::Instrument;
 
-/// What the spacecraft has, and how the options are read.
+/// Devices of the spacecraft and settings that pointing options read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GuidanceHardware<'a> {
     /// Instruments by their rows.
@@ -32,22 +36,22 @@ pub struct GuidanceHardware<'a> {
     pub antennas: &'a Antennas,
     /// The default downlink with them.
     pub default_downlink: &'a DefaultDownlink,
-    /// What the subsolar point is.
+    /// Definition of the subsolar point.
     pub subsolar: SubsolarMethod,
-    /// Which scans go with which aimpoints.
+    /// Scan frames allowed for each kind of aimpoint.
     pub scans: ScanCompatibility,
 }
 
-/// What runs beside a command: clocks of its motions, and where downlink wants the Sun.
+/// Progress of a command: clocks of its motions, and the direction of the Sun in a downlink.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PointingProgress {
     /// How far the scan is; `None` while there is none.
     pub scan: Option<ScanTime>,
     /// Since the limb scenario began, in s.
     pub limb_elapsed_s: f64,
-    /// Where the Sun stands in the body frame in downlink where that was chosen; else as it is requested.
-    pub downlink_sun: Option<SunPlace>,
-    /// Where downlink is to have the Sun, and whether it is turned about the Sun line.
+    /// Selected direction of the Sun in downlink; `None`: as requested.
+    pub downlink_sun: Option<DownlinkSunDirection>,
+    /// Requested direction of the Sun in downlink, and whether the attitude is turned about the Sun line.
     pub requested: SunRequest,
     /// Thrust direction that a burn commands.
     pub burn: Option<BurnPointing>,
@@ -60,7 +64,7 @@ pub struct PointingSolution {
     pub vectors: PointingVectors,
     /// The gimbal's angle, where the command sets it; out of range it is the nearest bound.
     pub gimbal: Option<DeviceAngle>,
-    /// From the spacecraft to what the gimbal follows beside the boresight, EME2000.
+    /// From the spacecraft to the second target, which the gimbal follows, EME2000.
     pub second: Option<MovingVector>,
     /// The antenna's azimuth, where the command sets it; out of range it is the nearest bound.
     pub antenna: Option<Beam>,
@@ -72,14 +76,11 @@ pub struct PointingSolution {
     pub scan_active: bool,
     /// Outputs of a downlink.
     pub downlink: DownlinkStatus,
-    /// Of a downlink, where its law takes another form; infinite otherwise.
+    /// Margins at whose roots the law of a downlink takes another form; infinite otherwise.
     pub margins: [f64; 2],
 }
 
-/// A limb point by its command and how long its scan lasts.
-type LimbLaw = fn(&EphemerisAtTime, &LimbCommand, f64) -> Option<LimbPoint>;
-
-/// What a scenario reads.
+/// Inputs of a scenario.
 struct Reading<'a> {
     command: &'a PointingCommand,
     hardware: &'a GuidanceHardware<'a>,
@@ -119,8 +120,11 @@ pub fn pointing_solution(
             PointingSolution { second, ..r.sunward(r.instrument()?, r.aimpoint()?) }
         }
         Scenario::Downlink => r.antenna_at_the_earth()?,
-        Scenario::LimbTerminator => r.limb(terminator_limb)?,
-        Scenario::LimbGeneric => r.limb(generic_limb)?,
+        Scenario::LimbTerminator => r.limb(terminator_limb(ephemeris, r.limb_height()))?,
+        Scenario::LimbGeneric => {
+            let reference = command.limb.reference.unwrap_or_default();
+            r.limb(generic_limb(ephemeris, reference, command.limb.azimuth_rad, r.limb_height()))?
+        }
         Scenario::Burn => {
             let burn = progress.burn.as_ref()?;
             PointingSolution::at(r.rolled_sunward(fixed(burn.boresight_body), burn.direction))
@@ -139,7 +143,7 @@ pub fn is_rolled_about_boresight(command: &PointingCommand, hardware: &GuidanceH
     let boresight_body = match command.scenario {
         Some(Generic) => boresight(&command.boresight, hardware.gimbal.as_ref(), hardware.antennas),
         Some(PlusZ | Nadir | DoubleTarget | LimbTerminator | LimbGeneric) => {
-            instrument_boresight(hardware.instruments, command.boresight.instrument).map(Boresight::of)
+            instrument_boresight(hardware.instruments, command.boresight.instrument).map(Boresight::fixed)
         }
         _ => None,
     };
@@ -174,15 +178,22 @@ impl PointingSolution {
 
 impl Reading<'_> {
     fn instrument(&self) -> Option<Boresight> {
-        instrument_boresight(self.hardware.instruments, self.command.boresight.instrument).map(Boresight::of)
+        instrument_boresight(self.hardware.instruments, self.command.boresight.instrument)
+            .map(Boresight::fixed)
     }
 
     fn aimpoint(&self) -> Option<Aimpoint> {
         aimpoint(&self.command.aimpoint, self.ephemeris, self.hardware.subsolar)
     }
 
-    fn limb(&self, law: LimbLaw) -> Option<PointingSolution> {
-        let limb = law(self.ephemeris, &self.command.limb, self.progress.limb_elapsed_s)?;
+    /// Height along the radius of the limb point, in m.
+    fn limb_height(&self) -> Moving {
+        let limb = &self.command.limb;
+        Moving::new(limb.height_m + limb.height_rate_m_s * self.progress.limb_elapsed_s, limb.height_rate_m_s)
+    }
+
+    fn limb(&self, limb: Option<LimbPoint>) -> Option<PointingSolution> {
+        let limb = limb?;
         let aimpoint = Aimpoint::new(self.ephemeris.to_planet() + limb.position, AimpointKind::PlanetPoint)?;
         Some(self.sunward(self.instrument()?, Aimpoint { reachable: limb.exists, ..aimpoint }))
     }
@@ -245,3 +256,6 @@ impl Reading<'_> {
         })
     }
 }
+
+#[cfg(test)]
+pub(crate) mod scenario_tests;

@@ -7,21 +7,22 @@ use std::sync::{LazyLock, OnceLock};
 use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
-use super::aimpoint::aimpoint_kind;
-use super::antenna::tests::quadrants;
-use super::antenna::{Antennas, Beam};
-use super::boresight::Gimbal;
-use super::command::*;
-use super::scan::{ScanCompatibility, ScanTime};
-use super::scenario::{GuidanceHardware, PointingProgress, PointingSolution, pointing_solution};
+use super::{GuidanceHardware, PointingProgress, PointingSolution, pointing_solution};
 use crate::attitude::angle_between_rad;
 use crate::bodies::Body;
 use crate::enumeration::Enumerated;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::SubsolarMethod;
+use crate::guidance::geometry::lvlh::AzimuthReference;
 use crate::guidance::geometry::moving::{fixed, value};
-use crate::guidance::geometry::test_orbit::{TestOrbit, rate_error};
+use crate::guidance::pointing::aimpoint::aimpoint_kind;
+use crate::guidance::pointing::antenna::tests::quadrants;
+use crate::guidance::pointing::antenna::{Antennas, Beam};
+use crate::guidance::pointing::boresight::Gimbal;
+use crate::guidance::pointing::command::*;
+use crate::guidance::pointing::scan::{ScanCompatibility, ScanTime};
+use crate::guidance::tests::orbit::{TestOrbit, rate_error};
 use crate::spacecraft::Instrument;
 
 /// 1e-7 of the rate, or of this.
@@ -60,7 +61,7 @@ pub(crate) fn hardware() -> GuidanceHardware<'static> {
 /// MESSENGER's antennas, and no instrument.
 pub(crate) fn no_instruments() -> GuidanceHardware<'static> {
     static ANTENNAS: LazyLock<(Antennas, DefaultDownlink)> =
-        LazyLock::new(|| (quadrants(), DefaultDownlink::of(&quadrants())));
+        LazyLock::new(|| (quadrants(), DefaultDownlink::new(&quadrants())));
     let (antennas, default_downlink) = &*ANTENNAS;
     GuidanceHardware {
         instruments: &[],

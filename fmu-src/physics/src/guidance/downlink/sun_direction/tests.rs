@@ -6,10 +6,10 @@ use nalgebra::Vector3;
 use super::*;
 use crate::bodies::Body;
 use crate::guidance::geometry::moving::moving;
-use crate::guidance::geometry::test_geometry::{Motion, Random, difference_rad_s};
-use crate::guidance::geometry::test_orbit::about_mercury;
 use crate::guidance::pointing::antenna::AntennaRow;
 use crate::guidance::pointing::antenna::tests::{BACK, SUNSHADE, antennas, fixed_along, quadrants};
+use crate::guidance::tests::geometry::{Motion, Random, difference_rad_s};
+use crate::guidance::tests::orbit::about_mercury;
 
 /// Azimuth in -90..0 or 90..180 deg, typed anew, -180 counting as 180.
 fn in_quadrant(antenna: Option<AntennaRow>, azimuth_rad: f64) -> bool {
@@ -51,7 +51,7 @@ fn sun_at_its_angles_and_earth_in_the_plane() {
         let most_rad = theta_rad.min(PI - theta_rad);
 
         earth_worst_rad = earth_worst_rad.max(earth.z.abs());
-        let earth_azimuth_rad = SunAngles::of(&earth).azimuth_rad;
+        let earth_azimuth_rad = SunAngles::from_direction(&earth).azimuth_rad;
         assert!(in_quadrant(found.antenna.antenna, earth_azimuth_rad), "{found:?} {earth_azimuth_rad}");
         assert!((found.antenna.azimuth_rad - earth_azimuth_rad).sin().abs() < 1e-12);
         let cut_rad = sun_body.elevation_rad.clamp(-most_rad, most_rad);
@@ -230,7 +230,7 @@ fn the_link_needs_antenna_distance_from_the_sun_and_a_free_line() {
         let axis = fixed(earth.cross(&Vector3::z()).normalize());
         let pointing = pointing.turned(&axis, Moving::constant(degrees(off_deg)));
         let earth = value(&pointing.to_body(&around.to_earth()));
-        let azimuth_rad = SunAngles::of(&earth).azimuth_rad;
+        let azimuth_rad = SunAngles::from_direction(&earth).azimuth_rad;
         let beam = |off_deg: f64| AntennaAzimuth {
             antenna,
             azimuth_rad: azimuth_rad + degrees(off_deg),
