@@ -18,22 +18,22 @@ struct Placed {
 pub struct CenterOfMass {
     placed: Option<Placed>,
     /// From the nominal place since the last thruster event, in m; none while nothing moves it.
-    pub(in crate::plant) shift_body_m: Option<Vector3<f64>>,
+    pub(crate) shift_body_m: Option<Vector3<f64>>,
 }
 
 impl CenterOfMass {
     /// An event places it there.
-    pub(in crate::plant) fn place(&mut self, configuration: &Configuration, place_body_m: Vector3<f64>) {
+    pub(crate) fn place(&mut self, configuration: &Configuration, place_body_m: Vector3<f64>) {
         self.placed = Some(Placed { place_body_m, parameter_body_m: configuration.center_of_mass_body_m });
     }
 
     /// A parameter that is set anew rules from there on.
-    pub(in crate::plant) fn reconfigured(&mut self, configuration: &Configuration) {
+    pub(crate) fn reconfigured(&mut self, configuration: &Configuration) {
         self.placed = self.placed.filter(|it| it.parameter_body_m == configuration.center_of_mass_body_m);
     }
 
     /// Mass properties with full tanks: inertia about the centre of mass, which moves alone.
-    pub(in crate::plant) fn of(&self, configuration: &Configuration) -> MassProperties {
+    pub(crate) fn of(&self, configuration: &Configuration) -> MassProperties {
         let mut loaded = configuration.loaded();
         if let Some(Placed { place_body_m, .. }) = self.placed {
             loaded.center_of_mass_body_m = place_body_m;
