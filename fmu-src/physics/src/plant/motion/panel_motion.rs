@@ -43,7 +43,7 @@ struct PanelTurn {
     acceleration_rad_s2: f64,
     /// How far it goes at once, in rad; nothing but memory.
     #[serde(skip)]
-    way_rad: f64,
+    travel_rad: f64,
 }
 
 /// The panels over an interval.
@@ -123,7 +123,7 @@ impl PanelMotion {
 
     /// At the end of `motion` all panels go at once to where their laws have them, the Sun being there (EME2000, in m), and the body
     /// gives way: its attitude then, or `None` where all are there already. The body of `motion` has the mass properties there.
-    pub(crate) fn follow(
+    pub(crate) fn track_law(
         &mut self,
         hinged: Hinged<'_>,
         gyrostat: &mut Gyrostat,
@@ -150,15 +150,15 @@ impl PanelMotion {
             if !self.point_at(hinged, &sun(&attitude)) {
                 break;
             }
-            let before = core::mem::replace(&mut attitude, self.given_way(hinged, gyrostat, motion, start));
+            let before = core::mem::replace(&mut attitude, self.body_reaction(hinged, gyrostat, motion, start));
             let change = before.0.iter().zip(&attitude.0).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             let by_sun = hinged.configuration.panels.iter().any(|setting| setting.is_by_sun());
             if !by_sun || change < SAME {
                 break;
             }
         }
-        let moved = self.turns.iter().any(|it| it.way_rad != 0.0);
-        self.arrive(hinged, &sun(&attitude));
+        let moved = self.turns.iter().any(|it| it.travel_rad != 0.0);
+        self.snap_to_law(hinged, &sun(&attitude));
         moved.then_some(attitude)
     }
 
@@ -175,12 +175,12 @@ impl PanelMotion {
             [_, turn.rate_rad_s] = setting.turn_rad(panel, &sun);
             if setting.is_by_sun() {
                 let to_rad = setting.angle_rad(panel, &end_sun).unwrap_or(0.0);
-                let way_rad = shorter_way_rad(turn.angle_rad, to_rad);
-                let bend_rad = way_rad - turn.rate_rad_s * span_s;
+                let travel_rad = shorter_way_rad(turn.angle_rad, to_rad);
+                let bend_rad = travel_rad - turn.rate_rad_s * span_s;
                 if bend_rad.abs() < GREATEST_BEND_RAD {
                     turn.acceleration_rad_s2 = 2.0 * bend_rad / (span_s * span_s);
                 } else {
-                    turn.rate_rad_s = way_rad / span_s;
+                    turn.rate_rad_s = travel_rad / span_s;
                 }
             }
         }
@@ -191,38 +191,38 @@ impl PanelMotion {
         let settings = hinged.configuration.panels.iter().zip(hinged.panels);
         for (turn, (setting, panel)) in self.turns.iter_mut().zip(settings) {
             let to_rad = setting.angle_rad(panel, sun).unwrap_or(0.0);
-            turn.way_rad = if panel.mass.is_some() { shorter_way_rad(turn.angle_rad, to_rad) } else { 0.0 };
+            turn.travel_rad = if panel.mass.is_some() { shorter_way_rad(turn.angle_rad, to_rad) } else { 0.0 };
         }
-        self.turns.iter().any(|it| it.way_rad != 0.0)
+        self.turns.iter().any(|it| it.travel_rad != 0.0)
     }
 
     /// All panels stand where their laws have them.
-    fn arrive(&mut self, hinged: Hinged<'_>, sun: &SunAt) {
+    fn snap_to_law(&mut self, hinged: Hinged<'_>, sun: &SunAt) {
         let settings = hinged.configuration.panels.iter().zip(hinged.panels);
         for (turn, (setting, panel)) in self.turns.iter_mut().zip(settings) {
-            if turn.way_rad != 0.0 {
+            if turn.travel_rad != 0.0 {
                 turn.angle_rad = setting.angle_rad(panel, sun).unwrap_or(0.0);
             }
         }
     }
 
     /// The attitude after all panels went their way at once.
-    fn given_way(
+    fn body_reaction(
         &self,
         hinged: Hinged<'_>,
         gyrostat: &mut Gyrostat,
         motion: &GyrostatMotion,
         start: Quaternion,
     ) -> Quaternion {
-        let longest_rad = self.turns.iter().map(|it| it.way_rad.abs()).fold(0.0, f64::max);
+        let longest_rad = self.turns.iter().map(|it| it.travel_rad.abs()).fold(0.0, f64::max);
         let steps = (longest_rad / STEP_RAD).ceil().max(1.0);
         let count = steps as u32;
         let mut turn_rate_rad = |share: f64| {
             let part = |index: usize| self.turns.get(index).copied().unwrap_or_default();
-            let angle_rad = |index: usize| part(index).angle_rad + share * part(index).way_rad;
+            let angle_rad = |index: usize| part(index).angle_rad + share * part(index).travel_rad;
             let mass = hinged.mass_at(angle_rad);
             gyrostat.set_mass_properties(mass.inertia_body_kg_m2, mass.center_of_mass_body_m);
-            let masses = hinged_masses(hinged.panels, |index| [angle_rad(index), part(index).way_rad, 0.0]);
+            let masses = hinged_masses(hinged.panels, |index| [angle_rad(index), part(index).travel_rad, 0.0]);
             let momentum: Vector3<f64> =
                 masses.map(|it: HingedMass| it.momentum_body_n_m_s(&mass.center_of_mass_body_m)).sum();
             -(motion.inverse_inertia_of(gyrostat) * momentum) / steps
@@ -238,6 +238,6 @@ impl PanelMotion {
 
 /// The way between two angles, which say nothing of whole turns, in rad: the shorter one.
 fn shorter_way_rad(from_rad: f64, to_rad: f64) -> f64 {
-    let way_rad = to_rad - from_rad;
-    way_rad - nearest_turns_rad(way_rad)
+    let travel_rad = to_rad - from_rad;
+    travel_rad - nearest_turns_rad(travel_rad)
 }

@@ -56,7 +56,7 @@ impl PanelTurns {
     }
 }
 
-/// Whole turns that are nearest to `way_rad`, in rad.
-pub(crate) fn nearest_turns_rad(way_rad: f64) -> f64 {
-    if way_rad.abs() < PI { 0.0 } else { TAU * (way_rad / TAU).round() }
+/// Whole turns that are nearest to `travel_rad`, in rad.
+pub(crate) fn nearest_turns_rad(travel_rad: f64) -> f64 {
+    if travel_rad.abs() < PI { 0.0 } else { TAU * (travel_rad / TAU).round() }
 }
