@@ -403,7 +403,7 @@ impl<'a> Plant<'a> {
                 end_s = 0.5 * (start_s + end_s);
             };
             let predicted = core::mem::replace(self.kinematics.trajectory, before);
-            self.kinematics.trajectory.take_passages(&predicted, end_s);
+            self.kinematics.trajectory.copy_apsides(&predicted, end_s);
             self.integrate(end_s, |at_s| acceleration_m_s2.value(at_s))?;
             // Those ahead began on the predicted orbit.
             self.kinematics.command_slews.forget_after(start_s);

@@ -34,7 +34,7 @@ pub struct SimulationContext {
     /// Work of the step so far.
     pub work: Work,
     /// Scratch states of forks, reused without allocation.
-    pub fork_room: [PropagatorState; 3],
+    pub fork_scratch: [PropagatorState; 3],
 }
 
 impl SimulationContext {
@@ -49,7 +49,7 @@ impl SimulationContext {
             air: None,
             allocator: ThrusterAllocator::default(),
             work: Work::new(u32::MAX, 0),
-            fork_room: Default::default(),
+            fork_scratch: Default::default(),
         }
     }
 

@@ -200,7 +200,7 @@ impl ConfiguredFlight<'_> {
 
     /// Integrates the deviation of the orbit under thrust over the present segment of the motion, and with Encke's method under the
     /// disturbances of `interval` at this mass.
-    pub(super) fn take_thrust(
+    pub(super) fn integrate_thrust(
         &mut self,
         motion: &GyrostatMotion,
         interval: &DisturbanceInterval,

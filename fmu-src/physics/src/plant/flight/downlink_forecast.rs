@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 
 use super::fork::{ForecastMomentum, Fork};
-use crate::guidance::{SelectedSunDirection, Guided, ScienceArc};
+use crate::guidance::{Guided, ScienceArc, SelectedSunDirection};
 use crate::loads::ForceTorque;
 use crate::momentum::{Convention, Totals};
 use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};

@@ -143,7 +143,7 @@ impl AttitudeDynamics {
     }
 
     /// Applies the requests of a step from its start on: dumps, pulses, thrust.
-    pub(super) fn take_requests(
+    pub(super) fn apply_requests(
         &mut self,
         step: &mut DynamicStep<'_, '_>,
         [start_s, end_s]: [f64; 2],
@@ -185,7 +185,7 @@ impl AttitudeDynamics {
             load.internal = self.panels.internal(step.flight.given.prepared.panels, &self.mass.now, time_s);
             self.dumps.torques = self.torques_by_source(&external, time_s);
             self.motion.advance(&step.settings.gyrostat, self.control.wheels.motors(), &load, limit_s);
-            step.flight.take_thrust(&self.motion, &self.disturbance, self.mass.now.mass_kg)?;
+            step.flight.integrate_thrust(&self.motion, &self.disturbance, self.mass.now.mass_kg)?;
         }
         Ok(())
     }
@@ -268,7 +268,7 @@ impl AttitudeDynamics {
         let has_thrusters = !flight.context.allocator.settings.thrusters.is_empty();
         let mut plant = flight.turning_plant(time_s, &body, rate_terms_body);
         if settings.panels_have_mass
-            && let Some(body) = self.follow_panels(settings, &mut plant)
+            && let Some(body) = self.track_panel_laws(settings, &mut plant)
         {
             plant = flight.turning_plant(time_s, &body, rate_terms_body);
         }
@@ -333,7 +333,7 @@ impl AttitudeDynamics {
     }
 
     /// The panels go where their laws have them at the end of the motion; the body after that, where they were elsewhere.
-    fn follow_panels(
+    fn track_panel_laws(
         &mut self,
         settings: &mut DynamicsSettings,
         plant: &mut Plant<'_>,
@@ -341,7 +341,7 @@ impl AttitudeDynamics {
         let time_s = self.motion.end_s();
         let to_sun_m = plant.instant(time_s).geometry.to_sun.position_m;
         let hinged = plant.hinged();
-        let attitude = self.panels.follow(hinged, &mut settings.gyrostat, &self.motion, &to_sun_m)?;
+        let attitude = self.panels.track_law(hinged, &mut settings.gyrostat, &self.motion, &to_sun_m)?;
         let mass = self.panels.mass_properties(&hinged.mass_at_zero, hinged.panels, time_s);
         self.set_known_mass(settings, mass);
         let internal = self.panels.internal(hinged.panels, &mass, time_s);

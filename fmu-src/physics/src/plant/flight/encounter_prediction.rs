@@ -97,7 +97,7 @@ fn arrival(
             return Ok(None);
         }
         // Where the last one is too late the one before is not.
-        fork.mark(now_s, lead_s);
+        fork.checkpoint(now_s, lead_s);
         let advanced = fork.advance_orbit(now_s, limit_s);
         if let Err(PlantError::Orbit(OrbitIntegrationError::Collision(Collision::Impact {
             at_s, name, ..
@@ -112,7 +112,7 @@ fn arrival(
         }
     };
     let osculates_s = (at_s - lead_s).max(time_s);
-    let Some(mut now_s) = fork.go_back(osculates_s) else { return Ok(None) };
+    let Some(mut now_s) = fork.restore(osculates_s) else { return Ok(None) };
     while now_s < osculates_s {
         now_s = fork.advance_orbit(now_s, osculates_s)?;
     }

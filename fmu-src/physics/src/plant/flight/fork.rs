@@ -76,7 +76,7 @@ impl<'f> Fork<'f> {
         (attitude, applied): (AttitudeSource, [ForceTorque<f64>; 2]),
         (time_s, totals): (f64, Totals),
     ) -> Self {
-        let [mut own, first, second] = core::mem::take(&mut context.fork_room);
+        let [mut own, first, second] = core::mem::take(&mut context.fork_scratch);
         own.copy_from(propagator);
         let configuration = &mut context.configuration;
         let attitude = core::mem::replace(&mut configuration.attitude, attitude);
@@ -117,7 +117,7 @@ impl<'f> Fork<'f> {
             match self.integrator.advance_to_stop(&mut plant, &settings, time_s, times)? {
                 Stop::Scheduled { at_s } => {
                     self.integrator.cut(at_s);
-                    let delta_v_inertial_m_s = self.take_event(at_s)?;
+                    let delta_v_inertial_m_s = self.apply_event(at_s)?;
                     self.integrator.push(&delta_v_inertial_m_s);
                 }
                 // No threshold, and nothing is chosen.
@@ -137,7 +137,7 @@ impl<'f> Fork<'f> {
         let mut plant = Plant::new(self.prepared, self.context, &mut self.propagator, &external);
         let until_s = plant.orbit_and_light(time_s)?.min(limit_s);
         if scheduled_s <= until_s {
-            self.take_event(scheduled_s)?;
+            self.apply_event(scheduled_s)?;
         }
         Ok(until_s.min(scheduled_s))
     }
@@ -148,7 +148,7 @@ impl<'f> Fork<'f> {
     }
 
     /// Keeps `time_s`, where the fork has come, as a waypoint if the last one is more than `apart_s` back.
-    pub(super) fn mark(&mut self, time_s: f64, apart_s: f64) {
+    pub(super) fn checkpoint(&mut self, time_s: f64, apart_s: f64) {
         if matches!(&self.waypoints[1].0, Some(last) if time_s - last.time_s <= apart_s) {
             return;
         }
@@ -160,7 +160,7 @@ impl<'f> Fork<'f> {
     }
 
     /// Goes back to the last waypoint up to `time_s` and gives its time; `None` without one.
-    pub(super) fn go_back(&mut self, time_s: f64) -> Option<f64> {
+    pub(super) fn restore(&mut self, time_s: f64) -> Option<f64> {
         let is_up_to = |waypoint: &Option<Waypoint>| waypoint.is_some_and(|it| it.time_s <= time_s);
         let (waypoint, propagator) = self.waypoints.iter_mut().rfind(|(waypoint, _)| is_up_to(waypoint))?;
         core::mem::swap(&mut self.propagator, propagator);
@@ -170,7 +170,7 @@ impl<'f> Fork<'f> {
     }
 
     /// Executes the scheduled event at `time_s`, the end of the fork; returns its velocity change, EME2000, in m/s.
-    fn take_event(&mut self, time_s: f64) -> Result<Vector3<f64>, PlantError> {
+    fn apply_event(&mut self, time_s: f64) -> Result<Vector3<f64>, PlantError> {
         let Self { context, propagator, .. } = self;
         let configuration = &context.configuration;
         let next = configuration.thruster_events.next(self.scheduled).copied();
@@ -228,7 +228,7 @@ impl<'f> Fork<'f> {
 impl Drop for Fork<'_> {
     fn drop(&mut self) {
         let [(_, first), (_, second)] = &mut self.waypoints;
-        self.context.fork_room = [&mut self.propagator, first, second].map(core::mem::take);
+        self.context.fork_scratch = [&mut self.propagator, first, second].map(core::mem::take);
         let configuration = &mut self.context.configuration;
         (
             configuration.attitude,

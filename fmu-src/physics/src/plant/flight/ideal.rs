@@ -87,7 +87,7 @@ impl IdealFlight {
     }
 
     /// Applies the requests of a step from `start_s` on: a maneuver, a dump.
-    pub(super) fn take_requests(
+    pub(super) fn apply_requests(
         &mut self,
         flight: &mut ConfiguredFlight<'_>,
         inputs: &DynamicsInputs,

@@ -190,7 +190,7 @@ impl Flight {
     /// Takes what parameters and inputs set.
     pub fn configure(&mut self, context: SimulationContext, settings: ModeSettings) {
         self.setup = Some(Box::new(FlightSetup { context, settings, evaluation: None }));
-        self.set_left();
+        self.update_current_mass();
     }
 
     /// Configuration, environment and caches; `None` before the first configuration.
@@ -209,7 +209,7 @@ impl Flight {
     }
 
     /// In flight that is followed ideally nothing flows between dumps.
-    fn set_left(&mut self) {
+    fn update_current_mass(&mut self) {
         if let Some(FlightSetup { context, .. }) = self.setup.as_deref_mut() {
             let loaded = self.propagator.center_of_mass.of(&context.configuration);
             let settings = &context.allocator.settings;
@@ -258,7 +258,7 @@ impl Flight {
         if changes.orbit {
             self.propagator.move_to(&setup.context.configuration, time_s)?;
         }
-        self.set_left();
+        self.update_current_mass();
         Ok(())
     }
 
@@ -343,7 +343,7 @@ impl Flight {
         [start_s, end_s]: [f64; 2],
         log: &mut dyn FnMut(&ThrusterEvent),
     ) -> Result<(), PlantError> {
-        self.take_requests(given, inputs, [start_s, end_s], log)?;
+        self.apply_requests(given, inputs, [start_s, end_s], log)?;
         for time_s in self.prediction_settings().times_s([start_s, end_s]) {
             self.advance_to(given, inputs, time_s, log)?;
             self.predict(given, inputs, time_s)?;
@@ -352,7 +352,7 @@ impl Flight {
     }
 
     /// A step's work begins, and what it requests from its start on is taken.
-    fn take_requests(
+    fn apply_requests(
         &mut self,
         given: StepContext<'_>,
         inputs: &DynamicsInputs,
@@ -364,10 +364,10 @@ impl Flight {
         match (mode, settings) {
             (Mode::Waiting, _) => Ok(()),
             (Mode::Ideal(ideal), ModeSettings::Ideal(_)) => {
-                ideal.take_requests(&mut flight, inputs, span_s[0])
+                ideal.apply_requests(&mut flight, inputs, span_s[0])
             }
             (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
-                dynamics.take_requests(&mut DynamicStep { settings, flight: &mut flight, inputs }, span_s)
+                dynamics.apply_requests(&mut DynamicStep { settings, flight: &mut flight, inputs }, span_s)
             }
             _ => Err(PlantError::OtherMode),
         }

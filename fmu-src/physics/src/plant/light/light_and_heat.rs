@@ -91,7 +91,7 @@ impl RadiationBuilder<'_, '_> {
         let effects = self.kinematics.configuration.light_and_heat;
         let stores = self.stores_heat(light);
         if stores {
-            self.take_heat(light, segment, start_s)?;
+            self.store_heat(light, segment, start_s)?;
         } else {
             segment.end_k.clear();
         }
@@ -135,7 +135,7 @@ impl RadiationBuilder<'_, '_> {
     }
 
     /// The heat stored at `start_s`: that at the end of the segment before, at the start of a flight that of balance.
-    fn take_heat(
+    fn store_heat(
         &mut self,
         light: &mut RadiationSolver,
         segment: &mut RadiationSegment,
@@ -180,7 +180,7 @@ impl RadiationBuilder<'_, '_> {
                 node.radiate_stored(model)?;
             }
         } else if self.needs_wall_temperatures() {
-            nodes.iter_mut().for_each(RadiationNode::take_balance);
+            nodes.iter_mut().for_each(RadiationNode::store_balance);
         }
         let mut series = ByEffect::default();
         for effect in self.kinematics.configuration.effects.light() {

@@ -39,7 +39,7 @@ impl RadiationNode {
     }
 
     /// After [`RadiationNode::balance`]: every surface has the temperature of balance.
-    pub(crate) fn take_balance(&mut self) {
+    pub(crate) fn store_balance(&mut self) {
         for (kelvin, face) in self.temperatures_k.iter_mut().zip(self.workspace.faces()) {
             *kelvin = face.temperature_k;
         }

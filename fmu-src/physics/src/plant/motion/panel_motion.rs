@@ -123,7 +123,7 @@ impl PanelMotion {
 
     /// At the end of `motion` all panels go at once to where their laws have them, the Sun being there (EME2000, in m), and the body
     /// gives way: its attitude then, or `None` where all are there already. The body of `motion` has the mass properties there.
-    pub(crate) fn follow(
+    pub(crate) fn track_law(
         &mut self,
         hinged: Hinged<'_>,
         gyrostat: &mut Gyrostat,

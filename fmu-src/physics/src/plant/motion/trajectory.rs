@@ -230,7 +230,7 @@ impl Trajectory {
     }
 
     /// Keeps the periapses another computation of the same orbit met until `end_s`.
-    pub(crate) fn take_passages(&mut self, other: &Self, end_s: f64) {
+    pub(crate) fn copy_apsides(&mut self, other: &Self, end_s: f64) {
         if other.periapses.last_s[0] <= end_s {
             self.periapses = other.periapses;
         }
