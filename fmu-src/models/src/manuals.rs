@@ -15,11 +15,11 @@ macro_rules! manual {
     };
 }
 
-/// Of MomentumPlant.
+/// Manual of MomentumPlant.
 pub(crate) const MOMENTUM_PLANT: Manual = manual!("MomentumPlant", "body_frame");
-/// Of DisturbanceTorque.
+/// Manual of DisturbanceTorque.
 pub(crate) const DISTURBANCE_TORQUE: Manual = manual!("DisturbanceTorque", "body_frame");
-/// Of SpinPlant.
+/// Manual of SpinPlant.
 pub(crate) const SPIN_PLANT: Manual = manual!("SpinPlant", "spin_frame");
-/// Of Guidance.
+/// Manual of Guidance.
 pub(crate) const GUIDANCE: Manual = manual!("Guidance", "body_frame");

@@ -9,7 +9,7 @@ pub struct Item<T> {
     pub value: i32,
     /// Its name: the variant's with a small first letter, or what serde renames it to.
     pub name: &'static str,
-    /// What it means.
+    /// Meaning of the item.
     pub meaning: &'static str,
 }
 

@@ -6,9 +6,9 @@ use core::fmt::Display;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{found}{}{allowed}", if allowed.is_empty() { "" } else { ", allowed: " })]
 pub struct Refusal {
-    /// What it is.
+    /// Value that was found.
     pub found: String,
-    /// What may stand in its place; empty where that is known.
+    /// Values that are allowed instead; empty where the reader knows them.
     pub allowed: String,
 }
 

@@ -80,7 +80,7 @@ impl PreparedAntennas {
 
 /// Distribution of momentum over the wheels of a file.
 pub(crate) fn wheel_array(spacecraft: &Spacecraft) -> WheelArray {
-    WheelArray::of(&spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect::<Vec<_>>())
+    WheelArray::from_axes(&spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect::<Vec<_>>())
 }
 
 /// Sum of the biases of a file's wheels, body frame, in N m s.
@@ -90,7 +90,7 @@ pub(crate) fn bias_body_n_m_s(spacecraft: &Spacecraft) -> Vector3<f64> {
 
 /// The default dump threshold, in N m s.
 pub(crate) fn dump_threshold_n_m_s(spacecraft: &Spacecraft) -> [f64; 3] {
-    ControlDefaults::of(spacecraft, &wheel_array(spacecraft)).dump_threshold_n_m_s.into()
+    ControlDefaults::new(spacecraft, &wheel_array(spacecraft)).dump_threshold_n_m_s.into()
 }
 
 /// A face whose temperature and force are reported.

@@ -76,7 +76,7 @@ impl GuidanceSetup {
 
     /// How far beyond a boundary the controller may take an ordinary scan, in rad.
     pub fn monitor_margin_rad(&self) -> f64 {
-        ControlDefaults::of(&self.spacecraft, &wheel_array(&self.spacecraft)).monitor_margin_rad
+        ControlDefaults::new(&self.spacecraft, &wheel_array(&self.spacecraft)).monitor_margin_rad
     }
 
     /// Takes the commands of a timeline.

@@ -83,7 +83,7 @@ impl PlantSetup {
             center,
             bodies,
             guided: GuidedDefaults::new(&spacecraft, &center),
-            control: ControlDefaults::of(&spacecraft, &wheel_array(&spacecraft)),
+            control: ControlDefaults::new(&spacecraft, &wheel_array(&spacecraft)),
             reported_faces: reported_faces(file, &spacecraft)?,
             antennas: PreparedAntennas::new(&spacecraft),
             shapes: PreparedShapes::new(&spacecraft),

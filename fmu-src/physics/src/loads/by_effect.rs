@@ -17,7 +17,7 @@ pub type Loads<T = f64> = ByEffect<ForceTorque<T>>;
 
 impl<V> ByEffect<V> {
     /// Calls `value` for each effect.
-    pub fn of(value: impl FnMut(Effect) -> V) -> Self {
+    pub fn from_fn(value: impl FnMut(Effect) -> V) -> Self {
         Self(Effect::ALL.map(value))
     }
 
@@ -48,7 +48,7 @@ impl<T: Scalar> ByEffect<ForceTorque<T>> {
     /// Loads of the effects that act.
     #[must_use]
     pub fn of_active(self, active: Active) -> Self {
-        Self::of(|effect| if active.has(effect) { self[effect] } else { ForceTorque::zero() })
+        Self::from_fn(|effect| if active.has(effect) { self[effect] } else { ForceTorque::zero() })
     }
 
     /// Sum over all effects.

@@ -53,7 +53,7 @@ impl SampledManager<'_> {
         let state = DownlinkState {
             to_sun: to_sun_m.try_normalize(0.0)?,
             to_earth: to_earth_m.try_normalize(0.0)?,
-            momentum: StartMomentum::of(&totals, self.convention),
+            momentum: StartMomentum::from_totals(&totals, self.convention),
             span_s: science.as_ref().map_or(start.span_s, ScienceArc::light_s),
             torque_body_n_m: &torque,
             pressure_pa,

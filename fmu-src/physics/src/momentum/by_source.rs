@@ -24,7 +24,7 @@ const KEPT_APART: [bool; Effect::COUNT] = {
 /// Torque by effect of the loads at one time, of those that act on a body whose attitude is followed ideally.
 pub fn torques_body_n_m(loads: &Loads, active: Active) -> SourceTorques {
     let acts = |effect: Effect| KEPT_APART[effect as usize] && active.has(effect);
-    ByEffect::of(|effect| acts(effect).then(|| loads[effect].torque_body_n_m))
+    ByEffect::from_fn(|effect| acts(effect).then(|| loads[effect].torque_body_n_m))
 }
 
 /// Momentum by effect since the last dump, in N m s: EME2000 where the momentum is physical, the integral of body components
@@ -33,7 +33,7 @@ pub fn torques_body_n_m(loads: &Loads, active: Active) -> SourceTorques {
 pub struct SourceMomenta(pub(super) ByEffect<Vector3<f64>>);
 
 impl SourceMomenta {
-    /// Of one effect, body frame, in N m s, the body standing like this; zero for an effect that is not kept apart.
+    /// Returns the momentum of one effect, body frame at this attitude, in N m s; zero for an effect that is not kept apart.
     pub fn body_n_m_s(
         &self,
         effect: Effect,

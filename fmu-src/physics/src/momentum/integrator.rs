@@ -9,7 +9,7 @@ use crate::numerics::intervals::next_multiple_s;
 use super::by_source::SourceMomenta;
 use super::dump::{DumpEvent, Dumps};
 use super::segment::{MomentumSegment, Settings};
-use super::torque_model::{Effort, TorqueModel};
+use super::torque_model::{TorqueModel, WorkKind};
 use super::totals::Totals;
 
 /// Totals of a flight with their dense output.
@@ -48,7 +48,7 @@ pub struct StopTimes {
 }
 
 impl StopTimes {
-    /// Nothing scheduled, no dump so far.
+    /// No scheduled event and no dump so far.
     pub const NONE: Self = Self { scheduled_s: f64::INFINITY, dumped_s: None };
 }
 
@@ -175,7 +175,7 @@ impl MomentumIntegrator {
         while self.segment.end_s() <= time_s + edge_tolerance_s {
             let start_s = self.segment.end_s();
             if start_s >= scheduled_s {
-                flight.spend(Effort::Dump, start_s)?;
+                flight.spend(WorkKind::Dump, start_s)?;
                 return Ok(Stop::Scheduled { at_s: start_s });
             }
             if flight.must_choose(start_s) {
@@ -189,7 +189,7 @@ impl MomentumIntegrator {
             let mut exceeded = settings.policy.exceeded_by(&momentum);
             exceeded.iter_mut().zip(self.segment.at_threshold()).for_each(|(it, reached)| *it |= reached);
             if dumped_s != Some(start_s) && exceeded.contains(&true) {
-                flight.spend(Effort::Dump, start_s)?;
+                flight.spend(WorkKind::Dump, start_s)?;
                 let after_body_n_m_s = settings.policy.reinitialised(&momentum, &exceeded);
                 let before_body_n_m_s = momentum;
                 return Ok(Stop::Dump(DumpEvent { time_s: start_s, before_body_n_m_s, after_body_n_m_s }));

@@ -18,6 +18,6 @@ pub use by_source::{SourceMomenta, SourceTorques, torques_body_n_m};
 pub use dump::{DumpEvent, DumpPolicy, DumpSpacing, Dumps, Reinitialise, TooManyDumps};
 pub use integrator::{MomentumIntegrator, Stop, StopTimes};
 pub use segment::Settings;
-pub use torque_model::{Effort, EventValues, TorqueModel, TorqueSample, after_event_s};
+pub use torque_model::{EventValues, TorqueModel, TorqueSample, WorkKind, after_event_s};
 pub use totals::{Convention, Totals};
 pub use wheels::{WheelArray, WheelCapacity, wheels_body_n_m_s};

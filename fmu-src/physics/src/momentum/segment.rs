@@ -13,7 +13,7 @@ use crate::numerics::or_infinite;
 use super::by_source::{SourceMomenta, SourceSegments, rate};
 use super::dump::DumpPolicy;
 use super::excess::{Excess, Watched};
-use super::torque_model::{Effort, TorqueModel, TorqueSample, after_event_s};
+use super::torque_model::{TorqueModel, TorqueSample, WorkKind, after_event_s};
 use super::totals::{Convention, RATES, Totals, pack};
 
 /// Chebyshev nodes a segment.
@@ -57,7 +57,7 @@ pub(super) struct MomentumSegment {
     /// Absent for a segment without length.
     totals: Option<Segment<RATES, { NODES + 1 }>>,
     by_source_at_start: SourceMomenta,
-    /// None for a segment without length.
+    /// Momentum by source; empty for a segment without length.
     by_source: SourceSegments<{ NODES + 1 }>,
     /// Angular rate, body frame, in rad/s; absent for a segment without length.
     rate_body_rad_s: Option<Segment<3, NODES>>,
@@ -116,7 +116,7 @@ impl MomentumSegment {
         (attitude_at_start, at_start, by_source_at_start): (Quaternion, Totals, SourceMomenta),
     ) -> Result<(), F::Failure> {
         let (start_s, longest_s) = (self.end_s, self.next_longest_s);
-        flight.spend(Effort::Segment, start_s)?;
+        flight.spend(WorkKind::Segment, start_s)?;
         let mut interval = AdaptiveInterval::new(start_s, settings.grid_s, longest_s, horizon_s, SHORTEST_S);
         let mut watched = false;
         // Declared outside: a loop copies the arrays that it returns.
@@ -134,7 +134,7 @@ impl MomentumSegment {
                 let event_s =
                     first_event([after_s, start_s, end_s], rounding_s, &values, |at_s| flight.events(at_s));
                 if let Some(event_s) = event_s {
-                    flight.spend(Effort::Search, start_s)?;
+                    flight.spend(WorkKind::Search, start_s)?;
                     interval.end_at(event_s);
                     continue;
                 }
@@ -160,7 +160,7 @@ impl MomentumSegment {
             if let Some(next_longest_s) = interval.accept(unresolved, tolerance, NODES) {
                 break next_longest_s;
             }
-            flight.spend(Effort::Refinement, start_s)?;
+            flight.spend(WorkKind::Refinement, start_s)?;
         };
         let end_s = interval.end_s();
         let rate_body_rad_s =
@@ -213,7 +213,7 @@ impl MomentumSegment {
 
     /// Change of momentum by each effect since the last dump, at a time inside the segment.
     pub(super) fn by_source(&self, time_s: f64) -> SourceMomenta {
-        SourceMomenta(ByEffect::of(|effect| match &self.by_source[effect] {
+        SourceMomenta(ByEffect::from_fn(|effect| match &self.by_source[effect] {
             Some(momentum) if time_s > self.start_s => momentum.value(time_s),
             _ => self.by_source_at_start.0[effect],
         }))

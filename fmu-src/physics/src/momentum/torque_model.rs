@@ -38,17 +38,39 @@ pub struct TorqueSample {
 /// Values of the event functions of a flight.
 pub type EventValues = SVector<f64, 4>;
 
-/// Kind of work of the integration of momentum.
+/// Kind of work of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Effort {
-    /// A segment as long as the grid and the flight let it be.
+pub enum WorkKind {
+    /// Segments of momentum as long as their grid.
     Segment,
-    /// A segment tried at a shorter length, because the tolerance asks for it.
+    /// Segments shortened for the tolerance of momentum.
     Refinement,
-    /// A search for the time at which something changes abruptly.
+    /// Searches for abrupt changes of attitude, light and shadow.
     Search,
-    /// A dump.
+    /// Dumps.
     Dump,
+    /// Segments of light and heat.
+    Light,
+    /// Integrated segments of the orbit.
+    Orbit,
+    /// Planets' positions fitted anew.
+    Ephemeris,
+    /// Segments of air and magnetic field.
+    Air,
+}
+
+impl WorkKind {
+    /// Every kind.
+    pub const ALL: [Self; 8] = [
+        Self::Segment,
+        Self::Refinement,
+        Self::Search,
+        Self::Dump,
+        Self::Light,
+        Self::Orbit,
+        Self::Ephemeris,
+        Self::Air,
+    ];
 }
 
 /// Model of attitude, torque and acceleration over time.
@@ -87,7 +109,7 @@ pub trait TorqueModel {
     ///
     /// # Errors
     /// More was spent than may be.
-    fn spend(&mut self, _effort: Effort, _time_s: f64) -> Result<(), Self::Failure> {
+    fn spend(&mut self, _effort: WorkKind, _time_s: f64) -> Result<(), Self::Failure> {
         Ok(())
     }
 }

@@ -57,7 +57,7 @@ impl Totals {
         }
     }
 
-    /// What ideal wheels hold, body frame, in N m s: the system's momentum less the body's and its panels' own, J w + h_p.
+    /// Returns the momentum of ideal wheels, body frame, in N m s: the system's less the body's and its panels' own, J w + h_p.
     pub fn wheels_body_n_m_s(
         &self,
         structure_body_n_m_s: &Vector3<f64>,

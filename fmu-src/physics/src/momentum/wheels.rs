@@ -23,11 +23,11 @@ pub struct WheelArray {
 impl WheelArray {
     /// From unit spin axes in the body frame; `None` unless they span all three directions.
     pub fn new(axes_body: &[Vector3<f64>]) -> Option<Self> {
-        Some(Self::of(axes_body)).filter(Self::spans_all)
+        Some(Self::from_axes(axes_body)).filter(Self::spans_all)
     }
 
     /// From unit spin axes in the body frame, which may lie in a plane or a line; a zero vector is a wheel that holds nothing.
-    pub fn of(axes_body: &[Vector3<f64>]) -> Self {
+    pub fn from_axes(axes_body: &[Vector3<f64>]) -> Self {
         let gram: Matrix3<f64> = axes_body.iter().map(|axis| axis * axis.transpose()).sum();
         let eigenvalues = SymmetricEigen::new(gram).eigenvalues;
         let rank = eigenvalues.iter().filter(|value| **value >= LEAST_EIGENVALUE).count();
@@ -158,7 +158,7 @@ impl WheelCapacity {
     /// that makes the greatest relative load least reaches all of it. For the normal n = a_i x a_j of every face, a sphere of
     /// radius r lies inside it if r |n|_2 <= sum_k c_k |a_k . n|, a cube of half edge h if h |n|_1 <= that sum. Reference: Markley
     /// et al., "Maximum torque and momentum envelopes for reaction-wheel arrays", JGCD 33, 2010.
-    pub fn of(axes_body: &[Vector3<f64>], capacities_n_m_s: &[f64]) -> Option<Self> {
+    pub fn new(axes_body: &[Vector3<f64>], capacities_n_m_s: &[f64]) -> Option<Self> {
         let least_norm = WheelArray::new(axes_body)?;
         let (mut sphere_n_m_s, mut box_n_m_s) = (f64::INFINITY, f64::INFINITY);
         for (first, a) in axes_body.iter().enumerate() {

@@ -12,17 +12,17 @@ pub(crate) struct MassState {
     /// At the start of the present segment of the motion: without the propellant that flowed since.
     pub now: MassProperties,
     /// At the last edge of the grid with every panel at angle 0; absent while no propellant is used.
-    pub left: Option<MassProperties>,
+    pub stowed: Option<MassProperties>,
 }
 
 impl MassState {
     /// At the start of a flight.
     pub(super) fn new(mass: MassProperties) -> Self {
-        Self { known: mass, now: mass, left: None }
+        Self { known: mass, now: mass, stowed: None }
     }
 
     /// Whether a simulation can produce it.
     pub(super) fn is_valid(&self) -> bool {
-        [Some(self.known), Some(self.now), self.left].iter().flatten().all(|mass| mass.mass_kg > 0.0)
+        [Some(self.known), Some(self.now), self.stowed].iter().flatten().all(|mass| mass.mass_kg > 0.0)
     }
 }

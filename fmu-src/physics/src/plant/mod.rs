@@ -32,7 +32,7 @@ pub use disturbances::laws::LocalEnvironment;
 pub use disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
 pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 pub use flight::ideal::Maneuvers;
-pub use flight::report::{ControlReport, EncounterReport, Report, Shown, WheelReport};
+pub use flight::report::{ControlReport, EncounterReport, FlightSummary, Report, WheelReport};
 pub use flight::wheel_control::WheelControl;
 pub use flight::{
     Changes, EncounterPrediction, Flight, ForecastMomentum, ModeSettings, Occultation, PredictedArrival,
@@ -41,7 +41,7 @@ pub use flight::{
 pub use light::radiation_segment::RadiationSegment;
 pub use light::radiation_solver::RadiationSolver;
 pub use light::sunlit::SunlitConfiguration;
-pub use motion::approaches::Approach;
+pub use motion::approaches::ClosestApproach;
 pub use motion::geometry::{Geometry, sun_and_earth};
 pub use motion::instant::{Instant, Regime};
 pub use motion::osculating_orbit::OsculatingOrbit;
@@ -69,7 +69,7 @@ pub use settings::radiation_settings::RadiationSettings;
 pub use settings::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
 pub use settings::thruster_events::{Maneuver, ThrusterEvent, ThrusterEventSettings};
 pub use settings::wheel_control_settings::WheelControlSettings;
-pub use settings::work::{Cost, Work, WorkExceeded};
+pub use settings::work::{Work, WorkExceeded};
 pub use state::propagator_state::PropagatorState;
 pub use state::sun_choice::SunDirectionSelection;
 pub use thrusters::allocation::{ThrusterAllocator, UnservedDumps};

@@ -96,7 +96,7 @@ impl Figures {
             mass_spread_m: moments.map(|own| ((moments.sum() / 2.0 - own).max(0.0)).sqrt()),
             solar: sunlit(spacecraft, false),
             shadowed_solar: sunlit(spacecraft, true),
-            wheels: WheelCapacity::of(&axes, &capacities_n_m_s),
+            wheels: WheelCapacity::new(&axes, &capacities_n_m_s),
             thrusters: ThrusterFigures::for_all(spacecraft, &angles_rad, &center_m),
             thruster_torque: TorqueBothWays::new(spacecraft, &center_m),
         }

@@ -218,7 +218,7 @@ fn center_of_mass(figures: &Figures, found: &mut Vec<String>) {
 /// A sentence for what starts at the bound of what may be set, as the file gives more or less.
 pub fn defaults_at_their_bounds(spacecraft: &Spacecraft) -> Vec<String> {
     let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
-    let defaults = ControlDefaults::of(spacecraft, &WheelArray::of(&axes));
+    let defaults = ControlDefaults::new(spacecraft, &WheelArray::from_axes(&axes));
     let rows = [
         (
             "control.slewAcceleration",

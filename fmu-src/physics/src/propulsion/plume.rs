@@ -5,7 +5,7 @@ use nalgebra::{Rotation3, Unit, Vector3};
 use crate::math;
 use crate::spacecraft::{Panel, Plate, Polygon, Spacecraft, Thruster};
 
-/// The first plate or panel of which a corner or the centre stands in the cone of the thruster's plume, by name, the panels at
+/// Returns the first plate or panel with a corner or the centre in the cone of the thruster's plume, by name, the panels at
 /// these angles (by index, in rad; none = left out). A surface that the thruster stands on is not in it.
 pub fn surface_in_plume<'s>(
     spacecraft: &'s Spacecraft,

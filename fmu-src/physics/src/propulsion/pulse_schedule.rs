@@ -22,7 +22,7 @@ struct OpenPulse {
     /// When the valve closes, in s; infinite without end.
     #[serde(with = "or_infinite")]
     closes_s: f64,
-    /// It does not close before, in s.
+    /// Earliest time of closing, in s.
     holds_until_s: f64,
 }
 

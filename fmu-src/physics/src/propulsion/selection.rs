@@ -53,7 +53,7 @@ pub struct ThrusterSelection {
 }
 
 impl ThrusterSelection {
-    /// Of the thrusters that `may_fire` (by index) about a centre of mass, in m.
+    /// Selects among the thrusters that `may_fire` (by index) about a centre of mass, in m.
     ///
     /// # Errors
     /// A way about an axis that none of them gives.

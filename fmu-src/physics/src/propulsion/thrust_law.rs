@@ -20,7 +20,7 @@ pub struct ThrustLaw {
 }
 
 impl ThrustLaw {
-    /// Nothing.
+    /// Law without force, torque and flow.
     pub fn none(since_s: f64) -> Self {
         let nothing = [Vector3::zeros(); 2];
         Self { since_s, force_body_n: nothing, torque_body_n_m: nothing, flow_kg_s: [0.0; 2] }

@@ -50,7 +50,7 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
     };
     let mut flight = Flight::waiting(Thrusters::new(0, 0, 0.0));
     let settings = IdealSettings {
-        array: WheelArray::of(&[]),
+        array: WheelArray::from_axes(&[]),
         wheels: Vec::new(),
         sun_sensors: Vec::new(),
         rate_hz: 1.0,
@@ -69,7 +69,7 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
         flight.advance(given, &inputs, [now_s, to_s], &mut |_| {}).unwrap();
         now_s = to_s;
         let report = flight.report(given, &inputs, &held, to_s).unwrap();
-        report.shown.totals.momentum_inertial_n_m_s
+        report.summary.totals.momentum_inertial_n_m_s
     };
     advance(4.0 * HOUR_S);
     let forecast = found.borrow().clone();

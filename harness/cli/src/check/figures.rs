@@ -145,7 +145,8 @@ fn devices(spacecraft: &Spacecraft, figures: &Figures) -> Vec<(&'static str, Str
 /// Where no dump comes, and dumps that cost nothing.
 fn dumps(spacecraft: &Spacecraft) -> Vec<String> {
     let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
-    let thresholds_n_m_s = ControlDefaults::of(spacecraft, &WheelArray::of(&axes)).dump_threshold_n_m_s;
+    let thresholds_n_m_s =
+        ControlDefaults::new(spacecraft, &WheelArray::from_axes(&axes)).dump_threshold_n_m_s;
     let is_given = spacecraft.start.iter().any(|entry| entry.name.starts_with("dump.threshold"));
     let never =
         AXES.into_iter().zip(&thresholds_n_m_s).filter(|(_, it)| !is_given && **it >= NEVER_DUMPED_N_M_S);

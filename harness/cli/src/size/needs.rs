@@ -123,7 +123,7 @@ impl<'a> Demands<'a> {
         if wheels.is_empty() {
             return None;
         }
-        let array = WheelArray::of(&axes_of(&self.sized.spacecraft));
+        let array = WheelArray::from_axes(&axes_of(&self.sized.spacecraft));
         let held_n_m_s = array.spanned_threshold_n_m_s(wheels.iter().map(Wheel::free_capacity_n_m_s));
         let free_n_m_s = held_n_m_s / (1.0 + self.margin) - self.slew(|it| it.momentum_n_m_s);
         let bounds_n_m_s = free_n_m_s.map(|it| it.max(0.0)) * self.room;
@@ -135,13 +135,13 @@ impl<'a> Demands<'a> {
 
 /// Body axes along which the file's wheels hold nothing; none where it has no wheels.
 pub(super) fn unspanned(spacecraft: &Spacecraft) -> Vec<usize> {
-    let spanned = WheelArray::of(&axes_of(spacecraft)).spanned();
+    let spanned = WheelArray::from_axes(&axes_of(spacecraft)).spanned();
     (0..3).filter(|axis| !spacecraft.wheels.is_empty() && !spanned[*axis]).collect()
 }
 
 /// Part of each of wheels alike, along these axes, that hold so much about all body axes that they span at once.
 fn of_each(axes: &[Vector3<f64>], needed: &Vector3<f64>) -> f64 {
-    let of_one = WheelArray::of(axes).spanned_threshold_n_m_s(axes.iter().map(|_| 1.0));
+    let of_one = WheelArray::from_axes(axes).spanned_threshold_n_m_s(axes.iter().map(|_| 1.0));
     // About an axis that they do not span they hold nothing, whatever they are.
     let each = needed.iter().zip(&of_one).filter(|(_, of_one)| of_one.is_finite());
     each.map(|(needed, of_one)| needed / of_one).fold(0.0, f64::max)

@@ -91,7 +91,7 @@ pub fn sunlit(
     sunlit.convention = convention;
     let inertia =
         |row: usize, column: usize| values.real(&format!("spacecraft.inertia[{},{}]", row + 1, column + 1));
-    sunlit.mass_at_zero = MassProperties {
+    sunlit.current_mass_panels_stowed = MassProperties {
         mass_kg: values.real("spacecraft.mass"),
         center_of_mass_body_m: values.vector("spacecraft.centerOfMass"),
         inertia_body_kg_m2: Matrix3::from_fn(inertia),

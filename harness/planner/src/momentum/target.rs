@@ -83,7 +83,7 @@ pub(super) struct Targeting {
 impl Targeting {
     /// What the encounter moves by, by force times time at a row.
     pub(super) fn by_impulse(&self, sunlit: &SunlitSpacecraft, row: &FlightRow) -> Matrix3<f64> {
-        let mass_kg = row.motion.map_or(sunlit.mass_at_zero.mass_kg, |motion| motion.mass_kg);
+        let mass_kg = row.motion.map_or(sunlit.current_mass_panels_stowed.mass_kg, |motion| motion.mass_kg);
         self.encountered.by_velocity_at(row.time_s) / mass_kg
     }
 }

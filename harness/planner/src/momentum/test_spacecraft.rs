@@ -22,7 +22,7 @@ pub(crate) fn sunlit(center_of_mass_m: [f64; 3]) -> SunlitSpacecraft {
     let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
     let light = SunLight { source: LightSource::Distance { flux_w_m2: 1358.0 }, scale: 1.0 };
     let mut sunlit = SunlitSpacecraft::new(spacecraft, light, None).unwrap();
-    sunlit.mass_at_zero.center_of_mass_body_m = Vector3::from(center_of_mass_m);
+    sunlit.current_mass_panels_stowed.center_of_mass_body_m = Vector3::from(center_of_mass_m);
     sunlit
 }
 

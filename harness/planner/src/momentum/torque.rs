@@ -101,8 +101,8 @@ pub struct SunlitSpacecraft {
     /// Sunlight.
     pub light: SunLight,
     /// Mass, centre of mass and inertia with every panel at angle 0.
-    pub mass_at_zero: MassProperties,
-    /// Centres of mass by the time from which on they count, in s, body frame, in m; before the first that of `mass_at_zero`.
+    pub current_mass_panels_stowed: MassProperties,
+    /// Centres of mass by the time from which on they count, in s, body frame, in m; before the first that of `current_mass_panels_stowed`.
     pub centers_of_mass: Vec<(f64, Vector3<f64>)>,
     /// Whether each panel takes part, and the sense of its tilt.
     pub panels: Vec<(bool, f64)>,
@@ -129,7 +129,7 @@ impl SunlitSpacecraft {
         Ok(Self {
             solar: SolarModel::new(&spacecraft, sunshade)?,
             antennas: Antennas::new(&spacecraft.antennas),
-            mass_at_zero: spacecraft.mass_properties,
+            current_mass_panels_stowed: spacecraft.mass_properties,
             panels: spacecraft.panels.iter().map(|panel| (true, panel.tilt_sign)).collect(),
             panel_biases_rad: vec![0.0; spacecraft.panels.len()],
             followed_suns: vec![None; spacecraft.panels.len()],
@@ -153,8 +153,9 @@ impl SunlitSpacecraft {
 
     fn mass_at(&self, time_s: f64) -> MassProperties {
         let begun = self.centers_of_mass.iter().rev().find(|(at_s, _)| *at_s <= time_s);
-        let center = begun.map_or(self.mass_at_zero.center_of_mass_body_m, |(_, center)| *center);
-        MassProperties { center_of_mass_body_m: center, ..self.mass_at_zero }
+        let center =
+            begun.map_or(self.current_mass_panels_stowed.center_of_mass_body_m, |(_, center)| *center);
+        MassProperties { center_of_mass_body_m: center, ..self.current_mass_panels_stowed }
     }
 
     /// The attitude of a downlink with the Sun there; `None` where Sun or Earth has no direction.
@@ -232,7 +233,7 @@ impl SunlitSpacecraft {
             solar: &self.solar,
             panels: &self.spacecraft.panels,
             settings,
-            mass_at_zero: self.mass_at(row.time_s),
+            current_mass_panels_stowed: self.mass_at(row.time_s),
             time_s: row.time_s,
             sun_distance_m,
         }

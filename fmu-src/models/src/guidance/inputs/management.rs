@@ -73,7 +73,7 @@ pub(crate) fn manager<'a>(
             solar: &fixed.solar,
             panels: &spacecraft.panels,
             settings: &fixed.panels,
-            mass_at_zero: MassProperties {
+            current_mass_panels_stowed: MassProperties {
                 center_of_mass_body_m: Vector3::from(values.vector(v.spacecraft_center_of_mass)),
                 ..spacecraft.mass_properties
             },

@@ -14,7 +14,7 @@ pub(in crate::momentum_plant) fn array(context: &Plan<'_>, values: &Values) -> W
     let wheels = context.variables.wheel.iter();
     let axes =
         wheels.map(|wheel| Vector3::from(values.vector(wheel.axis)).try_normalize(0.0).unwrap_or_default());
-    WheelArray::of(&axes.collect::<Vec<_>>())
+    WheelArray::from_axes(&axes.collect::<Vec<_>>())
 }
 
 /// Sum of the wheels' biases, body frame, in N m s.

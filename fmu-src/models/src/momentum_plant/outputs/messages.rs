@@ -1,7 +1,8 @@
 //! Messages of a flight: why it ends, and the dumps and maneuvers that happen.
 
 use fmi_export::Failure;
-use physics::plant::{Cost, PlantError, ThrusterEvent};
+use physics::momentum::WorkKind;
+use physics::plant::{PlantError, ThrusterEvent};
 
 use crate::momentum_plant::setup::Plan;
 
@@ -15,24 +16,24 @@ pub(in crate::momentum_plant) fn failure(error: PlantError) -> Failure {
         PlantError::Dumps(_) => "; see dump.threshold, dump.reinitTo and torque.applied",
         PlantError::Work(exceeded) => {
             let most = match exceeded.most {
-                Cost::Segment => {
+                WorkKind::Segment => {
                     "internal steps, which solver.step, orbit.step and solver.disturbanceStep keep short"
                 }
-                Cost::Refinement => {
+                WorkKind::Refinement => {
                     "internal steps shortened for solver.tolerance, which is small for this torque and attitude rate"
                 }
-                Cost::Search => {
+                WorkKind::Search => {
                     "searches for changes of attitude, light and eclipse: see orbit.*, guided.* and command.rate"
                 }
-                Cost::Dump => {
+                WorkKind::Dump => {
                     "dumps: dump.threshold is low for this torque; see torque.applied and spacecraft.centerOfMass"
                 }
-                Cost::Light => {
+                WorkKind::Light => {
                     "light and heat: see solver.disturbanceStep, solver.disturbanceTolerance and planetLight.nodes"
                 }
-                Cost::Air => "air and magnetic field along the orbit; see atmosphere.tolerance",
-                Cost::Orbit => "integrating the orbit in steps of orbit.step",
-                Cost::Ephemeris => {
+                WorkKind::Air => "air and magnetic field along the orbit; see atmosphere.tolerance",
+                WorkKind::Orbit => "integrating the orbit in steps of orbit.step",
+                WorkKind::Ephemeris => {
                     "the positions of planets far apart in time: see guided.slewRate and guided.downlinkEvery"
                 }
             };

@@ -40,7 +40,7 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let variables = context.variables;
     let Evaluation { instant, loads, mass, .. } = evaluation;
     values.set_real(variables.epoch, time::epoch_at_s(time_s, configuration.epoch_minus_time_s));
-    values.set_vector(variables.attitude.q, report.shown.attitude.unit_quaternion().0);
+    values.set_vector(variables.attitude.q, report.summary.attitude.unit_quaternion().0);
     values.set_vector(variables.attitude.rate, instant.frame.rate_body_rad_s.into());
 
     let total = loads.total();
@@ -156,16 +156,16 @@ fn write_air_and_field(context: &Plan<'_>, values: &mut Values, report: &Report<
 /// System momentum, wheels, dumps, flexible modes, propellant.
 fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let v = context.variables;
-    let shown = &report.shown;
+    let summary = &report.summary;
     let convention = report.configuration.momentum.convention;
     let rotation = &report.evaluation.instant.frame.inertial_from_body;
-    values.set_vector(v.delta_v, shown.totals.delta_v_inertial_m_s.into());
-    values.set_vector(v.momentum.body, shown.totals.momentum_body_n_m_s(convention, rotation).into());
-    values.set_vector(v.momentum.inertial, shown.totals.momentum_inertial_n_m_s.into());
+    values.set_vector(v.delta_v, summary.totals.delta_v_inertial_m_s.into());
+    values.set_vector(v.momentum.body, summary.totals.momentum_body_n_m_s(convention, rotation).into());
+    values.set_vector(v.momentum.inertial, summary.totals.momentum_inertial_n_m_s.into());
     values.set_vector(v.momentum.bias, report.configuration.momentum.policy.bias_body_n_m_s.into());
-    values.set_vector(v.momentum.unheld, shown.unheld_body_n_m_s().into());
+    values.set_vector(v.momentum.unheld, summary.unheld_body_n_m_s().into());
     for (effect, output) in v.momentum.by_source.iter() {
-        values.set_vector(output, shown.by_source.body_n_m_s(effect, convention, rotation).into());
+        values.set_vector(output, summary.by_source.body_n_m_s(effect, convention, rotation).into());
     }
     values.set_boolean(v.momentum.target_clamped, report.target_is_clamped);
     values.set_boolean(v.guided_degenerate, report.is_degenerate);
@@ -174,7 +174,7 @@ fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) 
     values.set_integer(v.timeline.command, i32::try_from(report.timeline_row).unwrap_or(i32::MAX));
     values.set_real(v.timeline.until, report.timeline_until_s.unwrap_or(-1.0));
     for (k, variables) in v.wheel.iter().enumerate() {
-        let Some(wheel) = shown.wheel(k) else { break };
+        let Some(wheel) = summary.wheel(k) else { break };
         values.set_real(variables.momentum, wheel.momentum_n_m_s);
         values.set_real(variables.speed, wheel.speed_rad_s);
         values.set_real(variables.torque, wheel.torque_n_m);
@@ -182,22 +182,22 @@ fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) 
         values.set_boolean(variables.saturated, wheel.is_saturated);
     }
     for (k, mode) in v.flexible_mode.iter().enumerate() {
-        values.set_real(mode.displacement, shown.mode_sqrt_kg_m(k));
+        values.set_real(mode.displacement, summary.mode_sqrt_kg_m(k));
     }
     for (k, slosh) in v.slosh.iter().enumerate() {
-        values.set_vector(slosh.angle, shown.slosh_rad(k));
+        values.set_vector(slosh.angle, summary.slosh_rad(k));
     }
-    let (dump, closest_s) = (&v.dump, shown.spacing.closest_s);
-    values.set_boolean(dump.active, shown.is_dumping);
-    values.set_integer(dump.count, shown.dumps.count);
-    values.set_real(dump.last_time, shown.dumps.last.map_or(-1.0, |event| event.time_s));
+    let (dump, closest_s) = (&v.dump, summary.spacing.closest_s);
+    values.set_boolean(dump.active, summary.is_dumping);
+    values.set_integer(dump.count, summary.dumps.count);
+    values.set_real(dump.last_time, summary.dumps.last.map_or(-1.0, |event| event.time_s));
     values.set_real(dump.closest, closest_s.unwrap_or(-1.0));
     let required_s = values.real(dump.required_spacing);
     values.set_boolean(dump.too_close, closest_s.is_some_and(|closest_s| closest_s < required_s));
-    values.set_vector(dump.impulse, shown.dump_impulse_body_n_m_s.into());
-    values.set_vector(dump.delta_v, shown.dump_delta_v_inertial_m_s.into());
-    let (last_s, executed_m_s) = shown.maneuvers.last.unwrap_or((-1.0, Vector3::from([0.0; 3])));
-    values.set_integer(v.maneuver.count, shown.maneuvers.count);
+    values.set_vector(dump.impulse, summary.dump_impulse_body_n_m_s.into());
+    values.set_vector(dump.delta_v, summary.dump_delta_v_inertial_m_s.into());
+    let (last_s, executed_m_s) = summary.maneuvers.last.unwrap_or((-1.0, Vector3::from([0.0; 3])));
+    values.set_integer(v.maneuver.count, summary.maneuvers.count);
     values.set_real(v.maneuver.last_time, last_s);
     values.set_vector(v.maneuver.executed, executed_m_s.into());
 }
@@ -205,16 +205,16 @@ fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) 
 /// Sensors and control.
 fn write_sensors(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let v = context.variables;
-    let shown = &report.shown;
-    values.set_vector(v.estimate.q, shown.estimate.attitude.unit_quaternion().0);
-    values.set_vector(v.estimate.rate, shown.estimate.rate_body_rad_s.unwrap_or_default().into());
-    values.set_boolean(v.estimate.valid, shown.estimate.is_valid);
-    values.set_vector(v.sun.sensed, shown.sun_sensed_body.unwrap_or_default().into());
-    values.set_boolean(v.sun.sensed_valid, shown.sun_sensed_body.is_some());
-    values.set_vector(v.accelerometer.delta_v, shown.accelerometer_body_m_s.into());
-    values.set_real(v.control.error, shown.control.error_rad);
-    values.set_boolean(v.control.settled, shown.control.is_settled);
-    values.set_boolean(v.control.saturated, shown.control.is_limited);
+    let summary = &report.summary;
+    values.set_vector(v.estimate.q, summary.estimate.attitude.unit_quaternion().0);
+    values.set_vector(v.estimate.rate, summary.estimate.rate_body_rad_s.unwrap_or_default().into());
+    values.set_boolean(v.estimate.valid, summary.estimate.is_valid);
+    values.set_vector(v.sun.sensed, summary.sun_sensed_body.unwrap_or_default().into());
+    values.set_boolean(v.sun.sensed_valid, summary.sun_sensed_body.is_some());
+    values.set_vector(v.accelerometer.delta_v, summary.accelerometer_body_m_s.into());
+    values.set_real(v.control.error, summary.control.error_rad);
+    values.set_boolean(v.control.settled, summary.control.is_settled);
+    values.set_boolean(v.control.saturated, summary.control.is_limited);
 }
 
 /// Thrusters and tanks.
@@ -288,7 +288,7 @@ pub(super) fn write_guaranteed(context: &Plan<'_>, values: &mut Values) {
 /// Refuses a report from inside the planet or the Sun, or without position.
 pub(super) fn check_report(report: &Report<'_>) -> Result<(), Failure> {
     let time_s = report.time_s;
-    if !report.shown.totals.is_finite() {
+    if !report.summary.totals.is_finite() {
         return Err(Failure::new(format!(
             "at {time_s} s momentum.inertial, momentum.body or deltaV is no finite number; see start.momentum, torque.applied, \
              force.applied, spacecraft.mass and spacecraft.centerOfMass"

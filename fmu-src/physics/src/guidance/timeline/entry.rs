@@ -47,12 +47,12 @@ pub fn begun<T>(items: &[T], clock_minus_time_s: f64, time_s: f64, at_s: impl Fn
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "camelCase")]
 pub enum PlanStatus {
-    /// It stays as it is.
+    /// Command that a plan leaves as it is.
     #[default]
     Fixed,
-    /// It stays, and its cost is reported.
+    /// Command that a plan leaves, reporting its cost.
     Planned,
-    /// The plan may change it.
+    /// Command that a plan may change.
     Free,
 }
 

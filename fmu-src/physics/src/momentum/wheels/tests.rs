@@ -31,17 +31,17 @@ fn wheels_sum_to_the_momentum() {
 #[test]
 fn the_most_that_any_sharing_holds_is_that_of_the_closed_form() {
     // Across the normal (-2, 2, 0)/3 of two neighbours the other two reach 4 sqrt 3/9 each, and its size is 4/3.
-    let held = WheelCapacity::of(&pyramid(), &[8.0; 4]).unwrap();
+    let held = WheelCapacity::new(&pyramid(), &[8.0; 4]).unwrap();
     assert_relative_eq!(held.box_n_m_s, 16.0 / 3.0_f64.sqrt(), max_relative = 1e-14);
     // By the smallest norm each wheel takes 3/4 of what lies along its axis, and the corner of the cube lies along one.
     assert_relative_eq!(held.least_norm_box_n_m_s, 8.0 / (0.75 * 3.0_f64.sqrt()), max_relative = 1e-14);
     let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
-    let held = WheelCapacity::of(&axes, &[2.0, 3.0, 4.0]).unwrap();
+    let held = WheelCapacity::new(&axes, &[2.0, 3.0, 4.0]).unwrap();
     assert_eq!([held.sphere_n_m_s, held.box_n_m_s, held.least_norm_box_n_m_s], [2.0; 3]);
     // In a plane, along a line, none.
-    assert_eq!(WheelCapacity::of(&axes[..2], &[2.0; 2]), None);
-    assert_eq!(WheelCapacity::of(&[Vector3::x(), Vector3::x()], &[2.0; 2]), None);
-    assert_eq!(WheelCapacity::of(&[], &[]), None);
+    assert_eq!(WheelCapacity::new(&axes[..2], &[2.0; 2]), None);
+    assert_eq!(WheelCapacity::new(&[Vector3::x(), Vector3::x()], &[2.0; 2]), None);
+    assert_eq!(WheelCapacity::new(&[], &[]), None);
 }
 
 #[test]
@@ -61,7 +61,7 @@ fn the_sphere_is_the_least_reach_over_all_directions() {
         (0..4).map(|wheel| capacities[wheel] * askew[wheel].dot(&direction).abs()).sum::<f64>()
     });
     let least = reach.fold(f64::INFINITY, f64::min);
-    let held = WheelCapacity::of(&askew, &capacities).unwrap();
+    let held = WheelCapacity::new(&askew, &capacities).unwrap();
     // The least is a kink, and samples are 0.006 rad apart.
     assert_relative_eq!(held.sphere_n_m_s, least, max_relative = 1e-2);
     assert!(held.sphere_n_m_s <= least);
@@ -79,7 +79,7 @@ fn a_symmetric_pyramid_shares_equally() {
 /// Wheels along X and (0.6, 0.8, 0): h2 = y / 0.8 and h1 = x - 0.6 h2 by the two components; two on a line take half each.
 #[test]
 fn wheels_in_a_plane_or_a_line_hold_what_lies_in_it() {
-    let oblique = WheelArray::of(&[Vector3::x(), Vector3::new(0.6, 0.8, 0.0)]);
+    let oblique = WheelArray::from_axes(&[Vector3::x(), Vector3::new(0.6, 0.8, 0.0)]);
     let momentum = Vector3::new(1.0, 2.0, 5.0);
     assert_relative_eq!(oblique.momentum_n_m_s(0, &momentum), -0.5, epsilon = 1e-14);
     assert_relative_eq!(oblique.momentum_n_m_s(1, &momentum), 2.5, epsilon = 1e-14);
@@ -89,15 +89,15 @@ fn wheels_in_a_plane_or_a_line_hold_what_lies_in_it() {
     assert_relative_eq!(threshold.x, 2.0 / 1.75, max_relative = 1e-14);
     assert_eq!((threshold.y, threshold.z), (threshold.x, f64::INFINITY));
     assert_eq!(oblique.guaranteed_threshold_n_m_s([2.0, 2.0].into_iter()), 0.0);
-    let line = WheelArray::of(&[Vector3::zeros(), Vector3::z(), -Vector3::z()]);
+    let line = WheelArray::from_axes(&[Vector3::zeros(), Vector3::z(), -Vector3::z()]);
     let each = [0, 1, 2].map(|k| line.momentum_n_m_s(k, &momentum));
     assert_relative_eq!(Vector3::from(each), Vector3::new(0.0, 2.5, -2.5), epsilon = 1e-14);
     assert_eq!(line.spanned(), [false, false, true]);
     // Across a slanted line no body axis is spanned.
-    let slanted = WheelArray::of(&[Vector3::new(0.6, 0.0, 0.8)]);
+    let slanted = WheelArray::from_axes(&[Vector3::new(0.6, 0.0, 0.8)]);
     assert_relative_eq!(slanted.momentum_n_m_s(0, &momentum), 4.6, epsilon = 1e-14);
     assert_eq!(slanted.spanned(), [false; 3]);
-    assert_eq!(WheelArray::of(&[]).spanned(), [false; 3]);
+    assert_eq!(WheelArray::from_axes(&[]).spanned(), [false; 3]);
 }
 
 fn shipped(text: &str) -> (Spacecraft, f64) {

@@ -8,6 +8,7 @@ use crate::environment::atmosphere::{Air, BREAKS};
 use crate::environment::orientation::Equator;
 use crate::environment::utc::next_midnight_s;
 use crate::math;
+use crate::momentum::WorkKind;
 use crate::momentum::after_event_s;
 use crate::numerics::adaptive::{AdaptiveInterval, SegmentSpan};
 use crate::numerics::events::first_event;
@@ -16,7 +17,6 @@ use crate::plant::settings::air_and_field_settings::{
     AirAndFieldSettings, AirSource, FieldSource, PlanetFigure,
 };
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::work::Cost;
 
 /// Longest segment, in s.
 const LONGEST_S: f64 = 3600.0;
@@ -116,7 +116,7 @@ impl AirAndFieldBuilder<'_, '_> {
         let AirAndFieldSettings { field, .. } = &self.settings;
         let by_model = self.settings.atmosphere().is_some();
         let units = u32::from(by_model) * AIR_UNITS + u32::from(field.is_some()) * FIELD_UNITS;
-        self.kinematics.spend_units(Cost::Air, NODES as u32 * (units + 1), start_s)
+        self.kinematics.spend_units(WorkKind::Air, NODES as u32 * (units + 1), start_s)
     }
 
     /// The latest time up to `limit_s` until which the model of the air is smooth from `start_s` on: midnight, and the heights at

@@ -21,8 +21,8 @@ use serde::{Deserialize, Serialize};
 use crate::environment::CartesianState;
 use crate::loads::{Active, ByEffect, Effect, ForceTorque, Loads};
 use crate::math;
-use crate::momentum::Effort;
 use crate::momentum::TorqueModel;
+use crate::momentum::WorkKind;
 use crate::numerics::adaptive::AdaptiveInterval;
 use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::or_infinite;
@@ -102,7 +102,7 @@ impl DisturbanceInterval {
         grid_s: f64,
         free_inverse_inertia: Option<&Matrix3<f64>>,
     ) -> Result<Self, PlantError> {
-        plant.spend(Effort::Segment, start_s)?;
+        plant.spend(WorkKind::Segment, start_s)?;
         let (known_s, begin) = plant.begin(start_s, next_multiple_s(start_s, grid_s))?;
         let limit_s = match plant.kinematics.excludes_events(&begin, known_s - start_s) {
             true => known_s,
@@ -129,9 +129,9 @@ impl DisturbanceInterval {
             if turning_rad_s * span_s >= SHORTEST_TURN_RAD {
                 let last_s = plant.kinematics.configuration.last_of_panels_s(start_s, interval.end_s());
                 let ends = [start_s, last_s].map(|at_s| plant.evaluate(at_s));
-                let left_out = left_out(active, [&first, &second], &ends);
+                let fit_error = fit_error(active, [&first, &second], &ends);
                 unresolved =
-                    unresolved.max(left_out * left_out.max(math::powi(rate_rad_s * span_s, 2) / 12.0));
+                    unresolved.max(fit_error * fit_error.max(math::powi(rate_rad_s * span_s, 2) / 12.0));
             } else if unresolved <= tolerance {
                 break;
             }
@@ -139,7 +139,7 @@ impl DisturbanceInterval {
                 next_longest_s = longest_s;
                 break;
             }
-            plant.spend(Effort::Refinement, start_s)?;
+            plant.spend(WorkKind::Refinement, start_s)?;
         }
         let end_s = interval.end_s();
         let span_s = end_s - start_s;
@@ -187,14 +187,14 @@ impl DisturbanceInterval {
     /// What ends a flight.
     pub(crate) fn deviate(&self, plant: &mut Plant<'_>) -> Result<(), PlantError> {
         let applied = plant.external(self.start_s);
-        let Kinematics { configuration, trajectory, mass_at_zero, .. } = &mut plant.kinematics;
+        let Kinematics { configuration, trajectory, current_mass_panels_stowed, .. } = &mut plant.kinematics;
         let AttitudeSource::Dynamic(attitude) = &configuration.attitude else { return Ok(()) };
         if !configuration.motion.uses_encke() {
             return Ok(());
         }
         let acceleration_m_s2 = |time_s: f64| {
             let force_body_n = self.force_body_n(&applied, self.start_s, time_s);
-            attitude.frame_at(time_s).inertial_from_body * (force_body_n / mass_at_zero.mass_kg)
+            attitude.frame_at(time_s).inertial_from_body * (force_body_n / current_mass_panels_stowed.mass_kg)
         };
         Ok(trajectory.accelerate(configuration, [self.start_s, self.end_s], Some(acceleration_m_s2))?)
     }
@@ -274,7 +274,7 @@ fn orbital_rate_rad_s(spacecraft: &CartesianState) -> f64 {
 
 /// Largest distance at the two ends of force, torque and magnetic field from the line through those at the two nodes, relative to the
 /// largest force and torque of all effects there, and the field; a torque counts against the largest force at an arm of 1 cm at least.
-fn left_out(active: Active, nodes: [&Evaluation; 2], ends: &[Evaluation; 2]) -> f64 {
+fn fit_error(active: Active, nodes: [&Evaluation; 2], ends: &[Evaluation; 2]) -> f64 {
     let (mut scale, mut most) = ([0.0_f64; 2], [0.0_f64; 2]);
     let beyond = NODES[0] / (NODES[1] - NODES[0]);
     for effect in active.disturbances().filter(|effect| !effect.is_in_field()) {

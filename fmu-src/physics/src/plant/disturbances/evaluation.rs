@@ -13,7 +13,7 @@ use crate::aerodynamics::AirFlow;
 use crate::attitude::MovingFrame;
 use crate::constants::RADIUS_SUN_M;
 use crate::loads::{Effect, ForceTorque, Loads};
-use crate::momentum::{Effort, EventValues, TorqueModel, TorqueSample, torques_body_n_m};
+use crate::momentum::{EventValues, TorqueModel, TorqueSample, WorkKind, torques_body_n_m};
 use crate::numerics::chebyshev::Segment;
 use crate::radiation::Beam;
 use crate::spacecraft::MassProperties;
@@ -32,7 +32,6 @@ use crate::plant::motion::panel_motion::Hinged;
 use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::configuration::{AttitudeSource, Configuration};
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::work::Cost;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::plant::state::sun_choice::SunDirectionSelection;
 
@@ -154,8 +153,16 @@ impl<'a> Plant<'a> {
         propagator: &'a mut PropagatorState,
         external: &'a External<'a>,
     ) -> Self {
-        let SimulationContext { configuration, mass_at_zero, ephemeris, solar, light, air, work, .. } =
-            context;
+        let SimulationContext {
+            configuration,
+            current_mass_panels_stowed,
+            ephemeris,
+            solar,
+            light,
+            air,
+            work,
+            ..
+        } = context;
         let prepared = PreparedSpacecraft { solar: solar.as_ref().unwrap_or(prepared.solar), ..prepared };
         let PropagatorState {
             trajectory,
@@ -174,7 +181,7 @@ impl<'a> Plant<'a> {
             timeline: prepared.timeline,
             command_slews,
             work,
-            mass_at_zero: *mass_at_zero,
+            current_mass_panels_stowed: *current_mass_panels_stowed,
         };
         Self {
             prepared,
@@ -277,8 +284,8 @@ impl<'a> Plant<'a> {
 
     /// The panels with what they belong to.
     pub(crate) fn hinged(&self) -> Hinged<'a> {
-        let Kinematics { configuration, mass_at_zero, .. } = self.kinematics;
-        Hinged { panels: self.prepared.panels, configuration, mass_at_zero }
+        let Kinematics { configuration, current_mass_panels_stowed, .. } = self.kinematics;
+        Hinged { panels: self.prepared.panels, configuration, current_mass_panels_stowed }
     }
 
     /// Geometry and attitude at `time_s`.
@@ -313,7 +320,7 @@ impl<'a> Plant<'a> {
             let beam =
                 Beam { source_body: instant.sun_body, pressure_pa: pressure_pa * instant.lit_fraction };
             let at = [time_s, instant.sun_distance_m];
-            let sunlit = self.prepared.sunlit(configuration, &self.kinematics.mass_at_zero, at);
+            let sunlit = self.prepared.sunlit(configuration, &self.kinematics.current_mass_panels_stowed, at);
             loads[Effect::Solar] = sunlit.load(&beam, center_of_mass_body_m);
         }
     }
@@ -385,11 +392,11 @@ impl<'a> Plant<'a> {
             return self.extend_disturbances(start_s, self.kinematics.trajectory.end_s(), by_interval);
         }
         // Two integrations of some 40 evaluations, and the search for changes in between.
-        self.kinematics.spend_units(Cost::Orbit, 60, start_s)?;
+        self.kinematics.spend_units(WorkKind::Orbit, 60, start_s)?;
         self.kinematics.trajectory.leave(self.kinematics.configuration, start_s);
         let before = *self.kinematics.trajectory;
         self.integrate(f64::INFINITY, |_| Vector3::zeros())?;
-        if self.kinematics.configuration.motion.is_pushed() && !by_interval {
+        if self.kinematics.configuration.motion.has_nongravitational_forces() && !by_interval {
             let lit_s = self.extend_disturbances(start_s, self.kinematics.trajectory.end_s(), false)?;
             let mut end_s = self.kinematics.smooth_until(start_s, lit_s);
             let acceleration_m_s2 = loop {
@@ -399,7 +406,7 @@ impl<'a> Plant<'a> {
                 if self.kinematics.configuration.motion.resolves(&fitted) {
                     break fitted;
                 }
-                self.kinematics.spend_units(Cost::Orbit, NODES as u32, start_s)?;
+                self.kinematics.spend_units(WorkKind::Orbit, NODES as u32, start_s)?;
                 end_s = 0.5 * (start_s + end_s);
             };
             let predicted = core::mem::replace(self.kinematics.trajectory, before);
@@ -428,7 +435,7 @@ impl<'a> Plant<'a> {
         if shortened > 0 {
             // Between bodies a segment is tried until it is short enough: some 40 times the gravity of all of them a trial.
             let end_s = self.kinematics.trajectory.end_s();
-            self.kinematics.spend_units(Cost::Orbit, 60 * shortened, end_s)?;
+            self.kinematics.spend_units(WorkKind::Orbit, 60 * shortened, end_s)?;
         }
         Ok(())
     }
@@ -478,17 +485,18 @@ impl TorqueModel for Plant<'_> {
         self.kinematics.time_rounding_s(time_s)
     }
 
-    fn spend(&mut self, effort: Effort, time_s: f64) -> Result<(), PlantError> {
-        let samples = match effort {
-            Effort::Segment | Effort::Refinement => 10,
-            Effort::Search => 60,
+    fn spend(&mut self, kind: WorkKind, time_s: f64) -> Result<(), PlantError> {
+        let samples = match kind {
+            WorkKind::Segment | WorkKind::Refinement => 10,
+            WorkKind::Search => 60,
             // With the segment that it begins.
-            Effort::Dump => 16,
+            WorkKind::Dump => 16,
+            WorkKind::Light | WorkKind::Orbit | WorkKind::Ephemeris | WorkKind::Air => 1,
         };
         let faces = self.prepared.solar.face_count() as u32;
         let acts = self.kinematics.configuration.effects.has(Effect::Aerodynamic);
         let air = self.air.as_ref().filter(|_| acts).map_or(0, |air| air.evaluation_units());
         let units = Self::SAMPLE_UNITS + faces / 50 + air;
-        self.kinematics.spend_units(effort.into(), samples * units, time_s)
+        self.kinematics.spend_units(kind, samples * units, time_s)
     }
 }

@@ -20,7 +20,7 @@ pub struct SimulationContext {
     /// Spacecraft and orbit; the attitude is set during the simulation.
     pub configuration: Configuration,
     /// Mass properties with every panel at angle 0 and the propellant left.
-    pub mass_at_zero: MassProperties,
+    pub current_mass_panels_stowed: MassProperties,
     /// Planets.
     pub ephemeris: Ephemeris,
     /// The spacecraft in sunlight, where its materials can be set; else as it was prepared.
@@ -41,7 +41,7 @@ impl SimulationContext {
     /// Context of this configuration with full tanks, without light and heat beyond direct sunlight.
     pub fn new(configuration: Configuration) -> Self {
         Self {
-            mass_at_zero: configuration.loaded(),
+            current_mass_panels_stowed: configuration.wet_mass_properties(),
             configuration,
             ephemeris: Ephemeris::default(),
             solar: None,
@@ -100,14 +100,14 @@ impl<'a> PreparedSpacecraft<'a> {
     pub(crate) fn sunlit(
         self,
         configuration: &'a Configuration,
-        mass_at_zero: &MassProperties,
+        current_mass_panels_stowed: &MassProperties,
         [time_s, sun_distance_m]: [f64; 2],
     ) -> SunlitConfiguration<'a> {
         SunlitConfiguration {
             solar: self.solar,
             panels: self.panels,
             settings: &configuration.panels,
-            mass_at_zero: *mass_at_zero,
+            current_mass_panels_stowed: *current_mass_panels_stowed,
             time_s,
             sun_distance_m,
         }

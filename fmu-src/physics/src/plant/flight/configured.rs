@@ -8,6 +8,7 @@ use crate::guidance::{Activity, Guided, Schedule, ScienceRule, SelectedSunDirect
 use crate::momentum::{TorqueModel, Totals};
 
 use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
+use crate::momentum::WorkKind;
 use crate::plant::disturbances::disturbance_interval::DisturbanceInterval;
 use crate::plant::disturbances::evaluation::{External, Plant};
 use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
@@ -15,7 +16,6 @@ use crate::plant::settings::configuration::{AttitudeSource, Command, DynamicAtti
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::reaction_control_settings::ThrustCommand;
 use crate::plant::settings::thruster_events::ThrusterEvent;
-use crate::plant::settings::work::Cost;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::MassProperties;
@@ -174,7 +174,7 @@ impl ConfiguredFlight<'_> {
         let science = gimbal.map(|gimbal| plant.kinematics.science_arc(gimbal, time_s, until_s));
         if science.is_some() {
             let evaluations = self.context.ephemeris.evaluations();
-            self.context.work.spend(Cost::Search, SCIENCE_UNITS, evaluations, time_s)?;
+            self.context.work.spend(WorkKind::Search, SCIENCE_UNITS, evaluations, time_s)?;
         }
         let [applied, _] = (self.given.external)(time_s);
         let mut downlink_forecast = DownlinkForecast {

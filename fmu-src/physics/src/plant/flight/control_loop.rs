@@ -31,7 +31,7 @@ pub(crate) struct ControlLoop {
     pub controller: ControllerState,
     /// Motors.
     pub wheels: WheelControl,
-    /// What guidance commanded last.
+    /// Last command of guidance.
     guidance: Option<Command>,
     /// Downlink as the last sample of guidance reported it.
     pub downlink: DownlinkStatus,
@@ -83,7 +83,7 @@ impl ControlLoop {
         if self.by_thrusters { self.thrusters_limited } else { self.wheels.is_limited() }
     }
 
-    /// What the controller is to bring the body to at the end of the motion.
+    /// Returns the attitude and rate that the controller tracks at the end of the motion.
     pub(super) fn target(
         &mut self,
         flight: &mut ConfiguredFlight<'_>,

@@ -26,8 +26,8 @@ pub enum StartMomentum {
 }
 
 impl StartMomentum {
-    /// What a choice of attitude makes of totals under a convention.
-    pub fn of(totals: &Totals, convention: Convention) -> Self {
+    /// Momentum from which a choice of attitude counts, from totals under a convention.
+    pub fn from_totals(totals: &Totals, convention: Convention) -> Self {
         match convention {
             Convention::Inertial => Self::Inertial(totals.momentum_inertial_n_m_s),
             Convention::BodyIntegral => Self::Body(totals.torque_integral_body_n_m_s),
@@ -78,9 +78,9 @@ pub struct DownlinkForecast<'o> {
 
 impl DownlinkForecast<'_> {
     fn sunlit(&self) -> SunlitConfiguration<'_> {
-        let SimulationContext { configuration, mass_at_zero, .. } = &*self.context;
+        let SimulationContext { configuration, current_mass_panels_stowed, .. } = &*self.context;
         let at = [self.time_s, self.sun_distance_m];
-        self.context.in_sunlight(self.prepared).sunlit(configuration, mass_at_zero, at)
+        self.context.in_sunlight(self.prepared).sunlit(configuration, current_mass_panels_stowed, at)
     }
 
     /// Materials of the spacecraft's faces.

@@ -18,6 +18,7 @@ use super::configured::ConfiguredFlight;
 use super::control_loop::{ControlLoop, Sampled};
 use super::momentum_dumps::MomentumDumps;
 use super::sensing::Sensing;
+use crate::momentum::WorkKind;
 use crate::plant::disturbances::disturbance_interval::{DisturbanceInterval, Linear};
 use crate::plant::disturbances::evaluation::{Evaluation, Plant};
 use crate::plant::mass::MassState;
@@ -28,7 +29,6 @@ use crate::plant::settings::dynamics_settings::{
 };
 use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::thruster_events::{SchedulePlace, ThrusterEvent};
-use crate::plant::settings::work::Cost;
 use crate::plant::thrusters::reaction_control::Thrusters;
 
 /// Units of work of a segment of the motion with flexible modes, slosh or imbalance; one of a rigid body's is a unit.
@@ -84,7 +84,7 @@ impl AttitudeDynamics {
         let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = [Vector3::zeros(); 2];
         let body =
             BodyMotion { attitude: unit, rate_body_rad_s, momentum_inertial_n_m_s, delta_v_inertial_m_s };
-        let mut mass = flight.context.configuration.loaded();
+        let mut mass = flight.context.configuration.wet_mass_properties();
         if settings.panels_have_mass {
             let still = BodyMotion { rate_body_rad_s: Vector3::zeros(), ..body };
             let mut plant = flight.plant_at(time_s, &still);
@@ -173,7 +173,7 @@ impl AttitudeDynamics {
         while self.motion.end_s() < end_s - tolerance_s(end_s) {
             let time_s = self.motion.end_s();
             let evaluations = step.flight.context.ephemeris.evaluations();
-            step.flight.context.work.spend(Cost::Segment, units, evaluations, time_s)?;
+            step.flight.context.work.spend(WorkKind::Segment, units, evaluations, time_s)?;
             self.process_events(step)?;
             let edge_s = step.flight.next_thruster_edge_s();
             let limit_s = self.sensing.next_s().min(self.disturbance.end_s()).min(edge_s);
@@ -208,7 +208,8 @@ impl AttitudeDynamics {
     pub(super) fn resume(&self, settings: &mut DynamicsSettings, flight: &mut ConfiguredFlight<'_>) {
         settings.set_mass_properties(&self.mass.now);
         let context = &mut *flight.context;
-        context.mass_at_zero = self.mass.left.unwrap_or_else(|| context.configuration.loaded());
+        context.current_mass_panels_stowed =
+            self.mass.stowed.unwrap_or_else(|| context.configuration.wet_mass_properties());
     }
 
     /// At the present end of the motion: edges of thrusters, disturbances anew, a dump's end, the sample, where they are due.
@@ -254,10 +255,10 @@ impl AttitudeDynamics {
         let time_s = self.motion.end_s();
         let body = self.motion.at(&settings.gyrostat, time_s);
         let context = &mut *flight.context;
-        let loaded = context.configuration.loaded();
-        self.mass.left =
+        let loaded = context.configuration.wet_mass_properties();
+        self.mass.stowed =
             flight.thrusters.mass_properties_stowed(&context.allocator.settings, &loaded, time_s);
-        context.mass_at_zero = self.mass.left.unwrap_or(loaded);
+        context.current_mass_panels_stowed = self.mass.stowed.unwrap_or(loaded);
         let begins = self.disturbance.is_before();
         if begins || !context.configuration.motion.uses_encke() {
             flight.propagator.cut(&context.configuration, time_s, true);
@@ -275,7 +276,7 @@ impl AttitudeDynamics {
         let inverse_inertia = settings.gyrostat.inverse_carrier().filter(|_| settings.control.is_none());
         self.disturbance = self.disturbance.next(&mut plant, time_s, settings.grid_s, inverse_inertia)?;
         self.disturbance.deviate(&mut plant)?;
-        if settings.panels_have_mass || self.mass.left.is_some() || has_thrusters {
+        if settings.panels_have_mass || self.mass.stowed.is_some() || has_thrusters {
             let instant = plant.instant(time_s);
             self.set_known_mass(settings, plant.mass_properties(&instant, time_s));
         }
@@ -342,7 +343,7 @@ impl AttitudeDynamics {
         let to_sun_m = plant.instant(time_s).geometry.to_sun.position_m;
         let hinged = plant.hinged();
         let attitude = self.panels.track_law(hinged, &mut settings.gyrostat, &self.motion, &to_sun_m)?;
-        let mass = self.panels.mass_properties(&hinged.mass_at_zero, hinged.panels, time_s);
+        let mass = self.panels.mass_properties(&hinged.current_mass_panels_stowed, hinged.panels, time_s);
         self.set_known_mass(settings, mass);
         let internal = self.panels.internal(hinged.panels, &mass, time_s);
         self.motion.reorient(&settings.gyrostat, attitude, internal);
@@ -355,8 +356,8 @@ impl AttitudeDynamics {
             return;
         }
         let time_s = self.motion.end_s();
-        let loaded = flight.context.configuration.loaded();
-        let left = self.mass.left.and_then(|_| flight.used_mass(&loaded, time_s)).unwrap_or(loaded);
+        let loaded = flight.context.configuration.wet_mass_properties();
+        let left = self.mass.stowed.and_then(|_| flight.used_mass(&loaded, time_s)).unwrap_or(loaded);
         self.set_mass(settings, self.panels.mass_properties(&left, flight.given.prepared.panels, time_s));
     }
 
@@ -471,7 +472,7 @@ impl AttitudeDynamics {
 
     /// Torque by effect from `time_s` on.
     fn torques_by_source(&self, external: &[ForceTorque; 2], time_s: f64) -> ByEffect<Option<Linear>> {
-        ByEffect::of(|effect| match effect {
+        ByEffect::from_fn(|effect| match effect {
             Effect::Applied => Some(external.map(|load| load.torque_body_n_m)),
             effect if effect.row().momentum_apart => self.disturbance.torque_at(effect, time_s),
             _ => None,
@@ -486,8 +487,8 @@ impl AttitudeDynamics {
         body: &BodyMotion,
         time_s: f64,
     ) -> Evaluation {
-        let loaded = flight.context.configuration.loaded();
-        flight.context.mass_at_zero = flight.used_mass(&loaded, time_s).unwrap_or(loaded);
+        let loaded = flight.context.configuration.wet_mass_properties();
+        flight.context.current_mass_panels_stowed = flight.used_mass(&loaded, time_s).unwrap_or(loaded);
         let mass_kg = loaded.mass_kg - flight.thrusters.propellant.total_used_kg(time_s);
         let mut plant = flight.plant_at(time_s, body);
         let instant = plant.instant(time_s);

@@ -11,9 +11,9 @@ use super::fork::Fork;
 use crate::environment::orbit::{BPlane, Collision, OrbitIntegrationError};
 use crate::loads::ForceTorque;
 use crate::momentum::Totals;
+use crate::momentum::WorkKind;
 use crate::plant::settings::configuration::{AttitudeSource, Encounter};
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::work::Cost;
 
 /// Units of work of a prediction beside its orbit.
 const UNITS: u32 = 10;
@@ -41,19 +41,19 @@ pub struct PredictedArrival {
 }
 
 impl EncounterPrediction {
-    /// Of the flight at `time_s`, in an attitude of its own from there on, or in the flight's. The Sun stays where it was chosen to
-    /// stand in downlinks.
+    /// Predicts the next encounter from the flight at `time_s` in the attitude of `attitude`, or in the flight's. The Sun stays in
+    /// the direction that was selected for downlinks.
     ///
     /// # Errors
     /// More work than a step may take.
-    pub(super) fn of(
+    pub(super) fn from_flight(
         flight: &mut ConfiguredFlight<'_>,
         attitude: Option<AttitudeSource>,
         time_s: f64,
     ) -> Result<Self, PlantError> {
         let ConfiguredFlight { given, context, propagator, .. } = flight;
         let evaluations = context.ephemeris.evaluations();
-        context.work.spend(Cost::Search, UNITS, evaluations, time_s)?;
+        context.work.spend(WorkKind::Search, UNITS, evaluations, time_s)?;
         let Some(encounter) = context.configuration.encounter else {
             return Ok(Self { since_s: time_s, arrival: None });
         };

@@ -11,7 +11,7 @@ use crate::loads::ForceTorque;
 use crate::momentum::{MomentumIntegrator, Settings, Stop, StopTimes, Totals};
 use crate::plant::disturbances::evaluation::Plant;
 use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
-use crate::plant::motion::approaches::Approach;
+use crate::plant::motion::approaches::ClosestApproach;
 use crate::plant::motion::geometry::Geometry;
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
@@ -64,7 +64,7 @@ pub(crate) struct Fork<'f> {
 struct Waypoint {
     time_s: f64,
     scheduled: SchedulePlace,
-    mass_at_zero: MassProperties,
+    current_mass_panels_stowed: MassProperties,
 }
 
 impl<'f> Fork<'f> {
@@ -80,7 +80,12 @@ impl<'f> Fork<'f> {
         own.copy_from(propagator);
         let configuration = &mut context.configuration;
         let attitude = core::mem::replace(&mut configuration.attitude, attitude);
-        let flight = (attitude, configuration.momentum, configuration.light_and_heat, context.mass_at_zero);
+        let flight = (
+            attitude,
+            configuration.momentum,
+            configuration.light_and_heat,
+            context.current_mass_panels_stowed,
+        );
         // Those of this time are over.
         let scheduled = SchedulePlace::until(time_s);
         let integrator = MomentumIntegrator::new(time_s, totals);
@@ -155,8 +160,11 @@ impl<'f> Fork<'f> {
         self.waypoints.swap(0, 1);
         let (waypoint, propagator) = &mut self.waypoints[1];
         propagator.copy_from(&self.propagator);
-        *waypoint =
-            Some(Waypoint { time_s, scheduled: self.scheduled, mass_at_zero: self.context.mass_at_zero });
+        *waypoint = Some(Waypoint {
+            time_s,
+            scheduled: self.scheduled,
+            current_mass_panels_stowed: self.context.current_mass_panels_stowed,
+        });
     }
 
     /// Goes back to the last waypoint up to `time_s` and gives its time; `None` without one.
@@ -164,8 +172,8 @@ impl<'f> Fork<'f> {
         let is_up_to = |waypoint: &Option<Waypoint>| waypoint.is_some_and(|it| it.time_s <= time_s);
         let (waypoint, propagator) = self.waypoints.iter_mut().rfind(|(waypoint, _)| is_up_to(waypoint))?;
         core::mem::swap(&mut self.propagator, propagator);
-        let Waypoint { time_s, scheduled, mass_at_zero } = waypoint.take()?;
-        (self.scheduled, self.context.mass_at_zero) = (scheduled, mass_at_zero);
+        let Waypoint { time_s, scheduled, current_mass_panels_stowed } = waypoint.take()?;
+        (self.scheduled, self.context.current_mass_panels_stowed) = (scheduled, current_mass_panels_stowed);
         Some(time_s)
     }
 
@@ -177,10 +185,10 @@ impl<'f> Fork<'f> {
         let Some(event) = next else { return Ok(Vector3::zeros()) };
         self.scheduled.take(configuration.thruster_events.time_s(&event));
         if let Some(place_body_m) = event.center_of_mass_body_m {
-            let before = propagator.center_of_mass.of(configuration);
+            let before = propagator.center_of_mass.mass_properties(configuration);
             propagator.center_of_mass.place(configuration, place_body_m);
-            let after = propagator.center_of_mass.of(configuration);
-            context.mass_at_zero.center_of_mass_body_m +=
+            let after = propagator.center_of_mass.mass_properties(configuration);
+            context.current_mass_panels_stowed.center_of_mass_body_m +=
                 after.center_of_mass_body_m - before.center_of_mass_body_m;
             propagator.cut(configuration, time_s, true);
         }
@@ -193,7 +201,7 @@ impl<'f> Fork<'f> {
     }
 
     /// The closest approach to the encounter's body beyond `time_s`, as far as the orbit is known.
-    pub(super) fn approach_after(&self, time_s: f64) -> Option<Approach> {
+    pub(super) fn approach_after(&self, time_s: f64) -> Option<ClosestApproach> {
         self.propagator.trajectory.approach_after(time_s)
     }
 
@@ -234,7 +242,7 @@ impl Drop for Fork<'_> {
             configuration.attitude,
             configuration.momentum,
             configuration.light_and_heat,
-            self.context.mass_at_zero,
+            self.context.current_mass_panels_stowed,
         ) = self.flight;
     }
 }

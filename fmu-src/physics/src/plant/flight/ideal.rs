@@ -1,8 +1,8 @@
 //! Flight in an attitude that is followed ideally: momentum, dumps whose thrusters take propellant and push at once, and maneuvers.
 //!
 //! Equations of a dump: t = S dH by the thrusters' selection S; dv = sum F t / m; du = sum q t from each tank, nominal thrust and no
-//! shortest pulse. Centre of mass and inertia are those of what is left from there on. Where no thrusters give torque all ways
-//! about the centre of mass a dump is as one of a spacecraft without thrusters.
+//! shortest pulse. Centre of mass and inertia are those with the remaining propellant from there on. Where no thrusters give torque
+//! both ways about each axis through the centre of mass a dump is as one of a spacecraft without thrusters.
 //! A maneuver is an impulse through the centre of mass: the velocity jumps and the momentum stays
 //! ([`crate::plant::settings::thruster_events`]).
 
@@ -129,7 +129,7 @@ impl IdealFlight {
         let number = u64::from(self.maneuvers.count.unsigned_abs());
         let executed_m_s = configuration.thruster_events.executed_m_s(&found_m_s, number);
         if let Some(set) = maneuver.thrusters {
-            let mass_kg = flight.context.mass_at_zero.mass_kg;
+            let mass_kg = flight.context.current_mass_panels_stowed.mass_kg;
             let given = flight.thrusters.at_once(&mut flight.context.allocator, time_s).delta_v(
                 set,
                 executed_m_s.norm(),
@@ -199,7 +199,7 @@ impl IdealFlight {
                 }
             };
             let totals = self.integrator.totals(at_s);
-            let momentum = StartMomentum::of(&totals, settings.convention);
+            let momentum = StartMomentum::from_totals(&totals, settings.convention);
             flight.select_sun_direction(at_s, &totals, momentum, false)?;
         }
     }
@@ -256,7 +256,7 @@ impl IdealFlight {
 
     /// Mass properties of what is left at `time_s`.
     fn set_mass(&self, flight: &mut ConfiguredFlight<'_>, time_s: f64) {
-        let loaded = flight.propagator.center_of_mass.of(&flight.context.configuration);
-        flight.context.mass_at_zero = flight.used_mass(&loaded, time_s).unwrap_or(loaded);
+        let loaded = flight.propagator.center_of_mass.mass_properties(&flight.context.configuration);
+        flight.context.current_mass_panels_stowed = flight.used_mass(&loaded, time_s).unwrap_or(loaded);
     }
 }

@@ -204,17 +204,17 @@ impl Flight {
     }
 
     /// Takes the memory of the panels' settings for the next configuration.
-    pub fn take_panels(&mut self) -> Vec<PanelSetting> {
+    pub fn into_panels(&mut self) -> Vec<PanelSetting> {
         self.setup.as_mut().map_or_else(Vec::new, |it| core::mem::take(&mut it.context.configuration.panels))
     }
 
     /// In flight that is followed ideally nothing flows between dumps.
     fn update_current_mass(&mut self) {
         if let Some(FlightSetup { context, .. }) = self.setup.as_deref_mut() {
-            let loaded = self.propagator.center_of_mass.of(&context.configuration);
+            let loaded = self.propagator.center_of_mass.mass_properties(&context.configuration);
             let settings = &context.allocator.settings;
             let current = self.thrusters.mass_properties_stowed(settings, &loaded, 0.0);
-            context.mass_at_zero = current.unwrap_or(loaded);
+            context.current_mass_panels_stowed = current.unwrap_or(loaded);
         }
     }
 
@@ -232,7 +232,7 @@ impl Flight {
         let Some(setup) = self.setup.as_deref_mut() else { return Err(PlantError::OtherMode) };
         let so_far = &setup.context.configuration;
         // On a disturbed orbit the mass decides where the spacecraft goes.
-        let pushed = changes.force && so_far.motion.is_pushed();
+        let pushed = changes.force && so_far.motion.has_nongravitational_forces();
         match &mut self.mode {
             Mode::Waiting => {}
             Mode::Ideal(ideal) => {
@@ -282,8 +282,8 @@ impl Flight {
         survey::occultation(context, &evaluation.as_ref()?.instant.geometry, time_s, quiet_until_s)
     }
 
-    /// The schedule is another one from `time_s` on: what it has before is over, a downlink of it is chosen anew, and the body stands
-    /// in the command that it has then.
+    /// Replaces the schedule from `time_s` on: its earlier events are past, the Sun's direction in a downlink is selected anew, and the
+    /// body has the attitude of the command in force.
     pub fn reschedule(&mut self, time_s: f64) {
         match &mut self.mode {
             Mode::Waiting => {}
@@ -411,12 +411,12 @@ impl Flight {
             let step = DynamicStep { settings, flight: &mut flight, inputs };
             attitude = Some(dynamics.ideal_attitude(&step, time_s));
         }
-        self.prediction = Some(EncounterPrediction::of(&mut flight, attitude, time_s)?);
+        self.prediction = Some(EncounterPrediction::from_flight(&mut flight, attitude, time_s)?);
         Ok(())
     }
 
-    /// What samples at the start with these inputs would do: to be shown there, and to be undone, as the first step takes them with
-    /// its own.
+    /// Takes the samples at the start with these inputs, to be reported there, and returns how to undo them: the first step takes them
+    /// with its own inputs.
     ///
     /// # Errors
     /// What ends a flight.
@@ -463,7 +463,7 @@ impl Flight {
         let FlightSetup { context, settings, evaluation } = &mut **setup;
         let mut flight = ConfiguredFlight { given, context, propagator, thrusters, log: &mut |_| {} };
         let mut sampled = None;
-        let (evaluation, shown) = match (mode, settings) {
+        let (evaluation, summary) = match (mode, settings) {
             (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
                 dynamics.resume(settings, &mut flight);
                 sampled = Some((dynamics.control.downlink, dynamics.control.is_degenerate));
@@ -474,19 +474,20 @@ impl Flight {
             }
             (Mode::Ideal(simulated), ModeSettings::Ideal(settings)) => {
                 let evaluation = &*evaluation.insert(flight.plant().evaluate(time_s));
-                let mut shown = ideal(simulated, settings, evaluation, inputs, time_s);
+                let mut summary = ideal(simulated, settings, evaluation, inputs, time_s);
                 let Instant { sun_body, lit_fraction, .. } = &evaluation.instant;
-                shown.sun_sensed_body = sensed_sun(
+                summary.sun_sensed_body = sensed_sun(
                     &settings.sun_sensors,
                     |k| inputs.sun_sensor_failed.get(k).is_some_and(|failed| *failed),
                     sun_body,
                     *lit_fraction,
                     (settings.seed, sample_number(time_s, settings.rate_hz)),
                 );
-                (evaluation, shown)
+                (evaluation, summary)
             }
             (Mode::Waiting, ModeSettings::Ideal(settings)) => {
-                let evaluated = Evaluation::without_position(frame, flight.context.mass_at_zero);
+                let evaluated =
+                    Evaluation::without_position(frame, flight.context.current_mass_panels_stowed);
                 let evaluation = &*evaluation.insert(evaluated);
                 let bias_body_n_m_s = context.configuration.momentum.policy.bias_body_n_m_s;
                 let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
@@ -528,7 +529,7 @@ impl Flight {
             approaches: propagator.trajectory.approaches_until(time_s),
             panel_turns: &propagator.panel_turns,
             prediction: *prediction,
-            shown,
+            summary,
         })
     }
 

@@ -1,5 +1,5 @@
 //! Dumps of a flight by torque: by pulses of thrusters, or by a constant torque of a spacecraft without thrusters that give
-//! torque all ways; and what each effect did to the momentum since the last one.
+//! torque both ways about each axis; and momentum by effect since the last one.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -28,7 +28,7 @@ pub(crate) struct MomentumDumps {
     pub dumps: Dumps,
     /// Time between dumps.
     pub spacing: DumpSpacing,
-    /// What each effect did to the momentum from the last dump up to the present segment of the motion.
+    /// Momentum by effect from the last dump up to the present segment of the motion.
     by_source: SourceMomenta,
     /// Torque by effect from the start of that segment on.
     pub torques: ByEffect<Option<Linear>>,
@@ -65,7 +65,7 @@ impl MomentumDumps {
         self.torques = Default::default();
     }
 
-    /// What each effect did to the momentum since the end of the last dump, at `time_s`.
+    /// Returns the momentum by effect at `time_s` since the end of the last dump.
     pub(super) fn by_source(&self, motion: &GyrostatMotion, time_s: f64) -> SourceMomenta {
         let mut sum = self.by_source;
         sum.add(&self.impulses(motion, time_s));
@@ -88,7 +88,7 @@ impl MomentumDumps {
         impulses
     }
 
-    /// Begins a dump at the end of the motion: by thrusters that give torque all ways about the centre of mass, or by a constant
+    /// Begins a dump at the end of the motion: by thrusters that give torque both ways about each axis, or by a constant
     /// torque; false where those thrusters are not fed.
     pub(super) fn begin(
         &mut self,

@@ -10,7 +10,7 @@ use crate::environment::orbit::BPlane;
 use crate::guidance::DownlinkStatus;
 use crate::momentum::{DumpSpacing, Dumps, SourceMomenta, Totals};
 use crate::plant::disturbances::evaluation::Evaluation;
-use crate::plant::motion::approaches::Approach;
+use crate::plant::motion::approaches::ClosestApproach;
 use crate::plant::motion::osculating_orbit::OsculatingOrbit;
 use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::configuration::Configuration;
@@ -55,13 +55,13 @@ pub struct Report<'a> {
     /// Position and velocity from it, EME2000, where it may change.
     pub from_integration_center: Option<CartesianState>,
     /// Closest approaches to the encounter's body so far, and the last of them.
-    pub approaches: (i32, Option<Approach>),
+    pub approaches: (i32, Option<ClosestApproach>),
     /// Whole turns of the panels.
     pub panel_turns: &'a PanelTurns,
     /// The last prediction of the next one; `None` before any.
     pub prediction: Option<EncounterPrediction>,
     /// Momentum, dumps, sensors and control.
-    pub shown: Shown<'a>,
+    pub summary: FlightSummary<'a>,
 }
 
 /// The encounter's body at one time.
@@ -98,7 +98,7 @@ impl Report<'_> {
 }
 
 /// Values that depend on the mode of the flight.
-pub struct Shown<'a> {
+pub struct FlightSummary<'a> {
     time_s: f64,
     /// Momentum and velocity change so far.
     pub totals: Totals,
@@ -145,17 +145,17 @@ pub struct ControlReport {
 pub struct WheelReport {
     /// Relative to the body, in N m s.
     pub momentum_n_m_s: f64,
-    /// Of the motor, in N m.
+    /// Torque of the motor, in N m.
     pub torque_n_m: f64,
     /// In rad/s.
     pub speed_rad_s: f64,
-    /// Of the motor, in W.
+    /// Power of the motor, in W.
     pub power_w: f64,
     /// Whether it holds all that it can.
     pub is_saturated: bool,
 }
 
-/// What turns.
+/// Body and wheels as the mode of the flight has them.
 enum Bodies<'a> {
     /// Ideal wheels: their momentum without the body's own, in N m s, its rate in N m, and the body's acceleration in rad/s2.
     Ideal {
@@ -168,8 +168,8 @@ enum Bodies<'a> {
     Dynamic { settings: &'a DynamicsSettings, dynamics: &'a AttitudeDynamics, body: BodyMotion },
 }
 
-impl Shown<'_> {
-    /// What no ideal wheel holds, body frame, in N m s: momentum across the wheels' axes, and beyond their capacities; zero where
+impl FlightSummary<'_> {
+    /// Momentum that no ideal wheel holds, body frame, in N m s: the part across the wheels' axes, and beyond their capacities; zero where
     /// the body turns by torque.
     pub fn unheld_body_n_m_s(&self) -> Vector3<f64> {
         let Bodies::Ideal { settings, momentum_body_n_m_s, .. } = &self.body else { return Vector3::zeros() };
@@ -231,14 +231,14 @@ pub(super) fn ideal<'a>(
     evaluation: &Evaluation,
     inputs: &DynamicsInputs,
     time_s: f64,
-) -> Shown<'a> {
+) -> FlightSummary<'a> {
     let (totals, dumps) = (simulated.integrator.totals(time_s), *simulated.integrator.dumps());
     let Evaluation { instant, loads, mass, .. } = evaluation;
     let frame = &instant.frame;
     let attitude = simulated.integrator.attitude(&frame.inertial_from_body, time_s);
     let structure_rate_body_n_m =
         simulated.integrator.structure_rate_body_n_m(&mass.inertia_body_kg_m2, time_s);
-    Shown {
+    FlightSummary {
         time_s,
         totals,
         by_source: simulated.integrator.by_source(time_s),
@@ -277,11 +277,11 @@ pub(super) fn dynamic<'a>(
     thrusters: &Thrusters,
     (body, evaluation): (BodyMotion, &Evaluation),
     time_s: f64,
-) -> Shown<'a> {
+) -> FlightSummary<'a> {
     let AttitudeDynamics { motion, sensing, control, dumps, .. } = dynamics;
     let dumped = thrusters.dumped_at(motion, time_s);
     let is_controlled = settings.control.is_some();
-    Shown {
+    FlightSummary {
         time_s,
         totals: Totals {
             momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,

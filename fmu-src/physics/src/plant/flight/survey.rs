@@ -63,7 +63,7 @@ pub(super) fn survey(
         default_downlink: given.prepared.default_downlink,
         timeline: given.prepared.timeline,
         work: &mut Work::new(u32::MAX, 0),
-        mass_at_zero: context.mass_at_zero,
+        current_mass_panels_stowed: context.current_mass_panels_stowed,
     };
     for time_s in times_s {
         let instant = kinematics.instant(time_s);

@@ -13,9 +13,9 @@ use crate::spacecraft::Panel;
 use super::radiation_node::RadiationNode;
 use super::radiation_segment::{HOTTEST_K, LoadSeries, NODES, RadiationSegment};
 use super::radiation_solver::RadiationSolver;
+use crate::momentum::WorkKind;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::work::Cost;
 
 /// No segment is shortened below this, in s: kinks where a face turns dark end here.
 const SHORTEST_S: f64 = 1.0;
@@ -102,10 +102,14 @@ impl RadiationBuilder<'_, '_> {
         let mut interval = AdaptiveInterval::new(start_s, effects.grid_s, longest_s, limit_s, shortest_s);
         interval.end_at(self.kinematics.smooth_until(start_s, interval.end_s()));
         let series = loop {
-            self.kinematics.spend_units(Cost::Light, light.segment_units(stores), start_s)?;
+            self.kinematics.spend_units(WorkKind::Light, light.segment_units(stores), start_s)?;
             let lit = self.light_between(light, stores, &segment.end_k, start_s, interval.end_s());
             let shadows: usize = light.nodes.iter().map(|node| node.workspace.shadows_cut()).sum();
-            self.kinematics.spend_units(Cost::Light, u32::try_from(shadows).unwrap_or(u32::MAX), start_s)?;
+            self.kinematics.spend_units(
+                WorkKind::Light,
+                u32::try_from(shadows).unwrap_or(u32::MAX),
+                start_s,
+            )?;
             match lit {
                 Ok(series) => {
                     let unresolved = unresolved(&series, effects.shadowing);

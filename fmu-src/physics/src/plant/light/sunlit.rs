@@ -17,7 +17,7 @@ pub struct SunlitConfiguration<'a> {
     /// One setting a panel.
     pub settings: &'a [PanelSetting],
     /// Mass, centre of mass and inertia with every panel at angle 0.
-    pub mass_at_zero: MassProperties,
+    pub current_mass_panels_stowed: MassProperties,
     /// When, in s: angles that are set may change.
     pub time_s: f64,
     /// How far from the Sun's centre, in m.
@@ -32,7 +32,7 @@ impl SunlitConfiguration<'_> {
             let (panel, setting) = self.panels.get(index).zip(self.settings.get(index))?;
             setting.angle_rad(panel, &sun)
         };
-        with_panels(&self.mass_at_zero, self.panels, |index| angle_rad(index).unwrap_or(0.0))
+        with_panels(&self.current_mass_panels_stowed, self.panels, |index| angle_rad(index).unwrap_or(0.0))
     }
 
     /// Direct sunlight without self-shadows, about the centre of mass.

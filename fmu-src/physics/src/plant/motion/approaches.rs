@@ -10,32 +10,32 @@ const PIECES: u32 = 8;
 
 /// A closest approach.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Approach {
+pub struct ClosestApproach {
     /// When, in s.
     pub at_s: f64,
     /// Height above the body's radius, in m.
     pub altitude_m: f64,
 }
 
-/// Closest approaches so far, some of which may lie ahead of the present time.
+/// Closest approaches that were found; some may lie after the present time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Approaches {
+pub(crate) struct ClosestApproaches {
     count: i32,
     /// The last one and the one before it.
-    last: [Option<Approach>; 2],
+    last: [Option<ClosestApproach>; 2],
     /// Whether the spacecraft came nearer where the last span ended, on which the next one continues: computed anew it may have the
     /// other sign.
-    came_nearer: Option<bool>,
+    was_approaching: Option<bool>,
 }
 
-impl Approaches {
+impl ClosestApproaches {
     /// Rejects decoded states that no simulation can produce.
     pub(crate) fn is_valid(&self) -> bool {
         self.count >= 0
     }
 
     /// How many there were until `time_s`, and the last of them.
-    pub(crate) fn until(&self, time_s: f64) -> (i32, Option<Approach>) {
+    pub(crate) fn until(&self, time_s: f64) -> (i32, Option<ClosestApproach>) {
         match self.last {
             [Some(ahead), before] if ahead.at_s > time_s => (self.count - 1, before),
             [last, _] => (self.count, last),
@@ -43,18 +43,18 @@ impl Approaches {
     }
 
     /// The first one that was found beyond `time_s`.
-    pub(crate) fn after(&self, time_s: f64) -> Option<Approach> {
+    pub(crate) fn after(&self, time_s: f64) -> Option<ClosestApproach> {
         let [last, before] = self.last;
         [before, last].into_iter().flatten().find(|approach| approach.at_s > time_s)
     }
 
     /// Forgets one found beyond `time_s`: it will be met again.
     pub(crate) fn forget_after(&mut self, time_s: f64) {
-        self.came_nearer = None;
+        self.was_approaching = None;
         if let [Some(ahead), before] = self.last
             && ahead.at_s > time_s
         {
-            *self = Self { count: self.count - 1, last: [before, None], came_nearer: None };
+            *self = Self { count: self.count - 1, last: [before, None], was_approaching: None };
         }
     }
 
@@ -72,7 +72,7 @@ impl Approaches {
         };
         let mut found = [None; PIECES as usize];
         let mut from_s = start_s;
-        let mut comes_nearer = self.came_nearer.unwrap_or_else(|| radial(start_s) < 0.0);
+        let mut comes_nearer = self.was_approaching.unwrap_or_else(|| radial(start_s) < 0.0);
         for piece in 1..=PIECES {
             let to_s = start_s + (end_s - start_s) * f64::from(piece) / f64::from(PIECES);
             let now = radial(to_s);
@@ -84,11 +84,11 @@ impl Approaches {
             }
             (from_s, comes_nearer) = (to_s, now < 0.0);
         }
-        self.came_nearer = Some(comes_nearer);
+        self.was_approaching = Some(comes_nearer);
         for at_s in found.into_iter().flatten() {
             let distance_m = path(at_s).position_m.norm();
             if distance_m <= sphere_m {
-                let approach = Approach { at_s, altitude_m: distance_m - radius_m };
+                let approach = ClosestApproach { at_s, altitude_m: distance_m - radius_m };
                 self.count = self.count.saturating_add(1);
                 self.last = [Some(approach), self.last[0]];
             }

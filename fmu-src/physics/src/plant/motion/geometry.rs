@@ -79,7 +79,7 @@ impl Geometry {
 
 /// Geometry as attitude laws read it.
 pub(crate) struct GeometrySight {
-    /// Where everything is.
+    /// Positions and velocities of bodies and spacecraft.
     pub geometry: Geometry,
     /// In s past J2000 TDB.
     pub epoch_s: f64,

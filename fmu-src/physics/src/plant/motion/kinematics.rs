@@ -36,10 +36,11 @@ use super::command_slews::CommandSlews;
 use super::geometry::{self, Geometry, GeometrySight, SimulationEphemeris};
 use super::instant::{Instant, Regime};
 use super::trajectory::Trajectory;
+use crate::momentum::WorkKind;
 use crate::plant::settings::configuration::{AttitudeSource, Configuration, Motion};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::panel_setting::SunAt;
-use crate::plant::settings::work::{Cost, Work};
+use crate::plant::settings::work::Work;
 
 /// Nodes at which a span is looked through for events.
 const NODES: usize = 8;
@@ -64,7 +65,7 @@ fn keep_in_of_orbit_phase(guided: &Guided, entry: Option<&TimelineEntry>) -> Opt
     }
 }
 
-/// Geometry at `time_s`, of which a law reads motions about `planet` as well, or directions alone.
+/// Returns the geometry at `time_s`; a law reads motions about `planet` from it as well, or directions alone.
 fn sight(
     configuration: &Configuration,
     ephemeris: &mut Ephemeris,
@@ -94,18 +95,18 @@ pub(crate) struct Kinematics<'a> {
     /// Work of the step so far.
     pub work: &'a mut Work,
     /// With every panel at angle 0, of what is left of the propellant.
-    pub mass_at_zero: MassProperties,
+    pub current_mass_panels_stowed: MassProperties,
 }
 
 impl Kinematics<'_> {
     /// Counts work, the flight having come to `time_s`.
-    pub(crate) fn spend_units(&mut self, cost: Cost, units: u32, time_s: f64) -> Result<(), PlantError> {
+    pub(crate) fn spend_units(&mut self, cost: WorkKind, units: u32, time_s: f64) -> Result<(), PlantError> {
         Ok(self.work.spend(cost, units, self.ephemeris.evaluations(), time_s)?)
     }
 
     /// Mass, centre of mass and inertia as the panels stand with the Sun there.
     pub(crate) fn mass_properties(&self, panels: &[Panel], sun: &SunAt) -> MassProperties {
-        self.configuration.mass_properties(&self.mass_at_zero, panels, sun)
+        self.configuration.mass_properties(&self.current_mass_panels_stowed, panels, sun)
     }
 
     /// The event functions alone, counted as a search.
@@ -415,7 +416,7 @@ impl Kinematics<'_> {
         })
     }
 
-    /// Where everything is later than `from_s`, the spacecraft continuing along the ellipse that it is on.
+    /// Returns the geometry at times after `from_s`, the spacecraft on the ellipse that osculates there.
     fn geometry_ahead(&mut self, from_s: f64) -> impl FnMut(f64) -> Geometry {
         let configuration = self.configuration;
         let now = self.trajectory.state_at(configuration, from_s);

@@ -33,7 +33,7 @@ struct Focus {
 
 impl Focus {
     /// The body that a flight is integrated about.
-    fn of(configuration: &Configuration, body: Body) -> Self {
+    fn new(configuration: &Configuration, body: Body) -> Self {
         match configuration.motion {
             Motion::NBody { gravity, .. } => {
                 Self { gm_m3_s2: gravity.model.gm_m3_s2(body), radius_m: gravity.model.radius_m(body) }
@@ -54,7 +54,7 @@ impl OsculatingOrbit {
         state: &CartesianState,
         geometry: &Geometry,
     ) -> Option<Self> {
-        let Focus { gm_m3_s2, radius_m } = Focus::of(configuration, body);
+        let Focus { gm_m3_s2, radius_m } = Focus::new(configuration, body);
         let to_frame: Matrix3<f64> = configuration.eme2000_from_orbit_frame.transpose();
         let (elements, gap) = Elements::osculating(&state.along(&to_frame), gm_m3_s2).ok()?;
         let axis_m = elements.semi_major_axis_m;

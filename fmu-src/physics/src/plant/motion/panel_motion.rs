@@ -59,12 +59,12 @@ pub(crate) struct Hinged<'a> {
     pub panels: &'a [Panel],
     pub configuration: &'a Configuration,
     /// With every panel at angle 0.
-    pub mass_at_zero: MassProperties,
+    pub current_mass_panels_stowed: MassProperties,
 }
 
 impl Hinged<'_> {
     fn mass_at(&self, angle_rad: impl Fn(usize) -> f64) -> MassProperties {
-        with_panels(&self.mass_at_zero, self.panels, angle_rad)
+        with_panels(&self.current_mass_panels_stowed, self.panels, angle_rad)
     }
 }
 

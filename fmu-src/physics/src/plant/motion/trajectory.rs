@@ -13,7 +13,7 @@ use crate::guidance::Window;
 use crate::numerics::spacing::spacing;
 use crate::numerics::{Span, roots};
 
-use super::approaches::{Approach, Approaches};
+use super::approaches::{ClosestApproach, ClosestApproaches};
 use super::geometry::SimulationEphemeris;
 use crate::plant::settings::configuration::{Configuration, Encounter, Motion};
 
@@ -38,8 +38,8 @@ pub struct Trajectory {
     coast: Option<Coast>,
     periapses: Periapses,
     /// Closest approaches to the encounter's body.
-    approaches: Approaches,
-    /// Where the spacecraft was when the present science or downlink window began, once that time is behind the
+    approaches: ClosestApproaches,
+    /// Time and state at the start of the present science or downlink window, once that time lies before the
     /// current segment: a slew starts from the attitude there.
     window_start: Option<(f64, CartesianState)>,
 }
@@ -66,7 +66,7 @@ struct Periapses {
     last_s: [f64; 2],
     /// Number of the last one.
     number: i64,
-    /// Those whose number is a multiple of the schedule's, the latest first.
+    /// Times of periapses whose number is a multiple of the schedule's, the latest first.
     scheduled_s: [f64; KEPT],
 }
 
@@ -175,12 +175,12 @@ impl Trajectory {
     }
 
     /// How many closest approaches there were until `time_s`, and the last of them.
-    pub(crate) fn approaches_until(&self, time_s: f64) -> (i32, Option<Approach>) {
+    pub(crate) fn approaches_until(&self, time_s: f64) -> (i32, Option<ClosestApproach>) {
         self.approaches.until(time_s)
     }
 
     /// The first closest approach that was found beyond `time_s`.
-    pub(crate) fn approach_after(&self, time_s: f64) -> Option<Approach> {
+    pub(crate) fn approach_after(&self, time_s: f64) -> Option<ClosestApproach> {
         self.approaches.after(time_s)
     }
 
@@ -240,12 +240,12 @@ impl Trajectory {
     pub(crate) fn leave(&mut self, configuration: &Configuration, time_s: f64) {
         // With a deviation the window is stored at each interval.
         if let Some(orbit) = self.orbit.filter(|orbit| !orbit.is_deviated()) {
-            self.remember_window(configuration, [orbit.start_s(), time_s]);
+            self.store_window_start(configuration, [orbit.start_s(), time_s]);
         }
     }
 
     /// Keeps where the present window began, if it did within this span.
-    fn remember_window(&mut self, configuration: &Configuration, [start_s, end_s]: [f64; 2]) {
+    fn store_window_start(&mut self, configuration: &Configuration, [start_s, end_s]: [f64; 2]) {
         if let (Some(orbit), Some(window)) = (&self.orbit, self.window(configuration, end_s)) {
             let since_s = window.since_s - configuration.epoch_minus_time_s;
             if since_s >= start_s && since_s <= end_s {
@@ -270,7 +270,8 @@ impl Trajectory {
         span_s: [f64; 2],
         extra_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
     ) -> Result<(), OrbitIntegrationError> {
-        let Some(orbit) = self.orbit.as_ref().filter(|_| configuration.motion.is_pushed()) else {
+        let Some(orbit) = self.orbit.as_ref().filter(|_| configuration.motion.has_nongravitational_forces())
+        else {
             return Ok(());
         };
         let gravity = match &configuration.motion {
@@ -282,7 +283,7 @@ impl Trajectory {
             if extra_m_s2.is_none() {
                 return Ok(());
             }
-            self.remember_window(configuration, [orbit.start_s(), span_s[0]]);
+            self.store_window_start(configuration, [orbit.start_s(), span_s[0]]);
         }
         let Some(orbit) = &mut self.orbit else { return Ok(()) };
         orbit.accelerate(gravity, Span::new(span_s[0], span_s[1]), extra_m_s2)?;
@@ -290,7 +291,7 @@ impl Trajectory {
             self.periapses.forget_after(span_s[0], || radial(&orbit.state_at(span_s[0])));
             self.periapses.detect_periapsis(orbit, configuration, span_s);
         }
-        self.remember_window(configuration, span_s);
+        self.store_window_start(configuration, span_s);
         Ok(())
     }
 

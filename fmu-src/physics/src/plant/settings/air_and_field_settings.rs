@@ -52,7 +52,7 @@ impl AirAndFieldSettings {
 /// The air about the planet.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AirSettings {
-    /// Where it comes from.
+    /// Source of density, temperature and molar mass.
     pub source: AirSource,
     /// Activity of the Sun and of the Earth's field.
     pub weather: SpaceWeather,
@@ -62,7 +62,7 @@ pub struct AirSettings {
     pub wind_m_s: Vector3<f64>,
 }
 
-/// Where density, temperature and molar mass come from.
+/// Source of density, temperature and molar mass.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum AirSource {
     /// A model.
@@ -71,7 +71,7 @@ pub enum AirSource {
     Given(Air),
 }
 
-/// Where the magnetic field comes from.
+/// Source of the magnetic field.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum FieldSource {
     /// A model.

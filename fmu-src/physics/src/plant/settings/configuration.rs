@@ -122,7 +122,7 @@ impl Command {
     }
 }
 
-/// Where Sun and Earth stand.
+/// Source of the positions of Sun and Earth.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EphemerisSource {
     /// VSOP87.
@@ -131,7 +131,7 @@ pub enum EphemerisSource {
     Kepler(KeplerPlanet),
     /// As the spacecraft carries them; beyond their span they move on evenly.
     Simulated(Arc<OnboardEphemeris>),
-    /// Where they stand until they are given anew, and their velocities, from the orbit's centre.
+    /// Positions and velocities from the orbit's centre, held until they are set anew.
     Given {
         /// Sun, EME2000.
         sun: CartesianState,
@@ -216,7 +216,7 @@ pub enum Motion {
         /// Whether light, heat and external forces accelerate the spacecraft.
         feedback: bool,
     },
-    /// None: position and velocity about the centre are these, EME2000.
+    /// No propagation: position and velocity about the centre are held, EME2000.
     Held {
         /// Position and velocity.
         state: CartesianState,
@@ -227,7 +227,7 @@ pub enum Motion {
 
 impl Motion {
     /// Whether light, heat and external forces accelerate the spacecraft.
-    pub fn is_pushed(&self) -> bool {
+    pub fn has_nongravitational_forces(&self) -> bool {
         matches!(self, Self::Disturbed { feedback: true, .. } | Self::NBody { feedback: true, .. })
     }
 
@@ -250,9 +250,9 @@ impl Motion {
 /// Sunlight: its pressure, and what of it acts as force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SunLight {
-    /// What is absorbed and reflected, too.
+    /// Source of the light, which planet and surfaces reflect and absorb too.
     pub source: LightSource,
-    /// Factor of force and torque of direct sunlight; heat goes by the source alone.
+    /// Factor of force and torque of direct sunlight; heat follows from the source alone.
     pub scale: f64,
 }
 
@@ -333,7 +333,7 @@ impl Configuration {
     }
 
     /// Mass, centre of mass and inertia with every panel at angle 0 and full tanks.
-    pub fn loaded(&self) -> MassProperties {
+    pub fn wet_mass_properties(&self) -> MassProperties {
         MassProperties {
             mass_kg: self.mass_kg,
             center_of_mass_body_m: self.center_of_mass_body_m,

@@ -52,7 +52,7 @@ pub struct ControlDefaults {
 
 impl ControlDefaults {
     /// Defaults of a spacecraft with these wheels.
-    pub fn of(spacecraft: &Spacecraft, wheels: &WheelArray) -> Self {
+    pub fn new(spacecraft: &Spacecraft, wheels: &WheelArray) -> Self {
         let guaranteed = |of_wheel: fn(&Wheel) -> f64| {
             wheels.guaranteed_threshold_n_m_s(spacecraft.wheels.iter().map(of_wheel))
         };

@@ -45,7 +45,7 @@ pub struct StartMotion {
     pub attitude: Attitude,
     /// Body rate, in rad/s.
     pub rate_body_rad_s: Vector3<f64>,
-    /// What gives the attitude instead, if anything does.
+    /// Guidance that gives the attitude instead, if any.
     pub pointing: Option<StartPointing>,
     /// Whether that gives the rate too.
     pub rate_is_pointed: bool,
@@ -53,7 +53,7 @@ pub struct StartMotion {
     pub wheels_n_m_s: Vec<f64>,
 }
 
-/// What a flight is pointed by where it begins.
+/// Guidance that gives the attitude at the start of a flight.
 #[derive(Clone, Debug)]
 pub enum StartPointing {
     /// The orbit phase's own guidance.
@@ -128,7 +128,7 @@ pub struct DynamicsInputs {
     pub pulses: Vec<PulseCommand>,
     /// The delta-v commanded.
     pub thrust: ThrustCommand,
-    /// Which of star tracker and gyros work.
+    /// Failures of star tracker and gyros.
     pub health: SensorHealth,
     /// Momentum that a dump which is requested leaves, body frame, in N m s.
     pub dump_to_body_n_m_s: Option<Vector3<f64>>,

@@ -65,7 +65,7 @@ pub enum PlantError {
     /// Restored bytes that are no flight's.
     #[error("the state holds a temperature of {found_k} K, allowed: 0 to 1e5 K")]
     Temperature {
-        /// What was found.
+        /// Temperature that was found, in K.
         found_k: f64,
     },
     /// Dumps without end.
@@ -90,7 +90,7 @@ pub enum PlantError {
     ScheduledEvent {
         /// Its line in the file, from 1.
         line: usize,
-        /// What it has.
+        /// Attitude law that the command has.
         found: &'static str,
     },
     /// Restored bytes of another kind of simulation.
@@ -101,9 +101,9 @@ pub enum PlantError {
         "the orbit ends at {end_s:?} s and does not go on from {start_s:?} s: the state belongs to another orbit.dynamics"
     )]
     Stuck {
-        /// Where it should continue, in s.
+        /// Time from which the flight should continue, in s.
         start_s: f64,
-        /// Where it ends, in s.
+        /// Time at which the computed motion ends, in s.
         end_s: f64,
     },
 }
@@ -120,7 +120,7 @@ pub enum ManeuverError {
     /// No number.
     #[error("found a delta-v of {found_m_s:?} m/s, allowed: finite numbers")]
     NotFinite {
-        /// What was found, EME2000, in m/s.
+        /// Velocity change that was found, EME2000, in m/s.
         found_m_s: [f64; 3],
     },
     /// Thrusters whose forces cancel, or none.
@@ -136,7 +136,7 @@ pub enum ManeuverError {
     Propellant {
         /// The tank's name.
         tank: String,
-        /// What it takes, in kg.
+        /// Propellant that the maneuver needs, in kg.
         needed_kg: f64,
         /// Mass that the tank can still feed, in kg.
         left_kg: f64,

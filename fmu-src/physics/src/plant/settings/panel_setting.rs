@@ -99,7 +99,7 @@ pub enum PanelSetting {
     Disabled,
     /// Cell normal at an angle from the Sun.
     SunOffset {
-        /// That angle.
+        /// Angle from the Sun.
         offset: Ramp,
         /// Sense of the tilt about the axis, and what is added.
         tilt: Tilt,
@@ -108,7 +108,7 @@ pub enum PanelSetting {
     Angle(Ramp),
     /// Cell normal at angles from the Sun that follow one another at once.
     Timeline {
-        /// Those angles; their times grow. Each holds from its time on.
+        /// Angles from the Sun in the order of their times; each holds from its time on.
         steps: Arc<[PanelStep]>,
         /// The timeline's clock minus the time of the simulation, in s.
         clock_minus_time_s: f64,
@@ -119,7 +119,7 @@ pub enum PanelSetting {
     },
     /// Cell normal at the angle from the Sun that gives the cells this light; toward the Sun where it cannot.
     Distance {
-        /// That light, in suns.
+        /// Light on the cells, in suns.
         suns: f64,
         /// Sense of the tilt about the axis, and what is added.
         tilt: Tilt,
@@ -197,7 +197,7 @@ impl PanelSetting {
         Some(Commanded::SunOffset { offset_rad, cos_sin, tilt: *tilt })
     }
 
-    /// That angle and its rate, in rad and rad/s, the Sun moving; 0 when left out.
+    /// Returns the angle about the axis and its rate, in rad and rad/s, for a moving Sun; 0 for a disabled panel.
     pub fn turn_rad(&self, panel: &Panel, sun: &SunAt<Dual64>) -> [f64; 2] {
         self.angle_rad(panel, sun).map_or([0.0; 2], |angle| [angle.re, angle.eps])
     }

@@ -33,8 +33,8 @@ impl CenterOfMass {
     }
 
     /// Mass properties with full tanks: inertia about the centre of mass, which moves alone.
-    pub(crate) fn of(&self, configuration: &Configuration) -> MassProperties {
-        let mut loaded = configuration.loaded();
+    pub(crate) fn mass_properties(&self, configuration: &Configuration) -> MassProperties {
+        let mut loaded = configuration.wet_mass_properties();
         if let Some(Placed { place_body_m, .. }) = self.placed {
             loaded.center_of_mass_body_m = place_body_m;
         }

@@ -98,7 +98,7 @@ impl PropagatorState {
     ) {
         self.command_slews.cut(time_s);
         // An orbit that light and forces act on goes elsewhere from here.
-        let orbit_changes = configuration.motion.is_pushed();
+        let orbit_changes = configuration.motion.has_nongravitational_forces();
         let taken_m_s = if orbit_changes { *jump_m_s } else { Vector3::zeros() };
         self.trajectory.cut(configuration, time_s, &taken_m_s);
         if let Some(light) = self.light.as_mut().filter(|_| light_changes || orbit_changes) {

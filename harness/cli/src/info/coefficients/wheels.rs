@@ -22,7 +22,7 @@ pub(super) fn table(fmu: &Fmu, instance: &mut Instance) -> Result<String, Error>
     let free_n_m_s = capacities_n_m_s.iter().zip(biases_n_m_s);
     let free_n_m_s: Vec<f64> =
         free_n_m_s.map(|(capacity, bias)| free_capacity_n_m_s(*capacity, bias)).collect();
-    let held = WheelCapacity::of(&axes_body, &free_n_m_s);
+    let held = WheelCapacity::new(&axes_body, &free_n_m_s);
     let shown = |meaning: fn(WheelCapacity) -> f64| format!("{:.4}", held.map_or(0.0, meaning));
     let mut table = terminal::table(&[
         "wheel capacity [N.m.s]",

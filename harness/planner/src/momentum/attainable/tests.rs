@@ -66,7 +66,7 @@ impl Simulates for Encounters {
     ) -> Result<SimulatedFlight, Box<dyn std::error::Error>> {
         let mut flight = self.simulated.clone();
         let (mut momentum, mut miss) = (Vector3::zeros(), self.miss_m);
-        let mass_kg = self.sunlit.mass_at_zero.mass_kg;
+        let mass_kg = self.sunlit.current_mass_panels_stowed.mass_kg;
         for index in 1..flight.rows.len() {
             let from = flight.rows[index - 1].clone();
             let step_s = (flight.rows[index].time_s - from.time_s) / 4.0;
@@ -127,7 +127,7 @@ fn the_reach_of_one_control_is_what_its_bounds_do() {
     let at = |elevation_rad: f64| {
         let controls = windows[0].controls.with(Control::Elevation, elevation_rad);
         let force = encounters.sunlit.linearised(&row, Attitude::Downlink, &controls).normal.force_n;
-        by_velocity() * force * (DAYS * DAY_S / encounters.sunlit.mass_at_zero.mass_kg)
+        by_velocity() * force * (DAYS * DAY_S / encounters.sunlit.current_mass_panels_stowed.mass_kg)
     };
     let places = [0.1, -0.1].map(|elevation_rad| (at(elevation_rad) - at(0.0)).xy());
     assert!(places[0].norm() > 5e3, "{places:?}");

@@ -78,7 +78,7 @@ fn a_covariance_leaves_three_sigma() {
     // F by the torque of a centre of mass moved across it.
     let moved = |axis: usize| {
         let mut other = sunlit.clone();
-        other.mass_at_zero.center_of_mass_body_m[axis] += 1.0;
+        other.current_mass_panels_stowed.center_of_mass_body_m[axis] += 1.0;
         let at = |sunlit: &SunlitSpacecraft| {
             sunlit.torque_n_m(
                 &of_center.simulated.rows[0],
