@@ -140,6 +140,17 @@ fn end_of_item(lines: &[&str], start: usize) -> usize {
     lines[opening + 1..].iter().position(is_end).map_or(lines.len() - 1, |at| opening + 1 + at)
 }
 
+/// The line of the brace that closes the last one opened at `start`.
+fn end_of_macro(lines: &[&str], start: usize) -> usize {
+    let mut depth = 0;
+    let is_closed = |line: &&str| {
+        depth += line.matches('{').count();
+        depth -= line.matches('}').count().min(depth);
+        depth == 0
+    };
+    lines[start..].iter().position(is_closed).map_or(lines.len() - 1, |at| start + at)
+}
+
 /// Numbers of the lines whose comments reach the XML, a schema, a guide or a message.
 fn public_lines(lines: &[&str]) -> BTreeSet<usize> {
     let mut public = BTreeSet::new();
@@ -160,7 +171,11 @@ fn public_lines(lines: &[&str]) -> BTreeSet<usize> {
         while is_derive && is_attribute_or_doc(lines[item]) {
             item += 1;
         }
-        let end = if is_role { number } else { end_of_item(lines, item) };
+        let end = match (is_role, is_macro) {
+            (true, _) => number,
+            (false, true) => end_of_macro(lines, number),
+            (false, false) => end_of_item(lines, item),
+        };
         public.extend(begin..=end);
     }
     public

@@ -28,7 +28,7 @@ use physics::spacecraft::{MESSENGER_THERMAL_TOML, Optics, Plate, Polygon, Spacec
 
 const RUNS: usize = 301;
 
-/// Of one run; a multiple of what the geometries repeat after.
+/// Evaluations of one run; a multiple of the number of geometries.
 const EVALUATIONS: usize = 200;
 
 type Failure = Box<dyn std::error::Error>;

@@ -119,12 +119,12 @@ fn beyond_influence(of: &FlightSettings<'_>, found: &mut Vec<String>) {
         _ => center.data().orbit_semi_major_axis_m,
     };
     let sphere_m = sphere_of_influence_m(orbit.mu_m3_s2(), axis_m, parent);
-    let farthest_m = elements.semi_major_axis_m * (1.0 + elements.eccentricity);
-    if axis_m > 0.0 && farthest_m > sphere_m {
+    let apoapsis_m = elements.semi_major_axis_m * (1.0 + elements.eccentricity);
+    if axis_m > 0.0 && apoapsis_m > sphere_m {
         found.push(format!(
             "the orbit reaches {:.0} km from {}, whose sphere of influence ends at {:.0} km: beyond, the Sun moves the \
              spacecraft; set orbit.center = sun, or orbit.dynamics = nBody, or check orbit.semiMajorAxis (m, not km)",
-            farthest_m / 1e3,
+            apoapsis_m / 1e3,
             center.data().name,
             sphere_m / 1e3
         ));

@@ -67,7 +67,7 @@ pub struct BurnVariables {
     pub timed_out: Boolean,
 }
 
-/// What the thrusters are reported.
+/// Requests of Guidance to the thrusters.
 #[derive(Variables)]
 #[variables(setup = GuidanceSetup)]
 pub struct ThrustVariables {

@@ -11,7 +11,7 @@ use super::super::setup::GuidanceSetup;
 use crate::common::choices::{OrbitCenter, custom_body};
 use crate::common::orientation::RotationVariables;
 
-/// Where the flight starts.
+/// Epoch and attitude at the start.
 #[derive(Variables)]
 pub struct StartVariables {
     /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.
@@ -22,7 +22,7 @@ pub struct StartVariables {
     pub q: RealVector<4>,
 }
 
-/// What is observed.
+/// Planet that is observed.
 #[derive(Variables)]
 #[variables(setup = GuidanceSetup)]
 pub struct TargetVariables {

@@ -110,7 +110,7 @@ pub struct ExternalRollVariables {
     pub declination: Real,
 }
 
-/// Where at the limb, and how it is scanned.
+/// Point at the limb and its scan.
 #[derive(Variables)]
 pub struct LimbVariables {
     /// Azimuth about the local vertical, right-handed about up, in the scenario limbGeneric.

@@ -393,7 +393,7 @@ impl<'a> Plant<'a> {
         }
         // Two integrations of some 40 evaluations, and the search for changes in between.
         self.kinematics.spend_units(WorkKind::Orbit, 60, start_s)?;
-        self.kinematics.trajectory.leave(self.kinematics.configuration, start_s);
+        self.kinematics.trajectory.close_segment(self.kinematics.configuration, start_s);
         let before = *self.kinematics.trajectory;
         self.integrate(f64::INFINITY, |_| Vector3::zeros())?;
         if self.kinematics.configuration.motion.has_nongravitational_forces() && !by_interval {

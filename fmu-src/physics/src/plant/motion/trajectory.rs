@@ -237,7 +237,7 @@ impl Trajectory {
     }
 
     /// Leaves the present segment, which ends at `time_s`: remembers what the next one cannot know.
-    pub(crate) fn leave(&mut self, configuration: &Configuration, time_s: f64) {
+    pub(crate) fn close_segment(&mut self, configuration: &Configuration, time_s: f64) {
         // With a deviation the window is stored at each interval.
         if let Some(orbit) = self.orbit.filter(|orbit| !orbit.is_deviated()) {
             self.store_window_start(configuration, [orbit.start_s(), time_s]);
@@ -297,7 +297,7 @@ impl Trajectory {
 
     /// Forgets the orbit beyond `time_s`: what acts on the spacecraft changes there, or its velocity by `jump_m_s`, EME2000.
     pub fn cut(&mut self, configuration: &Configuration, time_s: f64, jump_m_s: &Vector3<f64>) {
-        self.leave(configuration, time_s);
+        self.close_segment(configuration, time_s);
         let Some(orbit) = &mut self.orbit else { return };
         orbit.cut(time_s, jump_m_s);
         self.approaches.forget_after(time_s);
