@@ -32,7 +32,6 @@ mod tank;
 mod thermal;
 mod thruster;
 mod wheels;
-mod whole;
 
 #[cfg(test)]
 mod tests;
@@ -42,6 +41,7 @@ pub use antennas::{Antenna, AntennaRange, FanAzimuths, NamedAntenna};
 pub use articulation::Articulation;
 pub use body::{BodyMotion, BodyOrbit, CustomBody, InertialFrame};
 pub use downlinks::{DownlinkWindows, TimeAfterPeriapsis};
+pub use file::assembly::{Spacecraft, SunKeepIn};
 pub(crate) use file::describe_operation::{StarDescription, TargetedAxisDescription};
 pub(crate) use file::pointing::aligned;
 #[cfg(feature = "schema")]
@@ -74,7 +74,6 @@ pub use thermal::{
 };
 pub use thruster::{Thrust, Thruster, ThrusterSet, ValveTiming};
 pub use wheels::{Wheel, free_capacity_n_m_s};
-pub use whole::{Spacecraft, SunKeepIn};
 
 /// MESSENGER as paper 000 describes it, for callers without a file.
 pub const MESSENGER_TOML: &str = include_str!("../../../resources/messenger.toml");

@@ -16,7 +16,7 @@ mod reader;
 pub mod rules;
 mod spelling;
 pub mod tables;
-mod written;
+pub mod written;
 
 pub use crate::tables;
 pub use checker::Checker;

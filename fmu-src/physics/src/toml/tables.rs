@@ -38,13 +38,13 @@ macro_rules! tables {
             $crate::tables!(@value $key [$($name)?] [$($default)?] $type);
         )+}
 
-        impl $crate::toml::Table for $table {
+        impl $crate::toml::tables::Table for $table {
             const RULES: &'static [$crate::toml::rules::Rule] = &[$(
                 $($crate::tables!(@rule $demand $($subject)+ $(=> $($other)+)?: $found, $allowed)),+
             )?];
         }
 
-        $(impl $crate::toml::Named for $table {
+        $(impl $crate::toml::tables::Named for $table {
             const KIND: &'static str = $kind;
 
             fn name(&self) -> Option<&str> {
@@ -67,15 +67,15 @@ macro_rules! tables {
     (@value $key:ident [] [$default:expr] $type:ty) => { $crate::tables!(@value $key [$key] [$default] $type); };
     (@value $key:ident [$name:ident] [] $type:ty) => {
         #[doc = concat!("Value of `", stringify!($key), "`.")]
-        pub(crate) fn $name(&self) -> <$type as $crate::toml::Written>::Value {
-            $crate::toml::Written::value(self.$key)
+        pub(crate) fn $name(&self) -> <$type as $crate::toml::written::Written>::Value {
+            $crate::toml::written::Written::value(self.$key)
         }
     };
     (@value $key:ident [$name:ident] [$default:expr] $type:ty) => {
         #[doc = concat!("Value of `", stringify!($key), "`, or its default.")]
-        pub(crate) fn $name(&self) -> <$type as $crate::toml::Written>::Value {
-            let written = self.$key.unwrap_or_else(|| $crate::toml::Written::from_plain($default));
-            $crate::toml::Written::value(written)
+        pub(crate) fn $name(&self) -> <$type as $crate::toml::written::Written>::Value {
+            let written = self.$key.unwrap_or_else(|| $crate::toml::written::Written::from_plain($default));
+            $crate::toml::written::Written::value(written)
         }
     };
 }

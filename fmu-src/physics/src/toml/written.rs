@@ -17,7 +17,7 @@ pub trait Written: Copy {
 /// Types that are written as they are used.
 macro_rules! plain {
     ($($type:ty),+) => {$(
-        impl $crate::toml::Written for $type {
+        impl $crate::toml::written::Written for $type {
             type Plain = Self;
             type Value = Self;
 

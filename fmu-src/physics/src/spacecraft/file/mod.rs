@@ -4,7 +4,7 @@ pub(crate) mod describe_operation;
 pub(crate) mod pointing;
 
 mod antennas;
-mod assembly;
+pub(super) mod assembly;
 mod body;
 mod copies;
 mod describe_body;
