@@ -89,7 +89,7 @@ impl AerodynamicModel {
     /// The file has a sunshade but not in this form.
     pub fn new(spacecraft: &Spacecraft, options: &AerodynamicOptions) -> Result<Self, Refusal> {
         let mut faces = Faces::new(spacecraft, options.sunshade_model)?;
-        let scene = if options.shadowing { faces.into_scene() } else { None };
+        let scene = if options.shadowing { faces.extract_scene() } else { None };
         Ok(Self { faces, law: options.law, reemission: options.reemission, scene })
     }
 

@@ -199,7 +199,7 @@ impl Faces {
     }
 
     /// Moves the outlines into a scene of shadows; `None` where no surface can shadow another.
-    pub(crate) fn into_scene(&mut self) -> Option<ShadowScene> {
+    pub(crate) fn extract_scene(&mut self) -> Option<ShadowScene> {
         let scene = ShadowScene::new(core::mem::take(&mut self.outlines));
         scene.has_pairs().then_some(scene)
     }

@@ -160,7 +160,7 @@ pub(super) fn configured(
     let is_dynamic = state.inputs.source.is_dynamic && !state.waiting;
     let is_complete = reading.is_complete;
     let center = Center::read(context, values);
-    let moving = MovingPanels { over_time, memory: state.flight.into_panels() };
+    let moving = MovingPanels { over_time, memory: state.flight.extract_panels() };
     let configuration = configuration::read(context, values, state, &center, moving)?;
     let settings = if is_dynamic {
         let start = guidance::start_motion(context, values, &configuration, state)?;

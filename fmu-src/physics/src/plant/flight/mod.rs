@@ -204,7 +204,7 @@ impl Flight {
     }
 
     /// Takes the memory of the panels' settings for the next configuration.
-    pub fn into_panels(&mut self) -> Vec<PanelSetting> {
+    pub fn extract_panels(&mut self) -> Vec<PanelSetting> {
         self.setup.as_mut().map_or_else(Vec::new, |it| core::mem::take(&mut it.context.configuration.panels))
     }
 

@@ -64,7 +64,7 @@ impl DisturbanceModel {
             planet.validate()?;
         }
         let mut faces = Faces::new(spacecraft, options.sunshade_model)?;
-        let scene = if options.self_shadowing { faces.into_scene() } else { None };
+        let scene = if options.self_shadowing { faces.extract_scene() } else { None };
         Ok(Self {
             faces,
             planet_light: PlanetRule::new(&options.planet_light)?,
