@@ -13,7 +13,7 @@ pub mod scenario;
 pub(crate) mod tests;
 pub mod timeline;
 
-pub use downlink::sun_direction::{DownlinkSunDirection, SelectedSunDirection};
+pub use downlink::sun_direction::{DownlinkSunDirection, SelectedSunDirection, SelectedSunDirections};
 pub use geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
 pub use orbit_phase::attitudes::{
     AttitudeCommand, LinesOfSight, ScienceRule, Sight, downlink_toward, science, sun_pointing, unloading,

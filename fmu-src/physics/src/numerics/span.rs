@@ -26,17 +26,11 @@ impl Span {
     pub fn contains(&self, time_s: f64) -> bool {
         self.start_s <= time_s && time_s <= self.end_s
     }
-
-    /// Returns the span that both have in common; `None` where they do not meet.
-    pub fn intersection(&self, other: &Self) -> Option<Self> {
-        let common = Self::new(self.start_s.max(other.start_s), self.end_s.min(other.end_s));
-        (common.start_s <= common.end_s).then_some(common)
-    }
 }
 
 #[cfg(test)]
 mod tests {
-    //! Ends belong to a span; spans that touch share one time.
+    //! Ends belong to a span.
     use super::*;
 
     #[test]
@@ -44,13 +38,5 @@ mod tests {
         let span = Span::new(1.0, 3.0);
         assert_eq!(span.length_s(), 2.0);
         assert!(span.contains(1.0) && span.contains(3.0) && !span.contains(3.1) && !span.contains(f64::NAN));
-    }
-
-    #[test]
-    fn spans_that_touch_share_one_time() {
-        let span = Span::new(1.0, 3.0);
-        assert_eq!(span.intersection(&Span::new(2.0, 5.0)), Some(Span::new(2.0, 3.0)));
-        assert_eq!(span.intersection(&Span::new(3.0, 5.0)), Some(Span::new(3.0, 3.0)));
-        assert_eq!(span.intersection(&Span::new(4.0, 5.0)), None);
     }
 }

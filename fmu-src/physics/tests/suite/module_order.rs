@@ -1,5 +1,5 @@
-//! Imports run one way: modules of the crate in the order of [`ORDER`], no file uses one that uses it, nor does a child of a
-//! folder, file or folder. A type's methods stand in the file of the type.
+//! Imports run one way: modules of the crate in the order of [`ORDER`], and no file uses one that uses it. A type's
+//! methods stand in the file of the type.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -30,9 +30,6 @@ const ORDER: &[&str] = &[
 
 /// Files that may use one another in a circle: none.
 const EXCEPTIONS: &[&str] = &[];
-
-/// Folders whose children still use one another in a circle.
-const FOLDERS_IN_CIRCLES: &[&str] = &[];
 
 /// Where a file stands: `["spin", "plant"]` for `spin/plant/mod.rs` or `spin/plant.rs`.
 type Module = Vec<String>;
@@ -185,60 +182,18 @@ fn a_module_uses_only_earlier_ones() {
 #[test]
 fn no_file_uses_one_that_uses_it() {
     let uses = uses();
-    let in_circles: Vec<String> = in_circles(&uses).iter().map(|module| module.join("::")).collect();
-    assert_eq!(in_circles, EXCEPTIONS, "files that use one another in a circle");
-}
-
-/// Members that use themselves, by way of others.
-fn in_circles<T: Clone + Ord>(uses: &BTreeMap<T, BTreeSet<T>>) -> Vec<T> {
-    let is_in_circle = |(member, first): &(&T, &BTreeSet<T>)| {
-        let mut reached = (*first).clone();
-        let mut ahead: Vec<T> = reached.iter().cloned().collect();
+    let mut in_circles = Vec::new();
+    for (module, first) in &uses {
+        let mut reached = first.clone();
+        let mut ahead: Vec<Module> = first.iter().cloned().collect();
         while let Some(next) = ahead.pop() {
-            let further = uses.get(&next).into_iter().flatten();
-            ahead.extend(further.filter(|other| reached.insert((*other).clone())).cloned());
+            ahead.extend(uses[&next].iter().filter(|other| reached.insert((*other).clone())).cloned());
         }
-        reached.contains(*member)
-    };
-    uses.iter().filter(is_in_circle).map(|(member, _)| member.clone()).collect()
-}
-
-/// Children that each child of a folder uses, by folder. A file beside its folder of children belongs to none of them.
-fn uses_of_children(
-    uses: &BTreeMap<Module, BTreeSet<Module>>,
-) -> BTreeMap<Module, BTreeMap<String, BTreeSet<String>>> {
-    let mut found: BTreeMap<Module, BTreeMap<String, BTreeSet<String>>> = BTreeMap::new();
-    for (module, other) in
-        uses.iter().flat_map(|(module, used)| used.iter().map(move |other| (module, other)))
-    {
-        let shared = module.iter().zip(other).take_while(|(a, b)| a == b).count();
-        if let (Some(child), Some(sibling)) = (module.get(shared), other.get(shared)) {
-            let children = found.entry(module[..shared].to_vec()).or_default();
-            children.entry(child.clone()).or_default().insert(sibling.clone());
+        if reached.contains(module) {
+            in_circles.push(module.join("::"));
         }
     }
-    found
-}
-
-#[test]
-fn no_child_of_a_folder_uses_one_that_uses_it() {
-    let folders = uses_of_children(&uses());
-    assert!(folders.len() > 20, "the scan found hardly any folder: {}", folders.len());
-    let with_circle = folders.iter().filter(|(_, children)| !in_circles(children).is_empty());
-    let names: Vec<String> = with_circle.map(|(folder, _)| folder.join("::")).collect();
-    assert_eq!(names, FOLDERS_IN_CIRCLES, "folders whose children use one another in a circle");
-}
-
-#[test]
-fn a_circle_of_folders_is_found() {
-    let module = |path: &str| -> Module { path.split("::").map(str::to_owned).collect() };
-    let uses = BTreeMap::from([
-        (module("a::b::c"), BTreeSet::from([module("a::d::e")])),
-        (module("a::d::f"), BTreeSet::from([module("a::b")])),
-        (module("a::g"), BTreeSet::from([module("a::b::c"), module("a")])),
-    ]);
-    let folders = uses_of_children(&uses);
-    assert_eq!(in_circles(&folders[&module("a")]), ["b", "d"]);
+    assert_eq!(in_circles, EXCEPTIONS, "files that use one another in a circle");
 }
 
 /// Types with methods of their own in a text: `impl<T> Name<T> {`, not `impl Trait for Name {`.

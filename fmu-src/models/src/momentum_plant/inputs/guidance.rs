@@ -125,13 +125,13 @@ fn managed_law(
     if managed && !state.waiting {
         check_windows(&law.schedule)?;
     }
-    let choice = state.flight.sun_choice();
+    let choice = &state.flight.sun_choice().selected;
     let requested = if managed {
         SunRequest::default()
     } else {
         SunRequest { zone: zone_in_force(variables, values)?, ..variables.downlink.request(values) }
     };
-    let law = law.with_sun_directions(choice.place(), choice.in_science());
+    let law = law.with_sun_directions(choice.in_downlink(), choice.in_science());
     Ok(Guided { managed, requested, ..law })
 }
 

@@ -101,6 +101,32 @@ pub struct SelectedSunDirection {
     pub clamped: bool,
 }
 
+/// Last selections; the slew after a downlink starts from its attitude, and that after science from its own.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SelectedSunDirections {
+    /// Last selection for a downlink; `None`: on -Y.
+    pub downlink: Option<SelectedSunDirection>,
+    /// Last selection for science that unloads; `None`: on -Y.
+    pub science: Option<SelectedSunDirection>,
+}
+
+impl SelectedSunDirections {
+    /// Rejects decoded states that no simulation can produce.
+    pub fn is_valid(&self) -> bool {
+        [self.downlink, self.science].into_iter().flatten().all(|selected| selected.place.is_valid())
+    }
+
+    /// Direction of the Sun in the downlink attitude.
+    pub fn in_downlink(&self) -> Option<DownlinkSunDirection> {
+        self.downlink.map(|selected| selected.place)
+    }
+
+    /// Direction of the Sun in science that unloads.
+    pub fn in_science(&self) -> Option<SunAngles> {
+        self.science.map(|selected| selected.place.angles)
+    }
+}
+
 /// A downlink attitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Downlink {

@@ -273,7 +273,7 @@ impl GuidanceState {
 
     /// The Sun's place in the downlinks of the mode; `None`: on -Y.
     fn sun_direction(&self) -> Option<DownlinkSunDirection> {
-        self.downlink_sun.place().filter(|_| self.modes.mode == Mode::Operational)
+        self.downlink_sun.selected().in_downlink().filter(|_| self.modes.mode == Mode::Operational)
     }
 
     /// The line to the Sun at the last sample where it was known.
@@ -285,7 +285,7 @@ impl GuidanceState {
     pub fn is_valid(&self) -> bool {
         self.command.is_valid()
             && self.burn.is_valid()
-            && self.downlink_sun.is_valid()
+            && self.downlink_sun.selected().is_valid()
             && self.slew.is_none_or(|slew| slew.is_valid())
     }
 
@@ -370,7 +370,7 @@ impl GuidanceState {
     /// The vectors that the command asks for.
     fn solution(&mut self, now: &SampleContext<'_>, command: &PointingCommand) -> Option<PointingSolution> {
         if command.scenario == Some(Scenario::OrbitPhase) {
-            let science = self.downlink_sun.in_science().filter(|_| self.modes.mode == Mode::Operational);
+            let science = self.downlink_sun.selected().in_science().filter(|_| self.modes.mode == Mode::Operational);
             let law = now.settings.orbit_phase.with_sun_directions(self.sun_direction(), science);
             let law = Guided { requested: now.requested_sun.0, ..law };
             let hardware = &now.settings.hardware;

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::guided::Guided;
 use super::schedule::Activity;
-use crate::attitude::{Attitude, SunAngles};
-use crate::guidance::downlink::sun_direction::{DownlinkSunDirection, SelectedSunDirection};
+use crate::attitude::Attitude;
+use crate::guidance::downlink::sun_direction::{SelectedSunDirection, SelectedSunDirections};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::pointing::command::Scenario;
 
@@ -32,37 +32,25 @@ pub struct WindowStart<'a> {
 /// Last selection.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DownlinkSun {
-    chosen: Option<SelectedSunDirection>,
+    selected: SelectedSunDirections,
     /// The scenario whose downlink lasts.
     lasts: Option<Scenario>,
     /// The timeline's entry that named the downlink, by when it begins on the timeline's clock, in s.
     entry: Option<f64>,
-    /// The last choice for science.
-    science: Option<SelectedSunDirection>,
     /// Whether that science lasts.
     science_lasts: bool,
 }
 
 impl DownlinkSun {
-    /// Rejects decoded states that no simulation can produce.
-    pub fn is_valid(&self) -> bool {
-        [self.chosen, self.science].into_iter().flatten().all(|chosen| chosen.place.is_valid())
-    }
-
-    /// Direction of the Sun; the slew after a window starts from it.
-    pub fn place(&self) -> Option<DownlinkSunDirection> {
-        self.chosen.map(|chosen| chosen.place)
-    }
-
-    /// Direction of the Sun in science that unloads; the slew after it starts from it.
-    pub fn in_science(&self) -> Option<SunAngles> {
-        self.science.map(|chosen| chosen.place.angles)
+    /// Last selections.
+    pub fn selected(&self) -> &SelectedSunDirections {
+        &self.selected
     }
 
     /// Whether a downlink lasts, or science that unloads, whose target is out of reach.
     pub fn is_clamped(&self) -> bool {
-        let present =
-            if self.lasts.is_some() { self.chosen } else { self.science.filter(|_| self.science_lasts) };
+        let SelectedSunDirections { downlink, science } = self.selected;
+        let present = if self.lasts.is_some() { downlink } else { science.filter(|_| self.science_lasts) };
         present.is_some_and(|chosen| chosen.clamped)
     }
 
@@ -76,7 +64,7 @@ impl DownlinkSun {
         self.lasts = None;
         let begins = !self.science_lasts;
         if begins {
-            (self.science, self.science_lasts) = (choose(), true);
+            (self.selected.science, self.science_lasts) = (choose(), true);
         }
         begins
     }
@@ -93,7 +81,7 @@ impl DownlinkSun {
         let is_new_entry = scenario == Scenario::Downlink && entry.is_some() && entry != self.entry;
         let begins = self.lasts != Some(scenario) || is_new_entry;
         if begins {
-            (self.chosen, self.lasts) = (choose(), Some(scenario));
+            (self.selected.downlink, self.lasts) = (choose(), Some(scenario));
         }
         self.entry = entry.or(self.entry);
         begins
@@ -105,6 +93,7 @@ mod tests {
     //! One choice a downlink, whatever goes on meanwhile.
     use super::*;
     use crate::attitude::SunAngles;
+    use crate::guidance::downlink::sun_direction::DownlinkSunDirection;
     use core::cell::Cell;
 
     #[test]
@@ -128,9 +117,9 @@ mod tests {
         assert_eq!(last(Scenario::OrbitPhase, Some(5.0)), 3);
         assert_eq!(last(Scenario::OrbitPhase, Some(6.0)), 3);
         sun.end();
-        assert!(!sun.is_clamped() && sun.place().is_some());
+        assert!(!sun.is_clamped() && sun.selected.in_downlink().is_some());
         sun.last(Scenario::OrbitPhase, Some(6.0), || None);
-        assert!(!sun.is_clamped() && sun.place().is_none());
+        assert!(!sun.is_clamped() && sun.selected.in_downlink().is_none());
         // Science is chosen once too, and a downlink keeps its place for the slew out of it.
         let angles = SunAngles { azimuth_rad: 0.1, elevation_rad: -0.2 };
         let place = DownlinkSunDirection { angles, earth_ahead: false };
@@ -139,7 +128,7 @@ mod tests {
         );
         assert!(!sun.last_in_science(|| None) && sun.is_clamped());
         sun.last(Scenario::OrbitPhase, Some(6.0), || None);
-        assert!(!sun.is_clamped() && sun.in_science() == Some(angles));
-        assert!(sun.last_in_science(|| None) && !sun.is_clamped() && sun.in_science().is_none());
+        assert!(!sun.is_clamped() && sun.selected.in_science() == Some(angles));
+        assert!(sun.last_in_science(|| None) && !sun.is_clamped() && sun.selected.in_science().is_none());
     }
 }

@@ -151,11 +151,12 @@ impl ConfiguredFlight<'_> {
         let chosen = if is_ahead { self.plan_sun_direction(&start, totals)? } else { None };
         let choice = &mut self.propagator.sun_choice;
         if downlink {
-            choice.chosen = chosen;
+            choice.selected.downlink = chosen;
         } else {
-            choice.science = chosen;
+            choice.selected.science = chosen;
         }
-        self.context.configuration.attitude.set_sun_directions(choice.place(), choice.in_science());
+        let selected = &choice.selected;
+        self.context.configuration.attitude.set_sun_directions(selected.in_downlink(), selected.in_science());
         self.propagator.command_slews.cut(time_s);
         Ok(())
     }

@@ -489,10 +489,7 @@ impl Flight {
                 let evaluated =
                     Evaluation::without_position(frame, flight.context.current_mass_panels_stowed);
                 let evaluation = &*evaluation.insert(evaluated);
-                let bias_body_n_m_s = context.configuration.momentum.policy.bias_body_n_m_s;
-                let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
-                let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-                let waiting = IdealFlight::new(time_s, &held.attitude_at(time_s), totals);
+                let waiting = waiting(&context.configuration, settings, held, time_s);
                 (evaluation, ideal(&waiting, settings, evaluation, inputs, time_s))
             }
             _ => return Err(PlantError::OtherMode),
@@ -547,6 +544,19 @@ impl Flight {
         let external = |_: f64| [ForceTorque::zero(); 2];
         Plant::new(prepared, &mut setup.context, propagator, &external).faces(time_s, report)
     }
+}
+
+/// Flight that holds the attitude of `held` and the momentum of its start.
+fn waiting(
+    configuration: &Configuration,
+    settings: &IdealSettings,
+    held: &Command,
+    time_s: f64,
+) -> IdealFlight {
+    let bias_body_n_m_s = configuration.momentum.policy.bias_body_n_m_s;
+    let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
+    let totals = Totals::at_start(momentum_body_n_m_s, &held.frame_at(time_s).inertial_from_body);
+    IdealFlight::new(time_s, &held.attitude_at(time_s), totals)
 }
 
 /// A flight before samples at its start.

@@ -39,7 +39,7 @@ impl PropagatorState {
     pub fn is_valid(&self) -> bool {
         self.trajectory.is_valid()
             && self.air_and_field.is_valid()
-            && self.sun_choice.is_valid()
+            && self.sun_choice.selected.is_valid()
             && self.command_slews.is_valid()
             && self.light.as_ref().is_none_or(RadiationSegment::is_valid)
     }

@@ -2,17 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::attitude::SunAngles;
-use crate::guidance::{DownlinkSunDirection, SelectedSunDirection};
+use crate::guidance::SelectedSunDirections;
 
-/// The last choices; the slew after a downlink starts from its attitude, and that after science from its own.
+/// Last selections, and the window that they are of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SunDirectionSelection {
-    /// Last choice for a downlink.
-    pub chosen: Option<SelectedSunDirection>,
-    /// Last choice for science that unloads.
-    pub science: Option<SelectedSunDirection>,
-    /// When the last of both was, in s.
+    /// Last selections.
+    pub selected: SelectedSunDirections,
+    /// Time of the last of both, in s.
     pub(crate) chosen_s: Option<f64>,
     /// Whether its downlink lasts.
     pub(crate) in_force: bool,
@@ -21,24 +18,9 @@ pub struct SunDirectionSelection {
 }
 
 impl SunDirectionSelection {
-    /// Whether a simulation can produce it.
-    pub fn is_valid(&self) -> bool {
-        [self.chosen, self.science].into_iter().flatten().all(|chosen| chosen.place.is_valid())
-    }
-
-    /// The Sun's place in the downlink attitude; `None`: on -Y.
-    pub fn place(&self) -> Option<DownlinkSunDirection> {
-        self.chosen.map(|chosen| chosen.place)
-    }
-
-    /// Its place in science that unloads; `None`: on -Y.
-    pub fn in_science(&self) -> Option<SunAngles> {
-        self.science.map(|chosen| chosen.place.angles)
-    }
-
     /// Whether the target of the present downlink is out of reach, or that of science that unloads.
     pub fn is_clamped(&self) -> bool {
-        let present = if self.in_force { self.chosen } else { self.science };
+        let present = if self.in_force { self.selected.downlink } else { self.selected.science };
         present.is_some_and(|chosen| chosen.clamped)
     }
 

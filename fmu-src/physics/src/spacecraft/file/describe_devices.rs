@@ -38,7 +38,7 @@ struct WheelDescription called "wheel" {
 struct TankDescription called "tank" {
     /// Name for thrusters and messages; numbered unless given.
     name: Option<String>,
-    /// Where its propellant is, taken as a point, body frame, in m.
+    /// Position of its propellant, taken as a point, body frame, in m.
     position_m as position_body_m: Point,
     /// Propellant loaded, in kg; a part of mass_properties.mass_kg.
     propellant_kg: Positive,
@@ -59,7 +59,7 @@ struct TankDescription called "tank" {
 struct ThrusterDescription called "thruster" {
     /// Name for messages; numbered unless given.
     name: Option<String>,
-    /// Where it stands, body frame, in m.
+    /// Position, body frame, in m.
     position_m as position_body_m: Point,
     /// Unit vector of its force on the spacecraft, body frame; the plume goes the other way.
     direction as direction_body: UnitVector,

@@ -82,7 +82,7 @@ struct ArticulationDescription {
     target_suns: Positive = 1.0,
 }
 
-/// Where the top deck, -Z, does not look at the planet: low above its subsolar point, which is hot. Guidance keeps it; left
+/// Zone in which the top deck, -Z, does not look at the planet: low above its subsolar point, which is hot. Guidance keeps it; left
 /// out, `hotPole.enabled` is false.
 struct HotPoleDescription {
     /// Below this height above the ellipsoid, in km.

@@ -36,7 +36,7 @@ struct PlateDescription called "plate" {
 
 /// A sunshade in its own frame: given as plates, as section of a cylinder, or both.
 struct SunshadeDescription {
-    /// Which description is used.
+    /// Description that is used.
     model: SunshadeModel,
     /// Misalignment: turns of the shade about the body's X, then Y, then Z axis, in deg.
     rotation_deg as rotation_rad: Option<[TurnEither; 3]>,
@@ -92,10 +92,10 @@ struct PanelDescription called "panel" {
     control: PanelControl = PanelControl::SunOffset,
     /// Angle between cell normal and Sun for `sun_offset`, in deg; its sign is a sense of tilt.
     sun_offset_deg as sun_offset_rad: HalfTurnEither = 0.0,
-    /// Which way the panel tilts off the Sun about its axis at a positive offset: 1 or -1.
+    /// Sense of the tilt off the Sun about the panel's axis at a positive offset: 1 or -1.
     #[cfg_attr(feature = "schema", schemars(extend("enum" = [1, -1])))]
     tilt_sign: i64 = 1,
-    /// Which way a windmill angle turns the panel, about its axis: 1, -1, or 0, not at all. Left out, the sign of the centre's part
+    /// Sense in which a windmill angle turns the panel about its axis: 1, -1, or 0, not at all. Left out, the sign of the centre's part
     /// along the axis, so that panels of both sides turn against one another.
     #[cfg_attr(feature = "schema", schemars(extend("enum" = [1, -1, 0])))]
     windmill_side: Option<i64>,
