@@ -370,7 +370,8 @@ impl GuidanceState {
     /// The vectors that the command asks for.
     fn solution(&mut self, now: &SampleContext<'_>, command: &PointingCommand) -> Option<PointingSolution> {
         if command.scenario == Some(Scenario::OrbitPhase) {
-            let science = self.downlink_sun.selected().in_science().filter(|_| self.modes.mode == Mode::Operational);
+            let science =
+                self.downlink_sun.selected().in_science().filter(|_| self.modes.mode == Mode::Operational);
             let law = now.settings.orbit_phase.with_sun_directions(self.sun_direction(), science);
             let law = Guided { requested: now.requested_sun.0, ..law };
             let hardware = &now.settings.hardware;
