@@ -14,11 +14,9 @@
 //! replaces the command and [`PropagatorState::cut`] drops what was computed beyond it, while heat stored up to then stays.
 //! How far ahead is computed is `RadiationSettings::grid_s`: about the time between two samples wastes nothing.
 
-mod air_and_field;
 mod disturbances;
 mod flight;
 mod instant;
-mod light;
 mod mass;
 mod motion;
 mod settings;
@@ -26,8 +24,6 @@ mod sources;
 mod state;
 mod thrusters;
 
-pub use air_and_field::aerodynamic_solver::AerodynamicSolver;
-pub use air_and_field::air_and_field_segment::AirAndField;
 pub use disturbances::evaluation::{Evaluation, External};
 pub use disturbances::plant::Plant;
 pub use disturbances::simulation_context::SimulationContext;
@@ -39,9 +35,7 @@ pub use flight::{
     Changes, EncounterPrediction, Flight, ForecastMomentum, ModeSettings, Occultation, PredictedArrival,
     StepContext, Undo,
 };
-pub use light::radiation_segment::RadiationSegment;
-pub use light::radiation_solver::RadiationSolver;
-pub use light::sunlit::SunlitConfiguration;
+pub use instant::air_and_field_segment::AirAndField;
 pub use motion::approaches::ClosestApproach;
 pub use motion::geometry::{Geometry, sun_and_earth};
 pub use motion::instant::{Instant, Regime};
@@ -72,7 +66,12 @@ pub use settings::reaction_control_settings::{ReactionControlSettings, ThrustCom
 pub use settings::thruster_events::{Maneuver, ThrusterEvent, ThrusterEventSettings};
 pub use settings::wheel_control_settings::WheelControlSettings;
 pub use settings::work::{Work, WorkExceeded};
+pub use sources::air::AerodynamicSolver;
 pub use sources::by_source::{BySource, Parameters, PositionError, Positions, Surfaces, Workspaces};
+pub use sources::sunlight::REFLECTED_LIGHT;
+pub use sources::sunlight::radiation_segment::RadiationSegment;
+pub use sources::sunlight::radiation_solver::RadiationSolver;
+pub use sources::sunlight::sunlit::SunlitConfiguration;
 pub use sources::thrusters::THRUSTERS;
 pub use sources::{SourceStates, Sources};
 pub use state::propagator_state::PropagatorState;

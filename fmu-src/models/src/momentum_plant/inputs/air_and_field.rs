@@ -7,7 +7,7 @@ use physics::environment::atmosphere::{Air, AtmosphereModel, SpaceWeather};
 use physics::environment::geodetic::Ellipsoid;
 use physics::environment::magnetic_field::{self, MagneticField};
 use physics::environment::orientation::Orientation;
-use physics::loads::{Active, Effect};
+use physics::loads::{Active, Switch};
 use physics::plant::{AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure};
 
 use super::center::Center;
@@ -49,8 +49,8 @@ pub(super) fn read(
     let ellipsoid =
         Ellipsoid { equatorial_radius_m: planet.equatorial_radius_m, flattening: planet.flattening };
     let air_and_field = if planet.body.is_planet() {
-        let air = if effects.has(Effect::Aerodynamic) { Some(air(v, values, center)?) } else { None };
-        let field = if effects.has(Effect::Magnetic) { Some(field(v, values, planet)?) } else { None };
+        let air = if effects.is_on(Switch::Aerodynamics) { Some(air(v, values, center)?) } else { None };
+        let field = if effects.is_on(Switch::Magnetics) { Some(field(v, values, planet)?) } else { None };
         let tolerance = values.real(v.atmosphere.tolerance);
         (air.is_some() || field.is_some()).then_some(AirAndFieldSettings { air, field, tolerance })
     } else {

@@ -2,7 +2,7 @@
 
 use fmi_export::{Failure, Values};
 use physics::bodies::surface::PlanetSurface;
-use physics::loads::Effect;
+use physics::loads::Switch;
 use physics::plant::{AerodynamicSolver, Configuration, RadiationSolver};
 
 use crate::momentum_plant::setup::Plan;
@@ -14,7 +14,7 @@ pub(super) fn air(
     configuration: &Configuration,
 ) -> Result<Option<AerodynamicSolver>, Failure> {
     let spacecraft = &context.setup.spacecraft;
-    if !configuration.effects.has(Effect::Aerodynamic) {
+    if !configuration.effects.is_on(Switch::Aerodynamics) {
         return Ok(None);
     }
     let options = context.variables.laws.aerodynamics.options(values, spacecraft, configuration.sunshade)?;

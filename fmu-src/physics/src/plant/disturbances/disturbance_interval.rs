@@ -29,7 +29,7 @@ use crate::numerics::quadrature::GAUSS_2;
 
 use super::evaluation::Evaluation;
 use super::plant::Plant;
-use crate::plant::light::light_and_heat::LEAST_ARM_M;
+use crate::plant::sources::sunlight::light_and_heat::LEAST_ARM_M;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;

@@ -15,7 +15,7 @@ use crate::loads::{ForceTorque, Loads};
 use crate::momentum::{EventValues, TorqueModel, TorqueSample, WorkKind, torques_body_n_m};
 use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
-use crate::plant::air_and_field::air_and_field_segment::{AirAndField, AirAndFieldSegment};
+use crate::plant::instant::air_and_field_segment::{AirAndField, AirAndFieldSegment};
 use crate::plant::instant::conditions::Conditions;
 use crate::plant::instant::path_ahead::PathAhead;
 use crate::plant::motion::instant::Instant;
@@ -25,6 +25,7 @@ use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
+use crate::plant::sources::sunlight::report_faces;
 use crate::plant::sources::{SourceStates, Sources};
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::plant::state::sun_choice::SunDirectionSelection;
@@ -175,8 +176,8 @@ impl<'a> Plant<'a> {
     /// # Errors
     /// A geometry without meaning.
     pub fn faces(&mut self, time_s: f64, report: impl FnMut(f64, Vector3<f64>)) -> Result<(), PlantError> {
-        let (path, sources, states) = self.path();
-        sources.sunlight.faces(&states.sunlight, path, time_s, report)
+        let (mut path, sources, states) = self.path();
+        report_faces(&mut sources.sunlight, &states.sunlight, &mut path, time_s, report)
     }
 
     /// Extends air, magnetic field and the states of the sources from `start_s` on; returns up to where they are valid, at most `limit_s`.

@@ -1,8 +1,8 @@
 //! The spacecraft's path ahead: motion, air and magnetic field as far as they are known.
 
+use super::air_and_field_builder::AirAndFieldBuilder;
+use super::air_and_field_segment::{AirAndField, AirAndFieldSegment};
 use crate::numerics::Span;
-use crate::plant::air_and_field::air_and_field_builder::AirAndFieldBuilder;
-use crate::plant::air_and_field::air_and_field_segment::{AirAndField, AirAndFieldSegment};
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;

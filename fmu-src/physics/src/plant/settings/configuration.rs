@@ -16,7 +16,7 @@ use crate::environment::orbit::{GravityModel, NBodyGravity, TwoBodyOrbit};
 use crate::environment::sun::pressure_n_m2;
 use crate::guidance::timeline::TimelineSettings;
 use crate::guidance::{DownlinkSunDirection, Guided};
-use crate::loads::{Active, Effect};
+use crate::loads::Active;
 use crate::momentum::Settings;
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::scalar::Dual64;
@@ -307,7 +307,7 @@ impl Configuration {
 
     /// Whether there is more of light and heat than sunlight that nothing shadows.
     pub fn has_light_and_heat(&self) -> bool {
-        self.light_and_heat.shadowing || self.effects.light().any(|effect| effect != Effect::Solar)
+        self.light_and_heat.shadowing || self.effects.light().any(|effect| effect.row().switch.is_some())
     }
 
     /// Indices of the enabled panels, and the spacecraft with those alone.

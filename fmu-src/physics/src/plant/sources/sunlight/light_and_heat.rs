@@ -14,6 +14,7 @@ use super::radiation_node::RadiationNode;
 use super::radiation_segment::{HOTTEST_K, LoadSeries, NODES, RadiationSegment};
 use super::radiation_solver::RadiationSolver;
 use crate::momentum::WorkKind;
+use crate::plant::instant::path_ahead::PathAhead;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::settings::error::PlantError;
 
@@ -28,11 +29,16 @@ const SHORTEST_TURN_RAD: f64 = 0.1;
 
 /// Builds the radiation segments of a flight whose spacecraft has these panels.
 pub(crate) struct RadiationBuilder<'r, 'a> {
-    pub panels: &'a [Panel],
-    pub kinematics: &'r mut Kinematics<'a>,
+    panels: &'a [Panel],
+    kinematics: &'r mut Kinematics<'a>,
 }
 
-impl RadiationBuilder<'_, '_> {
+impl<'r, 'a> RadiationBuilder<'r, 'a> {
+    /// Builder of segments along a path.
+    pub(crate) fn along(path: &'r mut PathAhead<'_, 'a>) -> Self {
+        Self { panels: path.spacecraft.panels, kinematics: &mut *path.kinematics }
+    }
+
     /// Turns everything at `time_s` into the body frame for `node`.
     fn view(&mut self, time_s: f64, light_panels: &[usize], node: &mut RadiationNode) {
         let configuration = self.kinematics.configuration;
