@@ -68,6 +68,7 @@ fn configure(
                 let simulation = SimulationContext {
                     ephemeris: Ephemeris::with_cache(&context.setup.ephemeris_cache),
                     solar: Some(reading.solar().clone()),
+                    digest: state.digest(),
                     sources: Sources::new(light, air),
                     allocator: ThrusterAllocator::new(thrusters),
                     ..SimulationContext::new(read.configuration)
@@ -77,6 +78,7 @@ fn configure(
             (_, changed) => (configuration, settings) = (Some(read.configuration), changed),
         }
     }
+    state.pass_digest();
     if let Some(changes) = reading.changes.filter(|_| !state.waiting && !reading.begins) {
         state.flight.apply(changes, configuration, settings, step.start_s).map_err(failure)?;
     }

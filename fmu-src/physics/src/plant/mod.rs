@@ -53,6 +53,7 @@ pub use settings::control_defaults::{
     ControlDefaults, DUMP_TORQUE_N_M, LEAST_DUMP_THRESHOLD_N_M_S, NEVER_DUMPED_N_M_S,
     SLEW_ACCELERATION_RAD_S2, SLEW_RATE_RAD_S,
 };
+pub use settings::digest::Digest;
 pub use settings::dynamics_settings::{
     Control, DynamicsInputs, DynamicsSettings, StartMotion, StartPointing, ThrusterControl, Tracked,
 };

@@ -6,7 +6,7 @@ use fmi_export::Failure;
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::guidance::modes::guidance_command::CommandKind as GuidanceCommandKind;
-use physics::plant::{Changes, Command, Flight, Thrusters, Tracked};
+use physics::plant::{Changes, Command, Digest, Flight, Thrusters, Tracked};
 use physics::plausibility::FlightWatch;
 use physics::spacecraft::Spacecraft;
 use serde::{Deserialize, Serialize};
@@ -80,10 +80,8 @@ struct LastInputs {
     orbit: [[f64; 3]; 2],
     /// When they changed, in s.
     orbit_since_s: f64,
-    /// Numbers on which light and heat depend, next to command and orbit.
-    light: Vec<f64>,
-    /// Whether a panel's angle moved as an input.
-    panels_moved: bool,
+    /// Digest of the numbers on which loads depend, command and orbit among them.
+    loads: Digest,
     /// Mass and dumps.
     tunables: [f64; 8],
     /// Force from outside.
@@ -133,8 +131,7 @@ impl PlantState {
                 error_is_applied: false,
                 orbit: inputs.orbit,
                 orbit_since_s: start_s,
-                light: inputs.light.clone(),
-                panels_moved: false,
+                loads: inputs.loads,
                 tunables: inputs.tunables,
                 force: inputs.applied[0],
             },
@@ -168,28 +165,44 @@ impl PlantState {
             self.update_command(time_s)?;
         }
         self.track();
+        let Self { last, inputs, command, .. } = self;
+        let mut loads = inputs.loads.with(inputs.orbit.as_flattened().iter().copied());
         // A command moves light through the attitude, which in dynamics does not jump.
-        let turned = commanded && self.flight.estimate_at(time_s).is_none();
-        let Self { last, inputs, .. } = self;
+        if inputs.source.is_commanded && !inputs.source.is_dynamic {
+            let Command { attitude, rate_body_rad_s, since_s } = command;
+            let numbers = attitude.unit_quaternion().0.into_iter().chain(rate_body_rad_s.iter().copied());
+            loads = loads.with(numbers.chain([*since_s]));
+        }
+        // Panels that move in this step are elsewhere in the next.
+        if inputs.panels_move {
+            loads = loads.with([time_s]);
+        }
         let moved = core::mem::replace(&mut last.orbit, inputs.orbit) != inputs.orbit;
         if moved {
             last.orbit_since_s = time_s;
-        }
-        // Panels that move in this step or did in the last are elsewhere than was computed.
-        let panels_moved = core::mem::replace(&mut last.panels_moved, inputs.panels_move);
-        let lit = inputs.panels_move || panels_moved || inputs.light != last.light;
-        if lit {
-            last.light.clone_from(&inputs.light);
         }
         let before = core::mem::replace(&mut last.tunables, inputs.tunables);
         let [force, _] = inputs.applied;
         Ok(Changes {
             orbit: moved && inputs.orbit_is_given,
-            light: lit || moved || turned,
+            light: core::mem::replace(&mut last.loads, loads) != loads,
             mass: before[0] != inputs.tunables[0],
             force: core::mem::replace(&mut last.force, force) != force,
             tunables: before != inputs.tunables,
         })
+    }
+
+    /// Digest of what loads depend on.
+    pub fn digest(&self) -> Digest {
+        self.last.loads.with_word(self.schedules)
+    }
+
+    /// Gives the flight the digest of what loads depend on.
+    pub fn pass_digest(&mut self) {
+        let digest = self.digest();
+        if let Some(flown) = self.flight.context_mut() {
+            flown.digest = digest;
+        }
     }
 
     /// Follows the files with this digest from `time_s` on; returns whether they changed, which ends everything computed ahead.

@@ -32,6 +32,7 @@ use super::plant::Plant;
 use crate::plant::sources::sunlight::light_and_heat::LEAST_ARM_M;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::settings::configuration::AttitudeSource;
+use crate::plant::settings::digest::Digest;
 use crate::plant::settings::error::PlantError;
 
 /// Nodes of Gauss-Legendre quadrature of order 4 on [0, 1].
@@ -50,6 +51,8 @@ const ORDER: usize = 4;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct DisturbanceInterval {
     span: SegmentSpan,
+    /// Digest of the settings that it was made for.
+    made_for: Digest,
     /// Force and torque of the disturbances that act, body frame; what is applied is known at any time, what acts by a field follows
     /// from it and the attitude.
     loads: ByEffect<Option<[Linear; 2]>>,
@@ -67,6 +70,7 @@ impl DisturbanceInterval {
         let nothing = [Vector3::zeros(); 2];
         Self {
             span: SegmentSpan::default(),
+            made_for: Digest::default(),
             loads: ByEffect::default(),
             field_inertial_t: nothing,
             to_sun: nothing,
@@ -77,6 +81,11 @@ impl DisturbanceInterval {
     /// Whether no interval has begun.
     pub(crate) fn is_before(&self) -> bool {
         self.span.is_before()
+    }
+
+    /// Whether it was made for settings with this digest; so is the one before the first.
+    pub(crate) fn is_made_for(&self, digest: Digest) -> bool {
+        self.is_before() || self.made_for == digest
     }
 
     /// The interval of `plant` that begins at `start_s`, after `self`, and lasts to the next multiple of `grid_s` at most; a body
@@ -143,7 +152,7 @@ impl DisturbanceInterval {
         let [to_sun, to_sun_then] = [now, then].map(|it| it.geometry.to_sun.position_m.normalize());
         let to_sun = [to_sun, (to_sun_then - to_sun) / elapsed_s];
         let lit_fraction = [now.lit_fraction, (then.lit_fraction - now.lit_fraction) / elapsed_s];
-        Ok(Self { span, loads, field_inertial_t, to_sun, lit_fraction })
+        Ok(Self { span, made_for: plant.digest, loads, field_inertial_t, to_sun, lit_fraction })
     }
 
     /// Angular acceleration by which the disturbances at the nodes of an interval after this one, `span_s` long, are off from what

@@ -23,6 +23,7 @@ use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::motion::panel_motion::Hinged;
 use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::configuration::AttitudeSource;
+use crate::plant::settings::digest::Digest;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::sources::sunlight::report_faces;
@@ -38,6 +39,7 @@ const NODES: usize = 8;
 pub struct Plant<'a> {
     prepared: PreparedSpacecraft<'a>,
     pub(crate) kinematics: Kinematics<'a>,
+    pub(super) digest: Digest,
     sources: &'a mut Sources,
     states: &'a mut SourceStates,
     air_and_field: &'a mut AirAndFieldSegment,
@@ -62,6 +64,7 @@ impl<'a> Plant<'a> {
             current_mass_panels_stowed,
             ephemeris,
             solar,
+            digest,
             sources,
             work,
             ..
@@ -89,6 +92,7 @@ impl<'a> Plant<'a> {
         Self {
             prepared,
             kinematics,
+            digest: *digest,
             sources,
             states,
             air_and_field,
@@ -195,8 +199,9 @@ impl<'a> Plant<'a> {
 
     /// The path ahead, and the sources with their states.
     fn path(&mut self) -> (PathAhead<'_, 'a>, &mut Sources, &mut SourceStates) {
-        let Self { prepared, kinematics, sources, states, air_and_field, .. } = self;
-        (PathAhead { spacecraft: *prepared, kinematics, air_and_field }, sources, states)
+        let Self { prepared, kinematics, digest, sources, states, air_and_field, .. } = self;
+        let path = PathAhead { spacecraft: *prepared, digest: *digest, kinematics, air_and_field };
+        (path, sources, states)
     }
 
     /// [`TorqueModel::prepare`] with the whole instant at `start_s`.

@@ -2,6 +2,7 @@
 
 use crate::environment::ephemeris::Ephemeris;
 use crate::plant::settings::configuration::Configuration;
+use crate::plant::settings::digest::Digest;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::settings::work::Work;
 use crate::plant::sources::Sources;
@@ -21,6 +22,8 @@ pub struct SimulationContext {
     pub ephemeris: Ephemeris,
     /// The spacecraft in sunlight, where its materials can be set; else as it was prepared.
     pub solar: Option<SolarModel>,
+    /// Digest of the settings on which loads depend, and of what is set of path and attitude.
+    pub digest: Digest,
     /// Sources of loads.
     pub sources: Sources,
     /// Settings of thrusters and tanks, and the last selections among them.
@@ -39,6 +42,7 @@ impl SimulationContext {
             configuration,
             ephemeris: Ephemeris::default(),
             solar: None,
+            digest: Digest::default(),
             sources: Sources::default(),
             allocator: ThrusterAllocator::default(),
             work: Work::new(u32::MAX, 0),

@@ -25,6 +25,7 @@ use crate::plant::disturbances::plant::Plant;
 use crate::plant::mass::MassState;
 use crate::plant::motion::panel_motion::PanelMotion;
 use crate::plant::settings::configuration::{AttitudeSource, Command};
+use crate::plant::settings::digest::Digest;
 use crate::plant::settings::dynamics_settings::{
     DynamicsInputs, DynamicsSettings, StartMotion, StartPointing, Tracked,
 };
@@ -134,6 +135,11 @@ impl AttitudeDynamics {
     pub(super) fn covers(&self, time_s: f64) -> bool {
         let tolerance_s = tolerance_s(time_s);
         self.motion.start_s() <= time_s + tolerance_s && time_s <= self.motion.end_s() + tolerance_s
+    }
+
+    /// Whether the disturbances were fitted for settings with this digest.
+    pub(super) fn is_made_for(&self, digest: Digest) -> bool {
+        self.disturbance.is_made_for(digest)
     }
 
     /// Something that acts changes at `time_s`; `loads_change` tells whether light and place do.

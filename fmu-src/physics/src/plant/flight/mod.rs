@@ -242,7 +242,8 @@ impl Flight {
                 self.propagator.cut(so_far, time_s, changes.light);
             }
             Mode::Dynamic(dynamics) => {
-                let loads_change = changes.light || changes.mass || pushed;
+                let is_refitted = changes.light || !dynamics.is_made_for(setup.context.digest);
+                let loads_change = is_refitted || changes.mass || pushed;
                 dynamics.cut(time_s, loads_change);
                 self.propagator.command_slews.cut(time_s);
                 if loads_change {

@@ -5,6 +5,7 @@ use super::air_and_field_segment::{AirAndField, AirAndFieldSegment};
 use crate::numerics::Span;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::settings::configuration::Configuration;
+use crate::plant::settings::digest::Digest;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 
@@ -12,6 +13,8 @@ use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 pub(crate) struct PathAhead<'r, 'a> {
     /// The spacecraft.
     pub spacecraft: PreparedSpacecraft<'a>,
+    /// Digest of the settings on which loads depend: a fit made for another one is cut.
+    pub digest: Digest,
     /// Orbit and attitude.
     pub kinematics: &'r mut Kinematics<'a>,
     /// Air and field along them.

@@ -3,6 +3,7 @@
 pub(super) mod air_and_field_settings;
 pub(super) mod configuration;
 pub(super) mod control_defaults;
+pub(super) mod digest;
 pub(super) mod dynamics_settings;
 pub(super) mod error;
 pub(super) mod ideal_settings;

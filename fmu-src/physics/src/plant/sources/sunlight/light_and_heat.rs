@@ -16,6 +16,7 @@ use super::radiation_solver::RadiationSolver;
 use crate::momentum::WorkKind;
 use crate::plant::instant::path_ahead::PathAhead;
 use crate::plant::motion::kinematics::Kinematics;
+use crate::plant::settings::digest::Digest;
 use crate::plant::settings::error::PlantError;
 
 /// No segment is shortened below this, in s: kinks where a face turns dark end here.
@@ -30,13 +31,14 @@ const SHORTEST_TURN_RAD: f64 = 0.1;
 /// Builds the radiation segments of a flight whose spacecraft has these panels.
 pub(crate) struct RadiationBuilder<'r, 'a> {
     panels: &'a [Panel],
+    digest: Digest,
     kinematics: &'r mut Kinematics<'a>,
 }
 
 impl<'r, 'a> RadiationBuilder<'r, 'a> {
     /// Builder of segments along a path.
     pub(crate) fn along(path: &'r mut PathAhead<'_, 'a>) -> Self {
-        Self { panels: path.spacecraft.panels, kinematics: &mut *path.kinematics }
+        Self { panels: path.spacecraft.panels, digest: path.digest, kinematics: &mut *path.kinematics }
     }
 
     /// Turns everything at `time_s` into the body frame for `node`.
@@ -78,6 +80,9 @@ impl<'r, 'a> RadiationBuilder<'r, 'a> {
         limit_s: f64,
     ) -> Result<f64, PlantError> {
         let segment = segment.get_or_insert_default();
+        if segment.made_for != self.digest {
+            segment.cut(start_s);
+        }
         if segment.span.contains(start_s) {
             return Ok(segment.span.end_s.min(limit_s));
         }
@@ -122,7 +127,7 @@ impl<'r, 'a> RadiationBuilder<'r, 'a> {
                 Err(error) => Attempt::Undefined(self.no_light(start_s, error)),
             })
         })?;
-        (segment.span, segment.loads) = (span, series);
+        (segment.span, segment.made_for, segment.loads) = (span, self.digest, series);
         segment.temperatures_k.clear();
         if stores || self.needs_wall_temperatures() {
             segment.temperatures_k.extend((0..light.face_count()).map(|face| {
