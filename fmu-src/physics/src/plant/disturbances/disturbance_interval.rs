@@ -29,11 +29,11 @@ use crate::numerics::quadrature::GAUSS_2;
 
 use super::evaluation::Evaluation;
 use super::plant::Plant;
-use crate::plant::sources::sunlight::light_and_heat::LEAST_ARM_M;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::digest::Digest;
 use crate::plant::settings::error::PlantError;
+use crate::plant::sources::sunlight::light_and_heat::LEAST_ARM_M;
 
 /// Nodes of Gauss-Legendre quadrature of order 4 on [0, 1].
 const NODES: [f64; 2] = [GAUSS_2[0].0, GAUSS_2[1].0];

@@ -10,10 +10,10 @@ use crate::guidance::{Guided, ScienceArc, SelectedSunDirection};
 use crate::loads::ForceTorque;
 use crate::momentum::{Convention, Totals};
 use crate::plant::disturbances::simulation_context::SimulationContext;
-use crate::plant::sources::sunlight::sunlit::SunlitConfiguration;
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
+use crate::plant::sources::sunlight::sunlit::SunlitConfiguration;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::spacecraft::Material;
 

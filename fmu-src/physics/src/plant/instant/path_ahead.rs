@@ -36,6 +36,6 @@ impl PathAhead<'_, '_> {
 
     /// Air and magnetic field at `time_s`, up to which they are known.
     pub(crate) fn air_and_field(&self, time_s: f64) -> AirAndField {
-        self.air_and_field.by_settings(&self.kinematics.configuration.air_and_field, time_s)
+        self.air_and_field.at(self.kinematics.configuration.air_and_field.as_ref(), time_s)
     }
 }
