@@ -22,7 +22,7 @@ struct MassEntry makes #[derive(Clone, Debug, PartialEq, Serialize)] pub MassTab
     initial_propellant_kg: f64 => |it| it.propellant_kg.last().map_or(0.0, NotNegative::value),
     /// I1/I2.
     transverse_quotient: Positive = 1.0,
-    /// Products of inertia 12, 13, 23 at each point, in kg m2: elements of the tensor.
+    /// Products of inertia 12, 13, 23 at each point, in kg m2: elements of the tensor; otherwise 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     products_of_inertia_kg_m2: Option<Vec<[Finite; 3]>>,
 }
