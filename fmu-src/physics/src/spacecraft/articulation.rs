@@ -8,7 +8,7 @@ use crate::toml::{NotNegative, Positive, Written, tables};
 tables! {
 /// Corridor of the light on the cells of panels, in suns: max(0, cosine of the angle to the Sun) over the square of the distance in
 /// AU. The defaults of `articulation.*`.
-struct ArticulationDescription makes #[derive(Clone, Copy, Debug, PartialEq, Serialize)] pub Articulation {
+struct ArticulationDescription makes #[derive(Clone, Copy, Debug, PartialEq, Serialize)] pub struct Articulation {
     /// Least light, for power.
     min_suns: NotNegative = 0.0,
     /// Greatest light, for temperature.

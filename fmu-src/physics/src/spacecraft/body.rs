@@ -56,7 +56,7 @@ struct BodyDescription {
 }
 
 /// Its orbit about the Sun. Without it and without a state, inputs or the file of onboard ephemerides say where the body is.
-struct BodyElementsDescription makes #[derive(Clone, Copy, Debug, PartialEq, Serialize)] pub BodyElements {
+struct BodyElementsDescription makes #[derive(Clone, Copy, Debug, PartialEq, Serialize)] pub struct BodyElements {
     /// Semi-major axis, in m.
     semi_major_axis_m: OrbitAxis,
     /// Eccentricity, at most 0.99.

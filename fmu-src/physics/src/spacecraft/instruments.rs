@@ -17,7 +17,7 @@ struct InstrumentDescription called "instrument" {
 }
 
 /// A gimbal that turns an instrument about one axis: at most one instrument has one.
-struct GimbalDescription makes #[derive(Clone, Copy, Debug, PartialEq, Serialize)] pub GimbalMount {
+struct GimbalDescription makes #[derive(Clone, Copy, Debug, PartialEq, Serialize)] pub struct GimbalMount {
     /// Unit vector of its axis, body frame, perpendicular to the boresight; angles count right-handed about it.
     axis as axis_body: UnitVector,
     /// Least angle, in deg.

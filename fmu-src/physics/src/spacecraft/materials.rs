@@ -42,7 +42,7 @@ struct OpticsDescription {
 }
 
 /// What every surface exchanges heat with.
-struct SurroundingsDescription makes #[derive(Clone, Copy, Debug)] pub(crate) ThermalEnvironment or Default {
+struct SurroundingsDescription makes #[derive(Clone, Copy, Debug)] pub(crate) struct ThermalEnvironment or Default {
     /// Temperature of the space that surfaces see, in K; the default is the cosmic microwave background's.
     background_k: Kelvin = BACKGROUND_K,
     /// Temperature of the bus behind surfaces that conduct heat to it, in K; held, whatever flows.

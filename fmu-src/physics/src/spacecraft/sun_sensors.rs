@@ -7,7 +7,7 @@ use crate::toml::{HalfTurn, UnitVector, tables};
 
 tables! {
 /// A Sun sensor.
-struct SunSensorDescription called "sun sensor" makes #[derive(Clone, Debug, PartialEq, Serialize)] pub MountedSunSensor {
+struct SunSensorDescription called "sun sensor" makes #[derive(Clone, Debug, PartialEq, Serialize)] pub struct MountedSunSensor {
     /// Name for messages; numbered unless given.
     name: Option<String>,
     /// Unit vector of its axis, body frame.

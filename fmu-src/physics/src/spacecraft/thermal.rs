@@ -46,7 +46,7 @@ pub struct Conduction {
 
 tables! {
 /// A honeycomb between face sheets.
-struct HoneycombDescription makes #[derive(Clone, Copy, Debug, PartialEq)] pub Honeycomb {
+struct HoneycombDescription makes #[derive(Clone, Copy, Debug, PartialEq)] pub struct Honeycomb {
     /// Conductivity of the core's material, in W/m/K.
     conductivity_w_m_k: Positive,
     /// Thickness, in m.

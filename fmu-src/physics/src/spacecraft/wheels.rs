@@ -13,7 +13,7 @@ const TIME_TO_CAPACITY_S: f64 = 100.0;
 
 tables! {
 /// A reaction wheel.
-struct WheelDescription called "wheel" makes #[derive(Clone, Debug, PartialEq, Serialize)] pub Wheel {
+struct WheelDescription called "wheel" makes #[derive(Clone, Debug, PartialEq, Serialize)] pub struct Wheel {
     /// Name for messages; numbered unless given.
     name: Option<String>,
     /// Unit vector of the spin axis, body frame.

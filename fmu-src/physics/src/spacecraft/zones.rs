@@ -6,7 +6,7 @@ use crate::toml::{HalfTurn, Kilometers, Positive, QuarterTurn, tables};
 
 tables! {
 /// Directions the Sun may have, symmetric about -Y.
-struct SunKeepInDescription makes #[derive(Clone, Copy, Debug, PartialEq, Serialize)] pub SunKeepIn {
+struct SunKeepInDescription makes #[derive(Clone, Copy, Debug, PartialEq, Serialize)] pub struct SunKeepIn {
     /// Greatest azimuth in the XY plane from -Y toward +X, in deg.
     azimuth_deg as azimuth_rad: HalfTurn,
     /// Greatest elevation from the XY plane toward -Z, in deg.
@@ -17,7 +17,7 @@ struct SunKeepInDescription makes #[derive(Clone, Copy, Debug, PartialEq, Serial
 
 /// Zone in which the top deck, -Z, does not look at the planet: low above its subsolar point, which is hot. Guidance keeps it; left
 /// out, `hotPole.enabled` is false.
-struct HotPoleDescription makes #[derive(Clone, Copy, Debug, PartialEq, Serialize)] pub HotPoleZone {
+struct HotPoleDescription makes #[derive(Clone, Copy, Debug, PartialEq, Serialize)] pub struct HotPoleZone {
     /// Below this height above the ellipsoid, in km.
     altitude_km as altitude_m: Kilometers,
     /// Within this angle from the subsolar point, in deg.

@@ -20,7 +20,7 @@ const EARTH_L1_AU: f64 = 0.010_010_9;
 
 tables! {
 /// Orbit about the Sun-Earth L1 point.
-struct L1OrbitEntry makes #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)] #[serde(deny_unknown_fields)] pub L1Orbit or Default {
+struct L1OrbitEntry makes #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)] #[serde(deny_unknown_fields)] pub struct L1Orbit or Default {
     /// Rate of the Earth-Sun line, in deg/day; otherwise the Earth's mean, 0.98561.
     line_rate_deg_day: Finite => |_| LINE_RATE_DEG_DAY,
     /// Sun to Earth, in m; otherwise 1 AU.

@@ -9,13 +9,13 @@ use super::written::{Plain, Written};
 /// Declares structs that read a table each: they refuse unknown keys and have a schema.
 ///
 /// A key with a default, `key: Type = value`, may be left out, as may one whose value then follows from others,
-/// `key: Type => |table| value`. `called "wheel"` numbers the parts that the file gives no name ([`Named`]). `makes Wheel` declares the
+/// `key: Type => |table| value`. `called "wheel"` numbers the parts that the file gives no name ([`Named`]). `makes pub struct Wheel` declares the
 /// struct of the values in SI units (an angle in rad of a key in deg), which `made` returns: a field for each key, called as the key or, in
 /// `key as name: Type`, by the name; `or Default` lets the whole table be left out. In other tables keys with a default or a name have a method that returns the value. `rules` follow
 /// a table whose keys depend on one another (see [`Demand`](super::rules::Demand)): `Requires key => others: "found", "allowed";`.
 #[macro_export]
 macro_rules! tables {
-    ($($(#[$about:meta])* struct $table:ident $(called $kind:literal)? $(makes $(#[$made_about:meta])* $seen:vis $made:ident $(or $default_value:ident)?)? {
+    ($($(#[$about:meta])* struct $table:ident $(called $kind:literal)? $(makes $(#[$made_about:meta])* $seen:vis struct $made:ident $(or $default_value:ident)?)? {
         $($(#[$key_about:meta])* $key:ident $(as $name:ident)?: $type:ty $(= $default:expr)? $(=> $follows:expr)?,)+
     } $(rules {$(
         $demand:ident $($subject:ident)+ $(=> $($other:ident)+)?: $found:literal, $allowed:literal;

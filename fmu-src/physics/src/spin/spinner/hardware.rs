@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 tables! {
 /// Mass and inertia as functions of the propellant on board.
-struct MassEntry makes #[derive(Clone, Debug, PartialEq, Serialize)] pub MassTable {
+struct MassEntry makes #[derive(Clone, Debug, PartialEq, Serialize)] pub struct MassTable {
     /// I3 at each point, in kg m2.
     spin_inertia_kg_m2: List<Positive, 2>,
     /// I3/I_T at each point.
@@ -28,7 +28,7 @@ struct MassEntry makes #[derive(Clone, Debug, PartialEq, Serialize)] pub MassTab
 }
 
 /// Star tracker that searches pickets of sky.
-struct StarTrackerEntry makes #[derive(Clone, Debug, PartialEq, Serialize)] pub StarTracker or Default {
+struct StarTrackerEntry makes #[derive(Clone, Debug, PartialEq, Serialize)] pub struct StarTracker or Default {
     /// Boresight azimuth from body X toward Y, in deg.
     azimuth_deg: Finite = 90.0,
     /// Full width of the field in declination, in deg.
@@ -42,7 +42,7 @@ struct StarTrackerEntry makes #[derive(Clone, Debug, PartialEq, Serialize)] pub 
 }
 
 /// Sun sensor with a slit, from which spins are timed.
-struct SunSensorEntry makes #[derive(Clone, Debug, PartialEq, Serialize)] pub SunSensor or Default {
+struct SunSensorEntry makes #[derive(Clone, Debug, PartialEq, Serialize)] pub struct SunSensor or Default {
     /// Azimuth of the slit from body X toward Y, in deg.
     azimuth_deg: Finite = 0.0,
     /// Standard deviation of a Sun angle, in deg.
