@@ -76,8 +76,13 @@ impl AirAndFieldSegment {
         self.span.cut(time_s);
     }
 
+    /// Air and field at `time_s` by these settings; none without settings.
+    pub(crate) fn by_settings(&self, settings: &Option<AirAndFieldSettings>, time_s: f64) -> AirAndField {
+        settings.as_ref().map_or_else(AirAndField::default, |it| self.at(it, time_s))
+    }
+
     /// Air and field at `time_s`.
-    pub(crate) fn at(&self, settings: &AirAndFieldSettings, time_s: f64) -> AirAndField {
+    fn at(&self, settings: &AirAndFieldSettings, time_s: f64) -> AirAndField {
         let vector =
             |series: &Option<Series>| series.as_ref().map_or(Vector3::zeros(), |it| it.value(time_s));
         AirAndField {
