@@ -2,9 +2,7 @@
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use physics::environment::ephemeris::Ephemeris;
-use physics::plant::{
-    NEVER_DUMPED_N_M_S, SimulationContext, Sources, StepContext, ThrusterAllocator, Undo,
-};
+use physics::plant::{NEVER_DUMPED_N_M_S, SimulationContext, Sources, StepContext, ThrusterAllocator, Undo};
 
 use super::inputs::{self, FixedParameters, Reading, guidance, plausibility, propulsion};
 use super::outputs;

@@ -85,8 +85,7 @@ pub(crate) fn next_interval(
             let last_s = plant.kinematics.configuration.last_of_panels_s(start_s, interval.end_s());
             let ends = [start_s, last_s].map(|at_s| plant.evaluate(at_s));
             let fit_error = fit_error(active, &nodes, &ends);
-            unresolved =
-                unresolved.max(fit_error * fit_error.max(math::powi(rate_rad_s * span_s, 2) / 12.0));
+            unresolved = unresolved.max(fit_error * fit_error.max(math::powi(rate_rad_s * span_s, 2) / 12.0));
         } else if unresolved <= tolerance {
             return Ok(Attempt::Short(nodes));
         }
