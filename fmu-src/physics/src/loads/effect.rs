@@ -143,7 +143,7 @@ impl Effect {
         count
     };
 
-    /// Those effects, in the table's order.
+    /// Effects by a dipole in the magnetic field, in the table's order.
     pub const FIELD: [Self; Self::IN_FIELD] = {
         let (mut rows, mut place, mut k) = ([Self::ALL[0]; Self::IN_FIELD], 0, 0);
         while k < Self::COUNT {
