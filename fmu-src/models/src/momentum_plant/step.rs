@@ -65,13 +65,11 @@ fn configure(
         match (read.fixed, read.settings) {
             (Some(fixed), Some(settings)) => {
                 let FixedParameters { light, air, thrusters } = fixed;
-                let simulation = SimulationContext {
-                    ephemeris: Ephemeris::with_cache(&context.setup.ephemeris_cache),
-                    solar: Some(reading.solar().clone()),
-                    sources: Sources::new(light, air),
-                    allocator: ThrusterAllocator::new(thrusters),
-                    ..SimulationContext::new(read.configuration)
-                };
+                let mut simulation = SimulationContext::new(read.configuration);
+                simulation.models.ephemeris = Ephemeris::with_cache(&context.setup.ephemeris_cache);
+                simulation.models.solar = Some(reading.solar().clone());
+                simulation.models.sources = Sources::new(light, air);
+                simulation.allocator = ThrusterAllocator::new(thrusters);
                 state.flight.configure(simulation, settings);
             }
             (_, changed) => (configuration, settings) = (Some(read.configuration), changed),

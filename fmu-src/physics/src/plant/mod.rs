@@ -29,8 +29,9 @@ mod thrusters;
 pub use air_and_field::aerodynamic_solver::AerodynamicSolver;
 pub use air_and_field::air_and_field_segment::AirAndField;
 pub use disturbances::evaluation::{Evaluation, External};
-pub use disturbances::plant::Plant;
+pub use disturbances::plant::{Plant, PlantSettings};
 pub use disturbances::simulation_context::SimulationContext;
+pub use disturbances::simulation_models::SimulationModels;
 pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 pub use flight::report::{ControlReport, EncounterReport, FlightSummary, Report, WheelReport};
 pub use flight::{Changes, Flight, ForecastMomentum, ModeSettings, Occultation, StepContext, Undo};
@@ -47,8 +48,8 @@ pub use settings::air_and_field_settings::{
     AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure,
 };
 pub use settings::configuration::{
-    AttitudeSource, Command, Configuration, DynamicAttitude, Encounter, EphemerisSource, LightSource, Motion,
-    PredictionSettings, SunLight,
+    AttitudeSource, Command, Configuration, Encounter, EphemerisSource, LightSource, Motion,
+    PredictionSettings, SunLight, Turning,
 };
 pub use settings::control_defaults::{
     ControlDefaults, DUMP_TORQUE_N_M, LEAST_DUMP_THRESHOLD_N_M_S, NEVER_DUMPED_N_M_S,

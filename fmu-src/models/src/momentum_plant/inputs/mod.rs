@@ -199,7 +199,7 @@ pub(super) fn update_materials(
     let Some(flown) = state.flight.context_mut() else { return Ok(()) };
     for found in context.variables.optics.materials(context, values, &context.setup.optics) {
         let (place, material) = found?;
-        flown.set_material(place, &material);
+        flown.models.set_material(place, &material);
     }
     Ok(())
 }

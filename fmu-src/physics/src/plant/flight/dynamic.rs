@@ -69,8 +69,7 @@ impl Dynamic<'_> {
         let units = if self.settings.gyrostat.is_rigid() { 1 } else { FLEXIBLE_UNITS };
         while self.state.motion.end_s() < end_s - tolerance_s(end_s) {
             let time_s = self.state.motion.end_s();
-            let evaluations = self.flight.context.ephemeris.evaluations();
-            self.flight.context.work.spend(WorkKind::Segment, units, evaluations, time_s)?;
+            self.flight.context.models.spend(WorkKind::Segment, units, time_s)?;
             let body = self.process_events()?;
             let Self { state, settings, flight, .. } = self;
             let edge_s = flight.next_thruster_edge_s();

@@ -42,17 +42,17 @@ impl<'f> Ideal<'f> {
     ) -> Result<IdealState, PlantError> {
         let bias_body_n_m_s = flight.context.configuration.momentum.policy.bias_body_n_m_s;
         let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
-        flight.context.begin_work(flight.given.work_limit);
+        flight.context.models.begin_work(flight.given.work_limit);
         let frame = flight.plant().instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
         flight.select_sun_direction(time_s, &totals, StartMomentum::Body(momentum_body_n_m_s), true)?;
-        flight.context.begin_work(flight.given.work_limit);
+        flight.context.models.begin_work(flight.given.work_limit);
         let mut plant = flight.plant();
         plant.prepare(time_s, time_s)?;
         let frame = plant.instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
         let mut begun = IdealState::new(time_s, held, totals);
-        flight.context.begin_work(flight.given.work_limit);
+        flight.context.models.begin_work(flight.given.work_limit);
         flight.propagator.panel_turns.restart();
         Ideal { state: &mut begun, settings, inputs: &DynamicsInputs::default(), flight }.advance(time_s)?;
         Ok(begun)

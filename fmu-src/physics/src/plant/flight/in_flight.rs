@@ -108,7 +108,7 @@ impl<'f> InFlight<'f> {
                 (evaluation, ideal(&waiting, settings, evaluation, inputs, time_s), flight)
             }
         };
-        let ConfiguredFlight { given, context, propagator, thrusters } = flight;
+        let ConfiguredFlight { given, context, propagator, thrusters, .. } = flight;
         let (configuration, trajectory) = (&context.configuration, &propagator.trajectory);
         let Instant { downlink, is_degenerate, .. } = evaluation.instant;
         let (downlink, is_degenerate) = sampled.unwrap_or((downlink, is_degenerate));
@@ -118,7 +118,7 @@ impl<'f> InFlight<'f> {
         Report {
             time_s,
             configuration,
-            materials: context.solar.as_ref().map_or(&[], SolarModel::materials),
+            materials: context.models.solar.as_ref().map_or(&[], SolarModel::materials),
             thrusters,
             reaction_control: &context.allocator.settings,
             since_periapsis_s: match is_waiting {

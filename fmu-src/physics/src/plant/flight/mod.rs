@@ -25,11 +25,10 @@ use crate::attitude::control::Estimate;
 use crate::loads::ForceTorque;
 use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
-use crate::plant::disturbances::plant::Plant;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::motion::command_slews::CommandSlews;
 use crate::plant::motion::instant::Instant;
-use crate::plant::settings::configuration::{Command, Configuration, PredictionSettings};
+use crate::plant::settings::configuration::{Command, Configuration, PredictionSettings, Turning};
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::ideal_settings::IdealSettings;
@@ -281,7 +280,8 @@ impl Flight {
             return Err(PlantError::OtherMode);
         };
         let FlightSetup { context, settings, distribution, evaluation } = &mut **setup;
-        let flight = ConfiguredFlight { given, context, propagator, thrusters };
+        let turning = Turning::still();
+        let flight = ConfiguredFlight { given, context, propagator, thrusters, turning };
         let in_flight = match (mode, settings) {
             (Mode::Waiting, ModeSettings::Ideal(settings)) => InFlight::Waiting { settings, inputs, flight },
             (Mode::Ideal(state), ModeSettings::Ideal(settings)) => {
@@ -305,7 +305,8 @@ impl Flight {
         };
         let FlightSetup { context, settings, .. } = &mut **setup;
         *propagator = PropagatorState::new(&context.configuration, time_s)?;
-        let mut flight = ConfiguredFlight { given, context, propagator, thrusters };
+        let turning = Turning::from(*held);
+        let mut flight = ConfiguredFlight { given, context, propagator, thrusters, turning };
         let held = held.attitude_at(time_s);
         *mode = match settings {
             ModeSettings::Ideal(settings) => {
@@ -330,7 +331,7 @@ impl Flight {
     ) -> Result<(), PlantError> {
         let predicted = self.prediction_settings();
         let (mut in_flight, _) = self.in_flight(given, inputs)?;
-        in_flight.flight().context.begin_work(given.work_limit);
+        in_flight.flight().context.models.begin_work(given.work_limit);
         in_flight.apply_requests([start_s, end_s])?;
         for time_s in predicted.times_s([start_s, end_s]) {
             self.in_flight(given, inputs)?.0.advance(time_s)?;
@@ -371,7 +372,7 @@ impl Flight {
         let undo = Undo(self.state.mode.clone(), self.state.thrusters.clone(), self.state.prediction);
         let given = StepContext { log: &|_| {}, ..given };
         if let (InFlight::Dynamic(mut dynamic), _) = self.in_flight(given, inputs)? {
-            dynamic.flight.context.begin_work(given.work_limit);
+            dynamic.flight.context.models.begin_work(given.work_limit);
             dynamic.process_events()?;
         }
         if self.prediction_settings().is_due(time_s) {
@@ -416,7 +417,7 @@ impl Flight {
             return Err(PlantError::OtherMode);
         };
         let external = |_: f64| [ForceTorque::zero(); 2];
-        Plant::new(prepared, &mut setup.context, propagator, &external).faces(time_s, report)
+        setup.context.plant(prepared, Turning::still(), propagator, &external).faces(time_s, report)
     }
 }
 

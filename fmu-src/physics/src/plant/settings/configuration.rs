@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::laws::Laws;
-use crate::attitude::{Attitude, MovingFrame, SunAngles};
+use crate::attitude::{Attitude, MovingFrame, Quaternion};
 use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::eclipse::Shadow;
@@ -15,7 +15,7 @@ use crate::environment::onboard::OnboardEphemeris;
 use crate::environment::orbit::{GravityModel, NBodyGravity, TwoBodyOrbit};
 use crate::environment::sun::pressure_n_m2;
 use crate::guidance::timeline::TimelineSettings;
-use crate::guidance::{DownlinkSunDirection, Guided};
+use crate::guidance::Guided;
 use crate::loads::{Active, Effect};
 use crate::momentum::Settings;
 use crate::numerics::chebyshev::Segment;
@@ -35,8 +35,8 @@ pub enum AttitudeSource {
     Guided(Guided),
     /// A command, followed ideally.
     Commanded(Command),
-    /// A body that turns by its dynamics.
-    Dynamic(DynamicAttitude),
+    /// A body that turns by its dynamics; the orbit phase's own guidance, absent where commands come from elsewhere.
+    Dynamic(Option<Guided>),
 }
 
 impl AttitudeSource {
@@ -45,34 +45,33 @@ impl AttitudeSource {
         match self {
             Self::Guided(guided) => Some(guided),
             Self::Commanded(_) => None,
-            Self::Dynamic(dynamic) => dynamic.guided.as_ref(),
-        }
-    }
-
-    /// Puts the Sun there during downlinks and in science that unloads.
-    pub(crate) fn set_sun_directions(
-        &mut self,
-        place: Option<DownlinkSunDirection>,
-        science: Option<SunAngles>,
-    ) {
-        if let Self::Guided(guided) | Self::Dynamic(DynamicAttitude { guided: Some(guided), .. }) = self {
-            *guided = guided.with_sun_directions(place, science);
+            Self::Dynamic(guided) => guided.as_ref(),
         }
     }
 }
 
-/// An attitude that is known up to now, and what it is to follow.
+/// An attitude by torque, which is known up to now.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DynamicAttitude {
+pub struct Turning {
     /// The attitude now, continuing at the present rate.
     pub motion: Command,
     /// How that rate changes: the first and second term of its series, in rad/s2 and rad/s3.
     pub rate_terms_body: [Vector3<f64>; 2],
-    /// The orbit phase's own guidance; absent where commands come from elsewhere.
-    pub guided: Option<Guided>,
 }
 
-impl DynamicAttitude {
+impl From<Command> for Turning {
+    fn from(motion: Command) -> Self {
+        Self { motion, rate_terms_body: [Vector3::zeros(); 2] }
+    }
+}
+
+impl Turning {
+    /// A body that stands still in EME2000, where nothing turns by torque.
+    pub fn still() -> Self {
+        let attitude = Attitude::from_unit(Quaternion::IDENTITY);
+        Command { attitude, rate_body_rad_s: Vector3::zeros(), since_s: 0.0 }.into()
+    }
+
     /// Body frame and rate at `time_s`: the turn by the rate w + b t + c t^2 is w t + b t^2 / 2 + c t^3 / 3 + (w x b) t^3 / 12 +
     /// (w x c) t^4 / 12 to the fourth order (Magnus).
     pub fn frame_at(&self, time_s: f64) -> MovingFrame {
@@ -289,6 +288,14 @@ impl LightSource {
 }
 
 impl Configuration {
+    /// Becomes another one; allocates nothing where it has as many panels.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        let mut panels = core::mem::take(&mut self.panels);
+        panels.clone_from(&other.panels);
+        let (ephemeris, thruster_events) = (other.ephemeris.clone(), other.thruster_events.clone());
+        *self = Self { panels, ephemeris, thruster_events, ..*other };
+    }
+
     /// The planet, if there is one: the encounter's body, else the centre.
     pub fn planet(&self) -> Option<Body> {
         let center = Some(self.center).filter(|body| body.is_planet());
