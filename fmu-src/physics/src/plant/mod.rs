@@ -17,6 +17,7 @@
 mod air_and_field;
 mod control;
 mod disturbances;
+mod events;
 mod flight;
 mod instant;
 mod light;

@@ -10,6 +10,7 @@ use crate::guidance::{Guided, ScienceArc, SelectedSunDirection};
 use crate::loads::ForceTorque;
 use crate::momentum::{Convention, Totals};
 use crate::plant::disturbances::simulation_context::SimulationContext;
+use crate::plant::events;
 use crate::plant::light::sunlit::SunlitConfiguration;
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
@@ -128,7 +129,7 @@ impl DownlinkForecast<'_> {
         fork.deselect_sun_directions();
         fork.coarsen(self.time_s, step_s);
         times_s.try_for_each(|at_s| {
-            fork.advance(at_s)?;
+            events::advance(&mut fork, at_s)?;
             visit(fork.momentum_at(at_s));
             Ok(())
         })

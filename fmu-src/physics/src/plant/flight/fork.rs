@@ -9,17 +9,18 @@ use nalgebra::{Rotation3, Vector3};
 use crate::guidance::SelectedSunDirections;
 use crate::guidance::timeline::TimelineManeuver;
 use crate::loads::ForceTorque;
-use crate::momentum::{MomentumIntegrator, Stop, StopTimes, Totals};
+use crate::momentum::{MomentumIntegrator, TorqueModel, Totals, WorkKind};
 use crate::plant::disturbances::evaluation::External;
 use crate::plant::disturbances::plant::{Plant, PlantSettings};
 use crate::plant::disturbances::simulation_context::{ForkScratch, SimulationContext};
 use crate::plant::disturbances::simulation_models::SimulationModels;
+use crate::plant::events::{EventKind, Eventful, LastEvents};
 use crate::plant::motion::approaches::ClosestApproach;
 use crate::plant::motion::geometry::Geometry;
 use crate::plant::settings::configuration::{AttitudeSource, Configuration, Turning};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
-use crate::plant::settings::thruster_events::SchedulePlace;
+use crate::plant::settings::last_event::LastEvent;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::spacecraft::MassProperties;
 
@@ -73,18 +74,67 @@ pub(crate) struct Fork<'f> {
     integrator: MomentumIntegrator,
     /// Applied from outside, with its rate.
     applied: [ForceTorque<f64>; 2],
-    /// How far the schedule is over.
-    scheduled: SchedulePlace,
+    /// The last event of each kind.
+    last: LastEvents,
     /// The last two waypoints.
     waypoints: [(Option<Waypoint>, &'f mut PropagatorState); 2],
 }
 
-/// Time, schedule and mass of a fork at a checkpoint; its propagator is kept next to it.
-#[derive(Clone, Copy, Debug)]
+/// Time, events and mass of a fork at a checkpoint; its propagator is kept next to it.
+#[derive(Clone, Debug)]
 struct Waypoint {
     time_s: f64,
-    scheduled: SchedulePlace,
+    last: LastEvents,
     current_mass_panels_stowed: MassProperties,
+}
+
+impl Eventful for Fork<'_> {
+    fn last(&mut self) -> &mut LastEvents {
+        &mut self.last
+    }
+
+    fn reached_s(&self) -> f64 {
+        self.integrator.end_s()
+    }
+
+    fn ends_by(&self, limit_s: f64) -> bool {
+        self.integrator.ends_by(limit_s)
+    }
+
+    fn next_event_s(&self, kind: EventKind) -> f64 {
+        match kind {
+            EventKind::Schedule => self.configuration.thruster_events.next_s(self.last.scheduled()),
+            _ => f64::INFINITY,
+        }
+    }
+
+    fn is_due(&mut self, kind: EventKind) -> Result<bool, PlantError> {
+        Ok(self.next_event_s(kind) <= self.reached_s())
+    }
+
+    fn spend(&mut self, kind: Option<EventKind>) -> Result<(), PlantError> {
+        let (time_s, applied) = (self.reached_s(), self.applied);
+        match kind {
+            Some(_) => self.plant(&|_| applied).0.spend(WorkKind::Dump, time_s),
+            None => Ok(()),
+        }
+    }
+
+    fn apply_event(&mut self, _kind: EventKind) -> Result<(), PlantError> {
+        let time_s = self.reached_s();
+        self.integrator.cut(time_s);
+        let delta_v_inertial_m_s = self.scheduled_event(time_s)?;
+        self.integrator.push(&delta_v_inertial_m_s);
+        Ok(())
+    }
+
+    fn advance_segment(&mut self, limit_s: f64) -> Result<(), PlantError> {
+        let (settings, applied) = (self.configuration.momentum, self.applied);
+        let external = |_: f64| applied;
+        let (mut plant, integrator) = self.plant(&external);
+        let prepared = integrator.prepare(&mut plant, &settings, limit_s)?;
+        integrator.advance_segment(&mut plant, &settings, &prepared)
+    }
 }
 
 impl<'f> Fork<'f> {
@@ -95,6 +145,9 @@ impl<'f> Fork<'f> {
         own_configuration.copy_from(configuration);
         own_configuration.attitude = start.attitude;
         propagator.copy_from(start.propagator);
+        let mut last = LastEvents::before(start.time_s);
+        // Those of this time are over.
+        *last.of_kind(EventKind::Schedule) = LastEvent::until(start.time_s);
         Self {
             prepared: start.prepared,
             models,
@@ -103,8 +156,7 @@ impl<'f> Fork<'f> {
             propagator,
             integrator: MomentumIntegrator::new(start.time_s, start.totals),
             applied: [start.applied, ForceTorque::zero()],
-            // Those of this time are over.
-            scheduled: SchedulePlace::until(start.time_s),
+            last,
             waypoints: [(None, first), (None, second)],
         }
     }
@@ -129,43 +181,19 @@ impl<'f> Fork<'f> {
         self.cut(time_s);
     }
 
-    /// Advances until everything is known at `time_s`.
-    ///
-    /// # Errors
-    /// What ends a flight.
-    pub(super) fn advance(&mut self, time_s: f64) -> Result<(), PlantError> {
-        let settings = self.configuration.momentum;
-        loop {
-            let scheduled_s = self.configuration.thruster_events.next_s(self.scheduled);
-            let applied = self.applied;
-        let external = |_: f64| applied;
-            let (mut plant, integrator) = self.plant(&external);
-            let times = StopTimes { scheduled_s, dumped_s: None };
-            match integrator.advance_to_stop(&mut plant, &settings, time_s, times)? {
-                Stop::Scheduled { at_s } => {
-                    self.integrator.cut(at_s);
-                    let delta_v_inertial_m_s = self.apply_event(at_s)?;
-                    self.integrator.push(&delta_v_inertial_m_s);
-                }
-                // No threshold, and nothing is chosen.
-                Stop::Reached | Stop::Dump(_) | Stop::Choice { .. } => return Ok(()),
-            }
-        }
-    }
-
     /// Advances the orbit alone from `time_s`, where the fork has come: to the next event, which is over then, or as far as the
     /// orbit is known there, at most to `limit_s`; gives how far it came.
     ///
     /// # Errors
     /// What ends a flight.
     pub(super) fn advance_orbit(&mut self, time_s: f64, limit_s: f64) -> Result<f64, PlantError> {
-        let scheduled_s = self.configuration.thruster_events.next_s(self.scheduled);
+        let scheduled_s = self.next_event_s(EventKind::Schedule);
         let applied = self.applied;
         let external = |_: f64| applied;
         let (mut plant, _) = self.plant(&external);
         let until_s = plant.orbit_and_light(time_s)?.min(limit_s);
         if scheduled_s <= until_s {
-            self.apply_event(scheduled_s)?;
+            self.scheduled_event(scheduled_s)?;
         }
         Ok(until_s.min(scheduled_s))
     }
@@ -185,18 +213,18 @@ impl<'f> Fork<'f> {
         propagator.copy_from(self.propagator);
         *waypoint = Some(Waypoint {
             time_s,
-            scheduled: self.scheduled,
+            last: self.last.clone(),
             current_mass_panels_stowed: self.current_mass_panels_stowed,
         });
     }
 
     /// Goes back to the last waypoint up to `time_s` and gives its time; `None` without one.
     pub(super) fn restore(&mut self, time_s: f64) -> Option<f64> {
-        let is_up_to = |waypoint: &Option<Waypoint>| waypoint.is_some_and(|it| it.time_s <= time_s);
+        let is_up_to = |waypoint: &Option<Waypoint>| waypoint.as_ref().is_some_and(|it| it.time_s <= time_s);
         let (waypoint, propagator) = self.waypoints.iter_mut().rfind(|(waypoint, _)| is_up_to(waypoint))?;
         core::mem::swap(self.propagator, *propagator);
-        let Waypoint { time_s, scheduled, current_mass_panels_stowed } = waypoint.take()?;
-        (self.scheduled, self.current_mass_panels_stowed) = (scheduled, current_mass_panels_stowed);
+        let Waypoint { time_s, last, current_mass_panels_stowed } = waypoint.take()?;
+        (self.last, self.current_mass_panels_stowed) = (last, current_mass_panels_stowed);
         Some(time_s)
     }
 
@@ -209,11 +237,12 @@ impl<'f> Fork<'f> {
     }
 
     /// Executes the scheduled event at `time_s`, the end of the fork; returns its velocity change, EME2000, in m/s.
-    fn apply_event(&mut self, time_s: f64) -> Result<Vector3<f64>, PlantError> {
-        let Self { configuration, current_mass_panels_stowed, propagator, .. } = self;
-        let next = configuration.thruster_events.next(self.scheduled).copied();
+    fn scheduled_event(&mut self, time_s: f64) -> Result<Vector3<f64>, PlantError> {
+        let Self { configuration, current_mass_panels_stowed, propagator, last, .. } = self;
+        let last = last.of_kind(EventKind::Schedule);
+        let next = configuration.thruster_events.next(*last).copied();
         let Some(event) = next else { return Ok(Vector3::zeros()) };
-        self.scheduled.take(configuration.thruster_events.time_s(&event));
+        last.take(configuration.thruster_events.time_s(&event));
         if let Some(place_body_m) = event.center_of_mass_body_m {
             let before = propagator.center_of_mass.mass_properties(configuration);
             propagator.center_of_mass.place(configuration, place_body_m);

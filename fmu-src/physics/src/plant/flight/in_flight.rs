@@ -4,6 +4,7 @@ use crate::attitude::MotionAt;
 use crate::attitude::control::{sample_number, sensed_sun};
 use crate::momentum::Totals;
 use crate::plant::disturbances::evaluation::Evaluation;
+use crate::plant::events;
 use crate::plant::motion::instant::Instant;
 use crate::plant::settings::configuration::{AttitudeSource, Command};
 use crate::plant::settings::dynamics_settings::DynamicsInputs;
@@ -51,8 +52,11 @@ impl<'f> InFlight<'f> {
     pub(super) fn advance(&mut self, time_s: f64) -> Result<(), PlantError> {
         match self {
             Self::Waiting { .. } => Ok(()),
-            Self::Ideal(it) => it.advance(time_s),
-            Self::Dynamic(it) => it.advance(time_s),
+            Self::Ideal(it) => events::advance(it, time_s),
+            Self::Dynamic(it) => {
+                it.resume();
+                events::advance(it, time_s)
+            }
         }
     }
 
@@ -84,7 +88,7 @@ impl<'f> InFlight<'f> {
                 let summary = dynamic(state, settings, flight.thrusters, evaluation, &at);
                 (evaluation, summary, flight)
             }
-            Self::Ideal(Ideal { state, settings, inputs, mut flight }) => {
+            Self::Ideal(Ideal { state, settings, inputs, mut flight, .. }) => {
                 let evaluation = &*evaluation.insert(flight.plant().evaluate(time_s));
                 let mut summary = ideal(state, settings, evaluation, inputs, time_s);
                 let Instant { sun_body, lit_fraction, .. } = &evaluation.instant;

@@ -26,6 +26,7 @@ use crate::loads::ForceTorque;
 use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::disturbances::simulation_context::SimulationContext;
+use crate::plant::events::{self, EventKind};
 use crate::plant::motion::command_slews::CommandSlews;
 use crate::plant::motion::instant::Instant;
 use crate::plant::settings::configuration::{Command, Configuration, PredictionSettings, Turning};
@@ -263,8 +264,8 @@ impl Flight {
     pub fn reschedule(&mut self, time_s: f64) {
         match &mut self.state.mode {
             Mode::Waiting => {}
-            Mode::Ideal(ideal) => ideal.scheduled.skip_to(time_s),
-            Mode::Dynamic(dynamics) => dynamics.scheduled.skip_to(time_s),
+            Mode::Ideal(ideal) => ideal.last.of_kind(EventKind::Schedule).skip_to(time_s),
+            Mode::Dynamic(dynamics) => dynamics.last.of_kind(EventKind::Schedule).skip_to(time_s),
         }
         self.state.propagator.sun_choice.row = 0;
         self.state.propagator.command_slews = CommandSlews::beginning(time_s);
@@ -285,10 +286,10 @@ impl Flight {
         let in_flight = match (mode, settings) {
             (Mode::Waiting, ModeSettings::Ideal(settings)) => InFlight::Waiting { settings, inputs, flight },
             (Mode::Ideal(state), ModeSettings::Ideal(settings)) => {
-                InFlight::Ideal(Ideal { state, settings, inputs, flight })
+                InFlight::Ideal(Ideal { state, settings, inputs, flight, prepared: None })
             }
             (Mode::Dynamic(state), ModeSettings::Dynamic(settings)) => {
-                InFlight::Dynamic(Dynamic { state, settings, inputs, flight, distribution })
+                InFlight::Dynamic(Dynamic { state, settings, inputs, flight, distribution, end: None })
             }
             _ => return Err(PlantError::OtherMode),
         };
@@ -373,7 +374,7 @@ impl Flight {
         let given = StepContext { log: &|_| {}, ..given };
         if let (InFlight::Dynamic(mut dynamic), _) = self.in_flight(given, inputs)? {
             dynamic.flight.context.models.begin_work(given.work_limit);
-            dynamic.process_events()?;
+            events::apply_due(&mut dynamic)?;
         }
         if self.prediction_settings().is_due(time_s) {
             self.predict(given, inputs, time_s)?;

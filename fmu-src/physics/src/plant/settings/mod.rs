@@ -6,6 +6,7 @@ pub(super) mod control_defaults;
 pub(super) mod dynamics_settings;
 pub(super) mod error;
 pub(super) mod ideal_settings;
+pub(super) mod last_event;
 pub(super) mod laws;
 pub(super) mod panel_setting;
 pub(super) mod prepared_spacecraft;
