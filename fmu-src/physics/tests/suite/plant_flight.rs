@@ -21,7 +21,7 @@ use physics::numerics::quadrature;
 use physics::plant::{
     AttitudeSource, Command, Configuration, EphemerisSource, External, Laws, LightSource, Motion,
     PanelSetting, PanelStep, Plant, PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver,
-    Ramp, SimulationContext, Sources, SunLight, ThrusterEventSettings,
+    Ramp, SimulationContext, Sources, SunLight, ThrusterEventSettings, Turning,
 };
 use physics::radiation::SolarModel;
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel};

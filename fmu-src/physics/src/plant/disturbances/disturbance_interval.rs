@@ -135,7 +135,8 @@ fn unforeseen(
 /// What ends a flight.
 pub(crate) fn deviate(interval: &DisturbanceInterval, plant: &mut Plant<'_>) -> Result<(), PlantError> {
     let applied = plant.external(interval.span.start_s);
-    let Kinematics { configuration, turning, trajectory, current_mass_panels_stowed, .. } = &mut plant.kinematics;
+    let Kinematics { configuration, turning, trajectory, current_mass_panels_stowed, .. } =
+        &mut plant.kinematics;
     if !configuration.uses_encke() {
         return Ok(());
     }

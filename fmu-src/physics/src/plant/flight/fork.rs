@@ -19,8 +19,8 @@ use crate::plant::motion::approaches::ClosestApproach;
 use crate::plant::motion::geometry::Geometry;
 use crate::plant::settings::configuration::{AttitudeSource, Configuration, Turning};
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::settings::last_event::LastEvent;
+use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::spacecraft::MassProperties;
 
@@ -141,7 +141,8 @@ impl<'f> Fork<'f> {
     /// Begins where the flight is.
     pub(super) fn new(context: &'f mut SimulationContext, start: &ForkStart<'f>) -> Self {
         let SimulationContext { configuration, current_mass_panels_stowed, models, fork, .. } = context;
-        let ForkScratch { configuration: own_configuration, states: [propagator, first, second] } = &mut **fork;
+        let ForkScratch { configuration: own_configuration, states: [propagator, first, second] } =
+            &mut **fork;
         own_configuration.copy_from(configuration);
         own_configuration.attitude = start.attitude;
         propagator.copy_from(start.propagator);

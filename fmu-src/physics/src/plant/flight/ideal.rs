@@ -88,7 +88,8 @@ impl Eventful for Ideal<'_> {
         if kind == EventKind::Schedule {
             self.scheduled_event(time_s)?;
         }
-        if let Some(due) = self.prepared.take().and_then(|it| it.due).filter(|_| kind == EventKind::Threshold) {
+        if let Some(due) = self.prepared.take().and_then(|it| it.due).filter(|_| kind == EventKind::Threshold)
+        {
             self.dump(&due);
             self.state.integrator.dumps().check()?;
         }
