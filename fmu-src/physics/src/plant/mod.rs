@@ -35,7 +35,7 @@ pub use disturbances::simulation_context::SimulationContext;
 pub use disturbances::simulation_models::SimulationModels;
 pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 pub use flight::report::{ControlReport, EncounterReport, FlightSummary, Report, WheelReport};
-pub use flight::{Changes, Flight, ForecastMomentum, ModeSettings, Occultation, StepContext, Undo};
+pub use flight::{Flight, ForecastMomentum, Occultation, StepContext, Undo};
 pub use light::radiation_segment::RadiationSegment;
 pub use light::radiation_solver::RadiationSolver;
 pub use light::sunlit::SunlitConfiguration;
@@ -48,10 +48,8 @@ pub use motion::trajectory::Trajectory;
 pub use settings::air_and_field_settings::{
     AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure,
 };
-pub use settings::configuration::{
-    AttitudeSource, Command, Configuration, Encounter, EphemerisSource, LightSource, Motion,
-    PredictionSettings, SunLight, Turning,
-};
+pub use settings::attitude_source::{AttitudeSource, Command, Turning};
+pub use settings::configuration::{Configuration, Encounter, EphemerisSource, LightSource, Motion, PredictionSettings, SunLight};
 pub use settings::control_defaults::{
     ControlDefaults, DUMP_TORQUE_N_M, LEAST_DUMP_THRESHOLD_N_M_S, NEVER_DUMPED_N_M_S,
     SLEW_ACCELERATION_RAD_S2, SLEW_RATE_RAD_S,
@@ -62,6 +60,7 @@ pub use settings::dynamics_settings::{
 pub use settings::error::{ManeuverError, PlantError};
 pub use settings::ideal_settings::{IdealSettings, IdealWheel};
 pub use settings::laws::{Laws, TUNABLE_COUNT};
+pub use settings::mode_settings::{Changes, ModeSettings};
 pub use settings::panel_setting::{PanelSetting, PanelStep, Ramp, SunAt, Tilt};
 pub use settings::prepared_spacecraft::PreparedSpacecraft;
 pub use settings::radiation_settings::RadiationSettings;

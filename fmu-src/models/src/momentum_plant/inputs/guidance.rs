@@ -98,7 +98,7 @@ pub(super) fn attitude(
     Ok(match guided {
         guided if source.is_dynamic => plant::AttitudeSource::Dynamic(guided),
         Some(guided) => plant::AttitudeSource::Guided(guided),
-        None => plant::AttitudeSource::Commanded(state.command),
+        None => plant::AttitudeSource::Commanded(state.saved.command),
     })
 }
 
@@ -114,12 +114,12 @@ fn managed_law(
     let antennas = &context.setup.antennas.all;
     let strategy = values.choice(variables.momentum.strategy).0;
     let managed = strategy != Strategy::DumpsOnly;
-    if !state.waiting {
+    if !state.saved.waiting {
         check_windows_have_antenna(&law.schedule, antennas)?;
     }
     variables.guided.check_unload(values, managed)?;
     check_strategy_has_antenna(strategy, antennas)?;
-    if managed && !state.waiting {
+    if managed && !state.saved.waiting {
         check_windows(&law.schedule)?;
     }
     let requested = if managed {

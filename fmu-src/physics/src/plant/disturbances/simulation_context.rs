@@ -3,7 +3,8 @@
 use super::evaluation::External;
 use super::plant::{Plant, PlantSettings};
 use super::simulation_models::SimulationModels;
-use crate::plant::settings::configuration::{Configuration, Turning};
+use crate::plant::settings::attitude_source::Turning;
+use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::plant::thrusters::allocation::ThrusterAllocator;

@@ -12,7 +12,7 @@ use crate::momentum::WorkKind;
 use crate::plant::disturbances::evaluation::External;
 use crate::plant::disturbances::plant::Plant;
 use crate::plant::disturbances::simulation_context::SimulationContext;
-use crate::plant::settings::configuration::{Command, Turning};
+use crate::plant::settings::attitude_source::{Command, Turning};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::settings::reaction_control_settings::ThrustCommand;

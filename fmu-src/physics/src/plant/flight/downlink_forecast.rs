@@ -12,7 +12,7 @@ use crate::momentum::{Convention, Totals};
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::events;
 use crate::plant::light::sunlit::SunlitConfiguration;
-use crate::plant::settings::configuration::AttitudeSource;
+use crate::plant::settings::attitude_source::AttitudeSource;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::state::propagator_state::PropagatorState;

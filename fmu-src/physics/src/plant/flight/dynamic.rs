@@ -20,7 +20,7 @@ use crate::plant::control::control_loop::{Actuators, Sampled};
 use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::events::{EventKind, Eventful, LastEvents};
-use crate::plant::settings::configuration::{AttitudeSource, Command};
+use crate::plant::settings::attitude_source::{AttitudeSource, Command};
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings, Tracked};
 use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::thruster_events::ThrusterEvent;

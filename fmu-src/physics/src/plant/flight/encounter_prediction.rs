@@ -10,7 +10,8 @@ use crate::environment::orbit::{BPlane, Collision, OrbitIntegrationError};
 use crate::loads::ForceTorque;
 use crate::momentum::Totals;
 use crate::momentum::WorkKind;
-use crate::plant::settings::configuration::{AttitudeSource, Encounter};
+use crate::plant::settings::attitude_source::AttitudeSource;
+use crate::plant::settings::configuration::Encounter;
 use crate::plant::settings::error::PlantError;
 use crate::plant::state::encounter_prediction::{EncounterPrediction, PredictedArrival};
 

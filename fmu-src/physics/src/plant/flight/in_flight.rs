@@ -6,7 +6,7 @@ use crate::momentum::Totals;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::events;
 use crate::plant::motion::instant::Instant;
-use crate::plant::settings::configuration::{AttitudeSource, Command};
+use crate::plant::settings::attitude_source::{AttitudeSource, Command};
 use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::ideal_settings::IdealSettings;

@@ -29,10 +29,11 @@ use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::events::{self, EventKind};
 use crate::plant::motion::command_slews::CommandSlews;
 use crate::plant::motion::instant::Instant;
-use crate::plant::settings::configuration::{Command, Configuration, PredictionSettings, Turning};
-use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
+use crate::plant::settings::attitude_source::{Command, Turning};
+use crate::plant::settings::configuration::{Configuration, PredictionSettings};
+use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::ideal_settings::IdealSettings;
+use crate::plant::settings::mode_settings::{Changes, ModeSettings};
 use crate::plant::settings::panel_setting::PanelSetting;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::state::encounter_prediction::EncounterPrediction;
@@ -78,30 +79,6 @@ struct FlightSetup {
     evaluation: Option<Evaluation>,
 }
 
-/// Settings of a mode, next to the configuration.
-#[derive(Clone, Debug)]
-pub enum ModeSettings {
-    /// Settings of a flight whose attitude is followed ideally, and of one that waits.
-    Ideal(IdealSettings),
-    /// Settings of a flight by torque.
-    Dynamic(Box<DynamicsSettings>),
-}
-
-/// Groups of parameters and inputs that changed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Changes {
-    /// Position and velocity were given.
-    pub orbit: bool,
-    /// Attitude, panels or Sun changed, on which light and heat depend.
-    pub light: bool,
-    /// Mass, centre of mass or inertia changed.
-    pub mass: bool,
-    /// The force from outside changed.
-    pub force: bool,
-    /// Mass, thresholds or target of dumps changed.
-    pub tunables: bool,
-}
-
 impl Flight {
     /// Flight that waits for its inputs.
     pub fn waiting(thrusters: Thrusters) -> Self {
@@ -116,11 +93,6 @@ impl Flight {
     /// Names a part of the flight that was not computed at `time_s`, if any.
     pub fn first_uncovered(&self, time_s: f64) -> Option<&'static str> {
         self.state.first_uncovered(time_s)
-    }
-
-    /// Whether parameters and inputs have been read since the start or a restore.
-    pub fn is_configured(&self) -> bool {
-        self.setup.is_some()
     }
 
     /// The configuration that is simulated.

@@ -14,9 +14,8 @@ use crate::plant::motion::geometry::{Geometry, SimulationEphemeris, body};
 use crate::plant::motion::instant::Instant;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::motion::trajectory::Trajectory;
-use crate::plant::settings::configuration::{
-    AttitudeSource, Configuration, EphemerisSource, Motion, Turning,
-};
+use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
+use crate::plant::settings::configuration::{Configuration, EphemerisSource, Motion};
 use crate::plant::settings::work::Work;
 
 /// The Moon's rate against the Sun as seen from the Earth is at most that, in rad/s.
