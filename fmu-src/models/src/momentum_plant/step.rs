@@ -117,7 +117,8 @@ fn begin(
 
 /// Reports where no dump comes, and dumps that cost nothing.
 fn report_dumps(context: &Plan<'_>, state: &PlantState, time_s: f64) {
-    let Some(configuration) = state.saved.flight.configuration().filter(|_| context.log.events_enabled()) else {
+    let Some(configuration) = state.saved.flight.configuration().filter(|_| context.log.events_enabled())
+    else {
         return;
     };
     let policy = &configuration.momentum.policy;

@@ -49,7 +49,9 @@ pub use settings::air_and_field_settings::{
     AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure,
 };
 pub use settings::attitude_source::{AttitudeSource, Command, Turning};
-pub use settings::configuration::{Configuration, Encounter, EphemerisSource, LightSource, Motion, PredictionSettings, SunLight};
+pub use settings::configuration::{
+    Configuration, Encounter, EphemerisSource, LightSource, Motion, PredictionSettings, SunLight,
+};
 pub use settings::control_defaults::{
     ControlDefaults, DUMP_TORQUE_N_M, LEAST_DUMP_THRESHOLD_N_M_S, NEVER_DUMPED_N_M_S,
     SLEW_ACCELERATION_RAD_S2, SLEW_RATE_RAD_S,

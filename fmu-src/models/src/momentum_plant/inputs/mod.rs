@@ -122,7 +122,8 @@ pub(super) fn read<'a>(
     let (momentum, spacecraft) = (&variables.momentum, &context.setup.spacecraft);
     let strategy = values.choice(momentum.strategy).0;
     let is_dynamic = state.inputs.source.is_dynamic && !state.saved.waiting;
-    let is_complete = begins || state.saved.flight.configuration().is_none() || (state.saved.waiting && changes.is_some());
+    let is_complete =
+        begins || state.saved.flight.configuration().is_none() || (state.saved.waiting && changes.is_some());
     let is_changed = changes.is_some_and(|it| !is_dynamic || it.orbit || it.light || it.tunables);
     let is_reconfigured = is_complete || is_changed;
     let current = state.saved.flight.configuration().filter(|_| !is_reconfigured);
@@ -258,7 +259,8 @@ pub(super) fn check_span(
     let Some(carried) = ephemeris::precise(context.setup.ephemeris.as_ref()).filter(|_| is_onboard) else {
         return Ok(());
     };
-    let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.saved.start_s);
+    let epoch_minus_time_s =
+        time::epoch_minus_time_s(values.real(variables.start.epoch), state.saved.start_s);
     let end_epoch_s = time::epoch_at_s(end_s, epoch_minus_time_s);
     let center = values.choice(variables.orbit.center).0;
     let end = "the epoch at the end of the step";

@@ -124,8 +124,10 @@ impl Request {
 impl PlantState {
     /// Checks numbers that were decoded.
     pub fn check(&self, spacecraft: &Spacecraft) -> Result<(), Failure> {
-        let parts =
-            [("the command", self.saved.command.is_valid()), ("the flight", self.saved.flight.is_valid(spacecraft))];
+        let parts = [
+            ("the command", self.saved.command.is_valid()),
+            ("the flight", self.saved.flight.is_valid(spacecraft)),
+        ];
         match parts.iter().find(|(_, is_valid)| !is_valid) {
             None => Ok(()),
             Some((part, _)) => Err(Failure::new(format!(
