@@ -66,12 +66,12 @@ impl EventKind {
 pub(crate) struct LastEvents([LastEvent; EventKind::ALL.len()]);
 
 impl LastEvents {
-    /// None since `time_s`, where a flight begins.
+    /// No event since `time_s`, where a flight begins.
     pub(crate) fn before(time_s: f64) -> Self {
         Self([LastEvent::before(time_s); EventKind::ALL.len()])
     }
 
-    /// Those of a kind.
+    /// The last one of this kind.
     pub(crate) fn of_kind(&mut self, kind: EventKind) -> &mut LastEvent {
         &mut self.0[kind as usize]
     }
