@@ -14,10 +14,11 @@
 //! replaces the command and [`PropagatorState::cut`] drops what was computed beyond it, while heat stored up to then stays.
 //! How far ahead is computed is `RadiationSettings::grid_s`: about the time between two samples wastes nothing.
 
+mod control;
 mod disturbances;
+mod events;
 mod flight;
 mod instant;
-mod mass;
 mod motion;
 mod settings;
 mod sources;
@@ -25,16 +26,12 @@ mod state;
 mod thrusters;
 
 pub use disturbances::evaluation::{Evaluation, External};
-pub use disturbances::plant::Plant;
+pub use disturbances::plant::{Plant, PlantSettings};
 pub use disturbances::simulation_context::SimulationContext;
+pub use disturbances::simulation_models::SimulationModels;
 pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
-pub use flight::ideal::Maneuvers;
 pub use flight::report::{ControlReport, EncounterReport, FlightSummary, Report, WheelReport};
-pub use flight::wheel_control::WheelControl;
-pub use flight::{
-    Changes, EncounterPrediction, Flight, ForecastMomentum, ModeSettings, Occultation, PredictedArrival,
-    StepContext, Undo,
-};
+pub use flight::{Flight, ForecastMomentum, Occultation, StepContext, Undo};
 pub use instant::air_and_field_segment::AirAndField;
 pub use motion::approaches::ClosestApproach;
 pub use motion::geometry::{Geometry, sun_and_earth};
@@ -45,9 +42,9 @@ pub use motion::trajectory::Trajectory;
 pub use settings::air_and_field_settings::{
     AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure,
 };
+pub use settings::attitude_source::{AttitudeSource, Command, Turning};
 pub use settings::configuration::{
-    AttitudeSource, Command, Configuration, DynamicAttitude, Encounter, EphemerisSource, LightSource, Motion,
-    PredictionSettings, SunLight,
+    Configuration, Encounter, EphemerisSource, LightSource, Motion, PredictionSettings, SunLight,
 };
 pub use settings::control_defaults::{
     ControlDefaults, DUMP_TORQUE_N_M, LEAST_DUMP_THRESHOLD_N_M_S, NEVER_DUMPED_N_M_S,
@@ -60,6 +57,7 @@ pub use settings::dynamics_settings::{
 pub use settings::error::{ManeuverError, PlantError};
 pub use settings::ideal_settings::{IdealSettings, IdealWheel};
 pub use settings::laws::{Laws, TUNABLE_COUNT};
+pub use settings::mode_settings::{Changes, ModeSettings};
 pub use settings::panel_setting::{PanelSetting, PanelStep, Ramp, SunAt, Tilt};
 pub use settings::prepared_spacecraft::PreparedSpacecraft;
 pub use settings::radiation_settings::RadiationSettings;
@@ -75,6 +73,8 @@ pub use sources::sunlight::radiation_solver::RadiationSolver;
 pub use sources::sunlight::sunlit::SunlitConfiguration;
 pub use sources::thrusters::THRUSTERS;
 pub use sources::{SourceStates, Sources};
+pub use state::encounter_prediction::{EncounterPrediction, PredictedArrival};
+pub use state::ideal_state::Maneuvers;
 pub use state::propagator_state::PropagatorState;
 pub use state::sun_choice::SunDirectionSelection;
 pub use thrusters::allocation::{ThrusterAllocator, UnservedDumps};
