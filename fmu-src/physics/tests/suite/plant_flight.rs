@@ -365,8 +365,8 @@ fn a_fit_for_other_settings_ends_where_they_change() {
                 rig.propagator.cut(&with(0.0), time_s, true);
             }
             let context = rig.context_of(&with(x_m));
-            context.sources = Sources::new(Some(light.clone()), None);
-            context.digest = digest;
+            context.models.sources = Sources::new(Some(light.clone()), None);
+            context.models.digest = digest;
             let mut plant = rig.plant_now(&|_| [ForceTorque::zero(); 2]);
             plant.prepare(time_s, f64::INFINITY).unwrap();
             loads = plant.evaluate(time_s).loads;
