@@ -6,6 +6,7 @@ use model_description::{BaseType, Status};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
+use crate::scenarios::{Scenario, Simulation};
 use crate::support::{self, fresh, ok};
 
 /// Mark, layout version, GUID digest; then payload length and checksum, then the payload (see `blob.rs`).
@@ -288,4 +289,38 @@ fn states_of_other_models_and_other_setups_are_refused() {
     assert_eq!(target.instance.deserialize(&later).0, Status::Error);
     let messages = target.instance.take_messages();
     assert!(messages[0].text.contains("layout version 4, this library reads 3"), "{messages:?}");
+}
+
+/// Bytes are judged before any setting is read: an instance in which nothing was ever set and one in the midst of another simulation
+/// take and refuse the same ones, with the same words.
+fn judged_alike(scenario: Scenario, cases: u32) {
+    let model = scenario.model();
+    let blobs = genuine(model);
+    let mut busy = Simulation::new(scenario);
+    (0..10).for_each(|_| busy.step());
+    ok(busy.instance.set_debug_logging(true, &[]));
+    let (bare, busy) = (std::cell::RefCell::new(fresh(model)), std::cell::RefCell::new(busy.instance));
+    let judged = |instance: &std::cell::RefCell<InProcess>, bytes: &[u8]| {
+        let mut instance = instance.borrow_mut();
+        let _ = instance.take_messages();
+        let (status, state) = instance.deserialize(bytes);
+        let texts: Vec<String> = instance.take_messages().into_iter().map(|it| it.text).collect();
+        (status, state.is_null(), texts)
+    };
+    let (refused, taken) = (std::cell::Cell::new(0), std::cell::Cell::new(0));
+    run(cases, (0..blobs.len(), damage()), |(which, damage)| {
+        let bytes = seal(&blobs[which], &damage.applied_to(&blobs[which][HEADER..]));
+        let found = judged(&bare, &bytes);
+        let count = if found.0 == Status::Ok { &taken } else { &refused };
+        count.set(count.get() + 1);
+        assert_eq!(judged(&busy, &bytes), found, "{scenario:?}");
+    });
+    assert!(taken.get() > cases / 100 && refused.get() > cases / 100, "{} {}", taken.get(), refused.get());
+}
+
+#[test]
+fn bytes_are_judged_before_any_setting_is_read() {
+    for scenario in [Scenario::Free, Scenario::Lit, Scenario::Fired, Scenario::Placed, Scenario::Safed] {
+        judged_alike(scenario, short_or_long(500, 3_000));
+    }
 }

@@ -14,6 +14,10 @@ pub(crate) enum Scenario {
     Commanded,
     /// MomentumPlant by its own guidance with planet light and recoil on an orbit they move, through eclipses.
     Lit,
+    /// MomentumPlant by its controller, with commands that change, a wheel that fails, dump requests and torques with slopes.
+    Controlled,
+    /// MomentumPlant by torques of its wheels and from outside, on a disturbed orbit with planet light and recoil.
+    Free,
     /// SpinPlant nutating, with its damper, through its own burn; nothing is set during the simulation.
     Burning,
     /// SpinPlant with pulses, held thrusters and torques from outside.
@@ -29,10 +33,12 @@ pub(crate) enum Scenario {
 }
 
 impl Scenario {
-    pub(crate) const ALL: [Self; 9] = [
+    pub(crate) const ALL: [Self; 11] = [
         Self::Guided,
         Self::Commanded,
         Self::Lit,
+        Self::Controlled,
+        Self::Free,
         Self::Burning,
         Self::Fired,
         Self::Placed,
@@ -44,7 +50,7 @@ impl Scenario {
     /// The model that runs so.
     pub(crate) fn model(self) -> &'static str {
         match self {
-            Self::Guided | Self::Commanded | Self::Lit => "MomentumPlant",
+            Self::Guided | Self::Commanded | Self::Lit | Self::Controlled | Self::Free => "MomentumPlant",
             Self::Burning | Self::Fired => "SpinPlant",
             Self::Placed => "DisturbanceTorque",
             Self::Pointed | Self::Safed | Self::Orbiting => "Guidance",
@@ -52,9 +58,10 @@ impl Scenario {
     }
 
     /// Lengths of steps, in s: no multiples of one another.
-    fn steps_s(self) -> [f64; 4] {
+    pub(crate) fn steps_s(self) -> [f64; 4] {
         match self {
             Self::Guided | Self::Commanded | Self::Lit => [60.0, 600.0, 97.3, 1_200.0],
+            Self::Controlled | Self::Free => [0.5, 0.1, 1.3, 0.017],
             Self::Burning | Self::Fired => [0.5, 0.1, 1.3, 7.0],
             Self::Placed => [60.0, 1.0, 7.3, 0.02],
             Self::Pointed | Self::Safed => [1.0, 0.1, 7.0, 0.3],
@@ -77,6 +84,17 @@ impl Scenario {
                 ok(instance.set_integer(&choices.map(|name| names.of(BaseType::Integer, name)), &[2, 2, 1]));
                 ok(instance.set_real(&names.vector::<3>("dump.threshold"), &[0.5; 3]));
                 ok(instance.set_real(&[names.real("ephemeris.trueAnomaly")], &[1.7]));
+            }
+            Self::Controlled | Self::Free => {
+                let source = if self == Self::Controlled { 3 } else { 4 };
+                ok(instance.set_integer(&[names.of(BaseType::Integer, "attitude.source")], &[source]));
+                ok(instance.set_real(&names.vector::<4>("start.q"), &[0.0, 0.0, 0.0, 1.0]));
+                ok(instance.set_real(&[names.real("wheel[1].startMomentum")], &[0.7]));
+                if self == Self::Free {
+                    let on = |name: &str| names.of(BaseType::Boolean, name);
+                    ok(instance.set_boolean(&[on("planetLight.enabled"), on("thermal.enabled")], &[1, 1]));
+                    ok(instance.set_integer(&[names.of(BaseType::Integer, "orbit.dynamics")], &[2]));
+                }
             }
             Self::Burning | Self::Fired => {
                 let reals = [names.real("start.nutation"), names.real("damper.timeConstant")];
@@ -192,7 +210,7 @@ impl Scenario {
     ) {
         // Held for six steps, so that a state saved in between must know of it.
         let held = i32::from(RandomNumbers(1_000_000 + step_number / 6).below(2) == 0);
-        if matches!(self, Self::Commanded | Self::Fired) {
+        if matches!(self, Self::Commanded | Self::Controlled | Self::Free | Self::Fired) {
             let torque = names.vector::<3>("torque.applied");
             match random.below(4) {
                 0 => ok(instance.set_real(&torque, &[1e-5 * (random.unit() - 0.5), 1e-6, -2e-6])),
@@ -205,7 +223,16 @@ impl Scenario {
             Self::Pointed | Self::Safed | Self::Orbiting => {
                 self.set_guidance_inputs(instance, names, step_number, random);
             }
-            Self::Commanded => {
+            Self::Free => {
+                let motors = [1, 2, 3, 4].map(|k| names.real(&format!("wheel[{k}].torqueCommand")));
+                ok(instance.set_real(&motors, &[0.01 * (random.unit() - 0.5), 2e-3, -1e-3, 0.0]));
+                ok(instance.set_boolean(&[names.of(BaseType::Boolean, "dump.request")], &[held]));
+            }
+            Self::Commanded | Self::Controlled => {
+                if self == Self::Controlled {
+                    let failed = names.of(BaseType::Boolean, "wheel[2].failed");
+                    ok(instance.set_boolean(&[failed], &[held]));
+                }
                 if random.below(3) == 0 {
                     let sine = random.unit().sin();
                     let q = [0.1 * sine, 0.2 * sine, 0.3, (0.91 - 0.05 * sine * sine).sqrt()];
@@ -274,6 +301,16 @@ impl Simulation {
         scenario.prepare(&mut instance, &names);
         ok(instance.start(0.0, None));
         Self { instance, names, scenario, step_number: 0, time_s: 0.0 }
+    }
+
+    /// Resets the instance and simulates from the start once more.
+    pub(crate) fn begin_again(&mut self, steps: u64) {
+        ok(self.instance.reset());
+        ok(self.instance.set_debug_logging(false, &[]));
+        self.scenario.prepare(&mut self.instance, &self.names);
+        ok(self.instance.start(0.0, None));
+        (self.step_number, self.time_s) = (0, 0.0);
+        (0..steps).for_each(|_| self.step());
     }
 
     /// Sets what the scenario sets before this step, then makes it.

@@ -1,14 +1,16 @@
 //! A saved state continues as if nothing had happened: in the same instance, after Reset, in another instance and
 //! in another process, to the bit.
 
-use model_description::BaseType;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use client::{InProcess, StatePointer};
+use client::{InProcess, StatePointer, short_or_long};
+use model_description::{
+    BaseType, Causality, Description, ScalarVariable, SimpleTypeKind, Status, Variability, VariableKind,
+};
 
 use crate::scenarios::{Scenario, Simulation};
-use crate::support::{self, RandomNumbers, everything, fresh, in_a_process_of_its_own, names, ok};
+use crate::support::{self, RandomNumbers, everything, fresh, in_a_process_of_its_own, names, ok, silent};
 
 const POINTS: usize = 12;
 const STEPS: u64 = 50;
@@ -43,6 +45,7 @@ fn restored(mut instance: InProcess, bytes: &[u8]) -> InProcess {
 /// Length of a simulation, in s: the plant's 90 days, the spinner's burn and what follows, some hundred geometries.
 fn length_s(scenario: Scenario) -> f64 {
     match scenario.model() {
+        "MomentumPlant" if scenario.steps_s()[0] < 60.0 => 300.0,
         "MomentumPlant" => 90.0 * 86_400.0,
         _ => 3_000.0,
     }
@@ -130,6 +133,19 @@ fn a_lit_simulation_goes_on_from_any_saved_point() {
 }
 
 #[test]
+fn a_controlled_simulation_goes_on_from_any_saved_point() {
+    in_this_process_and_another(
+        Scenario::Controlled,
+        "states::a_controlled_simulation_goes_on_from_any_saved_point",
+    );
+}
+
+#[test]
+fn a_free_simulation_goes_on_from_any_saved_point() {
+    in_this_process_and_another(Scenario::Free, "states::a_free_simulation_goes_on_from_any_saved_point");
+}
+
+#[test]
 fn a_burn_goes_on_from_any_saved_point() {
     in_this_process_and_another(Scenario::Burning, "states::a_burn_goes_on_from_any_saved_point");
 }
@@ -162,6 +178,118 @@ fn a_fired_spinner_goes_on_from_any_saved_point() {
     in_this_process_and_another(Scenario::Fired, "states::a_fired_spinner_goes_on_from_any_saved_point");
 }
 
+/// Steps of a simulation before something changes.
+const STEPS_BEFORE: u64 = 9;
+
+/// Whether a master may set a variable between steps.
+fn may_change(variable: &ScalarVariable) -> bool {
+    match variable.causality {
+        Causality::Input => true,
+        Causality::Parameter => variable.variability == Variability::Tunable,
+        _ => false,
+    }
+}
+
+/// A value of an input or tunable parameter.
+#[derive(Clone, Copy, Debug)]
+enum Given {
+    Real(f64),
+    Integer(i32),
+    Boolean(i32),
+}
+
+impl Given {
+    fn set(self, instance: &mut InProcess, reference: u32) {
+        ok(match self {
+            Self::Real(value) => instance.set_real(&[reference], &[value]),
+            Self::Integer(value) => instance.set_integer(&[reference], &[value]),
+            Self::Boolean(value) => instance.set_boolean(&[reference], &[value]),
+        });
+    }
+
+    /// Allowed values other than the present one of a variable that may change between steps: the other items, a number far off.
+    fn others(description: &Description, variable: &ScalarVariable, instance: &mut InProcess) -> Vec<Self> {
+        let reference = [variable.value_reference];
+        let (mut real, mut integer, mut boolean) = ([0.0], [0], [0]);
+        match &variable.kind {
+            VariableKind::Real { attributes, .. } => {
+                ok(instance.get_real(&reference, &mut real));
+                let far = if real[0] == 0.0 { 1.0 } else { -0.5 * real[0] };
+                let far = far.clamp(attributes.min.unwrap_or(f64::MIN), attributes.max.unwrap_or(f64::MAX));
+                Some(far).filter(|far| *far != real[0]).map(Self::Real).into_iter().collect()
+            }
+            VariableKind::Integer { .. } => {
+                ok(instance.get_integer(&reference, &mut integer));
+                vec![Self::Integer(integer[0] + 1)]
+            }
+            VariableKind::Enumeration { declared_type, .. } => {
+                ok(instance.get_integer(&reference, &mut integer));
+                let declared = description.types.iter().find(|it| it.name == *declared_type).unwrap();
+                let SimpleTypeKind::Enumeration { items, .. } = &declared.kind else { panic!() };
+                let others = items.iter().map(|item| item.value).filter(|value| *value != integer[0]);
+                others.map(Self::Integer).collect()
+            }
+            VariableKind::Boolean { .. } => {
+                ok(instance.get_boolean(&reference, &mut boolean));
+                vec![Self::Boolean(1 - boolean[0])]
+            }
+            VariableKind::String { .. } => Vec::new(),
+        }
+    }
+}
+
+/// Outcome of each of two steps, with all that a master can see after one that went well.
+fn two_steps(instance: &mut InProcess, scenario: Scenario, place: SavedPoint) -> [(Status, String); 2] {
+    let (names, step_s) = (names(scenario.model()), scenario.steps_s()[0]);
+    [0.0, 1.0].map(|k| match instance.do_step(place.time_s + k * step_s, step_s) {
+        Status::Ok => (Status::Ok, format!("{:?}", everything(instance, &names))),
+        other => (other, String::new()),
+    })
+}
+
+/// Every input and tunable parameter set to another value right after the state was restored from bytes in an instance in which
+/// nothing was set before, or right before it was saved: the bits of the simulation that was never saved.
+#[test]
+fn a_change_next_to_a_restore_acts_as_in_a_simulation_never_saved() {
+    for scenario in Scenario::ALL {
+        let model = scenario.model();
+        let description = support::description(model);
+        let mut simulation = Simulation::new(scenario);
+        simulation.begin_again(STEPS_BEFORE);
+        let bytes = simulation.bytes();
+        let place = SavedPoint { step_number: simulation.step_number, time_s: simulation.time_s };
+        let mut elsewhere = silent(model);
+        // Reset is a fresh instance to the byte.
+        let anew = |mut instance: InProcess| {
+            ok(instance.reset());
+            short_or_long(Some(instance), None).unwrap_or_else(|| silent(model))
+        };
+        let (mut count, mut failed) = (0, 0);
+        for variable in description.variables.iter().filter(|it| may_change(it)) {
+            let reference = variable.value_reference;
+            for given in Given::others(&description, variable, &mut simulation.instance) {
+                given.set(&mut simulation.instance, reference);
+                let changed_bytes = simulation.bytes();
+                simulation.begin_again(STEPS_BEFORE);
+                given.set(&mut simulation.instance, reference);
+                let straight = two_steps(&mut simulation.instance, scenario, place);
+                let mut set_after = restored(anew(elsewhere), &bytes);
+                given.set(&mut set_after, reference);
+                let after = two_steps(&mut set_after, scenario, place);
+                let mut set_before = restored(anew(set_after), &changed_bytes);
+                let before = two_steps(&mut set_before, scenario, place);
+                let name = &variable.name;
+                assert!(after == straight, "{scenario:?}: {name} = {given:?} after the restore");
+                assert!(before == straight, "{scenario:?}: {name} = {given:?} before it was saved");
+                (count, failed) = (count + 1, failed + u32::from(straight[1].0 != Status::Ok));
+                elsewhere = set_before;
+                simulation.begin_again(STEPS_BEFORE);
+            }
+        }
+        assert!(count > 30 && 10 * failed < count, "{scenario:?}: {failed} of {count} failed");
+    }
+}
+
 /// Time, values, derivatives, model state, history: Reset leaves none of them.
 #[test]
 fn reset_is_a_fresh_instance_to_the_byte() {
@@ -172,10 +300,7 @@ fn reset_is_a_fresh_instance_to_the_byte() {
         assert_eq!(simulation.bytes(), fresh(scenario.model()).state_bytes().1);
         // And it runs like one.
         let mut fresh_simulation = Simulation::new(scenario);
-        ok(simulation.instance.set_debug_logging(false, &[]));
-        scenario.prepare(&mut simulation.instance, &simulation.names);
-        ok(simulation.instance.start(0.0, None));
-        (simulation.step_number, simulation.time_s) = (0, 0.0);
+        simulation.begin_again(0);
         for _ in 0..50 {
             simulation.step();
             fresh_simulation.step();

@@ -37,6 +37,9 @@ pub(crate) fn parts(names: &[String]) -> Outcome {
         return Err(format!("unknown part `{name}` of bench; there are {}", known()));
     }
     let built = dist::dist()?;
+    if let Ok(library) = std::fs::metadata(&built.library) {
+        println!("bench library_size {:.3} MB", library.len() as f64 / 1e6);
+    }
     let is_chosen = |name: &str| names.is_empty() || names.iter().any(|it| it == name);
     PARTS.iter().filter(|(name, _)| is_chosen(name)).try_for_each(|(_, part)| part(&built))
 }
@@ -372,7 +375,8 @@ fn median_s(command: &mut Command) -> Result<f64, String> {
     Ok(median(seconds))
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
+/// The value in the middle; not a number without any.
+pub(crate) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }

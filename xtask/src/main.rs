@@ -1,4 +1,4 @@
-//! `cargo xtask demo | test [--long | --all-platforms | NAME] | bless | env | dist | wheel | install | bench [PART...] | lines | guide | notices`: the project's own chores. No dependencies; spawns cargo and python.
+//! `cargo xtask demo | test [--long | --all-platforms | NAME] | bless | env | dist | wheel | install | bench [--against FOLDER] [PART...] | lines | guide | notices`: the project's own chores. No dependencies; spawns cargo and python.
 
 mod archives;
 mod bench;
@@ -10,6 +10,7 @@ mod lines;
 mod locale;
 mod long;
 mod notices;
+mod paired;
 mod platform_tests;
 mod platforms;
 mod python;
@@ -56,6 +57,8 @@ cargo xtask <task>
   bench [PART...]
           measure speed and memory; prints `bench <name> <value> <unit>` lines. Parts: kernels, c, system, study, plans, flybys,
           sweep, earth
+  bench --against FOLDER [PART...]
+          the same here and in another checkout in turns; the last number of a line is the median of now over then
   lines   count lines of code by crate and by folder of physics: no blanks, comments, lone brackets, tests
   guide   build the guide of docs/ into target/guide
   notices write anew what licences the linked crates have, after Cargo.lock has changed
@@ -85,7 +88,10 @@ fn main() -> ExitCode {
         },
         "wheel" => archives::wheels(),
         "install" => install::install(arguments.get(1..).unwrap_or_default()),
-        "bench" => bench::parts(arguments.get(1..).unwrap_or_default()),
+        "bench" => match arguments.get(1..).unwrap_or_default() {
+            [option, folder, parts @ ..] if option == "--against" => paired::against(folder, parts),
+            parts => bench::parts(parts),
+        },
         "lines" => lines::print(),
         "guide" => guide::build(),
         "notices" => notices::write(),

@@ -1,5 +1,6 @@
 //! Drives a model by its trait, with variables by name.
 
+use client::short_or_long;
 use fmi_export::fmi2::entry;
 use fmi_export::model::Log;
 use std::cell::{OnceCell, RefCell};
@@ -169,22 +170,30 @@ impl<M: Model> NamedModel<M> {
             .collect()
     }
 
-    /// Inputs and tunable parameters, each with another value than this one in its place.
+    /// Inputs and tunable parameters, each with other values than the present one: the other items of an enumeration, a number
+    /// far off, in the long extent one near by too.
     pub(crate) fn changes(&self, values: &NamedInstance<'_, M>) -> Vec<(&str, f64)> {
-        let other = |it: &Named, (least, most): (f64, f64)| match it.kind {
-            NamedType::Real => {
-                let value = values.real(&it.name);
-                let moved = if value == 0.0 { 1e-3 } else { 1.01 * value };
-                if moved <= most { moved.max(least) } else { 0.99 * value }
-            }
-            NamedType::Boolean => f64::from(u8::from(!values.boolean(&it.name))),
-            _ => {
-                let value = f64::from(values.integer(&it.name));
-                if value < most { value + 1.0 } else { least }
-            }
+        let others = |it: &Named, (least, most): (f64, f64)| -> Vec<f64> {
+            let value = match it.kind {
+                NamedType::Real => values.real(&it.name),
+                NamedType::Boolean => f64::from(u8::from(values.boolean(&it.name))),
+                _ => f64::from(values.integer(&it.name)),
+            };
+            let tried = match it.kind {
+                NamedType::Real => {
+                    let far = if value == 0.0 { 1.0 } else { -0.5 * value };
+                    let nearby = if 1.01 * value > most { 0.99 * value } else { 1.01 * value };
+                    let nearby = if value == 0.0 { 1e-3 } else { nearby };
+                    short_or_long(vec![far], vec![far, nearby])
+                }
+                _ if most - least > 20.0 => vec![value + 1.0],
+                _ => (least as i32..=most as i32).map(f64::from).collect(),
+            };
+            tried.into_iter().map(|it| it.clamp(least, most)).filter(|it| *it != value).collect()
         };
         let changing = self.names.iter().filter(|it| it.changes);
-        changing.filter_map(|it| Some((it.name.as_str(), other(it, it.given?)))).collect()
+        let all = changing.filter_map(|it| Some((it.name.as_str(), others(it, it.given?))));
+        all.flat_map(|(name, others)| others.into_iter().map(move |value| (name, value))).collect()
     }
 
     /// The warnings of all flights so far.

@@ -13,8 +13,31 @@ use super::spacecraft::RADIATING;
 const FULL: &str = include_str!("../../../resources/messenger-full.toml");
 const CUBESAT: &str = include_str!("../../../resources/examples/cubesat-12u.toml");
 const FLEXIBLE: &str = include_str!("../../../resources/examples/flexible-craft.toml");
+const SOURCES: [f64; 4] = [1.0, 2.0, 3.0, 4.0];
 const CONTROLLED: (&str, f64) = ("attitude.source", 3.0);
 const FREE: [(&str, f64); 2] = [("attitude.source", 4.0), ("start.q[4]", 1.0)];
+
+/// Surroundings that inputs give.
+const GIVEN: [(&str, f64); 18] = [
+    ("planetLight.enabled", 0.0),
+    ("ephemeris.source", 3.0),
+    ("sun.position[1]", 1.2e11),
+    ("sun.position[2]", -9e10),
+    ("sun.position[3]", 3e10),
+    ("earth.position[1]", 1e3),
+    ("orbit.source", 2.0),
+    ("orbit.position[1]", 5.1e6),
+    ("orbit.position[2]", -4.4e6),
+    ("orbit.velocity[3]", 7.7e3),
+    ("atmosphere.method", 3.0),
+    ("atmosphere.givenDensity", 1e-12),
+    ("atmosphere.givenTemperature", 900.0),
+    ("magneticField.method", 3.0),
+    ("magneticField.given[1]", 2e-5),
+    ("magneticField.given[3]", -1e-5),
+    ("dipole.residual[2]", 0.1),
+    ("wheel[1].startMomentum", 1e-3),
+];
 
 /// A time of the flight, and what is set there.
 type Set<'a> = (f64, &'a [(&'a str, f64)]);
@@ -43,20 +66,21 @@ impl<M: Model> Mode<'_, M> {
         flight
     }
 
-    /// Inputs and tunables that take a restored flight elsewhere than the flight that was never saved.
+    /// Changes of an input or tunable that take a restored flight elsewhere than the flight that was never saved.
     fn goes_elsewhere(&self) -> Vec<String> {
         let saved = self.saved();
         let changes = self.named.changes(&saved);
+        let (count, mut refused) = (changes.len(), 0);
         let mut elsewhere = Vec::new();
         for change in core::iter::once(None).chain(changes.into_iter().map(Some)) {
             let [mut straight, mut restored] = [saved.copied(), saved.restored()];
-            let mut outcomes = [&mut straight, &mut restored].map(|flight| {
-                if let Some((name, value)) = change {
-                    flight.set(name, value);
-                }
-                (1..3).try_for_each(|k| flight.step_to(self.saved_s + f64::from(k) * self.onward_s))
+            let outcomes = [&mut straight, &mut restored].map(|flight| {
+                change.into_iter().for_each(|(name, value)| flight.set(name, value));
+                let mut ends_s = (1..3).map(|k| self.saved_s + f64::from(k) * self.onward_s);
+                ends_s.try_for_each(|end_s| flight.step_to(end_s)).map_err(|error| error.to_string())
             });
-            let [a, b] = outcomes.each_mut().map(|it| it.as_ref().map_err(|error| error.to_string()));
+            let [a, b] = outcomes;
+            refused += usize::from(a.is_err());
             let off = straight.output_bits().into_iter().zip(restored.output_bits()).find(|(a, b)| a != b);
             if a != b {
                 elsewhere.push(format!("{change:?}: {a:?} {b:?}"));
@@ -64,6 +88,7 @@ impl<M: Model> Mode<'_, M> {
                 elsewhere.push(format!("{change:?}: {name} {} {}", f64::from_bits(x), f64::from_bits(y)));
             }
         }
+        assert!(count > 30 && 20 * refused < count, "{refused} of {count} refused");
         elsewhere
     }
 
@@ -132,6 +157,34 @@ fn in_light_heat_and_dumps_at_once() {
     let sets = [EFFECTS, SHADOWED, BUSY].concat();
     let is_meant = |it: &NamedInstance<'_, MomentumPlant>| it.integer("dump.count") > 0;
     Mode { named, sets, on_the_way: &[], saved_s: 5_130.0, onward_s: 130.0, is_meant }.goes_on();
+}
+
+/// Light, heat, shadows and a disturbed orbit in every source of the attitude.
+#[test]
+fn in_light_and_heat_of_every_attitude() {
+    let third = "[[wheels]]\naxis = [0.0, 0.0, 1.0]\ncapacity_n_m_s = 4.0\n";
+    for source in SOURCES {
+        let named = NamedModel::with("radiating.toml", &format!("{RADIATING}{third}"));
+        let sets = [EFFECTS, SHADOWED, &[("attitude.source", source), ("start.q[4]", 1.0), BUSY[0]]].concat();
+        let is_meant = |it: &NamedInstance<'_, MomentumPlant>| it.vector("torque.thermal").norm() > 0.0;
+        let (saved_s, onward_s) = if source < 3.0 { (310.0, 60.0) } else { (3.3, 0.9) };
+        Mode { named, sets, on_the_way: &[], saved_s, onward_s, is_meant }.goes_on();
+    }
+}
+
+/// Place, Sun, Earth, air and field by inputs, in every source of the attitude.
+#[test]
+fn under_given_surroundings_of_every_attitude() {
+    for source in SOURCES {
+        let named = NamedModel::with("cubesat-12u.toml", CUBESAT);
+        let sets = [&GIVEN[..], &[("attitude.source", source), ("start.q[4]", 1.0)]].concat();
+        let is_meant = |it: &NamedInstance<'_, MomentumPlant>| {
+            let acting = ["torque.solar", "torque.aerodynamic", "torque.magnetic"];
+            acting.iter().all(|name| it.vector(name).norm() > 0.0)
+        };
+        let (saved_s, onward_s) = if source < 3.0 { (310.0, 60.0) } else { (3.3, 0.9) };
+        Mode { named, sets, on_the_way: &[], saved_s, onward_s, is_meant }.goes_on();
+    }
 }
 
 #[test]
@@ -211,11 +264,27 @@ fn in_guidance_by_another_timeline() {
 
 #[test]
 fn of_a_spinner_and_in_given_geometry() {
-    for sets in [vec![("burn.timing", 2.0)], vec![("burn.plan", 4.0), ("thruster[1].fire", 1.0)]] {
+    let cells = [
+        ("burn.timing", 3.0),
+        ("inertia[1]", 230.0),
+        ("geometry.source", 2.0),
+        ("starTracker.sampling", 2.0),
+        ("burn.pulseWidth", 2.0),
+        ("burn.count", 10.0),
+    ];
+    for (sets, saved_s) in [
+        (vec![("burn.timing", 2.0)], 50.1),
+        (vec![("burn.plan", 4.0), ("thruster[1].fire", 1.0)], 50.1),
+        (cells.to_vec(), 50.0),
+        (cells.to_vec(), 10.22),
+    ] {
         let named = NamedModel::<SpinPlant>::shipped();
-        Mode { named, sets, on_the_way: &[], saved_s: 50.1, onward_s: 2.3, is_meant: |_| true }.goes_on();
+        Mode { named, sets, on_the_way: &[], saved_s, onward_s: 2.3, is_meant: |_| true }.goes_on();
     }
     let named = NamedModel::<DisturbanceTorque>::shipped();
     let sets = vec![("sun.positionBody[2]", -6e10), ("planet.positionBody[3]", 4e6)];
+    Mode { named, sets, on_the_way: &[], saved_s: 10.0, onward_s: 5.0, is_meant: |_| true }.goes_on();
+    let named = NamedModel::<DisturbanceTorque>::with("radiating.toml", RADIATING);
+    let sets = [EFFECTS, &[("sun.positionBody[2]", -6e10), ("planet.positionBody[3]", 4e6)]].concat();
     Mode { named, sets, on_the_way: &[], saved_s: 10.0, onward_s: 5.0, is_meant: |_| true }.goes_on();
 }

@@ -12,7 +12,7 @@ use super::named_model::NamedModel;
 use super::plant_light::{BUSY, EFFECTS, SHADOWED};
 use super::plant_work::busy;
 use super::random::RandomNumbers;
-use super::spacecraft::RADIATING;
+use super::spacecraft::{RADIATING, SIMPLE};
 
 /// Of a step, in time that its thread computed.
 const LONGEST: Duration = Duration::from_secs(1);
@@ -160,5 +160,54 @@ fn a_spinner() {
         if at_s != 50.0 || sets.len() < 3 {
             goes_on_or_fails(&named, sets, at_s, &ends_s, |state| everywhere(state, forged));
         }
+    }
+}
+
+/// The state of a flight of each spacecraft, given to each other one: what does not fit the spacecraft is refused before anything
+/// else is read, what fits continues or fails.
+#[test]
+fn states_of_other_spacecraft() {
+    // Thrusters, tanks, wheels, modes and pendulums.
+    let files = [
+        ("messenger.toml", MomentumPlant::DEFAULT_SETUP, [0, 0, 4, 0]),
+        ("messenger-full.toml", include_str!("../../../resources/messenger-full.toml"), [17, 2, 4, 0]),
+        (
+            "flexible-craft.toml",
+            include_str!("../../../resources/examples/flexible-craft.toml"),
+            [0, 0, 4, 3],
+        ),
+        ("cubesat-12u.toml", include_str!("../../../resources/examples/cubesat-12u.toml"), [0, 0, 4, 0]),
+        (
+            "mercury-orbiter.toml",
+            include_str!("../../../resources/examples/mercury-orbiter.toml"),
+            [0, 0, 0, 0],
+        ),
+        ("simple.toml", SIMPLE, [0, 1, 0, 0]),
+    ];
+    for source in [1.0, 4.0] {
+        let sets = [("attitude.source", source), LIMIT];
+        let models = files.map(|(file, text, _)| NamedModel::<MomentumPlant>::with(file, text));
+        let mut flights = models.each_ref().map(|named| named.initialize(0.0, &sets).unwrap());
+        for flight in &mut flights {
+            flight.step_to(1.25).unwrap();
+        }
+        let (mut refused, mut taken) = (0, 0);
+        for (from, (file, _, counts)) in flights.iter().zip(files) {
+            let bytes = from.state_bytes();
+            for (to, (other, _, other_counts)) in flights.iter().zip(files) {
+                let Some(mut flight) = to.with_state(&bytes) else {
+                    assert_ne!(file, other);
+                    refused += 1;
+                    continue;
+                };
+                let fits = counts[..2] == other_counts[..2] && (source < 3.0 || counts == other_counts);
+                assert!(fits, "{source}: {file} taken by {other}");
+                taken += 1;
+                if flight.step_to(2.0).is_ok() {
+                    assert_eq!(flight.not_finite(), None, "{source}: {file} taken by {other}");
+                }
+            }
+        }
+        assert!(refused > 10 && taken > 6, "{source}: {refused} refused, {taken} taken");
     }
 }
