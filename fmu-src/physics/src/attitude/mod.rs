@@ -16,6 +16,7 @@ mod gyrostat_series;
 mod imbalance;
 mod inertia;
 mod internal_motion;
+mod internal_parts;
 mod mass_flow;
 mod oscillator;
 mod principal_axes;

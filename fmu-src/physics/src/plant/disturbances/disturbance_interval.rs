@@ -181,11 +181,7 @@ impl DisturbanceInterval {
             let force_body_n = self.force_body_n(&applied, self.span.start_s, time_s);
             attitude.frame_at(time_s).inertial_from_body * (force_body_n / current_mass_panels_stowed.mass_kg)
         };
-        Ok(trajectory.accelerate(
-            configuration,
-            [self.span.start_s, self.span.end_s],
-            Some(acceleration_m_s2),
-        )?)
+        Ok(trajectory.accelerate(configuration, self.span.span(), Some(acceleration_m_s2))?)
     }
 
     /// Whether a simulation can produce it.
