@@ -20,10 +20,11 @@ use serde::{Deserialize, Serialize};
 use super::body_load::{BodyLoad, BodyMotion};
 use super::gyrostat::Gyrostat;
 use super::gyrostat_series::GyrostatSeries;
+use super::imbalance::ImbalanceMotion;
 use super::internal_motion::InternalMotion;
-use super::internal_parts::InternalParts;
+use super::oscillator::OscillatorMotion;
 use super::quaternion::Quaternion;
-use super::rotor_motion;
+use super::rotor_motion::{self, RotorMotion};
 use super::series::{RotationSeries, TERMS, polynomial, slope};
 use super::wheel::{Motor, Rotor};
 use crate::numerics::quadrature::GAUSS_3;
@@ -37,7 +38,9 @@ pub struct GyrostatMotion {
     start_s: f64,
     end_s: f64,
     series: RotationSeries<TERMS>,
-    parts: InternalParts,
+    rotors: Vec<RotorMotion>,
+    oscillators: Vec<OscillatorMotion>,
+    imbalances: Vec<ImbalanceMotion>,
     inverse_inertia: Matrix3<f64>,
     load: BodyLoad,
     momentum_inertial_n_m_s: Vector3<f64>,
@@ -69,23 +72,41 @@ impl GyrostatMotion {
             start_s: time_s,
             end_s: time_s,
             series: RotationSeries::new(attitude, *rate_body_rad_s, momentum_body),
-            parts: InternalParts::new(gyrostat, rate_body_rad_s, rotors_n_m_s),
+            rotors: Vec::with_capacity(gyrostat.wheels().len()),
+            oscillators: vec![OscillatorMotion::at_rest(); gyrostat.oscillator_count()],
+            imbalances: Vec::with_capacity(gyrostat.appendages().imbalances.len()),
             inverse_inertia: Matrix3::zeros(),
             load: BodyLoad::none(1.0),
             momentum_inertial_n_m_s: attitude.inertial_from_body(&momentum_body),
             delta_v_inertial_m_s: Vector3::zeros(),
             known: None,
         };
+        motion.rotors.extend(gyrostat.wheels().iter().enumerate().map(|(k, wheel)| {
+            let held_n_m_s = rotors_n_m_s(k);
+            let mut axial = [0.0; TERMS];
+            axial[0] = held_n_m_s + wheel.carried_n_m_s(rate_body_rad_s);
+            RotorMotion { rotor: Rotor::at_start(wheel, held_n_m_s), next: None, axial, known: None }
+        }));
+        let unbalanced = gyrostat.appendages().imbalances.iter();
+        motion.imbalances.extend(unbalanced.filter_map(|imbalance| {
+            let wheel = gyrostat.wheels().get(imbalance.wheel)?;
+            Some(ImbalanceMotion::new(imbalance, &wheel.axis_body, gyrostat.center_of_mass_body_m()))
+        }));
         motion.inverse_inertia = motion.inverse_inertia_of(gyrostat);
         motion
     }
 
     /// Rejects decoded states that no simulation with these numbers of wheels and modal coordinates can produce.
     pub fn is_valid(&self, wheels: usize, oscillators: usize) -> bool {
-        self.parts.is_valid(wheels, oscillators)
+        self.rotors.len() == wheels
+            && self.oscillators.len() == oscillators
+            && self.imbalances.len() <= wheels
+            && self.oscillators.iter().all(OscillatorMotion::is_valid)
+            && self.imbalances.iter().all(ImbalanceMotion::is_valid)
             && self.series.is_valid()
             && self.start_s <= self.end_s
             && self.load.is_valid()
+            && self.rotors.iter().all(RotorMotion::is_valid)
     }
 
     /// Before the first segment, what turns on hinges adds to the momentum.
@@ -103,8 +124,16 @@ impl GyrostatMotion {
     pub fn reorient(&mut self, gyrostat: &Gyrostat, attitude: Quaternion, internal: Option<InternalMotion>) {
         let elapsed_s = self.end_s - self.start_s;
         [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s] = self.totals_after(elapsed_s);
-        self.parts.reorient(gyrostat, self.series.order, elapsed_s);
+        for it in &mut self.rotors {
+            it.axial[0] = it.axial_after(self.series.order, elapsed_s);
+        }
         self.forget();
+        for it in &mut self.oscillators {
+            it.hold(self.series.order, elapsed_s);
+        }
+        for (it, imbalance) in self.imbalances.iter_mut().zip(&gyrostat.appendages().imbalances) {
+            it.begin(imbalance, gyrostat.center_of_mass_body_m(), self.series.order, elapsed_s);
+        }
         self.load.mass_kg = self.load.mass_after_kg(elapsed_s);
         self.load.internal = internal;
         (self.start_s, self.series.order) = (self.end_s, 0);
@@ -112,9 +141,11 @@ impl GyrostatMotion {
         self.inverse_inertia = self.inverse_inertia_of(gyrostat);
     }
 
-    /// Inverse inertia that gives the change of rate by an internal momentum, in 1/(kg m2), with the inertia of `gyrostat`.
+    /// Inverse inertia that gives the change of rate by an internal momentum, in 1/(kg m2), with the inertia of `gyrostat`: rotors that turn
+    /// and modal coordinates keep their own.
     pub fn inverse_inertia_of(&self, gyrostat: &Gyrostat) -> Matrix3<f64> {
-        self.parts.inverse_inertia(gyrostat)
+        let swinging = self.oscillators.iter().map(OscillatorMotion::inertia_body_kg_m2);
+        gyrostat.inverse_inertia(self.rotors.iter().map(|it| &it.rotor), swinging)
     }
 
     /// End of the present segment, in s.
@@ -131,7 +162,7 @@ impl GyrostatMotion {
     pub fn cut(&mut self, time_s: f64) {
         if time_s < self.end_s {
             self.end_s = time_s.max(self.start_s);
-            self.parts.rotors.iter_mut().for_each(|it| it.next = None);
+            self.rotors.iter_mut().for_each(|it| it.next = None);
         }
     }
 
@@ -142,10 +173,7 @@ impl GyrostatMotion {
             return known.body;
         }
         let order = self.series.order;
-        self.parts
-            .rotors
-            .iter_mut()
-            .for_each(|it| it.known = Some((elapsed_s, it.axial_after(order, elapsed_s))));
+        self.rotors.iter_mut().for_each(|it| it.known = Some((elapsed_s, it.axial_after(order, elapsed_s))));
         let body = self.at(gyrostat, time_s);
         let attitudes = self.attitudes_before(elapsed_s);
         self.known = Some(Known { elapsed_s, attitudes, body });
@@ -155,7 +183,7 @@ impl GyrostatMotion {
     /// Drops the cached evaluation; the segment changes.
     fn forget(&mut self) {
         self.known = None;
-        self.parts.rotors.iter_mut().for_each(|it| it.known = None);
+        self.rotors.iter_mut().for_each(|it| it.known = None);
     }
 
     /// Attitudes at the nodes of the quadrature over the first `elapsed_s` of the segment.
@@ -172,7 +200,13 @@ impl GyrostatMotion {
         let attitude = self.series.attitude_after(elapsed_s);
         let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = self.totals_after(elapsed_s);
         let momentum_body = attitude.body_from_inertial(&momentum_inertial_n_m_s);
-        let rest = self.parts.rest_after(gyrostat, momentum_body, self.series.order, elapsed_s);
+        let rest = momentum_body
+            - gyrostat.along_axes(|k| match self.rotors[k].rotor {
+                Rotor::Turning { .. } => self.rotors[k].axial_after(self.series.order, elapsed_s),
+                Rotor::Held { momentum_n_m_s } => momentum_n_m_s,
+            });
+        let swinging = self.oscillators.iter().map(|it| it.carried_after(self.series.order, elapsed_s));
+        let rest = swinging.fold(rest, |rest, carried| rest - carried);
         let rest = self.load.internal.iter().fold(rest, |rest, it| rest - it.momentum_after(elapsed_s));
         BodyMotion {
             attitude,
@@ -189,9 +223,18 @@ impl GyrostatMotion {
         torques: &[Option<[Vector3<f64>; 2]>; N],
         time_s: f64,
     ) -> [Vector3<f64>; N] {
-        self.integrals_inertial(time_s - self.start_s, [Vector3::zeros(); N], |_, at_s| {
-            torques.map(|it| it.map_or_else(Vector3::zeros, |[start, slope]| start + slope * at_s))
-        })
+        let elapsed_s = time_s - self.start_s;
+        let mut sums = [Vector3::zeros(); N];
+        let attitudes = self.attitudes_before(elapsed_s);
+        for ((node, weight), attitude) in GAUSS_3.into_iter().zip(attitudes) {
+            let at_s = node * elapsed_s;
+            for (sum, torque) in sums.iter_mut().zip(torques) {
+                if let Some([start, slope]) = torque {
+                    *sum += attitude.inertial_from_body(&(start + slope * at_s)) * (weight * elapsed_s);
+                }
+            }
+        }
+        sums
     }
 
     /// Change of the total momentum since the start of the segment by the dipole in the field, EME2000, in N m s; `None` without one.
@@ -202,46 +245,34 @@ impl GyrostatMotion {
 
     /// The same by rotors out of balance; `None` where all are in balance.
     pub fn imbalance_impulse_inertial_n_m_s(&self, time_s: f64) -> Option<Vector3<f64>> {
-        let torque = |_: &Quaternion, at_s: f64| self.parts.imbalance_after(self.series.order, at_s)[0];
-        (!self.parts.imbalances.is_empty()).then(|| self.impulse_inertial_n_m_s(time_s, torque))
+        let torque = |_: &Quaternion, at_s: f64| self.imbalance_after(at_s)[0];
+        (!self.imbalances.is_empty()).then(|| self.impulse_inertial_n_m_s(time_s, torque))
     }
 
     /// The same by what swings under the load; `None` where nothing does.
     pub fn swing_impulse_inertial_n_m_s(&self, time_s: f64) -> Option<Vector3<f64>> {
-        let swings = !self.parts.oscillators.is_empty() && !self.load.is_zero();
-        let torque = |_: &Quaternion, at_s: f64| self.parts.swing_torque_after(self.series.order, at_s);
+        let swings = !self.oscillators.is_empty() && !self.load.is_zero();
+        let torque = |_: &Quaternion, at_s: f64| self.swing_torque_after(at_s);
         swings.then(|| self.impulse_inertial_n_m_s(time_s, torque))
     }
 
+    /// Change of the total momentum since the start of the segment by a torque in N m, body frame, by attitude and s since then.
     fn impulse_inertial_n_m_s(
         &self,
         time_s: f64,
         torque_body_n_m: impl Fn(&Quaternion, f64) -> Vector3<f64>,
     ) -> Vector3<f64> {
-        let torque = |attitude: &Quaternion, at_s: f64| [torque_body_n_m(attitude, at_s)];
-        self.integrals_inertial(time_s - self.start_s, [Vector3::zeros()], torque)[0]
-    }
-
-    /// Adds to `sums` the integrals over the first `elapsed_s` of the segment of vectors in the body frame, by attitude and s since the
-    /// start: EME2000.
-    fn integrals_inertial<const N: usize>(
-        &self,
-        elapsed_s: f64,
-        mut sums: [Vector3<f64>; N],
-        vectors_body: impl Fn(&Quaternion, f64) -> [Vector3<f64>; N],
-    ) -> [Vector3<f64>; N] {
+        let elapsed_s = time_s - self.start_s;
         let attitudes = self.attitudes_before(elapsed_s);
-        for ((node, weight), attitude) in GAUSS_3.into_iter().zip(attitudes) {
-            for (sum, vector) in sums.iter_mut().zip(vectors_body(&attitude, node * elapsed_s)) {
-                *sum += attitude.inertial_from_body(&vector) * (weight * elapsed_s);
-            }
-        }
-        sums
+        let torques = GAUSS_3.into_iter().zip(attitudes).map(|((node, weight), attitude)| {
+            attitude.inertial_from_body(&torque_body_n_m(&attitude, node * elapsed_s)) * (weight * elapsed_s)
+        });
+        torques.sum()
     }
 
     /// Momentum of rotor `k` (0-based) relative to the body at `time_s`, where the body moves like this, in N m s.
     pub fn rotor_n_m_s(&self, gyrostat: &Gyrostat, k: usize, time_s: f64, motion: &BodyMotion) -> f64 {
-        let (wheel, it) = (&gyrostat.wheels()[k], &self.parts.rotors[k]);
+        let (wheel, it) = (&gyrostat.wheels()[k], &self.rotors[k]);
         match it.rotor {
             Rotor::Held { momentum_n_m_s } => momentum_n_m_s,
             Rotor::Turning { .. } => {
@@ -255,7 +286,7 @@ impl GyrostatMotion {
     /// none of one that is locked or has no motor; at its capacity what holds it there, d/dt (h + I a.w) + f = I a.w' + f.
     pub fn motor_n_m(&self, gyrostat: &Gyrostat, motor: &Motor, k: usize, time_s: f64) -> f64 {
         let wheel = &gyrostat.wheels()[k];
-        match self.parts.rotors[k].rotor {
+        match self.rotors[k].rotor {
             _ if motor.failed || wheel.locked => 0.0,
             Rotor::Held { momentum_n_m_s } if wheel.is_saturated(momentum_n_m_s) => {
                 let acceleration = slope(&self.series.rate[..=self.series.order], time_s - self.start_s);
@@ -268,13 +299,13 @@ impl GyrostatMotion {
     /// Displacement in sqrt(kg) m and speed in sqrt(kg) m/s of modal coordinate `k` (0-based) at `time_s`, where the body moves
     /// like this.
     pub fn oscillator(&self, k: usize, time_s: f64, motion: &BodyMotion) -> [f64; 2] {
-        self.parts.oscillators[k].after(self.series.order, time_s - self.start_s, &motion.rate_body_rad_s)
+        self.oscillators[k].after(self.series.order, time_s - self.start_s, &motion.rate_body_rad_s)
     }
 
     /// Torque about the centre of mass in N m and force in N by rotors out of balance, body frame, where the body moves like this.
     pub fn imbalance_load(&self, gyrostat: &Gyrostat, time_s: f64, motion: &BodyMotion) -> [Vector3<f64>; 2] {
         let elapsed_s = time_s - self.start_s;
-        let unbalanced = self.parts.imbalances.iter().zip(&gyrostat.appendages().imbalances);
+        let unbalanced = self.imbalances.iter().zip(&gyrostat.appendages().imbalances);
         let mut sum = [Vector3::zeros(); 2];
         for (it, imbalance) in unbalanced {
             let held_n_m_s = self.rotor_n_m_s(gyrostat, imbalance.wheel, time_s, motion);
@@ -287,7 +318,7 @@ impl GyrostatMotion {
 
     /// Torque by what swings under the load at `time_s`, body frame, in N m.
     pub fn swing_torque_n_m(&self, time_s: f64) -> Vector3<f64> {
-        self.parts.swing_torque_after(self.series.order, time_s - self.start_s)
+        self.swing_torque_after(time_s - self.start_s)
     }
 
     /// Continues from the end: the next segment, at most to `limit_s`, under these motor torques and loads (linear in time from
@@ -295,9 +326,9 @@ impl GyrostatMotion {
     pub fn advance(&mut self, gyrostat: &Gyrostat, motors: &[Motor], load: &BodyLoad, limit_s: f64) {
         let start_s = self.end_s;
         let motion = self.remembered_at(gyrostat, start_s);
-        for k in 0..self.parts.rotors.len() {
+        for k in 0..self.rotors.len() {
             let relative_n_m_s = self.rotor_n_m_s(gyrostat, k, start_s, &motion);
-            let (wheel, it) = (&gyrostat.wheels()[k], &mut self.parts.rotors[k]);
+            let (wheel, it) = (&gyrostat.wheels()[k], &mut self.rotors[k]);
             let carried = wheel.carried_n_m_s(&motion.rate_body_rad_s);
             let (rotor, relative_n_m_s) = match it.next.take() {
                 Some(Rotor::Held { momentum_n_m_s }) => (Rotor::Held { momentum_n_m_s }, momentum_n_m_s),
@@ -308,7 +339,19 @@ impl GyrostatMotion {
             it.axial[0] = relative_n_m_s + carried;
         }
         let elapsed_s = start_s - self.start_s;
-        self.parts.begin(gyrostat, load, self.series.order, (elapsed_s, &motion.rate_body_rad_s));
+        for (it, imbalance) in self.imbalances.iter_mut().zip(&gyrostat.appendages().imbalances) {
+            it.begin(imbalance, gyrostat.center_of_mass_body_m(), self.series.order, elapsed_s);
+        }
+        if !self.oscillators.is_empty() {
+            let acceleration = load.acceleration_body_m_s2();
+            let order = self.series.order;
+            for (it, oscillator) in
+                self.oscillators.iter_mut().zip(gyrostat.oscillators(load.mass_kg, &acceleration))
+            {
+                let state = it.after(order, elapsed_s, &motion.rate_body_rad_s);
+                it.begin(oscillator, state, &motion.rate_body_rad_s);
+            }
+        }
         (self.start_s, self.load) = (start_s, *load);
         self.momentum_inertial_n_m_s = motion.momentum_inertial_n_m_s;
         self.delta_v_inertial_m_s = motion.delta_v_inertial_m_s;
@@ -316,32 +359,35 @@ impl GyrostatMotion {
         self.series.momentum[0] = motion.attitude.body_from_inertial(&motion.momentum_inertial_n_m_s);
         self.forget();
         let longest_s = limit_s - start_s;
+        self.build(gyrostat, motors, longest_s);
         // One rotor after another, as each that is set free or held changes what drives the others.
-        let rounds = ROUNDS_A_ROTOR * self.parts.rotors.len();
-        for round in 0..=rounds {
-            self.inverse_inertia = self.parts.inverse_inertia(gyrostat);
-            self.coefficients(gyrostat).build(motors, longest_s);
+        for _ in 0..ROUNDS_A_ROTOR * self.rotors.len() {
             let rate = &self.series.rate[..=self.series.order];
-            if round == rounds
-                || !rotor_motion::change_one(&mut self.parts.rotors, gyrostat.wheels(), motors, rate)
-            {
+            if !rotor_motion::change_one(&mut self.rotors, gyrostat.wheels(), motors, rate) {
                 break;
             }
+            self.build(gyrostat, motors, longest_s);
         }
         let converged_s = self.coefficients(gyrostat).converged_s(longest_s);
         let rate = &self.series.rate[..=self.series.order];
         let event_s =
-            rotor_motion::first_event_s(&mut self.parts.rotors, gyrostat.wheels(), motors, rate, converged_s);
+            rotor_motion::first_event_s(&mut self.rotors, gyrostat.wheels(), motors, rate, converged_s);
         self.end_s = if event_s < longest_s { start_s + event_s } else { limit_s };
+    }
+
+    /// Computes the coefficients, as many as count within `longest_s`.
+    fn build(&mut self, gyrostat: &Gyrostat, motors: &[Motor], longest_s: f64) {
+        self.inverse_inertia = self.inverse_inertia_of(gyrostat);
+        self.coefficients(gyrostat).build(motors, longest_s);
     }
 
     fn coefficients<'a>(&'a mut self, gyrostat: &'a Gyrostat) -> GyrostatSeries<'a> {
         GyrostatSeries {
             gyrostat,
             series: &mut self.series,
-            rotors: &mut self.parts.rotors,
-            oscillators: &mut self.parts.oscillators,
-            imbalances: &mut self.parts.imbalances,
+            rotors: &mut self.rotors,
+            oscillators: &mut self.oscillators,
+            imbalances: &mut self.imbalances,
             inverse_inertia: &self.inverse_inertia,
             load: &self.load,
         }
@@ -364,30 +410,46 @@ impl GyrostatMotion {
             let rate = polynomial(&self.series.rate[..=self.series.order], elapsed_s);
             torque += flow.jet_damping.torque_n_m(elapsed_s, &rate);
         }
-        if !self.parts.imbalances.is_empty() {
-            let [imbalance, force] = self.parts.imbalance_after(self.series.order, elapsed_s);
+        if !self.imbalances.is_empty() {
+            let [imbalance, force] = self.imbalance_after(elapsed_s);
             torque += imbalance;
             acceleration += force / self.load.mass_after_kg(elapsed_s);
         }
-        if !self.parts.oscillators.is_empty() {
-            torque += self.parts.swing_torque_after(self.series.order, elapsed_s);
+        if !self.oscillators.is_empty() {
+            torque += self.swing_torque_after(elapsed_s);
         }
         [torque, acceleration]
     }
 
+    /// Torque and force by rotors out of balance, body frame, as the series of the motion has them.
+    fn imbalance_after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
+        let loads = self.imbalances.iter().map(|it| it.after(self.series.order, elapsed_s));
+        loads.fold([Vector3::zeros(); 2], |[torque, force], [own, push]| [torque + own, force + push])
+    }
+
+    /// Torque by what swings under the load, body frame.
+    fn swing_torque_after(&self, elapsed_s: f64) -> Vector3<f64> {
+        self.oscillators.iter().map(|it| it.torque_after(self.series.order, elapsed_s)).sum()
+    }
+
     /// Total momentum and velocity change, inertial.
     fn totals_after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
-        let totals = [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s];
-        if self.load.is_zero() && self.parts.imbalances.is_empty() {
-            return totals;
-        }
-        self.integrals_inertial(elapsed_s, totals, |attitude, at_s| {
-            let [mut torque, acceleration] = self.loads_after(at_s);
-            if let Some(dipole) = &self.load.dipole {
-                torque += dipole.torque_n_m(attitude, at_s);
+        let mut totals = [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s];
+        let is_free = self.load.is_zero() && self.imbalances.is_empty();
+        if !is_free {
+            let attitudes = self.attitudes_before(elapsed_s);
+            for ((node, weight), attitude) in GAUSS_3.into_iter().zip(attitudes) {
+                let at_s = node * elapsed_s;
+                let [mut torque, acceleration] = self.loads_after(at_s);
+                if let Some(dipole) = &self.load.dipole {
+                    torque += dipole.torque_n_m(&attitude, at_s);
+                }
+                for (total, load) in totals.iter_mut().zip([torque, acceleration]) {
+                    *total += attitude.inertial_from_body(&load) * (weight * elapsed_s);
+                }
             }
-            [torque, acceleration]
-        })
+        }
+        totals
     }
 }
 

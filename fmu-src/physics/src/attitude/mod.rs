@@ -16,7 +16,6 @@ mod gyrostat_series;
 mod imbalance;
 mod inertia;
 mod internal_motion;
-mod internal_parts;
 mod mass_flow;
 mod oscillator;
 mod principal_axes;

@@ -96,7 +96,7 @@ fn only_damping_takes_energy() {
     let locked =
         spacecraft.wheels().iter().map(|wheel| ReactionWheel { locked: true, ..wheel.clone() }).collect();
     let spacecraft = self::spacecraft(locked, &spacecraft.appendages().modes);
-    motion.parts.rotors.iter_mut().for_each(|it| it.rotor = Rotor::Held { momentum_n_m_s: 0.0 });
+    motion.rotors.iter_mut().for_each(|it| it.rotor = Rotor::Held { momentum_n_m_s: 0.0 });
     let mut motion =
         GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &motion.series.rate[0], |_| 0.0);
     let load = BodyLoad {
