@@ -18,7 +18,7 @@ pub(super) struct Periapses {
     /// Number of the last one found.
     number: i64,
     found_s: EventLog<f64>,
-    /// Those whose number is a multiple of the schedule's.
+    /// Periapses whose number is a multiple of the schedule's.
     scheduled_s: EventLog<f64>,
     search: PassageSearch,
 }
