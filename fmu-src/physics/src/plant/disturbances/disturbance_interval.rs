@@ -144,11 +144,7 @@ pub(crate) fn deviate(interval: &DisturbanceInterval, plant: &mut Plant<'_>) -> 
         let force_body_n = interval.force_body_n(&applied, interval.span.start_s, time_s);
         turning.frame_at(time_s).inertial_from_body * (force_body_n / current_mass_panels_stowed.mass_kg)
     };
-    Ok(trajectory.accelerate(
-        configuration,
-        [interval.span.start_s, interval.span.end_s],
-        Some(acceleration_m_s2),
-    )?)
+    Ok(trajectory.accelerate(configuration, interval.span.span(), Some(acceleration_m_s2))?)
 }
 
 /// By how much the direction from the centre turns, in rad/s; 0 at the centre.

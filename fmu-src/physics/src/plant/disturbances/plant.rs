@@ -250,8 +250,7 @@ impl<'a> Plant<'a> {
                 self.kinematics.spend_units(WorkKind::Orbit, NODES as u32, start_s)?;
                 end_s = 0.5 * (start_s + end_s);
             };
-            let predicted = core::mem::replace(self.kinematics.trajectory, before);
-            self.kinematics.trajectory.copy_apsides(&predicted, end_s);
+            *self.kinematics.trajectory = before;
             self.integrate(end_s, |at_s| acceleration_m_s2.value(at_s))?;
             // Those ahead began on the predicted orbit.
             self.kinematics.command_slews.forget_after(start_s);

@@ -9,6 +9,7 @@ use crate::momentum::{TorqueModel, Totals};
 
 use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 use crate::momentum::WorkKind;
+use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::External;
 use crate::plant::disturbances::plant::Plant;
 use crate::plant::disturbances::simulation_context::SimulationContext;
@@ -216,23 +217,23 @@ impl ConfiguredFlight<'_> {
     ) -> Result<(), PlantError> {
         let (load, configuration) = (self.thrusters.load(), &self.context.configuration);
         let trajectory = &mut self.propagator.trajectory;
-        let span_s = [motion.start_s(), motion.end_s()];
+        let span = Span::new(motion.start_s(), motion.end_s());
         let (thrusts, disturbed) = (!load.law.is_none(), configuration.motion.uses_encke());
-        if !thrusts && disturbed && trajectory.is_deviated_until(span_s[1]) {
+        if !thrusts && disturbed && trajectory.is_deviated_until(span.end_s) {
             return Ok(());
         }
-        let applied = (self.given.external)(span_s[0]);
+        let applied = (self.given.external)(span.start_s);
         let acceleration_m_s2 = (thrusts || disturbed).then_some(|time_s: f64| {
             let mut acceleration_body_m_s2 = Vector3::zeros();
             if thrusts {
                 acceleration_body_m_s2 += load.acceleration_body_m_s2(time_s);
             }
             if disturbed {
-                acceleration_body_m_s2 += interval.force_body_n(&applied, span_s[0], time_s) / mass_kg;
+                acceleration_body_m_s2 += interval.force_body_n(&applied, span.start_s, time_s) / mass_kg;
             }
             motion.attitude_at(time_s).inertial_from_body(&acceleration_body_m_s2)
         });
-        Ok(trajectory.accelerate(configuration, span_s, acceleration_m_s2)?)
+        Ok(trajectory.accelerate(configuration, span, acceleration_m_s2)?)
     }
 
     /// The plant in the attitude of its configuration.
