@@ -74,7 +74,7 @@ impl<'a> Check<'a> {
     fn unit_of(&self, variable: &'a ScalarVariable) -> Option<&'a str> {
         let VariableKind::Real { attributes, .. } = &variable.kind else { return None };
         let inherited = match self.declared(variable) {
-            Some(SimpleTypeKind::Real(inherited)) => inherited.unit.as_deref(),
+            Some(SimpleTypeKind::Real { attributes: inherited }) => inherited.unit.as_deref(),
             _ => None,
         };
         attributes.unit.as_deref().or(inherited)

@@ -7,7 +7,7 @@ use physics::plant::{NEVER_DUMPED_N_M_S, SimulationContext, ThrusterAllocator, U
 use super::inputs::{self, FixedParameters, Reading, guidance, plausibility, propulsion};
 use super::outputs;
 use super::outputs::messages::{failure, log_event};
-use super::setup::Plan;
+use super::setup::{Plan, Read};
 use super::state::PlantState;
 use crate::common::management::window_warning;
 
@@ -61,7 +61,7 @@ fn configure(
 ) -> Result<(), Failure> {
     let (mut configuration, mut settings) = (None, None);
     if reading.is_reconfigured {
-        let read = inputs::configured(context, values, state, step.inputs, reading)?;
+        let read = inputs::configured(Read::new(context, values), state, step.inputs, reading)?;
         match (read.fixed, read.settings) {
             (Some(fixed), Some(settings)) => {
                 let FixedParameters { light, air, thrusters } = fixed;
@@ -82,7 +82,7 @@ fn configure(
         state.flight.apply(changes, configuration, settings, step.start_s).map_err(failure)?;
     }
     // After what was computed ahead with those before is void.
-    if reading.is_reconfigured { inputs::update_materials(context, values, state) } else { Ok(()) }
+    if reading.is_reconfigured { inputs::update_materials(Read::new(context, values), state) } else { Ok(()) }
 }
 
 /// The flight begins at `time_s`, where a first sample is taken: how to undo that.
@@ -100,7 +100,7 @@ fn begin(
     }
     let is_dynamic = state.inputs.source.is_dynamic;
     if is_dynamic {
-        guidance::report_start(context, values, state, time_s);
+        guidance::report_start(Read::new(context, values), state, time_s);
     }
     report_dumps(context, state, time_s);
     let (external, planner) = (reading.external(), reading.planner());
@@ -111,7 +111,7 @@ fn begin(
         state.start_command(estimate.attitude, time_s)?;
     }
     let PlantState { flight, inputs, command, .. } = state;
-    plausibility::report(context, values, flight, given, time_s);
+    plausibility::report(Read::new(context, values), flight, given, time_s);
     let undo = flight.sample_at_start(given, &inputs.dynamics, time_s).map_err(failure)?;
     let report = flight.report(given, &inputs.dynamics, command, time_s).map_err(failure)?;
     outputs::check_report(&report)?;
