@@ -23,9 +23,8 @@ use crate::loads::{Active, ByEffect, Effect, ForceTorque, Loads};
 use crate::math;
 use crate::momentum::TorqueModel;
 use crate::momentum::WorkKind;
-use crate::numerics::adaptive::AdaptiveInterval;
+use crate::numerics::adaptive::{AdaptiveInterval, Attempt, SegmentSpan};
 use crate::numerics::intervals::next_multiple_s;
-use crate::numerics::or_infinite;
 use crate::numerics::quadrature::GAUSS_2;
 
 use super::evaluation::{Evaluation, Plant};
@@ -52,13 +51,7 @@ pub(crate) type Linear = [Vector3<f64>; 2];
 /// Loads on the body and direction of the Sun over one interval.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct DisturbanceInterval {
-    #[serde(with = "or_infinite")]
-    start_s: f64,
-    #[serde(with = "or_infinite")]
-    end_s: f64,
-    /// Length the tolerance will probably allow the next interval, in s.
-    #[serde(with = "or_infinite")]
-    next_longest_s: f64,
+    span: SegmentSpan,
     /// Force and torque of the disturbances that act, body frame; what is applied is known at any time, what acts by a field follows
     /// from it and the attitude.
     loads: ByEffect<Option<[Linear; 2]>>,
@@ -75,9 +68,7 @@ impl DisturbanceInterval {
     pub(crate) fn before() -> Self {
         let nothing = [Vector3::zeros(); 2];
         Self {
-            start_s: f64::NEG_INFINITY,
-            end_s: f64::NEG_INFINITY,
-            next_longest_s: f64::INFINITY,
+            span: SegmentSpan::default(),
             loads: ByEffect::default(),
             field_inertial_t: nothing,
             to_sun: nothing,
@@ -87,7 +78,7 @@ impl DisturbanceInterval {
 
     /// Whether no interval has begun.
     pub(crate) fn is_before(&self) -> bool {
-        self.end_s == f64::NEG_INFINITY
+        self.span.is_before()
     }
 
     /// The interval of `plant` that begins at `start_s`, after `self`, and lasts to the next multiple of `grid_s` at most; a body
@@ -110,39 +101,33 @@ impl DisturbanceInterval {
         };
         let rate_rad_s = begin.frame.rate_body_rad_s.norm();
         let turning_rad_s = rate_rad_s + orbital_rate_rad_s(&begin.geometry.spacecraft);
-        let longest_s = self.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s);
+        let longest_s = self.span.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s);
         let shortest_s = (SHORTEST_TURN_RAD / turning_rad_s).min(SHORTEST_SHARE * grid_s);
         let configuration = plant.kinematics.configuration;
         let (active, tolerance) = (configuration.effects, configuration.light_and_heat.tolerance);
-        let mut interval = AdaptiveInterval::new(start_s, grid_s, longest_s, limit_s, shortest_s);
-        let mut next_longest_s = f64::INFINITY;
-        // Written in place: an array as the value of the loop would be copied.
-        let (mut first, mut second);
-        loop {
+        let interval = AdaptiveInterval::new(start_s, grid_s, longest_s, limit_s, shortest_s);
+        let ([first, second], span) = interval.fit::<_, PlantError>(ORDER, |interval| {
+            if interval.is_refinement() {
+                plant.spend(WorkKind::Refinement, start_s)?;
+            }
             let span_s = interval.end_s() - start_s;
-            first = plant.evaluate(start_s + NODES[0] * span_s);
-            second = plant.evaluate(start_s + NODES[1] * span_s);
-            first.check(start_s)?;
+            let nodes = NODES.map(|node| plant.evaluate(start_s + node * span_s));
+            nodes[0].check(start_s)?;
             let unforeseen_rad_s2 =
-                free_inverse_inertia.map_or(0.0, |it| self.unforeseen(active, it, [&first, &second], span_s));
+                free_inverse_inertia.map_or(0.0, |it| self.unforeseen(active, it, &nodes, span_s));
             let mut unresolved = 0.5 * unforeseen_rad_s2 * span_s * span_s;
             if turning_rad_s * span_s >= SHORTEST_TURN_RAD {
                 let last_s = plant.kinematics.configuration.last_of_panels_s(start_s, interval.end_s());
                 let ends = [start_s, last_s].map(|at_s| plant.evaluate(at_s));
-                let fit_error = fit_error(active, [&first, &second], &ends);
+                let fit_error = fit_error(active, &nodes, &ends);
                 unresolved =
                     unresolved.max(fit_error * fit_error.max(math::powi(rate_rad_s * span_s, 2) / 12.0));
             } else if unresolved <= tolerance {
-                break;
+                return Ok(Attempt::Short(nodes));
             }
-            if let Some(longest_s) = interval.accept(unresolved, tolerance, ORDER) {
-                next_longest_s = longest_s;
-                break;
-            }
-            plant.spend(WorkKind::Refinement, start_s)?;
-        }
-        let end_s = interval.end_s();
-        let span_s = end_s - start_s;
+            Ok(Attempt::Fitted { fit: nodes, unresolved, tolerance })
+        })?;
+        let span_s = span.end_s - start_s;
         let line = |of: &dyn Fn(&Evaluation) -> Vector3<f64>| -> Linear {
             let (a, b) = (of(&first), of(&second));
             let slope = (b - a) / (NODES[1] - NODES[0]);
@@ -160,7 +145,7 @@ impl DisturbanceInterval {
         let [to_sun, to_sun_then] = [now, then].map(|it| it.geometry.to_sun.position_m.normalize());
         let to_sun = [to_sun, (to_sun_then - to_sun) / elapsed_s];
         let lit_fraction = [now.lit_fraction, (then.lit_fraction - now.lit_fraction) / elapsed_s];
-        Ok(Self { start_s, end_s, next_longest_s, loads, field_inertial_t, to_sun, lit_fraction })
+        Ok(Self { span, loads, field_inertial_t, to_sun, lit_fraction })
     }
 
     /// Angular acceleration by which the disturbances at the nodes of an interval after this one, `span_s` long, are off from what
@@ -169,16 +154,16 @@ impl DisturbanceInterval {
         &self,
         active: Active,
         inverse_inertia: &Matrix3<f64>,
-        nodes: [&Evaluation; 2],
+        nodes: &[Evaluation; 2],
         span_s: f64,
     ) -> f64 {
         let off_rad_s2 = |(node, share): (&Evaluation, f64)| {
-            let [_, [foreseen_n_m, slope_n_m_s]] = self.total_at(self.end_s);
+            let [_, [foreseen_n_m, slope_n_m_s]] = self.total_at(self.span.end_s);
             let effects = active.disturbances().filter(|effect| !effect.is_in_field());
             let found_n_m: Vector3<f64> = effects.map(|effect| node.loads[effect].torque_body_n_m).sum();
             (inverse_inertia * (found_n_m - foreseen_n_m - slope_n_m_s * (share * span_s))).norm()
         };
-        nodes.into_iter().zip(NODES).map(off_rad_s2).fold(0.0, f64::max)
+        nodes.iter().zip(NODES).map(off_rad_s2).fold(0.0, f64::max)
     }
 
     /// Integrates the deviation of the orbit under the forces of the interval, at the predicted attitude (Encke's method).
@@ -186,40 +171,41 @@ impl DisturbanceInterval {
     /// # Errors
     /// What ends a flight.
     pub(crate) fn deviate(&self, plant: &mut Plant<'_>) -> Result<(), PlantError> {
-        let applied = plant.external(self.start_s);
+        let applied = plant.external(self.span.start_s);
         let Kinematics { configuration, trajectory, current_mass_panels_stowed, .. } = &mut plant.kinematics;
         let AttitudeSource::Dynamic(attitude) = &configuration.attitude else { return Ok(()) };
         if !configuration.motion.uses_encke() {
             return Ok(());
         }
         let acceleration_m_s2 = |time_s: f64| {
-            let force_body_n = self.force_body_n(&applied, self.start_s, time_s);
+            let force_body_n = self.force_body_n(&applied, self.span.start_s, time_s);
             attitude.frame_at(time_s).inertial_from_body * (force_body_n / current_mass_panels_stowed.mass_kg)
         };
-        Ok(trajectory.accelerate(configuration, [self.start_s, self.end_s], Some(acceleration_m_s2))?)
+        Ok(trajectory.accelerate(
+            configuration,
+            [self.span.start_s, self.span.end_s],
+            Some(acceleration_m_s2),
+        )?)
     }
 
     /// Whether a simulation can produce it.
     pub(crate) fn is_valid(&self) -> bool {
-        let is_before = self.start_s == f64::NEG_INFINITY && self.is_before();
-        (is_before || self.start_s.is_finite() && self.end_s.is_finite())
-            && self.start_s <= self.end_s
-            && self.next_longest_s > 0.0
+        self.span.is_valid() && (self.is_before() || self.span.start_s <= self.span.end_s)
     }
 
     /// Up to when it holds, in s.
     pub(crate) fn end_s(&self) -> f64 {
-        self.end_s
+        self.span.end_s
     }
 
     /// Forgets what is beyond `time_s`.
     pub(crate) fn cut(&mut self, time_s: f64) {
-        self.end_s = self.end_s.min(time_s);
+        self.span.cut(time_s);
     }
 
     /// Force and torque by effect at `time_s`.
     pub(crate) fn loads_at(&self, time_s: f64) -> Loads {
-        let elapsed_s = time_s - self.start_s;
+        let elapsed_s = time_s - self.span.start_s;
         let mut loads = Loads::zero();
         for (effect, lines) in self.loads.present() {
             let [force_body_n, torque_body_n_m] = lines.map(|[start, slope]| start + slope * elapsed_s);
@@ -231,17 +217,17 @@ impl DisturbanceInterval {
     /// Magnetic field at `time_s`, EME2000, in T, and its rate in T/s.
     pub(crate) fn field_at(&self, time_s: f64) -> Linear {
         let [start, rate] = self.field_inertial_t;
-        [start + rate * (time_s - self.start_s), rate]
+        [start + rate * (time_s - self.span.start_s), rate]
     }
 
     /// Torque of a disturbance that acts at `time_s` and its slope, in N m and N m/s.
     pub(crate) fn torque_at(&self, effect: Effect, time_s: f64) -> Option<Linear> {
-        self.loads[effect].map(|[_, [start, slope]]| [start + slope * (time_s - self.start_s), slope])
+        self.loads[effect].map(|[_, [start, slope]]| [start + slope * (time_s - self.span.start_s), slope])
     }
 
     /// Sum over the effects at `time_s`: force in N and its slope in N/s, torque in N m and its slope in N m/s.
     pub(crate) fn total_at(&self, time_s: f64) -> [Linear; 2] {
-        let elapsed_s = time_s - self.start_s;
+        let elapsed_s = time_s - self.span.start_s;
         let mut total = [[Vector3::zeros(); 2]; 2];
         for (_, lines) in self.loads.present() {
             for ([sum, sum_slope], [start, slope]) in total.iter_mut().zip(lines) {
@@ -260,7 +246,7 @@ impl DisturbanceInterval {
 
     /// Unit vector to the Sun, EME2000, and the visible part of its disc at `time_s`.
     pub(crate) fn sun_at(&self, time_s: f64) -> (Vector3<f64>, f64) {
-        let elapsed_s = time_s - self.start_s;
+        let elapsed_s = time_s - self.span.start_s;
         let to_sun = (self.to_sun[0] + self.to_sun[1] * elapsed_s).normalize();
         (to_sun, (self.lit_fraction[0] + self.lit_fraction[1] * elapsed_s).clamp(0.0, 1.0))
     }
@@ -274,11 +260,11 @@ fn orbital_rate_rad_s(spacecraft: &CartesianState) -> f64 {
 
 /// Largest distance at the two ends of force, torque and magnetic field from the line through those at the two nodes, relative to the
 /// largest force and torque of all effects there, and the field; a torque counts against the largest force at an arm of 1 cm at least.
-fn fit_error(active: Active, nodes: [&Evaluation; 2], ends: &[Evaluation; 2]) -> f64 {
+fn fit_error(active: Active, nodes: &[Evaluation; 2], ends: &[Evaluation; 2]) -> f64 {
     let (mut scale, mut most) = ([0.0_f64; 2], [0.0_f64; 2]);
     let beyond = NODES[0] / (NODES[1] - NODES[0]);
     for effect in active.disturbances().filter(|effect| !effect.is_in_field()) {
-        let [a, b, start, end] = [nodes[0], nodes[1], &ends[0], &ends[1]].map(|it| it.loads[effect]);
+        let [a, b, start, end] = [&nodes[0], &nodes[1], &ends[0], &ends[1]].map(|it| it.loads[effect]);
         let kinds = [
             [a.force_body_n, b.force_body_n, start.force_body_n, end.force_body_n],
             [a.torque_body_n_m, b.torque_body_n_m, start.torque_body_n_m, end.torque_body_n_m],
@@ -293,7 +279,7 @@ fn fit_error(active: Active, nodes: [&Evaluation; 2], ends: &[Evaluation; 2]) ->
     let torque_n_m = torque_n_m.max(force_n * LEAST_ARM_M);
     let share = |most: f64, scale: f64| if scale > 0.0 { most / scale } else { 0.0 };
     let [a, b, start, end] =
-        [nodes[0], nodes[1], &ends[0], &ends[1]].map(|it| it.air_and_field.field_inertial_t);
+        [&nodes[0], &nodes[1], &ends[0], &ends[1]].map(|it| it.air_and_field.field_inertial_t);
     let slope = (b - a) * beyond;
     let field_most_t = (start - (a - slope)).amax().max((end - (b + slope)).amax());
     let of_field = share(field_most_t, a.amax().max(b.amax()));
