@@ -4,9 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{Check, ElementLocation, some_of};
 use crate::finding::Code;
-use crate::rules;
-use crate::value;
-use crate::{BaseType, Causality, ScalarVariable, SimpleTypeKind, Variability, VariableKind};
+use crate::{BaseType, Causality, ScalarVariable, SimpleTypeKind, Variability, VariableKind, rules, value};
 
 impl<'a> Check<'a> {
     pub(super) fn aliases(&mut self) {

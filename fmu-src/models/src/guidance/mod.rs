@@ -139,25 +139,25 @@ impl Model for Guidance {
                 context.log.warning(&format!(
                     "dump.request was true from {requested_s} to {} s, within a step to {} s, and no communication point saw it: \
                      step by a second at most",
-                    state.system.next_sample_s(),
+                    state.system.next_sample_s,
                     step.end_s
                 ));
             }
             work.spend(0, SAMPLE_WORK);
             if work.is_exhausted() {
-                let reached_s = state.system.next_sample_s();
+                let reached_s = state.system.next_sample_s;
                 return Err(Failure::new(format!(
                     "the step from {} to {} s reached {reached_s} s: its samples, one a second, take more than \
                      solver.workLimit = {limit} units",
                     step.start_s, step.end_s
                 )));
             }
-            let (burn, sampled_s) = (*state.system.burn(), state.system.next_sample_s());
-            let before = (state.system.mode(), state.system.mode_reason());
+            let (burn, sampled_s) = (state.system.burn, state.system.next_sample_s);
+            let before = (state.system.modes.mode, state.system.modes.reason);
             work.spend(0, state.sample(read, &fixed, &settings, step.inputs)?);
-            requested_s = Some(sampled_s).filter(|_| state.dumps.is_requested());
-            warn_of_missed_burn(context, &burn, state.system.burn(), sampled_s);
-            log_demotion(context, sampled_s, before, (state.system.mode(), state.system.mode_reason()));
+            requested_s = Some(sampled_s).filter(|_| state.dumps.is_requested);
+            warn_of_missed_burn(context, &burn, &state.system.burn, sampled_s);
+            log_demotion(context, sampled_s, before, (state.system.modes.mode, state.system.modes.reason));
         }
         let epoch_s = time::epoch_at_s(step.end_s, state.epoch_minus_time_s);
         state.time_s = step.end_s;
@@ -232,10 +232,10 @@ fn log_demotion(
 
 /// Warns where the burn is missed at this sample and was not at the one before.
 fn warn_of_missed_burn(context: &Plan<'_>, before: &BurnState, now: &BurnState, time_s: f64) {
-    let is_anew = matches!(now.phase(), BurnPhase::Waiting { .. } | BurnPhase::Burning { .. });
-    match now.interruption() {
+    let is_anew = matches!(now.phase, BurnPhase::Waiting { .. } | BurnPhase::Burning { .. });
+    match now.interruption {
         Some(Interruption::CutOff) => {
-            let [x, y, z]: [f64; 3] = (*before.velocity_m_s()).into();
+            let [x, y, z]: [f64; 3] = before.velocity_m_s.into();
             context.log.warning(&format!(
                 "burn: cut off at {time_s} s by the end of its command, by another command or by another mode; until a second \
                  before, it had added ({x:.3}, {y:.3}, {z:.3}) m/s"
@@ -246,7 +246,7 @@ fn warn_of_missed_burn(context: &Plan<'_>, before: &BurnState, now: &BurnState, 
         }
         _ => {}
     }
-    match (before.phase(), now.phase()) {
+    match (before.phase, now.phase) {
         (BurnPhase::Waiting { refused: true, .. }, BurnPhase::Waiting { .. }) => {}
         (_, BurnPhase::Waiting { refused: true, .. }) => context.log.warning(
             "burn.timedOut: the burn is due and does not begin: the constraints keep its thrust off the aim, or burn.deltaV and \

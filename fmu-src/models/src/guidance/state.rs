@@ -88,7 +88,7 @@ impl State {
         inputs: InputsOverTime<'_>,
     ) -> Result<u32, Failure> {
         let context = read.context;
-        let time_s = self.system.next_sample_s();
+        let time_s = self.system.next_sample_s;
         let epoch_s = time::epoch_at_s(time_s, self.epoch_minus_time_s);
         let reader = Reader::new(read, inputs, time_s);
         let entry = context.setup.timeline.as_ref().and_then(|timeline| {
@@ -127,7 +127,7 @@ impl State {
         let command = self.system.continued(&command);
         let positions = reader.positions(fixed, &command, (&mut self.ephemeris, &mut self.coarse), epoch_s);
         self.warn(context, &command, &settings, (&positions, entry));
-        let commanded = self.system.command().attitude_at(time_s);
+        let commanded = self.system.command.attitude_at(time_s);
         let (mut sensed, is_estimated) = reader.sensed(commanded, positions.are_known())?;
         if !is_estimated {
             settings.modes.monitor = None;

@@ -1,10 +1,9 @@
 //! A flight of the model begins, steps, and waits for inputs that are not set yet.
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
-use physics::environment::ephemeris::Ephemeris;
-use physics::plant::{NEVER_DUMPED_N_M_S, SimulationContext, ThrusterAllocator, Undo};
+use physics::plant::{NEVER_DUMPED_N_M_S, Undo};
 
-use super::inputs::{self, FixedParameters, Reading, guidance, plausibility, propulsion};
+use super::inputs::{self, Reading, Reconfigured, guidance, plausibility, propulsion};
 use super::outputs;
 use super::outputs::messages::{failure, log_event};
 use super::setup::{Plan, Read};
@@ -61,21 +60,9 @@ fn configure(
 ) -> Result<(), Failure> {
     let (mut configuration, mut settings) = (None, None);
     if reading.is_reconfigured {
-        let read = inputs::configured(Read::new(context, values), state, step.inputs, reading)?;
-        match (read.fixed, read.settings) {
-            (Some(fixed), Some(settings)) => {
-                let FixedParameters { light, air, thrusters } = fixed;
-                let simulation = SimulationContext {
-                    ephemeris: Ephemeris::with_cache(&context.setup.ephemeris_cache),
-                    solar: Some(reading.solar().clone()),
-                    light,
-                    air,
-                    allocator: ThrusterAllocator::new(thrusters),
-                    ..SimulationContext::new(read.configuration)
-                };
-                state.flight.configure(simulation, settings);
-            }
-            (_, changed) => (configuration, settings) = (Some(read.configuration), changed),
+        match inputs::configured(Read::new(context, values), state, step.inputs, reading)? {
+            Reconfigured::Simulation(simulation, settings) => state.flight.configure(*simulation, settings),
+            Reconfigured::Changed(changed, with) => (configuration, settings) = (Some(changed), with),
         }
     }
     if let Some(changes) = reading.changes.filter(|_| !state.waiting && !reading.begins) {

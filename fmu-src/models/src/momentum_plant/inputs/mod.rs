@@ -16,14 +16,14 @@ pub(super) mod wheels;
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use physics::attitude::Attitude;
+use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
 use physics::guidance::SelectedSunDirection;
 use physics::management::Manager;
 use physics::plant::{
-    AerodynamicSolver, Changes, Configuration, DownlinkForecast, External, ModeSettings, PlantError,
-    PreparedSpacecraft, RadiationSolver, ReactionControlSettings, StepContext, SunPlanner, Thrusters,
+    Changes, Configuration, DownlinkForecast, External, ModeSettings, PlantError, PreparedSpacecraft,
+    SimulationContext, StepContext, SunPlanner, ThrusterAllocator, Thrusters,
 };
-use physics::radiation::SolarModel;
 
 use self::center::Center;
 use self::panels::MovingPanels;
@@ -51,32 +51,16 @@ pub(super) struct Reading<'a> {
     work_limit: u32,
 }
 
-/// A configuration and settings.
-pub(super) struct Configured {
-    /// Configuration by inputs and tunable parameters, among others.
-    pub configuration: Configuration,
-    /// Settings, where they depend on inputs and tunable parameters too.
-    pub settings: Option<ModeSettings>,
-    /// Solvers and thrusters by fixed parameters, where they were not read before.
-    pub fixed: Option<FixedParameters>,
-}
-
-/// Solvers and thrusters, which depend on fixed parameters alone.
-pub(super) struct FixedParameters {
-    /// Surfaces in air.
-    pub air: Option<AerodynamicSolver>,
-    /// Light and heat beyond direct sunlight.
-    pub light: Option<RadiationSolver>,
-    /// Thrusters and tanks.
-    pub thrusters: ReactionControlSettings,
+/// A configuration that was read anew, with its settings.
+#[expect(clippy::large_enum_variant, reason = "a step allocates nothing")]
+pub(super) enum Reconfigured {
+    /// All of the simulation, by fixed parameters too.
+    Simulation(Box<SimulationContext>, ModeSettings),
+    /// What depends on inputs and tunable parameters, the settings where they do.
+    Changed(Configuration, Option<ModeSettings>),
 }
 
 impl Reading<'_> {
-    /// The spacecraft in sunlight by its file.
-    pub(super) fn solar(&self) -> &SolarModel {
-        self.prepared.solar
-    }
-
     /// Force and torque from outside.
     pub(super) fn external(&self) -> impl Fn(f64) -> [physics::loads::ForceTorque; 2] + '_ {
         |time_s| self.applied.at(time_s)
@@ -155,9 +139,8 @@ pub(super) fn configured(
     state: &mut PlantState,
     over_time: InputsOverTime<'_>,
     reading: &Reading<'_>,
-) -> Result<Configured, Failure> {
+) -> Result<Reconfigured, Failure> {
     let is_dynamic = state.inputs.source.is_dynamic && !state.waiting;
-    let is_complete = reading.is_complete;
     let center = Center::read(read);
     let moving = MovingPanels { over_time, memory: state.flight.extract_panels() };
     let configuration = configuration::read(read, state, &center, moving)?;
@@ -165,22 +148,26 @@ pub(super) fn configured(
         let start = guidance::start_motion(read, &configuration, state)?;
         let settings = dynamics::dynamic(read, &configuration, start)?;
         Some(ModeSettings::Dynamic(settings.into()))
-    } else if is_complete {
-        Some(ModeSettings::Ideal(dynamics::ideal(read)?))
     } else {
         None
     };
-    let fixed = if is_complete {
-        let acting = Some(&configuration).filter(|_| !state.waiting);
-        Some(FixedParameters {
-            air: acting.map(|it| solvers::air(read, it)).transpose()?.flatten(),
-            light: acting.map(|it| solvers::light(read, it, &center.surface)).transpose()?.flatten(),
-            thrusters: propulsion::reaction_control(read)?,
-        })
-    } else {
-        None
+    if !reading.is_complete {
+        return Ok(Reconfigured::Changed(configuration, settings));
+    }
+    let settings = match settings {
+        Some(settings) => settings,
+        None => ModeSettings::Ideal(dynamics::ideal(read)?),
     };
-    Ok(Configured { configuration, settings, fixed })
+    let acting = Some(&configuration).filter(|_| !state.waiting);
+    let simulation = SimulationContext {
+        ephemeris: Ephemeris::with_cache(&read.setup.ephemeris_cache),
+        solar: Some(reading.prepared.solar.clone()),
+        air: acting.map(|it| solvers::air(read, it)).transpose()?.flatten(),
+        light: acting.map(|it| solvers::light(read, it, &center.surface)).transpose()?.flatten(),
+        allocator: ThrusterAllocator::new(propulsion::reaction_control(read)?),
+        ..SimulationContext::new(configuration)
+    };
+    Ok(Reconfigured::Simulation(Box::new(simulation), settings))
 }
 
 /// Sets the materials of the surfaces where they are other than the flight has them.

@@ -3,11 +3,10 @@
 use fmi_export::Failure;
 use nalgebra::Matrix3;
 use physics::bodies::Body;
-use physics::environment::CartesianState;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::frames::Frame;
 use physics::environment::orbit::{Attractor, GravityModel, NBodyGravity, OrbitError, TwoBodyOrbit};
-use physics::environment::time;
+use physics::environment::{CartesianState, time};
 use physics::plant::{self, Motion};
 
 use super::center::Center;
