@@ -22,7 +22,7 @@ use physics::guidance::SelectedSunDirection;
 use physics::management::Manager;
 use physics::plant::{
     Changes, Configuration, DownlinkForecast, External, ModeSettings, PlantError, PreparedSpacecraft,
-    SimulationContext, StepContext, SunPlanner, ThrusterAllocator, Thrusters,
+    SimulationContext, Sources, StepContext, SunPlanner, ThrusterAllocator, Thrusters,
 };
 
 use self::center::Center;
@@ -159,11 +159,12 @@ pub(super) fn configured(
         None => ModeSettings::Ideal(dynamics::ideal(read)?),
     };
     let acting = Some(&configuration).filter(|_| !state.waiting);
+    let air = acting.map(|it| solvers::air(read, it)).transpose()?.flatten();
+    let light = acting.map(|it| solvers::light(read, it, &center.surface)).transpose()?.flatten();
     let simulation = SimulationContext {
         ephemeris: Ephemeris::with_cache(&read.setup.ephemeris_cache),
         solar: Some(reading.prepared.solar.clone()),
-        air: acting.map(|it| solvers::air(read, it)).transpose()?.flatten(),
-        light: acting.map(|it| solvers::light(read, it, &center.surface)).transpose()?.flatten(),
+        sources: Sources::new(light, air),
         allocator: ThrusterAllocator::new(propulsion::reaction_control(read)?),
         ..SimulationContext::new(configuration)
     };

@@ -19,7 +19,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::environment::CartesianState;
-use crate::loads::{Active, ByEffect, Effect, ForceTorque, Loads};
+use crate::loads::{Active, ByEffect, Effect, ForceTorque, Linear, Loads};
 use crate::math;
 use crate::momentum::TorqueModel;
 use crate::momentum::WorkKind;
@@ -27,7 +27,8 @@ use crate::numerics::adaptive::{AdaptiveInterval, Attempt, SegmentSpan};
 use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::quadrature::GAUSS_2;
 
-use super::evaluation::{Evaluation, Plant};
+use super::evaluation::Evaluation;
+use super::plant::Plant;
 use crate::plant::light::light_and_heat::LEAST_ARM_M;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::settings::configuration::AttitudeSource;
@@ -44,9 +45,6 @@ const SHORTEST_TURN_RAD: f64 = 0.01;
 const SHORTEST_SHARE: f64 = 0.1;
 /// Order of the impulse's error relative to the impulse.
 const ORDER: usize = 4;
-
-/// A vector that changes linearly: at the start, and per second.
-pub(crate) type Linear = [Vector3<f64>; 2];
 
 /// Loads on the body and direction of the Sun over one interval.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

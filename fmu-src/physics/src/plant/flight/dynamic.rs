@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::{Attitude, BodyLoad, BodyMotion, DipoleInField, GyrostatMotion};
-use crate::loads::{ByEffect, Effect, ForceTorque};
+use crate::loads::{ByEffect, Effect, ForceTorque, Linear, Writer};
 use crate::momentum::DumpEvent;
 use crate::numerics::spacing::spacing;
 use crate::spacecraft::MassProperties;
@@ -19,8 +19,9 @@ use super::control_loop::{ControlLoop, Sampled};
 use super::momentum_dumps::MomentumDumps;
 use super::sensing::Sensing;
 use crate::momentum::WorkKind;
-use crate::plant::disturbances::disturbance_interval::{DisturbanceInterval, Linear};
-use crate::plant::disturbances::evaluation::{Evaluation, Plant};
+use crate::plant::disturbances::disturbance_interval::DisturbanceInterval;
+use crate::plant::disturbances::evaluation::Evaluation;
+use crate::plant::disturbances::plant::Plant;
 use crate::plant::mass::MassState;
 use crate::plant::motion::panel_motion::PanelMotion;
 use crate::plant::settings::configuration::{AttitudeSource, Command};
@@ -29,6 +30,9 @@ use crate::plant::settings::dynamics_settings::{
 };
 use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::thruster_events::{SchedulePlace, ThrusterEvent};
+use crate::plant::sources::Dipoles;
+use crate::plant::sources::applied::APPLIED;
+use crate::plant::sources::thrusters::THRUSTERS;
 use crate::plant::thrusters::reaction_control::Thrusters;
 
 /// Units of work of a segment of the motion with flexible modes, slosh or imbalance; one of a rigid body's is a unit.
@@ -181,7 +185,8 @@ impl AttitudeDynamics {
             let limit_s = limit_s.min(self.dumps.until_s()).min(events.next_s(self.scheduled));
             let external = (step.flight.given.external)(time_s);
             let mut load = self.load(&external, step.flight.thrusters, time_s);
-            load.dipole = self.dipole(step.flight);
+            self.dumps.dipoles = step.flight.dipoles(time_s);
+            load.dipole = self.in_field(&self.dumps.dipoles);
             load.internal = self.panels.internal(step.flight.given.prepared.panels, &self.mass.now, time_s);
             self.dumps.torques = self.torques_by_source(&external, time_s);
             self.motion.advance(&step.settings.gyrostat, self.control.wheels.motors(), &load, limit_s);
@@ -263,7 +268,7 @@ impl AttitudeDynamics {
         if begins || !context.configuration.motion.uses_encke() {
             flight.propagator.cut(&context.configuration, time_s, true);
         } else {
-            flight.propagator.cut_light(time_s);
+            flight.propagator.sources.cut(time_s);
         }
         let rate_terms_body = self.predicted_rate_terms(settings, flight, &body);
         let has_thrusters = !flight.context.allocator.settings.thrusters.is_empty();
@@ -319,11 +324,11 @@ impl AttitudeDynamics {
             torque += self.dumps.torque_body_n_m() + turn;
             slope += turn_slope;
         }
-        let dipole = self.dipole(flight).filter(|_| !self.disturbance.is_before());
-        if let Some(DipoleInField { dipole_body_a_m2, field_inertial_t }) = dipole {
-            let [field, per_s] = field_inertial_t.map(|it| body.attitude.body_from_inertial(&it));
-            torque += dipole_body_a_m2.cross(&field);
-            slope += dipole_body_a_m2.cross(&(per_s - rate.cross(&field)));
+        let dipole = self.in_field(&flight.dipoles(time_s)).filter(|_| !self.disturbance.is_before());
+        if let Some(dipole) = dipole {
+            let [now, per_s] = dipole.torque_with_slope_n_m(&body.attitude, rate);
+            torque += now;
+            slope += per_s;
         }
         let gyrostat = &settings.gyrostat;
         let motor_n_m = |k: usize| {
@@ -461,19 +466,22 @@ impl AttitudeDynamics {
         }
     }
 
-    /// The dipole in the field from the end of the motion on, where there is one.
-    fn dipole(&self, flight: &ConfiguredFlight<'_>) -> Option<DipoleInField> {
-        let dipole_body_a_m2 = flight.context.configuration.laws.dipole_body_a_m2;
-        let acts = flight.context.configuration.effects.has(Effect::Magnetic);
+    /// The sum of these dipoles in the field from the end of the motion on, where there is one.
+    fn in_field(&self, dipoles: &Dipoles) -> Option<DipoleInField> {
+        let dipole_body_a_m2 = dipoles
+            .iter()
+            .flatten()
+            .copied()
+            .reduce(|[sum, sum_rate], [dipole, rate]| [sum + dipole, sum_rate + rate])?;
         let field_inertial_t = self.disturbance.field_at(self.motion.end_s());
-        (acts && dipole_body_a_m2 != Vector3::zeros())
+        (dipole_body_a_m2 != [Vector3::zeros(); 2])
             .then_some(DipoleInField { dipole_body_a_m2, field_inertial_t })
     }
 
     /// Torque by effect from `time_s` on.
     fn torques_by_source(&self, external: &[ForceTorque; 2], time_s: f64) -> ByEffect<Option<Linear>> {
         ByEffect::from_fn(|effect| match effect {
-            Effect::Applied => Some(external.map(|load| load.torque_body_n_m)),
+            APPLIED => Some(external.map(|load| load.torque_body_n_m)),
             effect if effect.row().momentum_apart => self.disturbance.torque_at(effect, time_s),
             _ => None,
         })
@@ -496,17 +504,26 @@ impl AttitudeDynamics {
         let panels_body_n_m_s = plant.panel_momentum_body_n_m_s(&instant, &mass, time_s);
         let air_and_field = plant.air_and_field(time_s);
         let mut loads = self.disturbance.loads_at(time_s);
-        if let Some(dipole) = self.dipole(flight) {
-            let [field_inertial_t, _] = self.disturbance.field_at(time_s);
-            let field_body_t = instant.to_body * field_inertial_t;
-            loads[Effect::Magnetic].torque_body_n_m = dipole.dipole_body_a_m2.cross(&field_body_t);
+        for (row, dipole) in Effect::FIELD.into_iter().zip(flight.dipoles(time_s)) {
+            if let Some([dipole_body_a_m2, _]) = dipole.filter(|[now, _]| *now != Vector3::zeros()) {
+                let [field_inertial_t, _] = self.disturbance.field_at(time_s);
+                loads[row].torque_body_n_m = dipole_body_a_m2.cross(&(instant.to_body * field_inertial_t));
+            }
         }
-        let [torque_body_n_m, force_body_n] = self.motion.imbalance_load(&settings.gyrostat, time_s, body);
-        loads[Effect::Imbalance] = ForceTorque { force_body_n, torque_body_n_m };
-        loads[Effect::Slosh].torque_body_n_m = self.motion.swing_torque_n_m(time_s);
-        [loads[Effect::Applied], _] = (flight.given.external)(time_s);
+        for row in Effect::ALL {
+            match row.row().writer {
+                Writer::Source(_) => {}
+                Writer::Rotors => {
+                    let [torque_body_n_m, force_body_n] =
+                        self.motion.imbalance_load(&settings.gyrostat, time_s, body);
+                    loads[row] = ForceTorque { force_body_n, torque_body_n_m };
+                }
+                Writer::Propellant => loads[row].torque_body_n_m = self.motion.swing_torque_n_m(time_s),
+            }
+        }
+        [loads[APPLIED], _] = (flight.given.external)(time_s);
         let thrusters = flight.thrusters.load();
-        loads[Effect::Thrusters] = ForceTorque {
+        loads[THRUSTERS] = ForceTorque {
             force_body_n: thrusters.law.force_at_n(time_s),
             torque_body_n_m: thrusters.torque_at_n_m(time_s, &body.rate_body_rad_s),
         };

@@ -28,8 +28,9 @@ use crate::attitude::control::{Estimate, sample_number, sensed_sun};
 use crate::momentum::Totals;
 
 use crate::loads::ForceTorque;
-use crate::plant::disturbances::evaluation::{Evaluation, Plant};
-use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
+use crate::plant::disturbances::evaluation::Evaluation;
+use crate::plant::disturbances::plant::Plant;
+use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::motion::command_slews::CommandSlews;
 use crate::plant::motion::instant::Instant;
 use crate::plant::settings::configuration::{Command, Configuration, PredictionSettings};
@@ -37,6 +38,7 @@ use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::ideal_settings::IdealSettings;
 use crate::plant::settings::panel_setting::PanelSetting;
+use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::plant::state::sun_choice::SunDirectionSelection;
@@ -121,7 +123,7 @@ impl Flight {
         let has_mass = spacecraft.panels.iter().any(|panel| panel.mass.is_some());
         let panels = if has_mass { spacecraft.panels.len() } else { 0 };
         let (wheels, oscillators) = (spacecraft.wheels.len(), spacecraft.oscillator_count());
-        self.propagator.is_valid()
+        self.propagator.is_valid(spacecraft)
             && self.prediction.as_ref().is_none_or(EncounterPrediction::is_valid)
             && self.thrusters.is_valid(spacecraft)
             && match &self.mode {
@@ -133,10 +135,10 @@ impl Flight {
 
     /// Names a part of the flight that was not computed at `time_s`, if any.
     pub fn first_uncovered(&self, time_s: f64) -> Option<&'static str> {
-        let PropagatorState { light, trajectory, air_and_field, .. } = &self.propagator;
-        let is_lit = light.as_ref().is_none_or(|it| it.covers(time_s));
+        let PropagatorState { sources, trajectory, air_and_field, .. } = &self.propagator;
+        let uncovered = sources.first_uncovered(time_s);
         let (is_covered, what) = match &self.mode {
-            _ if !is_lit => (false, "light and heat were computed"),
+            _ if uncovered.is_some() => return uncovered,
             _ if !air_and_field.covers(time_s) => (false, "air and magnetic field were computed"),
             _ if !trajectory.covers(time_s) => (false, "the orbit was integrated"),
             Mode::Waiting => (true, ""),

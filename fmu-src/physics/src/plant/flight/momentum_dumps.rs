@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use super::configured::ConfiguredFlight;
 use crate::attitude::GyrostatMotion;
-use crate::loads::{ByEffect, Effect};
+use crate::loads::{ByEffect, Effect, Linear, Writer};
 use crate::momentum::{DumpEvent, DumpSpacing, Dumps, SourceMomenta};
-use crate::plant::disturbances::disturbance_interval::Linear;
+use crate::plant::sources::Dipoles;
 use crate::plant::thrusters::allocation::Unserved;
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::MassProperties;
@@ -32,6 +32,8 @@ pub(crate) struct MomentumDumps {
     by_source: SourceMomenta,
     /// Torque by effect from the start of that segment on.
     pub torques: ByEffect<Option<Linear>>,
+    /// Dipoles by row in the magnetic field from there on.
+    pub dipoles: Dipoles,
 }
 
 impl MomentumDumps {
@@ -62,7 +64,7 @@ impl MomentumDumps {
         } else {
             self.by_source.add(&self.impulses(motion, motion.end_s()));
         }
-        self.torques = Default::default();
+        (self.torques, self.dipoles) = Default::default();
     }
 
     /// Returns the momentum by effect at `time_s` since the end of the last dump.
@@ -75,15 +77,17 @@ impl MomentumDumps {
     /// Change of momentum by effect since the start of the motion's segment, EME2000, in N m s.
     fn impulses(&self, motion: &GyrostatMotion, time_s: f64) -> [Vector3<f64>; Effect::COUNT] {
         let mut impulses = motion.impulses_inertial_n_m_s(self.torques.values(), time_s);
-        let by_motion = [
-            (Effect::Magnetic, motion.magnetic_impulse_inertial_n_m_s(time_s)),
-            (Effect::Imbalance, motion.imbalance_impulse_inertial_n_m_s(time_s)),
-            (Effect::Slosh, motion.swing_impulse_inertial_n_m_s(time_s)),
-        ];
-        for (effect, impulse) in by_motion {
-            if let Some(impulse) = impulse {
-                impulses[effect as usize] = impulse;
+        for (row, dipole) in Effect::FIELD.into_iter().zip(&self.dipoles) {
+            let impulse = dipole.and_then(|dipole| motion.dipole_impulse_inertial_n_m_s(&dipole, time_s));
+            impulses[row as usize] += impulse.unwrap_or_default();
+        }
+        for row in Effect::ALL {
+            impulses[row as usize] += match row.row().writer {
+                Writer::Source(_) => continue,
+                Writer::Rotors => motion.imbalance_impulse_inertial_n_m_s(time_s),
+                Writer::Propellant => motion.swing_impulse_inertial_n_m_s(time_s),
             }
+            .unwrap_or_default();
         }
         impulses
     }
