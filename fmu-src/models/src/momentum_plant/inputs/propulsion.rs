@@ -6,7 +6,7 @@ use physics::plant::{
     Configuration, DynamicsInputs, Flight, ReactionControlSettings, Report, SimulationContext, UnservedDumps,
 };
 use physics::propulsion::{PulseCommand, ThrustErrors};
-use physics::spacecraft::{Tank, Thruster, ValveTiming};
+use physics::spacecraft::{Tank, Thruster};
 
 use crate::momentum_plant::setup::{Plan, Read};
 use crate::momentum_plant::state::ThrusterWarnings;
@@ -16,11 +16,7 @@ pub(crate) fn reaction_control(read: Read<'_>) -> Result<ReactionControlSettings
     let v = read.variables;
     let spacecraft = &read.setup.spacecraft;
     let thrusters = spacecraft.thrusters.iter().zip(&v.thruster).map(|(thruster, variables)| Thruster {
-        valve: ValveTiming {
-            min_on_s: read.real(variables.min_on_time),
-            rise_s: read.real(variables.rise_time),
-            tail_off_s: read.real(variables.tail_off_time),
-        },
+        valve: variables.valve.read(read.values),
         scatter: read.real(variables.scatter),
         ..thruster.clone()
     });
