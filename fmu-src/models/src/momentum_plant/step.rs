@@ -1,13 +1,12 @@
 //! A flight of the model begins, steps, and waits for inputs that are not set yet.
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
-use physics::environment::ephemeris::Ephemeris;
-use physics::plant::{NEVER_DUMPED_N_M_S, SimulationContext, Sources, StepContext, ThrusterAllocator, Undo};
+use physics::plant::{NEVER_DUMPED_N_M_S, StepContext, Undo};
 
-use super::inputs::{self, FixedParameters, Reading, guidance, plausibility, propulsion};
+use super::inputs::{self, Reading, Reconfigured, guidance, plausibility, propulsion};
 use super::outputs;
 use super::outputs::messages::{failure, log_event};
-use super::setup::Plan;
+use super::setup::{Plan, Read};
 use super::state::{PlantState, SavedState};
 use crate::common::management::window_warning;
 
@@ -61,19 +60,9 @@ fn configure(
 ) -> Result<(), Failure> {
     let (mut configuration, mut settings) = (None, None);
     if reading.is_reconfigured {
-        let read = inputs::configured(context, values, state, step.inputs, reading)?;
-        match (read.fixed, read.settings) {
-            (Some(fixed), Some(settings)) => {
-                let FixedParameters { light, air, thrusters } = fixed;
-                let mut simulation = SimulationContext::new(read.configuration);
-                simulation.models.ephemeris = Ephemeris::with_cache(&context.setup.ephemeris_cache);
-                simulation.models.solar = Some(reading.solar().clone());
-                simulation.models.digest = state.digest();
-                simulation.models.sources = Sources::new(light, air);
-                simulation.allocator = ThrusterAllocator::new(thrusters);
-                state.saved.flight.configure(simulation, settings);
-            }
-            (_, changed) => (configuration, settings) = (Some(read.configuration), changed),
+        match inputs::configured(Read::new(context, values), state, step.inputs, reading)? {
+            Reconfigured::Simulation(simulation, settings) => state.saved.flight.configure(*simulation, settings),
+            Reconfigured::Changed(changed, with) => (configuration, settings) = (Some(changed), with),
         }
     }
     state.pass_digest();
@@ -81,7 +70,7 @@ fn configure(
         state.saved.flight.apply(changes, configuration, settings, step.start_s).map_err(failure)?;
     }
     // After what was computed ahead with those before is void.
-    if reading.is_reconfigured { inputs::update_materials(context, values, state) } else { Ok(()) }
+    if reading.is_reconfigured { inputs::update_materials(Read::new(context, values), state) } else { Ok(()) }
 }
 
 /// The flight begins at `time_s`, where a first sample is taken: how to undo that.
@@ -99,7 +88,7 @@ fn begin(
     }
     let is_dynamic = state.inputs.source.is_dynamic;
     if is_dynamic {
-        guidance::report_start(context, values, state, time_s);
+        guidance::report_start(Read::new(context, values), state, time_s);
     }
     report_dumps(context, state, time_s);
     let (external, planner) = (reading.external(), reading.planner());
@@ -110,7 +99,7 @@ fn begin(
         state.start_command(estimate.attitude, time_s)?;
     }
     let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
-    plausibility::report(context, values, flight, given, time_s);
+    plausibility::report(Read::new(context, values), flight, given, time_s);
     let undo = flight.sample_at_start(given, &inputs.dynamics, time_s).map_err(failure)?;
     let report = flight.report(given, &inputs.dynamics, command, time_s).map_err(failure)?;
     outputs::check_report(&report)?;

@@ -17,7 +17,7 @@ use physics::spacecraft::light_suns;
 
 use self::messages::failure;
 use super::inputs::wheels;
-use super::setup::Plan;
+use super::setup::{Plan, Read};
 use crate::common::choices::OrbitCenter;
 use crate::common::loads;
 pub(super) use rates::derivative;
@@ -281,7 +281,7 @@ fn write_polynomial(context: &Plan<'_>, values: &mut Values, report: &Report<'_>
 
 /// Writes the dump threshold that the wheels guarantee, which follows from parameters alone.
 pub(super) fn write_guaranteed(context: &Plan<'_>, values: &mut Values) {
-    let guaranteed_n_m_s = wheels::guaranteed_threshold_n_m_s(context, values);
+    let guaranteed_n_m_s = wheels::guaranteed_threshold_n_m_s(Read::new(context, values));
     values.set_real(context.variables.dump.guaranteed_threshold, guaranteed_n_m_s);
 }
 

@@ -1,9 +1,9 @@
 //! Attitude that guidance commands: by the timeline, else by the orbit phase, and during slews into commands.
 
 use crate::environment::ephemeris::Ephemeris;
-use crate::guidance::constraints::command_slew::{CommandSlew, SlewedFrame};
+use crate::guidance::constraints::command_slew::CommandSlew;
 use crate::guidance::constraints::keep_in::KeepIn;
-use crate::guidance::constraints::slew::Slew;
+use crate::guidance::constraints::slew::{Slew, SlewedFrame};
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::pointing::command::Scenario;
 use crate::guidance::timeline::{
@@ -14,7 +14,8 @@ use crate::guidance::{Activity, Guided, GuidedAttitude, Sight, TargetPlanet, Win
 use super::command_slews::CommandSlews;
 use super::geometry::{self, Geometry, GeometrySight, SimulationEphemeris};
 use super::trajectory::Trajectory;
-use crate::plant::settings::configuration::{AttitudeSource, Configuration};
+use crate::plant::settings::attitude_source::AttitudeSource;
+use crate::plant::settings::configuration::Configuration;
 
 /// Returns the geometry at `time_s`; a law reads motions about `planet` from it as well, or directions alone.
 fn sight(
