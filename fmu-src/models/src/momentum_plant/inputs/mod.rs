@@ -22,7 +22,7 @@ use physics::guidance::SelectedSunDirection;
 use physics::management::Manager;
 use physics::plant::{
     Changes, Configuration, DownlinkForecast, External, ModeSettings, PlantError, PreparedSpacecraft,
-    SimulationContext, SimulationModels, Sources, StepContext, SunPlanner, ThrusterAllocator, Thrusters,
+    SimulationContext, Sources, StepContext, SunPlanner, ThrusterAllocator, Thrusters,
 };
 
 use self::center::Center;
@@ -161,15 +161,12 @@ pub(super) fn configured(
     let acting = Some(&configuration).filter(|_| !state.saved.waiting);
     let air = acting.map(|it| solvers::air(read, it)).transpose()?.flatten();
     let light = acting.map(|it| solvers::light(read, it, &center.surface)).transpose()?.flatten();
-    let models = SimulationModels {
-        ephemeris: Ephemeris::with_cache(&read.setup.ephemeris_cache),
-        solar: Some(reading.prepared.solar.clone()),
-        digest: state.digest(),
-        sources: Sources::new(light, air),
-        ..SimulationModels::default()
-    };
-    let allocator = ThrusterAllocator::new(propulsion::reaction_control(read)?);
-    let simulation = SimulationContext { models, allocator, ..SimulationContext::new(configuration) };
+    let mut simulation = SimulationContext::new(configuration);
+    simulation.models.ephemeris = Ephemeris::with_cache(&read.setup.ephemeris_cache);
+    simulation.models.solar = Some(reading.prepared.solar.clone());
+    simulation.models.digest = state.digest();
+    simulation.models.sources = Sources::new(light, air);
+    simulation.allocator = ThrusterAllocator::new(propulsion::reaction_control(read)?);
     Ok(Reconfigured::Simulation(Box::new(simulation), settings))
 }
 
