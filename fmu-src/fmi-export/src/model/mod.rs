@@ -1,10 +1,11 @@
 //! The model traits: what an author writes, and in which order it is called. They are free of any version of FMI.
 //!
-//! [`Model`] is for every model. [`OutputRates`] and [`Differentiable`] are optional and named in
+//! [`Model`] is for every model. [`OutputRates`], [`Differentiable`] and [`DeferredOutputs`] are optional and named in
 //! [`Model::EXTENSIONS`]; other abilities (continuous states with rates and event indicators) would become another
 //! trait and another field there.
 
 mod about;
+mod deferred;
 mod step;
 
 use serde::{Serialize, de::DeserializeOwned};
@@ -13,6 +14,8 @@ use crate::dependencies::Dependencies;
 use crate::variables::{Elements, Given, Real, Values, Variables};
 
 pub use about::{About, Manual, SetupValue, StartValue};
+pub(crate) use deferred::DeferredFunctions;
+pub use deferred::{DeferredOutputs, OutputGroups};
 pub use step::{InputDerivative, InputsOverTime, Step, StepEnd};
 
 /// A co-simulation model.
@@ -92,7 +95,8 @@ pub trait Model: Sized + 'static {
         start_time_s: f64,
     ) -> Result<Self::State, Failure>;
 
-    /// Advances from `step.start_s` to `step.end_s`, or to an earlier time that it gives back, and writes the outputs there.
+    /// Advances from `step.start_s` to `step.end_s`, or to an earlier time that it gives back, and writes the outputs there, but for
+    /// those of [`DeferredOutputs`].
     ///
     /// After an error the instance is not used further: `state` and `values` may be half written.
     fn step(
@@ -169,12 +173,13 @@ type JacobianVectorProduct<M> = fn(
 pub struct Extensions<M: Model> {
     pub(crate) output_rate: Option<OutputRate<M>>,
     pub(crate) jacobian_vector_product: Option<JacobianVectorProduct<M>>,
+    pub(crate) deferred_outputs: Option<DeferredFunctions<M>>,
 }
 
 impl<M: Model> Extensions<M> {
     /// [`Model`] alone.
     pub const fn none() -> Self {
-        Self { output_rate: None, jacobian_vector_product: None }
+        Self { output_rate: None, jacobian_vector_product: None, deferred_outputs: None }
     }
 
     /// With [`OutputRates`].
@@ -193,6 +198,15 @@ impl<M: Model> Extensions<M> {
         M: Differentiable,
     {
         Self { jacobian_vector_product: Some(M::jacobian_vector_product), ..self }
+    }
+
+    /// With [`DeferredOutputs`].
+    #[must_use]
+    pub const fn deferred_outputs(self) -> Self
+    where
+        M: DeferredOutputs,
+    {
+        Self { deferred_outputs: Some(DeferredFunctions::OF_MODEL), ..self }
     }
 }
 

@@ -106,6 +106,16 @@ impl Values {
         }
     }
 
+    /// Takes over one value.
+    pub(crate) fn copy_value(&mut self, from: &Self, base: BaseType, place: usize) {
+        match base {
+            BaseType::Real => self.reals[place] = from.reals[place],
+            BaseType::Integer => self.integers[place] = from.integers[place],
+            BaseType::Boolean => self.booleans[place] = from.booleans[place],
+            BaseType::String => self.strings[place].clone_from(&from.strings[place]),
+        }
+    }
+
     /// A value as text.
     pub(crate) fn shown(&self, base: BaseType, place: usize) -> String {
         match base {

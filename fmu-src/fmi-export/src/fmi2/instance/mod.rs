@@ -3,6 +3,7 @@
 //! Every function of the standard is admitted by [`Instance::guard`], does its work in a method of its own and hands a
 //! [`Problem`] or nothing to [`Instance::conclude`], which logs, moves the state and gives the status.
 
+mod deferred;
 mod derivatives;
 mod lifecycle;
 pub(crate) mod saved;
@@ -19,6 +20,7 @@ use crate::logger::Logger;
 use crate::prepared::Prepared;
 use crate::runtime::Runtime;
 use crate::variables::{Real, Values};
+use deferred::Deferred;
 use model_description::BaseType;
 use model_description::Status;
 use model_description::call_table::{self, Access, Function, Next, State};
@@ -40,6 +42,7 @@ pub(crate) struct Instance {
     pub(crate) state: InstanceState,
     pub(super) runtime: Box<dyn Runtime>,
     pub(super) access: AccessTable,
+    deferred: Deferred,
     pub(super) start: Arc<Values>,
     pub(super) digest: uuid::Uuid,
     pub(super) logger: Logger,
@@ -65,6 +68,7 @@ impl Instance {
         let access = AccessTable::new(&description);
         let mut state = InstanceState::new(&start);
         state.input_derivatives.reserve(access.real_limits.len());
+        let deferred = Deferred::new(&runtime.output_groups(), &access);
         Self {
             spare: Values::clone(&start),
             directions: Default::default(),
@@ -73,6 +77,7 @@ impl Instance {
             state,
             runtime,
             access,
+            deferred,
             start,
             digest,
             logger,
@@ -155,14 +160,16 @@ impl Instance {
 
     /// Refuses values that are no finite numbers: nothing is answered under OK that a master cannot continue with.
     pub(super) fn check_finite(&self, initially: bool) -> Result<(), Problem> {
-        match self.access.first_not_finite(&self.state.values) {
-            None => Ok(()),
-            Some((reference, value)) => Err(self.not_finite(reference, value, initially)),
-        }
+        let values = &self.state.values;
+        let found = match initially {
+            true => self.access.first_not_finite(values),
+            false => self.deferred.first_not_finite(&self.access, values),
+        };
+        found.map_or(Ok(()), |(reference, value)| Err(self.not_finite(reference, value, initially)))
     }
 
     #[cold]
-    fn not_finite(&self, reference: u32, value: f64, initially: bool) -> Problem {
+    pub(super) fn not_finite(&self, reference: u32, value: f64, initially: bool) -> Problem {
         let name = self.access.named(BaseType::Real, reference);
         let dependencies = self.access.dependencies(reference, initially).unwrap_or_default();
         let shown = |at: &u32| Some(format!("{} = {}", self.access.any_name(*at)?, self.shown(*at)?));

@@ -35,8 +35,10 @@ impl Instance {
         }
         // An input whose derivatives are 0 stays where it is.
         self.state.input_derivatives.retain(|derivative| derivative.value != 0.0);
+        self.deferred.mark_none();
         let terminate = self.advance(start_s, end_s)?;
         self.check_finite(false)?;
+        self.deferred.mark_all();
         let state = &mut self.state;
         state.derivatives_ended = !state.input_derivatives.is_empty();
         state.input_derivatives.clear();
