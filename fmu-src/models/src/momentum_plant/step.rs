@@ -2,7 +2,7 @@
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use physics::environment::ephemeris::Ephemeris;
-use physics::plant::{NEVER_DUMPED_N_M_S, SimulationContext, ThrusterAllocator, Undo};
+use physics::plant::{NEVER_DUMPED_N_M_S, SimulationContext, StepContext, ThrusterAllocator, Undo};
 
 use super::inputs::{self, FixedParameters, Reading, guidance, plausibility, propulsion};
 use super::outputs;
@@ -104,9 +104,9 @@ fn begin(
     }
     report_dumps(context, state, time_s);
     let (external, planner) = (reading.external(), reading.planner());
-    let given = reading.given(&external, &planner);
-    let log = &mut |event: &_| log_event(context, event);
-    state.flight.begin(given, &state.command, time_s, log).map_err(failure)?;
+    let log = |event: &_| log_event(context, event);
+    let given = StepContext { log: &log, ..reading.given(&external, &planner) };
+    state.flight.begin(given, &state.command, time_s).map_err(failure)?;
     if let Some(estimate) = state.flight.estimate_at(time_s) {
         state.start_command(estimate.attitude, time_s)?;
     }
@@ -173,9 +173,9 @@ fn advance(
     inputs.dynamics.maneuver = maneuver_request.rises(is_requested).then_some(maneuver);
     propulsion::drop_empty_maneuver(context, &mut inputs.dynamics, step.start_s);
     let (external, planner) = (reading.external(), reading.planner());
-    let given = reading.given(&external, &planner);
-    let log = &mut |event: &_| log_event(context, event);
-    flight.advance(given, &inputs.dynamics, [step.start_s, step.end_s], log).map_err(failure)
+    let log = |event: &_| log_event(context, event);
+    let given = StepContext { log: &log, ..reading.given(&external, &planner) };
+    flight.advance(given, &inputs.dynamics, [step.start_s, step.end_s]).map_err(failure)
 }
 
 /// Writes every output at `time_s`.

@@ -15,10 +15,10 @@
 //! How far ahead is computed is `RadiationSettings::grid_s`: about the time between two samples wastes nothing.
 
 mod air_and_field;
+mod control;
 mod disturbances;
 mod flight;
 mod light;
-mod mass;
 mod motion;
 mod settings;
 mod state;
@@ -31,13 +31,8 @@ pub use disturbances::evaluation::{Evaluation, External, Plant};
 pub use disturbances::laws::LocalEnvironment;
 pub use disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
 pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
-pub use flight::ideal::Maneuvers;
 pub use flight::report::{ControlReport, EncounterReport, FlightSummary, Report, WheelReport};
-pub use flight::wheel_control::WheelControl;
-pub use flight::{
-    Changes, EncounterPrediction, Flight, ForecastMomentum, ModeSettings, Occultation, PredictedArrival,
-    StepContext, Undo,
-};
+pub use flight::{Changes, Flight, ForecastMomentum, ModeSettings, Occultation, StepContext, Undo};
 pub use light::radiation_segment::RadiationSegment;
 pub use light::radiation_solver::RadiationSolver;
 pub use light::sunlit::SunlitConfiguration;
@@ -70,6 +65,8 @@ pub use settings::reaction_control_settings::{ReactionControlSettings, ThrustCom
 pub use settings::thruster_events::{Maneuver, ThrusterEvent, ThrusterEventSettings};
 pub use settings::wheel_control_settings::WheelControlSettings;
 pub use settings::work::{Work, WorkExceeded};
+pub use state::encounter_prediction::{EncounterPrediction, PredictedArrival};
+pub use state::ideal_state::Maneuvers;
 pub use state::propagator_state::PropagatorState;
 pub use state::sun_choice::SunDirectionSelection;
 pub use thrusters::allocation::{ThrusterAllocator, UnservedDumps};

@@ -95,7 +95,7 @@ impl Reading<'_> {
         external: &'r External<'r>,
         planner: &'r SunPlanner<'r>,
     ) -> StepContext<'r> {
-        StepContext { prepared: self.prepared, external, planner, work_limit: self.work_limit }
+        StepContext { prepared: self.prepared, external, planner, work_limit: self.work_limit, log: &|_| {} }
     }
 }
 

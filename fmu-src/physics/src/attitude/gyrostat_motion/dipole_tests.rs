@@ -84,7 +84,7 @@ fn a_field_that_grows_turns_the_body_by_as_much() {
     motion.advance(&spacecraft, &[], &load, 2.0);
     let found = motion.at(&spacecraft, 2.0);
     assert_relative_eq!(found.rate_body_rad_s.z, dipole * grown * 2.0 / INERTIA[2], max_relative = 1e-12);
-    let impulse = motion.magnetic_impulse_inertial_n_m_s(2.0).unwrap();
+    let impulse = motion.magnetic_impulse_inertial_n_m_s(&motion.evaluated_at(&spacecraft, 2.0)).unwrap();
     assert_relative_eq!(impulse.z, dipole * grown * 2.0, max_relative = 1e-12);
     assert_relative_eq!(impulse, found.momentum_inertial_n_m_s, epsilon = 1e-25);
 }

@@ -9,13 +9,13 @@ use crate::momentum::{TorqueModel, Totals};
 
 use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 use crate::momentum::WorkKind;
-use crate::plant::disturbances::disturbance_interval::DisturbanceInterval;
 use crate::plant::disturbances::evaluation::{External, Plant};
 use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
 use crate::plant::settings::configuration::{AttitudeSource, Command, DynamicAttitude};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::reaction_control_settings::ThrustCommand;
 use crate::plant::settings::thruster_events::ThrusterEvent;
+use crate::plant::state::disturbance_interval::DisturbanceInterval;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::MassProperties;
@@ -50,6 +50,8 @@ pub struct StepContext<'a> {
     pub planner: &'a SunPlanner<'a>,
     /// Units of about a microsecond that a step may take.
     pub work_limit: u32,
+    /// Receives dumps and maneuvers.
+    pub log: &'a dyn Fn(&ThrusterEvent),
 }
 
 /// A flight in one step: everything that its loads follow from.
@@ -58,8 +60,6 @@ pub(crate) struct ConfiguredFlight<'a> {
     pub context: &'a mut SimulationContext,
     pub propagator: &'a mut PropagatorState,
     pub thrusters: &'a mut Thrusters,
-    /// Receives dumps and maneuvers.
-    pub log: &'a mut dyn FnMut(&ThrusterEvent),
 }
 
 /// Start of a downlink, or of science that unloads, for which the Sun's direction is selected.

@@ -41,8 +41,7 @@ struct PanelTurn {
     rate_rad_s: f64,
     /// In rad/s2.
     acceleration_rad_s2: f64,
-    /// How far it goes at once, in rad; nothing but memory.
-    #[serde(skip)]
+    /// How far it went at once at the start of the interval, in rad.
     travel_rad: f64,
 }
 
