@@ -126,9 +126,8 @@ impl<M: Model> Runtime for Typed<M> {
         time_s: f64,
         log: &dyn Log,
     ) -> Result<(), Failure> {
-        let Some(deferred) = M::EXTENSIONS.deferred_outputs else { return Ok(()) };
         let (context, state) = self.parts(values, log)?;
-        (deferred.write)(&context, values, state, groups, time_s)
+        M::EXTENSIONS.write_outputs(&context, values, state, groups, time_s)
     }
 
     fn output_rate(&self, values: &Values, output: Real, log: &dyn Log) -> Result<f64, Failure> {

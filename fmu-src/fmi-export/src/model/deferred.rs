@@ -29,13 +29,10 @@ pub struct OutputGroups(u32);
 impl OutputGroups {
     /// The greatest number of groups.
     pub const MOST: usize = u32::BITS as usize;
+    /// Every group.
+    pub const ALL: Self = Self(u32::MAX);
     /// No group.
     pub(crate) const NONE: Self = Self(0);
-
-    /// The first `count` groups, 0 to [`OutputGroups::MOST`].
-    pub fn first(count: usize) -> Self {
-        (0..count).fold(Self::NONE, |all, group| all.and(Self::only(group)))
-    }
 
     /// One group.
     pub(crate) fn only(group: usize) -> Self {
@@ -63,7 +60,7 @@ impl OutputGroups {
     }
 
     /// Whether it has none.
-    pub fn is_empty(self) -> bool {
+    pub(crate) fn is_empty(self) -> bool {
         self.0 == 0
     }
 }

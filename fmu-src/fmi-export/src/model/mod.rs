@@ -200,6 +200,18 @@ impl<M: Model> Extensions<M> {
         Self { jacobian_vector_product: Some(M::jacobian_vector_product), ..self }
     }
 
+    /// Writes deferred outputs of these groups, if the model has any.
+    pub fn write_outputs(
+        &self,
+        context: &Context<'_, M>,
+        values: &mut Values,
+        state: &mut M::State,
+        groups: OutputGroups,
+        time_s: f64,
+    ) -> Result<(), Failure> {
+        self.deferred_outputs.as_ref().map_or(Ok(()), |it| (it.write)(context, values, state, groups, time_s))
+    }
+
     /// With [`DeferredOutputs`].
     #[must_use]
     pub const fn deferred_outputs(self) -> Self

@@ -31,7 +31,7 @@ pub use disturbances::evaluation::{Evaluation, External, Plant};
 pub use disturbances::laws::LocalEnvironment;
 pub use disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
 pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
-pub use flight::report::{ControlReport, EncounterReport, FlightSummary, Report, WheelReport};
+pub use flight::report::{ControlReport, EncounterReport, FlightSummary, ReachedState, Report, WheelReport};
 pub use flight::{Changes, Flight, ForecastMomentum, ModeSettings, Occultation, StepContext, Undo};
 pub use light::radiation_segment::RadiationSegment;
 pub use light::radiation_solver::RadiationSolver;

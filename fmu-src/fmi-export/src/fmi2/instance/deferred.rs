@@ -51,7 +51,7 @@ impl Deferred {
             of_step: of_step.map(|(place, _)| place).collect(),
             by_place,
             reals,
-            all: OutputGroups::first(groups.len()),
+            all: if groups.is_empty() { OutputGroups::NONE } else { OutputGroups::ALL },
             pending: OutputGroups::NONE,
         }
     }

@@ -13,13 +13,13 @@ mod values;
 
 use std::sync::Arc;
 
-use crate::fmi2::access::AccessTable;
+use crate::fmi2::access::{AccessTable, INPUT, SET_STEP};
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
 use crate::logger::Logger;
 use crate::prepared::Prepared;
 use crate::runtime::Runtime;
-use crate::variables::{Real, Values};
+use crate::variables::{Element, Real, SetBits, Values};
 use deferred::Deferred;
 use model_description::BaseType;
 use model_description::Status;
@@ -43,6 +43,8 @@ pub(crate) struct Instance {
     pub(super) runtime: Box<dyn Runtime>,
     pub(super) access: AccessTable,
     deferred: Deferred,
+    /// Places of the tunable parameters.
+    tunable: [SetBits; Element::TABLES],
     pub(super) start: Arc<Values>,
     pub(super) digest: uuid::Uuid,
     pub(super) logger: Logger,
@@ -68,6 +70,8 @@ impl Instance {
         let access = AccessTable::new(&description);
         let mut state = InstanceState::new(&start);
         state.input_derivatives.reserve(access.real_limits.len());
+        let is_tunable = |flags: &u16| flags & (SET_STEP | INPUT) == SET_STEP;
+        let tunable = BaseType::ALL.map(|base| SetBits::new(access.flags(base).iter().map(is_tunable)));
         let deferred = Deferred::new(&runtime.output_groups(), &access);
         Self {
             spare: Values::clone(&start),
@@ -78,6 +82,7 @@ impl Instance {
             runtime,
             access,
             deferred,
+            tunable,
             start,
             digest,
             logger,

@@ -44,7 +44,7 @@ use dynamic::Dynamic;
 use encounter_prediction::predict_encounter;
 use ideal::Ideal;
 use in_flight::InFlight;
-use report::Report;
+use report::{ReachedState, Report};
 
 /// A flight: its state, and apart from it settings and caches, which are not saved.
 #[derive(Clone, Debug, Deserialize)]
@@ -150,6 +150,11 @@ impl Flight {
             Mode::Dynamic(dynamics) => others_body_n_m + dynamics.dumps.torque_body_n_m(),
             Mode::Waiting | Mode::Ideal(_) => *others_body_n_m,
         }
+    }
+
+    /// Thrusters and tanks.
+    pub fn thrusters(&self) -> &Thrusters {
+        &self.state.thrusters
     }
 
     /// Direction of the Sun during downlinks.
@@ -383,20 +388,36 @@ impl Flight {
         (self.state.mode, self.state.thrusters, self.state.prediction) = (mode, thrusters, prediction);
     }
 
-    /// Everything at `time_s`, where the flight has come; one that waits holds the attitude of `held`, and the momentum of its
+    /// Evaluates geometry, attitude and loads at `time_s`, where the flight has come; one that waits holds the attitude of `held`.
+    ///
+    /// # Errors
+    /// A state that belongs to another mode than the settings.
+    pub fn evaluate(
+        &mut self,
+        given: StepContext<'_>,
+        inputs: &DynamicsInputs,
+        held: &Command,
+        time_s: f64,
+    ) -> Result<ReachedState, PlantError> {
+        let (mut in_flight, evaluation) = self.in_flight(given, inputs)?;
+        Ok(in_flight.evaluate(held, evaluation, time_s))
+    }
+
+    /// Everything at `time_s`, where the flight was evaluated last; one that waits has the attitude of `held`, and the momentum of its
     /// start.
     ///
     /// # Errors
     /// A state that belongs to another mode than the settings.
     pub fn report<'a>(
         &'a mut self,
-        given: StepContext<'a>,
+        prepared: PreparedSpacecraft<'a>,
         inputs: &'a DynamicsInputs,
         held: &Command,
         time_s: f64,
     ) -> Result<Report<'a>, PlantError> {
         let prediction = self.state.prediction;
-        let (in_flight, evaluation) = self.in_flight(given, inputs)?;
+        let (in_flight, evaluation) = self.in_flight(StepContext::at_rest(prepared), inputs)?;
+        let evaluation = evaluation.as_ref().ok_or(PlantError::OtherMode)?;
         Ok(in_flight.report(held, evaluation, prediction, time_s))
     }
 
