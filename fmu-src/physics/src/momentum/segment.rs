@@ -5,10 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::{Attitude, Quaternion};
 use crate::loads::{ByEffect, Effect};
-use crate::numerics::adaptive::AdaptiveInterval;
+use crate::numerics::adaptive::{AdaptiveInterval, Attempt, SegmentSpan};
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::events::first_event;
-use crate::numerics::or_infinite;
 
 use super::by_source::{SourceMomenta, SourceSegments, rate};
 use super::dump::DumpPolicy;
@@ -46,14 +45,10 @@ pub struct Settings {
 /// One interval without events.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct MomentumSegment {
-    start_s: f64,
-    end_s: f64,
+    span: SegmentSpan,
     at_start: Totals,
     /// Attitude at the start, the sign of its quaternion continuing from segment to segment.
     attitude_at_start: Quaternion,
-    /// Length the tolerance will probably allow the next segment, in s.
-    #[serde(with = "or_infinite")]
-    next_longest_s: f64,
     /// Absent for a segment without length.
     totals: Option<Segment<RATES, { NODES + 1 }>>,
     by_source_at_start: SourceMomenta,
@@ -73,11 +68,9 @@ impl MomentumSegment {
     /// A segment without length at `time_s`.
     pub(super) fn point(time_s: f64, attitude: Quaternion, totals: Totals, by_source: SourceMomenta) -> Self {
         Self {
-            start_s: time_s,
-            end_s: time_s,
+            span: SegmentSpan { start_s: time_s, end_s: time_s, next_longest_s: f64::INFINITY },
             at_start: totals,
             attitude_at_start: attitude,
-            next_longest_s: f64::INFINITY,
             by_source_at_start: by_source,
             ..Self::default()
         }
@@ -85,20 +78,27 @@ impl MomentumSegment {
 
     /// Rejects decoded states that no simulation can produce.
     pub(super) fn is_valid(&self) -> bool {
-        self.next_longest_s > 0.0
+        self.span.is_valid()
+            && !self.span.is_before()
             && self.fastest_rad_s >= 0.0
             && Attitude::from_unit(self.attitude_at_start).is_rotation()
-            && self.totals.as_ref().is_none_or(|it| it.is_valid() && it.spans(self.start_s, self.end_s))
-            && self.by_source.present().all(|(_, it)| it.is_valid() && it.spans(self.start_s, self.end_s))
+            && self
+                .totals
+                .as_ref()
+                .is_none_or(|it| it.is_valid() && it.spans(self.span.start_s, self.span.end_s))
+            && self
+                .by_source
+                .present()
+                .all(|(_, it)| it.is_valid() && it.spans(self.span.start_s, self.span.end_s))
             && [&self.rate_body_rad_s, &self.structure_body_n_m_s]
                 .into_iter()
                 .flatten()
-                .all(|it| it.is_valid() && it.spans(self.start_s, self.end_s))
+                .all(|it| it.is_valid() && it.spans(self.span.start_s, self.span.end_s))
     }
 
     /// The same, expecting that the tolerance allows the next segment this length, in s.
     pub(super) fn expecting(self, next_longest_s: f64) -> Self {
-        Self { next_longest_s, ..self }
+        Self { span: SegmentSpan { next_longest_s, ..self.span }, ..self }
     }
 
     /// Becomes the next segment, with this attitude and these totals at its start. It ends at the next multiple of the grid step or sooner: at
@@ -115,14 +115,15 @@ impl MomentumSegment {
         horizon_s: f64,
         (attitude_at_start, at_start, by_source_at_start): (Quaternion, Totals, SourceMomenta),
     ) -> Result<(), F::Failure> {
-        let (start_s, longest_s) = (self.end_s, self.next_longest_s);
+        let (start_s, longest_s) = (self.span.end_s, self.span.next_longest_s);
         flight.spend(WorkKind::Segment, start_s)?;
-        let mut interval = AdaptiveInterval::new(start_s, settings.grid_s, longest_s, horizon_s, SHORTEST_S);
+        let interval = AdaptiveInterval::new(start_s, settings.grid_s, longest_s, horizon_s, SHORTEST_S);
         let mut watched = false;
-        // Declared outside: a loop copies the arrays that it returns.
-        let mut samples = [TorqueSample::default(); NODES];
-        let (mut nodes, mut totals, mut structure_body_n_m_s);
-        let next_longest_s = loop {
+        let (mut samples, mut nodes) = ([TorqueSample::default(); NODES], [0.0; NODES]);
+        let ((totals, structure_body_n_m_s), span) = interval.fit::<_, F::Failure>(NODES, |interval| {
+            if interval.is_refinement() {
+                flight.spend(WorkKind::Refinement, start_s)?;
+            }
             let end_s = interval.end_s();
             nodes = Segment::<RATES, NODES>::nodes(start_s, end_s);
             samples.iter_mut().zip(nodes).for_each(|(sample, at_s)| *sample = flight.sample(at_s));
@@ -135,17 +136,16 @@ impl MomentumSegment {
                     first_event([after_s, start_s, end_s], rounding_s, &values, |at_s| flight.events(at_s));
                 if let Some(event_s) = event_s {
                     flight.spend(WorkKind::Search, start_s)?;
-                    interval.end_at(event_s);
-                    continue;
+                    return Ok(Attempt::Event(event_s));
                 }
             }
             let rates = samples.each_ref().map(|s| {
                 let torque_inertial_n_m = s.inertial_from_body * s.torque_body_n_m;
                 pack(torque_inertial_n_m, s.torque_body_n_m, s.acceleration_inertial_m_s2)
             });
-            totals = Segment::<RATES, NODES>::from_samples(start_s, end_s, &rates)
+            let totals = Segment::<RATES, NODES>::from_samples(start_s, end_s, &rates)
                 .integral::<{ NODES + 1 }>(at_start.to_vector());
-            structure_body_n_m_s = samples[0].structure_body_n_m_s.map(|_| {
+            let structure_body_n_m_s = samples[0].structure_body_n_m_s.map(|_| {
                 let momenta = samples.each_ref().map(|s| s.structure_body_n_m_s.unwrap_or_default());
                 Segment::<3, NODES>::from_samples(start_s, end_s, &momenta)
             });
@@ -157,16 +157,12 @@ impl MomentumSegment {
                 let share = structure.largest_term(NODES - 2) / structure.largest_term(0);
                 unresolved = unresolved.max(share / STRUCTURE_TOLERANCE * tolerance);
             }
-            if let Some(next_longest_s) = interval.accept(unresolved, tolerance, NODES) {
-                break next_longest_s;
-            }
-            flight.spend(WorkKind::Refinement, start_s)?;
-        };
-        let end_s = interval.end_s();
+            Ok(Attempt::Fitted { fit: (totals, structure_body_n_m_s), unresolved, tolerance })
+        })?;
+        let end_s = span.end_s;
         let rate_body_rad_s =
             Segment::from_samples(start_s, end_s, &samples.each_ref().map(|s| s.rate_body_rad_s));
-        (self.start_s, self.end_s, self.next_longest_s) = (start_s, end_s, next_longest_s);
-        (self.at_start, self.totals) = (at_start, Some(totals));
+        (self.span, self.at_start, self.totals) = (span, at_start, Some(totals));
         (self.attitude_at_start, self.by_source_at_start) = (attitude_at_start, by_source_at_start);
         self.fastest_rad_s = rate_body_rad_s.coefficients().column_iter().map(|term| term.norm()).sum();
         (self.rate_body_rad_s, self.structure_body_n_m_s) = (Some(rate_body_rad_s), structure_body_n_m_s);
@@ -183,30 +179,30 @@ impl MomentumSegment {
             });
         }
         if let Some(excess) = self.first_excess(flight, settings, &nodes, &samples) {
-            (self.end_s, self.at_threshold) = (excess.time_s, excess.components);
+            (self.span.end_s, self.at_threshold) = (excess.time_s, excess.components);
         }
         Ok(())
     }
 
     /// Start, in s.
     pub(super) fn start_s(&self) -> f64 {
-        self.start_s
+        self.span.start_s
     }
 
     /// End, in s.
     pub(super) fn end_s(&self) -> f64 {
-        self.end_s
+        self.span.end_s
     }
 
     /// Length the tolerance will probably allow the next segment, in s.
     pub(super) fn next_longest_s(&self) -> f64 {
-        self.next_longest_s
+        self.span.next_longest_s
     }
 
     /// Totals at a time inside the segment.
     pub(super) fn totals(&self, time_s: f64) -> Totals {
         match &self.totals {
-            Some(totals) if time_s > self.start_s => Totals::from_vector(&totals.value(time_s)),
+            Some(totals) if time_s > self.span.start_s => Totals::from_vector(&totals.value(time_s)),
             _ => self.at_start,
         }
     }
@@ -214,7 +210,7 @@ impl MomentumSegment {
     /// Change of momentum by each effect since the last dump, at a time inside the segment.
     pub(super) fn by_source(&self, time_s: f64) -> SourceMomenta {
         SourceMomenta(ByEffect::from_fn(|effect| match &self.by_source[effect] {
-            Some(momentum) if time_s > self.start_s => momentum.value(time_s),
+            Some(momentum) if time_s > self.span.start_s => momentum.value(time_s),
             _ => self.by_source_at_start.0[effect],
         }))
     }
@@ -222,21 +218,21 @@ impl MomentumSegment {
     /// Quaternion inside the segment whose sign is that of the motion at `time_s`: the one at the start, until the body may have
     /// turned far.
     pub(super) fn sign_reference(&self, time_s: f64) -> Quaternion {
-        let turned_rad = self.fastest_rad_s * (time_s - self.start_s);
+        let turned_rad = self.fastest_rad_s * (time_s - self.span.start_s);
         if turned_rad < STEP_RAD { self.attitude_at_start } else { self.attitude(time_s) }
     }
 
     /// Attitude at a time inside the segment by the body rate since its start, whose sign is that of the motion, be the turn a whole
     /// one or more.
     pub(super) fn attitude(&self, time_s: f64) -> Quaternion {
-        let span_s = time_s - self.start_s;
+        let span_s = time_s - self.span.start_s;
         let Some(rate) = self.rate_body_rad_s.as_ref().filter(|_| span_s > 0.0) else {
             return self.attitude_at_start;
         };
         let steps = (self.fastest_rad_s * span_s / STEP_RAD).ceil().clamp(1.0, MOST_STEPS);
         let step_s = span_s / steps;
         (0..steps as u32).fold(self.attitude_at_start, |attitude, step| {
-            let rate_body_rad_s = rate.value(self.start_s + (f64::from(step) + 0.5) * step_s);
+            let rate_body_rad_s = rate.value(self.span.start_s + (f64::from(step) + 0.5) * step_s);
             attitude.after(Quaternion::by_vector(&(rate_body_rad_s * step_s)))
         })
     }
@@ -285,7 +281,7 @@ impl MomentumSegment {
         if most_n_m_s.is_nan() || most_n_m_s < settings.policy.threshold_body_n_m_s.min() {
             return None;
         }
-        let (start_s, end_s) = (self.start_s, self.end_s);
+        let (start_s, end_s) = (self.span.start_s, self.span.end_s);
         let watched = Watched { start_s, end_s, rounding_s: flight.time_rounding_s(end_s), rate_rad_s };
         let momentum_at = |at_s: f64| Totals::from_vector(&totals.value(at_s));
         let at_nodes: [Vector3<f64>; NODES] = core::array::from_fn(|j| {

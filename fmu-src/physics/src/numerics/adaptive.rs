@@ -20,7 +20,27 @@ use crate::math;
 /// Fraction of the length that the estimate allows which is used.
 const SAFETY: f64 = 0.9;
 
-/// The segment that is being fitted: where it begins and where this attempt ends.
+/// Outcome of an attempt to fit a function over an interval.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Attempt<T, E> {
+    /// Fit to be judged.
+    Fitted {
+        /// The fit.
+        fit: T,
+        /// Error measure.
+        unresolved: f64,
+        /// Largest error measure that is accepted.
+        tolerance: f64,
+    },
+    /// Fit over an interval so short that its error measure says nothing of the length the tolerance allows.
+    Short(T),
+    /// An event inside the interval, s, at which the segment has to end.
+    Event(f64),
+    /// Reason why the function has no value somewhere in the interval.
+    Undefined(E),
+}
+
+/// Interval of the segment that is being fitted, from its start to the end of the present attempt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdaptiveInterval {
     start_s: f64,
@@ -40,11 +60,6 @@ impl AdaptiveInterval {
         Self { start_s, end_s, longest_s, shortest_s, shortened: false }
     }
 
-    /// Start of the segment, in s.
-    pub fn start_s(&self) -> f64 {
-        self.start_s
-    }
-
     /// End of this attempt, in s.
     pub fn end_s(&self) -> f64 {
         self.end_s
@@ -55,8 +70,43 @@ impl AdaptiveInterval {
         self.end_s = end_s;
     }
 
+    /// Tells whether an attempt failed and this one is shorter.
+    pub fn is_refinement(&self) -> bool {
+        self.shortened
+    }
+
+    /// Fits a segment of `terms` terms: repeats `attempt`, on a shorter interval each time, until the error measure is within
+    /// the tolerance or the interval is the shortest. Returns the fit and its span.
+    ///
+    /// # Errors
+    /// Any error of `attempt`; the reason why the function has no value on the shortest interval.
+    pub fn fit<T, E>(
+        mut self,
+        terms: usize,
+        mut attempt: impl FnMut(&Self) -> Result<Attempt<T, E>, E>,
+    ) -> Result<(T, SegmentSpan), E> {
+        loop {
+            let (fit, next_longest_s) = match attempt(&self)? {
+                Attempt::Fitted { fit, unresolved, tolerance } => {
+                    match self.accept(unresolved, tolerance, terms) {
+                        Some(next_longest_s) => (fit, next_longest_s),
+                        None => continue,
+                    }
+                }
+                Attempt::Short(fit) => (fit, f64::INFINITY),
+                Attempt::Event(end_s) => {
+                    self.end_at(end_s);
+                    continue;
+                }
+                Attempt::Undefined(_) if self.halve() => continue,
+                Attempt::Undefined(error) => return Err(error),
+            };
+            return Ok((fit, SegmentSpan { start_s: self.start_s, end_s: self.end_s, next_longest_s }));
+        }
+    }
+
     /// Halves the length, the function having no value somewhere; `false` where it is the shortest already.
-    pub fn halve(&mut self) -> bool {
+    fn halve(&mut self) -> bool {
         let length_s = self.end_s - self.start_s;
         if length_s <= self.shortest_s {
             return false;
@@ -68,7 +118,7 @@ impl AdaptiveInterval {
 
     /// Judges an attempt of `terms` terms whose last ones come to `unresolved`: the length to try the next segment at, in
     /// s, if it is accepted; otherwise this one is now shorter.
-    pub fn accept(&mut self, unresolved: f64, tolerance: f64, terms: usize) -> Option<f64> {
+    fn accept(&mut self, unresolved: f64, tolerance: f64, terms: usize) -> Option<f64> {
         let length_s = self.end_s - self.start_s;
         let growth = SAFETY * math::powf(tolerance / unresolved, 1.0 / terms as f64);
         let shorter_s = self.start_s + length_s * growth.clamp(0.1, 0.7);

@@ -1,4 +1,6 @@
 //! A function is resolved to the tolerance in a few attempts, and what cannot be resolved ends them.
+use core::convert::Infallible;
+
 use nalgebra::Vector1;
 
 use super::*;
@@ -13,16 +15,17 @@ fn fitted(
     tolerance: f64,
     function: impl Fn(f64) -> f64,
 ) -> (Segment<1, TERMS>, f64, u32) {
-    let mut interval = AdaptiveInterval::new(start_s, 600.0, longest_s, f64::INFINITY, 1e-3);
-    for attempts in 1.. {
-        let series = Segment::<1, TERMS>::fit(start_s, interval.end_s(), |at_s| Vector1::new(function(at_s)));
-        let terms = series.coefficients();
+    let interval = AdaptiveInterval::new(start_s, 600.0, longest_s, f64::INFINITY, 1e-3);
+    let mut attempts = 0;
+    let fitted = interval.fit(TERMS, |interval| {
+        attempts += 1;
+        let fit = Segment::<1, TERMS>::fit(start_s, interval.end_s(), |at_s| Vector1::new(function(at_s)));
+        let terms = fit.coefficients();
         let unresolved = terms[TERMS - 1].abs().max(terms[TERMS - 2].abs());
-        if let Some(next_s) = interval.accept(unresolved, tolerance, TERMS) {
-            return (series, next_s, attempts);
-        }
-    }
-    unreachable!("an interval gets shorter for ever")
+        Ok::<_, Infallible>(Attempt::Fitted { fit, unresolved, tolerance })
+    });
+    let Ok((series, span)) = fitted;
+    (series, span.next_longest_s, attempts)
 }
 
 #[test]
@@ -71,8 +74,23 @@ fn it_ends_at_the_grid_the_limit_or_an_event_and_is_never_empty() {
     assert_eq!(AdaptiveInterval::new(10.0, 600.0, 20.0, f64::INFINITY, 1.0).end_s(), 30.0);
     assert_eq!(AdaptiveInterval::new(10.0, 600.0, 20.0, 15.0, 1.0).end_s(), 15.0);
     assert_eq!(AdaptiveInterval::new(10.0, 600.0, 0.0, 5.0, 1.0).end_s(), 10.0_f64.next_up());
-    let mut interval = AdaptiveInterval::new(0.0, 600.0, 8.0, 600.0, 3.0);
-    interval.end_at(4.0);
-    assert!(interval.halve() && !interval.halve());
-    assert_eq!((interval.start_s(), interval.end_s()), (0.0, 2.0));
+    let interval = AdaptiveInterval::new(0.0, 600.0, 8.0, 600.0, 3.0);
+    let mut ends_s = Vec::new();
+    let refused = interval.fit(TERMS, |interval| {
+        ends_s.push((interval.end_s(), interval.is_refinement()));
+        Ok::<Attempt<(), _>, _>(if ends_s.len() == 1 {
+            Attempt::Event(4.0)
+        } else {
+            Attempt::Undefined("no value")
+        })
+    });
+    assert_eq!(refused, Err("no value"));
+    assert_eq!(ends_s, [(8.0, false), (4.0, false), (2.0, true)]);
+}
+
+#[test]
+fn an_interval_too_short_to_be_judged_leaves_the_next_one_free() {
+    let interval = AdaptiveInterval::new(0.0, 600.0, 8.0, 600.0, 3.0);
+    let span = SegmentSpan { start_s: 0.0, end_s: 8.0, next_longest_s: f64::INFINITY };
+    assert_eq!(interval.fit(TERMS, |_| Ok::<_, Infallible>(Attempt::Short(()))), Ok(((), span)));
 }

@@ -10,7 +10,7 @@ use crate::environment::utc::next_midnight_s;
 use crate::math;
 use crate::momentum::WorkKind;
 use crate::momentum::after_event_s;
-use crate::numerics::adaptive::{AdaptiveInterval, SegmentSpan};
+use crate::numerics::adaptive::{AdaptiveInterval, Attempt};
 use crate::numerics::events::first_event;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::settings::air_and_field_settings::{
@@ -92,24 +92,19 @@ impl AirAndFieldBuilder<'_, '_> {
         let equator =
             self.figure.orientation.equator(start_s + self.kinematics.configuration.epoch_minus_time_s);
         interval.end_at(self.smooth_until(&equator, start_s, interval.end_s()));
-        loop {
+        let (series, span) = interval.fit(NODES, |interval| {
             self.spend(start_s)?;
-            let fitted = self.fit(&equator, start_s, interval.end_s());
-            match fitted {
-                Ok((series, unresolved)) => {
-                    if let Some(next_s) = interval.accept(unresolved, self.settings.tolerance, NODES) {
-                        let end_s = interval.end_s();
-                        let span = SegmentSpan { start_s, end_s, next_longest_s: next_s };
-                        let made_for = Some((self.settings, self.figure));
-                        *segment = AirAndFieldSegment { span, made_for, ..series };
-                        return Ok(());
-                    }
+            Ok(match self.fit(&equator, start_s, interval.end_s()) {
+                Ok((fit, unresolved)) => {
+                    Attempt::Fitted { fit, unresolved, tolerance: self.settings.tolerance }
                 }
                 // The simulation may end before the spacecraft leaves the model's range.
-                Err(error) if !interval.halve() => return Err(error),
-                Err(_) => {}
-            }
-        }
+                Err(error) => Attempt::Undefined(error),
+            })
+        })?;
+        let made_for = Some((self.settings, self.figure));
+        *segment = AirAndFieldSegment { span, made_for, ..series };
+        Ok(())
     }
 
     fn spend(&mut self, start_s: f64) -> Result<(), PlantError> {

@@ -22,7 +22,7 @@ use crate::loads::{Active, ByEffect};
 use crate::math;
 use crate::momentum::TorqueModel;
 use crate::momentum::WorkKind;
-use crate::numerics::adaptive::AdaptiveInterval;
+use crate::numerics::adaptive::{AdaptiveInterval, Attempt};
 use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::quadrature::GAUSS_2;
 
@@ -65,38 +65,32 @@ pub(crate) fn next_interval(
     };
     let rate_rad_s = begin.frame.rate_body_rad_s.norm();
     let turning_rad_s = rate_rad_s + orbital_rate_rad_s(&begin.geometry.spacecraft);
-    let longest_s = last.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s);
+    let longest_s = last.span.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s);
     let shortest_s = (SHORTEST_TURN_RAD / turning_rad_s).min(SHORTEST_SHARE * grid_s);
     let configuration = plant.kinematics.configuration;
     let (active, tolerance) = (configuration.effects, configuration.light_and_heat.tolerance);
-    let mut interval = AdaptiveInterval::new(start_s, grid_s, longest_s, limit_s, shortest_s);
-    let mut next_longest_s = f64::INFINITY;
-    // Written in place: an array as the value of the loop would be copied.
-    let (mut first, mut second);
-    loop {
+    let interval = AdaptiveInterval::new(start_s, grid_s, longest_s, limit_s, shortest_s);
+    let ([first, second], span) = interval.fit::<_, PlantError>(ORDER, |interval| {
+        if interval.is_refinement() {
+            plant.spend(WorkKind::Refinement, start_s)?;
+        }
         let span_s = interval.end_s() - start_s;
-        first = plant.evaluate(start_s + NODES[0] * span_s);
-        second = plant.evaluate(start_s + NODES[1] * span_s);
-        first.check(start_s)?;
+        let nodes = NODES.map(|node| plant.evaluate(start_s + node * span_s));
+        nodes[0].check(start_s)?;
         let unforeseen_rad_s2 =
-            free_inverse_inertia.map_or(0.0, |it| unforeseen(last, active, it, [&first, &second], span_s));
+            free_inverse_inertia.map_or(0.0, |it| unforeseen(last, active, it, &nodes, span_s));
         let mut unresolved = 0.5 * unforeseen_rad_s2 * span_s * span_s;
         if turning_rad_s * span_s >= SHORTEST_TURN_RAD {
             let last_s = plant.kinematics.configuration.last_of_panels_s(start_s, interval.end_s());
             let ends = [start_s, last_s].map(|at_s| plant.evaluate(at_s));
-            let fit_error = fit_error(active, [&first, &second], &ends);
+            let fit_error = fit_error(active, &nodes, &ends);
             unresolved = unresolved.max(fit_error * fit_error.max(math::powi(rate_rad_s * span_s, 2) / 12.0));
         } else if unresolved <= tolerance {
-            break;
+            return Ok(Attempt::Short(nodes));
         }
-        if let Some(longest_s) = interval.accept(unresolved, tolerance, ORDER) {
-            next_longest_s = longest_s;
-            break;
-        }
-        plant.spend(WorkKind::Refinement, start_s)?;
-    }
-    let end_s = interval.end_s();
-    let span_s = end_s - start_s;
+        Ok(Attempt::Fitted { fit: nodes, unresolved, tolerance })
+    })?;
+    let span_s = span.end_s - start_s;
     let line = |of: &dyn Fn(&Evaluation) -> Vector3<f64>| -> Linear {
         let (a, b) = (of(&first), of(&second));
         let slope = (b - a) / (NODES[1] - NODES[0]);
@@ -114,7 +108,7 @@ pub(crate) fn next_interval(
     let [to_sun, to_sun_then] = [now, then].map(|it| it.geometry.to_sun.position_m.normalize());
     let to_sun = [to_sun, (to_sun_then - to_sun) / elapsed_s];
     let lit_fraction = [now.lit_fraction, (then.lit_fraction - now.lit_fraction) / elapsed_s];
-    Ok(DisturbanceInterval { start_s, end_s, next_longest_s, loads, field_inertial_t, to_sun, lit_fraction })
+    Ok(DisturbanceInterval { span, loads, field_inertial_t, to_sun, lit_fraction })
 }
 
 /// Angular acceleration by which the disturbances at the nodes of an interval after this one, `span_s` long, are off from what
@@ -123,16 +117,16 @@ fn unforeseen(
     last: &DisturbanceInterval,
     active: Active,
     inverse_inertia: &Matrix3<f64>,
-    nodes: [&Evaluation; 2],
+    nodes: &[Evaluation; 2],
     span_s: f64,
 ) -> f64 {
     let off_rad_s2 = |(node, share): (&Evaluation, f64)| {
-        let [_, [foreseen_n_m, slope_n_m_s]] = last.total_at(last.end_s);
+        let [_, [foreseen_n_m, slope_n_m_s]] = last.total_at(last.span.end_s);
         let effects = active.disturbances().filter(|effect| !effect.is_in_field());
         let found_n_m: Vector3<f64> = effects.map(|effect| node.loads[effect].torque_body_n_m).sum();
         (inverse_inertia * (found_n_m - foreseen_n_m - slope_n_m_s * (share * span_s))).norm()
     };
-    nodes.into_iter().zip(NODES).map(off_rad_s2).fold(0.0, f64::max)
+    nodes.iter().zip(NODES).map(off_rad_s2).fold(0.0, f64::max)
 }
 
 /// Integrates the deviation of the orbit under the forces of the interval, at the predicted attitude (Encke's method).
@@ -140,17 +134,21 @@ fn unforeseen(
 /// # Errors
 /// What ends a flight.
 pub(crate) fn deviate(interval: &DisturbanceInterval, plant: &mut Plant<'_>) -> Result<(), PlantError> {
-    let applied = plant.external(interval.start_s);
+    let applied = plant.external(interval.span.start_s);
     let Kinematics { configuration, trajectory, current_mass_panels_stowed, .. } = &mut plant.kinematics;
     let AttitudeSource::Dynamic(attitude) = &configuration.attitude else { return Ok(()) };
     if !configuration.motion.uses_encke() {
         return Ok(());
     }
     let acceleration_m_s2 = |time_s: f64| {
-        let force_body_n = interval.force_body_n(&applied, interval.start_s, time_s);
+        let force_body_n = interval.force_body_n(&applied, interval.span.start_s, time_s);
         attitude.frame_at(time_s).inertial_from_body * (force_body_n / current_mass_panels_stowed.mass_kg)
     };
-    Ok(trajectory.accelerate(configuration, [interval.start_s, interval.end_s], Some(acceleration_m_s2))?)
+    Ok(trajectory.accelerate(
+        configuration,
+        [interval.span.start_s, interval.span.end_s],
+        Some(acceleration_m_s2),
+    )?)
 }
 
 /// By how much the direction from the centre turns, in rad/s; 0 at the centre.
@@ -161,11 +159,11 @@ fn orbital_rate_rad_s(spacecraft: &CartesianState) -> f64 {
 
 /// Largest distance at the two ends of force, torque and magnetic field from the line through those at the two nodes, relative to the
 /// largest force and torque of all effects there, and the field; a torque counts against the largest force at an arm of 1 cm at least.
-fn fit_error(active: Active, nodes: [&Evaluation; 2], ends: &[Evaluation; 2]) -> f64 {
+fn fit_error(active: Active, nodes: &[Evaluation; 2], ends: &[Evaluation; 2]) -> f64 {
     let (mut scale, mut most) = ([0.0_f64; 2], [0.0_f64; 2]);
     let beyond = NODES[0] / (NODES[1] - NODES[0]);
     for effect in active.disturbances().filter(|effect| !effect.is_in_field()) {
-        let [a, b, start, end] = [nodes[0], nodes[1], &ends[0], &ends[1]].map(|it| it.loads[effect]);
+        let [a, b, start, end] = [&nodes[0], &nodes[1], &ends[0], &ends[1]].map(|it| it.loads[effect]);
         let kinds = [
             [a.force_body_n, b.force_body_n, start.force_body_n, end.force_body_n],
             [a.torque_body_n_m, b.torque_body_n_m, start.torque_body_n_m, end.torque_body_n_m],
@@ -180,7 +178,7 @@ fn fit_error(active: Active, nodes: [&Evaluation; 2], ends: &[Evaluation; 2]) ->
     let torque_n_m = torque_n_m.max(force_n * LEAST_ARM_M);
     let share = |most: f64, scale: f64| if scale > 0.0 { most / scale } else { 0.0 };
     let [a, b, start, end] =
-        [nodes[0], nodes[1], &ends[0], &ends[1]].map(|it| it.air_and_field.field_inertial_t);
+        [&nodes[0], &nodes[1], &ends[0], &ends[1]].map(|it| it.air_and_field.field_inertial_t);
     let slope = (b - a) * beyond;
     let field_most_t = (start - (a - slope)).amax().max((end - (b + slope)).amax());
     let of_field = share(field_most_t, a.amax().max(b.amax()));

@@ -4,7 +4,7 @@ use nalgebra::{SVector, Vector3};
 
 use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::loads::{ByEffect, Effect, ForceTorque};
-use crate::numerics::adaptive::AdaptiveInterval;
+use crate::numerics::adaptive::{AdaptiveInterval, Attempt};
 use crate::numerics::chebyshev::Segment;
 use crate::radiation::disturbance::PlanetGeometry;
 use crate::refusal::Refusal;
@@ -101,35 +101,27 @@ impl RadiationBuilder<'_, '_> {
         let longest_s = segment.span.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s).max(shortest_s);
         let mut interval = AdaptiveInterval::new(start_s, effects.grid_s, longest_s, limit_s, shortest_s);
         interval.end_at(self.kinematics.smooth_until(start_s, interval.end_s()));
-        let series = loop {
+        let (series, span) = interval.fit(NODES, |interval| {
             self.kinematics.spend_units(WorkKind::Light, light.segment_units(stores), start_s)?;
             let lit = self.light_between(light, stores, &segment.end_k, start_s, interval.end_s());
             let shadows: usize = light.nodes.iter().map(|node| node.workspace.shadows_cut()).sum();
-            self.kinematics.spend_units(
-                WorkKind::Light,
-                u32::try_from(shadows).unwrap_or(u32::MAX),
-                start_s,
-            )?;
-            match lit {
-                Ok(series) => {
-                    let unresolved = unresolved(&series, effects.shadowing);
-                    if let Some(next_s) = interval.accept(unresolved, effects.tolerance, NODES) {
-                        segment.span.next_longest_s = next_s;
-                        break series;
-                    }
+            let shadow_units = u32::try_from(shadows).unwrap_or(u32::MAX);
+            self.kinematics.spend_units(WorkKind::Light, shadow_units, start_s)?;
+            Ok(match lit {
+                Ok(fit) => {
+                    let unresolved = unresolved(&fit, effects.shadowing);
+                    Attempt::Fitted { fit, unresolved, tolerance: effects.tolerance }
                 }
                 // The flight may be over before it comes to where light has no meaning.
-                Err(error) if !interval.halve() => return Err(self.no_light(start_s, error)),
-                Err(_) => {}
-            }
-        };
-        let end_s = interval.end_s();
-        (segment.span.start_s, segment.span.end_s, segment.loads) = (start_s, end_s, series);
+                Err(error) => Attempt::Undefined(self.no_light(start_s, error)),
+            })
+        })?;
+        (segment.span, segment.loads) = (span, series);
         segment.temperatures_k.clear();
         if stores || self.needs_wall_temperatures() {
             segment.temperatures_k.extend((0..light.face_count()).map(|face| {
                 let samples = core::array::from_fn(|j| SVector::from([light.nodes[j].temperatures_k[face]]));
-                Segment::from_samples(start_s, end_s, &samples)
+                Segment::from_samples(start_s, span.end_s, &samples)
             }));
         }
         if stores {

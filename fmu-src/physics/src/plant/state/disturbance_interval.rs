@@ -1,10 +1,10 @@
-//! Disturbances over one interval of their grid, linear in time ([`crate::plant`] computes them).
+//! Disturbances over one interval of their grid, linear in time.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::loads::{ByEffect, Effect, ForceTorque, Loads};
-use crate::numerics::or_infinite;
+use crate::numerics::adaptive::SegmentSpan;
 
 /// A vector that changes linearly: at the start, and per second.
 pub(crate) type Linear = [Vector3<f64>; 2];
@@ -12,13 +12,7 @@ pub(crate) type Linear = [Vector3<f64>; 2];
 /// Loads on the body and direction of the Sun over one interval.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct DisturbanceInterval {
-    #[serde(with = "or_infinite")]
-    pub(in crate::plant) start_s: f64,
-    #[serde(with = "or_infinite")]
-    pub(in crate::plant) end_s: f64,
-    /// Length the tolerance will probably allow the next interval, in s.
-    #[serde(with = "or_infinite")]
-    pub(in crate::plant) next_longest_s: f64,
+    pub(in crate::plant) span: SegmentSpan,
     /// Force and torque of the disturbances that act, body frame; what is applied is known at any time, what acts by a field follows
     /// from it and the attitude.
     pub(in crate::plant) loads: ByEffect<Option<[Linear; 2]>>,
@@ -35,9 +29,7 @@ impl DisturbanceInterval {
     pub(crate) fn before() -> Self {
         let nothing = [Vector3::zeros(); 2];
         Self {
-            start_s: f64::NEG_INFINITY,
-            end_s: f64::NEG_INFINITY,
-            next_longest_s: f64::INFINITY,
+            span: SegmentSpan::default(),
             loads: ByEffect::default(),
             field_inertial_t: nothing,
             to_sun: nothing,
@@ -47,30 +39,27 @@ impl DisturbanceInterval {
 
     /// Whether no interval has begun.
     pub(crate) fn is_before(&self) -> bool {
-        self.end_s == f64::NEG_INFINITY
+        self.span.is_before()
     }
 
     /// Whether a simulation can produce it.
     pub(crate) fn is_valid(&self) -> bool {
-        let is_before = self.start_s == f64::NEG_INFINITY && self.is_before();
-        (is_before || self.start_s.is_finite() && self.end_s.is_finite())
-            && self.start_s <= self.end_s
-            && self.next_longest_s > 0.0
+        self.span.is_valid() && (self.is_before() || self.span.start_s <= self.span.end_s)
     }
 
     /// Up to when it holds, in s.
     pub(crate) fn end_s(&self) -> f64 {
-        self.end_s
+        self.span.end_s
     }
 
     /// Forgets what is beyond `time_s`.
     pub(crate) fn cut(&mut self, time_s: f64) {
-        self.end_s = self.end_s.min(time_s);
+        self.span.cut(time_s);
     }
 
     /// Force and torque by effect at `time_s`.
     pub(crate) fn loads_at(&self, time_s: f64) -> Loads {
-        let elapsed_s = time_s - self.start_s;
+        let elapsed_s = time_s - self.span.start_s;
         let mut loads = Loads::zero();
         for (effect, lines) in self.loads.present() {
             let [force_body_n, torque_body_n_m] = lines.map(|[start, slope]| start + slope * elapsed_s);
@@ -82,17 +71,17 @@ impl DisturbanceInterval {
     /// Magnetic field at `time_s`, EME2000, in T, and its rate in T/s.
     pub(crate) fn field_at(&self, time_s: f64) -> Linear {
         let [start, rate] = self.field_inertial_t;
-        [start + rate * (time_s - self.start_s), rate]
+        [start + rate * (time_s - self.span.start_s), rate]
     }
 
     /// Torque of a disturbance that acts at `time_s` and its slope, in N m and N m/s.
     pub(crate) fn torque_at(&self, effect: Effect, time_s: f64) -> Option<Linear> {
-        self.loads[effect].map(|[_, [start, slope]]| [start + slope * (time_s - self.start_s), slope])
+        self.loads[effect].map(|[_, [start, slope]]| [start + slope * (time_s - self.span.start_s), slope])
     }
 
     /// Sum over the effects at `time_s`: force in N and its slope in N/s, torque in N m and its slope in N m/s.
     pub(crate) fn total_at(&self, time_s: f64) -> [Linear; 2] {
-        let elapsed_s = time_s - self.start_s;
+        let elapsed_s = time_s - self.span.start_s;
         let mut total = [[Vector3::zeros(); 2]; 2];
         for (_, lines) in self.loads.present() {
             for ([sum, sum_slope], [start, slope]) in total.iter_mut().zip(lines) {
@@ -111,7 +100,7 @@ impl DisturbanceInterval {
 
     /// Unit vector to the Sun, EME2000, and the visible part of its disc at `time_s`.
     pub(crate) fn sun_at(&self, time_s: f64) -> (Vector3<f64>, f64) {
-        let elapsed_s = time_s - self.start_s;
+        let elapsed_s = time_s - self.span.start_s;
         let to_sun = (self.to_sun[0] + self.to_sun[1] * elapsed_s).normalize();
         (to_sun, (self.lit_fraction[0] + self.lit_fraction[1] * elapsed_s).clamp(0.0, 1.0))
     }
