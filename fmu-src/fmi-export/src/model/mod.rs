@@ -5,17 +5,16 @@
 //! trait and another field there.
 
 mod about;
-mod deferred;
+mod output_groups;
 mod step;
 
 use serde::{Serialize, de::DeserializeOwned};
 
-use crate::dependencies::Dependencies;
+use crate::dependencies::{Dependencies, Knowns};
 use crate::variables::{Elements, Given, Real, Values, Variables};
 
 pub use about::{About, Manual, SetupValue, StartValue};
-pub(crate) use deferred::DeferredFunctions;
-pub use deferred::{DeferredOutputs, OutputGroups};
+pub use output_groups::OutputGroups;
 pub use step::{InputDerivative, InputsOverTime, Step, StepEnd};
 
 /// A co-simulation model.
@@ -159,6 +158,24 @@ pub trait Differentiable: Model {
     ) -> Result<(), Failure>;
 }
 
+/// A model that writes groups of outputs when one of them is read: an output that nobody reads costs nothing.
+pub trait DeferredOutputs: Model {
+    /// Outputs of each group, at most [`OutputGroups::MOST`] groups. No output belongs to two of them. What belongs to none, and
+    /// what a set has that is no output, is written as in any model.
+    fn output_groups(variables: &Self::Variables) -> Vec<Knowns>;
+
+    /// Writes the outputs of these groups at the last communication point, `time_s`; `values` are those of the step that ended
+    /// there. Called after [`Model::step`], at most once for each group, before the next step and before the state is saved.
+    /// [`Model::initialize`] writes every output itself. An error ends the instance, as an error of the step does.
+    fn write_outputs(
+        context: &Context<'_, Self>,
+        values: &mut Values,
+        state: &mut Self::State,
+        groups: OutputGroups,
+        time_s: f64,
+    ) -> Result<(), Failure>;
+}
+
 type OutputRate<M> = fn(&Context<'_, M>, &Values, &<M as Model>::State, Real) -> Option<f64>;
 type JacobianVectorProduct<M> = fn(
     &Context<'_, M>,
@@ -168,6 +185,20 @@ type JacobianVectorProduct<M> = fn(
     &[(Real, f64)],
     &mut [f64],
 ) -> Result<(), Failure>;
+
+type Groups<M> = fn(&<M as Model>::Variables) -> Vec<Knowns>;
+type Write<M> =
+    fn(&Context<'_, M>, &mut Values, &mut <M as Model>::State, OutputGroups, f64) -> Result<(), Failure>;
+
+/// The functions of [`DeferredOutputs`].
+pub(crate) struct DeferredFunctions<M: Model> {
+    pub(crate) groups: Groups<M>,
+    pub(crate) write: Write<M>,
+}
+
+impl<M: DeferredOutputs> DeferredFunctions<M> {
+    pub(crate) const OF_MODEL: Self = Self { groups: M::output_groups, write: M::write_outputs };
+}
 
 /// The optional traits that a model has: `Extensions::none().output_rates().differentiable()`.
 pub struct Extensions<M: Model> {

@@ -206,7 +206,7 @@ fn a_saved_state_has_the_outputs_that_nobody_read() {
         // Groups that were pending where the state is set are not written into it.
         assert_eq!(restored.set_state(state), Ok);
         assert_eq!(["product", "reciprocal", "input"].map(|it| real(restored, at(it))), [8.0, 0.25, 8.0]);
-        assert_eq!(written(restored, &description), 4);
+        assert_eq!(written(restored, &description), 3);
         assert_eq!(restored.do_step(1.0, 1.0), Ok);
         assert_eq!(real(restored, at("product")), 16.0);
     }
@@ -225,7 +225,7 @@ fn a_reset_forgets_what_was_not_written() {
 
 #[test]
 fn a_group_that_cannot_be_written_is_an_error_where_it_is_read() {
-    for (input, why) in [(-1.0, "100 % deliberately"), (0.0, "`reciprocal`")] {
+    for (input, why) in [(-1.0, "-1 has no reciprocal"), (0.0, "`reciprocal`")] {
         let (mut instance, description) = started();
         let at = |name| reference(&description, name);
         assert_eq!(instance.set_real(&[at("input")], &[input]), Ok);

@@ -6,6 +6,7 @@
 mod deferred;
 mod derivatives;
 mod lifecycle;
+mod pending;
 pub(crate) mod saved;
 pub(crate) mod state;
 pub(crate) mod stepping;
@@ -20,10 +21,10 @@ use crate::logger::Logger;
 use crate::prepared::Prepared;
 use crate::runtime::Runtime;
 use crate::variables::{Element, Real, SetBits, Values};
-use deferred::Deferred;
 use model_description::BaseType;
 use model_description::Status;
 use model_description::call_table::{self, Access, Function, Next, State};
+use pending::Deferred;
 use state::copy_values;
 
 use state::InstanceState;

@@ -97,8 +97,7 @@ impl<'f> InFlight<'f> {
         }
     }
 
-    /// Everything at `time_s`, of which this is the evaluation; a flight that waits has the attitude of `held`, and the momentum of its
-    /// start.
+    /// Everything at `time_s`, where the flight was evaluated; one that waits has the attitude of `held`, and the momentum of its start.
     pub(super) fn report(
         self,
         held: &Command,
