@@ -2,7 +2,7 @@
 
 use fmi_export::{Failure, InputsOverTime, OutputGroups, Step, Values};
 use physics::environment::ephemeris::Ephemeris;
-use physics::plant::{NEVER_DUMPED_N_M_S, SimulationContext, StepContext, ThrusterAllocator, Undo};
+use physics::plant::{NEVER_DUMPED_N_M_S, SimulationContext, Sources, StepContext, ThrusterAllocator, Undo};
 
 use super::inputs::{self, FixedParameters, Reading, guidance, plausibility, propulsion};
 use super::outputs;
@@ -70,8 +70,7 @@ fn configure(
                 let simulation = SimulationContext {
                     ephemeris: Ephemeris::with_cache(&context.setup.ephemeris_cache),
                     solar: Some(reading.solar().clone()),
-                    light,
-                    air,
+                    sources: Sources::new(light, air),
                     allocator: ThrusterAllocator::new(thrusters),
                     ..SimulationContext::new(read.configuration)
                 };

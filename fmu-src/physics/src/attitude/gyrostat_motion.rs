@@ -18,6 +18,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::body_load::{BodyLoad, BodyMotion};
+use super::dipole_in_field::DipoleInField;
 use super::gyrostat::Gyrostat;
 use super::gyrostat_series::GyrostatSeries;
 use super::imbalance::ImbalanceMotion;
@@ -217,10 +218,15 @@ impl GyrostatMotion {
         sums
     }
 
-    /// Change of the total momentum since the start of the segment by the dipole in the field, EME2000, in N m s; `None` without one.
-    pub fn magnetic_impulse_inertial_n_m_s(&self, until: &MotionAt) -> Option<Vector3<f64>> {
-        let dipole = self.load.dipole?;
-        Some(self.impulse_inertial_n_m_s(until, |attitude, at_s| dipole.torque_n_m(attitude, at_s)))
+    /// Change of the total momentum since the start of the segment by a part of the load's dipole in the field, at the start in A m2 with
+    /// its rate in A m2/s, body frame: EME2000, in N m s; `None` without a dipole in the load. Those of all parts add up.
+    pub fn dipole_impulse_inertial_n_m_s(
+        &self,
+        dipole_body_a_m2: &[Vector3<f64>; 2],
+        until: &MotionAt,
+    ) -> Option<Vector3<f64>> {
+        let part = DipoleInField { dipole_body_a_m2: *dipole_body_a_m2, ..self.load.dipole? };
+        Some(self.impulse_inertial_n_m_s(until, |attitude, at_s| part.torque_n_m(attitude, at_s)))
     }
 
     /// The same by rotors out of balance; `None` where all are in balance.

@@ -30,6 +30,17 @@ pub enum Switch {
     Magnetics,
 }
 
+/// Writer of a row: it alone computes the load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Writer {
+    /// The plant's source of this name.
+    Source(&'static str),
+    /// Motion of rotors out of balance.
+    Rotors,
+    /// Motion of propellant that swings.
+    Propellant,
+}
+
 /// A row of the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EffectRow {
@@ -47,6 +58,8 @@ pub struct EffectRow {
     pub momentum_apart: bool,
     /// Typical change of momentum from dump to dump, in N m s.
     pub usual_momentum_n_m_s: f64,
+    /// Writer.
+    pub writer: Writer,
 }
 
 impl EffectRow {
@@ -62,7 +75,7 @@ impl EffectRow {
 }
 
 macro_rules! effects {
-    ($($effect:ident: $name:literal, $about:literal, $switch:expr, $grid:ident, $force:literal, $apart:literal, $usual:literal;)+) => {
+    ($($effect:ident: $name:literal, $about:literal, $switch:expr, $grid:ident, $force:literal, $apart:literal, $usual:literal, $writer:expr;)+) => {
         /// An effect that exerts force or torque: a row of the table.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Effect {
@@ -84,6 +97,7 @@ macro_rules! effects {
                         exerts_force: $force,
                         momentum_apart: $apart,
                         usual_momentum_n_m_s: $usual,
+                        writer: $writer,
                     },)+
                 }
             }
@@ -92,18 +106,18 @@ macro_rules! effects {
 }
 
 effects! {
-    // name, what it is, switch, grid, whether it exerts force, whether its momentum is kept apart, which usually is (N m s)
-    Solar: "solar", "Direct sunlight.", None, Light, true, true, 1e-1;
-    Albedo: "albedo", "Sunlight reflected by the planet.", Some(Switch::PlanetLight), Light, true, true, 1e-2;
-    Infrared: "infrared", "Infrared light of the planet.", Some(Switch::PlanetLight), Light, true, true, 1e-2;
-    Thermal: "thermal", "Recoil of the heat the spacecraft radiates.", Some(Switch::Recoil), Light, true, true, 1e-2;
-    GravityGradient: "gravityGradient", "Gravity gradient of the planet.", Some(Switch::GravityGradient), Disturbance, false, true, 1e-1;
-    Aerodynamic: "aerodynamic", "Air on the spacecraft's surfaces.", Some(Switch::Aerodynamics), Disturbance, true, true, 1e-1;
-    Magnetic: "magnetic", "The residual dipole in the planet's magnetic field.", Some(Switch::Magnetics), Field, false, true, 1e-2;
-    Applied: "applied", "What was applied from outside.", None, Motion, true, true, 1e-1;
-    Thrusters: "thruster", "The spacecraft's own thrusters.", None, Motion, true, false, 1.0;
-    Imbalance: "imbalance", "Rotors out of balance, in controlled and free flight.", None, MovingParts, true, true, 1e-2;
-    Slosh: "slosh", "Propellant that swings under the force, in controlled and free flight.", None, MovingParts, false, true, 1e-2;
+    // name, what it is, switch, grid, whether it exerts force, whether its momentum is kept apart, which usually is (N m s), writer
+    Solar: "solar", "Direct sunlight.", None, Light, true, true, 1e-1, Writer::Source("sunlight");
+    Albedo: "albedo", "Sunlight reflected by the planet.", Some(Switch::PlanetLight), Light, true, true, 1e-2, Writer::Source("sunlight");
+    Infrared: "infrared", "Infrared light of the planet.", Some(Switch::PlanetLight), Light, true, true, 1e-2, Writer::Source("sunlight");
+    Thermal: "thermal", "Recoil of the heat the spacecraft radiates.", Some(Switch::Recoil), Light, true, true, 1e-2, Writer::Source("sunlight");
+    GravityGradient: "gravityGradient", "Gravity gradient of the planet.", Some(Switch::GravityGradient), Disturbance, false, true, 1e-1, Writer::Source("gravity_gradient");
+    Aerodynamic: "aerodynamic", "Air on the spacecraft's surfaces.", Some(Switch::Aerodynamics), Disturbance, true, true, 1e-1, Writer::Source("air");
+    Magnetic: "magnetic", "The residual dipole in the planet's magnetic field.", Some(Switch::Magnetics), Field, false, true, 1e-2, Writer::Source("magnetic");
+    Applied: "applied", "What was applied from outside.", None, Motion, true, true, 1e-1, Writer::Source("applied");
+    Thrusters: "thruster", "The spacecraft's own thrusters.", None, Motion, true, false, 1.0, Writer::Source("thrusters");
+    Imbalance: "imbalance", "Rotors out of balance, in controlled and free flight.", None, MovingParts, true, true, 1e-2, Writer::Rotors;
+    Slosh: "slosh", "Propellant that swings under the force, in controlled and free flight.", None, MovingParts, false, true, 1e-2, Writer::Propellant;
 }
 
 impl Effect {
@@ -118,6 +132,41 @@ impl Effect {
         }
         count
     };
+
+    /// Number of effects by a dipole in the magnetic field.
+    pub const IN_FIELD: usize = {
+        let (mut count, mut k) = (0, 0);
+        while k < Self::COUNT {
+            count += Self::ALL[k].is_in_field() as usize;
+            k += 1;
+        }
+        count
+    };
+
+    /// Effects by a dipole in the magnetic field, in the table's order.
+    pub const FIELD: [Self; Self::IN_FIELD] = {
+        let (mut rows, mut place, mut k) = ([Self::ALL[0]; Self::IN_FIELD], 0, 0);
+        while k < Self::COUNT {
+            if Self::ALL[k].is_in_field() {
+                rows[place] = Self::ALL[k];
+                place += 1;
+            }
+            k += 1;
+        }
+        rows
+    };
+
+    /// Place among those effects.
+    pub(crate) const fn place_in_field(self) -> Option<usize> {
+        let mut place = 0;
+        while place < Self::IN_FIELD {
+            if Self::FIELD[place] as usize == self as usize {
+                return Some(place);
+            }
+            place += 1;
+        }
+        None
+    }
 
     /// Whether it is of light and heat.
     pub const fn is_light(self) -> bool {
@@ -153,6 +202,16 @@ impl Active {
     /// Whether an effect acts.
     pub fn has(self, effect: Effect) -> bool {
         self.0[effect as usize]
+    }
+
+    /// Whether one of these effects acts.
+    pub fn has_any(self, effects: &[Effect]) -> bool {
+        effects.iter().any(|effect| self.has(*effect))
+    }
+
+    /// Whether the effects of a switch act.
+    pub fn is_on(self, switch: Switch) -> bool {
+        Effect::ALL.into_iter().any(|effect| effect.row().switch == Some(switch) && self.has(effect))
     }
 
     /// The disturbances that act.

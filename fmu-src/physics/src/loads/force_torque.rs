@@ -7,6 +7,9 @@ use nalgebra::Vector3;
 
 use crate::numerics::scalar::Scalar;
 
+/// A vector that changes linearly: at the start, and per second.
+pub type Linear = [Vector3<f64>; 2];
+
 /// Force and torque in the body frame; the torque is about the centre of mass unless stated otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceTorque<T: Scalar = f64> {

@@ -5,5 +5,5 @@ mod effect;
 mod force_torque;
 
 pub use by_effect::{ByEffect, Loads};
-pub use effect::{Active, Effect, EffectRow, Grid, Switch};
-pub use force_torque::ForceTorque;
+pub use effect::{Active, Effect, EffectRow, Grid, Switch, Writer};
+pub use force_torque::{ForceTorque, Linear};

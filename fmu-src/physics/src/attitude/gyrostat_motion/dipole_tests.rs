@@ -15,7 +15,7 @@ fn body() -> Gyrostat {
 
 fn load(dipole: [f64; 3], field: [f64; 3], rate: [f64; 3]) -> BodyLoad {
     let dipole = DipoleInField {
-        dipole_body_a_m2: dipole.into(),
+        dipole_body_a_m2: [Vector3::from(dipole), Vector3::zeros()],
         field_inertial_t: [Vector3::from(field), Vector3::from(rate)],
     };
     BodyLoad { dipole: Some(dipole), ..BodyLoad::none(1.0) }
@@ -84,7 +84,67 @@ fn a_field_that_grows_turns_the_body_by_as_much() {
     motion.advance(&spacecraft, &[], &load, 2.0);
     let found = motion.at(&spacecraft, 2.0);
     assert_relative_eq!(found.rate_body_rad_s.z, dipole * grown * 2.0 / INERTIA[2], max_relative = 1e-12);
-    let impulse = motion.magnetic_impulse_inertial_n_m_s(&motion.evaluated_at(&spacecraft, 2.0)).unwrap();
+    let until = motion.evaluated_at(&spacecraft, 2.0);
+    let impulse =
+        motion.dipole_impulse_inertial_n_m_s(&load.dipole.unwrap().dipole_body_a_m2, &until).unwrap();
     assert_relative_eq!(impulse.z, dipole * grown * 2.0, max_relative = 1e-12);
     assert_relative_eq!(impulse, found.momentum_inertial_n_m_s, epsilon = 1e-25);
+}
+
+#[test]
+fn two_dipoles_turn_the_body_by_their_sum_and_each_has_its_impulse() {
+    // One that stays and one that grows, both along X, in a field along Y: J theta'' = (m + m' t) B for small angles.
+    let (field, end_s) = (1e-12, 2.0);
+    let steady = [Vector3::new(0.4, 0.0, 0.0), Vector3::zeros()];
+    let growing = [Vector3::zeros(), Vector3::new(0.3, 0.0, 0.0)];
+    let spacecraft = body();
+    let mut load = load([0.0; 3], [0.0, field, 0.0], [0.0; 3]);
+    load.dipole.as_mut().unwrap().dipole_body_a_m2 = [steady[0] + growing[0], steady[1] + growing[1]];
+    let mut motion = GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &Vector3::zeros(), |_| 0.0);
+    motion.advance(&spacecraft, &[], &load, end_s);
+    let found = motion.at(&spacecraft, end_s);
+    let expected_n_m_s = [0.4 * field * end_s, 0.3 * field * end_s * end_s / 2.0];
+    let total_n_m_s = expected_n_m_s[0] + expected_n_m_s[1];
+    assert_relative_eq!(found.rate_body_rad_s.z, total_n_m_s / INERTIA[2], max_relative = 1e-12);
+    assert_relative_eq!(found.momentum_inertial_n_m_s.z, total_n_m_s, max_relative = 1e-12);
+    for (part, expected) in [steady, growing].iter().zip(expected_n_m_s) {
+        let impulse =
+            motion.dipole_impulse_inertial_n_m_s(part, &motion.evaluated_at(&spacecraft, end_s)).unwrap();
+        assert_relative_eq!(impulse.z, expected, max_relative = 1e-12);
+    }
+}
+
+#[test]
+fn a_dipole_that_grows_keeps_its_power_balance() {
+    // d/dt (T - m . b) = -m' . b: the energy that the growing dipole brings in.
+    let (dipole, slope, field) = ([0.3, -0.2, 0.5], [2e-3, 1e-3, -3e-3], [2e-5, 3e-5, -1e-5]);
+    let spacecraft = body();
+    let rate = Vector3::new(0.004, -0.002, 0.003);
+    let mut motion = GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &rate, |_| 0.0);
+    let [start, slope] = [dipole, slope].map(Vector3::from);
+    let energy = |body: &BodyMotion, time_s: f64| {
+        let field_body = body.attitude.body_from_inertial(&Vector3::from(field));
+        let kinetic =
+            0.5 * body.rate_body_rad_s.component_mul(&Vector3::from(INERTIA)).dot(&body.rate_body_rad_s);
+        [kinetic - (start + slope * time_s).dot(&field_body), -slope.dot(&field_body)]
+    };
+    let [mut expected, mut power] = energy(&motion.at(&spacecraft, 0.0), 0.0);
+    let (before, step_s) = (expected, 0.5);
+    for k in 0..400 {
+        let time_s = f64::from(k) * step_s;
+        let mut load = load(dipole, field, [0.0; 3]);
+        load.dipole.as_mut().unwrap().dipole_body_a_m2 = [start + slope * time_s, slope];
+        while motion.end_s() < time_s + step_s {
+            motion.advance(&spacecraft, &[], &load, time_s + step_s);
+        }
+        // Simpson's rule.
+        let [_, middle] = energy(&motion.at(&spacecraft, time_s + 0.5 * step_s), time_s + 0.5 * step_s);
+        let [_, end] = energy(&motion.at(&spacecraft, time_s + step_s), time_s + step_s);
+        expected += step_s / 6.0 * (power + 4.0 * middle + end);
+        power = end;
+    }
+    let end_s = motion.end_s();
+    let [found, _] = energy(&motion.at(&spacecraft, end_s), end_s);
+    assert!((found - before).abs() > 1e-6, "{found} {before}");
+    assert_relative_eq!(found, expected, max_relative = 1e-11);
 }

@@ -4,7 +4,6 @@ use nalgebra::Vector3;
 
 use crate::aerodynamics::{AerodynamicModel, AerodynamicOptions, AerodynamicWorkspace, AirFlow, Walls};
 use crate::loads::ForceTorque;
-use crate::plant::light::radiation_segment::RadiationSegment;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::panel_setting::SunAt;
 use crate::refusal::Refusal;
@@ -17,7 +16,6 @@ pub struct AerodynamicSolver {
     /// Indices of the enabled panels among all.
     panels: Vec<usize>,
     panel_angles_rad: Vec<f64>,
-    wall_temperatures_k: Vec<f64>,
     workspace: AerodynamicWorkspace<f64>,
 }
 
@@ -35,28 +33,26 @@ impl AerodynamicSolver {
         let model = AerodynamicModel::new(&simulated, options)?;
         Ok(Self {
             panel_angles_rad: vec![0.0; panels.len()],
-            wall_temperatures_k: vec![0.0; model.face_count()],
             workspace: AerodynamicWorkspace::default(),
             panels,
             model,
         })
     }
 
-    /// Force and torque about the centre of mass, panels at the angles of their settings; wall temperatures are those of `light`
-    /// where it has them, else the materials'.
+    /// Force and torque about the centre of mass, panels at the angles of their settings; wall temperatures are these of all faces
+    /// where they are known, else the materials'.
     pub(crate) fn load(
         &mut self,
         (configuration, panels): (&Configuration, &[Panel]),
-        light: Option<(&RadiationSegment, f64)>,
+        face_temperatures_k: &[f64],
         sun: &SunAt,
         flow: &AirFlow<f64>,
         center_of_mass_body_m: &Vector3<f64>,
     ) -> ForceTorque {
         configuration.panel_angles_rad(panels, &self.panels, sun, &mut self.panel_angles_rad);
-        let is_known = light.is_some_and(|(segment, time_s)| {
-            segment.wall_temperatures_at(time_s, &mut self.wall_temperatures_k)
-        });
-        let temperatures_k = is_known.then_some(self.wall_temperatures_k.as_slice());
+        let is_known =
+            !face_temperatures_k.is_empty() && face_temperatures_k.len() == self.model.face_count();
+        let temperatures_k = is_known.then_some(face_temperatures_k);
         self.model.load(
             flow,
             &self.panel_angles_rad,

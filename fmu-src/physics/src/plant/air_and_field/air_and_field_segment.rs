@@ -12,11 +12,13 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::aerodynamics::AirFlow;
 use crate::environment::atmosphere::Air;
 use crate::math;
 use crate::numerics::Span;
 use crate::numerics::adaptive::SegmentSpan;
 use crate::numerics::chebyshev::Segment;
+use crate::plant::motion::instant::Instant;
 use crate::plant::settings::air_and_field_settings::{
     AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure,
 };
@@ -37,6 +39,25 @@ pub struct AirAndField {
     pub air_velocity_m_s: Vector3<f64>,
     /// Magnetic field, EME2000, in T.
     pub field_inertial_t: Vector3<f64>,
+}
+
+impl AirAndField {
+    /// Velocity relative to the air, body frame, in m/s; `None` without a planet.
+    pub(crate) fn velocity_body_m_s(&self, instant: &Instant) -> Option<Vector3<f64>> {
+        let from_planet = instant.geometry.from_planet()?;
+        Some(instant.to_body * (from_planet.velocity_m_s - self.air_velocity_m_s))
+    }
+
+    /// The air's flow about the spacecraft; `None` where there is no air.
+    pub(crate) fn flow(&self, instant: &Instant) -> Option<AirFlow<f64>> {
+        let velocity = self.velocity_body_m_s(instant).filter(|_| self.air.density_kg_m3 > 0.0);
+        velocity.map(|velocity_body_m_s| AirFlow {
+            density_kg_m3: self.air.density_kg_m3,
+            temperature_k: self.air.temperature_k,
+            molar_mass_kg_mol: self.air.molar_mass_kg_mol,
+            velocity_body_m_s,
+        })
+    }
 }
 
 /// Air and field over one interval; what is given needs no series. The default stands before the first segment.
@@ -76,8 +97,13 @@ impl AirAndFieldSegment {
         self.span.cut(time_s);
     }
 
+    /// Air and field at `time_s` by these settings; none without settings.
+    pub(crate) fn by_settings(&self, settings: &Option<AirAndFieldSettings>, time_s: f64) -> AirAndField {
+        settings.as_ref().map_or_else(AirAndField::default, |it| self.at(it, time_s))
+    }
+
     /// Air and field at `time_s`.
-    pub(crate) fn at(&self, settings: &AirAndFieldSettings, time_s: f64) -> AirAndField {
+    fn at(&self, settings: &AirAndFieldSettings, time_s: f64) -> AirAndField {
         let vector =
             |series: &Option<Series>| series.as_ref().map_or(Vector3::zeros(), |it| it.value(time_s));
         AirAndField {

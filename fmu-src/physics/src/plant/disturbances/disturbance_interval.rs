@@ -18,7 +18,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::environment::CartesianState;
-use crate::loads::{Active, ByEffect};
+use crate::loads::{Active, ByEffect, Linear};
 use crate::math;
 use crate::momentum::TorqueModel;
 use crate::momentum::WorkKind;
@@ -26,12 +26,13 @@ use crate::numerics::adaptive::{AdaptiveInterval, Attempt};
 use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::quadrature::GAUSS_2;
 
-use super::evaluation::{Evaluation, Plant};
+use super::evaluation::Evaluation;
+use super::plant::Plant;
 use crate::plant::light::light_and_heat::LEAST_ARM_M;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
-use crate::plant::state::disturbance_interval::{DisturbanceInterval, Linear};
+use crate::plant::state::disturbance_interval::DisturbanceInterval;
 
 /// Nodes of Gauss-Legendre quadrature of order 4 on [0, 1].
 const NODES: [f64; 2] = [GAUSS_2[0].0, GAUSS_2[1].0];

@@ -1,7 +1,6 @@
 //! Disturbances of the body at an instant and over an interval.
 
-pub(super) mod by_source;
 pub(super) mod disturbance_interval;
 pub(super) mod evaluation;
-pub(super) mod laws;
+pub(super) mod plant;
 pub(super) mod simulation_context;

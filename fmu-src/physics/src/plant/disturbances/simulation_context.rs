@@ -1,18 +1,14 @@
-//! Context of a simulation, and the spacecraft prepared for it.
+//! Context of a simulation: everything beside its state and the spacecraft.
 
 use crate::environment::ephemeris::Ephemeris;
-use crate::environment::orbit::OrbitMethod;
-use crate::guidance::downlink::default_downlink::DefaultDownlink;
-use crate::guidance::timeline::TimelineLaw;
-use crate::plant::air_and_field::aerodynamic_solver::AerodynamicSolver;
-use crate::plant::light::radiation_solver::RadiationSolver;
-use crate::plant::light::sunlit::SunlitConfiguration;
 use crate::plant::settings::configuration::Configuration;
+use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::settings::work::Work;
+use crate::plant::sources::Sources;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::plant::thrusters::allocation::ThrusterAllocator;
 use crate::radiation::SolarModel;
-use crate::spacecraft::{MassProperties, Material, Panel};
+use crate::spacecraft::{MassProperties, Material};
 
 /// Configuration, environment and work limit of a simulation: everything beside its state.
 #[derive(Clone, Debug)]
@@ -25,10 +21,8 @@ pub struct SimulationContext {
     pub ephemeris: Ephemeris,
     /// The spacecraft in sunlight, where its materials can be set; else as it was prepared.
     pub solar: Option<SolarModel>,
-    /// Light and heat beyond direct sunlight.
-    pub light: Option<RadiationSolver>,
-    /// Surfaces in air.
-    pub air: Option<AerodynamicSolver>,
+    /// Sources of loads.
+    pub sources: Sources,
     /// Settings of thrusters and tanks, and the last selections among them.
     pub allocator: ThrusterAllocator,
     /// Work of the step so far.
@@ -45,8 +39,7 @@ impl SimulationContext {
             configuration,
             ephemeris: Ephemeris::default(),
             solar: None,
-            light: None,
-            air: None,
+            sources: Sources::default(),
             allocator: ThrusterAllocator::default(),
             work: Work::new(u32::MAX, 0),
             fork_scratch: Default::default(),
@@ -60,56 +53,17 @@ impl SimulationContext {
 
     /// Sets the material with this index where it differs from the present one; allocates nothing.
     pub fn set_material(&mut self, place: usize, material: &Material) {
-        let Self { solar, light, air, .. } = self;
+        let Self { solar, sources, .. } = self;
         let Some(solar) = solar.as_mut().filter(|it| it.materials().get(place) != Some(material)) else {
             return;
         };
         solar.set_material(place, material);
-        if let Some(light) = light {
-            light.model.set_material(place, material);
-        }
-        if let Some(air) = air {
-            air.set_material(place, material);
-        }
+        sources.set_material(place, material);
     }
 
     /// A step begins: nothing spent of `limit` units of about a microsecond.
     pub fn begin_work(&mut self, limit: u32) {
         self.ephemeris.count_from_here();
         self.work = Work::new(limit, self.ephemeris.evaluations());
-    }
-}
-
-/// The spacecraft, prepared once.
-#[derive(Clone, Copy, Debug)]
-pub struct PreparedSpacecraft<'a> {
-    /// Its panels.
-    pub panels: &'a [Panel],
-    /// The whole of it in sunlight.
-    pub solar: &'a SolarModel,
-    /// How its orbit is integrated, if it is.
-    pub orbit_method: &'a OrbitMethod,
-    /// The default downlink of its antennas.
-    pub default_downlink: &'a DefaultDownlink,
-    /// Commands over time, which guided flight follows.
-    pub timeline: Option<TimelineLaw<'a>>,
-}
-
-impl<'a> PreparedSpacecraft<'a> {
-    /// The spacecraft in sunlight at `time_s` and this distance from the Sun.
-    pub(crate) fn sunlit(
-        self,
-        configuration: &'a Configuration,
-        current_mass_panels_stowed: &MassProperties,
-        [time_s, sun_distance_m]: [f64; 2],
-    ) -> SunlitConfiguration<'a> {
-        SunlitConfiguration {
-            solar: self.solar,
-            panels: self.panels,
-            settings: &configuration.panels,
-            current_mass_panels_stowed: *current_mass_panels_stowed,
-            time_s,
-            sun_distance_m,
-        }
     }
 }

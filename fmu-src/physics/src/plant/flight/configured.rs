@@ -10,12 +10,15 @@ use crate::momentum::{TorqueModel, Totals};
 
 use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 use crate::momentum::WorkKind;
-use crate::plant::disturbances::evaluation::{External, Plant};
-use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
+use crate::plant::disturbances::evaluation::External;
+use crate::plant::disturbances::plant::Plant;
+use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::settings::configuration::{AttitudeSource, Command, DynamicAttitude};
 use crate::plant::settings::error::PlantError;
+use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::settings::reaction_control_settings::ThrustCommand;
 use crate::plant::settings::thruster_events::ThrusterEvent;
+use crate::plant::sources::Dipoles;
 use crate::plant::state::disturbance_interval::DisturbanceInterval;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::plant::thrusters::reaction_control::Thrusters;
@@ -97,6 +100,11 @@ impl ConfiguredFlight<'_> {
     /// Time of the next edge of a valve or of an empty tank, in s.
     pub(super) fn next_thruster_edge_s(&self) -> f64 {
         self.thrusters.next_edge_s(&self.context.allocator.settings)
+    }
+
+    /// Dipoles of the sources at `time_s`.
+    pub(super) fn dipoles(&self, time_s: f64) -> Dipoles {
+        self.propagator.sources.dipoles(&self.context.configuration, time_s)
     }
 
     /// Mass properties at `time_s` without the propellant used, panels at angle 0; `None` while none is used.

@@ -9,10 +9,11 @@ use super::fork::{ForecastMomentum, Fork};
 use crate::guidance::{Guided, ScienceArc, SelectedSunDirection};
 use crate::loads::ForceTorque;
 use crate::momentum::{Convention, Totals};
-use crate::plant::disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
+use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::light::sunlit::SunlitConfiguration;
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
+use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::spacecraft::Material;
 
@@ -79,8 +80,15 @@ pub struct DownlinkForecast<'o> {
 impl DownlinkForecast<'_> {
     fn sunlit(&self) -> SunlitConfiguration<'_> {
         let SimulationContext { configuration, current_mass_panels_stowed, .. } = &*self.context;
-        let at = [self.time_s, self.sun_distance_m];
-        self.context.in_sunlight(self.prepared).sunlit(configuration, current_mass_panels_stowed, at)
+        let spacecraft = self.context.in_sunlight(self.prepared);
+        let (time_s, sun_distance_m) = (self.time_s, self.sun_distance_m);
+        SunlitConfiguration::new(
+            spacecraft,
+            configuration,
+            current_mass_panels_stowed,
+            time_s,
+            sun_distance_m,
+        )
     }
 
     /// Materials of the spacecraft's faces.

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 
 use crate::attitude::control::ControlTarget;
 use crate::attitude::{Attitude, BodyMotion, MotionAt};
-use crate::loads::{Effect, ForceTorque};
+use crate::loads::{Effect, ForceTorque, Writer};
 use crate::momentum::{DumpEvent, Totals, WorkKind};
 use crate::spacecraft::MassProperties;
 
@@ -23,6 +23,8 @@ use crate::plant::settings::configuration::{AttitudeSource, Command};
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings, Tracked};
 use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::thruster_events::ThrusterEvent;
+use crate::plant::sources::applied::APPLIED;
+use crate::plant::sources::thrusters::THRUSTERS;
 use crate::plant::state::dynamic_state::{DynamicState, tolerance_s};
 
 /// Units of work of a segment of the motion with flexible modes, slosh or imbalance; one of a rigid body's is a unit.
@@ -77,7 +79,8 @@ impl Dynamic<'_> {
             let limit_s = limit_s.min(state.dumps.until_s()).min(events.next_s(state.scheduled));
             let external = (flight.given.external)(time_s);
             let mut load = state.load(&external, flight.thrusters, time_s);
-            load.dipole = grid_edge::dipole(state, flight);
+            state.dumps.dipoles = flight.dipoles(time_s);
+            load.dipole = state.in_field(&state.dumps.dipoles);
             load.internal = state.panels.internal(flight.given.prepared.panels, &state.mass.now, time_s);
             state.dumps.torques = state.torques_by_source(&external, time_s);
             let motors = state.control.wheels.motors();
@@ -268,17 +271,26 @@ impl Dynamic<'_> {
         let panels_body_n_m_s = plant.panel_momentum_body_n_m_s(&instant, &mass, time_s);
         let air_and_field = plant.air_and_field(time_s);
         let mut loads = state.disturbance.loads_at(time_s);
-        if let Some(dipole) = grid_edge::dipole(state, flight) {
-            let [field_inertial_t, _] = state.disturbance.field_at(time_s);
-            let field_body_t = instant.to_body * field_inertial_t;
-            loads[Effect::Magnetic].torque_body_n_m = dipole.dipole_body_a_m2.cross(&field_body_t);
+        for (row, dipole) in Effect::FIELD.into_iter().zip(flight.dipoles(time_s)) {
+            if let Some([dipole_body_a_m2, _]) = dipole.filter(|[now, _]| *now != Vector3::zeros()) {
+                let [field_inertial_t, _] = state.disturbance.field_at(time_s);
+                loads[row].torque_body_n_m = dipole_body_a_m2.cross(&(instant.to_body * field_inertial_t));
+            }
         }
-        let [torque_body_n_m, force_body_n] = state.motion.imbalance_load(&settings.gyrostat, time_s, &body);
-        loads[Effect::Imbalance] = ForceTorque { force_body_n, torque_body_n_m };
-        loads[Effect::Slosh].torque_body_n_m = state.motion.swing_torque_n_m(time_s);
-        [loads[Effect::Applied], _] = (flight.given.external)(time_s);
+        for row in Effect::ALL {
+            match row.row().writer {
+                Writer::Source(_) => {}
+                Writer::Rotors => {
+                    let [torque_body_n_m, force_body_n] =
+                        state.motion.imbalance_load(&settings.gyrostat, time_s, &body);
+                    loads[row] = ForceTorque { force_body_n, torque_body_n_m };
+                }
+                Writer::Propellant => loads[row].torque_body_n_m = state.motion.swing_torque_n_m(time_s),
+            }
+        }
+        [loads[APPLIED], _] = (flight.given.external)(time_s);
         let thrusters = flight.thrusters.load();
-        loads[Effect::Thrusters] = ForceTorque {
+        loads[THRUSTERS] = ForceTorque {
             force_body_n: thrusters.law.force_at_n(time_s),
             torque_body_n_m: thrusters.torque_at_n_m(time_s, &body.rate_body_rad_s),
         };

@@ -2,15 +2,14 @@
 
 use nalgebra::Vector3;
 
-use crate::attitude::{Attitude, BodyMotion, DipoleInField, GyrostatMotion};
-use crate::loads::Effect;
+use crate::attitude::{Attitude, BodyMotion, GyrostatMotion};
 use crate::spacecraft::MassProperties;
 
 use super::configured::ConfiguredFlight;
 use crate::plant::control::control_loop::ControlLoop;
 use crate::plant::control::sensing::Sensing;
 use crate::plant::disturbances::disturbance_interval::{deviate, next_interval};
-use crate::plant::disturbances::evaluation::Plant;
+use crate::plant::disturbances::plant::Plant;
 use crate::plant::motion::panel_motion::PanelMotion;
 use crate::plant::settings::dynamics_settings::{DynamicsSettings, StartMotion, StartPointing};
 use crate::plant::settings::error::PlantError;
@@ -18,7 +17,7 @@ use crate::plant::settings::thruster_events::SchedulePlace;
 use crate::plant::state::disturbance_interval::DisturbanceInterval;
 use crate::plant::state::dynamic_state::DynamicState;
 use crate::plant::state::mass::MassState;
-use crate::plant::thrusters::momentum_dumps::MomentumDumps;
+use crate::plant::state::momentum_dumps::MomentumDumps;
 
 /// At the start of a flight in the attitude after `held`.
 pub(super) fn begin(
@@ -91,7 +90,7 @@ pub(super) fn begin_interval(
     if begins || !context.configuration.motion.uses_encke() {
         flight.propagator.cut(&context.configuration, time_s, true);
     } else {
-        flight.propagator.cut_light(time_s);
+        flight.propagator.sources.cut(time_s);
     }
     let rate_terms_body = predicted_rate_terms(state, settings, flight, &body);
     let has_thrusters = !flight.context.allocator.settings.thrusters.is_empty();
@@ -148,11 +147,11 @@ fn predicted_rate_terms(
         torque += state.dumps.torque_body_n_m() + turn;
         slope += turn_slope;
     }
-    let dipole = dipole(state, flight).filter(|_| !state.disturbance.is_before());
-    if let Some(DipoleInField { dipole_body_a_m2, field_inertial_t }) = dipole {
-        let [field, per_s] = field_inertial_t.map(|it| body.attitude.body_from_inertial(&it));
-        torque += dipole_body_a_m2.cross(&field);
-        slope += dipole_body_a_m2.cross(&(per_s - rate.cross(&field)));
+    let dipole = state.in_field(&flight.dipoles(time_s)).filter(|_| !state.disturbance.is_before());
+    if let Some(dipole) = dipole {
+        let [now, per_s] = dipole.torque_with_slope_n_m(&body.attitude, rate);
+        torque += now;
+        slope += per_s;
     }
     let gyrostat = &settings.gyrostat;
     let motor_n_m = |k: usize| {
@@ -203,13 +202,4 @@ pub(super) fn set_mass(state: &mut DynamicState, settings: &mut DynamicsSettings
 fn set_known_mass(state: &mut DynamicState, settings: &mut DynamicsSettings, mass: MassProperties) {
     state.mass.known = mass;
     set_mass(state, settings, mass);
-}
-
-/// The dipole in the field from the end of the motion on, where there is one.
-pub(super) fn dipole(state: &DynamicState, flight: &ConfiguredFlight<'_>) -> Option<DipoleInField> {
-    let dipole_body_a_m2 = flight.context.configuration.laws.dipole_body_a_m2;
-    let acts = flight.context.configuration.effects.has(Effect::Magnetic);
-    let field_inertial_t = state.disturbance.field_at(state.motion.end_s());
-    (acts && dipole_body_a_m2 != Vector3::zeros())
-        .then_some(DipoleInField { dipole_body_a_m2, field_inertial_t })
 }

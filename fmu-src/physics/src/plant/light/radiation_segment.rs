@@ -25,7 +25,7 @@ pub(crate) type LoadSeries = Segment<6, NODES>;
 pub(crate) const HOTTEST_K: f64 = 1e5;
 
 /// Light and heat over one interval, and the heat stored at its end. The default stands before the first segment.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RadiationSegment {
     pub(crate) span: SegmentSpan,
     /// Absent for effects that do not act, and before the first segment for all.
@@ -36,17 +36,22 @@ pub struct RadiationSegment {
     pub(crate) end_k: Vec<f64>,
 }
 
-impl RadiationSegment {
-    /// Becomes another one; allocates nothing where it held as many temperatures before.
-    pub(crate) fn copy_from(&mut self, other: &Self) {
-        let (mut temperatures_k, mut end_k) =
-            (core::mem::take(&mut self.temperatures_k), core::mem::take(&mut self.end_k));
-        temperatures_k.clone_from(&other.temperatures_k);
-        end_k.clone_from(&other.end_k);
-        let Self { span, loads, .. } = *other;
-        *self = Self { span, loads, temperatures_k, end_k };
+impl Clone for RadiationSegment {
+    fn clone(&self) -> Self {
+        let mut copy = Self::default();
+        copy.clone_from(self);
+        copy
     }
 
+    /// Allocates nothing where `self` held as many temperatures before.
+    fn clone_from(&mut self, other: &Self) {
+        (self.span, self.loads) = (other.span, other.loads);
+        self.temperatures_k.clone_from(&other.temperatures_k);
+        self.end_k.clone_from(&other.end_k);
+    }
+}
+
+impl RadiationSegment {
     /// Whether a simulation can produce it.
     pub fn is_valid(&self) -> bool {
         let hot = |kelvin: &f64| (0.0..=HOTTEST_K).contains(kelvin);
@@ -65,9 +70,8 @@ impl RadiationSegment {
         self.span.covers(time_s)
     }
 
-    /// Force and torque at `time_s`.
-    pub(crate) fn loads(&self, time_s: f64) -> Loads {
-        let mut loads = Loads::zero();
+    /// Writes force and torque of its effects at `time_s`.
+    pub(crate) fn write_loads(&self, time_s: f64, loads: &mut Loads) {
         for (effect, series) in self.loads.present() {
             let values = series.value(time_s);
             loads[effect] = ForceTorque {
@@ -75,7 +79,6 @@ impl RadiationSegment {
                 torque_body_n_m: values.fixed_rows::<3>(3).into(),
             };
         }
-        loads
     }
 
     /// Temperatures in K of the faces at `time_s`; leaves `temperatures_k` alone where no heat is stored.
@@ -90,15 +93,9 @@ impl RadiationSegment {
         }
     }
 
-    /// Writes the temperatures in K of the faces at `time_s`; `false` where they are not known.
-    pub(crate) fn wall_temperatures_at(&self, time_s: f64, temperatures_k: &mut [f64]) -> bool {
-        if self.temperatures_k.len() != temperatures_k.len() || self.temperatures_k.is_empty() {
-            return false;
-        }
-        for (kelvin, series) in temperatures_k.iter_mut().zip(&self.temperatures_k) {
-            *kelvin = series.value(time_s)[0];
-        }
-        true
+    /// Appends the temperatures in K of the faces at `time_s`, where they are known.
+    pub(crate) fn write_wall_temperatures(&self, time_s: f64, temperatures_k: &mut Vec<f64>) {
+        temperatures_k.extend(self.temperatures_k.iter().map(|series| series.value(time_s)[0]));
     }
 
     /// Ends at `time_s`: the flight changes there.

@@ -8,6 +8,7 @@ pub(super) mod error;
 pub(super) mod ideal_settings;
 pub(super) mod laws;
 pub(super) mod panel_setting;
+pub(super) mod prepared_spacecraft;
 pub(super) mod radiation_settings;
 pub(super) mod reaction_control_settings;
 pub(super) mod thruster_events;

@@ -3,11 +3,8 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::loads::{ByEffect, Effect, ForceTorque, Loads};
+use crate::loads::{ByEffect, Effect, ForceTorque, Linear, Loads};
 use crate::numerics::adaptive::SegmentSpan;
-
-/// A vector that changes linearly: at the start, and per second.
-pub(crate) type Linear = [Vector3<f64>; 2];
 
 /// Loads on the body and direction of the Sun over one interval.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

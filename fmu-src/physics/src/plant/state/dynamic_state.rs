@@ -1,17 +1,20 @@
 //! State of a flight by torque: body, panels, disturbances, sensors, control, dumps and their schedule.
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::disturbance_interval::{DisturbanceInterval, Linear};
+use super::disturbance_interval::DisturbanceInterval;
 use super::mass::MassState;
-use crate::attitude::{BodyLoad, GyrostatMotion};
-use crate::loads::{ByEffect, Effect, ForceTorque};
+use super::momentum_dumps::MomentumDumps;
+use crate::attitude::{BodyLoad, DipoleInField, GyrostatMotion};
+use crate::loads::{ByEffect, ForceTorque, Linear};
 use crate::numerics::spacing::spacing;
 use crate::plant::control::control_loop::ControlLoop;
 use crate::plant::control::sensing::Sensing;
 use crate::plant::motion::panel_motion::PanelMotion;
 use crate::plant::settings::thruster_events::SchedulePlace;
-use crate::plant::thrusters::momentum_dumps::MomentumDumps;
+use crate::plant::sources::Dipoles;
+use crate::plant::sources::applied::APPLIED;
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::Spacecraft;
 
@@ -90,6 +93,18 @@ impl DynamicState {
         }
     }
 
+    /// The sum of these dipoles in the field from the end of the motion on, where there is one.
+    pub(crate) fn in_field(&self, dipoles: &Dipoles) -> Option<DipoleInField> {
+        let dipole_body_a_m2 = dipoles
+            .iter()
+            .flatten()
+            .copied()
+            .reduce(|[sum, sum_rate], [dipole, rate]| [sum + dipole, sum_rate + rate])?;
+        let field_inertial_t = self.disturbance.field_at(self.motion.end_s());
+        (dipole_body_a_m2 != [Vector3::zeros(); 2])
+            .then_some(DipoleInField { dipole_body_a_m2, field_inertial_t })
+    }
+
     /// Torque by effect from `time_s` on.
     pub(crate) fn torques_by_source(
         &self,
@@ -97,7 +112,7 @@ impl DynamicState {
         time_s: f64,
     ) -> ByEffect<Option<Linear>> {
         ByEffect::from_fn(|effect| match effect {
-            Effect::Applied => Some(external.map(|load| load.torque_body_n_m)),
+            APPLIED => Some(external.map(|load| load.torque_body_n_m)),
             effect if effect.row().momentum_apart => self.disturbance.torque_at(effect, time_s),
             _ => None,
         })

@@ -41,7 +41,7 @@ impl FlightState {
 
     /// Rejects decoded states that no flight of this spacecraft can produce.
     pub(crate) fn is_valid(&self, spacecraft: &Spacecraft) -> bool {
-        self.propagator.is_valid()
+        self.propagator.is_valid(spacecraft)
             && self.prediction.as_ref().is_none_or(EncounterPrediction::is_valid)
             && self.thrusters.is_valid(spacecraft)
             && match &self.mode {
@@ -53,10 +53,10 @@ impl FlightState {
 
     /// Names a part of the flight that was not computed at `time_s`, if any.
     pub(crate) fn first_uncovered(&self, time_s: f64) -> Option<&'static str> {
-        let PropagatorState { light, trajectory, air_and_field, .. } = &self.propagator;
-        let is_lit = light.as_ref().is_none_or(|it| it.covers(time_s));
+        let PropagatorState { sources, trajectory, air_and_field, .. } = &self.propagator;
+        let uncovered = sources.first_uncovered(time_s);
         let (is_covered, what) = match &self.mode {
-            _ if !is_lit => (false, "light and heat were computed"),
+            _ if uncovered.is_some() => return uncovered,
             _ if !air_and_field.covers(time_s) => (false, "air and magnetic field were computed"),
             _ if !trajectory.covers(time_s) => (false, "the orbit was integrated"),
             Mode::Waiting => (true, ""),

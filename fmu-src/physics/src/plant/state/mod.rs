@@ -7,5 +7,6 @@ pub(super) mod encounter_prediction;
 pub(super) mod flight_state;
 pub(super) mod ideal_state;
 pub(super) mod mass;
+pub(super) mod momentum_dumps;
 pub(super) mod propagator_state;
 pub(super) mod sun_choice;

@@ -7,12 +7,13 @@ use super::center_of_mass::CenterOfMass;
 use super::sun_choice::SunDirectionSelection;
 use crate::environment::orbit::OrbitError;
 use crate::plant::air_and_field::air_and_field_segment::AirAndFieldSegment;
-use crate::plant::light::radiation_segment::RadiationSegment;
 use crate::plant::motion::command_slews::CommandSlews;
 use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::motion::trajectory::Trajectory;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
+use crate::plant::sources::SourceStates;
+use crate::spacecraft::Spacecraft;
 
 /// State of the propagator, beside the totals of the momentum integrator. Serialisable and complete: together with the
 /// configuration it fixes everything that follows.
@@ -20,8 +21,8 @@ use crate::plant::settings::error::PlantError;
 pub struct PropagatorState {
     /// Orbit of the spacecraft.
     pub trajectory: Trajectory,
-    /// Light and heat of the present segment; absent before the first one.
-    pub light: Option<RadiationSegment>,
+    /// States of the sources.
+    pub sources: SourceStates,
     /// Air and magnetic field of the present segment.
     pub air_and_field: AirAndFieldSegment,
     /// Direction of the Sun during downlinks.
@@ -36,12 +37,12 @@ pub struct PropagatorState {
 
 impl PropagatorState {
     /// Rejects decoded states that no simulation can produce.
-    pub fn is_valid(&self) -> bool {
+    pub fn is_valid(&self, spacecraft: &Spacecraft) -> bool {
         self.trajectory.is_valid()
             && self.air_and_field.is_valid()
             && self.sun_choice.selected.is_valid()
             && self.command_slews.is_valid()
-            && self.light.as_ref().is_none_or(RadiationSegment::is_valid)
+            && self.sources.is_valid(spacecraft)
     }
 
     /// At the start of a flight.
@@ -58,10 +59,7 @@ impl PropagatorState {
 
     /// Becomes another one; allocates nothing where it held as much before.
     pub(crate) fn copy_from(&mut self, other: &Self) {
-        match (&mut self.light, &other.light) {
-            (Some(light), Some(other)) => light.copy_from(other),
-            (light, other) => light.clone_from(other),
-        }
+        self.sources.copy_from(&other.sources);
         // Nobody asks for the turns of a fork's panels.
         let Self { trajectory, air_and_field, sun_choice, center_of_mass, command_slews, .. } = *other;
         (self.trajectory, self.air_and_field) = (trajectory, air_and_field);
@@ -77,7 +75,7 @@ impl PropagatorState {
         self.trajectory = Trajectory::new(configuration, time_s)?;
         self.command_slews.cut(time_s);
         self.air_and_field.cut(time_s);
-        self.cut_light(time_s);
+        self.sources.cut(time_s);
         Ok(())
     }
 
@@ -101,15 +99,8 @@ impl PropagatorState {
         let orbit_changes = configuration.motion.has_nongravitational_forces();
         let taken_m_s = if orbit_changes { *jump_m_s } else { Vector3::zeros() };
         self.trajectory.cut(configuration, time_s, &taken_m_s);
-        if let Some(light) = self.light.as_mut().filter(|_| light_changes || orbit_changes) {
-            light.cut(time_s);
-        }
-    }
-
-    /// Discards light and heat after `time_s`, computed for another attitude.
-    pub(crate) fn cut_light(&mut self, time_s: f64) {
-        if let Some(light) = &mut self.light {
-            light.cut(time_s);
+        if light_changes || orbit_changes {
+            self.sources.cut(time_s);
         }
     }
 
@@ -126,7 +117,7 @@ impl PropagatorState {
         self.trajectory.maneuver(configuration, time_s, delta_v_m_s)?;
         self.command_slews.cut(time_s);
         self.air_and_field.cut(time_s);
-        self.cut_light(time_s);
+        self.sources.cut(time_s);
         Ok(())
     }
 }

@@ -2,7 +2,6 @@
 
 pub(super) mod allocation;
 pub(super) mod at_once;
-pub(super) mod momentum_dumps;
 pub(super) mod pulsed_dump;
 pub(super) mod reaction_control;
 pub(super) mod thruster_load;

@@ -4,11 +4,12 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::allocation::{ThrusterAllocator, Unserved};
-use super::reaction_control::Thrusters;
 use crate::attitude::{GyrostatMotion, MotionAt};
-use crate::loads::{ByEffect, Effect};
+use crate::loads::{ByEffect, Effect, Linear, Writer};
 use crate::momentum::{DumpEvent, DumpSpacing, Dumps, SourceMomenta};
+use crate::plant::sources::Dipoles;
+use crate::plant::thrusters::allocation::{ThrusterAllocator, Unserved};
+use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::MassProperties;
 
 /// A dump by a constant torque.
@@ -29,7 +30,9 @@ pub(crate) struct MomentumDumps {
     /// Momentum by effect from the last dump up to the present segment of the motion.
     by_source: SourceMomenta,
     /// Torque by effect from the start of that segment on.
-    pub torques: ByEffect<Option<[Vector3<f64>; 2]>>,
+    pub torques: ByEffect<Option<Linear>>,
+    /// Dipoles by row in the magnetic field from there on.
+    pub dipoles: Dipoles,
 }
 
 impl MomentumDumps {
@@ -60,7 +63,7 @@ impl MomentumDumps {
         } else {
             self.by_source.add(&self.impulses(motion, end));
         }
-        self.torques = Default::default();
+        (self.torques, self.dipoles) = Default::default();
     }
 
     /// Returns the momentum by effect since the end of the last dump.
@@ -73,15 +76,17 @@ impl MomentumDumps {
     /// Change of momentum by effect since the start of the motion's segment, EME2000, in N m s.
     fn impulses(&self, motion: &GyrostatMotion, until: &MotionAt) -> [Vector3<f64>; Effect::COUNT] {
         let mut impulses = motion.impulses_inertial_n_m_s(self.torques.values(), until);
-        let by_motion = [
-            (Effect::Magnetic, motion.magnetic_impulse_inertial_n_m_s(until)),
-            (Effect::Imbalance, motion.imbalance_impulse_inertial_n_m_s(until)),
-            (Effect::Slosh, motion.swing_impulse_inertial_n_m_s(until)),
-        ];
-        for (effect, impulse) in by_motion {
-            if let Some(impulse) = impulse {
-                impulses[effect as usize] = impulse;
+        for (row, dipole) in Effect::FIELD.into_iter().zip(&self.dipoles) {
+            let impulse = dipole.and_then(|dipole| motion.dipole_impulse_inertial_n_m_s(&dipole, until));
+            impulses[row as usize] += impulse.unwrap_or_default();
+        }
+        for row in Effect::ALL {
+            impulses[row as usize] += match row.row().writer {
+                Writer::Source(_) => continue,
+                Writer::Rotors => motion.imbalance_impulse_inertial_n_m_s(until),
+                Writer::Propellant => motion.swing_impulse_inertial_n_m_s(until),
             }
+            .unwrap_or_default();
         }
         impulses
     }

@@ -4,11 +4,11 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::laws::{self, LocalEnvironment};
+use super::{gravity_gradient, magnetic};
 use crate::aerodynamics::{AerodynamicModel, AerodynamicWorkspace, AirFlow, Walls};
 use crate::bodies::surface::PlanetSurface;
 use crate::environment::eclipse::{EclipseError, Shadow};
-use crate::loads::{Active, Effect, ForceTorque, Loads};
+use crate::loads::{Active, Effect, Loads};
 use crate::numerics::scalar::Scalar;
 use crate::plant::settings::laws::Laws;
 use crate::radiation::disturbance::{self, DisturbanceModel, Geometry, Recoil};
@@ -203,7 +203,7 @@ impl<T: Scalar> BySource<T> {
         let [density_kg_m3, temperature_k, molar_mass_kg_mol] = positions.air;
         let velocity_body_m_s = Vector3::from(positions.air_velocity_m_s);
         let flow = AirFlow { density_kg_m3, temperature_k, molar_mass_kg_mol, velocity_body_m_s };
-        let air = air.filter(|_| density_kg_m3.value() > 0.0).map(|model| {
+        if let Some(model) = air.filter(|_| density_kg_m3.value() > 0.0 && active.has(Effect::Aerodynamic)) {
             let center = Vector3::from(positions.center_of_mass_m);
             let temperatures_k = active.has(Effect::Thermal).then(|| {
                 face_temperatures_k.clear();
@@ -211,16 +211,20 @@ impl<T: Scalar> BySource<T> {
                 face_temperatures_k.as_slice()
             });
             let walls = Walls { temperatures_k, materials: Some(materials) };
-            model.load(&flow, &positions.panel_angles_rad, &center, walls, air_workspace)
-        });
-        let at = LocalEnvironment {
-            planet_body_m: planet_m,
-            pole_body: if is_zero(&pole) { -Vector3::z() } else { pole.normalize() },
-            inertia_body_kg_m2: parameters.inertia_body_kg_m2,
-            field_body_t: Vector3::from(positions.field_t),
-            air: air.unwrap_or_else(ForceTorque::zero),
-        };
-        laws::write_loads(&parameters.laws, active, &at, &mut loads);
+            let load = model.load(&flow, &positions.panel_angles_rad, &center, walls, air_workspace);
+            loads[Effect::Aerodynamic] = load;
+        }
+        let Parameters { laws, inertia_body_kg_m2, .. } = parameters;
+        if let Some(planet_body_m) = planet_m.filter(|_| active.has(Effect::GravityGradient)) {
+            let pole_body = || if is_zero(&pole) { -Vector3::z() } else { pole.normalize() };
+            loads[Effect::GravityGradient].torque_body_n_m =
+                gravity_gradient::torque_n_m(laws, inertia_body_kg_m2, &planet_body_m, pole_body);
+        }
+        if active.has(Effect::Magnetic) {
+            let field_body_t = Vector3::from(positions.field_t);
+            loads[Effect::Magnetic].torque_body_n_m =
+                magnetic::torque_n_m(&laws.dipole_body_a_m2, &field_body_t);
+        }
         Ok(Self { active, loads, lit_fraction })
     }
 }

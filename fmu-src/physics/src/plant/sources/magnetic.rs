@@ -1,12 +1,34 @@
-//! Torque of a magnetic field on the spacecraft's dipole.
+//! The spacecraft's residual dipole in the planet's magnetic field.
 
 use nalgebra::Vector3;
 
+use super::source::Source;
+use crate::loads::{Effect, Linear};
 use crate::numerics::scalar::Scalar;
+use crate::plant::settings::configuration::Configuration;
+use crate::plant::settings::laws::Laws;
+
+/// Residual dipole.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct ResidualDipole;
 
 /// Torque m x B of a dipole (in A m2) in a field (in T), both in the body frame, in N m.
 pub(super) fn torque_n_m<T: Scalar>(dipole_body_a_m2: &Vector3<T>, field_body_t: &Vector3<T>) -> Vector3<T> {
     dipole_body_a_m2.cross(field_body_t)
+}
+
+impl Source for ResidualDipole {
+    const ROWS: &'static [Effect] = &[Effect::Magnetic];
+    type Settings = Laws;
+    type State = ();
+
+    fn settings(configuration: &Configuration) -> &Laws {
+        &configuration.laws
+    }
+
+    fn dipole(laws: &Laws, (): &(), _: f64) -> Linear {
+        [laws.dipole_body_a_m2, Vector3::zeros()]
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,22 @@
+//! The spacecraft, prepared once for all its flights.
+
+use crate::environment::orbit::OrbitMethod;
+use crate::guidance::downlink::default_downlink::DefaultDownlink;
+use crate::guidance::timeline::TimelineLaw;
+use crate::radiation::SolarModel;
+use crate::spacecraft::Panel;
+
+/// The spacecraft, prepared once.
+#[derive(Clone, Copy, Debug)]
+pub struct PreparedSpacecraft<'a> {
+    /// Its panels.
+    pub panels: &'a [Panel],
+    /// The whole of it in sunlight.
+    pub solar: &'a SolarModel,
+    /// How its orbit is integrated, if it is.
+    pub orbit_method: &'a OrbitMethod,
+    /// The default downlink of its antennas.
+    pub default_downlink: &'a DefaultDownlink,
+    /// Commands over time, which guided flight follows.
+    pub timeline: Option<TimelineLaw<'a>>,
+}

@@ -1,0 +1,123 @@
+//! Sunlight, planet light and the recoil of heat: slow effects from a segment, sunlight that nothing shadows in closed form.
+
+use nalgebra::Vector3;
+
+use super::source::{Source, Workspace};
+use crate::loads::{Effect, Loads};
+use crate::numerics::Span;
+use crate::plant::instant::conditions::Conditions;
+use crate::plant::instant::path_ahead::PathAhead;
+use crate::plant::light::light_and_heat::RadiationBuilder;
+use crate::plant::light::radiation_segment::RadiationSegment;
+use crate::plant::light::radiation_solver::RadiationSolver;
+use crate::plant::light::sunlit::SunlitConfiguration;
+use crate::plant::settings::configuration::Configuration;
+use crate::plant::settings::error::PlantError;
+use crate::radiation::Beam;
+use crate::spacecraft::{Material, Spacecraft};
+
+/// Sunlight, with the solver of light and heat beyond direct sunlight where there is more of them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sunlight {
+    /// Light and heat beyond direct sunlight.
+    pub solver: Option<RadiationSolver>,
+}
+
+impl Sunlight {
+    /// Reports temperature in K and force in N, body frame, of every face of the light model at `time_s`, in its order; the
+    /// force of the effects that act.
+    ///
+    /// # Errors
+    /// A geometry without meaning.
+    pub(crate) fn faces(
+        &mut self,
+        state: &Option<RadiationSegment>,
+        path: PathAhead<'_, '_>,
+        time_s: f64,
+        report: impl FnMut(f64, Vector3<f64>),
+    ) -> Result<(), PlantError> {
+        let Some(solver) = &mut self.solver else { return Ok(()) };
+        let PathAhead { spacecraft, kinematics, .. } = path;
+        let mut builder = RadiationBuilder { panels: spacecraft.panels, kinematics };
+        builder.faces(solver, state.as_ref(), time_s, report)
+    }
+}
+
+impl Source for Sunlight {
+    const ROWS: &'static [Effect] = &[Effect::Solar, Effect::Albedo, Effect::Infrared, Effect::Thermal];
+    type Settings = Configuration;
+    type State = Option<RadiationSegment>;
+
+    fn settings(configuration: &Configuration) -> &Configuration {
+        configuration
+    }
+
+    fn load(
+        &mut self,
+        configuration: &Configuration,
+        state: &Option<RadiationSegment>,
+        at: &Conditions<'_>,
+        workspace: &mut Workspace,
+        loads: &mut Loads,
+    ) {
+        let Conditions { time_s, instant, .. } = *at;
+        workspace.face_temperatures_k.clear();
+        if let Some(segment) = state.as_ref().filter(|_| at.flow.is_some()) {
+            segment.write_wall_temperatures(time_s, &mut workspace.face_temperatures_k);
+        }
+        let mut is_shadowed = false;
+        if let (Some(segment), Some(solver)) = (state, &self.solver)
+            && configuration.has_light_and_heat()
+        {
+            is_shadowed = configuration.light_and_heat.shadowing && solver.model.can_shadow();
+            segment.write_loads(time_s, loads);
+            loads[Effect::Solar] = loads[Effect::Solar].scaled(configuration.light.scale);
+        }
+        if !is_shadowed {
+            let pressure_pa = configuration.light.pressure_pa(instant.sun_distance_m);
+            let beam =
+                Beam { source_body: instant.sun_body, pressure_pa: pressure_pa * instant.lit_fraction };
+            let (stowed, sun_distance_m) = (at.current_mass_panels_stowed, instant.sun_distance_m);
+            let sunlit =
+                SunlitConfiguration::new(at.spacecraft, configuration, stowed, time_s, sun_distance_m);
+            loads[Effect::Solar] = sunlit.load(&beam, &at.mass.center_of_mass_body_m);
+        }
+    }
+
+    fn extend(
+        &mut self,
+        state: &mut Option<RadiationSegment>,
+        path: &mut PathAhead<'_, '_>,
+        span: Span,
+    ) -> Result<f64, PlantError> {
+        match &mut self.solver {
+            Some(solver) if path.kinematics.configuration.has_light_and_heat() => {
+                let PathAhead { spacecraft, kinematics, .. } = path;
+                let mut builder = RadiationBuilder { panels: spacecraft.panels, kinematics };
+                builder.extend(solver, state, span.start_s, span.end_s)
+            }
+            _ => Ok(span.end_s),
+        }
+    }
+
+    fn cut(state: &mut Option<RadiationSegment>, time_s: f64) {
+        if let Some(segment) = state {
+            segment.cut(time_s);
+        }
+    }
+
+    fn is_valid(state: &Option<RadiationSegment>, _: &Spacecraft) -> bool {
+        state.as_ref().is_none_or(RadiationSegment::is_valid)
+    }
+
+    fn first_uncovered(state: &Option<RadiationSegment>, time_s: f64) -> Option<&'static str> {
+        let is_covered = state.as_ref().is_none_or(|it| it.covers(time_s));
+        (!is_covered).then_some("light and heat were computed")
+    }
+
+    fn set_material(&mut self, index: usize, material: &Material) {
+        if let Some(solver) = &mut self.solver {
+            solver.model.set_material(index, material);
+        }
+    }
+}
