@@ -122,7 +122,7 @@ impl Model for MomentumPlant {
     }
 
     fn check_time(state: &PlantState, time_s: f64) -> Result<(), Failure> {
-        match state.flight.first_uncovered(time_s) {
+        match state.saved.flight.first_uncovered(time_s) {
             Some(what) => Err(Failure::new(format!("{what} elsewhere than at {time_s:?} s"))),
             None => Ok(()),
         }

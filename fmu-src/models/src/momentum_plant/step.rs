@@ -8,7 +8,7 @@ use super::inputs::{self, FixedParameters, Reading, guidance, plausibility, prop
 use super::outputs;
 use super::outputs::messages::{failure, log_event};
 use super::setup::Plan;
-use super::state::PlantState;
+use super::state::{PlantState, SavedState};
 use crate::common::management::window_warning;
 
 /// The flight begins at `time_s`, or waits.
@@ -27,7 +27,7 @@ pub(super) fn start(
     evaluate(context, values, state, &reading, time_s)?;
     outputs::write(context, values, state, OutputGroups::ALL, time_s)?;
     if let Some(undo) = undo {
-        state.flight.undo(undo);
+        state.saved.flight.undo(undo);
     }
     Ok(())
 }
@@ -45,9 +45,9 @@ pub(super) fn step(
     configure(context, values, state, &reading, step)?;
     if reading.begins {
         let undo = begin(context, values, state, &reading, step.start_s)?;
-        state.flight.undo(undo);
+        state.saved.flight.undo(undo);
     }
-    if !state.waiting {
+    if !state.saved.waiting {
         advance(context, state, &reading, step)?;
     }
     evaluate(context, values, state, &reading, step.end_s)
@@ -67,20 +67,18 @@ fn configure(
         match (read.fixed, read.settings) {
             (Some(fixed), Some(settings)) => {
                 let FixedParameters { light, air, thrusters } = fixed;
-                let simulation = SimulationContext {
-                    ephemeris: Ephemeris::with_cache(&context.setup.ephemeris_cache),
-                    solar: Some(reading.solar().clone()),
-                    sources: Sources::new(light, air),
-                    allocator: ThrusterAllocator::new(thrusters),
-                    ..SimulationContext::new(read.configuration)
-                };
-                state.flight.configure(simulation, settings);
+                let mut simulation = SimulationContext::new(read.configuration);
+                simulation.models.ephemeris = Ephemeris::with_cache(&context.setup.ephemeris_cache);
+                simulation.models.solar = Some(reading.solar().clone());
+                simulation.models.sources = Sources::new(light, air);
+                simulation.allocator = ThrusterAllocator::new(thrusters);
+                state.saved.flight.configure(simulation, settings);
             }
             (_, changed) => (configuration, settings) = (Some(read.configuration), changed),
         }
     }
-    if let Some(changes) = reading.changes.filter(|_| !state.waiting && !reading.begins) {
-        state.flight.apply(changes, configuration, settings, step.start_s).map_err(failure)?;
+    if let Some(changes) = reading.changes.filter(|_| !state.saved.waiting && !reading.begins) {
+        state.saved.flight.apply(changes, configuration, settings, step.start_s).map_err(failure)?;
     }
     // After what was computed ahead with those before is void.
     if reading.is_reconfigured { inputs::update_materials(context, values, state) } else { Ok(()) }
@@ -94,8 +92,8 @@ fn begin(
     reading: &Reading<'_>,
     time_s: f64,
 ) -> Result<Undo, Failure> {
-    propulsion::check(&state.flight)?;
-    let guided = state.flight.configuration().and_then(|it| it.attitude.guided());
+    propulsion::check(&state.saved.flight)?;
+    let guided = state.saved.flight.configuration().and_then(|it| it.attitude.guided());
     if let Some(warning) = guided.and_then(|law| window_warning(&law.schedule)) {
         context.log.warning(&warning);
     }
@@ -107,11 +105,11 @@ fn begin(
     let (external, planner) = (reading.external(), reading.planner());
     let log = |event: &_| log_event(context, event);
     let given = StepContext { log: &log, ..reading.given(&external, &planner) };
-    state.flight.begin(given, &state.command, time_s).map_err(failure)?;
-    if let Some(estimate) = state.flight.estimate_at(time_s) {
+    state.saved.flight.begin(given, &state.saved.command, time_s).map_err(failure)?;
+    if let Some(estimate) = state.saved.flight.estimate_at(time_s) {
         state.start_command(estimate.attitude, time_s)?;
     }
-    let PlantState { flight, inputs, command, .. } = state;
+    let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
     plausibility::report(context, values, flight, given, time_s);
     let undo = flight.sample_at_start(given, &inputs.dynamics, time_s).map_err(failure)?;
     let reached = flight.evaluate(given, &inputs.dynamics, command, time_s).map_err(failure)?;
@@ -121,7 +119,8 @@ fn begin(
 
 /// Reports where no dump comes, and dumps that cost nothing.
 fn report_dumps(context: &Plan<'_>, state: &PlantState, time_s: f64) {
-    let Some(configuration) = state.flight.configuration().filter(|_| context.log.events_enabled()) else {
+    let Some(configuration) = state.saved.flight.configuration().filter(|_| context.log.events_enabled())
+    else {
         return;
     };
     let policy = &configuration.momentum.policy;
@@ -163,7 +162,7 @@ fn advance(
     reading: &Reading<'_>,
     step: &Step<'_>,
 ) -> Result<(), Failure> {
-    let PlantState { flight, inputs, request, maneuver_request, warned, .. } = state;
+    let PlantState { saved: SavedState { flight, request, maneuver_request, warned, .. }, inputs } = state;
     if let Some(flown) = flight.context() {
         let settings = &flown.allocator.settings;
         propulsion::warn(context, &inputs.dynamics, settings, &mut warned.thrusters, step);
@@ -189,7 +188,7 @@ fn evaluate(
 ) -> Result<(), Failure> {
     let (external, planner) = (reading.external(), reading.planner());
     let given = reading.given(&external, &planner);
-    let PlantState { flight, inputs, command, waiting, warned, .. } = state;
+    let PlantState { saved: SavedState { flight, command, waiting, warned, .. }, inputs } = state;
     let reached = flight.evaluate(given, &inputs.dynamics, command, time_s).map_err(failure)?;
     if !*waiting {
         outputs::check(flight, &reached, time_s)?;

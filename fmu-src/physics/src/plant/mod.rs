@@ -17,6 +17,7 @@
 mod air_and_field;
 mod control;
 mod disturbances;
+mod events;
 mod flight;
 mod instant;
 mod light;
@@ -29,11 +30,12 @@ mod thrusters;
 pub use air_and_field::aerodynamic_solver::AerodynamicSolver;
 pub use air_and_field::air_and_field_segment::AirAndField;
 pub use disturbances::evaluation::{Evaluation, External};
-pub use disturbances::plant::Plant;
+pub use disturbances::plant::{Plant, PlantSettings};
 pub use disturbances::simulation_context::SimulationContext;
+pub use disturbances::simulation_models::SimulationModels;
 pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 pub use flight::report::{ControlReport, EncounterReport, FlightSummary, ReachedState, Report, WheelReport};
-pub use flight::{Changes, Flight, ForecastMomentum, ModeSettings, Occultation, StepContext, Undo};
+pub use flight::{Flight, ForecastMomentum, Occultation, StepContext, Undo};
 pub use light::radiation_segment::RadiationSegment;
 pub use light::radiation_solver::RadiationSolver;
 pub use light::sunlit::SunlitConfiguration;
@@ -46,9 +48,9 @@ pub use motion::trajectory::Trajectory;
 pub use settings::air_and_field_settings::{
     AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure,
 };
+pub use settings::attitude_source::{AttitudeSource, Command, Turning};
 pub use settings::configuration::{
-    AttitudeSource, Command, Configuration, DynamicAttitude, Encounter, EphemerisSource, LightSource, Motion,
-    PredictionSettings, SunLight,
+    Configuration, Encounter, EphemerisSource, LightSource, Motion, PredictionSettings, SunLight,
 };
 pub use settings::control_defaults::{
     ControlDefaults, DUMP_TORQUE_N_M, LEAST_DUMP_THRESHOLD_N_M_S, NEVER_DUMPED_N_M_S,
@@ -60,6 +62,7 @@ pub use settings::dynamics_settings::{
 pub use settings::error::{ManeuverError, PlantError};
 pub use settings::ideal_settings::{IdealSettings, IdealWheel};
 pub use settings::laws::{Laws, TUNABLE_COUNT};
+pub use settings::mode_settings::{Changes, ModeSettings};
 pub use settings::panel_setting::{PanelSetting, PanelStep, Ramp, SunAt, Tilt};
 pub use settings::prepared_spacecraft::PreparedSpacecraft;
 pub use settings::radiation_settings::RadiationSettings;

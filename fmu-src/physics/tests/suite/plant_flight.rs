@@ -21,7 +21,7 @@ use physics::numerics::quadrature;
 use physics::plant::{
     AttitudeSource, Command, Configuration, EphemerisSource, External, Laws, LightSource, Motion,
     PanelSetting, PanelStep, Plant, PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver,
-    Ramp, SimulationContext, Sources, SunLight, ThrusterEventSettings,
+    Ramp, SimulationContext, Sources, SunLight, ThrusterEventSettings, Turning,
 };
 use physics::radiation::SolarModel;
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel};
@@ -144,7 +144,7 @@ impl Rig {
     }
 
     fn plant_in_light(&mut self, configuration: &Configuration, light: RadiationSolver) -> Plant<'_> {
-        self.context_of(configuration).sources = Sources::new(Some(light), None);
+        self.context_of(configuration).models.sources = Sources::new(Some(light), None);
         self.plant_now(&|_| [ForceTorque::zero(); 2])
     }
 
@@ -181,7 +181,7 @@ impl Rig {
             default_downlink: &self.default_downlink,
             timeline: None,
         };
-        Plant::new(prepared, self.context.as_mut().unwrap(), &mut self.propagator, load)
+        self.context.as_mut().unwrap().plant(prepared, Turning::still(), &mut self.propagator, load)
     }
 }
 

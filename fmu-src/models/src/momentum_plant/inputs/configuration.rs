@@ -27,7 +27,7 @@ pub(super) fn read(
 ) -> Result<Configuration, Failure> {
     let variables = context.variables;
     let epoch_s = values.real(variables.start.epoch);
-    let epoch_minus_time_s = time::epoch_minus_time_s(epoch_s, state.start_s);
+    let epoch_minus_time_s = time::epoch_minus_time_s(epoch_s, state.saved.start_s);
     let momentum = settings(context, values);
     if !matches!(values.choice(variables.ephemeris_source), EphemerisSource::Inputs) {
         ephemeris::check_start(epoch_s)?;
@@ -36,7 +36,7 @@ pub(super) fn read(
     center.check_density()?;
     let planet = air_and_field::read(context, values, center)?;
     let (gravity, encounter) = n_body::read(context, values, &planet.center)?;
-    let ephemeris = ephemeris_source::read(context, values, center.data.body, state.waiting)?;
+    let ephemeris = ephemeris_source::read(context, values, center.data.body, state.saved.waiting)?;
     let frame = orbit::eme2000_from_frame(context, values, center, &ephemeris)?;
     let reader = OrbitReader { variables, values, state, epoch_minus_time_s };
     let orbit = reader.orbit(center, &frame)?;

@@ -12,7 +12,7 @@ use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::timeline::TimelineSettings;
 use physics::guidance::{Guided, TargetPlanet};
 use physics::management::Strategy;
-use physics::plant::{self, Configuration, DynamicAttitude, ReachedState, StartMotion, StartPointing};
+use physics::plant::{self, Configuration, ReachedState, StartMotion, StartPointing};
 
 use super::wheels;
 use crate::common::downlink::ZERO_KEEP_IN_AXIS;
@@ -96,16 +96,13 @@ pub(super) fn attitude(
     let source = state.inputs.source;
     let guided = if source.guides_itself { Some(managed_law(context, values, state, orbit)?) } else { None };
     Ok(match guided {
-        _ if source.is_dynamic => {
-            let (motion, rate_terms_body) = (state.command, [Vector3::from([0.0; 3]); 2]);
-            plant::AttitudeSource::Dynamic(DynamicAttitude { motion, rate_terms_body, guided })
-        }
+        guided if source.is_dynamic => plant::AttitudeSource::Dynamic(guided),
         Some(guided) => plant::AttitudeSource::Guided(guided),
-        None => plant::AttitudeSource::Commanded(state.command),
+        None => plant::AttitudeSource::Commanded(state.saved.command),
     })
 }
 
-/// The orbit phase's own guidance, with the places of the Sun that management chose or inputs request.
+/// The orbit phase's own guidance, with the places of the Sun that inputs request; those that management chose are state.
 fn managed_law(
     context: &Plan<'_>,
     values: &Values,
@@ -117,21 +114,19 @@ fn managed_law(
     let antennas = &context.setup.antennas.all;
     let strategy = values.choice(variables.momentum.strategy).0;
     let managed = strategy != Strategy::DumpsOnly;
-    if !state.waiting {
+    if !state.saved.waiting {
         check_windows_have_antenna(&law.schedule, antennas)?;
     }
     variables.guided.check_unload(values, managed)?;
     check_strategy_has_antenna(strategy, antennas)?;
-    if managed && !state.waiting {
+    if managed && !state.saved.waiting {
         check_windows(&law.schedule)?;
     }
-    let choice = &state.flight.sun_choice().selected;
     let requested = if managed {
         SunRequest::default()
     } else {
         SunRequest { zone: zone_in_force(variables, values)?, ..variables.downlink.request(values) }
     };
-    let law = law.with_sun_directions(choice.in_downlink(), choice.in_science());
     Ok(Guided { managed, requested, ..law })
 }
 

@@ -115,17 +115,18 @@ pub(super) fn read<'a>(
             changes = Some(Changes { light: true, ..changes.unwrap_or_default() });
         }
     }
-    let begins = state.waiting && state.inputs.unset_places.is_empty();
-    state.waiting &= !begins;
+    let begins = state.saved.waiting && state.inputs.unset_places.is_empty();
+    state.saved.waiting &= !begins;
     let sunshade = values.choice(variables.sunshade.shape).0;
     let limits_rad = [variables.keep_in.azimuth, variables.keep_in.elevation].map(|limit| values.real(limit));
     let (momentum, spacecraft) = (&variables.momentum, &context.setup.spacecraft);
     let strategy = values.choice(momentum.strategy).0;
-    let is_dynamic = state.inputs.source.is_dynamic && !state.waiting;
-    let is_complete = begins || !state.flight.is_configured() || (state.waiting && changes.is_some());
+    let is_dynamic = state.inputs.source.is_dynamic && !state.saved.waiting;
+    let is_complete =
+        begins || state.saved.flight.configuration().is_none() || (state.saved.waiting && changes.is_some());
     let is_changed = changes.is_some_and(|it| !is_dynamic || it.orbit || it.light || it.tunables);
     let is_reconfigured = is_complete || is_changed;
-    let current = state.flight.configuration().filter(|_| !is_reconfigured);
+    let current = state.saved.flight.configuration().filter(|_| !is_reconfigured);
     let bias_body_n_m_s = current.map(|it| it.momentum.policy.bias_body_n_m_s);
     Ok(Reading {
         changes,
@@ -157,10 +158,10 @@ pub(super) fn configured(
     over_time: InputsOverTime<'_>,
     reading: &Reading<'_>,
 ) -> Result<Configured, Failure> {
-    let is_dynamic = state.inputs.source.is_dynamic && !state.waiting;
+    let is_dynamic = state.inputs.source.is_dynamic && !state.saved.waiting;
     let is_complete = reading.is_complete;
     let center = Center::read(context, values);
-    let moving = MovingPanels { over_time, memory: state.flight.extract_panels() };
+    let moving = MovingPanels { over_time, memory: state.saved.flight.extract_panels() };
     let configuration = configuration::read(context, values, state, &center, moving)?;
     let settings = if is_dynamic {
         let start = guidance::start_motion(context, values, &configuration, state)?;
@@ -172,7 +173,7 @@ pub(super) fn configured(
         None
     };
     let fixed = if is_complete {
-        let acting = Some(&configuration).filter(|_| !state.waiting);
+        let acting = Some(&configuration).filter(|_| !state.saved.waiting);
         Some(FixedParameters {
             air: acting.map(|it| solvers::air(context, values, it)).transpose()?.flatten(),
             light: acting
@@ -196,10 +197,10 @@ pub(super) fn update_materials(
     values: &Values,
     state: &mut PlantState,
 ) -> Result<(), Failure> {
-    let Some(flown) = state.flight.context_mut() else { return Ok(()) };
+    let Some(flown) = state.saved.flight.context_mut() else { return Ok(()) };
     for found in context.variables.optics.materials(context, values, &context.setup.optics) {
         let (place, material) = found?;
-        flown.set_material(place, &material);
+        flown.models.set_material(place, &material);
     }
     Ok(())
 }
@@ -258,7 +259,8 @@ pub(super) fn check_span(
     let Some(carried) = ephemeris::precise(context.setup.ephemeris.as_ref()).filter(|_| is_onboard) else {
         return Ok(());
     };
-    let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
+    let epoch_minus_time_s =
+        time::epoch_minus_time_s(values.real(variables.start.epoch), state.saved.start_s);
     let end_epoch_s = time::epoch_at_s(end_s, epoch_minus_time_s);
     let center = values.choice(variables.orbit.center).0;
     let end = "the epoch at the end of the step";

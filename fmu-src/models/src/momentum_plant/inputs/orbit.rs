@@ -75,7 +75,7 @@ impl OrbitReader<'_> {
         let (orbit, data) = (&variables.orbit, &center.data);
         match values.choice(orbit.source) {
             // Nothing is computed on it before position and velocity are set.
-            OrbitSource::Inputs | OrbitSource::Held if state.waiting => {
+            OrbitSource::Inputs | OrbitSource::Held if state.saved.waiting => {
                 circle(1e10, data.gm_m3_s2, epoch_minus_time_s)
             }
             source @ (OrbitSource::Inputs | OrbitSource::Held) => {

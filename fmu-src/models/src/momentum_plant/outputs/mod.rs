@@ -18,7 +18,7 @@ use physics::spacecraft::light_suns;
 use self::messages::failure;
 use super::inputs::wheels;
 use super::setup::Plan;
-use super::state::PlantState;
+use super::state::{PlantState, SavedState};
 use super::variables::PlantVariables;
 use crate::common::choices::OrbitCenter;
 use crate::common::loads;
@@ -89,7 +89,7 @@ pub(super) fn write(
     groups: OutputGroups,
     time_s: f64,
 ) -> Result<(), Failure> {
-    let PlantState { flight, inputs, command, .. } = state;
+    let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
     let prepared = context.setup.prepared_spacecraft(values.choice(context.variables.sunshade.shape).0)?;
     // Not `map_err`, which would copy the report.
     let report = match flight.report(prepared, &inputs.dynamics, command, time_s) {
@@ -370,7 +370,7 @@ pub(super) fn write_polynomial(context: &Plan<'_>, values: &mut Values, flight: 
     let polynomial =
         context.setup.spacecraft.sunshade.as_ref().zip(flight.context()).and_then(|(shade, flown)| {
             let (configuration, materials) =
-                (&flown.configuration, flown.solar.as_ref().map_or(&[][..], SolarModel::materials));
+                (&flown.configuration, flown.models.solar.as_ref().map_or(&[][..], SolarModel::materials));
             let center_of_mass_body_m = &configuration.center_of_mass_body_m;
             TorquePolynomial::of_sunshade(shade, configuration.sunshade, materials, center_of_mass_body_m)
                 .ok()

@@ -11,7 +11,7 @@ use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::spacing::spacing;
 
 use super::wheel_control::{WheelControl, WheelDistribution};
-use crate::plant::settings::configuration::Command;
+use crate::plant::settings::attitude_source::Command;
 use crate::plant::settings::dynamics_settings::Control;
 use crate::plant::thrusters::allocation::ThrusterAllocator;
 use crate::plant::thrusters::reaction_control::Thrusters;

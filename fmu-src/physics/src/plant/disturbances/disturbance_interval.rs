@@ -30,7 +30,6 @@ use super::evaluation::Evaluation;
 use super::plant::Plant;
 use crate::plant::light::light_and_heat::LEAST_ARM_M;
 use crate::plant::motion::kinematics::Kinematics;
-use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
 use crate::plant::state::disturbance_interval::DisturbanceInterval;
 
@@ -136,14 +135,14 @@ fn unforeseen(
 /// What ends a flight.
 pub(crate) fn deviate(interval: &DisturbanceInterval, plant: &mut Plant<'_>) -> Result<(), PlantError> {
     let applied = plant.external(interval.span.start_s);
-    let Kinematics { configuration, trajectory, current_mass_panels_stowed, .. } = &mut plant.kinematics;
-    let AttitudeSource::Dynamic(attitude) = &configuration.attitude else { return Ok(()) };
-    if !configuration.motion.uses_encke() {
+    let Kinematics { configuration, turning, trajectory, current_mass_panels_stowed, .. } =
+        &mut plant.kinematics;
+    if !configuration.uses_encke() {
         return Ok(());
     }
     let acceleration_m_s2 = |time_s: f64| {
         let force_body_n = interval.force_body_n(&applied, interval.span.start_s, time_s);
-        attitude.frame_at(time_s).inertial_from_body * (force_body_n / current_mass_panels_stowed.mass_kg)
+        turning.frame_at(time_s).inertial_from_body * (force_body_n / current_mass_panels_stowed.mass_kg)
     };
     Ok(trajectory.accelerate(
         configuration,

@@ -10,7 +10,7 @@
 use nalgebra::{Rotation3, Vector3};
 
 use super::evaluation::{Evaluation, External};
-use super::simulation_context::SimulationContext;
+use super::simulation_models::SimulationModels;
 use crate::loads::{ForceTorque, Loads};
 use crate::momentum::{EventValues, TorqueModel, TorqueSample, WorkKind, torques_body_n_m};
 use crate::numerics::Span;
@@ -22,7 +22,8 @@ use crate::plant::motion::instant::Instant;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::motion::panel_motion::Hinged;
 use crate::plant::motion::panel_turns::PanelTurns;
-use crate::plant::settings::configuration::AttitudeSource;
+use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
+use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::sources::{SourceStates, Sources};
@@ -32,6 +33,17 @@ use crate::spacecraft::MassProperties;
 
 /// Nodes at which the acceleration of a segment is taken.
 const NODES: usize = 8;
+
+/// Settings under which a plant is evaluated.
+#[derive(Clone, Copy, Debug)]
+pub struct PlantSettings<'a> {
+    /// Spacecraft and orbit.
+    pub configuration: &'a Configuration,
+    /// Mass properties with every panel at angle 0 and the propellant left.
+    pub current_mass_panels_stowed: MassProperties,
+    /// How the body turns where it turns by torque.
+    pub turning: Turning,
+}
 
 /// A configured flight, ready to be evaluated.
 pub struct Plant<'a> {
@@ -49,22 +61,16 @@ impl<'a> Plant<'a> {
     /// Units of a sample, sunlight on many faces aside: everything that is not read from a polynomial.
     const SAMPLE_UNITS: u32 = 3;
 
-    /// `propagator` belongs to this context; `external` gives the load from outside at any time.
+    /// `propagator` belongs to these settings; `external` gives the load from outside at any time.
     pub fn new(
         prepared: PreparedSpacecraft<'a>,
-        context: &'a mut SimulationContext,
+        settings: PlantSettings<'a>,
+        models: &'a mut SimulationModels,
         propagator: &'a mut PropagatorState,
         external: &'a External<'a>,
     ) -> Self {
-        let SimulationContext {
-            configuration,
-            current_mass_panels_stowed,
-            ephemeris,
-            solar,
-            sources,
-            work,
-            ..
-        } = context;
+        let PlantSettings { configuration, current_mass_panels_stowed, turning } = settings;
+        let SimulationModels { ephemeris, solar, sources, work } = models;
         let prepared = PreparedSpacecraft { solar: solar.as_ref().unwrap_or(prepared.solar), ..prepared };
         let PropagatorState {
             trajectory,
@@ -75,15 +81,20 @@ impl<'a> Plant<'a> {
             command_slews,
             ..
         } = propagator;
+        let selected = &sun_choice.selected;
+        let guided = configuration.attitude.guided();
+        let law = guided.map(|law| law.with_sun_directions(selected.in_downlink(), selected.in_science()));
         let kinematics = Kinematics {
             configuration,
+            law,
+            turning,
             trajectory,
             ephemeris,
             default_downlink: prepared.default_downlink,
             timeline: prepared.timeline,
             command_slews,
             work,
-            current_mass_panels_stowed: *current_mass_panels_stowed,
+            current_mass_panels_stowed,
         };
         Self {
             prepared,

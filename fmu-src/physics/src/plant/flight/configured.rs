@@ -13,7 +13,7 @@ use crate::momentum::WorkKind;
 use crate::plant::disturbances::evaluation::External;
 use crate::plant::disturbances::plant::Plant;
 use crate::plant::disturbances::simulation_context::SimulationContext;
-use crate::plant::settings::configuration::{AttitudeSource, Command, DynamicAttitude};
+use crate::plant::settings::attitude_source::{Command, Turning};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::settings::reaction_control_settings::ThrustCommand;
@@ -77,6 +77,8 @@ pub(crate) struct ConfiguredFlight<'a> {
     pub context: &'a mut SimulationContext,
     pub propagator: &'a mut PropagatorState,
     pub thrusters: &'a mut Thrusters,
+    /// How the body turns where it turns by torque.
+    pub turning: Turning,
 }
 
 /// Start of a downlink, or of science that unloads, for which the Sun's direction is selected.
@@ -114,7 +116,7 @@ impl ConfiguredFlight<'_> {
 
     /// Frame and rate that this guidance commands where the flight begins.
     pub(super) fn frame_by(&mut self, law: &Guided, time_s: f64) -> Result<MovingFrame, PlantError> {
-        self.context.begin_work(self.given.work_limit);
+        self.context.models.begin_work(self.given.work_limit);
         let mut plant = self.plant();
         plant.prepare(time_s, time_s)?;
         Ok(plant.kinematics.attitude_by(law, time_s).frame)
@@ -177,8 +179,6 @@ impl ConfiguredFlight<'_> {
         } else {
             choice.selected.science = chosen;
         }
-        let selected = &choice.selected;
-        self.context.configuration.attitude.set_sun_directions(selected.in_downlink(), selected.in_science());
         self.propagator.command_slews.cut(time_s);
         Ok(())
     }
@@ -196,8 +196,7 @@ impl ConfiguredFlight<'_> {
         let separations_rad = plant.kinematics.separations_rad(time_s, until_s);
         let science = gimbal.map(|gimbal| plant.kinematics.science_arc(gimbal, time_s, until_s));
         if science.is_some() {
-            let evaluations = self.context.ephemeris.evaluations();
-            self.context.work.spend(WorkKind::Search, SCIENCE_UNITS, evaluations, time_s)?;
+            self.context.models.spend(WorkKind::Search, SCIENCE_UNITS, time_s)?;
         }
         let [applied, _] = (self.given.external)(time_s);
         let mut downlink_forecast = DownlinkForecast {
@@ -252,7 +251,7 @@ impl ConfiguredFlight<'_> {
 
     /// The plant in the attitude of its configuration.
     pub(super) fn plant(&mut self) -> Plant<'_> {
-        Plant::new(self.given.prepared, self.context, self.propagator, self.given.external)
+        self.context.plant(self.given.prepared, self.turning, self.propagator, self.given.external)
     }
 
     /// The plant with the body as it turns at `time_s`.
@@ -272,9 +271,7 @@ impl ConfiguredFlight<'_> {
             rate_body_rad_s: body.rate_body_rad_s,
             since_s: time_s,
         };
-        let attitude = &mut self.context.configuration.attitude;
-        let guided = attitude.guided().copied();
-        *attitude = AttitudeSource::Dynamic(DynamicAttitude { motion, rate_terms_body, guided });
+        self.turning = Turning { motion, rate_terms_body };
         self.plant()
     }
 }

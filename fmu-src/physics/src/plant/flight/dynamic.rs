@@ -19,7 +19,8 @@ use super::grid_edge;
 use crate::plant::control::control_loop::{Actuators, Sampled};
 use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
-use crate::plant::settings::configuration::{AttitudeSource, Command};
+use crate::plant::events::{EventKind, Eventful, LastEvents};
+use crate::plant::settings::attitude_source::{AttitudeSource, Command};
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings, Tracked};
 use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::thruster_events::ThrusterEvent;
@@ -42,6 +43,103 @@ pub(super) struct Dynamic<'f> {
     pub flight: ConfiguredFlight<'f>,
     /// The distribution of torque over the wheels.
     pub distribution: &'f mut WheelDistribution,
+    /// The motion at its end, where it was evaluated.
+    pub end: Option<MotionAt>,
+}
+
+impl Eventful for Dynamic<'_> {
+    fn last(&mut self) -> &mut LastEvents {
+        &mut self.state.last
+    }
+
+    fn reached_s(&self) -> f64 {
+        self.state.motion.end_s()
+    }
+
+    fn ends_by(&self, limit_s: f64) -> bool {
+        self.state.motion.end_s() < limit_s - tolerance_s(limit_s)
+    }
+
+    fn next_event_s(&self, kind: EventKind) -> f64 {
+        let Self { state, flight, .. } = self;
+        match kind {
+            EventKind::Valves => flight.next_thruster_edge_s(),
+            EventKind::DumpEnd => state.dumps.until_s(),
+            EventKind::Grid => state.disturbance.end_s(),
+            EventKind::Schedule => {
+                flight.context.configuration.thruster_events.next_s(state.last.scheduled())
+            }
+            EventKind::Sample => state.sensing.next_s(),
+            EventKind::Accounts | EventKind::SunChoice | EventKind::Threshold | EventKind::Load => {
+                f64::INFINITY
+            }
+        }
+    }
+
+    fn is_due(&mut self, kind: EventKind) -> Result<bool, PlantError> {
+        let time_s = self.reached_s();
+        let comes_by = |next_s: f64| next_s <= time_s + tolerance_s(time_s);
+        Ok(match kind {
+            // Every segment ends with these.
+            EventKind::Accounts | EventKind::Valves | EventKind::Load => {
+                !self.state.last.has_come(kind, time_s)
+            }
+            EventKind::SunChoice => {
+                comes_by(self.state.sensing.next_s())
+                    && self.samples_guidance(time_s)
+                    && !self.state.last.has_come(kind, time_s)
+            }
+            kind => comes_by(self.next_event_s(kind)),
+        })
+    }
+
+    fn spend(&mut self, kind: Option<EventKind>) -> Result<(), PlantError> {
+        let units = if self.settings.gyrostat.is_rigid() { 1 } else { FLEXIBLE_UNITS };
+        let time_s = self.reached_s();
+        Ok(match kind {
+            None => self.flight.context.models.spend(WorkKind::Segment, units, time_s)?,
+            Some(_) => (),
+        })
+    }
+
+    fn apply_event(&mut self, kind: EventKind) -> Result<(), PlantError> {
+        let time_s = self.reached_s();
+        match kind {
+            EventKind::Accounts => self.close_accounts(time_s),
+            EventKind::Valves => self.process_valves(time_s),
+            EventKind::DumpEnd => self.state.dumps.end(time_s + tolerance_s(time_s)),
+            EventKind::Grid => {
+                self.end = None;
+                grid_edge::begin_interval(self.state, self.settings, &mut self.flight)?;
+            }
+            EventKind::Schedule => self.dump_as_scheduled()?,
+            EventKind::SunChoice => self.select_sun_direction()?,
+            EventKind::Threshold => {}
+            EventKind::Sample => self.sample()?,
+            EventKind::Load => {
+                if self.state.last.has_come(EventKind::Sample, time_s) {
+                    self.process_valves(time_s);
+                }
+                self.update_load(time_s);
+            }
+        }
+        Ok(())
+    }
+
+    fn advance_segment(&mut self, limit_s: f64) -> Result<(), PlantError> {
+        let MotionAt { time_s, body, .. } = self.end();
+        self.end = None;
+        let Self { state, settings, flight, .. } = self;
+        let external = (flight.given.external)(time_s);
+        let mut load = state.load(&external, flight.thrusters, time_s);
+        state.dumps.dipoles = flight.dipoles(time_s);
+        load.dipole = state.in_field(&state.dumps.dipoles);
+        load.internal = state.panels.internal(flight.given.prepared.panels, &state.mass.now, time_s);
+        state.dumps.torques = state.torques_by_source(&external, time_s);
+        let motors = state.control.wheels.motors();
+        state.motion.advance_from(&body, &settings.gyrostat, motors, &load, limit_s);
+        flight.integrate_thrust(&state.motion, &state.disturbance, state.mass.now.mass_kg)
+    }
 }
 
 impl Dynamic<'_> {
@@ -59,33 +157,6 @@ impl Dynamic<'_> {
         let pulses = flight.thrusters.command_pulses(settings, &inputs.pulses, [start_s, end_s]);
         if flight.command_thrust(&inputs.thrust, start_s) || pulses {
             self.state.cut(start_s, false);
-        }
-        Ok(())
-    }
-
-    /// Advances until the motion covers `end_s`, within the work that has begun.
-    pub(super) fn advance(&mut self, end_s: f64) -> Result<(), PlantError> {
-        self.resume();
-        let units = if self.settings.gyrostat.is_rigid() { 1 } else { FLEXIBLE_UNITS };
-        while self.state.motion.end_s() < end_s - tolerance_s(end_s) {
-            let time_s = self.state.motion.end_s();
-            let evaluations = self.flight.context.ephemeris.evaluations();
-            self.flight.context.work.spend(WorkKind::Segment, units, evaluations, time_s)?;
-            let body = self.process_events()?;
-            let Self { state, settings, flight, .. } = self;
-            let edge_s = flight.next_thruster_edge_s();
-            let limit_s = state.sensing.next_s().min(state.disturbance.end_s()).min(edge_s);
-            let events = &flight.context.configuration.thruster_events;
-            let limit_s = limit_s.min(state.dumps.until_s()).min(events.next_s(state.scheduled));
-            let external = (flight.given.external)(time_s);
-            let mut load = state.load(&external, flight.thrusters, time_s);
-            state.dumps.dipoles = flight.dipoles(time_s);
-            load.dipole = state.in_field(&state.dumps.dipoles);
-            load.internal = state.panels.internal(flight.given.prepared.panels, &state.mass.now, time_s);
-            state.dumps.torques = state.torques_by_source(&external, time_s);
-            let motors = state.control.wheels.motors();
-            state.motion.advance_from(&body, &settings.gyrostat, motors, &load, limit_s);
-            flight.integrate_thrust(&state.motion, &state.disturbance, state.mass.now.mass_kg)?;
         }
         Ok(())
     }
@@ -113,13 +184,16 @@ impl Dynamic<'_> {
             state.mass.stowed.unwrap_or_else(|| context.configuration.wet_mass_properties());
     }
 
-    /// At the present end of the motion: edges of thrusters, disturbances anew, a dump's end, the sample, where they are due; the body
-    /// there.
-    pub(super) fn process_events(&mut self) -> Result<BodyMotion, PlantError> {
+    /// The motion at its end.
+    fn end(&mut self) -> MotionAt {
+        let Self { state, settings, end, .. } = self;
+        *end.get_or_insert_with(|| state.motion.evaluated_at(&settings.gyrostat, state.motion.end_s()))
+    }
+
+    /// Closes the accounts of the segment that ends: momentum by effect, mass, impulse and propellant; and takes the wheels' inputs.
+    fn close_accounts(&mut self, time_s: f64) {
+        let end = self.end();
         let Self { state, settings, flight, inputs, .. } = self;
-        let time_s = state.motion.end_s();
-        let due_s = time_s + tolerance_s(time_s);
-        let mut end = state.motion.evaluated_at(&settings.gyrostat, time_s);
         state.dumps.accumulate(&state.motion, &end, state.dumps.is_dumping(flight.thrusters, time_s));
         let thruster_settings = &flight.context.allocator.settings;
         if !flight.thrusters.load().law.is_none() {
@@ -128,34 +202,30 @@ impl Dynamic<'_> {
             grid_edge::set_mass(state, settings, mass);
         }
         flight.thrusters.accumulate(thruster_settings, &state.motion, time_s);
-        flight.thrusters.process_valve_events(thruster_settings, time_s);
-        state.dumps.end(due_s);
         state.control.wheels.fail(&inputs.wheel_failed);
         if settings.control.is_none() {
             state.control.wheels.drive(&settings.gyrostat, &inputs.wheel_torques_n_m);
         }
-        let sample_due = state.sensing.next_s() <= due_s;
-        if state.disturbance.end_s() <= due_s {
-            grid_edge::begin_interval(state, settings, flight)?;
-            end = state.motion.evaluated_at(&settings.gyrostat, time_s);
-        }
-        self.dump_as_scheduled(due_s)?;
-        if sample_due {
-            self.sample(&end)?;
-            let Self { flight, .. } = self;
-            flight.thrusters.process_valve_events(&flight.context.allocator.settings, time_s);
-        }
+    }
+
+    /// Updates mass and the thrusters' load from the end of the motion on.
+    fn update_load(&mut self, time_s: f64) {
         let Self { state, settings, flight, .. } = self;
         grid_edge::turn_mass(state, settings, flight);
         let used_kg = flight.thrusters.propellant.total_used_kg(time_s);
         state.mass.now.mass_kg = flight.context.configuration.mass_kg - used_kg;
         flight.thrusters.update_load(&flight.context.allocator.settings, &state.mass.now, time_s);
-        Ok(end.body)
     }
 
-    /// Sensors, watch of the momentum, controller; the body being like that at the end of the motion.
-    fn sample(&mut self, end: &MotionAt) -> Result<(), PlantError> {
-        let MotionAt { time_s, body, .. } = *end;
+    /// Opens and closes the valves whose time has come.
+    fn process_valves(&mut self, time_s: f64) {
+        let ConfiguredFlight { thrusters, context, .. } = &mut self.flight;
+        thrusters.process_valve_events(&context.allocator.settings, time_s);
+    }
+
+    /// Sensors, watch of the momentum, controller.
+    fn sample(&mut self) -> Result<(), PlantError> {
+        let MotionAt { time_s, body, .. } = self.end();
         let Self { state, settings, flight, inputs, .. } = self;
         let sun = state.disturbance.sun_at(time_s);
         let number = state.sensing.sample(settings, inputs, time_s, &body, sun);
@@ -176,7 +246,7 @@ impl Dynamic<'_> {
         if self.settings.control.is_none() {
             return Ok(());
         }
-        let target = self.target(time_s, &body)?;
+        let target = self.target(time_s, &body);
         let Self { state, settings, flight, distribution, .. } = self;
         let Some(control) = &settings.control else { return Ok(()) };
         let sampled = Sampled {
@@ -195,33 +265,45 @@ impl Dynamic<'_> {
     }
 
     /// Returns the attitude and rate that the controller tracks at the end of the motion.
-    fn target(&mut self, time_s: f64, body: &BodyMotion) -> Result<ControlTarget, PlantError> {
+    fn target(&mut self, time_s: f64, body: &BodyMotion) -> ControlTarget {
         let command = match self.inputs.tracked {
-            Tracked::Rate(rate_body_rad_s) => return Ok(ControlTarget::RateOnly { rate_body_rad_s }),
+            Tracked::Rate(rate_body_rad_s) => return ControlTarget::RateOnly { rate_body_rad_s },
             Tracked::Attitude(command) => command,
-            Tracked::Guidance => self.guided(time_s, body)?,
+            Tracked::Guidance => self.guided(time_s, body),
         };
-        Ok(ControlTarget::Attitude {
+        ControlTarget::Attitude {
             attitude: command.attitude_at(time_s),
             rate_body_rad_s: command.rate_body_rad_s,
-        })
+        }
     }
 
     /// The command of internal guidance, sampled anew where that is due.
-    fn guided(&mut self, time_s: f64, body: &BodyMotion) -> Result<Command, PlantError> {
+    fn guided(&mut self, time_s: f64, body: &BodyMotion) -> Command {
         let Self { state: DynamicState { control, sensing, .. }, flight, .. } = self;
-        if let Some(command) = control.guidance_at(time_s) {
-            return Ok(command);
-        }
+        control.guidance_at(time_s).unwrap_or_else(|| {
+            let guided = flight.plant_at(time_s, body).kinematics.guided_attitude(time_s);
+            control.guide(time_s, guided.as_ref(), &sensing.estimate)
+        })
+    }
+
+    /// Selects the Sun's direction where guidance is sampled.
+    fn select_sun_direction(&mut self) -> Result<(), PlantError> {
+        let MotionAt { time_s, body, .. } = self.end();
         let totals = Totals {
             momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,
             torque_integral_body_n_m_s: Vector3::zeros(),
             delta_v_inertial_m_s: body.delta_v_inertial_m_s,
         };
         let momentum = StartMomentum::Inertial(body.momentum_inertial_n_m_s);
-        flight.select_sun_direction(time_s, &totals, momentum, control.is_unguided())?;
-        let guided = flight.plant_at(time_s, body).kinematics.guided_attitude(time_s);
-        Ok(control.guide(time_s, guided.as_ref(), &sensing.estimate))
+        let is_first = self.state.control.is_unguided();
+        self.flight.select_sun_direction(time_s, &totals, momentum, is_first)
+    }
+
+    /// Whether guidance is sampled anew with a sample at `time_s`.
+    fn samples_guidance(&self, time_s: f64) -> bool {
+        self.settings.control.is_some()
+            && matches!(self.inputs.tracked, Tracked::Guidance)
+            && self.state.control.guidance_at(time_s).is_none()
     }
 
     /// Thrusters bring the momentum to `target_body_n_m_s` from the wheels' bias, from the present end of the motion on.
@@ -232,18 +314,16 @@ impl Dynamic<'_> {
         self.begin_dump(&momentum_body, bias_body_n_m_s + target_body_n_m_s);
     }
 
-    /// Begins the dumps of the schedule whose time has come.
-    fn dump_as_scheduled(&mut self, due_s: f64) -> Result<(), PlantError> {
-        while let events = &self.flight.context.configuration.thruster_events
-            && let Some(event) =
-                events.next(self.state.scheduled).filter(|event| events.time_s(event) <= due_s)
-        {
-            // The schedule may be another than at the start.
-            events.check_for_dynamics(self.state.scheduled)?;
-            self.state.scheduled.take(events.time_s(event));
-            if let Some(target_body_n_m_s) = events.dump_target_body_n_m_s(event) {
-                self.dump_to(target_body_n_m_s);
-            }
+    /// Begins the dump of the schedule that is due.
+    fn dump_as_scheduled(&mut self) -> Result<(), PlantError> {
+        let events = &self.flight.context.configuration.thruster_events;
+        let last = self.state.last.of_kind(EventKind::Schedule);
+        // The schedule may be another than at the start.
+        events.check_for_dynamics(*last)?;
+        let Some(event) = events.next(*last) else { return Ok(()) };
+        last.take(events.time_s(event));
+        if let Some(target_body_n_m_s) = events.dump_target_body_n_m_s(event) {
+            self.dump_to(target_body_n_m_s);
         }
         Ok(())
     }

@@ -5,12 +5,13 @@
 //! flight's own attitude it has the flight's own segments, to the bit.
 
 use super::configured::ConfiguredFlight;
-use super::fork::Fork;
+use super::fork::{Fork, ForkStart};
 use crate::environment::orbit::{BPlane, Collision, OrbitIntegrationError};
 use crate::loads::ForceTorque;
 use crate::momentum::Totals;
 use crate::momentum::WorkKind;
-use crate::plant::settings::configuration::{AttitudeSource, Encounter};
+use crate::plant::settings::attitude_source::AttitudeSource;
+use crate::plant::settings::configuration::Encounter;
 use crate::plant::settings::error::PlantError;
 use crate::plant::state::encounter_prediction::{EncounterPrediction, PredictedArrival};
 
@@ -28,20 +29,19 @@ pub(super) fn predict_encounter(
     time_s: f64,
 ) -> Result<EncounterPrediction, PlantError> {
     let ConfiguredFlight { given, context, propagator, .. } = flight;
-    let evaluations = context.ephemeris.evaluations();
-    context.work.spend(WorkKind::Search, UNITS, evaluations, time_s)?;
+    context.models.spend(WorkKind::Search, UNITS, time_s)?;
     let Some(encounter) = context.configuration.encounter else {
         return Ok(EncounterPrediction { since_s: time_s, arrival: None });
     };
     let [applied, slope] = (given.external)(time_s);
-    let held = [applied, ForceTorque::zero()];
-    let begin = (time_s, Totals::default());
     let is_another = attitude.is_some();
     let mut attitude = attitude.unwrap_or(context.configuration.attitude);
     if let AttitudeSource::Guided(law) = &mut attitude {
         law.managed = false;
     }
-    let mut fork = Fork::new(given.prepared, context, propagator, (attitude, held), begin);
+    let totals = Totals::default();
+    let start = ForkStart { prepared: given.prepared, propagator, attitude, applied, time_s, totals };
+    let mut fork = Fork::new(context, &start);
     if is_another || slope != ForceTorque::zero() {
         fork.cut(time_s);
     }

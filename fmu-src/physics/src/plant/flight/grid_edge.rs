@@ -10,10 +10,10 @@ use crate::plant::control::control_loop::ControlLoop;
 use crate::plant::control::sensing::Sensing;
 use crate::plant::disturbances::disturbance_interval::{deviate, next_interval};
 use crate::plant::disturbances::plant::Plant;
+use crate::plant::events::LastEvents;
 use crate::plant::motion::panel_motion::PanelMotion;
 use crate::plant::settings::dynamics_settings::{DynamicsSettings, StartMotion, StartPointing};
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::thruster_events::SchedulePlace;
 use crate::plant::state::disturbance_interval::DisturbanceInterval;
 use crate::plant::state::dynamic_state::DynamicState;
 use crate::plant::state::mass::MassState;
@@ -26,8 +26,8 @@ pub(super) fn begin(
     time_s: f64,
     held: &Attitude,
 ) -> Result<DynamicState, PlantError> {
-    let scheduled = SchedulePlace::before(time_s);
-    flight.context.configuration.thruster_events.check_for_dynamics(scheduled)?;
+    let last = LastEvents::before(time_s);
+    flight.context.configuration.thruster_events.check_for_dynamics(last.scheduled())?;
     let StartMotion { mut attitude, mut rate_body_rad_s, rate_is_pointed, .. } = settings.start;
     if let Some(pointing) = &settings.start.pointing {
         let frame = match pointing {
@@ -61,7 +61,7 @@ pub(super) fn begin(
         sensing: Sensing::new(settings, time_s, attitude, rate_body_rad_s),
         control: ControlLoop::new(gyrostat.wheels().len(), time_s, attitude, rate_body_rad_s),
         dumps: MomentumDumps::default(),
-        scheduled,
+        last,
     };
     if settings.panels_have_mass {
         let mut plant = flight.plant_at(time_s, &body);

@@ -9,10 +9,11 @@
 use nalgebra::Vector3;
 
 use crate::attitude::Attitude;
-use crate::momentum::{DumpEvent, Stop, StopTimes, TorqueModel, Totals};
+use crate::momentum::{DumpEvent, PreparedSegment, TorqueModel, Totals, WorkKind};
 
 use super::configured::ConfiguredFlight;
 use super::downlink_forecast::StartMomentum;
+use crate::plant::events::{self, EventKind, Eventful, LastEvents};
 use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::ideal_settings::IdealSettings;
@@ -30,6 +31,76 @@ pub(super) struct Ideal<'f> {
     pub inputs: &'f DynamicsInputs,
     /// The flight that advances.
     pub flight: ConfiguredFlight<'f>,
+    /// The segment that begins next.
+    pub prepared: Option<PreparedSegment>,
+}
+
+impl Eventful for Ideal<'_> {
+    fn last(&mut self) -> &mut LastEvents {
+        &mut self.state.last
+    }
+
+    fn reached_s(&self) -> f64 {
+        self.state.integrator.end_s()
+    }
+
+    fn ends_by(&self, limit_s: f64) -> bool {
+        self.state.integrator.ends_by(limit_s)
+    }
+
+    fn next_event_s(&self, kind: EventKind) -> f64 {
+        match kind {
+            EventKind::Schedule => {
+                self.flight.context.configuration.thruster_events.next_s(self.state.last.scheduled())
+            }
+            _ => f64::INFINITY,
+        }
+    }
+
+    fn is_due(&mut self, kind: EventKind) -> Result<bool, PlantError> {
+        let time_s = self.reached_s();
+        Ok(match kind {
+            EventKind::SunChoice => self.flight.plant().must_choose(time_s),
+            EventKind::Threshold => {
+                let settings = self.flight.context.configuration.momentum;
+                let limit_s = self.next_event_s(EventKind::Schedule);
+                let prepared = self.state.integrator.prepare(&mut self.flight.plant(), &settings, limit_s)?;
+                let has_come = self.state.last.has_come(kind, time_s);
+                self.prepared.insert(prepared).due.is_some() && !has_come
+            }
+            kind => self.next_event_s(kind) <= time_s,
+        })
+    }
+
+    fn spend(&mut self, kind: Option<EventKind>) -> Result<(), PlantError> {
+        let time_s = self.reached_s();
+        match kind {
+            Some(EventKind::Schedule | EventKind::Threshold) => {
+                self.flight.plant().spend(WorkKind::Dump, time_s)
+            }
+            // A segment of momentum counts what it takes itself.
+            _ => Ok(()),
+        }
+    }
+
+    fn apply_event(&mut self, kind: EventKind) -> Result<(), PlantError> {
+        let time_s = self.reached_s();
+        if kind == EventKind::Schedule {
+            self.scheduled_event(time_s)?;
+        }
+        if let Some(due) = self.prepared.take().and_then(|it| it.due).filter(|_| kind == EventKind::Threshold)
+        {
+            self.dump(&due);
+            self.state.integrator.dumps().check()?;
+        }
+        self.select_sun_direction(time_s)
+    }
+
+    fn advance_segment(&mut self, _limit_s: f64) -> Result<(), PlantError> {
+        let settings = self.flight.context.configuration.momentum;
+        let Some(prepared) = self.prepared.take() else { return Ok(()) };
+        self.state.integrator.advance_segment(&mut self.flight.plant(), &settings, &prepared)
+    }
 }
 
 impl<'f> Ideal<'f> {
@@ -42,19 +113,21 @@ impl<'f> Ideal<'f> {
     ) -> Result<IdealState, PlantError> {
         let bias_body_n_m_s = flight.context.configuration.momentum.policy.bias_body_n_m_s;
         let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
-        flight.context.begin_work(flight.given.work_limit);
+        flight.context.models.begin_work(flight.given.work_limit);
         let frame = flight.plant().instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
         flight.select_sun_direction(time_s, &totals, StartMomentum::Body(momentum_body_n_m_s), true)?;
-        flight.context.begin_work(flight.given.work_limit);
+        flight.context.models.begin_work(flight.given.work_limit);
         let mut plant = flight.plant();
         plant.prepare(time_s, time_s)?;
         let frame = plant.instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
         let mut begun = IdealState::new(time_s, held, totals);
-        flight.context.begin_work(flight.given.work_limit);
+        flight.context.models.begin_work(flight.given.work_limit);
         flight.propagator.panel_turns.restart();
-        Ideal { state: &mut begun, settings, inputs: &DynamicsInputs::default(), flight }.advance(time_s)?;
+        let inputs = &DynamicsInputs::default();
+        let mut ideal = Ideal { state: &mut begun, settings, inputs, flight, prepared: None };
+        events::advance(&mut ideal, time_s)?;
         Ok(begun)
     }
 
@@ -113,13 +186,12 @@ impl<'f> Ideal<'f> {
         Ok(())
     }
 
-    /// Executes the scheduled event at `time_s`, the end of the integrated momentum.
+    /// Executes the event of the timeline that is due.
     fn scheduled_event(&mut self, time_s: f64) -> Result<(), PlantError> {
         let configuration = &self.flight.context.configuration;
-        let Some(event) = configuration.thruster_events.next(self.state.scheduled).copied() else {
-            return Ok(());
-        };
-        self.state.scheduled.take(configuration.thruster_events.time_s(&event));
+        let last = self.state.last.of_kind(EventKind::Schedule);
+        let Some(event) = configuration.thruster_events.next(*last).copied() else { return Ok(()) };
+        last.take(configuration.thruster_events.time_s(&event));
         if let Some(place_body_m) = event.center_of_mass_body_m {
             self.flight.propagator.center_of_mass.place(configuration, place_body_m);
             self.state.integrator.cut(time_s);
@@ -137,33 +209,12 @@ impl<'f> Ideal<'f> {
         Ok(())
     }
 
-    /// Advances until the momentum is known at `time_s`, within the work that has begun.
-    pub(super) fn advance(&mut self, time_s: f64) -> Result<(), PlantError> {
-        let settings = self.flight.context.configuration.momentum;
-        let mut dumped_s = None;
-        loop {
-            let scheduled_s = self.flight.context.configuration.thruster_events.next_s(self.state.scheduled);
-            let times = StopTimes { scheduled_s, dumped_s };
-            let stop =
-                self.state.integrator.advance_to_stop(&mut self.flight.plant(), &settings, time_s, times)?;
-            let at_s = match stop {
-                Stop::Reached => return Ok(()),
-                Stop::Choice { at_s } => at_s,
-                Stop::Scheduled { at_s } => {
-                    self.scheduled_event(at_s)?;
-                    at_s
-                }
-                Stop::Dump(event) => {
-                    self.dump(&event);
-                    self.state.integrator.dumps().check()?;
-                    dumped_s = Some(event.time_s);
-                    event.time_s
-                }
-            };
-            let totals = self.state.integrator.totals(at_s);
-            let momentum = StartMomentum::from_totals(&totals, settings.convention);
-            self.flight.select_sun_direction(at_s, &totals, momentum, false)?;
-        }
+    /// Selects the Sun's direction where that is due, or anew where the momentum has changed since at that time.
+    fn select_sun_direction(&mut self, time_s: f64) -> Result<(), PlantError> {
+        let totals = self.state.integrator.totals(time_s);
+        let convention = self.flight.context.configuration.momentum.convention;
+        let momentum = StartMomentum::from_totals(&totals, convention);
+        self.flight.select_sun_direction(time_s, &totals, momentum, false)
     }
 
     /// Dumps as far as the tanks feed the thrusters: momentum, propellant, push and mass properties after it. A dump that nothing

@@ -4,8 +4,9 @@ use crate::attitude::MotionAt;
 use crate::attitude::control::{sample_number, sensed_sun};
 use crate::momentum::Totals;
 use crate::plant::disturbances::evaluation::Evaluation;
+use crate::plant::events;
 use crate::plant::motion::instant::Instant;
-use crate::plant::settings::configuration::{AttitudeSource, Command};
+use crate::plant::settings::attitude_source::{AttitudeSource, Command};
 use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::ideal_settings::IdealSettings;
@@ -51,8 +52,11 @@ impl<'f> InFlight<'f> {
     pub(super) fn advance(&mut self, time_s: f64) -> Result<(), PlantError> {
         match self {
             Self::Waiting { .. } => Ok(()),
-            Self::Ideal(it) => it.advance(time_s),
-            Self::Dynamic(it) => it.advance(time_s),
+            Self::Ideal(it) => events::advance(it, time_s),
+            Self::Dynamic(it) => {
+                it.resume();
+                events::advance(it, time_s)
+            }
         }
     }
 
@@ -113,7 +117,7 @@ impl<'f> InFlight<'f> {
                 let at: MotionAt = state.motion.evaluated_at(&settings.gyrostat, time_s);
                 (dynamic(state, settings, flight.thrusters, evaluation, at), flight)
             }
-            Self::Ideal(Ideal { state, settings, inputs, flight }) => {
+            Self::Ideal(Ideal { state, settings, inputs, flight, .. }) => {
                 let mut summary = ideal((state, settings), evaluation, inputs, time_s);
                 summary.by_source = BySource::Ideal(&state.integrator);
                 let Instant { sun_body, lit_fraction, .. } = &evaluation.instant;
@@ -135,7 +139,7 @@ impl<'f> InFlight<'f> {
                 (ideal((&waiting, settings), evaluation, inputs, time_s), flight)
             }
         };
-        let ConfiguredFlight { given, context, propagator, thrusters } = flight;
+        let ConfiguredFlight { given, context, propagator, thrusters, .. } = flight;
         let (configuration, trajectory) = (&context.configuration, &propagator.trajectory);
         let Instant { downlink, is_degenerate, .. } = evaluation.instant;
         let (downlink, is_degenerate) = sampled.unwrap_or((downlink, is_degenerate));
@@ -145,7 +149,7 @@ impl<'f> InFlight<'f> {
         Report {
             time_s,
             configuration,
-            materials: context.solar.as_ref().map_or(&[], SolarModel::materials),
+            materials: context.models.solar.as_ref().map_or(&[], SolarModel::materials),
             thrusters,
             reaction_control: &context.allocator.settings,
             since_periapsis_s: match is_waiting {

@@ -25,14 +25,15 @@ use crate::attitude::control::Estimate;
 use crate::loads::ForceTorque;
 use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
-use crate::plant::disturbances::plant::Plant;
 use crate::plant::disturbances::simulation_context::SimulationContext;
+use crate::plant::events::{self, EventKind};
 use crate::plant::motion::command_slews::CommandSlews;
 use crate::plant::motion::instant::Instant;
-use crate::plant::settings::configuration::{Command, Configuration, PredictionSettings};
-use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
+use crate::plant::settings::attitude_source::{Command, Turning};
+use crate::plant::settings::configuration::{Configuration, PredictionSettings};
+use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::ideal_settings::IdealSettings;
+use crate::plant::settings::mode_settings::{Changes, ModeSettings};
 use crate::plant::settings::panel_setting::PanelSetting;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::state::encounter_prediction::EncounterPrediction;
@@ -78,30 +79,6 @@ struct FlightSetup {
     evaluation: Option<Evaluation>,
 }
 
-/// Settings of a mode, next to the configuration.
-#[derive(Clone, Debug)]
-pub enum ModeSettings {
-    /// Settings of a flight whose attitude is followed ideally, and of one that waits.
-    Ideal(IdealSettings),
-    /// Settings of a flight by torque.
-    Dynamic(Box<DynamicsSettings>),
-}
-
-/// Groups of parameters and inputs that changed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Changes {
-    /// Position and velocity were given.
-    pub orbit: bool,
-    /// Attitude, panels or Sun changed, on which light and heat depend.
-    pub light: bool,
-    /// Mass, centre of mass or inertia changed.
-    pub mass: bool,
-    /// The force from outside changed.
-    pub force: bool,
-    /// Mass, thresholds or target of dumps changed.
-    pub tunables: bool,
-}
-
 impl Flight {
     /// Flight that waits for its inputs.
     pub fn waiting(thrusters: Thrusters) -> Self {
@@ -116,11 +93,6 @@ impl Flight {
     /// Names a part of the flight that was not computed at `time_s`, if any.
     pub fn first_uncovered(&self, time_s: f64) -> Option<&'static str> {
         self.state.first_uncovered(time_s)
-    }
-
-    /// Whether parameters and inputs have been read since the start or a restore.
-    pub fn is_configured(&self) -> bool {
-        self.setup.is_some()
     }
 
     /// The configuration that is simulated.
@@ -269,8 +241,8 @@ impl Flight {
     pub fn reschedule(&mut self, time_s: f64) {
         match &mut self.state.mode {
             Mode::Waiting => {}
-            Mode::Ideal(ideal) => ideal.scheduled.skip_to(time_s),
-            Mode::Dynamic(dynamics) => dynamics.scheduled.skip_to(time_s),
+            Mode::Ideal(ideal) => ideal.last.of_kind(EventKind::Schedule).skip_to(time_s),
+            Mode::Dynamic(dynamics) => dynamics.last.of_kind(EventKind::Schedule).skip_to(time_s),
         }
         self.state.propagator.sun_choice.row = 0;
         self.state.propagator.command_slews = CommandSlews::beginning(time_s);
@@ -286,14 +258,15 @@ impl Flight {
             return Err(PlantError::OtherMode);
         };
         let FlightSetup { context, settings, distribution, evaluation } = &mut **setup;
-        let flight = ConfiguredFlight { given, context, propagator, thrusters };
+        let turning = Turning::still();
+        let flight = ConfiguredFlight { given, context, propagator, thrusters, turning };
         let in_flight = match (mode, settings) {
             (Mode::Waiting, ModeSettings::Ideal(settings)) => InFlight::Waiting { settings, inputs, flight },
             (Mode::Ideal(state), ModeSettings::Ideal(settings)) => {
-                InFlight::Ideal(Ideal { state, settings, inputs, flight })
+                InFlight::Ideal(Ideal { state, settings, inputs, flight, prepared: None })
             }
             (Mode::Dynamic(state), ModeSettings::Dynamic(settings)) => {
-                InFlight::Dynamic(Dynamic { state, settings, inputs, flight, distribution })
+                InFlight::Dynamic(Dynamic { state, settings, inputs, flight, distribution, end: None })
             }
             _ => return Err(PlantError::OtherMode),
         };
@@ -310,7 +283,8 @@ impl Flight {
         };
         let FlightSetup { context, settings, .. } = &mut **setup;
         *propagator = PropagatorState::new(&context.configuration, time_s)?;
-        let mut flight = ConfiguredFlight { given, context, propagator, thrusters };
+        let turning = Turning::from(*held);
+        let mut flight = ConfiguredFlight { given, context, propagator, thrusters, turning };
         let held = held.attitude_at(time_s);
         *mode = match settings {
             ModeSettings::Ideal(settings) => {
@@ -335,7 +309,7 @@ impl Flight {
     ) -> Result<(), PlantError> {
         let predicted = self.prediction_settings();
         let (mut in_flight, _) = self.in_flight(given, inputs)?;
-        in_flight.flight().context.begin_work(given.work_limit);
+        in_flight.flight().context.models.begin_work(given.work_limit);
         in_flight.apply_requests([start_s, end_s])?;
         for time_s in predicted.times_s([start_s, end_s]) {
             self.in_flight(given, inputs)?.0.advance(time_s)?;
@@ -376,8 +350,8 @@ impl Flight {
         let undo = Undo(self.state.mode.clone(), self.state.thrusters.clone(), self.state.prediction);
         let given = StepContext { log: &|_| {}, ..given };
         if let (InFlight::Dynamic(mut dynamic), _) = self.in_flight(given, inputs)? {
-            dynamic.flight.context.begin_work(given.work_limit);
-            dynamic.process_events()?;
+            dynamic.flight.context.models.begin_work(given.work_limit);
+            events::apply_due(&mut dynamic)?;
         }
         if self.prediction_settings().is_due(time_s) {
             self.predict(given, inputs, time_s)?;
@@ -437,7 +411,7 @@ impl Flight {
             return Err(PlantError::OtherMode);
         };
         let external = |_: f64| [ForceTorque::zero(); 2];
-        Plant::new(prepared, &mut setup.context, propagator, &external).faces(time_s, report)
+        setup.context.plant(prepared, Turning::still(), propagator, &external).faces(time_s, report)
     }
 }
 

@@ -37,7 +37,8 @@ use super::geometry::{self, Geometry, GeometrySight, SimulationEphemeris};
 use super::instant::{Instant, Regime};
 use super::trajectory::Trajectory;
 use crate::momentum::WorkKind;
-use crate::plant::settings::configuration::{AttitudeSource, Configuration, Motion};
+use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
+use crate::plant::settings::configuration::{Configuration, Motion};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::panel_setting::SunAt;
 use crate::plant::settings::work::Work;
@@ -84,6 +85,10 @@ fn sight(
 /// Motion and light of a configured flight, and the work that is done for it.
 pub(crate) struct Kinematics<'a> {
     pub configuration: &'a Configuration,
+    /// The configuration's guidance, with the selected directions of the Sun.
+    pub law: Option<Guided>,
+    /// How the body turns where it turns by torque.
+    pub turning: Turning,
     pub trajectory: &'a mut Trajectory,
     pub ephemeris: &'a mut Ephemeris,
     /// The default downlink of the spacecraft's antennas.
@@ -183,9 +188,9 @@ impl Kinematics<'_> {
             margins: [f64::INFINITY; 2],
             until_s: f64::INFINITY,
         };
-        match &self.configuration.attitude {
-            AttitudeSource::Guided(guided) => {
-                let guided = self.guided(guided, time_s, geometry);
+        match (&self.configuration.attitude, self.law) {
+            (AttitudeSource::Guided(_), Some(law)) => {
+                let guided = self.guided(&law, time_s, geometry);
                 LawAt {
                     frame: guided.frame,
                     regime: Regime {
@@ -202,8 +207,8 @@ impl Kinematics<'_> {
                     until_s: guided.until_s - self.configuration.epoch_minus_time_s,
                 }
             }
-            AttitudeSource::Commanded(command) => held(command.frame_at(time_s)),
-            AttitudeSource::Dynamic(dynamic) => held(dynamic.frame_at(time_s)),
+            (AttitudeSource::Commanded(command), _) => held(command.frame_at(time_s)),
+            _ => held(self.turning.frame_at(time_s)),
         }
     }
 
@@ -381,8 +386,7 @@ impl Kinematics<'_> {
 
     /// Attitude that guidance commands at `time_s`; `None` without guidance.
     pub(crate) fn guided_attitude(&mut self, time_s: f64) -> Option<GuidedAttitude> {
-        let configuration = self.configuration;
-        configuration.attitude.guided().map(|law| self.attitude_by(law, time_s))
+        self.law.map(|law| self.attitude_by(&law, time_s))
     }
 
     /// Attitude that this guidance commands at `time_s`.

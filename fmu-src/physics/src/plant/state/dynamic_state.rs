@@ -11,8 +11,8 @@ use crate::loads::{ByEffect, ForceTorque, Linear};
 use crate::numerics::spacing::spacing;
 use crate::plant::control::control_loop::ControlLoop;
 use crate::plant::control::sensing::Sensing;
+use crate::plant::events::LastEvents;
 use crate::plant::motion::panel_motion::PanelMotion;
-use crate::plant::settings::thruster_events::SchedulePlace;
 use crate::plant::sources::Dipoles;
 use crate::plant::sources::applied::APPLIED;
 use crate::plant::thrusters::reaction_control::Thrusters;
@@ -28,8 +28,8 @@ pub(crate) struct DynamicState {
     pub sensing: Sensing,
     pub control: ControlLoop,
     pub dumps: MomentumDumps,
-    /// How far the schedule is over.
-    pub scheduled: SchedulePlace,
+    /// The last event of each kind.
+    pub last: LastEvents,
 }
 
 impl DynamicState {

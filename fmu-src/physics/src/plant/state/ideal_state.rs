@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::Attitude;
 use crate::momentum::{DumpSpacing, MomentumIntegrator, Totals};
-use crate::plant::settings::thruster_events::SchedulePlace;
+use crate::plant::events::LastEvents;
 
 /// Maneuvers so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -27,8 +27,8 @@ pub(crate) struct IdealState {
     pub dump_delta_v_inertial_m_s: Vector3<f64>,
     /// Maneuvers so far.
     pub maneuvers: Maneuvers,
-    /// How far the schedule is over.
-    pub scheduled: SchedulePlace,
+    /// The last event of each kind.
+    pub last: LastEvents,
 }
 
 impl IdealState {
@@ -39,7 +39,7 @@ impl IdealState {
             spacing: DumpSpacing::default(),
             dump_delta_v_inertial_m_s: Vector3::zeros(),
             maneuvers: Maneuvers::default(),
-            scheduled: SchedulePlace::before(time_s),
+            last: LastEvents::before(time_s),
         }
     }
 
