@@ -35,7 +35,7 @@ pub use disturbances::simulation_context::SimulationContext;
 pub use disturbances::simulation_models::SimulationModels;
 pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 pub use flight::report::{ControlReport, EncounterReport, FlightSummary, ReachedState, Report, WheelReport};
-pub use flight::{Flight, ForecastMomentum, Occultation, StepContext, Undo};
+pub use flight::{Flight, ForecastMomentum, Occultation, StepContext, Undo, survey};
 pub use light::radiation_segment::RadiationSegment;
 pub use light::radiation_solver::RadiationSolver;
 pub use light::sunlit::SunlitConfiguration;

@@ -16,7 +16,7 @@ pub(super) mod report;
 
 pub use configured::StepContext;
 pub use fork::ForecastMomentum;
-pub use survey::Occultation;
+pub use survey::{Occultation, survey};
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize, Serializer};
@@ -28,7 +28,6 @@ use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::events::{self, EventKind};
 use crate::plant::motion::command_slews::CommandSlews;
-use crate::plant::motion::instant::Instant;
 use crate::plant::settings::attitude_source::{Command, Turning};
 use crate::plant::settings::configuration::{Configuration, PredictionSettings};
 use crate::plant::settings::dynamics_settings::DynamicsInputs;
@@ -216,28 +215,13 @@ impl Flight {
         Ok(())
     }
 
-    /// Shows how the spacecraft stands at these times by its own guidance, followed ideally on the orbit under the centre's gravity
-    /// alone; nothing where something else gives the attitude.
-    pub fn survey(
-        &self,
-        given: StepContext<'_>,
-        times_s: impl IntoIterator<Item = f64>,
-        see: impl FnMut(&Configuration, f64, &Instant),
-    ) {
-        if let Some(setup) = self.setup.as_deref() {
-            survey::survey(&setup.context, given, times_s, see);
-        }
-    }
-
-    /// Returns the body before the Sun's disc at `time_s`, where the flight was reported, which its shadow does not know; `quiet_until_s`
-    /// becomes the time of the next look.
+    /// Returns the body before the Sun's disc where the flight was evaluated; `quiet_until_s` becomes the time of the next look.
     pub fn occultation(&mut self, time_s: f64, quiet_until_s: &mut Option<f64>) -> Option<Occultation> {
         let FlightSetup { context, evaluation, .. } = self.setup.as_deref_mut()?;
         survey::occultation(context, &evaluation.as_ref()?.instant.geometry, time_s, quiet_until_s)
     }
 
-    /// Replaces the schedule from `time_s` on: its earlier events are past, the Sun's direction in a downlink is selected anew, and the
-    /// body has the attitude of the command in force.
+    /// Replaces the schedule from `time_s` on: earlier events are past, and the Sun's direction in a downlink is selected anew.
     pub fn reschedule(&mut self, time_s: f64) {
         match &mut self.state.mode {
             Mode::Waiting => {}
@@ -379,8 +363,7 @@ impl Flight {
         Ok(in_flight.evaluate(held, evaluation, time_s))
     }
 
-    /// Everything at `time_s`, where the flight was evaluated last; one that waits has the attitude of `held`, and the momentum of its
-    /// start.
+    /// Everything at `time_s`, where the flight was evaluated last; one that waits has the attitude of `held`.
     ///
     /// # Errors
     /// A state that belongs to another mode than the settings.
@@ -407,11 +390,9 @@ impl Flight {
         time_s: f64,
         report: impl FnMut(f64, Vector3<f64>),
     ) -> Result<(), PlantError> {
-        let Self { state: FlightState { propagator, .. }, setup: Some(setup) } = self else {
-            return Err(PlantError::OtherMode);
-        };
-        let external = |_: f64| [ForceTorque::zero(); 2];
-        setup.context.plant(prepared, Turning::still(), propagator, &external).faces(time_s, report)
+        let FlightSetup { context, .. } = self.setup.as_deref_mut().ok_or(PlantError::OtherMode)?;
+        let (propagator, still) = (&mut self.state.propagator, Turning::still());
+        context.plant(prepared, still, propagator, &|_| [ForceTorque::zero(); 2]).faces(time_s, report)
     }
 }
 
