@@ -45,6 +45,11 @@ impl EventKind {
         Self::Load,
     ];
 
+    /// Whether several may come at one time: those of the timeline, and what every segment ends with, be it without length.
+    fn may_repeat(self) -> bool {
+        matches!(self, Self::Accounts | Self::Valves | Self::Schedule | Self::Load)
+    }
+
     /// Name in messages.
     fn name(self) -> &'static str {
         match self {
@@ -66,12 +71,12 @@ impl EventKind {
 pub(crate) struct LastEvents([LastEvent; EventKind::ALL.len()]);
 
 impl LastEvents {
-    /// None since `time_s`, where a flight begins.
+    /// No event since `time_s`, where a flight begins.
     pub(crate) fn before(time_s: f64) -> Self {
         Self([LastEvent::before(time_s); EventKind::ALL.len()])
     }
 
-    /// Those of a kind.
+    /// The last one of this kind.
     pub(crate) fn of_kind(&mut self, kind: EventKind) -> &mut LastEvent {
         &mut self.0[kind as usize]
     }
@@ -145,13 +150,13 @@ pub(crate) fn advance(flight: &mut impl Eventful, limit_s: f64) -> Result<(), Pl
 /// Applies what is due at the end of the last segment.
 ///
 /// # Errors
-/// What ends a flight; an event of the same kind twice at one time, but of the timeline.
+/// What ends a flight; an event of a kind twice at one time, where only one may come.
 pub(crate) fn apply_due(flight: &mut impl Eventful) -> Result<(), PlantError> {
     let time_s = flight.reached_s();
     for kind in EventKind::ALL {
         while flight.is_due(kind)? {
             flight.spend(Some(kind))?;
-            if kind != EventKind::Schedule {
+            if !kind.may_repeat() {
                 if flight.last().has_come(kind, time_s) {
                     return Err(PlantError::RepeatedEvent { time_s, kind: kind.name() });
                 }

@@ -39,7 +39,7 @@ impl Serialize for PlantState {
     }
 }
 
-/// What of a plant's state is saved.
+/// The part of a plant's state that is saved.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SavedState {
     /// Start time of the flight, in s.

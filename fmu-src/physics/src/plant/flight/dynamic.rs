@@ -45,6 +45,8 @@ pub(super) struct Dynamic<'f> {
     pub distribution: &'f mut WheelDistribution,
     /// The motion at its end, where it was evaluated.
     pub end: Option<MotionAt>,
+    /// The last kind applied there of those that every segment ends with.
+    pub applied: Option<EventKind>,
 }
 
 impl Eventful for Dynamic<'_> {
@@ -81,9 +83,9 @@ impl Eventful for Dynamic<'_> {
         let comes_by = |next_s: f64| next_s <= time_s + tolerance_s(time_s);
         Ok(match kind {
             // Every segment ends with these.
-            EventKind::Accounts | EventKind::Valves | EventKind::Load => {
-                !self.state.last.has_come(kind, time_s)
-            }
+            EventKind::Accounts => self.applied.is_none(),
+            EventKind::Valves => self.applied == Some(EventKind::Accounts),
+            EventKind::Load => self.applied == Some(EventKind::Valves),
             EventKind::SunChoice => {
                 comes_by(self.state.sensing.next_s())
                     && self.samples_guidance(time_s)
@@ -104,6 +106,9 @@ impl Eventful for Dynamic<'_> {
 
     fn apply_event(&mut self, kind: EventKind) -> Result<(), PlantError> {
         let time_s = self.reached_s();
+        if matches!(kind, EventKind::Accounts | EventKind::Valves | EventKind::Load) {
+            self.applied = Some(kind);
+        }
         match kind {
             EventKind::Accounts => self.close_accounts(time_s),
             EventKind::Valves => self.process_valves(time_s),
@@ -128,7 +133,7 @@ impl Eventful for Dynamic<'_> {
 
     fn advance_segment(&mut self, limit_s: f64) -> Result<(), PlantError> {
         let MotionAt { time_s, body, .. } = self.end();
-        self.end = None;
+        (self.end, self.applied) = (None, None);
         let Self { state, settings, flight, .. } = self;
         let external = (flight.given.external)(time_s);
         let mut load = state.load(&external, flight.thrusters, time_s);

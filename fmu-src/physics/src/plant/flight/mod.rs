@@ -250,7 +250,7 @@ impl Flight {
                 InFlight::Ideal(Ideal { state, settings, inputs, flight, prepared: None })
             }
             (Mode::Dynamic(state), ModeSettings::Dynamic(settings)) => {
-                InFlight::Dynamic(Dynamic { state, settings, inputs, flight, distribution, end: None })
+                InFlight::Dynamic(Dynamic { state, settings, inputs, flight, distribution, end: None, applied: None })
             }
             _ => return Err(PlantError::OtherMode),
         };

@@ -9,16 +9,16 @@ use crate::numerics::adaptive::SegmentSpan;
 /// Loads on the body and direction of the Sun over one interval.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct DisturbanceInterval {
-    pub(in crate::plant) span: SegmentSpan,
+    pub span: SegmentSpan,
     /// Force and torque of the disturbances that act, body frame; what is applied is known at any time, what acts by a field follows
     /// from it and the attitude.
-    pub(in crate::plant) loads: ByEffect<Option<[Linear; 2]>>,
+    pub loads: ByEffect<Option<[Linear; 2]>>,
     /// Magnetic field, EME2000.
-    pub(in crate::plant) field_inertial_t: Linear,
+    pub field_inertial_t: Linear,
     /// Unit vector to the Sun, EME2000.
-    pub(in crate::plant) to_sun: Linear,
+    pub to_sun: Linear,
     /// Visible part of the Sun's disc, at the start and per second.
-    pub(in crate::plant) lit_fraction: [f64; 2],
+    pub lit_fraction: [f64; 2],
 }
 
 impl DisturbanceInterval {
