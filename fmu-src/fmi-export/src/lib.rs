@@ -31,8 +31,8 @@ pub use dependencies::{Dependencies, Knowns, Section};
 pub use fmi_export_derive::{Enumeration, Variables};
 pub use library::{Entry, Library};
 pub use model::{
-    About, Context, Differentiable, Extensions, Failure, InputDerivative, InputsOverTime, Manual, Model,
-    OutputRates, SetupError, SetupValue, StartValue, Step, StepEnd,
+    About, Context, DeferredOutputs, Differentiable, Extensions, Failure, InputDerivative, InputsOverTime,
+    Manual, Model, OutputGroups, OutputRates, SetupError, SetupValue, StartValue, Step, StepEnd,
 };
 pub use model_description::{self, BaseType, Status};
 pub use state_bytes::checksum;

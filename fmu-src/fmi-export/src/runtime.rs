@@ -4,7 +4,8 @@ use std::any::Any;
 use std::sync::Arc;
 
 use crate::bounded::check_finite;
-use crate::model::{Context, Failure, Log, Model, SetupError, Step, StepEnd};
+use crate::dependencies::Knowns;
+use crate::model::{Context, Failure, Log, Model, OutputGroups, SetupError, Step, StepEnd};
 use crate::variables::{Element, Real, SetBits, Values};
 
 /// A model's state, its type erased: an `Option<M::State>`, `None` before initialization.
@@ -18,6 +19,16 @@ pub(crate) trait Runtime: Send {
     /// Writes parameters as they act.
     fn resolve_parameters(&self, values: &mut Values, log: &dyn Log);
     fn step(&mut self, values: &mut Values, step: &Step<'_>, log: &dyn Log) -> Result<StepEnd, Failure>;
+    /// Groups of outputs that are written when they are read.
+    fn output_groups(&self) -> Vec<Knowns>;
+    /// Writes the outputs of these groups at the last communication point.
+    fn write_outputs(
+        &mut self,
+        values: &mut Values,
+        groups: OutputGroups,
+        time_s: f64,
+        log: &dyn Log,
+    ) -> Result<(), Failure>;
     fn output_rate(&self, values: &Values, output: Real, log: &dyn Log) -> Result<f64, Failure>;
     fn jacobian_vector_product(
         &self,
@@ -63,6 +74,18 @@ impl<M: Model> Typed<M> {
         Context { setup, variables, start, sets_all_parameters: values.are_all_set(parameters), log }
     }
 
+    /// The context and the state to be changed.
+    fn parts<'a>(
+        &'a mut self,
+        values: &Values,
+        log: &'a dyn Log,
+    ) -> Result<(Context<'a, M>, &'a mut M::State), Failure> {
+        let Self { setup, variables, start, parameters, state } = self;
+        let sets_all_parameters = values.are_all_set(parameters);
+        let context = Context { setup, variables, start, sets_all_parameters, log };
+        Ok((context, state.as_mut().ok_or_else(not_initialized)?))
+    }
+
     fn check_state(&self, state: &M::State) -> Result<(), Failure> {
         check_finite(state)?;
         M::check_state(&self.setup, state)
@@ -88,11 +111,23 @@ impl<M: Model> Runtime for Typed<M> {
     }
 
     fn step(&mut self, values: &mut Values, step: &Step<'_>, log: &dyn Log) -> Result<StepEnd, Failure> {
-        let Self { setup, variables, start, parameters, state } = self;
-        let sets_all_parameters = values.are_all_set(parameters);
-        let context = Context { setup, variables, start, sets_all_parameters, log };
-        let state = state.as_mut().ok_or_else(not_initialized)?;
+        let (context, state) = self.parts(values, log)?;
         M::step(&context, values, state, step)
+    }
+
+    fn output_groups(&self) -> Vec<Knowns> {
+        M::EXTENSIONS.deferred_outputs.map_or_else(Vec::new, |it| (it.groups)(&self.variables))
+    }
+
+    fn write_outputs(
+        &mut self,
+        values: &mut Values,
+        groups: OutputGroups,
+        time_s: f64,
+        log: &dyn Log,
+    ) -> Result<(), Failure> {
+        let (context, state) = self.parts(values, log)?;
+        M::EXTENSIONS.write_outputs(&context, values, state, groups, time_s)
     }
 
     fn output_rate(&self, values: &Values, output: Real, log: &dyn Log) -> Result<f64, Failure> {

@@ -1,18 +1,20 @@
 //! The model traits: what an author writes, and in which order it is called. They are free of any version of FMI.
 //!
-//! [`Model`] is for every model. [`OutputRates`] and [`Differentiable`] are optional and named in
+//! [`Model`] is for every model. [`OutputRates`], [`Differentiable`] and [`DeferredOutputs`] are optional and named in
 //! [`Model::EXTENSIONS`]; other abilities (continuous states with rates and event indicators) would become another
 //! trait and another field there.
 
 mod about;
+mod output_groups;
 mod step;
 
 use serde::{Serialize, de::DeserializeOwned};
 
-use crate::dependencies::Dependencies;
+use crate::dependencies::{Dependencies, Knowns};
 use crate::variables::{Elements, Given, Real, Values, Variables};
 
 pub use about::{About, Manual, SetupValue, StartValue};
+pub use output_groups::OutputGroups;
 pub use step::{InputDerivative, InputsOverTime, Step, StepEnd};
 
 /// A co-simulation model.
@@ -92,7 +94,8 @@ pub trait Model: Sized + 'static {
         start_time_s: f64,
     ) -> Result<Self::State, Failure>;
 
-    /// Advances from `step.start_s` to `step.end_s`, or to an earlier time that it gives back, and writes the outputs there.
+    /// Advances from `step.start_s` to `step.end_s`, or to an earlier time that it gives back, and writes the outputs there, but for
+    /// those of [`DeferredOutputs`].
     ///
     /// After an error the instance is not used further: `state` and `values` may be half written.
     fn step(
@@ -155,6 +158,24 @@ pub trait Differentiable: Model {
     ) -> Result<(), Failure>;
 }
 
+/// A model that writes groups of outputs when one of them is read: an output that nobody reads costs nothing.
+pub trait DeferredOutputs: Model {
+    /// Outputs of each group, at most [`OutputGroups::MOST`] groups. No output belongs to two of them. What belongs to none, and
+    /// what a set has that is no output, is written as in any model.
+    fn output_groups(variables: &Self::Variables) -> Vec<Knowns>;
+
+    /// Writes the outputs of these groups at the last communication point, `time_s`; `values` are those of the step that ended
+    /// there. Called after [`Model::step`], at most once for each group, before the next step and before the state is saved.
+    /// [`Model::initialize`] writes every output itself. An error ends the instance, as an error of the step does.
+    fn write_outputs(
+        context: &Context<'_, Self>,
+        values: &mut Values,
+        state: &mut Self::State,
+        groups: OutputGroups,
+        time_s: f64,
+    ) -> Result<(), Failure>;
+}
+
 type OutputRate<M> = fn(&Context<'_, M>, &Values, &<M as Model>::State, Real) -> Option<f64>;
 type JacobianVectorProduct<M> = fn(
     &Context<'_, M>,
@@ -165,16 +186,31 @@ type JacobianVectorProduct<M> = fn(
     &mut [f64],
 ) -> Result<(), Failure>;
 
+type Groups<M> = fn(&<M as Model>::Variables) -> Vec<Knowns>;
+type Write<M> =
+    fn(&Context<'_, M>, &mut Values, &mut <M as Model>::State, OutputGroups, f64) -> Result<(), Failure>;
+
+/// The functions of [`DeferredOutputs`].
+pub(crate) struct DeferredFunctions<M: Model> {
+    pub(crate) groups: Groups<M>,
+    pub(crate) write: Write<M>,
+}
+
+impl<M: DeferredOutputs> DeferredFunctions<M> {
+    pub(crate) const OF_MODEL: Self = Self { groups: M::output_groups, write: M::write_outputs };
+}
+
 /// The optional traits that a model has: `Extensions::none().output_rates().differentiable()`.
 pub struct Extensions<M: Model> {
     pub(crate) output_rate: Option<OutputRate<M>>,
     pub(crate) jacobian_vector_product: Option<JacobianVectorProduct<M>>,
+    pub(crate) deferred_outputs: Option<DeferredFunctions<M>>,
 }
 
 impl<M: Model> Extensions<M> {
     /// [`Model`] alone.
     pub const fn none() -> Self {
-        Self { output_rate: None, jacobian_vector_product: None }
+        Self { output_rate: None, jacobian_vector_product: None, deferred_outputs: None }
     }
 
     /// With [`OutputRates`].
@@ -193,6 +229,27 @@ impl<M: Model> Extensions<M> {
         M: Differentiable,
     {
         Self { jacobian_vector_product: Some(M::jacobian_vector_product), ..self }
+    }
+
+    /// Writes deferred outputs of these groups, if the model has any.
+    pub fn write_outputs(
+        &self,
+        context: &Context<'_, M>,
+        values: &mut Values,
+        state: &mut M::State,
+        groups: OutputGroups,
+        time_s: f64,
+    ) -> Result<(), Failure> {
+        self.deferred_outputs.as_ref().map_or(Ok(()), |it| (it.write)(context, values, state, groups, time_s))
+    }
+
+    /// With [`DeferredOutputs`].
+    #[must_use]
+    pub const fn deferred_outputs(self) -> Self
+    where
+        M: DeferredOutputs,
+    {
+        Self { deferred_outputs: Some(DeferredFunctions::OF_MODEL), ..self }
     }
 }
 

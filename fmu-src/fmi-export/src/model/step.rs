@@ -14,6 +14,8 @@ pub struct Step<'a> {
     /// Whether an input or tunable parameter was set to a *different* value since the last step, or inputs move in this one
     /// or did in the last: whatever was computed ahead of `start_s` is void.
     pub changed: bool,
+    /// Whether a tunable parameter was set to a different value since the last step, or for the first time.
+    pub parameters_changed: bool,
     /// The inputs within the step.
     pub inputs: InputsOverTime<'a>,
 }

@@ -46,6 +46,13 @@ impl SetBits {
         length.div_ceil(u64::BITS as usize)
     }
 
+    /// From one truth value a place.
+    pub(crate) fn new(places: impl ExactSizeIterator<Item = bool>) -> Self {
+        let mut bits = Self(vec![0; Self::words(places.len())]);
+        places.enumerate().filter(|(_, holds)| *holds).for_each(|(place, _)| bits.mark(place));
+        bits
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.0.len()
     }
@@ -58,11 +65,12 @@ impl SetBits {
 
     /// Indices of the values that are set.
     fn indices(&self) -> impl Iterator<Item = usize> {
-        self.0.iter().enumerate().flat_map(|(word, &bits)| {
-            let left = core::iter::successors(Some(bits), |bits| bits.checked_sub(1).map(|less| bits & less));
-            left.take_while(|bits| *bits != 0)
-                .map(move |bits| word * u64::BITS as usize + bits.trailing_zeros() as usize)
-        })
+        bits_of(self.0.iter().copied())
+    }
+
+    /// The words, with the bits that `among` has as well.
+    fn words_within(&self, among: &Self) -> impl Iterator<Item = u64> {
+        self.0.iter().zip(&among.0).map(|(word, among)| word & among)
     }
 
     #[inline]
@@ -71,6 +79,15 @@ impl SetBits {
             *word |= 1 << (place % u64::BITS as usize);
         }
     }
+}
+
+/// Places of the bits of words.
+fn bits_of(words: impl Iterator<Item = u64>) -> impl Iterator<Item = usize> {
+    words.enumerate().flat_map(|(word, bits)| {
+        let left = core::iter::successors(Some(bits), |bits| bits.checked_sub(1).map(|less| bits & less));
+        left.take_while(|bits| *bits != 0)
+            .map(move |bits| word * u64::BITS as usize + bits.trailing_zeros() as usize)
+    })
 }
 
 impl Values {
@@ -119,6 +136,16 @@ impl Values {
         }
     }
 
+    /// Takes over one value.
+    pub(crate) fn copy_value(&mut self, from: &Self, base: BaseType, place: usize) {
+        match base {
+            BaseType::Real => self.reals[place] = from.reals[place],
+            BaseType::Integer => self.integers[place] = from.integers[place],
+            BaseType::Boolean => self.booleans[place] = from.booleans[place],
+            BaseType::String => self.strings[place].clone_from(&from.strings[place]),
+        }
+    }
+
     /// A value as text.
     pub(crate) fn shown(&self, base: BaseType, place: usize) -> String {
         match base {
@@ -128,6 +155,15 @@ impl Values {
             BaseType::String => self.strings.get(place).map(|it| format!("{it:?}")),
         }
         .unwrap_or_default()
+    }
+
+    /// Whether one of these variables was set to another value than in `before`, or for the first time.
+    pub(crate) fn differ_among(&self, before: &Self, among: &[SetBits; Element::TABLES]) -> bool {
+        let mut tables = BaseType::ALL.into_iter().zip(&self.set).zip(before.set.iter().zip(among));
+        tables.any(|((base, set), (set_before, among))| {
+            let is_new = set.words_within(among).ne(set_before.words_within(among));
+            is_new || bits_of(set.words_within(among)).any(|place| !self.is_same(before, base, place))
+        })
     }
 
     /// Whether all values that the importer set equal those of `before`, bit by bit. No others change between steps.

@@ -2,6 +2,7 @@
 
 mod access;
 mod allocations;
+mod deferred;
 mod derivatives;
 mod finite;
 mod library;

@@ -28,6 +28,8 @@ pub(super) struct Prepared {
     /// The inputs.
     pub inputs: Positions<Real>,
     active: Active,
+    /// Whether faces are reported one by one.
+    reports_faces: bool,
 }
 
 /// Whether a Real is one of the inputs or parameters that derivatives are known by.
@@ -118,6 +120,7 @@ impl Prepared {
             parameters,
             inputs: variables.positions(),
             active,
+            reports_faces: !variables.plate.is_empty(),
         })
     }
 
@@ -142,8 +145,13 @@ impl Prepared {
         positions: &Positions<T>,
         workspaces: &mut Workspaces<T>,
     ) -> Result<BySource<T>, Failure> {
-        let surfaces =
-            Surfaces { light: &self.model, air: self.air.as_ref(), materials, active: self.active };
+        let surfaces = Surfaces {
+            light: &self.model,
+            air: self.air.as_ref(),
+            materials,
+            active: self.active,
+            needs_temperatures: self.reports_faces,
+        };
         BySource::at(surfaces, self.shadow.as_ref(), parameters, positions, workspaces).map_err(|error| {
             let inputs = match &error {
                 PositionError::Eclipse(_) => "sun.positionBody, planet.positionBody, planet.radius",

@@ -11,11 +11,11 @@ mod variables;
 use std::sync::Arc;
 
 use fmi_export::{
-    About, Dependencies, Differentiable, Extensions, Failure, Manual, Model, Real, SetupError, StartValue,
-    Step, StepEnd, Values,
+    About, DeferredOutputs, Dependencies, Differentiable, Extensions, Failure, Knowns, Manual, Model,
+    OutputGroups, Real, SetupError, StartValue, Step, StepEnd, Values,
 };
 use physics::numerics::scalar::Dual64;
-use physics::plant::{Parameters, Positions, TUNABLE_COUNT, Workspaces};
+use physics::plant::{BySource, Parameters, Positions, TUNABLE_COUNT, Workspaces};
 use serde::{Deserialize, Serialize};
 
 use crate::common::start_values::of_spacecraft;
@@ -41,6 +41,9 @@ pub struct DisturbanceState {
     prepared: Option<Arc<Prepared>>,
     #[serde(skip)]
     workspaces: Workspaces<f64>,
+    /// Found in the last step, from which outputs are written.
+    #[serde(skip)]
+    found: Option<BySource<f64>>,
 }
 
 impl Model for DisturbanceTorque {
@@ -50,7 +53,7 @@ impl Model for DisturbanceTorque {
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger-thermal.toml");
     const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/DisturbanceTorque.csv");
     const MANUAL: Manual = crate::manuals::DISTURBANCE_TORQUE;
-    const EXTENSIONS: Extensions<Self> = Extensions::none().differentiable();
+    const EXTENSIONS: Extensions<Self> = Extensions::none().differentiable().deferred_outputs();
 
     type Setup = DisturbanceSetup;
     type Variables = DisturbanceVariables;
@@ -87,7 +90,7 @@ impl Model for DisturbanceTorque {
     fn initialize(
         context: &Plan<'_>,
         values: &mut Values,
-        _start_time_s: f64,
+        start_time_s: f64,
     ) -> Result<DisturbanceState, Failure> {
         inputs::check_effects(context, values)?;
         let prepared = Arc::new(Prepared::new(context, values)?);
@@ -99,9 +102,11 @@ impl Model for DisturbanceTorque {
             has_warned_unset: false,
             prepared: Some(prepared.clone()),
             workspaces: Workspaces::default(),
+            found: None,
         };
         state.materials.read(context, values)?;
-        update(context, values, &mut state, &prepared)?;
+        update(&mut state, &prepared)?;
+        Self::write_outputs(context, values, &mut state, OutputGroups::ALL, start_time_s)?;
         Ok(state)
     }
 
@@ -111,16 +116,16 @@ impl Model for DisturbanceTorque {
         state: &mut DisturbanceState,
         step: &Step<'_>,
     ) -> Result<StepEnd, Failure> {
-        let prepared = match state.prepared.take() {
-            Some(prepared) => prepared,
-            None => Arc::new(Prepared::new(context, values)?),
-        };
-        for (position, input) in state.positions.iter_mut().zip(prepared.inputs.iter()) {
-            *position = step.inputs.real(values, *input, step.end_s);
+        let known = state.prepared.take();
+        if known.is_none() || step.parameters_changed {
+            state.solar_scale = values.real(context.variables.solar.scale);
+            state.tunable = context.variables.laws.tunable().map(|it| values.real(it));
+            state.materials.read(context, values)?;
         }
-        state.solar_scale = values.real(context.variables.solar.scale);
-        state.tunable = context.variables.laws.tunable().map(|it| values.real(it));
-        state.materials.read(context, values)?;
+        let prepared = known.map_or_else(|| Prepared::new(context, values).map(Arc::new), Ok)?;
+        state.positions.update(&prepared.inputs, |position, input| {
+            *position = step.inputs.real(values, *input, step.end_s);
+        });
         if !state.has_warned_unset {
             let unset = prepared.unset(&state.positions);
             state.has_warned_unset = !unset.is_empty();
@@ -132,7 +137,7 @@ impl Model for DisturbanceTorque {
                 ));
             }
         }
-        let outcome = update(context, values, state, &prepared);
+        let outcome = update(state, &prepared);
         state.prepared = Some(prepared);
         outcome.map(|()| StepEnd::at(step.end_s))
     }
@@ -171,9 +176,7 @@ impl Differentiable for DisturbanceTorque {
         let along =
             |known: Real| -> f64 { seeds.iter().filter(|(at, _)| *at == known).map(|(_, seed)| seed).sum() };
         let mut positions = state.positions.map(|position| Dual64::new(*position, 0.0));
-        for (position, input) in positions.iter_mut().zip(prepared.inputs.iter()) {
-            position.eps = along(*input);
-        }
+        positions.update(&prepared.inputs, |position, input| position.eps = along(*input));
         let seeded = |parameter| Dual64::new(values.real(parameter), along(parameter));
         let mut parameters = variables.parameters(values, seeded);
         // Of the step that the outputs are of.
@@ -193,13 +196,27 @@ impl Differentiable for DisturbanceTorque {
     }
 }
 
-/// Evaluates at the state's inputs and writes every output.
-fn update(
-    context: &Plan<'_>,
-    values: &mut Values,
-    state: &mut DisturbanceState,
-    prepared: &Prepared,
-) -> Result<(), Failure> {
+impl DeferredOutputs for DisturbanceTorque {
+    fn output_groups(variables: &DisturbanceVariables) -> Vec<Knowns> {
+        outputs::groups(variables).into()
+    }
+
+    fn write_outputs(
+        context: &Plan<'_>,
+        values: &mut Values,
+        state: &mut DisturbanceState,
+        groups: OutputGroups,
+        _time_s: f64,
+    ) -> Result<(), Failure> {
+        let DisturbanceState { found, workspaces, .. } = state;
+        let found = found.as_ref().ok_or_else(|| Failure::new("nothing was evaluated since the restore"))?;
+        outputs::write(context.variables, values, (found, &workspaces.light), groups);
+        Ok(())
+    }
+}
+
+/// Evaluates at the state's inputs.
+fn update(state: &mut DisturbanceState, prepared: &Prepared) -> Result<(), Failure> {
     let mut parameters = Parameters { solar_scale: state.solar_scale, ..prepared.parameters };
     for (parameter, value) in parameters.laws.tunable_mut().zip(state.tunable) {
         *parameter = value;
@@ -212,6 +229,6 @@ fn update(
              spacecraft.inertia, allowed: values a spacecraft can have",
         ));
     }
-    outputs::write(context.variables, values, &found, &state.workspaces.light);
+    state.found = Some(found);
     Ok(())
 }

@@ -10,8 +10,8 @@ mod step;
 mod variables;
 
 use fmi_export::{
-    About, Dependencies, Extensions, Failure, Manual, Model, OutputRates, Real, SetupError, StartValue, Step,
-    StepEnd, Values, checksum,
+    About, DeferredOutputs, Dependencies, Extensions, Failure, Knowns, Manual, Model, OutputGroups,
+    OutputRates, Real, SetupError, StartValue, Step, StepEnd, Values, checksum,
 };
 use physics::environment::time;
 
@@ -32,7 +32,7 @@ impl Model for MomentumPlant {
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/MomentumPlant.csv");
     const MANUAL: Manual = crate::manuals::MOMENTUM_PLANT;
-    const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates();
+    const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates().deferred_outputs();
 
     type Setup = PlantSetup;
     type Variables = PlantVariables;
@@ -127,6 +127,22 @@ impl Model for MomentumPlant {
             Some(what) => Err(Failure::new(format!("{what} elsewhere than at {time_s:?} s"))),
             None => Ok(()),
         }
+    }
+}
+
+impl DeferredOutputs for MomentumPlant {
+    fn output_groups(variables: &PlantVariables) -> Vec<Knowns> {
+        outputs::groups(variables)
+    }
+
+    fn write_outputs(
+        context: &Plan<'_>,
+        values: &mut Values,
+        state: &mut PlantState,
+        groups: OutputGroups,
+        time_s: f64,
+    ) -> Result<(), Failure> {
+        outputs::write(context, values, state, groups, time_s)
     }
 }
 

@@ -1,6 +1,6 @@
 //! A flight of the model begins, steps, and waits for inputs that are not set yet.
 
-use fmi_export::{Failure, InputsOverTime, Step, Values};
+use fmi_export::{Failure, InputsOverTime, OutputGroups, Step, Values};
 use physics::plant::{NEVER_DUMPED_N_M_S, StepContext, Undo};
 
 use super::inputs::{self, Reading, Reconfigured, guidance, plausibility, propulsion};
@@ -17,12 +17,14 @@ pub(super) fn start(
     state: &mut PlantState,
     time_s: f64,
 ) -> Result<(), Failure> {
-    let start = Step { start_s: time_s, end_s: time_s, changed: true, inputs: InputsOverTime::held() };
+    let inputs = InputsOverTime::held();
+    let start = Step { start_s: time_s, end_s: time_s, changed: true, parameters_changed: true, inputs };
     let reading = inputs::read(context, values, state, &start)?;
     configure(context, values, state, &reading, &start)?;
     // Samples at the start are taken anew by the first step, with its inputs.
     let undo = if reading.begins { Some(begin(context, values, state, &reading, time_s)?) } else { None };
-    show(context, values, state, &reading, time_s)?;
+    evaluate(context, values, state, &reading, time_s)?;
+    outputs::write(context, values, state, OutputGroups::ALL, time_s)?;
     if let Some(undo) = undo {
         state.saved.flight.undo(undo);
     }
@@ -47,7 +49,7 @@ pub(super) fn step(
     if !state.saved.waiting {
         advance(context, state, &reading, step)?;
     }
-    show(context, values, state, &reading, step.end_s)
+    evaluate(context, values, state, &reading, step.end_s)
 }
 
 /// The flight takes what was read, from the step's start on.
@@ -103,8 +105,8 @@ fn begin(
     let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
     plausibility::report(Read::new(context, values), flight, given, time_s);
     let undo = flight.sample_at_start(given, &inputs.dynamics, time_s).map_err(failure)?;
-    let report = flight.report(given, &inputs.dynamics, command, time_s).map_err(failure)?;
-    outputs::check_report(&report)?;
+    let reached = flight.evaluate(given, &inputs.dynamics, command, time_s).map_err(failure)?;
+    outputs::check(flight, &reached, time_s)?;
     Ok(undo)
 }
 
@@ -169,8 +171,8 @@ fn advance(
     flight.advance(given, &inputs.dynamics, [step.start_s, step.end_s]).map_err(failure)
 }
 
-/// Writes every output at `time_s`.
-fn show(
+/// Evaluates the flight at `time_s`, where every output belongs to, and judges it; writes what follows from the configuration.
+fn evaluate(
     context: &Plan<'_>,
     values: &mut Values,
     state: &mut PlantState,
@@ -180,20 +182,16 @@ fn show(
     let (external, planner) = (reading.external(), reading.planner());
     let given = reading.given(&external, &planner);
     let PlantState { saved: SavedState { flight, command, waiting, warned, .. }, inputs } = state;
-    // Not `map_err`, which would copy the report.
-    let report = match flight.report(given, &inputs.dynamics, command, time_s) {
-        Ok(report) => report,
-        Err(error) => return Err(failure(error)),
-    };
+    let reached = flight.evaluate(given, &inputs.dynamics, command, time_s).map_err(failure)?;
     if !*waiting {
-        outputs::check_report(&report)?;
+        outputs::check(flight, &reached, time_s)?;
     }
-    propulsion::warn_unserved(context, &report, &mut warned.thrusters);
-    guidance::warn_degenerate(context, &report, &mut warned.degenerate);
-    outputs::write(context, values, &report, reading.is_reconfigured);
-    let is_reached =
-        |k: usize| context.variables.panel.get(k).is_none_or(|it| values.boolean(it.sun_offset_reached));
+    propulsion::warn_unserved(context, flight, &mut warned.thrusters, time_s);
+    guidance::warn_degenerate(context, &reached, &mut warned.degenerate, time_s);
     let spacecraft = &context.setup.spacecraft;
-    warned.watch.see((flight, time_s), spacecraft, is_reached, |text| context.log.warning(text));
-    outputs::write_faces(context, values, flight, given.prepared, time_s)
+    warned.watch.see((flight, time_s), spacecraft, |text| context.log.warning(text));
+    if reading.is_reconfigured {
+        outputs::write_polynomial(context, values, flight);
+    }
+    Ok(())
 }

@@ -12,6 +12,7 @@ mod cruise_centers;
 mod cruise_legs;
 mod cruise_predictions;
 mod custom_body;
+mod deferred_outputs;
 mod dependencies;
 mod disturbance_degenerate;
 mod disturbance_torque;

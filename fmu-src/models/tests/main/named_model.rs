@@ -10,7 +10,8 @@ use fmi_export::fmi2::{references, scalar_variables};
 use fmi_export::model::InputDerivative;
 use fmi_export::model_description::{Causality, Description, Variability, VariableKind};
 use fmi_export::{
-    BaseType, Context, Declare, Failure, InputsOverTime, Library, Model, Step, Values, Variables,
+    BaseType, Context, Declare, Failure, InputsOverTime, Library, Model, OutputGroups, Step, Values,
+    Variables,
 };
 use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
 use nalgebra::{Quaternion, UnitQuaternion};
@@ -367,9 +368,12 @@ impl<M: Model> NamedInstance<'_, M> {
             .collect();
         let inputs = InputsOverTime::new(self.time_s, &derivatives);
         let changed = set || moved || !rates.is_empty();
-        let step = Step { start_s: self.time_s, end_s, changed, inputs };
+        let step = Step { start_s: self.time_s, end_s, changed, parameters_changed: changed, inputs };
         self.tables.take();
-        M::step(&self.named.context(), &mut self.values, &mut self.state, &step)?;
+        let context = self.named.context();
+        M::step(&context, &mut self.values, &mut self.state, &step)?;
+        let all = OutputGroups::ALL;
+        M::EXTENSIONS.write_outputs(&context, &mut self.values, &mut self.state, all, end_s)?;
         self.time_s = end_s;
         self.before = None;
         Ok(())

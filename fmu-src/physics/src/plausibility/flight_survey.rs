@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use crate::attitude::{SunAngles, angle_between_rad};
 use crate::constants::DAY_S;
-use crate::plant::{Configuration, Flight, Instant, StepContext};
+use crate::plant::{self, Configuration, Flight, Instant, StepContext};
 use crate::spacecraft::{Antenna, Spacecraft};
 
 /// The Sun this near to the axis of a panel leaves it no angle at which the cells face it, in rad.
@@ -44,7 +44,8 @@ impl FlightSurvey {
         let period_s = configuration.orbit.period_s() * f64::from(guided.schedule.every.max(1));
         let span_s = if period_s.is_finite() && survey.has_planet { period_s.min(most_s) } else { day_s };
         let times_s = (0..SAMPLES).map(|k| start_s + span_s * (f64::from(k) + 0.5) / f64::from(SAMPLES));
-        flight.survey(given, times_s, |configuration, _, instant| {
+        let Some(context) = flight.context() else { return survey };
+        plant::survey(context, given, times_s, |configuration, _, instant| {
             survey.see(spacecraft, configuration, instant);
         });
         survey

@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::environment::time;
 use crate::loads::Effect;
-use crate::math;
 use crate::plant::{Evaluation, Flight, Motion};
 use crate::spacecraft::Spacecraft;
 use crate::toml::dates;
@@ -46,13 +45,11 @@ pub fn is_sun_offset_reached([meant_rad, actual_rad]: [f64; 2]) -> bool {
 }
 
 impl FlightWatch {
-    /// Tells what a flight that was reported at `time_s` shows for the first time; `is_reached` tells whether a panel stands where it is to
-    /// stand.
+    /// Tells what a flight that was evaluated at `time_s` shows for the first time.
     pub fn see(
         &mut self,
         (flight, time_s): (&mut Flight, f64),
         spacecraft: &Spacecraft,
-        is_reached: impl Fn(usize) -> bool,
         mut tell: impl FnMut(&str),
     ) {
         let Some((configuration, evaluation)) = flight.configuration().zip(flight.evaluation()) else {
@@ -71,12 +68,9 @@ impl FlightWatch {
         let panels = spacecraft.panels.iter().zip(&configuration.panels).take(PANELS);
         for (k, (panel, setting)) in panels.enumerate() {
             let bit = 1_u64 << k;
-            if self.panels & bit != 0 || is_reached(k) {
-                continue;
-            }
-            let Some(angle_rad) = setting.angle_rad(panel, &sun) else { continue };
-            let [meant_rad, actual_rad] = setting.sun_offsets_rad(&panel.normal_body(angle_rad), &sun);
-            if (math::cos(meant_rad) - math::cos(actual_rad)).abs() > LIGHT_OFF {
+            if self.panels & bit == 0 && setting.light_out_of_reach(panel, &sun).abs() > LIGHT_OFF {
+                let Some(angle_rad) = setting.angle_rad(panel, &sun) else { continue };
+                let [meant_rad, actual_rad] = setting.sun_offsets_rad(&panel.normal_body(angle_rad), &sun);
                 self.panels |= bit;
                 let [meant_deg, actual_deg] =
                     [meant_rad, actual_rad].map(|it| format!("{:.1}", it.to_degrees()));

@@ -109,6 +109,7 @@ impl Model for AllTypes {
             start_s: start_time_s,
             end_s: start_time_s,
             changed: true,
+            parameters_changed: true,
             inputs: InputsOverTime::held(),
         };
         let mut state = State {

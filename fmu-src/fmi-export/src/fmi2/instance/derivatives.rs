@@ -52,6 +52,7 @@ impl Instance {
             self.require(reference, OUTPUT, OUTPUT, "Real output")?;
             check_order(order, i32::MAX.unsigned_abs())?;
         }
+        self.write_pending()?;
         let largest = self.output_derivative_order;
         let mut highest = 0;
         for ((&reference, &order), value) in references.iter().zip(orders).zip(values) {
@@ -99,6 +100,7 @@ impl Instance {
         if initializing {
             self.initialize_if_needed()?;
         }
+        self.write_pending()?;
         // Lists of the model's own, in memory that is kept from call to call.
         let (mut of, mut seeds) = core::mem::take(&mut self.directions);
         of.clear();

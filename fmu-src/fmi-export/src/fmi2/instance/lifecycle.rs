@@ -156,6 +156,7 @@ impl Instance {
     pub(crate) fn reset(&mut self) {
         self.runtime.clear();
         self.forget_last_step();
+        self.deferred.mark_none();
         self.state.copy_from(&InstanceState::new(&self.start));
         self.logger.reset();
         self.reported = 0;

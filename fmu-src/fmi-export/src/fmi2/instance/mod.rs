@@ -3,8 +3,10 @@
 //! Every function of the standard is admitted by [`Instance::guard`], does its work in a method of its own and hands a
 //! [`Problem`] or nothing to [`Instance::conclude`], which logs, moves the state and gives the status.
 
+mod deferred;
 mod derivatives;
 mod lifecycle;
+mod pending;
 pub(crate) mod saved;
 pub(crate) mod state;
 pub(crate) mod stepping;
@@ -12,15 +14,16 @@ mod values;
 
 use std::sync::Arc;
 
-use crate::fmi2::access::AccessTable;
+use crate::fmi2::access::{AccessTable, INPUT, SET_STEP};
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
 use crate::logger::Logger;
 use crate::prepared::Prepared;
 use crate::runtime::Runtime;
-use crate::variables::{Real, Values};
+use crate::variables::{Element, Real, SetBits, Values};
 use model_description::call_table::{self, Access, Function, Next, State};
 use model_description::{BaseType, Status};
+use pending::Deferred;
 
 use state::InstanceState;
 pub use state::MAX_INPUT_DERIVATIVE_ORDER;
@@ -38,6 +41,9 @@ pub(crate) struct Instance {
     pub(crate) state: InstanceState,
     pub(super) runtime: Box<dyn Runtime>,
     pub(super) access: AccessTable,
+    deferred: Deferred,
+    /// Places of the tunable parameters.
+    tunable: [SetBits; Element::TABLES],
     pub(super) start: Arc<Values>,
     pub(super) digest: uuid::Uuid,
     pub(super) logger: Logger,
@@ -63,6 +69,9 @@ impl Instance {
         let access = AccessTable::new(&description);
         let mut state = InstanceState::new(&start);
         state.input_derivatives.reserve(access.real_limits.len());
+        let is_tunable = |flags: &u16| flags & (SET_STEP | INPUT) == SET_STEP;
+        let tunable = BaseType::ALL.map(|base| SetBits::new(access.flags(base).iter().map(is_tunable)));
+        let deferred = Deferred::new(&runtime.output_groups(), &access);
         Self {
             spare: Values::clone(&start),
             directions: Default::default(),
@@ -71,6 +80,8 @@ impl Instance {
             state,
             runtime,
             access,
+            deferred,
+            tunable,
             start,
             digest,
             logger,
@@ -153,14 +164,16 @@ impl Instance {
 
     /// Refuses values that are no finite numbers: nothing is answered under OK that a master cannot continue with.
     pub(super) fn check_finite(&self, initially: bool) -> Result<(), Problem> {
-        match self.access.first_not_finite(&self.state.values) {
-            None => Ok(()),
-            Some((reference, value)) => Err(self.not_finite(reference, value, initially)),
-        }
+        let values = &self.state.values;
+        let found = match initially {
+            true => self.access.first_not_finite(values),
+            false => self.deferred.first_not_finite(&self.access, values),
+        };
+        found.map_or(Ok(()), |(reference, value)| Err(self.not_finite(reference, value, initially)))
     }
 
     #[cold]
-    fn not_finite(&self, reference: u32, value: f64, initially: bool) -> Problem {
+    pub(super) fn not_finite(&self, reference: u32, value: f64, initially: bool) -> Problem {
         let name = self.access.named(BaseType::Real, reference);
         let dependencies = self.access.dependencies(reference, initially).unwrap_or_default();
         let shown = |at: &u32| Some(format!("{} = {}", self.access.any_name(*at)?, self.shown(*at)?));

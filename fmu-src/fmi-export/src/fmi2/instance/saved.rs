@@ -21,6 +21,7 @@ pub(crate) struct SavedState {
 impl Instance {
     /// `fmi2GetFMUstate`, into `reuse` if given.
     pub(crate) fn save(&mut self, reuse: Option<&mut SavedState>) -> Result<Option<SavedState>, Problem> {
+        self.write_pending()?;
         let Some(saved) = reuse else {
             let (digest, state, model) = (self.digest, self.state.clone(), self.runtime.save(None));
             return Ok(Some(SavedState { digest, state, model }));
@@ -37,6 +38,7 @@ impl Instance {
         self.own(saved)?;
         self.runtime.restore(&saved.model).map_err(damaged)?;
         self.forget_last_step();
+        self.deferred.mark_none();
         self.state.copy_from(&saved.state);
         self.warn_of_early_state(saved.state.time_s);
         Ok(())

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::fmi2::access::{AccessTable, CONTINUOUS, INPUT, SET_BY_IMPORTER};
 use crate::model::{Failure, InputDerivative};
 use crate::state_bytes::damaged;
-use crate::variables::{GREATEST_SET, SetBits, Values};
+use crate::variables::{Element, GREATEST_SET, SetBits, Values};
 use model_description::call_table::State;
 
 /// Highest order of an input derivative: the factorial of the next one is no longer an `f64`.
@@ -88,6 +88,11 @@ impl InstanceState {
     /// not: values agree to the bit, so the model continues as if nothing had been set.
     pub(crate) fn differs(&self) -> bool {
         self.at_last_step.as_ref().is_some_and(|before| !self.values.set_values_equal(before))
+    }
+
+    /// Whether one of these tunable parameters differs from what the last step used, or is set for the first time.
+    pub(crate) fn parameters_differ(&self, tunable: &[SetBits; Element::TABLES]) -> bool {
+        self.at_last_step.as_ref().is_some_and(|before| self.values.differ_among(before, tunable))
     }
 
     /// Whether decoded bytes make sense for a model with these variables. The error says what does not.

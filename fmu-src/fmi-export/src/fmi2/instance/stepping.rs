@@ -35,8 +35,10 @@ impl Instance {
         }
         // An input whose derivatives are 0 stays where it is.
         self.state.input_derivatives.retain(|derivative| derivative.value != 0.0);
+        self.deferred.mark_none();
         let terminate = self.advance(start_s, end_s)?;
         self.check_finite(false)?;
+        self.deferred.mark_all();
         let state = &mut self.state;
         state.derivatives_ended = !state.input_derivatives.is_empty();
         state.input_derivatives.clear();
@@ -51,9 +53,10 @@ impl Instance {
         let state = &mut self.state;
         let inputs = InputsOverTime::new(start_s, &state.input_derivatives);
         let mut changed = state.derivatives_ended || !state.input_derivatives.is_empty() || state.differs();
+        let mut parameters_changed = state.parameters_differ(&self.tunable);
         let mut from_s = start_s;
         loop {
-            let step = Step { start_s: from_s, end_s, changed, inputs };
+            let step = Step { start_s: from_s, end_s, changed, parameters_changed, inputs };
             let end = self.runtime.step(&mut state.values, &step, &self.logger)?;
             let is_within = end.time_s >= from_s && end.time_s <= end_s;
             if !is_within || (end.time_s == from_s && end.terminate.is_none()) {
@@ -66,7 +69,7 @@ impl Instance {
             if end.terminate.is_some() || end.time_s == end_s {
                 return Ok(end.terminate);
             }
-            (from_s, changed) = (end.time_s, false);
+            (from_s, changed, parameters_changed) = (end.time_s, false, false);
         }
     }
 }

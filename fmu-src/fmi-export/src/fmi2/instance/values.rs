@@ -19,6 +19,9 @@ macro_rules! getter {
                 if self.reading_needs_preparation() {
                     self.prepare_reading(BaseType::$base, references)?;
                 }
+                if self.deferred.is_pending() {
+                    self.write_read(BaseType::$base, references)?;
+                }
                 let table = &self.state.values.$table;
                 for (&reference, value) in references.iter().zip(values) {
                     match table.get(references::index(BaseType::$base, reference)) {
@@ -142,6 +145,9 @@ impl Instance {
     ) -> Result<(), Problem> {
         if self.reading_needs_preparation() {
             self.prepare_reading(BaseType::String, references)?;
+        }
+        if self.deferred.is_pending() {
+            self.write_read(BaseType::String, references)?;
         }
         let table = &self.state.values.strings;
         for (position, &reference) in references.iter().enumerate() {

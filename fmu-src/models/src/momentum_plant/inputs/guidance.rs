@@ -12,7 +12,7 @@ use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::timeline::TimelineSettings;
 use physics::guidance::{Guided, TargetPlanet};
 use physics::management::Strategy;
-use physics::plant::{self, Configuration, Report, StartMotion, StartPointing};
+use physics::plant::{self, Configuration, ReachedState, StartMotion, StartPointing};
 
 use super::wheels;
 use crate::common::downlink::ZERO_KEEP_IN_AXIS;
@@ -125,14 +125,19 @@ fn managed_law(read: Read<'_>, state: &PlantState, orbit: &TwoBodyOrbit) -> Resu
 }
 
 /// Warns once of targets on one line.
-pub(in crate::momentum_plant) fn warn_degenerate(context: &Plan<'_>, report: &Report<'_>, warned: &mut bool) {
-    if report.is_degenerate && !*warned {
+pub(in crate::momentum_plant) fn warn_degenerate(
+    context: &Plan<'_>,
+    reached: &ReachedState,
+    warned: &mut bool,
+    time_s: f64,
+) {
+    if reached.is_degenerate && !*warned {
         *warned = true;
         context.log.warning(&format!(
             "guided.degenerate: at {:?} s both targets of the attitude lie on one line; the north of EME2000, or along that its \
              equinox, stands in for the second one. Another second target (guided.constrain.target) or another guided.scienceRule \
              avoids it",
-            report.time_s
+            time_s
         ));
     }
 }

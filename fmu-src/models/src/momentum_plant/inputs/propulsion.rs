@@ -3,7 +3,7 @@
 use fmi_export::{Failure, Step};
 use nalgebra::Vector3;
 use physics::plant::{
-    Configuration, DynamicsInputs, Flight, ReactionControlSettings, Report, SimulationContext, UnservedDumps,
+    Configuration, DynamicsInputs, Flight, ReactionControlSettings, SimulationContext, UnservedDumps,
 };
 use physics::propulsion::{PulseCommand, ThrustErrors};
 use physics::spacecraft::{Tank, Thruster};
@@ -66,13 +66,18 @@ pub(crate) fn check(flight: &Flight) -> Result<(), Failure> {
 }
 
 /// Reports once that a dump found no thrusters, and once that those it found were not fed.
-pub(crate) fn warn_unserved(context: &Plan<'_>, report: &Report<'_>, warned: &mut ThrusterWarnings) {
-    let UnservedDumps { unfed, one_sided } = report.thrusters.unserved_dumps();
+pub(crate) fn warn_unserved(context: &Plan<'_>, flight: &Flight, warned: &mut ThrusterWarnings, time_s: f64) {
+    let thrusters = flight.thrusters();
+    let UnservedDumps { unfed, one_sided } = thrusters.unserved_dumps();
+    if unfed == 0 && one_sided == 0 {
+        return;
+    }
+    let Some((flown, evaluation)) = flight.context().zip(flight.evaluation()) else { return };
+    let settings = &flown.allocator.settings;
     if unfed > 0 && !warned.unfed {
         warned.unfed = true;
-        let ReactionControlSettings { tanks, .. } = report.reaction_control;
-        let propellant = &report.thrusters.propellant;
-        let dry = tanks.iter().enumerate().filter(|(k, it)| !it.feeds(propellant.used_kg(*k, report.time_s)));
+        let (tanks, propellant) = (settings.tanks.iter().enumerate(), &thrusters.propellant);
+        let dry = tanks.filter(|(k, it)| !it.feeds(propellant.used_kg(*k, time_s)));
         let names: Vec<&str> = dry.map(|(_, tank)| tank.name.as_str()).collect();
         context.log.warning(&format!(
             "dump.count: nothing feeds the thrusters that give torque about every axis both ways (tank[k].feeds is false of {}); a \
@@ -83,8 +88,8 @@ pub(crate) fn warn_unserved(context: &Plan<'_>, report: &Report<'_>, warned: &mu
     if warned.unserved || one_sided == 0 {
         return;
     }
-    let center_of_mass_body_m = report.evaluation.mass.center_of_mass_body_m;
-    if let Err(error) = report.reaction_control.dump_selection(|_| true, &center_of_mass_body_m) {
+    let center_of_mass_body_m = evaluation.mass.center_of_mass_body_m;
+    if let Err(error) = settings.dump_selection(|_| true, &center_of_mass_body_m) {
         warned.unserved = true;
         context.log.warning(&format!(
             "dump.count: {error} (centerOfMass = {:?} m); dumps are as those of a file without [[thrusters]]: at once in guided \

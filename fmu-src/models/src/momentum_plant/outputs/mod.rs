@@ -4,45 +4,125 @@ mod encounter;
 pub(super) mod messages;
 mod rates;
 
-use fmi_export::{Failure, Values};
+use fmi_export::{Failure, Knowns, OutputGroups, Values, knowns};
 use nalgebra::Vector3;
 use physics::attitude::SunAngles;
 use physics::environment::time;
 use physics::loads::Switch;
-use physics::plant::{AirAndField, Evaluation, Flight, PreparedSpacecraft, Report, THRUSTERS};
+use physics::plant::{AirAndField, Evaluation, Flight, PreparedSpacecraft, ReachedState, Report, THRUSTERS};
 use physics::plausibility::is_sun_offset_reached;
 use physics::propulsion::surface_in_plume;
-use physics::radiation::{TorquePolynomial, polynomial_valid};
+use physics::radiation::{SolarModel, TorquePolynomial, polynomial_valid};
 use physics::spacecraft::light_suns;
 
 use self::messages::failure;
 use super::inputs::wheels;
 use super::setup::{Plan, Read};
+use super::state::{PlantState, SavedState};
+use super::variables::PlantVariables;
 use crate::common::choices::OrbitCenter;
 use crate::common::loads;
 pub(super) use rates::derivative;
 
-/// Writes every output but those of single faces, and calculated parameters where the configuration changed.
-pub(super) fn write(context: &Plan<'_>, values: &mut Values, report: &Report<'_>, is_reconfigured: bool) {
-    if is_reconfigured {
-        write_polynomial(context, values, report);
-    }
-    write_motion(context, values, report);
-    write_momentum(context, values, report);
-    write_sensors(context, values, report);
-    write_thrusters(context, values, report);
+/// Outputs that are written together, and what writes them.
+struct Group {
+    outputs: fn(&PlantVariables) -> Knowns,
+    write: fn(&Plan<'_>, &mut Values, &Report<'_>),
 }
 
-/// Time, motion, light, loads.
-fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
-    let Report { time_s, configuration, evaluation, .. } = report;
-    let time_s = *time_s;
-    let variables = context.variables;
-    let Evaluation { instant, loads, mass, .. } = evaluation;
-    values.set_real(variables.epoch, time::epoch_at_s(time_s, configuration.epoch_minus_time_s));
-    values.set_vector(variables.attitude.q, report.summary.attitude.unit_quaternion().0);
-    values.set_vector(variables.attitude.rate, instant.frame.rate_body_rad_s.into());
+/// The outputs in groups, but for the faces; all of them are written when one is read.
+const GROUPS: [Group; 10] = [
+    Group {
+        outputs: |v| knowns![v.momentum.body, v.momentum.inertial, v.delta_v, &v.attitude, v.epoch],
+        write: write_motion,
+    },
+    Group {
+        outputs: |v| knowns![&v.torque, &v.force, v.acceleration, v.mass, v.center_of_mass],
+        write: write_loads,
+    },
+    Group {
+        outputs: |v| {
+            let sun = knowns![v.sun.position_body, v.sun.direction, v.sun.azimuth, v.sun.elevation];
+            let light = knowns![v.sun.lit_fraction, v.sun.distance, v.sunshade.polynomial_valid];
+            let others = knowns![&v.earth, v.planet.position_body, v.planet.pole_body, &v.keep_in];
+            let inertial = knowns![v.sun.position_inertial, v.sun.velocity_inertial, v.heliocentric_position];
+            knowns![sun, light, others, inertial, v.position, v.velocity]
+        },
+        write: write_bodies,
+    },
+    Group {
+        outputs: |v| knowns![&v.orbit, &v.osculating, v.sun.beta, &v.encounter, &v.prediction],
+        write: write_orbit,
+    },
+    Group { outputs: |v| knowns![&v.geodetic, &v.atmosphere, &v.magnetic_field], write: write_air_and_field },
+    // The plume of a thruster reaches panels as they stand.
+    Group {
+        outputs: |v| knowns![&v.panel, &v.thruster, &v.thrust, &v.tank, v.propellant_used],
+        write: write_panels_and_thrusters,
+    },
+    Group {
+        outputs: |v| {
+            let momentum = knowns![&v.momentum.by_source, v.momentum.bias, v.momentum.unheld];
+            knowns![momentum, v.momentum.target_clamped, v.guided_degenerate, &v.downlink, &v.timeline]
+        },
+        write: write_momentum,
+    },
+    Group { outputs: |v| knowns![&v.wheel, &v.flexible_mode, &v.slosh], write: write_wheels },
+    Group { outputs: |v| knowns![&v.dump, &v.maneuver], write: write_dumps },
+    Group {
+        outputs: |v| knowns![&v.estimate, v.sun.sensed, v.sun.sensed_valid, &v.accelerometer, &v.control],
+        write: write_sensors,
+    },
+];
 
+/// The outputs of each group, those of the faces last.
+pub(super) fn groups(v: &PlantVariables) -> Vec<Knowns> {
+    let of_faces = core::iter::once(knowns![&v.plate]);
+    GROUPS.iter().map(|group| (group.outputs)(v)).chain(of_faces).collect()
+}
+
+/// Writes the outputs of these groups at `time_s`, where the flight was evaluated last.
+pub(super) fn write(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &mut PlantState,
+    groups: OutputGroups,
+    time_s: f64,
+) -> Result<(), Failure> {
+    let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
+    let prepared = context.setup.prepared_spacecraft(values.choice(context.variables.sunshade.shape).0)?;
+    // Not `map_err`, which would copy the report.
+    let report = match flight.report(prepared, &inputs.dynamics, command, time_s) {
+        Ok(report) => report,
+        Err(error) => return Err(failure(error)),
+    };
+    let asked = GROUPS.iter().enumerate().filter(|(index, _)| groups.contains(*index));
+    asked.for_each(|(_, group)| (group.write)(context, values, &report));
+    if groups.contains(GROUPS.len()) {
+        write_faces(context, values, flight, prepared, time_s)
+    } else {
+        Ok(())
+    }
+}
+
+/// Time, attitude, momentum, velocity change.
+fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
+    let Report { time_s, configuration, evaluation, summary, .. } = report;
+    let (v, frame) = (context.variables, &evaluation.instant.frame);
+    let convention = configuration.momentum.convention;
+    let rotation = &frame.inertial_from_body;
+    values.set_real(v.epoch, time::epoch_at_s(*time_s, configuration.epoch_minus_time_s));
+    values.set_vector(v.attitude.q, summary.attitude.unit_quaternion().0);
+    values.set_vector(v.attitude.rate, frame.rate_body_rad_s.into());
+    values.set_vector(v.delta_v, summary.totals.delta_v_inertial_m_s.into());
+    values.set_vector(v.momentum.body, summary.totals.momentum_body_n_m_s(convention, rotation).into());
+    values.set_vector(v.momentum.inertial, summary.totals.momentum_inertial_n_m_s.into());
+}
+
+/// Force, torque, mass.
+fn write_loads(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
+    let (variables, evaluation) = (context.variables, report.evaluation);
+    let Evaluation { loads, mass, .. } = evaluation;
     let total = loads.total();
     for (output, vector) in loads::vectors(&variables.torque.by_source, &variables.force.by_source, loads) {
         values.set_vector(output, vector.into());
@@ -55,12 +135,19 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let [force_inertial_n, acceleration_inertial_m_s2] = evaluation.force_and_acceleration_inertial();
     values.set_vector(variables.force.inertial, force_inertial_n.into());
     values.set_vector(variables.acceleration, acceleration_inertial_m_s2.into());
+    values.set_real(variables.mass, mass.mass_kg);
+    values.set_vector(variables.center_of_mass, mass.center_of_mass_body_m.into());
+}
 
+/// Positions of spacecraft, Sun, Earth and planet.
+fn write_bodies(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
+    let Report { time_s, configuration, evaluation, .. } = report;
+    let (variables, instant) = (context.variables, &evaluation.instant);
     let sun = SunAngles::from_direction(&instant.sun_body);
     let planet_body_m = instant.planet_body_m.unwrap_or_default();
     values.set_vector(variables.sun.position_body, instant.sun_position_body_m().into());
     values.set_vector(variables.planet.position_body, planet_body_m.into());
-    values.set_vector(variables.planet.pole_body, evaluation.pole_body(configuration, time_s).into());
+    values.set_vector(variables.planet.pole_body, evaluation.pole_body(configuration, *time_s).into());
     values.set_vector(variables.sun.direction, instant.sun_body.into());
     values.set_real(variables.sun.azimuth, sun.azimuth_rad);
     values.set_real(variables.sun.elevation, sun.elevation_rad);
@@ -72,9 +159,6 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let (azimuth_limit_rad, elevation_limit_rad) =
         (values.real(variables.keep_in.azimuth), values.real(variables.keep_in.elevation));
     values.set_real(variables.keep_in.margin, sun.keep_in_margin_rad(azimuth_limit_rad, elevation_limit_rad));
-
-    write_air_and_field(context, values, report);
-
     let spacecraft = &instant.geometry.spacecraft;
     values.set_vector(variables.position, spacecraft.position_m.into());
     values.set_vector(variables.velocity, spacecraft.velocity_m_s.into());
@@ -84,16 +168,6 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     values.set_vector(variables.earth.position_inertial, earth.position_m.into());
     values.set_vector(variables.earth.velocity_inertial, earth.velocity_m_s.into());
     values.set_vector(variables.heliocentric_position, instant.geometry.heliocentric_position_m().into());
-    values.set_real(variables.orbit.time_since_periapsis, report.since_periapsis_s);
-    values.set_choice(variables.orbit.current_center, OrbitCenter(report.integration_center));
-    let osculating = report.osculating_orbit();
-    variables.osculating.write(values, osculating.as_ref());
-    values.set_real(variables.sun.beta, osculating.map_or(0.0, |orbit| orbit.sun_elevation_rad));
-    encounter::write(&variables.encounter, values, report);
-    encounter::write_prediction(&variables.prediction, values, report);
-    values.set_real(variables.mass, mass.mass_kg);
-    values.set_vector(variables.center_of_mass, mass.center_of_mass_body_m.into());
-
     let valid = context
         .setup
         .spacecraft
@@ -101,7 +175,23 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
         .as_ref()
         .is_none_or(|shade| polynomial_valid(shade, configuration.sunshade, &instant.sun_body));
     values.set_boolean(variables.sunshade.polynomial_valid, valid);
+}
+
+/// Orbit and encounter.
+fn write_orbit(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
+    let variables = context.variables;
+    values.set_real(variables.orbit.time_since_periapsis, report.since_periapsis_s);
+    values.set_choice(variables.orbit.current_center, OrbitCenter(report.integration_center));
+    let osculating = report.osculating_orbit();
+    variables.osculating.write(values, osculating.as_ref());
+    values.set_real(variables.sun.beta, osculating.map_or(0.0, |orbit| orbit.sun_elevation_rad));
+    encounter::write(&variables.encounter, values, report);
+    encounter::write_prediction(&variables.prediction, values, report);
+}
+
+fn write_panels_and_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     write_panels(context, values, report);
+    write_thrusters(context, values, report);
 }
 
 /// Angles of the panels, and the light on their cells.
@@ -153,19 +243,16 @@ fn write_air_and_field(context: &Plan<'_>, values: &mut Values, report: &Report<
     }
 }
 
-/// System momentum, wheels, dumps, flexible modes, propellant.
+/// Momentum by source and beyond the wheels, downlink, timeline.
 fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
-    let v = context.variables;
-    let summary = &report.summary;
+    let (v, summary) = (context.variables, &report.summary);
     let convention = report.configuration.momentum.convention;
     let rotation = &report.evaluation.instant.frame.inertial_from_body;
-    values.set_vector(v.delta_v, summary.totals.delta_v_inertial_m_s.into());
-    values.set_vector(v.momentum.body, summary.totals.momentum_body_n_m_s(convention, rotation).into());
-    values.set_vector(v.momentum.inertial, summary.totals.momentum_inertial_n_m_s.into());
     values.set_vector(v.momentum.bias, report.configuration.momentum.policy.bias_body_n_m_s.into());
     values.set_vector(v.momentum.unheld, summary.unheld_body_n_m_s().into());
+    let by_source = summary.by_source();
     for (effect, output) in v.momentum.by_source.iter() {
-        values.set_vector(output, summary.by_source.body_n_m_s(effect, convention, rotation).into());
+        values.set_vector(output, by_source.body_n_m_s(effect, convention, rotation).into());
     }
     values.set_boolean(v.momentum.target_clamped, report.target_is_clamped);
     values.set_boolean(v.guided_degenerate, report.is_degenerate);
@@ -173,6 +260,11 @@ fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) 
     values.set_boolean(v.downlink.clamped, report.downlink.clamped);
     values.set_integer(v.timeline.command, i32::try_from(report.timeline_row).unwrap_or(i32::MAX));
     values.set_real(v.timeline.until, report.timeline_until_s.unwrap_or(-1.0));
+}
+
+/// Wheels, flexible modes, slosh.
+fn write_wheels(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
+    let (v, summary) = (context.variables, &report.summary);
     for (k, variables) in v.wheel.iter().enumerate() {
         let Some(wheel) = summary.wheel(k) else { break };
         values.set_real(variables.momentum, wheel.momentum_n_m_s);
@@ -187,6 +279,11 @@ fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) 
     for (k, slosh) in v.slosh.iter().enumerate() {
         values.set_vector(slosh.angle, summary.slosh_rad(k));
     }
+}
+
+/// Dumps and maneuvers.
+fn write_dumps(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
+    let (v, summary) = (context.variables, &report.summary);
     let (dump, closest_s) = (&v.dump, summary.spacing.closest_s);
     values.set_boolean(dump.active, summary.is_dumping);
     values.set_integer(dump.count, summary.dumps.count);
@@ -246,7 +343,7 @@ fn write_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>)
 }
 
 /// Writes the faces that are reported one by one; those of disabled panels stay 0, and all while the flight waits.
-pub(super) fn write_faces(
+fn write_faces(
     context: &Plan<'_>,
     values: &mut Values,
     flight: &mut Flight,
@@ -269,13 +366,15 @@ pub(super) fn write_faces(
 }
 
 /// Writes the polynomial of the shade's torque.
-fn write_polynomial(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
-    let configuration = report.configuration;
-    let polynomial = context.setup.spacecraft.sunshade.as_ref().and_then(|shade| {
-        let center_of_mass_body_m = &configuration.center_of_mass_body_m;
-        TorquePolynomial::of_sunshade(shade, configuration.sunshade, report.materials, center_of_mass_body_m)
-            .ok()
-    });
+pub(super) fn write_polynomial(context: &Plan<'_>, values: &mut Values, flight: &Flight) {
+    let polynomial =
+        context.setup.spacecraft.sunshade.as_ref().zip(flight.context()).and_then(|(shade, flown)| {
+            let (configuration, materials) =
+                (&flown.configuration, flown.models.solar.as_ref().map_or(&[][..], SolarModel::materials));
+            let center_of_mass_body_m = &configuration.center_of_mass_body_m;
+            TorquePolynomial::of_sunshade(shade, configuration.sunshade, materials, center_of_mass_body_m)
+                .ok()
+        });
     values.set_matrix(context.variables.sunshade.coefficient, polynomial.map_or([[0.0; 9]; 3], |p| p.k));
 }
 
@@ -285,14 +384,13 @@ pub(super) fn write_guaranteed(context: &Plan<'_>, values: &mut Values) {
     values.set_real(context.variables.dump.guaranteed_threshold, guaranteed_n_m_s);
 }
 
-/// Refuses a report from inside the planet or the Sun, or without position.
-pub(super) fn check_report(report: &Report<'_>) -> Result<(), Failure> {
-    let time_s = report.time_s;
-    if !report.summary.totals.is_finite() {
+/// Refuses a flight inside the planet or the Sun, or without position.
+pub(super) fn check(flight: &Flight, reached: &ReachedState, time_s: f64) -> Result<(), Failure> {
+    if !reached.totals_are_finite {
         return Err(Failure::new(format!(
             "at {time_s} s momentum.inertial, momentum.body or deltaV is no finite number; see start.momentum, torque.applied, \
              force.applied, spacecraft.mass and spacecraft.centerOfMass"
         )));
     }
-    report.evaluation.check(time_s).map_err(failure)
+    flight.evaluation().map_or(Ok(()), |evaluation| evaluation.check(time_s).map_err(failure))
 }

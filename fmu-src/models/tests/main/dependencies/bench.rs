@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use fmi_export::model::Log;
 use fmi_export::model_description::{Description, Unknown};
-use fmi_export::{Context, Declare, InputsOverTime, Model, Step, Values, Variables};
+use fmi_export::{Context, Declare, InputsOverTime, Model, OutputGroups, Step, Values, Variables};
 
 use super::super::named_model::{Tables, described, with_file_starts};
 use super::super::random::RandomNumbers;
@@ -142,10 +142,17 @@ impl<M: Model> Bench<M> {
 
     pub(super) fn step(&self, flight: &mut Simulation<M>, length_s: f64) -> Option<()> {
         let end_s = flight.time_s + length_s;
-        let step =
-            Step { start_s: flight.time_s, end_s, changed: flight.changed, inputs: InputsOverTime::held() };
+        let step = Step {
+            start_s: flight.time_s,
+            end_s,
+            changed: flight.changed,
+            parameters_changed: flight.changed,
+            inputs: InputsOverTime::held(),
+        };
         let mut values = flight.values.back();
         M::step(&self.context(), &mut values, &mut flight.state, &step).ok()?;
+        let (context, all) = (self.context(), OutputGroups::ALL);
+        M::EXTENSIONS.write_outputs(&context, &mut values, &mut flight.state, all, end_s).ok()?;
         flight.values = Tables::of(&values);
         flight.time_s = end_s;
         flight.changed = false;

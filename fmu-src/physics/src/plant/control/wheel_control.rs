@@ -27,22 +27,29 @@ pub(crate) struct WheelDistribution {
     allocator: Option<WheelAllocator>,
     torques_n_m: Vec<f64>,
     balance_n_m: Vec<f64>,
+    /// Momenta of the rotors at the sample, in N m s.
+    rotors_n_m_s: Vec<f64>,
 }
 
 impl WheelDistribution {
     /// Makes it that of these wheels.
     fn update(&mut self, gyrostat: &Gyrostat, motors: &[Motor]) {
-        let wheels = gyrostat.wheels().iter().zip(motors);
-        let wheels = wheels.map(|(wheel, motor)| (wheel.axis_body, !motor.failed && !wheel.locked));
-        if wheels.clone().eq(self.wheels.iter().copied()) && wheels.len() == self.balance_n_m.len() {
+        let gives = |k: usize| !motors[k].failed && !gyrostat.wheels()[k].locked;
+        let count = gyrostat.wheels().len().min(motors.len());
+        let is_same = |k: usize| {
+            let (known, works) = &self.wheels[k];
+            *works == gives(k) && known.as_slice() == gyrostat.wheels()[k].axis_body.as_slice()
+        };
+        if self.balance_n_m.len() == count && self.wheels.len() == count && (0..count).all(is_same) {
             return;
         }
         self.wheels.clear();
-        self.wheels.extend(wheels);
+        self.wheels.extend((0..count).map(|k| (gyrostat.wheels()[k].axis_body, gives(k))));
         let axes: Vec<_> = self.wheels.iter().map(|(axis_body, _)| *axis_body).collect();
         self.allocator = WheelAllocator::new(&axes, |k| self.wheels[k].1);
         self.torques_n_m = vec![0.0; axes.len()];
         self.balance_n_m = vec![0.0; axes.len()];
+        self.rotors_n_m_s = vec![0.0; axes.len()];
     }
 }
 
@@ -120,25 +127,27 @@ impl WheelControl {
     ) -> f64 {
         let Self { motors, is_limited } = self;
         distribution.update(gyrostat, motors);
-        let WheelDistribution { wheels, allocator, torques_n_m: shares, balance_n_m: balance } = distribution;
+        let WheelDistribution { wheels, allocator, torques_n_m: shares, balance_n_m: balance, rotors_n_m_s } =
+            distribution;
         let Some(allocator) = allocator else {
             motors.iter_mut().for_each(|motor| motor.torque_n_m = 0.0);
             *is_limited = true;
             return 0.0;
         };
+        rotors_n_m_s.iter_mut().enumerate().for_each(|(k, held_n_m_s)| *held_n_m_s = momentum_n_m_s(k));
         // The body feels the opposite of what the motors exert on the rotors.
         allocator.distribute(settings.allocation, &-torque_body_n_m, shares);
         let turns = |k: usize| wheels[k].1;
         let working_body_n_m_s = gyrostat
-            .along_axes(|k| if turns(k) { momentum_n_m_s(k) - gyrostat.wheels()[k].bias_n_m_s } else { 0.0 });
+            .along_axes(|k| if turns(k) { rotors_n_m_s[k] - gyrostat.wheels()[k].bias_n_m_s } else { 0.0 });
         allocator.distribute(settings.allocation, &working_body_n_m_s, balance);
         let mut given = 1.0_f64;
         for (k, wheel) in gyrostat.wheels().iter().enumerate() {
             let friction =
-                if settings.compensates_friction { wheel.friction_n_m(momentum_n_m_s(k)) } else { 0.0 };
+                if settings.compensates_friction { wheel.friction_n_m(rotors_n_m_s[k]) } else { 0.0 };
             // Motor torque without the share that is requested: friction and balance.
             balance[k] = if turns(k) {
-                friction + (balance[k] + wheel.bias_n_m_s - momentum_n_m_s(k)) / settings.balance_time_s
+                friction + (balance[k] + wheel.bias_n_m_s - rotors_n_m_s[k]) / settings.balance_time_s
             } else {
                 0.0
             };

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use crate::attitude::{Attitude, BodyMotion, GyrostatMotion, MovingFrame};
 use crate::guidance::pointing::boresight::Gimbal;
 use crate::guidance::{Activity, Guided, Schedule, ScienceRule, SelectedSunDirection, Window};
+use crate::loads::ForceTorque;
 use crate::momentum::{TorqueModel, Totals};
 
 use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
@@ -56,6 +57,19 @@ pub struct StepContext<'a> {
     pub work_limit: u32,
     /// Receives dumps and maneuvers.
     pub log: &'a dyn Fn(&ThrusterEvent),
+}
+
+impl<'a> StepContext<'a> {
+    /// Context in which nothing advances and nothing acts from outside.
+    pub(super) fn at_rest(prepared: PreparedSpacecraft<'a>) -> Self {
+        Self {
+            prepared,
+            external: &|_| [ForceTorque::zero(); 2],
+            planner: &|_| Ok(None),
+            work_limit: 0,
+            log: &|_| {},
+        }
+    }
 }
 
 /// A flight in one step: everything that its loads follow from.

@@ -17,7 +17,7 @@ use crate::radiation::SolarModel;
 use super::configured::ConfiguredFlight;
 use super::dynamic::Dynamic;
 use super::ideal::Ideal;
-use super::report::{Report, dynamic, ideal};
+use super::report::{BySource, ReachedState, Report, dynamic, dynamic_totals, ideal};
 
 /// A flight in one step.
 pub(super) enum InFlight<'f> {
@@ -68,29 +68,58 @@ impl<'f> InFlight<'f> {
         }
     }
 
-    /// Everything at `time_s`, where the flight has come; one that waits holds the attitude of `held`, and the momentum of its start.
+    /// Evaluates geometry, attitude and loads at `time_s`, where the flight has come; one that waits holds the attitude of `held`.
+    pub(super) fn evaluate(
+        &mut self,
+        held: &Command,
+        evaluation: &mut Option<Evaluation>,
+        time_s: f64,
+    ) -> ReachedState {
+        match self {
+            Self::Dynamic(it) => {
+                it.resume();
+                let at: MotionAt = it.state.motion.evaluated_at(&it.settings.gyrostat, time_s);
+                *evaluation = Some(it.evaluation(&at));
+                ReachedState {
+                    totals_are_finite: dynamic_totals(&at).is_finite(),
+                    is_degenerate: it.state.control.is_degenerate,
+                }
+            }
+            Self::Ideal(Ideal { state, flight, .. }) => {
+                let evaluation = evaluation.insert(flight.plant().evaluate(time_s));
+                ReachedState {
+                    totals_are_finite: state.integrator.totals(time_s).is_finite(),
+                    is_degenerate: evaluation.instant.is_degenerate,
+                }
+            }
+            Self::Waiting { flight, .. } => {
+                let mass = flight.context.current_mass_panels_stowed;
+                let evaluated = Evaluation::without_position(held.frame_at(time_s), mass);
+                let evaluation = evaluation.insert(evaluated);
+                ReachedState { totals_are_finite: true, is_degenerate: evaluation.instant.is_degenerate }
+            }
+        }
+    }
+
+    /// Everything at `time_s`, where the flight was evaluated; one that waits has the attitude of `held`, and the momentum of its start.
     pub(super) fn report(
         self,
         held: &Command,
-        evaluation: &'f mut Option<Evaluation>,
+        evaluation: &'f Evaluation,
         prediction: Option<EncounterPrediction>,
         time_s: f64,
     ) -> Report<'f> {
         let is_waiting = matches!(self, Self::Waiting { .. });
         let mut sampled = None;
-        let (evaluation, summary, flight) = match self {
-            Self::Dynamic(mut it) => {
-                it.resume();
-                sampled = Some((it.state.control.downlink, it.state.control.is_degenerate));
-                let at: MotionAt = it.state.motion.evaluated_at(&it.settings.gyrostat, time_s);
-                let evaluation = &*evaluation.insert(it.evaluation(&at));
-                let Dynamic { state, settings, flight, .. } = it;
-                let summary = dynamic(state, settings, flight.thrusters, evaluation, &at);
-                (evaluation, summary, flight)
+        let (summary, flight) = match self {
+            Self::Dynamic(Dynamic { state, settings, flight, .. }) => {
+                sampled = Some((state.control.downlink, state.control.is_degenerate));
+                let at: MotionAt = state.motion.evaluated_at(&settings.gyrostat, time_s);
+                (dynamic(state, settings, flight.thrusters, evaluation, at), flight)
             }
-            Self::Ideal(Ideal { state, settings, inputs, mut flight, .. }) => {
-                let evaluation = &*evaluation.insert(flight.plant().evaluate(time_s));
-                let mut summary = ideal(state, settings, evaluation, inputs, time_s);
+            Self::Ideal(Ideal { state, settings, inputs, flight, .. }) => {
+                let mut summary = ideal((state, settings), evaluation, inputs, time_s);
+                summary.by_source = BySource::Ideal(&state.integrator);
                 let Instant { sun_body, lit_fraction, .. } = &evaluation.instant;
                 summary.sun_sensed_body = sensed_sun(
                     &settings.sun_sensors,
@@ -99,17 +128,15 @@ impl<'f> InFlight<'f> {
                     *lit_fraction,
                     (settings.seed, sample_number(time_s, settings.rate_hz)),
                 );
-                (evaluation, summary, flight)
+                (summary, flight)
             }
             Self::Waiting { settings, inputs, flight } => {
                 let (frame, attitude) = (held.frame_at(time_s), held.attitude_at(time_s));
-                let mass = flight.context.current_mass_panels_stowed;
-                let evaluation = &*evaluation.insert(Evaluation::without_position(frame, mass));
                 let bias_body_n_m_s = flight.context.configuration.momentum.policy.bias_body_n_m_s;
                 let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
                 let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
                 let waiting = IdealState::new(time_s, &attitude, totals);
-                (evaluation, ideal(&waiting, settings, evaluation, inputs, time_s), flight)
+                (ideal((&waiting, settings), evaluation, inputs, time_s), flight)
             }
         };
         let ConfiguredFlight { given, context, propagator, thrusters, .. } = flight;

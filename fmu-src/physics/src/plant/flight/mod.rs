@@ -16,7 +16,7 @@ pub(super) mod report;
 
 pub use configured::StepContext;
 pub use fork::ForecastMomentum;
-pub use survey::Occultation;
+pub use survey::{Occultation, survey};
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize, Serializer};
@@ -28,7 +28,6 @@ use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::events::{self, EventKind};
 use crate::plant::motion::command_slews::CommandSlews;
-use crate::plant::motion::instant::Instant;
 use crate::plant::settings::attitude_source::{Command, Turning};
 use crate::plant::settings::configuration::{Configuration, PredictionSettings};
 use crate::plant::settings::dynamics_settings::DynamicsInputs;
@@ -47,7 +46,7 @@ use dynamic::Dynamic;
 use encounter_prediction::predict_encounter;
 use ideal::Ideal;
 use in_flight::InFlight;
-use report::Report;
+use report::{ReachedState, Report};
 
 /// A flight: its state, and apart from it settings and caches, which are not saved.
 #[derive(Clone, Debug, Deserialize)]
@@ -124,6 +123,11 @@ impl Flight {
             Mode::Dynamic(dynamics) => others_body_n_m + dynamics.dumps.torque_body_n_m(),
             Mode::Waiting | Mode::Ideal(_) => *others_body_n_m,
         }
+    }
+
+    /// Thrusters and tanks.
+    pub fn thrusters(&self) -> &Thrusters {
+        &self.state.thrusters
     }
 
     /// Direction of the Sun during downlinks.
@@ -213,28 +217,13 @@ impl Flight {
         Ok(())
     }
 
-    /// Shows how the spacecraft stands at these times by its own guidance, followed ideally on the orbit under the centre's gravity
-    /// alone; nothing where something else gives the attitude.
-    pub fn survey(
-        &self,
-        given: StepContext<'_>,
-        times_s: impl IntoIterator<Item = f64>,
-        see: impl FnMut(&Configuration, f64, &Instant),
-    ) {
-        if let Some(setup) = self.setup.as_deref() {
-            survey::survey(&setup.context, given, times_s, see);
-        }
-    }
-
-    /// Returns the body before the Sun's disc at `time_s`, where the flight was reported, which its shadow does not know; `quiet_until_s`
-    /// becomes the time of the next look.
+    /// Returns the body before the Sun's disc where the flight was evaluated; `quiet_until_s` becomes the time of the next look.
     pub fn occultation(&mut self, time_s: f64, quiet_until_s: &mut Option<f64>) -> Option<Occultation> {
         let FlightSetup { context, evaluation, .. } = self.setup.as_deref_mut()?;
         survey::occultation(context, &evaluation.as_ref()?.instant.geometry, time_s, quiet_until_s)
     }
 
-    /// Replaces the schedule from `time_s` on: its earlier events are past, the Sun's direction in a downlink is selected anew, and the
-    /// body has the attitude of the command in force.
+    /// Replaces the schedule from `time_s` on: earlier events are past, and the Sun's direction in a downlink is selected anew.
     pub fn reschedule(&mut self, time_s: f64) {
         match &mut self.state.mode {
             Mode::Waiting => {}
@@ -367,20 +356,35 @@ impl Flight {
         (self.state.mode, self.state.thrusters, self.state.prediction) = (mode, thrusters, prediction);
     }
 
-    /// Everything at `time_s`, where the flight has come; one that waits holds the attitude of `held`, and the momentum of its
-    /// start.
+    /// Evaluates geometry, attitude and loads at `time_s`, where the flight has come; one that waits holds the attitude of `held`.
+    ///
+    /// # Errors
+    /// A state that belongs to another mode than the settings.
+    pub fn evaluate(
+        &mut self,
+        given: StepContext<'_>,
+        inputs: &DynamicsInputs,
+        held: &Command,
+        time_s: f64,
+    ) -> Result<ReachedState, PlantError> {
+        let (mut in_flight, evaluation) = self.in_flight(given, inputs)?;
+        Ok(in_flight.evaluate(held, evaluation, time_s))
+    }
+
+    /// Everything at `time_s`, where the flight was evaluated last; one that waits has the attitude of `held`.
     ///
     /// # Errors
     /// A state that belongs to another mode than the settings.
     pub fn report<'a>(
         &'a mut self,
-        given: StepContext<'a>,
+        prepared: PreparedSpacecraft<'a>,
         inputs: &'a DynamicsInputs,
         held: &Command,
         time_s: f64,
     ) -> Result<Report<'a>, PlantError> {
         let prediction = self.state.prediction;
-        let (in_flight, evaluation) = self.in_flight(given, inputs)?;
+        let (in_flight, evaluation) = self.in_flight(StepContext::at_rest(prepared), inputs)?;
+        let evaluation = evaluation.as_ref().ok_or(PlantError::OtherMode)?;
         Ok(in_flight.report(held, evaluation, prediction, time_s))
     }
 
@@ -394,11 +398,9 @@ impl Flight {
         time_s: f64,
         report: impl FnMut(f64, Vector3<f64>),
     ) -> Result<(), PlantError> {
-        let Self { state: FlightState { propagator, .. }, setup: Some(setup) } = self else {
-            return Err(PlantError::OtherMode);
-        };
-        let external = |_: f64| [ForceTorque::zero(); 2];
-        setup.context.plant(prepared, Turning::still(), propagator, &external).faces(time_s, report)
+        let FlightSetup { context, .. } = self.setup.as_deref_mut().ok_or(PlantError::OtherMode)?;
+        let (propagator, still) = (&mut self.state.propagator, Turning::still());
+        context.plant(prepared, still, propagator, &|_| [ForceTorque::zero(); 2]).faces(time_s, report)
     }
 }
 

@@ -8,7 +8,7 @@ use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::orbit::BPlane;
 use crate::guidance::DownlinkStatus;
-use crate::momentum::{DumpSpacing, Dumps, SourceMomenta, Totals};
+use crate::momentum::{DumpSpacing, Dumps, MomentumIntegrator, SourceMomenta, Totals};
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::motion::approaches::ClosestApproach;
 use crate::plant::motion::osculating_orbit::OsculatingOrbit;
@@ -22,6 +22,15 @@ use crate::plant::state::encounter_prediction::EncounterPrediction;
 use crate::plant::state::ideal_state::{IdealState, Maneuvers};
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::Material;
+
+/// State that a flight has come to, as far as a step judges it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ReachedState {
+    /// Whether momentum and velocity change are finite numbers.
+    pub totals_are_finite: bool,
+    /// Whether a substitute stands in for a target of the attitude law on one line with the other.
+    pub is_degenerate: bool,
+}
 
 /// Everything about a flight at one time.
 pub struct Report<'a> {
@@ -101,8 +110,7 @@ pub struct FlightSummary<'a> {
     time_s: f64,
     /// Momentum and velocity change so far.
     pub totals: Totals,
-    /// Change of momentum by each effect since the last dump.
-    pub by_source: SourceMomenta,
+    pub(super) by_source: BySource<'a>,
     /// Dumps so far.
     pub dumps: Dumps,
     /// Time between dumps.
@@ -126,6 +134,14 @@ pub struct FlightSummary<'a> {
     /// Control of the attitude.
     pub control: ControlReport,
     body: Bodies<'a>,
+}
+
+/// Source of the momenta by effect.
+pub(super) enum BySource<'a> {
+    /// A flight that waits has none.
+    Waiting,
+    Ideal(&'a MomentumIntegrator),
+    Dynamic(&'a DynamicState, MotionAt),
 }
 
 /// Control of the attitude at one time.
@@ -168,6 +184,15 @@ enum Bodies<'a> {
 }
 
 impl FlightSummary<'_> {
+    /// Change of momentum by each effect since the last dump.
+    pub fn by_source(&self) -> SourceMomenta {
+        match &self.by_source {
+            BySource::Waiting => SourceMomenta::default(),
+            BySource::Ideal(integrator) => integrator.by_source(self.time_s),
+            BySource::Dynamic(DynamicState { motion, dumps, .. }, at) => dumps.by_source(motion, at),
+        }
+    }
+
     /// Momentum that no ideal wheel holds, body frame, in N m s: the part across the wheels' axes, and beyond their capacities; zero where
     /// the body turns by torque.
     pub fn unheld_body_n_m_s(&self) -> Vector3<f64> {
@@ -225,8 +250,7 @@ impl FlightSummary<'_> {
 /// Ideal wheels hold the system's momentum less what the body's own rotation and panels that turn take; sensors see the true
 /// attitude.
 pub(super) fn ideal<'a>(
-    simulated: &IdealState,
-    settings: &'a IdealSettings,
+    (simulated, settings): (&IdealState, &'a IdealSettings),
     evaluation: &Evaluation,
     inputs: &DynamicsInputs,
     time_s: f64,
@@ -240,7 +264,7 @@ pub(super) fn ideal<'a>(
     FlightSummary {
         time_s,
         totals,
-        by_source: simulated.integrator.by_source(time_s),
+        by_source: BySource::Waiting,
         dumps,
         spacing: simulated.spacing,
         is_dumping: false,
@@ -269,26 +293,31 @@ pub(super) fn ideal<'a>(
     }
 }
 
+/// Momentum and velocity change of a body that turns by torque.
+pub(super) fn dynamic_totals(MotionAt { body, .. }: &MotionAt) -> Totals {
+    Totals {
+        momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,
+        delta_v_inertial_m_s: body.delta_v_inertial_m_s,
+        ..Totals::default()
+    }
+}
+
 /// The body by its dynamics.
 pub(super) fn dynamic<'a>(
     dynamics: &'a DynamicState,
     settings: &'a DynamicsSettings,
     thrusters: &Thrusters,
     evaluation: &Evaluation,
-    at: &MotionAt,
+    at: MotionAt,
 ) -> FlightSummary<'a> {
-    let MotionAt { time_s, body, .. } = *at;
+    let MotionAt { time_s, body, .. } = at;
     let DynamicState { motion, sensing, control, dumps, .. } = dynamics;
     let dumped = thrusters.dumped_at(motion, time_s);
     let is_controlled = settings.control.is_some();
     FlightSummary {
         time_s,
-        totals: Totals {
-            momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,
-            delta_v_inertial_m_s: body.delta_v_inertial_m_s,
-            ..Totals::default()
-        },
-        by_source: dumps.by_source(motion, at),
+        totals: dynamic_totals(&at),
+        by_source: BySource::Dynamic(dynamics, at),
         dumps: dumps.dumps,
         spacing: dumps.spacing,
         is_dumping: dumps.is_dumping(thrusters, time_s),

@@ -40,7 +40,7 @@ pub struct Occultation {
 
 /// Shows how the spacecraft stands at these times by its own guidance, followed ideally on the orbit under the centre's gravity alone;
 /// nothing where something else gives the attitude.
-pub(super) fn survey(
+pub fn survey(
     context: &SimulationContext,
     given: StepContext<'_>,
     times_s: impl IntoIterator<Item = f64>,

@@ -163,6 +163,14 @@ impl PanelSetting {
         }
     }
 
+    /// Cosine of the angle from the Sun at which the cell normal is to stand, less that at which it stands; 0 of a panel that is
+    /// turned by an angle of its own, or left out.
+    pub fn light_out_of_reach(&self, panel: &Panel, sun: &SunAt) -> f64 {
+        let Some(Commanded::SunOffset { offset_rad, cos_sin, .. }) = self.commanded(sun) else { return 0.0 };
+        let Some(normal_body) = self.normal_body(panel, sun) else { return 0.0 };
+        cos_sin.map_or_else(|| math::cos(offset_rad), |[cos, _]| cos) - normal_body.dot(&sun.direction_body)
+    }
+
     /// Unit normal of the cell side, body frame, with the Sun there; `None` when left out.
     pub fn normal_body<T: Scalar>(&self, panel: &Panel, sun: &SunAt<T>) -> Option<Vector3<T>> {
         Some(match self.commanded(sun)? {

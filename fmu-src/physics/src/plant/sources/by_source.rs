@@ -64,6 +64,8 @@ pub struct Surfaces<'a, T: Scalar> {
     pub materials: &'a [Material<T>],
     /// The effects that act.
     pub active: Active,
+    /// Whether temperatures of the faces count, even where their recoil does not.
+    pub needs_temperatures: bool,
 }
 
 /// Scratch space of the models of light and air.
@@ -113,11 +115,22 @@ impl<T> Positions<T> {
         positions.into_iter().chain(air_and_field).flatten().chain(&self.panel_angles_rad)
     }
 
-    /// Every number in the same order, to be written.
-    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut T> {
-        let positions = [&mut self.sun_m, &mut self.planet_m, &mut self.pole, &mut self.center_of_mass_m];
-        let air_and_field = [&mut self.air, &mut self.air_velocity_m_s, &mut self.field_t];
-        positions.into_iter().chain(air_and_field).flatten().chain(&mut self.panel_angles_rad)
+    /// Changes every number by the one in its place of `others`.
+    pub fn update<U>(&mut self, others: &Positions<U>, change: impl Fn(&mut T, &U)) {
+        let vectors = [
+            (&mut self.sun_m, &others.sun_m),
+            (&mut self.planet_m, &others.planet_m),
+            (&mut self.pole, &others.pole),
+            (&mut self.center_of_mass_m, &others.center_of_mass_m),
+            (&mut self.air, &others.air),
+            (&mut self.air_velocity_m_s, &others.air_velocity_m_s),
+            (&mut self.field_t, &others.field_t),
+        ];
+        for (own, others) in vectors {
+            own.iter_mut().zip(others).for_each(|(own, other)| change(own, other));
+        }
+        let angles = self.panel_angles_rad.iter_mut().zip(&others.panel_angles_rad);
+        angles.for_each(|(own, other)| change(own, other));
     }
 
     /// Applies `of` to every number.
@@ -142,7 +155,7 @@ impl<T: Scalar> BySource<T> {
     /// # Errors
     /// The spacecraft inside planet or Sun, positions that are no numbers.
     pub fn at(
-        Surfaces { light: model, air, materials, active }: Surfaces<'_, T>,
+        Surfaces { light: model, air, materials, active, needs_temperatures }: Surfaces<'_, T>,
         shadow: Option<&Shadow>,
         parameters: &Parameters<T>,
         positions: &Positions<T>,
@@ -182,7 +195,9 @@ impl<T: Scalar> BySource<T> {
             planet.pole_body = if is_zero(&pole) { -Vector3::z() } else { pole };
         }
         let planet = shadow.filter(|_| active.has(Effect::Albedo)).map(|_| &parameters.planet);
-        let light = model.evaluate_on(planet, materials, &geometry, Recoil::Balance, workspace)?;
+        let is_warm = needs_temperatures || active.has(Effect::Thermal);
+        let recoil = if is_warm { Recoil::Balance } else { Recoil::Ignored };
+        let light = model.evaluate_on(planet, materials, &geometry, recoil, workspace)?;
         let mut loads = light.of_active(active);
         let pole = Vector3::from(positions.pole);
         let [density_kg_m3, temperature_k, molar_mass_kg_mol] = positions.air;

@@ -69,6 +69,9 @@ impl<T: Scalar> FaceLoads<'_, T> {
     /// Temperatures and recoil of every surface.
     pub(super) fn radiate(&self, recoil: Recoil<'_>, workspace: &mut Workspace<T>) -> ForceTorque<T> {
         let mut sum = ForceTorque::zero();
+        if matches!(recoil, Recoil::Ignored) {
+            return sum;
+        }
         for surface in &self.faces.surfaces {
             let range = surface.faces();
             let faces = &self.faces.faces[range.clone()];

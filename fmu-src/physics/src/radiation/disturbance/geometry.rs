@@ -47,6 +47,8 @@ pub struct PlanetGeometry<T: Scalar> {
 pub enum Recoil<'a> {
     /// Every surface is in balance with the light it receives.
     Balance,
+    /// Temperatures and recoil do not count, and are 0.
+    Ignored,
     /// Faces that store heat have these temperatures (in K, one for every face of the model); others are in balance.
     Stored(&'a [f64]),
 }

@@ -258,7 +258,7 @@ impl DisturbanceModel {
     fn check_temperatures(&self, recoil: Recoil<'_>) -> Result<(), Refusal> {
         match recoil {
             Recoil::Stored(temperatures_k) => self.check_faces(temperatures_k.len()),
-            Recoil::Balance => Ok(()),
+            Recoil::Balance | Recoil::Ignored => Ok(()),
         }
     }
 
