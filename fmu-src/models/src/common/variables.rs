@@ -5,6 +5,7 @@ use physics::bodies::surface::PlanetSurface;
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::sun::SOLAR_FLUX_W_M2;
 use physics::plant::{LightSource, SunLight};
+use physics::spacecraft::ValveTiming;
 
 use super::center::CenterBody;
 use super::choices::{DayTemperature, EclipseMethod};
@@ -143,5 +144,29 @@ impl WorkLimit {
     /// The units.
     pub fn units(&self, values: &Values) -> u32 {
         values.integer(self.work_limit).unsigned_abs()
+    }
+}
+
+/// Opening and closing of a thruster's valve.
+#[derive(Variables)]
+#[variables(setup = ValveTiming)]
+pub struct ValveVariables {
+    /// Shortest time for which its valve opens: it does not close sooner after it opened, over the step's end if need be.
+    #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.min_on_s)]
+    pub min_on_time: Real,
+    /// Time over which the thrust rises linearly after the valve opens.
+    #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.rise_s)]
+    pub rise_time: Real,
+    /// Time over which the full thrust falls linearly to nothing after the valve closes.
+    #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.tail_off_s)]
+    pub tail_off_time: Real,
+}
+
+impl ValveVariables {
+    /// The timing.
+    pub fn read(&self, values: &Values) -> ValveTiming {
+        let [min_on_s, rise_s, tail_off_s] =
+            [self.min_on_time, self.rise_time, self.tail_off_time].map(|it| values.real(it));
+        ValveTiming { min_on_s, rise_s, tail_off_s }
     }
 }

@@ -2,7 +2,7 @@
 
 use fmi_export::{Failure, RealVector, Step, Values};
 use nalgebra::Vector3;
-use physics::spacecraft::{MOST_THRUSTERS, ValveTiming};
+use physics::spacecraft::MOST_THRUSTERS;
 use physics::spin::{
     burn_request::BurnRequest,
     execution::PulseExecution,
@@ -57,14 +57,7 @@ pub(super) fn start(context: &Plan<'_>, values: &Values) -> Start {
 fn execution(context: &Plan<'_>, values: &Values) -> [PulseExecution; MOST_THRUSTERS] {
     let mut execution = [PulseExecution::default(); MOST_THRUSTERS];
     for (of_one, v) in execution.iter_mut().zip(&context.variables.thruster) {
-        *of_one = PulseExecution {
-            valve: ValveTiming {
-                min_on_s: values.real(v.min_on_time),
-                rise_s: values.real(v.rise_time),
-                tail_off_s: values.real(v.tail_off_time),
-            },
-            scatter: values.real(v.scatter),
-        };
+        *of_one = PulseExecution { valve: v.valve.read(values), scatter: values.real(v.scatter) };
     }
     execution
 }

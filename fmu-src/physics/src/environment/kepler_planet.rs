@@ -62,21 +62,14 @@ impl KeplerPlanet {
     /// See [`Elements::check`] and [`TwoBodyOrbit::from_state`].
     pub fn of_body(motion: &BodyMotion) -> Result<Self, OrbitError> {
         let orbit = match motion.orbit {
-            BodyOrbit::Elements {
-                semi_major_axis_m,
-                eccentricity,
-                inclination_rad,
-                ascending_node_rad,
-                periapsis_argument_rad,
-                true_anomaly_rad,
-            } => {
+            BodyOrbit::Elements(given) => {
                 let elements = Elements {
-                    semi_major_axis_m,
-                    eccentricity,
-                    inclination_rad,
-                    ascending_node_rad,
-                    periapsis_argument_rad,
-                    true_anomaly_rad,
+                    semi_major_axis_m: given.semi_major_axis_m,
+                    eccentricity: given.eccentricity,
+                    inclination_rad: given.inclination_rad,
+                    ascending_node_rad: given.ascending_node_rad,
+                    periapsis_argument_rad: given.periapsis_argument_rad,
+                    true_anomaly_rad: given.true_anomaly_rad,
                 };
                 TwoBodyOrbit::from_elements(elements, GM_SUN_M3_S2, motion.epoch_s)?
             }

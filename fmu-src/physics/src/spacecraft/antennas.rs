@@ -1,9 +1,35 @@
 //! Antennas: where each looks, and how wide its beam is.
 
+use core::f64::consts::PI;
 use core::fmt;
 
 use nalgebra::Vector3;
 use serde::Serialize;
+
+use super::names::check_item_name;
+use super::part_reader::PartReader;
+use crate::toml::{FieldOfView, TurnEither, UnitVector, tables};
+
+/// A fan is steered over this at most, in deg, if not all round.
+const WIDEST_FAN_DEG: f64 = 180.0;
+
+tables! {
+/// An antenna: a fan steered in the XY plane (`azimuth_deg`) or fixed along an axis (`axis`).
+struct AntennaDescription called "antenna" {
+    /// Its item of `antenna.select`: letters and digits, the first a letter.
+    name: String,
+    /// From and to which azimuth a fan is steered, in deg, from -Y toward +X: up to 180 deg apart, or 360.
+    azimuth_deg: Option<[TurnEither; 2]>,
+    /// Unit vector along which a fixed antenna looks, body frame: it is turned to the Earth, -Y as near to the Sun as that allows.
+    axis as axis_body: Option<UnitVector>,
+    /// Full widths of the beam, in deg: across the XY plane and along it (of an axis along Z along X).
+    beam_deg as beam_rad: [FieldOfView; 2],
+} rules {
+    Excludes axis => azimuth_deg: "an axis beside `azimuth_deg`", "one of both: a fan has `azimuth_deg`, a fixed antenna `axis`";
+    AnyOf azimuth_deg axis: "neither `azimuth_deg` nor `axis`",
+        "`azimuth_deg = [from, to]` of a fan in the XY plane, or `axis` of a fixed antenna";
+}
+}
 
 /// An antenna with its name.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -88,4 +114,34 @@ impl fmt::Display for AntennaRange {
             }
         }
     }
+}
+
+/// Reads an antenna.
+pub(super) fn antenna(part: &mut PartReader<'_, '_>, description: &AntennaDescription) -> NamedAntenna {
+    check_item_name(part.check, &part.at.key("name"), &description.name);
+    let range = match (description.azimuth_deg, description.axis_body()) {
+        (None, Some(axis_body)) => AntennaRange::Axis(axis_body),
+        (azimuth_deg, _) => AntennaRange::Fan(
+            azimuth_deg.map_or(FanAzimuths { middle_rad: 0.0, half_rad: 0.0 }, |azimuth_deg| {
+                fan(part, azimuth_deg.map(f64::from))
+            }),
+        ),
+    };
+    let [across_rad, along_rad] = description.beam_rad();
+    let antenna = Antenna { range, across_rad, along_rad };
+    NamedAntenna { name: description.name.clone(), antenna }
+}
+
+fn fan(part: &mut PartReader<'_, '_>, [from_deg, to_deg]: [f64; 2]) -> FanAzimuths {
+    let width_deg = to_deg - from_deg;
+    if width_deg == 360.0 {
+        return FanAzimuths { middle_rad: 0.5 * (from_deg + to_deg).to_radians(), half_rad: PI };
+    }
+    if !(width_deg > 0.0 && width_deg <= WIDEST_FAN_DEG) {
+        let allowed =
+            "from and to in deg, from -Y toward +X, 0 to 180 deg apart or 360, as in [-90, 0] or [170, 190]";
+        part.report("azimuth_deg", format_args!("[{from_deg}, {to_deg}]"), allowed);
+    }
+    let [from_rad, to_rad] = [from_deg, to_deg].map(f64::to_radians);
+    FanAzimuths { middle_rad: 0.5 * (from_rad + to_rad), half_rad: 0.5 * (to_rad - from_rad) }
 }

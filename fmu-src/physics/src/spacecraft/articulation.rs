@@ -2,15 +2,20 @@
 
 use serde::Serialize;
 
-/// Bounds of the light on the cells of panels, in suns: 1 is full sunlight across the cells at 1 AU.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Articulation {
+use super::part_reader::PartReader;
+use crate::toml::{NotNegative, Positive, Written, tables};
+
+tables! {
+/// Corridor of the light on the cells of panels, in suns: max(0, cosine of the angle to the Sun) over the square of the distance in
+/// AU. The defaults of `articulation.*`.
+struct ArticulationDescription makes #[derive(Clone, Copy, Debug, PartialEq, Serialize)] pub struct Articulation {
     /// Least light, for power.
-    pub min_suns: f64,
+    min_suns: NotNegative = 0.0,
     /// Greatest light, for temperature.
-    pub max_suns: f64,
-    /// Light that [`super::PanelControl::Distance`] keeps.
-    pub target_suns: f64,
+    max_suns: Positive = 1e3,
+    /// Light that panels with `control = "distance"` keep.
+    target_suns: Positive = 1.0,
+}
 }
 
 impl Default for Articulation {
@@ -24,6 +29,25 @@ impl Articulation {
     pub fn margin_suns(&self, suns: f64) -> f64 {
         (suns - self.min_suns).min(self.max_suns - suns)
     }
+}
+
+/// Reads the corridor.
+pub(super) fn articulation(
+    part: &mut PartReader<'_, '_>,
+    description: &ArticulationDescription,
+) -> Articulation {
+    let found = description.value();
+    let Articulation { min_suns, max_suns, target_suns } = found;
+    if ["min_suns", "max_suns", "target_suns"].iter().any(|key| part.has_reported(key)) {
+        return found;
+    }
+    if max_suns <= min_suns {
+        part.report_across("max_suns", max_suns, format_args!("more than min_suns, {min_suns}"));
+    } else if found.margin_suns(target_suns) < 0.0 {
+        let allowed = format_args!("from min_suns to max_suns, {min_suns} to {max_suns}");
+        part.report_across("target_suns", target_suns, allowed);
+    }
+    found
 }
 
 #[cfg(test)]

@@ -3,11 +3,74 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::part_reader::PartReader;
 use crate::bodies::surface::{DayTemperature, PlanetSurface};
-use crate::bodies::{Body, BodyData};
+use crate::bodies::{Body, BodyData, impossible_density_kg_m3};
+use crate::toml::dates::{self, ALLOWED_DATE};
+use crate::toml::{
+    BodyRadius, Eccentricity, Emissivity, Fraction, GravitationalParameter, HalfTurn, OrbitAxis, Point,
+    RotationRate, TurnEither, Written, ZonalHarmonic, tables,
+};
 
 /// Temperature of its night side, assumed, in K: as low as that of airless bodies that turn slowly.
 const NIGHT_TEMPERATURE_K: f64 = 100.0;
+
+tables! {
+/// A body of one's own, an asteroid, a comet or a moon: with it `custom` is an item of `orbit.center` and the default there, and one
+/// of `target.planet` and `aimpoint.body`.
+struct BodyDescription {
+    /// Its name.
+    name: String,
+    /// Gravitational parameter, in m3/s2.
+    gravitational_parameter_m3_s2: GravitationalParameter,
+    /// Radii of its ellipsoid along its own x, y and z, in m; shadow and light take their mean.
+    radii_m: [BodyRadius; 3],
+    /// Second zonal harmonic of its gravity, unnormalised, for the first radius.
+    j2: ZonalHarmonic = 0.0,
+    /// Right ascension and declination of its north pole in EME2000, in deg.
+    pole_deg: [f64; 2] = [0.0, 90.0],
+    /// Angle of its prime meridian from the node of its equator on that of EME2000 at J2000, in deg.
+    prime_meridian_deg as prime_meridian_rad: TurnEither = 0.0,
+    /// Rotation rate about its pole, in rad/s.
+    rotation_rate_rad_s: RotationRate = 0.0,
+    /// Diffusely reflected fraction of sunlight; the default is assumed.
+    albedo: Fraction = 0.1,
+    /// Infrared emissivity; the default is assumed.
+    emissivity: Emissivity = 0.9,
+    elements: Option<BodyElementsDescription>,
+    /// Instead of elements, its position from the Sun at `epoch`, in m.
+    position_m: Option<Point>,
+    /// Its velocity then, in m/s.
+    velocity_m_s: Option<Point>,
+    /// When elements or state hold, a date such as "2030-01-01 TDB".
+    epoch: Option<String>,
+    /// Axes of elements or state: the ecliptic unless given.
+    frame: Option<InertialFrame>,
+} rules {
+    Excludes elements => position_m velocity_m_s: "elements beside position_m or velocity_m_s",
+        "either `elements`, or `position_m` and `velocity_m_s`";
+    Requires epoch => elements position_m velocity_m_s: "no `elements` and no `position_m` beside it",
+        "what the body's place about the Sun is at that time";
+    Requires frame => epoch elements position_m velocity_m_s: "no `elements` and no `position_m` beside it",
+        "what the body's place about the Sun is at that time";
+}
+
+/// Its orbit about the Sun. Without it and without a state, inputs or the file of onboard ephemerides say where the body is.
+struct BodyElementsDescription makes #[derive(Clone, Copy, Debug, PartialEq, Serialize)] pub struct BodyElements {
+    /// Semi-major axis, in m.
+    semi_major_axis_m: OrbitAxis,
+    /// Eccentricity, at most 0.99.
+    eccentricity: Eccentricity,
+    /// Inclination, in deg.
+    inclination_deg as inclination_rad: HalfTurn,
+    /// Longitude of the ascending node, in deg.
+    ascending_node_deg as ascending_node_rad: TurnEither,
+    /// Argument of periapsis, in deg.
+    periapsis_argument_deg as periapsis_argument_rad: TurnEither,
+    /// True anomaly at `epoch`, in deg.
+    true_anomaly_deg as true_anomaly_rad: TurnEither,
+}
+}
 
 /// A body that the spacecraft's file describes, `custom` in `orbit.center`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -61,20 +124,7 @@ pub enum InertialFrame {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum BodyOrbit {
     /// By Keplerian elements.
-    Elements {
-        /// Semi-major axis, in m.
-        semi_major_axis_m: f64,
-        /// Eccentricity, below 1.
-        eccentricity: f64,
-        /// Inclination, in rad.
-        inclination_rad: f64,
-        /// Longitude of the ascending node, in rad.
-        ascending_node_rad: f64,
-        /// Argument of periapsis, in rad.
-        periapsis_argument_rad: f64,
-        /// True anomaly, in rad.
-        true_anomaly_rad: f64,
-    },
+    Elements(BodyElements),
     /// By a state vector.
     State {
         /// In m.
@@ -118,4 +168,74 @@ impl CustomBody {
             ..*Body::Custom.data()
         }
     }
+}
+
+/// Reads the body.
+pub(super) fn body(part: &mut PartReader<'_, '_>, description: &BodyDescription) -> CustomBody {
+    if description.name.trim().is_empty() {
+        part.report("name", "an empty name", "a name");
+    }
+    let [right_ascension, declination] = description.pole_deg();
+    let pole = part.at.key("pole_deg");
+    part.check.within(&pole.item(0), right_ascension, -360.0, 360.0, "an angle from -360 to 360 deg");
+    part.check.within(&pole.item(1), declination, -90.0, 90.0, "an angle from -90 to 90 deg");
+    let (gm_m3_s2, radii_m) =
+        (description.gravitational_parameter_m3_s2.0, description.radii_m.map(f64::from));
+    // Values out of their own ranges are reported for themselves.
+    let is_judged = gm_m3_s2 > 0.0 && radii_m.iter().all(|radius_m| (1.0..=1e9).contains(radius_m));
+    let density_kg_m3 = impossible_density_kg_m3(gm_m3_s2, radii_m).filter(|_| is_judged);
+    if let Some(density_kg_m3) = density_kg_m3 {
+        let found = format_args!("{gm_m3_s2:?}, with radii_m a mean density of {density_kg_m3:.3e} kg/m3");
+        part.report(
+            "gravitational_parameter_m3_s2",
+            found,
+            "a mean density of 100 to 30000 kg/m3 (1 km3/s2 is 1e9 m3/s2)",
+        );
+    }
+    CustomBody {
+        name: description.name.clone(),
+        gm_m3_s2,
+        radii_m,
+        j2: description.j2(),
+        pole_rad: [right_ascension, declination].map(f64::to_radians),
+        prime_meridian_rad: description.prime_meridian_rad(),
+        rotation_rate_rad_s: description.rotation_rate_rad_s(),
+        albedo: description.albedo(),
+        emissivity: description.emissivity(),
+        motion: motion(part, description),
+    }
+}
+
+/// Its motion, if elements or a state say it; both at once, or a part of them, are reported.
+fn motion(part: &mut PartReader<'_, '_>, description: &BodyDescription) -> Option<BodyMotion> {
+    let (position_m, velocity_m_s) = (description.position_m, description.velocity_m_s);
+    let orbit = match (&description.elements, position_m.value(), velocity_m_s.value()) {
+        (Some(elements), None, None) => BodyOrbit::Elements(elements.value()),
+        (None, Some(position_m), Some(velocity_m_s)) => {
+            if position_m.cross(&velocity_m_s) == Vector3::zeros() {
+                let allowed = "not along position_m: a fall along a line is no orbit about the Sun";
+                part.report("velocity_m_s", format_args!("{:?}", velocity_m_s.as_slice()), allowed);
+            }
+            BodyOrbit::State { position_m, velocity_m_s }
+        }
+        (None, position_m, velocity_m_s) if position_m.is_some() || velocity_m_s.is_some() => {
+            let missing = if position_m.is_some() { "velocity_m_s" } else { "position_m" };
+            let allowed = "position_m in m and velocity_m_s in m/s, both from the Sun";
+            part.check.report_lack(&part.at, missing, allowed);
+            return None;
+        }
+        _ => return None,
+    };
+    let Some(epoch) = description.epoch.as_deref() else {
+        part.check.report_lack(&part.at, "epoch", format_args!("when the body is there, {ALLOWED_DATE}"));
+        return None;
+    };
+    let epoch_s = match dates::epoch_s(epoch) {
+        Ok(epoch_s) => epoch_s,
+        Err(error) => {
+            part.report("epoch", format_args!("{epoch:?}, {error}"), ALLOWED_DATE);
+            return None;
+        }
+    };
+    Some(BodyMotion { epoch_s, frame: description.frame.unwrap_or_default(), orbit })
 }

@@ -3,6 +3,21 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
+use super::part_reader::PartReader;
+use crate::toml::{Checker, KeyPath, Point, Positive, Written, tables};
+
+tables! {
+/// Mass properties of the whole spacecraft.
+struct MassDescription {
+    /// Mass, in kg.
+    mass_kg: Positive,
+    /// Centre of mass from the body frame's origin, in m.
+    center_of_mass_m: Point,
+    /// Inertia about the centre of mass, body axes, row by row, in kg m2.
+    inertia_kg_m2: [[f64; 3]; 3],
+}
+}
+
 /// Mass properties of the whole spacecraft.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MassProperties {
@@ -81,6 +96,45 @@ pub fn check_inertia(inertia_kg_m2: &Matrix3<f64>) -> Result<(), &'static str> {
         );
     }
     Ok(())
+}
+
+/// Reads the mass properties.
+pub(super) fn mass(part: &mut PartReader<'_, '_>, description: &MassDescription) -> MassProperties {
+    MassProperties {
+        inertia_body_kg_m2: inertia_kg_m2(part, description.inertia_kg_m2),
+        mass_kg: description.mass_kg.0,
+        center_of_mass_body_m: description.center_of_mass_m.value(),
+    }
+}
+
+/// Parts of one kind, each with its mass if it has one, are a part of the spacecraft's mass.
+pub(super) fn parts_fit(
+    check: &mut Checker<'_>,
+    (kind, key): (&str, &str),
+    masses_kg: impl Iterator<Item = Option<f64>>,
+    whole_kg: f64,
+) {
+    let mut sum_kg = 0.0;
+    for (index, mass_kg) in masses_kg.enumerate() {
+        let Some(mass_kg) = mass_kg else { continue };
+        sum_kg += mass_kg;
+        if sum_kg >= whole_kg {
+            let at = KeyPath::root().key(kind).item(index).key(key);
+            let found = format!("{mass_kg}, with the {kind} before it {sum_kg}");
+            let allowed = format!("less than mass_properties.mass_kg = {whole_kg}, of which it is a part");
+            check.report(&at, found, allowed);
+            return;
+        }
+    }
+}
+
+/// Reads an inertia, row by row.
+pub(super) fn inertia_kg_m2(part: &mut PartReader<'_, '_>, rows: [[f64; 3]; 3]) -> Matrix3<f64> {
+    let inertia_kg_m2 = Matrix3::from(rows).transpose();
+    if let Err(allowed) = check_inertia(&inertia_kg_m2) {
+        part.report("inertia_kg_m2", format!("{rows:?}"), allowed);
+    }
+    inertia_kg_m2
 }
 
 #[cfg(test)]

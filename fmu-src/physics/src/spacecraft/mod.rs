@@ -9,20 +9,32 @@
 
 mod antennas;
 mod articulation;
+mod assembly;
 mod body;
+mod copies;
+mod description;
 mod downlinks;
-mod file;
+mod facets;
 mod gas_surface;
-mod hot_pole;
 mod instruments;
 mod mass;
 mod material;
+mod materials;
+mod momentum;
+mod names;
 mod optics;
+mod outline;
 mod panel;
 mod panel_mass;
+mod panel_table;
+mod part_reader;
 mod planet_map;
+mod plate_table;
 mod pointing;
+mod pointing_table;
 mod polygon;
+mod shape_tables;
+mod shapes;
 mod slew;
 mod start;
 mod sun_sensors;
@@ -30,8 +42,10 @@ mod surface;
 mod swinging;
 mod tank;
 mod thermal;
+mod thermal_table;
 mod thruster;
 mod wheels;
+mod zones;
 
 #[cfg(test)]
 mod tests;
@@ -39,15 +53,12 @@ mod tests;
 pub use crate::toml::{MOST_ANTENNAS, MOST_THRUSTERS};
 pub use antennas::{Antenna, AntennaRange, FanAzimuths, NamedAntenna};
 pub use articulation::Articulation;
-pub use body::{BodyMotion, BodyOrbit, CustomBody, InertialFrame};
-pub use downlinks::{DownlinkWindows, TimeAfterPeriapsis};
-pub use file::assembly::{Spacecraft, SunKeepIn};
-pub(crate) use file::describe_operation::{StarDescription, TargetedAxisDescription};
-pub(crate) use file::pointing::aligned;
+pub use assembly::Spacecraft;
+pub use body::{BodyElements, BodyMotion, BodyOrbit, CustomBody, InertialFrame};
 #[cfg(feature = "schema")]
-pub use file::schema;
+pub use description::schema;
+pub use downlinks::{DownlinkWindows, TimeAfterPeriapsis};
 pub use gas_surface::GasSurface;
-pub use hot_pole::HotPoleZone;
 pub use instruments::{GimbalMount, Instrument};
 pub(crate) use mass::steiner;
 pub use mass::{MassProperties, PanelMass, check_inertia};
@@ -60,6 +71,7 @@ pub use pointing::{
     AlignedAxes, AttitudeName, AttitudePart, AttitudeRefusal, NamedAttitude, PointingSettings,
     PointingTarget, TargetItem, TargetedAxis, panels_need_yaw_steering,
 };
+pub(crate) use pointing_table::{StarDescription, TargetedAxisDescription, aligned};
 pub use polygon::Polygon;
 pub use slew::SlewDemand;
 pub use start::{StartEntry, StartValue};
@@ -74,6 +86,7 @@ pub use thermal::{
 };
 pub use thruster::{Thrust, Thruster, ThrusterSet, ValveTiming};
 pub use wheels::{Wheel, free_capacity_n_m_s};
+pub use zones::{HotPoleZone, SunKeepIn};
 
 /// MESSENGER as paper 000 describes it, for callers without a file.
 pub const MESSENGER_TOML: &str = include_str!("../../../resources/messenger.toml");

@@ -2,16 +2,31 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::part_reader::PartReader;
 use crate::constants::STEFAN_BOLTZMANN_W_M2_K4;
 use crate::math;
 use crate::numerics::scalar::Scalar;
 use crate::refusal::Refusal;
+use crate::toml::{CellTemperature, Fraction, List, Written, tables};
 
 /// Most belts a map may have.
-pub(super) const MOST_BELTS: usize = 180;
+const MOST_BELTS: usize = 180;
 
 /// Hottest a cell may be, in K.
-pub(super) const HOTTEST_K: f64 = 1e4;
+const HOTTEST_K: f64 = 1e4;
+
+tables! {
+/// The planet's surface cell by cell, for `planetLight.method` map of DisturbanceTorque. Each key has n rows, belts of
+/// latitude from south to north, of 2 n cells each, from midnight over morning, noon and evening.
+struct PlanetMapDescription {
+    /// Diffusely reflected fraction of sunlight.
+    diffuse_reflectivity: List<Vec<Fraction>, 1, MOST_BELTS>,
+    /// Infrared emissivity.
+    emissivity: List<Vec<Fraction>, 1, MOST_BELTS>,
+    /// Temperature, in K.
+    temperature_k: List<Vec<CellTemperature>, 1, MOST_BELTS>,
+}
+}
 
 /// Optical properties and temperature of one cell.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -83,4 +98,35 @@ impl PlanetMap {
     pub fn cells(&self) -> &[PlanetCell] {
         &self.cells
     }
+}
+
+/// The map, unless something in it was reported.
+pub(super) fn planet_map(
+    part: &mut PartReader<'_, '_>,
+    description: &PlanetMapDescription,
+) -> Option<PlanetMap> {
+    let belts = description.temperature_k.len();
+    let [reflectivity, emissivity, temperature] = [
+        ("diffuse_reflectivity", description.diffuse_reflectivity.value()),
+        ("emissivity", description.emissivity.value()),
+        ("temperature_k", description.temperature_k.value()),
+    ]
+    .map(|(key, rows)| {
+        if rows.len() != belts || !(1..=MOST_BELTS).contains(&belts) {
+            let allowed = format!("as many as `temperature_k` has, 1 to {MOST_BELTS}");
+            part.report(key, format_args!("{} belts", rows.len()), allowed);
+        }
+        for (belt, row) in rows.iter().enumerate().filter(|(_, row)| row.len() != 2 * rows.len()) {
+            let allowed = format!("{}, twice as many as there are belts", 2 * rows.len());
+            part.check.report(&part.at.key(key).item(belt), format_args!("{} cells", row.len()), allowed);
+        }
+        rows.concat()
+    });
+    let cells = reflectivity.into_iter().zip(emissivity).zip(temperature);
+    let cells = cells.map(|((diffuse_reflectivity, emissivity), temperature_k)| PlanetCell {
+        diffuse_reflectivity,
+        emissivity,
+        temperature_k,
+    });
+    PlanetMap::new(belts, cells.collect()).ok()
 }

@@ -1,5 +1,7 @@
 //! Slew that wheels are sized for: an angle in a time, from rest to rest.
 
+use crate::toml::with_unit;
+
 /// Units of an angle, and how many degrees they are.
 const ANGLES_DEG: [(&str, f64); 2] = [("deg", 1.0), ("rad", 180.0 / core::f64::consts::PI)];
 /// Units of a time, and how many seconds they are.
@@ -41,11 +43,8 @@ impl SlewDemand {
 
 /// A number with one of these units.
 fn number(text: &str, units: &[(&str, f64)]) -> Option<f64> {
-    let text = text.trim();
-    let end = text.rfind(|c: char| c.is_ascii_digit() || c == '.')? + 1;
-    let (number, unit) = text.split_at_checked(end)?;
-    let number: f64 = number.parse().ok()?;
-    Some(number * units.iter().find(|(name, _)| *name == unit.trim())?.1)
+    let (number, unit) = with_unit(text)?;
+    Some(number * units.iter().find(|(name, _)| *name == unit)?.1)
 }
 
 #[cfg(test)]

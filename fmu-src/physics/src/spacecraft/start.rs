@@ -60,41 +60,25 @@ pub(crate) fn start_entries(
     start: Option<&StartTable>,
     fixed: Option<&StartTable>,
 ) -> Vec<StartEntry> {
-    let mut entries = entries(check, "start", start);
-    let constants = self::entries(check, "fixed", fixed).into_iter();
-    entries.extend(constants.map(|entry| StartEntry { is_fixed: true, ..entry }));
-    entries
-}
-
-fn entries(check: &mut Checker<'_>, table_name: &str, table: Option<&StartTable>) -> Vec<StartEntry> {
-    let at = KeyPath::root().key(table_name);
-    let mut entries = Vec::new();
-    for (key, item) in table.into_iter().flat_map(|table| &table.0) {
-        let place = at.key(key);
-        match item {
-            Item::Table(items) => {
-                for (name, item) in items {
-                    push(check, &mut entries, &place.key(name), (Some(key), name), item);
-                }
+    let mut found = Vec::new();
+    for (table_name, table) in [("start", start), ("fixed", fixed)] {
+        for (key, item) in table.into_iter().flat_map(|table| &table.0) {
+            let place = KeyPath::root().key(table_name).key(key);
+            let items = match item {
+                Item::Table(items) => items
+                    .iter()
+                    .map(|(name, item)| (place.key(name), Some(key.clone()), name, item))
+                    .collect(),
+                item => vec![(place, None, key, item)],
+            };
+            for (at, model, name, item) in items {
+                let Some(value) = value(check, &at, item) else { continue };
+                let (key, line, is_fixed) = (at.to_string(), check.line(&at), table_name == "fixed");
+                found.push(StartEntry { key, line, model, is_fixed, name: name.clone(), value });
             }
-            item => push(check, &mut entries, &place, (None, key), item),
         }
     }
-    entries
-}
-
-fn push(
-    check: &mut Checker<'_>,
-    entries: &mut Vec<StartEntry>,
-    at: &KeyPath,
-    (model, name): (Option<&str>, &str),
-    item: &Item,
-) {
-    if let Some(value) = value(check, at, item) {
-        let (key, line) = (at.to_string(), check.line(at));
-        let (model, name) = (model.map(str::to_owned), name.to_owned());
-        entries.push(StartEntry { key, line, model, is_fixed: false, name, value });
-    }
+    found
 }
 
 fn value(check: &mut Checker<'_>, at: &KeyPath, item: &Item) -> Option<StartValue> {

@@ -3,20 +3,23 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
-/// A Sun sensor on the body.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct MountedSunSensor {
-    /// For messages and the manual.
-    pub name: String,
-    /// Unit vector of its axis.
-    pub axis_body: Vector3<f64>,
-    /// Half the field of view, from the axis, in rad.
-    pub half_field_of_view_rad: f64,
+use crate::toml::{HalfTurn, UnitVector, tables};
+
+tables! {
+/// A Sun sensor.
+struct SunSensorDescription called "sun sensor" makes #[derive(Clone, Debug, PartialEq, Serialize)] pub struct MountedSunSensor {
+    /// Name for messages; numbered unless given.
+    name: Option<String>,
+    /// Unit vector of its axis, body frame.
+    axis as axis_body: UnitVector,
+    /// Half the field of view, from the axis, in deg.
+    half_field_of_view_deg as half_field_of_view_rad: HalfTurn = HALF_FIELD_OF_VIEW_DEG,
+}
 }
 
 /// Half the field of view unless the file gives one: six along the body axes then see everywhere (a cube's corner is 54.7 deg
 /// from its faces). Assumed: paper 001 says how many there are and no more.
-pub(super) const HALF_FIELD_OF_VIEW_DEG: f64 = 60.0;
+const HALF_FIELD_OF_VIEW_DEG: f64 = 60.0;
 
 impl MountedSunSensor {
     /// Six along the body axes.

@@ -3,8 +3,34 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
+use super::part_reader::PartReader;
+use crate::toml::{Named, Point, Positive, tables};
+
 /// Density of hydrazine at 20 degrees Celsius, in kg/m3.
-pub(super) const HYDRAZINE_KG_M3: f64 = 1_008.0;
+const HYDRAZINE_KG_M3: f64 = 1_008.0;
+
+tables! {
+/// A propellant tank.
+struct TankDescription called "tank" {
+    /// Name for thrusters and messages; numbered unless given.
+    name: Option<String>,
+    /// Position of its propellant, taken as a point, body frame, in m.
+    position_m as position_body_m: Point,
+    /// Propellant loaded, in kg; a part of mass_properties.mass_kg.
+    propellant_kg: Positive,
+    /// Pressure when loaded, in Pa. Only its ratio counts; the default is assumed.
+    pressure_pa: Positive = 2e6,
+    /// Least and greatest pressure at which thrusters may be fed, in Pa; any unless given.
+    allowed_pressure_pa: Option<[f64; 2]>,
+    /// Volume of the gas that drives the propellant out, in m3: the pressure falls as it expands (blowdown). Left out, the
+    /// pressure is regulated.
+    ullage_m3: Option<Positive>,
+    /// Density of the propellant in blowdown, in kg/m3; the default is hydrazine's.
+    density_kg_m3: Positive = HYDRAZINE_KG_M3,
+} rules {
+    Requires density_kg_m3 => ullage_m3: "no ullage_m3 beside it", "with ullage_m3 alone (blowdown)";
+}
+}
 
 /// Gas that drives the propellant out without being renewed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -71,5 +97,33 @@ impl Tank {
     /// Propellant that it can still feed when so much is used, in kg.
     pub fn feedable_kg(&self, used_kg: f64) -> f64 {
         if self.feeds(used_kg) { self.usable_kg() - used_kg } else { 0.0 }
+    }
+}
+
+/// A tank that holds a part of `mass_kg`.
+pub(super) fn tank(part: &mut PartReader<'_, '_>, description: &TankDescription) -> Tank {
+    let pressure_pa = description.pressure_pa();
+    let blowdown = description
+        .ullage_m3
+        .map(|ullage_m3| Blowdown { ullage_m3: ullage_m3.0, density_kg_m3: description.density_kg_m3() });
+    let allowed_pa = description.allowed_pressure_pa.unwrap_or([0.0, f64::MAX]);
+    let [least_pa, greatest_pa] = allowed_pa;
+    if !(least_pa >= 0.0 && greatest_pa > least_pa) {
+        part.report(
+            "allowed_pressure_pa",
+            format_args!("{allowed_pa:?}"),
+            "two rising numbers, not negative",
+        );
+    } else if !(least_pa..=greatest_pa).contains(&pressure_pa) {
+        let allowed = format!("a range around pressure_pa = {pressure_pa}");
+        part.report("allowed_pressure_pa", format_args!("{allowed_pa:?}"), allowed);
+    }
+    Tank {
+        name: description.called(part.index),
+        position_body_m: description.position_body_m(),
+        propellant_kg: description.propellant_kg.0,
+        pressure_pa,
+        allowed_pa,
+        blowdown,
     }
 }

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::optics::Optics;
 use crate::numerics::scalar::Scalar;
+use crate::toml::{Fraction, Positive, tables};
 
 /// Temperature emissivities are stated at unless a file says otherwise, in K.
 pub const EMISSIVITY_REFERENCE_TEMPERATURE_K: f64 = 300.0;
@@ -43,19 +44,20 @@ pub struct Conduction {
     pub radiative_exchange: f64,
 }
 
-/// Structure of a honeycomb panel (paper 004 eqs 45, 47).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Honeycomb {
-    /// Conductivity of the core's material k_SP, in W/m/K.
-    pub conductivity_w_m_k: f64,
-    /// Thickness of the panel d_SP, in m.
-    pub thickness_m: f64,
-    /// Cross-section of the honeycomb's walls over the panel's area, r_HC.
-    pub wall_area_ratio: f64,
-    /// Packing factor of the solar cells, r_C.
-    pub packing_factor: f64,
-    /// Emissivity inside the honeycomb, eps_int.
-    pub internal_emissivity: f64,
+tables! {
+/// A honeycomb between face sheets.
+struct HoneycombDescription makes #[derive(Clone, Copy, Debug, PartialEq)] pub struct Honeycomb {
+    /// Conductivity of the core's material, in W/m/K.
+    conductivity_w_m_k: Positive,
+    /// Thickness, in m.
+    thickness_m: Positive,
+    /// Cross-section of the walls over the panel's area.
+    wall_area_ratio: Fraction,
+    /// Packing factor of the solar cells.
+    packing_factor: Fraction,
+    /// Emissivity inside the honeycomb.
+    internal_emissivity: Fraction,
+}
 }
 
 /// Temperature of space unless a file says otherwise, in K: the cosmic microwave background.

@@ -3,6 +3,52 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
+use super::names::check_item_name;
+use super::part_reader::PartReader;
+use super::tank::Tank;
+use crate::constants::STANDARD_GRAVITY_M_S2;
+use crate::toml::{
+    Checker, Fraction, KeyPath, Named, NotNegative, Point, Positive, QuarterTurn, SpecificImpulse,
+    UnitVector, hint, tables,
+};
+
+tables! {
+/// A thruster.
+struct ThrusterDescription called "thruster" {
+    /// Name for messages; numbered unless given.
+    name: Option<String>,
+    /// Position, body frame, in m.
+    position_m as position_body_m: Point,
+    /// Unit vector of its force on the spacecraft, body frame; the plume goes the other way.
+    direction as direction_body: UnitVector,
+    /// Full thrust, in N.
+    force_n: Positive,
+    /// Pressure at which it has that thrust, in Pa; its tank's when loaded unless given. Thrust and flow are proportional to
+    /// the pressure.
+    at_pressure_pa: Option<Positive>,
+    /// Specific impulse, in s.
+    specific_impulse_s: SpecificImpulse,
+    /// Name of the tank that feeds it; the first unless given.
+    tank: Option<String>,
+    /// Name of the set whose delta-v it takes part in: letters and digits, the first a letter; none unless given.
+    set: Option<String>,
+    /// Whether it may control the attitude and dump momentum; a main engine does not.
+    attitude_control: bool = true,
+    /// Shortest time for which its valve opens, in s.
+    min_on_time_s: NotNegative = 0.0,
+    /// Time over which the thrust rises linearly, in s.
+    rise_time_s: NotNegative = 0.0,
+    /// Time over which the full thrust falls linearly to nothing, in s.
+    tail_off_time_s: NotNegative = 0.0,
+    /// Standard deviation of the thrust from pulse to pulse, as a share of it.
+    scatter: Fraction = 0.0,
+    /// Electric power while it fires, in W, for `heliotorque size`.
+    power_w: Option<NotNegative>,
+    /// Half angle of the plume, in deg: surfaces within it are flagged while it fires; 0 is none.
+    plume_half_angle_deg as plume_half_angle_rad: QuarterTurn = 0.0,
+}
+}
+
 /// Thrusters that give a delta-v together (paper 001, "Delta-V"), by their row among the spacecraft's sets, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
 pub struct ThrusterSet(pub u16);
@@ -117,4 +163,79 @@ pub struct Thrust {
     pub torque_body_n_m: Vector3<f64>,
     /// In kg/s.
     pub flow_kg_s: f64,
+}
+
+/// A thruster that one of `tanks` feeds, of one of `sets` or none.
+pub(super) fn thruster(
+    part: &mut PartReader<'_, '_>,
+    description: &ThrusterDescription,
+    tanks: &[Tank],
+    sets: &[String],
+) -> Thruster {
+    let force_n = description.force_n.0;
+    let valve = ValveTiming {
+        min_on_s: description.min_on_time_s(),
+        rise_s: description.rise_time_s(),
+        tail_off_s: description.tail_off_time_s(),
+    };
+    let position_body_m = description.position_body_m();
+    let force_body_n = description.direction_body() * force_n;
+    Thruster {
+        name: description.called(part.index),
+        position_body_m,
+        force_body_n,
+        torque_body_n_m: position_body_m.cross(&force_body_n),
+        flow_kg_s: force_n / (description.specific_impulse_s.0 * STANDARD_GRAVITY_M_S2),
+        valve,
+        scatter: description.scatter(),
+        power_w: description.power_w.map(f64::from),
+        set: description.set.as_deref().and_then(|name| ThrusterSet::named(sets, name)),
+        attitude_control: description.attitude_control(),
+        tank: tank_of(part, tanks, description.tank.as_deref()),
+        at_pressure_pa: description.at_pressure_pa.map(f64::from),
+        plume_half_angle_rad: description.plume_half_angle_rad(),
+    }
+}
+
+/// Index of the tank of this name, the first without one.
+fn tank_of(part: &mut PartReader<'_, '_>, tanks: &[Tank], name: Option<&str>) -> usize {
+    if tanks.is_empty() {
+        if !part.check.is_stand_in(&KeyPath::root().key("tanks")) {
+            part.check.report(&part.at, "a thruster without a tank", "at least one of [[tanks]] in the file");
+        }
+        return 0;
+    }
+    let Some(name) = name else { return 0 };
+    let names: Vec<&str> = tanks.iter().map(|tank| tank.name.as_str()).collect();
+    names.iter().position(|known| *known == name).unwrap_or_else(|| {
+        let allowed = format!("a name under [[tanks]]: {}", names.join(", "));
+        part.report("tank", format_args!("the unknown tank `{name}`{}", hint(name, &names)), allowed);
+        0
+    })
+}
+
+/// The names of the sets: those that `sets` lists, then others in the order of their first thruster.
+pub(super) fn thruster_sets(
+    check: &mut Checker<'_>,
+    listed: Option<&[String]>,
+    thrusters: Option<&[ThrusterDescription]>,
+) -> Vec<String> {
+    let mut sets: Vec<String> = Vec::new();
+    let place = KeyPath::root().key("sets");
+    for (index, name) in listed.unwrap_or_default().iter().enumerate() {
+        let at = place.item(index);
+        check_item_name(check, &at, name);
+        if sets.contains(name) {
+            check.report(&at, format_args!("`{name}` once more"), "each set once");
+        } else {
+            sets.push(name.clone());
+        }
+    }
+    let place = KeyPath::root().key("thrusters");
+    for (index, thruster) in thrusters.unwrap_or_default().iter().enumerate() {
+        let Some(name) = thruster.set.as_ref().filter(|name| !sets.contains(name)) else { continue };
+        check_item_name(check, &place.item(index).key("set"), name);
+        sets.push(name.clone());
+    }
+    sets
 }

@@ -8,26 +8,35 @@ use core::f64::consts::PI;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::constants::ASTRONOMICAL_UNIT_M;
+use crate::environment::frames::OBLIQUITY_J2000_RAD;
 use crate::math;
+use crate::toml::{Distance, Finite, tables};
 
-/// Linear Lissajous motion about the Sun-Earth L1 point.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct L1Orbit {
-    /// Rate of the Earth-Sun line, in deg/day.
-    pub line_rate_deg_day: f64,
-    /// Sun to Earth, in m.
-    pub sun_earth_distance_m: f64,
-    /// Earth to L1, in m.
-    pub earth_l1_distance_m: f64,
-    /// Along the line, in the ecliptic across it, normal to the ecliptic, in m.
-    pub amplitude_m: [f64; 3],
+/// Mean rate of the Earth about the Sun: 360 deg in a sidereal year of 365.256363 days.
+const LINE_RATE_DEG_DAY: f64 = 360.0 / 365.256_363;
+/// From the Earth to L1: 0.0100109 AU, the root of Euler's quintic for the mass of Earth and Moon, 1/328900.56 of the Sun's.
+const EARTH_L1_AU: f64 = 0.010_010_9;
+
+tables! {
+/// Orbit about the Sun-Earth L1 point.
+struct L1OrbitEntry makes #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)] #[serde(deny_unknown_fields)] pub struct L1Orbit or Default {
+    /// Rate of the Earth-Sun line, in deg/day; otherwise the Earth's mean, 0.98561.
+    line_rate_deg_day: Finite => |_| LINE_RATE_DEG_DAY,
+    /// Sun to Earth, in m; otherwise 1 AU.
+    sun_earth_distance_m: Distance => |_| ASTRONOMICAL_UNIT_M,
+    /// Earth to L1, in m; otherwise 1.4976e9.
+    earth_l1_distance_m: Distance => |_| EARTH_L1_AU * ASTRONOMICAL_UNIT_M,
+    /// Lissajous amplitudes along the line, in the ecliptic across it, normal to the ecliptic, in m.
+    amplitude_m: [Finite; 3] = [0.0, 0.0, 0.0],
+    // Linear frequencies about L1 in units of the mean motion, from the same root as its distance.
     /// In-plane frequency over the line's rate.
-    pub in_plane_frequency: f64,
+    in_plane_frequency: Finite = 2.0864,
     /// Out-of-plane frequency over the line's rate.
-    pub out_of_plane_frequency: f64,
-    /// Ecliptic to equator, in deg.
-    pub obliquity_deg: f64,
+    out_of_plane_frequency: Finite = 2.0152,
+    /// Ecliptic to equator, in deg; otherwise that of J2000.
+    obliquity_deg: Finite => |_| OBLIQUITY_J2000_RAD.to_degrees(),
+}
 }
 
 /// Unit vectors to Sun and Earth, EME2000.

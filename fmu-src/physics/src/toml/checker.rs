@@ -4,14 +4,15 @@ use core::fmt::Display;
 use std::collections::BTreeSet;
 
 use nalgebra::{Matrix3, Vector3};
+use serde::de::DeserializeOwned;
 
-use super::directions::{UNIT_TOLERANCE, refusal, unit};
+use super::directions::UNIT_TOLERANCE;
 use super::document::Document;
 use super::error::{FileError, Problem};
 use super::numbers::short;
 use super::place::KeyPath;
 use super::ranges::GREATEST;
-use super::reader::{Findings, MOST_KEPT};
+use super::reader::MOST_KEPT;
 use super::rules::{Demand, Rule};
 
 use crate::math;
@@ -27,8 +28,12 @@ pub struct Checker<'d> {
 }
 
 impl<'d> Checker<'d> {
-    /// Continues with what the reading of the document found.
-    pub fn new(document: &'d Document<'d>, findings: Findings) -> Self {
+    /// Reads a document into a type, and continues with what that found.
+    ///
+    /// # Errors
+    /// See [`Document::read`].
+    pub fn read<T: DeserializeOwned>(document: &'d Document<'d>) -> Result<(T, Self), FileError> {
+        let (value, findings) = document.read()?;
         let stand_ins = findings.stand_ins.into_iter().collect();
         let mut checker = Self {
             document,
@@ -40,7 +45,7 @@ impl<'d> Checker<'d> {
         for (at, found, allowed) in findings.problems {
             checker.push(&at, found, allowed);
         }
-        checker
+        Ok((value, checker))
     }
 
     /// The value if nothing was reported, all problems in the order of their lines otherwise.
@@ -124,39 +129,12 @@ impl<'d> Checker<'d> {
         self.within(at, value, -GREATEST, GREATEST, "a finite number up to 1e12 in magnitude")
     }
 
-    /// A finite number above zero.
-    pub fn positive(&mut self, at: &KeyPath, value: f64) -> f64 {
-        self.within(at, value, f64::MIN_POSITIVE, GREATEST, "a number above 0 and at most 1e12")
-    }
-
-    /// A finite number from zero.
-    pub fn not_negative(&mut self, at: &KeyPath, value: f64) -> f64 {
-        self.within(at, value, 0.0, GREATEST, "a number from 0 to 1e12")
-    }
-
     /// A number between two bounds, both included; NaN is outside.
     pub fn within(&mut self, at: &KeyPath, value: f64, low: f64, high: f64, allowed: &str) -> f64 {
         if !(low..=high).contains(&value) {
             self.report(at, short(value), allowed);
         }
         value
-    }
-
-    /// Three finite numbers.
-    pub fn vector(&mut self, at: &KeyPath, value: [f64; 3]) -> Vector3<f64> {
-        for (i, component) in value.into_iter().enumerate() {
-            self.finite(&at.item(i), component);
-        }
-        Vector3::from(value)
-    }
-
-    /// A direction: refused when its length is off 1 by more than 1e-3, renormalised otherwise.
-    pub fn unit_vector(&mut self, at: &KeyPath, value: [f64; 3]) -> Vector3<f64> {
-        unit(value).unwrap_or_else(|| {
-            let (found, allowed) = refusal(value);
-            self.report(at, found, allowed);
-            Vector3::x()
-        })
     }
 
     /// A direction perpendicular to another: refused when off by more than 1e-3 rad, squared up otherwise.
@@ -243,7 +221,11 @@ impl Checker<'_> {
                 (Demand::Excludes, Some(place)) if rule.others.iter().any(has) => {
                     self.report(&place, rule.found, rule.allowed);
                 }
-                (Demand::Either, Some(_)) if rule.others.iter().any(has) => {
+                (Demand::Either, _)
+                    if rule.keys.iter().filter(|key| has(key)).count()
+                        + usize::from(rule.others.iter().any(has))
+                        > 1 =>
+                {
                     self.push(at, rule.found, rule.allowed);
                 }
                 (Demand::AnyOf, _) if !rule.keys.iter().any(is_meant) => {

@@ -53,7 +53,7 @@ impl<'t> Document<'t> {
 
     /// Reads the document into a type. Keys that are unknown, missing or of a wrong type are found all at once; the
     /// type then holds values that nobody wrote.
-    pub fn read<T: DeserializeOwned>(&self) -> Result<(T, Findings), FileError> {
+    pub(super) fn read<T: DeserializeOwned>(&self) -> Result<(T, Findings), FileError> {
         let findings = RefCell::default();
         match T::deserialize(Reader::new(self.root.get_ref(), &findings, self.own_limits)) {
             Ok(value) => Ok((value, findings.into_inner())),

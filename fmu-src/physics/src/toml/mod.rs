@@ -25,16 +25,17 @@ pub use error::{FileError, Problem};
 pub use limits::{
     LIMITS, MOST_ANTENNAS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES, MOST_THRUSTERS, TIMELINE_LIMITS,
 };
-pub(crate) use numbers::rounded;
+pub(crate) use numbers::{rounded, with_unit};
 pub use place::KeyPath;
 pub use ranges::{
-    AtLeastOne, BodyRadius, Copies, Corners, Deviation, Distance, Eccentricity, Emissivity, FieldOfView,
-    Finite, Fraction, Frequency, GravitationalParameter, HalfTurn, HalfTurnEither, Kelvin, Kilometers,
-    NotNegative, OrbitAxis, Orbits, Positive, QuarterTurn, QuarterTurnEither, Rings, RotationRate,
-    SpecificImpulse, SubtendedAngle, TurnEither, ZonalHarmonic,
+    AtLeastOne, BodyRadius, CellTemperature, Copies, Corners, Deviation, Distance, Eccentricity, Emissivity,
+    Epoch, FieldOfView, FieldWidth, Finite, Fraction, Frequency, GravitationalParameter, HalfTurn,
+    HalfTurnEither, Kelvin, Kilometers, NotNegative, OrbitAxis, Orbits, Pickets, Positive, QuarterTurn,
+    QuarterTurnEither, Rings, RotationRate, SpecificImpulse, SubtendedAngle, TurnEither, ZonalHarmonic,
 };
-pub use reader::Findings;
 pub use spelling::{hint, nearest};
+#[cfg(feature = "schema")]
+pub(crate) use tables::schema;
 pub use tables::{List, Named, NonEmpty, Point, Table, UnitVector};
-pub use written::Written;
-pub(crate) use written::plain;
+pub use written::{Plain, Written};
+pub(crate) use written::{inline_schema, plain};

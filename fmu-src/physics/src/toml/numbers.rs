@@ -9,3 +9,13 @@ pub(super) fn short(value: f64) -> String {
 pub(crate) fn rounded(value: f64) -> f64 {
     format!("{value:.11e}").parse().unwrap_or(value)
 }
+
+/// Splits a text into its number and the unit behind it, which may be empty; `None` without a number.
+pub(crate) fn with_unit(text: &str) -> Option<(f64, &str)> {
+    let text = text.trim();
+    // A unit holds no digit, a number ends in a digit or in a point right behind one.
+    let digits = text.rfind(|c: char| c.is_ascii_digit())? + 1;
+    let end = digits + usize::from(text[digits..].starts_with('.'));
+    let (number, unit) = text.split_at_checked(end)?;
+    Some((number.parse().ok()?, unit.trim()))
+}

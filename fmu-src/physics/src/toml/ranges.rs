@@ -4,6 +4,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::constants::DAY_S;
+
 /// Greatest magnitude of any number in a file: keeps products of several numbers far from overflow.
 pub(super) const GREATEST: f64 = 1e12;
 
@@ -48,6 +50,11 @@ macro_rules! ranges {
             #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
             pub struct $name(pub $number);
 
+            impl $name {
+                /// Allowed numbers, for messages.
+                pub const ALLOWED: &'static str = $allowed;
+            }
+
             impl From<$name> for $number {
                 fn from(value: $name) -> Self {
                     value.0
@@ -55,32 +62,24 @@ macro_rules! ranges {
             }
 
             impl super::written::Written for $name {
-                type Plain = $number;
                 type Value = $number;
 
-                fn from_plain(plain: $number) -> Self {
-                    Self(plain)
-                }
-
-                fn value(self) -> $number {
+                fn value(&self) -> $number {
                     ranges!(@si self.0 $(, $unit)?)
                 }
             }
 
-            #[cfg(feature = "schema")]
-            impl schemars::JsonSchema for $name {
-                fn inline_schema() -> bool {
-                    true
-                }
+            impl super::written::Plain for $name {
+                type Plain = $number;
 
-                fn schema_name() -> std::borrow::Cow<'static, str> {
-                    stringify!($name).into()
-                }
-
-                fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
-                    bounded(<$number>::json_schema(generator), $low, $high)
+                fn from_plain(plain: $number) -> Self {
+                    Self(plain)
                 }
             }
+
+            super::written::inline_schema!($name, stringify!($name), |generator| {
+                bounded(<$number as schemars::JsonSchema>::json_schema(generator), $low, $high)
+            });
         )+
 
         const RANGES: &[Range] =
@@ -115,8 +114,12 @@ ranges! {
     FieldOfView(f64 deg): f64::MIN_POSITIVE, 180.0, "an angle above 0 and at most 180 deg";
     SubtendedAngle(f64 deg): f64::MIN_POSITIVE, 360.0, "an angle above 0 and at most 360 deg";
     TurnEither(f64 deg): -360.0, 360.0, "an angle from -360 to 360 deg";
-    Deviation(f64 deg): 0.0, 180.0, "a standard deviation from 0 to 180 deg";
+    FieldWidth(f64): f64::MIN_POSITIVE, 180.0, "an angle above 0 and at most 180 deg";
+    Deviation(f64): 0.0, 180.0, "a standard deviation from 0 to 180 deg";
     AtLeastOne(u32): 1.0, GREATEST, "at least 1";
+    Pickets(u32): 4.0, GREATEST, "a multiple of 4, at least 4";
+    Epoch(f64): -4000.0 * 365.25 * DAY_S, 4000.0 * 365.25 * DAY_S, "s past J2000 TDB, within 4000 years of it";
+    CellTemperature(f64): 0.0, 1e4, "a number from 0 to 10000 K";
     Copies(u32): 2.0, 100.0, "a whole number from 2 to 100";
     Orbits(u32): 0.0, 1000.0, "a whole number of orbits from 0 to 1000";
     Corners(u32): 3.0, 128.0, "a whole number from 3 to 128";

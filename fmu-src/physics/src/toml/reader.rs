@@ -20,7 +20,7 @@ pub(super) const MOST_KEPT: usize = 10 * MOST_PROBLEMS;
 
 /// Problems found while a document was read into a type.
 #[derive(Default)]
-pub struct Findings {
+pub(super) struct Findings {
     /// Place, what was found there and what is allowed.
     pub problems: Vec<(KeyPath, String, String)>,
     /// How many more were found than are kept.

@@ -9,7 +9,7 @@ pub enum Demand {
     RequiresIfPositive,
     /// The key excludes all others; reported at the key.
     Excludes,
-    /// The key excludes all others; reported at the table.
+    /// Each key excludes the other keys and all others; reported at the table.
     Either,
     /// The table needs one of the keys.
     AnyOf,
@@ -20,7 +20,7 @@ pub enum Demand {
 pub struct Rule {
     /// Kind of the demand.
     pub demand: Demand,
-    /// Key that makes the demand; all keys of [`Demand::AnyOf`].
+    /// Key that makes the demand; all keys of [`Demand::AnyOf`] and [`Demand::Either`].
     pub keys: &'static [&'static str],
     /// Keys that it needs or excludes.
     pub others: &'static [&'static str],
@@ -36,23 +36,22 @@ pub fn schema(rules: &[Rule]) -> Vec<schemars::Schema> {
     use schemars::json_schema;
     let any =
         |keys: &[&str]| -> Vec<_> { keys.iter().map(|key| json_schema!({ "required": [key] })).collect() };
-    rules
-        .iter()
-        .map(|rule| match (rule.demand, rule.keys) {
-            (Demand::AnyOf, keys) => json_schema!({ "anyOf": any(keys) }),
-            (Demand::RequiresIfPositive, keys) => {
-                let key = keys.concat();
-                let above =
-                    std::collections::BTreeMap::from([(&key, json_schema!({ "exclusiveMinimum": 0 }))]);
-                let demands = json_schema!({ "required": [&key], "properties": above });
-                json_schema!({ "if": demands, "then": { "anyOf": any(rule.others) } })
-            }
-            (Demand::Requires, keys) => {
-                json_schema!({ "if": { "required": keys }, "then": { "anyOf": any(rule.others) } })
-            }
-            (Demand::Excludes | Demand::Either, keys) => {
-                json_schema!({ "if": { "required": keys }, "then": { "not": { "anyOf": any(rule.others) } } })
-            }
-        })
-        .collect()
+    let needs = |demand: schemars::Schema, keys: &[&str]| json_schema!({ "if": demand, "then": { "anyOf": any(keys) } });
+    let schemas = |rule: &Rule| match rule.demand {
+        Demand::AnyOf => vec![json_schema!({ "anyOf": any(rule.keys) })],
+        Demand::Requires => vec![needs(json_schema!({ "required": rule.keys }), rule.others)],
+        Demand::RequiresIfPositive => {
+            let key = rule.keys.concat();
+            let above = std::collections::BTreeMap::from([(&key, json_schema!({ "exclusiveMinimum": 0 }))]);
+            vec![needs(json_schema!({ "required": [&key], "properties": above }), rule.others)]
+        }
+        Demand::Excludes | Demand::Either => {
+            let excluded = |key: &&str| -> Vec<_> {
+                rule.keys.iter().chain(rule.others).filter(|it| *it != key).copied().collect()
+            };
+            let exclusion = |key: &&str| json_schema!({ "if": { "required": [key] }, "then": { "not": { "anyOf": any(&excluded(key)) } } });
+            rule.keys.iter().map(exclusion).collect()
+        }
+    };
+    rules.iter().flat_map(schemas).collect()
 }

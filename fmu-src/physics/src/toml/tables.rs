@@ -4,18 +4,19 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::rules::Rule;
-use super::written::Written;
+use super::written::{Plain, Written};
 
 /// Declares structs that read a table each: they refuse unknown keys and have a schema.
 ///
-/// A key with a default, `key: Type = value`, may be left out; the method of its name returns the value that applies. The value of
-/// `key as name: Type` is returned by the method `name`, in SI units (an angle in rad of a key in deg). `called "wheel"` numbers the
-/// parts that the file gives no name ([`Named`]). `rules` follow a table whose keys depend on one another (see
-/// [`Demand`](super::rules::Demand)): `Requires key => others: "found", "allowed";`.
+/// A key with a default, `key: Type = value`, may be left out, as may one whose value then follows from others,
+/// `key: Type => |table| value`. `called "wheel"` numbers the parts that the file gives no name ([`Named`]). `makes pub struct Wheel` declares the
+/// struct of the values in SI units (an angle in rad of a key in deg), which `made` returns: a field for each key, called as the key or, in
+/// `key as name: Type`, by the name; `or Default` lets the whole table be left out. In other tables keys with a default or a name have a method that returns the value. `rules` follow
+/// a table whose keys depend on one another (see [`Demand`](super::rules::Demand)): `Requires key => others: "found", "allowed";`.
 #[macro_export]
 macro_rules! tables {
-    ($($(#[$about:meta])* struct $table:ident $(called $kind:literal)? {
-        $($(#[$key_about:meta])* $key:ident $(as $name:ident)?: $type:ty $(= $default:expr)?,)+
+    ($($(#[$about:meta])* struct $table:ident $(called $kind:literal)? $(makes $(#[$made_about:meta])* $seen:vis struct $made:ident $(or $default_value:ident)?)? {
+        $($(#[$key_about:meta])* $key:ident $(as $name:ident)?: $type:ty $(= $default:expr)? $(=> $follows:expr)?,)+
     } $(rules {$(
         $demand:ident $($subject:ident)+ $(=> $($other:ident)+)?: $found:literal, $allowed:literal;
     )+})?)+) => {$(
@@ -25,18 +26,19 @@ macro_rules! tables {
             $($crate::tables!(@rule $demand $($subject)+ $(=> $($other)+)?: $found, $allowed)),+
         ]))))])?
         #[serde(deny_unknown_fields)]
+        $($(#[derive($default_value)])?)?
         $(#[$about])*
         pub(crate) struct $table {
             $(
                 $(#[$key_about])*
                 $(#[cfg_attr(feature = "schema", schemars(extend("default" = $default)))])?
-                pub $key: $crate::tables!(@read $type $(, $default)?),
+                pub $key: $crate::tables!(@read $type $(, $default)? $(, $follows)?),
             )+
         }
 
-        impl $table {$(
-            $crate::tables!(@value $key [$($name)?] [$($default)?] $type);
-        )+}
+        $crate::tables! { @values [$($(#[$made_about])* $seen $made)?] [$(#[$about])*] $table {
+            $($(#[$key_about])* [$($name)? $key] $key [$type] [$($default)?] [$($follows)?],)+
+        } }
 
         impl $crate::toml::tables::Table for $table {
             const RULES: &'static [$crate::toml::rules::Rule] = &[$(
@@ -48,7 +50,7 @@ macro_rules! tables {
             const KIND: &'static str = $kind;
 
             fn name(&self) -> Option<&str> {
-                $crate::toml::tables::PartName::given(&self.name)
+                Option::<&String>::from(&self.name).map(String::as_str)
             }
         })?
     )+};
@@ -62,22 +64,67 @@ macro_rules! tables {
         }
     };
     (@read $type:ty) => { $type };
-    (@read $type:ty, $default:expr) => { Option<$type> };
-    (@value $key:ident [] [] $type:ty) => {};
-    (@value $key:ident [] [$default:expr] $type:ty) => { $crate::tables!(@value $key [$key] [$default] $type); };
-    (@value $key:ident [$name:ident] [] $type:ty) => {
-        #[doc = concat!("Value of `", stringify!($key), "`.")]
-        pub(crate) fn $name(&self) -> <$type as $crate::toml::written::Written>::Value {
-            $crate::toml::written::Written::value(self.$key)
+    (@read $type:ty, $else:expr) => { Option<$type> };
+    (@values [] [$(#[$about:meta])*] $table:ident {$(
+        $(#[$key_about:meta])* [$($name:ident)+] $key:ident [$type:ty] [$($default:expr)?] [$($follows:expr)?],
+    )+}) => {
+        impl $table {$(
+            $crate::tables!(@method [$($name)+] $key [$type] [$($default)?]);
+        )+}
+    };
+    (@values [$(#[$made_about:meta])* $seen:vis $made:ident] [$(#[$about:meta])*] $table:ident {$(
+        $(#[$key_about:meta])* [$name:ident $($same:ident)?] $key:ident [$type:ty] [$($default:expr)?] [$($follows:expr)?],
+    )+}) => {
+        $(#[$about])*
+        $(#[$made_about])*
+        $seen struct $made {$(
+            $(#[$key_about])*
+            #[doc = concat!("\n\nValue of `", stringify!($key), "`, in the unit that the field names.")]
+            pub $name: $crate::tables!(@type $key $type),
+        )+}
+
+        impl $table {
+            /// Returns the values, the name of a part without one by its index in its list.
+            pub(crate) fn made(&self, index: usize) -> $made {
+                let part = (self, index);
+                $made {$(
+                    $name: $crate::tables!(@made part $table $key [$type] [$($default)?] [$($follows)?])
+                ),+}
+            }
+        }
+
+        impl $crate::toml::written::Written for $table {
+            type Value = $made;
+
+            fn value(&self) -> $made {
+                self.made(0)
+            }
         }
     };
-    (@value $key:ident [$name:ident] [$default:expr] $type:ty) => {
+    (@type name $type:ty) => { String };
+    (@type $key:ident $type:ty) => { <$type as $crate::toml::written::Written>::Value };
+    (@method [$key:ident] $same:ident [$type:ty] []) => {};
+    (@method [$name:ident $($same:ident)?] $key:ident [$type:ty] [$($default:expr)?]) => {
         #[doc = concat!("Value of `", stringify!($key), "`, or its default.")]
         pub(crate) fn $name(&self) -> <$type as $crate::toml::written::Written>::Value {
-            let written = self.$key.unwrap_or_else(|| $crate::toml::written::Written::from_plain($default));
-            $crate::toml::written::Written::value(written)
+            $crate::tables!(@value $type, self.$key $(, $default)?)
         }
     };
+    (@made $part:ident $table:ident name [$type:ty] [] []) => {
+        $crate::toml::tables::Named::called($part.0, $part.1)
+    };
+    (@made $part:ident $table:ident $key:ident [$type:ty] [$($default:expr)?] []) => {
+        $crate::tables!(@value $type, $part.0.$key $(, $default)?)
+    };
+    (@made $part:ident $table:ident $key:ident [$type:ty] [] [$follows:expr]) => {{
+        let follows: fn(&$table) -> _ = $follows;
+        $part.0.$key.as_ref().map_or_else(|| follows($part.0), <$type as $crate::toml::written::Written>::value)
+    }};
+    (@value $type:ty, $written:expr) => { <$type as $crate::toml::written::Written>::value(&$written) };
+    (@value $type:ty, $written:expr, $default:expr) => {{
+        let default = <$type as $crate::toml::written::Plain>::from_plain($default);
+        $crate::toml::written::Written::value($written.as_ref().unwrap_or(&default))
+    }};
 }
 
 /// Table of a file with its rules.
@@ -100,24 +147,6 @@ pub trait Named {
     }
 }
 
-/// Key `name` of a part: a text that may be optional.
-pub trait PartName {
-    /// Returns the name if it is written.
-    fn given(&self) -> Option<&str>;
-}
-
-impl PartName for String {
-    fn given(&self) -> Option<&str> {
-        Some(self)
-    }
-}
-
-impl PartName for Option<String> {
-    fn given(&self) -> Option<&str> {
-        self.as_deref()
-    }
-}
-
 /// Types of three numbers that the reader checks, as it does those of [`super::ranges`].
 macro_rules! vectors {
     ($($(#[$about:meta])* $name:ident($inner:ty) = |$written:ident| $value:expr, $format:literal;)+) => {$(
@@ -126,37 +155,29 @@ macro_rules! vectors {
         pub struct $name(pub $inner);
 
         impl Written for $name {
-            type Plain = [f64; 3];
             type Value = Vector3<f64>;
 
-            fn from_plain(plain: [f64; 3]) -> Self {
-                Self(Written::from_plain(plain))
-            }
-
-            fn value(self) -> Vector3<f64> {
+            fn value(&self) -> Vector3<f64> {
                 let $written = self.0;
                 $value
             }
         }
 
-        #[cfg(feature = "schema")]
-        impl schemars::JsonSchema for $name {
-            fn inline_schema() -> bool {
-                true
-            }
+        impl Plain for $name {
+            type Plain = [f64; 3];
 
-            fn schema_name() -> std::borrow::Cow<'static, str> {
-                stringify!($name).into()
-            }
-
-            fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
-                let mut schema = <[f64; 3]>::json_schema(generator);
-                if !$format.is_empty() {
-                    schema.insert("format".to_owned(), $format.into());
-                }
-                schema
+            fn from_plain(plain: [f64; 3]) -> Self {
+                Self(Plain::from_plain(plain))
             }
         }
+
+        super::written::inline_schema!($name, stringify!($name), |generator| {
+            let mut schema = <[f64; 3] as schemars::JsonSchema>::json_schema(generator);
+            if !$format.is_empty() {
+                schema.insert("format".to_owned(), $format.into());
+            }
+            schema
+        });
     )+};
 }
 
@@ -165,6 +186,12 @@ vectors! {
     Point([super::ranges::Finite; 3]) = |written| Vector3::from(written.map(f64::from)), "";
     /// Direction: refused when its length is off 1 by more than 1e-3, renormalised otherwise.
     UnitVector([f64; 3]) = |written| super::directions::unit(written).unwrap_or_else(Vector3::x), "unit vector";
+}
+
+/// Returns the schema of a file as indented JSON text (draft 2020-12): point an editor with TOML support at it.
+#[cfg(feature = "schema")]
+pub(crate) fn schema<T: schemars::JsonSchema>() -> String {
+    format!("{:#}", schemars::schema_for!(T).as_value())
 }
 
 /// List of at least `LEAST` and at most `MOST` items.
@@ -180,6 +207,14 @@ impl<T, const LEAST: usize, const MOST: usize> core::ops::Deref for List<T, LEAS
 
     fn deref(&self) -> &[T] {
         &self.0
+    }
+}
+
+impl<T: Written, const LEAST: usize, const MOST: usize> Written for List<T, LEAST, MOST> {
+    type Value = Vec<T::Value>;
+
+    fn value(&self) -> Self::Value {
+        self.0.value()
     }
 }
 

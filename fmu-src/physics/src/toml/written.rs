@@ -1,32 +1,61 @@
 //! Values as a file writes them, which stand for values in SI units.
 
 /// Value as a file writes it, which stands for a value in SI units.
-pub trait Written: Copy {
-    /// Type in which a default is declared.
-    type Plain;
+pub trait Written {
     /// Type of the value in SI units.
     type Value;
 
+    /// Returns the value in SI units.
+    fn value(&self) -> Self::Value;
+}
+
+/// Written value whose default a table may declare.
+pub trait Plain: Written {
+    /// Type in which a default is declared.
+    type Plain;
+
     /// Returns the written form of a default.
     fn from_plain(plain: Self::Plain) -> Self;
-
-    /// Returns the value in SI units.
-    fn value(self) -> Self::Value;
 }
+
+/// Schema of a type that stands where the type is used.
+macro_rules! inline_schema {
+    ($type:ty, $name:expr, |$generator:pat_param| $schema:expr) => {
+        #[cfg(feature = "schema")]
+        impl schemars::JsonSchema for $type {
+            fn inline_schema() -> bool {
+                true
+            }
+
+            fn schema_name() -> std::borrow::Cow<'static, str> {
+                $name.into()
+            }
+
+            fn json_schema($generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+                $schema
+            }
+        }
+    };
+}
+
+pub(crate) use inline_schema;
 
 /// Types that are written as they are used.
 macro_rules! plain {
     ($($type:ty),+) => {$(
         impl $crate::toml::written::Written for $type {
-            type Plain = Self;
             type Value = Self;
+
+            fn value(&self) -> Self {
+                Clone::clone(self)
+            }
+        }
+
+        impl $crate::toml::written::Plain for $type {
+            type Plain = Self;
 
             fn from_plain(plain: Self) -> Self {
                 plain
-            }
-
-            fn value(self) -> Self {
-                self
             }
         }
     )+};
@@ -34,30 +63,36 @@ macro_rules! plain {
 
 pub(crate) use plain;
 
-plain!(bool, i64, f64);
+plain!(bool, i64, u32, f64, String);
 
 impl<W: Written, const N: usize> Written for [W; N] {
-    type Plain = [W::Plain; N];
     type Value = [W::Value; N];
+
+    fn value(&self) -> Self::Value {
+        self.each_ref().map(W::value)
+    }
+}
+
+impl<W: Plain, const N: usize> Plain for [W; N] {
+    type Plain = [W::Plain; N];
 
     fn from_plain(plain: Self::Plain) -> Self {
         plain.map(W::from_plain)
-    }
-
-    fn value(self) -> Self::Value {
-        self.map(W::value)
     }
 }
 
 impl<W: Written> Written for Option<W> {
-    type Plain = Option<W::Plain>;
     type Value = Option<W::Value>;
 
-    fn from_plain(plain: Self::Plain) -> Self {
-        plain.map(W::from_plain)
+    fn value(&self) -> Self::Value {
+        self.as_ref().map(W::value)
     }
+}
 
-    fn value(self) -> Self::Value {
-        self.map(W::value)
+impl<W: Written> Written for Vec<W> {
+    type Value = Vec<W::Value>;
+
+    fn value(&self) -> Self::Value {
+        self.iter().map(W::value).collect()
     }
 }

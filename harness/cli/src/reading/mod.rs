@@ -67,9 +67,9 @@ pub(crate) fn parse<D: DeserializeOwned, T>(
 ) -> Result<T, String> {
     let shown = file.display().to_string();
     let document = Document::parse(&shown, text).map_err(|error| error.to_string())?;
-    let (description, findings) = document.read::<D>().map_err(|error| error.to_string())?;
+    let (description, check) = Checker::read::<D>(&document).map_err(|error| error.to_string())?;
     let folder = file.parent().unwrap_or(Path::new(""));
-    let mut builder = Builder { check: Checker::new(&document, findings), folder };
+    let mut builder = Builder { check, folder };
     let built = build(&mut builder, description);
     builder.check.finish(built).map_err(|error| error.to_string())
 }

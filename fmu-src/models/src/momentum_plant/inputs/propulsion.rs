@@ -6,7 +6,7 @@ use physics::plant::{
     Configuration, DynamicsInputs, Flight, ReactionControlSettings, Report, SimulationContext, UnservedDumps,
 };
 use physics::propulsion::{PulseCommand, ThrustErrors};
-use physics::spacecraft::{Tank, Thruster, ValveTiming};
+use physics::spacecraft::{Tank, Thruster};
 
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::state::ThrusterWarnings;
@@ -19,11 +19,7 @@ pub(crate) fn reaction_control(
     let v = context.variables;
     let spacecraft = &context.setup.spacecraft;
     let thrusters = spacecraft.thrusters.iter().zip(&v.thruster).map(|(thruster, variables)| Thruster {
-        valve: ValveTiming {
-            min_on_s: values.real(variables.min_on_time),
-            rise_s: values.real(variables.rise_time),
-            tail_off_s: values.real(variables.tail_off_time),
-        },
+        valve: variables.valve.read(values),
         scatter: values.real(variables.scatter),
         ..thruster.clone()
     });

@@ -4,20 +4,14 @@ use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
 use super::super::setup::PlantSetup;
 use crate::common::choices::ThrustRequest;
+use crate::common::variables::ValveVariables;
 
 /// One thruster, in controlled and free flight; descriptions begin with its name in the spacecraft's file.
 #[derive(Variables)]
 #[variables(setup = PlantSetup, label = setup.spacecraft.thrusters[index].name)]
 pub struct ThrusterVariables {
-    /// Shortest time for which its valve opens: it does not close sooner after it opened, over the step's end if need be.
-    #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.spacecraft.thrusters[index].valve.min_on_s)]
-    pub min_on_time: Real,
-    /// Time over which the thrust rises linearly after the valve opens.
-    #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.spacecraft.thrusters[index].valve.rise_s)]
-    pub rise_time: Real,
-    /// Time over which the full thrust falls linearly to nothing after the valve closes.
-    #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.spacecraft.thrusters[index].valve.tail_off_s)]
-    pub tail_off_time: Real,
+    #[group(name = "", setup = &setup.spacecraft.thrusters[index].valve)]
+    pub valve: ValveVariables,
     /// Standard deviation of the thrust from pulse to pulse, as a share of it.
     #[parameter(unit = "1", display = "%", min = 0.0, max = 1.0, start = setup.spacecraft.thrusters[index].scatter)]
     pub scatter: Real,

@@ -5,6 +5,7 @@ use core::f64::consts::PI;
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Text, Variables};
 
 use super::choices::{BurnPlan, BurnTiming};
+use crate::common::variables::ValveVariables;
 use physics::spacecraft::Thruster;
 use physics::spin::{forecast::Timing, spinner::Spinner};
 
@@ -108,15 +109,8 @@ fn plan(setup: &Spinner) -> BurnPlan {
 #[derive(Variables)]
 #[variables(setup = Thruster, label = setup.name)]
 pub struct ThrusterVariables {
-    /// Shortest time for which its valve opens: it does not close sooner after it opened, over the step's end if need be.
-    #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.valve.min_on_s)]
-    pub min_on_time: Real,
-    /// Time over which the thrust rises linearly after the valve opens.
-    #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.valve.rise_s)]
-    pub rise_time: Real,
-    /// Time over which the full thrust falls linearly to nothing after the valve closes.
-    #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.valve.tail_off_s)]
-    pub tail_off_time: Real,
+    #[group(name = "", setup = &setup.valve)]
+    pub valve: ValveVariables,
     /// Standard deviation of the thrust from pulse to pulse, as a share of it; drawn by seed.
     #[parameter(unit = "1", display = "%", min = 0.0, max = 1.0, start = setup.scatter)]
     pub scatter: Real,

@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use super::target::OnboardTarget;
 use crate::bodies::Body;
-use crate::toml::tables;
+use crate::toml::{Epoch, Finite, NonEmpty, NotNegative, tables};
 
 /// A frame.
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -38,27 +38,26 @@ struct BodyDescription {
     /// Degree of every polynomial.
     degree: u32,
     /// Greatest error of position against the source, at epochs that were not fitted.
-    error_m: f64,
+    error_m: NotNegative,
     /// Greatest error of velocity likewise.
-    error_m_s: f64,
+    error_m_s: NotNegative,
     /// The polynomials in the order of time, each from where the one before ends.
-    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
-    segment: Vec<SegmentDescription>,
+    segment: NonEmpty<SegmentDescription>,
 }
 
 /// A polynomial of position: the sum of the coefficients times the Chebyshev polynomials T_0, T_1 and so on of x, which
 /// goes from -1 to 1 over the segment.
 struct SegmentDescription {
     /// Where it begins, in s past J2000 TDB.
-    start_s: f64,
+    start_s: Epoch,
     /// Where it ends.
-    end_s: f64,
+    end_s: Epoch,
     /// Coefficients of the position along X, one more than the degree.
-    x_m: Vec<f64>,
+    x_m: Vec<Finite>,
     /// Along Y.
-    y_m: Vec<f64>,
+    y_m: Vec<Finite>,
     /// Along Z.
-    z_m: Vec<f64>,
+    z_m: Vec<Finite>,
 }
 
 /// The coarse model of a body: classical elements, five Chebyshev coefficients each over the whole span.
@@ -68,24 +67,30 @@ struct CoarseDescription {
     /// What it moves about.
     center: Body,
     /// Where the span begins, in s past J2000 TDB.
-    start_s: f64,
+    start_s: Epoch,
     /// Where it ends.
-    end_s: f64,
+    end_s: Epoch,
     /// Greatest error of position against the source.
-    error_m: f64,
+    error_m: NotNegative,
     /// Greatest error of velocity likewise.
-    error_m_s: f64,
+    error_m_s: NotNegative,
     /// Semi-major axis.
-    semi_major_axis_m: [f64; 5],
+    semi_major_axis_m: [Finite; 5],
     /// Eccentricity.
-    eccentricity: [f64; 5],
+    eccentricity: [Finite; 5],
     /// Inclination to the equator of EME2000.
-    inclination_rad: [f64; 5],
+    inclination_rad: [Finite; 5],
     /// Right ascension of the ascending node.
-    ascending_node_rad: [f64; 5],
+    ascending_node_rad: [Finite; 5],
     /// Argument of periapsis.
-    periapsis_argument_rad: [f64; 5],
+    periapsis_argument_rad: [Finite; 5],
     /// Mean anomaly, running on over full turns.
-    mean_anomaly_rad: [f64; 5],
+    mean_anomaly_rad: [Finite; 5],
 }
+}
+
+/// The schema as indented JSON text (draft 2020-12): point an editor with TOML support at it.
+#[cfg(feature = "schema")]
+pub fn schema() -> String {
+    crate::toml::schema::<EphemerisDescription>()
 }

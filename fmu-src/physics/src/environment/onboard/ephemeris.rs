@@ -11,10 +11,9 @@ use super::table::{EphemerisSegment, SegmentTable};
 use super::target::OnboardTarget;
 use crate::bodies::Body;
 use crate::environment::CartesianState;
-use crate::environment::ephemeris::VALID_EPOCH_S;
 use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
-use crate::toml::{Checker, Document, FileError, KeyPath};
+use crate::toml::{Checker, Document, FileError, Finite, KeyPath, Written};
 
 /// A model of a body's motion with the error it was made with.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,9 +48,8 @@ impl OnboardEphemeris {
     /// bodies that have no place, each with line, key, what was found and what is allowed.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, FileError> {
         let document = Document::parse(file, text)?;
-        let (description, findings) = document.read::<EphemerisDescription>()?;
+        let (description, mut check) = Checker::read::<EphemerisDescription>(&document)?;
         let Frame::Eme2000 = description.frame;
-        let mut check = Checker::new(&document, findings);
         let root = KeyPath::root();
         let bodies = description.body.as_deref().unwrap_or_default();
         let coarse_bodies = description.coarse.as_deref().unwrap_or_default();
@@ -71,7 +69,7 @@ impl OnboardEphemeris {
                 let text = format!("{center}, whose own position counts from {}", body.body);
                 check.report(&at.key("center"), text, "a body that does not count from this one");
             }
-            let error = error(&mut check, &at, body.error_m, body.error_m_s);
+            let error = FitError { position_m: body.error_m.0, velocity_m_s: body.error_m_s.0 };
             if let Some(motion) = table(&mut check, &at, body) {
                 found.precise.push(FittedBody { target: body.body, center: body.center, motion, error });
             }
@@ -89,7 +87,7 @@ impl OnboardEphemeris {
                 let allowed = "a body of known gravity: [[body]] places what moves about another";
                 check.report(&at.key("center"), "custom", allowed);
             }
-            let error = error(&mut check, &at, body.error_m, body.error_m_s);
+            let error = FitError { position_m: body.error_m.0, velocity_m_s: body.error_m_s.0 };
             let motion = coarse(&mut check, &at, body);
             found.coarse.push(FittedBody { target: body.body, center: body.center, motion, error });
         }
@@ -203,24 +201,12 @@ fn check_target(check: &mut Checker<'_>, at: &KeyPath, target: OnboardTarget, ce
     }
 }
 
-fn error(check: &mut Checker<'_>, at: &KeyPath, position_m: f64, velocity_m_s: f64) -> FitError {
-    FitError {
-        position_m: check.not_negative(&at.key("error_m"), position_m),
-        velocity_m_s: check.not_negative(&at.key("error_m_s"), velocity_m_s),
-    }
-}
-
-/// Epochs within the years that a body can be placed in, one after the other.
-fn span(check: &mut Checker<'_>, at: &KeyPath, span: Span) -> Span {
-    let Span { start_s, end_s } = span;
-    for (key, epoch_s) in [("start_s", start_s), ("end_s", end_s)] {
-        let allowed = "s past J2000 TDB, within 4000 years of it";
-        check.within(&at.key(key), epoch_s, -VALID_EPOCH_S, VALID_EPOCH_S, allowed);
-    }
+/// The epochs of a span, one after the other.
+fn span(check: &mut Checker<'_>, at: &KeyPath, [start_s, end_s]: [f64; 2]) -> Span {
     if end_s <= start_s {
         check.report(&at.key("end_s"), format_args!("{end_s:e}"), format!("more than start_s, {start_s:e}"));
     }
-    span
+    Span::new(start_s, end_s)
 }
 
 /// The polynomials of a body; `None` where they leave a gap or something was reported.
@@ -253,30 +239,19 @@ fn table(check: &mut Checker<'_>, at: &KeyPath, body: &BodyDescription) -> Optio
     SegmentTable::new(segments)
 }
 
-/// A magnitude that any number may have.
-const CERTAINLY_GOOD: f64 = 1e11;
-
 fn segment(
     check: &mut Checker<'_>,
     at: &KeyPath,
     described: &SegmentDescription,
     degree: usize,
 ) -> EphemerisSegment {
-    let Span { start_s, end_s } = span(check, at, Span::new(described.start_s, described.end_s));
+    let Span { start_s, end_s } = span(check, at, [described.start_s, described.end_s].value());
     let lists = [("x_m", &described.x_m), ("y_m", &described.y_m), ("z_m", &described.z_m)];
-    for (key, list) in lists {
-        let place = at.key(key);
-        if list.len() != degree + 1 {
-            let found = format!("{} coefficients", list.len());
-            check.report(&place, found, format!("{}, one more than the degree", degree + 1));
-        }
-        // Places are made for what may be wrong alone: a file has thousands of good coefficients.
-        let is_good = |it: &f64| it.abs() <= CERTAINLY_GOOD;
-        for (index, coefficient) in list.iter().enumerate().filter(|(_, it)| !is_good(it)) {
-            check.finite(&place.item(index), *coefficient);
-        }
+    for (key, list) in lists.into_iter().filter(|(_, list)| list.len() != degree + 1) {
+        let allowed = format!("{}, one more than the degree", degree + 1);
+        check.report(&at.key(key), format!("{} coefficients", list.len()), allowed);
     }
-    let coefficient = |list: &[f64], k: usize| list.get(k).copied().unwrap_or(0.0);
+    let coefficient = |list: &[Finite], k: usize| list.get(k).map_or(0.0, Finite::value);
     let terms = lists.iter().map(|(_, list)| list.len()).max().unwrap_or(0);
     let coefficients_m = (0..terms).map(|k| lists.map(|(_, list)| coefficient(list, k))).collect();
     EphemerisSegment { start_s, end_s, coefficients_m }
@@ -286,22 +261,17 @@ fn segment(
 const LOOKS: u32 = 400;
 
 fn coarse(check: &mut Checker<'_>, at: &KeyPath, body: &CoarseDescription) -> CoarseElements {
-    let span = span(check, at, Span::new(body.start_s, body.end_s));
+    let span = span(check, at, [body.start_s, body.end_s].value());
     let Span { start_s, end_s } = span;
     let rows = [
-        ("semi_major_axis_m", &body.semi_major_axis_m),
-        ("eccentricity", &body.eccentricity),
-        ("inclination_rad", &body.inclination_rad),
-        ("ascending_node_rad", &body.ascending_node_rad),
-        ("periapsis_argument_rad", &body.periapsis_argument_rad),
-        ("mean_anomaly_rad", &body.mean_anomaly_rad),
+        body.semi_major_axis_m,
+        body.eccentricity,
+        body.inclination_rad,
+        body.ascending_node_rad,
+        body.periapsis_argument_rad,
+        body.mean_anomaly_rad,
     ];
-    for (key, row) in rows {
-        for (index, coefficient) in row.iter().enumerate() {
-            check.finite(&at.key(key).item(index), *coefficient);
-        }
-    }
-    let coefficients = SMatrix::<f64, 6, COARSE_TERMS>::from_fn(|row, k| rows[row].1[k]);
+    let coefficients = SMatrix::<f64, 6, COARSE_TERMS>::from_fn(|row, k| rows[row][k].0);
     let motion = CoarseElements {
         center: body.center,
         span,

@@ -9,8 +9,6 @@ mod coarse;
 mod description;
 mod ephemeris;
 mod fit;
-#[cfg(feature = "schema")]
-mod schema;
 mod table;
 mod target;
 mod text;
@@ -19,10 +17,10 @@ mod text;
 mod tests;
 
 pub use coarse::{COARSE_SAMPLES, COARSE_TERMS, CoarseElements, KeplerianElements};
+#[cfg(feature = "schema")]
+pub use description::schema;
 pub use ephemeris::{FittedBody, OnboardEphemeris};
 pub use fit::{FitError, FitPlan, GREATEST_DEGREE};
-#[cfg(feature = "schema")]
-pub use schema::schema;
 pub use table::{EphemerisSegment, SegmentTable};
 pub use target::OnboardTarget;
 pub use text::to_toml;

@@ -50,8 +50,8 @@ impl Timeline {
 
     fn read(file: &str, text: &str, spacecraft: &Spacecraft, reader: Reader) -> Result<Self, FileError> {
         let document = Document::parse(file, text)?.limited(TIMELINE_LIMITS);
-        let (description, findings) = document.read::<TimelineDescription>()?;
-        let mut commands = Commands::new(Checker::new(&document, findings), spacecraft, reader);
+        let (description, check) = Checker::read::<TimelineDescription>(&document)?;
+        let mut commands = Commands::new(check, spacecraft, reader);
         let [place, panels_place, events_place] =
             ["command", "panels", "event"].map(|list| KeyPath::root().key(list));
         let list = description.command.as_deref().unwrap_or_default();

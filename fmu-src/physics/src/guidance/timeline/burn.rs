@@ -10,7 +10,7 @@ use super::quantity::{SPEED, TIME};
 use crate::guidance::burn::nominal_thrust::NominalThrust;
 use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::spacecraft::ThrusterSet;
-use crate::toml::{KeyPath, hint};
+use crate::toml::{KeyPath, Positive, hint};
 
 /// When a command begins and ends, in s of a clock; without end infinite.
 #[derive(Clone, Copy)]
@@ -52,7 +52,7 @@ pub(super) fn burn(
     let duration_s = given.duration.as_ref().map(|duration| {
         let place = at.key("duration");
         let duration_s = commands.quantity(&place, duration, &TIME);
-        commands.check.positive(&place, duration_s)
+        commands.check.within(&place, duration_s, f64::MIN_POSITIVE, 1e12, Positive::ALLOWED)
     });
     let nominal = NominalThrust::new(spacecraft, set, Vector3::zeros());
     let acceleration_m_s2 = nominal.acceleration_m_s2;

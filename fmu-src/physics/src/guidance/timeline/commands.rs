@@ -22,7 +22,7 @@ use crate::guidance::pointing::command::{
     PointingCommand, Scenario,
 };
 use crate::spacecraft::Spacecraft;
-use crate::toml::{Checker, KeyPath};
+use crate::toml::{Checker, KeyPath, Point, Table, Written};
 
 const BORESIGHT: &[&str] = &["option", "vector", "azimuth", "elevation", "angle", "instrument"];
 const AIMPOINT: &[&str] = &[
@@ -65,12 +65,10 @@ impl<'d, 'i> Commands<'d, 'i> {
     /// Returns the pointing of a command without its scan.
     pub(super) fn pointing(&mut self, at: &KeyPath, given: &CommandDescription) -> PointingCommand {
         let scenario_place = at.key("scenario");
+        self.check.rules(at, CommandDescription::RULES);
         self.check_reader(at, given);
         if let Some(attitude) = &given.attitude {
             let place = at.key("attitude");
-            if given.scenario.is_some() {
-                self.check.report(&place, "it beside `scenario`", "one of both");
-            }
             "the attitude".clone_into(&mut self.scenario);
             self.check_mode(&place, Scenario::Generic, given.mode);
             self.check_scenario_keys(at, TABLES, keys(&[], &["scan"]));
@@ -145,29 +143,19 @@ impl<'d, 'i> Commands<'d, 'i> {
 
     /// Returns a command's direction of the Sun in a downlink.
     pub(super) fn downlink(&mut self, at: &KeyPath, given: &CommandDescription) -> DownlinkOverride {
-        let alternate = given.alternate.unwrap_or_default();
-        let (place, is_written) = (at.key("sun"), |it: &Self, key| it.check.is_written(&at.key(key)));
-        for key in ["sun", "alternate"] {
-            if given.boresight.is_some() && is_written(self, key) {
-                let allowed =
-                    "no `boresight` beside it, or no such key: the antenna follows from the Sun's place";
-                self.check.report(&at.key(key), "it beside `boresight`", allowed);
-            }
-        }
+        let place = at.key("sun");
         let sun = given.sun.as_ref().map(|sun| SunAngles {
             azimuth_rad: self.or_zero(&place.key("azimuth"), &sun.azimuth, &TURN),
             elevation_rad: self.or_zero(&place.key("elevation"), &sun.elevation, &LATITUDE),
         });
-        DownlinkOverride { sun, alternate }
+        DownlinkOverride { sun, alternate: given.alternate.unwrap_or_default() }
     }
 
     /// Changes of the Sun keep-in zone.
     pub(super) fn keep_in(&mut self, at: &KeyPath, given: Option<&KeepInDescription>) -> KeepInOverride {
         let Some(given) = given else { return KeepInOverride::default() };
         let place = at.key("keepIn");
-        if given.enabled.is_none() && given.azimuth.is_none() && given.elevation.is_none() {
-            self.check.report(&place, "an empty table", "at least one of enabled, azimuth, elevation");
-        }
+        self.check.rules(&place, KeepInDescription::RULES);
         let mut angle = |key: &str, quantity: &Option<Quantity>| {
             Some(self.quantity(&place.key(key), quantity.as_ref()?, &QUARTER_TURN))
         };
@@ -375,10 +363,9 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// A vector that has a direction, if one is given.
-    fn direction(&mut self, at: &KeyPath, given: Option<[f64; 3]>) -> Vector3<f64> {
-        let Some(given) = given else { return Vector3::zeros() };
-        let vector = self.check.vector(at, given);
-        if vector == Vector3::zeros() {
+    fn direction(&mut self, at: &KeyPath, given: Option<Point>) -> Vector3<f64> {
+        let vector = given.value().unwrap_or_default();
+        if given.is_some() && vector == Vector3::zeros() {
             self.check.report(at, "a zero vector", "a vector of any length but 0");
         }
         vector

@@ -15,7 +15,7 @@ use crate::guidance::pointing::command::{
     AimpointOption, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame, Scenario,
 };
 use crate::spacecraft::{StarDescription, TargetedAxisDescription};
-use crate::toml::tables;
+use crate::toml::{Point, tables};
 
 /// An angle for all, or one each.
 #[derive(Debug, Deserialize)]
@@ -159,6 +159,8 @@ struct EventDescription {
     maneuver: Option<ManeuverDescription>,
     /// Centre of mass from then on, body frame, with every panel at angle 0 and full tanks.
     center_of_mass: Option<[Quantity; 3]>,
+} rules {
+    AnyOf dump maneuver centerOfMass: "an event of nothing", "at least one of dump, maneuver, centerOfMass";
 }
 
 /// An impulsive change of velocity.
@@ -204,6 +206,12 @@ struct CommandDescription {
     mode: Option<Mode>,
     /// For a plan: whether it may change this command. FMUs ignore it; fixed unless given.
     status: Option<PlanStatus>,
+} rules {
+    Excludes attitude => scenario: "it beside `scenario`", "one of both";
+    Excludes sun => boresight: "it beside `boresight`",
+        "no `boresight` beside it, or no such key: the antenna follows from the Sun's place";
+    Excludes alternate => boresight: "it beside `boresight`",
+        "no `boresight` beside it, or no such key: the antenna follows from the Sun's place";
 }
 
 /// Where the Sun stands in the body frame.
@@ -218,7 +226,7 @@ struct SunDescription {
 struct BoresightDescription {
     option: Option<BoresightOption>,
     /// Body-frame components, of any length.
-    vector: Option<[f64; 3]>,
+    vector: Option<Point>,
     /// Azimuth in the body frame, from -Y toward +X; of the antenna where an antenna is the boresight.
     azimuth: Option<Quantity>,
     /// Elevation in the body frame, positive toward -Z.
@@ -234,7 +242,7 @@ struct BoresightDescription {
 struct AimpointDescription {
     option: AimpointOption,
     /// Direction in EME2000, of any length.
-    vector: Option<[f64; 3]>,
+    vector: Option<Point>,
     /// Position for the options earthCentered, sunCentered, planetCentered and planetFixed.
     position: Option<[Quantity; 3]>,
     /// Right ascension.
@@ -258,7 +266,7 @@ struct AimpointDescription {
 struct BodyRollDescription {
     option: BodyRollOption,
     /// Body-frame components, of any length.
-    vector: Option<[f64; 3]>,
+    vector: Option<Point>,
     /// Azimuth in the body frame, from -Y toward +X.
     azimuth: Option<Quantity>,
     /// Elevation in the body frame, positive toward -Z.
@@ -270,7 +278,7 @@ struct BodyRollDescription {
 struct ExternalRollDescription {
     option: ExternalRollOption,
     /// Direction in EME2000, of any length.
-    vector: Option<[f64; 3]>,
+    vector: Option<Point>,
     /// Right ascension.
     right_ascension: Option<Quantity>,
     /// Declination.
@@ -331,5 +339,41 @@ struct KeepInDescription {
     azimuth: Option<Quantity>,
     /// Largest Sun elevation either way.
     elevation: Option<Quantity>,
+} rules {
+    AnyOf enabled azimuth elevation: "an empty table", "at least one of enabled, azimuth, elevation";
 }
+}
+
+/// The schema as indented JSON text (draft 2020-12): point an editor with TOML support at it.
+#[cfg(feature = "schema")]
+pub fn schema() -> String {
+    crate::toml::schema::<TimelineDescription>()
+}
+
+#[cfg(test)]
+mod tests {
+    #![cfg(feature = "schema")]
+    //! Every table is closed and every key described.
+
+    use toml::Value;
+
+    use super::*;
+
+    #[test]
+    fn every_table_is_closed_and_every_key_described() {
+        let root = Value::try_from(schemars::schema_for!(TimelineDescription).as_value()).unwrap();
+        let definitions = root["$defs"].as_table().unwrap();
+        for (name, node) in definitions.iter().chain([(&"timeline".to_owned(), &root)]) {
+            let Some(properties) = node.get("properties").and_then(Value::as_table) else { continue };
+            assert_eq!(node.get("additionalProperties"), Some(&Value::Boolean(false)), "{name}");
+            for (key, property) in properties {
+                let form = property.get("anyOf").map_or(property, |forms| &forms[0]);
+                let of_type = form
+                    .get("$ref")
+                    .and_then(Value::as_str)
+                    .and_then(|name| definitions[name.rsplit('/').next()?].get("description"));
+                assert!(property.get("description").or(of_type).is_some(), "{name}.{key}");
+            }
+        }
+    }
 }

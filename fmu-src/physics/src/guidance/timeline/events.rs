@@ -7,7 +7,7 @@ use super::commands::Commands;
 use super::description::{DumpDescription, EventDescription, ManeuverDescription};
 use super::entry::{TimelineDump, TimelineEvent, TimelineManeuver};
 use super::quantity::{LENGTH, MOMENTUM, Quantity, SPEED};
-use crate::toml::KeyPath;
+use crate::toml::{KeyPath, Table};
 
 /// The event of the list's item at `at`, at `at_s` of the clock.
 pub(super) fn event(
@@ -16,13 +16,7 @@ pub(super) fn event(
     given: &EventDescription,
     at_s: f64,
 ) -> TimelineEvent {
-    if given.dump.is_none() && given.maneuver.is_none() && given.center_of_mass.is_none() {
-        let lacks = ["dump", "maneuver", "centerOfMass"];
-        if !lacks.iter().any(|key| commands.check.is_stand_in(&at.key(key))) {
-            let allowed = "at least one of dump, maneuver, centerOfMass";
-            commands.check.push(at, "an event of nothing", allowed);
-        }
-    }
+    commands.check.rules(at, EventDescription::RULES);
     let maneuver = given.maneuver.as_ref().map(|it| maneuver(commands, &at.key("maneuver"), it));
     let center_of_mass = given.center_of_mass.as_ref();
     TimelineEvent {

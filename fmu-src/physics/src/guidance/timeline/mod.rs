@@ -17,18 +17,16 @@ mod panels;
 mod quantity;
 mod reads;
 mod scans;
-#[cfg(feature = "schema")]
-mod schema;
 mod times;
 
 #[cfg(test)]
 mod tests;
 
 pub use build::Timeline;
+#[cfg(feature = "schema")]
+pub use description::schema;
 pub use entry::{
     DownlinkOverride, KeepInOverride, PlanStatus, Slot, TimelineBurn, TimelineClock, TimelineDump,
     TimelineEntry, TimelineEvent, TimelineManeuver, TimelinePanels, begun, simulation_time_s,
 };
 pub use law::{TimelineAttitude, TimelineLaw, TimelineSettings, bodies_of};
-#[cfg(feature = "schema")]
-pub use schema::schema;

@@ -10,6 +10,7 @@ use crate::constants::{ASTRONOMICAL_UNIT_M, DEG_RAD, RPM_RAD_S, TIME_UNITS};
 use crate::guidance::pointing::command::{
     BACK_HALF_TURN_RAD, BACK_TURN_RAD, DOWN_ANGLE_RAD, FULL_TURN_RAD, RIGHT_ANGLE_RAD,
 };
+use crate::toml::with_unit;
 
 /// Quantity as written in the file.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -75,17 +76,11 @@ pub(super) const TIME: QuantityKind = kind("a time", &TIME_UNITS);
 impl Quantity {
     /// The value in the SI unit; `None` where this is no quantity of this kind.
     pub(super) fn si(&self, kind: &QuantityKind) -> Option<f64> {
-        let text = match self {
+        let (number, unit) = match self {
             Self::Number(number) => return Some(*number),
-            Self::Text(text) => text.trim(),
+            Self::Text(text) => with_unit(text)?,
             Self::Truth(_) | Self::List(_) | Self::Table(_) => return None,
         };
-        // A unit holds no digit, a number ends in a digit or in a point right behind one.
-        let digits = text.rfind(|c: char| c.is_ascii_digit())? + 1;
-        let end = digits + usize::from(text[digits..].starts_with('.'));
-        let (number, unit) = text.split_at_checked(end)?;
-        let number: f64 = number.parse().ok()?;
-        let unit = unit.trim();
         let factor = match unit {
             "" => 1.0,
             _ => kind.units.iter().find(|(name, _)| *name == unit)?.1,

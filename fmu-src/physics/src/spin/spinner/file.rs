@@ -9,7 +9,7 @@ use super::hardware::{Group, Limits, MassTable, StarTracker, SunSensor};
 use crate::constants::STANDARD_GRAVITY_M_S2;
 use crate::spacecraft::{MOST_THRUSTERS, StartEntry, Thrust, Thruster, ValveTiming, start_entries};
 use crate::spin::geometry::L1Orbit;
-use crate::toml::{Checker, Document, FileError, KeyPath, nearest};
+use crate::toml::{Checker, Document, FileError, KeyPath, Pickets, Written, nearest};
 
 /// The whole setup, validated.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -48,8 +48,8 @@ impl Spinner {
     /// line, key, what was found and what is allowed.
     pub fn parse(file: &str, text: &str) -> Result<Self, FileError> {
         let document = Document::parse(file, text)?;
-        let (raw, findings) = document.read::<SpinnerDescription>()?;
-        let mut builder = Builder { check: Checker::new(&document, findings) };
+        let (raw, check) = Checker::read(&document)?;
+        let mut builder = Builder { check };
         let spinner = builder.spinner(raw);
         builder.check.finish(spinner)
     }
@@ -106,19 +106,23 @@ struct Builder<'d> {
 impl Builder<'_> {
     fn spinner(&mut self, raw: SpinnerDescription) -> Spinner {
         let root = KeyPath::root();
-        let mass_properties = raw.mass_properties.table();
+        let mass_properties = raw.mass_properties.value();
         self.mass_properties(&root.key("mass_properties"), &mass_properties);
         let exhaust_m_s = raw.thrusters.specific_impulse_s.0 * STANDARD_GRAVITY_M_S2;
-        let thrusters = self.thrusters(&root.key("thruster"), raw.thruster, exhaust_m_s);
-        let groups = self.groups(&root.key("group"), raw.group.unwrap_or_default(), &thrusters);
-        let star_tracker = raw.star_tracker.unwrap_or_default().tracker();
-        let sun_sensor = raw.sun_sensor.unwrap_or_default().sensor();
-        let l1_orbit = raw.l1_orbit.unwrap_or_default().orbit();
-        if star_tracker.pickets == 0 || !star_tracker.pickets.is_multiple_of(4) {
-            let place = root.key("star_tracker").key("pickets");
-            self.check.report(&place, star_tracker.pickets, "a multiple of 4, at least 4");
+        let thrusters = self.thrusters(&root.key("thruster"), &raw.thruster, exhaust_m_s);
+        let groups = self.groups(&root, raw.group.as_deref().unwrap_or_default(), &thrusters);
+        let star_tracker = raw.star_tracker.unwrap_or_default().value();
+        let place = root.key("star_tracker").key("pickets");
+        if !star_tracker.pickets.is_multiple_of(4) && !self.check.has_reported(&place) {
+            self.check.report(&place, star_tracker.pickets, Pickets::ALLOWED);
         }
-        self.orbit(&root.key("l1_orbit"), &l1_orbit);
+        let l1_orbit = raw.l1_orbit.unwrap_or_default().value();
+        let along_m = l1_orbit.amplitude_m[0];
+        if along_m.abs() >= l1_orbit.earth_l1_distance_m {
+            let at = root.key("l1_orbit");
+            let place = at.key("amplitude_m").item(0);
+            self.check.report_across(&at, &place, along_m, "less than earth_l1_distance_m");
+        }
         Spinner {
             name: raw.name,
             mass_properties,
@@ -127,7 +131,7 @@ impl Builder<'_> {
             thrusters,
             groups,
             star_tracker,
-            sun_sensor,
+            sun_sensor: raw.sun_sensor.unwrap_or_default().value(),
             limits: raw.limits,
             l1_orbit,
             start: start_entries(&mut self.check, raw.start.as_ref(), raw.fixed.as_ref()),
@@ -135,102 +139,63 @@ impl Builder<'_> {
     }
 
     fn mass_properties(&mut self, at: &KeyPath, mass: &MassTable) {
-        let points = at.key("propellant_kg");
         let count = mass.propellant_kg.len();
-        for (i, &propellant_kg) in mass.propellant_kg.iter().enumerate() {
-            self.check.not_negative(&points.item(i), propellant_kg);
-        }
         if count < 2 || mass.propellant_kg.windows(2).any(|pair| pair[0] >= pair[1]) {
             let found = format!("{:?}", mass.propellant_kg);
-            self.check.report(&points, found, "two or more rising numbers");
+            self.check.report(&at.key("propellant_kg"), found, "two or more rising numbers");
         }
-        for (key, values) in
-            [("spin_inertia_kg_m2", &mass.spin_inertia_kg_m2), ("inertia_ratio", &mass.inertia_ratio)]
-        {
-            let list = at.key(key);
-            for (i, &value) in values.iter().enumerate() {
-                self.check.positive(&list.item(i), value);
-            }
-            self.check_length(at, &list, values.len(), count);
-        }
-        if let Some(products) = &mass.products_of_inertia_kg_m2 {
-            let list = at.key("products_of_inertia_kg_m2");
-            for (i, product) in products.iter().enumerate() {
-                self.check.vector(&list.item(i), *product);
-            }
-            self.check_length(at, &list, products.len(), count);
-        }
-        let most_kg = mass.propellant_kg.last().copied().unwrap_or(0.0);
-        if !(0.0..=most_kg).contains(&mass.initial_propellant_kg) {
-            let allowed = format!("a number from 0 to {most_kg}, the last of propellant_kg");
-            self.check.report_across(
-                at,
-                &at.key("initial_propellant_kg"),
-                mass.initial_propellant_kg,
-                allowed,
-            );
-        }
-        let shares = [
-            "propellant_kg",
-            "spin_inertia_kg_m2",
-            "inertia_ratio",
-            "transverse_quotient",
-            "products_of_inertia_kg_m2",
+        let lengths = [
+            ("spin_inertia_kg_m2", mass.spin_inertia_kg_m2.len()),
+            ("inertia_ratio", mass.inertia_ratio.len()),
+            ("products_of_inertia_kg_m2", mass.products_of_inertia_kg_m2.as_ref().map_or(count, Vec::len)),
         ];
-        if shares.iter().any(|key| self.check.has_reported(&at.key(key))) {
+        for (key, length) in lengths.into_iter().filter(|(_, length)| *length != count) {
+            let allowed = format!("{count} of them, one for each of propellant_kg");
+            self.check.report_across(at, &at.key(key), format_args!("a list of {length}"), allowed);
+        }
+        let (initial_kg, most_kg) = (mass.initial_propellant_kg, mass.most_propellant_kg());
+        if !(0.0..=most_kg).contains(&initial_kg) {
+            let allowed = format!("a number from 0 to {most_kg}, the last of propellant_kg");
+            self.check.report_across(at, &at.key("initial_propellant_kg"), initial_kg, allowed);
+        }
+        let mut whole = lengths.iter().map(|(key, _)| *key).chain(["propellant_kg", "transverse_quotient"]);
+        if whole.any(|key| self.check.has_reported(&at.key(key))) {
             return;
         }
         for (i, &propellant_kg) in mass.propellant_kg.iter().enumerate() {
             if let Err(error) = mass.inertia(propellant_kg) {
                 let place = at.key("inertia_ratio").item(i);
                 let ratio = mass.inertia_ratio.get(i).copied().unwrap_or(f64::NAN);
-                let found = format!("{ratio}, by which {error}");
-                self.check.report_across(
-                    at,
-                    &place,
-                    found,
-                    "a ratio that a body can have: at most 2, less with products of inertia",
-                );
+                let allowed = "a ratio that a body can have: at most 2, less with products of inertia";
+                self.check.report_across(at, &place, format!("{ratio}, by which {error}"), allowed);
             }
         }
     }
 
-    /// Reports a list of `at` without one item for each of the `count` points.
-    fn check_length(&mut self, at: &KeyPath, list: &KeyPath, length: usize, count: usize) {
-        if length != count {
-            let allowed = format!("{count} of them, one for each of propellant_kg");
-            self.check.report_across(at, list, format_args!("a list of {length}"), allowed);
-        }
-    }
-
-    fn thrusters(&mut self, at: &KeyPath, entries: Vec<ThrusterEntry>, exhaust_m_s: f64) -> Vec<Thruster> {
+    fn thrusters(&mut self, list: &KeyPath, entries: &[ThrusterEntry], exhaust_m_s: f64) -> Vec<Thruster> {
         if entries.is_empty() {
-            self.check.report(at, "an empty list", format_args!("1 to {MOST_THRUSTERS} of them"));
+            self.check.report(list, "an empty list", format_args!("1 to {MOST_THRUSTERS} of them"));
         }
         let mut thrusters: Vec<Thruster> = Vec::with_capacity(entries.len());
-        let list = at;
-        for (i, entry) in entries.into_iter().enumerate() {
-            let at = list.item(i);
+        for (i, entry) in entries.iter().enumerate() {
             let other = thrusters.iter().position(|thruster| thruster.name == entry.name);
-            self.own_name(&at, &entry.name, other.map(|other| list.item(other)));
-            let position_m = self.check.vector(&at.key("position_m"), entry.position_m);
-            self.check.unit_vector(&at.key("direction"), entry.direction);
+            self.own_name(&list.item(i), &entry.name, other.map(|other| list.item(other)));
             // Not the unit vector: scaled once, the force has the bits that GUIDs were made of.
-            let direction = Vector3::from(entry.direction);
-            let valve = ValveTiming {
-                min_on_s: entry.min_on_time_s.map_or(0.0, f64::from),
-                rise_s: entry.rise_time_s.map_or(0.0, f64::from),
-                tail_off_s: entry.tail_off_time_s.map_or(0.0, f64::from),
-            };
+            let direction = Vector3::from(entry.direction.0);
             let force_body_n = direction * (entry.force_n.0 / direction.norm());
+            let position_body_m = entry.position_body_m();
             thrusters.push(Thruster {
-                name: entry.name,
+                name: entry.name.clone(),
                 force_body_n,
-                position_body_m: position_m,
-                torque_body_n_m: position_m.cross(&force_body_n),
+                position_body_m,
+                torque_body_n_m: position_body_m.cross(&force_body_n),
                 flow_kg_s: entry.force_n.0 / exhaust_m_s,
-                valve,
-                scatter: entry.scatter.map_or(0.0, f64::from),
+                valve: ValveTiming {
+                    min_on_s: entry.min_on_time_s(),
+                    rise_s: entry.rise_time_s(),
+                    tail_off_s: entry.tail_off_time_s(),
+                },
+                scatter: entry.scatter(),
                 power_w: None,
                 set: None,
                 attitude_control: true,
@@ -242,31 +207,27 @@ impl Builder<'_> {
         thrusters
     }
 
-    fn groups(&mut self, at: &KeyPath, entries: Vec<GroupEntry>, thrusters: &[Thruster]) -> Vec<Group> {
+    fn groups(&mut self, root: &KeyPath, entries: &[GroupEntry], thrusters: &[Thruster]) -> Vec<Group> {
+        let [list, thruster_list] = ["group", "thruster"].map(|key| root.key(key));
         let names: Vec<&str> = entries.iter().map(|entry| entry.name.as_str()).collect();
         let thruster_names: Vec<&str> = thrusters.iter().map(|thruster| thruster.name.as_str()).collect();
         let mut groups = Vec::with_capacity(entries.len());
-        let list = at;
         for (i, entry) in entries.iter().enumerate() {
             let (at, name) = (list.item(i), entry.name.as_str());
             let group = names.iter().take(i).position(|other| *other == name).map(|other| list.item(other));
             let thruster = thruster_names.iter().position(|other| *other == name);
-            let other = group.or(thruster.map(|other| KeyPath::root().key("thruster").item(other)));
-            self.own_name(&at, name, other);
+            self.own_name(&at, name, group.or(thruster.map(|other| thruster_list.item(other))));
             let place = at.key("thrusters");
             if entry.thrusters.is_empty() {
                 self.check.report(&place, "an empty list", "at least one name of a thruster");
             }
             let mut mask = 0_u32;
             for (k, name) in entry.thrusters.iter().enumerate() {
-                let known =
-                    self.known(&KeyPath::root().key("thruster"), &place.item(k), name, &thruster_names);
+                let known = self.known(&thruster_list, &place.item(k), name, &thruster_names);
                 mask |= known.filter(|k| *k < MOST_THRUSTERS).map_or(0, |k| 1 << k);
             }
-            let other = entry.opposite.as_deref();
-            let opposite = other.and_then(|other| {
-                self.known(&KeyPath::root().key("group"), &at.key("opposite"), other, &names)
-            });
+            let opposite = entry.opposite.as_deref();
+            let opposite = opposite.and_then(|other| self.known(&list, &at.key("opposite"), other, &names));
             groups.push(Group { name: entry.name.clone(), mask, opposite });
         }
         groups
@@ -287,22 +248,9 @@ impl Builder<'_> {
         if index.is_none() {
             let meant = nearest(name, names).map(|meant| format!(" (did you mean {meant:?}?)"));
             let found = format!("the unknown name {name:?}{}", meant.unwrap_or_default());
-            self.check.report_across(
-                list,
-                at,
-                found,
-                format_args!("a name under [[{list}]]: {}", names.join(", ")),
-            );
+            let allowed = format_args!("a name under [[{list}]]: {}", names.join(", "));
+            self.check.report_across(list, at, found, allowed);
         }
         index
-    }
-
-    fn orbit(&mut self, at: &KeyPath, orbit: &L1Orbit) {
-        let amplitude = at.key("amplitude_m");
-        self.check.vector(&amplitude, orbit.amplitude_m);
-        if orbit.amplitude_m[0].abs() >= orbit.earth_l1_distance_m {
-            let found = orbit.amplitude_m[0];
-            self.check.report_across(at, &amplitude.item(0), found, "less than earth_l1_distance_m");
-        }
     }
 }

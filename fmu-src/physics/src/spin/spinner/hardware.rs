@@ -2,27 +2,54 @@
 
 use crate::attitude::{Inertia, InertiaError};
 use crate::constants::{DEG_RAD, RPM_RAD_S};
-use crate::toml::Positive;
+use crate::toml::{
+    AtLeastOne, Deviation, FieldWidth, Finite, List, NotNegative, Pickets, Positive, Written, tables,
+};
 use serde::{Deserialize, Serialize};
 
+tables! {
 /// Mass and inertia as functions of the propellant on board.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct MassTable {
+struct MassEntry makes #[derive(Clone, Debug, PartialEq, Serialize)] pub struct MassTable {
     /// I3 at each point, in kg m2.
-    pub spin_inertia_kg_m2: Vec<f64>,
+    spin_inertia_kg_m2: List<Positive, 2>,
     /// I3/I_T at each point.
-    pub inertia_ratio: Vec<f64>,
+    inertia_ratio: List<Positive, 2>,
     /// The points, rising from empty, in kg.
-    pub propellant_kg: Vec<f64>,
+    propellant_kg: List<NotNegative, 2>,
     /// Everything but propellant, in kg.
-    pub dry_mass_kg: f64,
-    /// On board at the start, in kg.
-    pub initial_propellant_kg: f64,
+    dry_mass_kg: Positive,
+    /// On board at the start, in kg; otherwise the last point.
+    initial_propellant_kg: f64 => |it| it.propellant_kg.last().map_or(0.0, NotNegative::value),
     /// I1/I2.
-    pub transverse_quotient: f64,
-    /// Products of inertia 12, 13, 23 at each point, in kg m2: elements of the tensor. 0 where there are none.
+    transverse_quotient: Positive = 1.0,
+    /// Products of inertia 12, 13, 23 at each point, in kg m2: elements of the tensor; otherwise 0.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub products_of_inertia_kg_m2: Option<Vec<[f64; 3]>>,
+    products_of_inertia_kg_m2: Option<Vec<[Finite; 3]>>,
+}
+
+/// Star tracker that searches pickets of sky.
+struct StarTrackerEntry makes #[derive(Clone, Debug, PartialEq, Serialize)] pub struct StarTracker or Default {
+    /// Boresight azimuth from body X toward Y, in deg.
+    azimuth_deg: Finite = 90.0,
+    /// Full width of the field in declination, in deg.
+    field_of_view_deg: FieldWidth = 20.0,
+    /// Pickets in a turn, a multiple of 4.
+    pickets: Pickets = 900,
+    /// One in so many is searched in a turn.
+    every: AtLeastOne = 8,
+    /// Standard deviation of a declination, in deg.
+    noise_deg: Deviation = 0.0,
+}
+
+/// Sun sensor with a slit, from which spins are timed.
+struct SunSensorEntry makes #[derive(Clone, Debug, PartialEq, Serialize)] pub struct SunSensor or Default {
+    /// Azimuth of the slit from body X toward Y, in deg.
+    azimuth_deg: Finite = 0.0,
+    /// Standard deviation of a Sun angle, in deg.
+    noise_deg: Deviation = 0.0,
+    /// Sectors into which science data of one spin are sorted.
+    sectors: AtLeastOne = 16384,
+}
 }
 
 impl MassTable {
@@ -75,32 +102,6 @@ pub struct Group {
     pub mask: u32,
     /// Index of the group that pushes the other way.
     pub opposite: Option<usize>,
-}
-
-/// Star tracker of a spinner that searches pickets of sky.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct StarTracker {
-    /// Boresight azimuth from body X toward Y, in deg.
-    pub azimuth_deg: f64,
-    /// Full width of the field in declination, in deg.
-    pub field_of_view_deg: f64,
-    /// Pickets in a turn.
-    pub pickets: u32,
-    /// Spacing of the pickets that are searched in a turn: 1 searches all.
-    pub every: u32,
-    /// Standard deviation of a declination, in deg.
-    pub noise_deg: f64,
-}
-
-/// Sun sensor with a slit, from which spins are timed.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SunSensor {
-    /// Azimuth of the slit from body X toward Y, in deg.
-    pub azimuth_deg: f64,
-    /// Standard deviation of a Sun angle, in deg.
-    pub noise_deg: f64,
-    /// Sectors into which science data of one spin are sorted.
-    pub sectors: u32,
 }
 
 /// Mission limits.

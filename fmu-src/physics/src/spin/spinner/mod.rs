@@ -3,10 +3,8 @@
 mod description;
 mod file;
 mod hardware;
-#[cfg(feature = "schema")]
-mod schema;
 
+#[cfg(feature = "schema")]
+pub use description::schema;
 pub use file::Spinner;
 pub use hardware::{Group, Limits, MassTable, StarTracker, SunSensor};
-#[cfg(feature = "schema")]
-pub use schema::schema;

@@ -1,45 +1,38 @@
 //! The spacecraft, and its reading from a file: every part is read, then checked against the others.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Vector3;
-
-use super::antennas::antenna;
-use super::body::body;
-use super::describe_operation::SunKeepInDescription;
-use super::description::SpacecraftDescription;
-use super::devices::{check_gimbals, instrument, sun_sensor, wheel};
-use super::mass::{mass, parts_fit};
-use super::materials::Materials;
-use super::names::check_names;
-use super::part_reader::PartReader;
-use super::planet_map::planet_map;
-use super::plates::{body_plates, panel, sunshade};
-use super::pointing::pointing;
-use super::propulsion::{tank, thruster};
-use super::swinging::{mode, slosh, swinging_fits};
-use super::thruster_sets::thruster_sets;
-use super::windows::{articulation, downlinks, hot_pole, slew, unload_every};
-use crate::spacecraft::sun_sensors::MountedSunSensor;
-use crate::toml::{Checker, Document, FileError, KeyPath, Table, Written};
-
-use crate::spacecraft::antennas::NamedAntenna;
-use crate::spacecraft::articulation::Articulation;
-use crate::spacecraft::body::CustomBody;
-use crate::spacecraft::downlinks::{DownlinkWindows, TimeAfterPeriapsis};
-use crate::spacecraft::hot_pole::HotPoleZone;
-use crate::spacecraft::instruments::Instrument;
-use crate::spacecraft::mass::MassProperties;
-use crate::spacecraft::material::NamedMaterial;
-use crate::spacecraft::panel::Panel;
-use crate::spacecraft::planet_map::PlanetMap;
-use crate::spacecraft::pointing::PointingSettings;
-use crate::spacecraft::slew::SlewDemand;
-use crate::spacecraft::start::{StartEntry, start_entries};
-use crate::spacecraft::surface::{Plate, Sunshade, SunshadeModel};
-use crate::spacecraft::swinging::{NamedMode, NamedSlosh};
-use crate::spacecraft::tank::Tank;
-use crate::spacecraft::thruster::{Thruster, ThrusterSet};
-use crate::spacecraft::wheels::Wheel;
 use serde::Serialize;
+
+use super::antennas::{NamedAntenna, antenna};
+use super::articulation::{Articulation, articulation};
+use super::body::{CustomBody, body};
+use super::description::SpacecraftDescription;
+use super::downlinks::{DownlinkWindows, TimeAfterPeriapsis, downlinks};
+use super::instruments::{Instrument, check_gimbals, instrument};
+use super::mass::{MassProperties, mass, parts_fit};
+use super::material::NamedMaterial;
+use super::materials::Materials;
+use super::momentum::{slew, unload_every};
+use super::panel::Panel;
+use super::panel_table::panel;
+use super::part_reader::PartReader;
+use super::planet_map::{PlanetMap, planet_map};
+use super::plate_table::{plates, sunshade};
+use super::pointing::PointingSettings;
+use super::pointing_table::pointing;
+use super::shapes::{box_plates, cylinder_plates, disc_plates, dish_plates, distinct_plates};
+use super::slew::SlewDemand;
+use super::start::{StartEntry, start_entries};
+use super::sun_sensors::MountedSunSensor;
+use super::surface::{MOST_SURFACES, Plate, Sunshade, SunshadeModel};
+use super::swinging::{NamedMode, NamedSlosh, mode, slosh, swinging_fits};
+use super::tank::{Tank, tank};
+use super::thruster::{Thruster, ThrusterSet, thruster, thruster_sets};
+use super::wheels::{Wheel, wheel};
+use super::zones::{HotPoleZone, SunKeepIn};
+use crate::toml::{Checker, Document, FileError, KeyPath, Named, Table, Written};
 
 /// A validated spacecraft.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -108,32 +101,6 @@ pub struct Spacecraft {
     pub start: Vec<StartEntry>,
 }
 
-/// The Sun keep-in zone: azimuth from -Y toward +X in the XY plane, elevation from that plane toward -Z.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct SunKeepIn {
-    /// Greatest magnitude of the azimuth, in rad.
-    pub azimuth_rad: f64,
-    /// Greatest magnitude of the elevation, in rad.
-    pub elevation_rad: f64,
-    /// Greatest distance from the Sun at which it counts, in m.
-    pub distance_m: f64,
-}
-
-impl SunKeepIn {
-    /// A distance from the Sun that no spacecraft has, in m.
-    pub const FARTHEST_M: f64 = 1e13;
-
-    /// The smaller of all limits.
-    #[must_use]
-    pub fn within(&self, other: &Self) -> Self {
-        Self {
-            azimuth_rad: self.azimuth_rad.min(other.azimuth_rad),
-            elevation_rad: self.elevation_rad.min(other.elevation_rad),
-            distance_m: self.distance_m.min(other.distance_m),
-        }
-    }
-}
-
 impl Spacecraft {
     /// The thrusters of a set.
     pub fn thrusters_of(&self, set: ThrusterSet) -> impl Iterator<Item = &Thruster> + Clone {
@@ -180,8 +147,7 @@ impl Spacecraft {
     /// with line, key, what was found and what is allowed.
     pub fn from_toml(file_name: &str, text: &str) -> Result<Self, FileError> {
         let document = Document::parse(file_name, text)?;
-        let (description, findings) = document.read::<SpacecraftDescription>()?;
-        let mut check = Checker::new(&document, findings);
+        let (description, mut check) = Checker::read(&document)?;
         let spacecraft = spacecraft(&mut check, &description);
         check.finish(spacecraft)
     }
@@ -192,13 +158,13 @@ fn spacecraft(check: &mut Checker<'_>, given: &SpacecraftDescription) -> Spacecr
     if given.name.trim().is_empty() {
         check.report(&root.key("name"), "an empty name", "a name");
     }
-    let materials = Materials::read(check, given);
+    let materials = Materials::read(check, &given.optics, given.thermal.as_ref());
     check.rules(&root, SpacecraftDescription::RULES);
     check_names(check, given);
     check_masses(check, given);
     let file = &mut PartReader { check, materials: &materials, at: root, index: 0 };
     let tanks = file.list("tanks", given.tanks.as_deref(), tank);
-    let thruster_sets = thruster_sets(file.check, given);
+    let thruster_sets = thruster_sets(file.check, given.sets.as_deref(), given.thrusters.as_deref());
     let thrusters = file
         .list("thrusters", given.thrusters.as_deref(), |part, it| thruster(part, it, &tanks, &thruster_sets));
     let mass_properties = mass(&mut file.table("mass_properties"), &given.mass_properties);
@@ -228,7 +194,7 @@ fn spacecraft(check: &mut Checker<'_>, given: &SpacecraftDescription) -> Spacecr
         thrusters,
         thruster_sets,
         sun_sensors: match given.sun_sensors.as_deref() {
-            Some(sensors) => file.list("sun_sensors", Some(sensors), sun_sensor),
+            Some(sensors) => file.list("sun_sensors", Some(sensors), |part, it| it.made(part.index)),
             None => MountedSunSensor::six(),
         },
         instruments,
@@ -246,9 +212,9 @@ fn spacecraft(check: &mut Checker<'_>, given: &SpacecraftDescription) -> Spacecr
         articulation: file
             .optional("articulation", given.articulation.as_ref(), articulation)
             .unwrap_or_default(),
-        hot_pole: given.hot_pole.as_ref().map(hot_pole),
+        hot_pole: given.hot_pole.value(),
         start,
-        sun_keep_in: given.sun_keep_in.as_ref().map(sun_keep_in),
+        sun_keep_in: given.sun_keep_in.value(),
         // After the surfaces, which say what is in use.
         materials: materials.in_use(),
     }
@@ -263,10 +229,87 @@ fn check_masses(check: &mut Checker<'_>, given: &SpacecraftDescription) {
     parts_fit(check, ("tanks", "propellant_kg"), tanks.map(|tank| Some(tank.propellant_kg.0)), whole_kg);
 }
 
-fn sun_keep_in(limits: &SunKeepInDescription) -> SunKeepIn {
-    SunKeepIn {
-        azimuth_rad: limits.azimuth_rad(),
-        elevation_rad: limits.elevation_rad(),
-        distance_m: limits.distance_m.value().unwrap_or(SunKeepIn::FARTHEST_M),
+/// The plates that the file lists, then those of its shapes; none beyond the most that a spacecraft may have.
+fn body_plates(file: &mut PartReader<'_, '_>, description: &SpacecraftDescription) -> Vec<Plate> {
+    let mut found = Vec::new();
+    let SpacecraftDescription { plates: listed, boxes, cylinders, discs, dishes, .. } = description;
+    shaped(file, &mut found, ("plates", listed.as_deref()), plates);
+    shaped(file, &mut found, ("boxes", boxes.as_deref()), box_plates);
+    shaped(file, &mut found, ("cylinders", cylinders.as_deref()), cylinder_plates);
+    shaped(file, &mut found, ("discs", discs.as_deref()), disc_plates);
+    shaped(file, &mut found, ("dishes", dishes.as_deref()), dish_plates);
+    if surfaces(&found) > MOST_SURFACES {
+        let found = "more surfaces, copies and facets of shapes among them";
+        file.check.push(&file.at, found, format_args!("at most {MOST_SURFACES}"));
+    }
+    distinct_plates(file.check, &found);
+    found.into_iter().flat_map(|(_, plates)| plates).collect()
+}
+
+/// Key path and plates of every item.
+type Found = Vec<(KeyPath, Vec<Plate>)>;
+
+fn surfaces(found: &Found) -> usize {
+    found.iter().map(|(_, plates)| plates.len()).sum()
+}
+
+/// Adds the plates of every item under a key.
+fn shaped<D: Table>(
+    file: &mut PartReader<'_, '_>,
+    found: &mut Found,
+    (key, items): (&str, Option<&[D]>),
+    plates: impl Fn(&mut PartReader<'_, '_>, &D) -> Vec<Plate>,
+) {
+    let mut count = surfaces(found);
+    file.list(key, items, |part, item| {
+        if count <= MOST_SURFACES {
+            let made = plates(part, item);
+            count += made.len();
+            found.push((part.at.clone(), made));
+        }
+    });
+}
+
+/// Key path of a part, its name, and whether the file gives the name.
+type Name = (KeyPath, String, bool);
+
+fn names<D: Named>(at: KeyPath, items: Option<&[D]>) -> Vec<Name> {
+    let items = items.unwrap_or_default().iter().enumerate();
+    items.map(|(i, item)| (at.item(i), item.called(i), item.name().is_some())).collect()
+}
+
+/// Names of the lists of these keys.
+macro_rules! names_of {
+    ($description:ident: $($key:ident),+) => {
+        [$(names(KeyPath::root().key(stringify!($key)), $description.$key.as_deref())),+]
+    };
+}
+
+/// Two parts of one kind with one name could not be distinguished; all plates are one kind, the shade's among them.
+fn check_names(check: &mut Checker<'_>, description: &SpacecraftDescription) {
+    let of_shade = description.sunshade.as_ref().map_or_else(Vec::new, |shade| {
+        names(KeyPath::root().key("sunshade").key("plates"), shade.plates.as_deref())
+    });
+    let plates = names_of!(description: plates, boxes, cylinders, discs, dishes);
+    let others = names_of!(
+        description: panels, wheels, sun_sensors, instruments, antennas, tanks, thrusters, flexible_modes, slosh
+    );
+    let kinds = [plates.into_iter().chain([of_shade]).flatten().collect()].into_iter().chain(others);
+    for kind in kinds {
+        check_kind(check, &kind);
+    }
+}
+
+fn check_kind(check: &mut Checker<'_>, names: &[Name]) {
+    let mut known: BTreeMap<&str, &Name> = BTreeMap::new();
+    for part in names {
+        let (at, name, is_given) = part;
+        let (other, _, other_is_given) = *known.entry(name).or_insert(part);
+        // A plate and one of the shade that nobody named are both called by their number.
+        if at != other && (*is_given || *other_is_given) {
+            let unnamed = if *is_given { "" } else { " as what has no name is called" };
+            let found = format!("`{name}`{unnamed}, the name of {other} too");
+            check.report(&at.key("name"), found, "a name of its own");
+        }
     }
 }

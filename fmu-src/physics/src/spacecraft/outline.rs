@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 
 use super::part_reader::PartReader;
+use super::polygon::Polygon;
 use crate::math;
-use crate::spacecraft::polygon::Polygon;
 use crate::toml::{Point, Positive, Written};
 
 /// How far area, centre and normal may be off the polygon's, relative to its size: printed tables are rounded ...
@@ -26,7 +26,7 @@ fn short(tolerance: f64) -> String {
 }
 
 /// The outline with its front where the normal is, if both are given.
-pub(crate) fn checked_outline(
+pub(super) fn checked_outline(
     part: &mut PartReader<'_, '_>,
     vertices_m: Option<&[Point]>,
     normal: Option<&Vector3<f64>>,
@@ -56,7 +56,7 @@ pub(crate) fn checked_outline(
     }
 }
 
-pub(crate) fn checked_area(
+pub(super) fn checked_area(
     part: &mut PartReader<'_, '_>,
     given_m2: Option<Positive>,
     outline: Option<&Polygon>,
@@ -77,12 +77,12 @@ pub(crate) fn checked_area(
     }
 }
 
-pub(crate) fn checked_center(
+pub(super) fn checked_center(
     part: &mut PartReader<'_, '_>,
     given_m: Option<Point>,
     outline: Option<&Polygon>,
 ) -> Vector3<f64> {
-    match (given_m.map(Point::value), outline) {
+    match (given_m.value(), outline) {
         (Some(center_m), None) => center_m,
         (None, None) => missing(part, "center_m", Vector3::zeros()),
         (given_m, Some(outline)) => {
@@ -103,7 +103,7 @@ pub(crate) fn checked_center(
     }
 }
 
-pub(crate) fn checked_normal(
+pub(super) fn checked_normal(
     part: &mut PartReader<'_, '_>,
     given: Option<Vector3<f64>>,
     outline: Option<&Polygon>,

@@ -1,20 +1,58 @@
-//! Materials, and what every surface exchanges heat with, from their descriptions.
+//! Materials, and what every surface exchanges heat with: their tables in the file, and the reading of them.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
-use super::describe_thermal::SurroundingsDescription;
-use super::description::{OpticsDescription, SpacecraftDescription};
+use super::gas_surface::GasSurface;
+use super::material::{Material, NamedMaterial, OPTICS_SUM_TOLERANCE};
 use super::names::variable_name;
-use crate::spacecraft::gas_surface::GasSurface;
-use crate::spacecraft::material::{Material, NamedMaterial, OPTICS_SUM_TOLERANCE};
-use crate::spacecraft::optics::Optics;
-use crate::spacecraft::thermal::{Emission, FaceThermal};
-use crate::toml::{Checker, Fraction, KeyPath, hint, rounded};
+use super::optics::Optics;
+use super::thermal::{BACKGROUND_K, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal};
+use crate::toml::{
+    Checker, Emissivity, Finite, Fraction, Kelvin, KeyPath, NotNegative, Written, hint, rounded, tables,
+};
+
+tables! {
+/// What a surface does with sunlight (absorptivity + specular + diffuse = 1), heat and air.
+struct OpticsDescription {
+    /// Mirrored fraction.
+    specular: Fraction,
+    /// Fraction scattered by Lambert's law.
+    diffuse: Fraction,
+    /// Absorbed fraction; whatever is not reflected unless given.
+    absorptivity: Option<Fraction>,
+    /// Infrared emissivity; the absorptivity unless given.
+    emissivity: Option<Emissivity>,
+    /// Change of the emissivity with temperature, per K.
+    emissivity_per_k: Finite = 0.0,
+    /// Temperature at which `emissivity` holds, in K.
+    emissivity_temperature_k: Kelvin = EMISSIVITY_REFERENCE_TEMPERATURE_K,
+    /// Absorbed fraction of the planet's infrared light; the absorptivity unless given.
+    infrared_absorptivity: Option<Fraction>,
+    /// Drag coefficient for `aerodynamics.law` dragCoefficient, of the area across the flow; the default is assumed.
+    drag_coefficient: NotNegative = GasSurface::ASSUMED.drag_coefficient,
+    /// Energy accommodation for `aerodynamics.law` sentman; the default is assumed.
+    energy_accommodation: Fraction = GasSurface::ASSUMED.energy_accommodation,
+    /// Accommodation of normal momentum for `aerodynamics.law` schaafChambre; the default is assumed.
+    normal_accommodation: Fraction = GasSurface::ASSUMED.normal_accommodation,
+    /// Accommodation of tangential momentum for `aerodynamics.law` schaafChambre; the default is assumed.
+    tangential_accommodation: Fraction = GasSurface::ASSUMED.tangential_accommodation,
+    /// Temperature in the air where no heat balance gives it, in K; the default is assumed.
+    wall_temperature_k: Kelvin = GasSurface::ASSUMED.wall_temperature_k,
+}
+
+/// What every surface exchanges heat with.
+struct SurroundingsDescription makes #[derive(Clone, Copy, Debug)] pub(crate) struct ThermalEnvironment or Default {
+    /// Temperature of the space that surfaces see, in K; the default is the cosmic microwave background's.
+    background_k: Kelvin = BACKGROUND_K,
+    /// Temperature of the bus behind surfaces that conduct heat to it, in K; held, whatever flows.
+    bus_temperature_k: Option<Kelvin>,
+}
+}
 
 /// A material that a surface names.
 #[derive(Clone, Copy)]
-pub(crate) struct ChosenMaterial {
+pub(super) struct ChosenMaterial {
     /// Its place among those in use; `None` for a stand-in.
     pub place: Option<usize>,
     /// Its properties.
@@ -30,26 +68,18 @@ impl ChosenMaterial {
     };
 
     /// Front and rear of a surface in the air.
-    pub(crate) fn in_air(front: Self, rear: Option<Self>) -> [GasSurface; 2] {
+    pub(super) fn in_air(front: Self, rear: Option<Self>) -> [GasSurface; 2] {
         [front, rear.unwrap_or(front)].map(|it| it.material.gas_surface)
     }
 
     /// Places of the materials of front and rear.
-    pub(crate) fn places(front: Self, rear: Option<Self>) -> [Option<usize>; 2] {
+    pub(super) fn places(front: Self, rear: Option<Self>) -> [Option<usize>; 2] {
         [front.place, rear.and_then(|it| it.place)]
     }
 }
 
-/// Surroundings that every surface exchanges heat with.
-#[derive(Clone, Copy)]
-pub(crate) struct ThermalEnvironment {
-    pub background_k: f64,
-    /// Temperature of the bus, in K, if the file gives one for all surfaces.
-    pub bus_temperature_k: Option<f64>,
-}
-
 /// The file's materials by name, and what their surfaces exchange heat with.
-pub(crate) struct Materials {
+pub(super) struct Materials {
     by_name: BTreeMap<String, (NamedMaterial, Cell<Option<usize>>)>,
     /// How many are in use.
     used: Cell<usize>,
@@ -58,15 +88,15 @@ pub(crate) struct Materials {
 
 impl Materials {
     /// Reads the materials of a file.
-    pub(crate) fn read(check: &mut Checker<'_>, description: &SpacecraftDescription) -> Self {
+    pub(super) fn read(
+        check: &mut Checker<'_>,
+        described: &BTreeMap<String, OpticsDescription>,
+        surroundings: Option<&SurroundingsDescription>,
+    ) -> Self {
         let none = SurroundingsDescription::default();
-        let thermal = description.thermal.as_ref().unwrap_or(&none);
-        let environment = ThermalEnvironment {
-            background_k: thermal.background_k(),
-            bus_temperature_k: thermal.bus_temperature_k.map(f64::from),
-        };
-        let names = variable_names(check, description.optics.keys());
-        let materials = description.optics.iter().zip(names).map(|((name, description), variable)| {
+        let environment = surroundings.unwrap_or(&none).value();
+        let names = variable_names(check, described.keys());
+        let materials = described.iter().zip(names).map(|((name, description), variable)| {
             let at = KeyPath::root().key("optics").key(name);
             let optics = optics(check, &at, description);
             let thermal = face_thermal(check, &at, description, &optics);
@@ -83,14 +113,14 @@ impl Materials {
     }
 
     /// Returns the materials that surfaces name, in the order of their first use.
-    pub(crate) fn in_use(&self) -> Vec<NamedMaterial> {
+    pub(super) fn in_use(&self) -> Vec<NamedMaterial> {
         let mut used: Vec<_> = self.by_name.values().filter(|(_, place)| place.get().is_some()).collect();
         used.sort_by_key(|(_, place)| place.get());
         used.into_iter().map(|(material, _)| material.clone()).collect()
     }
 
     /// The material of this name; an unknown one is reported.
-    pub(crate) fn find(&self, check: &mut Checker<'_>, at: &KeyPath, name: &str) -> ChosenMaterial {
+    pub(super) fn find(&self, check: &mut Checker<'_>, at: &KeyPath, name: &str) -> ChosenMaterial {
         if let Some((named, place)) = self.by_name.get(name) {
             if place.get().is_none() {
                 place.set(Some(self.used.replace(self.used.get() + 1)));
@@ -148,14 +178,11 @@ fn optics(check: &mut Checker<'_>, at: &KeyPath, description: &OpticsDescription
 
 /// Whether the file gives any number of the interaction with air.
 fn says_air(description: &OpticsDescription) -> bool {
-    let fractions = [
-        description.energy_accommodation,
-        description.normal_accommodation,
-        description.tangential_accommodation,
-    ];
     description.drag_coefficient.is_some()
+        || description.energy_accommodation.is_some()
+        || description.normal_accommodation.is_some()
+        || description.tangential_accommodation.is_some()
         || description.wall_temperature_k.is_some()
-        || fractions.iter().any(Option::is_some)
 }
 
 fn gas_surface(description: &OpticsDescription) -> GasSurface {

@@ -2,22 +2,56 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::describe_shapes::{MirrorPlane, RepeatDescription};
 use super::facets::sincos_deg;
 use super::part_reader::PartReader;
-use crate::spacecraft::polygon::Polygon;
-use crate::spacecraft::surface::Plate;
-use crate::toml::{Copies, Written};
+use super::polygon::Polygon;
+use super::surface::Plate;
+use crate::toml::{Copies, Point, TurnEither, UnitVector, Written, tables};
+use serde::Deserialize;
+
+/// A plane of the body frame, through its origin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum MirrorPlane {
+    /// x = 0.
+    X,
+    /// y = 0.
+    Y,
+    /// z = 0.
+    Z,
+}
+
+tables! {
+/// Copies in a row (`step_m`) or around an axis (`axis`).
+struct RepeatDescription {
+    /// How many there are, the one that is written among them.
+    count: Copies,
+    /// From each to the next, in m.
+    step_m: Option<Point>,
+    /// Unit vector of the axis that each is turned about from the one before.
+    axis: Option<UnitVector>,
+    /// Angle from each to the next, right-handed about `axis`, in deg; 360 over the count unless given.
+    angle_deg: Option<TurnEither>,
+    /// A point of the axis, in m.
+    point_m: Point = [0.0, 0.0, 0.0],
+} rules {
+    Requires angle_deg => axis: "no `axis` beside it", "with `axis` alone";
+    Requires point_m => axis: "no `axis` beside it", "with `axis` alone";
+    Either step_m => axis: "both `step_m` and `axis`", "one of them";
+    AnyOf step_m axis: "neither `step_m` nor `axis`", "one of them";
+}
+}
 
 /// Most plates that one shape and its copies may come to.
-pub(crate) const MOST_PLATES: usize = 2000;
+pub(super) const MOST_PLATES: usize = 2000;
 
 /// Two plates are one if they differ by no more than this part of their size.
 const SAME_PLACE: f64 = 1e-6;
 
 /// Motion from the original to a copy: turned or mirrored by a matrix, then shifted.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Motion {
+pub(super) struct Motion {
     matrix: Matrix3<f64>,
     shift_m: Vector3<f64>,
 }
@@ -45,7 +79,7 @@ impl Motion {
 }
 
 /// Every copy, the one that is written first: those of `repeat`, then the mirror images of all before.
-pub(crate) fn motions(
+pub(super) fn motions(
     part: &mut PartReader<'_, '_>,
     mirror: Option<&[MirrorPlane]>,
     repeat: Option<&RepeatDescription>,
@@ -69,12 +103,12 @@ pub(crate) fn motions(
 }
 
 /// Name of a copy: its number in brackets where there are several.
-pub(crate) fn copy_name(name: &str, index: usize, count: usize) -> String {
+pub(super) fn copy_name(name: &str, index: usize, count: usize) -> String {
     if count == 1 { name.to_owned() } else { format!("{name}[{}]", index + 1) }
 }
 
 /// Reports a copy that lies where an earlier one does; `count` copies have each the same number of plates.
-pub(crate) fn check_apart(part: &mut PartReader<'_, '_>, plates: &[Plate], count: usize) {
+pub(super) fn check_apart(part: &mut PartReader<'_, '_>, plates: &[Plate], count: usize) {
     for (index, later) in plates.iter().enumerate().skip(plates.len() / count.max(1)) {
         let size_m = later.area_m2.sqrt();
         let is_same = |plate: &&Plate| {
@@ -91,7 +125,7 @@ pub(crate) fn check_apart(part: &mut PartReader<'_, '_>, plates: &[Plate], count
 }
 
 /// Copies of a plate, itself among them.
-pub(crate) fn plate_copies(plate: &Plate, motions: &[Motion]) -> Vec<Plate> {
+pub(super) fn plate_copies(plate: &Plate, motions: &[Motion]) -> Vec<Plate> {
     let copy = |(index, motion): (usize, &Motion)| Plate {
         name: copy_name(&plate.name, index, motions.len()),
         center_m: motion.moved_point(&plate.center_m),

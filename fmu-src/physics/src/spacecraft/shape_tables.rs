@@ -2,72 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use serde::Deserialize;
-
-use super::describe_thermal::ThermalDescription;
-use crate::toml::{Copies, Corners, Point, Positive, Rings, TurnEither, UnitVector, tables};
-
-/// A plane of the body frame, through its origin.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum MirrorPlane {
-    /// x = 0.
-    X,
-    /// y = 0.
-    Y,
-    /// z = 0.
-    Z,
-}
-
-/// Face of a box, in its own axes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(crate) enum BoxFace {
-    #[serde(rename = "+X")]
-    PlusX,
-    #[serde(rename = "-X")]
-    MinusX,
-    #[serde(rename = "+Y")]
-    PlusY,
-    #[serde(rename = "-Y")]
-    MinusY,
-    #[serde(rename = "+Z")]
-    PlusZ,
-    #[serde(rename = "-Z")]
-    MinusZ,
-}
-
-/// End of a cylinder.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(crate) enum CylinderEnd {
-    #[serde(rename = "+axis")]
-    Plus,
-    #[serde(rename = "-axis")]
-    Minus,
-}
+use super::copies::{MirrorPlane, RepeatDescription};
+use super::facets::{BoxFace, CylinderEnd};
+use super::thermal_table::ThermalDescription;
+use crate::toml::{Corners, Point, Positive, Rings, TurnEither, UnitVector, tables};
 
 tables! {
-/// Copies in a row (`step_m`) or around an axis (`axis`).
-struct RepeatDescription {
-    /// How many there are, the one that is written among them.
-    count: Copies,
-    /// From each to the next, in m.
-    step_m: Option<Point>,
-    /// Unit vector of the axis that each is turned about from the one before.
-    axis: Option<UnitVector>,
-    /// Angle from each to the next, right-handed about `axis`, in deg; 360 over the count unless given.
-    angle_deg: Option<TurnEither>,
-    /// A point of the axis, in m.
-    point_m: Point = [0.0, 0.0, 0.0],
-} rules {
-    Requires angle_deg => axis: "no `axis` beside it", "with `axis` alone";
-    Requires point_m => axis: "no `axis` beside it", "with `axis` alone";
-    Either step_m => axis: "both `step_m` and `axis`", "one of them";
-    AnyOf step_m axis: "neither `step_m` nor `axis`", "one of them";
-}
-
 /// A box: six rectangles, fronts outside, called `name.+X` to `name.-Z`.
 struct BoxDescription called "box" {
     /// Name that those of its faces begin with; numbered unless given.

@@ -1,19 +1,55 @@
-//! Attitude by name, by a quaternion or by two axes and their targets, from its description.
+//! Attitude by name, by a quaternion or by two axes and their targets: its table in the file, and the reading of it.
 
-use super::describe_operation::{PointingDescription, StarDescription, TargetedAxisDescription};
+use super::panel::Panel;
 use super::part_reader::PartReader;
-use crate::spacecraft::panel::Panel;
-use crate::spacecraft::pointing::{
-    AlignedAxes, AttitudePart, NamedAttitude, PointingSettings, TargetItem, TargetedAxis,
+use super::pointing::{
+    AlignedAxes, AttitudeName, AttitudePart, NamedAttitude, PointingSettings, TargetItem, TargetedAxis,
 };
-use crate::spacecraft::start::StartEntry;
-use crate::toml::{Checker, KeyPath};
+use super::start::StartEntry;
+use crate::toml::{Checker, KeyPath, NotNegative, Point, QuarterTurnEither, TurnEither, tables};
+
+tables! {
+/// How the spacecraft stands while it observes, by a name, a quaternion, or two axes and their targets: the start values of
+/// `guided.scienceRule`, `guided.attitude`, `guided.align`, `guided.constrain` and `guided.slewRate`, which `[start]` does not have
+/// beside it. With it `guided.phase` is orbit by default.
+struct PointingDescription {
+    attitude: Option<AttitudeName>,
+    /// Quaternion from EME2000 to the body, scalar last.
+    quaternion: Option<[f64; 4]>,
+    align: Option<TargetedAxisDescription>,
+    constrain: Option<TargetedAxisDescription>,
+    star: Option<StarDescription>,
+    /// Greatest rate of turns, in deg/s; 0 is at once.
+    slew_rate_deg_s: Option<NotNegative>,
+} rules {
+    Either attitude quaternion => align constrain: "several attitudes",
+        "one of them: `attitude`, `quaternion`, or `align` and `constrain`";
+    AnyOf attitude quaternion align constrain: "no attitude", "`attitude`, `quaternion`, or `align` and `constrain`";
+}
+
+/// A body axis and its target: that of `align` exactly, that of `constrain` as near as possible.
+struct TargetedAxisDescription {
+    /// Body frame, of any length.
+    axis as axis_body: Point,
+    /// The target.
+    to: TargetItem,
+}
+
+/// Direction in EME2000 of `to = "star"`.
+struct StarDescription {
+    /// Right ascension, in deg.
+    right_ascension_deg as right_ascension_rad: TurnEither,
+    /// Declination, in deg.
+    declination_deg as declination_rad: QuarterTurnEither,
+}
+}
 
 /// Variables of an attitude, which `[start]` does not have beside `[pointing]`.
 const SAME_IN_START: [&str; 4] =
     ["guided.scienceRule", "guided.attitude", "guided.align.", "guided.constrain."];
 
-pub(crate) fn pointing(
+/// Reads the attitude.
+pub(super) fn pointing(
     part: &mut PartReader<'_, '_>,
     description: &PointingDescription,
     start: &[StartEntry],
@@ -28,31 +64,21 @@ pub(crate) fn pointing(
         let allowed = format!("one of both: [pointing], or {} in [start]", entry.name);
         part.check.report(&part.at, format!("[pointing] beside {}", entry.key), allowed);
     }
-    let given = [attitude.is_some(), quaternion.is_some(), align.is_some() || constrain.is_some()];
-    let has_stand_in =
-        ["attitude", "quaternion", "align", "constrain"].iter().any(|key| part.is_stand_in(key));
     let attitude = match (attitude, quaternion, align, constrain) {
-        _ if given.iter().filter(|it| **it).count() > 1 => {
-            let allowed = "one of them: `attitude`, `quaternion`, or `align` and `constrain`";
-            part.check.push(&part.at, "several attitudes", allowed);
-            None
-        }
-        (Some(named), ..) => Some((*named).into()),
-        (_, Some(q), ..) => Some(NamedAttitude::Inertial(*q)),
-        (_, _, Some(align), Some(constrain)) => {
+        (Some(named), None, None, None) => Some((*named).into()),
+        (None, Some(q), None, None) => Some(NamedAttitude::Inertial(*q)),
+        (None, None, Some(align), Some(constrain)) => {
             aligned(part.check, &part.at, [align, constrain], star.as_ref())
         }
-        _ if has_stand_in => None,
-        (_, _, None, None) => {
-            let allowed = "`attitude`, `quaternion`, or `align` and `constrain`";
-            part.check.push(&part.at, "no attitude", allowed);
+        (None, None, Some(_), None) | (None, None, None, Some(_)) => {
+            if !["attitude", "quaternion", "align", "constrain"].iter().any(|key| part.is_stand_in(key)) {
+                let lacking = if align.is_none() { "align" } else { "constrain" };
+                part.check.report_lack(&part.at, lacking, "both `align` and `constrain`, or neither");
+            }
             None
         }
-        (_, _, align, _) => {
-            let lacking = if align.is_none() { "align" } else { "constrain" };
-            part.check.report_lack(&part.at, lacking, "both `align` and `constrain`, or neither");
-            None
-        }
+        // Several attitudes or none, which the rules report.
+        _ => None,
     }?;
     check(part.check, &part.at, &attitude, panels);
     Some(PointingSettings {

@@ -4,19 +4,16 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::copies::{MOST_PLATES, check_apart, copy_name, motions};
-use super::describe_shapes::{
-    BoxDescription, DiscDescription, DishDescription, FacetedCylinderDescription, MirrorPlane,
-    RepeatDescription,
-};
+use super::copies::{MOST_PLATES, MirrorPlane, RepeatDescription, check_apart, copy_name, motions};
 use super::facets::{BOX_FACES, Facet, box_faces, cylinder_facets, disc, dish_facets};
 use super::materials::ChosenMaterial;
 use super::part_reader::PartReader;
-use super::thermal::thermal;
-use crate::spacecraft::polygon::Polygon;
-use crate::spacecraft::surface::Plate;
-use crate::spacecraft::thermal::Thermal;
-use crate::toml::{Checker, KeyPath, Named, hint};
+use super::polygon::Polygon;
+use super::shape_tables::{BoxDescription, DiscDescription, DishDescription, FacetedCylinderDescription};
+use super::surface::Plate;
+use super::thermal::Thermal;
+use super::thermal_table::thermal;
+use crate::toml::{Checker, KeyPath, Named, Written, hint};
 
 /// Data common to all shapes.
 struct Shape<'s> {
@@ -31,10 +28,28 @@ struct Shape<'s> {
     repeat: Option<&'s RepeatDescription>,
 }
 
+/// The shape of a table whose outside is of the material `front`.
+macro_rules! shape {
+    ($part:ident, $described:ident, $front:ident, [$turn:expr, $shift_m:expr], $facets:expr) => {{
+        let rear = $part.rear($described.rear_optics.as_deref());
+        Shape {
+            name: $described.called($part.index),
+            turn: $turn,
+            shift_m: $shift_m,
+            facets: $facets,
+            rear,
+            thermal: thermal($part, $described.thermal.as_ref(), $front, rear),
+            mirror: $described.mirror.as_deref(),
+            repeat: $described.repeat.as_ref(),
+        }
+    }};
+}
+
 /// The plates of a box.
-pub(crate) fn box_plates(part: &mut PartReader<'_, '_>, description: &BoxDescription) -> Vec<Plate> {
+pub(super) fn box_plates(part: &mut PartReader<'_, '_>, description: &BoxDescription) -> Vec<Plate> {
     let front = part.material("optics", &description.optics);
     let mut own = Vec::new();
+    let open = description.open_faces.as_deref().unwrap_or_default();
     for (face, name) in description.face_optics.iter().flatten() {
         let mut optics = part.table("face_optics");
         let material = optics.material(face, name);
@@ -44,93 +59,57 @@ pub(crate) fn box_plates(part: &mut PartReader<'_, '_>, description: &BoxDescrip
                 let found = format!("the unknown face `{face}`{}", hint(face, &names));
                 optics.report(face, found, names.join(", "));
             }
-            Some((which, ..)) if description.open_faces.iter().flatten().any(|open| open == which) => {
+            Some((which, ..)) if open.contains(which) => {
                 optics.report(face, "a face that is open too", "a face that the box has");
             }
             Some(_) => own.push((face.clone(), material)),
         }
     }
-    let rear = part.rear(description.rear_optics.as_deref());
-    let size_m = Vector3::from(description.size_m.map(f64::from));
-    let shape = Shape {
-        name: description.called(part.index),
-        turn: part.check.rotation(&part.at, description.rotation_rad(), None),
-        shift_m: description.center_body_m(),
-        facets: box_faces(&size_m, description.open_faces.as_deref().unwrap_or_default()),
-        rear,
-        thermal: thermal(part, description.thermal.as_ref(), front, rear),
-        mirror: description.mirror.as_deref(),
-        repeat: description.repeat.as_ref(),
-    };
+    let facets = box_faces(&Vector3::from(description.size_m.value()), open);
+    let turn = part.check.rotation(&part.at, description.rotation_rad(), None);
+    let shape = shape!(part, description, front, [turn, description.center_body_m()], facets);
     let material = |face: &str| own.iter().find(|(name, _)| name == face).map_or(front, |(_, own)| *own);
     shape.plates(part, "faces", &material)
 }
 
 /// The plates of a cylinder.
-pub(crate) fn cylinder_plates(
+pub(super) fn cylinder_plates(
     part: &mut PartReader<'_, '_>,
     description: &FacetedCylinderDescription,
 ) -> Vec<Plate> {
     let front = part.material("optics", &description.optics);
     let end = description.end_optics.as_ref();
     let end = end.map_or(front, |name| part.material("end_optics", name));
-    let rear = part.rear(description.rear_optics.as_deref());
-    let axis = description.axis_body();
     let (radius_m, height_m) = (description.radius_m.0, description.height_m.0);
     let open = description.open_ends.as_deref().unwrap_or_default();
-    let shape = Shape {
-        name: description.called(part.index),
-        turn: frame(&axis),
-        shift_m: description.center_body_m(),
-        facets: cylinder_facets(radius_m, height_m, description.facets(), open),
-        rear,
-        thermal: thermal(part, description.thermal.as_ref(), front, rear),
-        mirror: description.mirror.as_deref(),
-        repeat: description.repeat.as_ref(),
-    };
+    let facets = cylinder_facets(radius_m, height_m, description.facets(), open);
+    let turn = frame(&description.axis_body());
+    let shape = shape!(part, description, front, [turn, description.center_body_m()], facets);
     let material = |facet: &str| if facet.starts_with("side") { front } else { end };
     shape.plates(part, "facets", &material)
 }
 
 /// The plate of a disc.
-pub(crate) fn disc_plates(part: &mut PartReader<'_, '_>, description: &DiscDescription) -> Vec<Plate> {
+pub(super) fn disc_plates(part: &mut PartReader<'_, '_>, description: &DiscDescription) -> Vec<Plate> {
     let front = part.material("optics", &description.optics);
-    let rear = part.rear(description.rear_optics.as_deref());
-    let normal = description.normal_body();
-    let shape = Shape {
-        name: description.called(part.index),
-        turn: frame(&normal),
-        shift_m: description.center_body_m(),
-        facets: disc(description.radius_m.0, description.corners()),
-        rear,
-        thermal: thermal(part, description.thermal.as_ref(), front, rear),
-        mirror: description.mirror.as_deref(),
-        repeat: description.repeat.as_ref(),
-    };
+    let facets = disc(description.radius_m.0, description.corners());
+    let turn = frame(&description.normal_body());
+    let shape = shape!(part, description, front, [turn, description.center_body_m()], facets);
     shape.plates(part, "discs", &|_| front)
 }
 
 /// The plates of a dish.
-pub(crate) fn dish_plates(part: &mut PartReader<'_, '_>, description: &DishDescription) -> Vec<Plate> {
+pub(super) fn dish_plates(part: &mut PartReader<'_, '_>, description: &DishDescription) -> Vec<Plate> {
     let front = part.material("optics", &description.optics);
-    let rear = part.rear(description.rear_optics.as_deref());
-    let axis = description.axis_body();
     let (radius_m, depth_m) = (description.radius_m.0, description.depth_m.0);
-    let shape = Shape {
-        name: description.called(part.index),
-        turn: frame(&axis),
-        shift_m: description.vertex_body_m(),
-        facets: dish_facets(radius_m, depth_m, description.facets(), description.rings()),
-        rear,
-        thermal: thermal(part, description.thermal.as_ref(), front, rear),
-        mirror: description.mirror.as_deref(),
-        repeat: description.repeat.as_ref(),
-    };
+    let facets = dish_facets(radius_m, depth_m, description.facets(), description.rings());
+    let turn = frame(&description.axis_body());
+    let shape = shape!(part, description, front, [turn, description.vertex_body_m()], facets);
     shape.plates(part, "facets", &|_| front)
 }
 
 /// Two plates of one name, made by different items of the file, could not be distinguished.
-pub(crate) fn distinct_plates(check: &mut Checker<'_>, found: &[(KeyPath, Vec<Plate>)]) {
+pub(super) fn distinct_plates(check: &mut Checker<'_>, found: &[(KeyPath, Vec<Plate>)]) {
     let mut known: BTreeMap<&str, &KeyPath> = BTreeMap::new();
     for (at, plates) in found {
         for plate in plates {

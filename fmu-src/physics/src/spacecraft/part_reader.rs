@@ -8,7 +8,7 @@ use super::materials::{ChosenMaterial, Materials};
 use crate::toml::{Checker, KeyPath, Table};
 
 /// A table of the file, or an item of one of its lists.
-pub(crate) struct PartReader<'p, 'd> {
+pub(super) struct PartReader<'p, 'd> {
     /// Reports an invalid value of the part.
     pub check: &'p mut Checker<'d>,
     /// Materials of the file.
@@ -21,12 +21,12 @@ pub(crate) struct PartReader<'p, 'd> {
 
 impl<'d> PartReader<'_, 'd> {
     /// A table in it.
-    pub(crate) fn table(&mut self, key: &str) -> PartReader<'_, 'd> {
+    pub(super) fn table(&mut self, key: &str) -> PartReader<'_, 'd> {
         PartReader { check: self.check, materials: self.materials, at: self.at.key(key), index: 0 }
     }
 
     /// Reads a table in it, which may be left out.
-    pub(crate) fn optional<D: Table, S>(
+    pub(super) fn optional<D: Table, S>(
         &mut self,
         key: &str,
         description: Option<&D>,
@@ -40,7 +40,7 @@ impl<'d> PartReader<'_, 'd> {
     }
 
     /// Reads a list in it, which may be left out but not be empty.
-    pub(crate) fn list<D: Table, S>(
+    pub(super) fn list<D: Table, S>(
         &mut self,
         key: &str,
         items: Option<&[D]>,
@@ -61,27 +61,27 @@ impl<'d> PartReader<'_, 'd> {
     }
 
     /// Reports a key of it.
-    pub(crate) fn report(&mut self, key: &str, found: impl Display, allowed: impl Display) {
+    pub(super) fn report(&mut self, key: &str, found: impl Display, allowed: impl Display) {
         self.check.report(&self.at.key(key), found, allowed);
     }
 
     /// Reports a key of it by what another one says.
-    pub(crate) fn report_across(&mut self, key: &str, found: impl Display, allowed: impl Display) {
+    pub(super) fn report_across(&mut self, key: &str, found: impl Display, allowed: impl Display) {
         self.check.report_across(&self.at, &self.at.key(key), found, allowed);
     }
 
     /// Whether something was reported at a key of it.
-    pub(crate) fn has_reported(&self, key: &str) -> bool {
+    pub(super) fn has_reported(&self, key: &str) -> bool {
         self.check.has_reported(&self.at.key(key))
     }
 
     /// Whether nobody wrote the value of a key of it.
-    pub(crate) fn is_stand_in(&self, key: &str) -> bool {
+    pub(super) fn is_stand_in(&self, key: &str) -> bool {
         self.check.is_stand_in(&self.at.key(key))
     }
 
     /// A direction perpendicular to that of another key.
-    pub(crate) fn perpendicular(
+    pub(super) fn perpendicular(
         &mut self,
         key: &str,
         unit: Vector3<f64>,
@@ -91,12 +91,12 @@ impl<'d> PartReader<'_, 'd> {
     }
 
     /// The material that a key names.
-    pub(crate) fn material(&mut self, key: &str, name: &str) -> ChosenMaterial {
+    pub(super) fn material(&mut self, key: &str, name: &str) -> ChosenMaterial {
         self.materials.find(self.check, &self.at.key(key), name)
     }
 
     /// Returns the material of the rear face; `None` for a one-sided surface.
-    pub(crate) fn rear(&mut self, name: Option<&str>) -> Option<ChosenMaterial> {
+    pub(super) fn rear(&mut self, name: Option<&str>) -> Option<ChosenMaterial> {
         name.map(|name| self.material("rear_optics", name))
     }
 }

@@ -1,13 +1,49 @@
-//! Heat of a surface, from its description.
+//! Heat of a surface: its table in the file, and the reading of it.
 
-use super::describe_thermal::{ConductionDescription, ThermalDescription};
 use super::materials::ChosenMaterial;
 use super::part_reader::PartReader;
-use crate::spacecraft::thermal::{BusLink, Conduction, Honeycomb, Thermal};
-use crate::toml::{NotNegative, Table};
+use super::thermal::{BusLink, Conduction, HoneycombDescription, Thermal};
+use crate::toml::{Fraction, Kelvin, NotNegative, Table, Written, tables};
+
+tables! {
+/// Heat flow through a thin structure: two numbers, or the honeycomb they follow from.
+struct ConductionDescription {
+    /// Conductance from face to face, in W/m2/K.
+    conductance_w_m2_k: Option<NotNegative>,
+    /// Radiative exchange from face to face as a fraction of that between black plates.
+    radiative_exchange: Option<Fraction>,
+    honeycomb: Option<HoneycombDescription>,
+} rules {
+    AnyOf honeycomb conductance_w_m2_k radiative_exchange: "no conduction",
+        "`honeycomb`, or `conductance_w_m2_k` and `radiative_exchange` or one of them";
+    Either honeycomb => conductance_w_m2_k radiative_exchange: "both numbers and a `honeycomb`", "one of them";
+}
+
+/// Heat of a plate or panel.
+#[derive(Default)]
+struct ThermalDescription {
+    /// Heat flow between front and rear; insulated from each other unless given.
+    conduction: Option<ConductionDescription>,
+    /// Heat from inside that leaves through the front face, in W.
+    internal_heat_w: NotNegative = 0.0,
+    /// Heat from inside that leaves through the rear face, in W.
+    rear_internal_heat_w: NotNegative = 0.0,
+    /// Conductance from the front face to the bus, by the surface's area, in W/m2/K; insulated unless given.
+    bus_conductance_w_m2_k: Option<NotNegative>,
+    /// Conductance from the rear face to the bus, by the surface's area, in W/m2/K; insulated unless given.
+    rear_bus_conductance_w_m2_k: Option<NotNegative>,
+    /// Temperature of the bus behind this surface, in K; the one under `[thermal]` unless given.
+    bus_temperature_k: Option<Kelvin>,
+    /// Heat capacity of each face, in J/m2/K; used by the transient heat balance.
+    heat_capacity_j_m2_k: NotNegative = 0.0,
+} rules {
+    Requires bus_temperature_k => bus_conductance_w_m2_k rear_bus_conductance_w_m2_k: "no conductance to the bus",
+        "`bus_conductance_w_m2_k` beside it";
+}
+}
 
 /// Heat of a surface whose faces are of these materials.
-pub(crate) fn thermal(
+pub(super) fn thermal(
     part: &mut PartReader<'_, '_>,
     description: Option<&ThermalDescription>,
     front: ChosenMaterial,
@@ -58,18 +94,11 @@ fn bus(part: &mut PartReader<'_, '_>, description: &ThermalDescription) -> [BusL
 }
 
 fn conduction(description: &ConductionDescription) -> Conduction {
-    let Some(honeycomb) = &description.honeycomb else {
-        return Conduction {
-            conductance_w_m2_k: description.conductance_w_m2_k.map_or(0.0, f64::from),
-            radiative_exchange: description.radiative_exchange.map_or(0.0, f64::from),
-        };
-    };
-    Honeycomb {
-        conductivity_w_m_k: honeycomb.conductivity_w_m_k.0,
-        thickness_m: honeycomb.thickness_m.0,
-        wall_area_ratio: honeycomb.wall_area_ratio.0,
-        packing_factor: honeycomb.packing_factor.0,
-        internal_emissivity: honeycomb.internal_emissivity.0,
-    }
-    .conduction()
+    description.honeycomb.as_ref().map_or_else(
+        || Conduction {
+            conductance_w_m2_k: description.conductance_w_m2_k.value().unwrap_or(0.0),
+            radiative_exchange: description.radiative_exchange.value().unwrap_or(0.0),
+        },
+        |honeycomb| honeycomb.value().conduction(),
+    )
 }

@@ -16,13 +16,40 @@ use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::describe_shapes::{BoxFace, CylinderEnd};
-
 use crate::math;
+use serde::Deserialize;
+
+/// Face of a box, in its own axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub(crate) enum BoxFace {
+    #[serde(rename = "+X")]
+    PlusX,
+    #[serde(rename = "-X")]
+    MinusX,
+    #[serde(rename = "+Y")]
+    PlusY,
+    #[serde(rename = "-Y")]
+    MinusY,
+    #[serde(rename = "+Z")]
+    PlusZ,
+    #[serde(rename = "-Z")]
+    MinusZ,
+}
+
+/// End of a cylinder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub(crate) enum CylinderEnd {
+    #[serde(rename = "+axis")]
+    Plus,
+    #[serde(rename = "-axis")]
+    Minus,
+}
 
 /// A flat outline with its front where the right-hand rule has its normal.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Facet {
+pub(super) struct Facet {
     /// Name within the shape; empty for its only one.
     pub name: String,
     /// Corners in the shape's own axes, in m.
@@ -30,7 +57,7 @@ pub(crate) struct Facet {
 }
 
 /// The faces of a box, with axis, side and name.
-pub(crate) const BOX_FACES: [(BoxFace, usize, f64, &str); 6] = [
+pub(super) const BOX_FACES: [(BoxFace, usize, f64, &str); 6] = [
     (BoxFace::PlusX, 0, 1.0, "+X"),
     (BoxFace::MinusX, 0, -1.0, "-X"),
     (BoxFace::PlusY, 1, 1.0, "+Y"),
@@ -40,7 +67,7 @@ pub(crate) const BOX_FACES: [(BoxFace, usize, f64, &str); 6] = [
 ];
 
 /// Sine and cosine of an angle in deg, exact at right angles.
-pub(crate) fn sincos_deg(angle_deg: f64) -> (f64, f64) {
+pub(super) fn sincos_deg(angle_deg: f64) -> (f64, f64) {
     let quarters = (angle_deg / 90.0).round();
     let (sin, cos) = math::sin_cos((angle_deg - 90.0 * quarters).to_radians());
     match quarters.rem_euclid(4.0) {
@@ -52,7 +79,7 @@ pub(crate) fn sincos_deg(angle_deg: f64) -> (f64, f64) {
 }
 
 /// The faces of a box about the origin that it has, outside in front.
-pub(crate) fn box_faces(size_m: &Vector3<f64>, open: &[BoxFace]) -> Vec<Facet> {
+pub(super) fn box_faces(size_m: &Vector3<f64>, open: &[BoxFace]) -> Vec<Facet> {
     let faces = BOX_FACES.into_iter().filter(|(face, ..)| !open.contains(face));
     let facet = |(_, axis, side, name): (BoxFace, usize, f64, &str)| {
         let (second, third) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -70,7 +97,7 @@ pub(crate) fn box_faces(size_m: &Vector3<f64>, open: &[BoxFace]) -> Vec<Facet> {
 }
 
 /// Side and ends of a cylinder about Z in the middle, outside in front.
-pub(crate) fn cylinder_facets(radius_m: f64, height_m: f64, facets: u32, open: &[CylinderEnd]) -> Vec<Facet> {
+pub(super) fn cylinder_facets(radius_m: f64, height_m: f64, facets: u32, open: &[CylinderEnd]) -> Vec<Facet> {
     let corners = ring(radius_m * of_equal_area(facets), facets);
     let x = half_step_rad(facets);
     // Half the height over the perimeter's part of that of the circle.
@@ -95,12 +122,12 @@ pub(crate) fn cylinder_facets(radius_m: f64, height_m: f64, facets: u32, open: &
 }
 
 /// A disc about the origin with its front along Z.
-pub(crate) fn disc(radius_m: f64, corners: u32) -> Vec<Facet> {
+pub(super) fn disc(radius_m: f64, corners: u32) -> Vec<Facet> {
     vec![Facet { name: String::new(), vertices_m: ring(radius_m * of_equal_area(corners), corners) }]
 }
 
 /// A paraboloid with its vertex at the origin, open along Z, the hollow in front.
-pub(crate) fn dish_facets(radius_m: f64, depth_m: f64, facets: u32, rings: u32) -> Vec<Facet> {
+pub(super) fn dish_facets(radius_m: f64, depth_m: f64, facets: u32, rings: u32) -> Vec<Facet> {
     let focal_length_m = radius_m * radius_m / (4.0 * depth_m);
     let zone_m2 = |radius_m: f64| {
         let u = 1.0 + math::powi(radius_m / (2.0 * focal_length_m), 2);
