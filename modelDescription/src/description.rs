@@ -169,32 +169,29 @@ element! {
     }
 }
 
-/// Kind of a `SimpleType`, with its attributes.
-#[derive(Clone, Debug, PartialEq, Default)]
-#[allow(missing_docs, reason = "the fields are the standard's own attribute names")]
-pub enum SimpleTypeKind {
-    /// Real with its attributes.
-    Real(RealAttributes),
-    /// Integer with limits and quantity.
-    Integer { quantity: Option<String>, min: Option<i32>, max: Option<i32> },
-    /// Boolean.
-    #[default]
-    Boolean,
-    /// String.
-    String,
-    /// Enumeration with its items.
-    Enumeration { quantity: Option<String>, items: Vec<EnumerationItem> },
-}
-
-impl SimpleTypeKind {
-    /// The element's name.
-    pub const fn name(&self) -> &'static str {
-        match self {
-            Self::Real(_) => "Real",
-            Self::Integer { .. } => "Integer",
-            Self::Boolean => "Boolean",
-            Self::String => "String",
-            Self::Enumeration { .. } => "Enumeration",
+elements! {
+    /// Kind of a `SimpleType`, with its attributes.
+    #[derive(Default)]
+    pub enum SimpleTypeKind {
+        /// Real with its attributes.
+        Real {
+            attributes: RealAttributes = nested,
+        }
+        /// Integer with limits and quantity.
+        Integer {
+            quantity: Option<String> = optional "quantity",
+            min: Option<i32> = optional "min",
+            max: Option<i32> = optional "max",
+        }
+        /// Boolean.
+        #[default]
+        Boolean
+        /// String.
+        String
+        /// Enumeration with its items.
+        Enumeration {
+            quantity: Option<String> = optional "quantity",
+            items: Vec<EnumerationItem> = child,
         }
     }
 }

@@ -112,7 +112,7 @@ pub fn display_unit<'a>(
 
 fn real_type<'a>(description: &'a Description, name: &str) -> Option<&'a RealAttributes> {
     match type_named(description, name)? {
-        SimpleTypeKind::Real(attributes) => Some(attributes),
+        SimpleTypeKind::Real { attributes } => Some(attributes),
         _ => None,
     }
 }

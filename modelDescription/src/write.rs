@@ -71,16 +71,9 @@ impl Writer {
     fn simple_type(&mut self, simple_type: &SimpleType) {
         self.element("SimpleType", |out| {
             simple_type.write(out);
-            out.element(simple_type.kind.name(), |out| match &simple_type.kind {
-                SimpleTypeKind::Real(attributes) => attributes.write(out),
-                SimpleTypeKind::Integer { quantity, min, max } => {
-                    out.optional("quantity", quantity);
-                    out.optional("min", min);
-                    out.optional("max", max);
-                }
-                SimpleTypeKind::Boolean | SimpleTypeKind::String => {}
-                SimpleTypeKind::Enumeration { quantity, items } => {
-                    out.optional("quantity", quantity);
+            out.element(simple_type.kind.name(), |out| {
+                simple_type.kind.write(out);
+                if let SimpleTypeKind::Enumeration { items, .. } = &simple_type.kind {
                     items.iter().for_each(|item| out.leaf("Item", item));
                 }
             });

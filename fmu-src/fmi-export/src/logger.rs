@@ -4,10 +4,9 @@ use core::cell::{Cell, RefCell};
 use core::fmt::{self, Write};
 use std::ffi::{CStr, CString};
 
-use model_description::LogCategory;
+use model_description::{LogCategory, Status};
 
 use crate::model::Log;
-use model_description::Status;
 
 /// A log category (2.2.4). Messages carry one of the first five; `logAll` stands for all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -38,6 +38,9 @@ macro_rules! read_attribute {
     ($fields:ident, nested) => {
         $crate::element::Element::read($fields)?
     };
+    ($fields:ident, child) => {
+        Default::default()
+    };
 }
 #[cfg(feature = "reader")]
 pub(crate) use read_attribute;
@@ -56,6 +59,9 @@ macro_rules! write_attribute {
     };
     ($out:ident, $value:expr, nested) => {
         $crate::element::Element::write($value, $out)
+    };
+    ($out:ident, $value:expr, child) => {
+        let _ = $value;
     };
 }
 pub(crate) use write_attribute;
@@ -97,16 +103,16 @@ macro_rules! element {
 }
 pub(crate) use element;
 
-/// Declares an enumeration of elements, named as its variants.
+/// Declares an enumeration of elements, named as its variants; a `child` is no attribute.
 macro_rules! elements {
     (
         $(#[$meta:meta])*
         pub enum $type:ident {
             $(
                 $(#[$variant_doc:meta])*
-                $variant:ident {
+                $variant:ident $({
                     $($(#[$doc:meta])* $field:ident: $value:ty = $presence:ident $($name:literal)?,)*
-                }
+                })?
             )+
         }
     ) => {
@@ -114,7 +120,7 @@ macro_rules! elements {
         #[derive(Clone, Debug, PartialEq)]
         #[allow(missing_docs, reason = "most fields are the standard's own names")]
         pub enum $type {
-            $($(#[$variant_doc])* $variant { $($(#[$doc])* $field: $value,)* },)+
+            $($(#[$variant_doc])* $variant $({ $($(#[$doc])* $field: $value,)* })?,)+
         }
 
         impl $type {
@@ -132,17 +138,17 @@ macro_rules! elements {
                 fields: &mut $crate::element::Fields,
             ) -> Result<Option<Self>, $crate::element::ReadError> {
                 Ok(Some(match name {
-                    $(stringify!($variant) => Self::$variant {
+                    $(stringify!($variant) => Self::$variant $({
                         $($field: $crate::element::read_attribute!(fields, $presence $($name)?),)*
-                    },)+
+                    })?,)+
                     _ => return Ok(None),
                 }))
             }
 
             pub(crate) fn write(&self, out: &mut $crate::writer::Writer) {
                 match self {
-                    $(Self::$variant { $($field),* } => {
-                        $($crate::element::write_attribute!(out, $field, $presence $($name)?);)*
+                    $(Self::$variant $({ $($field),* })? => {
+                        $($($crate::element::write_attribute!(out, $field, $presence $($name)?);)*)?
                     })+
                 }
             }

@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use super::xml::Start;
 use super::{Read, lacks, twice};
-use crate::element::{Element, ReadError};
+use crate::element::ReadError;
 use crate::finding::Code;
-use crate::{RealAttributes, SimpleType, SimpleTypeKind, Unit};
+use crate::{SimpleType, SimpleTypeKind, Unit};
 
 impl Read<'_> {
     pub(super) fn source_files(&mut self, start: &Start) -> Result<Vec<String>, ReadError> {
@@ -61,33 +61,16 @@ impl Read<'_> {
     }
 
     fn type_kind(&mut self, start: &mut Start) -> Result<Option<SimpleTypeKind>, ReadError> {
-        let mut fields = start.fields();
-        let mut kind = match start.name.as_str() {
-            "Real" => SimpleTypeKind::Real(RealAttributes::read(&mut fields)?),
-            "Integer" => SimpleTypeKind::Integer {
-                quantity: fields.optional("quantity")?,
-                min: fields.optional("min")?,
-                max: fields.optional("max")?,
-            },
-            "Boolean" => SimpleTypeKind::Boolean,
-            "String" => SimpleTypeKind::String,
-            "Enumeration" => {
-                SimpleTypeKind::Enumeration { quantity: fields.optional("quantity")?, items: Vec::new() }
-            }
-            _ => {
-                self.unknown(start)?;
-                return Ok(None);
-            }
-        };
-        self.xml.warn_of_unknown(&fields);
+        let mut kind = self.kind(start, SimpleTypeKind::read)?;
         match &mut kind {
-            SimpleTypeKind::Enumeration { items, .. } => self.list(start, "Item", |read, item| {
+            Some(SimpleTypeKind::Enumeration { items, .. }) => self.list(start, "Item", |read, item| {
                 items.push(read.leaf(item)?);
                 Ok(())
             })?,
-            _ => self.end(start)?,
+            Some(_) => self.end(start)?,
+            None => {}
         }
-        Ok(Some(kind))
+        Ok(kind)
     }
 
     /// `VendorAnnotations` and `Annotations`: only the tools' names are read.

@@ -9,7 +9,7 @@ mod definitions;
 mod variables;
 mod xml;
 
-use crate::element::{Element, ReadError};
+use crate::element::{Element, Fields, ReadError};
 use crate::finding::{Code, Finding, Lines};
 use crate::{CoSimulation, Description, ModelExchange, validate};
 
@@ -132,15 +132,13 @@ impl Read<'_> {
         match start.name.as_str() {
             "ModelExchange" => {
                 self.lines.model_exchange = start.line;
-                let flags = self.attributes(start)?;
-                let source_files = self.source_files(start)?;
+                let (flags, source_files) = (self.attributes(start)?, self.source_files(start)?);
                 self.description.model_exchange = Some(ModelExchange { source_files, ..flags });
                 Ok(())
             }
             "CoSimulation" => {
                 self.lines.co_simulation = start.line;
-                let flags = self.attributes(start)?;
-                let source_files = self.source_files(start)?;
+                let (flags, source_files) = (self.attributes(start)?, self.source_files(start)?);
                 self.description.co_simulation = Some(CoSimulation { source_files, ..flags });
                 Ok(())
             }
@@ -204,6 +202,21 @@ impl Read<'_> {
         let read = self.attributes(start)?;
         self.end(start)?;
         Ok(read)
+    }
+
+    /// The element of one of several names, with its attributes; `None`, and a warning, for any other.
+    fn kind<T>(
+        &mut self,
+        start: &mut Start,
+        read: fn(&str, &mut Fields) -> Result<Option<T>, ReadError>,
+    ) -> Result<Option<T>, ReadError> {
+        let mut fields = start.fields();
+        let kind = read(&start.name, &mut fields)?;
+        match kind {
+            Some(_) => self.xml.warn_of_unknown(&fields),
+            None => self.unknown(start)?,
+        }
+        Ok(kind)
     }
 
     /// Reads past an element that holds nothing more that FMI knows.

@@ -37,14 +37,11 @@ impl Read<'_> {
     }
 
     fn variable_kind(&mut self, start: &mut Start) -> Result<Option<VariableKind>, ReadError> {
-        let mut fields = start.fields();
-        let Some(kind) = VariableKind::read(&start.name, &mut fields)? else {
-            self.unknown(start)?;
-            return Ok(None);
-        };
-        self.xml.warn_of_unknown(&fields);
-        self.end(start)?;
-        Ok(Some(kind))
+        let kind = self.kind(start, VariableKind::read)?;
+        if kind.is_some() {
+            self.end(start)?;
+        }
+        Ok(kind)
     }
 
     pub(super) fn structure(&mut self, start: &mut Start) -> Result<(), ReadError> {

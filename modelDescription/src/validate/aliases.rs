@@ -4,9 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{Check, ElementLocation, some_of};
 use crate::finding::Code;
-use crate::rules;
-use crate::value;
-use crate::{BaseType, Causality, ScalarVariable, SimpleTypeKind, Variability, VariableKind};
+use crate::{BaseType, Causality, ScalarVariable, SimpleTypeKind, Variability, VariableKind, rules, value};
 
 impl<'a> Check<'a> {
     pub(super) fn aliases(&mut self) {
@@ -74,7 +72,7 @@ impl<'a> Check<'a> {
     fn unit_of(&self, variable: &'a ScalarVariable) -> Option<&'a str> {
         let VariableKind::Real { attributes, .. } = &variable.kind else { return None };
         let inherited = match self.declared(variable) {
-            Some(SimpleTypeKind::Real(inherited)) => inherited.unit.as_deref(),
+            Some(SimpleTypeKind::Real { attributes: inherited }) => inherited.unit.as_deref(),
             _ => None,
         };
         attributes.unit.as_deref().or(inherited)

@@ -39,7 +39,7 @@ impl Check<'_> {
         for (index, known) in types.iter().enumerate() {
             let place = ElementLocation::Type(index);
             match &known.kind {
-                SimpleTypeKind::Real(attributes) => {
+                SimpleTypeKind::Real { attributes } => {
                     self.real_attributes(place, attributes, None);
                 }
                 SimpleTypeKind::Integer { min, max, .. } => self.limits(place, *min, *max),

@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 
 use super::{Check, ElementLocation, derivative_of, some_of};
 use crate::finding::Code;
-use crate::rules;
-use crate::{Causality, DependencyKind, Initial, ScalarVariable, Unknown, VariableKind};
+use crate::{Causality, DependencyKind, Initial, ScalarVariable, Unknown, VariableKind, rules};
 
 /// Whether a variable, with its index, may be depended on.
 type Known<'k> = &'k dyn Fn(u32, &ScalarVariable) -> bool;

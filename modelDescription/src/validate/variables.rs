@@ -112,7 +112,7 @@ impl Check<'_> {
         match (&variable.kind, self.declared(variable)) {
             (VariableKind::Real { start, attributes, .. }, declared) => {
                 let inherited = match declared {
-                    Some(SimpleTypeKind::Real(inherited)) => Some(inherited),
+                    Some(SimpleTypeKind::Real { attributes: inherited }) => Some(inherited),
                     _ => None,
                 };
                 self.real_attributes(place, attributes, inherited);

@@ -163,13 +163,15 @@ fn type_kind() -> impl Strategy<Value = (SimpleTypeKind, Option<String>)> {
     let kind = prop_oneof![
         (option::of(text()), any::<[bool; 2]>(), option::of(1e-9..1e9)).prop_map(
             |(quantity, flags, nominal)| {
-                SimpleTypeKind::Real(RealAttributes {
-                    quantity,
-                    relative_quantity: flags[0],
-                    unbounded: flags[1],
-                    nominal,
-                    ..RealAttributes::default()
-                })
+                SimpleTypeKind::Real {
+                    attributes: RealAttributes {
+                        quantity,
+                        relative_quantity: flags[0],
+                        unbounded: flags[1],
+                        nominal,
+                        ..RealAttributes::default()
+                    },
+                }
             }
         ),
         (option::of(text()), option::of(..0i32), option::of(0i32..))
@@ -196,11 +198,11 @@ fn type_kind() -> impl Strategy<Value = (SimpleTypeKind, Option<String>)> {
 
 fn with_unit(kind: SimpleTypeKind, units: &[Unit], i: usize) -> SimpleTypeKind {
     match kind {
-        SimpleTypeKind::Real(mut attributes) if !units.is_empty() => {
+        SimpleTypeKind::Real { mut attributes } if !units.is_empty() => {
             let unit = &units[i % units.len()];
             attributes.unit = Some(unit.name.clone());
             attributes.display_unit = unit.display_units.first().map(|display| display.name.clone());
-            SimpleTypeKind::Real(attributes)
+            SimpleTypeKind::Real { attributes }
         }
         other => other,
     }
@@ -271,7 +273,7 @@ fn variable(i: usize, role: Role, so_far: &Description) -> ScalarVariable {
                 attributes.unit = Some(unit.name.clone());
                 attributes.display_unit = unit.display_units.last().map(|display| display.name.clone());
             }
-            let declared_type = name_of(of_kind(|kind| matches!(kind, SimpleTypeKind::Real(_))));
+            let declared_type = name_of(of_kind(|kind| matches!(kind, SimpleTypeKind::Real { .. })));
             VariableKind::Real {
                 start: started.then_some(start),
                 declared_type,

@@ -126,12 +126,14 @@ pub(crate) fn rich() -> Description {
             SimpleType {
                 name: "Angle".to_owned(),
                 description: Some("An angle".to_owned()),
-                kind: SimpleTypeKind::Real(RealAttributes {
-                    unit: Some("rad".to_owned()),
-                    relative_quantity: true,
-                    unbounded: true,
-                    ..RealAttributes::default()
-                }),
+                kind: SimpleTypeKind::Real {
+                    attributes: RealAttributes {
+                        unit: Some("rad".to_owned()),
+                        relative_quantity: true,
+                        unbounded: true,
+                        ..RealAttributes::default()
+                    },
+                },
             },
             plain_type("Count", SimpleTypeKind::Integer { quantity: None, min: Some(0), max: None }),
             plain_type("Flag", SimpleTypeKind::Boolean),

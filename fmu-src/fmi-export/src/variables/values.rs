@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::handle::{Boolean, Choice, Elements, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
 use super::variable::Element;
 
-/// The values of every variable of one instance, by type and place, and which of them somebody set.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// The values of every variable of one instance, by type and index, and which of them somebody set.
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Values {
     pub(crate) reals: Vec<f64>,
     pub(crate) integers: Vec<i32>,
@@ -17,7 +17,26 @@ pub struct Values {
     pub(crate) set: [SetBits; Element::TABLES],
 }
 
-/// One bit for every place of a table: whether its value was set.
+/// A copy takes no new memory where the lengths agree, and writes no marks that agree.
+impl Clone for Values {
+    fn clone(&self) -> Self {
+        let mut copy = Self::default();
+        copy.clone_from(self);
+        copy
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        self.reals.clone_from(&other.reals);
+        self.integers.clone_from(&other.integers);
+        self.booleans.clone_from(&other.booleans);
+        self.strings.clone_from(&other.strings);
+        for (mine, theirs) in self.set.iter_mut().zip(&other.set).filter(|(mine, theirs)| mine != theirs) {
+            mine.0.clone_from(&theirs.0);
+        }
+    }
+}
+
+/// One bit for every index of a table: whether its value was set.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct SetBits(Vec<u64>);
 
@@ -50,12 +69,6 @@ impl SetBits {
     pub(crate) fn mark(&mut self, place: usize) {
         if let Some(word) = self.0.get_mut(place / u64::BITS as usize) {
             *word |= 1 << (place % u64::BITS as usize);
-        }
-    }
-
-    pub(crate) fn copy_from(&mut self, other: &Self) {
-        if self != other {
-            self.0.clone_from(&other.0);
         }
     }
 }

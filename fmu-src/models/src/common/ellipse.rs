@@ -1,6 +1,6 @@
 //! The planet's ellipse about the Sun as parameters.
 
-use fmi_export::{Context, Failure, Model, Real, Values, Variables};
+use fmi_export::{Failure, Model, Real, Values, Variables};
 use physics::bodies::Body;
 use physics::environment::kepler_planet::KeplerPlanet;
 use physics::environment::orbit::Elements as KeplerElements;
@@ -8,6 +8,7 @@ use physics::environment::orbit::Elements as KeplerElements;
 use super::center::CenterBody;
 use super::ephemeris;
 use super::numbers::Numbers;
+use super::value_reader::ValueReader;
 
 /// The planet's ellipse about the Sun when `ephemeris.source` is kepler.
 #[derive(Variables)]
@@ -47,14 +48,9 @@ impl EllipseVariables {
     }
 
     /// Elements of the planet's ellipse about the Sun, in the ecliptic of J2000: those that are given, else the body's own.
-    pub fn read<M: Model>(
-        &self,
-        context: &Context<'_, M>,
-        values: &Values,
-        body: &CenterBody,
-    ) -> KeplerElements {
+    pub fn read(&self, read: ValueReader<'_, impl Model>, body: &CenterBody) -> KeplerElements {
         let numbers = self.numbers();
-        numbers.read_or(context.given(values, &numbers.group()), &body.ellipse())
+        numbers.read_or(read.given(&numbers.group()), &body.ellipse())
     }
 
     /// The planet on the ellipse of `ephemeris.source` kepler; the file's own body without parameters here is placed by
@@ -62,19 +58,18 @@ impl EllipseVariables {
     ///
     /// # Errors
     /// Elements that are none, a body that its file does not place.
-    pub fn planet<M: Model>(
+    pub fn planet(
         &self,
-        context: &Context<'_, M>,
-        values: &Values,
+        read: ValueReader<'_, impl Model>,
         body: &CenterBody,
         epoch_s: f64,
     ) -> Result<KeplerPlanet, Failure> {
         let handles = self.numbers().group();
-        let given = context.given(values, &handles);
+        let given = read.given(&handles);
         if body.data.body == Body::Custom && !handles.iter().any(|handle| given.has(*handle)) {
             return ephemeris::custom(body, "kepler");
         }
-        ephemeris::kepler(self.read(context, values, body), epoch_s)
+        ephemeris::kepler(self.read(read, body), epoch_s)
     }
 
     /// Writes these elements.

@@ -13,6 +13,7 @@ use physics::spacecraft::{Spacecraft, TimeAfterPeriapsis};
 use super::center::CenterBody;
 use super::choices::{DownlinkReference, GuidedPhase, ScienceRule};
 use super::pointing::{AttitudeDefaults, NamedAttitudeVariables, RuleContext};
+use super::value_reader::ValueReader;
 
 /// Reason why no instrument turns.
 pub(crate) const NO_GIMBAL: &str = "no instrument of the spacecraft has a gimbal ([[instruments]] gimbal)";
@@ -120,18 +121,12 @@ pub struct GuidedVariables {
 
 impl GuidedVariables {
     /// The law with begin and end of its windows as fractions of the period, where the file gives them so and nobody set them.
-    fn by_shares<M: Model>(
-        &self,
-        context: &Context<'_, M>,
-        values: &Values,
-        defaults: &GuidedDefaults,
-        law: Guided,
-    ) -> Guided {
+    fn by_shares(&self, read: ValueReader<'_, impl Model>, defaults: &GuidedDefaults, law: Guided) -> Guided {
         let [start, end] = defaults.period_shares;
         if (start, end) == (None, None) {
             return law;
         }
-        let given = context.given(values, &[self.downlink_start.into(), self.downlink_end.into()]);
+        let given = read.given(&[self.downlink_start.into(), self.downlink_end.into()]);
         let period_shares = [
             start.filter(|_| !given.has(self.downlink_start)),
             end.filter(|_| !given.has(self.downlink_end)),
@@ -145,33 +140,31 @@ impl GuidedVariables {
     ///
     /// # Errors
     /// A named attitude that the spacecraft does not have there.
-    pub fn in_phase<M: Model>(
+    pub fn in_phase(
         &self,
-        context: &Context<'_, M>,
-        values: &Values,
+        read: ValueReader<'_, impl Model>,
         defaults: &GuidedDefaults,
         law: Guided,
         about: &RuleContext<'_>,
     ) -> Result<Guided, Failure> {
-        let law = self.by_shares(context, values, defaults, law);
-        let throughout = self.phase(context, values, defaults, about.is_about_sun) == GuidedPhase::Cruise;
-        let rule = self.rule(context, values, defaults, about.is_about_sun);
-        let named = if law.science.unloads() { None } else { self.named.read(values, rule, about)? };
+        let law = self.by_shares(read, defaults, law);
+        let throughout = self.phase(read, defaults, about.is_about_sun) == GuidedPhase::Cruise;
+        let rule = self.rule(read, defaults, about.is_about_sun);
+        let named = if law.science.unloads() { None } else { self.named.read(read.values, rule, about)? };
         let schedule = Schedule { throughout, ..law.schedule };
         Ok(Guided { schedule, science: named.unwrap_or(law.science), ..law })
     }
 
     /// The rule that acts.
-    pub fn rule<M: Model>(
+    pub fn rule(
         &self,
-        context: &Context<'_, M>,
-        values: &Values,
+        read: ValueReader<'_, impl Model>,
         defaults: &GuidedDefaults,
         is_about_sun: bool,
     ) -> ScienceRule {
         let group = [self.science_rule.into(), self.science_gain.into(), self.slew_rate.into()];
-        if context.given(values, &group).has(self.science_rule) {
-            values.choice(self.science_rule)
+        if read.given(&group).has(self.science_rule) {
+            read.choice(self.science_rule)
         } else {
             defaults.attitude.rule(is_about_sun)
         }
@@ -185,25 +178,25 @@ impl GuidedVariables {
         defaults: &GuidedDefaults,
         is_about_sun: bool,
     ) {
-        let phase = self.phase(context, values, defaults, is_about_sun);
-        let rule = self.rule(context, values, defaults, is_about_sun);
+        let read = ValueReader::new(context, values);
+        let phase = self.phase(read, defaults, is_about_sun);
+        let rule = self.rule(read, defaults, is_about_sun);
         values.set_choice(self.phase, phase);
         values.set_choice(self.science_rule, rule);
     }
 
     /// The phase that acts.
-    pub fn phase<M: Model>(
+    pub fn phase(
         &self,
-        context: &Context<'_, M>,
-        values: &Values,
+        read: ValueReader<'_, impl Model>,
         defaults: &GuidedDefaults,
         is_about_sun: bool,
     ) -> GuidedPhase {
         let [start, end] = [self.downlink_start, self.downlink_end].map(Elements::from);
         let windows =
             [self.phase.into(), self.downlink_reference.into(), self.downlink_every.into(), start, end];
-        if context.given(values, &windows).has(self.phase) {
-            values.choice(self.phase)
+        if read.given(&windows).has(self.phase) {
+            read.choice(self.phase)
         } else {
             defaults.phase(is_about_sun)
         }

@@ -15,6 +15,7 @@ pub(crate) mod orientation;
 pub(crate) mod pointing;
 pub(crate) mod spacecraft;
 pub(crate) mod start_values;
+pub(crate) mod value_reader;
 pub(crate) mod variables;
 
 use fmi_export::About;

@@ -9,6 +9,7 @@ use physics::spacecraft::{
 };
 
 use super::start_values::entry_of;
+use super::value_reader::ValueReader;
 
 /// Materials whose numbers are parameters of a model, and which of them.
 #[derive(Clone, Debug)]
@@ -212,11 +213,10 @@ impl OpticsVariables {
     /// Names parameters whose values no material has.
     pub(crate) fn materials<'v, M: Model>(
         &'v self,
-        context: &'v Context<'_, M>,
-        values: &'v Values,
+        read: ValueReader<'v, M>,
         own: &'v SettableMaterials,
     ) -> impl Iterator<Item = Result<(usize, Material), Failure>> + 'v {
-        let found = self.values(context, values, own, |parameter| values.real(parameter));
+        let found = self.values(read.context, read.values, own, move |parameter| read.real(parameter));
         let made = found.zip(&own.all).enumerate();
         made.map(|(place, (found, own))| Ok((place, material(own, &found)?)))
     }

@@ -1,7 +1,8 @@
 //! Dependencies of each output, by groups. There is no memory: in steps the same inputs count as at the start.
 
 use fmi_export::{Dependencies, knowns};
-use physics::loads::Effect;
+use physics::loads::Switch;
+use physics::plant::REFLECTED_LIGHT;
 
 use super::setup::DisturbanceSetup;
 use super::variables::DisturbanceVariables;
@@ -30,9 +31,13 @@ pub(super) fn table(_setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Depe
     for (by_source, total, of_light) in quantities {
         for (effect, output) in by_source.iter() {
             let (at_steps, at_start) = match effect {
-                Effect::Aerodynamic => (aerodynamic, &knowns![air, &v.optics]),
-                Effect::Magnetic => (field, laws),
-                Effect::Solar | Effect::Albedo => (of_light.0, &knowns![of_light.1, v.optics.light()]),
+                effect if effect.row().switch == Some(Switch::Aerodynamics) => {
+                    (aerodynamic, &knowns![air, &v.optics])
+                }
+                effect if effect.is_in_field() => (field, laws),
+                effect if REFLECTED_LIGHT.contains(&effect) => {
+                    (of_light.0, &knowns![of_light.1, v.optics.light()])
+                }
                 effect if effect.is_light() => (of_light.0, &knowns![of_light.1, v.optics.light_and_heat()]),
                 _ => (planet_geometry, laws),
             };

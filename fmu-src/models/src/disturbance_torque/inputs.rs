@@ -5,7 +5,7 @@ use std::cell::Cell;
 use fmi_export::{Failure, Real, Values};
 use physics::aerodynamics::AerodynamicModel;
 use physics::environment::eclipse::Shadow;
-use physics::loads::{Active, Effect};
+use physics::loads::{Active, Switch};
 use physics::numerics::scalar::Scalar;
 use physics::plant::{BySource, Parameters, PositionError, Positions, Surfaces, Workspaces};
 use physics::radiation::disturbance::{DisturbanceModel, Options, PlanetLightMethod};
@@ -106,7 +106,7 @@ impl Prepared {
         let laws = &variables.laws;
         let active =
             laws.active([light.rings.enabled, variables.thermal.enabled], |switch| values.boolean(switch));
-        let air = match active.has(Effect::Aerodynamic) {
+        let air = match active.is_on(Switch::Aerodynamics) {
             true => Some(laws.aerodynamics.options(values, spacecraft, sunshade_model)?),
             false => None,
         };

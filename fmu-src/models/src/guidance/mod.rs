@@ -24,10 +24,10 @@ use physics::numerics::work::Work;
 use crate::common::downlink::TIMELINE_FILE;
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
 use crate::common::start_values::of_spacecraft;
+use inputs::Fixed;
 use inputs::reader::Reader;
-use inputs::{Fixed, management};
 pub use setup::Guidance;
-use setup::{GuidanceSetup, Plan};
+use setup::{GuidanceSetup, Plan, Read};
 use state::State;
 use variables::GuidanceVariables;
 
@@ -89,7 +89,7 @@ impl Model for Guidance {
     fn initialize(context: &Plan<'_>, values: &mut Values, start_s: f64) -> Result<State, Failure> {
         let epoch_s = values.real(context.variables.start.epoch);
         let mut state = State {
-            system: GuidanceState::new(inputs::start_attitude(context, values)?, start_s),
+            system: GuidanceState::new(inputs::start_attitude(Read::new(context, values))?, start_s),
             dumps: DumpRequests::default(),
             events_until_s: start_s.next_down(),
             burn_entry: None,
@@ -105,14 +105,13 @@ impl Model for Guidance {
         // Masters that connect inputs one by one look before all of them are set: the first step says what is missing.
         let mut shown =
             State { warned_unconnected: true, warned_roll: true, windows_are_checked: true, ..state.clone() };
-        let mut fixed = Fixed::read(context, values)?;
-        fixed.tune(context, values)?;
-        management::set_panels(context, values, &mut fixed.panels);
-        let settings = inputs::settings(context, values, &fixed)?;
-        shown.sample(context, values, &fixed, &settings, InputsOverTime::held())?;
+        let read = Read::new(context, values);
+        let fixed = Fixed::current(None, read)?;
+        let settings = inputs::settings(read, &fixed)?;
+        shown.sample(read, &fixed, &settings, InputsOverTime::held())?;
         state.ephemeris = shown.ephemeris.clone();
         state.coarse = shown.coarse.clone();
-        if !Reader::new(context, values, InputsOverTime::held(), start_s).has_estimate() {
+        if !Reader::new(read, InputsOverTime::held(), start_s).has_estimate() {
             let message = "estimate.q is not set, or with estimate.valid to its start value: until it changes the commanded attitude \
                            stands in for it";
             context.log.event(start_s, message);
@@ -129,10 +128,9 @@ impl Model for Guidance {
         state: &mut State,
         step: &Step<'_>,
     ) -> Result<StepEnd, Failure> {
-        let mut fixed = state.fixed.take().map_or_else(|| Fixed::read(context, values), Ok)?;
-        fixed.tune(context, values)?;
-        management::set_panels(context, values, &mut fixed.panels);
-        let settings = inputs::settings(context, values, &fixed)?;
+        let read = Read::new(context, values);
+        let fixed = Fixed::current(state.fixed.take(), read)?;
+        let settings = inputs::settings(read, &fixed)?;
         let limit = context.variables.solver.units(values);
         let mut work = Work::<1>::new(limit);
         let mut requested_s = None;
@@ -141,25 +139,25 @@ impl Model for Guidance {
                 context.log.warning(&format!(
                     "dump.request was true from {requested_s} to {} s, within a step to {} s, and no communication point saw it: \
                      step by a second at most",
-                    state.system.next_sample_s(),
+                    state.system.next_sample_s,
                     step.end_s
                 ));
             }
             work.spend(0, SAMPLE_WORK);
             if work.is_exhausted() {
-                let reached_s = state.system.next_sample_s();
+                let reached_s = state.system.next_sample_s;
                 return Err(Failure::new(format!(
                     "the step from {} to {} s reached {reached_s} s: its samples, one a second, take more than \
                      solver.workLimit = {limit} units",
                     step.start_s, step.end_s
                 )));
             }
-            let (burn, sampled_s) = (*state.system.burn(), state.system.next_sample_s());
-            let before = (state.system.mode(), state.system.mode_reason());
-            work.spend(0, state.sample(context, values, &fixed, &settings, step.inputs)?);
-            requested_s = Some(sampled_s).filter(|_| state.dumps.is_requested());
-            warn_of_missed_burn(context, &burn, state.system.burn(), sampled_s);
-            log_demotion(context, sampled_s, before, (state.system.mode(), state.system.mode_reason()));
+            let (burn, sampled_s) = (state.system.burn, state.system.next_sample_s);
+            let before = (state.system.modes.mode, state.system.modes.reason);
+            work.spend(0, state.sample(read, &fixed, &settings, step.inputs)?);
+            requested_s = Some(sampled_s).filter(|_| state.dumps.is_requested);
+            warn_of_missed_burn(context, &burn, &state.system.burn, sampled_s);
+            log_demotion(context, sampled_s, before, (state.system.modes.mode, state.system.modes.reason));
         }
         let epoch_s = time::epoch_at_s(step.end_s, state.epoch_minus_time_s);
         state.time_s = step.end_s;
@@ -234,10 +232,10 @@ fn log_demotion(
 
 /// Warns where the burn is missed at this sample and was not at the one before.
 fn warn_of_missed_burn(context: &Plan<'_>, before: &BurnState, now: &BurnState, time_s: f64) {
-    let is_anew = matches!(now.phase(), BurnPhase::Waiting { .. } | BurnPhase::Burning { .. });
-    match now.interruption() {
+    let is_anew = matches!(now.phase, BurnPhase::Waiting { .. } | BurnPhase::Burning { .. });
+    match now.interruption {
         Some(Interruption::CutOff) => {
-            let [x, y, z]: [f64; 3] = (*before.velocity_m_s()).into();
+            let [x, y, z]: [f64; 3] = before.velocity_m_s.into();
             context.log.warning(&format!(
                 "burn: cut off at {time_s} s by the end of its command, by another command or by another mode; until a second \
                  before, it had added ({x:.3}, {y:.3}, {z:.3}) m/s"
@@ -248,7 +246,7 @@ fn warn_of_missed_burn(context: &Plan<'_>, before: &BurnState, now: &BurnState, 
         }
         _ => {}
     }
-    match (before.phase(), now.phase()) {
+    match (before.phase, now.phase) {
         (BurnPhase::Waiting { refused: true, .. }, BurnPhase::Waiting { .. }) => {}
         (_, BurnPhase::Waiting { refused: true, .. }) => context.log.warning(
             "burn.timedOut: the burn is due and does not begin: the constraints keep its thrust off the aim, or burn.deltaV and \

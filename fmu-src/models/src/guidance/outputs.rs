@@ -23,14 +23,14 @@ pub(super) fn write(
 ) {
     let v = context.variables;
     let (State { system: state, dumps, epoch_minus_time_s, .. }, time_s) = (state, state.time_s);
-    let command = state.command();
+    let command = &state.command;
     let attitude = command.attitude_at(time_s);
     values.set_choice(v.command.kind, CommandKind(command.kind));
     values.set_vector(v.command.q, attitude.unit_quaternion().0);
     values.set_vector(v.command.rate, command.rate_body_rad_s.into());
     values.set_vector(v.command.error, command.error);
-    values.set_choice(v.mode.active, ActiveMode(state.mode()));
-    values.set_choice(v.mode.reason, ModeReason(state.mode_reason()));
+    values.set_choice(v.mode.active, ActiveMode(state.modes.mode));
+    values.set_choice(v.mode.reason, ModeReason(state.modes.reason));
     values.set_real(v.epoch, epoch_s);
     let slot = context
         .setup
@@ -48,10 +48,10 @@ pub(super) fn write(
     let active = if is_coarse { EphemerisModel::Coarse } else { EphemerisModel::Precise };
     values.set_choice(v.ephemeris.active, active);
 
-    let sun = state.sun_line().angles_at(&attitude, time_s);
+    let sun = state.sun_line.angles_at(&attitude, time_s);
     values.set_real(v.sun.azimuth, sun.azimuth_rad);
     values.set_real(v.sun.elevation, sun.elevation_rad);
-    let status = state.status();
+    let status = &state.status;
     values.set_real(v.gimbal.angle, status.gimbal.angle_rad);
     values.set_boolean(v.gimbal.in_range, status.gimbal.in_range);
     values.set_choice(v.antenna.select, AntennaSelect(status.antenna));
@@ -66,13 +66,13 @@ pub(super) fn write(
     values.set_boolean(v.constraint.clamped, status.clamped);
     values.set_boolean(v.downlink.active, status.downlink.active);
     values.set_boolean(v.downlink.clamped, status.downlink.clamped);
-    self::burn(context, values, state.burn(), burn);
+    self::burn(context, values, &state.burn, burn);
     for panel in &v.panel {
         values.set_real(panel.sun_offset, values.real(panel.nominal_sun_offset));
     }
-    values.set_boolean(v.momentum.target_clamped, state.downlink_sun().is_clamped());
-    values.set_boolean(v.dump.request, dumps.is_requested());
-    values.set_vector(v.dump.target, (*dumps.target_body_n_m_s()).into());
+    values.set_boolean(v.momentum.target_clamped, state.downlink_sun.is_clamped());
+    values.set_boolean(v.dump.request, dumps.is_requested);
+    values.set_vector(v.dump.target, dumps.target_body_n_m_s.into());
 }
 
 /// Writes what a burn tells the thrusters and what it found.
@@ -84,7 +84,7 @@ fn burn(context: &Plan<'_>, values: &mut Values, state: &BurnState, settings: &B
     values.set_boolean(thrust.command, stop_s.is_some());
     values.set_real(thrust.stop, stop_s.unwrap_or(NEVER_S));
     values.set_vector(burn.thrust_estimate, state.thrust_body(settings).into());
-    values.set_vector(burn.velocity, (*state.velocity_m_s()).into());
+    values.set_vector(burn.velocity, state.velocity_m_s.into());
     values.set_vector(burn.velocity_error, state.velocity_error_m_s(settings).into());
     values.set_boolean(burn.timed_out, state.is_missed());
 }
@@ -101,9 +101,9 @@ pub(super) fn derivative(
         return Some(1.0);
     }
     if let Some(index) = v.command.q.index_of(output) {
-        return Some(state.command().quaternion_rate_at(time_s)[index]);
+        return Some(state.command.quaternion_rate_at(time_s)[index]);
     }
-    let rates = state.sun_line().angle_rates_at(state.command(), time_s);
+    let rates = state.sun_line.angle_rates_at(&state.command, time_s);
     [v.sun.azimuth, v.sun.elevation]
         .into_iter()
         .zip(rates)

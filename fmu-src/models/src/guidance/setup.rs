@@ -15,12 +15,16 @@ use crate::common::center::{CenterBodies, CenterBody, target_of};
 use crate::common::guided::GuidedDefaults;
 use crate::common::optics::SettableMaterials;
 use crate::common::spacecraft::{PreparedAntennas, PreparedShapes, wheel_array};
+use crate::common::value_reader::ValueReader;
 
 /// Guidance.
 pub struct Guidance;
 
 /// Context of every call of the model.
 pub(super) type Plan<'a> = Context<'a, Guidance>;
+
+/// Reader of the model's variables in one call.
+pub(super) type Read<'a> = ValueReader<'a, Guidance>;
 
 /// The spacecraft of an instance.
 #[derive(Clone, Debug)]

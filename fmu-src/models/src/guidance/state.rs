@@ -1,6 +1,6 @@
 //! State of the model between steps.
 
-use fmi_export::{Failure, InputsOverTime, Values};
+use fmi_export::{Failure, InputsOverTime};
 use nalgebra::Vector3;
 use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use super::inputs::reader::Reader;
 use super::inputs::{self, Fixed, management};
-use super::setup::Plan;
+use super::setup::{Plan, Read};
 use crate::common::downlink::roll_warning;
 use crate::common::management::window_warning;
 
@@ -82,23 +82,23 @@ impl State {
     /// Takes the sample that is due; units of work that it took beside its own.
     pub(super) fn sample(
         &mut self,
-        context: &Plan<'_>,
-        values: &Values,
+        read: Read<'_>,
         fixed: &Fixed,
         settings: &GuidanceSettings<'_>,
         inputs: InputsOverTime<'_>,
     ) -> Result<u32, Failure> {
-        let time_s = self.system.next_sample_s();
+        let context = read.context;
+        let time_s = self.system.next_sample_s;
         let epoch_s = time::epoch_at_s(time_s, self.epoch_minus_time_s);
-        let reader = Reader::new(context, values, inputs, time_s);
+        let reader = Reader::new(read, inputs, time_s);
         let entry = context.setup.timeline.as_ref().and_then(|timeline| {
             timeline.slot(time_s, timeline.clock_minus_time_s(self.epoch_minus_time_s)).entry
         });
         let mut settings = *settings;
         let given = reader.command();
-        let mut requested_sun = match management::is_managed(context, values) {
+        let mut requested_sun = match management::is_managed(read) {
             true => SunRequest::default(),
-            false => context.variables.downlink.request(values),
+            false => context.variables.downlink.request(read.values),
         };
         let mut command = given;
         if command.scenario == Some(Scenario::Burn) {
@@ -127,7 +127,7 @@ impl State {
         let command = self.system.continued(&command);
         let positions = reader.positions(fixed, &command, (&mut self.ephemeris, &mut self.coarse), epoch_s);
         self.warn(context, &command, &settings, (&positions, entry));
-        let commanded = self.system.command().attitude_at(time_s);
+        let commanded = self.system.command.attitude_at(time_s);
         let (mut sensed, is_estimated) = reader.sensed(commanded, positions.are_known())?;
         if !is_estimated {
             settings.modes.monitor = None;
@@ -138,9 +138,9 @@ impl State {
         let delta_v_body_m_s = reader.delta_v_body_m_s();
         let momentum_body_n_m_s = reader.momentum_body_n_m_s();
         let scheduled = self.scheduled_dump(context, time_s);
-        self.dumps.sample(&management::policy(context, values), &momentum_body_n_m_s, scheduled);
+        self.dumps.sample(&management::policy(read), &momentum_body_n_m_s, scheduled);
         let keep_in = settings.modes.operational.keep_in.unwrap_or(settings.keep_in);
-        let manager = management::manager(context, values, fixed, &keep_in)?;
+        let manager = management::manager(read, fixed, &keep_in)?;
         let manager = SampledManager { momentum_body_n_m_s, ..manager };
         self.check_windows(context, &command, &settings, &positions);
         let sun_is_placed = entry.is_some_and(|entry| entry.downlink.sun.is_some());

@@ -18,8 +18,8 @@ use physics::environment::time;
 use crate::common::downlink::TIMELINE_FILE;
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
 use crate::common::start_values::{entry_of, item, of_spacecraft};
-use setup::Plan;
 pub use setup::{MomentumPlant, PlantSetup};
+use setup::{Plan, Read};
 use state::PlantState;
 use variables::PlantVariables;
 use variables::choices::AttitudeSource;
@@ -91,8 +91,9 @@ impl Model for MomentumPlant {
     }
 
     fn initialize(context: &Plan<'_>, values: &mut Values, start_s: f64) -> Result<PlantState, Failure> {
-        inputs::check_effects(context, values, start_s)?;
-        let mut state = inputs::start(context, values, start_s)?;
+        let read = Read::new(context, values);
+        inputs::check_effects(read, start_s)?;
+        let mut state = inputs::start(read, start_s)?;
         outputs::write_guaranteed(context, values);
         step::start(context, values, &mut state, start_s)?;
         Ok(state)
@@ -104,7 +105,7 @@ impl Model for MomentumPlant {
         state: &mut PlantState,
         step: &Step<'_>,
     ) -> Result<StepEnd, Failure> {
-        inputs::check_span(context, values, state, step.end_s)?;
+        inputs::check_span(Read::new(context, values), state, step.end_s)?;
         step::step(context, values, state, step)?;
         Ok(StepEnd::at(step.end_s))
     }
@@ -122,7 +123,7 @@ impl Model for MomentumPlant {
     }
 
     fn check_time(state: &PlantState, time_s: f64) -> Result<(), Failure> {
-        match state.flight.first_uncovered(time_s) {
+        match state.saved.flight.first_uncovered(time_s) {
             Some(what) => Err(Failure::new(format!("{what} elsewhere than at {time_s:?} s"))),
             None => Ok(()),
         }

@@ -22,12 +22,16 @@ use crate::common::optics::SettableMaterials;
 use crate::common::spacecraft::{
     PreparedAntennas, PreparedShapes, ReportedFace, reported_faces, wheel_array,
 };
+use crate::common::value_reader::ValueReader;
 
 /// The momentum plant.
 pub struct MomentumPlant;
 
 /// Context of every call of the model.
 pub(super) type Plan<'a> = Context<'a, MomentumPlant>;
+
+/// Reader of the model's variables in one call.
+pub(super) type Read<'a> = ValueReader<'a, MomentumPlant>;
 
 /// The spacecraft of an instance.
 #[derive(Clone, Debug)]

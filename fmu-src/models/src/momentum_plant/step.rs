@@ -1,14 +1,13 @@
 //! A flight of the model begins, steps, and waits for inputs that are not set yet.
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
-use physics::environment::ephemeris::Ephemeris;
-use physics::plant::{NEVER_DUMPED_N_M_S, SimulationContext, Sources, ThrusterAllocator, Undo};
+use physics::plant::{NEVER_DUMPED_N_M_S, StepContext, Undo};
 
-use super::inputs::{self, FixedParameters, Reading, guidance, plausibility, propulsion};
+use super::inputs::{self, Reading, Reconfigured, guidance, plausibility, propulsion};
 use super::outputs;
 use super::outputs::messages::{failure, log_event};
-use super::setup::Plan;
-use super::state::PlantState;
+use super::setup::{Plan, Read};
+use super::state::{PlantState, SavedState};
 use crate::common::management::window_warning;
 
 /// The flight begins at `time_s`, or waits.
@@ -25,7 +24,7 @@ pub(super) fn start(
     let undo = if reading.begins { Some(begin(context, values, state, &reading, time_s)?) } else { None };
     show(context, values, state, &reading, time_s)?;
     if let Some(undo) = undo {
-        state.flight.undo(undo);
+        state.saved.flight.undo(undo);
     }
     Ok(())
 }
@@ -43,9 +42,9 @@ pub(super) fn step(
     configure(context, values, state, &reading, step)?;
     if reading.begins {
         let undo = begin(context, values, state, &reading, step.start_s)?;
-        state.flight.undo(undo);
+        state.saved.flight.undo(undo);
     }
-    if !state.waiting {
+    if !state.saved.waiting {
         advance(context, state, &reading, step)?;
     }
     show(context, values, state, &reading, step.end_s)
@@ -61,27 +60,17 @@ fn configure(
 ) -> Result<(), Failure> {
     let (mut configuration, mut settings) = (None, None);
     if reading.is_reconfigured {
-        let read = inputs::configured(context, values, state, step.inputs, reading)?;
-        match (read.fixed, read.settings) {
-            (Some(fixed), Some(settings)) => {
-                let FixedParameters { light, air, thrusters } = fixed;
-                let simulation = SimulationContext {
-                    ephemeris: Ephemeris::with_cache(&context.setup.ephemeris_cache),
-                    solar: Some(reading.solar().clone()),
-                    sources: Sources::new(light, air),
-                    allocator: ThrusterAllocator::new(thrusters),
-                    ..SimulationContext::new(read.configuration)
-                };
-                state.flight.configure(simulation, settings);
-            }
-            (_, changed) => (configuration, settings) = (Some(read.configuration), changed),
+        match inputs::configured(Read::new(context, values), state, step.inputs, reading)? {
+            Reconfigured::Simulation(simulation, settings) => state.saved.flight.configure(*simulation, settings),
+            Reconfigured::Changed(changed, with) => (configuration, settings) = (Some(changed), with),
         }
     }
-    if let Some(changes) = reading.changes.filter(|_| !state.waiting && !reading.begins) {
-        state.flight.apply(changes, configuration, settings, step.start_s).map_err(failure)?;
+    state.pass_digest();
+    if let Some(changes) = reading.changes.filter(|_| !state.saved.waiting && !reading.begins) {
+        state.saved.flight.apply(changes, configuration, settings, step.start_s).map_err(failure)?;
     }
     // After what was computed ahead with those before is void.
-    if reading.is_reconfigured { inputs::update_materials(context, values, state) } else { Ok(()) }
+    if reading.is_reconfigured { inputs::update_materials(Read::new(context, values), state) } else { Ok(()) }
 }
 
 /// The flight begins at `time_s`, where a first sample is taken: how to undo that.
@@ -92,25 +81,25 @@ fn begin(
     reading: &Reading<'_>,
     time_s: f64,
 ) -> Result<Undo, Failure> {
-    propulsion::check(&state.flight)?;
-    let guided = state.flight.configuration().and_then(|it| it.attitude.guided());
+    propulsion::check(&state.saved.flight)?;
+    let guided = state.saved.flight.configuration().and_then(|it| it.attitude.guided());
     if let Some(warning) = guided.and_then(|law| window_warning(&law.schedule)) {
         context.log.warning(&warning);
     }
     let is_dynamic = state.inputs.source.is_dynamic;
     if is_dynamic {
-        guidance::report_start(context, values, state, time_s);
+        guidance::report_start(Read::new(context, values), state, time_s);
     }
     report_dumps(context, state, time_s);
     let (external, planner) = (reading.external(), reading.planner());
-    let given = reading.given(&external, &planner);
-    let log = &mut |event: &_| log_event(context, event);
-    state.flight.begin(given, &state.command, time_s, log).map_err(failure)?;
-    if let Some(estimate) = state.flight.estimate_at(time_s) {
+    let log = |event: &_| log_event(context, event);
+    let given = StepContext { log: &log, ..reading.given(&external, &planner) };
+    state.saved.flight.begin(given, &state.saved.command, time_s).map_err(failure)?;
+    if let Some(estimate) = state.saved.flight.estimate_at(time_s) {
         state.start_command(estimate.attitude, time_s)?;
     }
-    let PlantState { flight, inputs, command, .. } = state;
-    plausibility::report(context, values, flight, given, time_s);
+    let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
+    plausibility::report(Read::new(context, values), flight, given, time_s);
     let undo = flight.sample_at_start(given, &inputs.dynamics, time_s).map_err(failure)?;
     let report = flight.report(given, &inputs.dynamics, command, time_s).map_err(failure)?;
     outputs::check_report(&report)?;
@@ -119,7 +108,8 @@ fn begin(
 
 /// Reports where no dump comes, and dumps that cost nothing.
 fn report_dumps(context: &Plan<'_>, state: &PlantState, time_s: f64) {
-    let Some(configuration) = state.flight.configuration().filter(|_| context.log.events_enabled()) else {
+    let Some(configuration) = state.saved.flight.configuration().filter(|_| context.log.events_enabled())
+    else {
         return;
     };
     let policy = &configuration.momentum.policy;
@@ -161,7 +151,7 @@ fn advance(
     reading: &Reading<'_>,
     step: &Step<'_>,
 ) -> Result<(), Failure> {
-    let PlantState { flight, inputs, request, maneuver_request, warned, .. } = state;
+    let PlantState { saved: SavedState { flight, request, maneuver_request, warned, .. }, inputs } = state;
     if let Some(flown) = flight.context() {
         let settings = &flown.allocator.settings;
         propulsion::warn(context, &inputs.dynamics, settings, &mut warned.thrusters, step);
@@ -172,9 +162,9 @@ fn advance(
     inputs.dynamics.maneuver = maneuver_request.rises(is_requested).then_some(maneuver);
     propulsion::drop_empty_maneuver(context, &mut inputs.dynamics, step.start_s);
     let (external, planner) = (reading.external(), reading.planner());
-    let given = reading.given(&external, &planner);
-    let log = &mut |event: &_| log_event(context, event);
-    flight.advance(given, &inputs.dynamics, [step.start_s, step.end_s], log).map_err(failure)
+    let log = |event: &_| log_event(context, event);
+    let given = StepContext { log: &log, ..reading.given(&external, &planner) };
+    flight.advance(given, &inputs.dynamics, [step.start_s, step.end_s]).map_err(failure)
 }
 
 /// Writes every output at `time_s`.
@@ -187,7 +177,7 @@ fn show(
 ) -> Result<(), Failure> {
     let (external, planner) = (reading.external(), reading.planner());
     let given = reading.given(&external, &planner);
-    let PlantState { flight, inputs, command, waiting, warned, .. } = state;
+    let PlantState { saved: SavedState { flight, command, waiting, warned, .. }, inputs } = state;
     // Not `map_err`, which would copy the report.
     let report = match flight.report(given, &inputs.dynamics, command, time_s) {
         Ok(report) => report,

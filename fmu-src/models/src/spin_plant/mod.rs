@@ -97,20 +97,20 @@ impl Model for SpinPlant {
             warn_of_unknown(context, values, Some(&plant.directions_at(step.start_s)), &directions);
             plant.command(commands, directions);
         }
-        let (fired, log) = (plant.sequencer().map_or(0, |s| s.fired()), context.log);
-        let had_propellant = !plant.propulsion().is_dry();
+        let (fired, log) = (plant.sequencer.as_ref().map_or(0, |s| s.fired), context.log);
+        let had_propellant = !plant.propulsion.is_dry();
         plant.advance(context.setup, step.end_s).map_err(|error| Failure::new(error.to_string()))?;
-        if had_propellant && plant.propulsion().is_dry() {
+        if had_propellant && plant.propulsion.is_dry() {
             log.warning(&format!(
                 "the propellant ran out between {} and {} s: no thruster fires any more",
                 step.start_s, step.end_s
             ));
         }
         if log.events_enabled()
-            && let Some(sequencer) = plant.sequencer().filter(|s| s.fired() != fired)
+            && let Some(sequencer) = plant.sequencer.as_ref().filter(|s| s.fired != fired)
         {
-            let count = sequencer.burn().train.count();
-            log.event(step.end_s, &format!("burn: {} of {count} pulses fired", sequencer.fired()));
+            let count = sequencer.burn.train.count;
+            log.event(step.end_s, &format!("burn: {} of {count} pulses fired", sequencer.fired));
         }
         outputs::write(context, values, plant);
         Ok(StepEnd::at(step.end_s))
@@ -126,10 +126,10 @@ impl Model for SpinPlant {
     }
 
     fn check_time(state: &Plant, time_s: f64) -> Result<(), Failure> {
-        if state.time_s() == time_s {
+        if state.time_s == time_s {
             return Ok(());
         }
-        Err(Failure::new(format!("the state is one of {} s, not of {time_s} s", state.time_s())))
+        Err(Failure::new(format!("the state is one of {} s, not of {time_s} s", state.time_s)))
     }
 }
 
@@ -142,7 +142,7 @@ impl OutputRates for SpinPlant {
 /// Warns of a burn that can be simulated and will not do what one may expect.
 fn warn_of_burn(context: &Plan<'_>, plant: &Plant) {
     let (log, seen) = (context.log, Predictions::from_plant(plant));
-    if plant.propulsion().is_dry() {
+    if plant.propulsion.is_dry() {
         log.warning("there is no propellant (propellant.loaded): no thruster fires");
     }
     if let Some(apart_rad) = seen.passed_target_rad(plant) {

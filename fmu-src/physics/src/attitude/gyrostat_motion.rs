@@ -46,17 +46,16 @@ pub struct GyrostatMotion {
     load: BodyLoad,
     momentum_inertial_n_m_s: Vector3<f64>,
     delta_v_inertial_m_s: Vector3<f64>,
-    /// Last evaluation; a cache.
-    #[serde(skip)]
-    known: Option<Known>,
 }
 
-/// Body `elapsed_s` after the start of a segment, and its attitudes at the nodes of the quadrature up to there.
+/// Body at one time of a segment, and its attitudes at the nodes of the quadrature up to there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Known {
-    elapsed_s: f64,
+pub struct MotionAt {
+    /// When, in s.
+    pub time_s: f64,
+    /// The body.
+    pub body: BodyMotion,
     attitudes: [Quaternion; 3],
-    body: BodyMotion,
 }
 
 impl GyrostatMotion {
@@ -80,13 +79,12 @@ impl GyrostatMotion {
             load: BodyLoad::none(1.0),
             momentum_inertial_n_m_s: attitude.inertial_from_body(&momentum_body),
             delta_v_inertial_m_s: Vector3::zeros(),
-            known: None,
         };
         motion.rotors.extend(gyrostat.wheels().iter().enumerate().map(|(k, wheel)| {
             let held_n_m_s = rotors_n_m_s(k);
             let mut axial = [0.0; TERMS];
             axial[0] = held_n_m_s + wheel.carried_n_m_s(rate_body_rad_s);
-            RotorMotion { rotor: Rotor::at_start(wheel, held_n_m_s), next: None, axial, known: None }
+            RotorMotion { rotor: Rotor::at_start(wheel, held_n_m_s), next: None, axial }
         }));
         let unbalanced = gyrostat.appendages().imbalances.iter();
         motion.imbalances.extend(unbalanced.filter_map(|imbalance| {
@@ -117,18 +115,17 @@ impl GyrostatMotion {
             self.momentum_inertial_n_m_s += self.series.attitude_after(0.0).inertial_from_body(&added_body);
         }
         self.load.internal = internal;
-        self.forget();
     }
 
     /// Sets the attitude at the end at once, with the present inertia, and the motion of what turns on hinges
     /// from there on: the momentum is kept, those of rotors and modal coordinates along their axes too, and the rate follows.
     pub fn reorient(&mut self, gyrostat: &Gyrostat, attitude: Quaternion, internal: Option<InternalMotion>) {
         let elapsed_s = self.end_s - self.start_s;
-        [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s] = self.totals_after(elapsed_s);
+        let attitudes = self.attitudes_before(elapsed_s);
+        [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s] = self.totals_after(elapsed_s, &attitudes);
         for it in &mut self.rotors {
             it.axial[0] = it.axial_after(self.series.order, elapsed_s);
         }
-        self.forget();
         for it in &mut self.oscillators {
             it.hold(self.series.order, elapsed_s);
         }
@@ -167,39 +164,22 @@ impl GyrostatMotion {
         }
     }
 
-    /// Returns the body at `time_s` within the segment and keeps it for the next call at that time.
-    pub fn remembered_at(&mut self, gyrostat: &Gyrostat, time_s: f64) -> BodyMotion {
-        let elapsed_s = time_s - self.start_s;
-        if let Some(known) = self.known.filter(|it| it.elapsed_s == elapsed_s) {
-            return known.body;
-        }
-        let order = self.series.order;
-        self.rotors.iter_mut().for_each(|it| it.known = Some((elapsed_s, it.axial_after(order, elapsed_s))));
-        let body = self.at(gyrostat, time_s);
-        let attitudes = self.attitudes_before(elapsed_s);
-        self.known = Some(Known { elapsed_s, attitudes, body });
-        body
-    }
-
-    /// Drops the cached evaluation; the segment changes.
-    fn forget(&mut self) {
-        self.known = None;
-        self.rotors.iter_mut().for_each(|it| it.known = None);
-    }
-
     /// Attitudes at the nodes of the quadrature over the first `elapsed_s` of the segment.
     fn attitudes_before(&self, elapsed_s: f64) -> [Quaternion; 3] {
-        match self.known {
-            Some(known) if known.elapsed_s == elapsed_s => known.attitudes,
-            _ => GAUSS_3.map(|(node, _)| self.series.attitude_after(node * elapsed_s)),
-        }
+        GAUSS_3.map(|(node, _)| self.series.attitude_after(node * elapsed_s))
     }
 
     /// The body at `time_s` within the segment.
     pub fn at(&self, gyrostat: &Gyrostat, time_s: f64) -> BodyMotion {
+        self.evaluated_at(gyrostat, time_s).body
+    }
+
+    /// The body at `time_s` within the segment, and what impulses up to there are integrated with.
+    pub fn evaluated_at(&self, gyrostat: &Gyrostat, time_s: f64) -> MotionAt {
         let elapsed_s = time_s - self.start_s;
         let attitude = self.series.attitude_after(elapsed_s);
-        let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = self.totals_after(elapsed_s);
+        let attitudes = self.attitudes_before(elapsed_s);
+        let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = self.totals_after(elapsed_s, &attitudes);
         let momentum_body = attitude.body_from_inertial(&momentum_inertial_n_m_s);
         let rest = momentum_body
             - gyrostat.along_axes(|k| match self.rotors[k].rotor {
@@ -209,12 +189,13 @@ impl GyrostatMotion {
         let swinging = self.oscillators.iter().map(|it| it.carried_after(self.series.order, elapsed_s));
         let rest = swinging.fold(rest, |rest, carried| rest - carried);
         let rest = self.load.internal.iter().fold(rest, |rest, it| rest - it.momentum_after(elapsed_s));
-        BodyMotion {
+        let body = BodyMotion {
             attitude,
             rate_body_rad_s: self.load.inverse_inertia_after(&self.inverse_inertia, elapsed_s) * rest,
             momentum_inertial_n_m_s,
             delta_v_inertial_m_s,
-        }
+        };
+        MotionAt { time_s, body, attitudes }
     }
 
     /// Change of the total momentum since the start of the segment by each of these torques, body frame in N m with slopes in
@@ -222,12 +203,11 @@ impl GyrostatMotion {
     pub fn impulses_inertial_n_m_s<const N: usize>(
         &self,
         torques: &[Option<[Vector3<f64>; 2]>; N],
-        time_s: f64,
+        until: &MotionAt,
     ) -> [Vector3<f64>; N] {
-        let elapsed_s = time_s - self.start_s;
+        let elapsed_s = until.time_s - self.start_s;
         let mut sums = [Vector3::zeros(); N];
-        let attitudes = self.attitudes_before(elapsed_s);
-        for ((node, weight), attitude) in GAUSS_3.into_iter().zip(attitudes) {
+        for ((node, weight), attitude) in GAUSS_3.into_iter().zip(until.attitudes) {
             let at_s = node * elapsed_s;
             for (sum, torque) in sums.iter_mut().zip(torques) {
                 if let Some([start, slope]) = torque {
@@ -243,34 +223,33 @@ impl GyrostatMotion {
     pub fn dipole_impulse_inertial_n_m_s(
         &self,
         dipole_body_a_m2: &[Vector3<f64>; 2],
-        time_s: f64,
+        until: &MotionAt,
     ) -> Option<Vector3<f64>> {
         let part = DipoleInField { dipole_body_a_m2: *dipole_body_a_m2, ..self.load.dipole? };
-        Some(self.impulse_inertial_n_m_s(time_s, |attitude, at_s| part.torque_n_m(attitude, at_s)))
+        Some(self.impulse_inertial_n_m_s(until, |attitude, at_s| part.torque_n_m(attitude, at_s)))
     }
 
     /// The same by rotors out of balance; `None` where all are in balance.
-    pub fn imbalance_impulse_inertial_n_m_s(&self, time_s: f64) -> Option<Vector3<f64>> {
+    pub fn imbalance_impulse_inertial_n_m_s(&self, until: &MotionAt) -> Option<Vector3<f64>> {
         let torque = |_: &Quaternion, at_s: f64| self.imbalance_after(at_s)[0];
-        (!self.imbalances.is_empty()).then(|| self.impulse_inertial_n_m_s(time_s, torque))
+        (!self.imbalances.is_empty()).then(|| self.impulse_inertial_n_m_s(until, torque))
     }
 
     /// The same by what swings under the load; `None` where nothing does.
-    pub fn swing_impulse_inertial_n_m_s(&self, time_s: f64) -> Option<Vector3<f64>> {
+    pub fn swing_impulse_inertial_n_m_s(&self, until: &MotionAt) -> Option<Vector3<f64>> {
         let swings = !self.oscillators.is_empty() && !self.load.is_zero();
         let torque = |_: &Quaternion, at_s: f64| self.swing_torque_after(at_s);
-        swings.then(|| self.impulse_inertial_n_m_s(time_s, torque))
+        swings.then(|| self.impulse_inertial_n_m_s(until, torque))
     }
 
     /// Change of the total momentum since the start of the segment by a torque in N m, body frame, by attitude and s since then.
     fn impulse_inertial_n_m_s(
         &self,
-        time_s: f64,
+        until: &MotionAt,
         torque_body_n_m: impl Fn(&Quaternion, f64) -> Vector3<f64>,
     ) -> Vector3<f64> {
-        let elapsed_s = time_s - self.start_s;
-        let attitudes = self.attitudes_before(elapsed_s);
-        let torques = GAUSS_3.into_iter().zip(attitudes).map(|((node, weight), attitude)| {
+        let elapsed_s = until.time_s - self.start_s;
+        let torques = GAUSS_3.into_iter().zip(until.attitudes).map(|((node, weight), attitude)| {
             attitude.inertial_from_body(&torque_body_n_m(&attitude, node * elapsed_s)) * (weight * elapsed_s)
         });
         torques.sum()
@@ -330,10 +309,22 @@ impl GyrostatMotion {
     /// Continues from the end: the next segment, at most to `limit_s`, under these motor torques and loads (linear in time from
     /// the present end on).
     pub fn advance(&mut self, gyrostat: &Gyrostat, motors: &[Motor], load: &BodyLoad, limit_s: f64) {
+        let motion = self.at(gyrostat, self.end_s);
+        self.advance_from(&motion, gyrostat, motors, load, limit_s);
+    }
+
+    /// The same where the body is known at the end.
+    pub fn advance_from(
+        &mut self,
+        motion: &BodyMotion,
+        gyrostat: &Gyrostat,
+        motors: &[Motor],
+        load: &BodyLoad,
+        limit_s: f64,
+    ) {
         let start_s = self.end_s;
-        let motion = self.remembered_at(gyrostat, start_s);
         for k in 0..self.rotors.len() {
-            let relative_n_m_s = self.rotor_n_m_s(gyrostat, k, start_s, &motion);
+            let relative_n_m_s = self.rotor_n_m_s(gyrostat, k, start_s, motion);
             let (wheel, it) = (&gyrostat.wheels()[k], &mut self.rotors[k]);
             let carried = wheel.carried_n_m_s(&motion.rate_body_rad_s);
             let (rotor, relative_n_m_s) = match it.next.take() {
@@ -363,7 +354,6 @@ impl GyrostatMotion {
         self.delta_v_inertial_m_s = motion.delta_v_inertial_m_s;
         self.series.attitude[0] = motion.attitude.0.into();
         self.series.momentum[0] = motion.attitude.body_from_inertial(&motion.momentum_inertial_n_m_s);
-        self.forget();
         let longest_s = limit_s - start_s;
         self.build(gyrostat, motors, longest_s);
         // One rotor after another, as each that is set free or held changes what drives the others.
@@ -439,16 +429,15 @@ impl GyrostatMotion {
     }
 
     /// Total momentum and velocity change, inertial.
-    fn totals_after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
+    fn totals_after(&self, elapsed_s: f64, attitudes: &[Quaternion; 3]) -> [Vector3<f64>; 2] {
         let mut totals = [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s];
         let is_free = self.load.is_zero() && self.imbalances.is_empty();
         if !is_free {
-            let attitudes = self.attitudes_before(elapsed_s);
             for ((node, weight), attitude) in GAUSS_3.into_iter().zip(attitudes) {
                 let at_s = node * elapsed_s;
                 let [mut torque, acceleration] = self.loads_after(at_s);
                 if let Some(dipole) = &self.load.dipole {
-                    torque += dipole.torque_n_m(&attitude, at_s);
+                    torque += dipole.torque_n_m(attitude, at_s);
                 }
                 for (total, load) in totals.iter_mut().zip([torque, acceleration]) {
                     *total += attitude.inertial_from_body(&load) * (weight * elapsed_s);

@@ -33,7 +33,7 @@ pub use dipole_in_field::DipoleInField;
 pub use frame::{MovingFrame, MovingUnit};
 pub use gravity_gradient::{OblatePlanet, gravity_gradient_n_m, oblate_gravity_gradient_n_m};
 pub use gyrostat::{Appendages, Gyrostat, GyrostatError};
-pub use gyrostat_motion::GyrostatMotion;
+pub use gyrostat_motion::{GyrostatMotion, MotionAt};
 pub use imbalance::RotorImbalance;
 pub use inertia::{Inertia, InertiaError};
 pub use internal_motion::{HingedMass, InternalMotion};

@@ -15,18 +15,12 @@ pub(super) struct RotorMotion {
     pub next: Option<Rotor>,
     /// Series of h + I a.w, in N m s; unused while it is held.
     pub axial: [f64; TERMS],
-    /// Time since the start in s and the momentum then; a cache.
-    #[serde(skip)]
-    pub known: Option<(f64, f64)>,
 }
 
 impl RotorMotion {
     /// h + I a.w by the terms up to `order`, `elapsed_s` after the start, in N m s.
     pub(super) fn axial_after(&self, order: usize, elapsed_s: f64) -> f64 {
-        match self.known {
-            Some((known_s, axial)) if known_s == elapsed_s => axial,
-            _ => polynomial(&self.axial[..=order], elapsed_s),
-        }
+        polynomial(&self.axial[..=order], elapsed_s)
     }
 
     /// Whether a simulation can produce it.

@@ -41,6 +41,11 @@ impl CartesianState {
         }
     }
 
+    /// Position times velocity, m2/s, the radius times its rate: it rises through zero at periapsis.
+    pub fn radial_m2_s(&self) -> f64 {
+        self.position_m.dot(&self.velocity_m_s)
+    }
+
     /// The same along other axes.
     pub fn along(&self, dcm: &Matrix3<f64>) -> Self {
         Self { position_m: dcm * self.position_m, velocity_m_s: dcm * self.velocity_m_s }

@@ -10,10 +10,10 @@ use crate::momentum::DumpPolicy;
 pub struct DumpRequests {
     /// Components beyond their thresholds at the last sample.
     exceeded: [bool; 3],
-    /// Whether one came beyond its threshold there.
-    request: bool,
-    /// Momentum after the last request, body frame, from the wheels' bias, in N m s.
-    target_body_n_m_s: Vector3<f64>,
+    /// Whether the last sample asks for a dump.
+    pub is_requested: bool,
+    /// Momentum after the last request, body frame, from the wheels' bias, in N m s; zero before any.
+    pub target_body_n_m_s: Vector3<f64>,
 }
 
 impl DumpRequests {
@@ -26,24 +26,14 @@ impl DumpRequests {
         scheduled: Option<Vector3<f64>>,
     ) {
         let exceeded = policy.exceeded_by(momentum_body_n_m_s);
-        self.request = exceeded.iter().zip(self.exceeded).any(|(now, before)| *now && !before);
+        self.is_requested = exceeded.iter().zip(self.exceeded).any(|(now, before)| *now && !before);
         self.exceeded = exceeded;
-        if self.request {
+        if self.is_requested {
             self.target_body_n_m_s = policy.after(momentum_body_n_m_s) - policy.bias_body_n_m_s;
         }
         if let Some(target_body_n_m_s) = scheduled {
-            (self.request, self.target_body_n_m_s) = (true, target_body_n_m_s);
+            (self.is_requested, self.target_body_n_m_s) = (true, target_body_n_m_s);
         }
-    }
-
-    /// Whether the last sample asks for a dump.
-    pub fn is_requested(&self) -> bool {
-        self.request
-    }
-
-    /// Momentum after the last request, body frame, from the wheels' bias, in N m s; zero before any.
-    pub fn target_body_n_m_s(&self) -> &Vector3<f64> {
-        &self.target_body_n_m_s
     }
 }
 
@@ -63,12 +53,12 @@ mod tests {
         let mut requests = DumpRequests::default();
         let mut sample = |x, y, z| {
             requests.sample(&policy, &Vector3::new(x, y, z), None);
-            (requests.is_requested(), *requests.target_body_n_m_s())
+            (requests.is_requested, requests.target_body_n_m_s)
         };
         assert_eq!(sample(4.0, -5.0, 0.0), (false, Vector3::zeros()));
-        let left = Vector3::new(-2.0, 3.0, 0.5);
-        assert_eq!(sample(4.1, 3.0, 0.5), (true, left));
-        assert_eq!(sample(4.2, 3.0, 0.5), (false, left));
+        let remaining = Vector3::new(-2.0, 3.0, 0.5);
+        assert_eq!(sample(4.1, 3.0, 0.5), (true, remaining));
+        assert_eq!(sample(4.2, 3.0, 0.5), (false, remaining));
         assert_eq!(sample(4.2, 3.0, -1.1), (true, Vector3::new(-2.0, 3.0, 0.5)));
         assert!(!sample(3.9, 3.0, -1.1).0);
         assert_eq!(sample(-4.5, 3.0, -1.1), (true, Vector3::new(2.0, 3.0, 0.5)));

@@ -116,10 +116,12 @@ impl PredictedDownlink {
 /// Changes of X and Z of the momentum through each coming span of science and each downlink.
 #[derive(Clone, Copy, Debug)]
 pub struct Components {
-    count: usize,
+    /// Cycles that were forecast.
+    pub count: usize,
     excursions: [[Excursion; LONGEST_HORIZON]; 2],
     downlinks: [PredictedDownlink; LONGEST_HORIZON],
-    path: [[f64; NEXT_SAMPLES]; 2],
+    /// X and Z through the first science, relative to its start, in N m s.
+    pub path: [[f64; NEXT_SAMPLES]; 2],
     /// When thrusters dump, and what they leave.
     pub policy: DumpPolicy,
 }
@@ -223,16 +225,6 @@ impl Components {
             }
         }
         cycles
-    }
-
-    /// How many cycles were forecast.
-    pub fn count(&self) -> usize {
-        self.count
-    }
-
-    /// X and Z through the first science, relative to its start, in N m s.
-    pub fn path(&self) -> &[[f64; NEXT_SAMPLES]; 2] {
-        &self.path
     }
 }
 

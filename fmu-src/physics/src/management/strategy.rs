@@ -182,8 +182,8 @@ impl Manager<'_> {
             let component = Component {
                 momentum_n_m_s: momentum_body_n_m_s[body_axis] + beside[axis] - bias_n_m_s,
                 authority: torques[axis].map(|it| it * state.span_s),
-                cycles: later[axis].get(..prediction.count()).unwrap_or_default(),
-                path: &prediction.path()[axis],
+                cycles: later[axis].get(..prediction.count).unwrap_or_default(),
+                path: &prediction.path[axis],
                 threshold: policy.threshold_body_n_m_s[body_axis],
                 dumped: |before| policy.component_after(body_axis, before + bias_n_m_s) - bias_n_m_s,
             };

@@ -19,37 +19,15 @@ pub struct MomentumIntegrator {
     dumps: Dumps,
 }
 
-/// Why the integration stopped.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stop {
-    /// The time requested is covered.
-    Reached,
-    /// A dump is due ([`MomentumIntegrator::dump`]).
-    Dump(DumpEvent),
-    /// Something is to be chosen.
-    Choice {
-        /// When, in s.
-        at_s: f64,
-    },
-    /// A scheduled time has come.
-    Scheduled {
-        /// When, in s.
-        at_s: f64,
-    },
-}
-
-/// Times at which the integration stops, or does not.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StopTimes {
-    /// The next scheduled time, in s; infinite where there is none.
-    pub scheduled_s: f64,
-    /// When the last dump was due, in s, which is not watched for again.
-    pub dumped_s: Option<f64>,
-}
-
-impl StopTimes {
-    /// No scheduled event and no dump so far.
-    pub const NONE: Self = Self { scheduled_s: f64::INFINITY, dumped_s: None };
+/// The next segment, ready to be integrated.
+#[derive(Clone, Copy, Debug)]
+pub struct PreparedSegment {
+    horizon_s: f64,
+    attitude: Quaternion,
+    totals: Totals,
+    by_source: SourceMomenta,
+    /// The dump that is due where it begins, if the momentum exceeds a threshold there.
+    pub due: Option<DumpEvent>,
 }
 
 impl MomentumIntegrator {
@@ -138,7 +116,17 @@ impl MomentumIntegrator {
         self.dumps = self.dumps.with(*event);
     }
 
-    /// Advances until the current segment covers `time_s`; an edge belongs to the segment that begins there.
+    /// End of the current segment, in s: up to there everything is known.
+    pub fn end_s(&self) -> f64 {
+        self.segment.end_s()
+    }
+
+    /// Whether the current segment ends before `time_s` or there; an edge belongs to the segment that begins there.
+    pub fn ends_by(&self, time_s: f64) -> bool {
+        self.segment.end_s() <= time_s + edge_tolerance_s(time_s)
+    }
+
+    /// Advances until the current segment covers `time_s`, dumping where a threshold is exceeded.
     ///
     /// # Errors
     /// What ends the flight; everything before stays.
@@ -149,57 +137,62 @@ impl MomentumIntegrator {
         time_s: f64,
         mut report: impl FnMut(&DumpEvent),
     ) -> Result<(), F::Failure> {
-        let mut times = StopTimes::NONE;
-        while let Stop::Dump(event) = self.advance_to_stop(flight, settings, time_s, times)? {
-            self.dump(flight, &event);
-            self.dumps.check()?;
-            report(&event);
-            times.dumped_s = Some(event.time_s);
+        let mut dumped_s = None;
+        while self.ends_by(time_s) {
+            let prepared = self.prepare(flight, settings, f64::INFINITY)?;
+            if let Some(event) = prepared.due.filter(|due| dumped_s != Some(due.time_s)) {
+                flight.spend(WorkKind::Dump, event.time_s)?;
+                self.dump(flight, &event);
+                self.dumps.check()?;
+                report(&event);
+                dumped_s = Some(event.time_s);
+            } else {
+                self.advance_segment(flight, settings, &prepared)?;
+            }
         }
         Ok(())
     }
 
-    /// The same up to the next dump, choice or scheduled time, which is due; a dump that is not carried out is due again in the next
-    /// segment.
+    /// Makes the next segment ready, which ends at `limit_s` at the latest.
+    ///
+    /// # Errors
+    /// What ends the flight.
+    pub fn prepare<F: TorqueModel>(
+        &self,
+        flight: &mut F,
+        settings: &Settings,
+        limit_s: f64,
+    ) -> Result<PreparedSegment, F::Failure> {
+        let start_s = self.segment.end_s();
+        let (totals, by_source) = (self.segment.totals(start_s), self.segment.by_source(start_s));
+        let limit_s = next_multiple_s(start_s, settings.grid_s).min(limit_s);
+        let (horizon_s, inertial_from_body) = flight.prepare(start_s, limit_s)?;
+        let before_body_n_m_s = totals.momentum_body_n_m_s(settings.convention, &inertial_from_body);
+        // A component that just came to its threshold does not exceed it yet.
+        let mut exceeded = settings.policy.exceeded_by(&before_body_n_m_s);
+        exceeded.iter_mut().zip(self.segment.at_threshold()).for_each(|(it, reached)| *it |= reached);
+        let due = exceeded.contains(&true).then(|| {
+            let after_body_n_m_s = settings.policy.reinitialised(&before_body_n_m_s, &exceeded);
+            DumpEvent { time_s: start_s, before_body_n_m_s, after_body_n_m_s }
+        });
+        // A law that jumps here takes the sign nearer to the motion that ends.
+        let ended = self.segment.attitude(start_s);
+        let attitude = Attitude::from_rotation(&inertial_from_body).continuing(&ended).unit_quaternion();
+        Ok(PreparedSegment { horizon_s, attitude, totals, by_source, due })
+    }
+
+    /// Integrates over the next segment.
     ///
     /// # Errors
     /// What ends the flight; everything before stays.
-    pub fn advance_to_stop<F: TorqueModel>(
+    pub fn advance_segment<F: TorqueModel>(
         &mut self,
         flight: &mut F,
         settings: &Settings,
-        time_s: f64,
-        StopTimes { scheduled_s, dumped_s }: StopTimes,
-    ) -> Result<Stop, F::Failure> {
-        let edge_tolerance_s = edge_tolerance_s(time_s);
-        while self.segment.end_s() <= time_s + edge_tolerance_s {
-            let start_s = self.segment.end_s();
-            if start_s >= scheduled_s {
-                flight.spend(WorkKind::Dump, start_s)?;
-                return Ok(Stop::Scheduled { at_s: start_s });
-            }
-            if flight.must_choose(start_s) {
-                return Ok(Stop::Choice { at_s: start_s });
-            }
-            let (totals, by_source) = (self.segment.totals(start_s), self.segment.by_source(start_s));
-            let (horizon_s, inertial_from_body) =
-                flight.prepare(start_s, next_multiple_s(start_s, settings.grid_s).min(scheduled_s))?;
-            let momentum = totals.momentum_body_n_m_s(settings.convention, &inertial_from_body);
-            // A component that just came to its threshold does not exceed it yet.
-            let mut exceeded = settings.policy.exceeded_by(&momentum);
-            exceeded.iter_mut().zip(self.segment.at_threshold()).for_each(|(it, reached)| *it |= reached);
-            if dumped_s != Some(start_s) && exceeded.contains(&true) {
-                flight.spend(WorkKind::Dump, start_s)?;
-                let after_body_n_m_s = settings.policy.reinitialised(&momentum, &exceeded);
-                let before_body_n_m_s = momentum;
-                return Ok(Stop::Dump(DumpEvent { time_s: start_s, before_body_n_m_s, after_body_n_m_s }));
-            }
-            // A law that jumps here takes the sign nearer to the motion that ends.
-            let ended = self.segment.attitude(start_s);
-            let attitude = Attitude::from_rotation(&inertial_from_body).continuing(&ended).unit_quaternion();
-            self.segment.advance(flight, settings, horizon_s, (attitude, totals, by_source))?;
-        }
-        Ok(Stop::Reached)
+        prepared: &PreparedSegment,
+    ) -> Result<(), F::Failure> {
+        let PreparedSegment { horizon_s, attitude, totals, by_source, .. } = *prepared;
+        self.segment.advance(flight, settings, horizon_s, (attitude, totals, by_source))
     }
 
     /// The velocity changes by `delta_v_inertial_m_s` where a dump just ended.

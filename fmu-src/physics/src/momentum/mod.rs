@@ -16,7 +16,7 @@ mod wheels;
 
 pub use by_source::{SourceMomenta, SourceTorques, torques_body_n_m};
 pub use dump::{DumpEvent, DumpPolicy, DumpSpacing, Dumps, Reinitialise, TooManyDumps};
-pub use integrator::{MomentumIntegrator, Stop, StopTimes};
+pub use integrator::{MomentumIntegrator, PreparedSegment};
 pub use segment::Settings;
 pub use torque_model::{EventValues, TorqueModel, TorqueSample, WorkKind, after_event_s};
 pub use totals::{Convention, Totals};

@@ -14,34 +14,25 @@
 //! replaces the command and [`PropagatorState::cut`] drops what was computed beyond it, while heat stored up to then stays.
 //! How far ahead is computed is `RadiationSettings::grid_s`: about the time between two samples wastes nothing.
 
-mod air_and_field;
+mod control;
 mod disturbances;
+mod events;
 mod flight;
 mod instant;
-mod light;
-mod mass;
 mod motion;
 mod settings;
 mod sources;
 mod state;
 mod thrusters;
 
-pub use air_and_field::aerodynamic_solver::AerodynamicSolver;
-pub use air_and_field::air_and_field_segment::AirAndField;
 pub use disturbances::evaluation::{Evaluation, External};
-pub use disturbances::plant::Plant;
+pub use disturbances::plant::{Plant, PlantSettings};
 pub use disturbances::simulation_context::SimulationContext;
+pub use disturbances::simulation_models::SimulationModels;
 pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
-pub use flight::ideal::Maneuvers;
 pub use flight::report::{ControlReport, EncounterReport, FlightSummary, Report, WheelReport};
-pub use flight::wheel_control::WheelControl;
-pub use flight::{
-    Changes, EncounterPrediction, Flight, ForecastMomentum, ModeSettings, Occultation, PredictedArrival,
-    StepContext, Undo,
-};
-pub use light::radiation_segment::RadiationSegment;
-pub use light::radiation_solver::RadiationSolver;
-pub use light::sunlit::SunlitConfiguration;
+pub use flight::{Flight, ForecastMomentum, Occultation, StepContext, Undo};
+pub use instant::air_and_field_segment::AirAndField;
 pub use motion::approaches::ClosestApproach;
 pub use motion::geometry::{Geometry, sun_and_earth};
 pub use motion::instant::{Instant, Regime};
@@ -51,20 +42,22 @@ pub use motion::trajectory::Trajectory;
 pub use settings::air_and_field_settings::{
     AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure,
 };
+pub use settings::attitude_source::{AttitudeSource, Command, Turning};
 pub use settings::configuration::{
-    AttitudeSource, Command, Configuration, DynamicAttitude, Encounter, EphemerisSource, LightSource, Motion,
-    PredictionSettings, SunLight,
+    Configuration, Encounter, EphemerisSource, LightSource, Motion, PredictionSettings, SunLight,
 };
 pub use settings::control_defaults::{
     ControlDefaults, DUMP_TORQUE_N_M, LEAST_DUMP_THRESHOLD_N_M_S, NEVER_DUMPED_N_M_S,
     SLEW_ACCELERATION_RAD_S2, SLEW_RATE_RAD_S,
 };
+pub use settings::digest::Digest;
 pub use settings::dynamics_settings::{
     Control, DynamicsInputs, DynamicsSettings, StartMotion, StartPointing, ThrusterControl, Tracked,
 };
 pub use settings::error::{ManeuverError, PlantError};
 pub use settings::ideal_settings::{IdealSettings, IdealWheel};
 pub use settings::laws::{Laws, TUNABLE_COUNT};
+pub use settings::mode_settings::{Changes, ModeSettings};
 pub use settings::panel_setting::{PanelSetting, PanelStep, Ramp, SunAt, Tilt};
 pub use settings::prepared_spacecraft::PreparedSpacecraft;
 pub use settings::radiation_settings::RadiationSettings;
@@ -72,9 +65,16 @@ pub use settings::reaction_control_settings::{ReactionControlSettings, ThrustCom
 pub use settings::thruster_events::{Maneuver, ThrusterEvent, ThrusterEventSettings};
 pub use settings::wheel_control_settings::WheelControlSettings;
 pub use settings::work::{Work, WorkExceeded};
+pub use sources::air::AerodynamicSolver;
 pub use sources::by_source::{BySource, Parameters, PositionError, Positions, Surfaces, Workspaces};
+pub use sources::sunlight::REFLECTED_LIGHT;
+pub use sources::sunlight::radiation_segment::RadiationSegment;
+pub use sources::sunlight::radiation_solver::RadiationSolver;
+pub use sources::sunlight::sunlit::SunlitConfiguration;
 pub use sources::thrusters::THRUSTERS;
 pub use sources::{SourceStates, Sources};
+pub use state::encounter_prediction::{EncounterPrediction, PredictedArrival};
+pub use state::ideal_state::Maneuvers;
 pub use state::propagator_state::PropagatorState;
 pub use state::sun_choice::SunDirectionSelection;
 pub use thrusters::allocation::{ThrusterAllocator, UnservedDumps};

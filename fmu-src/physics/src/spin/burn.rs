@@ -147,7 +147,7 @@ impl Burn {
     /// Propellant of all its pulses, in kg.
     pub fn propellant_kg(&self, spinner: &Spinner) -> f64 {
         let flows = [self.mask, self.opposite_mask].map(|mask| spinner.thrust(mask).flow_kg_s);
-        (0..self.train.count())
+        (0..self.train.count)
             .map(|k| flows[self.train.half_turns(k) as usize % 2] * self.train.width_s(k))
             .sum()
     }
@@ -180,7 +180,7 @@ impl Burn {
         for timing in &self.valves {
             let least_s = timing.min_on_s.max(timing.rise_s);
             let greatest_s = longest_s - timing.rise_s - timing.tail_off_s;
-            for width_s in (0..=self.train.order()).map(|k| self.train.width_s(k)) {
+            for width_s in (0..=self.train.order).map(|k| self.train.width_s(k)) {
                 let on_s = timing.on_s(width_s);
                 if on_s > 0.0 && on_s >= least_s * (1.0 - 1e-12) && on_s <= greatest_s {
                     continue;

@@ -70,14 +70,14 @@ impl Crossing {
     /// does not bring the direction round within 2 1/2 turns.
     pub fn next_s(&self, motion: &Motion, from_s: f64, work: &mut Work) -> Option<f64> {
         work.spend(WorkKind::Crossing);
-        let inertia = motion.inertia();
+        let inertia = &motion.inertia;
         if motion.segment_end_s().is_infinite() {
             let state = motion.at(from_s);
             return self.on_closed_form(motion, from_s, &state, state.rate_rad_s(inertia).z);
         }
         let mut segment = motion.clone();
         while segment.segment_end_s() < from_s && !segment.diverges() && !work.is_exhausted() {
-            work.spend_segment(segment.damper());
+            work.spend_segment(&segment.damper);
             segment.next_segment();
         }
         let rate = segment.at(from_s).rate_rad_s(inertia).z;
@@ -95,7 +95,7 @@ impl Crossing {
                 return None;
             }
             start_s = end_s;
-            work.spend_segment(segment.damper());
+            work.spend_segment(&segment.damper);
             segment.next_segment();
         }
     }
@@ -110,7 +110,7 @@ impl Crossing {
             return None;
         }
         work.spend(WorkKind::Crossing);
-        let rate = motion.at(from_s).rate_rad_s(motion.inertia()).z.abs();
+        let rate = motion.at(from_s).rate_rad_s(&motion.inertia).z.abs();
         self.within(motion, from_s, end_s, rate)
     }
 

@@ -24,7 +24,7 @@ pub const SHORTEST_TIME_CONSTANT_S: f64 = 1.0;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Damper {
     /// 1/tau, 0 without a damper.
-    rate_1_s: f64,
+    pub rate_1_s: f64,
     grows: bool,
 }
 
@@ -49,11 +49,6 @@ impl Damper {
     /// Whether there is one.
     pub fn acts(&self) -> bool {
         self.rate_1_s != 0.0
-    }
-
-    /// 1/tau.
-    pub fn rate_1_s(&self) -> f64 {
-        self.rate_1_s
     }
 
     /// G of the module's equation, in 1/(N m s2), for the momentum `h` in body components.

@@ -59,7 +59,7 @@ impl ForecastCase {
         let mut sum = Forecast::default();
         let (mut re, mut im, mut last_s) = (0.0_f64, 0.0_f64, 0.0_f64);
         let (mut last_width_s, mut kick, mut move_rad) = (f64::NAN, 0.0, 0.0);
-        for k in 0..train.count() {
+        for k in 0..train.count {
             let width_s = train.width_s(k);
             if width_s != last_width_s {
                 kick = spin.nutation_kick_rad(self.torque_n_m, width_s);
@@ -111,8 +111,8 @@ impl Range {
     /// Worst final and peak nutation over the range, within 1e-3 of what any finer scan finds, and the least and
     /// greatest move. Trains of more than three thousand pulses are sampled more coarsely, those of more than 150 thousand more coarsely still.
     pub fn worst(&self, flight: &ForecastCase, train: &Train) -> Worst {
-        let turns = train.turns(train.count().saturating_sub(1)) + 1.0;
-        let count = f64::from(train.count().max(1));
+        let turns = train.turns(train.count.saturating_sub(1)) + 1.0;
+        let count = f64::from(train.count.max(1));
         let most = ((MOST_PULSES / count) as u32).max(MOST.min((MOST_FOLLOWED / count) as u32));
         let samples = |half_width: f64, per_turn: f64| {
             if half_width == 0.0 {
@@ -130,10 +130,10 @@ impl Range {
             // From turn to turn it does not: sizes change, and steadily.
             Timing::SunCrossing | Timing::TruePhase => samples(rate, 0.0),
         };
-        let at = |ratio_share: f64, rate_share: f64| {
+        let at = |ratio: f64, rate: f64| {
             let mut other = *flight;
-            other.spin.ratio += self.ratio * ratio_share;
-            other.spin.rate_rad_s += self.rate_rad_s * rate_share;
+            other.spin.ratio += self.ratio * ratio;
+            other.spin.rate_rad_s += self.rate_rad_s * rate;
             other.forecast(train)
         };
         let mut worst = Worst {
@@ -143,9 +143,9 @@ impl Range {
             most_moved_rad: f64::NEG_INFINITY,
         };
         if ratios == 1 {
-            worst.sweep(rates, |share| at(0.0, share));
+            worst.sweep(rates, |position| at(0.0, position));
         } else {
-            (0..rates).for_each(|j| worst.sweep(ratios, |share| at(share, position_of(j, rates))));
+            (0..rates).for_each(|j| worst.sweep(ratios, |position| at(position, position_of(j, rates))));
         }
         worst
     }
@@ -177,7 +177,7 @@ impl Worst {
         self.most_moved_rad = self.most_moved_rad.max(seen.moved_rad);
     }
 
-    /// Takes in `count` samples over shares from -1 to 1, and the tops of parabolas through three of them.
+    /// Takes in `count` samples at positions from -1 to 1, and the tops of parabolas through three of them.
     fn sweep(&mut self, count: u32, at: impl Fn(f64) -> Forecast) {
         let mut window = [[0.0; 2]; 3];
         for i in 0..count {

@@ -75,9 +75,12 @@ enum Path {
 /// looks. So the same edges give the same motion, to the bit, however it is sampled.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
-    inertia: Inertia,
-    damper: Damper,
-    torque: BodyTorque,
+    /// The body.
+    pub inertia: Inertia,
+    /// The damper.
+    pub damper: Damper,
+    /// The torque of the present segment.
+    pub torque: BodyTorque,
     anchor: Anchor,
     path: Path,
 }
@@ -93,16 +96,6 @@ impl Motion {
             Path::Series(TaylorSegment::new(&inertia, &damper, &torque, &principal, hint_s))
         };
         Self { inertia, damper, torque, anchor, path }
-    }
-
-    /// The body.
-    pub fn inertia(&self) -> &Inertia {
-        &self.inertia
-    }
-
-    /// The damper.
-    pub fn damper(&self) -> &Damper {
-        &self.damper
     }
 
     /// Start of the present closed form or segment, in s.
@@ -175,11 +168,6 @@ impl Motion {
             return check_clock(time_s, rate_rad_s.recip());
         }
         Err(MotionError::TooFast { time_s, rate_rad_s })
-    }
-
-    /// The torque of the present segment.
-    pub fn torque(&self) -> &BodyTorque {
-        &self.torque
     }
 
     /// Continues to the next segment. Without effect on a closed form.

@@ -1,4 +1,4 @@
-//! Nutation left by trains of short pulses: the linear theory of paper 002, section II, corrected and as printed.
+//! Nutation that remains after trains of short pulses: the linear theory of paper 002, section II, corrected and as printed.
 //!
 //! In the body the transverse momentum turns at lambda = (r - 1) Omega, r = I3/I_T. A pulse of width l and transverse
 //! torque T adds T * 2 sin(lambda l/2)/lambda to it (the *nutation kick*) and moves the momentum in inertial space by
@@ -111,8 +111,9 @@ impl LinearNutation {
         let [mut tx, mut ty] = start;
         if slope != [0.0; 2] {
             // T(t) = Tm + s u about the middle: to Tm w comes -i s m, m the integral of u sin(lambda u).
-            let share = first_moment_s(nutation, to_s - from_s);
-            (tx, ty) = (tx + slope[0] * half_s + slope[1] * share, ty + slope[1] * half_s - slope[0] * share);
+            let moment = first_moment_s(nutation, to_s - from_s);
+            (tx, ty) =
+                (tx + slope[0] * half_s + slope[1] * moment, ty + slope[1] * half_s - slope[0] * moment);
         }
         self.across = [
             x * cosine - y * sine + scale * (tx * cosine_half - ty * sine_half),

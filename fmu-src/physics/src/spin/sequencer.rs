@@ -50,10 +50,12 @@ pub enum Phase {
 /// State of a burn in flight.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sequencer {
-    burn: Burn,
+    /// The burn.
+    pub burn: Burn,
     /// Pulses finished.
-    fired: u32,
-    phase: Phase,
+    pub fired: u32,
+    /// Present phase.
+    pub phase: Phase,
     /// Centre of the first pulse, in s.
     first_centre_s: f64,
     /// Last centre without its deliberate offset, in s.
@@ -78,32 +80,17 @@ impl Sequencer {
         }
     }
 
-    /// The burn.
-    pub fn burn(&self) -> &Burn {
-        &self.burn
-    }
-
-    /// Pulses finished.
-    pub fn fired(&self) -> u32 {
-        self.fired
-    }
-
-    /// Present phase.
-    pub fn phase(&self) -> Phase {
-        self.phase
-    }
-
     /// Whether the numbers of a decoded state belong together.
     pub fn is_valid(&self) -> bool {
         let edges = match self.phase {
             Phase::Waiting { on_s, off_s } => off_s >= on_s,
             _ => true,
         };
-        let (rate, count) = (self.burn.assumed_rate_rad_s, self.burn.train.count());
-        let left = matches!(self.phase, Phase::Done) == (self.fired >= count);
+        let (rate, count) = (self.burn.assumed_rate_rad_s, self.burn.train.count);
+        let counted = matches!(self.phase, Phase::Done) == (self.fired >= count);
         edges
             && self.burn.is_valid()
-            && left
+            && counted
             && self.fired <= count
             && self.burn.train.is_valid()
             && (0.1 * SLOWEST_RAD_S..=10.0 * FASTEST_RAD_S).contains(&rate)
@@ -143,7 +130,7 @@ impl Sequencer {
             }
             Phase::Firing { .. } => {
                 self.fired += 1;
-                self.phase = if self.fired == self.burn.train.count() { Phase::Done } else { Phase::Idle };
+                self.phase = if self.fired == self.burn.train.count { Phase::Done } else { Phase::Idle };
                 None
             }
             Phase::Later { .. } => {
@@ -242,7 +229,7 @@ impl Sequencer {
 
     fn exact_phase(&self, motion: &Motion, earliest_s: f64, work: &mut Work) -> Option<f64> {
         let (_, torque) = self.burn.actuator(self.fired);
-        let axis = motion.inertia().spin_axis_body();
+        let axis = motion.inertia.spin_axis_body();
         let across = torque - axis * axis.dot(&torque);
         let crossing = Crossing { body: across, inertial: self.burn.target_inertial, pole: Pole::Momentum };
         crossing.next_s(motion, earliest_s, work)
@@ -262,7 +249,7 @@ impl Sequencer {
         let (_, torque) = self.burn.actuator(self.fired);
         // Spin from the instant the Sun's azimuth about the momentum is on the sensor to that of the target on the
         // torque: both read off the present attitude, whose own phase cancels.
-        let inertia = motion.inertia();
+        let inertia = &motion.inertia;
         let azimuth = |direction: &Vector3<f64>| {
             let seen = state.attitude.body_from_inertial(&(direction - pole * pole.dot(direction)));
             let seen = inertia.spin_frame_from_body(&seen);

@@ -162,7 +162,7 @@ impl TaylorSegment {
         segment.expand(inertia, &torque, &gain[..usize::from(gain[0] != 0.0)], hint_s);
         if damper.acts() {
             // The gain follows the nutation angle. It is weak, so a few rounds converge to rounding.
-            let length_s = segment.length_s.min(0.1 / damper.rate_1_s());
+            let length_s = segment.length_s.min(0.1 / damper.rate_1_s);
             let scale = momentum_body.norm() * length_s;
             for _ in 0..4 {
                 let nodes_s = Segment::<1, GAIN_TERMS>::nodes(0.0, length_s);

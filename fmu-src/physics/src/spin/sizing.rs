@@ -28,14 +28,14 @@ pub fn sized(pulses: &Pulses, flight: &ForecastCase, angle_rad: f64) -> Result<T
         return Err(make(2 * MOST_ORDER + 2).map_or_else(BurnError::Train, |_| too_long(angle_rad)));
     };
     let Ok(base) = make(2 * MOST_ORDER + 2) else { return Ok(short) };
-    let step = if base.shape() == Shape::Split { 2.0 } else { 1.0 };
+    let step = if base.shape == Shape::Split { 2.0 } else { 1.0 };
     let plateau = spin.manoeuvre_rad(flight.torque_n_m, base.plateau_width_s());
     let more = ((angle_rad - moved(&base)) / (plateau * step)).round().max(0.0);
-    let count = f64::from(base.count()) + more * step;
+    let count = f64::from(base.count) + more * step;
     if count.is_nan() || count > f64::from(MOST_PULSES) {
         return Err(too_long(angle_rad));
     }
-    let is_split = base.shape() == Shape::Split;
+    let is_split = base.shape == Shape::Split;
     let long = if is_split {
         // How far its halves are off depends on their length: the least off of those that move by the angle.
         let longest = (angle_rad / plateau / LEAST_OF_SPLIT).min(f64::from(MOST_PULSES)) as u32;

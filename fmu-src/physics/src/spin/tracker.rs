@@ -8,8 +8,8 @@ use crate::math;
 
 /// Picket of a star `ahead_rad` of spin after the Sun pulse, from 0.
 pub fn picket_of(ahead_rad: f64, pickets: u32) -> u32 {
-    let share = ahead_rad.rem_euclid(2.0 * PI) / (2.0 * PI);
-    ((share * f64::from(pickets)) as u32).min(pickets.saturating_sub(1))
+    let fraction = ahead_rad.rem_euclid(2.0 * PI) / (2.0 * PI);
+    ((fraction * f64::from(pickets)) as u32).min(pickets.saturating_sub(1))
 }
 
 /// Whether turn number `turn` searches `picket`: every `every`th, advanced by one a turn.

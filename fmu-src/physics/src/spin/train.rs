@@ -105,12 +105,15 @@ pub struct Pulses {
 /// A train of pulses.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Train {
-    shape: Shape,
-    count: u32,
+    /// Its shape.
+    pub shape: Shape,
+    /// Number of pulses.
+    pub count: u32,
     half_turns_per_pulse: u32,
     /// Widths while the taper rises; the last is the plateau's.
     widths_s: [f64; MOST_ORDER as usize + 1],
-    order: u32,
+    /// Order of its taper; 0 without one.
+    pub order: u32,
     second_half: SecondHalf,
 }
 
@@ -120,7 +123,7 @@ struct SecondHalf {
     first: u32,
     /// Half turns from the first pulse of the train to it.
     half_turns: u32,
-    /// Turns by which the second half comes late against the exact direction, shared by both halves.
+    /// Turns by which the second half comes late against the exact direction, half of it each.
     offset_turns: f64,
 }
 
@@ -233,21 +236,6 @@ impl Train {
             && self.second_half.half_turns <= 200 * MOST_PULSES + 400
             && self.second_half.offset_turns.abs() <= 1.0
             && self.widths_s.iter().all(|w| *w > 0.0)
-    }
-
-    /// Its shape.
-    pub fn shape(&self) -> Shape {
-        self.shape
-    }
-
-    /// Order of its taper; 0 without one.
-    pub fn order(&self) -> u32 {
-        self.order
-    }
-
-    /// Number of pulses.
-    pub fn count(&self) -> u32 {
-        self.count
     }
 
     /// Turns from pulse to pulse.

@@ -47,6 +47,7 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
         external: &external,
         planner: &planner,
         work_limit: u32::MAX,
+        log: &|_| {},
     };
     let mut flight = Flight::waiting(Thrusters::new(0, 0, 0.0));
     let settings = IdealSettings {
@@ -63,10 +64,10 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
         rate_body_rad_s: Vector3::zeros(),
         since_s: 0.0,
     };
-    flight.begin(given, &held, 0.0, &mut |_| {}).unwrap();
+    flight.begin(given, &held, 0.0).unwrap();
     let (inputs, mut now_s) = (DynamicsInputs::default(), 0.0);
     let mut advance = |to_s: f64| {
-        flight.advance(given, &inputs, [now_s, to_s], &mut |_| {}).unwrap();
+        flight.advance(given, &inputs, [now_s, to_s]).unwrap();
         now_s = to_s;
         let report = flight.report(given, &inputs, &held, to_s).unwrap();
         report.summary.totals.momentum_inertial_n_m_s

@@ -13,15 +13,15 @@ use physics::environment::frames::Frame;
 use physics::environment::orbit::{Elements, OrbitMethod, TwoBodyOrbit};
 use physics::guidance::downlink::default_downlink::DefaultDownlink;
 use physics::guidance::{Guided, Schedule, ScienceRule};
-use physics::loads::{Active, Effect, ForceTorque, Switch};
+use physics::loads::{Active, Effect, ForceTorque, Loads, Switch};
 use physics::momentum::{
     Convention, DumpPolicy, MomentumIntegrator, Reinitialise, Settings, TorqueModel, Totals,
 };
 use physics::numerics::quadrature;
 use physics::plant::{
-    AttitudeSource, Command, Configuration, EphemerisSource, External, Laws, LightSource, Motion,
+    AttitudeSource, Command, Configuration, Digest, EphemerisSource, External, Laws, LightSource, Motion,
     PanelSetting, PanelStep, Plant, PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver,
-    Ramp, SimulationContext, Sources, SunLight, ThrusterEventSettings,
+    Ramp, SimulationContext, Sources, SunLight, ThrusterEventSettings, Turning,
 };
 use physics::radiation::SolarModel;
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel};
@@ -144,7 +144,7 @@ impl Rig {
     }
 
     fn plant_in_light(&mut self, configuration: &Configuration, light: RadiationSolver) -> Plant<'_> {
-        self.context_of(configuration).sources = Sources::new(Some(light), None);
+        self.context_of(configuration).models.sources = Sources::new(Some(light), None);
         self.plant_now(&|_| [ForceTorque::zero(); 2])
     }
 
@@ -181,7 +181,7 @@ impl Rig {
             default_downlink: &self.default_downlink,
             timeline: None,
         };
-        Plant::new(prepared, self.context.as_mut().unwrap(), &mut self.propagator, load)
+        self.context.as_mut().unwrap().plant(prepared, Turning::still(), &mut self.propagator, load)
     }
 }
 
@@ -344,6 +344,39 @@ fn light_follows_an_attitude_that_is_known_only_up_to_now() {
         assert!((continuous.force_body_n - sampled.force_body_n).norm() < 1e-9 * scale_n);
         assert!((continuous.torque_body_n_m - sampled.torque_body_n_m).norm() < 1e-9 * scale_n);
     }
+}
+
+/// Light that was fitted for other settings ends where those change, as if it had been cut there.
+#[test]
+fn a_fit_for_other_settings_ends_where_they_change() {
+    let attitude = Attitude::from_quaternion([0.5, -0.5, 0.5, 0.5]).unwrap();
+    let command = Command { attitude, rate_body_rad_s: Vector3::zeros(), since_s: 0.0 };
+    let with = |center_of_mass_x_m: f64| Configuration {
+        effects: Active::by(|_| true),
+        center_of_mass_body_m: Vector3::new(center_of_mass_x_m, 0.0, 0.0),
+        ..configuration(orbit(), AttitudeSource::Commanded(command))
+    };
+    let light = RadiationSolver::new(&spacecraft(), &with(0.0), &MERCURY, 6).unwrap();
+    let simulate = |digests: [Digest; 2], is_cut: bool| {
+        let mut rig = Rig::new();
+        let mut loads = Loads::zero();
+        for (digest, (time_s, x_m)) in digests.into_iter().zip([(0.0, 0.0), (100.0, 0.1)]) {
+            if is_cut && time_s > 0.0 {
+                rig.propagator.cut(&with(0.0), time_s, true);
+            }
+            let context = rig.context_of(&with(x_m));
+            context.models.sources = Sources::new(Some(light.clone()), None);
+            context.models.digest = digest;
+            let mut plant = rig.plant_now(&|_| [ForceTorque::zero(); 2]);
+            plant.prepare(time_s, f64::INFINITY).unwrap();
+            loads = plant.evaluate(time_s).loads;
+        }
+        loads
+    };
+    let [one, other] = [1, 2].map(|word| Digest::default().with_word(word));
+    let cut = simulate([one, one], true);
+    assert_eq!(simulate([one, other], false), cut);
+    assert_ne!(simulate([one, one], false), cut);
 }
 
 /// Each stretch between two edges is a flight with panels that are held; the second edge comes sooner after the first than an event

@@ -209,7 +209,10 @@ fn a_miss_of_170_km_takes_the_published_change_of_velocity() {
         let found_mm_s = desired.size_m_s() * 1e3;
         assert!((found_mm_s / expected_mm_s - 1.0).abs() < 0.02, "{days_before} d: {found_mm_s} mm/s");
     }
-    let outgoing_1_s = sensitivity.encounter.plane.outgoing_change_1_s(force_model.gm_m3_s2);
+    let (size_m, speed_m_s) =
+        (sensitivity.encounter.plane.size_m(), sensitivity.encounter.plane.excess_speed_m_s);
+    let turn_rad = 2.0 * (force_model.gm_m3_s2 / (size_m * speed_m_s * speed_m_s)).atan();
+    let outgoing_1_s = speed_m_s * turn_rad.sin() / size_m;
     assert!((outgoing_1_s * 1e3 - 0.71).abs() < 0.015, "{outgoing_1_s}");
     let times_s = [30.0 * DAY_S, NEXT_S].map(|it| arrival_s + it);
     let cost = MissCost::new(&sensitivity, &force_model, times_s).unwrap();

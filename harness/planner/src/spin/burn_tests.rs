@@ -29,7 +29,7 @@ fn what_is_simulated_is_what_was_planned() {
         options.thruster = options.thruster.map(|name| name.replace('&', " "));
         let burn = plan(&options).unwrap().burn.unwrap();
         let (task, row, flight) = (&burn.task, &burn.row, &burn.flight);
-        assert_eq!(flight.pulses.len() as u32, row.train.count(), "{arguments}");
+        assert_eq!(flight.pulses.len() as u32, row.train.count, "{arguments}");
         let moved_rad = angle_between_rad(&flight.start_axis_inertial, &flight.end_axis_inertial());
         assert!((moved_rad / row.moved_rad - 1.0).abs() < 2e-3, "{arguments}: {moved_rad} {}", row.moved_rad);
         // The pulses' granularity, and what nutation does to Sun crossings.

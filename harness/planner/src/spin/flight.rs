@@ -97,7 +97,7 @@ fn start(spinner: &Spinner, task: &Task, row: &TrainForecast) -> Start {
         nutation_phase_rad: 0.0,
         damper_time_constant_s: task.damper_time_constant_s,
         burn: Some(BurnRequest {
-            shape: train.shape(),
+            shape: train.shape,
             timing: case.timing,
             start_s: 0.0,
             thruster,
@@ -105,7 +105,7 @@ fn start(spinner: &Spinner, task: &Task, row: &TrainForecast) -> Start {
             group,
             pulse_width_s: train.width_s(0),
             turns_per_pulse: train.turns_per_pulse(),
-            count: i32::try_from(train.count()).unwrap_or(i32::MAX),
+            count: i32::try_from(train.count).unwrap_or(i32::MAX),
             angle_rad: 0.0,
             resolution_s: task.resolution_s,
             target_inertial: task.geometry.burn_target_inertial(),
@@ -156,14 +156,14 @@ pub(super) fn simulated(
     flyer.sample();
     let mut step_s = period_s / SAMPLES;
     while flyer.phase() != Some(Phase::Done) {
-        if flyer.plant.time_s() > latest_s {
+        if flyer.plant.time_s > latest_s {
             return Err(failed(format_args!("the burn did not end within {latest_s:.1} s")));
         }
         step_s = if flyer.step(step_s)? { period_s / SAMPLES } else { 0.25 * step_s };
     }
-    let end_s = flyer.plant.time_s() + TURNS_AFTER * period_s;
-    while flyer.plant.time_s() < end_s {
-        flyer.advance(flyer.plant.time_s() + period_s / SAMPLES)?;
+    let end_s = flyer.plant.time_s + TURNS_AFTER * period_s;
+    while flyer.plant.time_s < end_s {
+        flyer.advance(flyer.plant.time_s + period_s / SAMPLES)?;
         flyer.sample();
     }
     Ok(flyer.flight)
@@ -185,7 +185,7 @@ struct Flyer<'a> {
 
 impl Flyer<'_> {
     fn phase(&self) -> Option<Phase> {
-        self.plant.sequencer().map(Sequencer::phase)
+        self.plant.sequencer.as_ref().map(|it| it.phase)
     }
 
     fn advance(&mut self, end_s: f64) -> Result<(), PlanError> {
@@ -195,14 +195,14 @@ impl Flyer<'_> {
     /// Takes a step of at most `step_s`, to the next edge if that is nearer. False, and nothing done, if an edge that was not
     /// known before lies within: a shorter step finds it.
     fn step(&mut self, step_s: f64) -> Result<bool, PlanError> {
-        let Some(sequencer) = self.plant.sequencer() else { return Ok(true) };
-        let seen = |sequencer: &Sequencer| 2 * sequencer.fired() + u32::from(sequencer.is_firing());
-        let (before, edge_s, now_s) = (seen(sequencer), sequencer.next_edge_s(), self.plant.time_s());
+        let Some(sequencer) = &self.plant.sequencer else { return Ok(true) };
+        let seen = |sequencer: &Sequencer| 2 * sequencer.fired + u32::from(sequencer.is_firing());
+        let (before, edge_s, now_s) = (seen(sequencer), sequencer.next_edge_s(), self.plant.time_s);
         let is_near = edge_s - now_s <= step_s;
         let end_s = if is_near { edge_s.max(now_s) } else { now_s + step_s };
         let kept = self.plant.clone();
         self.advance(end_s)?;
-        let after = self.plant.sequencer().map_or(before, seen);
+        let after = self.plant.sequencer.as_ref().map_or(before, seen);
         if after == before {
             self.sample();
             return Ok(true);
@@ -222,15 +222,15 @@ impl Flyer<'_> {
 
     /// A pulse begins at `time_s`.
     fn open(&mut self, time_s: f64) -> Result<(), PlanError> {
-        let Some(sequencer) = self.plant.sequencer() else { return Ok(()) };
-        let k = sequencer.fired();
-        let (burn, mask) = (sequencer.burn(), sequencer.mask());
+        let Some(sequencer) = &self.plant.sequencer else { return Ok(()) };
+        let k = sequencer.fired;
+        let (burn, mask) = (&sequencer.burn, sequencer.mask());
         let about = burn.about_centre(k);
         let mut centred = self.plant.clone();
         centred.advance(self.spinner, time_s - about.start_s).map_err(failed)?;
         let sun = centred.state().attitude.body_from_inertial(&self.task.geometry.sun_inertial);
         let slit_rad = self.spinner.sun_sensor.azimuth_deg.to_radians();
-        let last_s = self.plant.sensors().sun.last_s;
+        let last_s = self.plant.sensors.sun.last_s;
         self.opened = Some(Pulse {
             time_s,
             on_time_s: about.length_s(),
@@ -246,14 +246,14 @@ impl Flyer<'_> {
     /// The pulse under way ends at `time_s`; what it did is read when its thrust is gone.
     fn close(&mut self, time_s: f64) -> Result<(), PlanError> {
         let Some(mut pulse) = self.opened.take() else { return Ok(()) };
-        let tail_s = self.plant.sequencer().map_or(0.0, |sequencer| {
-            sequencer.burn().valves.iter().map(|valve| valve.tail_off_s).fold(0.0, f64::max)
+        let tail_s = self.plant.sequencer.as_ref().map_or(0.0, |sequencer| {
+            sequencer.burn.valves.iter().map(|valve| valve.tail_off_s).fold(0.0, f64::max)
         });
         let mut later = self.plant.clone();
         later.advance(self.spinner, time_s + tail_s).map_err(failed)?;
         let state: RigidBodyState = later.state();
         pulse.axis_inertial = state.momentum_inertial.normalize();
-        pulse.nutation_rad = state.nutation_rad(later.motion().inertia());
+        pulse.nutation_rad = state.nutation_rad(&later.motion.inertia);
         self.flight.pulses.push(pulse);
         Ok(())
     }
@@ -270,9 +270,9 @@ impl Flyer<'_> {
     }
 
     fn sample(&mut self) {
-        let (state, inertia) = (self.plant.state(), self.plant.motion().inertia());
+        let (state, inertia) = (self.plant.state(), &self.plant.motion.inertia);
         self.flight.samples.push(SpinSample {
-            time_s: self.plant.time_s(),
+            time_s: self.plant.time_s,
             nutation_rad: state.nutation_rad(inertia),
             spin_axis_inertial: state.attitude.spin_axis_inertial(),
             spin_rate_rad_s: inertia.spin_frame_from_body(&state.rate_rad_s(inertia)).z,

@@ -41,7 +41,7 @@ pub(super) fn timing_item(timing: Timing) -> &'static str {
 /// Everything that the flight depends on and that the spacecraft's file does not say by itself.
 pub(super) fn start_values(task: &Task, row: &TrainForecast) -> Vec<(&'static str, Setting)> {
     let train = &row.train;
-    let (plan, order) = plan_item(train.shape());
+    let (plan, order) = plan_item(train.shape);
     let whole = |count: u32| Setting::Integer(i32::try_from(count).unwrap_or(i32::MAX));
     let vector = |values: &[f64]| Setting::Vector(values.to_vec());
     let mut values = vec![
@@ -67,7 +67,7 @@ pub(super) fn start_values(task: &Task, row: &TrainForecast) -> Vec<(&'static st
     values.extend([
         ("burn.pulseWidth", Setting::Real(train.width_s(0))),
         ("burn.turnsPerPulse", Setting::Real(train.turns_per_pulse())),
-        ("burn.count", whole(train.count())),
+        ("burn.count", whole(train.count)),
         ("burn.angle", Setting::Real(0.0)),
         ("burn.targetDirection", vector(task.geometry.burn_target_inertial().as_slice())),
         ("sun.direction", vector(task.geometry.sun_inertial.as_slice())),

@@ -55,7 +55,7 @@ fn cells(row: &TrainForecast, keeps: bool, mark: &str) -> Vec<String> {
         |time_s: f64| if time_s.is_finite() { format!("{:.2}", time_s / 3600.0) } else { "endless".into() };
     vec![
         format!("{}{mark}", row.short_label()),
-        row.train.count().to_string(),
+        row.train.count.to_string(),
         format!("{:.0}", 1e3 * row.train.width_s(0)),
         format!("{:.2}", row.duration_s / 60.0),
         format!("{:.6}", row.final_rad.to_degrees()),

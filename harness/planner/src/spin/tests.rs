@@ -46,7 +46,7 @@ fn chosen(task: &Task) -> TrainForecast {
 #[test]
 fn the_papers_plan_is_its_114_pulses_in_22_6_min() {
     let row = uniform_plan(&task("--angle 2")).unwrap();
-    assert_eq!(row.train.count(), 114);
+    assert_eq!(row.train.count, 114);
     assert!((row.duration_s / 60.0 - 22.6).abs() < 0.01);
     assert!((row.final_rad.to_degrees() - 0.0177).abs() < 1e-4);
     assert!((row.propellant_kg - 114.0 * 0.032 * 4.448 / (220.0 * 9.80665)).abs() < 1e-12);
@@ -55,8 +55,8 @@ fn the_papers_plan_is_its_114_pulses_in_22_6_min() {
 #[test]
 fn with_the_papers_peak_the_planner_finds_the_tapered_train_in_half_the_time() {
     let row = chosen(&task("--angle 2 --max-nutation 0.02"));
-    assert_eq!(row.train.shape(), Shape::Tapered { order: 1 });
-    assert_eq!(row.train.count(), 58);
+    assert_eq!(row.train.shape, Shape::Tapered { order: 1 });
+    assert_eq!(row.train.count, 58);
     assert!((row.duration_s / 60.0 - 11.4).abs() < 0.01);
     // Within 1.471 to 1.494 the bound of the notes.
     assert!(row.final_rad.to_degrees() < 0.0033 && row.peak_rad.to_degrees() < 0.02);

@@ -118,7 +118,7 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
          {:.5} deg ({:.1} times the uniform plan's)",
         if broken.is_empty() { " within the limits" } else { ", with the fewest limits broken" },
         chosen.label(),
-        chosen.train.count(),
+        chosen.train.count,
         chosen.duration_s / 60.0,
         chosen.moved_rad.to_degrees(),
         task.angle_rad.to_degrees(),

@@ -48,7 +48,7 @@ pub struct TrainForecast {
 impl TrainForecast {
     /// The same in a few letters, for a table.
     pub fn short_label(&self) -> String {
-        let shape = match self.train.shape() {
+        let shape = match self.train.shape {
             Shape::Uniform => "uniform".to_owned(),
             Shape::Tapered { order } => format!("taper {order}"),
             Shape::Split => "split".to_owned(),
@@ -58,7 +58,7 @@ impl TrainForecast {
 
     /// What the train is, in words.
     pub fn label(&self) -> String {
-        let shape = match self.train.shape() {
+        let shape = match self.train.shape {
             Shape::Uniform => "uniform".to_owned(),
             Shape::Tapered { order: 1 } => "1 2 2 ... 2 1".to_owned(),
             Shape::Tapered { order: 2 } => "1 3 4 ... 4 3 1".to_owned(),

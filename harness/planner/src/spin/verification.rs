@@ -140,7 +140,7 @@ fn simulate(fmu: &Fmu, task: &Task, row: &TrainForecast, spin: &Spin) -> Result<
         return Err(failed(format_args!("the burn did not end within {stop_s} s")));
     }
     // The edges are read where the first and the last pulse are still to come, or on.
-    let count = row.train.count();
+    let count = row.train.count;
     let (mut first_s, mut last_s) = (f64::NAN, f64::NAN);
     for (i, &edge_s) in columns[4].iter().enumerate().filter(|(_, edge_s)| **edge_s >= 0.0) {
         let firing = columns[5][i] != 0.0 || columns[6][i] != 0.0;
@@ -163,7 +163,7 @@ fn simulate(fmu: &Fmu, task: &Task, row: &TrainForecast, spin: &Spin) -> Result<
 /// Everything the simulation depends on, whatever the FMU's own start values are: the momentum starts along +Z and turns toward
 /// +X, the Sun stands across that plane.
 fn sets(fmu: &Fmu, task: &Task, row: &TrainForecast, spin: &Spin) -> Result<Vec<(String, Value)>, PlanError> {
-    let (plan, order) = plan_item(row.train.shape());
+    let (plan, order) = plan_item(row.train.shape);
     let (assumed, transverse) = (&task.case.spin, spin.inertia_kg_m2 / spin.ratio);
     let real = |name: &str, value: f64| (name.to_owned(), Value::Real(value));
     let integer = |name: &str, value: i32| (name.to_owned(), Value::Integer(value));
@@ -187,7 +187,7 @@ fn sets(fmu: &Fmu, task: &Task, row: &TrainForecast, spin: &Spin) -> Result<Vec<
         text("burn.plan", plan),
         integer("burn.taperOrder", order.unwrap_or(1) as i32),
         text("burn.timing", timing_item(task.case.timing)),
-        integer("burn.count", row.train.count() as i32),
+        integer("burn.count", row.train.count as i32),
     ];
     // A burn goes no farther than its target, and steers best with the target well away: it stands as far beyond the end of
     // the turn as the turn's beginning is from its opposite.

@@ -8,8 +8,7 @@ use crate::fmi2::references;
 use crate::logger::Category;
 use crate::model::Log;
 use crate::variables::{Real, Values};
-use model_description::BaseType;
-use model_description::Status;
+use model_description::{BaseType, Status};
 
 impl Instance {
     /// `fmi2SetDebugLogging`: `categories` gives each named category, or `None` where the name is unknown.

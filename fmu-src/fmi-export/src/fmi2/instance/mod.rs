@@ -19,10 +19,8 @@ use crate::logger::Logger;
 use crate::prepared::Prepared;
 use crate::runtime::Runtime;
 use crate::variables::{Real, Values};
-use model_description::BaseType;
-use model_description::Status;
 use model_description::call_table::{self, Access, Function, Next, State};
-use state::copy_values;
+use model_description::{BaseType, Status};
 
 use state::InstanceState;
 pub use state::MAX_INPUT_DERIVATIVE_ORDER;
@@ -193,7 +191,7 @@ impl Instance {
 
     /// Brings the spare values to their size, so that no step has to.
     pub(super) fn allocate_spare(&mut self) {
-        copy_values(&mut self.spare, &self.state.values);
+        self.spare.clone_from(&self.state.values);
     }
 
     /// Forgets the values kept for derivatives, but not their memory.

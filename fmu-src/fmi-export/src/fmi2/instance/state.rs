@@ -72,30 +72,16 @@ impl InstanceState {
 
     /// Becomes a copy of `other`, reusing memory.
     pub(crate) fn copy_from(&mut self, other: &Self) {
-        // Without `..` a new field cannot be forgotten.
-        let Self {
-            mode,
-            experiment,
-            time_s,
-            terminated,
-            needs_initialization,
-            derivatives_ended,
-            input_derivatives,
-            values,
-            at_last_step,
-        } = other;
-        self.mode = *mode;
-        self.experiment = *experiment;
-        self.time_s = *time_s;
-        self.terminated = *terminated;
-        self.needs_initialization = *needs_initialization;
-        self.derivatives_ended = *derivatives_ended;
-        self.input_derivatives.clone_from(input_derivatives);
-        copy_values(&mut self.values, values);
-        match (&mut self.at_last_step, at_last_step) {
-            (Some(mine), Some(theirs)) => copy_values(mine, theirs),
-            (mine, theirs) => mine.clone_from(theirs),
-        }
+        self.input_derivatives.clone_from(&other.input_derivatives);
+        self.values.clone_from(&other.values);
+        self.at_last_step.clone_from(&other.at_last_step);
+        // A new field that holds memory is refused here until it is listed.
+        *self = Self {
+            input_derivatives: core::mem::take(&mut self.input_derivatives),
+            values: core::mem::take(&mut self.values),
+            at_last_step: self.at_last_step.take(),
+            ..*other
+        };
     }
 
     /// Whether an input or tunable parameter differs from what the last step used. One that was set and set back does
@@ -161,17 +147,6 @@ impl InstanceState {
             _ => {}
         }
         if self.time_s.is_finite() { Ok(()) } else { Err(damaged(format_args!("time {:?} s", self.time_s))) }
-    }
-}
-
-/// `to` becomes `from` without new memory where the lengths agree.
-pub(crate) fn copy_values(to: &mut Values, from: &Values) {
-    to.reals.clone_from(&from.reals);
-    to.integers.clone_from(&from.integers);
-    to.booleans.clone_from(&from.booleans);
-    to.strings.clone_from(&from.strings);
-    for (to, from) in to.set.iter_mut().zip(&from.set) {
-        to.copy_from(from);
     }
 }
 

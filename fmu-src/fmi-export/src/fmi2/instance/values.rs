@@ -5,7 +5,6 @@ use crate::fmi2::access::{
     AccessTable, GET_INITIALIZATION, HAS_START, INPUT, SET_BY_IMPORTER, SET_INITIALIZATION, SET_INSTANTIATED,
     SET_STEP,
 };
-use crate::fmi2::instance::state::copy_values;
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
 use model_description::call_table::State;
@@ -235,7 +234,7 @@ impl Instance {
             State::InitializationMode => self.state.needs_initialization = true,
             State::StepComplete if self.state.at_last_step.is_none() => {
                 let mut values = core::mem::take(&mut self.spare);
-                copy_values(&mut values, &self.state.values);
+                values.clone_from(&self.state.values);
                 self.state.at_last_step = Some(values);
             }
             _ => {}

@@ -25,10 +25,10 @@ use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::pointing::command::{BoresightOption, PointingCommand, Scenario};
 use physics::guidance::pointing::scan::ScanCompatibility;
 use physics::guidance::scenario::GuidanceHardware;
-use physics::plant::PanelSetting;
+use physics::plant::{PanelSetting, Ramp};
 use physics::radiation::SolarModel;
 
-use super::setup::Plan;
+use super::setup::{Plan, Read};
 use super::variables::celestial_bodies::PlanetVariables;
 use super::variables::choices::EphemerisSource;
 use crate::common::choices::PlanetOrientation;
@@ -54,60 +54,66 @@ pub struct Fixed {
 }
 
 impl Fixed {
-    /// Takes the tunable parameters of planet and materials; allocates nothing.
+    /// The settings of the step before, else those of the parameters, with the tunable parameters of planet, materials and panels as
+    /// they are set now; allocates nothing where there was a step.
     ///
     /// # Errors
-    /// Names parameters whose values no material has.
-    pub fn tune(&mut self, context: &Plan<'_>, values: &Values) -> Result<(), Failure> {
-        let v = context.variables;
-        for found in v.optics.materials(context, values, &context.setup.optics) {
-            let (place, material) = found?;
-            self.solar.set_material(place, &material);
+    /// Names parameters whose values are refused.
+    pub fn current(kept: Option<Self>, read: Read<'_>) -> Result<Self, Failure> {
+        let mut fixed = kept.map_or_else(|| Self::read(read), Ok)?;
+        let v = read.variables;
+        for found in v.optics.materials(read, &read.setup.optics) {
+            let (index, material) = found?;
+            fixed.solar.set_material(index, &material);
         }
-        if let Orientation::Iau { ut1_minus_utc_s } = &mut self.planet.orientation {
-            *ut1_minus_utc_s = values.real(v.earth.ut1_offset);
+        if let Orientation::Iau { ut1_minus_utc_s } = &mut fixed.planet.orientation {
+            *ut1_minus_utc_s = read.real(v.earth.ut1_offset);
         }
-        Ok(())
+        fixed.panels.clear();
+        fixed.panels.extend(v.panel.iter().map(|panel| match read.boolean(panel.enabled) {
+            true => PanelSetting::SunOffset {
+                offset: Ramp::held(read.real(panel.nominal_sun_offset)),
+                tilt: read.choice(panel.tilt).sign().into(),
+            },
+            false => PanelSetting::Disabled,
+        }));
+        Ok(fixed)
     }
 
-    /// From the parameters.
-    pub fn read(context: &Plan<'_>, values: &Values) -> Result<Self, Failure> {
-        let v = context.variables;
-        let target = Target::read(context, values);
-        let (body, planet) = (target.data.body, target.planet(context, values)?);
-        let epoch_s = values.real(v.start.epoch);
-        let source = values.choice(v.ephemeris.source);
+    fn read(read: Read<'_>) -> Result<Self, Failure> {
+        let v = read.variables;
+        let target = Target::read(read);
+        let (body, planet) = (target.data.body, target.planet(read)?);
+        let epoch_s = read.real(v.start.epoch);
+        let source = read.choice(v.ephemeris.source);
         if source != EphemerisSource::Inputs {
             ephemeris::check_start(epoch_s)?;
         }
-        let precise = ephemeris::precise(context.setup.ephemeris.as_ref());
+        let precise = ephemeris::precise(read.setup.ephemeris.as_ref());
         if let Some(carried) = precise.filter(|_| source == EphemerisSource::Chebyshev) {
             ephemeris::check_onboard(carried, body, "start.epoch", epoch_s)?;
         }
-        let (target, has_table) = (context.setup.bodies.body(body), precise.is_some());
+        let (target, has_table) = (read.setup.bodies.body(body), precise.is_some());
         let ellipse = match source {
-            EphemerisSource::Kepler => Some(v.ephemeris.ellipse.planet(context, values, &target, epoch_s)?),
+            EphemerisSource::Kepler => Some(v.ephemeris.ellipse.planet(read, &target, epoch_s)?),
             EphemerisSource::Vsop87 if body == Body::Custom => Some(ephemeris::custom(&target, "vsop87")?),
             EphemerisSource::Chebyshev if body == Body::Custom && !has_table => {
                 Some(ephemeris::custom(&target, "chebyshev")?)
             }
             _ => None,
         };
-        let bodies = BodiesFromCenter {
-            center: body,
-            ellipse,
-            custom: context.setup.bodies.body(Body::Custom).motion,
-        };
+        let bodies =
+            BodiesFromCenter { center: body, ellipse, custom: read.setup.bodies.body(Body::Custom).motion };
         Ok(Self {
             planet,
             source,
             bodies,
             panels: Vec::with_capacity(v.panel.len()),
             solar: {
-                let shape = values.choice(v.sunshade_shape).0;
-                context.setup.shapes.solar(shape, &context.setup.spacecraft.name)?.clone()
+                let shape = read.choice(v.sunshade_shape).0;
+                read.setup.shapes.solar(shape, &read.setup.spacecraft.name)?.clone()
             },
-            burn: burn(context, values)?,
+            burn: burn(read)?,
         })
     }
 }
@@ -132,15 +138,15 @@ fn planet(v: &PlanetVariables) -> Numbers<BodyData, 5> {
 
 impl Target {
     /// Reads the parameters `planet.*`; those not given are the body's own.
-    fn read(context: &Plan<'_>, values: &Values) -> Self {
-        let v = &context.variables.planet;
-        let own = context.setup.bodies.body(values.choice(context.variables.target.planet).0);
+    fn read(read: Read<'_>) -> Self {
+        let v = &read.variables.planet;
+        let own = read.setup.bodies.body(read.choice(read.variables.target.planet).0);
         let [a, b, c, d, e] = planet(v).group();
-        let given = context.given(values, &[v.radii.into(), a, b, c, d, e, v.rotation.orientation.into()]);
+        let given = read.given(&[v.radii.into(), a, b, c, d, e, v.rotation.orientation.into()]);
         let radius_m = |i| given.real_or(v.radii.element(i), own.radii_m[i]);
         Self {
             radii_m: Vector3::from([0, 1, 2].map(radius_m)),
-            orientation: v.rotation.choice(&given, values, own.data.body),
+            orientation: v.rotation.choice(&given, read.values, own.data.body),
             data: planet(v).read_or(given, &own.data),
         }
     }
@@ -149,8 +155,8 @@ impl Target {
     ///
     /// # Errors
     /// The Earth's orientation requested of another body.
-    fn planet(&self, context: &Plan<'_>, values: &Values) -> Result<TargetPlanet, Failure> {
-        let ut1_minus_utc_s = values.real(context.variables.earth.ut1_offset);
+    fn planet(&self, read: Read<'_>) -> Result<TargetPlanet, Failure> {
+        let ut1_minus_utc_s = read.real(read.variables.earth.ut1_offset);
         Ok(TargetPlanet {
             radii_m: self.radii_m,
             orientation: self.orientation.about(&self.data, ut1_minus_utc_s)?,
@@ -162,8 +168,9 @@ impl Target {
 /// Writes the parameters that follow `target.planet` as they act.
 pub(super) fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     let (v, ellipse) = (&context.variables.planet, &context.variables.ephemeris.ellipse);
-    let Target { data, radii_m, orientation } = Target::read(context, values);
-    let elements = ellipse.read(context, values, &context.setup.bodies.body(data.body));
+    let read = Read::new(context, values);
+    let Target { data, radii_m, orientation } = Target::read(read);
+    let elements = ellipse.read(read, &context.setup.bodies.body(data.body));
     ellipse.write(values, &elements);
     values.set_vector(v.radii, radii_m.into());
     planet(v).write(values, data);
@@ -172,18 +179,18 @@ pub(super) fn resolve_start(context: &Plan<'_>, values: &mut Values) {
 }
 
 /// The burn by its parameters and the spacecraft's thrusters.
-fn burn(context: &Plan<'_>, values: &Values) -> Result<BurnSettings, Failure> {
-    let v = &context.variables.burn;
-    let real = |handle| values.real(handle);
-    let delta_v_m_s = Vector3::from(values.vector(v.delta_v));
-    let rows = values.matrix(v.profile);
+fn burn(read: Read<'_>) -> Result<BurnSettings, Failure> {
+    let v = &read.variables.burn;
+    let real = |handle| read.real(handle);
+    let delta_v_m_s = read.vector(v.delta_v);
+    let rows = read.values.matrix(v.profile);
     let path = VelocityPath::of_burn(
         delta_v_m_s,
         [0, 1, 2].map(|power| Vector3::from(rows.map(|component| component[power]))),
     );
-    let thrusters = values.choice(v.thrusters).0;
-    let direction_body = Vector3::from(values.vector(v.thrust_direction));
-    let nominal = NominalThrust::new(&context.setup.spacecraft, thrusters, direction_body);
+    let thrusters = read.choice(v.thrusters).0;
+    let direction_body = read.vector(v.thrust_direction);
+    let nominal = NominalThrust::new(&read.setup.spacecraft, thrusters, direction_body);
     let given_m_s2 = Some(real(v.acceleration)).filter(|it| *it > 0.0);
     Ok(BurnSettings {
         path: path.map_err(|error| Failure::new(format!("burn.profile: {error} of burn.deltaV")))?,
@@ -192,8 +199,8 @@ fn burn(context: &Plan<'_>, values: &Values) -> Result<BurnSettings, Failure> {
         awaits_attitude: false,
         look_ahead_s: real(v.look_ahead),
         gain: real(v.gain),
-        predictive: values.boolean(v.predictive),
-        reactive: values.boolean(v.reactive),
+        predictive: read.boolean(v.predictive),
+        reactive: read.boolean(v.reactive),
         thrust_body: nominal.direction_body,
         acceleration_m_s2: given_m_s2.unwrap_or(nominal.acceleration_m_s2),
         timeout_s: real(v.timeout),
@@ -205,9 +212,9 @@ fn burn(context: &Plan<'_>, values: &Values) -> Result<BurnSettings, Failure> {
 ///
 /// # Errors
 /// A minimum above the maximum, or angles without a gimbal.
-fn gimbal(context: &Plan<'_>, values: &Values) -> Result<Option<Gimbal>, Failure> {
-    let v = &context.variables.gimbal;
-    let [minimum_rad, maximum_rad] = [v.minimum, v.maximum].map(|handle| values.real(handle));
+fn gimbal(read: Read<'_>) -> Result<Option<Gimbal>, Failure> {
+    let v = &read.variables.gimbal;
+    let [minimum_rad, maximum_rad] = [v.minimum, v.maximum].map(|handle| read.real(handle));
     let refused = |allowed: &str| {
         Err(Failure::new(format!(
             "gimbal.minimum, gimbal.maximum: found {minimum_rad:?} and {maximum_rad:?} rad, allowed: {allowed}"
@@ -216,7 +223,7 @@ fn gimbal(context: &Plan<'_>, values: &Values) -> Result<Option<Gimbal>, Failure
     if minimum_rad > maximum_rad {
         return refused("a minimum not above the maximum");
     }
-    let gimbal = Gimbal::from_instruments(&context.setup.spacecraft.instruments);
+    let gimbal = Gimbal::from_instruments(&read.setup.spacecraft.instruments);
     let gimbal = gimbal.map(|gimbal| Gimbal { minimum_rad, maximum_rad, ..gimbal });
     if gimbal.is_none() && [minimum_rad, maximum_rad] != [0.0; 2] {
         return refused(&format!("0 and 0; {NO_GIMBAL}"));
@@ -225,44 +232,40 @@ fn gimbal(context: &Plan<'_>, values: &Values) -> Result<Option<Gimbal>, Failure
 }
 
 /// Parameters, as a sample uses them. The timeline may override the keep-in zone.
-pub(super) fn settings<'a>(
-    context: &'a Plan<'_>,
-    values: &Values,
-    fixed: &Fixed,
-) -> Result<GuidanceSettings<'a>, Failure> {
-    let v = context.variables;
-    let real = |handle| values.real(handle);
-    let method = values.choice(v.keep_in.method).0;
-    let axis_body = Vector3::from(values.vector(v.keep_in.axis));
+pub(super) fn settings<'a>(read: Read<'a>, fixed: &Fixed) -> Result<GuidanceSettings<'a>, Failure> {
+    let v = read.variables;
+    let real = |handle| read.real(handle);
+    let method = read.choice(v.keep_in.method).0;
+    let axis_body = read.vector(v.keep_in.axis);
     if axis_body == Vector3::from([0.0; 3]) {
         return Err(Failure::new(ZERO_KEEP_IN_AXIS));
     }
-    let gimbal = gimbal(context, values)?;
+    let gimbal = gimbal(read)?;
     let zone = |azimuth, elevation| KeepIn {
         axis_body,
         azimuth_rad: real(azimuth),
         elevation_rad: real(elevation),
         method,
     };
-    let hot_pole = values.boolean(v.hot_pole.enabled).then(|| HotPole {
+    let hot_pole = read.boolean(v.hot_pole.enabled).then(|| HotPole {
         altitude_m: real(v.hot_pole.altitude),
         angle_rad: real(v.hot_pole.angle),
         cone_rad: real(v.hot_pole.cone),
     });
     let keep_in = zone(v.keep_in.azimuth, v.keep_in.elevation);
-    let beam = context.given(values, &[v.link.beam.into()]);
+    let beam = read.given(&[v.link.beam.into()]);
     Ok(GuidanceSettings {
         hardware: GuidanceHardware {
-            instruments: &context.setup.spacecraft.instruments,
+            instruments: &read.setup.spacecraft.instruments,
             gimbal,
-            antennas: &context.setup.antennas.all,
-            default_downlink: &context.setup.antennas.default_downlink,
-            subsolar: values.choice(v.subsolar_method).0,
-            scans: scans(context, values),
+            antennas: &read.setup.antennas.all,
+            default_downlink: &read.setup.antennas.default_downlink,
+            subsolar: read.choice(v.subsolar_method).0,
+            scans: scans(read),
         },
         modes: ModeSettings {
             operational: Constraints {
-                keep_in: values.boolean(v.keep_in.enabled).then_some(keep_in),
+                keep_in: read.boolean(v.keep_in.enabled).then_some(keep_in),
                 hot_pole,
             },
             safe_hold: Constraints {
@@ -270,7 +273,7 @@ pub(super) fn settings<'a>(
                 hot_pole,
             },
             watches_hot_pole: true,
-            monitor: values.boolean(v.monitor.enabled).then(|| Monitor {
+            monitor: read.boolean(v.monitor.enabled).then(|| Monitor {
                 margin_rad: real(v.monitor.margin),
                 persistence_s: real(v.monitor.persistence),
             }),
@@ -290,14 +293,15 @@ pub(super) fn settings<'a>(
             coverage_rad: beam.has(v.link.beam).then(|| real(v.link.beam)),
         },
         orbit_phase: {
-            let law = v.guided.read(values, [0.0, f64::INFINITY, real(v.start.epoch)], keep_in, gimbal)?;
+            let law =
+                v.guided.read(read.values, [0.0, f64::INFINITY, real(v.start.epoch)], keep_in, gimbal)?;
             // Every sample brings the zone of its mode.
             let about = RuleContext {
                 is_about_sun: fixed.bodies.center == Body::Sun,
-                panels: &context.setup.spacecraft.panels,
+                panels: &read.setup.spacecraft.panels,
                 zone: None,
             };
-            v.guided.in_phase(context, values, &context.setup.guided, law, &about)?
+            v.guided.in_phase(read, &read.setup.guided, law, &about)?
         },
         burn: fixed.burn,
     })
@@ -347,17 +351,17 @@ pub(super) fn check_devices(
 }
 
 /// Scan frames allowed for each kind of aimpoint.
-fn scans(context: &Plan<'_>, values: &Values) -> ScanCompatibility {
+fn scans(read: Read<'_>) -> ScanCompatibility {
     let mut scans = ScanCompatibility::default();
-    for (allowed, frame) in scans.allowed.iter_mut().zip(&context.variables.scan_compatibility) {
+    for (allowed, frame) in scans.allowed.iter_mut().zip(&read.variables.scan_compatibility) {
         let kinds = [frame.direction, frame.local_direction, frame.point, frame.planet_point];
-        *allowed = kinds.map(|kind| values.boolean(kind));
+        *allowed = kinds.map(|kind| read.boolean(kind));
     }
     scans
 }
 
 /// The attitude to start from.
-pub(super) fn start_attitude(context: &Plan<'_>, values: &Values) -> Result<Attitude, Failure> {
-    let q = values.vector(context.variables.start.q);
+pub(super) fn start_attitude(read: Read<'_>) -> Result<Attitude, Failure> {
+    let q = read.values.vector(read.variables.start.q);
     Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))
 }

@@ -1,6 +1,6 @@
 //! Reads what is commanded, measured and known of positions at the time of a sample.
 
-use fmi_export::{Boolean, Choice, Enumeration, Failure, InputsOverTime, Integer, Real, RealVector, Values};
+use fmi_export::{Boolean, Choice, Enumeration, Failure, InputsOverTime, Integer, Real, RealVector};
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::bodies::Body;
@@ -18,7 +18,7 @@ use physics::guidance::pointing::command::{
 
 use super::Fixed;
 use crate::common::ephemeris;
-use crate::guidance::setup::Plan;
+use crate::guidance::setup::Read;
 use crate::guidance::variables::choices::{EphemerisSource, ModeRequest};
 use crate::guidance::variables::commands::AimpointVariables;
 
@@ -28,29 +28,23 @@ const NOT_CONNECTED: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 /// Reads variables at the time of a sample.
 #[derive(Clone, Copy)]
 pub(crate) struct Reader<'a> {
-    context: &'a Plan<'a>,
-    values: &'a Values,
+    read: Read<'a>,
     inputs: InputsOverTime<'a>,
     time_s: f64,
 }
 
 impl<'a> Reader<'a> {
     /// At `time_s`, where `inputs` moved since they were set.
-    pub(crate) fn new(
-        context: &'a Plan<'a>,
-        values: &'a Values,
-        inputs: InputsOverTime<'a>,
-        time_s: f64,
-    ) -> Self {
-        Self { context, values, inputs, time_s }
+    pub(crate) fn new(read: Read<'a>, inputs: InputsOverTime<'a>, time_s: f64) -> Self {
+        Self { read, inputs, time_s }
     }
 
     fn real(&self, handle: Real) -> f64 {
-        self.inputs.real(self.values, handle, self.time_s)
+        self.inputs.real(self.read.values, handle, self.time_s)
     }
 
     fn vector(&self, handle: RealVector<3>) -> Vector3<f64> {
-        Vector3::from(self.inputs.vector(self.values, handle, self.time_s))
+        Vector3::from(self.inputs.vector(self.read.values, handle, self.time_s))
     }
 
     /// How a vector of inputs moves now, by their derivatives.
@@ -59,21 +53,21 @@ impl<'a> Reader<'a> {
     }
 
     fn count(&self, handle: Integer) -> u32 {
-        self.values.integer(handle).unsigned_abs()
+        self.read.count(handle)
     }
 
     fn flag(&self, handle: Boolean) -> bool {
-        self.values.boolean(handle)
+        self.read.boolean(handle)
     }
 
     /// The item of an input; none where nothing is chosen.
     fn item<E: Enumeration, T>(&self, handle: Choice<E>, inner: impl Fn(E) -> Option<T>) -> Option<T> {
-        inner(self.values.choice(handle))
+        inner(self.read.choice(handle))
     }
 
     /// Pointing command of the inputs.
     pub(crate) fn command(&self) -> PointingCommand {
-        let v = self.context.variables;
+        let v = self.read.variables;
         let (boresight, body_roll, external_roll) = (&v.boresight, &v.body_roll, &v.external_roll);
         let (limb, scan) = (&v.limb, &v.scan);
         PointingCommand {
@@ -127,9 +121,9 @@ impl<'a> Reader<'a> {
         (ephemeris, coarse): (&mut Ephemeris, &mut CoarseEphemeris),
         epoch_s: f64,
     ) -> BodyPositions {
-        let (v, bodies, center) = (self.context.variables, &fixed.bodies, fixed.bodies.center);
-        let carried = self.context.setup.ephemeris.as_deref();
-        let precise = ephemeris::precise(self.context.setup.ephemeris.as_ref());
+        let (v, bodies, center) = (self.read.variables, &fixed.bodies, fixed.bodies.center);
+        let carried = self.read.setup.ephemeris.as_deref();
+        let precise = ephemeris::precise(self.read.setup.ephemeris.as_ref());
         let given = self.state(v.position, v.velocity);
         let is_onboard = fixed.source == EphemerisSource::Chebyshev;
         let coarse = if is_onboard || fixed.source == EphemerisSource::Coarse {
@@ -176,32 +170,32 @@ impl<'a> Reader<'a> {
 
     /// Sum of the accelerometers' increments.
     pub(crate) fn delta_v_body_m_s(&self) -> Vector3<f64> {
-        self.vector(self.context.variables.accelerometer_delta_v)
+        self.vector(self.read.variables.accelerometer_delta_v)
     }
 
     /// System momentum along the body axes.
     pub(crate) fn momentum_body_n_m_s(&self) -> Vector3<f64> {
-        self.vector(self.context.variables.momentum.body)
+        self.vector(self.read.variables.momentum.body)
     }
 
     /// Whether an input asks for a mode.
     pub(crate) fn asks_for_a_mode(&self) -> bool {
-        self.item(self.context.variables.mode.request, ModeRequest::mode).is_some()
+        self.item(self.read.variables.mode.request, ModeRequest::mode).is_some()
     }
 
     /// Whether estimate.q is connected.
     pub(crate) fn has_estimate(&self) -> bool {
-        let v = self.context.variables;
-        let q = self.inputs.vector(self.values, v.estimate.q, self.time_s);
-        let given = self.context.given(self.values, &[v.estimate.q.into(), v.estimate.valid.into()]);
+        let v = self.read.variables;
+        let q = self.inputs.vector(self.read.values, v.estimate.q, self.time_s);
+        let given = self.read.given(&[v.estimate.q.into(), v.estimate.valid.into()]);
         q != [0.0; 4] && (q != NOT_CONNECTED || given.has(v.estimate.q))
     }
 
     /// Mode request, estimate and Sun sensors, and whether there is an estimate to be judged. Where it is not connected, or
     /// nothing is placed yet, the attitude commanded now stands in for it.
     pub(crate) fn sensed(&self, commanded: Attitude, is_placed: bool) -> Result<(Sensed, bool), Failure> {
-        let v = self.context.variables;
-        let q = self.inputs.vector(self.values, v.estimate.q, self.time_s);
+        let v = self.read.variables;
+        let q = self.inputs.vector(self.read.values, v.estimate.q, self.time_s);
         let valid = self.flag(v.estimate.valid);
         let is_estimated = is_placed && (self.has_estimate() || !valid);
         let estimate = if !is_estimated {

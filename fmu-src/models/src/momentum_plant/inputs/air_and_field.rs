@@ -1,19 +1,18 @@
 //! Figure, rotation, atmosphere and magnetic field of the planet from parameters and inputs; rejects by name what no model covers.
 
 use fmi_export::{Boolean, Elements, Failure, Values};
-use nalgebra::Vector3;
 use physics::bodies::{Body, BodyData};
 use physics::environment::atmosphere::{Air, AtmosphereModel, SpaceWeather};
 use physics::environment::geodetic::Ellipsoid;
 use physics::environment::magnetic_field::{self, MagneticField};
 use physics::environment::orientation::Orientation;
-use physics::loads::{Active, Effect};
+use physics::loads::{Active, Switch};
 use physics::plant::{AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure};
 
 use super::center::Center;
 use crate::common::choices::PlanetOrientation;
 use crate::common::effects::PLANET_SWITCHES;
-use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::setup::Read;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::air_and_field::{AtmosphereMethod, MagneticFieldMethod};
 
@@ -35,28 +34,24 @@ pub(super) struct PlanetEnvironment {
 ///
 /// # Errors
 /// The Earth's orientation or models requested of another body.
-pub(super) fn read(
-    context: &Plan<'_>,
-    values: &Values,
-    center: &Center,
-) -> Result<PlanetEnvironment, Failure> {
-    let (v, planet) = (context.variables, &center.planet);
-    let defaults = BodyDefaults::read(context, values, planet.body);
+pub(super) fn read(read: Read<'_>, center: &Center) -> Result<PlanetEnvironment, Failure> {
+    let (v, planet) = (read.variables, &center.planet);
+    let defaults = BodyDefaults::read(read, planet.body);
     let switches = [v.planet_light.enabled, v.thermal.enabled];
-    let effects = v.laws.active(switches, |switch| defaults.is_on(values, switch));
-    let [rotation, of_planet] = [&center.data, planet].map(|body| orientation(context, values, body));
+    let effects = v.laws.active(switches, |switch| defaults.is_on(read.values, switch));
+    let [rotation, of_planet] = [&center.data, planet].map(|body| orientation(read, body));
     let (rotation, of_planet) = (rotation?, of_planet?);
     let ellipsoid =
         Ellipsoid { equatorial_radius_m: planet.equatorial_radius_m, flattening: planet.flattening };
     let air_and_field = if planet.body.is_planet() {
-        let air = if effects.has(Effect::Aerodynamic) { Some(air(v, values, center)?) } else { None };
-        let field = if effects.has(Effect::Magnetic) { Some(field(v, values, planet)?) } else { None };
-        let tolerance = values.real(v.atmosphere.tolerance);
+        let air = if effects.is_on(Switch::Aerodynamics) { Some(air(read, center)?) } else { None };
+        let field = if effects.is_on(Switch::Magnetics) { Some(field(read, planet)?) } else { None };
+        let tolerance = read.real(v.atmosphere.tolerance);
         (air.is_some() || field.is_some()).then_some(AirAndFieldSettings { air, field, tolerance })
     } else {
         None
     };
-    let epoch_s = values.real(v.start.epoch);
+    let epoch_s = read.real(v.start.epoch);
     let turned = |body: &BodyData, rotation: Option<&Orientation>| match rotation {
         Some(rotation @ Orientation::Iau { .. }) => body.with_pole(&rotation.pole_eme2000(epoch_s)),
         _ => *body,
@@ -71,21 +66,18 @@ pub(super) fn read(
 }
 
 /// Rotation of a planet; `None` for the Sun.
-fn orientation(
-    context: &Plan<'_>,
-    values: &Values,
-    planet: &BodyData,
-) -> Result<Option<Orientation>, Failure> {
+fn orientation(read: Read<'_>, planet: &BodyData) -> Result<Option<Orientation>, Failure> {
     if !planet.body.is_planet() {
         return Ok(None);
     }
-    let orientation = BodyDefaults::read(context, values, planet.body).orientation;
-    orientation.about(planet, values.real(context.variables.earth.ut1_offset)).map(Some)
+    let orientation = BodyDefaults::read(read, planet.body).orientation;
+    orientation.about(planet, read.real(read.variables.earth.ut1_offset)).map(Some)
 }
 
-fn air(v: &PlantVariables, values: &Values, center: &Center) -> Result<AirSettings, Failure> {
+fn air(read: Read<'_>, center: &Center) -> Result<AirSettings, Failure> {
+    let v = read.variables;
     let (atmosphere, weather) = (&v.atmosphere, &v.space_weather);
-    let source = match values.choice(atmosphere.method) {
+    let source = match read.choice(atmosphere.method) {
         AtmosphereMethod::Exponential => AirSource::Model(AtmosphereModel::Exponential(center.air)),
         AtmosphereMethod::Nrlmsise00 if center.planet.body == Body::Earth => {
             AirSource::Model(AtmosphereModel::Nrlmsise00)
@@ -97,31 +89,32 @@ fn air(v: &PlantVariables, values: &Values, center: &Center) -> Result<AirSettin
             )));
         }
         AtmosphereMethod::Given => AirSource::Given(Air {
-            density_kg_m3: values.real(atmosphere.given_density),
-            temperature_k: values.real(atmosphere.given_temperature),
-            molar_mass_kg_mol: values.real(atmosphere.given_molar_mass),
+            density_kg_m3: read.real(atmosphere.given_density),
+            temperature_k: read.real(atmosphere.given_temperature),
+            molar_mass_kg_mol: read.real(atmosphere.given_molar_mass),
         }),
     };
     Ok(AirSettings {
         source,
         weather: SpaceWeather {
-            f107: values.real(weather.f107),
-            f107_average: values.real(weather.f107_average),
-            ap: values.real(weather.ap),
+            f107: read.real(weather.f107),
+            f107_average: read.real(weather.f107_average),
+            ap: read.real(weather.ap),
         },
-        density_factor: values.real(atmosphere.density_factor),
-        wind_m_s: Vector3::from(values.vector(atmosphere.wind)),
+        density_factor: read.real(atmosphere.density_factor),
+        wind_m_s: read.vector(atmosphere.wind),
     })
 }
 
-fn field(v: &PlantVariables, values: &Values, planet: &BodyData) -> Result<FieldSource, Failure> {
+fn field(read: Read<'_>, planet: &BodyData) -> Result<FieldSource, Failure> {
+    let v = read.variables;
     let refused = |found: &str, allowed: &str| {
         Err(Failure::new(format!(
             "magneticField.method: found {found} about {}, allowed: {allowed}",
             planet.name
         )))
     };
-    match values.choice(v.magnetic_field.method) {
+    match read.choice(v.magnetic_field.method) {
         MagneticFieldMethod::Dipole => match planet.dipole {
             Some(dipole) => Ok(FieldSource::Model(MagneticField::Dipole(dipole))),
             None => {
@@ -129,15 +122,13 @@ fn field(v: &PlantVariables, values: &Values, planet: &BodyData) -> Result<Field
             }
         },
         MagneticFieldMethod::Igrf14 if planet.body == Body::Earth => {
-            let epoch_s = values.real(v.start.epoch);
+            let epoch_s = read.real(v.start.epoch);
             magnetic_field::check_igrf14(epoch_s)
                 .map_err(|error| Failure::new(format!("magneticField.method, start.epoch: {error}")))?;
             Ok(FieldSource::Model(MagneticField::Igrf14))
         }
         MagneticFieldMethod::Igrf14 => refused("igrf14", "dipole (1), given (3); the model is the Earth's"),
-        MagneticFieldMethod::Given => {
-            Ok(FieldSource::Given(Vector3::from(values.vector(v.magnetic_field.given))))
-        }
+        MagneticFieldMethod::Given => Ok(FieldSource::Given(read.vector(v.magnetic_field.given))),
     }
 }
 
@@ -152,18 +143,18 @@ pub(super) struct BodyDefaults {
 
 impl BodyDefaults {
     /// Values set for a body; the defaults are true and iau for the Earth only.
-    pub(super) fn read(context: &Plan<'_>, values: &Values, body: Body) -> Self {
-        let (laws, planet) = (&context.variables.laws, &context.variables.planet);
+    pub(super) fn read(read: Read<'_>, body: Body) -> Self {
+        let (laws, planet) = (&read.variables.laws, &read.variables.planet);
         let rotation = &planet.rotation;
         // Importers that write every start value write the planet too; the others set alone are a user's choice.
         let [gm, radius] = [planet.gravitational_parameter, planet.radius].map(Elements::from);
         let [air, field] = laws.planet_switches().map(|(_, switch)| Elements::from(switch));
-        let given = context.given(values, &[rotation.orientation.into(), gm, radius, air, field]);
+        let given = read.given(&[rotation.orientation.into(), gm, radius, air, field]);
         let switches = laws.planet_switches().map(|(_, switch)| {
             let is_set = given.has(switch);
-            (switch, if is_set { values.boolean(switch) } else { body == Body::Earth }, is_set)
+            (switch, if is_set { read.boolean(switch) } else { body == Body::Earth }, is_set)
         });
-        Self { orientation: rotation.choice(&given, values, body), switches }
+        Self { orientation: rotation.choice(&given, read.values, body), switches }
     }
 
     /// Value of a switch, including the default by the planet.
@@ -182,17 +173,17 @@ impl BodyDefaults {
 }
 
 /// Reports air and field that act by default, and warns where they are switched on without a planet.
-pub(super) fn report(context: &Plan<'_>, values: &Values, start_s: f64) {
-    let planet = Center::read(context, values).planet.body;
-    let defaults = BodyDefaults::read(context, values, planet);
-    let names = context.variables.laws.planet_switches().map(|(name, _)| name);
+pub(super) fn report(read: Read<'_>, start_s: f64) {
+    let planet = Center::read(read).planet.body;
+    let defaults = BodyDefaults::read(read, planet);
+    let names = read.variables.laws.planet_switches().map(|(name, _)| name);
     for (name, (_, is_on, is_set)) in names.into_iter().zip(defaults.switches) {
         if is_on && !planet.is_planet() {
-            context.log.warning(&format!(
+            read.log.warning(&format!(
                 "{name} = true is without effect: there is no planet about which it could act"
             ));
         } else if is_on && !is_set {
-            context.log.event(start_s, &format!("{name} = true, as about the Earth unless it is set"));
+            read.log.event(start_s, &format!("{name} = true, as about the Earth unless it is set"));
         }
     }
 }

@@ -9,7 +9,7 @@ use physics::environment::frames::Frame;
 use physics::environment::orbit::Elements as KeplerElements;
 
 use crate::common::numbers::Numbers;
-use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::setup::Read;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::choices::OrbitFrame;
 
@@ -70,28 +70,28 @@ fn air(variables: &PlantVariables) -> Numbers<ExponentialAir, 3> {
 
 impl Center {
     /// The centre that `orbit.center` names.
-    pub(super) fn read(context: &Plan<'_>, values: &Values) -> Self {
-        let variables = context.variables;
+    pub(super) fn read(read: Read<'_>) -> Self {
+        let variables = read.variables;
         let (orbit, surface) = (&variables.orbit, &variables.planet.surface);
-        let body = context.setup.bodies.body(values.choice(orbit.center).0);
-        let encounter = variables.encounter.body(orbit, values);
-        let near = encounter.map_or(body, |encounter| context.setup.bodies.body(encounter));
+        let body = read.setup.bodies.body(read.choice(orbit.center).0);
+        let encounter = variables.encounter.body(orbit, read.values);
+        let near = encounter.map_or(body, |encounter| read.setup.bodies.body(encounter));
         let numbers = planet(variables);
         let [a, b, c, d, e, f, g, h] = numbers.group();
         let [i, j, k, l, m] = surface.group();
-        let given = context.given(values, &[a, b, c, d, e, f, g, h, i, j, k, l, m]);
+        let given = read.given(&[a, b, c, d, e, f, g, h, i, j, k, l, m]);
         let planet = numbers.read_or(given, &near.data);
         let own = PlanetSurface { radius_m: planet.radius_m, ..near.surface() };
-        let surface = surface.read_or(values, given, &own);
+        let surface = surface.read_or(read.values, given, &own);
         let planet = BodyData { surface: Some(surface), ..planet };
         let numbers = air(variables);
-        let air = numbers.read_or(context.given(values, &numbers.group()), &near.air());
+        let air = numbers.read_or(read.given(&numbers.group()), &near.air());
         let elements = elements(variables);
         let [a, b, c, d, e, _] = elements.group();
-        let given = context.given(values, &[a, b, c, d, e, orbit.frame.into()]);
+        let given = read.given(&[a, b, c, d, e, orbit.frame.into()]);
         let has_frame = given.has(orbit.frame);
         // The true anomaly follows no centre.
-        let true_anomaly_rad = values.real(orbit.true_anomaly);
+        let true_anomaly_rad = read.real(orbit.true_anomaly);
         let own = KeplerElements { true_anomaly_rad, ..body.elements() };
         Self {
             data: if encounter.is_some() { body.data } else { planet },
@@ -99,7 +99,7 @@ impl Center {
             surface,
             air,
             elements: elements.read_or(given, &own),
-            frame: if has_frame { values.choice(orbit.frame).0 } else { body.frame() },
+            frame: if has_frame { read.choice(orbit.frame).0 } else { body.frame() },
         }
     }
 
@@ -129,13 +129,13 @@ impl Center {
 }
 
 /// Warns of elements that nobody gave and that default by another centre than that of the start values, before they are resolved.
-pub(super) fn warn_defaulted(context: &Plan<'_>, values: &Values) {
-    let orbit = &context.variables.orbit;
-    let body = values.choice(orbit.center).0;
-    if body == context.setup.center.data.body || values.choice(orbit.source).is_given() {
+pub(super) fn warn_defaulted(read: Read<'_>) {
+    let orbit = &read.variables.orbit;
+    let body = read.choice(orbit.center).0;
+    if body == read.setup.center.data.body || read.choice(orbit.source).is_given() {
         return;
     }
-    let center = Center::read(context, values);
+    let center = Center::read(read);
     let (found, shown) = (&center.elements, |value: f64, unit: &str| format!("{value:.6e} {unit}"));
     let elements = [
         ("orbit.semiMajorAxis", orbit.semi_major_axis, found.semi_major_axis_m, "m"),
@@ -144,17 +144,17 @@ pub(super) fn warn_defaulted(context: &Plan<'_>, values: &Values) {
         ("orbit.ascendingNode", orbit.ascending_node, found.ascending_node_rad, "rad"),
         ("orbit.periapsisArgument", orbit.periapsis_argument, found.periapsis_argument_rad, "rad"),
     ];
-    let defaulted = elements.iter().filter(|(_, parameter, own, _)| values.real(*parameter) != *own);
+    let defaulted = elements.iter().filter(|(_, parameter, own, _)| read.real(*parameter) != *own);
     let mut reported: Vec<String> =
         defaulted.map(|(name, _, own, unit)| format!("{name} = {}", shown(*own, unit).trim_end())).collect();
-    if values.choice(orbit.frame).0 != center.frame {
+    if read.choice(orbit.frame).0 != center.frame {
         reported.push(format!("orbit.frame = {}", center.frame.name()));
     }
     if reported.is_empty() {
         return;
     }
-    let [from, to] = [context.setup.center.data.body, body].map(Body::name);
-    context.log.warning(&format!(
+    let [from, to] = [read.setup.center.data.body, body].map(Body::name);
+    read.log.warning(&format!(
         "orbit.center is {to}, and the start values of this FMU are those about {from}: what was not set is taken as {to}'s \
          own, {}; pack with --set orbit.center={to} for start values that are {to}'s",
         reported.join(", ")

@@ -13,7 +13,7 @@ use physics::plant::{
 };
 
 use super::wheels;
-use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::setup::Read;
 use crate::momentum_plant::variables::choices::AttitudeSource;
 
 /// Zero stands for none.
@@ -23,29 +23,28 @@ fn or_none(value: f64) -> f64 {
 
 /// Settings of dynamics and control by parameters.
 pub(super) fn dynamic(
-    context: &Plan<'_>,
-    values: &Values,
+    read: Read<'_>,
     configuration: &Configuration,
     start: StartMotion,
 ) -> Result<DynamicsSettings, Failure> {
-    let v = context.variables;
-    let real = |handle: Real| values.real(handle);
+    let v = read.variables;
+    let real = |handle: Real| read.real(handle);
     if configuration.momentum.convention == Convention::BodyIntegral {
         return Err(Failure::new(
             "momentum.convention: found bodyIntegral (2), allowed with attitude.source controlled (3) and free (4): inertial \
              (1), as the wheels hold physical momentum",
         ));
     }
-    let start_momentum = values.vector(v.start.momentum);
+    let start_momentum = read.values.vector(v.start.momentum);
     if start_momentum != [0.0; 3] {
         return Err(Failure::new(format!(
             "start.momentum: found {start_momentum:?} N.m.s, allowed with attitude.source controlled (3) and free (4): 0, as \
              the momentum follows from start.rate and wheel[k].startMomentum"
         )));
     }
-    wheels::check(context, values)?;
-    let rotors = rotors(context, values)?;
-    let shift = values.vector(v.spacecraft.center_of_mass_shift);
+    wheels::check(read)?;
+    let rotors = rotors(read)?;
+    let shift = read.values.vector(v.spacecraft.center_of_mass_shift);
     if shift != [0.0; 3] {
         return Err(Failure::new(format!(
             "spacecraft.centerOfMassShift: found {shift:?} m, allowed with attitude.source controlled (3) and free (4): 0, as \
@@ -53,40 +52,40 @@ pub(super) fn dynamic(
         )));
     }
     let axes: Vec<_> = rotors.iter().map(|wheel| wheel.axis_body).collect();
-    let appendages = appendages(context, values)?;
+    let appendages = appendages(read)?;
     let gyrostat = Gyrostat::new(configuration.inertia_body_kg_m2, rotors)
         .and_then(|rigid| {
             rigid.with_appendages(appendages, configuration.mass_kg, configuration.center_of_mass_body_m)
         })
         .map_err(|error| Failure::new(format!("spacecraft.inertia, wheel[k].*: {error}")))?;
-    let control = match values.choice(v.attitude.source) {
+    let control = match read.choice(v.attitude.source) {
         AttitudeSource::Controlled => {
             check_axes(&gyrostat, &axes)?;
-            Some(control(context, values)?)
+            Some(control(read)?)
         }
         _ => None,
     };
-    let seed = values.integer(v.noise_seed).unsigned_abs().into();
-    let controller = controller(context, values);
+    let seed = read.count(v.noise_seed).into();
+    let controller = controller(read);
     Ok(DynamicsSettings {
         gyrostat,
         rate_hz: controller.rate_hz,
         sensors: SensorSettings {
             star_tracker: StarTracker {
-                noise_rad: Vector3::from(values.vector(v.star_tracker.noise)),
+                noise_rad: read.vector(v.star_tracker.noise),
                 interval_s: real(v.star_tracker.period),
             },
             gyro: Gyro {
                 angle_random_walk_rad_sqrt_s: real(v.gyro.noise),
                 rate_random_walk_rad_s_sqrt_s: real(v.gyro.drift),
-                initial_bias_rad_s: Vector3::from(values.vector(v.gyro.bias)),
+                initial_bias_rad_s: read.vector(v.gyro.bias),
             },
             seed,
             interval_s: controller.interval_s(),
             acceleration_rad_s2: or_none(controller.slew_acceleration_rad_s2),
             longest_without_tracker_s: real(v.star_tracker.outage),
         },
-        sun_sensors: sun_sensors(context, values)?,
+        sun_sensors: sun_sensors(read)?,
         control,
         accelerometer: AccelerometerSettings {
             bias_m_s2: real(v.accelerometer.bias),
@@ -96,7 +95,7 @@ pub(super) fn dynamic(
             seed,
         },
         grid_s: real(v.solver.dynamics_step),
-        panels_have_mass: context.setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some()),
+        panels_have_mass: read.setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some()),
         start,
     })
 }
@@ -105,25 +104,25 @@ pub(super) fn dynamic(
 ///
 /// # Errors
 /// Momentum at the start beyond a wheel's capacity.
-fn rotors(context: &Plan<'_>, values: &Values) -> Result<Vec<ReactionWheel>, Failure> {
-    let v = context.variables;
-    let real = |handle: Real| values.real(handle);
+fn rotors(read: Read<'_>) -> Result<Vec<ReactionWheel>, Failure> {
+    let v = read.variables;
+    let real = |handle: Real| read.real(handle);
     let rotors: Vec<ReactionWheel> = v
         .wheel
         .iter()
         .map(|wheel| ReactionWheel {
-            axis_body: Vector3::from(values.vector(wheel.axis)),
+            axis_body: read.vector(wheel.axis),
             inertia_kg_m2: real(wheel.inertia),
             max_torque_n_m: real(wheel.max_torque),
             capacity_n_m_s: real(wheel.capacity),
             bias_n_m_s: real(wheel.bias_momentum),
             coulomb_friction_n_m: real(wheel.coulomb_friction),
             viscous_friction_n_m_s: real(wheel.viscous_friction),
-            locked: values.boolean(wheel.locked),
+            locked: read.boolean(wheel.locked),
         })
         .collect();
     for (index, (wheel, body)) in v.wheel.iter().zip(&rotors).enumerate() {
-        let (number, found) = (index + 1, wheels::start_n_m_s(context, values, wheel));
+        let (number, found) = (index + 1, wheels::start_n_m_s(read, wheel));
         let allowed_n_m_s = if body.locked { 0.0 } else { body.capacity_n_m_s };
         if found.abs() > allowed_n_m_s {
             let why = if body.locked { "the rotor is locked" } else { "its capacity" };
@@ -147,34 +146,34 @@ fn check_axes(gyrostat: &Gyrostat, axes: &[Vector3<f64>]) -> Result<(), Failure>
     Ok(())
 }
 
-fn controller(context: &Plan<'_>, values: &Values) -> ControllerSettings {
-    let control = &context.variables.control;
+fn controller(read: Read<'_>) -> ControllerSettings {
+    let control = &read.variables.control;
     ControllerSettings {
-        rate_hz: values.real(control.rate),
-        bandwidth_rad_s: values.real(control.bandwidth),
-        damping: values.real(control.damping),
-        integral: values.real(control.integral),
-        slew_rate_rad_s: values.real(control.slew_rate),
-        slew_acceleration_rad_s2: values.real(control.slew_acceleration),
+        rate_hz: read.real(control.rate),
+        bandwidth_rad_s: read.real(control.bandwidth),
+        damping: read.real(control.damping),
+        integral: read.real(control.integral),
+        slew_rate_rad_s: read.real(control.slew_rate),
+        slew_acceleration_rad_s2: read.real(control.slew_acceleration),
         keeps_reference: false,
     }
 }
 
-fn control(context: &Plan<'_>, values: &Values) -> Result<Control, Failure> {
-    let control = &context.variables.control;
-    let controller = controller(context, values);
+fn control(read: Read<'_>) -> Result<Control, Failure> {
+    let control = &read.variables.control;
+    let controller = controller(read);
     controller.check().map_err(|error| {
         Failure::new(format!("control.bandwidth, control.damping, control.integral: {error}"))
     })?;
     let by_thrusters = ThrusterControl::new(
         ControllerSettings {
-            bandwidth_rad_s: values.real(control.thruster_bandwidth),
-            slew_acceleration_rad_s2: values.real(control.thruster_acceleration),
+            bandwidth_rad_s: read.real(control.thruster_bandwidth),
+            slew_acceleration_rad_s2: read.real(control.thruster_acceleration),
             ..controller
         },
-        values.real(control.pulse_period),
+        read.real(control.pulse_period),
     );
-    if !context.variables.thruster.is_empty() {
+    if !read.variables.thruster.is_empty() {
         by_thrusters.controller.check().map_err(|error| {
             Failure::new(format!(
                 "control.thrusterBandwidth, control.pulsePeriod, control.damping, control.integral: {error}"
@@ -184,21 +183,21 @@ fn control(context: &Plan<'_>, values: &Values) -> Result<Control, Failure> {
     Ok(Control {
         controller,
         wheels: WheelControlSettings {
-            allocation: values.choice(control.allocation).0,
-            balance_time_s: or_none(values.real(control.balance_time)),
-            compensates_friction: values.boolean(control.friction_compensation),
+            allocation: read.choice(control.allocation).0,
+            balance_time_s: or_none(read.real(control.balance_time)),
+            compensates_friction: read.boolean(control.friction_compensation),
         },
         thrusters: by_thrusters,
     })
 }
 
-fn sun_sensors(context: &Plan<'_>, values: &Values) -> Result<Vec<SunSensor>, Failure> {
-    let sensors = context.variables.sun_sensor.iter().enumerate();
+fn sun_sensors(read: Read<'_>) -> Result<Vec<SunSensor>, Failure> {
+    let sensors = read.variables.sun_sensor.iter().enumerate();
     let sensors = sensors.map(|(index, sensor)| {
         Ok(SunSensor {
-            axis_body: direction(values, sensor.axis, "sunSensor", index)?,
-            half_field_of_view_rad: values.real(sensor.field_of_view),
-            noise_rad: values.real(sensor.noise),
+            axis_body: direction(read.values, sensor.axis, "sunSensor", index)?,
+            half_field_of_view_rad: read.real(sensor.field_of_view),
+            noise_rad: read.real(sensor.noise),
         })
     });
     sensors.collect()
@@ -221,33 +220,33 @@ fn direction(
 }
 
 /// Wheels and sensors of a flight that is followed ideally.
-pub(super) fn ideal(context: &Plan<'_>, values: &Values) -> Result<IdealSettings, Failure> {
-    let v = context.variables;
+pub(super) fn ideal(read: Read<'_>) -> Result<IdealSettings, Failure> {
+    let v = read.variables;
     Ok(IdealSettings {
-        array: wheels::array(context, values),
-        wheels: wheels::ideal(context, values)?,
-        sun_sensors: sun_sensors(context, values)?,
-        rate_hz: values.real(v.control.rate),
-        seed: values.integer(v.noise_seed).unsigned_abs().into(),
-        start_momentum_body_n_m_s: Vector3::from(values.vector(v.start.momentum)),
+        array: wheels::array(read),
+        wheels: wheels::ideal(read)?,
+        sun_sensors: sun_sensors(read)?,
+        rate_hz: read.real(v.control.rate),
+        seed: read.count(v.noise_seed).into(),
+        start_momentum_body_n_m_s: read.vector(v.start.momentum),
     })
 }
 
 /// Flexible modes, propellant and rotors out of balance.
-fn appendages(context: &Plan<'_>, values: &Values) -> Result<Appendages, Failure> {
-    let v = context.variables;
-    let real = |handle: Real| values.real(handle);
+fn appendages(read: Read<'_>) -> Result<Appendages, Failure> {
+    let v = read.variables;
+    let real = |handle: Real| read.real(handle);
     let modes = v.flexible_mode.iter().map(|mode| FlexibleMode {
         frequency_hz: real(mode.frequency),
         damping: real(mode.damping),
-        coupling_body_sqrt_kg_m: Vector3::from(values.vector(mode.coupling)),
+        coupling_body_sqrt_kg_m: read.vector(mode.coupling),
     });
     let sloshes = v.slosh.iter().enumerate().map(|(index, slosh)| {
         Ok(SloshPendulum {
             mass_kg: real(slosh.mass),
             length_m: real(slosh.length),
-            pivot_body_m: Vector3::from(values.vector(slosh.pivot)),
-            axis_body: direction(values, slosh.axis, "slosh", index)?,
+            pivot_body_m: read.vector(slosh.pivot),
+            axis_body: direction(read.values, slosh.axis, "slosh", index)?,
             coast_frequency_hz: real(slosh.coast_frequency),
             damping: real(slosh.damping),
         })
@@ -260,7 +259,7 @@ fn appendages(context: &Plan<'_>, values: &Values) -> Result<Appendages, Failure
             .map(|(index, wheel)| RotorImbalance {
                 wheel: index,
                 static_imbalance_kg_m: real(wheel.static_imbalance),
-                position_body_m: Vector3::from(values.vector(wheel.position)),
+                position_body_m: read.vector(wheel.position),
             })
             .collect(),
     })

@@ -1,6 +1,6 @@
 //! Source of the ephemerides, from parameters and inputs; refuses what cannot be simulated, by name.
 
-use fmi_export::{Failure, Values};
+use fmi_export::Failure;
 use nalgebra::Vector3;
 use physics::bodies::Body;
 use physics::environment::CartesianState;
@@ -9,21 +9,16 @@ use physics::plant;
 use super::n_body;
 use crate::common::center::CenterBody;
 use crate::common::ephemeris;
-use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::setup::Read;
 use crate::momentum_plant::variables::choices::EphemerisSource;
 
 /// Reads the source of the positions of Sun, Earth and planets.
-pub(super) fn read(
-    context: &Plan<'_>,
-    values: &Values,
-    center: Body,
-    waiting: bool,
-) -> Result<plant::EphemerisSource, Failure> {
-    let (variables, center) = (context.variables, &context.setup.bodies.body(center));
-    let epoch_s = values.real(variables.start.epoch);
-    Ok(match values.choice(variables.ephemeris_source) {
+pub(super) fn read(read: Read<'_>, center: Body, waiting: bool) -> Result<plant::EphemerisSource, Failure> {
+    let (variables, center) = (read.variables, &read.setup.bodies.body(center));
+    let epoch_s = read.real(variables.start.epoch);
+    Ok(match read.choice(variables.ephemeris_source) {
         EphemerisSource::Inputs => {
-            let sun_m = Vector3::from(values.vector(variables.sun.position));
+            let sun_m = read.vector(variables.sun.position);
             let at_the_planet = center.data.body.is_planet() && sun_m == Vector3::from([0.0; 3]);
             if at_the_planet && !waiting {
                 return Err(Failure::new(
@@ -32,8 +27,8 @@ pub(super) fn read(
                 ));
             }
             let given = |position, velocity| CartesianState {
-                position_m: Vector3::from(values.vector(position)),
-                velocity_m_s: Vector3::from(values.vector(velocity)),
+                position_m: read.vector(position),
+                velocity_m_s: read.vector(velocity),
             };
             plant::EphemerisSource::Given {
                 sun: given(variables.sun.position, variables.sun.velocity),
@@ -42,12 +37,12 @@ pub(super) fn read(
         }
         EphemerisSource::Kepler => {
             let ellipse = &variables.ephemeris;
-            plant::EphemerisSource::Kepler(ellipse.planet(context, values, center, epoch_s)?)
+            plant::EphemerisSource::Kepler(ellipse.planet(read, center, epoch_s)?)
         }
-        EphemerisSource::Chebyshev => match ephemeris::precise(context.setup.ephemeris.as_ref()) {
+        EphemerisSource::Chebyshev => match ephemeris::precise(read.setup.ephemeris.as_ref()) {
             Some(carried) => {
                 ephemeris::check_onboard(carried, center.data.body, "start.epoch", epoch_s)?;
-                n_body::check_onboard(variables, values, carried, "start.epoch", epoch_s)?;
+                n_body::check_onboard(read, carried, "start.epoch", epoch_s)?;
                 plant::EphemerisSource::Simulated(carried.clone())
             }
             None => without_table(center, "chebyshev")?,

@@ -16,18 +16,18 @@ pub(super) mod wheels;
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use physics::attitude::Attitude;
+use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
 use physics::guidance::SelectedSunDirection;
 use physics::management::Manager;
 use physics::plant::{
-    AerodynamicSolver, Changes, Configuration, DownlinkForecast, External, ModeSettings, PlantError,
-    PreparedSpacecraft, RadiationSolver, ReactionControlSettings, StepContext, SunPlanner, Thrusters,
+    Changes, Configuration, DownlinkForecast, External, ModeSettings, PlantError, PreparedSpacecraft,
+    SimulationContext, Sources, StepContext, SunPlanner, ThrusterAllocator, Thrusters,
 };
-use physics::radiation::SolarModel;
 
 use self::center::Center;
 use self::panels::MovingPanels;
-use super::setup::Plan;
+use super::setup::{Plan, Read};
 use super::state::PlantState;
 use super::state::step_inputs::{AppliedLoad, StepInputs};
 use super::variables::choices::EphemerisSource;
@@ -51,32 +51,16 @@ pub(super) struct Reading<'a> {
     work_limit: u32,
 }
 
-/// A configuration and settings.
-pub(super) struct Configured {
-    /// Configuration by inputs and tunable parameters, among others.
-    pub configuration: Configuration,
-    /// Settings, where they depend on inputs and tunable parameters too.
-    pub settings: Option<ModeSettings>,
-    /// Solvers and thrusters by fixed parameters, where they were not read before.
-    pub fixed: Option<FixedParameters>,
-}
-
-/// Solvers and thrusters, which depend on fixed parameters alone.
-pub(super) struct FixedParameters {
-    /// Surfaces in air.
-    pub air: Option<AerodynamicSolver>,
-    /// Light and heat beyond direct sunlight.
-    pub light: Option<RadiationSolver>,
-    /// Thrusters and tanks.
-    pub thrusters: ReactionControlSettings,
+/// A configuration that was read anew, with its settings.
+#[expect(clippy::large_enum_variant, reason = "a step allocates nothing")]
+pub(super) enum Reconfigured {
+    /// All of the simulation, by fixed parameters too.
+    Simulation(Box<SimulationContext>, ModeSettings),
+    /// What depends on inputs and tunable parameters, the settings where they do.
+    Changed(Configuration, Option<ModeSettings>),
 }
 
 impl Reading<'_> {
-    /// The spacecraft in sunlight by its file.
-    pub(super) fn solar(&self) -> &SolarModel {
-        self.prepared.solar
-    }
-
     /// Force and torque from outside.
     pub(super) fn external(&self) -> impl Fn(f64) -> [physics::loads::ForceTorque; 2] + '_ {
         |time_s| self.applied.at(time_s)
@@ -95,7 +79,7 @@ impl Reading<'_> {
         external: &'r External<'r>,
         planner: &'r SunPlanner<'r>,
     ) -> StepContext<'r> {
-        StepContext { prepared: self.prepared, external, planner, work_limit: self.work_limit }
+        StepContext { prepared: self.prepared, external, planner, work_limit: self.work_limit, log: &|_| {} }
     }
 }
 
@@ -106,26 +90,26 @@ pub(super) fn read<'a>(
     state: &mut PlantState,
     step: &Step<'a>,
 ) -> Result<Reading<'a>, Failure> {
-    let variables = context.variables;
+    let (read, variables) = (Read::new(context, values), context.variables);
     let mut changes = None;
     if step.changed || !state.inputs.are_read {
         state.inputs.update(context, values, step.inputs);
         changes = Some(state.update_inputs(step.start_s)?).filter(|_| step.changed);
-        if state.update_schedules(context.setup.schedules, step.start_s) {
+        if state.update_schedules(read.setup.schedules, step.start_s) {
             changes = Some(Changes { light: true, ..changes.unwrap_or_default() });
         }
     }
-    let begins = state.waiting && state.inputs.unset_places.is_empty();
-    state.waiting &= !begins;
-    let sunshade = values.choice(variables.sunshade.shape).0;
-    let limits_rad = [variables.keep_in.azimuth, variables.keep_in.elevation].map(|limit| values.real(limit));
+    let begins = state.saved.waiting && state.inputs.unset_places.is_empty();
+    state.saved.waiting &= !begins;
+    let sunshade = read.choice(variables.sunshade.shape).0;
+    let limits_rad = [variables.keep_in.azimuth, variables.keep_in.elevation].map(|limit| read.real(limit));
     let (momentum, spacecraft) = (&variables.momentum, &context.setup.spacecraft);
-    let strategy = values.choice(momentum.strategy).0;
-    let is_dynamic = state.inputs.source.is_dynamic && !state.waiting;
-    let is_complete = begins || !state.flight.is_configured() || (state.waiting && changes.is_some());
+    let strategy = read.choice(momentum.strategy).0;
+    let is_dynamic = state.inputs.source.is_dynamic && !state.saved.waiting;
+    let is_complete = begins || state.saved.flight.configuration().is_none() || (state.saved.waiting && changes.is_some());
     let is_changed = changes.is_some_and(|it| !is_dynamic || it.orbit || it.light || it.tunables);
     let is_reconfigured = is_complete || is_changed;
-    let current = state.flight.configuration().filter(|_| !is_reconfigured);
+    let current = state.saved.flight.configuration().filter(|_| !is_reconfigured);
     let bias_body_n_m_s = current.map(|it| it.momentum.policy.bias_body_n_m_s);
     Ok(Reading {
         changes,
@@ -141,127 +125,119 @@ pub(super) fn read<'a>(
                 sunshade,
                 antennas: &context.setup.antennas.all,
                 sun_limits_rad: limits_rad,
-                bias_body_n_m_s: bias_body_n_m_s.unwrap_or_else(|| wheels::bias_body_n_m_s(context, values)),
+                bias_body_n_m_s: bias_body_n_m_s.unwrap_or_else(|| wheels::bias_body_n_m_s(read)),
             },
         ),
         prepared: context.setup.prepared_spacecraft(sunshade)?,
-        work_limit: variables.solver.work.units(values),
+        work_limit: variables.solver.work.units(read.values),
     })
 }
 
 /// The configuration by inputs and tunable parameters, and by fixed ones where [`Reading::is_complete`].
 pub(super) fn configured(
-    context: &Plan<'_>,
-    values: &Values,
+    read: Read<'_>,
     state: &mut PlantState,
     over_time: InputsOverTime<'_>,
     reading: &Reading<'_>,
-) -> Result<Configured, Failure> {
-    let is_dynamic = state.inputs.source.is_dynamic && !state.waiting;
-    let is_complete = reading.is_complete;
-    let center = Center::read(context, values);
-    let moving = MovingPanels { over_time, memory: state.flight.extract_panels() };
-    let configuration = configuration::read(context, values, state, &center, moving)?;
+) -> Result<Reconfigured, Failure> {
+    let is_dynamic = state.inputs.source.is_dynamic && !state.saved.waiting;
+    let center = Center::read(read);
+    let moving = MovingPanels { over_time, memory: state.saved.flight.extract_panels() };
+    let configuration = configuration::read(read, state, &center, moving)?;
     let settings = if is_dynamic {
-        let start = guidance::start_motion(context, values, &configuration, state)?;
-        let settings = dynamics::dynamic(context, values, &configuration, start)?;
+        let start = guidance::start_motion(read, &configuration, state)?;
+        let settings = dynamics::dynamic(read, &configuration, start)?;
         Some(ModeSettings::Dynamic(settings.into()))
-    } else if is_complete {
-        Some(ModeSettings::Ideal(dynamics::ideal(context, values)?))
     } else {
         None
     };
-    let fixed = if is_complete {
-        let acting = Some(&configuration).filter(|_| !state.waiting);
-        Some(FixedParameters {
-            air: acting.map(|it| solvers::air(context, values, it)).transpose()?.flatten(),
-            light: acting
-                .map(|it| solvers::light(context, values, it, &center.surface))
-                .transpose()?
-                .flatten(),
-            thrusters: propulsion::reaction_control(context, values)?,
-        })
-    } else {
-        None
+    if !reading.is_complete {
+        return Ok(Reconfigured::Changed(configuration, settings));
+    }
+    let settings = match settings {
+        Some(settings) => settings,
+        None => ModeSettings::Ideal(dynamics::ideal(read)?),
     };
-    Ok(Configured { configuration, settings, fixed })
+    let acting = Some(&configuration).filter(|_| !state.saved.waiting);
+    let air = acting.map(|it| solvers::air(read, it)).transpose()?.flatten();
+    let light = acting.map(|it| solvers::light(read, it, &center.surface)).transpose()?.flatten();
+    let mut simulation = SimulationContext::new(configuration);
+    simulation.models.ephemeris = Ephemeris::with_cache(&read.setup.ephemeris_cache);
+    simulation.models.solar = Some(reading.prepared.solar.clone());
+    simulation.models.digest = state.digest();
+    simulation.models.sources = Sources::new(light, air);
+    simulation.allocator = ThrusterAllocator::new(propulsion::reaction_control(read)?);
+    Ok(Reconfigured::Simulation(Box::new(simulation), settings))
 }
 
 /// Sets the materials of the surfaces where they are other than the flight has them.
 ///
 /// # Errors
 /// Names parameters whose values no material has.
-pub(super) fn update_materials(
-    context: &Plan<'_>,
-    values: &Values,
-    state: &mut PlantState,
-) -> Result<(), Failure> {
-    let Some(flown) = state.flight.context_mut() else { return Ok(()) };
-    for found in context.variables.optics.materials(context, values, &context.setup.optics) {
+pub(super) fn update_materials(read: Read<'_>, state: &mut PlantState) -> Result<(), Failure> {
+    let Some(flown) = state.saved.flight.context_mut() else { return Ok(()) };
+    for found in read.variables.optics.materials(read, &read.setup.optics) {
         let (place, material) = found?;
-        flown.set_material(place, &material);
+        flown.models.set_material(place, &material);
     }
     Ok(())
 }
 
 /// Reads the state in which a flight begins.
-pub(super) fn start(context: &Plan<'_>, values: &Values, start_s: f64) -> Result<PlantState, Failure> {
+pub(super) fn start(read: Read<'_>, start_s: f64) -> Result<PlantState, Failure> {
     let mut inputs = StepInputs::default();
-    inputs.update(context, values, InputsOverTime::held());
-    let q = values.vector(context.variables.start.q);
+    inputs.update(&read, read.values, InputsOverTime::held());
+    let q = read.values.vector(read.variables.start.q);
     let attitude = Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
-    let settings = propulsion::reaction_control(context, values)?;
+    let settings = propulsion::reaction_control(read)?;
     let thrusters = Thrusters::new(settings.thrusters.len(), settings.tanks.len(), start_s);
-    PlantState::new(inputs, attitude, thrusters, start_s, context.setup.schedules)
+    PlantState::new(inputs, attitude, thrusters, start_s, read.setup.schedules)
 }
 
 /// Warns of settings, and keys of the file, that are without effect.
 ///
 /// # Errors
 /// A setting that cannot have an effect.
-pub(super) fn check_effects(context: &Plan<'_>, values: &Values, start_s: f64) -> Result<(), Failure> {
-    let (variables, spacecraft) = (context.variables, &context.setup.spacecraft);
-    let shape = values.choice(variables.sunshade.shape).0;
-    let shadows = variables.shadowing.check(values, spacecraft, shape)?;
-    let encounter = n_body::unused_encounter(variables, values);
-    let prediction = n_body::unused_prediction(variables, values);
+pub(super) fn check_effects(read: Read<'_>, start_s: f64) -> Result<(), Failure> {
+    let (variables, spacecraft) = (read.variables, &read.setup.spacecraft);
+    let shape = read.choice(variables.sunshade.shape).0;
+    let shadows = variables.shadowing.check(read.values, spacecraft, shape)?;
+    let encounter = n_body::unused_encounter(read);
+    let prediction = n_body::unused_prediction(read);
     for warning in [shadows, unused_map(spacecraft), encounter, prediction].into_iter().flatten() {
-        context.log.warning(&warning);
+        read.log.warning(&warning);
     }
-    center::warn_defaulted(context, values);
-    air_and_field::report(context, values, start_s);
+    center::warn_defaulted(read);
+    air_and_field::report(read, start_s);
     Ok(())
 }
 
 /// Writes the parameters that follow `orbit.center` as they act.
 pub(super) fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     let ellipse = &context.variables.ephemeris;
-    let center = Center::read(context, values);
-    let elements = ellipse.read(context, values, &context.setup.bodies.body(center.data.body));
+    let read = Read::new(context, values);
+    let center = Center::read(read);
+    let elements = ellipse.read(read, &context.setup.bodies.body(center.data.body));
     ellipse.write(values, &elements);
     center.write(context.variables, values);
-    air_and_field::BodyDefaults::read(context, values, center.planet.body).write(context.variables, values);
+    let defaults = air_and_field::BodyDefaults::read(Read::new(context, values), center.planet.body);
+    defaults.write(context.variables, values);
     wheels::write_start(context, values);
     let is_about_sun = !center.data.body.is_planet();
     context.variables.guided.resolve_start(context, values, &context.setup.guided, is_about_sun);
 }
 
 /// Refuses a step that leaves the span of the onboard ephemerides in use.
-pub(super) fn check_span(
-    context: &Plan<'_>,
-    values: &Values,
-    state: &PlantState,
-    end_s: f64,
-) -> Result<(), Failure> {
-    let variables = context.variables;
-    let is_onboard = matches!(values.choice(variables.ephemeris_source), EphemerisSource::Chebyshev);
-    let Some(carried) = ephemeris::precise(context.setup.ephemeris.as_ref()).filter(|_| is_onboard) else {
+pub(super) fn check_span(read: Read<'_>, state: &PlantState, end_s: f64) -> Result<(), Failure> {
+    let variables = read.variables;
+    let is_onboard = matches!(read.choice(variables.ephemeris_source), EphemerisSource::Chebyshev);
+    let Some(carried) = ephemeris::precise(read.setup.ephemeris.as_ref()).filter(|_| is_onboard) else {
         return Ok(());
     };
-    let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
+    let epoch_minus_time_s = time::epoch_minus_time_s(read.real(variables.start.epoch), state.saved.start_s);
     let end_epoch_s = time::epoch_at_s(end_s, epoch_minus_time_s);
-    let center = values.choice(variables.orbit.center).0;
+    let center = read.choice(variables.orbit.center).0;
     let end = "the epoch at the end of the step";
     ephemeris::check_onboard(carried, center, end, end_epoch_s)?;
-    n_body::check_onboard(variables, values, carried, end, end_epoch_s)
+    n_body::check_onboard(read, carried, end, end_epoch_s)
 }

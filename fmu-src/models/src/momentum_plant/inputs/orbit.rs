@@ -1,19 +1,17 @@
 //! Orbit and motion of the spacecraft, from parameters, inputs and state; refuses what cannot be simulated, by name.
 
-use fmi_export::{Failure, Values};
-use nalgebra::{Matrix3, Vector3};
+use fmi_export::Failure;
+use nalgebra::Matrix3;
 use physics::bodies::Body;
-use physics::environment::CartesianState;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::frames::Frame;
 use physics::environment::orbit::{Attractor, GravityModel, NBodyGravity, OrbitError, TwoBodyOrbit};
-use physics::environment::time;
+use physics::environment::{CartesianState, time};
 use physics::plant::{self, Motion};
 
 use super::center::Center;
-use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::setup::Read;
 use crate::momentum_plant::state::PlantState;
-use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::choices::{OrbitDynamics, OrbitSource};
 
 /// Components in the frame of the elements to components in EME2000.
@@ -21,12 +19,11 @@ use crate::momentum_plant::variables::choices::{OrbitDynamics, OrbitSource};
 /// # Errors
 /// A Sun line that nothing gives at the start.
 pub(super) fn eme2000_from_frame(
-    context: &Plan<'_>,
-    values: &Values,
+    read: Read<'_>,
     center: &Center,
     source: &plant::EphemerisSource,
 ) -> Result<Matrix3<f64>, Failure> {
-    let (variables, body) = (context.variables, &center.data);
+    let (variables, body) = (read.variables, &center.data);
     let is_of_sun = center.frame == Frame::SunLine;
     if is_of_sun && (body.body == Body::Sun || matches!(source, plant::EphemerisSource::Given { .. })) {
         return Err(Failure::new(
@@ -35,8 +32,8 @@ pub(super) fn eme2000_from_frame(
         ));
     }
     let sun = || {
-        let mut ephemeris = Ephemeris::with_cache(&context.setup.ephemeris_cache);
-        plant::sun_and_earth(body.body, source, &mut ephemeris, values.real(variables.start.epoch)).0
+        let mut ephemeris = Ephemeris::with_cache(&read.setup.ephemeris_cache);
+        plant::sun_and_earth(body.body, source, &mut ephemeris, read.real(variables.start.epoch)).0
     };
     center.frame.dcm_eme2000_from_frame(body, sun).ok_or_else(|| {
         Failure::new(format!(
@@ -49,8 +46,7 @@ pub(super) fn eme2000_from_frame(
 /// Parameters, inputs and state that orbit and motion are read from.
 #[derive(Clone, Copy)]
 pub(super) struct OrbitReader<'a> {
-    pub variables: &'a PlantVariables,
-    pub values: &'a Values,
+    pub read: Read<'a>,
     pub state: &'a PlantState,
     pub epoch_minus_time_s: f64,
 }
@@ -71,15 +67,15 @@ impl OrbitReader<'_> {
     }
 
     fn unchecked_orbit(&self, center: &Center, frame: &Matrix3<f64>) -> Result<TwoBodyOrbit, Failure> {
-        let Self { variables, values, state, epoch_minus_time_s } = *self;
-        let (orbit, data) = (&variables.orbit, &center.data);
-        match values.choice(orbit.source) {
+        let Self { read, state, epoch_minus_time_s } = *self;
+        let (orbit, data) = (&read.variables.orbit, &center.data);
+        match read.choice(orbit.source) {
             // Nothing is computed on it before position and velocity are set.
-            OrbitSource::Inputs | OrbitSource::Held if state.waiting => {
+            OrbitSource::Inputs | OrbitSource::Held if state.saved.waiting => {
                 circle(1e10, data.gm_m3_s2, epoch_minus_time_s)
             }
             source @ (OrbitSource::Inputs | OrbitSource::Held) => {
-                let start = given_state(variables, values);
+                let start = given_state(read);
                 let epoch_s = self.given_epoch_s();
                 let found = TwoBodyOrbit::from_state(&start, data.gm_m3_s2, epoch_s);
                 if source == OrbitSource::Held && found.is_err() {
@@ -89,7 +85,7 @@ impl OrbitReader<'_> {
                 found.map_err(|error| Failure::new(format!("orbit.position, orbit.velocity: {error}")))
             }
             OrbitSource::Elements => {
-                let epoch_s = values.real(variables.start.epoch);
+                let epoch_s = read.real(read.variables.start.epoch);
                 let orbit = TwoBodyOrbit::from_elements(center.elements, data.gm_m3_s2, epoch_s);
                 orbit.map(|orbit| orbit.along(frame)).map_err(|error| refused(&error))
             }
@@ -98,30 +94,27 @@ impl OrbitReader<'_> {
 
     /// The motion about `center`, whose pole is that of the start epoch, by `gravity` of all bodies where that is given.
     pub(super) fn motion(&self, center: &Center, gravity: Option<NBodyGravity>) -> Motion {
-        let Self { variables, values, .. } = *self;
-        let orbit = &variables.orbit;
-        if matches!(values.choice(orbit.source), OrbitSource::Held) {
-            return Motion::Held {
-                state: given_state(variables, values),
-                since_epoch_s: self.given_epoch_s(),
-            };
+        let read = self.read;
+        let orbit = &read.variables.orbit;
+        if matches!(read.choice(orbit.source), OrbitSource::Held) {
+            return Motion::Held { state: given_state(read), since_epoch_s: self.given_epoch_s() };
         }
-        let feedback = values.boolean(orbit.radiation_feedback);
+        let feedback = read.boolean(orbit.radiation_feedback);
         if let Some(gravity) = gravity {
             return Motion::NBody { gravity, feedback };
         }
-        if !matches!(values.choice(orbit.dynamics), OrbitDynamics::Disturbed) {
+        if !matches!(read.choice(orbit.dynamics), OrbitDynamics::Disturbed) {
             return Motion::TwoBody;
         }
         let center = &center.data;
-        let parent = center.parent.filter(|_| values.boolean(orbit.sun_tide));
-        let has_moon = center.body == Attractor::MOON_PARENT && values.boolean(orbit.moon_tide);
+        let parent = center.parent.filter(|_| read.boolean(orbit.sun_tide));
+        let has_moon = center.body == Attractor::MOON_PARENT && read.boolean(orbit.moon_tide);
         let tides = parent.map(|parent| Attractor::point_mass(parent.data())).into_iter();
         let tides = tides.chain(has_moon.then_some(Attractor::MOON));
         let attractors = [Attractor::flattened(center)].into_iter().chain(tides);
         Motion::Disturbed {
             gravity: GravityModel::new(center.body, attractors, false),
-            segment_length_s: values.real(orbit.step),
+            segment_length_s: read.real(orbit.step),
             radius_m: center.radius_m,
             feedback,
         }
@@ -134,10 +127,11 @@ impl OrbitReader<'_> {
 }
 
 /// Position and velocity that are set.
-fn given_state(variables: &PlantVariables, values: &Values) -> CartesianState {
+fn given_state(read: Read<'_>) -> CartesianState {
+    let variables = read.variables;
     CartesianState {
-        position_m: Vector3::from(values.vector(variables.orbit.position)),
-        velocity_m_s: Vector3::from(values.vector(variables.orbit.velocity)),
+        position_m: read.vector(variables.orbit.position),
+        velocity_m_s: read.vector(variables.orbit.velocity),
     }
 }
 

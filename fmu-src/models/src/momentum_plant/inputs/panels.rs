@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use fmi_export::{Failure, InputsOverTime, Real, Values};
+use fmi_export::{Failure, InputsOverTime, Real};
 use physics::guidance::timeline::Timeline;
 use physics::plant::{PanelSetting, Ramp};
 use physics::spacecraft::PanelControl;
 
-use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::setup::Read;
 
 /// The timeline in use, and its clock.
 pub(super) struct ActiveTimeline<'a> {
@@ -19,9 +19,9 @@ pub(super) struct ActiveTimeline<'a> {
 
 impl<'a> ActiveTimeline<'a> {
     /// Reads whether the timeline of the setup is in use.
-    pub(super) fn read(context: &Plan<'a>, values: &Values, epoch_minus_time_s: f64) -> Self {
-        let enabled = values.boolean(context.variables.timeline.enabled);
-        let law = context.setup.timeline.as_ref().filter(|_| enabled);
+    pub(super) fn read(read: Read<'a>, epoch_minus_time_s: f64) -> Self {
+        let enabled = read.boolean(read.variables.timeline.enabled);
+        let law = read.setup.timeline.as_ref().filter(|_| enabled);
         Self { law, clock_minus_time_s: law.map_or(0.0, |it| it.clock_minus_time_s(epoch_minus_time_s)) }
     }
 }
@@ -39,37 +39,36 @@ pub(super) struct MovingPanels<'a> {
 /// # Errors
 /// A corridor of the cells' light that is none.
 pub(super) fn read(
-    context: &Plan<'_>,
-    values: &Values,
+    read: Read<'_>,
     moving: MovingPanels<'_>,
     timeline: &ActiveTimeline<'_>,
 ) -> Result<Vec<PanelSetting>, Failure> {
-    let variables = context.variables;
-    let corridor = variables.articulation.read(values)?;
+    let variables = read.variables;
+    let corridor = variables.articulation.read(read.values)?;
     let MovingPanels { over_time, memory: mut panels } = moving;
     panels.clear();
     panels.extend(variables.panel.iter().enumerate().map(|(k, panel)| {
-        if !values.boolean(panel.enabled) {
+        if !read.boolean(panel.enabled) {
             return PanelSetting::Disabled;
         }
         let since_s = over_time.start_s();
-        let ramp = |input: Real| Ramp::since(since_s, values.real(input), over_time.rate(input, since_s));
-        let tilt = values.choice(panel.tilt).sign().into();
+        let ramp = |input: Real| Ramp::since(since_s, read.real(input), over_time.rate(input, since_s));
+        let tilt = read.choice(panel.tilt).sign().into();
         let offset = |offset| PanelSetting::SunOffset { offset, tilt };
-        let steps = || timeline.law.and_then(|_| context.setup.panel_steps.get(k).cloned());
-        match values.choice(panel.control).0 {
+        let steps = || timeline.law.and_then(|_| read.setup.panel_steps.get(k).cloned());
+        match read.choice(panel.control).0 {
             PanelControl::Angle => PanelSetting::Angle(ramp(panel.angle)),
-            PanelControl::SunOffset => offset(Ramp::held(values.real(panel.sun_offset))),
+            PanelControl::SunOffset => offset(Ramp::held(read.real(panel.sun_offset))),
             PanelControl::Timeline => PanelSetting::Timeline {
                 steps: steps().unwrap_or_default(),
                 clock_minus_time_s: timeline.clock_minus_time_s,
-                before_rad: values.real(panel.sun_offset),
+                before_rad: read.real(panel.sun_offset),
                 tilt,
             },
             PanelControl::Command => offset(ramp(panel.sun_offset_command)),
             PanelControl::Distance => PanelSetting::Distance { suns: corridor.target_suns, tilt },
         }
-        .biased(values.real(panel.angle_bias))
+        .biased(read.real(panel.angle_bias))
     }));
     Ok(panels)
 }

@@ -13,7 +13,7 @@ use physics::plausibility::{
 };
 
 use crate::common::downlink::roll_warning;
-use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::setup::Read;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::air_and_field::AtmosphereMethod;
 use crate::momentum_plant::variables::choices::OrbitSource;
@@ -70,22 +70,21 @@ pub(in crate::momentum_plant) fn following_dynamics(
 
 /// Warns of settings that are hardly meant where the flight begins at `time_s`.
 pub(in crate::momentum_plant) fn report(
-    context: &Plan<'_>,
-    values: &Values,
+    read: Read<'_>,
     flight: &Flight,
     given: StepContext<'_>,
     time_s: f64,
 ) {
     let Some(configuration) = flight.configuration() else { return };
-    let (v, spacecraft) = (context.variables, &context.setup.spacecraft);
+    let (v, spacecraft) = (read.variables, &read.setup.spacecraft);
     let figures = Figures::new(spacecraft);
     let wheels: Vec<WheelSettings> = v
         .wheel
         .iter()
         .map(|it| WheelSettings {
-            capacity_n_m_s: values.real(it.capacity),
-            inertia_kg_m2: values.real(it.inertia),
-            axis_body: Vector3::from(values.vector(it.axis)),
+            capacity_n_m_s: read.real(it.capacity),
+            inertia_kg_m2: read.real(it.inertia),
+            axis_body: read.vector(it.axis),
         })
         .collect();
     let (orbit, method, dynamics) = (&v.orbit, v.atmosphere.method, v.orbit.dynamics);
@@ -101,13 +100,13 @@ pub(in crate::momentum_plant) fn report(
     let settings = FlightSettings {
         figures: &figures,
         configuration,
-        epoch_s: values.real(v.start.epoch),
+        epoch_s: read.real(v.start.epoch),
         wheels: &wheels,
-        angles_rad: &angles.map(|(name, angle)| (name, values.real(angle))),
+        angles_rad: &angles.map(|(name, angle)| (name, read.real(angle))),
         f107: [("spaceWeather.f107", weather.f107), ("spaceWeather.f107Average", weather.f107_average)]
-            .map(|(name, flux)| (name, values.real(flux))),
-        chooses_air: context.given_deliberately(values, &[method.into()]).has(method),
-        has_default_dynamics: !context.given_deliberately(values, &[dynamics.into()]).has(dynamics),
+            .map(|(name, flux)| (name, read.real(flux))),
+        chooses_air: read.given_deliberately(&[method.into()]).has(method),
+        has_default_dynamics: !read.given_deliberately(&[dynamics.into()]).has(dynamics),
     };
     let survey = FlightSurvey::new(flight, given, spacecraft, time_s);
     let timeline = given.prepared.timeline.filter(|_| configuration.timeline.is_some());
@@ -118,5 +117,5 @@ pub(in crate::momentum_plant) fn report(
         rolled.map(|entry| roll_warning(&format!("the command in line {} of the timeline", entry.line)));
     let found = warnings(spacecraft, &figures).into_iter();
     let found = found.chain(settings.warnings()).chain(survey.warnings(spacecraft)).chain(rolled);
-    found.for_each(|text| context.log.warning(&text));
+    found.for_each(|text| read.log.warning(&text));
 }

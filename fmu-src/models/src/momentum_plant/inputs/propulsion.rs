@@ -1,6 +1,6 @@
 //! From parameters and inputs to thrusters, tanks and delta-v; refuses what cannot be simulated, by name.
 
-use fmi_export::{Failure, Step, Values};
+use fmi_export::{Failure, Step};
 use nalgebra::Vector3;
 use physics::plant::{
     Configuration, DynamicsInputs, Flight, ReactionControlSettings, Report, SimulationContext, UnservedDumps,
@@ -8,37 +8,34 @@ use physics::plant::{
 use physics::propulsion::{PulseCommand, ThrustErrors};
 use physics::spacecraft::{Tank, Thruster};
 
-use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::setup::{Plan, Read};
 use crate::momentum_plant::state::ThrusterWarnings;
 
 /// Thrusters and tanks as parameters set them.
-pub(crate) fn reaction_control(
-    context: &Plan<'_>,
-    values: &Values,
-) -> Result<ReactionControlSettings, Failure> {
-    let v = context.variables;
-    let spacecraft = &context.setup.spacecraft;
+pub(crate) fn reaction_control(read: Read<'_>) -> Result<ReactionControlSettings, Failure> {
+    let v = read.variables;
+    let spacecraft = &read.setup.spacecraft;
     let thrusters = spacecraft.thrusters.iter().zip(&v.thruster).map(|(thruster, variables)| Thruster {
-        valve: variables.valve.read(values),
-        scatter: values.real(variables.scatter),
+        valve: variables.valve.read(read.values),
+        scatter: read.real(variables.scatter),
         ..thruster.clone()
     });
     let tanks = spacecraft.tanks.iter().zip(&v.tank).map(|(tank, variables)| Tank {
-        propellant_kg: values.real(variables.propellant),
-        pressure_pa: values.real(variables.pressure),
+        propellant_kg: read.real(variables.propellant),
+        pressure_pa: read.real(variables.pressure),
         ..tank.clone()
     });
     let settings = ReactionControlSettings {
         thrusters: thrusters.collect(),
         tanks: tanks.collect(),
         errors: ThrustErrors {
-            misalignment_rad: values.real(v.thrust.misalignment),
-            drift_rad_s: values.real(v.thrust.drift),
-            jitter_rad: values.real(v.thrust.jitter),
-            seed: values.integer(v.noise_seed).unsigned_abs().into(),
+            misalignment_rad: read.real(v.thrust.misalignment),
+            drift_rad_s: read.real(v.thrust.drift),
+            jitter_rad: read.real(v.thrust.jitter),
+            seed: read.count(v.noise_seed).into(),
         },
-        dump_torque_n_m: values.real(v.dump.torque),
-        dump_period_s: values.real(v.dump.pulse_period),
+        dump_torque_n_m: read.real(v.dump.torque),
+        dump_period_s: read.real(v.dump.pulse_period),
     };
     for (k, tank) in settings.tanks.iter().enumerate() {
         let [least_pa, greatest_pa] = tank.allowed_pa;

@@ -6,65 +6,60 @@ use physics::momentum::{WheelArray, wheels_body_n_m_s};
 use physics::plant::IdealWheel;
 use physics::spacecraft::free_capacity_n_m_s;
 
-use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::setup::{Plan, Read};
 use crate::momentum_plant::variables::body::WheelVariables;
 
 /// Distribution of momentum over the wheels; those without a direction hold nothing.
-pub(in crate::momentum_plant) fn array(context: &Plan<'_>, values: &Values) -> WheelArray {
-    let wheels = context.variables.wheel.iter();
-    let axes =
-        wheels.map(|wheel| Vector3::from(values.vector(wheel.axis)).try_normalize(0.0).unwrap_or_default());
+pub(in crate::momentum_plant) fn array(read: Read<'_>) -> WheelArray {
+    let wheels = read.variables.wheel.iter();
+    let axes = wheels.map(|wheel| read.vector(wheel.axis).try_normalize(0.0).unwrap_or_default());
     WheelArray::from_axes(&axes.collect::<Vec<_>>())
 }
 
 /// Sum of the wheels' biases, body frame, in N m s.
-pub(in crate::momentum_plant) fn bias_body_n_m_s(context: &Plan<'_>, values: &Values) -> Vector3<f64> {
-    let wheels = context.variables.wheel.iter();
-    wheels_body_n_m_s(
-        wheels.map(|wheel| (Vector3::from(values.vector(wheel.axis)), values.real(wheel.bias_momentum))),
-    )
+pub(in crate::momentum_plant) fn bias_body_n_m_s(read: Read<'_>) -> Vector3<f64> {
+    let wheels = read.variables.wheel.iter();
+    wheels_body_n_m_s(wheels.map(|wheel| (read.vector(wheel.axis), read.real(wheel.bias_momentum))))
 }
 
 /// The largest dump threshold at which no wheel saturates, in N m s.
-pub(in crate::momentum_plant) fn guaranteed_threshold_n_m_s(context: &Plan<'_>, values: &Values) -> f64 {
-    let free_n_m_s = context
-        .variables
-        .wheel
-        .iter()
-        .map(|wheel| free_capacity_n_m_s(values.real(wheel.capacity), values.real(wheel.bias_momentum)));
-    array(context, values).guaranteed_threshold_n_m_s(free_n_m_s)
+pub(in crate::momentum_plant) fn guaranteed_threshold_n_m_s(read: Read<'_>) -> f64 {
+    let free_n_m_s = |wheel: &WheelVariables| {
+        free_capacity_n_m_s(read.real(wheel.capacity), read.real(wheel.bias_momentum))
+    };
+    array(read).guaranteed_threshold_n_m_s(read.variables.wheel.iter().map(free_n_m_s))
 }
 
 /// Momentum of a wheel where a flight by torque begins, in N m s: its bias unless the other is set.
-pub(super) fn start_n_m_s(context: &Plan<'_>, values: &Values, wheel: &WheelVariables) -> f64 {
+pub(super) fn start_n_m_s(read: Read<'_>, wheel: &WheelVariables) -> f64 {
     let start = wheel.start_momentum;
-    let is_given = context.given(values, &[start.into()]).has(start);
-    values.real(if is_given { start } else { wheel.bias_momentum })
+    let is_given = read.given(&[start.into()]).has(start);
+    read.real(if is_given { start } else { wheel.bias_momentum })
 }
 
 /// Writes where the wheels start, as it acts.
 pub(super) fn write_start(context: &Plan<'_>, values: &mut Values) {
     for wheel in &context.variables.wheel {
-        let start_n_m_s = start_n_m_s(context, values, wheel);
+        let start_n_m_s = start_n_m_s(Read::new(context, values), wheel);
         values.set_real(wheel.start_momentum, start_n_m_s);
     }
 }
 
 /// Wheels that follow ideally.
-pub(super) fn ideal(context: &Plan<'_>, values: &Values) -> Result<Vec<IdealWheel>, Failure> {
-    check(context, values)?;
-    let wheels = context.variables.wheel.iter().map(|wheel| IdealWheel {
-        inertia_kg_m2: values.real(wheel.inertia),
-        capacity_n_m_s: values.real(wheel.capacity),
-        bias_n_m_s: values.real(wheel.bias_momentum),
+pub(super) fn ideal(read: Read<'_>) -> Result<Vec<IdealWheel>, Failure> {
+    check(read)?;
+    let wheels = read.variables.wheel.iter().map(|wheel| IdealWheel {
+        inertia_kg_m2: read.real(wheel.inertia),
+        capacity_n_m_s: read.real(wheel.capacity),
+        bias_n_m_s: read.real(wheel.bias_momentum),
     });
     Ok(wheels.collect())
 }
 
 /// Refuses a bias beyond the capacity.
-pub(super) fn check(context: &Plan<'_>, values: &Values) -> Result<(), Failure> {
-    for (index, wheel) in context.variables.wheel.iter().enumerate() {
-        let [found, allowed] = [wheel.bias_momentum, wheel.capacity].map(|it| values.real(it));
+pub(super) fn check(read: Read<'_>) -> Result<(), Failure> {
+    for (index, wheel) in read.variables.wheel.iter().enumerate() {
+        let [found, allowed] = [wheel.bias_momentum, wheel.capacity].map(|it| read.real(it));
         if found.abs() > allowed {
             let number = index.saturating_add(1);
             return Err(Failure::new(format!(

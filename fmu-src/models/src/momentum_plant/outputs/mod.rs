@@ -8,8 +8,8 @@ use fmi_export::{Failure, Values};
 use nalgebra::Vector3;
 use physics::attitude::SunAngles;
 use physics::environment::time;
-use physics::loads::Effect;
-use physics::plant::{AirAndField, Evaluation, Flight, PreparedSpacecraft, Report};
+use physics::loads::Switch;
+use physics::plant::{AirAndField, Evaluation, Flight, PreparedSpacecraft, Report, THRUSTERS};
 use physics::plausibility::is_sun_offset_reached;
 use physics::propulsion::surface_in_plume;
 use physics::radiation::{TorquePolynomial, polynomial_valid};
@@ -17,7 +17,7 @@ use physics::spacecraft::light_suns;
 
 use self::messages::failure;
 use super::inputs::wheels;
-use super::setup::Plan;
+use super::setup::{Plan, Read};
 use crate::common::choices::OrbitCenter;
 use crate::common::loads;
 pub(super) use rates::derivative;
@@ -47,7 +47,7 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     for (output, vector) in loads::vectors(&variables.torque.by_source, &variables.force.by_source, loads) {
         values.set_vector(output, vector.into());
     }
-    let own = &loads[Effect::Thrusters];
+    let own = &loads[THRUSTERS];
     values.set_vector(variables.torque.thruster, own.torque_body_n_m.into());
     values.set_vector(variables.force.thruster, own.force_body_n.into());
     values.set_vector(variables.torque.total, total.torque_body_n_m.into());
@@ -141,13 +141,13 @@ fn write_air_and_field(context: &Plan<'_>, values: &mut Values, report: &Report<
         values.set_real(v.geodetic.longitude, geodetic.longitude_rad);
         values.set_real(v.geodetic.height, geodetic.height_m);
     }
-    if configuration.effects.has(Effect::Aerodynamic) {
+    if configuration.effects.is_on(Switch::Aerodynamics) {
         values.set_real(v.atmosphere.density, air.density_kg_m3);
         values.set_real(v.atmosphere.temperature, air.temperature_k);
         values.set_real(v.atmosphere.molar_mass, air.molar_mass_kg_mol);
         values.set_vector(v.atmosphere.velocity_body, evaluation.velocity_in_air_body_m_s().into());
     }
-    if configuration.effects.has(Effect::Magnetic) {
+    if configuration.effects.is_on(Switch::Magnetics) {
         values.set_vector(v.magnetic_field.inertial, (*field_inertial_t).into());
         values.set_vector(v.magnetic_field.body, evaluation.field_body_t().into());
     }
@@ -281,7 +281,7 @@ fn write_polynomial(context: &Plan<'_>, values: &mut Values, report: &Report<'_>
 
 /// Writes the dump threshold that the wheels guarantee, which follows from parameters alone.
 pub(super) fn write_guaranteed(context: &Plan<'_>, values: &mut Values) {
-    let guaranteed_n_m_s = wheels::guaranteed_threshold_n_m_s(context, values);
+    let guaranteed_n_m_s = wheels::guaranteed_threshold_n_m_s(Read::new(context, values));
     values.set_real(context.variables.dump.guaranteed_threshold, guaranteed_n_m_s);
 }
 

@@ -14,14 +14,14 @@ pub(in crate::momentum_plant) fn derivative(
     state: &PlantState,
     output: Real,
 ) -> Option<f64> {
-    if state.waiting {
+    if state.saved.waiting {
         return None;
     }
     let variables = context.variables;
-    let convention = state.flight.configuration()?.momentum.convention;
+    let convention = state.saved.flight.configuration()?.momentum.convention;
     let mut torque_body = Vector3::from(values.vector(variables.torque.total));
     if values.boolean(variables.dump.active) {
-        torque_body = state.flight.with_dump_body_n_m(&torque_body);
+        torque_body = state.saved.flight.with_dump_body_n_m(&torque_body);
     }
     if let Some(element) = variables.attitude.q.index_of(output) {
         let attitude = Attitude::from_quaternion(values.vector(variables.attitude.q)).ok()?;

@@ -6,10 +6,10 @@ use fmi_export::Failure;
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::guidance::modes::guidance_command::CommandKind as GuidanceCommandKind;
-use physics::plant::{Changes, Command, Flight, Thrusters, Tracked};
+use physics::plant::{Changes, Command, Digest, Flight, Thrusters, Tracked};
 use physics::plausibility::FlightWatch;
 use physics::spacecraft::Spacecraft;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 use self::step_inputs::{CommandInputs, StepInputs};
 use super::setup::Plan;
@@ -17,9 +17,31 @@ use super::setup::Plan;
 /// A commanded quaternion whose norm is off 1 by more is warned of.
 const NORM_TOLERANCE: f64 = 0.05;
 
-/// State of one plant.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+/// State of one plant, and apart from it what the step has read; that is not saved but read anew after a restore.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(from = "SavedState")]
 pub struct PlantState {
+    /// Everything that is saved.
+    pub saved: SavedState,
+    /// Inputs and tunable parameters of the step.
+    pub inputs: StepInputs,
+}
+
+impl From<SavedState> for PlantState {
+    fn from(saved: SavedState) -> Self {
+        Self { saved, inputs: StepInputs::default() }
+    }
+}
+
+impl Serialize for PlantState {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.saved.serialize(serializer)
+    }
+}
+
+/// The part of a plant's state that is saved.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct SavedState {
     /// Start time of the flight, in s.
     pub start_s: f64,
     /// The spacecraft in flight.
@@ -38,9 +60,6 @@ pub struct PlantState {
     pub maneuver_request: Request,
     /// Warnings that were given.
     pub warned: Warned,
-    /// Inputs and tunable parameters of the step; not saved, read anew after a restore.
-    #[serde(skip)]
-    pub inputs: StepInputs,
 }
 
 /// Warnings that are given once.
@@ -80,10 +99,8 @@ struct LastInputs {
     orbit: [[f64; 3]; 2],
     /// When they changed, in s.
     orbit_since_s: f64,
-    /// Numbers on which light and heat depend, next to command and orbit.
-    light: Vec<f64>,
-    /// Whether a panel's angle moved as an input.
-    panels_moved: bool,
+    /// Digest of the numbers on which loads depend, command and orbit among them.
+    loads: Digest,
     /// Mass and dumps.
     tunables: [f64; 8],
     /// Force from outside.
@@ -105,8 +122,10 @@ impl Request {
 impl PlantState {
     /// Checks numbers that were decoded.
     pub fn check(&self, spacecraft: &Spacecraft) -> Result<(), Failure> {
-        let parts =
-            [("the command", self.command.is_valid()), ("the flight", self.flight.is_valid(spacecraft))];
+        let parts = [
+            ("the command", self.saved.command.is_valid()),
+            ("the flight", self.saved.flight.is_valid(spacecraft)),
+        ];
         match parts.iter().find(|(_, is_valid)| !is_valid) {
             None => Ok(()),
             Some((part, _)) => Err(Failure::new(format!(
@@ -123,7 +142,7 @@ impl PlantState {
         start_s: f64,
         schedules: u64,
     ) -> Result<Self, Failure> {
-        let mut state = Self {
+        let saved = SavedState {
             start_s,
             flight: Flight::waiting(thrusters),
             waiting: true,
@@ -133,8 +152,7 @@ impl PlantState {
                 error_is_applied: false,
                 orbit: inputs.orbit,
                 orbit_since_s: start_s,
-                light: inputs.light.clone(),
-                panels_moved: false,
+                loads: inputs.loads,
                 tunables: inputs.tunables,
                 force: inputs.applied[0],
             },
@@ -142,8 +160,8 @@ impl PlantState {
             request: Request::default(),
             maneuver_request: Request::default(),
             warned: Warned::default(),
-            inputs,
         };
+        let mut state = Self { saved, inputs };
         if state.inputs.source.is_commanded {
             state.update_command(start_s)?;
         }
@@ -152,60 +170,76 @@ impl PlantState {
 
     /// When the orbit's position and velocity inputs last changed, in s.
     pub fn orbit_since_s(&self) -> f64 {
-        self.last.orbit_since_s
+        self.saved.last.orbit_since_s
     }
 
     /// Compares inputs and tunables with the last ones, stores them, and returns what changed.
     pub fn update_inputs(&mut self, time_s: f64) -> Result<Changes, Failure> {
         let (command, is_commanded) = (self.inputs.command, self.inputs.source.is_commanded);
-        let before = core::mem::replace(&mut self.last.command, command);
-        let is_applied = self.last.error_is_applied;
+        let before = core::mem::replace(&mut self.saved.last.command, command);
+        let is_applied = self.saved.last.error_is_applied;
         let commanded = is_commanded && command.given(is_applied) != before.given(is_applied);
         if command.kind() != before.kind() {
-            self.last.error_is_applied = false;
+            self.saved.last.error_is_applied = false;
         }
         if commanded {
             self.update_command(time_s)?;
         }
         self.track();
+        let Self { saved: SavedState { last, command, .. }, inputs } = self;
+        let mut loads = inputs.loads.with(inputs.orbit.as_flattened().iter().copied());
         // A command moves light through the attitude, which in dynamics does not jump.
-        let turned = commanded && self.flight.estimate_at(time_s).is_none();
-        let Self { last, inputs, .. } = self;
+        if inputs.source.is_commanded && !inputs.source.is_dynamic {
+            let Command { attitude, rate_body_rad_s, since_s } = command;
+            let numbers = attitude.unit_quaternion().0.into_iter().chain(rate_body_rad_s.iter().copied());
+            loads = loads.with(numbers.chain([*since_s]));
+        }
+        // Panels that move in this step are elsewhere in the next.
+        if inputs.panels_move {
+            loads = loads.with([time_s]);
+        }
         let moved = core::mem::replace(&mut last.orbit, inputs.orbit) != inputs.orbit;
         if moved {
             last.orbit_since_s = time_s;
-        }
-        // Panels that move in this step or did in the last are elsewhere than was computed.
-        let panels_moved = core::mem::replace(&mut last.panels_moved, inputs.panels_move);
-        let lit = inputs.panels_move || panels_moved || inputs.light != last.light;
-        if lit {
-            last.light.clone_from(&inputs.light);
         }
         let before = core::mem::replace(&mut last.tunables, inputs.tunables);
         let [force, _] = inputs.applied;
         Ok(Changes {
             orbit: moved && inputs.orbit_is_given,
-            light: lit || moved || turned,
+            light: core::mem::replace(&mut last.loads, loads) != loads,
             mass: before[0] != inputs.tunables[0],
             force: core::mem::replace(&mut last.force, force) != force,
             tunables: before != inputs.tunables,
         })
     }
 
+    /// Digest of what loads depend on.
+    pub fn digest(&self) -> Digest {
+        self.saved.last.loads.with_word(self.saved.schedules)
+    }
+
+    /// Gives the flight the digest of what loads depend on.
+    pub fn pass_digest(&mut self) {
+        let digest = self.digest();
+        if let Some(flown) = self.saved.flight.context_mut() {
+            flown.models.digest = digest;
+        }
+    }
+
     /// Follows the files with this digest from `time_s` on; returns whether they changed, which ends everything computed ahead.
     pub fn update_schedules(&mut self, schedules: u64, time_s: f64) -> bool {
-        let changed = core::mem::replace(&mut self.schedules, schedules) != schedules;
+        let changed = core::mem::replace(&mut self.saved.schedules, schedules) != schedules;
         if changed {
-            self.flight.reschedule(time_s);
+            self.saved.flight.reschedule(time_s);
         }
         changed
     }
 
     /// Begins a flight with dynamics at the command that stands at its start; `attitude` is held where there is none.
     pub fn start_command(&mut self, attitude: Attitude, time_s: f64) -> Result<(), Failure> {
-        self.command = Command { attitude, rate_body_rad_s: Vector3::from([0.0; 3]), since_s: time_s };
+        self.saved.command = Command { attitude, rate_body_rad_s: Vector3::from([0.0; 3]), since_s: time_s };
         // An error applied before there was a body to turn counts for nothing.
-        self.last.error_is_applied = false;
+        self.saved.last.error_is_applied = false;
         if self.inputs.source.is_commanded {
             self.update_command(time_s)?;
         }
@@ -215,57 +249,57 @@ impl PlantState {
 
     /// The command by inputs, where it gives an attitude.
     pub fn attitude_command(&self) -> Option<Command> {
-        let given = &self.last.command;
+        let given = &self.saved.last.command;
         let is_given = matches!(given.kind(), GuidanceCommandKind::Attitude) && !is_zero(&given.q);
-        (self.inputs.source.is_commanded && is_given).then_some(self.command)
+        (self.inputs.source.is_commanded && is_given).then_some(self.saved.command)
     }
 
     /// The controller tracks the command in effect.
     fn track(&mut self) {
-        self.inputs.dynamics.tracked = match self.last.command.kind() {
+        self.inputs.dynamics.tracked = match self.saved.last.command.kind() {
             _ if self.inputs.source.guides_itself => Tracked::Guidance,
-            GuidanceCommandKind::RateOnly => Tracked::Rate(self.command.rate_body_rad_s),
-            _ => Tracked::Attitude(self.command),
+            GuidanceCommandKind::RateOnly => Tracked::Rate(self.saved.command.rate_body_rad_s),
+            _ => Tracked::Attitude(self.saved.command),
         };
     }
 
     fn update_command(&mut self, time_s: f64) -> Result<(), Failure> {
-        let CommandInputs { q, rate, error, .. } = self.last.command;
+        let CommandInputs { q, rate, error, .. } = self.saved.last.command;
         let quaternion = |name: &str, q| {
             Attitude::along_quaternion(q).map_err(|error| Failure::new(format!("{name}: {error}")))
         };
-        let estimate = self.flight.estimate_at(time_s).map(|estimate| estimate.attitude);
-        let held = estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
-        let (attitude, rate) = match self.last.command.kind() {
+        let estimate = self.saved.flight.estimate_at(time_s).map(|estimate| estimate.attitude);
+        let held = estimate.unwrap_or_else(|| self.saved.command.attitude_at(time_s));
+        let (attitude, rate) = match self.saved.last.command.kind() {
             GuidanceCommandKind::None => (held, [0.0; 3]),
             GuidanceCommandKind::RateOnly => (held, rate),
-            GuidanceCommandKind::ErrorQuaternion if self.last.error_is_applied => (held, rate),
+            GuidanceCommandKind::ErrorQuaternion if self.saved.last.error_is_applied => (held, rate),
             GuidanceCommandKind::ErrorQuaternion if is_zero(&error) => (held, [0.0; 3]),
             GuidanceCommandKind::ErrorQuaternion => {
-                self.last.error_is_applied = estimate.is_none();
+                self.saved.last.error_is_applied = estimate.is_none();
                 (held.then(&quaternion("command.error", error)?.inverse()), rate)
             }
             GuidanceCommandKind::Attitude if is_zero(&q) => (held, [0.0; 3]),
             GuidanceCommandKind::Attitude => (quaternion("command.q", q)?, rate),
         };
         let attitude = attitude.continuing(&held.unit_quaternion());
-        self.command = Command { attitude, rate_body_rad_s: Vector3::from(rate), since_s: time_s };
+        self.saved.command = Command { attitude, rate_body_rad_s: Vector3::from(rate), since_s: time_s };
         Ok(())
     }
 
     /// Warns once of a commanded quaternion far from unit length, which is taken along its direction.
     pub fn warn_command_norm(&mut self, context: &Plan<'_>, time_s: f64) {
-        let CommandInputs { q, error, .. } = self.last.command;
-        let (name, q) = match self.last.command.kind() {
+        let CommandInputs { q, error, .. } = self.saved.last.command;
+        let (name, q) = match self.saved.last.command.kind() {
             GuidanceCommandKind::Attitude => ("command.q", q),
             GuidanceCommandKind::ErrorQuaternion => ("command.error", error),
             GuidanceCommandKind::None | GuidanceCommandKind::RateOnly => return,
         };
         let Some(norm) = Attitude::norm_if_far_from_unit(q, NORM_TOLERANCE) else { return };
-        if is_zero(&q) || !self.inputs.source.is_commanded || self.warned.command_norm {
+        if is_zero(&q) || !self.inputs.source.is_commanded || self.saved.warned.command_norm {
             return;
         }
-        self.warned.command_norm = true;
+        self.saved.warned.command_norm = true;
         context.log.warning(&format!(
             "{name} = {q:?} at {time_s} s has norm {norm:.4}: it is restored to 1, and points elsewhere where components were \
              interpolated between quaternions of other signs or far apart"
@@ -274,16 +308,16 @@ impl PlantState {
 
     /// Names once the inputs that are not set yet.
     pub fn warn_unset_inputs(&mut self, context: &Plan<'_>) {
-        if self.warned.unset_inputs {
+        if self.saved.warned.unset_inputs {
             return;
         }
         let earth = self.inputs.earth_is_unset.then_some("earth.position");
-        let CommandInputs { q, error, .. } = &self.last.command;
-        let command = match self.last.command.kind() {
+        let CommandInputs { q, error, .. } = &self.saved.last.command;
+        let command = match self.saved.last.command.kind() {
             _ if !self.inputs.source.is_commanded => None,
             GuidanceCommandKind::None => Some("command.kind"),
             GuidanceCommandKind::Attitude if is_zero(q) => Some("command.q"),
-            GuidanceCommandKind::ErrorQuaternion if !self.last.error_is_applied && is_zero(error) => {
+            GuidanceCommandKind::ErrorQuaternion if !self.saved.last.error_is_applied && is_zero(error) => {
                 Some("command.error")
             }
             _ => None,
@@ -293,8 +327,8 @@ impl PlantState {
         if unset.is_empty() {
             return;
         }
-        self.warned.unset_inputs = true;
-        let until = if self.waiting {
+        self.saved.warned.unset_inputs = true;
+        let until = if self.saved.waiting {
             "the attitude is held and nothing acts until then"
         } else {
             "without a command the attitude is held, without the Earth it stands at the orbit's centre"

@@ -6,7 +6,7 @@ use physics::attitude::control::SensorHealth;
 use physics::bodies::Body;
 use physics::guidance::modes::guidance_command::CommandKind as GuidanceCommandKind;
 use physics::loads::ForceTorque;
-use physics::plant::{DynamicsInputs, Maneuver, ThrustCommand};
+use physics::plant::{Digest, DynamicsInputs, Maneuver, ThrustCommand};
 use physics::propulsion::PulseCommand;
 use serde::{Deserialize, Serialize};
 
@@ -30,8 +30,8 @@ pub struct StepInputs {
     pub orbit_is_given: bool,
     /// Position and velocity.
     pub orbit: [[f64; 3]; 2],
-    /// Numbers on which light and heat depend, next to command and orbit.
-    pub light: Vec<f64>,
+    /// Digest of the numbers on which loads depend, next to command and orbit.
+    pub loads: Digest,
     /// Whether a panel's angle moves as an input.
     pub panels_move: bool,
     /// Mass and dumps.
@@ -146,27 +146,25 @@ impl StepInputs {
         self.orbit = [position, velocity].map(|vector| values.vector(vector));
         let center_of_mass = v.spacecraft.center_of_mass;
         let vectors = [v.sun.position, v.sun.velocity, v.earth.position, v.earth.velocity, center_of_mass];
-        self.light.clear();
-        self.light.extend(vectors.into_iter().flat_map(|vector| values.vector(vector)));
-        self.light.push(real(v.solar.at_1_au.scale));
-        self.light.extend(
-            v.panel
-                .iter()
-                .flat_map(|it| [it.angle, it.sun_offset, it.sun_offset_command, it.angle_bias].map(real)),
-        );
+        let mut loads = Digest::default().with(vectors.into_iter().flat_map(|vector| values.vector(vector)));
+        loads = loads.with([real(v.solar.at_1_au.scale)]);
+        let of_panels = v
+            .panel
+            .iter()
+            .flat_map(|it| [it.angle, it.sun_offset, it.sun_offset_command, it.angle_bias].map(real));
+        loads = loads.with(of_panels);
         let materials = v.optics.values(context, values, &context.setup.optics, real);
-        self.light.extend(materials.flat_map(|it| it.acting()));
+        loads = loads.with(materials.flat_map(|it| it.acting()));
         let downlink = &v.downlink;
-        self.light.extend([downlink.sun_azimuth, downlink.sun_elevation].map(real));
-        self.light.push(f64::from(u8::from(values.boolean(downlink.alternate))));
+        loads = loads.with([downlink.sun_azimuth, downlink.sun_elevation].map(real));
+        loads = loads.with_word(values.boolean(downlink.alternate).into());
         let (air, weather) = (&v.atmosphere, &v.space_weather);
         let given = [air.given_density, air.given_temperature, air.given_molar_mass, air.density_factor];
-        self.light
-            .extend(given.into_iter().chain([weather.f107, weather.f107_average, weather.ap]).map(real));
+        let numbers = given.into_iter().chain([weather.f107, weather.f107_average, weather.ap]);
+        loads = loads.with(numbers.map(real));
         let vectors = [air.wind, v.magnetic_field.given];
-        self.light.extend(vectors.into_iter().flat_map(|vector| values.vector(vector)));
-        self.light.extend(v.laws.tunable().map(real));
-        self.light.push(real(v.earth.ut1_offset));
+        loads = loads.with(vectors.into_iter().flat_map(|vector| values.vector(vector)));
+        self.loads = loads.with(v.laws.tunable().map(real)).with([real(v.earth.ut1_offset)]);
         let moves = |input: Real| over_time.derivatives(input).next().is_some();
         self.panels_move = v.panel.iter().any(|panel| moves(panel.angle) || moves(panel.sun_offset_command));
         let ([a, b, c], [d, e, f]) = (values.vector(v.dump.threshold), values.vector(v.dump.target));

@@ -2,10 +2,9 @@
 
 use fmi_export::{Boolean, Choice, Failure, Real, RealMatrix, RealVector, Values, Variables};
 use physics::constants::HALF_TURNS_RAD;
-use physics::spacecraft::Articulation;
+use physics::spacecraft::{Articulation, SunKeepIn};
 
 use physics::guidance::constraints::keep_in;
-use physics::spacecraft::SunKeepIn;
 
 use super::super::setup::PlantSetup;
 use super::choices::PanelControl;

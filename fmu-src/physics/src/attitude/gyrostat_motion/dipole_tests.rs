@@ -84,7 +84,9 @@ fn a_field_that_grows_turns_the_body_by_as_much() {
     motion.advance(&spacecraft, &[], &load, 2.0);
     let found = motion.at(&spacecraft, 2.0);
     assert_relative_eq!(found.rate_body_rad_s.z, dipole * grown * 2.0 / INERTIA[2], max_relative = 1e-12);
-    let impulse = motion.dipole_impulse_inertial_n_m_s(&load.dipole.unwrap().dipole_body_a_m2, 2.0).unwrap();
+    let until = motion.evaluated_at(&spacecraft, 2.0);
+    let impulse =
+        motion.dipole_impulse_inertial_n_m_s(&load.dipole.unwrap().dipole_body_a_m2, &until).unwrap();
     assert_relative_eq!(impulse.z, dipole * grown * 2.0, max_relative = 1e-12);
     assert_relative_eq!(impulse, found.momentum_inertial_n_m_s, epsilon = 1e-25);
 }
@@ -106,7 +108,8 @@ fn two_dipoles_turn_the_body_by_their_sum_and_each_has_its_impulse() {
     assert_relative_eq!(found.rate_body_rad_s.z, total_n_m_s / INERTIA[2], max_relative = 1e-12);
     assert_relative_eq!(found.momentum_inertial_n_m_s.z, total_n_m_s, max_relative = 1e-12);
     for (part, expected) in [steady, growing].iter().zip(expected_n_m_s) {
-        let impulse = motion.dipole_impulse_inertial_n_m_s(part, end_s).unwrap();
+        let impulse =
+            motion.dipole_impulse_inertial_n_m_s(part, &motion.evaluated_at(&spacecraft, end_s)).unwrap();
         assert_relative_eq!(impulse.z, expected, max_relative = 1e-12);
     }
 }

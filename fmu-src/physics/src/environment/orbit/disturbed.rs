@@ -127,6 +127,11 @@ impl DisturbedOrbit {
         self.chain.start_s()
     }
 
+    /// Span of the present segment.
+    pub fn span(&self) -> Span {
+        Span::new(self.start_s(), self.end_s())
+    }
+
     /// Length of the segments, s.
     pub fn segment_length_s(&self) -> f64 {
         self.chain.length_s()

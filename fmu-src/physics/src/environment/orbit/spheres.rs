@@ -125,8 +125,7 @@ impl<E: BodyEphemeris> BodiesAbout<'_, E> {
                 if *body == about { *state } else { from_sun - ephemeris.heliocentric(*body, at_s) };
             let outward = if *body == about { 1.0 } else { -1.0 };
             let beyond_m = outward * (from_body.position_m.norm() - model.sphere_m(*body));
-            beyond_m > -SPHERE_TOLERANCE_M
-                && outward * from_body.position_m.dot(&from_body.velocity_m_s) > 0.0
+            beyond_m > -SPHERE_TOLERANCE_M && outward * from_body.radial_m2_s() > 0.0
         });
         crossed.map_or(about, |body| if body == about { Body::Sun } else { body })
     }

@@ -119,19 +119,21 @@ pub struct BurnPointing {
 /// State of the steering.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BurnState {
-    phase: BurnPhase,
+    /// Phase that the burn is in.
+    pub phase: BurnPhase,
     /// Whether a burn was commanded at the last sample.
     is_commanded: bool,
     last: Option<MeasuredMotion>,
     /// Velocity that the burn added, EME2000, in m/s.
-    velocity_m_s: Vector3<f64>,
+    pub velocity_m_s: Vector3<f64>,
     /// Sum of the increments' magnitudes, in m/s.
     magnitude_m_s: f64,
     /// Estimated thrust direction, a unit vector; `None` before a burn: the nominal one.
     thrust_body: Option<Vector3<f64>>,
     /// Accelerations over the last two intervals, the later one first, in m/s2.
     accelerations_m_s2: [f64; 2],
-    interruption: Option<Interruption>,
+    /// Interruption at the last sample.
+    pub interruption: Option<Interruption>,
 }
 
 /// How a burn ended that was not over.
@@ -155,11 +157,6 @@ impl BurnSettings {
 }
 
 impl BurnState {
-    /// How far it is.
-    pub fn phase(&self) -> BurnPhase {
-        self.phase
-    }
-
     /// Whether thrusters are requested.
     pub fn is_requested(&self) -> bool {
         matches!(self.phase, BurnPhase::Waiting { .. } | BurnPhase::Burning { .. })
@@ -171,11 +168,6 @@ impl BurnState {
             BurnPhase::Burning { stop_s, .. } => Some(stop_s),
             _ => None,
         }
-    }
-
-    /// Velocity that the present or last burn added by the accelerometers, EME2000, in m/s.
-    pub fn velocity_m_s(&self) -> &Vector3<f64> {
-        &self.velocity_m_s
     }
 
     /// How far that is off the path at the magnitude reached, in m/s.
@@ -221,11 +213,6 @@ impl BurnState {
         if self.is_requested() {
             self.phase = BurnPhase::Ended { timed_out: matches!(self.phase, BurnPhase::Waiting { .. }) };
         }
-    }
-
-    /// Interruption of a burn at the last sample.
-    pub fn interruption(&self) -> Option<Interruption> {
-        self.interruption
     }
 
     /// Begins thrust at `time_s` where a burn waits, its time has come and `is_aimed` says that the commanded attitude has the
@@ -336,8 +323,9 @@ impl BurnState {
     ) -> f64 {
         let timeout_s = since_s + settings.timeout_s;
         let acceleration_m_s2 = self.measured_m_s2(settings).unwrap_or(settings.acceleration_m_s2);
-        let left_m_s = (path.length_m_s() - self.magnitude_m_s).max(0.0);
-        let stop_s = if acceleration_m_s2 > 0.0 { now_s + left_m_s / acceleration_m_s2 } else { timeout_s };
+        let remaining_m_s = (path.length_m_s() - self.magnitude_m_s).max(0.0);
+        let stop_s =
+            if acceleration_m_s2 > 0.0 { now_s + remaining_m_s / acceleration_m_s2 } else { timeout_s };
         stop_s.min(timeout_s)
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::keep_in::KeepIn;
-use super::slew::{Slew, SlewStart};
+use super::slew::{Slew, SlewStart, SlewedFrame};
 use crate::attitude::{Attitude, MovingFrame, MovingUnit};
 
 /// Turn into a command.
@@ -16,15 +16,6 @@ pub struct CommandSlew {
     from: Attitude,
     /// Its course; `None` until the command's own attitude at the beginning is known.
     slew: Option<Slew>,
-}
-
-/// A slew's attitude, and when it ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SlewedFrame {
-    /// Body frame and rate.
-    pub frame: MovingFrame,
-    /// End of the slew, in s.
-    pub end_s: f64,
 }
 
 impl CommandSlew {
@@ -65,14 +56,7 @@ impl CommandSlew {
         sun: &MovingUnit,
         rate_rad_s: f64,
     ) -> Option<SlewedFrame> {
-        let slew = self.slew?;
-        let duration_s = slew.length_rad() / rate_rad_s;
-        let elapsed_s = time_s - self.begin_s;
-        // Written so that a NaN ends it.
-        (elapsed_s < duration_s).then(|| SlewedFrame {
-            frame: slew.frame(target, sun, 1.0 - elapsed_s / duration_s, -1.0 / duration_s),
-            end_s: self.begin_s + duration_s,
-        })
+        self.slew?.at(self.begin_s, time_s, target, sun, rate_rad_s)
     }
 
     /// Rejects decoded states that no simulation can produce.

@@ -1,11 +1,11 @@
 //! Turn from one attitude to another that moves on, the Sun inside its keep-in zone.
 //!
-//! Equation: C(t) = C_to(t) R(left), left from 1 to 0 at an even rate. About the eigenaxis R = exp(left b), b the rotation
+//! Equation: C(t) = C_to(t) R(u), u from 1 to 0 at an even rate. About the eigenaxis R = exp(u b), b the rotation
 //! from the new attitude back to the old one where the turn begins. Where that leaves the zone and both ends lie inside,
-//! R = B(s_to) Ry(left r) B(s)^T with B(A, E) = Z Rz(A) Rx(E), Z the zone's frame, which takes -Y to the Sun's direction s in
+//! R = B(s_to) Ry(u r) B(s)^T with B(A, E) = Z Rz(A) Rx(E), Z the zone's frame, which takes -Y to the Sun's direction s in
 //! the body; s goes straight from end to end in azimuth A and elevation E, the body turns evenly about the Sun line, by r
 //! in all. The zone is a rectangle in both angles, so s stays inside.
-//! The turn's own rate over the rate of `left` is hypot(r, dA, dE) but for r dA sin E: r^2 + dA^2 + dE^2 + 2 r dA sin E,
+//! The turn's own rate over the rate of u is hypot(r, dA, dE) but for r dA sin E: r^2 + dA^2 + dE^2 + 2 r dA sin E,
 //! which is greatest at an end.
 //! Error measure: the eigenaxis turn is judged where the turn begins. What the new attitude's Sun may move meanwhile is
 //! kept as a margin, so that no turn leaves the zone later.
@@ -49,9 +49,18 @@ pub enum Slew {
         from: SunAngles,
         /// Turn about +Y of the zone's frame back to the old attitude, in rad.
         back_rad: f64,
-        /// Greatest rate over the rate of `left`, in rad.
+        /// Greatest rate over that of the fraction of the turn that remains, in rad.
         length_rad: f64,
     },
+}
+
+/// A slew's attitude, and when it ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlewedFrame {
+    /// Body frame and rate.
+    pub frame: MovingFrame,
+    /// End of the slew, in s.
+    pub end_s: f64,
 }
 
 impl Slew {
@@ -120,22 +129,46 @@ impl Slew {
         }
     }
 
-    /// The attitude with a share `left` of the turn to go, which changes by `rate_1_s` a second; `target` is the new attitude
+    /// The attitude at `time_s` of the turn that began at `begin_s`, at a rate of `rate_rad_s`; `None` once `target` is reached.
+    pub fn at(
+        &self,
+        begin_s: f64,
+        time_s: f64,
+        target: &MovingFrame,
+        to_sun: &MovingUnit,
+        rate_rad_s: f64,
+    ) -> Option<SlewedFrame> {
+        let duration_s = self.length_rad() / rate_rad_s;
+        let elapsed_s = time_s - begin_s;
+        // Written so that a NaN ends it.
+        (elapsed_s < duration_s).then(|| SlewedFrame {
+            frame: self.frame(target, to_sun, 1.0 - elapsed_s / duration_s, -1.0 / duration_s),
+            end_s: begin_s + duration_s,
+        })
+    }
+
+    /// The attitude with the fraction `remaining` of the turn to go, which changes by `rate_1_s` a second; `target` is the new attitude
     /// and `to_sun` the Sun at this time.
-    pub fn frame(&self, target: &MovingFrame, to_sun: &MovingUnit, left: f64, rate_1_s: f64) -> MovingFrame {
+    pub fn frame(
+        &self,
+        target: &MovingFrame,
+        to_sun: &MovingUnit,
+        remaining: f64,
+        rate_1_s: f64,
+    ) -> MovingFrame {
         let Self::WithinZone { body_from_zone, from, back_rad, .. } = self else {
             let Self::Eigenaxis { back_body_rad } = self else { return *target };
-            return target.offset(back_body_rad, left, rate_1_s);
+            return target.offset(back_body_rad, remaining, rate_1_s);
         };
-        let left = Moving::new(left, rate_1_s);
+        let remaining = Moving::new(remaining, rate_1_s);
         let target = Pointing::from_frame(target);
         let zone = body_from_zone.map(Moving::from_re);
         let to_sun = crate::guidance::geometry::moving::moving(to_sun.direction, to_sun.rate_1_s);
         let [azimuth_to, elevation_to] = moving_angles(&zone.tr_mul(&target.to_body(&to_sun)));
-        let between = |from_rad: f64, to: Moving| to + (Moving::constant(from_rad) - to) * left;
+        let between = |from_rad: f64, to: Moving| to + (Moving::constant(from_rad) - to) * remaining;
         let at = |azimuth, elevation| zone * rotation_about(2, azimuth) * rotation_about(0, elevation);
         let here = at(between(from.azimuth_rad, azimuth_to), between(from.elevation_rad, elevation_to));
-        let turn = rotation_about(1, left * Moving::constant(*back_rad));
+        let turn = rotation_about(1, remaining * Moving::constant(*back_rad));
         let inertial_from_body =
             target.inertial_from_body * at(azimuth_to, elevation_to) * turn * here.transpose();
         Pointing { inertial_from_body, degenerate: false }.frame()

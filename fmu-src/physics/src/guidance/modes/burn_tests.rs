@@ -56,12 +56,12 @@ fn the_thrust_direction_is_found() {
         (flight.thrust.jitter_rad, flight.thrust.drift_rad) = (0.0, 0.0);
         flight.accelerometers = AccelerometerSettings::default();
         let simulated = flight.simulated(140);
-        let found = simulated.guidance.burn().thrust_body(&flight.settings);
+        let found = simulated.guidance.burn.thrust_body(&flight.settings);
         let off = found.cross(&simulated.thrust_body).norm();
         assert!(off < 1e-9, "{off} rad");
         assert!(found.angle(&Vector3::z()) > 0.7 * DEG_RAD);
         // By the accelerometers the burn ends where it really does.
-        let error_m_s = simulated.guidance.burn().velocity_m_s() - simulated.velocity_m_s;
+        let error_m_s = simulated.guidance.burn.velocity_m_s - simulated.velocity_m_s;
         assert!(error_m_s.norm() < 1e-4, "{error_m_s}");
     }
 }
@@ -134,10 +134,10 @@ fn under_way(burn: &BurnSettings, count: u32) -> (GuidanceState, SampleInputs) {
     let mut inputs = still_inputs();
     for _ in 0..count {
         guidance.sample(&settings, &inputs, |_| None);
-        let command = *guidance.command();
-        let next_s = guidance.next_sample_s();
+        let command = guidance.command;
+        let next_s = guidance.next_sample_s;
         inputs = sample_inputs(command.attitude_at(next_s), inputs.delta_v_body_m_s);
-        if guidance.burn().stop_s().is_some() {
+        if guidance.burn.stop_s().is_some() {
             inputs.delta_v_body_m_s += Vector3::z() * 0.088;
         }
     }
@@ -148,9 +148,9 @@ fn under_way(burn: &BurnSettings, count: u32) -> (GuidanceState, SampleInputs) {
 fn the_commanded_rate_turns_the_thrust_along_the_path() {
     let burn = BurnSettings { path: Some(powered_turn()), ..settings(Vector3::x()) };
     let (mut guidance, inputs) = under_way(&burn, 900);
-    let before = *guidance.command();
+    let before = guidance.command;
     guidance.sample(&guidance_settings(burn), &inputs, |_| None);
-    let after = *guidance.command();
+    let after = guidance.command;
     let turn = before.attitude_at(900.0 - 1.0).rotation_vector_to(&after.attitude_at(900.0));
     let mean = (before.rate_body_rad_s + after.rate_body_rad_s) * 0.5;
     assert!(turn.norm() > 1e-4, "{turn}");
@@ -162,16 +162,16 @@ fn before_and_after_a_burn_the_attitude_is_held() {
     let burn = settings(Vector3::new(8.0, -2.0, 1.0));
     let direction = Vector3::new(8.0, -2.0, 1.0).normalize();
     let (waiting, _) = under_way(&burn, 5);
-    assert_eq!(waiting.burn().phase(), BurnPhase::Waiting { since_s: 0.0, refused: false });
-    assert!(!waiting.burn().is_missed());
-    let pointed = waiting.command().attitude_at(5.0).to_inertial(&Vector3::z());
+    assert_eq!(waiting.burn.phase, BurnPhase::Waiting { since_s: 0.0, refused: false });
+    assert!(!waiting.burn.is_missed());
+    let pointed = waiting.command.attitude_at(5.0).to_inertial(&Vector3::z());
     assert!(pointed.angle(&direction) < 1e-12);
     let (ended, _) = under_way(&burn, 150);
-    assert_eq!(ended.burn().phase(), BurnPhase::Ended { timed_out: false });
-    assert!(!ended.burn().is_requested() && ended.burn().stop_s().is_none());
-    let pointed = ended.command().attitude_at(150.0).to_inertial(&Vector3::z());
+    assert_eq!(ended.burn.phase, BurnPhase::Ended { timed_out: false });
+    assert!(!ended.burn.is_requested() && ended.burn.stop_s().is_none());
+    let pointed = ended.command.attitude_at(150.0).to_inertial(&Vector3::z());
     assert!(pointed.angle(&direction) < 1e-3);
-    assert_eq!(ended.command().rate_body_rad_s, Vector3::zeros());
+    assert_eq!(ended.command.rate_body_rad_s, Vector3::zeros());
 }
 
 #[test]
@@ -183,10 +183,10 @@ fn a_burn_without_acceleration_times_out() {
     for second in 0..60 {
         guidance.sample(&all, &inputs, |_| None);
         let expected = (5..26).contains(&second).then_some(25.5);
-        assert_eq!(guidance.burn().stop_s(), expected, "{second} s");
+        assert_eq!(guidance.burn.stop_s(), expected, "{second} s");
         assert!(guidance.is_valid());
     }
-    assert_eq!(guidance.burn().phase(), BurnPhase::Ended { timed_out: true });
+    assert_eq!(guidance.burn.phase, BurnPhase::Ended { timed_out: true });
 }
 
 #[test]
@@ -194,46 +194,46 @@ fn a_burn_interrupted_does_not_go_on_by_itself() {
     let burn = settings(Vector3::x() * 10.0);
     let all = guidance_settings(burn);
     let (burning, inputs) = under_way(&burn, 30);
-    assert!(burning.burn().stop_s().is_some());
+    assert!(burning.burn.stop_s().is_some());
     // No attitude: Earth Acquisition, and promotion after it.
     let mut guidance = burning;
     let mut lost = inputs;
     lost.sensed.estimate = None;
     guidance.sample(&all, &lost, |_| None);
-    assert_eq!(guidance.burn().phase(), BurnPhase::Ended { timed_out: false });
+    assert_eq!(guidance.burn.phase, BurnPhase::Ended { timed_out: false });
     let mut promoted = inputs;
     promoted.sensed.request = Some(super::mode::Mode::Operational);
     for _ in 0..10 {
         guidance.sample(&all, &promoted, |_| None);
-        assert_eq!(guidance.burn().stop_s(), None);
+        assert_eq!(guidance.burn.stop_s(), None);
     }
     // Another scenario ends it, the same one again is another burn.
     let mut guidance = burning;
     let mut other = inputs;
     other.command.scenario = Some(Scenario::Nadir);
     guidance.sample(&all, &other, |_| None);
-    assert_eq!(guidance.burn().phase(), BurnPhase::Ended { timed_out: false });
+    assert_eq!(guidance.burn.phase, BurnPhase::Ended { timed_out: false });
     guidance.sample(&all, &inputs, |_| None);
-    assert!(guidance.burn().stop_s().is_some());
-    assert_eq!(guidance.burn().velocity_m_s(), &Vector3::zeros());
+    assert!(guidance.burn.stop_s().is_some());
+    assert_eq!(guidance.burn.velocity_m_s, Vector3::zeros());
     // An entry of a timeline that continues with its scenario does not begin it anew, one that names it does.
     let mut guidance = burning;
     let mut planned = inputs;
     planned.entries.scenario = Some(7.0);
     guidance.sample(&all, &planned, |_| None);
-    assert_eq!(guidance.burn().velocity_m_s(), &Vector3::zeros());
+    assert_eq!(guidance.burn.velocity_m_s, Vector3::zeros());
     planned.entries.scenario = None;
     planned.delta_v_body_m_s += Vector3::z() * 0.088;
     guidance.sample(&all, &planned, |_| None);
-    assert!(guidance.burn().velocity_m_s().norm() > 0.08);
+    assert!(guidance.burn.velocity_m_s.norm() > 0.08);
 }
 
 #[test]
 fn no_thrust_without_direction_or_off_the_aim() {
     let none = BurnSettings { path: None, ..settings(Vector3::x()) };
     let (guidance, _) = under_way(&none, 20);
-    assert_eq!(guidance.burn().stop_s(), None);
-    assert!(guidance.status().degenerate);
+    assert_eq!(guidance.burn.stop_s(), None);
+    assert!(guidance.status.degenerate);
     // A keep-in zone that the burn's direction leaves no room in.
     let toward_sun = crate::guidance::geometry::moving::value(&ephemeris().to_sun()).normalize() * 10.0;
     let burn = settings(toward_sun);
@@ -243,8 +243,8 @@ fn no_thrust_without_direction_or_off_the_aim() {
     for _ in 0..20 {
         guidance.sample(&all, &still_inputs(), |_| None);
     }
-    assert!(guidance.status().sun_keep_in && !guidance.status().reachable);
-    assert_eq!(guidance.burn().phase(), BurnPhase::Waiting { since_s: 0.0, refused: true });
+    assert!(guidance.status.sun_keep_in && !guidance.status.reachable);
+    assert_eq!(guidance.burn.phase, BurnPhase::Waiting { since_s: 0.0, refused: true });
 }
 
 #[test]
@@ -259,11 +259,11 @@ fn a_burn_that_cannot_begin_says_so_and_times_out() {
         for second in 0..40 {
             guidance.sample(&all, &still_inputs(), |_| None);
             // Due at 5 s.
-            assert_eq!(guidance.burn().is_missed(), second >= 5, "{second}");
-            assert_eq!(guidance.burn().is_requested(), second < 25, "{second}");
-            assert_eq!(guidance.burn().stop_s(), None);
+            assert_eq!(guidance.burn.is_missed(), second >= 5, "{second}");
+            assert_eq!(guidance.burn.is_requested(), second < 25, "{second}");
+            assert_eq!(guidance.burn.stop_s(), None);
         }
-        assert_eq!(guidance.burn().phase(), BurnPhase::Ended { timed_out: true });
+        assert_eq!(guidance.burn.phase, BurnPhase::Ended { timed_out: true });
     }
     // The zone gives way while the burn waits.
     let mut all = guidance_settings(BurnSettings { timeout_s: 1e3, wait_s: 1e3, ..burn });
@@ -271,8 +271,8 @@ fn a_burn_that_cannot_begin_says_so_and_times_out() {
     for second in 0..12 {
         all.modes.operational.keep_in = (second < 9).then_some(all.keep_in);
         guidance.sample(&all, &still_inputs(), |_| None);
-        assert_eq!(guidance.burn().is_missed(), (5..9).contains(&second), "{second}");
-        assert_eq!(guidance.burn().stop_s().is_some(), second >= 9, "{second}");
+        assert_eq!(guidance.burn.is_missed(), (5..9).contains(&second), "{second}");
+        assert_eq!(guidance.burn.stop_s().is_some(), second >= 9, "{second}");
     }
 }
 
@@ -288,12 +288,12 @@ fn a_burn_that_another_scenario_ends_before_it_began_says_so() {
     for ending in [other, lost] {
         let mut guidance = waiting;
         guidance.sample(&all, &ending, |_| None);
-        assert_eq!(guidance.burn().phase(), BurnPhase::Ended { timed_out: true });
-        assert!(guidance.burn().is_missed() && !guidance.burn().is_requested());
+        assert_eq!(guidance.burn.phase, BurnPhase::Ended { timed_out: true });
+        assert!(guidance.burn.is_missed() && !guidance.burn.is_requested());
         // Commanded anew it is another burn.
         if ending.sensed.estimate.is_some() {
             guidance.sample(&all, &inputs, |_| None);
-            assert!(!guidance.burn().is_missed() && guidance.burn().is_requested());
+            assert!(!guidance.burn.is_missed() && guidance.burn.is_requested());
         }
     }
 }

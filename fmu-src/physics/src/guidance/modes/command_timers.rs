@@ -11,7 +11,7 @@ use crate::numerics::spacing::spacing;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct CommandTimers {
     /// Timeline's entries at the last sample.
-    entries: TimedEntries,
+    pub entries: TimedEntries,
     /// Scan and the time since when it is commanded, in s.
     scan: Option<(ScanCommand, f64)>,
     /// Limb scenario and the time since when it is commanded, in s.
@@ -19,11 +19,6 @@ pub(super) struct CommandTimers {
 }
 
 impl CommandTimers {
-    /// Timeline's entries at the last sample.
-    pub(super) fn entries(&self) -> &TimedEntries {
-        &self.entries
-    }
-
     /// Whether these entries begin a scenario of the timeline.
     pub(super) fn is_new_scenario(&self, entries: &TimedEntries) -> bool {
         entries.scenario.is_some() && entries.scenario != self.entries.scenario

@@ -79,16 +79,16 @@ fn simulated(
     let mut simulated = Simulated { flags: Vec::with_capacity(positions.len()), jumps: Vec::new() };
     for (second, ephemeris) in (0_u32..).zip(positions) {
         let time_s = f64::from(second);
-        let led_to = guidance.command().attitude_at(time_s);
-        let rate_before = guidance.command().rate_body_rad_s;
+        let led_to = guidance.command.attitude_at(time_s);
+        let rate_before = guidance.command.rate_body_rad_s;
         let inputs = SampleInputs {
             command,
             positions: BodyPositions::in_every_mode(Some(*ephemeris)),
             ..sample_inputs(led_to, Vector3::zeros())
         };
         guidance.sample(all, &inputs, |_| None);
-        simulated.flags.push(flags(guidance.status()));
-        let now = guidance.command();
+        simulated.flags.push(flags(&guidance.status));
+        let now = guidance.command;
         let jump_rad = led_to.rotation_vector_to(&now.attitude_at(time_s)).norm();
         // What both rates explain, also where the rate changes much between two samples, is no jump.
         let steady_rad = now.rate_body_rad_s.norm() + rate_before.norm() + 1e-4;
@@ -255,9 +255,9 @@ fn a_downlink_of_the_orbit_phase_reaches_the_earth_beyond_a_right_angle_from_the
         };
         let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
         guidance.sample(&all, &inputs, |_| None);
-        let earth = guidance.command().attitude_at(0.0).to_body(&value(&ephemeris.to_earth()).normalize());
+        let earth = guidance.command.attitude_at(0.0).to_body(&value(&ephemeris.to_earth()).normalize());
         assert!(earth.z.abs() < 1e-9);
-        assert!(guidance.status().reachable, "{day}");
+        assert!(guidance.status.reachable, "{day}");
         let is_near = value(&ephemeris.to_sun()).dot(&value(&ephemeris.to_earth())) > 0.0;
         if is_near { near += 1 } else { far += 1 }
     }
@@ -283,7 +283,7 @@ fn a_scan_that_changes_begins_anew() {
         let positions = BodyPositions::in_every_mode(Some(ephemeris));
         let inputs = SampleInputs { command, positions, ..still_inputs() };
         guidance.sample(&all, &inputs, |_| None);
-        guidance.command().attitude_at(f64::from(second))
+        guidance.command.attitude_at(f64::from(second))
     };
     let mut changed = GuidanceState::new(Attitude::default(), 0.0);
     for second in 0..37 {

@@ -10,7 +10,7 @@ use super::body_positions::BodyPositions;
 use super::command_status::CommandStatus;
 use super::command_timers::CommandTimers;
 use super::guidance_command::{CommandKind, GuidanceCommand};
-use super::mode::{Mode, ModeReason};
+use super::mode::Mode;
 use super::present_window::PresentWindow;
 use super::sample_inputs::{GuidanceSettings, SampleContext, SampleInputs, TimedEntries};
 use super::sun_line::SunLine;
@@ -43,21 +43,28 @@ pub const SAMPLE_WORK: u32 = 4;
 /// State of the sampled system.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GuidanceState {
-    command: GuidanceCommand,
-    status: CommandStatus,
-    sun_line: SunLine,
-    modes: ModeState,
+    /// The command in force.
+    pub command: GuidanceCommand,
+    /// Its status.
+    pub status: CommandStatus,
+    /// The line to the Sun at the last sample where it was known.
+    pub sun_line: SunLine,
+    /// The mode in force, its reason and its monitors.
+    pub modes: ModeState,
     periapses: PeriapsisCount,
     /// Side on which the turn away from the hot pole ends, while it lasts.
     hot_pole_turn: Option<TurnSide>,
     timers: CommandTimers,
     /// The last command that gave an attitude; it stays where none is given, and where a new one has no direction.
     law: Option<PointingCommand>,
-    burn: BurnState,
-    downlink_sun: DownlinkSun,
+    /// How far a burn is.
+    pub burn: BurnState,
+    /// Direction of the Sun in downlink.
+    pub downlink_sun: DownlinkSun,
     /// The slew into the timeline's command.
     slew: Option<CommandSlew>,
-    next_sample_s: f64,
+    /// When the next sample is due, in s.
+    pub next_sample_s: f64,
 }
 
 impl GuidanceState {
@@ -79,26 +86,6 @@ impl GuidanceState {
         }
     }
 
-    /// The command in force.
-    pub fn command(&self) -> &GuidanceCommand {
-        &self.command
-    }
-
-    /// Its status.
-    pub fn status(&self) -> &CommandStatus {
-        &self.status
-    }
-
-    /// The mode in force.
-    pub fn mode(&self) -> Mode {
-        self.modes.mode
-    }
-
-    /// Why it is; `None`: it is that of the start.
-    pub fn mode_reason(&self) -> Option<ModeReason> {
-        self.modes.reason
-    }
-
     /// Whether the precise ephemerides are trusted.
     pub fn ephemeris_is_valid(&self) -> bool {
         self.modes.ephemeris.is_valid()
@@ -109,25 +96,10 @@ impl GuidanceState {
         self.modes.ephemeris.uses_coarse(self.modes.mode)
     }
 
-    /// How far a burn is.
-    pub fn burn(&self) -> &BurnState {
-        &self.burn
-    }
-
-    /// Direction of the Sun in downlink.
-    pub fn downlink_sun(&self) -> &DownlinkSun {
-        &self.downlink_sun
-    }
-
     /// The windows of the orbit phase where the spacecraft is; `None` where that is not known.
     pub fn windows(&self, law: &Guided, positions: &BodyPositions) -> Option<Schedule> {
         let mut periapses = self.periapses;
         self.modes.ephemeris_in_mode(positions).map(|ephemeris| periapses.windows(&law.schedule, ephemeris))
-    }
-
-    /// When the next sample is due, in s.
-    pub fn next_sample_s(&self) -> f64 {
-        self.next_sample_s
     }
 
     /// The next sample that belongs to a step to `end_s`; one at its end belongs to the step after it.
@@ -266,26 +238,21 @@ impl GuidanceState {
             is_span.then(|| choose(&start)).flatten()
         };
         match activity {
-            Activity::Downlink => self.downlink_sun.last(scenario, self.timers.entries().scenario, chosen),
+            Activity::Downlink => self.downlink_sun.last(scenario, self.timers.entries.scenario, chosen),
             Activity::Science => self.downlink_sun.last_in_science(chosen),
         }
     }
 
     /// The Sun's place in the downlinks of the mode; `None`: on -Y.
     fn sun_direction(&self) -> Option<DownlinkSunDirection> {
-        self.downlink_sun.selected().in_downlink().filter(|_| self.modes.mode == Mode::Operational)
-    }
-
-    /// The line to the Sun at the last sample where it was known.
-    pub fn sun_line(&self) -> &SunLine {
-        &self.sun_line
+        self.downlink_sun.selected.in_downlink().filter(|_| self.modes.mode == Mode::Operational)
     }
 
     /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         self.command.is_valid()
             && self.burn.is_valid()
-            && self.downlink_sun.selected().is_valid()
+            && self.downlink_sun.selected.is_valid()
             && self.slew.is_none_or(|slew| slew.is_valid())
     }
 
@@ -307,7 +274,7 @@ impl GuidanceState {
     fn update_timers(&mut self, command: &PointingCommand, entries: TimedEntries, time_s: f64) {
         let is_burn = command.scenario == Some(Scenario::Burn) && !entries.burn_is_over;
         self.burn.command(is_burn, self.timers.is_new_scenario(&entries), time_s);
-        if entries.mode != self.timers.entries().mode {
+        if entries.mode != self.timers.entries.mode {
             self.modes.renew_request();
         }
         self.timers.update(command, entries, time_s);
@@ -371,7 +338,7 @@ impl GuidanceState {
     fn solution(&mut self, now: &SampleContext<'_>, command: &PointingCommand) -> Option<PointingSolution> {
         if command.scenario == Some(Scenario::OrbitPhase) {
             let science =
-                self.downlink_sun.selected().in_science().filter(|_| self.modes.mode == Mode::Operational);
+                self.downlink_sun.selected.in_science().filter(|_| self.modes.mode == Mode::Operational);
             let law = now.settings.orbit_phase.with_sun_directions(self.sun_direction(), science);
             let law = Guided { requested: now.requested_sun.0, ..law };
             let hardware = &now.settings.hardware;

@@ -32,7 +32,8 @@ pub struct WindowStart<'a> {
 /// Last selection.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DownlinkSun {
-    selected: SelectedSunDirections,
+    /// Directions that were selected last.
+    pub selected: SelectedSunDirections,
     /// The scenario whose downlink lasts.
     lasts: Option<Scenario>,
     /// The timeline's entry that named the downlink, by when it begins on the timeline's clock, in s.
@@ -42,11 +43,6 @@ pub struct DownlinkSun {
 }
 
 impl DownlinkSun {
-    /// Last selections.
-    pub fn selected(&self) -> &SelectedSunDirections {
-        &self.selected
-    }
-
     /// Whether a downlink lasts, or science that unloads, whose target is out of reach.
     pub fn is_clamped(&self) -> bool {
         let SelectedSunDirections { downlink, science } = self.selected;

@@ -9,7 +9,7 @@ use super::attitudes::{
 };
 use super::schedule::{Activity, Schedule, Window};
 use crate::guidance::constraints::keep_in::KeepIn;
-use crate::guidance::constraints::slew::{Slew, SlewStart};
+use crate::guidance::constraints::slew::{Slew, SlewStart, SlewedFrame};
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::downlink::sun_direction::{DownlinkSunDirection, SunRequest};
 
@@ -122,8 +122,8 @@ impl Guided {
         if self.slew_rate_rad_s.is_nan() || self.slew_rate_rad_s <= 0.0 || !window.since_s.is_finite() {
             return held;
         }
-        let elapsed_s = time_s - window.since_s;
-        if elapsed_s >= Slew::longest_rad(self.keep_in.as_ref()) / self.slew_rate_rad_s {
+        let longest_s = Slew::longest_rad(self.keep_in.as_ref()) / self.slew_rate_rad_s;
+        if time_s - window.since_s >= longest_s {
             return held;
         }
         let before = match window.activity {
@@ -141,17 +141,14 @@ impl Guided {
             sun_drift_rad_s: self.sun_drift_rad_s(window.activity, &lines_then, &to, default_downlink),
         };
         let slew = Slew::between(&start, self.keep_in.as_ref(), self.slew_rate_rad_s);
-        let duration_s = slew.length_rad() / self.slew_rate_rad_s;
-        if elapsed_s >= duration_s {
-            return held;
-        }
-        let left = 1.0 - elapsed_s / duration_s;
-        GuidedAttitude {
-            frame: slew.frame(&target.frame, &sight.lines().sun, left, -1.0 / duration_s),
+        let sun = sight.lines().sun;
+        let slewed = slew.at(window.since_s, time_s, &target.frame, &sun, self.slew_rate_rad_s);
+        slewed.map_or(held, |SlewedFrame { frame, end_s }| GuidedAttitude {
+            frame,
             slewing: true,
-            until_s: held.until_s.min(window.since_s + duration_s),
+            until_s: held.until_s.min(end_s),
             ..held
-        }
+        })
     }
 
     /// Bound of the rate at which the Sun moves in the body frame during a turn to an attitude, in rad/s: twice what the lines

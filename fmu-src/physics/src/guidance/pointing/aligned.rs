@@ -21,65 +21,54 @@ pub fn aligned_command(axes: &AlignedAxes) -> PointingCommand {
             vector: axes.align.axis_body,
             ..BoresightCommand::default()
         },
-        aimpoint: aimpoint_at(axes.align.target),
+        aimpoint: commands_toward(axes.align.target).0,
         body_roll: BodyRollCommand {
             option: Some(BodyRollOption::Vector),
             vector: axes.constrain.axis_body,
             ..BodyRollCommand::default()
         },
-        external_roll: roll_toward(axes.constrain.target),
+        external_roll: commands_toward(axes.constrain.target).1,
         ..PointingCommand::default()
     }
 }
 
 /// Vectors of that command; `None` where the target of `align` has no direction.
 pub fn aligned_vectors(axes: &AlignedAxes, ephemeris: &EphemerisAtTime) -> Option<PointingVectors> {
+    let (aim, _) = commands_toward(axes.align.target);
+    let (_, roll) = commands_toward(axes.constrain.target);
     // No target is a point of the surface.
-    let aimpoint = aimpoint(&aimpoint_at(axes.align.target), ephemeris, SubsolarMethod::default())?;
+    let aimpoint = aimpoint(&aim, ephemeris, SubsolarMethod::default())?;
     Some(PointingVectors {
         boresight_body: fixed(axes.align.axis_body),
         aimpoint: aimpoint.toward,
         body_roll: fixed(axes.constrain.axis_body),
-        external_roll: external_roll(&roll_toward(axes.constrain.target), ephemeris),
+        external_roll: external_roll(&roll, ephemeris),
     })
 }
 
-fn aimpoint_at(target: PointingTarget) -> AimpointCommand {
-    let option = |option| AimpointCommand { option: Some(option), ..AimpointCommand::default() };
-    match target {
-        PointingTarget::Nadir => option(AimpointOption::Nadir),
-        PointingTarget::Velocity => option(AimpointOption::Velocity),
-        PointingTarget::OrbitNormal => option(AimpointOption::OrbitNormal),
-        PointingTarget::Sun => option(AimpointOption::Sun),
-        PointingTarget::Earth => option(AimpointOption::Earth),
-        PointingTarget::EclipticNorth => option(AimpointOption::EclipticNorth),
-        PointingTarget::Inertial(vector) => AimpointCommand { vector, ..option(AimpointOption::Vector) },
-        PointingTarget::Star { right_ascension_rad, declination_rad } => AimpointCommand {
-            right_ascension_rad,
-            declination_rad,
-            ..option(AimpointOption::RightAscensionDeclination)
-        },
-    }
-}
-
-fn roll_toward(target: PointingTarget) -> ExternalRollCommand {
-    let option = |option| ExternalRollCommand { option: Some(option), ..ExternalRollCommand::default() };
-    match target {
-        PointingTarget::Nadir => option(ExternalRollOption::Planet),
-        PointingTarget::Velocity => option(ExternalRollOption::Velocity),
-        PointingTarget::OrbitNormal => option(ExternalRollOption::OrbitNormal),
-        PointingTarget::Sun => option(ExternalRollOption::Sun),
-        PointingTarget::Earth => option(ExternalRollOption::Earth),
-        PointingTarget::EclipticNorth => option(ExternalRollOption::EclipticNorth),
+/// A target as what one axis aims at and as what another is rolled toward.
+fn commands_toward(target: PointingTarget) -> (AimpointCommand, ExternalRollCommand) {
+    use {AimpointOption as Aim, ExternalRollOption as Roll};
+    let (mut aim, mut roll) = (AimpointCommand::default(), ExternalRollCommand::default());
+    let options = match target {
+        PointingTarget::Nadir => (Aim::Nadir, Roll::Planet),
+        PointingTarget::Velocity => (Aim::Velocity, Roll::Velocity),
+        PointingTarget::OrbitNormal => (Aim::OrbitNormal, Roll::OrbitNormal),
+        PointingTarget::Sun => (Aim::Sun, Roll::Sun),
+        PointingTarget::Earth => (Aim::Earth, Roll::Earth),
+        PointingTarget::EclipticNorth => (Aim::EclipticNorth, Roll::EclipticNorth),
         PointingTarget::Inertial(vector) => {
-            ExternalRollCommand { vector, ..option(ExternalRollOption::Vector) }
+            (aim.vector, roll.vector) = (vector, vector);
+            (Aim::Vector, Roll::Vector)
         }
-        PointingTarget::Star { right_ascension_rad, declination_rad } => ExternalRollCommand {
-            right_ascension_rad,
-            declination_rad,
-            ..option(ExternalRollOption::RightAscensionDeclination)
-        },
-    }
+        PointingTarget::Star { right_ascension_rad, declination_rad } => {
+            (aim.right_ascension_rad, aim.declination_rad) = (right_ascension_rad, declination_rad);
+            (roll.right_ascension_rad, roll.declination_rad) = (right_ascension_rad, declination_rad);
+            (Aim::RightAscensionDeclination, Roll::RightAscensionDeclination)
+        }
+    };
+    (aim.option, roll.option) = (Some(options.0), Some(options.1));
+    (aim, roll)
 }
 
 #[cfg(test)]

@@ -195,7 +195,7 @@ impl BurnFlight {
         let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
         guidance.sample(&settings, &still_inputs(), |_| None);
         // The turn to the burn is done.
-        let mut attitude = guidance.command().attitude_at(0.0);
+        let mut attitude = guidance.command.attitude_at(0.0);
         let mut accelerometers = AccelerometerState::new(&self.accelerometers);
         let (mut velocity_m_s, mut mass_kg) = (Vector3::zeros(), self.thrust.mass_kg);
         let (mut magnitude_m_s, mut farthest_m_s, mut fastest_rad_s) = (0.0, 0.0_f64, 0.0_f64);
@@ -210,14 +210,14 @@ impl BurnFlight {
                 while guidance.due_before(to_s).is_some() {
                     let inputs = sample_inputs(attitude, *accelerometers.delta_v_body_m_s());
                     guidance.sample(&settings, &inputs, |_| None);
-                    let rate = guidance.command().rate_body_rad_s;
-                    if guidance.burn().stop_s().is_some() {
+                    let rate = guidance.command.rate_body_rad_s;
+                    if guidance.burn.stop_s().is_some() {
                         fastest_rad_s = fastest_rad_s.max(rate.norm());
                     }
                 }
             }
-            let command = seen.command();
-            let stop_s = seen.burn().stop_s().unwrap_or(f64::NEG_INFINITY);
+            let command = &seen.command;
+            let stop_s = seen.burn.stop_s().unwrap_or(f64::NEG_INFINITY);
             let until_s = if self.stops_between || stop_s.is_infinite() { stop_s } else { f64::INFINITY };
             let on_s = (until_s - time_s).clamp(0.0, dt);
             let mut increment_body = Vector3::zeros();
@@ -237,7 +237,7 @@ impl BurnFlight {
             accelerometers.sample(&self.accelerometers, &increment_body, dt, u64::from(number));
             farthest_m_s = farthest_m_s.max((velocity_m_s - path.point(magnitude_m_s).velocity_m_s).norm());
         }
-        assert!(matches!(guidance.burn().phase(), BurnPhase::Ended { .. }), "{:?}", guidance.burn());
+        assert!(matches!(guidance.burn.phase, BurnPhase::Ended { .. }), "{:?}", guidance.burn);
         Simulated {
             velocity_m_s,
             thrust_body: self.thrust_body(ended_s - began_s.unwrap_or(0.0)),

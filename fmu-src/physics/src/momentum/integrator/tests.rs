@@ -141,9 +141,12 @@ fn first_dump_s(flight: &mut Spinning, threshold_n_m_s: f64) -> f64 {
     };
     let setting = Settings { grid_s: 600.0, policy, ..settings(1.0, Convention::Inertial) };
     let mut integrator = MomentumIntegrator::new(0.0, totals);
-    match integrator.advance_to_stop(flight, &setting, 1e4, StopTimes::NONE).unwrap() {
-        Stop::Dump(event) => event.time_s,
-        stop => panic!("{stop:?}"),
+    loop {
+        let prepared = integrator.prepare(flight, &setting, f64::INFINITY).unwrap();
+        if let Some(due) = prepared.due {
+            return due.time_s;
+        }
+        integrator.advance_segment(flight, &setting, &prepared).unwrap();
     }
 }
 

@@ -16,23 +16,22 @@
 //! Reference: Davis and Rabinowitz, Methods of Numerical Integration, 2.7; see [`crate::numerics::adaptive`].
 
 use nalgebra::{Matrix3, Vector3};
-use serde::{Deserialize, Serialize};
 
 use crate::environment::CartesianState;
-use crate::loads::{Active, ByEffect, Effect, ForceTorque, Linear, Loads};
+use crate::loads::{Active, ByEffect, Linear};
 use crate::math;
 use crate::momentum::TorqueModel;
 use crate::momentum::WorkKind;
-use crate::numerics::adaptive::{AdaptiveInterval, Attempt, SegmentSpan};
+use crate::numerics::adaptive::{AdaptiveInterval, Attempt};
 use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::quadrature::GAUSS_2;
 
 use super::evaluation::Evaluation;
 use super::plant::Plant;
-use crate::plant::light::light_and_heat::LEAST_ARM_M;
 use crate::plant::motion::kinematics::Kinematics;
-use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
+use crate::plant::sources::sunlight::light_and_heat::LEAST_ARM_M;
+use crate::plant::state::disturbance_interval::DisturbanceInterval;
 
 /// Nodes of Gauss-Legendre quadrature of order 4 on [0, 1].
 const NODES: [f64; 2] = [GAUSS_2[0].0, GAUSS_2[1].0];
@@ -46,208 +45,106 @@ const SHORTEST_SHARE: f64 = 0.1;
 /// Order of the impulse's error relative to the impulse.
 const ORDER: usize = 4;
 
-/// Loads on the body and direction of the Sun over one interval.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct DisturbanceInterval {
-    span: SegmentSpan,
-    /// Force and torque of the disturbances that act, body frame; what is applied is known at any time, what acts by a field follows
-    /// from it and the attitude.
-    loads: ByEffect<Option<[Linear; 2]>>,
-    /// Magnetic field, EME2000.
-    field_inertial_t: Linear,
-    /// Unit vector to the Sun, EME2000.
-    to_sun: Linear,
-    /// Visible part of the Sun's disc, at the start and per second.
-    lit_fraction: [f64; 2],
+/// The interval of `plant` that begins at `start_s`, after `last`, and lasts to the next multiple of `grid_s` at most; a body
+/// that nothing holds has this inverse of its inertia.
+///
+/// # Errors
+/// What ends a flight.
+pub(crate) fn next_interval(
+    last: &DisturbanceInterval,
+    plant: &mut Plant<'_>,
+    start_s: f64,
+    grid_s: f64,
+    free_inverse_inertia: Option<&Matrix3<f64>>,
+) -> Result<DisturbanceInterval, PlantError> {
+    plant.spend(WorkKind::Segment, start_s)?;
+    let (known_s, begin) = plant.begin(start_s, next_multiple_s(start_s, grid_s))?;
+    let limit_s = match plant.kinematics.excludes_events(&begin, known_s - start_s) {
+        true => known_s,
+        false => plant.kinematics.smooth_until(start_s, known_s),
+    };
+    let rate_rad_s = begin.frame.rate_body_rad_s.norm();
+    let turning_rad_s = rate_rad_s + orbital_rate_rad_s(&begin.geometry.spacecraft);
+    let longest_s = last.span.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s);
+    let shortest_s = (SHORTEST_TURN_RAD / turning_rad_s).min(SHORTEST_SHARE * grid_s);
+    let configuration = plant.kinematics.configuration;
+    let (active, tolerance) = (configuration.effects, configuration.light_and_heat.tolerance);
+    let interval = AdaptiveInterval::new(start_s, grid_s, longest_s, limit_s, shortest_s);
+    let ([first, second], span) = interval.fit::<_, PlantError>(ORDER, |interval| {
+        if interval.is_refinement() {
+            plant.spend(WorkKind::Refinement, start_s)?;
+        }
+        let span_s = interval.end_s() - start_s;
+        let nodes = NODES.map(|node| plant.evaluate(start_s + node * span_s));
+        nodes[0].check(start_s)?;
+        let unforeseen_rad_s2 =
+            free_inverse_inertia.map_or(0.0, |it| unforeseen(last, active, it, &nodes, span_s));
+        let mut unresolved = 0.5 * unforeseen_rad_s2 * span_s * span_s;
+        if turning_rad_s * span_s >= SHORTEST_TURN_RAD {
+            let last_s = plant.kinematics.configuration.last_of_panels_s(start_s, interval.end_s());
+            let ends = [start_s, last_s].map(|at_s| plant.evaluate(at_s));
+            let fit_error = fit_error(active, &nodes, &ends);
+            unresolved = unresolved.max(fit_error * fit_error.max(math::powi(rate_rad_s * span_s, 2) / 12.0));
+        } else if unresolved <= tolerance {
+            return Ok(Attempt::Short(nodes));
+        }
+        Ok(Attempt::Fitted { fit: nodes, unresolved, tolerance })
+    })?;
+    let span_s = span.end_s - start_s;
+    let line = |of: &dyn Fn(&Evaluation) -> Vector3<f64>| -> Linear {
+        let (a, b) = (of(&first), of(&second));
+        let slope = (b - a) / (NODES[1] - NODES[0]);
+        [a - slope * NODES[0], slope / span_s]
+    };
+    let mut loads = ByEffect::default();
+    for effect in active.disturbances().filter(|effect| !effect.is_in_field()) {
+        let force = line(&|it| it.loads[effect].force_body_n);
+        loads[effect] = Some([force, line(&|it| it.loads[effect].torque_body_n_m)]);
+    }
+    let field_inertial_t = line(&|it| it.air_and_field.field_inertial_t);
+    // The Sun is seen from the start on, however long the interval is.
+    let (now, then) = (&begin, &second.instant);
+    let elapsed_s = NODES[1] * span_s;
+    let [to_sun, to_sun_then] = [now, then].map(|it| it.geometry.to_sun.position_m.normalize());
+    let to_sun = [to_sun, (to_sun_then - to_sun) / elapsed_s];
+    let lit_fraction = [now.lit_fraction, (then.lit_fraction - now.lit_fraction) / elapsed_s];
+    Ok(DisturbanceInterval { span, made_for: plant.digest, loads, field_inertial_t, to_sun, lit_fraction })
 }
 
-impl DisturbanceInterval {
-    /// Before the first interval.
-    pub(crate) fn before() -> Self {
-        let nothing = [Vector3::zeros(); 2];
-        Self {
-            span: SegmentSpan::default(),
-            loads: ByEffect::default(),
-            field_inertial_t: nothing,
-            to_sun: nothing,
-            lit_fraction: [0.0; 2],
-        }
-    }
+/// Angular acceleration by which the disturbances at the nodes of an interval after this one, `span_s` long, are off from what
+/// this one has there, in rad/s2.
+fn unforeseen(
+    last: &DisturbanceInterval,
+    active: Active,
+    inverse_inertia: &Matrix3<f64>,
+    nodes: &[Evaluation; 2],
+    span_s: f64,
+) -> f64 {
+    let off_rad_s2 = |(node, share): (&Evaluation, f64)| {
+        let [_, [foreseen_n_m, slope_n_m_s]] = last.total_at(last.span.end_s);
+        let effects = active.disturbances().filter(|effect| !effect.is_in_field());
+        let found_n_m: Vector3<f64> = effects.map(|effect| node.loads[effect].torque_body_n_m).sum();
+        (inverse_inertia * (found_n_m - foreseen_n_m - slope_n_m_s * (share * span_s))).norm()
+    };
+    nodes.iter().zip(NODES).map(off_rad_s2).fold(0.0, f64::max)
+}
 
-    /// Whether no interval has begun.
-    pub(crate) fn is_before(&self) -> bool {
-        self.span.is_before()
+/// Integrates the deviation of the orbit under the forces of the interval, at the predicted attitude (Encke's method).
+///
+/// # Errors
+/// What ends a flight.
+pub(crate) fn deviate(interval: &DisturbanceInterval, plant: &mut Plant<'_>) -> Result<(), PlantError> {
+    let applied = plant.external(interval.span.start_s);
+    let Kinematics { configuration, turning, trajectory, current_mass_panels_stowed, .. } =
+        &mut plant.kinematics;
+    if !configuration.uses_encke() {
+        return Ok(());
     }
-
-    /// The interval of `plant` that begins at `start_s`, after `self`, and lasts to the next multiple of `grid_s` at most; a body
-    /// that nothing holds has this inverse of its inertia.
-    ///
-    /// # Errors
-    /// What ends a flight.
-    pub(crate) fn next(
-        &self,
-        plant: &mut Plant<'_>,
-        start_s: f64,
-        grid_s: f64,
-        free_inverse_inertia: Option<&Matrix3<f64>>,
-    ) -> Result<Self, PlantError> {
-        plant.spend(WorkKind::Segment, start_s)?;
-        let (known_s, begin) = plant.begin(start_s, next_multiple_s(start_s, grid_s))?;
-        let limit_s = match plant.kinematics.excludes_events(&begin, known_s - start_s) {
-            true => known_s,
-            false => plant.kinematics.smooth_until(start_s, known_s),
-        };
-        let rate_rad_s = begin.frame.rate_body_rad_s.norm();
-        let turning_rad_s = rate_rad_s + orbital_rate_rad_s(&begin.geometry.spacecraft);
-        let longest_s = self.span.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s);
-        let shortest_s = (SHORTEST_TURN_RAD / turning_rad_s).min(SHORTEST_SHARE * grid_s);
-        let configuration = plant.kinematics.configuration;
-        let (active, tolerance) = (configuration.effects, configuration.light_and_heat.tolerance);
-        let interval = AdaptiveInterval::new(start_s, grid_s, longest_s, limit_s, shortest_s);
-        let ([first, second], span) = interval.fit::<_, PlantError>(ORDER, |interval| {
-            if interval.is_refinement() {
-                plant.spend(WorkKind::Refinement, start_s)?;
-            }
-            let span_s = interval.end_s() - start_s;
-            let nodes = NODES.map(|node| plant.evaluate(start_s + node * span_s));
-            nodes[0].check(start_s)?;
-            let unforeseen_rad_s2 =
-                free_inverse_inertia.map_or(0.0, |it| self.unforeseen(active, it, &nodes, span_s));
-            let mut unresolved = 0.5 * unforeseen_rad_s2 * span_s * span_s;
-            if turning_rad_s * span_s >= SHORTEST_TURN_RAD {
-                let last_s = plant.kinematics.configuration.last_of_panels_s(start_s, interval.end_s());
-                let ends = [start_s, last_s].map(|at_s| plant.evaluate(at_s));
-                let fit_error = fit_error(active, &nodes, &ends);
-                unresolved =
-                    unresolved.max(fit_error * fit_error.max(math::powi(rate_rad_s * span_s, 2) / 12.0));
-            } else if unresolved <= tolerance {
-                return Ok(Attempt::Short(nodes));
-            }
-            Ok(Attempt::Fitted { fit: nodes, unresolved, tolerance })
-        })?;
-        let span_s = span.end_s - start_s;
-        let line = |of: &dyn Fn(&Evaluation) -> Vector3<f64>| -> Linear {
-            let (a, b) = (of(&first), of(&second));
-            let slope = (b - a) / (NODES[1] - NODES[0]);
-            [a - slope * NODES[0], slope / span_s]
-        };
-        let mut loads = ByEffect::default();
-        for effect in active.disturbances().filter(|effect| !effect.is_in_field()) {
-            let force = line(&|it| it.loads[effect].force_body_n);
-            loads[effect] = Some([force, line(&|it| it.loads[effect].torque_body_n_m)]);
-        }
-        let field_inertial_t = line(&|it| it.air_and_field.field_inertial_t);
-        // The Sun is seen from the start on, however long the interval is.
-        let (now, then) = (&begin, &second.instant);
-        let elapsed_s = NODES[1] * span_s;
-        let [to_sun, to_sun_then] = [now, then].map(|it| it.geometry.to_sun.position_m.normalize());
-        let to_sun = [to_sun, (to_sun_then - to_sun) / elapsed_s];
-        let lit_fraction = [now.lit_fraction, (then.lit_fraction - now.lit_fraction) / elapsed_s];
-        Ok(Self { span, loads, field_inertial_t, to_sun, lit_fraction })
-    }
-
-    /// Angular acceleration by which the disturbances at the nodes of an interval after this one, `span_s` long, are off from what
-    /// this one has there, in rad/s2.
-    fn unforeseen(
-        &self,
-        active: Active,
-        inverse_inertia: &Matrix3<f64>,
-        nodes: &[Evaluation; 2],
-        span_s: f64,
-    ) -> f64 {
-        let off_rad_s2 = |(node, share): (&Evaluation, f64)| {
-            let [_, [foreseen_n_m, slope_n_m_s]] = self.total_at(self.span.end_s);
-            let effects = active.disturbances().filter(|effect| !effect.is_in_field());
-            let found_n_m: Vector3<f64> = effects.map(|effect| node.loads[effect].torque_body_n_m).sum();
-            (inverse_inertia * (found_n_m - foreseen_n_m - slope_n_m_s * (share * span_s))).norm()
-        };
-        nodes.iter().zip(NODES).map(off_rad_s2).fold(0.0, f64::max)
-    }
-
-    /// Integrates the deviation of the orbit under the forces of the interval, at the predicted attitude (Encke's method).
-    ///
-    /// # Errors
-    /// What ends a flight.
-    pub(crate) fn deviate(&self, plant: &mut Plant<'_>) -> Result<(), PlantError> {
-        let applied = plant.external(self.span.start_s);
-        let Kinematics { configuration, trajectory, current_mass_panels_stowed, .. } = &mut plant.kinematics;
-        let AttitudeSource::Dynamic(attitude) = &configuration.attitude else { return Ok(()) };
-        if !configuration.motion.uses_encke() {
-            return Ok(());
-        }
-        let acceleration_m_s2 = |time_s: f64| {
-            let force_body_n = self.force_body_n(&applied, self.span.start_s, time_s);
-            attitude.frame_at(time_s).inertial_from_body * (force_body_n / current_mass_panels_stowed.mass_kg)
-        };
-        Ok(trajectory.accelerate(
-            configuration,
-            [self.span.start_s, self.span.end_s],
-            Some(acceleration_m_s2),
-        )?)
-    }
-
-    /// Whether a simulation can produce it.
-    pub(crate) fn is_valid(&self) -> bool {
-        self.span.is_valid() && (self.is_before() || self.span.start_s <= self.span.end_s)
-    }
-
-    /// Up to when it holds, in s.
-    pub(crate) fn end_s(&self) -> f64 {
-        self.span.end_s
-    }
-
-    /// Forgets what is beyond `time_s`.
-    pub(crate) fn cut(&mut self, time_s: f64) {
-        self.span.cut(time_s);
-    }
-
-    /// Force and torque by effect at `time_s`.
-    pub(crate) fn loads_at(&self, time_s: f64) -> Loads {
-        let elapsed_s = time_s - self.span.start_s;
-        let mut loads = Loads::zero();
-        for (effect, lines) in self.loads.present() {
-            let [force_body_n, torque_body_n_m] = lines.map(|[start, slope]| start + slope * elapsed_s);
-            loads[effect] = ForceTorque { force_body_n, torque_body_n_m };
-        }
-        loads
-    }
-
-    /// Magnetic field at `time_s`, EME2000, in T, and its rate in T/s.
-    pub(crate) fn field_at(&self, time_s: f64) -> Linear {
-        let [start, rate] = self.field_inertial_t;
-        [start + rate * (time_s - self.span.start_s), rate]
-    }
-
-    /// Torque of a disturbance that acts at `time_s` and its slope, in N m and N m/s.
-    pub(crate) fn torque_at(&self, effect: Effect, time_s: f64) -> Option<Linear> {
-        self.loads[effect].map(|[_, [start, slope]]| [start + slope * (time_s - self.span.start_s), slope])
-    }
-
-    /// Sum over the effects at `time_s`: force in N and its slope in N/s, torque in N m and its slope in N m/s.
-    pub(crate) fn total_at(&self, time_s: f64) -> [Linear; 2] {
-        let elapsed_s = time_s - self.span.start_s;
-        let mut total = [[Vector3::zeros(); 2]; 2];
-        for (_, lines) in self.loads.present() {
-            for ([sum, sum_slope], [start, slope]) in total.iter_mut().zip(lines) {
-                *sum += start + slope * elapsed_s;
-                *sum_slope += slope;
-            }
-        }
-        total
-    }
-
-    /// Total force at `time_s`, body frame, in N: the disturbances and the `applied` load, given with its slope at `since_s`.
-    pub(crate) fn force_body_n(&self, applied: &[ForceTorque; 2], since_s: f64, time_s: f64) -> Vector3<f64> {
-        let ([[disturbance_n, _], _], [load, slope]) = (self.total_at(time_s), applied);
-        disturbance_n + load.force_body_n + slope.force_body_n * (time_s - since_s)
-    }
-
-    /// Unit vector to the Sun, EME2000, and the visible part of its disc at `time_s`.
-    pub(crate) fn sun_at(&self, time_s: f64) -> (Vector3<f64>, f64) {
-        let elapsed_s = time_s - self.span.start_s;
-        let to_sun = (self.to_sun[0] + self.to_sun[1] * elapsed_s).normalize();
-        (to_sun, (self.lit_fraction[0] + self.lit_fraction[1] * elapsed_s).clamp(0.0, 1.0))
-    }
+    let acceleration_m_s2 = |time_s: f64| {
+        let force_body_n = interval.force_body_n(&applied, interval.span.start_s, time_s);
+        turning.frame_at(time_s).inertial_from_body * (force_body_n / current_mass_panels_stowed.mass_kg)
+    };
+    Ok(trajectory.accelerate(configuration, interval.span.span(), Some(acceleration_m_s2))?)
 }
 
 /// By how much the direction from the centre turns, in rad/s; 0 at the centre.

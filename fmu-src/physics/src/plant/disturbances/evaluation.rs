@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::attitude::MovingFrame;
 use crate::constants::RADIUS_SUN_M;
 use crate::loads::{ForceTorque, Loads};
-use crate::plant::air_and_field::air_and_field_segment::AirAndField;
+use crate::plant::instant::air_and_field_segment::AirAndField;
 use crate::plant::motion::instant::Instant;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;

@@ -4,3 +4,4 @@ pub(super) mod disturbance_interval;
 pub(super) mod evaluation;
 pub(super) mod plant;
 pub(super) mod simulation_context;
+pub(super) mod simulation_models;

@@ -10,21 +10,24 @@
 use nalgebra::{Rotation3, Vector3};
 
 use super::evaluation::{Evaluation, External};
-use super::simulation_context::SimulationContext;
+use super::simulation_models::SimulationModels;
 use crate::loads::{ForceTorque, Loads};
 use crate::momentum::{EventValues, TorqueModel, TorqueSample, WorkKind, torques_body_n_m};
 use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
-use crate::plant::air_and_field::air_and_field_segment::{AirAndField, AirAndFieldSegment};
+use crate::plant::instant::air_and_field_segment::{AirAndField, AirAndFieldSegment};
 use crate::plant::instant::conditions::Conditions;
 use crate::plant::instant::path_ahead::PathAhead;
 use crate::plant::motion::instant::Instant;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::motion::panel_motion::Hinged;
 use crate::plant::motion::panel_turns::PanelTurns;
-use crate::plant::settings::configuration::AttitudeSource;
+use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
+use crate::plant::settings::configuration::Configuration;
+use crate::plant::settings::digest::Digest;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
+use crate::plant::sources::sunlight::report_faces;
 use crate::plant::sources::{SourceStates, Sources};
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::plant::state::sun_choice::SunDirectionSelection;
@@ -33,10 +36,22 @@ use crate::spacecraft::MassProperties;
 /// Nodes at which the acceleration of a segment is taken.
 const NODES: usize = 8;
 
+/// Settings under which a plant is evaluated.
+#[derive(Clone, Copy, Debug)]
+pub struct PlantSettings<'a> {
+    /// Spacecraft and orbit.
+    pub configuration: &'a Configuration,
+    /// Mass properties with every panel at angle 0 and the propellant left.
+    pub current_mass_panels_stowed: MassProperties,
+    /// How the body turns where it turns by torque.
+    pub turning: Turning,
+}
+
 /// A configured flight, ready to be evaluated.
 pub struct Plant<'a> {
     prepared: PreparedSpacecraft<'a>,
     pub(crate) kinematics: Kinematics<'a>,
+    pub(super) digest: Digest,
     sources: &'a mut Sources,
     states: &'a mut SourceStates,
     air_and_field: &'a mut AirAndFieldSegment,
@@ -49,22 +64,16 @@ impl<'a> Plant<'a> {
     /// Units of a sample, sunlight on many faces aside: everything that is not read from a polynomial.
     const SAMPLE_UNITS: u32 = 3;
 
-    /// `propagator` belongs to this context; `external` gives the load from outside at any time.
+    /// `propagator` belongs to these settings; `external` gives the load from outside at any time.
     pub fn new(
         prepared: PreparedSpacecraft<'a>,
-        context: &'a mut SimulationContext,
+        settings: PlantSettings<'a>,
+        models: &'a mut SimulationModels,
         propagator: &'a mut PropagatorState,
         external: &'a External<'a>,
     ) -> Self {
-        let SimulationContext {
-            configuration,
-            current_mass_panels_stowed,
-            ephemeris,
-            solar,
-            sources,
-            work,
-            ..
-        } = context;
+        let PlantSettings { configuration, current_mass_panels_stowed, turning } = settings;
+        let SimulationModels { ephemeris, solar, digest, sources, work } = models;
         let prepared = PreparedSpacecraft { solar: solar.as_ref().unwrap_or(prepared.solar), ..prepared };
         let PropagatorState {
             trajectory,
@@ -75,19 +84,25 @@ impl<'a> Plant<'a> {
             command_slews,
             ..
         } = propagator;
+        let selected = &sun_choice.selected;
+        let guided = configuration.attitude.guided();
+        let law = guided.map(|law| law.with_sun_directions(selected.in_downlink(), selected.in_science()));
         let kinematics = Kinematics {
             configuration,
+            law,
+            turning,
             trajectory,
             ephemeris,
             default_downlink: prepared.default_downlink,
             timeline: prepared.timeline,
             command_slews,
             work,
-            current_mass_panels_stowed: *current_mass_panels_stowed,
+            current_mass_panels_stowed,
         };
         Self {
             prepared,
             kinematics,
+            digest: *digest,
             sources,
             states,
             air_and_field,
@@ -175,8 +190,8 @@ impl<'a> Plant<'a> {
     /// # Errors
     /// A geometry without meaning.
     pub fn faces(&mut self, time_s: f64, report: impl FnMut(f64, Vector3<f64>)) -> Result<(), PlantError> {
-        let (path, sources, states) = self.path();
-        sources.sunlight.faces(&states.sunlight, path, time_s, report)
+        let (mut path, sources, states) = self.path();
+        report_faces(&mut sources.sunlight, &states.sunlight, &mut path, time_s, report)
     }
 
     /// Extends air, magnetic field and the states of the sources from `start_s` on; returns up to where they are valid, at most `limit_s`.
@@ -194,8 +209,9 @@ impl<'a> Plant<'a> {
 
     /// The path ahead, and the sources with their states.
     fn path(&mut self) -> (PathAhead<'_, 'a>, &mut Sources, &mut SourceStates) {
-        let Self { prepared, kinematics, sources, states, air_and_field, .. } = self;
-        (PathAhead { spacecraft: *prepared, kinematics, air_and_field }, sources, states)
+        let Self { prepared, kinematics, digest, sources, states, air_and_field, .. } = self;
+        let path = PathAhead { spacecraft: *prepared, digest: *digest, kinematics, air_and_field };
+        (path, sources, states)
     }
 
     /// [`TorqueModel::prepare`] with the whole instant at `start_s`.
@@ -234,8 +250,7 @@ impl<'a> Plant<'a> {
                 self.kinematics.spend_units(WorkKind::Orbit, NODES as u32, start_s)?;
                 end_s = 0.5 * (start_s + end_s);
             };
-            let predicted = core::mem::replace(self.kinematics.trajectory, before);
-            self.kinematics.trajectory.copy_apsides(&predicted, end_s);
+            *self.kinematics.trajectory = before;
             self.integrate(end_s, |at_s| acceleration_m_s2.value(at_s))?;
             // Those ahead began on the predicted orbit.
             self.kinematics.command_slews.forget_after(start_s);

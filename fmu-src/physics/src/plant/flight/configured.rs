@@ -9,16 +9,17 @@ use crate::momentum::{TorqueModel, Totals};
 
 use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 use crate::momentum::WorkKind;
-use crate::plant::disturbances::disturbance_interval::DisturbanceInterval;
+use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::External;
 use crate::plant::disturbances::plant::Plant;
 use crate::plant::disturbances::simulation_context::SimulationContext;
-use crate::plant::settings::configuration::{AttitudeSource, Command, DynamicAttitude};
+use crate::plant::settings::attitude_source::{Command, Turning};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::settings::reaction_control_settings::ThrustCommand;
 use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::sources::Dipoles;
+use crate::plant::state::disturbance_interval::DisturbanceInterval;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::MassProperties;
@@ -53,6 +54,8 @@ pub struct StepContext<'a> {
     pub planner: &'a SunPlanner<'a>,
     /// Units of about a microsecond that a step may take.
     pub work_limit: u32,
+    /// Receives dumps and maneuvers.
+    pub log: &'a dyn Fn(&ThrusterEvent),
 }
 
 /// A flight in one step: everything that its loads follow from.
@@ -61,8 +64,8 @@ pub(crate) struct ConfiguredFlight<'a> {
     pub context: &'a mut SimulationContext,
     pub propagator: &'a mut PropagatorState,
     pub thrusters: &'a mut Thrusters,
-    /// Receives dumps and maneuvers.
-    pub log: &'a mut dyn FnMut(&ThrusterEvent),
+    /// How the body turns where it turns by torque.
+    pub turning: Turning,
 }
 
 /// Start of a downlink, or of science that unloads, for which the Sun's direction is selected.
@@ -100,7 +103,7 @@ impl ConfiguredFlight<'_> {
 
     /// Frame and rate that this guidance commands where the flight begins.
     pub(super) fn frame_by(&mut self, law: &Guided, time_s: f64) -> Result<MovingFrame, PlantError> {
-        self.context.begin_work(self.given.work_limit);
+        self.context.models.begin_work(self.given.work_limit);
         let mut plant = self.plant();
         plant.prepare(time_s, time_s)?;
         Ok(plant.kinematics.attitude_by(law, time_s).frame)
@@ -163,8 +166,6 @@ impl ConfiguredFlight<'_> {
         } else {
             choice.selected.science = chosen;
         }
-        let selected = &choice.selected;
-        self.context.configuration.attitude.set_sun_directions(selected.in_downlink(), selected.in_science());
         self.propagator.command_slews.cut(time_s);
         Ok(())
     }
@@ -182,8 +183,7 @@ impl ConfiguredFlight<'_> {
         let separations_rad = plant.kinematics.separations_rad(time_s, until_s);
         let science = gimbal.map(|gimbal| plant.kinematics.science_arc(gimbal, time_s, until_s));
         if science.is_some() {
-            let evaluations = self.context.ephemeris.evaluations();
-            self.context.work.spend(WorkKind::Search, SCIENCE_UNITS, evaluations, time_s)?;
+            self.context.models.spend(WorkKind::Search, SCIENCE_UNITS, time_s)?;
         }
         let [applied, _] = (self.given.external)(time_s);
         let mut downlink_forecast = DownlinkForecast {
@@ -217,28 +217,28 @@ impl ConfiguredFlight<'_> {
     ) -> Result<(), PlantError> {
         let (load, configuration) = (self.thrusters.load(), &self.context.configuration);
         let trajectory = &mut self.propagator.trajectory;
-        let span_s = [motion.start_s(), motion.end_s()];
+        let span = Span::new(motion.start_s(), motion.end_s());
         let (thrusts, disturbed) = (!load.law.is_none(), configuration.motion.uses_encke());
-        if !thrusts && disturbed && trajectory.is_deviated_until(span_s[1]) {
+        if !thrusts && disturbed && trajectory.is_deviated_until(span.end_s) {
             return Ok(());
         }
-        let applied = (self.given.external)(span_s[0]);
+        let applied = (self.given.external)(span.start_s);
         let acceleration_m_s2 = (thrusts || disturbed).then_some(|time_s: f64| {
             let mut acceleration_body_m_s2 = Vector3::zeros();
             if thrusts {
                 acceleration_body_m_s2 += load.acceleration_body_m_s2(time_s);
             }
             if disturbed {
-                acceleration_body_m_s2 += interval.force_body_n(&applied, span_s[0], time_s) / mass_kg;
+                acceleration_body_m_s2 += interval.force_body_n(&applied, span.start_s, time_s) / mass_kg;
             }
             motion.attitude_at(time_s).inertial_from_body(&acceleration_body_m_s2)
         });
-        Ok(trajectory.accelerate(configuration, span_s, acceleration_m_s2)?)
+        Ok(trajectory.accelerate(configuration, span, acceleration_m_s2)?)
     }
 
     /// The plant in the attitude of its configuration.
     pub(super) fn plant(&mut self) -> Plant<'_> {
-        Plant::new(self.given.prepared, self.context, self.propagator, self.given.external)
+        self.context.plant(self.given.prepared, self.turning, self.propagator, self.given.external)
     }
 
     /// The plant with the body as it turns at `time_s`.
@@ -258,9 +258,7 @@ impl ConfiguredFlight<'_> {
             rate_body_rad_s: body.rate_body_rad_s,
             since_s: time_s,
         };
-        let attitude = &mut self.context.configuration.attitude;
-        let guided = attitude.guided().copied();
-        *attitude = AttitudeSource::Dynamic(DynamicAttitude { motion, rate_terms_body, guided });
+        self.turning = Turning { motion, rate_terms_body };
         self.plant()
     }
 }

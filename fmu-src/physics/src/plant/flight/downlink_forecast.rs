@@ -5,15 +5,16 @@
 
 use nalgebra::Vector3;
 
-use super::fork::{ForecastMomentum, Fork};
+use super::fork::{ForecastMomentum, Fork, ForkStart};
 use crate::guidance::{Guided, ScienceArc, SelectedSunDirection};
 use crate::loads::ForceTorque;
 use crate::momentum::{Convention, Totals};
 use crate::plant::disturbances::simulation_context::SimulationContext;
-use crate::plant::light::sunlit::SunlitConfiguration;
-use crate::plant::settings::configuration::AttitudeSource;
+use crate::plant::events;
+use crate::plant::settings::attitude_source::AttitudeSource;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
+use crate::plant::sources::sunlight::sunlit::SunlitConfiguration;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::spacecraft::Material;
 
@@ -80,7 +81,7 @@ pub struct DownlinkForecast<'o> {
 impl DownlinkForecast<'_> {
     fn sunlit(&self) -> SunlitConfiguration<'_> {
         let SimulationContext { configuration, current_mass_panels_stowed, .. } = &*self.context;
-        let spacecraft = self.context.in_sunlight(self.prepared);
+        let spacecraft = self.context.models.in_sunlight(self.prepared);
         let (time_s, sun_distance_m) = (self.time_s, self.sun_distance_m);
         SunlitConfiguration::new(
             spacecraft,
@@ -116,15 +117,19 @@ impl DownlinkForecast<'_> {
         step_s: f64,
         mut visit: impl FnMut(ForecastMomentum),
     ) -> Result<(), PlantError> {
-        let begin = (self.time_s, self.totals);
-        let held = [self.applied, ForceTorque::zero()];
-        // Default attitudes.
-        let law = Guided { managed: false, ..self.law.with_sun_directions(None, None) };
-        let attitude = AttitudeSource::Guided(law);
-        let mut fork = Fork::new(self.prepared, self.context, self.propagator, (attitude, held), begin);
+        let start = ForkStart {
+            prepared: self.prepared,
+            propagator: self.propagator,
+            attitude: AttitudeSource::Guided(Guided { managed: false, ..self.law }),
+            applied: self.applied,
+            time_s: self.time_s,
+            totals: self.totals,
+        };
+        let mut fork = Fork::new(self.context, &start);
+        fork.deselect_sun_directions();
         fork.coarsen(self.time_s, step_s);
         times_s.try_for_each(|at_s| {
-            fork.advance(at_s)?;
+            events::advance(&mut fork, at_s)?;
             visit(fork.momentum_at(at_s));
             Ok(())
         })

@@ -3,206 +3,177 @@
 //!
 //! Sensors and controller are sampled at a fixed rate; motor torques hold over a sample. A sample at t belongs to the step
 //! that begins at t and reads that step's inputs. Between two samples, edges of the disturbance grid, ends of dumps and
-//! changes of inputs the motion is one [`GyrostatMotion`] segment or a few; communication points only evaluate it.
+//! changes of inputs the motion is one [`crate::attitude::GyrostatMotion`] segment or a few; communication points only evaluate it.
 
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
 
-use crate::attitude::{Attitude, BodyLoad, BodyMotion, DipoleInField, GyrostatMotion};
-use crate::loads::{ByEffect, Effect, ForceTorque, Linear, Writer};
-use crate::momentum::DumpEvent;
-use crate::numerics::spacing::spacing;
+use crate::attitude::control::ControlTarget;
+use crate::attitude::{Attitude, BodyMotion, MotionAt};
+use crate::loads::{Effect, ForceTorque, Writer};
+use crate::momentum::{DumpEvent, Totals, WorkKind};
 use crate::spacecraft::MassProperties;
 
 use super::configured::ConfiguredFlight;
-use super::control_loop::{ControlLoop, Sampled};
-use super::momentum_dumps::MomentumDumps;
-use super::sensing::Sensing;
-use crate::momentum::WorkKind;
-use crate::plant::disturbances::disturbance_interval::DisturbanceInterval;
+use super::downlink_forecast::StartMomentum;
+use super::grid_edge;
+use crate::plant::control::control_loop::{Actuators, Sampled};
+use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
-use crate::plant::disturbances::plant::Plant;
-use crate::plant::mass::MassState;
-use crate::plant::motion::panel_motion::PanelMotion;
-use crate::plant::settings::configuration::{AttitudeSource, Command};
-use crate::plant::settings::dynamics_settings::{
-    DynamicsInputs, DynamicsSettings, StartMotion, StartPointing, Tracked,
-};
+use crate::plant::events::{EventKind, Eventful, LastEvents};
+use crate::plant::settings::attitude_source::{AttitudeSource, Command};
+use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings, Tracked};
 use crate::plant::settings::error::{ManeuverError, PlantError};
-use crate::plant::settings::thruster_events::{SchedulePlace, ThrusterEvent};
-use crate::plant::sources::Dipoles;
+use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::sources::applied::APPLIED;
 use crate::plant::sources::thrusters::THRUSTERS;
-use crate::plant::thrusters::reaction_control::Thrusters;
+use crate::plant::state::dynamic_state::{DynamicState, tolerance_s};
 
 /// Units of work of a segment of the motion with flexible modes, slosh or imbalance; one of a rigid body's is a unit.
 const FLEXIBLE_UNITS: u32 = 8;
 
-/// State of the attitude dynamics: body, panels, disturbances, sensors, control, dumps and their schedule.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct AttitudeDynamics {
-    pub motion: GyrostatMotion,
-    pub mass: MassState,
-    panels: PanelMotion,
-    disturbance: DisturbanceInterval,
-    pub sensing: Sensing,
-    pub control: ControlLoop,
-    pub dumps: MomentumDumps,
-    /// How far the schedule is over.
-    pub scheduled: SchedulePlace,
-}
-
-/// A step of a flight by torque.
-pub(super) struct DynamicStep<'s, 'f> {
+/// A flight by torque, in one step.
+pub(super) struct Dynamic<'f> {
+    /// State.
+    pub state: &'f mut DynamicState,
     /// Settings; the gyrostat's mass properties are those of the current mass.
-    pub settings: &'s mut DynamicsSettings,
-    /// The flight that advances.
-    pub flight: &'s mut ConfiguredFlight<'f>,
+    pub settings: &'f mut DynamicsSettings,
     /// Inputs of the step.
-    pub inputs: &'s DynamicsInputs,
+    pub inputs: &'f DynamicsInputs,
+    /// The flight that advances.
+    pub flight: ConfiguredFlight<'f>,
+    /// The distribution of torque over the wheels.
+    pub distribution: &'f mut WheelDistribution,
+    /// The motion at its end, where it was evaluated.
+    pub end: Option<MotionAt>,
+    /// The last kind applied there of those that every segment ends with.
+    pub applied: Option<EventKind>,
 }
 
-impl AttitudeDynamics {
-    /// At the start of a flight in the attitude after `held`.
-    pub(super) fn begin(
-        settings: &mut DynamicsSettings,
-        flight: &mut ConfiguredFlight<'_>,
-        time_s: f64,
-        held: &Attitude,
-    ) -> Result<Self, PlantError> {
-        let scheduled = SchedulePlace::before(time_s);
-        flight.context.configuration.thruster_events.check_for_dynamics(scheduled)?;
-        let StartMotion { mut attitude, mut rate_body_rad_s, rate_is_pointed, .. } = settings.start;
-        if let Some(pointing) = &settings.start.pointing {
-            let frame = match pointing {
-                StartPointing::Guidance(law) => flight.frame_by(law, time_s)?,
-                StartPointing::Command(command) => command.frame_at(time_s),
-            };
-            attitude = Attitude::from_rotation(&frame.inertial_from_body);
-            if rate_is_pointed {
-                rate_body_rad_s = frame.rate_body_rad_s;
+impl Eventful for Dynamic<'_> {
+    fn last(&mut self) -> &mut LastEvents {
+        &mut self.state.last
+    }
+
+    fn reached_s(&self) -> f64 {
+        self.state.motion.end_s()
+    }
+
+    fn ends_by(&self, limit_s: f64) -> bool {
+        self.state.motion.end_s() < limit_s - tolerance_s(limit_s)
+    }
+
+    fn next_event_s(&self, kind: EventKind) -> f64 {
+        let Self { state, flight, .. } = self;
+        match kind {
+            EventKind::Valves => flight.next_thruster_edge_s(),
+            EventKind::DumpEnd => state.dumps.until_s(),
+            EventKind::Grid => state.disturbance.end_s(),
+            EventKind::Schedule => {
+                flight.context.configuration.thruster_events.next_s(state.last.scheduled())
+            }
+            EventKind::Sample => state.sensing.next_s(),
+            EventKind::Accounts | EventKind::SunChoice | EventKind::Threshold | EventKind::Load => {
+                f64::INFINITY
             }
         }
-        attitude = attitude.continuing(&held.unit_quaternion());
-        let unit = attitude.unit_quaternion();
-        let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = [Vector3::zeros(); 2];
-        let body =
-            BodyMotion { attitude: unit, rate_body_rad_s, momentum_inertial_n_m_s, delta_v_inertial_m_s };
-        let mut mass = flight.context.configuration.wet_mass_properties();
-        if settings.panels_have_mass {
-            let still = BodyMotion { rate_body_rad_s: Vector3::zeros(), ..body };
-            let mut plant = flight.plant_at(time_s, &still);
-            let instant = plant.instant(time_s);
-            mass = plant.mass_properties(&instant, time_s);
-            settings.set_mass_properties(&mass);
-        }
-        let gyrostat = &settings.gyrostat;
-        let wheel_n_m_s = |k: usize| settings.start.wheels_n_m_s.get(k).copied().unwrap_or(0.0);
-        let mut begun = Self {
-            motion: GyrostatMotion::new(gyrostat, time_s, unit, &rate_body_rad_s, wheel_n_m_s),
-            mass: MassState::new(mass),
-            panels: PanelMotion::default(),
-            disturbance: DisturbanceInterval::before(),
-            sensing: Sensing::new(settings, time_s, attitude, rate_body_rad_s),
-            control: ControlLoop::new(gyrostat.wheels().len(), time_s, attitude, rate_body_rad_s),
-            dumps: MomentumDumps::default(),
-            scheduled,
-        };
-        if settings.panels_have_mass {
-            let mut plant = flight.plant_at(time_s, &body);
-            let instant = plant.instant(time_s);
-            begun.panels = PanelMotion::at_start(plant.hinged(), &instant, time_s);
-            let internal = begun.panels.internal(flight.given.prepared.panels, &mass, begun.motion.end_s());
-            begun.motion.add_hinges(internal);
-        }
-        flight.propagator.panel_turns.restart();
-        Ok(begun)
     }
 
-    /// Rejects decoded states that no simulation with these numbers of wheels, modal coordinates and panels can produce.
-    pub(super) fn is_valid(&self, wheels: usize, oscillators: usize, panels: usize) -> bool {
-        self.motion.is_valid(wheels, oscillators)
-            && self.mass.is_valid()
-            && self.panels.is_valid(panels)
-            && self.disturbance.is_valid()
-            && self.sensing.is_valid()
-            && self.control.is_valid(wheels)
-            && self.dumps.is_valid()
+    fn is_due(&mut self, kind: EventKind) -> Result<bool, PlantError> {
+        let time_s = self.reached_s();
+        let comes_by = |next_s: f64| next_s <= time_s + tolerance_s(time_s);
+        Ok(match kind {
+            // Every segment ends with these.
+            EventKind::Accounts => self.applied.is_none(),
+            EventKind::Valves => self.applied == Some(EventKind::Accounts),
+            EventKind::Load => self.applied == Some(EventKind::Valves),
+            EventKind::SunChoice => {
+                comes_by(self.state.sensing.next_s())
+                    && self.samples_guidance(time_s)
+                    && !self.state.last.has_come(kind, time_s)
+            }
+            kind => comes_by(self.next_event_s(kind)),
+        })
     }
 
-    /// Whether it has come to `time_s` and not beyond the segment there.
-    pub(super) fn covers(&self, time_s: f64) -> bool {
-        let tolerance_s = tolerance_s(time_s);
-        self.motion.start_s() <= time_s + tolerance_s && time_s <= self.motion.end_s() + tolerance_s
+    fn spend(&mut self, kind: Option<EventKind>) -> Result<(), PlantError> {
+        let units = if self.settings.gyrostat.is_rigid() { 1 } else { FLEXIBLE_UNITS };
+        let time_s = self.reached_s();
+        Ok(match kind {
+            None => self.flight.context.models.spend(WorkKind::Segment, units, time_s)?,
+            Some(_) => (),
+        })
     }
 
-    /// Something that acts changes at `time_s`; `loads_change` tells whether light and place do.
-    pub(super) fn cut(&mut self, time_s: f64, loads_change: bool) {
-        if time_s < self.motion.end_s() - tolerance_s(time_s) {
-            self.motion.cut(time_s);
+    fn apply_event(&mut self, kind: EventKind) -> Result<(), PlantError> {
+        let time_s = self.reached_s();
+        if matches!(kind, EventKind::Accounts | EventKind::Valves | EventKind::Load) {
+            self.applied = Some(kind);
         }
-        if loads_change {
-            self.disturbance.cut(time_s);
-        }
-    }
-
-    /// Applies the requests of a step from its start on: dumps, pulses, thrust.
-    pub(super) fn apply_requests(
-        &mut self,
-        step: &mut DynamicStep<'_, '_>,
-        [start_s, end_s]: [f64; 2],
-    ) -> Result<(), PlantError> {
-        if step.inputs.maneuver.is_some() {
-            return Err(PlantError::Maneuver { time_s: start_s, why: ManeuverError::ByTorque });
-        }
-        if let Some(target_body_n_m_s) = step.inputs.dump_to_body_n_m_s {
-            self.cut(start_s, false);
-            self.dump_to(step, target_body_n_m_s);
-        }
-        let pulses = step.flight.thrusters.command_pulses(
-            &step.flight.context.allocator.settings,
-            &step.inputs.pulses,
-            [start_s, end_s],
-        );
-        if step.flight.command_thrust(&step.inputs.thrust, start_s) || pulses {
-            self.cut(start_s, false);
+        match kind {
+            EventKind::Accounts => self.close_accounts(time_s),
+            EventKind::Valves => self.process_valves(time_s),
+            EventKind::DumpEnd => self.state.dumps.end(time_s + tolerance_s(time_s)),
+            EventKind::Grid => {
+                self.end = None;
+                grid_edge::begin_interval(self.state, self.settings, &mut self.flight)?;
+            }
+            EventKind::Schedule => self.dump_as_scheduled()?,
+            EventKind::SunChoice => self.select_sun_direction()?,
+            EventKind::Threshold => {}
+            EventKind::Sample => self.sample()?,
+            EventKind::Load => {
+                if self.state.last.has_come(EventKind::Sample, time_s) {
+                    self.process_valves(time_s);
+                }
+                self.update_load(time_s);
+            }
         }
         Ok(())
     }
 
-    /// Advances until the motion covers `end_s`, within the work that has begun.
-    pub(super) fn advance(&mut self, step: &mut DynamicStep<'_, '_>, end_s: f64) -> Result<(), PlantError> {
-        self.resume(step.settings, step.flight);
-        let units = if step.settings.gyrostat.is_rigid() { 1 } else { FLEXIBLE_UNITS };
-        while self.motion.end_s() < end_s - tolerance_s(end_s) {
-            let time_s = self.motion.end_s();
-            let evaluations = step.flight.context.ephemeris.evaluations();
-            step.flight.context.work.spend(WorkKind::Segment, units, evaluations, time_s)?;
-            self.process_events(step)?;
-            let edge_s = step.flight.next_thruster_edge_s();
-            let limit_s = self.sensing.next_s().min(self.disturbance.end_s()).min(edge_s);
-            let events = &step.flight.context.configuration.thruster_events;
-            let limit_s = limit_s.min(self.dumps.until_s()).min(events.next_s(self.scheduled));
-            let external = (step.flight.given.external)(time_s);
-            let mut load = self.load(&external, step.flight.thrusters, time_s);
-            self.dumps.dipoles = step.flight.dipoles(time_s);
-            load.dipole = self.in_field(&self.dumps.dipoles);
-            load.internal = self.panels.internal(step.flight.given.prepared.panels, &self.mass.now, time_s);
-            self.dumps.torques = self.torques_by_source(&external, time_s);
-            self.motion.advance(&step.settings.gyrostat, self.control.wheels.motors(), &load, limit_s);
-            step.flight.integrate_thrust(&self.motion, &self.disturbance, self.mass.now.mass_kg)?;
+    fn advance_segment(&mut self, limit_s: f64) -> Result<(), PlantError> {
+        let MotionAt { time_s, body, .. } = self.end();
+        (self.end, self.applied) = (None, None);
+        let Self { state, settings, flight, .. } = self;
+        let external = (flight.given.external)(time_s);
+        let mut load = state.load(&external, flight.thrusters, time_s);
+        state.dumps.dipoles = flight.dipoles(time_s);
+        load.dipole = state.in_field(&state.dumps.dipoles);
+        load.internal = state.panels.internal(flight.given.prepared.panels, &state.mass.now, time_s);
+        state.dumps.torques = state.torques_by_source(&external, time_s);
+        let motors = state.control.wheels.motors();
+        state.motion.advance_from(&body, &settings.gyrostat, motors, &load, limit_s);
+        flight.integrate_thrust(&state.motion, &state.disturbance, state.mass.now.mass_kg)
+    }
+}
+
+impl Dynamic<'_> {
+    /// Applies the requests of a step from its start on: dumps, pulses, thrust.
+    pub(super) fn apply_requests(&mut self, [start_s, end_s]: [f64; 2]) -> Result<(), PlantError> {
+        if self.inputs.maneuver.is_some() {
+            return Err(PlantError::Maneuver { time_s: start_s, why: ManeuverError::ByTorque });
+        }
+        if let Some(target_body_n_m_s) = self.inputs.dump_to_body_n_m_s {
+            self.state.cut(start_s, false);
+            self.dump_to(target_body_n_m_s);
+        }
+        let Self { inputs, flight, .. } = self;
+        let settings = &flight.context.allocator.settings;
+        let pulses = flight.thrusters.command_pulses(settings, &inputs.pulses, [start_s, end_s]);
+        if flight.command_thrust(&inputs.thrust, start_s) || pulses {
+            self.state.cut(start_s, false);
         }
         Ok(())
     }
 
     /// Attitude of a fork from `time_s` on: the commanded one, followed ideally; without a command the present one, held.
-    pub(super) fn ideal_attitude(&self, step: &DynamicStep<'_, '_>, time_s: f64) -> AttitudeSource {
-        let guided = step.flight.context.configuration.attitude.guided();
-        match (&step.settings.control, step.inputs.tracked, guided) {
+    pub(super) fn ideal_attitude(&self, time_s: f64) -> AttitudeSource {
+        let guided = self.flight.context.configuration.attitude.guided();
+        match (&self.settings.control, self.inputs.tracked, guided) {
             (Some(_), Tracked::Guidance, Some(law)) => AttitudeSource::Guided(*law),
             (Some(_), Tracked::Attitude(command), _) => AttitudeSource::Commanded(command),
             _ => AttitudeSource::Commanded(Command {
-                attitude: Attitude::from_unit(self.motion.attitude_at(time_s)),
+                attitude: Attitude::from_unit(self.state.motion.attitude_at(time_s)),
                 rate_body_rad_s: Vector3::zeros(),
                 since_s: time_s,
             }),
@@ -210,303 +181,184 @@ impl AttitudeDynamics {
     }
 
     /// The body has the mass properties of the present segment, and the whole spacecraft those of the last edge of the grid.
-    pub(super) fn resume(&self, settings: &mut DynamicsSettings, flight: &mut ConfiguredFlight<'_>) {
-        settings.set_mass_properties(&self.mass.now);
+    pub(super) fn resume(&mut self) {
+        let Self { state, settings, flight, .. } = self;
+        settings.set_mass_properties(&state.mass.now);
         let context = &mut *flight.context;
         context.current_mass_panels_stowed =
-            self.mass.stowed.unwrap_or_else(|| context.configuration.wet_mass_properties());
+            state.mass.stowed.unwrap_or_else(|| context.configuration.wet_mass_properties());
     }
 
-    /// At the present end of the motion: edges of thrusters, disturbances anew, a dump's end, the sample, where they are due.
-    pub(super) fn process_events(&mut self, step: &mut DynamicStep<'_, '_>) -> Result<(), PlantError> {
-        let time_s = self.motion.end_s();
-        let due_s = time_s + tolerance_s(time_s);
-        self.motion.remembered_at(&step.settings.gyrostat, time_s);
-        self.dumps.accumulate(&self.motion, self.dumps.is_dumping(step.flight.thrusters, time_s));
-        if !step.flight.thrusters.load().law.is_none() {
-            let (flight, tanks) = (&*step.flight, &step.flight.context.allocator.settings.tanks);
-            let mass = flight.thrusters.propellant.mass_properties_since(&self.mass.now, tanks, time_s);
-            self.set_mass(step.settings, mass);
-        }
-        let settings = &step.flight.context.allocator.settings;
-        step.flight.thrusters.accumulate(settings, &self.motion, time_s);
-        step.flight.thrusters.process_valve_events(settings, time_s);
-        self.dumps.end(due_s);
-        self.control.wheels.fail(&step.inputs.wheel_failed);
-        if step.settings.control.is_none() {
-            self.control.wheels.drive(&step.settings.gyrostat, &step.inputs.wheel_torques_n_m);
-        }
-        let (sample_due, grid_due) = (self.sensing.next_s() <= due_s, self.disturbance.end_s() <= due_s);
-        if grid_due {
-            self.begin_interval(step)?;
-        }
-        self.dump_as_scheduled(step, due_s)?;
-        if sample_due {
-            self.sample(step)?;
-            let settings = &step.flight.context.allocator.settings;
-            step.flight.thrusters.process_valve_events(settings, time_s);
-        }
-        self.turn_mass(step.settings, step.flight);
-        let used_kg = step.flight.thrusters.propellant.total_used_kg(time_s);
-        self.mass.now.mass_kg = step.flight.context.configuration.mass_kg - used_kg;
-        let settings = &step.flight.context.allocator.settings;
-        step.flight.thrusters.update_load(settings, &self.mass.now, time_s);
-        Ok(())
+    /// The motion at its end.
+    fn end(&mut self) -> MotionAt {
+        let Self { state, settings, end, .. } = self;
+        *end.get_or_insert_with(|| state.motion.evaluated_at(&settings.gyrostat, state.motion.end_s()))
     }
 
-    /// At an edge of the grid: orbit, mass properties and disturbances anew.
-    fn begin_interval(&mut self, step: &mut DynamicStep<'_, '_>) -> Result<(), PlantError> {
-        let DynamicStep { settings, flight, .. } = step;
-        let time_s = self.motion.end_s();
-        let body = self.motion.at(&settings.gyrostat, time_s);
-        let context = &mut *flight.context;
-        let loaded = context.configuration.wet_mass_properties();
-        self.mass.stowed =
-            flight.thrusters.mass_properties_stowed(&context.allocator.settings, &loaded, time_s);
-        context.current_mass_panels_stowed = self.mass.stowed.unwrap_or(loaded);
-        let begins = self.disturbance.is_before();
-        if begins || !context.configuration.motion.uses_encke() {
-            flight.propagator.cut(&context.configuration, time_s, true);
-        } else {
-            flight.propagator.sources.cut(time_s);
+    /// Closes the accounts of the segment that ends: momentum by effect, mass, impulse and propellant; and takes the wheels' inputs.
+    fn close_accounts(&mut self, time_s: f64) {
+        let end = self.end();
+        let Self { state, settings, flight, inputs, .. } = self;
+        state.dumps.accumulate(&state.motion, &end, state.dumps.is_dumping(flight.thrusters, time_s));
+        let thruster_settings = &flight.context.allocator.settings;
+        if !flight.thrusters.load().law.is_none() {
+            let tanks = &thruster_settings.tanks;
+            let mass = flight.thrusters.propellant.mass_properties_since(&state.mass.now, tanks, time_s);
+            grid_edge::set_mass(state, settings, mass);
         }
-        let rate_terms_body = self.predicted_rate_terms(settings, flight, &body);
-        let has_thrusters = !flight.context.allocator.settings.thrusters.is_empty();
-        let mut plant = flight.turning_plant(time_s, &body, rate_terms_body);
-        if settings.panels_have_mass
-            && let Some(body) = self.track_panel_laws(settings, &mut plant)
-        {
-            plant = flight.turning_plant(time_s, &body, rate_terms_body);
+        flight.thrusters.accumulate(thruster_settings, &state.motion, time_s);
+        state.control.wheels.fail(&inputs.wheel_failed);
+        if settings.control.is_none() {
+            state.control.wheels.drive(&settings.gyrostat, &inputs.wheel_torques_n_m);
         }
-        let inverse_inertia = settings.gyrostat.inverse_carrier().filter(|_| settings.control.is_none());
-        self.disturbance = self.disturbance.next(&mut plant, time_s, settings.grid_s, inverse_inertia)?;
-        self.disturbance.deviate(&mut plant)?;
-        if settings.panels_have_mass || self.mass.stowed.is_some() || has_thrusters {
-            let instant = plant.instant(time_s);
-            self.set_known_mass(settings, plant.mass_properties(&instant, time_s));
-        }
-        if settings.panels_have_mass {
-            let was_turning = self.panels.is_turning();
-            let hinged = plant.hinged();
-            let end_s = hinged.configuration.last_of_panels_s(time_s, self.disturbance.end_s());
-            let [now, end] = [time_s, end_s].map(|at_s| plant.instant(at_s));
-            self.panels.turn_until(hinged, &now, &end, end_s);
-            if was_turning || self.panels.is_turning() {
-                self.turn_mass(settings, flight);
-                let internal = self.panels.internal(flight.given.prepared.panels, &self.mass.now, time_s);
-                self.motion.reorient(&settings.gyrostat, self.motion.attitude_at(time_s), internal);
-            }
-        }
-        Ok(())
     }
 
-    /// First and second term of the rate's series at the end of the motion, body frame, in rad/s2 and rad/s3: by what acts there,
-    /// the disturbances as the interval that ends has them.
-    fn predicted_rate_terms(
-        &self,
-        settings: &DynamicsSettings,
-        flight: &ConfiguredFlight<'_>,
-        body: &BodyMotion,
-    ) -> [Vector3<f64>; 2] {
-        // A controller's torque lasts for a sample, and holds the rate.
-        if settings.control.is_some() {
-            return [Vector3::zeros(); 2];
-        }
-        let (time_s, rate) = (self.motion.end_s(), &body.rate_body_rad_s);
-        let [_, [mut torque, mut slope]] = self.disturbance.total_at(time_s);
-        let [now, per_s] = (flight.given.external)(time_s);
-        torque += now.torque_body_n_m;
-        slope += per_s.torque_body_n_m;
-        // A pulse that ends before the interval says little of it.
-        let steady_until_s = flight.next_thruster_edge_s().min(self.dumps.until_s());
-        if steady_until_s >= time_s + settings.grid_s {
-            let [turn, turn_slope] = flight.thrusters.load().law.torque_body_n_m;
-            torque += self.dumps.torque_body_n_m() + turn;
-            slope += turn_slope;
-        }
-        let dipole = self.in_field(&flight.dipoles(time_s)).filter(|_| !self.disturbance.is_before());
-        if let Some(dipole) = dipole {
-            let [now, per_s] = dipole.torque_with_slope_n_m(&body.attitude, rate);
-            torque += now;
-            slope += per_s;
-        }
-        let gyrostat = &settings.gyrostat;
-        let motor_n_m = |k: usize| {
-            if gyrostat.wheels()[k].locked { 0.0 } else { self.control.wheels.motors()[k].torque_n_m }
-        };
-        let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
-        gyrostat.rate_terms(rate, &momentum_body, [torque, slope], &gyrostat.along_axes(motor_n_m))
+    /// Updates mass and the thrusters' load from the end of the motion on.
+    fn update_load(&mut self, time_s: f64) {
+        let Self { state, settings, flight, .. } = self;
+        grid_edge::turn_mass(state, settings, flight);
+        let used_kg = flight.thrusters.propellant.total_used_kg(time_s);
+        state.mass.now.mass_kg = flight.context.configuration.mass_kg - used_kg;
+        flight.thrusters.update_load(&flight.context.allocator.settings, &state.mass.now, time_s);
     }
 
-    /// The panels go where their laws have them at the end of the motion; the body after that, where they were elsewhere.
-    fn track_panel_laws(
-        &mut self,
-        settings: &mut DynamicsSettings,
-        plant: &mut Plant<'_>,
-    ) -> Option<BodyMotion> {
-        let time_s = self.motion.end_s();
-        let to_sun_m = plant.instant(time_s).geometry.to_sun.position_m;
-        let hinged = plant.hinged();
-        let attitude = self.panels.track_law(hinged, &mut settings.gyrostat, &self.motion, &to_sun_m)?;
-        let mass = self.panels.mass_properties(&hinged.current_mass_panels_stowed, hinged.panels, time_s);
-        self.set_known_mass(settings, mass);
-        let internal = self.panels.internal(hinged.panels, &mass, time_s);
-        self.motion.reorient(&settings.gyrostat, attitude, internal);
-        Some(self.motion.at(&settings.gyrostat, time_s))
-    }
-
-    /// Panels that turn have the body with the mass properties of the end of the motion.
-    fn turn_mass(&mut self, settings: &mut DynamicsSettings, flight: &ConfiguredFlight<'_>) {
-        if !self.panels.is_turning() {
-            return;
-        }
-        let time_s = self.motion.end_s();
-        let loaded = flight.context.configuration.wet_mass_properties();
-        let left = self.mass.stowed.and_then(|_| flight.used_mass(&loaded, time_s)).unwrap_or(loaded);
-        self.set_mass(settings, self.panels.mass_properties(&left, flight.given.prepared.panels, time_s));
-    }
-
-    fn set_mass(&mut self, settings: &mut DynamicsSettings, mass: MassProperties) {
-        self.mass.now = mass;
-        settings.set_mass_properties(&mass);
-    }
-
-    fn set_known_mass(&mut self, settings: &mut DynamicsSettings, mass: MassProperties) {
-        self.mass.known = mass;
-        self.set_mass(settings, mass);
+    /// Opens and closes the valves whose time has come.
+    fn process_valves(&mut self, time_s: f64) {
+        let ConfiguredFlight { thrusters, context, .. } = &mut self.flight;
+        thrusters.process_valve_events(&context.allocator.settings, time_s);
     }
 
     /// Sensors, watch of the momentum, controller.
-    fn sample(&mut self, step: &mut DynamicStep<'_, '_>) -> Result<(), PlantError> {
-        let DynamicStep { settings, flight, inputs } = step;
-        let time_s = self.motion.end_s();
-        let body = self.motion.remembered_at(&settings.gyrostat, time_s);
-        let number = self.sensing.sample(settings, inputs, time_s, &body, self.disturbance.sun_at(time_s));
+    fn sample(&mut self) -> Result<(), PlantError> {
+        let MotionAt { time_s, body, .. } = self.end();
+        let Self { state, settings, flight, inputs, .. } = self;
+        let sun = state.disturbance.sun_at(time_s);
+        let number = state.sensing.sample(settings, inputs, time_s, &body, sun);
         let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
-        let is_free = self.dumps.are_over(flight.thrusters) && !self.control.by_thrusters;
+        let is_free = state.dumps.are_over(flight.thrusters) && !state.control.by_thrusters;
         let policy = flight.context.configuration.momentum.policy;
         if is_free && flight.thrusters.burning().is_none() && policy.exceeded(&momentum_body) {
-            self.begin_dump(flight, &momentum_body, policy.after(&momentum_body));
-            self.dumps.dumps.check()?;
+            self.begin_dump(&momentum_body, policy.after(&momentum_body));
+            self.state.dumps.dumps.check()?;
         }
-        let allocator = &mut flight.context.allocator;
+        let Self { state, flight, .. } = self;
         flight.thrusters.sample_dump(
-            allocator,
-            &self.motion,
+            &mut flight.context.allocator,
+            &state.motion,
             &body.momentum_inertial_n_m_s,
-            &self.mass.known,
+            &state.mass.known,
         );
+        if self.settings.control.is_none() {
+            return Ok(());
+        }
+        let target = self.target(time_s, &body);
+        let Self { state, settings, flight, distribution, .. } = self;
         let Some(control) = &settings.control else { return Ok(()) };
         let sampled = Sampled {
             number,
             gyrostat: &settings.gyrostat,
-            motion: &self.motion,
+            motion: &state.motion,
             body: &body,
-            estimate: &self.sensing.estimate,
-            mass: &self.mass.known,
-            dump_body_n_m: self.dumps.torque_body_n_m(),
+            estimate: &state.sensing.estimate,
+            mass: &state.mass.known,
+            dump_body_n_m: state.dumps.torque_body_n_m(),
         };
-        let target = self.control.target(flight, inputs.tracked, &sampled)?;
-        self.control.control(control, (flight.thrusters, &mut flight.context.allocator), &target, &sampled);
+        let thrusters = &mut *flight.thrusters;
+        let actuators = Actuators { thrusters, allocator: &mut flight.context.allocator, distribution };
+        state.control.control(control, actuators, &target, &sampled);
         Ok(())
     }
 
-    /// Thrusters bring the momentum to `target_body_n_m_s` from the wheels' bias, from the present end of the motion on.
-    fn dump_to(&mut self, step: &mut DynamicStep<'_, '_>, target_body_n_m_s: Vector3<f64>) {
-        let body = self.motion.at(&step.settings.gyrostat, self.motion.end_s());
-        let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
-        let bias_body_n_m_s = step.flight.context.configuration.momentum.policy.bias_body_n_m_s;
-        self.begin_dump(step.flight, &momentum_body, bias_body_n_m_s + target_body_n_m_s);
-    }
-
-    /// Begins the dumps of the schedule whose time has come.
-    fn dump_as_scheduled(&mut self, step: &mut DynamicStep<'_, '_>, due_s: f64) -> Result<(), PlantError> {
-        while let events = &step.flight.context.configuration.thruster_events
-            && let Some(event) = events.next(self.scheduled).filter(|event| events.time_s(event) <= due_s)
-        {
-            // The schedule may be another than at the start.
-            events.check_for_dynamics(self.scheduled)?;
-            self.scheduled.take(events.time_s(event));
-            if let Some(target_body_n_m_s) = events.dump_target_body_n_m_s(event) {
-                self.dump_to(step, target_body_n_m_s);
-            }
-        }
-        Ok(())
-    }
-
-    fn begin_dump(&mut self, flight: &mut ConfiguredFlight<'_>, before: &Vector3<f64>, after: Vector3<f64>) {
-        let time_s = self.motion.end_s();
-        let event = DumpEvent { time_s, before_body_n_m_s: *before, after_body_n_m_s: after };
-        if self.dumps.begin(event, flight, &self.motion, &self.mass.known) {
-            (flight.log)(&ThrusterEvent::Dump(event));
+    /// Returns the attitude and rate that the controller tracks at the end of the motion.
+    fn target(&mut self, time_s: f64, body: &BodyMotion) -> ControlTarget {
+        let command = match self.inputs.tracked {
+            Tracked::Rate(rate_body_rad_s) => return ControlTarget::RateOnly { rate_body_rad_s },
+            Tracked::Attitude(command) => command,
+            Tracked::Guidance => self.guided(time_s, body),
+        };
+        ControlTarget::Attitude {
+            attitude: command.attitude_at(time_s),
+            rate_body_rad_s: command.rate_body_rad_s,
         }
     }
 
-    /// Force, torque and mass flow on the body from `time_s` on.
-    fn load(&self, [now, slope]: &[ForceTorque; 2], thrusters: &Thrusters, time_s: f64) -> BodyLoad {
-        let [[force, force_slope], [torque, torque_slope]] = self.disturbance.total_at(time_s);
-        let dump = self.dumps.torque_body_n_m();
-        let thrusters = thrusters.load();
-        let [thrust, thrust_slope] = thrusters.law.force_body_n;
-        let [turn, turn_slope] = thrusters.law.torque_body_n_m;
-        BodyLoad {
-            torque_body_n_m: [
-                torque + now.torque_body_n_m + dump + turn,
-                torque_slope + slope.torque_body_n_m + turn_slope,
-            ],
-            force_body_n: [
-                force + now.force_body_n + thrust,
-                force_slope + slope.force_body_n + thrust_slope,
-            ],
-            mass_kg: thrusters.mass_kg,
-            flow_kg_s: thrusters.law.flow_kg_s,
-            mass_flow: (!thrusters.law.is_none()).then_some(thrusters.mass_flow),
-            dipole: None,
-            internal: None,
-        }
-    }
-
-    /// The sum of these dipoles in the field from the end of the motion on, where there is one.
-    fn in_field(&self, dipoles: &Dipoles) -> Option<DipoleInField> {
-        let dipole_body_a_m2 = dipoles
-            .iter()
-            .flatten()
-            .copied()
-            .reduce(|[sum, sum_rate], [dipole, rate]| [sum + dipole, sum_rate + rate])?;
-        let field_inertial_t = self.disturbance.field_at(self.motion.end_s());
-        (dipole_body_a_m2 != [Vector3::zeros(); 2])
-            .then_some(DipoleInField { dipole_body_a_m2, field_inertial_t })
-    }
-
-    /// Torque by effect from `time_s` on.
-    fn torques_by_source(&self, external: &[ForceTorque; 2], time_s: f64) -> ByEffect<Option<Linear>> {
-        ByEffect::from_fn(|effect| match effect {
-            APPLIED => Some(external.map(|load| load.torque_body_n_m)),
-            effect if effect.row().momentum_apart => self.disturbance.torque_at(effect, time_s),
-            _ => None,
+    /// The command of internal guidance, sampled anew where that is due.
+    fn guided(&mut self, time_s: f64, body: &BodyMotion) -> Command {
+        let Self { state: DynamicState { control, sensing, .. }, flight, .. } = self;
+        control.guidance_at(time_s).unwrap_or_else(|| {
+            let guided = flight.plant_at(time_s, body).kinematics.guided_attitude(time_s);
+            control.guide(time_s, guided.as_ref(), &sensing.estimate)
         })
     }
 
-    /// Geometry, attitude and loads at `time_s`, as the motion integrates them.
-    pub(super) fn evaluation(
-        &self,
-        settings: &DynamicsSettings,
-        flight: &mut ConfiguredFlight<'_>,
-        body: &BodyMotion,
-        time_s: f64,
-    ) -> Evaluation {
+    /// Selects the Sun's direction where guidance is sampled.
+    fn select_sun_direction(&mut self) -> Result<(), PlantError> {
+        let MotionAt { time_s, body, .. } = self.end();
+        let totals = Totals {
+            momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,
+            torque_integral_body_n_m_s: Vector3::zeros(),
+            delta_v_inertial_m_s: body.delta_v_inertial_m_s,
+        };
+        let momentum = StartMomentum::Inertial(body.momentum_inertial_n_m_s);
+        let is_first = self.state.control.is_unguided();
+        self.flight.select_sun_direction(time_s, &totals, momentum, is_first)
+    }
+
+    /// Whether guidance is sampled anew with a sample at `time_s`.
+    fn samples_guidance(&self, time_s: f64) -> bool {
+        self.settings.control.is_some()
+            && matches!(self.inputs.tracked, Tracked::Guidance)
+            && self.state.control.guidance_at(time_s).is_none()
+    }
+
+    /// Thrusters bring the momentum to `target_body_n_m_s` from the wheels' bias, from the present end of the motion on.
+    fn dump_to(&mut self, target_body_n_m_s: Vector3<f64>) {
+        let body = self.state.motion.at(&self.settings.gyrostat, self.state.motion.end_s());
+        let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
+        let bias_body_n_m_s = self.flight.context.configuration.momentum.policy.bias_body_n_m_s;
+        self.begin_dump(&momentum_body, bias_body_n_m_s + target_body_n_m_s);
+    }
+
+    /// Begins the dump of the schedule that is due.
+    fn dump_as_scheduled(&mut self) -> Result<(), PlantError> {
+        let events = &self.flight.context.configuration.thruster_events;
+        let last = self.state.last.of_kind(EventKind::Schedule);
+        // The schedule may be another than at the start.
+        events.check_for_dynamics(*last)?;
+        let Some(event) = events.next(*last) else { return Ok(()) };
+        last.take(events.time_s(event));
+        if let Some(target_body_n_m_s) = events.dump_target_body_n_m_s(event) {
+            self.dump_to(target_body_n_m_s);
+        }
+        Ok(())
+    }
+
+    fn begin_dump(&mut self, before: &Vector3<f64>, after: Vector3<f64>) {
+        let Self { state, flight, .. } = self;
+        let time_s = state.motion.end_s();
+        let event = DumpEvent { time_s, before_body_n_m_s: *before, after_body_n_m_s: after };
+        let allocator = &mut flight.context.allocator;
+        if state.dumps.begin(event, flight.thrusters, allocator, &state.motion, &state.mass.known) {
+            (flight.given.log)(&ThrusterEvent::Dump(event));
+        }
+    }
+
+    /// Geometry, attitude and loads where the body is like that, as the motion integrates them.
+    pub(super) fn evaluation(&mut self, at: &MotionAt) -> Evaluation {
+        let MotionAt { time_s, body, .. } = *at;
+        let Self { state, settings, flight, .. } = self;
         let loaded = flight.context.configuration.wet_mass_properties();
         flight.context.current_mass_panels_stowed = flight.used_mass(&loaded, time_s).unwrap_or(loaded);
         let mass_kg = loaded.mass_kg - flight.thrusters.propellant.total_used_kg(time_s);
-        let mut plant = flight.plant_at(time_s, body);
+        let mut plant = flight.plant_at(time_s, &body);
         let instant = plant.instant(time_s);
         let mass = MassProperties { mass_kg, ..plant.mass_properties(&instant, time_s) };
         let panels_body_n_m_s = plant.panel_momentum_body_n_m_s(&instant, &mass, time_s);
         let air_and_field = plant.air_and_field(time_s);
-        let mut loads = self.disturbance.loads_at(time_s);
+        let mut loads = state.disturbance.loads_at(time_s);
         for (row, dipole) in Effect::FIELD.into_iter().zip(flight.dipoles(time_s)) {
             if let Some([dipole_body_a_m2, _]) = dipole.filter(|[now, _]| *now != Vector3::zeros()) {
-                let [field_inertial_t, _] = self.disturbance.field_at(time_s);
+                let [field_inertial_t, _] = state.disturbance.field_at(time_s);
                 loads[row].torque_body_n_m = dipole_body_a_m2.cross(&(instant.to_body * field_inertial_t));
             }
         }
@@ -515,10 +367,10 @@ impl AttitudeDynamics {
                 Writer::Source(_) => {}
                 Writer::Rotors => {
                     let [torque_body_n_m, force_body_n] =
-                        self.motion.imbalance_load(&settings.gyrostat, time_s, body);
+                        state.motion.imbalance_load(&settings.gyrostat, time_s, &body);
                     loads[row] = ForceTorque { force_body_n, torque_body_n_m };
                 }
-                Writer::Propellant => loads[row].torque_body_n_m = self.motion.swing_torque_n_m(time_s),
+                Writer::Propellant => loads[row].torque_body_n_m = state.motion.swing_torque_n_m(time_s),
             }
         }
         [loads[APPLIED], _] = (flight.given.external)(time_s);
@@ -529,8 +381,4 @@ impl AttitudeDynamics {
         };
         Evaluation { instant, loads, mass, panels_body_n_m_s, air_and_field }
     }
-}
-
-fn tolerance_s(time_s: f64) -> f64 {
-    4.0 * spacing(time_s)
 }

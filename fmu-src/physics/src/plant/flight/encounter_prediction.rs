@@ -4,81 +4,51 @@
 //! anew from its last waypoint to the time at which the hyperbola osculates, which is known only then. Where the fork stands in the
 //! flight's own attitude it has the flight's own segments, to the bit.
 
-use serde::{Deserialize, Serialize};
-
 use super::configured::ConfiguredFlight;
-use super::fork::Fork;
+use super::fork::{Fork, ForkStart};
 use crate::environment::orbit::{BPlane, Collision, OrbitIntegrationError};
 use crate::loads::ForceTorque;
 use crate::momentum::Totals;
 use crate::momentum::WorkKind;
-use crate::plant::settings::configuration::{AttitudeSource, Encounter};
+use crate::plant::settings::attitude_source::AttitudeSource;
+use crate::plant::settings::configuration::Encounter;
 use crate::plant::settings::error::PlantError;
+use crate::plant::state::encounter_prediction::{EncounterPrediction, PredictedArrival};
 
 /// Units of work of a prediction beside its orbit.
 const UNITS: u32 = 10;
 
-/// A prediction.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct EncounterPrediction {
-    /// When it was made, in s.
-    pub since_s: f64,
-    /// Predicted arrival; `None`: no closest approach before the horizon, or no hyperbola.
-    pub arrival: Option<PredictedArrival>,
-}
-
-/// The next closest approach.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PredictedArrival {
-    /// When, in s; on a path into the planet where it ends.
-    pub at_s: f64,
-    /// Height above the planet's radius, in m; 0 on a path into it.
-    pub altitude_m: f64,
-    /// The hyperbola that osculates at `osculates_s`.
-    pub b_plane: BPlane,
-    /// So long before the closest approach as is set, or when the prediction was made if that is later, in s.
-    pub osculates_s: f64,
-}
-
-impl EncounterPrediction {
-    /// Predicts the next encounter from the flight at `time_s` in the attitude of `attitude`, or in the flight's. The Sun stays in
-    /// the direction that was selected for downlinks.
-    ///
-    /// # Errors
-    /// More work than a step may take.
-    pub(super) fn from_flight(
-        flight: &mut ConfiguredFlight<'_>,
-        attitude: Option<AttitudeSource>,
-        time_s: f64,
-    ) -> Result<Self, PlantError> {
-        let ConfiguredFlight { given, context, propagator, .. } = flight;
-        let evaluations = context.ephemeris.evaluations();
-        context.work.spend(WorkKind::Search, UNITS, evaluations, time_s)?;
-        let Some(encounter) = context.configuration.encounter else {
-            return Ok(Self { since_s: time_s, arrival: None });
-        };
-        let [applied, slope] = (given.external)(time_s);
-        let held = [applied, ForceTorque::zero()];
-        let begin = (time_s, Totals::default());
-        let is_another = attitude.is_some();
-        let mut attitude = attitude.unwrap_or(context.configuration.attitude);
-        if let AttitudeSource::Guided(law) = &mut attitude {
-            law.managed = false;
-        }
-        let mut fork = Fork::new(given.prepared, context, propagator, (attitude, held), begin);
-        if is_another || slope != ForceTorque::zero() {
-            fork.cut(time_s);
-        }
-        match arrival(&mut fork, &encounter, time_s) {
-            Err(PlantError::Work(exceeded)) => Err(exceeded.into()),
-            // What ends the fork ends the flight where that comes there, if it does.
-            other => Ok(Self { since_s: time_s, arrival: other.ok().flatten() }),
-        }
+/// Predicts the next encounter from the flight at `time_s` in the attitude of `attitude`, or in the flight's. The Sun stays in
+/// the direction that was selected for downlinks.
+///
+/// # Errors
+/// More work than a step may take.
+pub(super) fn predict_encounter(
+    flight: &mut ConfiguredFlight<'_>,
+    attitude: Option<AttitudeSource>,
+    time_s: f64,
+) -> Result<EncounterPrediction, PlantError> {
+    let ConfiguredFlight { given, context, propagator, .. } = flight;
+    context.models.spend(WorkKind::Search, UNITS, time_s)?;
+    let Some(encounter) = context.configuration.encounter else {
+        return Ok(EncounterPrediction { since_s: time_s, arrival: None });
+    };
+    let [applied, slope] = (given.external)(time_s);
+    let is_another = attitude.is_some();
+    let mut attitude = attitude.unwrap_or(context.configuration.attitude);
+    if let AttitudeSource::Guided(law) = &mut attitude {
+        law.managed = false;
     }
-
-    /// Whether a simulation can produce it.
-    pub(super) fn is_valid(&self) -> bool {
-        self.arrival.is_none_or(|it| it.at_s >= self.since_s && it.osculates_s >= self.since_s)
+    let totals = Totals::default();
+    let start = ForkStart { prepared: given.prepared, propagator, attitude, applied, time_s, totals };
+    let mut fork = Fork::new(context, &start);
+    if is_another || slope != ForceTorque::zero() {
+        fork.cut(time_s);
+    }
+    match arrival(&mut fork, &encounter, time_s) {
+        Err(PlantError::Work(exceeded)) => Err(exceeded.into()),
+        // What ends the fork ends the flight where that comes there, if it does.
+        other => Ok(EncounterPrediction { since_s: time_s, arrival: other.ok().flatten() }),
     }
 }
 

@@ -6,18 +6,22 @@
 
 use nalgebra::{Rotation3, Vector3};
 
+use crate::guidance::SelectedSunDirections;
 use crate::guidance::timeline::TimelineManeuver;
 use crate::loads::ForceTorque;
-use crate::momentum::{MomentumIntegrator, Settings, Stop, StopTimes, Totals};
-use crate::plant::disturbances::plant::Plant;
-use crate::plant::disturbances::simulation_context::SimulationContext;
+use crate::momentum::{MomentumIntegrator, TorqueModel, Totals, WorkKind};
+use crate::plant::disturbances::evaluation::External;
+use crate::plant::disturbances::plant::{Plant, PlantSettings};
+use crate::plant::disturbances::simulation_context::{ForkScratch, SimulationContext};
+use crate::plant::disturbances::simulation_models::SimulationModels;
+use crate::plant::events::{EventKind, Eventful, LastEvents};
 use crate::plant::motion::approaches::ClosestApproach;
 use crate::plant::motion::geometry::Geometry;
-use crate::plant::settings::configuration::AttitudeSource;
+use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
+use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
+use crate::plant::settings::last_event::LastEvent;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
-use crate::plant::settings::radiation_settings::RadiationSettings;
-use crate::plant::settings::thruster_events::SchedulePlace;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::spacecraft::MassProperties;
 
@@ -45,91 +49,138 @@ pub struct ForecastMomentum {
     pub body_from_inertial: Rotation3<f64>,
 }
 
-/// A fork. It borrows the configuration, which it changes for itself and restores when it is dropped: a step allocates nothing.
+/// Start of a fork, and what it holds from there on.
+pub(super) struct ForkStart<'f> {
+    /// The spacecraft.
+    pub prepared: PreparedSpacecraft<'f>,
+    /// State of the flight.
+    pub propagator: &'f PropagatorState,
+    /// Its attitude.
+    pub attitude: AttitudeSource,
+    /// Applied from outside.
+    pub applied: ForceTorque<f64>,
+    /// When, in s.
+    pub time_s: f64,
+    /// Momentum and velocity change so far.
+    pub totals: Totals,
+}
+
+/// A fork: copies of settings and state, which it changes for itself, and the flight's models.
 pub(crate) struct Fork<'f> {
     prepared: PreparedSpacecraft<'f>,
-    context: &'f mut SimulationContext,
-    propagator: PropagatorState,
+    models: &'f mut SimulationModels,
+    configuration: &'f mut Configuration,
+    current_mass_panels_stowed: MassProperties,
+    propagator: &'f mut PropagatorState,
     integrator: MomentumIntegrator,
     /// Applied from outside, with its rate.
     applied: [ForceTorque<f64>; 2],
-    /// How far the schedule is over.
-    scheduled: SchedulePlace,
+    /// The last event of each kind.
+    last: LastEvents,
     /// The last two waypoints.
-    waypoints: [(Option<Waypoint>, PropagatorState); 2],
-    flight: (AttitudeSource, Settings, RadiationSettings, MassProperties),
+    waypoints: [(Option<Waypoint>, &'f mut PropagatorState); 2],
 }
 
-/// Time, schedule and mass of a fork at a checkpoint; its propagator is kept next to it.
-#[derive(Clone, Copy, Debug)]
+/// Time, events and mass of a fork at a checkpoint; its propagator is kept next to it.
+#[derive(Clone, Debug)]
 struct Waypoint {
     time_s: f64,
-    scheduled: SchedulePlace,
+    last: LastEvents,
     current_mass_panels_stowed: MassProperties,
 }
 
+impl Eventful for Fork<'_> {
+    fn last(&mut self) -> &mut LastEvents {
+        &mut self.last
+    }
+
+    fn reached_s(&self) -> f64 {
+        self.integrator.end_s()
+    }
+
+    fn ends_by(&self, limit_s: f64) -> bool {
+        self.integrator.ends_by(limit_s)
+    }
+
+    fn next_event_s(&self, kind: EventKind) -> f64 {
+        match kind {
+            EventKind::Schedule => self.configuration.thruster_events.next_s(self.last.scheduled()),
+            _ => f64::INFINITY,
+        }
+    }
+
+    fn is_due(&mut self, kind: EventKind) -> Result<bool, PlantError> {
+        Ok(self.next_event_s(kind) <= self.reached_s())
+    }
+
+    fn spend(&mut self, kind: Option<EventKind>) -> Result<(), PlantError> {
+        let (time_s, applied) = (self.reached_s(), self.applied);
+        match kind {
+            Some(_) => self.plant(&|_| applied).0.spend(WorkKind::Dump, time_s),
+            None => Ok(()),
+        }
+    }
+
+    fn apply_event(&mut self, _kind: EventKind) -> Result<(), PlantError> {
+        let time_s = self.reached_s();
+        self.integrator.cut(time_s);
+        let delta_v_inertial_m_s = self.scheduled_event(time_s)?;
+        self.integrator.push(&delta_v_inertial_m_s);
+        Ok(())
+    }
+
+    fn advance_segment(&mut self, limit_s: f64) -> Result<(), PlantError> {
+        let (settings, applied) = (self.configuration.momentum, self.applied);
+        let external = |_: f64| applied;
+        let (mut plant, integrator) = self.plant(&external);
+        let prepared = integrator.prepare(&mut plant, &settings, limit_s)?;
+        integrator.advance_segment(&mut plant, &settings, &prepared)
+    }
+}
+
 impl<'f> Fork<'f> {
-    /// Begins at a time in s in this attitude with these totals, where the flight is.
-    pub(super) fn new(
-        prepared: PreparedSpacecraft<'f>,
-        context: &'f mut SimulationContext,
-        propagator: &PropagatorState,
-        (attitude, applied): (AttitudeSource, [ForceTorque<f64>; 2]),
-        (time_s, totals): (f64, Totals),
-    ) -> Self {
-        let [mut own, first, second] = core::mem::take(&mut context.fork_scratch);
-        own.copy_from(propagator);
-        let configuration = &mut context.configuration;
-        let attitude = core::mem::replace(&mut configuration.attitude, attitude);
-        let flight = (
-            attitude,
-            configuration.momentum,
-            configuration.light_and_heat,
-            context.current_mass_panels_stowed,
-        );
+    /// Begins where the flight is.
+    pub(super) fn new(context: &'f mut SimulationContext, start: &ForkStart<'f>) -> Self {
+        let SimulationContext { configuration, current_mass_panels_stowed, models, fork, .. } = context;
+        let ForkScratch { configuration: own_configuration, states: [propagator, first, second] } =
+            &mut **fork;
+        own_configuration.copy_from(configuration);
+        own_configuration.attitude = start.attitude;
+        propagator.copy_from(start.propagator);
+        let mut last = LastEvents::before(start.time_s);
         // Those of this time are over.
-        let scheduled = SchedulePlace::until(time_s);
-        let integrator = MomentumIntegrator::new(time_s, totals);
-        let waypoints = [(None, first), (None, second)];
-        Self { prepared, context, propagator: own, integrator, applied, scheduled, waypoints, flight }
+        *last.of_kind(EventKind::Schedule) = LastEvent::until(start.time_s);
+        Self {
+            prepared: start.prepared,
+            models,
+            configuration: own_configuration,
+            current_mass_panels_stowed: *current_mass_panels_stowed,
+            propagator,
+            integrator: MomentumIntegrator::new(start.time_s, start.totals),
+            applied: [start.applied, ForceTorque::zero()],
+            last,
+            waypoints: [(None, first), (None, second)],
+        }
     }
 
     /// Discards what the flight computed ahead of `time_s`, where other loads begin to act.
     pub(super) fn cut(&mut self, time_s: f64) {
-        self.propagator.cut(&self.context.configuration, time_s, true);
+        self.propagator.cut(self.configuration, time_s, true);
+    }
+
+    /// Takes default attitudes: no direction of the Sun was selected.
+    pub(super) fn deselect_sun_directions(&mut self) {
+        self.propagator.sun_choice.selected = SelectedSunDirections::default();
     }
 
     /// Is evaluated about every `step_s` from a time in s on, without dumps; tolerances shorten what is too coarse.
     pub(super) fn coarsen(&mut self, time_s: f64, step_s: f64) {
-        let configuration = &mut self.context.configuration;
+        let configuration = &mut *self.configuration;
         configuration.momentum.grid_s = configuration.momentum.grid_s.max(step_s);
         configuration.light_and_heat.grid_s = configuration.light_and_heat.grid_s.max(step_s);
         configuration.momentum.tolerance = configuration.momentum.tolerance.max(FORECAST_TOLERANCE);
         configuration.momentum.policy.threshold_body_n_m_s = Vector3::repeat(f64::INFINITY);
         self.cut(time_s);
-    }
-
-    /// Advances until everything is known at `time_s`.
-    ///
-    /// # Errors
-    /// What ends a flight.
-    pub(super) fn advance(&mut self, time_s: f64) -> Result<(), PlantError> {
-        let settings = self.context.configuration.momentum;
-        loop {
-            let scheduled_s = self.context.configuration.thruster_events.next_s(self.scheduled);
-            let external = |_: f64| self.applied;
-            let mut plant = Plant::new(self.prepared, self.context, &mut self.propagator, &external);
-            let times = StopTimes { scheduled_s, dumped_s: None };
-            match self.integrator.advance_to_stop(&mut plant, &settings, time_s, times)? {
-                Stop::Scheduled { at_s } => {
-                    self.integrator.cut(at_s);
-                    let delta_v_inertial_m_s = self.apply_event(at_s)?;
-                    self.integrator.push(&delta_v_inertial_m_s);
-                }
-                // No threshold, and nothing is chosen.
-                Stop::Reached | Stop::Dump(_) | Stop::Choice { .. } => return Ok(()),
-            }
-        }
     }
 
     /// Advances the orbit alone from `time_s`, where the fork has come: to the next event, which is over then, or as far as the
@@ -138,19 +189,20 @@ impl<'f> Fork<'f> {
     /// # Errors
     /// What ends a flight.
     pub(super) fn advance_orbit(&mut self, time_s: f64, limit_s: f64) -> Result<f64, PlantError> {
-        let scheduled_s = self.context.configuration.thruster_events.next_s(self.scheduled);
-        let external = |_: f64| self.applied;
-        let mut plant = Plant::new(self.prepared, self.context, &mut self.propagator, &external);
+        let scheduled_s = self.next_event_s(EventKind::Schedule);
+        let applied = self.applied;
+        let external = |_: f64| applied;
+        let (mut plant, _) = self.plant(&external);
         let until_s = plant.orbit_and_light(time_s)?.min(limit_s);
         if scheduled_s <= until_s {
-            self.apply_event(scheduled_s)?;
+            self.scheduled_event(scheduled_s)?;
         }
         Ok(until_s.min(scheduled_s))
     }
 
     /// The time at an epoch in s past J2000 TDB, in s.
     pub(super) fn time_at_epoch_s(&self, epoch_s: f64) -> f64 {
-        epoch_s - self.context.configuration.epoch_minus_time_s
+        epoch_s - self.configuration.epoch_minus_time_s
     }
 
     /// Keeps `time_s`, where the fork has come, as a waypoint if the last one is more than `apart_s` back.
@@ -160,36 +212,44 @@ impl<'f> Fork<'f> {
         }
         self.waypoints.swap(0, 1);
         let (waypoint, propagator) = &mut self.waypoints[1];
-        propagator.copy_from(&self.propagator);
+        propagator.copy_from(self.propagator);
         *waypoint = Some(Waypoint {
             time_s,
-            scheduled: self.scheduled,
-            current_mass_panels_stowed: self.context.current_mass_panels_stowed,
+            last: self.last.clone(),
+            current_mass_panels_stowed: self.current_mass_panels_stowed,
         });
     }
 
     /// Goes back to the last waypoint up to `time_s` and gives its time; `None` without one.
     pub(super) fn restore(&mut self, time_s: f64) -> Option<f64> {
-        let is_up_to = |waypoint: &Option<Waypoint>| waypoint.is_some_and(|it| it.time_s <= time_s);
+        let is_up_to = |waypoint: &Option<Waypoint>| waypoint.as_ref().is_some_and(|it| it.time_s <= time_s);
         let (waypoint, propagator) = self.waypoints.iter_mut().rfind(|(waypoint, _)| is_up_to(waypoint))?;
-        core::mem::swap(&mut self.propagator, propagator);
-        let Waypoint { time_s, scheduled, current_mass_panels_stowed } = waypoint.take()?;
-        (self.scheduled, self.context.current_mass_panels_stowed) = (scheduled, current_mass_panels_stowed);
+        core::mem::swap(self.propagator, *propagator);
+        let Waypoint { time_s, last, current_mass_panels_stowed } = waypoint.take()?;
+        (self.last, self.current_mass_panels_stowed) = (last, current_mass_panels_stowed);
         Some(time_s)
     }
 
+    /// The plant of the fork, and what integrates its momentum.
+    fn plant<'a>(&'a mut self, external: &'a External<'a>) -> (Plant<'a>, &'a mut MomentumIntegrator) {
+        let Self { prepared, models, configuration, current_mass_panels_stowed, propagator, .. } = self;
+        let (current_mass_panels_stowed, turning) = (*current_mass_panels_stowed, Turning::still());
+        let settings = PlantSettings { configuration, current_mass_panels_stowed, turning };
+        (Plant::new(*prepared, settings, models, propagator, external), &mut self.integrator)
+    }
+
     /// Executes the scheduled event at `time_s`, the end of the fork; returns its velocity change, EME2000, in m/s.
-    fn apply_event(&mut self, time_s: f64) -> Result<Vector3<f64>, PlantError> {
-        let Self { context, propagator, .. } = self;
-        let configuration = &context.configuration;
-        let next = configuration.thruster_events.next(self.scheduled).copied();
+    fn scheduled_event(&mut self, time_s: f64) -> Result<Vector3<f64>, PlantError> {
+        let Self { configuration, current_mass_panels_stowed, propagator, last, .. } = self;
+        let last = last.of_kind(EventKind::Schedule);
+        let next = configuration.thruster_events.next(*last).copied();
         let Some(event) = next else { return Ok(Vector3::zeros()) };
-        self.scheduled.take(configuration.thruster_events.time_s(&event));
+        last.take(configuration.thruster_events.time_s(&event));
         if let Some(place_body_m) = event.center_of_mass_body_m {
             let before = propagator.center_of_mass.mass_properties(configuration);
             propagator.center_of_mass.place(configuration, place_body_m);
             let after = propagator.center_of_mass.mass_properties(configuration);
-            context.current_mass_panels_stowed.center_of_mass_body_m +=
+            current_mass_panels_stowed.center_of_mass_body_m +=
                 after.center_of_mass_body_m - before.center_of_mass_body_m;
             propagator.cut(configuration, time_s, true);
         }
@@ -208,19 +268,19 @@ impl<'f> Fork<'f> {
 
     /// Sun, planet and Earth at `time_s` as the spacecraft sees them, where the orbit is known.
     pub(super) fn geometry_at(&mut self, time_s: f64) -> Geometry {
-        let SimulationContext { configuration, ephemeris, .. } = &mut *self.context;
-        let spacecraft = self.propagator.trajectory.state_at(configuration, time_s);
-        Geometry::at(configuration, ephemeris, time_s, spacecraft)
+        let spacecraft = self.propagator.trajectory.state_at(self.configuration, time_s);
+        Geometry::at(self.configuration, &mut self.models.ephemeris, time_s, spacecraft)
     }
 
     /// Momentum and geometry at `time_s`, where the fork has come.
     pub(super) fn momentum_at(&mut self, time_s: f64) -> ForecastMomentum {
-        let external = |_: f64| self.applied;
-        let mut plant = Plant::new(self.prepared, self.context, &mut self.propagator, &external);
+        let applied = self.applied;
+        let external = |_: f64| applied;
+        let (mut plant, integrator) = self.plant(&external);
         let instant = plant.instant(time_s);
         let pressure_pa = plant.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
         let convention = plant.kinematics.configuration.momentum.convention;
-        let (totals, inertial_from_body) = (self.integrator.totals(time_s), instant.frame.inertial_from_body);
+        let (totals, inertial_from_body) = (integrator.totals(time_s), instant.frame.inertial_from_body);
         ForecastMomentum {
             time_s,
             downlink: instant.regime.downlink,
@@ -231,19 +291,5 @@ impl<'f> Fork<'f> {
             momentum_inertial_n_m_s: totals.momentum_inertial_n_m_s,
             body_from_inertial: inertial_from_body.inverse(),
         }
-    }
-}
-
-impl Drop for Fork<'_> {
-    fn drop(&mut self) {
-        let [(_, first), (_, second)] = &mut self.waypoints;
-        self.context.fork_scratch = [&mut self.propagator, first, second].map(core::mem::take);
-        let configuration = &mut self.context.configuration;
-        (
-            configuration.attitude,
-            configuration.momentum,
-            configuration.light_and_heat,
-            self.context.current_mass_panels_stowed,
-        ) = self.flight;
     }
 }

@@ -7,255 +7,269 @@
 //! ([`crate::plant::settings::thruster_events`]).
 
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
 
 use crate::attitude::Attitude;
-use crate::momentum::{DumpEvent, DumpSpacing, MomentumIntegrator, Stop, StopTimes, TorqueModel, Totals};
+use crate::momentum::{DumpEvent, PreparedSegment, TorqueModel, Totals, WorkKind};
 
 use super::configured::ConfiguredFlight;
 use super::downlink_forecast::StartMomentum;
+use crate::plant::events::{self, EventKind, Eventful, LastEvents};
 use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::{ManeuverError, PlantError};
-use crate::plant::settings::thruster_events::{Maneuver, SchedulePlace, ThrusterEvent};
+use crate::plant::settings::ideal_settings::IdealSettings;
+use crate::plant::settings::thruster_events::{Maneuver, ThrusterEvent};
+use crate::plant::state::ideal_state::IdealState;
 use crate::plant::thrusters::at_once::DumpAtOnce;
 
-/// Maneuvers so far.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Maneuvers {
-    /// How many.
-    pub count: i32,
-    /// When the last one was, in s, and the delta-v that it executed, EME2000, in m/s.
-    pub last: Option<(f64, Vector3<f64>)>,
+/// A flight in an attitude that is followed ideally, in one step.
+pub(super) struct Ideal<'f> {
+    /// State.
+    pub state: &'f mut IdealState,
+    /// Settings of wheels and sensors.
+    pub settings: &'f IdealSettings,
+    /// Inputs of the step.
+    pub inputs: &'f DynamicsInputs,
+    /// The flight that advances.
+    pub flight: ConfiguredFlight<'f>,
+    /// The segment that begins next.
+    pub prepared: Option<PreparedSegment>,
 }
 
-/// Momentum, dumps and maneuvers of a flight in an attitude that is followed ideally.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct IdealFlight {
-    /// Momentum and velocity change so far.
-    pub integrator: MomentumIntegrator,
-    /// Time between dumps.
-    pub spacing: DumpSpacing,
-    /// Velocity change of the last dump, EME2000, in m/s.
-    pub dump_delta_v_inertial_m_s: Vector3<f64>,
-    /// Maneuvers so far.
-    pub maneuvers: Maneuvers,
-    /// How far the schedule is over.
-    pub scheduled: SchedulePlace,
-}
+impl Eventful for Ideal<'_> {
+    fn last(&mut self) -> &mut LastEvents {
+        &mut self.state.last
+    }
 
-impl IdealFlight {
-    /// From `time_s` on with these totals, the quaternion continuing that of `attitude`; what the schedule has before is over.
-    pub(super) fn new(time_s: f64, attitude: &Attitude, totals: Totals) -> Self {
-        Self {
-            integrator: MomentumIntegrator::after(time_s, attitude.unit_quaternion(), totals),
-            spacing: DumpSpacing::default(),
-            dump_delta_v_inertial_m_s: Vector3::zeros(),
-            maneuvers: Maneuvers::default(),
-            scheduled: SchedulePlace::before(time_s),
+    fn reached_s(&self) -> f64 {
+        self.state.integrator.end_s()
+    }
+
+    fn ends_by(&self, limit_s: f64) -> bool {
+        self.state.integrator.ends_by(limit_s)
+    }
+
+    fn next_event_s(&self, kind: EventKind) -> f64 {
+        match kind {
+            EventKind::Schedule => {
+                self.flight.context.configuration.thruster_events.next_s(self.state.last.scheduled())
+            }
+            _ => f64::INFINITY,
         }
     }
 
-    /// Whether a simulation can produce it.
-    pub(super) fn is_valid(&self) -> bool {
-        self.integrator.is_valid() && self.spacing.is_valid() && self.maneuvers.count >= 0
+    fn is_due(&mut self, kind: EventKind) -> Result<bool, PlantError> {
+        let time_s = self.reached_s();
+        Ok(match kind {
+            EventKind::SunChoice => self.flight.plant().must_choose(time_s),
+            EventKind::Threshold => {
+                let settings = self.flight.context.configuration.momentum;
+                let limit_s = self.next_event_s(EventKind::Schedule);
+                let prepared = self.state.integrator.prepare(&mut self.flight.plant(), &settings, limit_s)?;
+                let has_come = self.state.last.has_come(kind, time_s);
+                self.prepared.insert(prepared).due.is_some() && !has_come
+            }
+            kind => self.next_event_s(kind) <= time_s,
+        })
     }
 
-    /// At the start of a flight in the attitude after `held`, where the system has this momentum from the wheels' bias, body frame,
-    /// in N m s.
+    fn spend(&mut self, kind: Option<EventKind>) -> Result<(), PlantError> {
+        let time_s = self.reached_s();
+        match kind {
+            Some(EventKind::Schedule | EventKind::Threshold) => {
+                self.flight.plant().spend(WorkKind::Dump, time_s)
+            }
+            // A segment of momentum counts what it takes itself.
+            _ => Ok(()),
+        }
+    }
+
+    fn apply_event(&mut self, kind: EventKind) -> Result<(), PlantError> {
+        let time_s = self.reached_s();
+        if kind == EventKind::Schedule {
+            self.scheduled_event(time_s)?;
+        }
+        if let Some(due) = self.prepared.take().and_then(|it| it.due).filter(|_| kind == EventKind::Threshold)
+        {
+            self.dump(&due);
+            self.state.integrator.dumps().check()?;
+        }
+        self.select_sun_direction(time_s)
+    }
+
+    fn advance_segment(&mut self, _limit_s: f64) -> Result<(), PlantError> {
+        let settings = self.flight.context.configuration.momentum;
+        let Some(prepared) = self.prepared.take() else { return Ok(()) };
+        self.state.integrator.advance_segment(&mut self.flight.plant(), &settings, &prepared)
+    }
+}
+
+impl<'f> Ideal<'f> {
+    /// State at the start of a flight in the attitude after `held`.
     pub(super) fn begin(
-        flight: &mut ConfiguredFlight<'_>,
+        settings: &'f IdealSettings,
+        mut flight: ConfiguredFlight<'f>,
         time_s: f64,
         held: &Attitude,
-        from_bias_n_m_s: Vector3<f64>,
-    ) -> Result<Self, PlantError> {
+    ) -> Result<IdealState, PlantError> {
         let bias_body_n_m_s = flight.context.configuration.momentum.policy.bias_body_n_m_s;
-        let momentum_body_n_m_s = bias_body_n_m_s + from_bias_n_m_s;
-        flight.context.begin_work(flight.given.work_limit);
+        let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
+        flight.context.models.begin_work(flight.given.work_limit);
         let frame = flight.plant().instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
         flight.select_sun_direction(time_s, &totals, StartMomentum::Body(momentum_body_n_m_s), true)?;
-        flight.context.begin_work(flight.given.work_limit);
+        flight.context.models.begin_work(flight.given.work_limit);
         let mut plant = flight.plant();
         plant.prepare(time_s, time_s)?;
         let frame = plant.instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-        let mut begun = Self::new(time_s, held, totals);
-        flight.context.begin_work(flight.given.work_limit);
+        let mut begun = IdealState::new(time_s, held, totals);
+        flight.context.models.begin_work(flight.given.work_limit);
         flight.propagator.panel_turns.restart();
-        begun.advance(flight, time_s)?;
+        let inputs = &DynamicsInputs::default();
+        let mut ideal = Ideal { state: &mut begun, settings, inputs, flight, prepared: None };
+        events::advance(&mut ideal, time_s)?;
         Ok(begun)
     }
 
     /// Applies the requests of a step from `start_s` on: a maneuver, a dump.
-    pub(super) fn apply_requests(
-        &mut self,
-        flight: &mut ConfiguredFlight<'_>,
-        inputs: &DynamicsInputs,
-        start_s: f64,
-    ) -> Result<(), PlantError> {
-        let mut target = inputs.dump_to_body_n_m_s;
-        if let Some(maneuver) = &inputs.maneuver {
-            self.maneuver(flight, start_s, maneuver)?;
-            let requested = flight.context.configuration.thruster_events.requested_body_n_m_s;
+    pub(super) fn apply_requests(&mut self, start_s: f64) -> Result<(), PlantError> {
+        let mut target = self.inputs.dump_to_body_n_m_s;
+        if let Some(maneuver) = self.inputs.maneuver {
+            self.maneuver(start_s, &maneuver)?;
+            let requested = self.flight.context.configuration.thruster_events.requested_body_n_m_s;
             target = target.or(maneuver.dumps.then_some(requested));
         }
         if let Some(target_body_n_m_s) = target {
-            self.dump_to(flight, start_s, target_body_n_m_s);
+            self.dump_to(start_s, target_body_n_m_s);
         }
         Ok(())
     }
 
     /// Dumps to this momentum, body frame, from the wheels' bias, in N m s, at `time_s` on request.
-    fn dump_to(&mut self, flight: &mut ConfiguredFlight<'_>, time_s: f64, target_body_n_m_s: Vector3<f64>) {
-        let settings = flight.context.configuration.momentum;
+    fn dump_to(&mut self, time_s: f64, target_body_n_m_s: Vector3<f64>) {
+        let settings = self.flight.context.configuration.momentum;
         let target_body_n_m_s = settings.policy.bias_body_n_m_s + target_body_n_m_s;
-        let event = self.integrator.request(&mut flight.plant(), &settings, time_s, target_body_n_m_s);
-        self.dump(flight, &event);
+        let event =
+            self.state.integrator.request(&mut self.flight.plant(), &settings, time_s, target_body_n_m_s);
+        self.dump(&event);
     }
 
     /// The maneuver, at `time_s`.
-    fn maneuver(
-        &mut self,
-        flight: &mut ConfiguredFlight<'_>,
-        time_s: f64,
-        maneuver: &Maneuver,
-    ) -> Result<(), PlantError> {
+    fn maneuver(&mut self, time_s: f64, maneuver: &Maneuver) -> Result<(), PlantError> {
         let refused = |why: ManeuverError| PlantError::Maneuver { time_s, why };
         let found_m_s = maneuver.delta_v_inertial_m_s;
         if !found_m_s.iter().all(|it| it.is_finite()) {
             return Err(refused(ManeuverError::NotFinite { found_m_s: found_m_s.into() }));
         }
-        let configuration = &flight.context.configuration;
-        let number = u64::from(self.maneuvers.count.unsigned_abs());
+        let configuration = &self.flight.context.configuration;
+        let number = u64::from(self.state.maneuvers.count.unsigned_abs());
         let executed_m_s = configuration.thruster_events.executed_m_s(&found_m_s, number);
         if let Some(set) = maneuver.thrusters {
-            let mass_kg = flight.context.current_mass_panels_stowed.mass_kg;
-            let given = flight.thrusters.at_once(&mut flight.context.allocator, time_s).delta_v(
+            let mass_kg = self.flight.context.current_mass_panels_stowed.mass_kg;
+            let given = self.flight.thrusters.at_once(&mut self.flight.context.allocator, time_s).delta_v(
                 set,
                 executed_m_s.norm(),
                 mass_kg,
             );
             given.map_err(refused)?;
         }
-        let moved = flight.propagator.maneuver(configuration, time_s, &executed_m_s);
+        let moved = self.flight.propagator.maneuver(configuration, time_s, &executed_m_s);
         moved.map_err(|error| refused(error.into()))?;
-        self.integrator.cut(time_s);
-        self.integrator.push(&executed_m_s);
-        self.maneuvers.count = self.maneuvers.count.saturating_add(1);
-        self.maneuvers.last = Some((time_s, executed_m_s));
+        self.state.integrator.cut(time_s);
+        self.state.integrator.push(&executed_m_s);
+        self.state.maneuvers.count = self.state.maneuvers.count.saturating_add(1);
+        self.state.maneuvers.last = Some((time_s, executed_m_s));
         let event = ThrusterEvent::Maneuver { time_s, requested_m_s: found_m_s, executed_m_s };
-        self.move_center_of_mass(flight, time_s);
-        self.set_mass(flight, time_s);
-        (flight.log)(&event);
+        self.move_center_of_mass(time_s);
+        self.set_mass(time_s);
+        (self.flight.given.log)(&event);
         Ok(())
     }
 
-    /// Executes the scheduled event at `time_s`, the end of the integrated momentum.
-    fn scheduled_event(&mut self, flight: &mut ConfiguredFlight<'_>, time_s: f64) -> Result<(), PlantError> {
-        let configuration = &flight.context.configuration;
-        let Some(event) = configuration.thruster_events.next(self.scheduled).copied() else { return Ok(()) };
-        self.scheduled.take(configuration.thruster_events.time_s(&event));
+    /// Executes the event of the timeline that is due.
+    fn scheduled_event(&mut self, time_s: f64) -> Result<(), PlantError> {
+        let configuration = &self.flight.context.configuration;
+        let last = self.state.last.of_kind(EventKind::Schedule);
+        let Some(event) = configuration.thruster_events.next(*last).copied() else { return Ok(()) };
+        last.take(configuration.thruster_events.time_s(&event));
         if let Some(place_body_m) = event.center_of_mass_body_m {
-            flight.propagator.center_of_mass.place(configuration, place_body_m);
-            self.integrator.cut(time_s);
-            flight.propagator.cut(&flight.context.configuration, time_s, true);
-            self.set_mass(flight, time_s);
+            self.flight.propagator.center_of_mass.place(configuration, place_body_m);
+            self.state.integrator.cut(time_s);
+            self.flight.propagator.cut(&self.flight.context.configuration, time_s, true);
+            self.set_mass(time_s);
         }
-        let events = &flight.context.configuration.thruster_events;
+        let events = &self.flight.context.configuration.thruster_events;
         let (maneuver, target) = (events.maneuver(&event), events.dump_target_body_n_m_s(&event));
         if let Some(maneuver) = maneuver {
-            self.maneuver(flight, time_s, &maneuver)?;
+            self.maneuver(time_s, &maneuver)?;
         }
         if let Some(target_body_n_m_s) = target {
-            self.dump_to(flight, time_s, target_body_n_m_s);
+            self.dump_to(time_s, target_body_n_m_s);
         }
         Ok(())
     }
 
-    /// Advances until the momentum is known at `time_s`, within the work that has begun.
-    pub(super) fn advance(
-        &mut self,
-        flight: &mut ConfiguredFlight<'_>,
-        time_s: f64,
-    ) -> Result<(), PlantError> {
-        let settings = flight.context.configuration.momentum;
-        let mut dumped_s = None;
-        loop {
-            let scheduled_s = flight.context.configuration.thruster_events.next_s(self.scheduled);
-            let times = StopTimes { scheduled_s, dumped_s };
-            let stop = self.integrator.advance_to_stop(&mut flight.plant(), &settings, time_s, times)?;
-            let at_s = match stop {
-                Stop::Reached => return Ok(()),
-                Stop::Choice { at_s } => at_s,
-                Stop::Scheduled { at_s } => {
-                    self.scheduled_event(flight, at_s)?;
-                    at_s
-                }
-                Stop::Dump(event) => {
-                    self.dump(flight, &event);
-                    self.integrator.dumps().check()?;
-                    dumped_s = Some(event.time_s);
-                    event.time_s
-                }
-            };
-            let totals = self.integrator.totals(at_s);
-            let momentum = StartMomentum::from_totals(&totals, settings.convention);
-            flight.select_sun_direction(at_s, &totals, momentum, false)?;
-        }
+    /// Selects the Sun's direction where that is due, or anew where the momentum has changed since at that time.
+    fn select_sun_direction(&mut self, time_s: f64) -> Result<(), PlantError> {
+        let totals = self.state.integrator.totals(time_s);
+        let convention = self.flight.context.configuration.momentum.convention;
+        let momentum = StartMomentum::from_totals(&totals, convention);
+        self.flight.select_sun_direction(time_s, &totals, momentum, false)
     }
 
     /// Dumps as far as the tanks feed the thrusters: momentum, propellant, push and mass properties after it. A dump that nothing
     /// feeds is none.
-    fn dump(&mut self, flight: &mut ConfiguredFlight<'_>, due: &DumpEvent) {
+    fn dump(&mut self, due: &DumpEvent) {
         let time_s = due.time_s;
         let mut dump = DumpAtOnce { event: *due, push_body_n_s: None };
         let mut pushed = None;
-        if !flight.context.allocator.settings.thrusters.is_empty() {
-            let mut plant = flight.plant();
+        if !self.flight.context.allocator.settings.thrusters.is_empty() {
+            let mut plant = self.flight.plant();
             let instant = plant.instant(time_s);
             let mass = plant.mass_properties(&instant, time_s);
-            let mut at_once = flight.thrusters.at_once(&mut flight.context.allocator, time_s);
+            let mut at_once = self.flight.thrusters.at_once(&mut self.flight.context.allocator, time_s);
             let given = at_once.dump(due, &mass.center_of_mass_body_m);
             let Some(given) = given else { return };
             dump = given;
             let inertial_from_body = instant.frame.inertial_from_body;
             pushed =
                 dump.push_body_n_s.map(|push_body_n_s| inertial_from_body * push_body_n_s / mass.mass_kg);
-            self.dump_delta_v_inertial_m_s = pushed.unwrap_or_default();
+            self.state.dump_delta_v_inertial_m_s = pushed.unwrap_or_default();
         }
-        self.integrator.dump(&mut flight.plant(), &dump.event);
-        self.spacing.dumped(&dump.event);
+        self.state.integrator.dump(&mut self.flight.plant(), &dump.event);
+        self.state.spacing.dumped(&dump.event);
         if let Some(delta_v_inertial_m_s) = &pushed {
-            self.integrator.push(delta_v_inertial_m_s);
-            self.set_mass(flight, time_s);
-            flight.propagator.cut_with_jump(
-                &flight.context.configuration,
+            self.state.integrator.push(delta_v_inertial_m_s);
+            self.set_mass(time_s);
+            self.flight.propagator.cut_with_jump(
+                &self.flight.context.configuration,
                 time_s,
                 true,
                 delta_v_inertial_m_s,
             );
         }
-        if self.move_center_of_mass(flight, time_s) {
-            self.set_mass(flight, time_s);
+        if self.move_center_of_mass(time_s) {
+            self.set_mass(time_s);
         }
-        (flight.log)(&ThrusterEvent::Dump(dump.event));
+        (self.flight.given.log)(&ThrusterEvent::Dump(dump.event));
     }
 
     /// A thruster event is over: the centre of mass is elsewhere, where that is simulated.
-    fn move_center_of_mass(&mut self, flight: &mut ConfiguredFlight<'_>, time_s: f64) -> bool {
-        let configuration = &flight.context.configuration;
-        let events = [self.integrator.dumps().count, self.maneuvers.count].map(i32::unsigned_abs);
+    fn move_center_of_mass(&mut self, time_s: f64) -> bool {
+        let configuration = &self.flight.context.configuration;
+        let events = [self.state.integrator.dumps().count, self.state.maneuvers.count].map(i32::unsigned_abs);
         let number: u64 = events.map(u64::from).iter().sum();
         let shift = configuration.thruster_events.shift_body_m(number.saturating_sub(1));
         if shift.is_some() {
-            flight.propagator.center_of_mass.shift_body_m = shift;
-            flight.propagator.cut(configuration, time_s, true);
+            self.flight.propagator.center_of_mass.shift_body_m = shift;
+            self.flight.propagator.cut(configuration, time_s, true);
         }
         shift.is_some()
     }
 
     /// Mass properties of what is left at `time_s`.
-    fn set_mass(&self, flight: &mut ConfiguredFlight<'_>, time_s: f64) {
+    fn set_mass(&mut self, time_s: f64) {
+        let flight = &mut self.flight;
         let loaded = flight.propagator.center_of_mass.mass_properties(&flight.context.configuration);
         flight.context.current_mass_panels_stowed = flight.used_mass(&loaded, time_s).unwrap_or(loaded);
     }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::attitude::control::Estimate;
-use crate::attitude::{Appendages, Attitude, BodyMotion, motor_power_w, wheel_speed_rad_s};
+use crate::attitude::{Appendages, Attitude, BodyMotion, MotionAt, motor_power_w, wheel_speed_rad_s};
 use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::orbit::BPlane;
@@ -17,12 +17,11 @@ use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
 use crate::plant::settings::ideal_settings::{IdealSettings, IdealWheel};
 use crate::plant::settings::reaction_control_settings::ReactionControlSettings;
+use crate::plant::state::dynamic_state::DynamicState;
+use crate::plant::state::encounter_prediction::EncounterPrediction;
+use crate::plant::state::ideal_state::{IdealState, Maneuvers};
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::Material;
-
-use super::dynamic::AttitudeDynamics;
-use super::encounter_prediction::EncounterPrediction;
-use super::ideal::{IdealFlight, Maneuvers};
 
 /// Everything about a flight at one time.
 pub struct Report<'a> {
@@ -165,7 +164,7 @@ enum Bodies<'a> {
         acceleration_body_rad_s2: Vector3<f64>,
     },
     /// Body and wheels by their dynamics.
-    Dynamic { settings: &'a DynamicsSettings, dynamics: &'a AttitudeDynamics, body: BodyMotion },
+    Dynamic { settings: &'a DynamicsSettings, dynamics: &'a DynamicState, body: BodyMotion },
 }
 
 impl FlightSummary<'_> {
@@ -226,7 +225,7 @@ impl FlightSummary<'_> {
 /// Ideal wheels hold the system's momentum less what the body's own rotation and panels that turn take; sensors see the true
 /// attitude.
 pub(super) fn ideal<'a>(
-    simulated: &IdealFlight,
+    simulated: &IdealState,
     settings: &'a IdealSettings,
     evaluation: &Evaluation,
     inputs: &DynamicsInputs,
@@ -272,13 +271,14 @@ pub(super) fn ideal<'a>(
 
 /// The body by its dynamics.
 pub(super) fn dynamic<'a>(
-    dynamics: &'a AttitudeDynamics,
+    dynamics: &'a DynamicState,
     settings: &'a DynamicsSettings,
     thrusters: &Thrusters,
-    (body, evaluation): (BodyMotion, &Evaluation),
-    time_s: f64,
+    evaluation: &Evaluation,
+    at: &MotionAt,
 ) -> FlightSummary<'a> {
-    let AttitudeDynamics { motion, sensing, control, dumps, .. } = dynamics;
+    let MotionAt { time_s, body, .. } = *at;
+    let DynamicState { motion, sensing, control, dumps, .. } = dynamics;
     let dumped = thrusters.dumped_at(motion, time_s);
     let is_controlled = settings.control.is_some();
     FlightSummary {
@@ -288,7 +288,7 @@ pub(super) fn dynamic<'a>(
             delta_v_inertial_m_s: body.delta_v_inertial_m_s,
             ..Totals::default()
         },
-        by_source: dumps.by_source(motion, time_s),
+        by_source: dumps.by_source(motion, at),
         dumps: dumps.dumps,
         spacing: dumps.spacing,
         is_dumping: dumps.is_dumping(thrusters, time_s),

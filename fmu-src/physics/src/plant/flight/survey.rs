@@ -14,7 +14,8 @@ use crate::plant::motion::geometry::{Geometry, SimulationEphemeris, body};
 use crate::plant::motion::instant::Instant;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::motion::trajectory::Trajectory;
-use crate::plant::settings::configuration::{AttitudeSource, Configuration, EphemerisSource, Motion};
+use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
+use crate::plant::settings::configuration::{Configuration, EphemerisSource, Motion};
 use crate::plant::settings::work::Work;
 
 /// The Moon's rate against the Sun as seen from the Earth is at most that, in rad/s.
@@ -56,10 +57,12 @@ pub(super) fn survey(
     };
     let mut kinematics = Kinematics {
         configuration: &configuration,
+        law: Some(guided),
+        turning: Turning::still(),
         trajectory: &mut Trajectory::default(),
         // Commands are taken at once.
         command_slews: &mut CommandSlews::beginning(f64::INFINITY),
-        ephemeris: &mut context.ephemeris.clone(),
+        ephemeris: &mut context.models.ephemeris.clone(),
         default_downlink: given.prepared.default_downlink,
         timeline: given.prepared.timeline,
         work: &mut Work::new(u32::MAX, 0),
@@ -79,7 +82,7 @@ pub(super) fn occultation(
     time_s: f64,
     quiet_until_s: &mut Option<f64>,
 ) -> Option<Occultation> {
-    let (configuration, ephemeris) = (&context.configuration, &mut context.ephemeris);
+    let (configuration, ephemeris) = (&context.configuration, &mut context.models.ephemeris);
     let planet = configuration.planet();
     let known = |body: Body| Some(body) != planet && body != configuration.center;
     // An Earth that no input placed stands in the centre.

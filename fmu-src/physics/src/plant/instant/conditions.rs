@@ -1,8 +1,8 @@
 //! Conditions at one time, by which sources act: geometry, attitude, mass properties, air, field and the load from outside.
 
+use super::air_and_field_segment::AirAndField;
 use crate::aerodynamics::AirFlow;
 use crate::loads::ForceTorque;
-use crate::plant::air_and_field::air_and_field_segment::AirAndField;
 use crate::plant::motion::instant::Instant;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;

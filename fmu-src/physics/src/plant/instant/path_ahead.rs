@@ -1,10 +1,11 @@
 //! The spacecraft's path ahead: motion, air and magnetic field as far as they are known.
 
+use super::air_and_field_builder::AirAndFieldBuilder;
+use super::air_and_field_segment::{AirAndField, AirAndFieldSegment};
 use crate::numerics::Span;
-use crate::plant::air_and_field::air_and_field_builder::AirAndFieldBuilder;
-use crate::plant::air_and_field::air_and_field_segment::{AirAndField, AirAndFieldSegment};
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::settings::configuration::Configuration;
+use crate::plant::settings::digest::Digest;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 
@@ -12,6 +13,8 @@ use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 pub(crate) struct PathAhead<'r, 'a> {
     /// The spacecraft.
     pub spacecraft: PreparedSpacecraft<'a>,
+    /// Digest of the settings on which loads depend: a fit made for another one is cut.
+    pub digest: Digest,
     /// Orbit and attitude.
     pub kinematics: &'r mut Kinematics<'a>,
     /// Air and field along them.
@@ -33,6 +36,6 @@ impl PathAhead<'_, '_> {
 
     /// Air and magnetic field at `time_s`, up to which they are known.
     pub(crate) fn air_and_field(&self, time_s: f64) -> AirAndField {
-        self.air_and_field.by_settings(&self.kinematics.configuration.air_and_field, time_s)
+        self.air_and_field.at(self.kinematics.configuration.air_and_field.as_ref(), time_s)
     }
 }

@@ -8,20 +8,10 @@ use crate::attitude::{MovingFrame, angle_between_rad};
 use crate::environment::CartesianState;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::TwoBodyOrbit;
-use crate::guidance::constraints::command_slew::{CommandSlew, SlewedFrame};
-use crate::guidance::constraints::keep_in::KeepIn;
-use crate::guidance::constraints::slew::Slew;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
-use crate::guidance::downlink::sun_direction::SunRequest;
 use crate::guidance::pointing::boresight::Gimbal;
-use crate::guidance::pointing::command::Scenario;
-use crate::guidance::timeline::{
-    Slot, TimelineAttitude, TimelineEntry, TimelineLaw, TimelineSettings, bodies_of,
-};
-use crate::guidance::{
-    Activity, ArcPoint, DownlinkStatus, DownlinkSunDirection, Guided, GuidedAttitude, ScienceArc, Sight,
-    TargetPlanet, Window,
-};
+use crate::guidance::timeline::TimelineLaw;
+use crate::guidance::{Activity, ArcPoint, DownlinkStatus, Guided, GuidedAttitude, ScienceArc};
 use crate::math;
 use crate::momentum::{EventValues, after_event_s};
 use crate::numerics::chebyshev::Segment;
@@ -33,11 +23,13 @@ use crate::spacecraft::{MassProperties, Panel};
 use nalgebra::{Rotation3, Vector3};
 
 use super::command_slews::CommandSlews;
-use super::geometry::{self, Geometry, GeometrySight, SimulationEphemeris};
+use super::geometry::{self, Geometry};
+use super::guided_law::GuidedLaw;
 use super::instant::{Instant, Regime};
 use super::trajectory::Trajectory;
 use crate::momentum::WorkKind;
-use crate::plant::settings::configuration::{AttitudeSource, Configuration, Motion};
+use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
+use crate::plant::settings::configuration::{Configuration, Motion};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::panel_setting::SunAt;
 use crate::plant::settings::work::Work;
@@ -57,33 +49,13 @@ struct LawAt {
     until_s: f64,
 }
 
-/// The keep-in zone of the orbit phase's own guidance under a command of the timeline.
-fn keep_in_of_orbit_phase(guided: &Guided, entry: Option<&TimelineEntry>) -> Option<KeepIn> {
-    match (entry, guided.keep_in) {
-        (Some(entry), Some(zone)) => entry.keep_in.applied(&zone, true),
-        (_, zone) => zone,
-    }
-}
-
-/// Returns the geometry at `time_s`; a law reads motions about `planet` from it as well, or directions alone.
-fn sight(
-    configuration: &Configuration,
-    ephemeris: &mut Ephemeris,
-    time_s: f64,
-    geometry: Geometry,
-    planet: Option<TargetPlanet>,
-) -> GeometrySight {
-    let motion = planet.map(|planet| {
-        let bodies = &mut SimulationEphemeris { configuration, ephemeris };
-        let gravity = bodies.gravity_m_s2(time_s, &geometry.spacecraft);
-        (TargetPlanet { gm_m3_s2: configuration.orbit.mu_m3_s2(), ..planet }, gravity)
-    });
-    GeometrySight { geometry, epoch_s: time_s + configuration.epoch_minus_time_s, motion }
-}
-
 /// Motion and light of a configured flight, and the work that is done for it.
 pub(crate) struct Kinematics<'a> {
     pub configuration: &'a Configuration,
+    /// The configuration's guidance, with the selected directions of the Sun.
+    pub law: Option<Guided>,
+    /// How the body turns where it turns by torque.
+    pub turning: Turning,
     pub trajectory: &'a mut Trajectory,
     pub ephemeris: &'a mut Ephemeris,
     /// The default downlink of the spacecraft's antennas.
@@ -183,9 +155,9 @@ impl Kinematics<'_> {
             margins: [f64::INFINITY; 2],
             until_s: f64::INFINITY,
         };
-        match &self.configuration.attitude {
-            AttitudeSource::Guided(guided) => {
-                let guided = self.guided(guided, time_s, geometry);
+        match (&self.configuration.attitude, self.law) {
+            (AttitudeSource::Guided(_), Some(law)) => {
+                let guided = self.guided(&law, time_s, geometry);
                 LawAt {
                     frame: guided.frame,
                     regime: Regime {
@@ -202,187 +174,28 @@ impl Kinematics<'_> {
                     until_s: guided.until_s - self.configuration.epoch_minus_time_s,
                 }
             }
-            AttitudeSource::Commanded(command) => held(command.frame_at(time_s)),
-            AttitudeSource::Dynamic(dynamic) => held(dynamic.frame_at(time_s)),
+            (AttitudeSource::Commanded(command), _) => held(command.frame_at(time_s)),
+            _ => held(self.turning.frame_at(time_s)),
         }
     }
 
-    /// Attitude that the timeline commands at `time_s`, else the orbit phase's own guidance.
+    /// Attitude that this guidance commands at `time_s`.
     fn guided(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
-        let distance_m = geometry.to_sun.position_m.norm();
-        let Some((law, settings)) = self.timeline.zip(self.configuration.timeline) else {
-            let (requested, cut) = guided.requested.at_distance(distance_m);
-            let own = self.by_orbit_phase(&Guided { requested, ..*guided }, time_s, geometry);
-            return GuidedAttitude { clamped: own.clamped || cut, ..own };
+        let mut law = GuidedLaw {
+            configuration: self.configuration,
+            trajectory: self.trajectory,
+            ephemeris: self.ephemeris,
+            default_downlink: self.default_downlink,
+            timeline: self.timeline,
+            command_slews: self.command_slews,
+            guided,
         };
-        let slot = law.timeline.slot(time_s, settings.clock_minus_time_s);
-        let target = self.by_slot(guided, (&law, &settings, &slot), time_s, geometry);
-        // NaN is no rate.
-        if !(guided.slew_rate_rad_s > 0.0 && self.command_slews.lead_into(slot.since_s)) {
-            return target;
-        }
-        let slew = self.command_slew(guided, (&law, &settings, &slot), time_s, (geometry, &target));
-        self.slewed(guided, slew.as_ref(), time_s, (geometry, target))
-    }
-
-    /// Attitude during the slew into a command.
-    fn slewed(
-        &self,
-        guided: &Guided,
-        slew: Option<&CommandSlew>,
-        time_s: f64,
-        (geometry, target): (&Geometry, GuidedAttitude),
-    ) -> GuidedAttitude {
-        let sun = geometry.lines_of_sight().sun;
-        let slewed = slew.and_then(|slew| slew.at(time_s, &target.frame, &sun, guided.slew_rate_rad_s));
-        slewed.map_or(target, |SlewedFrame { frame, end_s }| {
-            let end_epoch_s = end_s + self.configuration.epoch_minus_time_s;
-            GuidedAttitude { frame, slewing: true, until_s: target.until_s.min(end_epoch_s), ..target }
-        })
-    }
-
-    /// The slew into the command of a slot, from the attitude in which the body stands where it begins: of an attitude that dynamics
-    /// follow at the first sample of it, otherwise at its edge.
-    fn command_slew(
-        &mut self,
-        guided: &Guided,
-        (law, settings, slot): (&TimelineLaw<'_>, &TimelineSettings, &Slot<'_>),
-        time_s: f64,
-        (geometry, target): (&Geometry, &GuidedAttitude),
-    ) -> Option<CommandSlew> {
-        let found = self.command_slews.find(slot.since_s);
-        if let Some(slew) = found.filter(|slew| !slew.is_open()) {
-            return Some(slew);
-        }
-        let zone = self.slew_zone(guided, settings, slot, geometry);
-        let longest_s = Slew::longest_rad(zone.as_ref()) / guided.slew_rate_rad_s;
-        if found.is_none() && time_s - slot.since_s > longest_s {
-            return None;
-        }
-        let is_sampled = matches!(self.configuration.attitude, AttitudeSource::Dynamic(_));
-        let begin_s = found.map_or(if is_sampled { time_s } else { slot.since_s }, |slew| slew.begin_s);
-        let (geometry, target) = match begin_s == time_s {
-            true => (*geometry, *target),
-            false => {
-                let geometry = self.geometry(begin_s);
-                (geometry, self.by_slot(guided, (law, settings, slot), begin_s, &geometry))
-            }
-        };
-        let mut slew = found.unwrap_or_else(|| {
-            let before = law.timeline.slot_before(slot.since_s, settings.clock_minus_time_s);
-            let last = self.by_slot(guided, (law, settings, &before), begin_s, &geometry);
-            let from = self.command_slews.find(before.since_s);
-            let stood = self.slewed(guided, from.as_ref(), begin_s, (&geometry, last));
-            CommandSlew::new(begin_s, &stood.frame)
-        });
-        let sun = geometry.lines_of_sight().sun;
-        let zone = self.slew_zone(guided, settings, slot, &geometry);
-        slew.aim(&target.frame, &sun, zone.as_ref(), guided.slew_rate_rad_s);
-        self.command_slews.keep(slot.since_s, slew);
-        Some(slew)
-    }
-
-    /// The zone that a slew into the command of a slot does not leave where it holds both ends.
-    fn slew_zone(
-        &self,
-        guided: &Guided,
-        settings: &TimelineSettings,
-        slot: &Slot<'_>,
-        geometry: &Geometry,
-    ) -> Option<KeepIn> {
-        match slot.entry {
-            Some(entry) if slot.scenario().is_some() => {
-                settings.keep_in(entry, geometry.to_sun.position_m.norm())
-            }
-            entry => keep_in_of_orbit_phase(guided, entry),
-        }
-    }
-
-    /// Attitude that a slot of the timeline commands at `time_s`, without the slew into it.
-    fn by_slot(
-        &mut self,
-        guided: &Guided,
-        (law, settings, slot): (&TimelineLaw<'_>, &TimelineSettings, &Slot<'_>),
-        time_s: f64,
-        geometry: &Geometry,
-    ) -> GuidedAttitude {
-        let epoch_minus_time_s = self.configuration.epoch_minus_time_s;
-        let [since_s, until_s] = [slot.since_s, slot.until_s].map(|it| it + epoch_minus_time_s);
-        let requested = slot.sun_request(guided.requested);
-        let commanded = slot.entry.filter(|_| slot.scenario().is_some());
-        if let Some(entry) = commanded
-            && let Some(found) =
-                self.commanded((law, settings, entry), time_s, geometry, (guided.sun_direction, requested))
-        {
-            let activity = match slot.scenario() {
-                Some(Scenario::Downlink) => Activity::Downlink,
-                _ => Activity::Science,
-            };
-            return GuidedAttitude {
-                frame: found.frame,
-                window: Window { activity, since_s, until_s },
-                row: slot.row,
-                slewing: false,
-                margins: found.margins,
-                clamped: found.clamped,
-                degenerate: found.degenerate,
-                corner_s: found.corner_s + epoch_minus_time_s,
-                until_s: until_s.min(found.corner_s + epoch_minus_time_s),
-            };
-        }
-        let keep_in = keep_in_of_orbit_phase(guided, slot.entry);
-        let (requested, cut) = requested.at_distance(geometry.to_sun.position_m.norm());
-        let own = self.by_orbit_phase(&Guided { requested, keep_in, ..*guided }, time_s, geometry);
-        let window = Window {
-            since_s: own.window.since_s.max(since_s),
-            until_s: own.window.until_s.min(until_s),
-            ..own.window
-        };
-        GuidedAttitude { window, clamped: own.clamped || cut, until_s: own.until_s.min(until_s), ..own }
-    }
-
-    /// The attitude of a command of the timeline.
-    fn commanded(
-        &mut self,
-        (law, settings, entry): (&TimelineLaw<'_>, &TimelineSettings, &TimelineEntry),
-        time_s: f64,
-        geometry: &Geometry,
-        sun: (Option<DownlinkSunDirection>, SunRequest),
-    ) -> Option<TimelineAttitude> {
-        let epoch_s = time_s + self.configuration.epoch_minus_time_s;
-        let sight = sight(self.configuration, self.ephemeris, time_s, *geometry, Some(settings.planet));
-        let mut ephemeris_at_time = sight.ephemeris()?;
-        for body in bodies_of(&entry.command) {
-            let place = geometry::body(self.configuration, self.ephemeris, body, epoch_s);
-            ephemeris_at_time.place_body(body, &place);
-        }
-        law.attitude(settings, entry, time_s, &ephemeris_at_time, sun)
-    }
-
-    /// Attitude that the orbit phase's own guidance commands at `time_s`.
-    fn by_orbit_phase(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
-        let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
-        let (trajectory, default_downlink) = (&*self.trajectory, self.default_downlink);
-        let epoch_s = time_s + configuration.epoch_minus_time_s;
-        let planet =
-            guided.science.reads_motion().then(|| TargetPlanet::from_body(configuration.center.data()));
-        let window =
-            trajectory.window(configuration, time_s).unwrap_or_else(|| guided.schedule.window(epoch_s));
-        guided.within(window, epoch_s, default_downlink, |at_epoch_s| {
-            if at_epoch_s == epoch_s {
-                return sight(configuration, ephemeris, time_s, *geometry, planet);
-            }
-            let at_s = at_epoch_s - configuration.epoch_minus_time_s;
-            let spacecraft = trajectory.state_at_window_start(configuration, at_s);
-            let geometry = Geometry::at(configuration, ephemeris, at_s, spacecraft);
-            sight(configuration, ephemeris, at_s, geometry, planet)
-        })
+        law.attitude(time_s, geometry)
     }
 
     /// Attitude that guidance commands at `time_s`; `None` without guidance.
     pub(crate) fn guided_attitude(&mut self, time_s: f64) -> Option<GuidedAttitude> {
-        let configuration = self.configuration;
-        configuration.attitude.guided().map(|law| self.attitude_by(law, time_s))
+        self.law.map(|law| self.attitude_by(&law, time_s))
     }
 
     /// Attitude that this guidance commands at `time_s`.

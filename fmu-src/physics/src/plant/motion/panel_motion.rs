@@ -14,6 +14,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::{Attitude, Gyrostat, GyrostatMotion, HingedMass, InternalMotion, Quaternion};
+use crate::numerics::quadrature::GAUSS_2;
 use crate::spacecraft::{MassProperties, Panel, hinged_masses, with_panels};
 
 use super::instant::Instant;
@@ -24,7 +25,7 @@ use crate::plant::settings::panel_setting::SunAt;
 /// Largest step along the way of a panel, in rad.
 const STEP_RAD: f64 = 0.02;
 /// Gauss nodes of a step.
-const NODES: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
+const NODES: [f64; 2] = [GAUSS_2[0].0, GAUSS_2[1].0];
 /// Greatest departure of a law from its rate at the start of an interval, in rad; beyond it the panel turns evenly.
 const GREATEST_BEND_RAD: f64 = 0.5;
 /// Rounds until angles that the Sun gives and the body's turn agree; each gains a share of the panels in the inertia.
@@ -41,8 +42,7 @@ struct PanelTurn {
     rate_rad_s: f64,
     /// In rad/s2.
     acceleration_rad_s2: f64,
-    /// How far it goes at once, in rad; nothing but memory.
-    #[serde(skip)]
+    /// How far it went at once at the start of the interval, in rad.
     travel_rad: f64,
 }
 

@@ -10,26 +10,20 @@ use crate::environment::orbit::{
     BodyEphemeris, DisturbedOrbit, OrbitError, OrbitIntegrationError, OrbitMethod, TwoBodyOrbit,
 };
 use crate::guidance::Window;
+use crate::numerics::Span;
 use crate::numerics::spacing::spacing;
-use crate::numerics::{Span, roots};
 
 use super::approaches::{ClosestApproach, ClosestApproaches};
 use super::geometry::SimulationEphemeris;
+use super::periapses::Periapses;
 use crate::plant::settings::configuration::{Configuration, Encounter, Motion};
 
-/// Two passages closer together than this part of a revolution are one, found twice.
-const SAME_PASSAGE: f64 = 1e-3;
 /// Two beginnings of a window closer together than this part of a revolution are one, computed twice.
 const SAME_WINDOW: f64 = 1e-7;
-/// Passages kept for the schedule: one may lie ahead of the current time, one may be too recent for its window.
-const KEPT: usize = 3;
 /// No decoded orbit goes round faster, in s, or begins later, in s: passages are counted in whole numbers.
 const SHORTEST_PERIOD_S: f64 = 1e-3;
 /// See [`SHORTEST_PERIOD_S`].
 const LATEST_S: f64 = 1e15;
-/// A passage that never was; a number, for states hold no infinity.
-const BEFORE_ALL_TIME_S: f64 = -1e100;
-
 /// The state of motion. Empty for two-body motion without maneuvers, which needs none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Trajectory {
@@ -56,18 +50,6 @@ impl Coast {
     fn is_valid(&self) -> bool {
         self.orbit.is_valid() && self.orbit.period_s() > SHORTEST_PERIOD_S && self.since_s.abs() < LATEST_S
     }
-}
-
-/// Periapses an integrated orbit has passed, or a two-body orbit before a maneuver, counted as the two-body orbit at the start counts them (number 0 is the
-/// one nearest to the start).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-struct Periapses {
-    /// The last one found and the one before it.
-    last_s: [f64; 2],
-    /// Number of the last one.
-    number: i64,
-    /// Times of periapses whose number is a multiple of the schedule's, the latest first.
-    scheduled_s: [f64; KEPT],
 }
 
 /// Position and velocity where no orbit is integrated.
@@ -110,7 +92,7 @@ impl Trajectory {
     pub fn is_valid(&self) -> bool {
         self.orbit.as_ref().is_none_or(DisturbedOrbit::is_valid)
             && self.coast.as_ref().is_none_or(|coast| coast.is_valid())
-            && self.periapses.number.unsigned_abs() < 1 << 60
+            && self.periapses.is_valid()
             && self.approaches.is_valid()
     }
 
@@ -148,7 +130,7 @@ impl Trajectory {
         if let Some(coast) = self.coasting(configuration) {
             let epoch_s = time_s + configuration.epoch_minus_time_s;
             return match coast.orbit.period_s().is_finite() {
-                true => time_s - self.passed(configuration, coast, time_s).last_s[0],
+                true => time_s - self.passed(configuration, coast, time_s).last_s(),
                 false => coast.orbit.time_since_periapsis_s(epoch_s),
             };
         }
@@ -159,8 +141,7 @@ impl Trajectory {
             };
             return configuration.orbit.time_since_periapsis_s(epoch_s);
         }
-        let [last_s, before_s] = self.periapses.last_s;
-        time_s - if last_s <= time_s { last_s } else { before_s }
+        time_s - self.periapses.last_until_s(time_s)
     }
 
     /// The body that the path is integrated about at present; the centre where that never changes.
@@ -196,13 +177,13 @@ impl Trajectory {
         if !guided.schedule.period_s.is_finite() {
             return None;
         }
-        let scheduled_s = match (&self.orbit, self.coasting(configuration)) {
-            (Some(_), _) => self.periapses.scheduled_s,
-            (None, Some(coast)) => self.passed(configuration, coast, time_s).scheduled_s,
+        let periapses = match (&self.orbit, self.coasting(configuration)) {
+            (Some(_), _) => self.periapses,
+            (None, Some(coast)) => self.passed(configuration, coast, time_s),
             (None, None) => return None,
         };
         let epoch_s = time_s + configuration.epoch_minus_time_s;
-        let met_s = scheduled_s.map(|at_s| at_s + configuration.epoch_minus_time_s);
+        let met_s = periapses.scheduled_s().map(|at_s| at_s + configuration.epoch_minus_time_s);
         Some(guided.schedule.window_after(&met_s, epoch_s))
     }
 
@@ -229,26 +210,19 @@ impl Trajectory {
         }
     }
 
-    /// Keeps the periapses another computation of the same orbit met until `end_s`.
-    pub(crate) fn copy_apsides(&mut self, other: &Self, end_s: f64) {
-        if other.periapses.last_s[0] <= end_s {
-            self.periapses = other.periapses;
-        }
-    }
-
     /// Leaves the present segment, which ends at `time_s`: remembers what the next one cannot know.
     pub(crate) fn close_segment(&mut self, configuration: &Configuration, time_s: f64) {
         // With a deviation the window is stored at each interval.
         if let Some(orbit) = self.orbit.filter(|orbit| !orbit.is_deviated()) {
-            self.store_window_start(configuration, [orbit.start_s(), time_s]);
+            self.store_window_start(configuration, Span::new(orbit.start_s(), time_s));
         }
     }
 
     /// Keeps where the present window began, if it did within this span.
-    fn store_window_start(&mut self, configuration: &Configuration, [start_s, end_s]: [f64; 2]) {
-        if let (Some(orbit), Some(window)) = (&self.orbit, self.window(configuration, end_s)) {
+    fn store_window_start(&mut self, configuration: &Configuration, span: Span) {
+        if let (Some(orbit), Some(window)) = (&self.orbit, self.window(configuration, span.end_s)) {
             let since_s = window.since_s - configuration.epoch_minus_time_s;
-            if since_s >= start_s && since_s <= end_s {
+            if span.contains(since_s) {
                 self.window_start = Some((since_s, orbit.state_at(since_s)));
             }
         }
@@ -259,7 +233,7 @@ impl Trajectory {
         self.orbit.as_ref().is_some_and(|orbit| orbit.deviated_until_s() >= time_s)
     }
 
-    /// Integrates the deviation under the perturbing acceleration `extra_m_s2(t)`, EME2000, over `span_s` of the present segment;
+    /// Integrates the deviation under the perturbing acceleration `extra_m_s2(t)`, EME2000, over `span` of the present segment;
     /// `None`: none acts. Without `orbit.radiationFeedback` nothing changes.
     ///
     /// # Errors
@@ -267,7 +241,7 @@ impl Trajectory {
     pub(crate) fn accelerate(
         &mut self,
         configuration: &Configuration,
-        span_s: [f64; 2],
+        span: Span,
         extra_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
     ) -> Result<(), OrbitIntegrationError> {
         let Some(orbit) = self.orbit.as_ref().filter(|_| configuration.motion.has_nongravitational_forces())
@@ -283,15 +257,15 @@ impl Trajectory {
             if extra_m_s2.is_none() {
                 return Ok(());
             }
-            self.store_window_start(configuration, [orbit.start_s(), span_s[0]]);
+            self.store_window_start(configuration, Span::new(orbit.start_s(), span.start_s));
         }
         let Some(orbit) = &mut self.orbit else { return Ok(()) };
-        orbit.accelerate(gravity, Span::new(span_s[0], span_s[1]), extra_m_s2)?;
+        orbit.accelerate(gravity, span, extra_m_s2)?;
         if configuration.motion.uses_encke() {
-            self.periapses.forget_after(span_s[0], || radial(&orbit.state_at(span_s[0])));
-            self.periapses.detect_periapsis(orbit, configuration, span_s);
+            self.periapses.truncate(span.start_s);
+            self.periapses.detect(configuration, orbit, span);
         }
-        self.store_window_start(configuration, span_s);
+        self.store_window_start(configuration, span);
         Ok(())
     }
 
@@ -300,8 +274,8 @@ impl Trajectory {
         self.close_segment(configuration, time_s);
         let Some(orbit) = &mut self.orbit else { return };
         orbit.cut(time_s, jump_m_s);
-        self.approaches.forget_after(time_s);
-        self.periapses.forget_after(time_s, || radial(&orbit.state_at(time_s)));
+        self.approaches.truncate(time_s);
+        self.periapses.truncate(time_s);
     }
 
     /// The velocity jumps by `delta_v_m_s`, EME2000, at `time_s`: an integrated orbit continues from there, two-body motion on
@@ -342,32 +316,7 @@ impl Trajectory {
 
     /// Periapses up to `time_s` on the orbit that a maneuver began; of those of the schedule the next one too.
     fn passed(&self, configuration: &Configuration, coast: &Coast, time_s: f64) -> Periapses {
-        let (before, orbit) = (self.periapses, &coast.orbit);
-        let period_s = orbit.period_s();
-        if period_s.is_infinite() {
-            return before;
-        }
-        let at_s = |number: i64| orbit.periapsis_epoch_s(number) - configuration.epoch_minus_time_s;
-        // A maneuver at periapsis moves it: that is one passage, not two.
-        let mut first = orbit.orbit_number(coast.since_s + configuration.epoch_minus_time_s) + 1;
-        if at_s(first) - before.last_s[0] < SAME_PASSAGE * period_s {
-            first += 1;
-        }
-        let count = (orbit.orbit_number(time_s + configuration.epoch_minus_time_s) - first + 1).max(0);
-        let number = before.number + count;
-        // Of the passage with this number, counted from the last one before the maneuver.
-        let passage_s = |k: i64| if k > 0 { at_s(first + k - 1) } else { before.last_s[usize::from(k < 0)] };
-        let every = every(configuration);
-        let [latest, latest_before] = [number, before.number].map(|it| it - it.rem_euclid(every));
-        let scheduled_s = core::array::from_fn(|back| {
-            let scheduled = latest + every - every * back as i64;
-            if scheduled > before.number {
-                return passage_s(scheduled - before.number);
-            }
-            let index = usize::try_from((latest_before - scheduled) / every).unwrap_or(KEPT);
-            before.scheduled_s.get(index).copied().unwrap_or(BEFORE_ALL_TIME_S)
-        });
-        Periapses { last_s: [passage_s(count), passage_s(count - 1)], number, scheduled_s }
+        self.periapses.continued(configuration, &coast.orbit, Span::new(coast.since_s, time_s))
     }
 
     /// Integrates one more segment, at most to `limit_s`, under gravity and `extra_m_s2(t)`, an acceleration in EME2000. Gives
@@ -396,7 +345,7 @@ impl Trajectory {
                     orbit.advance_between_bodies(limit_s, method, gravity, body_ephemeris, extra_m_s2)?;
                 if let Some(Encounter { body, radius_m, .. }) = configuration.encounter {
                     let sizes_m = [radius_m, gravity.model.sphere_m(body)];
-                    self.approaches.detect([orbit.start_s(), orbit.end_s()], sizes_m, |at_s| {
+                    self.approaches.detect(orbit.span(), sizes_m, |at_s| {
                         let [center, body] =
                             [configuration.center, body].map(|body| body_ephemeris.heliocentric(body, at_s));
                         orbit.state_at(at_s) + (center - body)
@@ -407,81 +356,9 @@ impl Trajectory {
             Motion::TwoBody | Motion::Held { .. } => return Ok(0),
         };
         if !configuration.uses_encke() {
-            self.periapses.detect_periapsis(&orbit, configuration, [orbit.start_s(), orbit.end_s()]);
+            self.periapses.detect(configuration, &orbit, orbit.span());
         }
         self.orbit = Some(orbit);
         Ok(shortened)
     }
-}
-
-impl Periapses {
-    fn before(configuration: &Configuration, epoch_s: f64) -> Self {
-        let orbit = &configuration.orbit;
-        let period_s = orbit.period_s();
-        if !period_s.is_finite() {
-            return Self::default();
-        }
-        // A start at periapsis counts as past it, whatever the rounding.
-        let number = orbit.orbit_number(epoch_s + SAME_PASSAGE * period_s);
-        let at_s = |number: i64| orbit.periapsis_epoch_s(number) - configuration.epoch_minus_time_s;
-        let every = every(configuration);
-        let first = number - number.rem_euclid(every);
-        Self {
-            last_s: [at_s(number), at_s(number - 1)],
-            number,
-            scheduled_s: core::array::from_fn(|back| at_s(first - every * back as i64)),
-        }
-    }
-
-    /// Takes note of a periapsis within this span of the present segment.
-    fn detect_periapsis(
-        &mut self,
-        orbit: &DisturbedOrbit,
-        configuration: &Configuration,
-        [from_s, to_s]: [f64; 2],
-    ) {
-        let period_s = configuration.orbit.period_s();
-        let radial_at = |at_s: f64| radial(&orbit.state_at(at_s));
-        if !period_s.is_finite() || radial_at(from_s) >= 0.0 || radial_at(to_s) < 0.0 {
-            return;
-        }
-        let Ok(at_s) = roots::bracketed(from_s, to_s, 0.0, radial_at) else { return };
-        if at_s - self.last_s[0] < SAME_PASSAGE * period_s {
-            return;
-        }
-        self.last_s = [at_s, self.last_s[0]];
-        self.number += 1;
-        if self.number.rem_euclid(every(configuration)) == 0 {
-            self.scheduled_s.rotate_right(1);
-            self.scheduled_s[0] = at_s;
-        }
-    }
-
-    /// Without the passage ahead, for an orbit that does not come to it.
-    fn without_next(mut self) -> Self {
-        self.scheduled_s.rotate_left(1);
-        self.scheduled_s[KEPT - 1] = BEFORE_ALL_TIME_S;
-        self
-    }
-
-    /// Forgets a passage found beyond `time_s`, where `radial` is position times velocity: it will be met again.
-    fn forget_after(&mut self, time_s: f64, radial: impl FnOnce() -> f64) {
-        if self.last_s[0] <= time_s || radial() >= 0.0 {
-            return;
-        }
-        if self.scheduled_s[0] == self.last_s[0] {
-            *self = self.without_next();
-        }
-        self.last_s[0] = self.last_s[1];
-        self.number -= 1;
-    }
-}
-
-fn every(configuration: &Configuration) -> i64 {
-    configuration.attitude.guided().map_or(1, |guided| i64::from(guided.schedule.every.max(1)))
-}
-
-/// Position times velocity: it rises through zero at periapsis.
-fn radial(state: &CartesianState) -> f64 {
-    state.position_m.dot(&state.velocity_m_s)
 }

@@ -3,10 +3,9 @@
 use std::sync::Arc;
 
 use nalgebra::{Matrix3, Vector3};
-use serde::{Deserialize, Serialize};
 
+use super::attitude_source::AttitudeSource;
 use super::laws::Laws;
-use crate::attitude::{Attitude, MovingFrame, SunAngles};
 use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::eclipse::Shadow;
@@ -15,8 +14,7 @@ use crate::environment::onboard::OnboardEphemeris;
 use crate::environment::orbit::{GravityModel, NBodyGravity, TwoBodyOrbit};
 use crate::environment::sun::pressure_n_m2;
 use crate::guidance::timeline::TimelineSettings;
-use crate::guidance::{DownlinkSunDirection, Guided};
-use crate::loads::{Active, Effect};
+use crate::loads::Active;
 use crate::momentum::Settings;
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::scalar::Dual64;
@@ -27,100 +25,6 @@ use super::air_and_field_settings::{AirAndFieldSettings, PlanetFigure};
 use super::panel_setting::{PanelSetting, SunAt};
 use super::radiation_settings::RadiationSettings;
 use super::thruster_events::ThrusterEventSettings;
-
-/// Source of the attitude.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AttitudeSource {
-    /// The orbit phase's own guidance; its schedule runs in epochs (s past J2000 TDB).
-    Guided(Guided),
-    /// A command, followed ideally.
-    Commanded(Command),
-    /// A body that turns by its dynamics.
-    Dynamic(DynamicAttitude),
-}
-
-impl AttitudeSource {
-    /// The orbit phase's own guidance, followed ideally or as a command to the controller.
-    pub fn guided(&self) -> Option<&Guided> {
-        match self {
-            Self::Guided(guided) => Some(guided),
-            Self::Commanded(_) => None,
-            Self::Dynamic(dynamic) => dynamic.guided.as_ref(),
-        }
-    }
-
-    /// Puts the Sun there during downlinks and in science that unloads.
-    pub(crate) fn set_sun_directions(
-        &mut self,
-        place: Option<DownlinkSunDirection>,
-        science: Option<SunAngles>,
-    ) {
-        if let Self::Guided(guided) | Self::Dynamic(DynamicAttitude { guided: Some(guided), .. }) = self {
-            *guided = guided.with_sun_directions(place, science);
-        }
-    }
-}
-
-/// An attitude that is known up to now, and what it is to follow.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DynamicAttitude {
-    /// The attitude now, continuing at the present rate.
-    pub motion: Command,
-    /// How that rate changes: the first and second term of its series, in rad/s2 and rad/s3.
-    pub rate_terms_body: [Vector3<f64>; 2],
-    /// The orbit phase's own guidance; absent where commands come from elsewhere.
-    pub guided: Option<Guided>,
-}
-
-impl DynamicAttitude {
-    /// Body frame and rate at `time_s`: the turn by the rate w + b t + c t^2 is w t + b t^2 / 2 + c t^3 / 3 + (w x b) t^3 / 12 +
-    /// (w x c) t^4 / 12 to the fourth order (Magnus).
-    pub fn frame_at(&self, time_s: f64) -> MovingFrame {
-        let [slope, curve] = self.rate_terms_body;
-        if slope == Vector3::zeros() && curve == Vector3::zeros() {
-            return self.motion.frame_at(time_s);
-        }
-        let (rate, elapsed_s) = (self.motion.rate_body_rad_s, time_s - self.motion.since_s);
-        let square = elapsed_s * elapsed_s;
-        let straight = rate * elapsed_s + (slope / 2.0 + curve * (elapsed_s / 3.0)) * square;
-        let bent = rate.cross(&(slope + curve * elapsed_s)) * (square * elapsed_s / 12.0);
-        MovingFrame {
-            inertial_from_body: self.motion.attitude.turned(straight + bent).inertial_from_body(),
-            rate_body_rad_s: rate + (slope + curve * elapsed_s) * elapsed_s,
-        }
-    }
-}
-
-/// A commanded attitude, turning on at a constant rate.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Command {
-    /// Attitude at `since_s`.
-    pub attitude: Attitude,
-    /// Body rate, in rad/s.
-    pub rate_body_rad_s: Vector3<f64>,
-    /// When the command took effect, in s.
-    pub since_s: f64,
-}
-
-impl Command {
-    /// Whether a simulation can produce it.
-    pub fn is_valid(&self) -> bool {
-        self.attitude.is_rotation()
-    }
-
-    /// Body frame and rate at `time_s`.
-    pub fn frame_at(&self, time_s: f64) -> MovingFrame {
-        MovingFrame {
-            inertial_from_body: self.attitude_at(time_s).inertial_from_body(),
-            rate_body_rad_s: self.rate_body_rad_s,
-        }
-    }
-
-    /// The attitude at `time_s`.
-    pub fn attitude_at(&self, time_s: f64) -> Attitude {
-        self.attitude.propagated(self.rate_body_rad_s, time_s - self.since_s)
-    }
-}
 
 /// Source of the positions of Sun and Earth.
 #[derive(Clone, Debug, PartialEq)]
@@ -289,6 +193,14 @@ impl LightSource {
 }
 
 impl Configuration {
+    /// Becomes another one; allocates nothing where it has as many panels.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        let mut panels = core::mem::take(&mut self.panels);
+        panels.clone_from(&other.panels);
+        let (ephemeris, thruster_events) = (other.ephemeris.clone(), other.thruster_events.clone());
+        *self = Self { panels, ephemeris, thruster_events, ..*other };
+    }
+
     /// The planet, if there is one: the encounter's body, else the centre.
     pub fn planet(&self) -> Option<Body> {
         let center = Some(self.center).filter(|body| body.is_planet());
@@ -307,7 +219,7 @@ impl Configuration {
 
     /// Whether there is more of light and heat than sunlight that nothing shadows.
     pub fn has_light_and_heat(&self) -> bool {
-        self.light_and_heat.shadowing || self.effects.light().any(|effect| effect != Effect::Solar)
+        self.light_and_heat.shadowing || self.effects.light().any(|effect| effect.row().switch.is_some())
     }
 
     /// Indices of the enabled panels, and the spacecraft with those alone.

@@ -10,7 +10,7 @@ use crate::guidance::Guided;
 use crate::propulsion::PulseCommand;
 use crate::spacecraft::MassProperties;
 
-use super::configuration::Command;
+use super::attitude_source::Command;
 use super::reaction_control_settings::ThrustCommand;
 use super::thruster_events::Maneuver;
 use super::wheel_control_settings::WheelControlSettings;

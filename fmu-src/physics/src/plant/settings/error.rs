@@ -93,6 +93,14 @@ pub enum PlantError {
         /// Attitude law that the command has.
         found: &'static str,
     },
+    /// An event that came again where it has just come.
+    #[error("at {time_s:?} s there was already an event of this kind: {kind}")]
+    RepeatedEvent {
+        /// When, in s.
+        time_s: f64,
+        /// Name of the kind.
+        kind: &'static str,
+    },
     /// Restored bytes of another kind of simulation.
     #[error("the state holds another kind of flight: it belongs to another attitude.source")]
     OtherMode,

@@ -7,9 +7,9 @@
 use std::sync::Arc;
 
 use nalgebra::{Rotation3, Vector3};
-use serde::{Deserialize, Serialize};
 
 use super::error::PlantError;
+use super::last_event::LastEvent;
 use crate::guidance::timeline::{TimelineDump, TimelineEvent, TimelineManeuver, begun, simulation_time_s};
 use crate::momentum::DumpEvent;
 use crate::numerics::noise::{Channel, normal, normal_vector};
@@ -40,38 +40,6 @@ pub enum ThrusterEvent {
         /// The delta-v that was executed.
         executed_m_s: Vector3<f64>,
     },
-}
-
-/// Place in a schedule by time, which counts in any other schedule too: events before `time_s` are over, and `count` of those at it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct SchedulePlace {
-    time_s: f64,
-    count: u32,
-}
-
-impl SchedulePlace {
-    /// Place at which the events before `time_s` are over.
-    pub(crate) fn before(time_s: f64) -> Self {
-        Self { time_s, count: 0 }
-    }
-
-    /// Place at which the events up to `time_s` are over.
-    pub(crate) fn until(time_s: f64) -> Self {
-        Self { time_s, count: u32::MAX }
-    }
-
-    /// Goes on to `time_s`: what another schedule had before it is over.
-    pub(crate) fn skip_to(&mut self, time_s: f64) {
-        if self.time_s < time_s {
-            *self = Self::before(time_s);
-        }
-    }
-
-    /// Takes the next event, which stands at `time_s`.
-    pub(crate) fn take(&mut self, time_s: f64) {
-        let count = if self.time_s == time_s { self.count } else { 0 };
-        *self = Self { time_s, count: count.saturating_add(1) };
-    }
 }
 
 /// Settings of thruster events.
@@ -162,7 +130,7 @@ impl ThrusterEventSettings {
     }
 
     /// The events of the schedule that lie beyond this place.
-    fn beyond(&self, place: SchedulePlace) -> &[TimelineEvent] {
+    fn beyond(&self, place: LastEvent) -> &[TimelineEvent] {
         if self.schedule.is_empty() {
             return &[];
         }
@@ -174,7 +142,7 @@ impl ThrusterEventSettings {
     }
 
     /// The next event of the schedule from this place on.
-    pub(crate) fn next(&self, place: SchedulePlace) -> Option<&TimelineEvent> {
+    pub(crate) fn next(&self, place: LastEvent) -> Option<&TimelineEvent> {
         self.beyond(place).first()
     }
 
@@ -182,7 +150,7 @@ impl ThrusterEventSettings {
     ///
     /// # Errors
     /// An event that is no dump.
-    pub(crate) fn check_for_dynamics(&self, place: SchedulePlace) -> Result<(), PlantError> {
+    pub(crate) fn check_for_dynamics(&self, place: LastEvent) -> Result<(), PlantError> {
         for event in self.beyond(place) {
             let found = match (event.maneuver, event.center_of_mass_body_m) {
                 (Some(_), _) => "a maneuver",
@@ -195,7 +163,7 @@ impl ThrusterEventSettings {
     }
 
     /// When the next event from this place on comes, in s; infinite where none does.
-    pub(crate) fn next_s(&self, place: SchedulePlace) -> f64 {
+    pub(crate) fn next_s(&self, place: LastEvent) -> f64 {
         self.next(place).map_or(f64::INFINITY, |event| self.time_s(event))
     }
 }

@@ -14,15 +14,13 @@ mod magnetic;
 
 use serde::{Deserialize, Serialize};
 
-use self::air::AirLoads;
+use self::air::AerodynamicSolver;
 use self::source::{Source, Workspace, check_writers};
-use self::sunlight::Sunlight;
+use self::sunlight::radiation_solver::RadiationSolver;
 use crate::loads::{Effect, Linear, Loads};
 use crate::numerics::Span;
-use crate::plant::air_and_field::aerodynamic_solver::AerodynamicSolver;
 use crate::plant::instant::conditions::Conditions;
 use crate::plant::instant::path_ahead::PathAhead;
-use crate::plant::light::radiation_solver::RadiationSolver;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
 use crate::spacecraft::{Material, Spacecraft};
@@ -140,8 +138,8 @@ impl Sources {
     pub fn new(light: Option<RadiationSolver>, air: Option<AerodynamicSolver>) -> Self {
         let faces = light.as_ref().map_or(0, RadiationSolver::face_count);
         Self {
-            sunlight: Sunlight { solver: light },
-            air: AirLoads { solver: air },
+            sunlight: light,
+            air,
             workspace: Workspace { face_temperatures_k: Vec::with_capacity(faces) },
             ..Self::default()
         }
@@ -149,9 +147,9 @@ impl Sources {
 }
 
 sources! {
-    sunlight: Sunlight,
+    sunlight: Option<RadiationSolver>,
     gravity_gradient: gravity_gradient::GravityGradient,
-    air: AirLoads,
+    air: Option<AerodynamicSolver>,
     magnetic: magnetic::ResidualDipole,
     applied: applied::Applied,
     thrusters: thrusters::OwnThrusters,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::center_of_mass::CenterOfMass;
 use super::sun_choice::SunDirectionSelection;
 use crate::environment::orbit::OrbitError;
-use crate::plant::air_and_field::air_and_field_segment::AirAndFieldSegment;
+use crate::plant::instant::air_and_field_segment::AirAndFieldSegment;
 use crate::plant::motion::command_slews::CommandSlews;
 use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::motion::trajectory::Trajectory;

@@ -2,7 +2,6 @@
 
 mod commands;
 mod directions;
-mod error;
 mod outputs;
 mod predictions;
 mod propulsion;
@@ -16,12 +15,11 @@ pub use crate::propulsion::PulseCommand;
 pub use crate::spin::execution::PulseExecution;
 pub use commands::Commands;
 pub use directions::Directions;
-pub use error::SpinPlantError;
 pub use outputs::{Bounds, Outputs, Violations};
 pub use predictions::Predictions;
 pub use propulsion::{MassSource, Propulsion};
 pub use rates::Rates;
 pub use sensors::{Sampling, Sensors, StarSample};
 pub use start::{InitialConditions, LEAST_WORK, MOST_WORK, Start, StartError};
-pub use state::Plant;
+pub use state::{Plant, SpinPlantError};
 pub use valves::Valves;

@@ -4,16 +4,13 @@ use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
+use super::directions::Directions;
 use super::predictions::finite;
-use super::sensors::StarSample;
 use super::state::Plant;
-use crate::attitude::{RigidBodyState, angle_between_rad};
+use crate::attitude::{Inertia, RigidBodyState, angle_between_rad};
 use crate::math;
 use crate::spin::{
-    nutation::period_variation_s,
-    sequencer::{Phase, Sequencer},
-    spinner::Spinner,
-    tracker::NutationEstimate,
+    nutation::period_variation_s, sequencer::Phase, spinner::Spinner, tracker::NutationEstimate,
 };
 
 /// Limits in SI units, as the master may have set them.
@@ -64,8 +61,6 @@ pub struct Outputs {
     pub nutation_rad: f64,
     /// Azimuth of the transverse momentum about that axis, from body X toward Y, in rad.
     pub nutation_phase_rad: f64,
-    /// From body Z to the third principal axis, in rad.
-    pub coning_rad: f64,
     /// Linear theory (eq 8 generalised), in rad.
     pub predicted_nutation_rad: f64,
     /// Kinetic energy of rotation, in J.
@@ -84,20 +79,14 @@ pub struct Outputs {
     pub sector_error: f64,
     /// Eq 1, at most one period, in s.
     pub period_variation_s: f64,
-    /// Unit vectors, inertial.
-    pub sun_inertial: Vector3<f64>,
-    /// Unit vectors, inertial.
-    pub earth_inertial: Vector3<f64>,
+    /// Directions that the sensors look for.
+    pub directions: Directions,
     /// From the spin axis, in rad.
     pub sun_angle_rad: f64,
-    /// Sun sensor's last reading of it, in rad.
-    pub sun_angle_measured_rad: f64,
     /// From the antenna (-Z), in rad.
     pub earth_angle_rad: f64,
     /// True declination of the star in the tracker, in rad.
     pub declination_rad: f64,
-    /// Last sample.
-    pub sample: StarSample,
     /// From the samples since the last pulse.
     pub estimate: NutationEstimate,
     /// Pulses of the burn that ended.
@@ -108,10 +97,8 @@ pub struct Outputs {
     pub burn_done: bool,
     /// Next edge of the burn, in s; -1 without one.
     pub next_edge_s: f64,
-    /// Principal moments, in kg m2.
-    pub inertia_kg_m2: [f64; 3],
-    /// I3/I_T.
-    pub inertia_ratio: f64,
+    /// Moments of inertia and principal axes.
+    pub inertia: Inertia,
     /// Thrusters whose valves are open, bit by bit.
     pub thrusters_on: u32,
     /// Thrusters whose commanded pulse is too short for their valves, bit by bit.
@@ -125,8 +112,8 @@ pub struct Outputs {
     /// In kg.
     pub propellant_used_kg: f64,
     /// In kg.
-    pub propellant_left_kg: f64,
-    /// Mass with the propellant left, in kg.
+    pub propellant_remaining_kg: f64,
+    /// Mass with the remaining propellant, in kg.
     pub mass_kg: f64,
 }
 
@@ -143,7 +130,7 @@ struct SunPeriod {
 impl SunPeriod {
     /// Returns the last period; `nominal_period_s` before there are two crossings.
     fn new(plant: &Plant, nominal_period_s: f64) -> Self {
-        let sun = &plant.sensors().sun;
+        let sun = &plant.sensors.sun;
         let (change_s, change) = match (sun.period_s, sun.period_before_s) {
             (Some(last), Some(before)) => (last - before, (last - before) / before),
             _ => (0.0, 0.0),
@@ -155,9 +142,9 @@ impl SunPeriod {
 impl Outputs {
     /// Returns the outputs at the present time of the flight.
     pub fn from_plant(plant: &Plant, spinner: &Spinner) -> Self {
-        let time_s = plant.time_s();
+        let time_s = plant.time_s;
         let state = plant.state();
-        let inertia = plant.motion().inertia();
+        let inertia = &plant.motion.inertia;
         let rate_rad_s = state.rate_rad_s(inertia);
         let nutation_rad = state.nutation_rad(inertia);
         let spin_rate_rad_s = inertia.principal_from_body(&rate_rad_s).z;
@@ -173,59 +160,52 @@ impl Outputs {
             true => 0.0,
             false => period_variation_s(nutation_rad, spin_rate_rad_s, sun_angle_rad).abs(),
         };
-        let (law, sequencer) = (&plant.propulsion().valves.law, plant.sequencer());
-        let next_edge_s = match sequencer.map(Sequencer::phase) {
+        let (law, sequencer) = (&plant.propulsion.valves.law, plant.sequencer.as_ref());
+        let next_edge_s = match sequencer.map(|it| it.phase) {
             Some(Phase::Waiting { on_s, .. }) => on_s,
             Some(Phase::Firing { off_s }) => off_s,
             _ => -1.0,
         };
-        let used_kg = plant.propulsion().used_at(time_s);
-        let left_kg = (plant.propulsion().initial_propellant_kg - used_kg).max(0.0);
         Self {
             state,
             rate_rad_s,
             spin_rate_rad_s,
             nutation_rad,
             nutation_phase_rad: math::atan2(spin_momentum.y, spin_momentum.x),
-            coning_rad: inertia.coning_rad(),
-            predicted_nutation_rad: plant.propulsion().predicted_nutation_rad(),
+            predicted_nutation_rad: plant.propulsion.predicted_nutation_rad(),
             energy_j: 0.5 * rate_rad_s.dot(&state.momentum_body),
             spin_axis_inertial,
             spin_axis_displacement_rad: angle_between_rad(
                 &spin_axis_inertial,
-                &plant.initial().spin_axis_inertial,
+                &plant.initial.spin_axis_inertial,
             ),
             momentum_displacement_rad: angle_between_rad(
                 &state.momentum_inertial,
-                &plant.initial().momentum_inertial,
+                &plant.initial.momentum_inertial,
             ),
             period_s: period.last_s,
             period_change_s: period.change_s,
             sector_error: sectors * period.change,
             // A NaN (no nutation, Sun on the axis) counts as no variation.
             period_variation_s: if variation_s.is_nan() { 0.0 } else { variation_s.min(nominal_period_s) },
-            sun_inertial: directions.sun_inertial,
-            earth_inertial: directions.earth_inertial,
+            directions,
             sun_angle_rad,
-            sun_angle_measured_rad: plant.sensors().sun_sample_rad,
             earth_angle_rad: angle_to_rad(&-spin_axis_inertial, &directions.earth_inertial),
             declination_rad: math::asin(spin_axis_inertial.dot(&directions.star_inertial).clamp(-1.0, 1.0)),
-            sample: plant.sensors().sample,
-            estimate: plant.sensors().estimator.estimate(spinner.star_tracker.noise_deg.to_radians()),
-            pulses_fired: sequencer.map_or(0, |s| s.fired()),
-            burn_active: !plant.propulsion().is_dry() && sequencer.is_some_and(|s| s.is_active()),
-            burn_done: sequencer.is_some_and(|s| s.phase() == Phase::Done),
+            estimate: plant.sensors.estimator.estimate(spinner.star_tracker.noise_deg.to_radians()),
+            pulses_fired: sequencer.map_or(0, |s| s.fired),
+            burn_active: !plant.propulsion.is_dry() && sequencer.is_some_and(|s| s.is_active()),
+            burn_done: sequencer.is_some_and(|s| s.phase == Phase::Done),
             next_edge_s,
-            inertia_kg_m2: inertia.principal_kg_m2(),
-            inertia_ratio: inertia.ratio(),
-            thrusters_on: plant.propulsion().valves.open_mask(),
-            too_short: plant.too_short(),
+            inertia: *inertia,
+            thrusters_on: plant.propulsion.valves.open_mask(),
+            too_short: plant.propulsion.valves.too_short_mask(),
             force_body_n: law.force_at_n(time_s),
             torque_body_n_m: law.torque_at_n_m(time_s),
-            delta_v_inertial_m_s: plant.propulsion().delta_v_at(spinner, plant.motion(), time_s),
-            propellant_used_kg: used_kg,
-            propellant_left_kg: left_kg,
-            mass_kg: spinner.mass_properties.dry_mass_kg + left_kg,
+            delta_v_inertial_m_s: plant.propulsion.delta_v_at(spinner, &plant.motion, time_s),
+            propellant_used_kg: plant.propulsion.used_at(time_s),
+            propellant_remaining_kg: plant.propulsion.remaining_at(time_s),
+            mass_kg: plant.propulsion.mass_at_kg(spinner, time_s),
         }
     }
 

@@ -10,7 +10,6 @@ use crate::math;
 use crate::spin::{
     forecast::Timing,
     nutation::exact_envelope_rad,
-    sequencer::Sequencer,
     tracker::{observation_time_eq20_s, observation_time_s},
 };
 
@@ -43,20 +42,20 @@ pub struct Predictions {
 impl Predictions {
     /// Returns the predictions of theory before the flight starts.
     pub fn from_plant(plant: &Plant) -> Self {
-        let spin = plant.initial().theory;
+        let spin = plant.initial.theory;
         let nutation_rad_s = spin.ratio * spin.rate_rad_s;
         let mut seen = Self {
             nutation_ratio: spin.ratio,
             observation_time_eq20_s: finite(observation_time_eq20_s(spin.rate_rad_s, spin.ratio)),
             observation_time_s: finite(observation_time_s(
-                plant.sensors().sample_spacing_s(&spin),
+                plant.sensors.sample_spacing_s(&spin),
                 nutation_rad_s,
             )),
             ..Self::default()
         };
-        if let Some(sequencer) = plant.sequencer() {
-            let burn = sequencer.burn();
-            let across = plant.motion().inertia().spin_frame_from_body(&burn.torque_body_n_m).xy();
+        if let Some(sequencer) = &plant.sequencer {
+            let burn = &sequencer.burn;
+            let across = plant.motion.inertia.spin_frame_from_body(&burn.torque_body_n_m).xy();
             let (train, torque) = (&burn.train, across.norm());
             let widest_s = train.widest_s();
             let phase = spin.phase_advance_rad(train.turns_per_pulse());
@@ -65,7 +64,7 @@ impl Predictions {
             seen.manoeuvre_rad = train.manoeuvre_rad(&spin, torque);
             seen.envelope_rad = finite(exact_envelope_rad(seen.kick_rad, phase));
             seen.duration_s = train.duration_s(spin.period_s());
-            seen.count = train.count();
+            seen.count = train.count;
         }
         seen
     }
@@ -73,8 +72,8 @@ impl Predictions {
     /// Angle from the momentum at the start to the burn's target, in rad, if the burn goes beyond it by more than a pulse:
     /// there pulses take back what the others did.
     pub fn passed_target_rad(&self, plant: &Plant) -> Option<f64> {
-        let burn = plant.sequencer()?.burn();
-        let apart_rad = angle_between_rad(&plant.initial().momentum_inertial, &burn.target_inertial);
+        let burn = &plant.sequencer.as_ref()?.burn;
+        let apart_rad = angle_between_rad(&plant.initial.momentum_inertial, &burn.target_inertial);
         let is_passed = self.manoeuvre_rad > apart_rad + self.manoeuvre_per_pulse_rad;
         (burn.points() && is_passed).then_some(apart_rad)
     }
@@ -89,12 +88,12 @@ impl Predictions {
     /// How close the momentum comes to the Sun's line (toward or away from it) on its way along the burn, in rad; `None`
     /// without a burn that is timed by the Sun.
     fn sun_clearance_rad(&self, plant: &Plant) -> Option<f64> {
-        let burn = plant.sequencer().map(Sequencer::burn)?;
-        let sun = plant.directions().sun_inertial;
+        let burn = plant.sequencer.as_ref().map(|it| &it.burn)?;
+        let sun = plant.directions.present.sun_inertial;
         if !burn.points() || burn.timing != Timing::SunCrossing || sun == Vector3::zeros() {
             return None;
         }
-        let from = plant.initial().momentum_inertial.normalize();
+        let from = plant.initial.momentum_inertial.normalize();
         let toward = (burn.target_inertial - from * from.dot(&burn.target_inertial)).normalize();
         let travel_rad = self.manoeuvre_rad;
         let clearance = |line: Vector3<f64>| {

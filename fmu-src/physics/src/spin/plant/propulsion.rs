@@ -116,7 +116,7 @@ impl Propulsion {
         }
         self.delta_v_inertial_m_s = self.delta_v_at(spinner, motion, now_s);
         let ThrustLaw { since_s, torque_body_n_m, .. } = &self.valves.law;
-        let inertia = motion.inertia();
+        let inertia = &motion.inertia;
         let across = torque_body_n_m.map(|it| inertia.spin_frame_from_body(&it).xy().into());
         self.predicted.pulse(theory, across, *since_s, now_s);
         self.used_kg = self.used_at(now_s);
@@ -135,24 +135,22 @@ impl Propulsion {
         if law.is_none() {
             return f64::INFINITY;
         }
-        let left_s = law.lasts_s(self.initial_propellant_kg - self.used_kg);
+        let lasts_s = law.lasts_s(self.initial_propellant_kg - self.used_kg);
         // Edges are known to rounding: a pulse that takes the last drop ends by its own.
         let late_s = law.since_s.abs() + law.lasts_s(self.initial_propellant_kg);
-        if left_s.is_finite() && late_s.is_finite() {
-            law.since_s + left_s + EDGE_ROUNDING * late_s
-        } else {
-            law.since_s + left_s
-        }
+        // What lasts for ever is not rounded.
+        let rounding_s = if lasts_s.is_finite() && late_s.is_finite() { EDGE_ROUNDING * late_s } else { 0.0 };
+        law.since_s + lasts_s + rounding_s
     }
 
-    /// Inertia with the propellant left, of the body in `motion`.
+    /// Inertia with the remaining propellant, of the body in `motion`.
     pub(super) fn inertia(&self, spinner: &Spinner, motion: &Motion) -> Inertia {
         if self.mass_source == MassSource::Fixed {
-            return *motion.inertia();
+            return motion.inertia;
         }
-        let left_kg = (self.initial_propellant_kg - self.used_kg).max(0.0);
+        let remaining_kg = (self.initial_propellant_kg - self.used_kg).max(0.0);
         // The table was checked when it was read; the present body is the answer that cannot be refused.
-        spinner.mass_properties.inertia(left_kg).unwrap_or(*motion.inertia())
+        spinner.mass_properties.inertia(remaining_kg).unwrap_or(motion.inertia)
     }
 
     /// Propellant used until `time_s`, in kg.
@@ -164,10 +162,14 @@ impl Propulsion {
         (self.used_kg + law.burnt_kg(time_s)).min(self.initial_propellant_kg)
     }
 
+    /// Propellant on board at `time_s`, in kg.
+    pub fn remaining_at(&self, time_s: f64) -> f64 {
+        (self.initial_propellant_kg - self.used_at(time_s)).max(0.0)
+    }
+
     /// Mass at `time_s`, in kg.
     pub fn mass_at_kg(&self, spinner: &Spinner, time_s: f64) -> f64 {
-        let left_kg = self.initial_propellant_kg - self.used_at(time_s);
-        spinner.mass_properties.dry_mass_kg + left_kg.max(0.0)
+        spinner.mass_properties.dry_mass_kg + self.remaining_at(time_s)
     }
 
     /// Sums delta-v to the end of the motion's present segment.
@@ -196,7 +198,7 @@ impl Propulsion {
             return Ok(());
         }
         // Thrusters without torque: whole panels of the closed form, counted from when they continued.
-        let rate = motion.at(motion.anchor_s()).rate_rad_s(motion.inertia()).norm();
+        let rate = motion.at(motion.anchor_s()).rate_rad_s(&motion.inertia).norm();
         loop {
             let panel_end_s = self.delta_v_until_s.max(law.since_s) + IMPULSE_PANEL_RAD / rate;
             if panel_end_s.is_nan() || panel_end_s > time_s {
@@ -209,7 +211,7 @@ impl Propulsion {
         }
     }
 
-    /// Delta-v until `time_s` in the present segment, inertial, in m/s: the turning force over the mass left at each instant.
+    /// Delta-v until `time_s` in the present segment, inertial, in m/s: the turning force over the mass at each instant.
     pub fn delta_v_at(&self, spinner: &Spinner, motion: &Motion, time_s: f64) -> Vector3<f64> {
         let law = &self.valves.law;
         if law.is_none() {
@@ -223,13 +225,13 @@ impl Propulsion {
         let mut delta_v = self.delta_v_inertial_m_s;
         let mut start_s = from_s;
         for panel in 1..=panels as u32 {
-            let share = f64::from(panel) / panels;
-            let end_s = if share >= 1.0 {
+            let fraction = f64::from(panel) / panels;
+            let end_s = if fraction >= 1.0 {
                 time_s
             } else if law.flow_kg_s[1] == 0.0 {
-                from_s - mass_kg * math::exp_m1(-fall * share) / law.flow_kg_s[0]
+                from_s - mass_kg * math::exp_m1(-fall * fraction) / law.flow_kg_s[0]
             } else {
-                from_s + (time_s - from_s) * share
+                from_s + (time_s - from_s) * fraction
             };
             for (at_s, weight_s) in IMPULSE_RULE.on(start_s, end_s) {
                 let force_n = motion.at(at_s).attitude.inertial_from_body(&law.force_at_n(at_s));
@@ -242,7 +244,7 @@ impl Propulsion {
 
     /// Rejects decoded thrusters and a tank that no simulation can produce by `latest_s`.
     pub(super) fn is_valid(&self, spinner: &Spinner, latest_s: f64) -> bool {
-        // A tank that is never empty and has nothing left would be emptied without end.
+        // A tank that is never empty and holds nothing would be emptied without end.
         (0.0..=spinner.mass_properties.most_propellant_kg()).contains(&self.initial_propellant_kg)
             && (0.0..=self.initial_propellant_kg).contains(&self.used_kg)
             && self.delta_v_until_s <= latest_s

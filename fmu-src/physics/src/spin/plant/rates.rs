@@ -44,27 +44,27 @@ pub struct Rates {
     pub power_w: f64,
     /// Rate of the propellant used.
     pub flow_kg_s: f64,
-    /// Rate of the mass and of the propellant left.
+    /// Rate of the mass and of the remaining propellant.
     pub mass_kg_s: f64,
 }
 
 impl Rates {
     /// Returns the derivatives at the present time.
     pub fn from_plant(plant: &Plant, spinner: &Spinner) -> Self {
-        let time_s = plant.time_s();
-        let motion = plant.motion();
+        let time_s = plant.time_s;
+        let motion = &plant.motion;
         let state = plant.state();
-        let inertia = motion.inertia();
+        let inertia = &motion.inertia;
         let q = state.attitude;
         // Everything about the principal axes, and from there to the body's.
         let h = inertia.principal_from_body(&state.momentum_body);
         let [i1, i2, i3] = inertia.principal_kg_m2();
         let rate = Vector3::new(h.x / i1, h.y / i2, h.z / i3);
-        let gain = motion.damper().gain(&h);
+        let gain = motion.damper.gain(&h);
         // See `damper`: the body turns at J^-1 h and a little about the line of nodes.
         let turning_principal = rate + Vector3::new(-h.y, h.x, 0.0) * gain;
         let turning = inertia.body_from_principal(&turning_principal);
-        let torque_body = motion.torque().at(time_s, &turning);
+        let torque_body = motion.torque.at(time_s, &turning);
         let torque = inertia.principal_from_body(&torque_body);
         let h_dot = h.cross(&turning_principal) + torque;
         let rate_dot = Vector3::new(h_dot.x / i1, h_dot.y / i2, h_dot.z / i3);
@@ -78,10 +78,10 @@ impl Rates {
         let across_square = h.x * h.x + h.y * h.y;
         let across = across_square.sqrt();
         let directions = plant.directions_at(time_s);
-        let law = &plant.propulsion().valves.law;
+        let law = &plant.propulsion.valves.law;
         let force_body_n = law.force_at_n(time_s);
         let flow_kg_s = law.flow_at_kg_s(time_s);
-        let mass_kg = plant.propulsion().mass_at_kg(spinner, time_s);
+        let mass_kg = plant.propulsion.mass_at_kg(spinner, time_s);
         let ratio = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
         let across_dot = ratio(h.x * h_dot.x + h.y * h_dot.y, across);
         Self {
@@ -98,8 +98,8 @@ impl Rates {
             nutation_phase_rad_s: ratio(h.x * h_dot.y - h.y * h_dot.x, across_square),
             sun_angle_rad_s: angle_rate(&axis, &axis_dot, &directions.sun_inertial),
             earth_angle_rad_s: angle_rate(&-axis, &-axis_dot, &directions.earth_inertial),
-            spin_axis_displacement_rad_s: angle_rate(&axis, &axis_dot, &plant.initial().spin_axis_inertial),
-            momentum_displacement_rad_s: angle_rate(&pull, &momentum_dot, &plant.initial().momentum_inertial),
+            spin_axis_displacement_rad_s: angle_rate(&axis, &axis_dot, &plant.initial.spin_axis_inertial),
+            momentum_displacement_rad_s: angle_rate(&pull, &momentum_dot, &plant.initial.momentum_inertial),
             declination_rad_s: {
                 let sine = axis.dot(&directions.star_inertial);
                 ratio(axis_dot.dot(&directions.star_inertial), (1.0 - sine * sine).max(0.0).sqrt())

@@ -180,7 +180,7 @@ impl Sensors {
         let angle = angle_between_rad(&state.attitude.spin_axis_inertial(), sun_inertial);
         let noise = normal(self.seed, Channel::SunSensor, self.sun.count);
         self.sun_sample_rad = angle + spinner.sun_sensor.noise_deg.to_radians() * noise;
-        self.sun.pass(time_s, state.rate_rad_s(motion.inertia()).z);
+        self.sun.pass(time_s, state.rate_rad_s(&motion.inertia).z);
     }
 
     /// The star tracker's reading, if it sees the star.
@@ -204,7 +204,7 @@ impl Sensors {
                 None
             }
             Sampling::Spins => {
-                self.star.pass(time_s, state.rate_rad_s(motion.inertia()).z);
+                self.star.pass(time_s, state.rate_rad_s(&motion.inertia).z);
                 Some(self.star.count.wrapping_sub(1))
             }
         };
@@ -212,7 +212,7 @@ impl Sensors {
         let sun_known = directions.sun_inertial != Vector3::zeros();
         let seen = turn.is_none_or(|turn| {
             sun_known
-                && searched(star_picket(spinner, directions, motion.inertia(), &state), turn, tracker.every)
+                && searched(star_picket(spinner, directions, &motion.inertia, &state), turn, tracker.every)
         });
         if !(visible && seen) {
             return;

@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 
 use super::commands::Commands;
 use super::directions::{DirectionSource, Directions};
-use super::error::SpinPlantError;
 use super::propulsion::Propulsion;
 use super::sensors::{Sensor, Sensors};
 use super::start::{InitialConditions, LEAST_WORK, MOST_WORK, Start, StartError};
@@ -14,12 +13,12 @@ use crate::propulsion::due_s;
 use crate::spin::{
     burn::{Burn, BurnInitialConditions},
     damper::Damper,
-    motion::Motion,
+    motion::{Motion, MotionError},
     nutation::Spin,
     sequencer::{Phase, Sequencer},
     series::{Anchor, BodyTorque},
     spinner::Spinner,
-    work::{Work, WorkKind},
+    work::{Work, WorkExceeded, WorkKind},
 };
 
 /// A communication point this close to an edge, as a fraction of the step's later or earlier end, counts as the edge.
@@ -31,22 +30,39 @@ const SHORTEST_RAMP_HINT_S: f64 = 2e-5;
 /// Fraction of a turn by which times of one flight may be out of order.
 const OUT_OF_ORDER: f64 = 1e-3;
 
+/// Reason why a flight does not come to the end of a step.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum SpinPlantError {
+    /// Body that cannot be followed.
+    #[error(transparent)]
+    MotionError(#[from] MotionError),
+    /// More work than a step may cost.
+    #[error(transparent)]
+    Work(#[from] WorkExceeded),
+}
+
 /// A spinner in flight: everything a step needs from the steps before.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plant {
-    motion: Motion,
-    time_s: f64,
+    /// The motion in force.
+    pub motion: Motion,
+    /// Present time of communication, in s.
+    pub time_s: f64,
     /// The motion's state there, once it is computed.
     #[serde(skip)]
     present: Option<RigidBodyState>,
-    initial: InitialConditions,
-    sequencer: Option<Sequencer>,
+    /// Conditions at the start.
+    pub initial: InitialConditions,
+    /// The burn in flight.
+    pub sequencer: Option<Sequencer>,
     commands: Commands,
     /// Whether commands came since the last step.
     commanded: bool,
-    directions: DirectionSource,
-    propulsion: Propulsion,
-    sensors: Sensors,
+    pub(super) directions: DirectionSource,
+    /// Thrusters and tank.
+    pub propulsion: Propulsion,
+    /// Sun sensor and star tracker.
+    pub sensors: Sensors,
     /// Greatest work of a step.
     work_limit: u32,
 }
@@ -115,49 +131,9 @@ impl Plant {
         Ok(plant)
     }
 
-    /// Present time of communication, in s.
-    pub fn time_s(&self) -> f64 {
-        self.time_s
-    }
-
     /// Attitude and momentum there.
     pub fn state(&self) -> RigidBodyState {
         self.present.unwrap_or_else(|| self.motion.at(self.time_s))
-    }
-
-    /// The motion in force.
-    pub fn motion(&self) -> &Motion {
-        &self.motion
-    }
-
-    /// Conditions at the start.
-    pub fn initial(&self) -> &InitialConditions {
-        &self.initial
-    }
-
-    /// The burn in flight.
-    pub fn sequencer(&self) -> Option<&Sequencer> {
-        self.sequencer.as_ref()
-    }
-
-    /// Thrusters and tank.
-    pub fn propulsion(&self) -> &Propulsion {
-        &self.propulsion
-    }
-
-    /// Sun sensor and star tracker.
-    pub fn sensors(&self) -> &Sensors {
-        &self.sensors
-    }
-
-    /// Thrusters for which the last step commanded a pulse that does not open their valves, bit by bit.
-    pub fn too_short(&self) -> u32 {
-        self.propulsion.valves.too_short_mask()
-    }
-
-    /// Directions that the sensors look for now.
-    pub fn directions(&self) -> &Directions {
-        &self.directions.present
     }
 
     /// Directions at a time: on the L1 orbit they move.
@@ -247,7 +223,7 @@ impl Plant {
                 self.run_dry(spinner, now_s, work)?;
             }
             self.switch(spinner, now_s, hint_s, work)?;
-            if self.sequencer.as_ref().is_some_and(|s| s.phase() == Phase::Idle) {
+            if self.sequencer.as_ref().is_some_and(|s| s.phase == Phase::Idle) {
                 self.schedule(spinner, now_s, work);
             }
         }
@@ -271,11 +247,11 @@ impl Plant {
         let turns_valves =
             mask != self.propulsion.valves.open_mask() || self.propulsion.valves.ramp_end_s(spinner) <= now_s;
         let applied = self.commands.torque;
-        if turns_valves || self.propulsion.with_thrusters(spinner, &applied) != *self.motion.torque() {
+        if turns_valves || self.propulsion.with_thrusters(spinner, &applied) != self.motion.torque {
             self.reach(spinner, now_s, work)?;
             self.accumulate_pulse(spinner, now_s);
             let inertia = self.propulsion.inertia(spinner, &self.motion);
-            work.spend_segment(self.motion.damper());
+            work.spend_segment(&self.motion.damper);
             self.propulsion.valves.open(spinner, mask, now_s);
             let torque = self.propulsion.with_thrusters(spinner, &applied);
             let ramp_s = (self.propulsion.valves.ramp_end_s(spinner) - now_s).max(SHORTEST_RAMP_HINT_S);
@@ -336,11 +312,11 @@ impl Plant {
         Ok(Some(time_s))
     }
 
-    /// Continues to the next segment, summing delta-v as the present one is left.
+    /// Continues to the next segment, summing delta-v as the present one ends.
     fn next_segment(&mut self, spinner: &Spinner, work: &mut Work) -> Result<(), SpinPlantError> {
         self.motion.check()?;
         let end_s = self.motion.segment_end_s();
-        work.spend_segment(self.motion.damper());
+        work.spend_segment(&self.motion.damper);
         self.propulsion.close_segment(spinner, &self.motion, work);
         self.motion.next_segment();
         self.sensors.forget_motion(end_s);
@@ -369,7 +345,7 @@ impl Plant {
 
     /// Whether a decoded state can be advanced: its thrusters exist, its numbers belong together.
     pub fn fits(&self, spinner: &Spinner) -> bool {
-        let burn = self.sequencer().map(Sequencer::burn);
+        let burn = self.sequencer.as_ref().map(|it| &it.burn);
         let known = (1_u64 << spinner.thrusters.len()) - 1;
         let masks = [
             self.propulsion.valves.open_mask(),
@@ -386,7 +362,7 @@ impl Plant {
             && self.commands.is_valid()
             && self.sensors.is_valid(self.time_s)
             && self.directions.is_valid(self.time_s)
-            && self.sequencer().is_none_or(Sequencer::is_valid)
+            && self.sequencer.as_ref().is_none_or(Sequencer::is_valid)
     }
 
     fn motion_is_valid(&self, slack_s: f64) -> bool {

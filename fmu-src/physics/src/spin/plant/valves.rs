@@ -98,7 +98,7 @@ impl Valves {
         self.law = self.law_from(spinner, now_s);
     }
 
-    /// Shuts all valves at `now_s` with nothing left to come out.
+    /// Shuts all valves at `now_s` with nothing more to come out.
     pub(super) fn shut(&mut self, now_s: f64) {
         self.valves.iter_mut().for_each(|valve| valve.shut(now_s));
         self.schedule.iter_mut().for_each(PulseSchedule::clear);
@@ -108,15 +108,15 @@ impl Valves {
     /// Law of the thrusters from `since_s` on with the valves as they are.
     fn law_from(&self, spinner: &Spinner, since_s: f64) -> ThrustLaw {
         let mut law = ThrustLaw::none(since_s);
-        self.firing(spinner, since_s).for_each(|(thruster, share)| law.add(&thruster.thrust(), share));
+        self.firing(spinner, since_s).for_each(|(thruster, fraction)| law.add(&thruster.thrust(), fraction));
         law
     }
 
     /// Momentum that their flow carries away from a body that turns, from the start of the law on.
     pub(super) fn jet_damping(&self, spinner: &Spinner) -> JetDamping {
         let mut jet_damping = JetDamping::default();
-        for (thruster, share) in self.firing(spinner, self.law.since_s) {
-            jet_damping.add(thruster.flow_kg_s, &steiner(&thruster.position_body_m), share);
+        for (thruster, fraction) in self.firing(spinner, self.law.since_s) {
+            jet_damping.add(thruster.flow_kg_s, &steiner(&thruster.position_body_m), fraction);
         }
         jet_damping
     }
@@ -128,9 +128,9 @@ impl Valves {
         since_s: f64,
     ) -> impl Iterator<Item = (&'a Thruster, [f64; 2])> {
         let valves = self.valves.iter().zip(&self.execution).zip(&spinner.thrusters);
-        let shares =
+        let fractions =
             valves.map(move |((valve, execution), it)| (it, valve.thrust(&execution.valve, since_s)));
-        shares.filter(|(_, share)| *share != [0.0; 2])
+        fractions.filter(|(_, fraction)| *fraction != [0.0; 2])
     }
 
     /// Rejects decoded valves that no simulation can produce by `latest_s`.

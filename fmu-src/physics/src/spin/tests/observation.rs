@@ -27,7 +27,7 @@ fn sun_crossing_periods_spread_as_eq_1_says_for_small_nutation() {
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
         for i in 1..2000 {
             plant.advance(&spinner, 6.0 * f64::from(i)).unwrap();
-            if let Some(period) = plant.sensors().sun.period_s {
+            if let Some(period) = plant.sensors.sun.period_s {
                 least = least.min(period);
                 most = most.max(period);
             }
@@ -45,7 +45,7 @@ fn a_quiet_spinner_crosses_the_sun_once_a_period() {
     let mut plant = launch(&spinner, &paper_start(1.483));
     plant.advance(&spinner, 1200.5).unwrap();
     let outputs = Outputs::from_plant(&plant, &spinner);
-    assert_eq!(plant.sensors().sun.count, 101);
+    assert_eq!(plant.sensors.sun.count, 101);
     assert_relative_eq!(outputs.period_s, 12.0, max_relative = 1e-12);
     assert!(outputs.sector_error.abs() < 1e-6);
     assert_relative_eq!(outputs.sun_angle_rad.to_degrees(), 10.0, max_relative = 1e-12);
@@ -73,7 +73,7 @@ fn the_star_is_sampled_every_eight_spins_or_every_96_s() {
         let mut times = Vec::new();
         for i in 1..2000 {
             plant.advance(&spinner, f64::from(i)).unwrap();
-            let sample = plant.sensors().sample;
+            let sample = plant.sensors.sample;
             if times.last() != Some(&sample.time_s) && sample.count > 0 {
                 times.push(sample.time_s);
             }
@@ -113,7 +113,7 @@ fn the_estimator_finds_the_nutation_angle_within_its_own_error() {
         let mut plant = launch(&spinner, &start);
         plant.advance(&spinner, 4.0 * 3600.0).unwrap();
         let estimate = Outputs::from_plant(&plant, &spinner).estimate;
-        assert!(plant.sensors().estimator.count > 100);
+        assert!(plant.sensors.estimator.count > 100);
         assert!(estimate.sigma_rad.to_degrees() < 0.004);
         hits += i32::from((estimate.nutation_rad - start.nutation_rad).abs() < estimate.sigma_rad);
     }
@@ -189,7 +189,7 @@ fn directions_on_the_l1_orbit_do_not_depend_on_the_grid() {
         cut.advance(&spinner, f64::from(i)).unwrap();
     }
     assert_eq!(Outputs::from_plant(&whole, &spinner), Outputs::from_plant(&cut, &spinner));
-    assert!(whole.sensors().sun.count > 330);
+    assert!(whole.sensors.sun.count > 330);
 }
 
 #[test]
@@ -201,7 +201,7 @@ fn the_sector_error_is_what_a_spin_divided_by_the_period_before_is_off() {
     let (mut crossings, mut most) = (Vec::new(), 0.0_f64);
     for i in 1..2000 {
         plant.advance(&spinner, 0.1 * f64::from(i)).unwrap();
-        let seen_s = plant.sensors().sun.last_s;
+        let seen_s = plant.sensors.sun.last_s;
         if crossings.last() != seen_s.as_ref() {
             crossings.extend(seen_s);
         }
@@ -238,23 +238,23 @@ fn a_star_is_sampled_where_it_passes_the_boresight_also_after_another_is_chosen(
         3.0,
         max_relative = 1e-12
     );
-    let seen = plant.sensors().sample;
+    let seen = plant.sensors.sample;
     assert_eq!(seen.count, 2);
     assert_relative_eq!(seen.time_s, 16.0, max_relative = 1e-12);
     assert_relative_eq!(seen.declination_rad.to_degrees(), 3.0, max_relative = 1e-12);
     // At 26 s the boresight is at 150 deg; a star at 240 deg comes 3 s later, the old one would in 2 s.
     plant.command(Commands::none(), star(240.0, -9.9));
     plant.advance(&spinner, 28.5).unwrap();
-    assert_eq!(plant.sensors().sample.count, 2);
+    assert_eq!(plant.sensors.sample.count, 2);
     plant.advance(&spinner, 30.0).unwrap();
-    let seen = plant.sensors().sample;
+    let seen = plant.sensors.sample;
     assert_eq!(seen.count, 3);
     assert_relative_eq!(seen.time_s, 29.0, max_relative = 1e-12);
     assert_relative_eq!(seen.declination_rad.to_degrees(), -9.9, max_relative = 1e-12);
     // The field of view is 20 deg, 10 to either side.
     plant.command(Commands::none(), star(240.0, 10.1));
     plant.advance(&spinner, 90.0).unwrap();
-    assert_eq!(plant.sensors().sample.count, 3);
+    assert_eq!(plant.sensors.sample.count, 3);
 }
 
 #[test]
@@ -271,7 +271,7 @@ fn a_pulse_begins_the_estimate_anew() {
     plant.advance(&spinner, 4.0 * 3600.0 + 0.2).unwrap();
     plant.command(Commands::none(), directions());
     plant.advance(&spinner, 4.0 * 3600.0 + 3.0).unwrap();
-    assert_eq!(plant.sensors().estimator.count, 0);
+    assert_eq!(plant.sensors.estimator.count, 0);
     plant.advance(&spinner, 8.0 * 3600.0).unwrap();
     let after = Outputs::from_plant(&plant, &spinner);
     assert!((after.nutation_rad - before.nutation_rad).abs() > 0.2 * before.nutation_rad);

@@ -34,7 +34,7 @@ fn axial_thrust_follows_the_rocket_equation_at_every_reading() {
             let burnt_kg = (flow_kg_s * time_s).min(97.5);
             let expected = -EXHAUST_M_S * (-burnt_kg / FULL_KG).ln_1p();
             assert_relative_eq!(outputs.delta_v_inertial_m_s.z, expected, max_relative = 1e-10);
-            assert_relative_eq!(outputs.propellant_left_kg, 97.5 - burnt_kg, epsilon = 1e-9);
+            assert_relative_eq!(outputs.propellant_remaining_kg, 97.5 - burnt_kg, epsilon = 1e-9);
         }
     }
 }

@@ -29,20 +29,20 @@ fn a_held_thruster_goes_off_when_the_last_drop_is_gone() {
         for i in 1..=(20.0_f64 / step_s).floor() as u32 {
             plant.advance(&spinner, f64::from(i) * step_s).unwrap();
             let outputs = Outputs::from_plant(&plant, &spinner);
-            assert_eq!(outputs.thrusters_on == 0, plant.time_s() >= depletion_time_s);
+            assert_eq!(outputs.thrusters_on == 0, plant.time_s >= depletion_time_s);
             assert_relative_eq!(
                 outputs.propellant_used_kg,
-                (FLOW_KG_S * plant.time_s()).min(0.01),
+                (FLOW_KG_S * plant.time_s).min(0.01),
                 max_relative = 1e-12
             );
         }
         plant.advance(&spinner, 20.0).unwrap();
-        assert!(plant.propulsion().is_dry());
+        assert!(plant.propulsion.is_dry());
         ends.push(Outputs::from_plant(&plant, &spinner));
     }
     let end = &ends[0];
     assert!(ends.iter().all(|other| other == end));
-    assert_eq!((end.propellant_used_kg, end.propellant_left_kg), (0.01, 0.0));
+    assert_eq!((end.propellant_used_kg, end.propellant_remaining_kg), (0.01, 0.0));
     // A pulse of that length does the same to a spinner that has enough.
     let mut rich = launch(&spinner, &start(97.5), pulses(&[8], 0.0, depletion_time_s));
     rich.advance(&spinner, 20.0).unwrap();
@@ -101,7 +101,7 @@ fn a_burn_whose_propellant_others_take_ends_in_the_midst_of_its_pulse() {
     let outputs = Outputs::from_plant(&plant, &spinner);
     assert_eq!(outputs.pulses_fired, 2);
     assert!(!outputs.burn_done && !outputs.burn_active && outputs.next_edge_s < 0.0);
-    assert_eq!(outputs.propellant_left_kg, 0.0);
+    assert_eq!(outputs.propellant_remaining_kg, 0.0);
     // Two pulses and a half, the half beginning at the edge of its pulse and so early by a quarter of a second.
     let per_second = 1.7792 / (353.82 * core::f64::consts::PI / 6.0);
     assert_relative_eq!(outputs.momentum_displacement_rad, 2.5 * per_second, max_relative = 0.02);

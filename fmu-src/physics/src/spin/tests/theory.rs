@@ -173,8 +173,8 @@ fn the_worst_of_a_range_is_what_a_fine_scan_finds() {
             assert!(
                 (1.0 - 1e-3..1.0 + 1e-3).contains(&ratio),
                 "{ratio}: {:?} {} {} {range:?} {timing:?}",
-                train.shape(),
-                train.count(),
+                train.shape,
+                train.count,
                 train.turns_per_pulse()
             );
         }

@@ -14,8 +14,8 @@ use physics::{
     momentum::{Convention, DumpPolicy, MomentumIntegrator, Reinitialise, Settings, Totals},
     plant::{
         AttitudeSource, Configuration, EphemerisSource, Laws, LightSource, Motion, PanelSetting, PanelStep,
-        Plant, PreparedSpacecraft, PropagatorState, RadiationSettings, SimulationContext, SunLight,
-        ThrusterEventSettings,
+        PreparedSpacecraft, PropagatorState, RadiationSettings, SimulationContext, SunLight,
+        ThrusterEventSettings, Turning,
     },
     radiation::SolarModel,
     spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel},
@@ -151,7 +151,7 @@ impl Flights for Cruise {
         let mut propagator = PropagatorState::default();
         let mut context = SimulationContext::new(configuration);
         let nothing = |_: f64| [ForceTorque::zero(); 2];
-        let mut plant = Plant::new(prepared, &mut context, &mut propagator, &nothing);
+        let mut plant = context.plant(prepared, Turning::still(), &mut propagator, &nothing);
         let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
         let mut momentum_inertial_n_m_s = Vec::with_capacity(times_s.len());
         for time_s in times_s {

@@ -96,12 +96,12 @@ fn a_place_among_events_of_one_time_is_kept() {
     let schedule = [1e8 + 5.0, 1e8 + 7.0, 1e8 + 7.000_000_2, 1e8 + 9.0].map(event);
     let events =
         ThrusterEventSettings { schedule: Arc::from(schedule), clock_minus_time_s: 1e8, ..settings() };
-    let (mut place, mut times_s) = (SchedulePlace::before(5.0), Vec::new());
+    let (mut place, mut times_s) = (LastEvent::before(5.0), Vec::new());
     while let Some(event) = events.next(place) {
         times_s.push(event.at_s - 1e8);
         place.take(events.time_s(event));
     }
     assert_eq!(times_s.len(), 4, "{times_s:?}");
-    assert_eq!(events.next_s(SchedulePlace::until(7.0)), 9.0);
-    assert_eq!(events.next_s(SchedulePlace::before(7.0)), 7.0);
+    assert_eq!(events.next_s(LastEvent::until(7.0)), 9.0);
+    assert_eq!(events.next_s(LastEvent::before(7.0)), 7.0);
 }

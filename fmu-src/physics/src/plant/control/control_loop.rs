@@ -6,17 +6,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::control::{ControlTarget, ControllerState, Estimate};
 use crate::attitude::{Attitude, BodyMotion, Gyrostat, GyrostatMotion};
-use crate::guidance::DownlinkStatus;
-use crate::momentum::Totals;
+use crate::guidance::{DownlinkStatus, GuidedAttitude};
 use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::spacing::spacing;
 
-use super::configured::ConfiguredFlight;
-use super::downlink_forecast::StartMomentum;
-use super::wheel_control::WheelControl;
-use crate::plant::settings::configuration::Command;
-use crate::plant::settings::dynamics_settings::{Control, Tracked};
-use crate::plant::settings::error::PlantError;
+use super::wheel_control::{WheelControl, WheelDistribution};
+use crate::plant::settings::attitude_source::Command;
+use crate::plant::settings::dynamics_settings::Control;
 use crate::plant::thrusters::allocation::ThrusterAllocator;
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::MassProperties;
@@ -56,9 +52,16 @@ pub(crate) struct Sampled<'a> {
     pub dump_body_n_m: Vector3<f64>,
 }
 
+/// Thrusters and wheels as the controller acts through them.
+pub(crate) struct Actuators<'a> {
+    pub thrusters: &'a mut Thrusters,
+    pub allocator: &'a mut ThrusterAllocator,
+    pub distribution: &'a mut WheelDistribution,
+}
+
 impl ControlLoop {
     /// Control loop at the start of a flight with `wheels` wheels.
-    pub(super) fn new(wheels: usize, time_s: f64, attitude: Attitude, rate_body_rad_s: Vector3<f64>) -> Self {
+    pub(crate) fn new(wheels: usize, time_s: f64, attitude: Attitude, rate_body_rad_s: Vector3<f64>) -> Self {
         Self {
             controller: ControllerState::new(attitude, rate_body_rad_s),
             wheels: WheelControl::new(wheels),
@@ -72,80 +75,57 @@ impl ControlLoop {
     }
 
     /// Rejects decoded states that no simulation with this number of wheels can produce.
-    pub(super) fn is_valid(&self, wheels: usize) -> bool {
+    pub(crate) fn is_valid(&self, wheels: usize) -> bool {
         self.controller.is_valid()
             && self.wheels.is_valid(wheels)
             && self.guidance.as_ref().is_none_or(Command::is_valid)
     }
 
     /// Whether wheels or thrusters could not give the torque requested at the last sample.
-    pub(super) fn is_limited(&self) -> bool {
+    pub(crate) fn is_limited(&self) -> bool {
         if self.by_thrusters { self.thrusters_limited } else { self.wheels.is_limited() }
     }
 
-    /// Returns the attitude and rate that the controller tracks at the end of the motion.
-    pub(super) fn target(
-        &mut self,
-        flight: &mut ConfiguredFlight<'_>,
-        tracked: Tracked,
-        sampled: &Sampled<'_>,
-    ) -> Result<ControlTarget, PlantError> {
-        let time_s = sampled.motion.end_s();
-        let command = match tracked {
-            Tracked::Rate(rate_body_rad_s) => return Ok(ControlTarget::RateOnly { rate_body_rad_s }),
-            Tracked::Attitude(command) => command,
-            Tracked::Guidance => self.guided(flight, sampled)?,
-        };
-        Ok(ControlTarget::Attitude {
-            attitude: command.attitude_at(time_s),
-            rate_body_rad_s: command.rate_body_rad_s,
-        })
+    /// The command of guidance in force at `time_s`; `None` where it is sampled anew there.
+    pub(crate) fn guidance_at(&self, time_s: f64) -> Option<Command> {
+        self.guidance.filter(|_| time_s < self.next_guidance_s - 4.0 * spacing(time_s))
     }
 
-    /// The command of internal guidance, sampled anew where that is due.
-    fn guided(
+    /// Whether guidance was never sampled.
+    pub(crate) fn is_unguided(&self) -> bool {
+        self.guidance.is_none()
+    }
+
+    /// Takes a sample of guidance at `time_s` as the command; without guidance the estimated attitude is held.
+    pub(crate) fn guide(
         &mut self,
-        flight: &mut ConfiguredFlight<'_>,
-        sampled: &Sampled<'_>,
-    ) -> Result<Command, PlantError> {
-        let (time_s, body) = (sampled.motion.end_s(), sampled.body);
-        let tolerance_s = 4.0 * spacing(time_s);
-        if let Some(command) = self.guidance
-            && time_s < self.next_guidance_s - tolerance_s
-        {
-            return Ok(command);
-        }
-        self.next_guidance_s = next_multiple_s(time_s + tolerance_s, GUIDANCE_INTERVAL_S);
-        let totals = Totals {
-            momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,
-            torque_integral_body_n_m_s: Vector3::zeros(),
-            delta_v_inertial_m_s: body.delta_v_inertial_m_s,
-        };
-        let momentum = StartMomentum::Inertial(body.momentum_inertial_n_m_s);
-        flight.select_sun_direction(time_s, &totals, momentum, self.guidance.is_none())?;
-        let guided = flight.plant_at(time_s, body).kinematics.guided_attitude(time_s);
-        self.downlink = guided.as_ref().map(DownlinkStatus::from_attitude).unwrap_or_default();
-        self.is_degenerate = guided.as_ref().is_some_and(|guided| guided.degenerate);
-        let (attitude, rate_body_rad_s) =
-            guided.map_or((sampled.estimate.attitude, Vector3::zeros()), |guided| {
-                let frame = guided.frame;
-                (Attitude::from_rotation(&frame.inertial_from_body), frame.rate_body_rad_s)
-            });
-        Ok(*self.guidance.insert(Command { attitude, rate_body_rad_s, since_s: time_s }))
+        time_s: f64,
+        guided: Option<&GuidedAttitude>,
+        estimate: &Estimate,
+    ) -> Command {
+        self.next_guidance_s = next_multiple_s(time_s + 4.0 * spacing(time_s), GUIDANCE_INTERVAL_S);
+        self.downlink = guided.map(DownlinkStatus::from_attitude).unwrap_or_default();
+        self.is_degenerate = guided.is_some_and(|guided| guided.degenerate);
+        let (attitude, rate_body_rad_s) = guided.map_or((estimate.attitude, Vector3::zeros()), |guided| {
+            let frame = guided.frame;
+            (Attitude::from_rotation(&frame.inertial_from_body), frame.rate_body_rad_s)
+        });
+        *self.guidance.insert(Command { attitude, rate_body_rad_s, since_s: time_s })
     }
 
     /// The torque the controller asks for, and what wheels or thrusters give of it.
-    pub(super) fn control(
+    pub(crate) fn control(
         &mut self,
         control: &Control,
-        (thrusters, allocator): (&mut Thrusters, &mut ThrusterAllocator),
+        actuators: Actuators<'_>,
         target: &ControlTarget,
         sampled: &Sampled<'_>,
     ) {
         let Sampled { number, gyrostat, motion, body, mass, .. } = *sampled;
+        let Actuators { thrusters, allocator, distribution } = actuators;
         let time_s = motion.end_s();
         let burning = thrusters.burning();
-        let lacks_wheels = !self.wheels.spans(gyrostat);
+        let lacks_wheels = !self.wheels.span(distribution, gyrostat);
         let by_thrusters = (burning.is_some() || lacks_wheels) && thrusters.spans(allocator, mass, time_s);
         let is_new = by_thrusters != self.by_thrusters;
         if is_new {
@@ -185,7 +165,7 @@ impl ControlLoop {
             self.thrusters_limited = given != Some(1.0);
             given.unwrap_or(0.0)
         } else {
-            self.wheels.give(&control.wheels, gyrostat, &torque_body_n_m, momentum)
+            self.wheels.give(&control.wheels, distribution, gyrostat, &torque_body_n_m, momentum)
         };
         if given < 1.0 {
             self.controller.limited(&(torque_body_n_m * given));

@@ -12,46 +12,63 @@ use crate::plant::settings::wheel_control_settings::WheelControlSettings;
 
 /// Motors of the wheels.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct WheelControl {
+pub(crate) struct WheelControl {
     motors: Vec<Motor>,
     /// Whether the wheels could not give the torque that was requested.
     is_limited: bool,
-    #[serde(skip)]
-    allocator: Option<CachedAllocator>,
 }
 
-/// The distribution over the wheels that work; a cache.
-#[derive(Clone, Debug)]
-struct CachedAllocator {
-    works: Vec<bool>,
+/// The distribution of a torque over the wheels that turn and have a motor, made anew where those or the axes change; a cache that
+/// no state holds.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct WheelDistribution {
+    /// Axis of each wheel, body frame, and whether it gives torque.
+    wheels: Vec<(Vector3<f64>, bool)>,
     allocator: Option<WheelAllocator>,
-    shares: Vec<f64>,
-    balance: Vec<f64>,
+    torques_n_m: Vec<f64>,
+    balance_n_m: Vec<f64>,
+}
+
+impl WheelDistribution {
+    /// Makes it that of these wheels.
+    fn update(&mut self, gyrostat: &Gyrostat, motors: &[Motor]) {
+        let wheels = gyrostat.wheels().iter().zip(motors);
+        let wheels = wheels.map(|(wheel, motor)| (wheel.axis_body, !motor.failed && !wheel.locked));
+        if wheels.clone().eq(self.wheels.iter().copied()) && wheels.len() == self.balance_n_m.len() {
+            return;
+        }
+        self.wheels.clear();
+        self.wheels.extend(wheels);
+        let axes: Vec<_> = self.wheels.iter().map(|(axis_body, _)| *axis_body).collect();
+        self.allocator = WheelAllocator::new(&axes, |k| self.wheels[k].1);
+        self.torques_n_m = vec![0.0; axes.len()];
+        self.balance_n_m = vec![0.0; axes.len()];
+    }
 }
 
 impl WheelControl {
     /// Motors of `wheels` wheels, without torque.
-    pub fn new(wheels: usize) -> Self {
-        Self { motors: vec![Motor::default(); wheels], is_limited: false, allocator: None }
+    pub(crate) fn new(wheels: usize) -> Self {
+        Self { motors: vec![Motor::default(); wheels], is_limited: false }
     }
 
     /// Rejects decoded states that no simulation with this number of wheels can produce.
-    pub fn is_valid(&self, wheels: usize) -> bool {
+    pub(crate) fn is_valid(&self, wheels: usize) -> bool {
         self.motors.len() == wheels
     }
 
     /// The motors.
-    pub fn motors(&self) -> &[Motor] {
+    pub(crate) fn motors(&self) -> &[Motor] {
         &self.motors
     }
 
     /// Whether the wheels could not give the torque requested last.
-    pub fn is_limited(&self) -> bool {
+    pub(crate) fn is_limited(&self) -> bool {
         self.is_limited
     }
 
     /// Sets which wheels failed, one flag a wheel: their motors give no torque.
-    pub fn fail(&mut self, failed: &[bool]) {
+    pub(crate) fn fail(&mut self, failed: &[bool]) {
         for (motor, failed) in self.motors.iter_mut().zip(failed) {
             motor.failed = *failed;
             if motor.failed {
@@ -61,7 +78,7 @@ impl WheelControl {
     }
 
     /// Torques from outside, in N m, as far as the motors give them.
-    pub fn drive(&mut self, gyrostat: &Gyrostat, torques_n_m: &[f64]) {
+    pub(crate) fn drive(&mut self, gyrostat: &Gyrostat, torques_n_m: &[f64]) {
         for ((motor, wheel), torque_n_m) in self.motors.iter_mut().zip(gyrostat.wheels()).zip(torques_n_m) {
             if !motor.failed {
                 motor.torque_n_m = torque_n_m.clamp(-wheel.max_torque_n_m, wheel.max_torque_n_m);
@@ -70,12 +87,13 @@ impl WheelControl {
     }
 
     /// Whether the wheels that work give torque in all directions.
-    pub fn spans(&mut self, gyrostat: &Gyrostat) -> bool {
-        self.known(gyrostat).allocator.is_some()
+    pub(crate) fn span(&self, distribution: &mut WheelDistribution, gyrostat: &Gyrostat) -> bool {
+        distribution.update(gyrostat, &self.motors);
+        distribution.allocator.is_some()
     }
 
     /// The rotors continue as they are: the motors make up for friction alone.
-    pub fn coast(
+    pub(crate) fn coast(
         &mut self,
         settings: &WheelControlSettings,
         gyrostat: &Gyrostat,
@@ -92,19 +110,17 @@ impl WheelControl {
     }
 
     /// The motors give this torque on the body, in N m, while the rotors hold these momenta; the part of it that they do.
-    pub fn give(
+    pub(crate) fn give(
         &mut self,
         settings: &WheelControlSettings,
+        distribution: &mut WheelDistribution,
         gyrostat: &Gyrostat,
         torque_body_n_m: &Vector3<f64>,
         momentum_n_m_s: impl Fn(usize) -> f64,
     ) -> f64 {
-        self.known(gyrostat);
-        let Self { motors, is_limited, allocator: Some(CachedAllocator { allocator, shares, balance, .. }) } =
-            self
-        else {
-            return 0.0;
-        };
+        let Self { motors, is_limited } = self;
+        distribution.update(gyrostat, motors);
+        let WheelDistribution { wheels, allocator, torques_n_m: shares, balance_n_m: balance } = distribution;
         let Some(allocator) = allocator else {
             motors.iter_mut().for_each(|motor| motor.torque_n_m = 0.0);
             *is_limited = true;
@@ -112,7 +128,7 @@ impl WheelControl {
         };
         // The body feels the opposite of what the motors exert on the rotors.
         allocator.distribute(settings.allocation, &-torque_body_n_m, shares);
-        let turns = |k: usize| !motors[k].failed && !gyrostat.wheels()[k].locked;
+        let turns = |k: usize| wheels[k].1;
         let working_body_n_m_s = gyrostat
             .along_axes(|k| if turns(k) { momentum_n_m_s(k) - gyrostat.wheels()[k].bias_n_m_s } else { 0.0 });
         allocator.distribute(settings.allocation, &working_body_n_m_s, balance);
@@ -137,27 +153,5 @@ impl WheelControl {
         }
         *is_limited = given < 1.0;
         given
-    }
-
-    /// The distribution over the wheels that work now.
-    fn known(&mut self, gyrostat: &Gyrostat) -> &CachedAllocator {
-        let motors = &self.motors;
-        let stale = self.allocator.as_ref().is_none_or(|cached| {
-            !cached.works.iter().zip(motors).all(|(works, motor)| *works != motor.failed)
-        });
-        if stale {
-            self.allocator = None;
-        }
-        self.allocator.get_or_insert_with(|| {
-            let works: Vec<bool> = motors.iter().map(|motor| !motor.failed).collect();
-            let axes: Vec<_> = gyrostat.wheels().iter().map(|wheel| wheel.axis_body).collect();
-            let can_turn = |k: usize| works[k] && !gyrostat.wheels()[k].locked;
-            CachedAllocator {
-                allocator: WheelAllocator::new(&axes, can_turn),
-                shares: vec![0.0; works.len()],
-                balance: vec![0.0; works.len()],
-                works,
-            }
-        })
     }
 }

@@ -16,6 +16,7 @@ use crate::loads::{ByEffect, ForceTorque, Loads};
 use crate::numerics::Span;
 use crate::numerics::adaptive::SegmentSpan;
 use crate::numerics::chebyshev::Segment;
+use crate::plant::settings::digest::Digest;
 
 /// Chebyshev nodes a segment.
 pub(crate) const NODES: usize = 6;
@@ -28,6 +29,8 @@ pub(crate) const HOTTEST_K: f64 = 1e5;
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RadiationSegment {
     pub(crate) span: SegmentSpan,
+    /// Digest of the settings that it was made for.
+    pub(crate) made_for: Digest,
     /// Absent for effects that do not act, and before the first segment for all.
     pub(crate) loads: ByEffect<Option<LoadSeries>>,
     /// Temperature of every face in K; empty where no heat is stored and no air meets the faces.
@@ -45,7 +48,7 @@ impl Clone for RadiationSegment {
 
     /// Allocates nothing where `self` held as many temperatures before.
     fn clone_from(&mut self, other: &Self) {
-        (self.span, self.loads) = (other.span, other.loads);
+        (self.span, self.made_for, self.loads) = (other.span, other.made_for, other.loads);
         self.temperatures_k.clone_from(&other.temperatures_k);
         self.end_k.clone_from(&other.end_k);
     }

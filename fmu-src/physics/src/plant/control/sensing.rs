@@ -29,7 +29,7 @@ pub(crate) struct Sensing {
 
 impl Sensing {
     /// At the start of a flight in this attitude and at this rate; the first sample is due there.
-    pub(super) fn new(
+    pub(crate) fn new(
         settings: &DynamicsSettings,
         time_s: f64,
         attitude: Attitude,
@@ -47,7 +47,7 @@ impl Sensing {
     }
 
     /// Whether a simulation can produce it.
-    pub(super) fn is_valid(&self) -> bool {
+    pub(crate) fn is_valid(&self) -> bool {
         let norm: f64 = self.sampled.0.0.iter().map(|x| x * x).sum();
         self.next.0.unsigned_abs() < 1 << 60
             && (norm - 1.0).abs() < 1e-9
@@ -56,13 +56,13 @@ impl Sensing {
     }
 
     /// When the next sample is due, in s.
-    pub(super) fn next_s(&self) -> f64 {
+    pub(crate) fn next_s(&self) -> f64 {
         self.next.1
     }
 
     /// Samples all sensors at `time_s`, the Sun being in this direction (EME2000), so much of its disc visible; the number of the
     /// sample.
-    pub(super) fn sample(
+    pub(crate) fn sample(
         &mut self,
         settings: &DynamicsSettings,
         inputs: &DynamicsInputs,
@@ -108,7 +108,7 @@ impl Sensing {
     }
 
     /// The last estimate, propagated to `time_s`.
-    pub(super) fn estimate_at(&self, time_s: f64) -> Estimate {
+    pub(crate) fn estimate_at(&self, time_s: f64) -> Estimate {
         let rate_body_rad_s = self.estimate.rate_body_rad_s.unwrap_or_default();
         let attitude = self.estimate.attitude.propagated(rate_body_rad_s, time_s - self.sampled_s);
         Estimate { attitude, ..self.estimate }

@@ -4,12 +4,11 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::configured::ConfiguredFlight;
-use crate::attitude::GyrostatMotion;
+use crate::attitude::{GyrostatMotion, MotionAt};
 use crate::loads::{ByEffect, Effect, Linear, Writer};
 use crate::momentum::{DumpEvent, DumpSpacing, Dumps, SourceMomenta};
 use crate::plant::sources::Dipoles;
-use crate::plant::thrusters::allocation::Unserved;
+use crate::plant::thrusters::allocation::{ThrusterAllocator, Unserved};
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::MassProperties;
 
@@ -38,54 +37,54 @@ pub(crate) struct MomentumDumps {
 
 impl MomentumDumps {
     /// Whether a simulation can produce it.
-    pub(super) fn is_valid(&self) -> bool {
+    pub(crate) fn is_valid(&self) -> bool {
         self.dumps.is_valid() && self.spacing.is_valid()
     }
 
     /// When a constant torque ends, in s; infinite where none acts.
-    pub(super) fn until_s(&self) -> f64 {
+    pub(crate) fn until_s(&self) -> f64 {
         self.constant.map_or(f64::INFINITY, |dump| dump.until_s)
     }
 
     /// Constant torque of a dump that lasts, in N m.
-    pub(super) fn torque_body_n_m(&self) -> Vector3<f64> {
+    pub(crate) fn torque_body_n_m(&self) -> Vector3<f64> {
         self.constant.map_or(Vector3::zeros(), |dump| dump.torque_body_n_m)
     }
 
     /// Ends a constant torque whose time has come.
-    pub(super) fn end(&mut self, due_s: f64) {
+    pub(crate) fn end(&mut self, due_s: f64) {
         self.constant = self.constant.filter(|dump| dump.until_s > due_s);
     }
 
     /// Adds what the effects did in the segment that ends; nothing of a dump's time counts.
-    pub(super) fn accumulate(&mut self, motion: &GyrostatMotion, is_dumping: bool) {
+    pub(crate) fn accumulate(&mut self, motion: &GyrostatMotion, end: &MotionAt, is_dumping: bool) {
         if is_dumping {
             self.by_source = SourceMomenta::default();
         } else {
-            self.by_source.add(&self.impulses(motion, motion.end_s()));
+            self.by_source.add(&self.impulses(motion, end));
         }
         (self.torques, self.dipoles) = Default::default();
     }
 
-    /// Returns the momentum by effect at `time_s` since the end of the last dump.
-    pub(super) fn by_source(&self, motion: &GyrostatMotion, time_s: f64) -> SourceMomenta {
+    /// Returns the momentum by effect since the end of the last dump.
+    pub(crate) fn by_source(&self, motion: &GyrostatMotion, until: &MotionAt) -> SourceMomenta {
         let mut sum = self.by_source;
-        sum.add(&self.impulses(motion, time_s));
+        sum.add(&self.impulses(motion, until));
         sum
     }
 
     /// Change of momentum by effect since the start of the motion's segment, EME2000, in N m s.
-    fn impulses(&self, motion: &GyrostatMotion, time_s: f64) -> [Vector3<f64>; Effect::COUNT] {
-        let mut impulses = motion.impulses_inertial_n_m_s(self.torques.values(), time_s);
+    fn impulses(&self, motion: &GyrostatMotion, until: &MotionAt) -> [Vector3<f64>; Effect::COUNT] {
+        let mut impulses = motion.impulses_inertial_n_m_s(self.torques.values(), until);
         for (row, dipole) in Effect::FIELD.into_iter().zip(&self.dipoles) {
-            let impulse = dipole.and_then(|dipole| motion.dipole_impulse_inertial_n_m_s(&dipole, time_s));
+            let impulse = dipole.and_then(|dipole| motion.dipole_impulse_inertial_n_m_s(&dipole, until));
             impulses[row as usize] += impulse.unwrap_or_default();
         }
         for row in Effect::ALL {
             impulses[row as usize] += match row.row().writer {
                 Writer::Source(_) => continue,
-                Writer::Rotors => motion.imbalance_impulse_inertial_n_m_s(time_s),
-                Writer::Propellant => motion.swing_impulse_inertial_n_m_s(time_s),
+                Writer::Rotors => motion.imbalance_impulse_inertial_n_m_s(until),
+                Writer::Propellant => motion.swing_impulse_inertial_n_m_s(until),
             }
             .unwrap_or_default();
         }
@@ -94,19 +93,19 @@ impl MomentumDumps {
 
     /// Begins a dump at the end of the motion: by thrusters that give torque both ways about each axis, or by a constant
     /// torque; false where those thrusters are not fed.
-    pub(super) fn begin(
+    pub(crate) fn begin(
         &mut self,
         event: DumpEvent,
-        flight: &mut ConfiguredFlight<'_>,
+        thrusters: &mut Thrusters,
+        allocator: &mut ThrusterAllocator,
         motion: &GyrostatMotion,
         mass: &MassProperties,
     ) -> bool {
         let target = motion.attitude_at(event.time_s).inertial_from_body(&event.after_body_n_m_s);
-        let allocator = &mut flight.context.allocator;
         let has_thrusters = !allocator.settings.thrusters.is_empty();
         let by_thrusters = has_thrusters.then(|| {
             let center_of_mass_body_m = &mass.center_of_mass_body_m;
-            flight.thrusters.begin_dump(allocator, motion, target, center_of_mass_body_m)
+            thrusters.begin_dump(allocator, motion, target, center_of_mass_body_m)
         });
         if by_thrusters == Some(Err(Unserved::Unfed)) {
             return false;
@@ -118,7 +117,7 @@ impl MomentumDumps {
             return true;
         }
         let impulse_body_n_m_s = event.impulse_body_n_m_s();
-        let duration_s = impulse_body_n_m_s.amax() / flight.context.allocator.settings.dump_torque_n_m;
+        let duration_s = impulse_body_n_m_s.amax() / allocator.settings.dump_torque_n_m;
         if duration_s > 0.0 {
             let torque_body_n_m = impulse_body_n_m_s / duration_s;
             self.constant = Some(ConstantDump { torque_body_n_m, until_s: event.time_s + duration_s });
@@ -127,12 +126,12 @@ impl MomentumDumps {
     }
 
     /// Whether one lasts at `time_s`.
-    pub(super) fn is_dumping(&self, thrusters: &Thrusters, time_s: f64) -> bool {
+    pub(crate) fn is_dumping(&self, thrusters: &Thrusters, time_s: f64) -> bool {
         self.constant.is_some_and(|dump| time_s < dump.until_s) || thrusters.is_dumping()
     }
 
     /// Whether another may begin.
-    pub(super) fn are_over(&self, thrusters: &Thrusters) -> bool {
+    pub(crate) fn are_over(&self, thrusters: &Thrusters) -> bool {
         self.constant.is_none() && !thrusters.is_dumping()
     }
 }

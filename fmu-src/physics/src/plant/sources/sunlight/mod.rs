@@ -1,49 +1,50 @@
 //! Sunlight, planet light and the recoil of heat: slow effects from a segment, sunlight that nothing shadows in closed form.
 
+mod radiation_node;
+mod stored_heat;
+
+pub(in crate::plant) mod light_and_heat;
+pub(in crate::plant) mod radiation_segment;
+pub(in crate::plant) mod radiation_solver;
+pub(in crate::plant) mod sunlit;
+
 use nalgebra::Vector3;
 
+use self::light_and_heat::RadiationBuilder;
+use self::radiation_segment::RadiationSegment;
+use self::radiation_solver::RadiationSolver;
+use self::sunlit::SunlitConfiguration;
 use super::source::{Source, Workspace};
 use crate::loads::{Effect, Loads};
 use crate::numerics::Span;
 use crate::plant::instant::conditions::Conditions;
 use crate::plant::instant::path_ahead::PathAhead;
-use crate::plant::light::light_and_heat::RadiationBuilder;
-use crate::plant::light::radiation_segment::RadiationSegment;
-use crate::plant::light::radiation_solver::RadiationSolver;
-use crate::plant::light::sunlit::SunlitConfiguration;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
 use crate::radiation::Beam;
 use crate::spacecraft::{Material, Spacecraft};
 
-/// Sunlight, with the solver of light and heat beyond direct sunlight where there is more of them.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Sunlight {
-    /// Light and heat beyond direct sunlight.
-    pub solver: Option<RadiationSolver>,
+/// Rows of the Sun's light, direct and reflected: no infrared light and no heat enters them.
+pub const REFLECTED_LIGHT: [Effect; 2] = [Effect::Solar, Effect::Albedo];
+
+/// Reports temperature in K and force in N, body frame, of every face of the light model at `time_s`, in its order; the force of the
+/// effects that act.
+///
+/// # Errors
+/// A geometry without meaning.
+pub(in crate::plant) fn report_faces(
+    solver: &mut Option<RadiationSolver>,
+    state: &Option<RadiationSegment>,
+    path: &mut PathAhead<'_, '_>,
+    time_s: f64,
+    report: impl FnMut(f64, Vector3<f64>),
+) -> Result<(), PlantError> {
+    let Some(solver) = solver else { return Ok(()) };
+    RadiationBuilder::along(path).faces(solver, state.as_ref(), time_s, report)
 }
 
-impl Sunlight {
-    /// Reports temperature in K and force in N, body frame, of every face of the light model at `time_s`, in its order; the
-    /// force of the effects that act.
-    ///
-    /// # Errors
-    /// A geometry without meaning.
-    pub(crate) fn faces(
-        &mut self,
-        state: &Option<RadiationSegment>,
-        path: PathAhead<'_, '_>,
-        time_s: f64,
-        report: impl FnMut(f64, Vector3<f64>),
-    ) -> Result<(), PlantError> {
-        let Some(solver) = &mut self.solver else { return Ok(()) };
-        let PathAhead { spacecraft, kinematics, .. } = path;
-        let mut builder = RadiationBuilder { panels: spacecraft.panels, kinematics };
-        builder.faces(solver, state.as_ref(), time_s, report)
-    }
-}
-
-impl Source for Sunlight {
+/// Sunlight; with its solver of light and heat, where there is more of them than direct sunlight.
+impl Source for Option<RadiationSolver> {
     const ROWS: &'static [Effect] = &[Effect::Solar, Effect::Albedo, Effect::Infrared, Effect::Thermal];
     type Settings = Configuration;
     type State = Option<RadiationSegment>;
@@ -66,7 +67,7 @@ impl Source for Sunlight {
             segment.write_wall_temperatures(time_s, &mut workspace.face_temperatures_k);
         }
         let mut is_shadowed = false;
-        if let (Some(segment), Some(solver)) = (state, &self.solver)
+        if let (Some(segment), Some(solver)) = (state, &*self)
             && configuration.has_light_and_heat()
         {
             is_shadowed = configuration.light_and_heat.shadowing && solver.model.can_shadow();
@@ -90,11 +91,9 @@ impl Source for Sunlight {
         path: &mut PathAhead<'_, '_>,
         span: Span,
     ) -> Result<f64, PlantError> {
-        match &mut self.solver {
+        match self {
             Some(solver) if path.kinematics.configuration.has_light_and_heat() => {
-                let PathAhead { spacecraft, kinematics, .. } = path;
-                let mut builder = RadiationBuilder { panels: spacecraft.panels, kinematics };
-                builder.extend(solver, state, span.start_s, span.end_s)
+                RadiationBuilder::along(path).extend(solver, state, span.start_s, span.end_s)
             }
             _ => Ok(span.end_s),
         }
@@ -116,7 +115,7 @@ impl Source for Sunlight {
     }
 
     fn set_material(&mut self, index: usize, material: &Material) {
-        if let Some(solver) = &mut self.solver {
+        if let Some(solver) = self {
             solver.model.set_material(index, material);
         }
     }

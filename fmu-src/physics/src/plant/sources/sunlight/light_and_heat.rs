@@ -14,7 +14,9 @@ use super::radiation_node::RadiationNode;
 use super::radiation_segment::{HOTTEST_K, LoadSeries, NODES, RadiationSegment};
 use super::radiation_solver::RadiationSolver;
 use crate::momentum::WorkKind;
+use crate::plant::instant::path_ahead::PathAhead;
 use crate::plant::motion::kinematics::Kinematics;
+use crate::plant::settings::digest::Digest;
 use crate::plant::settings::error::PlantError;
 
 /// No segment is shortened below this, in s: kinks where a face turns dark end here.
@@ -28,11 +30,17 @@ const SHORTEST_TURN_RAD: f64 = 0.1;
 
 /// Builds the radiation segments of a flight whose spacecraft has these panels.
 pub(crate) struct RadiationBuilder<'r, 'a> {
-    pub panels: &'a [Panel],
-    pub kinematics: &'r mut Kinematics<'a>,
+    panels: &'a [Panel],
+    digest: Digest,
+    kinematics: &'r mut Kinematics<'a>,
 }
 
-impl RadiationBuilder<'_, '_> {
+impl<'r, 'a> RadiationBuilder<'r, 'a> {
+    /// Builder of segments along a path.
+    pub(crate) fn along(path: &'r mut PathAhead<'_, 'a>) -> Self {
+        Self { panels: path.spacecraft.panels, digest: path.digest, kinematics: &mut *path.kinematics }
+    }
+
     /// Turns everything at `time_s` into the body frame for `node`.
     fn view(&mut self, time_s: f64, light_panels: &[usize], node: &mut RadiationNode) {
         let configuration = self.kinematics.configuration;
@@ -72,6 +80,9 @@ impl RadiationBuilder<'_, '_> {
         limit_s: f64,
     ) -> Result<f64, PlantError> {
         let segment = segment.get_or_insert_default();
+        if segment.made_for != self.digest {
+            segment.cut(start_s);
+        }
         if segment.span.contains(start_s) {
             return Ok(segment.span.end_s.min(limit_s));
         }
@@ -116,7 +127,7 @@ impl RadiationBuilder<'_, '_> {
                 Err(error) => Attempt::Undefined(self.no_light(start_s, error)),
             })
         })?;
-        (segment.span, segment.loads) = (span, series);
+        (segment.span, segment.made_for, segment.loads) = (span, self.digest, series);
         segment.temperatures_k.clear();
         if stores || self.needs_wall_temperatures() {
             segment.temperatures_k.extend((0..light.face_count()).map(|face| {

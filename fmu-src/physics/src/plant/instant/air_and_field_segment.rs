@@ -98,12 +98,8 @@ impl AirAndFieldSegment {
     }
 
     /// Air and field at `time_s` by these settings; none without settings.
-    pub(crate) fn by_settings(&self, settings: &Option<AirAndFieldSettings>, time_s: f64) -> AirAndField {
-        settings.as_ref().map_or_else(AirAndField::default, |it| self.at(it, time_s))
-    }
-
-    /// Air and field at `time_s`.
-    fn at(&self, settings: &AirAndFieldSettings, time_s: f64) -> AirAndField {
+    pub(crate) fn at(&self, settings: Option<&AirAndFieldSettings>, time_s: f64) -> AirAndField {
+        let Some(settings) = settings else { return AirAndField::default() };
         let vector =
             |series: &Option<Series>| series.as_ref().map_or(Vector3::zeros(), |it| it.value(time_s));
         AirAndField {

@@ -1,0 +1,146 @@
+//! A flight in one step by its mode, with the settings of that: what both ways of flight and one that waits do alike.
+
+use crate::attitude::MotionAt;
+use crate::attitude::control::{sample_number, sensed_sun};
+use crate::momentum::Totals;
+use crate::plant::disturbances::evaluation::Evaluation;
+use crate::plant::events;
+use crate::plant::motion::instant::Instant;
+use crate::plant::settings::attitude_source::{AttitudeSource, Command};
+use crate::plant::settings::dynamics_settings::DynamicsInputs;
+use crate::plant::settings::error::PlantError;
+use crate::plant::settings::ideal_settings::IdealSettings;
+use crate::plant::state::encounter_prediction::EncounterPrediction;
+use crate::plant::state::ideal_state::IdealState;
+use crate::radiation::SolarModel;
+
+use super::configured::ConfiguredFlight;
+use super::dynamic::Dynamic;
+use super::ideal::Ideal;
+use super::report::{Report, dynamic, ideal};
+
+/// A flight in one step.
+pub(super) enum InFlight<'f> {
+    /// The attitude is held, and nothing acts.
+    Waiting { settings: &'f IdealSettings, inputs: &'f DynamicsInputs, flight: ConfiguredFlight<'f> },
+    /// The attitude is followed ideally.
+    Ideal(Ideal<'f>),
+    /// The body turns by torque.
+    Dynamic(Dynamic<'f>),
+}
+
+impl<'f> InFlight<'f> {
+    /// The flight that advances.
+    pub(super) fn flight(&mut self) -> &mut ConfiguredFlight<'f> {
+        match self {
+            Self::Waiting { flight, .. } => flight,
+            Self::Ideal(it) => &mut it.flight,
+            Self::Dynamic(it) => &mut it.flight,
+        }
+    }
+
+    /// Applies the requests of a step.
+    pub(super) fn apply_requests(&mut self, span_s: [f64; 2]) -> Result<(), PlantError> {
+        match self {
+            Self::Waiting { .. } => Ok(()),
+            Self::Ideal(it) => it.apply_requests(span_s[0]),
+            Self::Dynamic(it) => it.apply_requests(span_s),
+        }
+    }
+
+    /// Advances until everything is known at `time_s`.
+    pub(super) fn advance(&mut self, time_s: f64) -> Result<(), PlantError> {
+        match self {
+            Self::Waiting { .. } => Ok(()),
+            Self::Ideal(it) => events::advance(it, time_s),
+            Self::Dynamic(it) => {
+                it.resume();
+                events::advance(it, time_s)
+            }
+        }
+    }
+
+    /// Attitude of a fork from `time_s` on, where it is not the flight's.
+    pub(super) fn fork_attitude(&self, time_s: f64) -> Option<AttitudeSource> {
+        match self {
+            Self::Dynamic(it) => Some(it.ideal_attitude(time_s)),
+            Self::Waiting { .. } | Self::Ideal(_) => None,
+        }
+    }
+
+    /// Everything at `time_s`, where the flight has come; one that waits holds the attitude of `held`, and the momentum of its start.
+    pub(super) fn report(
+        self,
+        held: &Command,
+        evaluation: &'f mut Option<Evaluation>,
+        prediction: Option<EncounterPrediction>,
+        time_s: f64,
+    ) -> Report<'f> {
+        let is_waiting = matches!(self, Self::Waiting { .. });
+        let mut sampled = None;
+        let (evaluation, summary, flight) = match self {
+            Self::Dynamic(mut it) => {
+                it.resume();
+                sampled = Some((it.state.control.downlink, it.state.control.is_degenerate));
+                let at: MotionAt = it.state.motion.evaluated_at(&it.settings.gyrostat, time_s);
+                let evaluation = &*evaluation.insert(it.evaluation(&at));
+                let Dynamic { state, settings, flight, .. } = it;
+                let summary = dynamic(state, settings, flight.thrusters, evaluation, &at);
+                (evaluation, summary, flight)
+            }
+            Self::Ideal(Ideal { state, settings, inputs, mut flight, .. }) => {
+                let evaluation = &*evaluation.insert(flight.plant().evaluate(time_s));
+                let mut summary = ideal(state, settings, evaluation, inputs, time_s);
+                let Instant { sun_body, lit_fraction, .. } = &evaluation.instant;
+                summary.sun_sensed_body = sensed_sun(
+                    &settings.sun_sensors,
+                    |k| inputs.sun_sensor_failed.get(k).is_some_and(|failed| *failed),
+                    sun_body,
+                    *lit_fraction,
+                    (settings.seed, sample_number(time_s, settings.rate_hz)),
+                );
+                (evaluation, summary, flight)
+            }
+            Self::Waiting { settings, inputs, flight } => {
+                let (frame, attitude) = (held.frame_at(time_s), held.attitude_at(time_s));
+                let mass = flight.context.current_mass_panels_stowed;
+                let evaluation = &*evaluation.insert(Evaluation::without_position(frame, mass));
+                let bias_body_n_m_s = flight.context.configuration.momentum.policy.bias_body_n_m_s;
+                let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
+                let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
+                let waiting = IdealState::new(time_s, &attitude, totals);
+                (evaluation, ideal(&waiting, settings, evaluation, inputs, time_s), flight)
+            }
+        };
+        let ConfiguredFlight { given, context, propagator, thrusters, .. } = flight;
+        let (configuration, trajectory) = (&context.configuration, &propagator.trajectory);
+        let Instant { downlink, is_degenerate, .. } = evaluation.instant;
+        let (downlink, is_degenerate) = sampled.unwrap_or((downlink, is_degenerate));
+        let followed = configuration.timeline.filter(|_| configuration.attitude.guided().is_some());
+        let timeline = given.prepared.timeline.zip(followed);
+        let slot = timeline.map(|(law, settings)| law.timeline.slot(time_s, settings.clock_minus_time_s));
+        Report {
+            time_s,
+            configuration,
+            materials: context.models.solar.as_ref().map_or(&[], SolarModel::materials),
+            thrusters,
+            reaction_control: &context.allocator.settings,
+            since_periapsis_s: match is_waiting {
+                true => 0.0,
+                false => trajectory.time_since_periapsis_s(configuration, time_s),
+            },
+            downlink,
+            is_degenerate,
+            timeline_row: slot.map_or(0, |slot| slot.row),
+            timeline_until_s: slot.map(|slot| slot.until_s).filter(|until_s| until_s.is_finite()),
+            target_is_clamped: propagator.sun_choice.is_clamped(),
+            evaluation,
+            integration_center: trajectory.integration_center(configuration),
+            from_integration_center: trajectory.state_from_integration_center(time_s),
+            approaches: trajectory.approaches_until(time_s),
+            panel_turns: &propagator.panel_turns,
+            prediction,
+            summary,
+        }
+    }
+}

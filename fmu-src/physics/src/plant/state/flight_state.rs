@@ -1,0 +1,68 @@
+//! State of a flight, saved whole; what parameters and inputs set, and caches, stand apart from it.
+
+use serde::{Deserialize, Serialize};
+
+use super::dynamic_state::DynamicState;
+use super::encounter_prediction::EncounterPrediction;
+use super::ideal_state::IdealState;
+use super::propagator_state::PropagatorState;
+use crate::plant::thrusters::reaction_control::Thrusters;
+use crate::spacecraft::Spacecraft;
+
+/// State of a flight.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct FlightState {
+    /// Place, light, air and field, and what events chose and placed.
+    pub propagator: PropagatorState,
+    /// Thrusters and tanks.
+    pub thrusters: Thrusters,
+    /// Attitude and momentum.
+    pub mode: Mode,
+    /// The last prediction of the encounter; none before any.
+    pub prediction: Option<EncounterPrediction>,
+}
+
+/// How the attitude comes about, with the state of that.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) enum Mode {
+    /// Flight that waits for its inputs: no loads, the attitude held.
+    Waiting,
+    /// Attitude that is followed ideally.
+    Ideal(Box<IdealState>),
+    /// Attitude by torque.
+    Dynamic(Box<DynamicState>),
+}
+
+impl FlightState {
+    /// State of a flight that waits for its inputs.
+    pub(crate) fn waiting(thrusters: Thrusters) -> Self {
+        Self { propagator: PropagatorState::default(), thrusters, mode: Mode::Waiting, prediction: None }
+    }
+
+    /// Rejects decoded states that no flight of this spacecraft can produce.
+    pub(crate) fn is_valid(&self, spacecraft: &Spacecraft) -> bool {
+        self.propagator.is_valid(spacecraft)
+            && self.prediction.as_ref().is_none_or(EncounterPrediction::is_valid)
+            && self.thrusters.is_valid(spacecraft)
+            && match &self.mode {
+                Mode::Waiting => true,
+                Mode::Ideal(ideal) => ideal.is_valid(),
+                Mode::Dynamic(dynamics) => dynamics.is_valid(spacecraft),
+            }
+    }
+
+    /// Names a part of the flight that was not computed at `time_s`, if any.
+    pub(crate) fn first_uncovered(&self, time_s: f64) -> Option<&'static str> {
+        let PropagatorState { sources, trajectory, air_and_field, .. } = &self.propagator;
+        let uncovered = sources.first_uncovered(time_s);
+        let (is_covered, what) = match &self.mode {
+            _ if uncovered.is_some() => return uncovered,
+            _ if !air_and_field.covers(time_s) => (false, "air and magnetic field were computed"),
+            _ if !trajectory.covers(time_s) => (false, "the orbit was integrated"),
+            Mode::Waiting => (true, ""),
+            Mode::Ideal(ideal) => (ideal.integrator.covers(time_s), "the momentum was accumulated"),
+            Mode::Dynamic(dynamics) => (dynamics.covers(time_s), "the attitude was computed"),
+        };
+        (!is_covered).then_some(what)
+    }
+}
