@@ -61,7 +61,9 @@ fn configure(
     let (mut configuration, mut settings) = (None, None);
     if reading.is_reconfigured {
         match inputs::configured(Read::new(context, values), state, step.inputs, reading)? {
-            Reconfigured::Simulation(simulation, settings) => state.saved.flight.configure(*simulation, settings),
+            Reconfigured::Simulation(simulation, settings) => {
+                state.saved.flight.configure(*simulation, settings)
+            }
             Reconfigured::Changed(changed, with) => (configuration, settings) = (Some(changed), with),
         }
     }

@@ -22,7 +22,7 @@ pub(crate) enum EventKind {
     /// Event of the timeline: centre of mass, then maneuver, then dump.
     Schedule,
     /// Choice of the Sun's direction.
-    SunChoice,
+    SunDirection,
     /// Momentum beyond its threshold.
     Threshold,
     /// Sample of sensors and controller.
@@ -39,7 +39,7 @@ impl EventKind {
         Self::DumpEnd,
         Self::Grid,
         Self::Schedule,
-        Self::SunChoice,
+        Self::SunDirection,
         Self::Threshold,
         Self::Sample,
         Self::Load,
@@ -58,7 +58,7 @@ impl EventKind {
             Self::DumpEnd => "end of a dump",
             Self::Grid => "edge of the disturbance grid",
             Self::Schedule => "event of the timeline",
-            Self::SunChoice => "choice of the Sun's direction",
+            Self::SunDirection => "choice of the Sun's direction",
             Self::Threshold => "dump at a threshold",
             Self::Sample => "sample of the controller",
             Self::Load => "load of thrusters",

@@ -56,7 +56,7 @@ pub(super) struct Reading<'a> {
 pub(super) enum Reconfigured {
     /// All of the simulation, by fixed parameters too.
     Simulation(Box<SimulationContext>, ModeSettings),
-    /// What depends on inputs and tunable parameters, the settings where they do.
+    /// The part that depends on inputs and tunable parameters, with settings where they do.
     Changed(Configuration, Option<ModeSettings>),
 }
 
@@ -106,7 +106,8 @@ pub(super) fn read<'a>(
     let (momentum, spacecraft) = (&variables.momentum, &context.setup.spacecraft);
     let strategy = read.choice(momentum.strategy).0;
     let is_dynamic = state.inputs.source.is_dynamic && !state.saved.waiting;
-    let is_complete = begins || state.saved.flight.configuration().is_none() || (state.saved.waiting && changes.is_some());
+    let is_complete =
+        begins || state.saved.flight.configuration().is_none() || (state.saved.waiting && changes.is_some());
     let is_changed = changes.is_some_and(|it| !is_dynamic || it.orbit || it.light || it.tunables);
     let is_reconfigured = is_complete || is_changed;
     let current = state.saved.flight.configuration().filter(|_| !is_reconfigured);

@@ -72,7 +72,7 @@ impl Eventful for Dynamic<'_> {
                 flight.context.configuration.thruster_events.next_s(state.last.scheduled())
             }
             EventKind::Sample => state.sensing.next_s(),
-            EventKind::Accounts | EventKind::SunChoice | EventKind::Threshold | EventKind::Load => {
+            EventKind::Accounts | EventKind::SunDirection | EventKind::Threshold | EventKind::Load => {
                 f64::INFINITY
             }
         }
@@ -86,7 +86,7 @@ impl Eventful for Dynamic<'_> {
             EventKind::Accounts => self.applied.is_none(),
             EventKind::Valves => self.applied == Some(EventKind::Accounts),
             EventKind::Load => self.applied == Some(EventKind::Valves),
-            EventKind::SunChoice => {
+            EventKind::SunDirection => {
                 comes_by(self.state.sensing.next_s())
                     && self.samples_guidance(time_s)
                     && !self.state.last.has_come(kind, time_s)
@@ -118,7 +118,7 @@ impl Eventful for Dynamic<'_> {
                 grid_edge::begin_interval(self.state, self.settings, &mut self.flight)?;
             }
             EventKind::Schedule => self.dump_as_scheduled()?,
-            EventKind::SunChoice => self.select_sun_direction()?,
+            EventKind::SunDirection => self.select_sun_direction()?,
             EventKind::Threshold => {}
             EventKind::Sample => self.sample()?,
             EventKind::Load => {

@@ -60,7 +60,7 @@ impl Eventful for Ideal<'_> {
     fn is_due(&mut self, kind: EventKind) -> Result<bool, PlantError> {
         let time_s = self.reached_s();
         Ok(match kind {
-            EventKind::SunChoice => self.flight.plant().must_choose(time_s),
+            EventKind::SunDirection => self.flight.plant().must_choose(time_s),
             EventKind::Threshold => {
                 let settings = self.flight.context.configuration.momentum;
                 let limit_s = self.next_event_s(EventKind::Schedule);

@@ -189,7 +189,8 @@ impl Flight {
                 self.state.propagator.cut(so_far, time_s, changes.light);
             }
             Mode::Dynamic(dynamics) => {
-                let is_refitted = changes.light || !dynamics.disturbance.is_made_for(setup.context.models.digest);
+                let is_refitted =
+                    changes.light || !dynamics.disturbance.is_made_for(setup.context.models.digest);
                 let loads_change = is_refitted || changes.mass || pushed;
                 dynamics.cut(time_s, loads_change);
                 self.state.propagator.command_slews.cut(time_s);
@@ -261,9 +262,15 @@ impl Flight {
             (Mode::Ideal(state), ModeSettings::Ideal(settings)) => {
                 InFlight::Ideal(Ideal { state, settings, inputs, flight, prepared: None })
             }
-            (Mode::Dynamic(state), ModeSettings::Dynamic(settings)) => {
-                InFlight::Dynamic(Dynamic { state, settings, inputs, flight, distribution, end: None, applied: None })
-            }
+            (Mode::Dynamic(state), ModeSettings::Dynamic(settings)) => InFlight::Dynamic(Dynamic {
+                state,
+                settings,
+                inputs,
+                flight,
+                distribution,
+                end: None,
+                applied: None,
+            }),
             _ => return Err(PlantError::OtherMode),
         };
         Ok((in_flight, evaluation))

@@ -54,9 +54,9 @@ impl FlightState {
     /// Names a part of the flight that was not computed at `time_s`, if any.
     pub(crate) fn first_uncovered(&self, time_s: f64) -> Option<&'static str> {
         let PropagatorState { sources, trajectory, air_and_field, .. } = &self.propagator;
-        let uncovered = sources.first_uncovered(time_s);
+        let of_sources = sources.first_uncovered(time_s);
         let (is_covered, what) = match &self.mode {
-            _ if uncovered.is_some() => return uncovered,
+            _ if of_sources.is_some() => return of_sources,
             _ if !air_and_field.covers(time_s) => (false, "air and magnetic field were computed"),
             _ if !trajectory.covers(time_s) => (false, "the orbit was integrated"),
             Mode::Waiting => (true, ""),

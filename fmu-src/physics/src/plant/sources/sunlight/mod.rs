@@ -3,10 +3,10 @@
 mod radiation_node;
 mod stored_heat;
 
-pub(in crate::plant) mod light_and_heat;
-pub(in crate::plant) mod radiation_segment;
-pub(in crate::plant) mod radiation_solver;
-pub(in crate::plant) mod sunlit;
+pub(crate) mod light_and_heat;
+pub(crate) mod radiation_segment;
+pub(crate) mod radiation_solver;
+pub(crate) mod sunlit;
 
 use nalgebra::Vector3;
 
@@ -32,7 +32,7 @@ pub const REFLECTED_LIGHT: [Effect; 2] = [Effect::Solar, Effect::Albedo];
 ///
 /// # Errors
 /// A geometry without meaning.
-pub(in crate::plant) fn report_faces(
+pub(crate) fn report_faces(
     solver: &mut Option<RadiationSolver>,
     state: &Option<RadiationSegment>,
     path: &mut PathAhead<'_, '_>,
