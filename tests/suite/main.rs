@@ -13,6 +13,7 @@ mod golden;
 mod imports;
 mod instances;
 mod layout;
+mod limits;
 mod plant;
 mod prose;
 mod public_names;

@@ -6,6 +6,7 @@ mod articulation;
 mod attitude_sign;
 mod attitudes;
 mod center_defaults;
+mod coincident_events;
 mod command_slews;
 mod cruise;
 mod cruise_centers;
