@@ -26,7 +26,7 @@ use variables::choices::AttitudeSource;
 
 impl Model for MomentumPlant {
     const NAME: &'static str = "MomentumPlant";
-    const STATE_VERSION: u32 = 22;
+    const STATE_VERSION: u32 = 23;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const SCHEDULE_FILES: &'static [&'static str] = &[TIMELINE_FILE, EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
