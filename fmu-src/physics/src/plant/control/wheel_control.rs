@@ -38,7 +38,8 @@ impl WheelDistribution {
         let count = gyrostat.wheels().len().min(motors.len());
         let is_same = |k: usize| {
             let (known, works) = &self.wheels[k];
-            *works == gives(k) && known.as_slice() == gyrostat.wheels()[k].axis_body.as_slice()
+            let axis = &gyrostat.wheels()[k].axis_body;
+            *works == gives(k) && known.x == axis.x && known.y == axis.y && known.z == axis.z
         };
         if self.balance_n_m.len() == count && self.wheels.len() == count && (0..count).all(is_same) {
             return;
