@@ -23,6 +23,7 @@ use super::gyrostat::Gyrostat;
 use super::gyrostat_series::GyrostatSeries;
 use super::imbalance::ImbalanceMotion;
 use super::internal_motion::InternalMotion;
+use super::motion_at::{MotionAt, node_attitudes};
 use super::oscillator::OscillatorMotion;
 use super::quaternion::Quaternion;
 use super::rotor_motion::{self, RotorMotion};
@@ -46,16 +47,6 @@ pub struct GyrostatMotion {
     load: BodyLoad,
     momentum_inertial_n_m_s: Vector3<f64>,
     delta_v_inertial_m_s: Vector3<f64>,
-}
-
-/// Body at one time of a segment, and its attitudes at the nodes of the quadrature up to there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MotionAt {
-    /// When, in s.
-    pub time_s: f64,
-    /// The body.
-    pub body: BodyMotion,
-    attitudes: [Quaternion; 3],
 }
 
 impl GyrostatMotion {
@@ -121,14 +112,11 @@ impl GyrostatMotion {
     /// from there on: the momentum is kept, those of rotors and modal coordinates along their axes too, and the rate follows.
     pub fn reorient(&mut self, gyrostat: &Gyrostat, attitude: Quaternion, internal: Option<InternalMotion>) {
         let elapsed_s = self.end_s - self.start_s;
-        let attitudes = self.attitudes_before(elapsed_s);
+        let attitudes = node_attitudes(&self.series, elapsed_s);
         [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s] = self.totals_after(elapsed_s, &attitudes);
-        for it in &mut self.rotors {
-            it.axial[0] = it.axial_after(self.series.order, elapsed_s);
-        }
-        for it in &mut self.oscillators {
-            it.hold(self.series.order, elapsed_s);
-        }
+        let order = self.series.order;
+        self.rotors.iter_mut().for_each(|it| it.axial[0] = it.axial_after(order, elapsed_s));
+        self.oscillators.iter_mut().for_each(|it| it.hold(order, elapsed_s));
         for (it, imbalance) in self.imbalances.iter_mut().zip(&gyrostat.appendages().imbalances) {
             it.begin(imbalance, gyrostat.center_of_mass_body_m(), self.series.order, elapsed_s);
         }
@@ -164,11 +152,6 @@ impl GyrostatMotion {
         }
     }
 
-    /// Attitudes at the nodes of the quadrature over the first `elapsed_s` of the segment.
-    fn attitudes_before(&self, elapsed_s: f64) -> [Quaternion; 3] {
-        GAUSS_3.map(|(node, _)| self.series.attitude_after(node * elapsed_s))
-    }
-
     /// The body at `time_s` within the segment.
     pub fn at(&self, gyrostat: &Gyrostat, time_s: f64) -> BodyMotion {
         self.evaluated_at(gyrostat, time_s).body
@@ -178,7 +161,7 @@ impl GyrostatMotion {
     pub fn evaluated_at(&self, gyrostat: &Gyrostat, time_s: f64) -> MotionAt {
         let elapsed_s = time_s - self.start_s;
         let attitude = self.series.attitude_after(elapsed_s);
-        let attitudes = self.attitudes_before(elapsed_s);
+        let attitudes = node_attitudes(&self.series, elapsed_s);
         let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = self.totals_after(elapsed_s, &attitudes);
         let momentum_body = attitude.body_from_inertial(&momentum_inertial_n_m_s);
         let rest = momentum_body
@@ -195,27 +178,7 @@ impl GyrostatMotion {
             momentum_inertial_n_m_s,
             delta_v_inertial_m_s,
         };
-        MotionAt { time_s, body, attitudes }
-    }
-
-    /// Change of the total momentum since the start of the segment by each of these torques, body frame in N m with slopes in
-    /// N m/s, that act from there on: EME2000, in N m s. Those of the whole load add up to the change of all.
-    pub fn impulses_inertial_n_m_s<const N: usize>(
-        &self,
-        torques: &[Option<[Vector3<f64>; 2]>; N],
-        until: &MotionAt,
-    ) -> [Vector3<f64>; N] {
-        let elapsed_s = until.time_s - self.start_s;
-        let mut sums = [Vector3::zeros(); N];
-        for ((node, weight), attitude) in GAUSS_3.into_iter().zip(until.attitudes) {
-            let at_s = node * elapsed_s;
-            for (sum, torque) in sums.iter_mut().zip(torques) {
-                if let Some([start, slope]) = torque {
-                    *sum += attitude.inertial_from_body(&(start + slope * at_s)) * (weight * elapsed_s);
-                }
-            }
-        }
-        sums
+        MotionAt { time_s, elapsed_s, body, attitudes }
     }
 
     /// Change of the total momentum since the start of the segment by a part of the load's dipole in the field, at the start in A m2 with
@@ -226,33 +189,19 @@ impl GyrostatMotion {
         until: &MotionAt,
     ) -> Option<Vector3<f64>> {
         let part = DipoleInField { dipole_body_a_m2: *dipole_body_a_m2, ..self.load.dipole? };
-        Some(self.impulse_inertial_n_m_s(until, |attitude, at_s| part.torque_n_m(attitude, at_s)))
+        Some(until.impulse_inertial_n_m_s(|attitude, at_s| part.torque_n_m(attitude, at_s)))
     }
 
     /// The same by rotors out of balance; `None` where all are in balance.
     pub fn imbalance_impulse_inertial_n_m_s(&self, until: &MotionAt) -> Option<Vector3<f64>> {
         let torque = |_: &Quaternion, at_s: f64| self.imbalance_after(at_s)[0];
-        (!self.imbalances.is_empty()).then(|| self.impulse_inertial_n_m_s(until, torque))
+        (!self.imbalances.is_empty()).then(|| until.impulse_inertial_n_m_s(torque))
     }
 
     /// The same by what swings under the load; `None` where nothing does.
     pub fn swing_impulse_inertial_n_m_s(&self, until: &MotionAt) -> Option<Vector3<f64>> {
         let swings = !self.oscillators.is_empty() && !self.load.is_zero();
-        let torque = |_: &Quaternion, at_s: f64| self.swing_torque_after(at_s);
-        swings.then(|| self.impulse_inertial_n_m_s(until, torque))
-    }
-
-    /// Change of the total momentum since the start of the segment by a torque in N m, body frame, by attitude and s since then.
-    fn impulse_inertial_n_m_s(
-        &self,
-        until: &MotionAt,
-        torque_body_n_m: impl Fn(&Quaternion, f64) -> Vector3<f64>,
-    ) -> Vector3<f64> {
-        let elapsed_s = until.time_s - self.start_s;
-        let torques = GAUSS_3.into_iter().zip(until.attitudes).map(|((node, weight), attitude)| {
-            attitude.inertial_from_body(&torque_body_n_m(&attitude, node * elapsed_s)) * (weight * elapsed_s)
-        });
-        torques.sum()
+        swings.then(|| until.impulse_inertial_n_m_s(|_, at_s| self.swing_torque_after(at_s)))
     }
 
     /// Momentum of rotor `k` (0-based) relative to the body at `time_s`, where the body moves like this, in N m s.
@@ -342,9 +291,8 @@ impl GyrostatMotion {
         if !self.oscillators.is_empty() {
             let acceleration = load.acceleration_body_m_s2();
             let order = self.series.order;
-            for (it, oscillator) in
-                self.oscillators.iter_mut().zip(gyrostat.oscillators(load.mass_kg, &acceleration))
-            {
+            let oscillators = gyrostat.oscillators(load.mass_kg, &acceleration);
+            for (it, oscillator) in self.oscillators.iter_mut().zip(oscillators) {
                 let state = it.after(order, elapsed_s, &motion.rate_body_rad_s);
                 it.begin(oscillator, state, &motion.rate_body_rad_s);
             }
@@ -448,15 +396,5 @@ impl GyrostatMotion {
     }
 }
 
-#[cfg(test)]
-mod dipole_tests;
-#[cfg(test)]
-mod imbalance_tests;
-#[cfg(test)]
-mod mass_flow_tests;
-#[cfg(test)]
-mod slosh_tests;
-#[cfg(test)]
-mod swing_tests;
 #[cfg(test)]
 mod tests;

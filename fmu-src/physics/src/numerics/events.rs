@@ -68,12 +68,16 @@ pub fn first_event<const K: usize, const N: usize>(
         let mut first: Option<f64> = None;
         for k in (0..K).filter(|&k| suspects[k]) {
             let mut function = |at: f64| values(at)[k];
-            let roots = segment.row(k, 1.0, 0.0).sign_changes(start, end);
+            let fit = segment.row(k, 1.0, 0.0);
+            let roots = fit.sign_changes(start, end);
             let limit = first.unwrap_or(to);
             first = roots
                 .iter()
                 .filter(|&root| root > after && root < limit)
-                .find_map(|root| change_near(root, from.max(after), to, &mut function))
+                .find_map(|root| {
+                    let rises = fit.value_and_derivative(root).1[0] > 0.0;
+                    change_near(root, rises, from.max(after), to, &mut function)
+                })
                 .filter(|&event| event < limit)
                 .or(first);
         }
@@ -86,6 +90,8 @@ pub fn first_event<const K: usize, const N: usize>(
 
 /// Nodes of a span at which [`first_crossing`] looks at a function.
 const CROSSING_NODES: usize = 9;
+/// Beyond so many roundings of time a function has the sign that it keeps.
+const ROUNDINGS: f64 = 8.0;
 
 /// First number in a span, to the last bit, at which a smooth `function` has fallen from above zero to zero or below; `rounding` as for
 /// [`first_event`]. Edges of spheres, closest approaches and periapses are such crossings: of a distance less a radius, and of
@@ -99,6 +105,11 @@ pub fn first_crossing(span: Span, rounding: f64, mut function: impl FnMut(f64) -
         let event = first_event(bounds, rounding, &samples, |at| SVector::from([function(at)]))?;
         if function(event) <= 0.0 {
             return Some(event);
+        }
+        // Within the rounding of time a function that falls rises too.
+        let settled_s = (event + ROUNDINGS * rounding).min(end_s);
+        if function(settled_s) <= 0.0 {
+            return Some(first_change_s(event, settled_s, |at_s| function(at_s) > 0.0));
         }
         after = event;
     }
@@ -139,14 +150,20 @@ fn zero_of_row<const K: usize, const N: usize>(fitted: &Segment<K, N>, k: usize,
     if tail > rounded.max(EVENT_FIT * terms.amax()) { Zero::Unresolved } else { Zero::Resolved }
 }
 
-/// The number at which `function` has changed its sign next to a root located roughly; `None` where it touches zero only.
-fn change_near(root: f64, from: f64, to: f64, mut function: impl FnMut(f64) -> f64) -> Option<f64> {
+/// The number at which `function` has changed its sign next to a root located roughly, rising or falling as the fit does there, so far
+/// apart that rounding does not reverse it; `None` where it touches zero only.
+fn change_near(
+    root: f64,
+    rises: bool,
+    from: f64,
+    to: f64,
+    mut function: impl FnMut(f64) -> f64,
+) -> Option<f64> {
     let mut reach = (LOCATED * (to - from)).max(8.0 * f64::EPSILON * root.abs());
     while reach < to - from {
         let (before, behind) = ((root - reach).max(from), (root + reach).min(to));
-        let positive = function(before) > 0.0;
-        if (function(behind) > 0.0) != positive {
-            return Some(first_change_s(before, behind, |at| (function(at) > 0.0) == positive));
+        if (function(before) > 0.0) != rises && (function(behind) > 0.0) == rises {
+            return Some(first_change_s(before, behind, |at| (function(at) > 0.0) != rises));
         }
         if reach > 1e3 * LOCATED * (to - from) {
             return None;

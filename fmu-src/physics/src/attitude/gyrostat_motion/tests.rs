@@ -1,6 +1,12 @@
 //! Against closed forms: Jacobi's elliptic functions for the free body, exponentials for a rotor under friction, and the
 //! invariants.
 
+mod dipole;
+mod imbalance;
+mod mass_flow;
+mod slosh;
+mod swing;
+
 use approx::assert_relative_eq;
 use nalgebra::Matrix3;
 

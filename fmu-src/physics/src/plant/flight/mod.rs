@@ -5,6 +5,7 @@
 mod configured;
 mod dynamic;
 mod encounter_prediction;
+mod flight_setup;
 mod fork;
 mod grid_edge;
 mod ideal;
@@ -23,7 +24,6 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use crate::attitude::control::Estimate;
 use crate::loads::ForceTorque;
-use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::events::{self, EventKind};
@@ -44,6 +44,7 @@ use crate::spacecraft::Spacecraft;
 use configured::ConfiguredFlight;
 use dynamic::Dynamic;
 use encounter_prediction::predict_encounter;
+use flight_setup::FlightSetup;
 use ideal::Ideal;
 use in_flight::InFlight;
 use report::{ReachedState, Report};
@@ -66,16 +67,6 @@ impl Serialize for Flight {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.state.serialize(serializer)
     }
-}
-
-/// Configuration, settings and caches.
-#[derive(Clone, Debug)]
-struct FlightSetup {
-    context: SimulationContext,
-    settings: ModeSettings,
-    distribution: WheelDistribution,
-    /// Geometry, attitude and loads at the last report, kept in place because they are large.
-    evaluation: Option<Evaluation>,
 }
 
 impl Flight {
@@ -137,12 +128,7 @@ impl Flight {
 
     /// Takes what parameters and inputs set.
     pub fn configure(&mut self, context: SimulationContext, settings: ModeSettings) {
-        self.setup = Some(Box::new(FlightSetup {
-            context,
-            settings,
-            distribution: WheelDistribution::default(),
-            evaluation: None,
-        }));
+        self.setup = Some(Box::new(FlightSetup::new(context, settings)));
         self.update_current_mass();
     }
 

@@ -75,7 +75,7 @@ impl MomentumDumps {
 
     /// Change of momentum by effect since the start of the motion's segment, EME2000, in N m s.
     fn impulses(&self, motion: &GyrostatMotion, until: &MotionAt) -> [Vector3<f64>; Effect::COUNT] {
-        let mut impulses = motion.impulses_inertial_n_m_s(self.torques.values(), until);
+        let mut impulses = until.impulses_inertial_n_m_s(self.torques.values());
         for (row, dipole) in Effect::FIELD.into_iter().zip(&self.dipoles) {
             let impulse = dipole.and_then(|dipole| motion.dipole_impulse_inertial_n_m_s(&dipole, until));
             impulses[row as usize] += impulse.unwrap_or_default();

@@ -3,7 +3,6 @@
 use approx::assert_relative_eq;
 use nalgebra::Matrix3;
 
-use super::tests::simulate;
 use super::*;
 use crate::attitude::dipole_in_field::DipoleInField;
 

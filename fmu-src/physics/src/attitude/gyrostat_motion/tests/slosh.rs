@@ -2,7 +2,6 @@
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector2, vector};
 
-use super::tests::simulate;
 use super::*;
 use crate::attitude::{Appendages, SloshPendulum};
 use crate::numerics::collocation::Collocation;

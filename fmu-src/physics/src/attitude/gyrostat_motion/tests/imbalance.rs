@@ -2,7 +2,6 @@
 
 use nalgebra::{Complex, Matrix3};
 
-use super::tests::simulate;
 use super::*;
 use crate::attitude::wheel::ReactionWheel;
 use crate::attitude::{Appendages, RotorImbalance};

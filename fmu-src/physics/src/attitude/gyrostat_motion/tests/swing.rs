@@ -5,7 +5,6 @@ use core::f64::consts::TAU;
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Matrix6, SVector, Vector6};
 
-use super::tests::{pyramid, simulate};
 use super::*;
 use crate::attitude::wheel::ReactionWheel;
 use crate::attitude::{Appendages, FlexibleMode};
