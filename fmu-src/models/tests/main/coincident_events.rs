@@ -471,6 +471,12 @@ const APART: &[[&str; 3]] = &[
     ["a momentum at its threshold", "pulses of a dump", "no threshold is watched while a dump lasts"],
     ["a momentum at its threshold", "a delta-v on request", "no threshold is watched during a delta-v"],
     ["the end of a dump's torque", "pulses of a dump", "a spacecraft dumps by thrusters or by a torque"],
+    // In commanded flight: the momentum of the panel alone is resolved to a share of itself, which rounding does not allow.
+    [
+        "a step of a panel",
+        "a prediction",
+        "a body at rest about the Sun whose panel follows it exhausts the work",
+    ],
     ["a choice of the Sun's direction", "a prediction", "about the Sun a downlink lasts throughout"],
     ["pulses of a dump", "a pulse on request", "during a dump thrusters take no pulses from outside"],
 ];
