@@ -1,10 +1,11 @@
-//! Limits of the production code inside the FMU: lines of a function, names of effects outside their sources, fields that
+//! Limits of the production code inside the FMU: lines of a file and of a function, names of effects outside their sources, fields that
 //! a saved state leaves out.
 
 use std::path::Path;
 
 use crate::sources::{rust_files, workspace};
 
+const MOST_LINES: usize = 400;
 const MOST_LINES_OF_A_FUNCTION: usize = 80;
 
 /// A line of production code, with its file below the workspace and its number.
@@ -76,11 +77,17 @@ fn functions_are_counted_from_head_to_end() {
 }
 
 #[test]
-fn functions_keep_to_their_limit() {
+fn files_and_functions_keep_to_their_limits() {
     let mut beyond = Vec::new();
     for file in ["fmu-src", "modelDescription"].iter().flat_map(|folder| production(folder)) {
-        let long = functions(&file).into_iter().filter(|(_, count)| *count > MOST_LINES_OF_A_FUNCTION);
-        beyond.extend(long.map(|(line, count)| format!("{}: {count} lines", line.place())));
+        if file.len() > MOST_LINES {
+            beyond.push(format!("{}: {} lines", file[0].file, file.len()));
+        }
+        for (line, count) in functions(&file) {
+            if count > MOST_LINES_OF_A_FUNCTION {
+                beyond.push(format!("{}: a function of {count} lines", line.place()));
+            }
+        }
     }
     assert!(beyond.is_empty(), "{}", beyond.join("\n"));
 }
