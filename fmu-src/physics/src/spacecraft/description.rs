@@ -91,9 +91,9 @@ pub fn schema() -> String {
     crate::toml::schema::<SpacecraftDescription>()
 }
 
+#[cfg(feature = "schema")]
 #[cfg(test)]
 mod tests {
-    #![cfg(feature = "schema")]
     //! Every key of the shipped spacecraft stands in the schema, which allows no other keys.
 
     use toml::Value;

@@ -350,9 +350,9 @@ pub fn schema() -> String {
     crate::toml::schema::<TimelineDescription>()
 }
 
+#[cfg(feature = "schema")]
 #[cfg(test)]
 mod tests {
-    #![cfg(feature = "schema")]
     //! Every table is closed and every key described.
 
     use toml::Value;

@@ -96,12 +96,12 @@ impl Eventful for Dynamic<'_> {
     }
 
     fn spend(&mut self, kind: Option<EventKind>) -> Result<(), PlantError> {
+        if kind.is_some() {
+            return Ok(());
+        }
         let units = if self.settings.gyrostat.is_rigid() { 1 } else { FLEXIBLE_UNITS };
         let time_s = self.reached_s();
-        Ok(match kind {
-            None => self.flight.context.models.spend(WorkKind::Segment, units, time_s)?,
-            Some(_) => (),
-        })
+        Ok(self.flight.context.models.spend(WorkKind::Segment, units, time_s)?)
     }
 
     fn apply_event(&mut self, kind: EventKind) -> Result<(), PlantError> {

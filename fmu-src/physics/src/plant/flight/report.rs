@@ -137,6 +137,7 @@ pub struct FlightSummary<'a> {
 }
 
 /// Source of the momenta by effect.
+#[expect(clippy::large_enum_variant, reason = "a report allocates nothing")]
 pub(super) enum BySource<'a> {
     /// A flight that waits has none.
     Waiting,
