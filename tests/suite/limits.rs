@@ -60,7 +60,7 @@ fn functions(lines: &[Line]) -> Vec<(&Line, usize)> {
         // A body, a body in one line, or a head without a body.
         let ends = |it: &Line| it.text == format!("{indent}}}") || it.text == format!("{indent};");
         let is_one_line = |it: &Line| it.text.ends_with('}') || it.text.ends_with(';');
-        let more = lines[place..].iter().position(|it| ends(it));
+        let more = lines[place..].iter().position(ends);
         found.push((line, if is_one_line(line) { 1 } else { 1 + more.unwrap_or_default() }));
     }
     found
