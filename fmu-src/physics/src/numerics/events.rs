@@ -90,7 +90,7 @@ pub fn first_event<const K: usize, const N: usize>(
 
 /// Nodes of a span at which [`first_crossing`] looks at a function.
 const CROSSING_NODES: usize = 9;
-/// Beyond so many roundings of time a function has the sign that it keeps.
+/// Number of roundings of time beyond which a function keeps its sign.
 const ROUNDINGS: f64 = 8.0;
 
 /// First number in a span, to the last bit, at which a smooth `function` has fallen from above zero to zero or below; `rounding` as for

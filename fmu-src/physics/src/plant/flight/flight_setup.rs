@@ -16,7 +16,7 @@ pub(super) struct FlightSetup {
 }
 
 impl FlightSetup {
-    /// Those of a flight that was not evaluated yet.
+    /// Setup of a flight that was not evaluated yet.
     pub(super) fn new(context: SimulationContext, settings: ModeSettings) -> Self {
         Self { context, settings, distribution: WheelDistribution::default(), evaluation: None }
     }
