@@ -481,6 +481,12 @@ const APART: &[[&str; 3]] = &[
     ["pulses of a dump", "a pulse on request", "during a dump thrusters take no pulses from outside"],
 ];
 
+/// Pairs that are not arranged in guided flight: the momentum in the body's axes comes to its threshold at another time.
+const NOT_GUIDED: &[[&str; 2]] = &[
+    ["the end of an attitude that was held", "a momentum at its threshold"],
+    ["a momentum at its threshold", "a prediction"],
+];
+
 /// Communication points of one flight beside those of its inputs.
 fn points_s(at_s: f64, apart_s: f64) -> [Vec<f64>; 5] {
     [
@@ -559,7 +565,8 @@ fn all_pairs(source: f64, at_s: f64) {
             let is_apart = |[a, b, _]: &&[&str; 3]| {
                 [*a, *b] == [first.name, second.name] || [*b, *a] == [first.name, second.name]
             };
-            if APART.iter().any(|it| is_apart(&it)) {
+            let is_not_guided = source == GUIDED && NOT_GUIDED.contains(&[first.name, second.name]);
+            if is_not_guided || APART.iter().any(|it| is_apart(&it)) {
                 continue;
             }
             count += 1;
