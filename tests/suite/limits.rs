@@ -109,7 +109,7 @@ fn effects_are_named_in_their_sources_alone() {
     assert!(named.is_empty(), "{}", named.join("\n"));
 }
 
-/// What a flight saves is the whole of it.
+/// A flight is saved whole.
 #[test]
 fn saved_states_leave_no_field_out() {
     let folders = ["fmu-src/physics/src/plant", "fmu-src/physics/src/attitude"];

@@ -243,7 +243,7 @@ impl<M: Model> Extensions<M> {
         self.deferred_outputs.as_ref().map_or(Ok(()), |it| (it.write)(context, values, state, groups, time_s))
     }
 
-    /// With [`DeferredOutputs`].
+    /// Adds [`DeferredOutputs`].
     #[must_use]
     pub const fn deferred_outputs(self) -> Self
     where

@@ -46,7 +46,7 @@ impl SetBits {
         length.div_ceil(u64::BITS as usize)
     }
 
-    /// From one truth value a place.
+    /// Makes a set from one truth value a place.
     pub(crate) fn new(places: impl ExactSizeIterator<Item = bool>) -> Self {
         let mut bits = Self(vec![0; Self::words(places.len())]);
         places.enumerate().filter(|(_, holds)| *holds).for_each(|(place, _)| bits.mark(place));

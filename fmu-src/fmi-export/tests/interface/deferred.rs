@@ -26,7 +26,7 @@ struct DeferringVariables {
     /// Input times factor, of the first group.
     #[output(unit = "1")]
     product: Real,
-    /// How often a group was written, of the first group.
+    /// Number of times that the first group was written.
     #[output]
     written: Integer,
     /// Reciprocal of the input, of the second group.

@@ -79,10 +79,10 @@ const PULSED: usize = 5;
 const ENGINES: usize = 7;
 /// A pulse, in s.
 const PULSE_S: f64 = 0.5;
-/// When engines are opened, these commands end, and dumps, burns and torques are requested, in s.
+/// Times at which engines are opened, commands end, and dumps, burns and torques are requested, in s.
 const BEGUN_S: [f64; 3] = [1.0, 1.5, 2.0];
 
-/// What a flight has: its spacecraft, settings, schedule and inputs.
+/// Arrangement of a flight: its spacecraft, settings, schedule and inputs.
 struct Arrangement {
     source: f64,
     /// Keys of each engine.

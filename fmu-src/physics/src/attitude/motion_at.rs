@@ -15,7 +15,7 @@ pub(super) fn node_attitudes(series: &RotationSeries<TERMS>, elapsed_s: f64) -> 
 /// Body at one time of a segment, and its attitudes at the nodes of the quadrature up to there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotionAt {
-    /// When, in s.
+    /// Time of the motion, in s.
     pub time_s: f64,
     /// Time since the start of the segment, in s.
     pub(super) elapsed_s: f64,

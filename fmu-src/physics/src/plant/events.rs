@@ -32,7 +32,7 @@ pub(crate) enum EventKind {
 }
 
 impl EventKind {
-    /// All kinds in their order.
+    /// Kinds in the order of events at equal times.
     const ALL: [Self; 9] = [
         Self::Accounts,
         Self::Valves,
@@ -104,7 +104,7 @@ pub(crate) trait Eventful {
     /// Whether that is before `limit_s`, or an edge there belongs to the segment that begins there.
     fn ends_by(&self, limit_s: f64) -> bool;
 
-    /// When the next event of this kind comes, in s; infinite where none does, or where it is found on the way.
+    /// Returns the time of the next event of this kind, in s; infinite where none does, or where it is found on the way.
     fn next_event_s(&self, kind: EventKind) -> f64;
 
     /// Whether one of this kind is due at the end of the last segment.

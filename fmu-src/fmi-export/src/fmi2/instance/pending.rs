@@ -51,12 +51,12 @@ impl Deferred {
         }
     }
 
-    /// After a step.
+    /// Marks all groups as pending, after a step.
     pub(super) fn mark_all(&mut self) {
         self.pending = self.all;
     }
 
-    /// All outputs are written, or none will be.
+    /// Marks no group as pending: all outputs are written, or none will be.
     pub(super) fn mark_none(&mut self) {
         self.pending = OutputGroups::NONE;
     }

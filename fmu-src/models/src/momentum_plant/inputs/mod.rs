@@ -54,7 +54,7 @@ pub(super) struct Reading<'a> {
 /// A configuration that was read anew, with its settings.
 #[expect(clippy::large_enum_variant, reason = "a step allocates nothing")]
 pub(super) enum Reconfigured {
-    /// All of the simulation, by fixed parameters too.
+    /// Simulation made anew, by fixed parameters too.
     Simulation(Box<SimulationContext>, ModeSettings),
     /// The part that depends on inputs and tunable parameters, with settings where they do.
     Changed(Configuration, Option<ModeSettings>),

@@ -45,7 +45,7 @@ pub const SAMPLE_WORK: u32 = 4;
 pub struct GuidanceState {
     /// The command in force.
     pub command: GuidanceCommand,
-    /// Its status.
+    /// Status of the command.
     pub status: CommandStatus,
     /// The line to the Sun at the last sample where it was known.
     pub sun_line: SunLine,
@@ -57,13 +57,13 @@ pub struct GuidanceState {
     timers: CommandTimers,
     /// The last command that gave an attitude; it stays where none is given, and where a new one has no direction.
     law: Option<PointingCommand>,
-    /// How far a burn is.
+    /// Progress of a burn.
     pub burn: BurnState,
     /// Direction of the Sun in downlink.
     pub downlink_sun: DownlinkSun,
     /// The slew into the timeline's command.
     slew: Option<CommandSlew>,
-    /// When the next sample is due, in s.
+    /// Time of the next sample, in s.
     pub next_sample_s: f64,
 }
 

@@ -43,7 +43,7 @@ pub struct PlantSettings<'a> {
     pub configuration: &'a Configuration,
     /// Mass properties with every panel at angle 0 and the propellant left.
     pub current_mass_panels_stowed: MassProperties,
-    /// How the body turns where it turns by torque.
+    /// Attitude and rate of a body that turns by torque.
     pub turning: Turning,
 }
 

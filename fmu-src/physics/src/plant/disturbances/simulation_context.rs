@@ -29,7 +29,7 @@ pub struct SimulationContext {
 pub(crate) struct ForkScratch {
     /// Settings of a fork.
     pub configuration: Configuration,
-    /// Its state, and those of its last two waypoints.
+    /// State of a fork, and the states of its last two waypoints.
     pub states: [PropagatorState; 3],
 }
 

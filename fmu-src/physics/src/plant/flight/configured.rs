@@ -78,7 +78,7 @@ pub(crate) struct ConfiguredFlight<'a> {
     pub context: &'a mut SimulationContext,
     pub propagator: &'a mut PropagatorState,
     pub thrusters: &'a mut Thrusters,
-    /// How the body turns where it turns by torque.
+    /// Attitude and rate of a body that turns by torque.
     pub turning: Turning,
 }
 

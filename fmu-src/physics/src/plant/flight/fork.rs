@@ -31,7 +31,7 @@ const FORECAST_TOLERANCE: f64 = 1e-6;
 /// Momentum at a time ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForecastMomentum {
-    /// When, in s.
+    /// Time at which the fork begins, in s.
     pub time_s: f64,
     /// Whether a downlink lasts then.
     pub downlink: bool,
@@ -55,7 +55,7 @@ pub(super) struct ForkStart<'f> {
     pub prepared: PreparedSpacecraft<'f>,
     /// State of the flight.
     pub propagator: &'f PropagatorState,
-    /// Its attitude.
+    /// Attitude of the fork.
     pub attitude: AttitudeSource,
     /// Applied from outside.
     pub applied: ForceTorque<f64>,

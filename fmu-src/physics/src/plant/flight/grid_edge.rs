@@ -19,7 +19,7 @@ use crate::plant::state::dynamic_state::DynamicState;
 use crate::plant::state::mass::MassState;
 use crate::plant::state::momentum_dumps::MomentumDumps;
 
-/// At the start of a flight in the attitude after `held`.
+/// Returns the state at the start of a flight in the attitude after `held`.
 pub(super) fn begin(
     settings: &mut DynamicsSettings,
     flight: &mut ConfiguredFlight<'_>,
@@ -74,7 +74,7 @@ pub(super) fn begin(
     Ok(begun)
 }
 
-/// At an edge of the grid: orbit, mass properties and disturbances anew.
+/// Begins an interval at an edge of the grid: orbit, mass properties and disturbances anew.
 pub(super) fn begin_interval(
     state: &mut DynamicState,
     settings: &mut DynamicsSettings,

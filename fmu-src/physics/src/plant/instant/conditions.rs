@@ -10,13 +10,13 @@ use crate::spacecraft::MassProperties;
 
 /// Everything at one time that sources read.
 pub(crate) struct Conditions<'a> {
-    /// When, in s.
+    /// Time of the conditions, in s.
     pub time_s: f64,
     /// Settings.
     pub configuration: &'a Configuration,
     /// The spacecraft.
     pub spacecraft: PreparedSpacecraft<'a>,
-    /// With every panel at angle 0, of what is left of the propellant.
+    /// Mass properties with every panel at angle 0 and the remaining propellant.
     pub current_mass_panels_stowed: &'a MassProperties,
     /// Geometry and attitude.
     pub instant: &'a Instant,

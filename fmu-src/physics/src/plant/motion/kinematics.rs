@@ -54,7 +54,7 @@ pub(crate) struct Kinematics<'a> {
     pub configuration: &'a Configuration,
     /// The configuration's guidance, with the selected directions of the Sun.
     pub law: Option<Guided>,
-    /// How the body turns where it turns by torque.
+    /// Attitude and rate of a body that turns by torque.
     pub turning: Turning,
     pub trajectory: &'a mut Trajectory,
     pub ephemeris: &'a mut Ephemeris,

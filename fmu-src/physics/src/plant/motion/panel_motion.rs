@@ -42,7 +42,7 @@ struct PanelTurn {
     rate_rad_s: f64,
     /// In rad/s2.
     acceleration_rad_s2: f64,
-    /// How far it went at once at the start of the interval, in rad.
+    /// Angle by which it turned at once at the start of the interval, in rad.
     travel_rad: f64,
 }
 

@@ -33,7 +33,7 @@ impl AttitudeSource {
 pub struct Turning {
     /// The attitude now, continuing at the present rate.
     pub motion: Command,
-    /// How that rate changes: the first and second term of its series, in rad/s2 and rad/s3.
+    /// Change of that rate: the first and second term of its series, in rad/s2 and rad/s3.
     pub rate_terms_body: [Vector3<f64>; 2],
 }
 
@@ -75,7 +75,7 @@ pub struct Command {
     pub attitude: Attitude,
     /// Body rate, in rad/s.
     pub rate_body_rad_s: Vector3<f64>,
-    /// When the command took effect, in s.
+    /// Time at which the command took effect, in s.
     pub since_s: f64,
 }
 

@@ -6,19 +6,19 @@ use serde::{Deserialize, Serialize};
 /// over, and `count` of those at it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct LastEvent {
-    /// When, in s.
+    /// Time of the event, in s.
     pub time_s: f64,
-    /// How many came at that time.
+    /// Number of events at that time.
     pub count: u32,
 }
 
 impl LastEvent {
-    /// No event at `time_s` so far.
+    /// Returns the place before the events at `time_s`.
     pub(crate) fn before(time_s: f64) -> Self {
         Self { time_s, count: 0 }
     }
 
-    /// All events up to `time_s`.
+    /// Returns the place after all events up to `time_s`.
     pub(crate) fn until(time_s: f64) -> Self {
         Self { time_s, count: u32::MAX }
     }

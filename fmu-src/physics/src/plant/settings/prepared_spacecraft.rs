@@ -9,11 +9,11 @@ use crate::spacecraft::Panel;
 /// The spacecraft, prepared once.
 #[derive(Clone, Copy, Debug)]
 pub struct PreparedSpacecraft<'a> {
-    /// Its panels.
+    /// Panels of the spacecraft.
     pub panels: &'a [Panel],
     /// The whole of it in sunlight.
     pub solar: &'a SolarModel,
-    /// How its orbit is integrated, if it is.
+    /// Method by which the orbit is integrated.
     pub orbit_method: &'a OrbitMethod,
     /// The default downlink of its antennas.
     pub default_downlink: &'a DefaultDownlink,

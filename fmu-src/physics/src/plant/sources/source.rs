@@ -17,7 +17,7 @@ pub(crate) trait Source {
     /// Saved state; `()` of a closed form.
     type State;
 
-    /// Its settings in the configuration.
+    /// Settings of the source in the configuration.
     fn settings(configuration: &Configuration) -> &Self::Settings;
 
     /// Writes force and torque of its rows at one time, up to which the state is known; a row in the magnetic field needs nothing
@@ -50,7 +50,7 @@ pub(crate) trait Source {
         Linear::default()
     }
 
-    /// When the next event after `time_s` is due, in s; every segment ends there.
+    /// Returns the time of the next event after `time_s`, in s; every segment ends there.
     fn next_event_s(_state: &Self::State, _time_s: f64) -> f64 {
         f64::INFINITY
     }

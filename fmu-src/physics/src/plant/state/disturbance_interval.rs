@@ -25,7 +25,7 @@ pub(crate) struct DisturbanceInterval {
 }
 
 impl DisturbanceInterval {
-    /// Before the first interval.
+    /// Returns the interval before the first one.
     pub(crate) fn before() -> Self {
         let nothing = [Vector3::zeros(); 2];
         Self {
@@ -53,7 +53,7 @@ impl DisturbanceInterval {
         self.span.is_valid() && (self.is_before() || self.span.start_s <= self.span.end_s)
     }
 
-    /// Up to when it holds, in s.
+    /// End of the interval, in s.
     pub(crate) fn end_s(&self) -> f64 {
         self.span.end_s
     }

@@ -7,7 +7,7 @@ use crate::environment::orbit::BPlane;
 /// A prediction.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EncounterPrediction {
-    /// When it was made, in s.
+    /// Time at which the prediction was made, in s.
     pub since_s: f64,
     /// Predicted arrival; `None`: no closest approach before the horizon, or no hyperbola.
     pub arrival: Option<PredictedArrival>,

@@ -22,7 +22,7 @@ pub(crate) struct FlightState {
     pub prediction: Option<EncounterPrediction>,
 }
 
-/// How the attitude comes about, with the state of that.
+/// Mode of the flight by the source of its attitude, with the state of that mode.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) enum Mode {
     /// Flight that waits for its inputs: no loads, the attitude held.

@@ -10,9 +10,9 @@ use crate::plant::events::LastEvents;
 /// Maneuvers so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Maneuvers {
-    /// How many.
+    /// Number of maneuvers.
     pub count: i32,
-    /// When the last one was, in s, and the delta-v that it executed, EME2000, in m/s.
+    /// Time of the last one, in s, and the delta-v that it executed, EME2000, in m/s.
     pub last: Option<(f64, Vector3<f64>)>,
 }
 
@@ -32,7 +32,7 @@ pub(crate) struct IdealState {
 }
 
 impl IdealState {
-    /// From `time_s` on with these totals, the quaternion continuing that of `attitude`; what the schedule has before is over.
+    /// Begins at `time_s` with these totals, the quaternion continuing that of `attitude`; what the schedule has before is over.
     pub(crate) fn new(time_s: f64, attitude: &Attitude, totals: Totals) -> Self {
         Self {
             integrator: MomentumIntegrator::after(time_s, attitude.unit_quaternion(), totals),
