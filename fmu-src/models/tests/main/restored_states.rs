@@ -262,21 +262,23 @@ fn in_guidance_by_another_timeline() {
     assert_eq!(requested, [false, true, false]);
 }
 
+/// A spinner integrated by cells: under a torque with a pulse on, in given geometry.
+pub(crate) const SPINNER_BY_CELLS: [(&str, f64); 6] = [
+    ("burn.timing", 3.0),
+    ("inertia[1]", 230.0),
+    ("geometry.source", 2.0),
+    ("starTracker.sampling", 2.0),
+    ("burn.pulseWidth", 2.0),
+    ("burn.count", 10.0),
+];
+
 #[test]
 fn of_a_spinner_and_in_given_geometry() {
-    let cells = [
-        ("burn.timing", 3.0),
-        ("inertia[1]", 230.0),
-        ("geometry.source", 2.0),
-        ("starTracker.sampling", 2.0),
-        ("burn.pulseWidth", 2.0),
-        ("burn.count", 10.0),
-    ];
     for (sets, saved_s) in [
         (vec![("burn.timing", 2.0)], 50.1),
         (vec![("burn.plan", 4.0), ("thruster[1].fire", 1.0)], 50.1),
-        (cells.to_vec(), 50.0),
-        (cells.to_vec(), 10.22),
+        (SPINNER_BY_CELLS.to_vec(), 50.0),
+        (SPINNER_BY_CELLS.to_vec(), 10.22),
     ] {
         let named = NamedModel::<SpinPlant>::shipped();
         Mode { named, sets, on_the_way: &[], saved_s, onward_s: 2.3, is_meant: |_| true }.goes_on();

@@ -12,6 +12,7 @@ use super::named_model::NamedModel;
 use super::plant_light::{BUSY, EFFECTS, SHADOWED};
 use super::plant_work::busy;
 use super::random::RandomNumbers;
+use super::restored_states::SPINNER_BY_CELLS;
 use super::spacecraft::{RADIATING, SIMPLE};
 
 /// Of a step, in time that its thread computed.
@@ -143,17 +144,8 @@ fn a_guidance() {
 fn a_spinner() {
     let named = NamedModel::<SpinPlant>::shipped();
     let forged = short_or_long(&EXTREME[..3], EXTREME);
-    let cells = [
-        ("burn.timing", 3.0),
-        ("inertia[1]", 230.0),
-        ("geometry.source", 2.0),
-        ("starTracker.sampling", 2.0),
-        ("burn.pulseWidth", 2.0),
-        ("burn.count", 10.0),
-        LIMIT,
-    ];
-    for (sets, at_s) in
-        [(&[("burn.timing", 2.0), cells[6]][..], 50.0), (&cells[..], 50.0), (&cells[..], 10.22)]
+    let cells: Vec<_> = SPINNER_BY_CELLS.into_iter().chain([LIMIT]).collect();
+    for (sets, at_s) in [(&[("burn.timing", 2.0), LIMIT][..], 50.0), (&cells[..], 50.0), (&cells[..], 10.22)]
     {
         let ends_s = [at_s + 0.5, at_s + 30.0];
         goes_on_or_fails(&named, sets, at_s, &ends_s, |state| scattered(state, short_or_long(500, 1500)));
