@@ -11,7 +11,6 @@ use super::command_status::CommandStatus;
 use super::command_timers::CommandTimers;
 use super::guidance_command::{CommandKind, GuidanceCommand};
 use super::mode::Mode;
-use super::present_window::present_window;
 use super::sample_inputs::{GuidanceSettings, SampleContext, SampleInputs, TimedEntries};
 use super::sun_line::SunLine;
 use super::transitions::{ModeState, Sensed, Steering};
@@ -24,8 +23,8 @@ use crate::guidance::downlink::sun_direction::{DownlinkSunDirection, SelectedSun
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::orbit_phase::attitudes::Sight;
-use crate::guidance::orbit_phase::downlink_sun::{DownlinkSun, WindowStart};
-use crate::guidance::orbit_phase::guided::{DownlinkStatus, Guided};
+use crate::guidance::orbit_phase::downlink_sun::{DownlinkSun, WindowStart, present_window};
+use crate::guidance::orbit_phase::guided::{DownlinkStatus, Guided, OrbitPhaseLaw};
 use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
 use crate::guidance::orbit_phase::schedule::{Activity, Schedule};
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
@@ -329,7 +328,8 @@ impl GuidanceState {
             let law = now.settings.orbit_phase.with_sun_directions(self.sun_direction(), science);
             let law = Guided { requested: now.requested_sun.0, ..law };
             let hardware = &now.settings.hardware;
-            let attitude = self.periapses.attitude(&law, hardware.default_downlink, now.ephemeris);
+            let by = OrbitPhaseLaw { guided: law, default_downlink: hardware.default_downlink };
+            let attitude = self.periapses.attitude(&by, now.ephemeris);
             return Some(orbit_phase_solution(&attitude, &law, now.ephemeris, hardware));
         }
         let progress = PointingProgress {

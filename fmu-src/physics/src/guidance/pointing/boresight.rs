@@ -123,10 +123,10 @@ pub fn boresight(
 ) -> Option<Boresight> {
     Some(match command.option? {
         BoresightOption::Vector => Boresight::fixed(command.vector),
-        BoresightOption::AzimuthElevation => Boresight::fixed(direction_from_angles(SunAngles {
-            azimuth_rad: command.azimuth_rad,
-            elevation_rad: command.elevation_rad,
-        })),
+        BoresightOption::AzimuthElevation => {
+            let BoresightCommand { azimuth_rad, elevation_rad, .. } = *command;
+            Boresight::fixed(direction_from_angles(SunAngles { azimuth_rad, elevation_rad }))
+        }
         BoresightOption::Gimbal => Boresight::gimbal(command.angle_rad, gimbal?),
         BoresightOption::PhasedArray => Boresight::antenna(command.azimuth_rad, antennas)?,
     })

@@ -16,13 +16,12 @@ use crate::guidance::geometry::moving::{Moving, MovingVector, fixed, unit, unit_
 use crate::guidance::orbit_phase::attitudes::ScienceRule;
 use crate::guidance::orbit_phase::guided::{DownlinkStatus, Guided, GuidedAttitude};
 use crate::guidance::orbit_phase::schedule::Activity;
-use crate::guidance::pointing::aimpoint::{Aimpoint, AimpointKind, aimpoint};
+use crate::guidance::pointing::aimpoint::{Aimpoint, AimpointKind, aimpoint, body_roll, external_roll};
 use crate::guidance::pointing::aligned::aligned_vectors;
 use crate::guidance::pointing::antenna::{Antennas, Beam};
 use crate::guidance::pointing::boresight::{Boresight, DeviceAngle, Gimbal, boresight, instrument_boresight};
 use crate::guidance::pointing::command::{BodyRollCommand, BoresightOption, PointingCommand, Scenario};
 use crate::guidance::pointing::law::{Pointing, PointingVectors};
-use crate::guidance::pointing::roll::{body_roll, external_roll};
 use crate::guidance::pointing::scan::{ScanCompatibility, ScanTime, scanned};
 use crate::spacecraft::Instrument;
 

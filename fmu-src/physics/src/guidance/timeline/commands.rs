@@ -1,7 +1,6 @@
 //! One command of a timeline: its tables are what its scenario reads, their numbers what their options read.
 
 use nalgebra::Vector3;
-use serde::Serialize;
 
 use super::attitude::by_attitude;
 use super::description::{
@@ -11,11 +10,9 @@ use super::description::{
 use super::devices::{body, check_fan, check_gimbal, instrument};
 use super::entry::{DownlinkOverride, KeepInOverride};
 use super::quantity::{LATITUDE, LENGTH, QUARTER_TURN, Quantity, QuantityKind, SPEED, TURN};
-use super::reads::{
-    Keys, NOTHING, TABLES, aimpoint_keys, body_roll_keys, boresight_keys, external_roll_keys, keys,
-    limb_keys, own_aimpoint, tables,
-};
+use super::reads::{Keys, NOTHING, TABLES, keys, limb_keys, option_keys, own_aimpoint, tables};
 use crate::attitude::SunAngles;
+use crate::enumeration::Enumerated;
 use crate::guidance::modes::mode::Mode;
 use crate::guidance::pointing::command::{
     AimpointCommand, BodyRollCommand, BoresightCommand, BoresightOption, ExternalRollCommand, LimbCommand,
@@ -207,9 +204,19 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// The same where an option reads them, unless nobody wrote the option.
-    fn check_option_keys(&mut self, at: &KeyPath, known: &[&str], read: Keys, option: impl Serialize) {
+    fn check_option_keys(&mut self, at: &KeyPath, known: &[&str], option: impl Enumerated) {
         if !self.check.is_stand_in(&at.key("option")) {
-            self.check_keys(at, known, read, &named("the option", option));
+            self.check_keys(at, known, option_keys(option.name()), &named("the option", option));
+        }
+    }
+
+    /// Reports a boresight for which the spacecraft has no device.
+    fn check_device(&mut self, at: &KeyPath, option: BoresightOption) {
+        let found = named("the option", option);
+        match option {
+            BoresightOption::Gimbal => check_gimbal(&mut self.check, self.spacecraft, at, found),
+            BoresightOption::PhasedArray => check_fan(&mut self.check, self.spacecraft, at, found),
+            BoresightOption::Vector | BoresightOption::AzimuthElevation => {}
         }
     }
 
@@ -222,14 +229,8 @@ impl<'d, 'i> Commands<'d, 'i> {
         let place = at.key("option");
         match (scenario, given.option.filter(|_| !self.check.is_stand_in(&place))) {
             (Scenario::Generic, Some(option)) => {
-                if option == BoresightOption::Gimbal {
-                    check_gimbal(&mut self.check, self.spacecraft, &place, named("the option", option));
-                }
-                if option == BoresightOption::PhasedArray {
-                    check_fan(&mut self.check, self.spacecraft, &place, named("the option", option));
-                }
-                let read = Keys { optional: &["option"], ..boresight_keys(option) };
-                self.check_option_keys(at, BORESIGHT, read, option);
+                self.check_device(&place, option);
+                self.check_option_keys(at, &BORESIGHT[1..], option);
             }
             (Scenario::Generic, None) => self.check_scenario_keys(at, &["option"], keys(&["option"], &[])),
             // That the scenario's own boresight is the boresight may be written.
@@ -240,12 +241,7 @@ impl<'d, 'i> Commands<'d, 'i> {
                 let is_given = ["option", "azimuth"].iter().any(|key| self.check.is_written(&at.key(key)));
                 let read = if is_given { keys(&["option", "azimuth"], &[]) } else { NOTHING };
                 if is_given && !self.spacecraft.antennas.is_empty() {
-                    check_fan(
-                        &mut self.check,
-                        self.spacecraft,
-                        &place,
-                        named("the option", BoresightOption::PhasedArray),
-                    );
+                    self.check_device(&place, BoresightOption::PhasedArray);
                 }
                 self.check_scenario_keys(at, BORESIGHT, read);
             }
@@ -276,7 +272,7 @@ impl<'d, 'i> Commands<'d, 'i> {
                 let allowed = named("no aimpoint, or this scenario's own:", own);
                 self.check.report(&at.key("option"), named("the option", given.option), allowed);
             }
-            None => self.check_option_keys(at, AIMPOINT, aimpoint_keys(given.option), given.option),
+            None => self.check_option_keys(at, AIMPOINT, given.option),
         }
         AimpointCommand {
             option: Some(given.option),
@@ -296,7 +292,7 @@ impl<'d, 'i> Commands<'d, 'i> {
 
     fn body_roll(&mut self, at: &KeyPath, given: &BodyRollDescription) -> BodyRollCommand {
         let known = &["vector", "azimuth", "elevation"];
-        self.check_option_keys(at, known, body_roll_keys(given.option), given.option);
+        self.check_option_keys(at, known, given.option);
         BodyRollCommand {
             option: Some(given.option),
             vector: self.direction(&at.key("vector"), given.vector),
@@ -307,7 +303,7 @@ impl<'d, 'i> Commands<'d, 'i> {
 
     fn external_roll(&mut self, at: &KeyPath, given: &ExternalRollDescription) -> ExternalRollCommand {
         let known = &["vector", "rightAscension", "declination"];
-        self.check_option_keys(at, known, external_roll_keys(given.option), given.option);
+        self.check_option_keys(at, known, given.option);
         ExternalRollCommand {
             option: Some(given.option),
             vector: self.direction(&at.key("vector"), given.vector),
@@ -373,9 +369,6 @@ impl<'d, 'i> Commands<'d, 'i> {
 }
 
 /// A scenario, option or frame by its name in the file, behind what it is.
-pub(super) fn named(what: &str, item: impl Serialize) -> String {
-    match toml::Value::try_from(item) {
-        Ok(toml::Value::String(name)) => format!("{what} {name}"),
-        _ => what.to_owned(),
-    }
+pub(super) fn named(what: &str, item: impl Enumerated) -> String {
+    format!("{what} {}", item.name())
 }

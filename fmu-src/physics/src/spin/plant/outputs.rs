@@ -109,7 +109,7 @@ impl Outputs {
     pub fn from_plant(plant: &Plant, spinner: &Spinner) -> Self {
         let time_s = plant.time_s;
         let state = plant.state();
-        let inertia = &plant.motion.inertia;
+        let (initial, inertia) = (&plant.initial, &plant.motion.inertia);
         let rate_rad_s = state.rate_rad_s(inertia);
         let nutation_rad = state.nutation_rad(inertia);
         let spin_rate_rad_s = inertia.principal_from_body(&rate_rad_s).z;
@@ -142,13 +142,10 @@ impl Outputs {
             predicted_nutation_rad: plant.propulsion.predicted_nutation_rad(),
             energy_j: 0.5 * rate_rad_s.dot(&state.momentum_body),
             spin_axis_inertial,
-            spin_axis_displacement_rad: angle_between_rad(
-                &spin_axis_inertial,
-                &plant.initial.spin_axis_inertial,
-            ),
+            spin_axis_displacement_rad: angle_between_rad(&spin_axis_inertial, &initial.spin_axis_inertial),
             momentum_displacement_rad: angle_between_rad(
                 &state.momentum_inertial,
-                &plant.initial.momentum_inertial,
+                &initial.momentum_inertial,
             ),
             period_s: sun.period_s.unwrap_or(nominal_period_s),
             period_change_s: period_change.map_or(0.0, |(change_s, _)| change_s),
