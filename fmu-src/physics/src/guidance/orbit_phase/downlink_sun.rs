@@ -92,6 +92,26 @@ impl DownlinkSun {
         present.is_some_and(|chosen| chosen.clamped)
     }
 
+    /// Selects the Sun's direction where a downlink begins, or science that unloads; returns whether one does. `entry` is the timeline's
+    /// that names the scenario.
+    pub fn update(
+        &mut self,
+        window: Option<&WindowStart<'_>>,
+        entry: Option<f64>,
+        choose: impl Fn(&WindowStart<'_>) -> Option<SelectedSunDirection>,
+    ) -> bool {
+        let Some(start) = window else {
+            self.end();
+            return false;
+        };
+        let is_span = start.span_s.is_finite() && start.span_s > 0.0;
+        let chosen = || is_span.then(|| choose(start)).flatten();
+        match start.activity {
+            Activity::Downlink => self.last(start.scenario, entry, chosen),
+            Activity::Science => self.last_in_science(chosen),
+        }
+    }
+
     /// Ends the downlink or the science that lasts.
     pub fn end(&mut self) {
         (self.lasts, self.science_lasts) = (None, false);

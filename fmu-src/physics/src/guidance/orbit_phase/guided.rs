@@ -12,7 +12,7 @@ use super::schedule::{Activity, Schedule, Window};
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::constraints::slew::{Slew, SlewStart, SlewedFrame};
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
-use crate::guidance::downlink::sun_direction::{DownlinkSunDirection, SunRequest};
+use crate::guidance::downlink::sun_direction::{DownlinkSunDirection, SelectedSunDirections, SunRequest};
 
 /// The guidance law of the orbital phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,14 +86,11 @@ impl DownlinkStatus {
 }
 
 impl Guided {
-    /// Returns the law with these directions of the Sun in downlink and in science that unloads; `None`: on -Y.
+    /// Returns the law with these directions of the Sun in downlink and in science that unloads; on -Y without one.
     #[must_use]
-    pub fn with_sun_directions(
-        self,
-        sun_direction: Option<DownlinkSunDirection>,
-        science: Option<SunAngles>,
-    ) -> Self {
-        Self { sun_direction, science: self.science.with_sun(science.unwrap_or_default()), ..self }
+    pub fn with_sun_directions(self, selected: &SelectedSunDirections) -> Self {
+        let science = self.science.with_sun(selected.in_science().unwrap_or_default());
+        Self { sun_direction: selected.in_downlink(), science, ..self }
     }
 }
 

@@ -93,12 +93,8 @@ pub fn aimpoint(
         AimpointOption::PlanetCentered => ephemeris.to_planet() + position,
         AimpointOption::PlanetFixed => ephemeris.to_planet() + planet_fixed(ephemeris, &position),
         AimpointOption::LatitudeLongitude => {
-            let at_m = geographic_m(
-                &ephemeris.planet.radii_m,
-                command.latitude_rad,
-                command.longitude_rad,
-                command.height_m,
-            );
+            let AimpointCommand { latitude_rad, longitude_rad, height_m, .. } = *command;
+            let at_m = geographic_m(&ephemeris.planet.radii_m, latitude_rad, longitude_rad, height_m);
             ephemeris.to_planet() + planet_fixed(ephemeris, &fixed(at_m))
         }
         AimpointOption::LvlhDowntrack => lvlh(AzimuthReference::Downtrack)?,
