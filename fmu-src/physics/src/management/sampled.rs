@@ -59,9 +59,13 @@ impl SampledManager<'_> {
         let totals = Totals::at_start(self.momentum_body_n_m_s, &start.attitude.inertial_from_body());
         let torque = |sun_body: &Vector3<f64>| spacecraft.torque_body_n_m(sun_body, pressure_pa);
         let science = self.science_arc(start);
+        let at = ephemeris_ahead(start);
+        let separation_rad =
+            |it: EphemerisAtTime| angle_between_rad(&value(&it.to_sun()), &value(&it.to_earth()));
         let state = DownlinkState {
             to_sun: to_sun_m.try_normalize(0.0)?,
             to_earth: to_earth_m.try_normalize(0.0)?,
+            separations_rad: sampled_range(|fraction| separation_rad(at(fraction))),
             momentum: StartMomentum::from_totals(&totals, self.convention),
             span_s: science.as_ref().map_or(start.span_s, ScienceArc::light_s),
             torque_body_n_m: &torque,
@@ -69,11 +73,7 @@ impl SampledManager<'_> {
             linear: self.manager.linear(spacecraft.solar.materials(), &spacecraft.center_of_mass_body_m()),
             science: science.as_ref().map(|arc| ScienceUnload { arc, convention: self.convention }),
         };
-        let at = ephemeris_ahead(start);
-        let separation_rad =
-            |it: EphemerisAtTime| angle_between_rad(&value(&it.to_sun()), &value(&it.to_earth()));
-        let separations_rad = sampled_range(|fraction| separation_rad(at(fraction)));
-        self.manager.place(state, self.predict(start, totals).as_ref(), separations_rad)
+        self.manager.place(state, self.predict(start, totals).as_ref())
     }
 }
 

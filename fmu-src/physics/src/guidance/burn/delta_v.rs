@@ -18,6 +18,7 @@
 use nalgebra::{Rotation3, Vector3};
 use serde::{Deserialize, Serialize};
 
+use super::nominal_thrust::NominalThrust;
 use super::velocity_path::VelocityPath;
 use crate::attitude::{Attitude, angle_between_rad};
 use crate::constants::DEG_RAD;
@@ -59,10 +60,8 @@ pub struct BurnSettings {
     pub predictive: bool,
     /// Whether beta is.
     pub reactive: bool,
-    /// Unit vector of the nominal thrust.
-    pub thrust_body: Vector3<f64>,
-    /// Nominal acceleration, in m/s2; 0 where none is known.
-    pub acceleration_m_s2: f64,
+    /// Thrust and acceleration as planned: its direction is where the estimate begins; an acceleration of 0 is not known.
+    pub nominal: NominalThrust,
     /// Longest time that thrust may last, in s.
     pub timeout_s: f64,
     /// Longest time that a burn which is due waits for its direction, in s.
@@ -147,8 +146,8 @@ pub enum Interruption {
 
 impl BurnSettings {
     fn is_thrust(&self, acceleration_m_s2: f64) -> bool {
-        let least_m_s2 = if self.acceleration_m_s2 > 0.0 {
-            LEAST_FRACTION * self.acceleration_m_s2
+        let least_m_s2 = if self.nominal.acceleration_m_s2 > 0.0 {
+            LEAST_FRACTION * self.nominal.acceleration_m_s2
         } else {
             LEAST_ACCELERATION_M_S2
         };
@@ -164,10 +163,8 @@ impl BurnState {
 
     /// When thrust ends, in s; `None` without thrust.
     pub fn stop_s(&self) -> Option<f64> {
-        match self.phase {
-            BurnPhase::Burning { stop_s, .. } => Some(stop_s),
-            _ => None,
-        }
+        let BurnPhase::Burning { stop_s, .. } = self.phase else { return None };
+        Some(stop_s)
     }
 
     /// How far that is off the path at the magnitude reached, in m/s.
@@ -178,7 +175,7 @@ impl BurnState {
 
     /// Estimated thrust direction in the body frame, a unit vector.
     pub fn thrust_body(&self, settings: &BurnSettings) -> Vector3<f64> {
-        self.thrust_body.unwrap_or(settings.thrust_body)
+        self.thrust_body.unwrap_or(settings.nominal.direction_body)
     }
 
     /// Rejects decoded states that no simulation can produce.
@@ -317,7 +314,7 @@ impl BurnState {
     fn predicted_stop_s(&self, settings: &BurnSettings, now_s: f64, since_s: f64) -> f64 {
         let length_m_s = settings.path.as_ref().map_or(0.0, VelocityPath::length_m_s);
         let timeout_s = since_s + settings.timeout_s;
-        let acceleration_m_s2 = self.measured_m_s2(settings).unwrap_or(settings.acceleration_m_s2);
+        let acceleration_m_s2 = self.measured_m_s2(settings).unwrap_or(settings.nominal.acceleration_m_s2);
         let remaining_m_s = (length_m_s - self.magnitude_m_s).max(0.0);
         let stop_s =
             if acceleration_m_s2 > 0.0 { now_s + remaining_m_s / acceleration_m_s2 } else { timeout_s };

@@ -134,14 +134,8 @@ impl GuidanceState {
             Some(Steering::Pointing(constraints)) => {
                 is_chosen = self.point(settings, inputs, &constraints, &sensed, choose);
             }
-            Some(Steering::ErrorQuaternion { error, rate_body_rad_s }) => {
-                let kind = CommandKind::ErrorQuaternion;
-                self.command = self.command.followed_by_rate(kind, error.0, rate_body_rad_s, time_s);
-                self.status = CommandStatus::NOTHING;
-            }
-            Some(Steering::RateOnly(rate_body_rad_s)) => {
-                let (kind, error) = (CommandKind::RateOnly, [0.0, 0.0, 0.0, 1.0]);
-                self.command = self.command.followed_by_rate(kind, error, rate_body_rad_s, time_s);
+            Some(rate) => {
+                self.command = self.command.followed_by_rate(&rate, time_s);
                 self.status = CommandStatus::NOTHING;
             }
             None => self.status = CommandStatus { degenerate: true, ..CommandStatus::NOTHING },

@@ -5,7 +5,7 @@ use crate::enumeration::Enumerated;
 use crate::guidance::pointing::aligned::aligned_command;
 use crate::guidance::pointing::command::PointingCommand;
 use crate::spacecraft::{AttitudeName, AttitudePart, NamedAttitude, Panel, aligned};
-use crate::toml::{Checker, KeyPath, nearest};
+use crate::toml::{Checker, KeyPath, hint};
 
 /// Attitudes that have a name.
 const NAMES: [AttitudeName; 3] = [AttitudeName::Lvlh, AttitudeName::YawSteering, AttitudeName::SunPointing];
@@ -41,8 +41,7 @@ fn read(check: &mut Checker<'_>, at: &KeyPath, given: &AttitudeDescription) -> O
             if found.is_none() {
                 let names = NAMES.map(Enumerated::name);
                 let allowed = format!("{}, or a quaternion, or `align` and `constrain`", names.join(", "));
-                let hint =
-                    nearest(name, &names).map_or_else(String::new, |it| format!(" (did you mean `{it}`?)"));
+                let hint = hint(name, &names);
                 check.report(at, format_args!("the unknown word `{name}`{hint}"), allowed);
             }
             found.map(NamedAttitude::from)

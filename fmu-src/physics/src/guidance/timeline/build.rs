@@ -95,16 +95,12 @@ impl Timeline {
                 status: description.status.unwrap_or_default(),
             });
         }
-        let panels = panels_list
-            .iter()
-            .zip(panel_times)
-            .enumerate()
+        let timed = panels_list.iter().zip(panel_times).enumerate();
+        let panels = timed
             .map(|(index, (given, at_s))| panels(&mut commands, &panels_place.item(index), given, at_s))
             .collect();
-        let events = events_list
-            .iter()
-            .zip(event_times)
-            .enumerate()
+        let timed = events_list.iter().zip(event_times).enumerate();
+        let events = timed
             .map(|(index, (given, at_s))| event(&mut commands, &events_place.item(index), given, at_s))
             .collect();
         commands.check.finish(Self { clock, entries, names, panels, events })

@@ -169,11 +169,8 @@ impl<'d, 'i> Commands<'d, 'i> {
         } else if given.keep_in.is_none() && given.mode.is_none() {
             let lacks = ["scenario", "attitude", "keepIn", "mode"];
             if !lacks.iter().any(|key| self.check.is_stand_in(&at.key(key))) {
-                self.check.push(
-                    at,
-                    "a command of nothing",
-                    "at least one of scenario, attitude, keepIn, mode",
-                );
+                let allowed = "at least one of scenario, attitude, keepIn, mode";
+                self.check.push(at, "a command of nothing", allowed);
             }
         }
     }

@@ -11,8 +11,7 @@ use crate::attitude::{Inertia, RigidBodyState, angle_between_rad};
 use crate::math;
 use crate::numerics::noise::{Channel, normal};
 use crate::spin::{
-    crossing::{Crossing, Pole},
-    crossing_detector::CrossingDetector,
+    crossing::{Crossing, CrossingDetector, Pole},
     motion::Motion,
     nutation::Spin,
     spinner::Spinner,

@@ -12,12 +12,11 @@ use crate::spin::{
     burn_error::{BurnError, ParameterError},
     burn_request::BurnRequest,
     damper::SHORTEST_TIME_CONSTANT_S,
-    execution::PulseExecution,
     forecast::Timing,
     geometry::L1Ephemeris,
     nutation::Spin,
     sequencer::{FASTEST_RAD_S, SLOWEST_RAD_S},
-    spinner::Spinner,
+    spinner::{PulseExecution, Spinner},
     work::WorkExceeded,
 };
 

@@ -335,14 +335,10 @@ impl Plant {
     pub fn fits(&self, spinner: &Spinner) -> bool {
         let burn = self.sequencer.as_ref().map(|it| &it.burn);
         let known = (1_u64 << spinner.thrusters.len()) - 1;
-        let masks = [
-            self.propulsion.valves.open_mask(),
-            self.commands.fire,
-            burn.map_or(0, |b| b.mask),
-            burn.map_or(0, |b| b.opposite_mask),
-        ];
+        let planned = burn.map_or(0, |burn| burn.mask | burn.opposite_mask);
+        let used = self.propulsion.valves.open_mask() | self.commands.fire | planned;
         let slack_s = OUT_OF_ORDER * self.initial.theory.period_s();
-        masks.iter().all(|&mask| u64::from(mask) & !known == 0)
+        u64::from(used) & !known == 0
             && (LEAST_WORK..=MOST_WORK).contains(&self.work_limit)
             && self.initial.is_valid()
             && self.motion_is_valid(slack_s)
