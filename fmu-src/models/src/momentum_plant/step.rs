@@ -105,7 +105,7 @@ fn begin(
     let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
     plausibility::report(Read::new(context, values), flight, given, time_s);
     let undo = flight.sample_at_start(given, &inputs.dynamics, time_s).map_err(failure)?;
-    let reached = flight.evaluate(given, &inputs.dynamics, command, time_s).map_err(failure)?;
+    let reached = flight.evaluate(given, &inputs.dynamics, command, true, time_s).map_err(failure)?;
     outputs::check(flight, &reached, time_s)?;
     Ok(undo)
 }
@@ -182,7 +182,8 @@ fn evaluate(
     let (external, planner) = (reading.external(), reading.planner());
     let given = reading.given(&external, &planner);
     let PlantState { saved: SavedState { flight, command, waiting, warned, .. }, inputs } = state;
-    let reached = flight.evaluate(given, &inputs.dynamics, command, time_s).map_err(failure)?;
+    let with_loads = warned.watch.looks_at_forces(flight.configuration(), time_s);
+    let reached = flight.evaluate(given, &inputs.dynamics, command, with_loads, time_s).map_err(failure)?;
     if !*waiting {
         outputs::check(flight, &reached, time_s)?;
     }

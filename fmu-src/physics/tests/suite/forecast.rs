@@ -69,7 +69,7 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
     let mut advance = |to_s: f64| {
         flight.advance(given, &inputs, [now_s, to_s]).unwrap();
         now_s = to_s;
-        flight.evaluate(given, &inputs, &held, to_s).unwrap();
+        flight.evaluate(given, &inputs, &held, true, to_s).unwrap();
         let report = flight.report(given.prepared, &inputs, &held, to_s).unwrap();
         report.summary.totals.momentum_inertial_n_m_s
     };

@@ -44,7 +44,7 @@ use crate::spacecraft::Spacecraft;
 use configured::ConfiguredFlight;
 use dynamic::Dynamic;
 use encounter_prediction::predict_encounter;
-use flight_setup::FlightSetup;
+use flight_setup::{Evaluated, FlightSetup};
 use ideal::Ideal;
 use in_flight::InFlight;
 use report::{ReachedState, Report};
@@ -92,7 +92,7 @@ impl Flight {
 
     /// Geometry, attitude and loads at the last report; `None` before any.
     pub fn evaluation(&self) -> Option<&Evaluation> {
-        self.setup.as_ref()?.evaluation.as_ref().filter(|_| !self.is_waiting())
+        self.setup.as_ref()?.evaluated.evaluation.as_ref().filter(|_| !self.is_waiting())
     }
 
     /// Whether it waits.
@@ -205,8 +205,8 @@ impl Flight {
 
     /// Returns the body before the Sun's disc where the flight was evaluated; `quiet_until_s` becomes the time of the next look.
     pub fn occultation(&mut self, time_s: f64, quiet_until_s: &mut Option<f64>) -> Option<Occultation> {
-        let FlightSetup { context, evaluation, .. } = self.setup.as_deref_mut()?;
-        survey::occultation(context, &evaluation.as_ref()?.instant.geometry, time_s, quiet_until_s)
+        let FlightSetup { context, evaluated, .. } = self.setup.as_deref_mut()?;
+        survey::occultation(context, &evaluated.evaluation.as_ref()?.instant.geometry, time_s, quiet_until_s)
     }
 
     /// Replaces the schedule from `time_s` on: earlier events are past, and the Sun's direction in a downlink is selected anew.
@@ -225,11 +225,11 @@ impl Flight {
         &'a mut self,
         given: StepContext<'a>,
         inputs: &'a DynamicsInputs,
-    ) -> Result<(InFlight<'a>, &'a mut Option<Evaluation>), PlantError> {
+    ) -> Result<(InFlight<'a>, &'a mut Evaluated), PlantError> {
         let Self { state: FlightState { propagator, thrusters, mode, .. }, setup: Some(setup) } = self else {
             return Err(PlantError::OtherMode);
         };
-        let FlightSetup { context, settings, distribution, evaluation } = &mut **setup;
+        let FlightSetup { context, settings, distribution, evaluated } = &mut **setup;
         let turning = Turning::still();
         let flight = ConfiguredFlight { given, context, propagator, thrusters, turning };
         let in_flight = match (mode, settings) {
@@ -248,7 +248,7 @@ impl Flight {
             }),
             _ => return Err(PlantError::OtherMode),
         };
-        Ok((in_flight, evaluation))
+        Ok((in_flight, evaluated))
     }
 
     /// Begins at `time_s`, where the attitude was the one of `held`: the quaternion takes the sign nearer to that.
@@ -342,7 +342,8 @@ impl Flight {
         (self.state.mode, self.state.thrusters, self.state.prediction) = (mode, thrusters, prediction);
     }
 
-    /// Evaluates geometry, attitude and loads at `time_s`, where the flight has come; one that waits holds the attitude of `held`.
+    /// Evaluates geometry and attitude at `time_s`, where the flight has come, and its loads; those of an attitude that is followed
+    /// ideally only `with_loads`, else [`Self::report`] computes them. A flight that waits holds the attitude of `held`.
     ///
     /// # Errors
     /// A state that belongs to another mode than the settings.
@@ -351,10 +352,11 @@ impl Flight {
         given: StepContext<'_>,
         inputs: &DynamicsInputs,
         held: &Command,
+        with_loads: bool,
         time_s: f64,
     ) -> Result<ReachedState, PlantError> {
-        let (mut in_flight, evaluation) = self.in_flight(given, inputs)?;
-        Ok(in_flight.evaluate(held, evaluation, time_s))
+        let (mut in_flight, evaluated) = self.in_flight(given, inputs)?;
+        Ok(in_flight.evaluate(held, evaluated, with_loads, time_s))
     }
 
     /// Everything at `time_s`, where the flight was evaluated last; one that waits has the attitude of `held`.
@@ -369,8 +371,9 @@ impl Flight {
         time_s: f64,
     ) -> Result<Report<'a>, PlantError> {
         let prediction = self.state.prediction;
-        let (in_flight, evaluation) = self.in_flight(StepContext::at_rest(prepared), inputs)?;
-        let evaluation = evaluation.as_ref().ok_or(PlantError::OtherMode)?;
+        let (mut in_flight, evaluated) = self.in_flight(StepContext::at_rest(prepared), inputs)?;
+        in_flight.write_loads(evaluated, time_s);
+        let evaluation = evaluated.evaluation.as_ref().ok_or(PlantError::OtherMode)?;
         Ok(in_flight.report(held, evaluation, prediction, time_s))
     }
 
