@@ -58,17 +58,8 @@ pub struct Collocation<const S: usize, const M: usize> {
 }
 
 impl<const S: usize, const M: usize> Default for Collocation<S, M> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl<const S: usize, const M: usize> Collocation<S, M> {
-    /// Rounds until the sweeps count as diverging.
-    const SWEEPS: usize = 60;
-
     /// Computes the coefficients.
-    pub fn new() -> Self {
+    fn default() -> Self {
         const { assert!(M == S + 1 && S > 0, "dense output has one coefficient more than there are nodes") }
         let rule = Rule::<S>::gauss_legendre();
         // Each Lagrange basis polynomial of the nodes, integrated from -1.
@@ -80,6 +71,11 @@ impl<const S: usize, const M: usize> Collocation<S, M> {
         }
         Self { rule, to_node, to_integral: *integral.coefficients() }
     }
+}
+
+impl<const S: usize, const M: usize> Collocation<S, M> {
+    /// Rounds until the sweeps count as diverging.
+    const SWEEPS: usize = 60;
 
     /// The solution of `y' = rhs(t, y)`, `y(start_s) = start`, on `[start_s, end_s]`, and its value at the end.
     ///
@@ -244,11 +240,6 @@ impl<const D: usize, const M: usize> SegmentChain<D, M> {
     /// How far the integration has come, s.
     pub fn end_s(&self) -> f64 {
         self.end_s
-    }
-
-    /// The solution at [`SegmentChain::end_s`].
-    pub fn end(&self) -> &SVector<f64, D> {
-        &self.end
     }
 
     /// Dense output between [`SegmentChain::start_s`] and [`SegmentChain::end_s`].

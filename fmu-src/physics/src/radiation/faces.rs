@@ -78,10 +78,10 @@ impl Surface {
     }
 
     /// Advances the temperatures of the surface's faces by `duration_s` in place, from the heat of every face at the start and at the end;
-    /// `faces` and `temperatures_k` are those of the whole model. Does nothing where the surface stores no heat.
-    fn advance_temperatures(
+    /// `temperatures_k` has those of `all` faces. Does nothing where the surface stores no heat.
+    pub(super) fn advance_temperatures(
         &self,
-        (faces, materials): (&[Face], &[Material]),
+        all: &Faces,
         temperatures_k: &mut [f64],
         heat_w: [&[f64]; 2],
         duration_s: f64,
@@ -96,7 +96,7 @@ impl Surface {
             if count == 2 { [at(0), at(1)] } else { [at(0), 0.0] }
         };
         let store = HeatStore {
-            faces: self.environments(&faces[self.faces()], materials),
+            faces: self.environments(&all.faces[self.faces()], &all.materials),
             conduction: self.conduction,
             heat_capacity_j_m2_k: self.heat_capacity_j_m2_k,
         };
@@ -202,19 +202,6 @@ impl Faces {
     pub(crate) fn extract_scene(&mut self) -> Option<ShadowScene> {
         let scene = ShadowScene::new(core::mem::take(&mut self.outlines));
         scene.has_pairs().then_some(scene)
-    }
-
-    /// Temperatures of all faces `duration_s` later, in place, for the heat of every face at the start and at the end.
-    pub(super) fn advance_temperatures(
-        &self,
-        temperatures_k: &mut [f64],
-        heat_w: [&[f64]; 2],
-        duration_s: f64,
-    ) {
-        for surface in &self.surfaces {
-            let of_faces = (self.faces.as_slice(), self.materials.as_slice());
-            surface.advance_temperatures(of_faces, temperatures_k, heat_w, duration_s);
-        }
     }
 
     /// Sets the spacecraft's material of this index.

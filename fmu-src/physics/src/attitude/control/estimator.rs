@@ -36,7 +36,7 @@ struct RateFilter {
 }
 
 /// Covariance of attitude error and bias error of each body axis.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Covariance {
     /// In rad2.
     angle: Vector3<f64>,
@@ -47,7 +47,7 @@ struct Covariance {
 }
 
 /// The gyros' true bias, and what the estimator keeps from one sample to the next.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EstimatorState {
     /// Bias of the gyros at the last sample, in rad/s.
     true_bias_rad_s: Vector3<f64>,
@@ -100,22 +100,11 @@ impl Covariance {
 impl EstimatorState {
     /// At the start, where the attitude is known.
     pub fn new(settings: &SensorSettings, attitude: Attitude) -> Self {
-        let squared = |vector: &Vector3<f64>| vector.component_mul(vector);
-        Self {
-            true_bias_rad_s: settings.gyro.initial_bias_rad_s,
-            last_truth: None,
-            attitude,
-            bias_rad_s: Vector3::zeros(),
-            covariance: Covariance {
-                angle: squared(&settings.star_tracker.noise_rad),
-                cross: Vector3::zeros(),
-                bias: squared(&settings.gyro.initial_bias_rad_s),
-            },
-            rate_body_rad_s: None,
-            without_gyros: None,
-            samples_since_fix: 0,
-            is_lost: false,
-        }
+        let true_bias_rad_s = settings.gyro.initial_bias_rad_s;
+        let [angle, bias] = [settings.star_tracker.noise_rad, true_bias_rad_s]
+            .map(|deviation| deviation.component_mul(&deviation));
+        let covariance = Covariance { angle, bias, ..Covariance::default() };
+        Self { true_bias_rad_s, attitude, covariance, ..Self::default() }
     }
 
     /// Rejects decoded states that no simulation can produce.

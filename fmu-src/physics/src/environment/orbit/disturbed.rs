@@ -71,19 +71,13 @@ impl DisturbedOrbit {
         segment_length_s: f64,
         radius_m: f64,
     ) -> Result<Self, OrbitIntegrationError> {
-        check("start time in s", start_s, start_s.is_finite(), "a finite number")?;
-        check(
-            "segment length in s",
-            segment_length_s,
-            segment_length_s.is_finite() && segment_length_s > 0.0,
-            "a finite number above 0",
-        )?;
-        check(
-            "radius in m",
-            radius_m,
-            radius_m.is_finite() && radius_m >= 0.0,
-            "a finite number, 0 or more",
-        )?;
+        for (what, found, is_in_range, allowed) in [
+            ("start time in s", start_s, true, "a finite number"),
+            ("segment length in s", segment_length_s, segment_length_s > 0.0, "a finite number above 0"),
+            ("radius in m", radius_m, radius_m >= 0.0, "a finite number, 0 or more"),
+        ] {
+            check(what, found, found.is_finite() && is_in_range, allowed)?;
+        }
         let start = pack(state);
         start.iter().try_for_each(|x| check("position or velocity", *x, x.is_finite(), "finite numbers"))?;
         check_above(state.position_m.norm(), start_s, radius_m)?;

@@ -2,7 +2,7 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::clip::{Pieces, cross, drop_flat_corners, flat_m2};
+use super::clip::{Pieces, cross, drop_flat_corners, flat_m2, keep_positive};
 use super::convex::FlatParts;
 use super::disc::{DIRECTIONS, LitMean, SunDisc};
 use crate::numerics::scalar::{Scalar, constant_vector, sin_cos};
@@ -251,6 +251,9 @@ impl ShadowScene {
         let (pose, caster) = (&poses[index], &poses[other]);
         let height = |p: &Vector3<T>| (p - pose.origin).dot(&pose.normal) * side;
         let per_cos = (sun.dot(&pose.normal) * side).recip();
+        let at_height_0 = |from: &(Vector3<T>, T), to: &(Vector3<T>, T), share: T| {
+            (from.0 + (to.0 - from.0) * share, T::constant(0.0))
+        };
         for part in &self.surfaces[other].flat.parts {
             let [whole, above] = &mut *space;
             whole.clear();
@@ -258,7 +261,8 @@ impl ShadowScene {
                 let point = caster.origin + caster.east * T::constant(p.x) + caster.north * T::constant(p.y);
                 (point, height(&point))
             }));
-            keep_above(whole, above);
+            above.clear();
+            keep_positive(whole, |corner| corner.1, at_height_0, above);
             if above.len() < 3 {
                 continue;
             }
@@ -351,22 +355,5 @@ impl ShadowSurface {
             && self.flat.parts.len() == 1
             && other.flat.parts.len() == 1
             && mine.iter().all(|a| theirs.iter().any(|b| near(a, b)))
-    }
-}
-
-/// The part of a convex outline in space with a height above 0.
-fn keep_above<T: Scalar>(whole: &[(Vector3<T>, T)], above: &mut Vec<(Vector3<T>, T)>) {
-    above.clear();
-    let Some(mut from) = whole.last() else { return };
-    for to in whole {
-        let (before, after) = (from.1.value(), to.1.value());
-        if (before > 0.0 && after < 0.0) || (before < 0.0 && after > 0.0) {
-            let share = from.1 / (from.1 - to.1);
-            above.push((from.0 + (to.0 - from.0) * share, T::constant(0.0)));
-        }
-        if after >= 0.0 {
-            above.push(*to);
-        }
-        from = to;
     }
 }
