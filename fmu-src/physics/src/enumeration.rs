@@ -38,6 +38,7 @@ macro_rules! enumeration {
         $($(#[$($of_item:tt)+])+ $value:literal => $variant:ident,)+
     }) => {
         $(#[$attribute])*
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
         $visibility enum $name {
             $($(#[$($of_item)+])+ $variant,)+
         }

@@ -7,8 +7,8 @@ use physics::guidance;
 use physics::guidance::downlink::sun_direction::SunZone;
 use physics::guidance::pointing::command;
 use physics::spacecraft::{
-    AlignedAxes, AttitudePart, AttitudeRefusal, NamedAttitude, Panel, PointingSettings, PointingTarget,
-    Spacecraft, TargetItem, TargetedAxis, panels_need_yaw_steering,
+    AlignedAxes, AttitudeName, AttitudePart, AttitudeRefusal, NamedAttitude, Panel, PointingSettings,
+    PointingTarget, Spacecraft, TargetItem, TargetedAxis, panels_need_yaw_steering,
 };
 
 use super::choices::{PointingTarget as TargetChoice, ScienceRule};
@@ -35,9 +35,9 @@ impl AttitudeDefaults {
         match self.pointing.map(|pointing| pointing.attitude) {
             None if self.needs_yaw_steering && !is_about_sun => ScienceRule::YawSteering,
             None => ScienceRule::Nadir,
-            Some(NamedAttitude::Lvlh) => ScienceRule::Lvlh,
-            Some(NamedAttitude::YawSteering) => ScienceRule::YawSteering,
-            Some(NamedAttitude::SunPointing) => ScienceRule::SunPointing,
+            Some(NamedAttitude::Named(AttitudeName::Lvlh)) => ScienceRule::Lvlh,
+            Some(NamedAttitude::Named(AttitudeName::YawSteering)) => ScienceRule::YawSteering,
+            Some(NamedAttitude::Named(AttitudeName::SunPointing)) => ScienceRule::SunPointing,
             Some(NamedAttitude::Inertial(_)) => ScienceRule::Inertial,
             Some(NamedAttitude::Aligned(_)) => ScienceRule::Aligned,
         }
@@ -142,17 +142,17 @@ impl NamedAttitudeVariables {
         let [align, constrain] = [&self.align, &self.constrain].map(|axis| axis.read(values));
         let attitude = match rule {
             ScienceRule::Scaled | ScienceRule::Nadir | ScienceRule::FixedToSunLine => return Ok(None),
-            ScienceRule::Lvlh => NamedAttitude::Lvlh,
-            ScienceRule::YawSteering => NamedAttitude::YawSteering,
-            ScienceRule::SunPointing => NamedAttitude::SunPointing,
+            ScienceRule::Lvlh => NamedAttitude::Named(AttitudeName::Lvlh),
+            ScienceRule::YawSteering => NamedAttitude::Named(AttitudeName::YawSteering),
+            ScienceRule::SunPointing => NamedAttitude::Named(AttitudeName::SunPointing),
             ScienceRule::Inertial => NamedAttitude::Inertial(values.vector(self.attitude)),
             ScienceRule::Aligned => NamedAttitude::Aligned(AlignedAxes { align, constrain }),
         };
         let axes = attitude.axes(context.panels).map_err(|refusal| refused(&refusal))?;
         if context.is_about_sun && axes.needs_planet() {
             let (name, found) = match attitude {
-                NamedAttitude::Lvlh => ("scienceRule", "lvlh"),
-                NamedAttitude::YawSteering => ("scienceRule", "yawSteering"),
+                NamedAttitude::Named(AttitudeName::Lvlh) => ("scienceRule", "lvlh"),
+                NamedAttitude::Named(AttitudeName::YawSteering) => ("scienceRule", "yawSteering"),
                 _ if align.target == PointingTarget::Nadir => ("align.target", TargetItem::Nadir.name()),
                 _ => ("constrain.target", TargetItem::Nadir.name()),
             };

@@ -24,7 +24,6 @@ use surface::{DayTemperature, PlanetSurface};
 enumeration! {
     /// A body that a spacecraft can orbit or observe.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "camelCase")]
     pub enum Body {
         /// The Sun.

@@ -68,11 +68,11 @@ impl Figures {
         let mut total_area_m2 = 0.0;
         for surface in &surfaces {
             let [plus, minus] = &mut area_toward_m2;
-            let projected_m2 = surface.normal * surface.area_m2;
-            let rear = f64::from(u8::from(surface.is_two_sided));
+            let projected_m2 = surface.plate.normal * surface.plate.area_m2;
+            let rear = f64::from(u8::from(surface.plate.rear_optics.is_some()));
             *plus += projected_m2.map(|area_m2| area_m2.max(0.0) + rear * (-area_m2).max(0.0));
             *minus += projected_m2.map(|area_m2| (-area_m2).max(0.0) + rear * area_m2.max(0.0));
-            total_area_m2 += surface.area_m2 * (1.0 + rear);
+            total_area_m2 += surface.plate.area_m2 * (1.0 + rear);
         }
         let angle_rad = |index: usize| angles_rad.get(index).copied().unwrap_or(0.0);
         let mass_properties = with_panels(&spacecraft.mass_properties, &spacecraft.panels, angle_rad);

@@ -1,7 +1,5 @@
 //! The spacecraft, and its reading from a file: every part is read, then checked against the others.
 
-use std::collections::BTreeMap;
-
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -17,7 +15,7 @@ use super::materials::Materials;
 use super::momentum::{slew, unload_every};
 use super::panel::Panel;
 use super::panel_table::panel;
-use super::part_reader::PartReader;
+use super::part_reader::{Names, PartReader};
 use super::planet_map::{PlanetMap, planet_map};
 use super::plate_table::{plates, sunshade};
 use super::pointing::PointingSettings;
@@ -160,9 +158,9 @@ fn spacecraft(check: &mut Checker<'_>, given: &SpacecraftDescription) -> Spacecr
     }
     let materials = Materials::read(check, &given.optics, given.thermal.as_ref());
     check.rules(&root, SpacecraftDescription::RULES);
-    check_names(check, given);
     check_masses(check, given);
-    let file = &mut PartReader { check, materials: &materials, at: root, index: 0 };
+    let names = Names::default();
+    let file = &mut PartReader { check, materials: &materials, names: &names, at: root, index: 0 };
     let tanks = file.list("tanks", given.tanks.as_deref(), tank);
     let thruster_sets = thruster_sets(file.check, given.sets.as_deref(), given.thrusters.as_deref());
     let thrusters = file
@@ -254,7 +252,7 @@ fn surfaces(found: &Found) -> usize {
 }
 
 /// Adds the plates of every item under a key.
-fn shaped<D: Table>(
+fn shaped<D: Table + Named>(
     file: &mut PartReader<'_, '_>,
     found: &mut Found,
     (key, items): (&str, Option<&[D]>),
@@ -268,48 +266,4 @@ fn shaped<D: Table>(
             found.push((part.at.clone(), made));
         }
     });
-}
-
-/// Key path of a part, its name, and whether the file gives the name.
-type Name = (KeyPath, String, bool);
-
-fn names<D: Named>(at: KeyPath, items: Option<&[D]>) -> Vec<Name> {
-    let items = items.unwrap_or_default().iter().enumerate();
-    items.map(|(i, item)| (at.item(i), item.called(i), item.name().is_some())).collect()
-}
-
-/// Names of the lists of these keys.
-macro_rules! names_of {
-    ($description:ident: $($key:ident),+) => {
-        [$(names(KeyPath::root().key(stringify!($key)), $description.$key.as_deref())),+]
-    };
-}
-
-/// Two parts of one kind with one name could not be distinguished; all plates are one kind, the shade's among them.
-fn check_names(check: &mut Checker<'_>, description: &SpacecraftDescription) {
-    let of_shade = description.sunshade.as_ref().map_or_else(Vec::new, |shade| {
-        names(KeyPath::root().key("sunshade").key("plates"), shade.plates.as_deref())
-    });
-    let plates = names_of!(description: plates, boxes, cylinders, discs, dishes);
-    let others = names_of!(
-        description: panels, wheels, sun_sensors, instruments, antennas, tanks, thrusters, flexible_modes, slosh
-    );
-    let kinds = [plates.into_iter().chain([of_shade]).flatten().collect()].into_iter().chain(others);
-    for kind in kinds {
-        check_kind(check, &kind);
-    }
-}
-
-fn check_kind(check: &mut Checker<'_>, names: &[Name]) {
-    let mut known: BTreeMap<&str, &Name> = BTreeMap::new();
-    for part in names {
-        let (at, name, is_given) = part;
-        let (other, _, other_is_given) = *known.entry(name).or_insert(part);
-        // A plate and one of the shade that nobody named are both called by their number.
-        if at != other && (*is_given || *other_is_given) {
-            let unnamed = if *is_given { "" } else { " as what has no name is called" };
-            let found = format!("`{name}`{unnamed}, the name of {other} too");
-            check.report(&at.key("name"), found, "a name of its own");
-        }
-    }
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::part_reader::PartReader;
 use super::start::StartEntry;
 use crate::constants::TIME_UNITS;
-use crate::toml::{Orbits, inline_schema, tables, with_unit};
+use crate::toml::{Orbits, tables, type_schema, with_unit};
 
 tables! {
 /// When an antenna looks at the Earth, counted from periapsis; left out, there are no downlinks. The start values of
@@ -109,7 +109,9 @@ fn in_range(time: TimeAfterPeriapsis) -> Option<TimeAfterPeriapsis> {
     is_in.then_some(time)
 }
 
-inline_schema!(WrittenTime, "WrittenTime", |_| schemars::json_schema!({ "type": ["number", "string"] }));
+type_schema!([] WrittenTime, inline: true, "WrittenTime", |_| {
+    schemars::json_schema!({ "type": ["number", "string"] })
+});
 
 /// Reads the windows.
 pub(super) fn downlinks(

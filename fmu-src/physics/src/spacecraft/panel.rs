@@ -16,7 +16,6 @@ use crate::numerics::scalar::{Scalar, acos, constant_vector, sin_cos};
 enumeration! {
     /// How a panel's angle comes about.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "snake_case")]
     pub enum PanelControl {
         /// A constant angle between the panel's normal and the Sun.

@@ -1,11 +1,19 @@
 //! Reader of one part of a spacecraft file: its key path, the materials and the file's checker.
 
+use core::cell::RefCell;
 use core::fmt::Display;
+use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
 use super::materials::{ChosenMaterial, Materials};
-use crate::toml::{Checker, KeyPath, Table};
+use crate::toml::{Checker, KeyPath, Named, Table};
+
+/// Key paths of the parts by kind and name, and whether the file gives the name.
+pub(super) type Names = RefCell<BTreeMap<(&'static str, String), (KeyPath, bool)>>;
+
+/// Kinds of parts that are plates, which are named as one kind.
+const PLATES: [&str; 5] = ["plate", "box", "cylinder", "disc", "dish"];
 
 /// A table of the file, or an item of one of its lists.
 pub(super) struct PartReader<'p, 'd> {
@@ -13,6 +21,8 @@ pub(super) struct PartReader<'p, 'd> {
     pub check: &'p mut Checker<'d>,
     /// Materials of the file.
     pub materials: &'p Materials,
+    /// Names of all parts so far.
+    pub names: &'p Names,
     /// Key path of the part.
     pub at: KeyPath,
     /// Its number in its list, from 0.
@@ -22,7 +32,8 @@ pub(super) struct PartReader<'p, 'd> {
 impl<'d> PartReader<'_, 'd> {
     /// A table in it.
     pub(super) fn table(&mut self, key: &str) -> PartReader<'_, 'd> {
-        PartReader { check: self.check, materials: self.materials, at: self.at.key(key), index: 0 }
+        let Self { check, materials, names, at, .. } = self;
+        PartReader { check, materials, names, at: at.key(key), index: 0 }
     }
 
     /// Reads a table in it, which may be left out.
@@ -40,7 +51,7 @@ impl<'d> PartReader<'_, 'd> {
     }
 
     /// Reads a list in it, which may be left out but not be empty.
-    pub(super) fn list<D: Table, S>(
+    pub(super) fn list<D: Table + Named, S>(
         &mut self,
         key: &str,
         items: Option<&[D]>,
@@ -54,10 +65,26 @@ impl<'d> PartReader<'_, 'd> {
         let items = items.unwrap_or_default().iter().enumerate();
         let made = items.map(|(index, item)| {
             (part.at, part.index) = (list.item(index), index);
+            part.check_name(item);
             part.check.rules(&part.at, D::RULES);
             read(&mut part, item)
         });
         made.collect()
+    }
+
+    /// Two parts of one kind with one name could not be distinguished.
+    fn check_name<D: Named>(&mut self, item: &D) {
+        let kind = if PLATES.contains(&D::KIND) { PLATES[0] } else { D::KIND };
+        let (name, is_given) = (item.called(self.index), item.name().is_some());
+        let mut names = self.names.borrow_mut();
+        let known = names.entry((kind, name.clone()));
+        let (other, other_is_given) = known.or_insert_with(|| (self.at.clone(), is_given));
+        // A plate and one of the shade that nobody named are both called by their number.
+        if *other != self.at && (is_given || *other_is_given) {
+            let unnamed = if is_given { "" } else { " as what has no name is called" };
+            let found = format!("`{name}`{unnamed}, the name of {other} too");
+            self.check.report(&self.at.key("name"), found, "a name of its own");
+        }
     }
 
     /// Reports a key of it.

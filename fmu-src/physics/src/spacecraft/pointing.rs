@@ -21,7 +21,6 @@ const PARALLEL: f64 = 1e-9;
 enumeration! {
     /// Direction that a body axis is turned to.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "camelCase")]
     pub enum TargetItem {
         /// The planet's centre.
@@ -44,7 +43,6 @@ enumeration! {
 enumeration! {
     /// Attitude that its name alone gives.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "camelCase")]
     pub enum AttitudeName {
         /// Local vertical, local horizontal: +Z to nadir, -Y along the orbit normal (position x velocity).
@@ -53,16 +51,6 @@ enumeration! {
         5 => YawSteering,
         /// -Y to the Sun, +Z toward ecliptic north.
         6 => SunPointing,
-    }
-}
-
-impl From<AttitudeName> for NamedAttitude {
-    fn from(name: AttitudeName) -> Self {
-        match name {
-            AttitudeName::Lvlh => Self::Lvlh,
-            AttitudeName::YawSteering => Self::YawSteering,
-            AttitudeName::SunPointing => Self::SunPointing,
-        }
     }
 }
 
@@ -182,12 +170,8 @@ impl AlignedAxes {
 /// An attitude by its name, with what the name leaves open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NamedAttitude {
-    /// +Z at nadir, -Y along the orbit normal.
-    Lvlh,
-    /// +Z at nadir, p x Z toward the Sun, p the panels' common axis.
-    YawSteering,
-    /// -Y at the Sun, +Z toward ecliptic north.
-    SunPointing,
+    /// Attitude that its name alone gives.
+    Named(AttitudeName),
     /// Quaternion from EME2000 to the body, scalar last.
     Inertial([f64; 4]),
     /// Two axes and their targets.
@@ -202,12 +186,12 @@ impl NamedAttitude {
     pub fn axes(&self, panels: &[Panel]) -> Result<AlignedAxes, AttitudeRefusal> {
         let toward = |axis_body, target| TargetedAxis { axis_body, target };
         match self {
-            Self::Lvlh => Ok(AlignedAxes::LVLH),
-            Self::YawSteering => Ok(AlignedAxes {
+            Self::Named(AttitudeName::Lvlh) => Ok(AlignedAxes::LVLH),
+            Self::Named(AttitudeName::YawSteering) => Ok(AlignedAxes {
                 constrain: toward(yaw_steering_axis(panels)?, PointingTarget::Sun),
                 ..AlignedAxes::LVLH
             }),
-            Self::SunPointing => Ok(AlignedAxes {
+            Self::Named(AttitudeName::SunPointing) => Ok(AlignedAxes {
                 align: toward(-Vector3::y(), PointingTarget::Sun),
                 constrain: toward(Vector3::z(), PointingTarget::EclipticNorth),
             }),

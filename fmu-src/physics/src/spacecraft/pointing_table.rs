@@ -65,7 +65,7 @@ pub(super) fn pointing(
         part.check.report(&part.at, format!("[pointing] beside {}", entry.key), allowed);
     }
     let attitude = match (attitude, quaternion, align, constrain) {
-        (Some(named), None, None, None) => Some((*named).into()),
+        (Some(named), None, None, None) => Some(NamedAttitude::Named(*named)),
         (None, Some(q), None, None) => Some(NamedAttitude::Inertial(*q)),
         (None, None, Some(align), Some(constrain)) => {
             aligned(part.check, &part.at, [align, constrain], star.as_ref())

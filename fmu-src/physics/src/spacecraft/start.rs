@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use crate::toml::{Checker, KeyPath};
+use crate::toml::{Checker, KeyPath, type_schema};
 
 /// A start value of a model's variable, as the file gives it.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,27 +97,20 @@ fn value(check: &mut Checker<'_>, at: &KeyPath, item: &Item) -> Option<StartValu
     }
 }
 
-#[cfg(feature = "schema")]
-impl schemars::JsonSchema for StartTable {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        "StartTable".into()
-    }
-
-    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        let scalar = || schemars::json_schema!({ "type": ["number", "string", "boolean"] });
-        let row = schemars::json_schema!({ "type": "array", "items": scalar() });
-        let list = schemars::json_schema!({ "type": "array", "items": { "anyOf": [scalar(), row] } });
-        let by_model = schemars::json_schema!({
-            "description": "For the model of this name alone.",
-            "type": "object",
-            "additionalProperties": { "anyOf": [scalar(), list] }
-        });
-        schemars::json_schema!({
-            "description": "Start values of the models' parameters and inputs by name, in quotes: SI numbers, strings with a \
-                unit (\"10 deg\"), true or false, names of items; a list for a vector under its bare name. A table with a \
-                model's name holds those for this model alone.",
-            "type": "object",
-            "additionalProperties": { "anyOf": [scalar(), list, by_model] }
-        })
-    }
-}
+type_schema!([] StartTable, inline: false, "StartTable", |_| {
+    let scalar = || schemars::json_schema!({ "type": ["number", "string", "boolean"] });
+    let row = schemars::json_schema!({ "type": "array", "items": scalar() });
+    let list = schemars::json_schema!({ "type": "array", "items": { "anyOf": [scalar(), row] } });
+    let by_model = schemars::json_schema!({
+        "description": "For the model of this name alone.",
+        "type": "object",
+        "additionalProperties": { "anyOf": [scalar(), list] }
+    });
+    schemars::json_schema!({
+        "description": "Start values of the models' parameters and inputs by name, in quotes: SI numbers, strings with a \
+            unit (\"10 deg\"), true or false, names of items; a list for a vector under its bare name. A table with a \
+            model's name holds those for this model alone.",
+        "type": "object",
+        "additionalProperties": { "anyOf": [scalar(), list, by_model] }
+    })
+});

@@ -104,7 +104,6 @@ pub struct Cylinder {
 enumeration! {
     /// Which description of the sunshade is used.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "lowercase")]
     pub enum SunshadeModel {
         /// Flat plates.

@@ -38,4 +38,4 @@ pub use spelling::{hint, nearest};
 pub(crate) use tables::schema;
 pub use tables::{List, Named, NonEmpty, Point, Table, UnitVector};
 pub use written::{Plain, Written};
-pub(crate) use written::{inline_schema, plain};
+pub(crate) use written::{plain, type_schema};

@@ -77,7 +77,7 @@ macro_rules! ranges {
                 }
             }
 
-            super::written::inline_schema!($name, stringify!($name), |generator| {
+            super::written::type_schema!([] $name, inline: true, stringify!($name), |generator| {
                 bounded(<$number as schemars::JsonSchema>::json_schema(generator), $low, $high)
             });
         )+

@@ -13,7 +13,6 @@ use crate::enumeration::enumeration;
 enumeration! {
     /// From which horizontal direction an azimuth about the local vertical counts.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "camelCase")]
     pub enum AzimuthReference {
         /// The horizontal part of the velocity.

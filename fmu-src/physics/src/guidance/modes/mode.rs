@@ -8,7 +8,6 @@ use crate::guidance::pointing::command::{PointingCommand, Scenario};
 enumeration! {
     /// How much the guidance is trusted with.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "camelCase")]
     pub enum Mode {
         /// Every command is followed.

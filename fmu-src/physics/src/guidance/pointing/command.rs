@@ -25,7 +25,6 @@ pub const BACK_HALF_TURN_RAD: f64 = -core::f64::consts::PI;
 enumeration! {
     /// Sets of vectors under one name (Table 5).
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "camelCase")]
     pub enum Scenario {
         /// The four vectors by their options.
@@ -54,7 +53,6 @@ enumeration! {
 enumeration! {
     /// How the boresight is given (Table 1).
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "camelCase")]
     pub enum BoresightOption {
         /// By boresight.vector.
@@ -72,7 +70,6 @@ enumeration! {
 enumeration! {
     /// What the boresight aims at (Table 2), and any body of the table.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "camelCase")]
     pub enum AimpointOption {
         /// The direction vector in EME2000.
@@ -120,7 +117,6 @@ enumeration! {
 enumeration! {
     /// How the body roll vector is given (Table 3).
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "camelCase")]
     pub enum BodyRollOption {
         /// By bodyRoll.vector.
@@ -134,7 +130,6 @@ enumeration! {
 enumeration! {
     /// How the external roll reference is given (Table 4).
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "camelCase")]
     pub enum ExternalRollOption {
         /// The direction externalRoll.vector in EME2000.
@@ -160,7 +155,6 @@ enumeration! {
 enumeration! {
     /// Frame of a scan.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "camelCase")]
     pub enum ScanFrame {
         /// The boresight turns about the body axes by scan.rate.

@@ -45,7 +45,7 @@ fn read(check: &mut Checker<'_>, at: &KeyPath, given: &AttitudeDescription) -> O
                     nearest(name, &names).map_or_else(String::new, |it| format!(" (did you mean `{it}`?)"));
                 check.report(at, format_args!("the unknown word `{name}`{hint}"), allowed);
             }
-            found.map(NamedAttitude::from)
+            found.map(NamedAttitude::Named)
         }
         AttitudeDescription::Quaternion(numbers) => {
             let q = <[f64; 4]>::try_from(numbers.as_slice()).ok();

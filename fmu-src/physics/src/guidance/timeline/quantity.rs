@@ -10,7 +10,7 @@ use crate::constants::{ASTRONOMICAL_UNIT_M, DEG_RAD, RPM_RAD_S, TIME_UNITS};
 use crate::guidance::pointing::command::{
     BACK_HALF_TURN_RAD, BACK_TURN_RAD, DOWN_ANGLE_RAD, FULL_TURN_RAD, RIGHT_ANGLE_RAD,
 };
-use crate::toml::with_unit;
+use crate::toml::{type_schema, with_unit};
 
 /// Quantity as written in the file.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -109,19 +109,12 @@ impl fmt::Display for QuantityKind {
     }
 }
 
-#[cfg(feature = "schema")]
-impl schemars::JsonSchema for Quantity {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        "Quantity".into()
-    }
-
-    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        schemars::json_schema!({
-            "description": "An SI number, or a string with a unit (\"10 deg\").",
-            "type": ["number", "string"]
-        })
-    }
-}
+type_schema!([] Quantity, inline: false, "Quantity", |_| {
+    schemars::json_schema!({
+        "description": "An SI number, or a string with a unit (\"10 deg\").",
+        "type": ["number", "string"]
+    })
+});
 
 #[cfg(test)]
 mod tests {
