@@ -5,6 +5,7 @@ use model_description::{
     rules::{self, RoleFault},
     units,
 };
+use proc_macro2::Span;
 use syn::{Expr, Ident, LitStr, spanned::Spanned};
 
 use crate::attribute::Declaration;
@@ -36,7 +37,9 @@ fn role(declared: &Declaration, kind: FieldType, field: &Ident) -> syn::Result<(
     let is_real = kind.is_real();
     rules::check_role(*causality, variability, *initial, is_real, start.is_some()).map_err(
         |fault| match fault {
-            RoleFault::Role(problem) => syn::Error::new(declared.span, problem),
+            RoleFault::Role(problem) => {
+                syn::Error::new(declared.span.unwrap_or_else(Span::call_site), problem)
+            }
             RoleFault::StartMissing(problem) => syn::Error::new(field.span(), format!("`{field}` {problem}")),
             RoleFault::StartForbidden(problem) => {
                 syn::Error::new_spanned(start, format!("`{field}` {problem}"))
@@ -46,9 +49,8 @@ fn role(declared: &Declaration, kind: FieldType, field: &Ident) -> syn::Result<(
 }
 
 fn unit(declared: &Declaration, kind: FieldType, field: &Ident) -> syn::Result<()> {
-    let only_real = |place: proc_macro2::Span, item: &str| {
-        Err(syn::Error::new(place, format!("only a Real has a {item}")))
-    };
+    let only_real =
+        |place: Span, item: &str| Err(syn::Error::new(place, format!("only a Real has a {item}")));
     if !kind.is_real() {
         return match (&declared.unit, &declared.display, &declared.nominal) {
             (Some(unit), _, _) => only_real(unit.span(), "unit"),

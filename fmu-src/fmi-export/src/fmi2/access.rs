@@ -103,6 +103,11 @@ impl AccessTable {
     }
 
     /// Whether the Integer or Enumeration at `index` may take `value`.
+    /// The flags of the variable with a value reference.
+    pub(crate) fn flags_at(&self, base: BaseType, reference: u32) -> Option<u16> {
+        self.flags(base).get(references::index(base, reference)).copied()
+    }
+
     #[inline]
     pub(crate) fn admits_integer(&self, index: usize, value: i32) -> bool {
         let Some(&(min, max)) = self.integer_limits.get(index) else { return false };
@@ -174,8 +179,7 @@ impl AccessTable {
     /// The refusal of a set in a state that does not admit it.
     #[cold]
     pub(crate) fn not_settable(&self, base: BaseType, reference: u32, state: State) -> Problem {
-        let flags = self.flags(base).get(references::index(base, reference)).copied().unwrap_or(0);
-        let when = match flags {
+        let when = match self.flags_at(base, reference).unwrap_or(0) {
             f if f & (SET_STEP | INPUT) != 0 => "before a step",
             f if f & (SET_INSTANTIATED | SET_INITIALIZATION) != 0 => "before the end of Initialization Mode",
             _ => "never",

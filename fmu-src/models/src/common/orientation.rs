@@ -1,6 +1,6 @@
 //! Rotation model of a planet from its parameters.
 
-use fmi_export::{Choice, Failure, Given, Real, Values, Variables};
+use fmi_export::{Choice, Failure, Real, Variables};
 use physics::bodies::{Body, BodyData};
 use physics::environment::orientation::Orientation;
 
@@ -27,17 +27,6 @@ pub struct RotationVariables {
     /// here; other planets rotate uniformly.
     #[parameter(start = PlanetOrientation::for_body(setup.data.body))]
     pub orientation: Choice<PlanetOrientation>,
-}
-
-impl RotationVariables {
-    /// The orientation that is set, else that of a body.
-    pub fn choice(&self, given: &Given<'_>, values: &Values, body: Body) -> PlanetOrientation {
-        if given.has(self.orientation) {
-            values.choice(self.orientation)
-        } else {
-            PlanetOrientation::for_body(body)
-        }
-    }
 }
 
 impl PlanetOrientation {

@@ -21,6 +21,7 @@ use crate::common::start_values::{entry_of, item, of_spacecraft};
 pub use setup::{MomentumPlant, PlantSetup};
 use setup::{Plan, Read};
 use state::PlantState;
+use step::Call;
 use variables::PlantVariables;
 use variables::choices::AttitudeSource;
 
@@ -95,7 +96,7 @@ impl Model for MomentumPlant {
         inputs::check_effects(read, start_s)?;
         let mut state = inputs::start(read, start_s)?;
         outputs::write_guaranteed(context, values);
-        step::start(context, values, &mut state, start_s)?;
+        Call { context, values, state: &mut state }.start(start_s)?;
         Ok(state)
     }
 
@@ -106,7 +107,7 @@ impl Model for MomentumPlant {
         step: &Step<'_>,
     ) -> Result<StepEnd, Failure> {
         inputs::check_span(Read::new(context, values), state, step.end_s)?;
-        step::step(context, values, state, step)?;
+        Call { context, values, state }.step(step)?;
         Ok(StepEnd::at(step.end_s))
     }
 

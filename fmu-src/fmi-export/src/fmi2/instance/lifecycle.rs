@@ -77,8 +77,7 @@ impl Instance {
     /// read, saved and restored like any value.
     fn set_tolerance(&mut self, tolerance: Option<f64>) {
         let is_settable = |at: &Real| {
-            let (base, reference) = (BaseType::Real, references::for_variable(*at));
-            let flags = self.access.flags(base).get(references::index(base, reference));
+            let flags = self.access.flags_at(BaseType::Real, references::for_variable(*at));
             flags.is_some_and(|flags| flags & SET_BY_IMPORTER != 0)
         };
         let is_open = |at: &Real| !self.state.values.is_set(*at) && is_settable(at);

@@ -59,7 +59,7 @@ pub(crate) struct Instance {
     tolerance: Option<Real>,
     /// Highest order of an output's derivative.
     output_derivative_order: u32,
-    poisoned: bool,
+    pub(super) poisoned: bool,
 }
 
 impl Instance {
@@ -91,26 +91,10 @@ impl Instance {
         }
     }
 
-    /// Whether a panic ended this instance.
-    #[inline]
-    pub(crate) fn is_poisoned(&self) -> bool {
-        self.poisoned
-    }
-
     /// No call but free works from here on.
     pub(crate) fn poison(&mut self) {
         self.poisoned = true;
         self.state.mode = State::Error;
-    }
-
-    /// The log.
-    pub(crate) fn logger(&self) -> &Logger {
-        &self.logger
-    }
-
-    /// The log, and what else must be dropped.
-    pub(crate) fn dismantle(self) -> (Logger, Box<dyn Runtime>) {
-        (self.logger, self.runtime)
     }
 
     /// Refuses a call that neither the table nor a leniency admits in this state. What is conditional is checked per
@@ -176,25 +160,15 @@ impl Instance {
     pub(super) fn not_finite(&self, reference: u32, value: f64, initially: bool) -> Problem {
         let name = self.access.named(BaseType::Real, reference);
         let dependencies = self.access.dependencies(reference, initially).unwrap_or_default();
-        let shown = |at: &u32| Some(format!("{} = {}", self.access.any_name(*at)?, self.shown(*at)?));
+        let shown = |at: &u32| {
+            let (base, name) = (references::base_type(*at)?, self.access.any_name(*at)?);
+            Some(format!("{name} = {}", self.state.values.shown(base, references::index(base, *at))))
+        };
         let advice = match dependencies.iter().filter_map(shown).collect::<Vec<_>>().join(", ") {
             none if none.is_empty() => "look for inputs or parameters beyond what can be".to_owned(),
             listed => format!("it depends on {listed}"),
         };
         Problem::error(format_args!("{name} came out as {value:?}, which is no finite number; {advice}"))
-    }
-
-    /// A variable's value for a message.
-    fn shown(&self, reference: u32) -> Option<String> {
-        let values = &self.state.values;
-        let base = references::base_type(reference)?;
-        let index = references::index(base, reference);
-        Some(match base {
-            BaseType::Real => format!("{:?}", values.reals.get(index)?),
-            BaseType::Integer => values.integers.get(index)?.to_string(),
-            BaseType::Boolean => values.booleans.get(index)?.to_string(),
-            BaseType::String => format!("{:?}", values.strings.get(index)?),
-        })
     }
 
     /// The values at which derivatives are taken: those of the last step, whatever was set since.

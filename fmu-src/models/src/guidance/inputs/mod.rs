@@ -146,7 +146,7 @@ impl Target {
         let radius_m = |i| given.real_or(v.radii.element(i), own.radii_m[i]);
         Self {
             radii_m: Vector3::from([0, 1, 2].map(radius_m)),
-            orientation: v.rotation.choice(&given, read.values, own.data.body),
+            orientation: given.choice_or(v.rotation.orientation, PlanetOrientation::for_body(own.data.body)),
             data: planet(v).read_or(given, &own.data),
         }
     }

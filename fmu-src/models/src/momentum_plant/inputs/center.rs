@@ -82,14 +82,13 @@ impl Center {
         let given = read.given(&[a, b, c, d, e, f, g, h, i, j, k, l, m]);
         let planet = numbers.read_or(given, &near.data);
         let own = PlanetSurface { radius_m: planet.radius_m, ..near.surface() };
-        let surface = surface.read_or(read.values, given, &own);
+        let surface = surface.read_or(given, &own);
         let planet = BodyData { surface: Some(surface), ..planet };
         let numbers = air(variables);
         let air = numbers.read_or(read.given(&numbers.group()), &near.air());
         let elements = elements(variables);
         let [a, b, c, d, e, _] = elements.group();
         let given = read.given(&[a, b, c, d, e, orbit.frame.into()]);
-        let has_frame = given.has(orbit.frame);
         // The true anomaly follows no centre.
         let true_anomaly_rad = read.real(orbit.true_anomaly);
         let own = KeplerElements { true_anomaly_rad, ..body.elements() };
@@ -99,7 +98,7 @@ impl Center {
             surface,
             air,
             elements: elements.read_or(given, &own),
-            frame: if has_frame { read.choice(orbit.frame).0 } else { body.frame() },
+            frame: given.choice_or(orbit.frame, OrbitFrame(body.frame())).0,
         }
     }
 

@@ -30,49 +30,39 @@ struct Group {
     write: fn(&Plan<'_>, &mut Values, &Report<'_>),
 }
 
+const fn group(
+    write: fn(&Plan<'_>, &mut Values, &Report<'_>),
+    outputs: fn(&PlantVariables) -> Knowns,
+) -> Group {
+    Group { outputs, write }
+}
+
 /// The outputs in groups, but for the faces; all of them are written when one is read.
 const GROUPS: [Group; 10] = [
-    Group {
-        outputs: |v| knowns![v.momentum.body, v.momentum.inertial, v.delta_v, &v.attitude, v.epoch],
-        write: write_motion,
-    },
-    Group {
-        outputs: |v| knowns![&v.torque, &v.force, v.acceleration, v.mass, v.center_of_mass],
-        write: write_loads,
-    },
-    Group {
-        outputs: |v| {
-            let sun = knowns![v.sun.position_body, v.sun.direction, v.sun.azimuth, v.sun.elevation];
-            let light = knowns![v.sun.lit_fraction, v.sun.distance, v.sunshade.polynomial_valid];
-            let others = knowns![&v.earth, v.planet.position_body, v.planet.pole_body, &v.keep_in];
-            let inertial = knowns![v.sun.position_inertial, v.sun.velocity_inertial, v.heliocentric_position];
-            knowns![sun, light, others, inertial, v.position, v.velocity]
-        },
-        write: write_bodies,
-    },
-    Group {
-        outputs: |v| knowns![&v.orbit, &v.osculating, v.sun.beta, &v.encounter, &v.prediction],
-        write: write_orbit,
-    },
-    Group { outputs: |v| knowns![&v.geodetic, &v.atmosphere, &v.magnetic_field], write: write_air_and_field },
+    group(write_motion, |v| knowns![v.momentum.body, v.momentum.inertial, v.delta_v, &v.attitude, v.epoch]),
+    group(write_loads, |v| knowns![&v.torque, &v.force, v.acceleration, v.mass, v.center_of_mass]),
+    group(write_bodies, |v| {
+        let sun = knowns![v.sun.position_body, v.sun.direction, v.sun.azimuth, v.sun.elevation];
+        let light = knowns![v.sun.lit_fraction, v.sun.distance, v.sunshade.polynomial_valid];
+        let others = knowns![&v.earth, v.planet.position_body, v.planet.pole_body, &v.keep_in];
+        let inertial = knowns![v.sun.position_inertial, v.sun.velocity_inertial, v.heliocentric_position];
+        knowns![sun, light, others, inertial, v.position, v.velocity]
+    }),
+    group(write_orbit, |v| knowns![&v.orbit, &v.osculating, v.sun.beta, &v.encounter, &v.prediction]),
+    group(write_air_and_field, |v| knowns![&v.geodetic, &v.atmosphere, &v.magnetic_field]),
     // The plume of a thruster reaches panels as they stand.
-    Group {
-        outputs: |v| knowns![&v.panel, &v.thruster, &v.thrust, &v.tank, v.propellant_used],
-        write: write_panels_and_thrusters,
-    },
-    Group {
-        outputs: |v| {
-            let momentum = knowns![&v.momentum.by_source, v.momentum.bias, v.momentum.unheld];
-            knowns![momentum, v.momentum.target_clamped, v.guided_degenerate, &v.downlink, &v.timeline]
-        },
-        write: write_momentum,
-    },
-    Group { outputs: |v| knowns![&v.wheel, &v.flexible_mode, &v.slosh], write: write_wheels },
-    Group { outputs: |v| knowns![&v.dump, &v.maneuver], write: write_dumps },
-    Group {
-        outputs: |v| knowns![&v.estimate, v.sun.sensed, v.sun.sensed_valid, &v.accelerometer, &v.control],
-        write: write_sensors,
-    },
+    group(write_panels_and_thrusters, |v| {
+        knowns![&v.panel, &v.thruster, &v.thrust, &v.tank, v.propellant_used]
+    }),
+    group(write_momentum, |v| {
+        let momentum = knowns![&v.momentum.by_source, v.momentum.bias, v.momentum.unheld];
+        knowns![momentum, v.momentum.target_clamped, v.guided_degenerate, &v.downlink, &v.timeline]
+    }),
+    group(write_wheels, |v| knowns![&v.wheel, &v.flexible_mode, &v.slosh]),
+    group(write_dumps, |v| knowns![&v.dump, &v.maneuver]),
+    group(write_sensors, |v| {
+        knowns![&v.estimate, v.sun.sensed, v.sun.sensed_valid, &v.accelerometer, &v.control]
+    }),
 ];
 
 /// The outputs of each group, those of the faces last.
