@@ -120,7 +120,7 @@ impl ConfiguredFlight<'_> {
         self.context.models.begin_work(self.given.work_limit);
         let mut plant = self.plant();
         plant.prepare(time_s, time_s)?;
-        Ok(plant.kinematics.attitude_by(law, time_s).frame)
+        Ok(plant.path.kinematics.attitude_by(law, time_s).frame)
     }
 
     /// Selects the Sun's direction where a downlink has begun at `time_s`, or began right there and its momentum changed since;
@@ -138,7 +138,7 @@ impl ConfiguredFlight<'_> {
         else {
             return Ok(());
         };
-        let Some(guided) = self.plant().kinematics.guided_attitude(time_s) else { return Ok(()) };
+        let Some(guided) = self.plant().path.kinematics.guided_attitude(time_s) else { return Ok(()) };
         let downlink = guided.window.activity == Activity::Downlink;
         let gimbal = match law.science {
             ScienceRule::Unloading { gimbal, .. } if !downlink => Some(gimbal),
@@ -193,9 +193,9 @@ impl ConfiguredFlight<'_> {
         let SunSelectionStart { law, gimbal, momentum, forecasts, time_s, until_s } = *start;
         let mut plant = self.plant();
         let instant = plant.instant(time_s);
-        let pressure_pa = plant.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
-        let separations_rad = plant.kinematics.separations_rad(time_s, until_s);
-        let science = gimbal.map(|gimbal| plant.kinematics.science_arc(gimbal, time_s, until_s));
+        let pressure_pa = plant.path.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
+        let separations_rad = plant.path.kinematics.separations_rad(time_s, until_s);
+        let science = gimbal.map(|gimbal| plant.path.kinematics.science_arc(gimbal, time_s, until_s));
         if science.is_some() {
             self.context.models.spend(WorkKind::Search, SCIENCE_UNITS, time_s)?;
         }

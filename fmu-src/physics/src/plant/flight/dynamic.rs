@@ -286,7 +286,7 @@ impl Dynamic<'_> {
     fn guided(&mut self, time_s: f64, body: &BodyMotion) -> Command {
         let Self { state: DynamicState { control, sensing, .. }, flight, .. } = self;
         control.guidance_at(time_s).unwrap_or_else(|| {
-            let guided = flight.plant_at(time_s, body).kinematics.guided_attitude(time_s);
+            let guided = flight.plant_at(time_s, body).path.kinematics.guided_attitude(time_s);
             control.guide(time_s, guided.as_ref(), &sensing.estimate)
         })
     }
@@ -354,7 +354,7 @@ impl Dynamic<'_> {
         let instant = plant.instant(time_s);
         let mass = MassProperties { mass_kg, ..plant.mass_properties(&instant, time_s) };
         let panels_body_n_m_s = plant.panel_momentum_body_n_m_s(&instant, &mass, time_s);
-        let air_and_field = plant.air_and_field(time_s);
+        let air_and_field = plant.path.air_and_field(time_s);
         let mut loads = state.disturbance.loads_at(time_s);
         for (row, dipole) in Effect::FIELD.into_iter().zip(flight.dipoles(time_s)) {
             if let Some([dipole_body_a_m2, _]) = dipole.filter(|[now, _]| *now != Vector3::zeros()) {

@@ -69,7 +69,7 @@ macro_rules! sources {
             pub(crate) fn extend(
                 &mut self,
                 states: &mut SourceStates,
-                path: &mut PathAhead<'_, '_>,
+                path: &mut PathAhead<'_>,
                 span: Span,
             ) -> Result<f64, PlantError> {
                 let mut until_s = span.end_s;
@@ -136,7 +136,7 @@ macro_rules! sources {
 impl Sources {
     /// Sources with these solvers of light and air, where they act.
     pub fn new(light: Option<RadiationSolver>, air: Option<AerodynamicSolver>) -> Self {
-        let faces = light.as_ref().map_or(0, RadiationSolver::face_count);
+        let faces = light.as_ref().map_or(0, |solver| solver.model.face_count());
         Self {
             sunlight: light,
             air,

@@ -8,8 +8,6 @@ pub(crate) mod radiation_segment;
 pub(crate) mod radiation_solver;
 pub(crate) mod sunlit;
 
-use nalgebra::Vector3;
-
 use self::light_and_heat::RadiationBuilder;
 use self::radiation_segment::RadiationSegment;
 use self::radiation_solver::RadiationSolver;
@@ -26,22 +24,6 @@ use crate::spacecraft::{Material, Spacecraft};
 
 /// Rows of the Sun's light, direct and reflected: no infrared light and no heat enters them.
 pub const REFLECTED_LIGHT: [Effect; 2] = [Effect::Solar, Effect::Albedo];
-
-/// Reports temperature in K and force in N, body frame, of every face of the light model at `time_s`, in its order; the force of the
-/// effects that act.
-///
-/// # Errors
-/// A geometry without meaning.
-pub(crate) fn report_faces(
-    solver: &mut Option<RadiationSolver>,
-    state: &Option<RadiationSegment>,
-    path: &mut PathAhead<'_, '_>,
-    time_s: f64,
-    report: impl FnMut(f64, Vector3<f64>),
-) -> Result<(), PlantError> {
-    let Some(solver) = solver else { return Ok(()) };
-    RadiationBuilder::along(path).faces(solver, state.as_ref(), time_s, report)
-}
 
 /// Sunlight; with its solver of light and heat, where there is more of them than direct sunlight.
 impl Source for Option<RadiationSolver> {
@@ -88,12 +70,12 @@ impl Source for Option<RadiationSolver> {
     fn extend(
         &mut self,
         state: &mut Option<RadiationSegment>,
-        path: &mut PathAhead<'_, '_>,
+        path: &mut PathAhead<'_>,
         span: Span,
     ) -> Result<f64, PlantError> {
         match self {
             Some(solver) if path.kinematics.configuration.has_light_and_heat() => {
-                RadiationBuilder::along(path).extend(solver, state, span.start_s, span.end_s)
+                RadiationBuilder { solver, path }.extend(state.get_or_insert_default(), span)
             }
             _ => Ok(span.end_s),
         }
