@@ -101,12 +101,9 @@ impl<'a> Plant<'a> {
     pub fn evaluate(&mut self, time_s: f64) -> Evaluation {
         let instant = self.path.kinematics.instant(time_s);
         let air_and_field = self.path.air_and_field(time_s);
-        let mass = self.mass_properties(&instant, time_s);
+        let mass = self.mass_properties(&instant);
         let at = Conditions {
-            time_s,
-            configuration: self.path.kinematics.configuration,
-            spacecraft: self.path.kinematics.spacecraft,
-            current_mass_panels_stowed: &self.path.kinematics.current_mass_panels_stowed,
+            kinematics: &self.path.kinematics,
             instant: &instant,
             mass: &mass,
             air_and_field: &air_and_field,
@@ -115,7 +112,7 @@ impl<'a> Plant<'a> {
         };
         let mut loads = Loads::zero();
         self.sources.write_loads(self.states, &at, &mut loads);
-        let panels_body_n_m_s = self.panel_momentum_body_n_m_s(&instant, &mass, time_s);
+        let panels_body_n_m_s = self.panel_momentum_body_n_m_s(&instant, &mass);
         Evaluation { instant, loads, mass, panels_body_n_m_s, air_and_field }
     }
 
@@ -124,37 +121,24 @@ impl<'a> Plant<'a> {
         (self.external)(time_s)
     }
 
-    /// Mass, centre of mass and inertia as the panels stand at `time_s`.
-    pub fn mass_properties(&self, instant: &Instant, time_s: f64) -> MassProperties {
-        self.path.kinematics.mass_properties(&instant.sun_at(time_s))
+    /// Mass, centre of mass and inertia as the panels stand at `instant`.
+    pub fn mass_properties(&self, instant: &Instant) -> MassProperties {
+        self.path.kinematics.mass_properties(&instant.sun())
     }
 
-    /// Momentum in N m s of the panels relative to the body, body frame, as their laws turn them at `time_s`.
-    pub(crate) fn panel_momentum_body_n_m_s(
-        &self,
-        instant: &Instant,
-        mass: &MassProperties,
-        time_s: f64,
-    ) -> Vector3<f64> {
-        if !self.has_panel_mass() {
+    /// Momentum in N m s of the panels relative to the body, body frame, as their laws turn them at `instant`.
+    pub(crate) fn panel_momentum_body_n_m_s(&self, instant: &Instant, mass: &MassProperties) -> Vector3<f64> {
+        let Kinematics { configuration, spacecraft, .. } = &self.path.kinematics;
+        if !spacecraft.has_panel_mass() {
             return Vector3::zeros();
         }
-        let configuration = self.path.kinematics.configuration;
-        configuration.panel_momentum_body_n_m_s(
-            self.path.kinematics.spacecraft.panels,
-            mass,
-            &instant.moving_sun_at(time_s),
-        )
-    }
-
-    fn has_panel_mass(&self) -> bool {
-        self.path.kinematics.spacecraft.panels.iter().any(|panel| panel.mass.is_some())
+        configuration.panel_momentum_body_n_m_s(spacecraft.panels, mass, &instant.moving_sun())
     }
 
     /// The panels with what they belong to.
     pub(crate) fn hinged(&self) -> Hinged<'a> {
-        let Kinematics { configuration, current_mass_panels_stowed, .. } = self.path.kinematics;
-        Hinged { panels: self.path.kinematics.spacecraft.panels, configuration, current_mass_panels_stowed }
+        let Kinematics { configuration, spacecraft, current_mass_panels_stowed, .. } = self.path.kinematics;
+        Hinged { panels: spacecraft.panels, configuration, current_mass_panels_stowed }
     }
 
     /// Geometry and attitude at `time_s`.
@@ -178,14 +162,8 @@ impl<'a> Plant<'a> {
         RadiationBuilder { solver, path: &mut self.path }.faces(segment, time_s, report)
     }
 
-    /// Extends air, magnetic field and the states of the sources from `start_s` on; returns up to where they are valid, at most `limit_s`.
-    fn extend_disturbances(
-        &mut self,
-        start_s: f64,
-        limit_s: f64,
-        orbit_has_moved: bool,
-    ) -> Result<f64, PlantError> {
-        let span = Span { start_s, end_s: limit_s };
+    /// Extends air, magnetic field and the states of the sources over a span; returns up to where they are valid, at most to its end.
+    fn extend_disturbances(&mut self, span: Span, orbit_has_moved: bool) -> Result<f64, PlantError> {
         let known_s = self.path.extend(span, orbit_has_moved)?;
         Ok(self.sources.extend(self.states, &mut self.path, span)?.min(known_s))
     }
@@ -194,9 +172,9 @@ impl<'a> Plant<'a> {
     pub(crate) fn begin(&mut self, start_s: f64, limit_s: f64) -> Result<(f64, Instant), PlantError> {
         let known_s = self.orbit_and_light(start_s)?.min(limit_s);
         let instant = self.path.kinematics.instant(start_s);
-        let settings = &self.path.kinematics.configuration.panels;
-        self.panel_turns.begin(settings, self.path.kinematics.spacecraft.panels, &instant, start_s);
-        Ok((self.path.kinematics.laws_until_s(start_s, &instant, known_s), instant))
+        let Kinematics { configuration, spacecraft, .. } = &self.path.kinematics;
+        self.panel_turns.begin(&configuration.panels, spacecraft.panels, &instant);
+        Ok((self.path.kinematics.laws_until_s(&instant, known_s), instant))
     }
 
     /// Makes sure that the orbit is known from `start_s` on, with the light that pushes it; returns up to where.
@@ -204,23 +182,25 @@ impl<'a> Plant<'a> {
     /// # Errors
     /// What ends a flight.
     pub(crate) fn orbit_and_light(&mut self, start_s: f64) -> Result<f64, PlantError> {
-        let by_interval = self.path.kinematics.configuration.uses_encke();
-        if self.path.kinematics.trajectory.end_s() > start_s {
-            return self.extend_disturbances(start_s, self.path.kinematics.trajectory.end_s(), by_interval);
+        let configuration = self.path.kinematics.configuration;
+        let by_interval = configuration.uses_encke();
+        let known = Span::new(start_s, self.path.kinematics.trajectory.end_s());
+        if known.end_s > start_s {
+            return self.extend_disturbances(known, by_interval);
         }
         // Two integrations of some 40 evaluations, and the search for changes in between.
         self.path.kinematics.spend_units(WorkKind::Orbit, 60, start_s)?;
-        self.path.kinematics.trajectory.close_segment(self.path.kinematics.configuration, start_s);
+        self.path.kinematics.trajectory.close_segment(configuration, start_s);
         let before = *self.path.kinematics.trajectory;
         self.integrate(f64::INFINITY, |_| Vector3::zeros())?;
-        if self.path.kinematics.configuration.motion.has_nongravitational_forces() && !by_interval {
-            let lit_s = self.extend_disturbances(start_s, self.path.kinematics.trajectory.end_s(), false)?;
+        if configuration.motion.has_nongravitational_forces() && !by_interval {
+            let predicted = Span::new(start_s, self.path.kinematics.trajectory.end_s());
+            let lit_s = self.extend_disturbances(predicted, false)?;
             let mut end_s = self.path.kinematics.smooth_until(start_s, lit_s);
             let acceleration_m_s2 = loop {
-                let fitted = Segment::<3, NODES>::fit(start_s, end_s, |at_s| {
-                    self.sample(at_s).acceleration_inertial_m_s2
-                });
-                if self.path.kinematics.configuration.motion.resolves(&fitted) {
+                let acceleration_m_s2 = |at_s: f64| self.sample(at_s).acceleration_inertial_m_s2;
+                let fitted = Segment::<3, NODES>::fit(start_s, end_s, acceleration_m_s2);
+                if configuration.motion.resolves(&fitted) {
                     break fitted;
                 }
                 self.path.kinematics.spend_units(WorkKind::Orbit, NODES as u32, start_s)?;
@@ -234,9 +214,18 @@ impl<'a> Plant<'a> {
         let end_s = self.path.kinematics.trajectory.end_s();
         // Written so that a NaN is stuck too.
         if end_s > start_s {
-            self.extend_disturbances(start_s, end_s, true)
+            self.extend_disturbances(Span { start_s, end_s }, true)
         } else {
             Err(PlantError::Stuck { start_s, end_s })
+        }
+    }
+
+    /// Whether the Sun's direction has to be chosen at `start_s`, where a segment begins, before it can be made ready.
+    pub(crate) fn must_choose(&mut self, start_s: f64) -> bool {
+        let attitude = &self.path.kinematics.configuration.attitude;
+        matches!(attitude, AttitudeSource::Guided(guided) if guided.managed) && {
+            let regime = self.path.kinematics.instant(start_s).regime;
+            self.sun_choice.is_due(regime.downlink, regime.row)
         }
     }
 
@@ -265,28 +254,16 @@ impl TorqueModel for Plant<'_> {
         Ok((until_s, instant.frame.inertial_from_body))
     }
 
-    fn must_choose(&mut self, start_s: f64) -> bool {
-        match &self.path.kinematics.configuration.attitude {
-            AttitudeSource::Guided(guided) if guided.managed => {
-                let regime = self.path.kinematics.instant(start_s).regime;
-                self.sun_choice.is_due(regime.downlink, regime.row)
-            }
-            _ => false,
-        }
-    }
-
     fn sample(&mut self, time_s: f64) -> TorqueSample {
         let evaluation = self.evaluate(time_s);
+        let Kinematics { configuration, spacecraft, .. } = &self.path.kinematics;
         let [_, acceleration_inertial_m_s2] = evaluation.force_and_acceleration_inertial();
         TorqueSample {
             inertial_from_body: evaluation.instant.frame.inertial_from_body,
             rate_body_rad_s: evaluation.instant.frame.rate_body_rad_s,
-            structure_body_n_m_s: self.has_panel_mass().then(|| evaluation.structure_body_n_m_s()),
+            structure_body_n_m_s: spacecraft.has_panel_mass().then(|| evaluation.structure_body_n_m_s()),
             torque_body_n_m: evaluation.loads.total().torque_body_n_m,
-            by_source_body_n_m: torques_body_n_m(
-                &evaluation.loads,
-                self.path.kinematics.configuration.effects,
-            ),
+            by_source_body_n_m: torques_body_n_m(&evaluation.loads, configuration.effects),
             acceleration_inertial_m_s2,
             events: evaluation.instant.events,
         }
@@ -312,9 +289,9 @@ impl TorqueModel for Plant<'_> {
             WorkKind::Dump => 16,
             WorkKind::Light | WorkKind::Orbit | WorkKind::Ephemeris | WorkKind::Air => 1,
         };
-        let faces = self.path.kinematics.spacecraft.solar.face_count() as u32;
-        let units =
-            Self::SAMPLE_UNITS + faces / 50 + self.sources.load_units(self.path.kinematics.configuration);
+        let Kinematics { configuration, spacecraft, .. } = &self.path.kinematics;
+        let faces = spacecraft.solar.face_count() as u32;
+        let units = Self::SAMPLE_UNITS + faces / 50 + self.sources.load_units(configuration);
         self.path.kinematics.spend_units(kind, samples * units, time_s)
     }
 }

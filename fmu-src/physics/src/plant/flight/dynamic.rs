@@ -352,8 +352,8 @@ impl Dynamic<'_> {
         let mass_kg = loaded.mass_kg - flight.thrusters.propellant.total_used_kg(time_s);
         let mut plant = flight.plant_at(time_s, &body);
         let instant = plant.instant(time_s);
-        let mass = MassProperties { mass_kg, ..plant.mass_properties(&instant, time_s) };
-        let panels_body_n_m_s = plant.panel_momentum_body_n_m_s(&instant, &mass, time_s);
+        let mass = MassProperties { mass_kg, ..plant.mass_properties(&instant) };
+        let panels_body_n_m_s = plant.panel_momentum_body_n_m_s(&instant, &mass);
         let air_and_field = plant.path.air_and_field(time_s);
         let mut loads = state.disturbance.loads_at(time_s);
         for (row, dipole) in Effect::FIELD.into_iter().zip(flight.dipoles(time_s)) {

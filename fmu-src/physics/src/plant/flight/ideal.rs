@@ -226,7 +226,7 @@ impl<'f> Ideal<'f> {
         if !self.flight.context.allocator.settings.thrusters.is_empty() {
             let mut plant = self.flight.plant();
             let instant = plant.instant(time_s);
-            let mass = plant.mass_properties(&instant, time_s);
+            let mass = plant.mass_properties(&instant);
             let mut at_once = self.flight.thrusters.at_once(&mut self.flight.context.allocator, time_s);
             let given = at_once.dump(due, &mass.center_of_mass_body_m);
             let Some(given) = given else { return };

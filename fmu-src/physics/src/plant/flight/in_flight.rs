@@ -94,7 +94,7 @@ impl<'f> InFlight<'f> {
             }
             Self::Waiting { flight, .. } => {
                 let mass = flight.context.current_mass_panels_stowed;
-                let evaluated = Evaluation::without_position(held.frame_at(time_s), mass);
+                let evaluated = Evaluation::without_position(held.frame_at(time_s), mass, time_s);
                 let evaluation = evaluation.insert(evaluated);
                 ReachedState { totals_are_finite: true, is_degenerate: evaluation.instant.is_degenerate }
             }

@@ -104,6 +104,7 @@ impl Kinematics<'_> {
         let to_body = law.frame.inertial_from_body.inverse();
         let sun_distance_m = geometry.to_sun.position_m.norm();
         Instant {
+            time_s,
             to_body,
             sun_body: to_body * (geometry.to_sun.position_m / sun_distance_m),
             sun_distance_m,
@@ -249,9 +250,10 @@ impl Kinematics<'_> {
         }
     }
 
-    /// The number at which the window or slew of `instant`, at `time_s`, ends or a panel goes elsewhere at once, if that is before
+    /// The number at which the window or slew of `instant` ends or a panel goes elsewhere at once, if that is before
     /// `limit_s`.
-    pub(crate) fn laws_until_s(&mut self, time_s: f64, instant: &Instant, limit_s: f64) -> f64 {
+    pub(crate) fn laws_until_s(&mut self, instant: &Instant, limit_s: f64) -> f64 {
+        let time_s = instant.time_s;
         let limit_s = limit_s.min(self.configuration.panels_until_s(time_s));
         let epoch_s = instant.attitude_until_s + self.configuration.epoch_minus_time_s;
         let rounding_s = EPOCH_ROUNDING_S + 4.0 * (spacing(epoch_s) + spacing(instant.attitude_until_s));
@@ -302,7 +304,7 @@ impl Kinematics<'_> {
         let first = self.instant(after_s);
         // Where a panel goes elsewhere is known to the number, however soon that is.
         let limit_s = limit_s.min(self.configuration.panels_until_s(start_s));
-        let limit_s = self.laws_until_s(after_s, &first, limit_s);
+        let limit_s = self.laws_until_s(&first, limit_s);
         let samples = Segment::<4, NODES>::nodes(start_s, limit_s).map(|at_s| self.instant(at_s).events);
         let rounding_s = self.time_rounding_s(limit_s);
         first_event([after_s, start_s, limit_s], rounding_s, &samples, |at_s| self.events(at_s))

@@ -22,7 +22,7 @@ use crate::numerics::spacing::spacing;
 use crate::spacecraft::{MassProperties, Panel, Spacecraft, SunshadeModel, hinged_masses, with_panels};
 
 use super::air_and_field_settings::{AirAndFieldSettings, PlanetFigure};
-use super::panel_setting::{PanelSetting, SunAt};
+use super::panel_setting::{PanelSetting, SunAt, panel_angle_rad};
 use super::radiation_settings::RadiationSettings;
 use super::thruster_events::ThrusterEventSettings;
 
@@ -240,7 +240,7 @@ impl Configuration {
         angles_rad: &mut [f64],
     ) {
         for (angle_rad, &index) in angles_rad.iter_mut().zip(enabled_panels) {
-            *angle_rad = self.panel_angle_rad(panels, index, sun);
+            *angle_rad = panel_angle_rad(&self.panels, panels, index, sun);
         }
     }
 
@@ -255,12 +255,7 @@ impl Configuration {
 
     /// The same of a body that has `at_zero`, as the panels stand with the Sun there.
     pub fn mass_properties(&self, at_zero: &MassProperties, panels: &[Panel], sun: &SunAt) -> MassProperties {
-        with_panels(at_zero, panels, |index| self.panel_angle_rad(panels, index, sun))
-    }
-
-    fn panel_angle_rad(&self, panels: &[Panel], index: usize, sun: &SunAt) -> f64 {
-        let set = self.panels.get(index).zip(panels.get(index));
-        set.and_then(|(setting, panel)| setting.angle_rad(panel, sun)).unwrap_or(0.0)
+        with_panels(at_zero, panels, |index| panel_angle_rad(&self.panels, panels, index, sun))
     }
 
     /// The first time after `time_s` at which a panel goes elsewhere at once, in s; infinite where none does.

@@ -59,12 +59,8 @@ impl Source for Option<AerodynamicSolver> {
     ) {
         let Some((solver, flow)) = self.as_mut().zip(at.flow) else { return };
         let AerodynamicSolver { model, panels, panel_angles_rad, workspace } = solver;
-        configuration.panel_angles_rad(
-            at.spacecraft.panels,
-            panels,
-            &at.instant.sun_at(at.time_s),
-            panel_angles_rad,
-        );
+        let sun = &at.instant.sun();
+        configuration.panel_angles_rad(at.kinematics.spacecraft.panels, panels, sun, panel_angles_rad);
         // Temperatures of the faces where they are known, else the materials'.
         let temperatures_k = Some(known.face_temperatures_k.as_slice());
         let temperatures_k = temperatures_k.filter(|it| !it.is_empty() && it.len() == model.face_count());

@@ -38,7 +38,7 @@ pub(crate) struct RadiationBuilder<'r, 'a> {
 fn view(kinematics: &mut Kinematics<'_>, time_s: f64, light_panels: &[usize], node: &mut RadiationNode) {
     let configuration = kinematics.configuration;
     let instant = kinematics.instant(time_s);
-    let sun = instant.sun_at(time_s);
+    let sun = instant.sun();
     let viewing = &mut node.viewing;
     viewing.sun_direction_body = instant.sun_body;
     let flux_w_m2 = |distance_m: f64| configuration.light.source.pressure_pa(distance_m) * SPEED_OF_LIGHT_M_S;

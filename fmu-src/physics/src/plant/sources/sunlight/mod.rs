@@ -17,6 +17,7 @@ use crate::loads::{Effect, Loads};
 use crate::numerics::Span;
 use crate::plant::instant::conditions::Conditions;
 use crate::plant::instant::path_ahead::PathAhead;
+use crate::plant::motion::instant::Instant;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
 use crate::radiation::Beam;
@@ -43,7 +44,7 @@ impl Source for Option<RadiationSolver> {
         workspace: &mut Workspace,
         loads: &mut Loads,
     ) {
-        let Conditions { time_s, instant, .. } = *at;
+        let Instant { time_s, sun_distance_m, .. } = *at.instant;
         workspace.face_temperatures_k.clear();
         if let Some(segment) = state.as_ref().filter(|_| at.flow.is_some()) {
             segment.write_wall_temperatures(time_s, &mut workspace.face_temperatures_k);
@@ -57,12 +58,16 @@ impl Source for Option<RadiationSolver> {
             loads[Effect::Solar] = loads[Effect::Solar].scaled(configuration.light.scale);
         }
         if !is_shadowed {
-            let pressure_pa = configuration.light.pressure_pa(instant.sun_distance_m);
-            let beam =
-                Beam { source_body: instant.sun_body, pressure_pa: pressure_pa * instant.lit_fraction };
-            let (stowed, sun_distance_m) = (at.current_mass_panels_stowed, instant.sun_distance_m);
-            let sunlit =
-                SunlitConfiguration::new(at.spacecraft, configuration, stowed, time_s, sun_distance_m);
+            let pressure_pa = configuration.light.pressure_pa(sun_distance_m) * at.instant.lit_fraction;
+            let beam = Beam { source_body: at.instant.sun_body, pressure_pa };
+            let sunlit = SunlitConfiguration {
+                solar: at.kinematics.spacecraft.solar,
+                panels: at.kinematics.spacecraft.panels,
+                settings: &configuration.panels,
+                current_mass_panels_stowed: at.kinematics.current_mass_panels_stowed,
+                time_s,
+                sun_distance_m,
+            };
             loads[Effect::Solar] = sunlit.load(&beam, &at.mass.center_of_mass_body_m);
         }
     }
