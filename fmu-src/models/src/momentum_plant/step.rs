@@ -1,6 +1,7 @@
 //! A flight of the model begins, steps, and waits for inputs that are not set yet.
 
 use fmi_export::{Failure, InputsOverTime, OutputGroups, Step, Values};
+use physics::numerics::Span;
 use physics::plant::{NEVER_DUMPED_N_M_S, StepContext, Undo};
 
 use super::inputs::{self, Reading, Reconfigured, guidance, plausibility, propulsion};
@@ -97,15 +98,16 @@ fn begin(
     report_dumps(context, state, time_s);
     let (external, planner) = (reading.external(), reading.planner());
     let log = |event: &_| log_event(context, event);
-    let given = StepContext { log: &log, ..reading.given(&external, &planner) };
+    let given = StepContext { log: &log, ..reading.given(&external, &planner, &state.inputs.dynamics) };
     state.saved.flight.begin(given, &state.saved.command, time_s).map_err(failure)?;
     if let Some(estimate) = state.saved.flight.estimate_at(time_s) {
         state.start_command(estimate.attitude, time_s)?;
     }
     let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
+    let given = StepContext { log: &log, ..reading.given(&external, &planner, &inputs.dynamics) };
     plausibility::report(Read::new(context, values), flight, given, time_s);
-    let undo = flight.sample_at_start(given, &inputs.dynamics, time_s).map_err(failure)?;
-    let reached = flight.evaluate(given, &inputs.dynamics, command, time_s).map_err(failure)?;
+    let undo = flight.sample_at_start(given, time_s).map_err(failure)?;
+    let reached = flight.evaluate(given, command, time_s).map_err(failure)?;
     outputs::check(flight, &reached, time_s)?;
     Ok(undo)
 }
@@ -167,8 +169,8 @@ fn advance(
     propulsion::drop_empty_maneuver(context, &mut inputs.dynamics, step.start_s);
     let (external, planner) = (reading.external(), reading.planner());
     let log = |event: &_| log_event(context, event);
-    let given = StepContext { log: &log, ..reading.given(&external, &planner) };
-    flight.advance(given, &inputs.dynamics, [step.start_s, step.end_s]).map_err(failure)
+    let given = StepContext { log: &log, ..reading.given(&external, &planner, &inputs.dynamics) };
+    flight.advance(given, Span::new(step.start_s, step.end_s)).map_err(failure)
 }
 
 /// Evaluates the flight at `time_s`, where every output belongs to, and judges it; writes what follows from the configuration.
@@ -180,9 +182,9 @@ fn evaluate(
     time_s: f64,
 ) -> Result<(), Failure> {
     let (external, planner) = (reading.external(), reading.planner());
-    let given = reading.given(&external, &planner);
     let PlantState { saved: SavedState { flight, command, waiting, warned, .. }, inputs } = state;
-    let reached = flight.evaluate(given, &inputs.dynamics, command, time_s).map_err(failure)?;
+    let given = reading.given(&external, &planner, &inputs.dynamics);
+    let reached = flight.evaluate(given, command, time_s).map_err(failure)?;
     if !*waiting {
         outputs::check(flight, &reached, time_s)?;
     }

@@ -15,9 +15,9 @@ use crate::plant::disturbances::evaluation::External;
 use crate::plant::disturbances::plant::Plant;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::settings::attitude_source::{Command, Turning};
+use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
-use crate::plant::settings::reaction_control_settings::ThrustCommand;
 use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::sources::Dipoles;
 use crate::plant::state::disturbance_interval::DisturbanceInterval;
@@ -51,6 +51,8 @@ pub struct StepContext<'a> {
     pub prepared: PreparedSpacecraft<'a>,
     /// Force and torque from outside.
     pub external: &'a External<'a>,
+    /// Inputs of the step.
+    pub inputs: &'a DynamicsInputs,
     /// Planner of the Sun's direction in downlinks and in science that unloads; called where the guidance is managed.
     pub planner: &'a SunPlanner<'a>,
     /// Units of about a microsecond that a step may take.
@@ -61,10 +63,11 @@ pub struct StepContext<'a> {
 
 impl<'a> StepContext<'a> {
     /// Context in which nothing advances and nothing acts from outside.
-    pub(super) fn at_rest(prepared: PreparedSpacecraft<'a>) -> Self {
+    pub(super) fn at_rest(prepared: PreparedSpacecraft<'a>, inputs: &'a DynamicsInputs) -> Self {
         Self {
             prepared,
             external: &|_| [ForceTorque::zero(); 2],
+            inputs,
             planner: &|_| Ok(None),
             work_limit: 0,
             log: &|_| {},
@@ -95,11 +98,6 @@ struct SunSelectionStart {
 }
 
 impl ConfiguredFlight<'_> {
-    /// Commands a delta-v from `time_s` on; true if that changes the present one.
-    pub(super) fn command_thrust(&mut self, command: &ThrustCommand, time_s: f64) -> bool {
-        self.thrusters.command_thrust(&self.context.allocator.settings, command, time_s)
-    }
-
     /// Time of the next edge of a valve or of an empty tank, in s.
     pub(super) fn next_thruster_edge_s(&self) -> f64 {
         self.thrusters.next_edge_s(&self.context.allocator.settings)

@@ -16,6 +16,7 @@ use crate::environment::sun::pressure_n_m2;
 use crate::guidance::timeline::TimelineSettings;
 use crate::loads::Active;
 use crate::momentum::Settings;
+use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::scalar::Dual64;
 use crate::numerics::spacing::spacing;
@@ -75,10 +76,11 @@ impl PredictionSettings {
     /// Settings without predictions.
     pub(crate) const NEVER: Self = Self { refresh_s: 0.0, horizon_s: 0.0, last_epoch_s: 0.0, lead_s: 0.0 };
 
-    /// The times from `start_s` on and before `end_s` at which a prediction is due, in s.
-    pub(crate) fn times_s(self, [start_s, end_s]: [f64; 2]) -> impl Iterator<Item = f64> {
+    /// Times of a step, before its end, at which a prediction is due, in s.
+    pub(crate) fn times_s(self, step: Span) -> impl Iterator<Item = f64> {
         let is_on = self.refresh_s > 0.0;
-        let numbers = if is_on { self.first_number(start_s)..self.first_number(end_s) } else { 0..0 };
+        let numbers =
+            if is_on { self.first_number(step.start_s)..self.first_number(step.end_s) } else { 0..0 };
         numbers.map(move |number| number as f64 * self.refresh_s)
     }
 
