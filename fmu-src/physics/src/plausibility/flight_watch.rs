@@ -69,7 +69,7 @@ impl FlightWatch {
                 tell(&text);
             }
         }
-        let sun = evaluation.instant.sun_at(time_s);
+        let sun = evaluation.instant.sun();
         let panels = spacecraft.panels.iter().zip(&configuration.panels).take(PANELS);
         for (k, (panel, setting)) in panels.enumerate() {
             let bit = 1_u64 << k;

@@ -21,8 +21,8 @@ use physics::environment::time;
 use physics::guidance::SelectedSunDirection;
 use physics::management::Manager;
 use physics::plant::{
-    Changes, Configuration, DownlinkForecast, External, ModeSettings, PlantError, PreparedSpacecraft,
-    SimulationContext, Sources, StepContext, SunPlanner, ThrusterAllocator, Thrusters,
+    Changes, Configuration, DownlinkForecast, DynamicsInputs, External, ModeSettings, PlantError,
+    PreparedSpacecraft, SimulationContext, Sources, StepContext, SunPlanner, ThrusterAllocator, Thrusters,
 };
 
 use self::center::Center;
@@ -73,13 +73,15 @@ impl Reading<'_> {
         |forecast| self.manager.choose(forecast)
     }
 
-    /// The context of a step of the flight, with the load from outside.
+    /// The context of a step of the flight, with the load from outside and these inputs.
     pub(super) fn given<'r>(
         &'r self,
         external: &'r External<'r>,
         planner: &'r SunPlanner<'r>,
+        inputs: &'r DynamicsInputs,
     ) -> StepContext<'r> {
-        StepContext { prepared: self.prepared, external, planner, work_limit: self.work_limit, log: &|_| {} }
+        let Self { prepared, work_limit, .. } = *self;
+        StepContext { prepared, external, inputs, planner, work_limit, log: &|_| {} }
     }
 }
 

@@ -131,13 +131,13 @@ fn write_loads(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
 
 /// Positions of spacecraft, Sun, Earth and planet.
 fn write_bodies(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
-    let Report { time_s, configuration, evaluation, .. } = report;
+    let Report { configuration, evaluation, .. } = report;
     let (variables, instant) = (context.variables, &evaluation.instant);
     let sun = SunAngles::from_direction(&instant.sun_body);
     let planet_body_m = instant.planet_body_m.unwrap_or_default();
     values.set_vector(variables.sun.position_body, instant.sun_position_body_m().into());
     values.set_vector(variables.planet.position_body, planet_body_m.into());
-    values.set_vector(variables.planet.pole_body, evaluation.pole_body(configuration, *time_s).into());
+    values.set_vector(variables.planet.pole_body, evaluation.pole_body(configuration).into());
     values.set_vector(variables.sun.direction, instant.sun_body.into());
     values.set_real(variables.sun.azimuth, sun.azimuth_rad);
     values.set_real(variables.sun.elevation, sun.elevation_rad);
@@ -189,7 +189,7 @@ fn write_panels(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let Report { time_s, configuration, evaluation, .. } = report;
     let (variables, time_s) = (context.variables, *time_s);
     let panels = context.setup.spacecraft.panels.iter().zip(&configuration.panels);
-    let sun = evaluation.instant.sun_at(time_s);
+    let sun = evaluation.instant.sun();
     // The corridor was checked where the flight began.
     let corridor = variables.articulation.read(values).unwrap_or_default();
     for (index, (panel, (body, setting))) in variables.panel.iter().zip(panels).enumerate() {

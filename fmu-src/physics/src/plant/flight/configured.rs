@@ -15,9 +15,9 @@ use crate::plant::disturbances::evaluation::External;
 use crate::plant::disturbances::plant::Plant;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::settings::attitude_source::{Command, Turning};
+use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
-use crate::plant::settings::reaction_control_settings::ThrustCommand;
 use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::sources::Dipoles;
 use crate::plant::state::disturbance_interval::DisturbanceInterval;
@@ -51,6 +51,8 @@ pub struct StepContext<'a> {
     pub prepared: PreparedSpacecraft<'a>,
     /// Force and torque from outside.
     pub external: &'a External<'a>,
+    /// Inputs of the step.
+    pub inputs: &'a DynamicsInputs,
     /// Planner of the Sun's direction in downlinks and in science that unloads; called where the guidance is managed.
     pub planner: &'a SunPlanner<'a>,
     /// Units of about a microsecond that a step may take.
@@ -61,10 +63,11 @@ pub struct StepContext<'a> {
 
 impl<'a> StepContext<'a> {
     /// Context in which nothing advances and nothing acts from outside.
-    pub(super) fn at_rest(prepared: PreparedSpacecraft<'a>) -> Self {
+    pub(super) fn at_rest(prepared: PreparedSpacecraft<'a>, inputs: &'a DynamicsInputs) -> Self {
         Self {
             prepared,
             external: &|_| [ForceTorque::zero(); 2],
+            inputs,
             planner: &|_| Ok(None),
             work_limit: 0,
             log: &|_| {},
@@ -95,11 +98,6 @@ struct SunSelectionStart {
 }
 
 impl ConfiguredFlight<'_> {
-    /// Commands a delta-v from `time_s` on; true if that changes the present one.
-    pub(super) fn command_thrust(&mut self, command: &ThrustCommand, time_s: f64) -> bool {
-        self.thrusters.command_thrust(&self.context.allocator.settings, command, time_s)
-    }
-
     /// Time of the next edge of a valve or of an empty tank, in s.
     pub(super) fn next_thruster_edge_s(&self) -> f64 {
         self.thrusters.next_edge_s(&self.context.allocator.settings)
@@ -120,7 +118,7 @@ impl ConfiguredFlight<'_> {
         self.context.models.begin_work(self.given.work_limit);
         let mut plant = self.plant();
         plant.prepare(time_s, time_s)?;
-        Ok(plant.kinematics.attitude_by(law, time_s).frame)
+        Ok(plant.path.kinematics.attitude_by(law, time_s).frame)
     }
 
     /// Selects the Sun's direction where a downlink has begun at `time_s`, or began right there and its momentum changed since;
@@ -138,7 +136,7 @@ impl ConfiguredFlight<'_> {
         else {
             return Ok(());
         };
-        let Some(guided) = self.plant().kinematics.guided_attitude(time_s) else { return Ok(()) };
+        let Some(guided) = self.plant().path.kinematics.guided_attitude(time_s) else { return Ok(()) };
         let downlink = guided.window.activity == Activity::Downlink;
         let gimbal = match law.science {
             ScienceRule::Unloading { gimbal, .. } if !downlink => Some(gimbal),
@@ -193,9 +191,9 @@ impl ConfiguredFlight<'_> {
         let SunSelectionStart { law, gimbal, momentum, forecasts, time_s, until_s } = *start;
         let mut plant = self.plant();
         let instant = plant.instant(time_s);
-        let pressure_pa = plant.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
-        let separations_rad = plant.kinematics.separations_rad(time_s, until_s);
-        let science = gimbal.map(|gimbal| plant.kinematics.science_arc(gimbal, time_s, until_s));
+        let pressure_pa = plant.path.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
+        let separations_rad = plant.path.kinematics.separations_rad(time_s, until_s);
+        let science = gimbal.map(|gimbal| plant.path.kinematics.science_arc(gimbal, time_s, until_s));
         if science.is_some() {
             self.context.models.spend(WorkKind::Search, SCIENCE_UNITS, time_s)?;
         }

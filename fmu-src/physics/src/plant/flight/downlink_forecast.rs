@@ -80,16 +80,15 @@ pub struct DownlinkForecast<'o> {
 
 impl DownlinkForecast<'_> {
     fn sunlit(&self) -> SunlitConfiguration<'_> {
-        let SimulationContext { configuration, current_mass_panels_stowed, .. } = &*self.context;
-        let spacecraft = self.context.models.in_sunlight(self.prepared);
-        let (time_s, sun_distance_m) = (self.time_s, self.sun_distance_m);
-        SunlitConfiguration::new(
-            spacecraft,
-            configuration,
-            current_mass_panels_stowed,
-            time_s,
-            sun_distance_m,
-        )
+        let SimulationContext { configuration, current_mass_panels_stowed, models, .. } = &*self.context;
+        SunlitConfiguration {
+            solar: models.solar.as_ref().unwrap_or(self.prepared.solar),
+            panels: self.prepared.panels,
+            settings: &configuration.panels,
+            current_mass_panels_stowed: *current_mass_panels_stowed,
+            time_s: self.time_s,
+            sun_distance_m: self.sun_distance_m,
+        }
     }
 
     /// Materials of the spacecraft's faces.

@@ -278,8 +278,8 @@ impl<'f> Fork<'f> {
         let external = |_: f64| applied;
         let (mut plant, integrator) = self.plant(&external);
         let instant = plant.instant(time_s);
-        let pressure_pa = plant.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
-        let convention = plant.kinematics.configuration.momentum.convention;
+        let pressure_pa = plant.path.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
+        let convention = plant.path.kinematics.configuration.momentum.convention;
         let (totals, inertial_from_body) = (integrator.totals(time_s), instant.frame.inertial_from_body);
         ForecastMomentum {
             time_s,

@@ -48,7 +48,7 @@ pub(super) fn begin(
         let still = BodyMotion { rate_body_rad_s: Vector3::zeros(), ..body };
         let mut plant = flight.plant_at(time_s, &still);
         let instant = plant.instant(time_s);
-        mass = plant.mass_properties(&instant, time_s);
+        mass = plant.mass_properties(&instant);
         settings.set_mass_properties(&mass);
     }
     let gyrostat = &settings.gyrostat;
@@ -66,7 +66,7 @@ pub(super) fn begin(
     if settings.panels_have_mass {
         let mut plant = flight.plant_at(time_s, &body);
         let instant = plant.instant(time_s);
-        begun.panels = PanelMotion::at_start(plant.hinged(), &instant, time_s);
+        begun.panels = PanelMotion::at_start(plant.hinged(), &instant);
         let internal = begun.panels.internal(flight.given.prepared.panels, &mass, begun.motion.end_s());
         begun.motion.add_hinges(internal);
     }
@@ -106,14 +106,14 @@ pub(super) fn begin_interval(
     deviate(&state.disturbance, &mut plant)?;
     if settings.panels_have_mass || state.mass.stowed.is_some() || has_thrusters {
         let instant = plant.instant(time_s);
-        set_known_mass(state, settings, plant.mass_properties(&instant, time_s));
+        set_known_mass(state, settings, plant.mass_properties(&instant));
     }
     if settings.panels_have_mass {
         let was_turning = state.panels.is_turning();
         let hinged = plant.hinged();
         let end_s = hinged.configuration.last_of_panels_s(time_s, state.disturbance.end_s());
         let [now, end] = [time_s, end_s].map(|at_s| plant.instant(at_s));
-        state.panels.turn_until(hinged, &now, &end, end_s);
+        state.panels.turn_until(hinged, &now, &end);
         if was_turning || state.panels.is_turning() {
             turn_mass(state, settings, flight);
             let internal = state.panels.internal(flight.given.prepared.panels, &state.mass.now, time_s);

@@ -3,11 +3,11 @@
 use crate::attitude::MotionAt;
 use crate::attitude::control::{sample_number, sensed_sun};
 use crate::momentum::Totals;
+use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::events;
 use crate::plant::motion::instant::Instant;
 use crate::plant::settings::attitude_source::{AttitudeSource, Command};
-use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::ideal_settings::IdealSettings;
 use crate::plant::state::encounter_prediction::EncounterPrediction;
@@ -18,12 +18,12 @@ use super::configured::ConfiguredFlight;
 use super::dynamic::Dynamic;
 use super::flight_setup::Evaluated;
 use super::ideal::Ideal;
-use super::report::{BySource, ReachedState, Report, dynamic, dynamic_totals, ideal};
+use super::report::{ReachedState, Report, dynamic, dynamic_totals, ideal};
 
 /// A flight in one step.
 pub(super) enum InFlight<'f> {
     /// The attitude is held, and nothing acts.
-    Waiting { settings: &'f IdealSettings, inputs: &'f DynamicsInputs, flight: ConfiguredFlight<'f> },
+    Waiting { settings: &'f IdealSettings, flight: ConfiguredFlight<'f> },
     /// The attitude is followed ideally.
     Ideal(Ideal<'f>),
     /// The body turns by torque.
@@ -41,11 +41,11 @@ impl<'f> InFlight<'f> {
     }
 
     /// Applies the requests of a step.
-    pub(super) fn apply_requests(&mut self, span_s: [f64; 2]) -> Result<(), PlantError> {
+    pub(super) fn apply_requests(&mut self, step: Span) -> Result<(), PlantError> {
         match self {
             Self::Waiting { .. } => Ok(()),
-            Self::Ideal(it) => it.apply_requests(span_s[0]),
-            Self::Dynamic(it) => it.apply_requests(span_s),
+            Self::Ideal(it) => it.apply_requests(step.start_s),
+            Self::Dynamic(it) => it.apply_requests(step),
         }
     }
 
@@ -95,7 +95,7 @@ impl<'f> InFlight<'f> {
                 let evaluation = evaluation.insert(plant.evaluate_without_loads(time_s));
                 let [outside, _] = plant.external(time_s);
                 match with_loads {
-                    true => plant.write_loads(evaluation, outside, time_s),
+                    true => plant.write_loads(evaluation, outside),
                     false => *applied = Some(outside),
                 }
                 ReachedState {
@@ -105,17 +105,17 @@ impl<'f> InFlight<'f> {
             }
             Self::Waiting { flight, .. } => {
                 let mass = flight.context.current_mass_panels_stowed;
-                let evaluated = Evaluation::without_position(held.frame_at(time_s), mass);
+                let evaluated = Evaluation::without_position(held.frame_at(time_s), mass, time_s);
                 let evaluation = evaluation.insert(evaluated);
                 ReachedState { totals_are_finite: true, is_degenerate: evaluation.instant.is_degenerate }
             }
         }
     }
 
-    /// Computes the loads at `time_s`, where the flight was evaluated, if that was without them.
-    pub(super) fn write_loads(&mut self, Evaluated { evaluation, applied }: &mut Evaluated, time_s: f64) {
+    /// Computes the loads where the flight was evaluated, if that was without them.
+    pub(super) fn write_loads(&mut self, Evaluated { evaluation, applied }: &mut Evaluated) {
         if let Some((evaluation, outside)) = evaluation.as_mut().zip(applied.take()) {
-            self.flight().plant().write_loads(evaluation, outside, time_s);
+            self.flight().plant().write_loads(evaluation, outside);
         }
     }
 
@@ -135,9 +135,10 @@ impl<'f> InFlight<'f> {
                 let at: MotionAt = state.motion.evaluated_at(&settings.gyrostat, time_s);
                 (dynamic(state, settings, flight.thrusters, evaluation, at), flight)
             }
-            Self::Ideal(Ideal { state, settings, inputs, flight, .. }) => {
-                let mut summary = ideal((state, settings), evaluation, inputs, time_s);
-                summary.by_source = BySource::Ideal(&state.integrator);
+            Self::Ideal(Ideal { state, settings, flight, .. }) => {
+                let inputs = flight.given.inputs;
+                let integrator = Some(&state.integrator);
+                let mut summary = ideal(state, settings, integrator, evaluation, inputs);
                 let Instant { sun_body, lit_fraction, .. } = &evaluation.instant;
                 summary.sun_sensed_body = sensed_sun(
                     &settings.sun_sensors,
@@ -148,13 +149,13 @@ impl<'f> InFlight<'f> {
                 );
                 (summary, flight)
             }
-            Self::Waiting { settings, inputs, flight } => {
+            Self::Waiting { settings, flight } => {
                 let (frame, attitude) = (held.frame_at(time_s), held.attitude_at(time_s));
                 let bias_body_n_m_s = flight.context.configuration.momentum.policy.bias_body_n_m_s;
                 let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
                 let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
                 let waiting = IdealState::new(time_s, &attitude, totals);
-                (ideal((&waiting, settings), evaluation, inputs, time_s), flight)
+                (ideal(&waiting, settings, None, evaluation, flight.given.inputs), flight)
             }
         };
         let ConfiguredFlight { given, context, propagator, thrusters, .. } = flight;

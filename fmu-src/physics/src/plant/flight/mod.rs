@@ -24,6 +24,7 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use crate::attitude::control::Estimate;
 use crate::loads::ForceTorque;
+use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::events::{self, EventKind};
@@ -224,7 +225,6 @@ impl Flight {
     fn in_flight<'a>(
         &'a mut self,
         given: StepContext<'a>,
-        inputs: &'a DynamicsInputs,
     ) -> Result<(InFlight<'a>, &'a mut Evaluated), PlantError> {
         let Self { state: FlightState { propagator, thrusters, mode, .. }, setup: Some(setup) } = self else {
             return Err(PlantError::OtherMode);
@@ -233,19 +233,13 @@ impl Flight {
         let turning = Turning::still();
         let flight = ConfiguredFlight { given, context, propagator, thrusters, turning };
         let in_flight = match (mode, settings) {
-            (Mode::Waiting, ModeSettings::Ideal(settings)) => InFlight::Waiting { settings, inputs, flight },
+            (Mode::Waiting, ModeSettings::Ideal(settings)) => InFlight::Waiting { settings, flight },
             (Mode::Ideal(state), ModeSettings::Ideal(settings)) => {
-                InFlight::Ideal(Ideal { state, settings, inputs, flight, prepared: None })
+                InFlight::Ideal(Ideal { state, settings, flight, prepared: None })
             }
-            (Mode::Dynamic(state), ModeSettings::Dynamic(settings)) => InFlight::Dynamic(Dynamic {
-                state,
-                settings,
-                inputs,
-                flight,
-                distribution,
-                end: None,
-                applied: None,
-            }),
+            (Mode::Dynamic(state), ModeSettings::Dynamic(settings)) => {
+                InFlight::Dynamic(Dynamic { state, settings, flight, distribution, end: None, applied: None })
+            }
             _ => return Err(PlantError::OtherMode),
         };
         Ok((in_flight, evaluated))
@@ -279,21 +273,16 @@ impl Flight {
     ///
     /// # Errors
     /// What ends a flight.
-    pub fn advance(
-        &mut self,
-        given: StepContext<'_>,
-        inputs: &DynamicsInputs,
-        [start_s, end_s]: [f64; 2],
-    ) -> Result<(), PlantError> {
+    pub fn advance(&mut self, given: StepContext<'_>, step: Span) -> Result<(), PlantError> {
         let predicted = self.prediction_settings();
-        let (mut in_flight, _) = self.in_flight(given, inputs)?;
+        let (mut in_flight, _) = self.in_flight(given)?;
         in_flight.flight().context.models.begin_work(given.work_limit);
-        in_flight.apply_requests([start_s, end_s])?;
-        for time_s in predicted.times_s([start_s, end_s]) {
-            self.in_flight(given, inputs)?.0.advance(time_s)?;
-            self.predict(given, inputs, time_s)?;
+        in_flight.apply_requests(step)?;
+        for time_s in predicted.times_s(step) {
+            self.in_flight(given)?.0.advance(time_s)?;
+            self.predict(given, time_s)?;
         }
-        self.in_flight(given, inputs)?.0.advance(end_s)
+        self.in_flight(given)?.0.advance(step.end_s)
     }
 
     fn prediction_settings(&self) -> PredictionSettings {
@@ -302,13 +291,8 @@ impl Flight {
     }
 
     /// Predicts the encounter at `time_s`, where the flight has come, in the attitude that timeline and inputs command.
-    fn predict(
-        &mut self,
-        given: StepContext<'_>,
-        inputs: &DynamicsInputs,
-        time_s: f64,
-    ) -> Result<(), PlantError> {
-        let (mut in_flight, _) = self.in_flight(given, inputs)?;
+    fn predict(&mut self, given: StepContext<'_>, time_s: f64) -> Result<(), PlantError> {
+        let (mut in_flight, _) = self.in_flight(given)?;
         let attitude = in_flight.fork_attitude(time_s);
         self.state.prediction = Some(predict_encounter(in_flight.flight(), attitude, time_s)?);
         Ok(())
@@ -319,20 +303,15 @@ impl Flight {
     ///
     /// # Errors
     /// What ends a flight.
-    pub fn sample_at_start(
-        &mut self,
-        given: StepContext<'_>,
-        inputs: &DynamicsInputs,
-        time_s: f64,
-    ) -> Result<Undo, PlantError> {
+    pub fn sample_at_start(&mut self, given: StepContext<'_>, time_s: f64) -> Result<Undo, PlantError> {
         let undo = Undo(self.state.mode.clone(), self.state.thrusters.clone(), self.state.prediction);
         let given = StepContext { log: &|_| {}, ..given };
-        if let (InFlight::Dynamic(mut dynamic), _) = self.in_flight(given, inputs)? {
+        if let (InFlight::Dynamic(mut dynamic), _) = self.in_flight(given)? {
             dynamic.flight.context.models.begin_work(given.work_limit);
             events::apply_due(&mut dynamic)?;
         }
         if self.prediction_settings().is_due(time_s) {
-            self.predict(given, inputs, time_s)?;
+            self.predict(given, time_s)?;
         }
         Ok(undo)
     }
@@ -350,12 +329,11 @@ impl Flight {
     pub fn evaluate(
         &mut self,
         given: StepContext<'_>,
-        inputs: &DynamicsInputs,
         held: &Command,
         with_loads: bool,
         time_s: f64,
     ) -> Result<ReachedState, PlantError> {
-        let (mut in_flight, evaluated) = self.in_flight(given, inputs)?;
+        let (mut in_flight, evaluated) = self.in_flight(given)?;
         Ok(in_flight.evaluate(held, evaluated, with_loads, time_s))
     }
 
@@ -371,8 +349,8 @@ impl Flight {
         time_s: f64,
     ) -> Result<Report<'a>, PlantError> {
         let prediction = self.state.prediction;
-        let (mut in_flight, evaluated) = self.in_flight(StepContext::at_rest(prepared), inputs)?;
-        in_flight.write_loads(evaluated, time_s);
+        let (mut in_flight, evaluated) = self.in_flight(StepContext::at_rest(prepared, inputs))?;
+        in_flight.write_loads(evaluated);
         let evaluation = evaluated.evaluation.as_ref().ok_or(PlantError::OtherMode)?;
         Ok(in_flight.report(held, evaluation, prediction, time_s))
     }

@@ -4,7 +4,6 @@ use crate::environment::ephemeris::Ephemeris;
 use crate::guidance::constraints::command_slew::CommandSlew;
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::constraints::slew::{Slew, SlewedFrame};
-use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::pointing::command::Scenario;
 use crate::guidance::timeline::{
     Slot, TimelineAttitude, TimelineEntry, TimelineLaw, TimelineSettings, bodies_of,
@@ -16,6 +15,7 @@ use super::geometry::{self, Geometry, GeometrySight, SimulationEphemeris};
 use super::trajectory::Trajectory;
 use crate::plant::settings::attitude_source::AttitudeSource;
 use crate::plant::settings::configuration::Configuration;
+use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 
 /// Returns the geometry at `time_s`; a law reads motions about `planet` from it as well, or directions alone.
 fn sight(
@@ -38,11 +38,9 @@ pub(super) struct GuidedLaw<'k> {
     pub configuration: &'k Configuration,
     pub trajectory: &'k Trajectory,
     pub ephemeris: &'k mut Ephemeris,
-    /// The default downlink of the spacecraft's antennas.
-    pub default_downlink: &'k DefaultDownlink,
-    /// Commands over time.
-    pub timeline: Option<TimelineLaw<'k>>,
-    /// Slews into them.
+    /// The spacecraft.
+    pub spacecraft: PreparedSpacecraft<'k>,
+    /// Slews into the timeline's commands.
     pub command_slews: &'k mut CommandSlews,
     /// Settings of the guidance.
     pub guided: &'k Guided,
@@ -67,7 +65,7 @@ impl GuidedLaw<'_> {
     /// Attitude that the timeline commands at `time_s`, else the orbit phase's own guidance.
     pub(super) fn attitude(&mut self, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let guided = self.guided;
-        let Some((law, settings)) = self.timeline.zip(self.configuration.timeline) else {
+        let Some((law, settings)) = self.spacecraft.timeline.zip(self.configuration.timeline) else {
             let (requested, cut) = guided.requested.at_distance(geometry.to_sun.position_m.norm());
             let own = self.by_orbit_phase(&Guided { requested, ..*guided }, time_s, geometry);
             return GuidedAttitude { clamped: own.clamped || cut, ..own };
@@ -214,7 +212,7 @@ impl GuidedLaw<'_> {
     /// Attitude that the orbit phase's own guidance commands at `time_s`.
     fn by_orbit_phase(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
-        let (trajectory, default_downlink) = (self.trajectory, self.default_downlink);
+        let (trajectory, default_downlink) = (self.trajectory, self.spacecraft.default_downlink);
         let epoch_s = time_s + configuration.epoch_minus_time_s;
         let planet =
             guided.science.reads_motion().then(|| TargetPlanet::from_body(configuration.center.data()));

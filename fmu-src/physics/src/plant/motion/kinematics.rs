@@ -8,9 +8,7 @@ use crate::attitude::{MovingFrame, angle_between_rad};
 use crate::environment::CartesianState;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::TwoBodyOrbit;
-use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::pointing::boresight::Gimbal;
-use crate::guidance::timeline::TimelineLaw;
 use crate::guidance::{Activity, ArcPoint, DownlinkStatus, Guided, GuidedAttitude, ScienceArc};
 use crate::math;
 use crate::momentum::{EventValues, after_event_s};
@@ -18,7 +16,7 @@ use crate::numerics::chebyshev::Segment;
 use crate::numerics::events::first_event;
 use crate::numerics::intervals::{first_change_s, sampled_range};
 use crate::numerics::spacing::spacing;
-use crate::spacecraft::{MassProperties, Panel};
+use crate::spacecraft::MassProperties;
 
 use nalgebra::{Rotation3, Vector3};
 
@@ -32,6 +30,7 @@ use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
 use crate::plant::settings::configuration::{Configuration, Motion};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::panel_setting::SunAt;
+use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::settings::work::Work;
 
 /// Nodes at which a span is looked through for events.
@@ -58,11 +57,9 @@ pub(crate) struct Kinematics<'a> {
     pub turning: Turning,
     pub trajectory: &'a mut Trajectory,
     pub ephemeris: &'a mut Ephemeris,
-    /// The default downlink of the spacecraft's antennas.
-    pub default_downlink: &'a DefaultDownlink,
-    /// Commands over time.
-    pub timeline: Option<TimelineLaw<'a>>,
-    /// Slews into them.
+    /// The spacecraft.
+    pub spacecraft: PreparedSpacecraft<'a>,
+    /// Slews into the timeline's commands.
     pub command_slews: &'a mut CommandSlews,
     /// Work of the step so far.
     pub work: &'a mut Work,
@@ -77,8 +74,8 @@ impl Kinematics<'_> {
     }
 
     /// Mass, centre of mass and inertia as the panels stand with the Sun there.
-    pub(crate) fn mass_properties(&self, panels: &[Panel], sun: &SunAt) -> MassProperties {
-        self.configuration.mass_properties(&self.current_mass_panels_stowed, panels, sun)
+    pub(crate) fn mass_properties(&self, sun: &SunAt) -> MassProperties {
+        self.configuration.mass_properties(&self.current_mass_panels_stowed, self.spacecraft.panels, sun)
     }
 
     /// The event functions alone, counted as a search.
@@ -107,6 +104,7 @@ impl Kinematics<'_> {
         let to_body = law.frame.inertial_from_body.inverse();
         let sun_distance_m = geometry.to_sun.position_m.norm();
         Instant {
+            time_s,
             to_body,
             sun_body: to_body * (geometry.to_sun.position_m / sun_distance_m),
             sun_distance_m,
@@ -185,8 +183,7 @@ impl Kinematics<'_> {
             configuration: self.configuration,
             trajectory: self.trajectory,
             ephemeris: self.ephemeris,
-            default_downlink: self.default_downlink,
-            timeline: self.timeline,
+            spacecraft: self.spacecraft,
             command_slews: self.command_slews,
             guided,
         };
@@ -253,9 +250,10 @@ impl Kinematics<'_> {
         }
     }
 
-    /// The number at which the window or slew of `instant`, at `time_s`, ends or a panel goes elsewhere at once, if that is before
+    /// The number at which the window or slew of `instant` ends or a panel goes elsewhere at once, if that is before
     /// `limit_s`.
-    pub(crate) fn laws_until_s(&mut self, time_s: f64, instant: &Instant, limit_s: f64) -> f64 {
+    pub(crate) fn laws_until_s(&mut self, instant: &Instant, limit_s: f64) -> f64 {
+        let time_s = instant.time_s;
         let limit_s = limit_s.min(self.configuration.panels_until_s(time_s));
         let epoch_s = instant.attitude_until_s + self.configuration.epoch_minus_time_s;
         let rounding_s = EPOCH_ROUNDING_S + 4.0 * (spacing(epoch_s) + spacing(instant.attitude_until_s));
@@ -306,7 +304,7 @@ impl Kinematics<'_> {
         let first = self.instant(after_s);
         // Where a panel goes elsewhere is known to the number, however soon that is.
         let limit_s = limit_s.min(self.configuration.panels_until_s(start_s));
-        let limit_s = self.laws_until_s(after_s, &first, limit_s);
+        let limit_s = self.laws_until_s(&first, limit_s);
         let samples = Segment::<4, NODES>::nodes(start_s, limit_s).map(|at_s| self.instant(at_s).events);
         let rounding_s = self.time_rounding_s(limit_s);
         first_event([after_s, start_s, limit_s], rounding_s, &samples, |at_s| self.events(at_s))

@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::GyrostatMotion;
+use crate::numerics::Span;
 use crate::numerics::quadrature::GAUSS_3;
 use crate::propulsion::{PropellantState, PulseCommand, due_s};
 use crate::spacecraft::{MassProperties, Spacecraft, Thrust, Thruster, ThrusterSet};
@@ -57,15 +58,15 @@ impl Thrusters {
         &self.valves
     }
 
-    /// Commands these pulses for the step over `span_s`, by the law of [`crate::propulsion::PulseSchedule`]; true if there are any.
+    /// Commands these pulses for a step, by the law of [`crate::propulsion::PulseSchedule`]; true if there are any.
     pub fn command_pulses(
         &mut self,
         settings: &ReactionControlSettings,
         pulses: &[PulseCommand],
-        span_s: [f64; 2],
+        step: Span,
     ) -> bool {
         let is_dumping = self.is_dumping();
-        self.valves.command_pulses(&settings.thrusters, pulses, span_s, is_dumping)
+        self.valves.command_pulses(&settings.thrusters, pulses, step, is_dumping)
     }
 
     /// Commands a delta-v from `time_s` on; true if that changes the present one.
@@ -260,7 +261,7 @@ impl Thrusters {
                     attitude.body_from_inertial(&(dump.target_inertial_n_m_s - momentum_inertial_n_m_s));
                 let opened_s = dump.decide(&feed, selection, &remaining_body_n_m_s, center_of_mass_body_m);
                 for (k, on_s) in opened_s.iter().enumerate().filter(|(_, on_s)| **on_s > 0.0) {
-                    valves.open(k, &feed.settings.thrusters[k], [time_s, time_s + on_s]);
+                    valves.open(k, &feed.settings.thrusters[k], Span::new(time_s, time_s + on_s));
                 }
             }
             // Open valves deliver the rest of their pulses.
@@ -298,7 +299,7 @@ impl Thrusters {
                 0.0
             };
             if opens_s > 0.0 {
-                valves.open(k, &feed.settings.thrusters[k], [time_s, time_s + opens_s]);
+                valves.open(k, &feed.settings.thrusters[k], Span::new(time_s, time_s + opens_s));
             }
         }
         Some(given)
