@@ -249,14 +249,8 @@ impl GyrostatMotion {
         self.series.swing_torque_after(time_s - self.start_s)
     }
 
-    /// Continues from the end: the next segment, at most to `limit_s`, under these motor torques and loads (linear in time from
-    /// the present end on).
-    pub fn advance(&mut self, gyrostat: &Gyrostat, motors: &[Motor], load: &BodyLoad, limit_s: f64) {
-        let motion = self.at(gyrostat, self.end_s);
-        self.advance_from(&motion, gyrostat, motors, load, limit_s);
-    }
-
-    /// The same where the body is known at the end.
+    /// Continues from the end, where the body moves like this: the next segment, at most to `limit_s`, under these motor torques and
+    /// loads (linear in time from the present end on).
     pub fn advance_from(
         &mut self,
         motion: &BodyMotion,

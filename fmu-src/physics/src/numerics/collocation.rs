@@ -196,13 +196,18 @@ fn is_finite<const D: usize>(vector: &SVector<f64, D>) -> bool {
 /// are whole multiples again. Segments depend on nothing but their start: asking more or less often changes no bit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SegmentChain<const D: usize, const M: usize> {
-    length_s: f64,
+    /// Length of the segments, s.
+    pub(crate) length_s: f64,
     /// Number of the edge the last segment ends at.
     edge: i64,
-    start_s: f64,
-    end_s: f64,
+    /// Start of the present segment, s.
+    pub(crate) start_s: f64,
+    /// How far the integration has come, s.
+    pub(crate) end_s: f64,
+    /// Solution there.
     end: SVector<f64, D>,
-    segment: Segment<D, M>,
+    /// Dense output between start and end of the present segment.
+    pub(crate) segment: Segment<D, M>,
 }
 
 impl<const D: usize, const M: usize> SegmentChain<D, M> {
@@ -225,26 +230,6 @@ impl<const D: usize, const M: usize> SegmentChain<D, M> {
     /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         self.length_s > 0.0 && self.segment.is_valid() && self.segment.spans(self.start_s, self.end_s)
-    }
-
-    /// Length of the segments, s.
-    pub fn length_s(&self) -> f64 {
-        self.length_s
-    }
-
-    /// Start of the present segment, s.
-    pub fn start_s(&self) -> f64 {
-        self.start_s
-    }
-
-    /// How far the integration has come, s.
-    pub fn end_s(&self) -> f64 {
-        self.end_s
-    }
-
-    /// Dense output between [`SegmentChain::start_s`] and [`SegmentChain::end_s`].
-    pub fn segment(&self) -> &Segment<D, M> {
-        &self.segment
     }
 
     /// The solution at a time of the present segment.

@@ -9,7 +9,7 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::estimate::Estimate;
+use super::estimator::Estimate;
 use super::reference::{ControlTarget, Reference, ReferenceSample, SlewLimits};
 use super::settings::ControllerSettings;
 use crate::attitude::rotation::Attitude;

@@ -13,7 +13,6 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::estimate::Estimate;
 use super::sensors::{SensorHealth, SensorSettings};
 use crate::attitude::rotation::Attitude;
 use crate::math;
@@ -24,6 +23,17 @@ const UNKNOWN_RATE_RAD2_S2: f64 = 1.0;
 
 /// As many measurements of an attitude give a rate.
 const FIXES_FOR_A_RATE: u8 = 2;
+
+/// Estimated attitude and rate at a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// EME2000 to body; relative to an unknown inertial frame where not valid.
+    pub attitude: Attitude,
+    /// Whether the attitude is known in EME2000.
+    pub is_valid: bool,
+    /// Body rate, in rad/s; `None` where nothing measures it.
+    pub rate_body_rad_s: Option<Vector3<f64>>,
+}
 
 /// The rate while the gyros do not work.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

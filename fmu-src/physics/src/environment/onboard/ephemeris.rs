@@ -59,28 +59,22 @@ impl OnboardEphemeris {
         let mut found = Self { source: description.source.clone(), ..Self::default() };
         for (index, body) in bodies.iter().enumerate() {
             let at = root.key("body").item(index);
-            let is_new = found.precise.iter().all(|other| other.target != body.body);
-            check_target(&mut check, &at, body.body, body.center, is_new);
-            if is_new
-                && body.body != OnboardTarget::from(body.center)
-                && found.leads_to(body.center.into(), body.body)
-            {
-                let center = OnboardTarget::from(body.center);
-                let text = format!("{center}, whose own position counts from {}", body.body);
+            let (target, center) = (body.body, OnboardTarget::from(body.center));
+            let is_new = check_target(&mut check, &at, [target, center], &found.precise);
+            if is_new && target != center && found.leads_to(center, target) {
+                let text = format!("{center}, whose own position counts from {target}");
                 check.report(&at.key("center"), text, "a body that does not count from this one");
             }
             let error = FitError { position_m: body.error_m.0, velocity_m_s: body.error_m_s.0 };
             if let Some(motion) = table(&mut check, &at, body) {
-                found.precise.push(FittedBody { target: body.body, center: body.center, motion, error });
+                found.precise.push(FittedBody { target, center: body.center, motion, error });
             }
         }
         for (index, body) in coarse_bodies.iter().enumerate() {
             let at = root.key("coarse").item(index);
-            let is_new = found.coarse.iter().all(|other| other.target != body.body);
-            check_target(&mut check, &at, body.body, body.center, is_new);
-            let is_planet = body.body != OnboardTarget::Spacecraft;
-            if is_planet && body.center != Body::Sun && body.body != OnboardTarget::from(body.center) {
-                let center = OnboardTarget::from(body.center);
+            let (target, center) = (body.body, OnboardTarget::from(body.center));
+            check_target(&mut check, &at, [target, center], &found.coarse);
+            if ![OnboardTarget::Spacecraft, center].contains(&target) && body.center != Body::Sun {
                 check.report(&at.key("center"), center, "sun, which planets move about");
             }
             if body.center == Body::Custom {
@@ -89,7 +83,7 @@ impl OnboardEphemeris {
             }
             let error = FitError { position_m: body.error_m.0, velocity_m_s: body.error_m_s.0 };
             let motion = coarse(&mut check, &at, body);
-            found.coarse.push(FittedBody { target: body.body, center: body.center, motion, error });
+            found.coarse.push(FittedBody { target, center: body.center, motion, error });
         }
         check.finish(found)
     }
@@ -191,14 +185,21 @@ impl OnboardEphemeris {
     }
 }
 
-/// A target that is not its own centre and stands here for the first time.
-fn check_target(check: &mut Checker<'_>, at: &KeyPath, target: OnboardTarget, center: Body, is_new: bool) {
-    if target == OnboardTarget::from(center) {
+/// Reports a target that is its own centre, and one that stands among the `known` already; tells whether it is new.
+fn check_target<M>(
+    check: &mut Checker<'_>,
+    at: &KeyPath,
+    [target, center]: [OnboardTarget; 2],
+    known: &[FittedBody<M>],
+) -> bool {
+    let is_new = known.iter().all(|other| other.target != target);
+    if target == center {
         check.report_across(at, &at.key("center"), target, "another body than the one that is placed");
     }
     if !is_new {
         check.report(&at.key("body"), format_args!("{target} for the second time"), "each body once");
     }
+    is_new
 }
 
 /// The epochs of a span, one after the other.
@@ -261,8 +262,7 @@ fn segment(
 const LOOKS: u32 = 400;
 
 fn coarse(check: &mut Checker<'_>, at: &KeyPath, body: &CoarseDescription) -> CoarseElements {
-    let span = span(check, at, [body.start_s, body.end_s].value());
-    let Span { start_s, end_s } = span;
+    let span @ Span { start_s, end_s } = span(check, at, [body.start_s, body.end_s].value());
     let rows = [
         body.semi_major_axis_m,
         body.eccentricity,
@@ -272,30 +272,19 @@ fn coarse(check: &mut Checker<'_>, at: &KeyPath, body: &CoarseDescription) -> Co
         body.mean_anomaly_rad,
     ];
     let coefficients = SMatrix::<f64, 6, COARSE_TERMS>::from_fn(|row, k| rows[row][k].0);
-    let motion = CoarseElements {
-        center: body.center,
-        span,
-        elements: Segment::from_coefficients(start_s, end_s, coefficients),
-    };
+    let elements = Segment::from_coefficients(start_s, end_s, coefficients);
     if !check.has_reported(at) {
         let epochs = (0..=LOOKS).map(|k| start_s + (end_s - start_s) * (f64::from(k) / f64::from(LOOKS)));
         let bad = |row: usize, is_good: fn(f64) -> bool| {
-            epochs.clone().map(|at_s| motion.elements.value(at_s)[row]).find(|value| !is_good(*value))
+            epochs.clone().map(|at_s| elements.value(at_s)[row]).find(|value| !is_good(*value))
         };
         if let Some(a_m) = bad(0, |a_m| a_m > 0.0) {
-            check.report(
-                &at.key("semi_major_axis_m"),
-                format_args!("{a_m:e} m"),
-                "above 0 all over the span",
-            );
+            let allowed = "above 0 all over the span";
+            check.report(&at.key("semi_major_axis_m"), format_args!("{a_m:e} m"), allowed);
         }
         if let Some(e) = bad(1, |e| (0.0..1.0).contains(&e)) {
-            check.report(
-                &at.key("eccentricity"),
-                format_args!("{e}"),
-                "from 0 to less than 1 all over the span",
-            );
+            check.report(&at.key("eccentricity"), e, "from 0 to less than 1 all over the span");
         }
     }
-    motion
+    CoarseElements { center: body.center, span, elements }
 }
