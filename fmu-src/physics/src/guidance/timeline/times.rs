@@ -1,8 +1,8 @@
 //! Times of a timeline: one clock for all lists, times that grow, each end after its beginning and before the next one's.
 
 use super::entry::TimelineClock;
-use super::instant::instant;
-use super::quantity::Quantity;
+use super::quantity::{Quantity, TIME};
+use crate::environment::dates::{self, ALLOWED_DATE};
 use crate::toml::{Checker, KeyPath};
 
 /// Reads the times of the lists one after the other.
@@ -86,4 +86,39 @@ impl<'c, 'd> Times<'c, 'd> {
         }
         times
     }
+}
+
+/// A date or FMI time.
+pub(super) fn instant(
+    check: &mut Checker<'_>,
+    at: &KeyPath,
+    quantity: &Quantity,
+) -> Option<(TimelineClock, f64)> {
+    if let Some(text) = date(quantity) {
+        return match dates::epoch_s(text) {
+            Ok(time_s) => Some((TimelineClock::Epoch, time_s)),
+            Err(error) => {
+                check.report(at, format_args!("{quantity}, {error}"), ALLOWED_DATE);
+                None
+            }
+        };
+    }
+    let time_s = quantity.si(&TIME);
+    if time_s.is_none() {
+        let allowed =
+            format!("{ALLOWED_DATE}; or FMI time: a number in s or a string with a unit (\"90 min\")");
+        check.report(at, quantity, allowed);
+    }
+    let time_s = check.finite(at, time_s?);
+    time_s.is_finite().then_some((TimelineClock::FmiTime, time_s))
+}
+
+/// Whether it is meant as a date.
+pub(super) fn is_date(quantity: &Quantity) -> bool {
+    date(quantity).is_some()
+}
+
+fn date(quantity: &Quantity) -> Option<&str> {
+    let Quantity::Text(text) = quantity else { return None };
+    dates::looks_like_date(text).then_some(text)
 }
