@@ -117,8 +117,8 @@ impl fmt::Display for AntennaRange {
 }
 
 /// Reads an antenna.
-pub(super) fn antenna(part: &mut PartReader<'_, '_>, description: &AntennaDescription) -> NamedAntenna {
-    check_item_name(part.check, &part.at.key("name"), &description.name);
+pub(super) fn antenna(part: &PartReader<'_>, description: &AntennaDescription) -> NamedAntenna {
+    check_item_name(&part.key("name"), &description.name);
     let range = match (description.azimuth_deg, description.axis_body()) {
         (None, Some(axis_body)) => AntennaRange::Axis(axis_body),
         (azimuth_deg, _) => AntennaRange::Fan(
@@ -132,7 +132,7 @@ pub(super) fn antenna(part: &mut PartReader<'_, '_>, description: &AntennaDescri
     NamedAntenna { name: description.name.clone(), antenna }
 }
 
-fn fan(part: &mut PartReader<'_, '_>, [from_deg, to_deg]: [f64; 2]) -> FanAzimuths {
+fn fan(part: &PartReader<'_>, [from_deg, to_deg]: [f64; 2]) -> FanAzimuths {
     let width_deg = to_deg - from_deg;
     if width_deg == 360.0 {
         return FanAzimuths { middle_rad: 0.5 * (from_deg + to_deg).to_radians(), half_rad: PI };
@@ -140,7 +140,7 @@ fn fan(part: &mut PartReader<'_, '_>, [from_deg, to_deg]: [f64; 2]) -> FanAzimut
     if !(width_deg > 0.0 && width_deg <= WIDEST_FAN_DEG) {
         let allowed =
             "from and to in deg, from -Y toward +X, 0 to 180 deg apart or 360, as in [-90, 0] or [170, 190]";
-        part.report("azimuth_deg", format_args!("[{from_deg}, {to_deg}]"), allowed);
+        part.key("azimuth_deg").report(format_args!("[{from_deg}, {to_deg}]"), allowed);
     }
     let [from_rad, to_rad] = [from_deg, to_deg].map(f64::to_radians);
     FanAzimuths { middle_rad: 0.5 * (from_rad + to_rad), half_rad: 0.5 * (to_rad - from_rad) }

@@ -115,14 +115,14 @@ type_schema!([] WrittenTime, inline: true, "WrittenTime", |_| {
 
 /// Reads the windows.
 pub(super) fn downlinks(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     description: &DownlinksDescription,
     start: &[StartEntry],
     has_antenna: bool,
 ) -> DownlinkWindows {
-    let mut time = |key: &str, written: &WrittenTime| {
+    let time = |key: &str, written: &WrittenTime| {
         written.read().unwrap_or_else(|| {
-            part.report(key, written.found(), ALLOWED_TIME);
+            part.key(key).report(written.found(), ALLOWED_TIME);
             TimeAfterPeriapsis::Seconds(0.0)
         })
     };
@@ -132,17 +132,17 @@ pub(super) fn downlinks(
         | (TimeAfterPeriapsis::PeriodShare(begin), TimeAfterPeriapsis::PeriodShare(end)) => end <= begin,
         _ => false,
     };
-    if is_backwards && !part.has_reported("start") && !part.has_reported("stop") {
-        part.report("stop", description.stop.found(), "a time after the start");
+    if is_backwards && !part.key("start").has_reported() && !part.key("stop").has_reported() {
+        part.key("stop").report(description.stop.found(), "a time after the start");
     }
     if let Some(entry) = start.iter().find(|it| !it.is_fixed && it.name.starts_with("guided.downlink")) {
         let allowed = format!("one of both: [downlinks], or {} in [start]", entry.name);
-        part.check.report(&part.at, format!("[downlinks] beside {}", entry.key), allowed);
+        part.report(format!("[downlinks] beside {}", entry.key), allowed);
     }
     let every = description.every();
-    if every > 0 && !has_antenna && !part.has_reported("every") {
+    if every > 0 && !has_antenna && !part.key("every").has_reported() {
         let allowed = "0, no downlink, where the spacecraft has no antenna ([[antennas]])";
-        part.report("every", every, allowed);
+        part.key("every").report(every, allowed);
     }
     DownlinkWindows { start: begin, stop: end, every }
 }

@@ -21,7 +21,7 @@ struct MomentumDescription {
 
 /// Time between unloadings.
 pub(super) fn unload_every(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     description: &MomentumDescription,
 ) -> Option<TimeAfterPeriapsis> {
     let written = description.unload_every.as_ref()?;
@@ -32,17 +32,17 @@ pub(super) fn unload_every(
     if read.is_none() {
         let allowed = "a time above 0, up to 1e9 s: a number in s or a string with a unit (s, min, h, d), or a share of the \
                        period (\"100 %\")";
-        part.report("unload_every", written.found(), allowed);
+        part.key("unload_every").report(written.found(), allowed);
     }
     read
 }
 
 /// The slew that wheels are sized for.
-pub(super) fn slew(part: &mut PartReader<'_, '_>, description: &MomentumDescription) -> Option<SlewDemand> {
+pub(super) fn slew(part: &PartReader<'_>, description: &MomentumDescription) -> Option<SlewDemand> {
     let written = description.slew.as_ref()?;
     let read = SlewDemand::read(written);
     if read.is_none() {
-        part.report("slew", format_args!("{written:?}"), SlewDemand::ALLOWED);
+        part.key("slew").report(format_args!("{written:?}"), SlewDemand::ALLOWED);
     }
     read
 }

@@ -27,7 +27,7 @@ fn short(tolerance: f64) -> String {
 
 /// The outline with its front where the normal is, if both are given.
 pub(super) fn checked_outline(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     vertices_m: Option<&[Point]>,
     normal: Option<&Vector3<f64>>,
 ) -> Option<Polygon> {
@@ -37,8 +37,7 @@ pub(super) fn checked_outline(
             let along = normal.map_or(1.0, |normal| polygon.normal().dot(normal));
             let off = tolerance(&polygon);
             if let (Some(normal), true) = (normal, along.abs() < (1.0 - math::powi(off, 2) / 2.0)) {
-                part.report_across(
-                    "polygon_m",
+                part.key("polygon_m").report_across(
                     format_args!("an outline with the normal {:?}", polygon.normal().as_slice()),
                     format_args!(
                         "one with the normal {:?} or its opposite, within {}",
@@ -50,14 +49,14 @@ pub(super) fn checked_outline(
             Some(if along < 0.0 { polygon.reversed() } else { polygon })
         }
         Err(error) => {
-            part.report("polygon_m", error.found, error.allowed);
+            part.key("polygon_m").report(error.found, error.allowed);
             None
         }
     }
 }
 
 pub(super) fn checked_area(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     given_m2: Option<Positive>,
     outline: Option<&Polygon>,
 ) -> f64 {
@@ -70,7 +69,7 @@ pub(super) fn checked_area(
                 && (given_m2 / area_m2 - 1.0).abs() > tolerance(outline)
             {
                 let allowed = format!("the polygon's {area_m2} within {}", short(tolerance(outline)));
-                part.report_across("area_m2", given_m2, allowed);
+                part.key("area_m2").report_across(given_m2, allowed);
             }
             area_m2
         }
@@ -78,7 +77,7 @@ pub(super) fn checked_area(
 }
 
 pub(super) fn checked_center(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     given_m: Option<Point>,
     outline: Option<&Polygon>,
 ) -> Vector3<f64> {
@@ -96,7 +95,7 @@ pub(super) fn checked_center(
                     center_m.as_slice(),
                     short(tolerance(outline))
                 );
-                part.report_across("center_m", found, allowed);
+                part.key("center_m").report_across(found, allowed);
             }
             center_m
         }
@@ -104,7 +103,7 @@ pub(super) fn checked_center(
 }
 
 pub(super) fn checked_normal(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     given: Option<Vector3<f64>>,
     outline: Option<&Polygon>,
 ) -> Vector3<f64> {
@@ -115,11 +114,11 @@ pub(super) fn checked_normal(
     }
 }
 
-fn missing<V>(part: &mut PartReader<'_, '_>, key: &str, stand_in: V) -> V {
+fn missing<V>(part: &PartReader<'_>, key: &str, stand_in: V) -> V {
     // An outline that was refused would have given it.
-    if part.has_reported("polygon_m") || part.is_stand_in("polygon_m") {
+    if part.key("polygon_m").has_reported() || part.key("polygon_m").is_stand_in() {
         return stand_in;
     }
-    part.check.report_lack(&part.at, key, format_args!("a value for `{key}`, or an outline `polygon_m`"));
+    part.report_lack(key, format_args!("a value for `{key}`, or an outline `polygon_m`"));
     stand_in
 }

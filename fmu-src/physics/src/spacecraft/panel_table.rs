@@ -63,20 +63,17 @@ struct PanelDescription called "panel" {
 }
 
 /// Reads a panel.
-pub(super) fn panel(part: &mut PartReader<'_, '_>, description: &PanelDescription) -> Panel {
-    let dcm_body_from_panel = part.check.rotation(
-        &part.at.key("dcm_body_from_panel"),
-        description.rotation_rad(),
-        description.dcm_body_from_panel,
-    );
+pub(super) fn panel(part: &PartReader<'_>, description: &PanelDescription) -> Panel {
+    let dcm_body_from_panel =
+        part.key("dcm_body_from_panel").rotation(description.rotation_rad(), description.dcm_body_from_panel);
     let axis = description.axis();
-    let zero_normal = part.perpendicular("zero_normal", description.zero_normal(), ("axis", &axis));
+    let zero_normal = part.key("zero_normal").perpendicular(description.zero_normal(), &axis, "axis");
     let tilt_sign = description.tilt_sign();
     if tilt_sign.abs() != 1 {
-        part.report("tilt_sign", tilt_sign, "1 or -1");
+        part.key("tilt_sign").report(tilt_sign, "1 or -1");
     }
     if let Some(side) = description.windmill_side.filter(|side| !(-1..=1).contains(side)) {
-        part.report("windmill_side", side, "1, -1 or 0");
+        part.key("windmill_side").report(side, "1, -1 or 0");
     }
     let front = part.material("optics", &description.optics);
     let rear = part.rear(description.rear_optics.as_deref());
@@ -111,7 +108,7 @@ pub(super) fn panel(part: &mut PartReader<'_, '_>, description: &PanelDescriptio
 
 /// A panel's mass in the panel frame.
 fn panel_mass(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     description: &PanelDescription,
     area_m2: f64,
     center_m: Vector3<f64>,

@@ -3,19 +3,15 @@
 use super::entry::TimelineClock;
 use super::quantity::{Quantity, TIME};
 use crate::environment::dates::{self, ALLOWED_DATE};
-use crate::toml::{Checker, KeyPath};
+use crate::toml::Place;
 
 /// A date or FMI time.
-pub(super) fn instant(
-    check: &mut Checker<'_>,
-    at: &KeyPath,
-    quantity: &Quantity,
-) -> Option<(TimelineClock, f64)> {
+pub(super) fn instant(at: &Place<'_>, quantity: &Quantity) -> Option<(TimelineClock, f64)> {
     if let Some(text) = date(quantity) {
         return match dates::epoch_s(text) {
             Ok(time_s) => Some((TimelineClock::Epoch, time_s)),
             Err(error) => {
-                check.report(at, format_args!("{quantity}, {error}"), ALLOWED_DATE);
+                at.report(format_args!("{quantity}, {error}"), ALLOWED_DATE);
                 None
             }
         };
@@ -24,9 +20,9 @@ pub(super) fn instant(
     if time_s.is_none() {
         let allowed =
             format!("{ALLOWED_DATE}; or FMI time: a number in s or a string with a unit (\"90 min\")");
-        check.report(at, quantity, allowed);
+        at.report(quantity, allowed);
     }
-    let time_s = check.finite(at, time_s?);
+    let time_s = at.finite(time_s?);
     time_s.is_finite().then_some((TimelineClock::FmiTime, time_s))
 }
 
