@@ -123,7 +123,7 @@ pub(super) fn antenna(part: &PartReader<'_>, description: &AntennaDescription) -
         (None, Some(axis_body)) => AntennaRange::Axis(axis_body),
         (azimuth_deg, _) => AntennaRange::Fan(
             azimuth_deg.map_or(FanAzimuths { middle_rad: 0.0, half_rad: 0.0 }, |azimuth_deg| {
-                fan(part, azimuth_deg.map(f64::from))
+                fan(part, azimuth_deg.map(|it| it.0))
             }),
         ),
     };

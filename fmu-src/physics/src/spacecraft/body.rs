@@ -179,8 +179,7 @@ pub(super) fn body(part: &PartReader<'_>, description: &BodyDescription) -> Cust
     let pole = part.key("pole_deg");
     pole.item(0).within(right_ascension, [-360.0, 360.0], "an angle from -360 to 360 deg");
     pole.item(1).within(declination, [-90.0, 90.0], "an angle from -90 to 90 deg");
-    let (gm_m3_s2, radii_m) =
-        (description.gravitational_parameter_m3_s2.0, description.radii_m.map(f64::from));
+    let (gm_m3_s2, radii_m) = (description.gravitational_parameter_m3_s2.0, description.radii_m.value());
     // Values out of their own ranges are reported for themselves.
     let is_judged = gm_m3_s2 > 0.0 && radii_m.iter().all(|radius_m| (1.0..=1e9).contains(radius_m));
     let density_kg_m3 = impossible_density_kg_m3(gm_m3_s2, radii_m).filter(|_| is_judged);
@@ -227,12 +226,7 @@ fn motion(part: &PartReader<'_>, description: &BodyDescription) -> Option<BodyMo
         part.report_lack("epoch", format_args!("when the body is there, {ALLOWED_DATE}"));
         return None;
     };
-    let epoch_s = match dates::epoch_s(epoch) {
-        Ok(epoch_s) => epoch_s,
-        Err(error) => {
-            part.key("epoch").report(format_args!("{epoch:?}, {error}"), ALLOWED_DATE);
-            return None;
-        }
-    };
+    let refuse = |error| part.key("epoch").report(format_args!("{epoch:?}, {error}"), ALLOWED_DATE);
+    let epoch_s = dates::epoch_s(epoch).map_err(refuse).ok()?;
     Some(BodyMotion { epoch_s, frame: description.frame.unwrap_or_default(), orbit })
 }

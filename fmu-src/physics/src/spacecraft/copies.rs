@@ -150,7 +150,7 @@ fn repeated(repeat: &RepeatDescription) -> Option<Vec<Motion>> {
         }
         (None, Some(axis)) => {
             let (axis, point_m) = (axis.value(), repeat.point_m());
-            let angle_deg = repeat.angle_deg.map_or(360.0 / f64::from(count), f64::from);
+            let angle_deg = repeat.angle_deg.map_or(360.0 / f64::from(count), |it| it.0);
             let turned = |k: u32| {
                 let matrix = turn(&axis, angle_deg * f64::from(k));
                 Motion { matrix, shift_m: point_m - matrix * point_m }

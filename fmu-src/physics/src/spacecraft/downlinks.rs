@@ -121,10 +121,8 @@ pub(super) fn downlinks(
     has_antenna: bool,
 ) -> DownlinkWindows {
     let time = |key: &str, written: &WrittenTime| {
-        written.read().unwrap_or_else(|| {
-            part.key(key).report(written.found(), ALLOWED_TIME);
-            TimeAfterPeriapsis::Seconds(0.0)
-        })
+        let read = part.key(key).known(written.read(), written.found(), ALLOWED_TIME);
+        read.unwrap_or(TimeAfterPeriapsis::Seconds(0.0))
     };
     let (begin, end) = (time("start", &description.start), time("stop", &description.stop));
     let is_backwards = match (begin, end) {

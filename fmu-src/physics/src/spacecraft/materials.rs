@@ -7,7 +7,8 @@ use super::gas_surface::GasSurface;
 use super::material::{Material, NamedMaterial, OPTICS_SUM_TOLERANCE};
 use super::names::variable_name;
 use super::optics::Optics;
-use super::thermal::{BACKGROUND_K, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal};
+use super::surface::FaceProperties;
+use super::thermal::{BACKGROUND_K, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, Thermal};
 use crate::toml::{Emissivity, Finite, Fraction, Kelvin, NotNegative, Place, Written, hint, rounded, tables};
 
 tables! {
@@ -65,14 +66,15 @@ impl ChosenMaterial {
         Self { place: None, material: Material { optics, thermal, gas_surface: GasSurface::ASSUMED } }
     };
 
-    /// Front and rear of a surface in the air.
-    pub(super) fn in_air(front: Self, rear: Option<Self>) -> [GasSurface; 2] {
-        [front, rear.unwrap_or(front)].map(|it| it.material.gas_surface)
-    }
-
-    /// Places of the materials of front and rear.
-    pub(super) fn places(front: Self, rear: Option<Self>) -> [Option<usize>; 2] {
-        [front.place, rear.and_then(|it| it.place)]
+    /// Faces of a surface of these materials, front and rear.
+    pub(super) fn faces(front: Self, rear: Option<Self>, thermal: Thermal) -> FaceProperties {
+        FaceProperties {
+            optics: front.material.optics,
+            rear_optics: rear.map(|rear| rear.material.optics),
+            gas_surface: [front, rear.unwrap_or(front)].map(|it| it.material.gas_surface),
+            thermal,
+            materials: [front.place, rear.and_then(|it| it.place)],
+        }
     }
 }
 
@@ -200,7 +202,7 @@ fn face_thermal(at: &Place<'_>, description: &OpticsDescription, sunlight: &Opti
         .map_or(*sunlight, |Fraction(absorptivity)| sunlight.with_absorptivity(absorptivity));
     let like_sunlight = FaceThermal::like_sunlight(sunlight).emission.emissivity;
     let emission = Emission {
-        emissivity: description.emissivity.map_or(like_sunlight, f64::from),
+        emissivity: description.emissivity.value().unwrap_or(like_sunlight),
         slope_per_k: description.emissivity_per_k(),
         reference_temperature_k: description.emissivity_temperature_k(),
     };

@@ -28,21 +28,13 @@ pub(super) fn unload_every(
     let is_some = |time: &TimeAfterPeriapsis| match time {
         TimeAfterPeriapsis::Seconds(length) | TimeAfterPeriapsis::PeriodShare(length) => *length > 0.0,
     };
-    let read = written.read().filter(is_some);
-    if read.is_none() {
-        let allowed = "a time above 0, up to 1e9 s: a number in s or a string with a unit (s, min, h, d), or a share of the \
-                       period (\"100 %\")";
-        part.key("unload_every").report(written.found(), allowed);
-    }
-    read
+    let allowed = "a time above 0, up to 1e9 s: a number in s or a string with a unit (s, min, h, d), or a share of the \
+                   period (\"100 %\")";
+    part.key("unload_every").known(written.read().filter(is_some), written.found(), allowed)
 }
 
 /// The slew that wheels are sized for.
 pub(super) fn slew(part: &PartReader<'_>, description: &MomentumDescription) -> Option<SlewDemand> {
     let written = description.slew.as_ref()?;
-    let read = SlewDemand::read(written);
-    if read.is_none() {
-        part.key("slew").report(format_args!("{written:?}"), SlewDemand::ALLOWED);
-    }
-    read
+    part.key("slew").known(SlewDemand::read(written), format_args!("{written:?}"), SlewDemand::ALLOWED)
 }

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use super::part_reader::PartReader;
 use super::polygon::Polygon;
 use crate::math;
+use crate::refusal::Refusal;
 use crate::toml::{Point, Positive, Written};
 
 /// How far area, centre and normal may be off the polygon's, relative to its size: printed tables are rounded ...
@@ -32,27 +33,17 @@ pub(super) fn checked_outline(
     normal: Option<&Vector3<f64>>,
 ) -> Option<Polygon> {
     let vertices_m = vertices_m?;
-    match Polygon::new(vertices_m.iter().map(|v| v.value()).collect()) {
-        Ok(polygon) => {
-            let along = normal.map_or(1.0, |normal| polygon.normal().dot(normal));
-            let off = tolerance(&polygon);
-            if let (Some(normal), true) = (normal, along.abs() < (1.0 - math::powi(off, 2) / 2.0)) {
-                part.key("polygon_m").report_across(
-                    format_args!("an outline with the normal {:?}", polygon.normal().as_slice()),
-                    format_args!(
-                        "one with the normal {:?} or its opposite, within {}",
-                        normal.as_slice(),
-                        short(off)
-                    ),
-                );
-            }
-            Some(if along < 0.0 { polygon.reversed() } else { polygon })
-        }
-        Err(error) => {
-            part.key("polygon_m").report(error.found, error.allowed);
-            None
-        }
+    let report = |error: Refusal| part.key("polygon_m").report(error.found, error.allowed);
+    let polygon = Polygon::new(vertices_m.iter().map(|v| v.value()).collect()).map_err(report).ok()?;
+    let along = normal.map_or(1.0, |normal| polygon.normal().dot(normal));
+    let off = tolerance(&polygon);
+    if let (Some(normal), true) = (normal, along.abs() < (1.0 - math::powi(off, 2) / 2.0)) {
+        let found = format!("an outline with the normal {:?}", polygon.normal().as_slice());
+        let (normal, within) = (normal.as_slice(), short(off));
+        let allowed = format!("one with the normal {normal:?} or its opposite, within {within}");
+        part.key("polygon_m").report_across(found, allowed);
     }
+    Some(if along < 0.0 { polygon.reversed() } else { polygon })
 }
 
 pub(super) fn checked_area(
@@ -60,7 +51,7 @@ pub(super) fn checked_area(
     given_m2: Option<Positive>,
     outline: Option<&Polygon>,
 ) -> f64 {
-    match (given_m2.map(f64::from), outline) {
+    match (given_m2.value(), outline) {
         (Some(area_m2), None) => area_m2,
         (None, None) => missing(part, "area_m2", 1.0),
         (given_m2, Some(outline)) => {

@@ -84,11 +84,7 @@ fn plate(part: &PartReader<'_>, description: &PlateDescription) -> Plate {
         area_m2: checked_area(part, description.area_m2, outline.as_ref()),
         center_m: checked_center(part, description.center_m, outline.as_ref()),
         normal: checked_normal(part, normal, outline.as_ref()),
-        optics: front.material.optics,
-        rear_optics: rear.map(|rear| rear.material.optics),
-        gas_surface: ChosenMaterial::in_air(front, rear),
-        materials: ChosenMaterial::places(front, rear),
-        thermal: thermal(part, description.thermal.as_ref(), front, rear),
+        faces: ChosenMaterial::faces(front, rear, thermal(part, description.thermal.as_ref(), front, rear)),
         polygon: outline,
     }
 }

@@ -3,7 +3,8 @@
 use super::panel::Panel;
 use super::part_reader::PartReader;
 use super::pointing::{
-    AlignedAxes, AttitudeName, AttitudePart, NamedAttitude, PointingSettings, TargetItem, TargetedAxis,
+    AlignedAxes, AttitudeName, AttitudePart, AttitudeRefusal, NamedAttitude, PointingSettings, TargetItem,
+    TargetedAxis,
 };
 use super::start::StartEntry;
 use crate::toml::{NotNegative, Place, Point, QuarterTurnEither, TurnEither, tables};
@@ -79,7 +80,7 @@ pub(super) fn pointing(
         // Several attitudes or none, which the rules report.
         _ => None,
     }?;
-    check(part, &attitude, panels);
+    axes(part, &attitude, panels, [&part.key("attitude"), &part.key("quaternion")]);
     Some(PointingSettings {
         attitude,
         slew_rate_rad_s: slew_rate_deg_s.map(|rate_deg_s| rate_deg_s.0.to_radians()),
@@ -109,15 +110,23 @@ pub(crate) fn aligned(
     Some(NamedAttitude::Aligned(AlignedAxes { align, constrain }))
 }
 
-/// Reports an attitude that a spacecraft with these panels does not have, in a table at `at`.
-pub(crate) fn check(at: &Place<'_>, attitude: &NamedAttitude, panels: &[Panel]) {
-    let Err(refusal) = attitude.axes(panels) else { return };
-    let place = match refusal.part {
-        AttitudePart::Name => at.key("attitude"),
-        AttitudePart::Quaternion => at.key("quaternion"),
-        AttitudePart::AlignAxis => at.key("align").key("axis"),
-        AttitudePart::ConstrainAxis => at.key("constrain").key("axis"),
-        AttitudePart::ConstrainTarget => at.key("constrain").key("to"),
+/// Axes of an attitude on a spacecraft with these panels, in a table at `at`, its name and its quaternion at these places; reports an
+/// attitude that it does not have.
+pub(crate) fn axes(
+    at: &Place<'_>,
+    attitude: &NamedAttitude,
+    panels: &[Panel],
+    [name, quaternion]: [&Place<'_>; 2],
+) -> Option<AlignedAxes> {
+    let report = |refusal: AttitudeRefusal| {
+        let place = match refusal.part {
+            AttitudePart::Name => name.clone(),
+            AttitudePart::Quaternion => quaternion.clone(),
+            AttitudePart::AlignAxis => at.key("align").key("axis"),
+            AttitudePart::ConstrainAxis => at.key("constrain").key("axis"),
+            AttitudePart::ConstrainTarget => at.key("constrain").key("to"),
+        };
+        place.report(refusal.found, refusal.allowed);
     };
-    place.report(refusal.found, refusal.allowed);
+    attitude.axes(panels).map_err(report).ok()
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix3, Vector3};
 
 use super::copies::{MOST_PLATES, MirrorPlane, RepeatDescription, check_apart, copy_name, motions};
-use super::facets::{BOX_FACES, Facet, box_faces, cylinder_facets, disc, dish_facets};
+use super::facets::{BoxFace, Facet, box_faces, cylinder_facets, disc, dish_facets};
 use super::materials::ChosenMaterial;
 use super::part_reader::PartReader;
 use super::polygon::Polygon;
@@ -13,6 +13,7 @@ use super::shape_tables::{BoxDescription, DiscDescription, DishDescription, Face
 use super::surface::Plate;
 use super::thermal::Thermal;
 use super::thermal_table::thermal;
+use crate::enumeration::Enumerated;
 use crate::toml::{Named, Place, Written, hint};
 
 /// Data common to all shapes.
@@ -53,13 +54,13 @@ pub(super) fn box_plates(part: &PartReader<'_>, description: &BoxDescription) ->
     for (face, name) in description.face_optics.iter().flatten() {
         let optics = part.table("face_optics");
         let material = optics.material(face, name);
-        let names = BOX_FACES.map(|(.., name)| name);
-        match BOX_FACES.iter().find(|(.., name)| name == face) {
+        match BoxFace::ITEMS.iter().find(|it| it.name == face) {
             None => {
+                let names: Vec<&str> = BoxFace::ITEMS.iter().map(|it| it.name).collect();
                 let found = format!("the unknown face `{face}`{}", hint(face, &names));
                 optics.key(face).report(found, names.join(", "));
             }
-            Some((which, ..)) if open.contains(which) => {
+            Some(it) if open.contains(&it.variant) => {
                 optics.key(face).report("a face that is open too", "a face that the box has");
             }
             Some(_) => own.push((face.clone(), material)),
@@ -163,11 +164,9 @@ impl Shape<'_> {
         let mut thermal = self.thermal;
         thermal.front = front.material.thermal;
         let dot = if facet.name.is_empty() { "" } else { "." };
-        let (name, rear) = (format!("{name}{dot}{}", facet.name), self.rear.map(|it| it.material.optics));
-        let gas_surface = ChosenMaterial::in_air(front, self.rear);
-        let materials = ChosenMaterial::places(front, self.rear);
-        let plate = Plate::outlined(name, outline, front.material.optics, rear);
-        Plate { thermal, gas_surface, materials, ..plate }
+        let faces = ChosenMaterial::faces(front, self.rear, thermal);
+        let name = format!("{name}{dot}{}", facet.name);
+        Plate { faces, ..Plate::outlined(name, outline, faces.optics, faces.rear_optics) }
     }
 
     /// Divides the heat from inside among all plates by area.
@@ -175,7 +174,8 @@ impl Shape<'_> {
         let whole_m2: f64 = plates.iter().map(|plate| plate.area_m2).sum();
         for plate in plates {
             let fraction = plate.area_m2 / whole_m2;
-            plate.thermal.internal_heat_w = self.thermal.internal_heat_w.map(|heat_w| heat_w * fraction);
+            plate.faces.thermal.internal_heat_w =
+                self.thermal.internal_heat_w.map(|heat_w| heat_w * fraction);
         }
     }
 }

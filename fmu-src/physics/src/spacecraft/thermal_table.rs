@@ -77,7 +77,7 @@ pub(super) fn thermal(
 
 /// Heat flow from front and rear to the bus.
 fn bus(part: &PartReader<'_>, description: &ThermalDescription) -> [BusLink; 2] {
-    let own_k = description.bus_temperature_k.map(f64::from);
+    let own_k = description.bus_temperature_k.value();
     let faces = [
         ("bus_conductance_w_m2_k", description.bus_conductance_w_m2_k),
         ("rear_bus_conductance_w_m2_k", description.rear_bus_conductance_w_m2_k),

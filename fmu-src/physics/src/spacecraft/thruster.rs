@@ -8,8 +8,8 @@ use super::part_reader::PartReader;
 use super::tank::Tank;
 use crate::constants::STANDARD_GRAVITY_M_S2;
 use crate::toml::{
-    Fraction, Named, NotNegative, Place, Point, Positive, QuarterTurn, SpecificImpulse, UnitVector, hint,
-    tables,
+    Fraction, Named, NotNegative, Place, Point, Positive, QuarterTurn, SpecificImpulse, UnitVector, Written,
+    hint, tables,
 };
 
 tables! {
@@ -188,11 +188,11 @@ pub(super) fn thruster(
         flow_kg_s: force_n / (description.specific_impulse_s.0 * STANDARD_GRAVITY_M_S2),
         valve,
         scatter: description.scatter(),
-        power_w: description.power_w.map(f64::from),
+        power_w: description.power_w.value(),
         set: description.set.as_deref().and_then(|name| ThrusterSet::named(sets, name)),
         attitude_control: description.attitude_control(),
         tank: tank_of(part, tanks, description.tank.as_deref()),
-        at_pressure_pa: description.at_pressure_pa.map(f64::from),
+        at_pressure_pa: description.at_pressure_pa.value(),
         plume_half_angle_rad: description.plume_half_angle_rad(),
     }
 }
@@ -207,11 +207,10 @@ fn tank_of(part: &PartReader<'_>, tanks: &[Tank], name: Option<&str>) -> usize {
     }
     let Some(name) = name else { return 0 };
     let names: Vec<&str> = tanks.iter().map(|tank| tank.name.as_str()).collect();
-    names.iter().position(|known| *known == name).unwrap_or_else(|| {
-        let allowed = format!("a name under [[tanks]]: {}", names.join(", "));
-        part.key("tank").report(format_args!("the unknown tank `{name}`{}", hint(name, &names)), allowed);
-        0
-    })
+    let found = names.iter().position(|known| *known == name);
+    let unknown = format!("the unknown tank `{name}`{}", hint(name, &names));
+    let allowed = format!("a name under [[tanks]]: {}", names.join(", "));
+    part.key("tank").known(found, unknown, allowed).unwrap_or(0)
 }
 
 /// The names of the sets: those that `sets` lists, then others in the order of their first thruster.

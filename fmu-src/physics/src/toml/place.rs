@@ -90,6 +90,14 @@ impl<'c> Place<'c> {
         self.check.push(&self.path, found, allowed);
     }
 
+    /// Hands a value on; reports where there is none.
+    pub fn known<T>(&self, value: Option<T>, found: impl Display, allowed: impl Display) -> Option<T> {
+        if value.is_none() {
+            self.report(found, allowed);
+        }
+        value
+    }
+
     /// A number, not NaN, infinite or beyond all measure.
     pub fn finite(&self, value: f64) -> f64 {
         self.within(value, [-GREATEST, GREATEST], "a finite number up to 1e12 in magnitude")
@@ -154,29 +162,29 @@ impl<'c> Place<'c> {
 
     /// Reports the rules that the table here breaks.
     pub fn rules(&self, rules: &[Rule]) {
-        for rule in rules {
-            let has = |key: &&str| self.key(key).is_written();
-            let is_meant = |key: &&str| has(key) || self.key(key).is_stand_in();
-            let written = rule.keys.first().filter(|key| has(key)).map(|key| self.key(key));
-            match (rule.demand, written) {
-                (Demand::RequiresIfPositive, Some(at)) if !self.check.document.is_positive(&at.path) => {}
-                (Demand::Requires | Demand::RequiresIfPositive, Some(at))
-                    if !rule.others.iter().any(is_meant) =>
-                {
-                    at.report(rule.found, rule.allowed);
+        let has = |key: &&str| self.key(key).is_written();
+        let is_meant = |key: &&str| has(key) || self.key(key).is_stand_in();
+        for &Rule { demand, keys, others, found, allowed } in rules {
+            let needs = |key: &&&str| has(key) && !others.iter().any(is_meant);
+            let first = keys.first();
+            let at_fault = match demand {
+                Demand::Requires => first.filter(needs),
+                Demand::RequiresIfPositive => {
+                    let is_positive = |key: &&&str| self.check.document.is_positive(&self.key(key).path);
+                    first.filter(is_positive).filter(needs)
                 }
-                (Demand::Excludes, Some(at)) if rule.others.iter().any(has) => {
-                    at.report(rule.found, rule.allowed);
-                }
-                (Demand::Either, _)
-                    if rule.keys.iter().filter(|key| has(key)).count()
-                        + usize::from(rule.others.iter().any(has))
-                        > 1 =>
-                {
-                    self.push(rule.found, rule.allowed);
-                }
-                (Demand::AnyOf, _) if !rule.keys.iter().any(is_meant) => self.push(rule.found, rule.allowed),
-                _ => {}
+                Demand::Excludes => first.filter(|key| has(key) && others.iter().any(has)),
+                Demand::Either | Demand::AnyOf => None,
+            };
+            at_fault.into_iter().for_each(|key| self.key(key).report(found, allowed));
+            let written = keys.iter().filter(|key| has(key)).count() + usize::from(others.iter().any(has));
+            let is_broken = match demand {
+                Demand::Either => written > 1,
+                Demand::AnyOf => !keys.iter().any(is_meant),
+                _ => false,
+            };
+            if is_broken {
+                self.push(found, allowed);
             }
         }
     }

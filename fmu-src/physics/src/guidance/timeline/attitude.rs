@@ -4,8 +4,8 @@ use super::description::{AttitudeDescription, AxesDescription, CommandDescriptio
 use crate::enumeration::Enumerated;
 use crate::guidance::pointing::aligned::aligned_command;
 use crate::guidance::pointing::command::PointingCommand;
-use crate::spacecraft::{AttitudeName, AttitudePart, NamedAttitude, Panel, aligned};
-use crate::toml::{Place, nearest};
+use crate::spacecraft::{AttitudeName, NamedAttitude, Panel, aligned, axes};
+use crate::toml::{Place, hint};
 
 /// Attitudes that have a name.
 const NAMES: [AttitudeName; 3] = [AttitudeName::Lvlh, AttitudeName::YawSteering, AttitudeName::SunPointing];
@@ -16,43 +16,24 @@ pub(super) fn by_attitude(
     attitude: &AttitudeDescription,
     panels: &[Panel],
 ) -> PointingCommand {
-    let Some(attitude) = read(place, attitude) else { return PointingCommand::default() };
-    match attitude.axes(panels) {
-        Ok(axes) => aligned_command(&axes),
-        Err(refusal) => {
-            let place = match refusal.part {
-                AttitudePart::Name | AttitudePart::Quaternion => place.clone(),
-                AttitudePart::AlignAxis => place.key("align").key("axis"),
-                AttitudePart::ConstrainAxis => place.key("constrain").key("axis"),
-                AttitudePart::ConstrainTarget => place.key("constrain").key("to"),
-            };
-            place.report(refusal.found, refusal.allowed);
-            PointingCommand::default()
-        }
-    }
+    let axes = read(place, attitude).and_then(|it| axes(place, &it, panels, [place, place]));
+    axes.map_or_else(PointingCommand::default, |axes| aligned_command(&axes))
 }
 
 /// The attitude of a description.
 fn read(at: &Place<'_>, given: &AttitudeDescription) -> Option<NamedAttitude> {
     match given {
         AttitudeDescription::Name(name) => {
+            let names = NAMES.map(Enumerated::name);
+            let unknown = format!("the unknown word `{name}`{}", hint(name, &names));
+            let allowed = format!("{}, or a quaternion, or `align` and `constrain`", names.join(", "));
             let found = NAMES.into_iter().find(|known| known.name() == name);
-            if found.is_none() {
-                let names = NAMES.map(Enumerated::name);
-                let allowed = format!("{}, or a quaternion, or `align` and `constrain`", names.join(", "));
-                let hint =
-                    nearest(name, &names).map_or_else(String::new, |it| format!(" (did you mean `{it}`?)"));
-                at.report(format_args!("the unknown word `{name}`{hint}"), allowed);
-            }
-            found.map(NamedAttitude::Named)
+            at.known(found, unknown, allowed).map(NamedAttitude::Named)
         }
         AttitudeDescription::Quaternion(numbers) => {
+            let allowed = "four: a quaternion from EME2000 to the body, scalar last";
             let q = <[f64; 4]>::try_from(numbers.as_slice()).ok();
-            if q.is_none() {
-                let found = format!("{} numbers", numbers.len());
-                at.report(found, "four: a quaternion from EME2000 to the body, scalar last");
-            }
-            q.map(NamedAttitude::Inertial)
+            at.known(q, format_args!("{} numbers", numbers.len()), allowed).map(NamedAttitude::Inertial)
         }
         AttitudeDescription::Axes(AxesDescription { align, constrain, star, unknown }) => {
             for key in unknown {

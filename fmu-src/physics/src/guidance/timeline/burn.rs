@@ -99,15 +99,11 @@ fn start(at: &Place<'_>, given: &BurnDescription, span: Span) -> Option<f64> {
 
 /// The set of this name.
 pub(super) fn thruster_set(spacecraft: &Spacecraft, at: &Place<'_>, name: &str) -> Option<ThrusterSet> {
-    let found = spacecraft.thruster_set(name);
-    if found.is_none() && !at.is_stand_in() {
-        let sets: Vec<&str> = spacecraft.thruster_sets.iter().map(String::as_str).collect();
-        let allowed = match sets.is_empty() {
-            true => "a set of thrusters; the spacecraft has none: give its [[thrusters]] a `set`".to_owned(),
-            false => format!("a set of the spacecraft's thrusters: {}", sets.join(", ")),
-        };
-        let unknown = format!("the unknown set `{name}`{}", hint(name, &sets));
-        at.report(unknown, allowed);
-    }
-    found
+    let sets: Vec<&str> = spacecraft.thruster_sets.iter().map(String::as_str).collect();
+    let allowed = match sets.is_empty() {
+        true => "a set of thrusters; the spacecraft has none: give its [[thrusters]] a `set`".to_owned(),
+        false => format!("a set of the spacecraft's thrusters: {}", sets.join(", ")),
+    };
+    let unknown = format!("the unknown set `{name}`{}", hint(name, &sets));
+    at.known(spacecraft.thruster_set(name), unknown, allowed)
 }

@@ -35,15 +35,13 @@ pub(super) fn instrument(spacecraft: &Spacecraft, at: &Place<'_>, given: &Quanti
         Quantity::Number(number) => ((0..=names.len()).find(|index| *index as f64 == *number), None),
         _ => (None, None),
     };
-    if found.is_none() {
-        let hint = hint.map(|name| format!(" (did you mean {name:?}?)")).unwrap_or_default();
-        let allowed = if names.is_empty() {
-            "0, which is +Z: the spacecraft has no [[instruments]]".to_owned()
-        } else {
-            format!("0 for +Z, or of the spacecraft's [[instruments]] the name or row: {}", names.join(", "))
-        };
-        at.report(format_args!("the unknown instrument {given}{hint}"), allowed);
-    }
+    let hint = hint.map(|name| format!(" (did you mean {name:?}?)")).unwrap_or_default();
+    let allowed = if names.is_empty() {
+        "0, which is +Z: the spacecraft has no [[instruments]]".to_owned()
+    } else {
+        format!("0 for +Z, or of the spacecraft's [[instruments]] the name or row: {}", names.join(", "))
+    };
+    let found = at.known(found, format_args!("the unknown instrument {given}{hint}"), allowed);
     found.and_then(|index| u32::try_from(index).ok()).unwrap_or_default()
 }
 

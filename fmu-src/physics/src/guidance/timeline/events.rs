@@ -37,11 +37,10 @@ fn dump(at: &Place<'_>, given: &DumpDescription) -> Option<TimelineDump> {
             None
         }
         DumpDescription::To(momentum) => {
-            let Ok(momentum) = <[Quantity; 3]>::try_from(momentum.clone()) else {
-                let found = format!("{} numbers", momentum.len());
-                at.report(found, "true, or three numbers: the momentum after it, body frame");
-                return None;
-            };
+            let found = format!("{} numbers", momentum.len());
+            let momentum = <[Quantity; 3]>::try_from(momentum.clone()).ok();
+            let momentum =
+                at.known(momentum, found, "true, or three numbers: the momentum after it, body frame")?;
             let momentum = three(at, Some(&momentum), &MOMENTUM);
             Some(TimelineDump::To { momentum_body_n_m_s: momentum.into() })
         }

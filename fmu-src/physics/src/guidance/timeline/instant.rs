@@ -8,21 +8,11 @@ use crate::toml::Place;
 /// A date or FMI time.
 pub(super) fn instant(at: &Place<'_>, quantity: &Quantity) -> Option<(TimelineClock, f64)> {
     if let Some(text) = date(quantity) {
-        return match dates::epoch_s(text) {
-            Ok(time_s) => Some((TimelineClock::Epoch, time_s)),
-            Err(error) => {
-                at.report(format_args!("{quantity}, {error}"), ALLOWED_DATE);
-                None
-            }
-        };
+        let refuse = |error| at.report(format_args!("{quantity}, {error}"), ALLOWED_DATE);
+        return Some((TimelineClock::Epoch, dates::epoch_s(text).map_err(refuse).ok()?));
     }
-    let time_s = quantity.si(&TIME);
-    if time_s.is_none() {
-        let allowed =
-            format!("{ALLOWED_DATE}; or FMI time: a number in s or a string with a unit (\"90 min\")");
-        at.report(quantity, allowed);
-    }
-    let time_s = at.finite(time_s?);
+    let allowed = format!("{ALLOWED_DATE}; or FMI time: a number in s or a string with a unit (\"90 min\")");
+    let time_s = at.finite(at.known(quantity.si(&TIME), quantity, allowed)?);
     time_s.is_finite().then_some((TimelineClock::FmiTime, time_s))
 }
 
