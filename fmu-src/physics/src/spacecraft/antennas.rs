@@ -72,10 +72,8 @@ pub struct FanAzimuths {
 impl Antenna {
     /// The azimuths of a fan; `None` of an antenna along an axis.
     pub fn fan(&self) -> Option<FanAzimuths> {
-        match self.range {
-            AntennaRange::Fan(fan) => Some(fan),
-            AntennaRange::Axis(_) => None,
-        }
+        let AntennaRange::Fan(fan) = self.range else { return None };
+        Some(fan)
     }
 
     /// Half the width of the beam across the XY plane, in rad.
@@ -85,10 +83,8 @@ impl Antenna {
 
     /// The axis of a fixed antenna; `None` of a fan.
     pub fn axis_body(&self) -> Option<Vector3<f64>> {
-        match self.range {
-            AntennaRange::Fan(_) => None,
-            AntennaRange::Axis(axis_body) => Some(axis_body),
-        }
+        let AntennaRange::Axis(axis_body) = self.range else { return None };
+        Some(axis_body)
     }
 }
 

@@ -9,7 +9,7 @@ use super::body::{CustomBody, body};
 use super::description::SpacecraftDescription;
 use super::downlinks::{DownlinkWindows, TimeAfterPeriapsis, downlinks};
 use super::instruments::{Instrument, check_gimbals, instrument};
-use super::mass::{MassProperties, mass, parts_fit};
+use super::mass::{MassProperties, mass};
 use super::material::NamedMaterial;
 use super::materials::Materials;
 use super::momentum::{slew, unload_every};
@@ -164,7 +164,7 @@ fn spacecraft(root: Place<'_>, given: &SpacecraftDescription) -> Spacecraft {
     let thruster_sets = thruster_sets(file, given.sets.as_deref(), given.thrusters.as_deref());
     let thrusters = file
         .list("thrusters", given.thrusters.as_deref(), |part, it| thruster(part, it, &tanks, &thruster_sets));
-    let mass_properties = mass(&mut file.table("mass_properties"), &given.mass_properties);
+    let mass_properties = mass(&file.table("mass_properties"), &given.mass_properties);
     let flexible_modes = file.list("flexible_modes", given.flexible_modes.as_deref(), mode);
     let sloshes = file.list("slosh", given.slosh.as_deref(), slosh);
     swinging_fits(file, &flexible_modes, &sloshes, &mass_properties);
@@ -173,6 +173,7 @@ fn spacecraft(root: Place<'_>, given: &SpacecraftDescription) -> Spacecraft {
     let has_antenna = given.antennas.is_some() || file.key("antennas").is_stand_in();
     let start = start_entries(file, given.start.as_ref(), given.fixed.as_ref());
     let panels = file.list("panels", given.panels.as_deref(), panel);
+    let corridor = file.optional("articulation", given.articulation.as_ref(), articulation);
     let momentum = given.momentum.as_ref();
     let dump_threshold_n_m_s = momentum.and_then(|it| it.dump_threshold_n_m_s);
     Spacecraft {
@@ -206,9 +207,7 @@ fn spacecraft(root: Place<'_>, given: &SpacecraftDescription) -> Spacecraft {
         downlinks: file.optional("downlinks", given.downlinks.as_ref(), |part, it| {
             downlinks(part, it, &start, has_antenna)
         }),
-        articulation: file
-            .optional("articulation", given.articulation.as_ref(), articulation)
-            .unwrap_or_default(),
+        articulation: corridor.unwrap_or_default(),
         hot_pole: given.hot_pole.value(),
         start,
         sun_keep_in: given.sun_keep_in.value(),
@@ -221,9 +220,23 @@ fn spacecraft(root: Place<'_>, given: &SpacecraftDescription) -> Spacecraft {
 fn check_masses(root: &Place<'_>, given: &SpacecraftDescription) {
     let whole_kg = given.mass_properties.mass_kg.0;
     let panels = given.panels.iter().flat_map(|panels| panels.iter());
-    parts_fit(root, ("panels", "mass_kg"), panels.map(|panel| panel.mass_kg.value()), whole_kg);
+    let panels = panels.map(|panel| panel.mass_kg.value()).collect();
     let tanks = given.tanks.iter().flat_map(|tanks| tanks.iter());
-    parts_fit(root, ("tanks", "propellant_kg"), tanks.map(|tank| Some(tank.propellant_kg.0)), whole_kg);
+    let tanks = tanks.map(|tank| Some(tank.propellant_kg.0)).collect();
+    let kinds: [(_, _, Vec<_>); 2] = [("panels", "mass_kg", panels), ("tanks", "propellant_kg", tanks)];
+    for (kind, key, masses_kg) in kinds {
+        let mut sum_kg = 0.0;
+        for (at, mass_kg) in root.key(kind).items(&masses_kg) {
+            sum_kg += mass_kg.unwrap_or(0.0);
+            if let Some(mass_kg) = mass_kg.filter(|_| sum_kg >= whole_kg) {
+                let found = format!("{mass_kg}, with the {kind} before it {sum_kg}");
+                let allowed =
+                    format!("less than mass_properties.mass_kg = {whole_kg}, of which it is a part");
+                at.key(key).report(found, allowed);
+                break;
+            }
+        }
+    }
 }
 
 /// The plates that the file lists, then those of its shapes; none beyond the most that a spacecraft may have.
@@ -257,12 +270,9 @@ fn shaped<'p, D: Table + Named>(
     (key, items): (&str, Option<&[D]>),
     plates: impl Fn(&PartReader<'_>, &D) -> Vec<Plate>,
 ) {
-    let mut count = surfaces(found);
     file.list(key, items, |part, item| {
-        if count <= MOST_SURFACES {
-            let made = plates(part, item);
-            count += made.len();
-            found.push((part.at.clone(), made));
+        if surfaces(found) <= MOST_SURFACES {
+            found.push((part.at.clone(), plates(part, item)));
         }
     });
 }

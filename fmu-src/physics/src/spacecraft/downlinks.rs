@@ -52,10 +52,8 @@ impl TimeAfterPeriapsis {
 
     /// The share; `None` where it is no share.
     pub fn period_share(self) -> Option<f64> {
-        match self {
-            Self::Seconds(_) => None,
-            Self::PeriodShare(share) => Some(share),
-        }
+        let Self::PeriodShare(share) = self else { return None };
+        Some(share)
     }
 }
 
@@ -125,11 +123,8 @@ pub(super) fn downlinks(
         read.unwrap_or(TimeAfterPeriapsis::Seconds(0.0))
     };
     let (begin, end) = (time("start", &description.start), time("stop", &description.stop));
-    let is_backwards = match (begin, end) {
-        (TimeAfterPeriapsis::Seconds(begin), TimeAfterPeriapsis::Seconds(end))
-        | (TimeAfterPeriapsis::PeriodShare(begin), TimeAfterPeriapsis::PeriodShare(end)) => end <= begin,
-        _ => false,
-    };
+    let are_alike = begin.period_share().is_some() == end.period_share().is_some();
+    let is_backwards = are_alike && end.in_orbit_s(1.0) <= begin.in_orbit_s(1.0);
     if is_backwards && !part.key("start").has_reported() && !part.key("stop").has_reported() {
         part.key("stop").report(description.stop.found(), "a time after the start");
     }

@@ -63,11 +63,10 @@ fn gimbal(
 
 /// At most one instrument has a gimbal.
 pub(super) fn check_gimbals(at: &Place<'_>, instruments: &[Instrument]) {
-    let mut with_gimbal =
-        instruments.iter().enumerate().filter(|(_, instrument)| instrument.gimbal.is_some());
+    let mut with_gimbal = at.items(instruments).filter(|(_, instrument)| instrument.gimbal.is_some());
     let Some((_, first)) = with_gimbal.next() else { return };
-    for (index, _) in with_gimbal {
+    for (at, _) in with_gimbal {
         let found = format!("a gimbal beside that of `{}`", first.name);
-        at.item(index).key("gimbal").report(found, "one instrument with a gimbal");
+        at.key("gimbal").report(found, "one instrument with a gimbal");
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::part_reader::PartReader;
-use crate::toml::{Place, Point, Positive, Written, tables};
+use crate::toml::{Point, Positive, Written, tables};
 
 tables! {
 /// Mass properties of the whole spacecraft.
@@ -104,27 +104,6 @@ pub(super) fn mass(part: &PartReader<'_>, description: &MassDescription) -> Mass
         inertia_body_kg_m2: inertia_kg_m2(part, description.inertia_kg_m2),
         mass_kg: description.mass_kg.0,
         center_of_mass_body_m: description.center_of_mass_m.value(),
-    }
-}
-
-/// Parts of one kind, each with its mass if it has one, are a part of the spacecraft's mass.
-pub(super) fn parts_fit(
-    root: &Place<'_>,
-    (kind, key): (&str, &str),
-    masses_kg: impl Iterator<Item = Option<f64>>,
-    whole_kg: f64,
-) {
-    let mut sum_kg = 0.0;
-    for (index, mass_kg) in masses_kg.enumerate() {
-        let Some(mass_kg) = mass_kg else { continue };
-        sum_kg += mass_kg;
-        if sum_kg >= whole_kg {
-            let at = root.key(kind).item(index).key(key);
-            let found = format!("{mass_kg}, with the {kind} before it {sum_kg}");
-            let allowed = format!("less than mass_properties.mass_kg = {whole_kg}, of which it is a part");
-            at.report(found, allowed);
-            return;
-        }
     }
 }
 

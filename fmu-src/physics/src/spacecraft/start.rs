@@ -85,8 +85,7 @@ fn value(at: &Place<'_>, item: &Item) -> Option<StartValue> {
     match item {
         Item::Value(value) => Some(value.clone()),
         Item::List(items) => {
-            let items = items.iter().enumerate();
-            let values: Vec<_> = items.map(|(i, item)| value(&at.item(i), item)).collect();
+            let values: Vec<_> = at.items(items).map(|(at, item)| value(&at, item)).collect();
             values.into_iter().collect::<Option<_>>().map(StartValue::List)
         }
         Item::Table(_) => {

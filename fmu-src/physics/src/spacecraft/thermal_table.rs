@@ -55,13 +55,9 @@ pub(super) fn thermal(
     part.rules(ThermalDescription::RULES);
     let description = description.unwrap_or(&nothing);
     if !has_rear {
-        let needs_rear = [
-            ("conduction", description.conduction.is_some()),
-            ("rear_internal_heat_w", description.rear_internal_heat_w.is_some()),
-            ("rear_bus_conductance_w_m2_k", description.rear_bus_conductance_w_m2_k.is_some()),
-        ];
-        for (key, _) in needs_rear.into_iter().filter(|(_, given)| *given) {
-            part.key(key).report("a surface without `rear_optics`", "a surface with both faces");
+        let needs_rear = ["conduction", "rear_internal_heat_w", "rear_bus_conductance_w_m2_k"];
+        for at in needs_rear.map(|key| part.key(key)).iter().filter(|at| at.is_written()) {
+            at.report("a surface without `rear_optics`", "a surface with both faces");
         }
     }
     let bus = bus(&mut part, description);

@@ -220,9 +220,7 @@ pub(super) fn thruster_sets(
     thrusters: Option<&[ThrusterDescription]>,
 ) -> Vec<String> {
     let mut sets: Vec<String> = Vec::new();
-    let place = root.key("sets");
-    for (index, name) in listed.unwrap_or_default().iter().enumerate() {
-        let at = place.item(index);
+    for (at, name) in root.key("sets").items(listed.unwrap_or_default()) {
         check_item_name(&at, name);
         if sets.contains(name) {
             at.report(format_args!("`{name}` once more"), "each set once");
@@ -230,10 +228,9 @@ pub(super) fn thruster_sets(
             sets.push(name.clone());
         }
     }
-    let place = root.key("thrusters");
-    for (index, thruster) in thrusters.unwrap_or_default().iter().enumerate() {
+    for (at, thruster) in root.key("thrusters").items(thrusters.unwrap_or_default()) {
         let Some(name) = thruster.set.as_ref().filter(|name| !sets.contains(name)) else { continue };
-        check_item_name(&place.item(index).key("set"), name);
+        check_item_name(&at.key("set"), name);
         sets.push(name.clone());
     }
     sets

@@ -27,7 +27,7 @@ pub use key_path::KeyPath;
 pub use limits::{
     LIMITS, MOST_ANTENNAS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES, MOST_THRUSTERS, TIMELINE_LIMITS,
 };
-pub(crate) use numbers::{rounded, with_unit};
+pub(crate) use numbers::{in_units, rounded, with_unit};
 pub use place::Place;
 pub use ranges::{
     AtLeastOne, BodyRadius, CellTemperature, Copies, Corners, Deviation, Distance, Eccentricity, Emissivity,

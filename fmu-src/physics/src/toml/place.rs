@@ -40,6 +40,11 @@ impl<'c> Place<'c> {
         Self { path: self.path.item(index), ..*self }
     }
 
+    /// The items of the list at this place, each with its own.
+    pub fn items<'i, T>(&self, list: &'i [T]) -> impl Iterator<Item = (Self, &'i T)> {
+        list.iter().enumerate().map(|(index, item)| (self.item(index), item))
+    }
+
     /// Keys and items that lead here.
     pub fn path(&self) -> &KeyPath {
         &self.path

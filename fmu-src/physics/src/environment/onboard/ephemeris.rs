@@ -57,15 +57,11 @@ impl OnboardEphemeris {
             root.report("no body", "at least one [[body]] or [[coarse]]");
         }
         let mut found = Self { source: description.source.clone(), ..Self::default() };
-        for (index, body) in bodies.iter().enumerate() {
-            let at = root.key("body").item(index);
+        for (at, body) in root.key("body").items(bodies) {
             let is_new = found.precise.iter().all(|other| other.target != body.body);
-            check_target(&at, body.body, body.center, is_new);
-            if is_new
-                && body.body != OnboardTarget::from(body.center)
-                && found.leads_to(body.center.into(), body.body)
-            {
-                let center = OnboardTarget::from(body.center);
+            let center = OnboardTarget::from(body.center);
+            check_target(&at, body.body, center, is_new);
+            if is_new && body.body != center && found.leads_to(center, body.body) {
                 let text = format!("{center}, whose own position counts from {}", body.body);
                 at.key("center").report(text, "a body that does not count from this one");
             }
@@ -74,13 +70,12 @@ impl OnboardEphemeris {
                 found.precise.push(FittedBody { target: body.body, center: body.center, motion, error });
             }
         }
-        for (index, body) in coarse_bodies.iter().enumerate() {
-            let at = root.key("coarse").item(index);
+        for (at, body) in root.key("coarse").items(coarse_bodies) {
             let is_new = found.coarse.iter().all(|other| other.target != body.body);
-            check_target(&at, body.body, body.center, is_new);
+            let center = OnboardTarget::from(body.center);
+            check_target(&at, body.body, center, is_new);
             let is_planet = body.body != OnboardTarget::Spacecraft;
-            if is_planet && body.center != Body::Sun && body.body != OnboardTarget::from(body.center) {
-                let center = OnboardTarget::from(body.center);
+            if is_planet && body.center != Body::Sun && body.body != center {
                 at.key("center").report(center, "sun, which planets move about");
             }
             if body.center == Body::Custom {
@@ -192,8 +187,8 @@ impl OnboardEphemeris {
 }
 
 /// A target that is not its own centre and stands here for the first time.
-fn check_target(at: &Place<'_>, target: OnboardTarget, center: Body, is_new: bool) {
-    if target == OnboardTarget::from(center) {
+fn check_target(at: &Place<'_>, target: OnboardTarget, center: OnboardTarget, is_new: bool) {
+    if target == center {
         at.key("center").report_across(target, "another body than the one that is placed");
     }
     if !is_new {
@@ -220,12 +215,8 @@ fn table(at: &Place<'_>, body: &BodyDescription) -> Option<SegmentTable> {
         let allowed = format!("a degree from 0 to {GREATEST_DEGREE}");
         at.key("degree").report(body.degree, allowed);
     }
-    let segments: Vec<EphemerisSegment> = body
-        .segment
-        .iter()
-        .enumerate()
-        .map(|(index, described)| segment(&place.item(index), described, degree))
-        .collect();
+    let segments = place.items(&body.segment).map(|(at, described)| segment(&at, described, degree));
+    let segments: Vec<EphemerisSegment> = segments.collect();
     for (index, pair) in segments.windows(2).enumerate() {
         let (end_s, start_s) = (pair[0].end_s, pair[1].start_s);
         if end_s != start_s {

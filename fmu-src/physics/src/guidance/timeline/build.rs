@@ -10,7 +10,7 @@ use super::entry::{
     Slot, TimelineClock, TimelineEntry, TimelineEvent, TimelinePanels, begun, simulation_time_s,
 };
 use super::events::event;
-use super::panels::panels;
+use super::panels::panels as panels_from;
 use super::scans::scan;
 use super::times::Times;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
@@ -68,8 +68,7 @@ impl Timeline {
         let clock = times.clock();
         let mut entries = Vec::with_capacity(list.len());
         let mut names = Vec::with_capacity(list.len());
-        for (index, (description, [at_s, until_s])) in list.iter().zip(spans.iter().copied()).enumerate() {
-            let at = place.item(index);
+        for (index, ((at, description), &[at_s, until_s])) in place.items(list).zip(&spans).enumerate() {
             let command = commands.pointing(&at, description);
             names.push(name(&at, description));
             let next_s = spans.iter().skip(index + 1).find_map(|[next_s, _]| *next_s);
@@ -91,18 +90,10 @@ impl Timeline {
                 status: description.status.unwrap_or_default(),
             });
         }
-        let panels = panels_list
-            .iter()
-            .zip(panel_times)
-            .enumerate()
-            .map(|(index, (given, at_s))| panels(&panels_place.item(index), given, at_s, &spacecraft.panels))
-            .collect();
-        let events = events_list
-            .iter()
-            .zip(event_times)
-            .enumerate()
-            .map(|(index, (given, at_s))| event(spacecraft, &events_place.item(index), given, at_s))
-            .collect();
+        let panels = panels_place.items(panels_list).zip(panel_times);
+        let panels = panels.map(|((at, given), at_s)| panels_from(&at, given, at_s, &spacecraft.panels));
+        let (panels, events) = (panels.collect(), events_place.items(events_list).zip(event_times));
+        let events = events.map(|((at, given), at_s)| event(spacecraft, &at, given, at_s)).collect();
         check.finish(Self { clock, entries, names, panels, events })
     }
 

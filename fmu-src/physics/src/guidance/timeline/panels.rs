@@ -26,8 +26,7 @@ pub(super) fn panels(
                 let allowed = format!("one angle, or one for each of the spacecraft's {count} panels");
                 place.report(found, allowed);
             }
-            let each = angles.iter().enumerate();
-            each.map(|(index, angle)| angle.read(&place.item(index), &HALF_TURN)).collect()
+            place.items(angles).map(|(at, angle)| angle.read(&at, &HALF_TURN)).collect()
         }
     };
     let windmill_place = at.key("windmill");

@@ -58,10 +58,8 @@ fn check_motions(at: &Place<'_>, given: &ScanDescription, scan: &ScanCommand) {
             at.key("segments").item(axis).report(segments, allowed);
         }
     }
-    let rates =
-        [("rate", given.rate.is_some(), scan.rate_rad_s), ("speed", given.speed.is_some(), scan.speed_m_s)];
-    for (key, _, rates) in rates.into_iter().filter(|(_, is_given, _)| *is_given) {
-        if at.key(key).has_reported() {
+    for (key, rates) in [("rate", scan.rate_rad_s), ("speed", scan.speed_m_s)] {
+        if !at.key(key).is_written() || at.key(key).has_reported() {
             continue;
         }
         if rates == [0.0; 3] {

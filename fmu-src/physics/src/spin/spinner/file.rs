@@ -169,9 +169,9 @@ fn thrusters(list: &Place<'_>, entries: &[ThrusterEntry], exhaust_m_s: f64) -> V
         list.report("an empty list", format_args!("1 to {MOST_THRUSTERS} of them"));
     }
     let mut thrusters: Vec<Thruster> = Vec::with_capacity(entries.len());
-    for (i, entry) in entries.iter().enumerate() {
+    for (at, entry) in list.items(entries) {
         let other = thrusters.iter().position(|thruster| thruster.name == entry.name);
-        own_name(&list.item(i), &entry.name, other.map(|other| list.item(other)));
+        own_name(&at, &entry.name, other.map(|other| list.item(other)));
         // Not the unit vector: scaled once, the force has the bits that GUIDs were made of.
         let direction = Vector3::from(entry.direction.0);
         let force_body_n = direction * (entry.force_n.0 / direction.norm());
@@ -204,8 +204,8 @@ fn groups(root: &Place<'_>, entries: &[GroupEntry], thrusters: &[Thruster]) -> V
     let names: Vec<&str> = entries.iter().map(|entry| entry.name.as_str()).collect();
     let thruster_names: Vec<&str> = thrusters.iter().map(|thruster| thruster.name.as_str()).collect();
     let mut groups = Vec::with_capacity(entries.len());
-    for (i, entry) in entries.iter().enumerate() {
-        let (at, name) = (list.item(i), entry.name.as_str());
+    for (i, (at, entry)) in list.items(entries).enumerate() {
+        let name = entry.name.as_str();
         let group = names.iter().take(i).position(|other| *other == name).map(|other| list.item(other));
         let thruster = thruster_names.iter().position(|other| *other == name);
         own_name(&at, name, group.or(thruster.map(|other| thruster_list.item(other))));
@@ -214,8 +214,8 @@ fn groups(root: &Place<'_>, entries: &[GroupEntry], thrusters: &[Thruster]) -> V
             place.report("an empty list", "at least one name of a thruster");
         }
         let mut mask = 0_u32;
-        for (k, name) in entry.thrusters.iter().enumerate() {
-            let known = known(&thruster_list, &place.item(k), name, &thruster_names);
+        for (at, name) in place.items(&entry.thrusters) {
+            let known = known(&thruster_list, &at, name, &thruster_names);
             mask |= known.filter(|k| *k < MOST_THRUSTERS).map_or(0, |k| 1 << k);
         }
         let opposite = entry.opposite.as_deref();
