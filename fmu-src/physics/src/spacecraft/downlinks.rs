@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::part_reader::PartReader;
 use super::start::StartEntry;
 use crate::constants::TIME_UNITS;
-use crate::toml::{Orbits, tables, type_schema, with_unit};
+use crate::toml::{Orbits, in_units, tables, type_schema, with_unit};
 
 tables! {
 /// When an antenna looks at the Earth, counted from periapsis; left out, there are no downlinks. The start values of
@@ -78,14 +78,13 @@ pub(crate) enum WrittenTime {
 impl WrittenTime {
     /// The time; `None` where this is none.
     pub(crate) fn read(&self) -> Option<TimeAfterPeriapsis> {
-        let (number, unit) = match self {
-            Self::Number(number) => return in_range(TimeAfterPeriapsis::Seconds(*number)),
-            Self::Text(text) => with_unit(text)?,
+        in_range(match self {
+            Self::Number(number) => TimeAfterPeriapsis::Seconds(*number),
+            Self::Text(text) => match with_unit(text)? {
+                (number, "%") => TimeAfterPeriapsis::PeriodShare(number / 100.0),
+                _ => TimeAfterPeriapsis::Seconds(in_units(text, &TIME_UNITS)?),
+            },
             Self::Other(_) => return None,
-        };
-        in_range(match unit {
-            "%" => TimeAfterPeriapsis::PeriodShare(number / 100.0),
-            _ => TimeAfterPeriapsis::Seconds(number * TIME_UNITS.iter().find(|(name, _)| *name == unit)?.1),
         })
     }
 

@@ -69,7 +69,7 @@ pub use panel_mass::{hinged_masses, with_panels};
 pub use planet_map::{PlanetCell, PlanetMap};
 pub use pointing::{
     AlignedAxes, AttitudeName, AttitudePart, AttitudeRefusal, NamedAttitude, PointingSettings,
-    PointingTarget, TargetItem, TargetedAxis, panels_need_yaw_steering,
+    PointingTarget, StarDirection, TargetItem, TargetedAxis, panels_need_yaw_steering,
 };
 pub(crate) use pointing_table::{StarDescription, TargetedAxisDescription, aligned, axes};
 pub use polygon::Polygon;

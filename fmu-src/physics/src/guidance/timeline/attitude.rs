@@ -83,7 +83,7 @@ mod tests {
 
     use super::*;
     use crate::guidance::timeline::Timeline;
-    use crate::spacecraft::{AlignedAxes, MESSENGER_TOML, PointingTarget, Spacecraft, TargetedAxis};
+    use crate::spacecraft::{AlignedAxes, MESSENGER_TOML, Spacecraft, TargetItem, TargetedAxis};
 
     #[test]
     fn attitudes_are_commands_by_two_axes() {
@@ -94,13 +94,10 @@ mod tests {
         };
         assert_eq!(command("\"lvlh\""), aligned_command(&AlignedAxes::LVLH));
         let toward = |axis_body, target| TargetedAxis { axis_body, target };
-        let star = PointingTarget::Star {
-            right_ascension_rad: 10_f64.to_radians(),
-            declination_rad: -20_f64.to_radians(),
-        };
+        let star = TargetItem::Star.target([10_f64, -20_f64].map(f64::to_radians));
         let axes = AlignedAxes {
             align: toward(Vector3::new(0.0, 0.0, 2.0), star),
-            constrain: toward(-Vector3::y(), PointingTarget::Sun),
+            constrain: toward(-Vector3::y(), TargetItem::Sun.target([0.0; 2])),
         };
         let written = "{ align = { axis = [0, 0, 2], to = \"star\" }, constrain = { axis = [0, -1, 0], to = \"sun\" }, \
                        star = { right_ascension_deg = 10, declination_deg = -20 } }";
