@@ -8,7 +8,7 @@ use physics::guidance::downlink::sun_direction::SunZone;
 use physics::guidance::pointing::command;
 use physics::spacecraft::{
     AlignedAxes, AttitudeName, AttitudePart, AttitudeRefusal, NamedAttitude, Panel, PointingSettings,
-    PointingTarget, Spacecraft, TargetItem, TargetedAxis, panels_need_yaw_steering,
+    Spacecraft, StarDirection, TargetItem, TargetedAxis, panels_need_yaw_steering,
 };
 
 use super::choices::{PointingTarget as TargetChoice, ScienceRule};
@@ -73,7 +73,7 @@ pub struct TargetedAxisVariables {
     #[parameter(unit = "1", start = setup.axis_body.into())]
     pub axis: RealVector<3>,
     /// The target; nadir is refused about the Sun.
-    #[parameter(start = TargetChoice(setup.target.item()))]
+    #[parameter(start = TargetChoice(setup.target.item))]
     pub target: Choice<TargetChoice>,
     /// Right ascension of a star.
     #[parameter(unit = "rad", display = "deg", min = command::BACK_TURN_RAD, max = command::FULL_TURN_RAD, start = star_rad(setup)[0])]
@@ -85,10 +85,8 @@ pub struct TargetedAxisVariables {
 
 /// Right ascension and declination of an axis's star, in rad; 0 without one.
 fn star_rad(axis: &TargetedAxis) -> [f64; 2] {
-    match axis.target {
-        PointingTarget::Star { right_ascension_rad, declination_rad } => {
-            [right_ascension_rad, declination_rad]
-        }
+    match axis.target.star {
+        Some(StarDirection::Angles(star_rad)) => star_rad,
         _ => [0.0; 2],
     }
 }
@@ -153,7 +151,7 @@ impl NamedAttitudeVariables {
             let (name, found) = match attitude {
                 NamedAttitude::Named(AttitudeName::Lvlh) => ("scienceRule", "lvlh"),
                 NamedAttitude::Named(AttitudeName::YawSteering) => ("scienceRule", "yawSteering"),
-                _ if align.target == PointingTarget::Nadir => ("align.target", TargetItem::Nadir.name()),
+                _ if align.target.item == TargetItem::Nadir => ("align.target", TargetItem::Nadir.name()),
                 _ => ("constrain.target", TargetItem::Nadir.name()),
             };
             return Err(Failure::new(format!(

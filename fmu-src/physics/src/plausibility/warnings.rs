@@ -237,7 +237,7 @@ pub fn defaults_at_their_bounds(spacecraft: &Spacecraft) -> Vec<String> {
 fn one_sided(surfaces: &[Surface], figures: &Figures, found: &mut Vec<String>) {
     let slack_m = BEHIND * extents_m(figures).norm();
     for (index, surface) in
-        surfaces.iter().enumerate().filter(|(_, surface)| surface.plate.rear_optics.is_none())
+        surfaces.iter().enumerate().filter(|(_, surface)| surface.plate.faces.rear_optics.is_none())
     {
         let Some(origin_m) = surface.corners_m.first() else { continue };
         let others = surfaces.iter().enumerate().filter(|(other, _)| *other != index);
@@ -279,7 +279,7 @@ fn rear_before(surfaces: &[Surface], index: usize) -> Option<&str> {
     };
     let before = first_along(own.plate.normal)?;
     let is_rear = before.plate.polygon.is_some()
-        && before.plate.rear_optics.is_none()
+        && before.plate.faces.rear_optics.is_none()
         && before.plate.normal.dot(&own.plate.normal) > 0.0;
     (is_rear && first_along(-own.plate.normal).is_none()).then_some(before.plate.name.as_str())
 }

@@ -7,8 +7,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{FileError, Problem};
+use super::key_path::{KeyPath, Part};
 use super::limits::{MOST_PROBLEMS, MOST_TEXT_BYTES};
-use super::place::{KeyPath, Part};
 use super::reader::{Findings, Reader, real, vector};
 
 /// A parsed text with its file name.

@@ -55,12 +55,6 @@ macro_rules! ranges {
                 pub const ALLOWED: &'static str = $allowed;
             }
 
-            impl From<$name> for $number {
-                fn from(value: $name) -> Self {
-                    value.0
-                }
-            }
-
             impl super::written::Written for $name {
                 type Value = $number;
 

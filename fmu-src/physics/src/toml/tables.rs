@@ -183,7 +183,7 @@ macro_rules! vectors {
 
 vectors! {
     /// Three finite numbers: a position or another vector.
-    Point([super::ranges::Finite; 3]) = |written| Vector3::from(written.map(f64::from)), "";
+    Point([super::ranges::Finite; 3]) = |written| Vector3::from(written.value()), "";
     /// Direction: refused when its length is off 1 by more than 1e-3, renormalised otherwise.
     UnitVector([f64; 3]) = |written| super::directions::unit(written).unwrap_or_else(Vector3::x), "unit vector";
 }
