@@ -170,26 +170,25 @@ functions! {
     /// Copies the values of Reals into `value`.
     GetReal fmi2GetReal(inner, references: *const u32, count: usize, values: *mut f64) {
         let values = slice_mut(values, count, "value")?;
-        inner.instance.get_real(slice(references, count, "vr")?, values)
+        inner.instance.get_real(slice(references, count, "vr")?, values, |_, stored| *stored)
     }
     /// Copies the values of Integers and Enumerations into `value`.
     GetInteger fmi2GetInteger(inner, references: *const u32, count: usize, values: *mut c_int) {
         let values = slice_mut(values, count, "value")?;
-        inner.instance.get_integer(slice(references, count, "vr")?, values)
+        inner.instance.get_integer(slice(references, count, "vr")?, values, |_, stored| *stored)
     }
     /// Copies the values of Booleans into `value`, 0 or 1.
     GetBoolean fmi2GetBoolean(inner, references: *const u32, count: usize, values: *mut c_int) {
         let values = slice_mut(values, count, "value")?;
-        inner.instance.get_boolean(slice(references, count, "vr")?, values)
+        inner.instance.get_boolean(slice(references, count, "vr")?, values, |_, stored| c_int::from(*stored))
     }
     /// Points the elements of `value` to texts in UTF-8. They are the instance's: each is valid until the same variable is read
     /// again with another value or the instance is freed.
     GetString fmi2GetString(inner, references: *const u32, count: usize, values: *mut *const c_char) {
         let values = slice_mut(values, count, "value")?;
         let strings = &mut inner.strings;
-        inner.instance.get_string(slice(references, count, "vr")?, |position, index, text| {
-            values[position] = strings.hold(index, text);
-        })
+        let references = slice(references, count, "vr")?;
+        inner.instance.get_string(references, values, |index, stored| strings.hold(index, stored))
     }
     /// Sets Reals: all of them, or none where one is refused.
     SetReal fmi2SetReal(inner, references: *const u32, count: usize, values: *const f64) {

@@ -83,16 +83,12 @@ impl Instance {
         let is_open = |at: &Real| !self.state.values.is_set(*at) && is_settable(at);
         let Some(at) = self.tolerance.filter(is_open) else { return };
         let default = self.start.real(at);
-        let limits = self
-            .access
-            .real_limits
-            .get(references::index(BaseType::Real, references::for_variable(at)))
-            .copied();
-        let (min, max) = limits.unwrap_or((f64::MIN, f64::MAX));
+        let reference = references::for_variable(at);
+        let (min, max) = self.access.limits_at(reference);
+        let name = self.access.any_name(reference).unwrap_or_default();
         // Not `clamp`, which panics where the limits are no range.
         let taken = tolerance.map_or(default, |tolerance| tolerance.max(min).min(max));
         if let Some(tolerance) = tolerance.filter(|tolerance| *tolerance != taken) {
-            let name = self.access.any_name(references::for_variable(at)).unwrap_or_default();
             self.logger.log(
                 Status::Warning,
                 format_args!(
@@ -102,7 +98,6 @@ impl Instance {
             );
         }
         if taken != default {
-            let name = self.access.any_name(references::for_variable(at)).unwrap_or_default();
             let message =
                 format!("{name} = {taken:?}, the tolerance of fmi2SetupExperiment, as it is not set");
             self.logger.event(self.state.time_s, &message);
