@@ -22,6 +22,7 @@ use model_description::functions::{
 use super::arguments::{flag, null, place, slice, slice_mut, text};
 use super::boundary::{self, ImporterLogger, call, saved, state_handle_of};
 use super::instance::Instance;
+use super::instance::state::Experiment;
 use super::problem::Problem;
 use crate::library::Library;
 use crate::logger::{Category, Logger};
@@ -147,8 +148,8 @@ functions! {
         inner, tolerance_defined: c_int, tolerance: f64, start_time: f64, stop_time_defined: c_int, stop_time: f64,
     ) {
         let tolerance = flag(tolerance_defined, "toleranceDefined")?.then_some(tolerance);
-        let stop_time = flag(stop_time_defined, "stopTimeDefined")?.then_some(stop_time);
-        inner.instance.setup_experiment(tolerance, start_time, stop_time)
+        let stop_s = flag(stop_time_defined, "stopTimeDefined")?.then_some(stop_time);
+        inner.instance.setup_experiment(Experiment { start_s: start_time, stop_s, tolerance })
     }
     /// Begins Initialization Mode at the start time.
     EnterInitializationMode fmi2EnterInitializationMode(inner) {

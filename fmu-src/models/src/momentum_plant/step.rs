@@ -1,7 +1,7 @@
 //! A flight of the model begins, steps, and waits for inputs that are not set yet.
 
 use fmi_export::{Failure, InputsOverTime, OutputGroups, Step, Values};
-use physics::plant::{NEVER_DUMPED_N_M_S, StepContext, Undo};
+use physics::plant::{NEVER_DUMPED_N_M_S, Undo};
 
 use super::inputs::{self, Reading, Reconfigured, guidance, plausibility, propulsion};
 use super::outputs;
@@ -84,19 +84,18 @@ impl<'a> Call<'_, 'a> {
             guidance::report_start(read, state, time_s);
         }
         report_dumps(context, state, time_s);
-        let (external, planner) = (reading.external(), reading.planner());
-        let log = |event: &_| log_event(context, event);
-        let given = StepContext { log: &log, ..reading.given(&external, &planner) };
-        state.saved.flight.begin(given, &state.saved.command, time_s).map_err(failure)?;
-        if let Some(estimate) = state.saved.flight.estimate_at(time_s) {
-            state.start_command(estimate.attitude, time_s)?;
-        }
-        let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
-        plausibility::report(read, flight, given, time_s);
-        let undo = flight.sample_at_start(given, &inputs.dynamics, time_s).map_err(failure)?;
-        let reached = flight.evaluate(given, &inputs.dynamics, command, time_s).map_err(failure)?;
-        outputs::check(flight, &reached, time_s)?;
-        Ok(undo)
+        reading.with(&|event| log_event(context, event), |given| {
+            state.saved.flight.begin(given, &state.saved.command, time_s).map_err(failure)?;
+            if let Some(estimate) = state.saved.flight.estimate_at(time_s) {
+                state.start_command(estimate.attitude, time_s)?;
+            }
+            let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
+            plausibility::report(read, flight, given, time_s);
+            let undo = flight.sample_at_start(given, &inputs.dynamics, time_s).map_err(failure)?;
+            let reached = flight.evaluate(given, &inputs.dynamics, command, time_s).map_err(failure)?;
+            outputs::check(flight, &reached, time_s)?;
+            Ok(undo)
+        })
     }
 
     /// The flight continues to the step's end.
@@ -112,19 +111,18 @@ impl<'a> Call<'_, 'a> {
         let (is_requested, maneuver) = inputs.maneuver;
         inputs.dynamics.maneuver = maneuver_request.rises(is_requested).then_some(maneuver);
         propulsion::drop_empty_maneuver(self.context, &mut inputs.dynamics, step.start_s);
-        let (external, planner) = (reading.external(), reading.planner());
-        let log = |event: &_| log_event(self.context, event);
-        let given = StepContext { log: &log, ..reading.given(&external, &planner) };
-        flight.advance(given, &inputs.dynamics, [step.start_s, step.end_s]).map_err(failure)
+        reading.with(&|event| log_event(self.context, event), |given| {
+            flight.advance(given, &inputs.dynamics, [step.start_s, step.end_s]).map_err(failure)
+        })
     }
 
     /// Evaluates the flight at `time_s`, where every output belongs to, and judges it; writes what follows from the configuration.
     fn evaluate(&mut self, reading: &Reading<'_>, time_s: f64) -> Result<(), Failure> {
         let Self { context, values, state } = self;
-        let (external, planner) = (reading.external(), reading.planner());
-        let given = reading.given(&external, &planner);
         let PlantState { saved: SavedState { flight, command, waiting, warned, .. }, inputs } = state;
-        let reached = flight.evaluate(given, &inputs.dynamics, command, time_s).map_err(failure)?;
+        let reached =
+            reading.with(&|_| {}, |given| flight.evaluate(given, &inputs.dynamics, command, time_s));
+        let reached = reached.map_err(failure)?;
         if !*waiting {
             outputs::check(flight, &reached, time_s)?;
         }

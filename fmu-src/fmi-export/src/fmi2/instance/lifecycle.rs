@@ -33,14 +33,9 @@ impl Instance {
     }
 
     /// `fmi2SetupExperiment`.
-    pub(crate) fn setup_experiment(
-        &mut self,
-        tolerance: Option<f64>,
-        start_s: f64,
-        stop_s: Option<f64>,
-    ) -> Result<(), Problem> {
+    pub(crate) fn setup_experiment(&mut self, experiment: Experiment) -> Result<(), Problem> {
+        let Experiment { start_s, stop_s, tolerance } = experiment;
         let usable = |tolerance: &f64| *tolerance > 0.0 && tolerance.is_finite();
-        let experiment = Experiment { start_s, stop_s, tolerance: tolerance.filter(usable) };
         if !experiment.is_valid() {
             return Err(match stop_s {
                 None => Problem::error(format_args!("the start time is {start_s:?} s, it must be finite")),
@@ -58,7 +53,7 @@ impl Instance {
                 ),
             );
         }
-        self.state.experiment = Some(experiment);
+        self.state.experiment = Some(Experiment { tolerance: tolerance.filter(usable), ..experiment });
         Ok(())
     }
 
