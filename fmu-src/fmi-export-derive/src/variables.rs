@@ -143,8 +143,8 @@ impl Expansion<'_> {
             FieldType::Integer => quote! { #scope.integer(#spec, #start, #min, #max) },
             FieldType::Boolean => quote! { #scope.boolean(#spec, #start) },
             FieldType::Choice => match &declared.items {
-                Some(items) => quote_spanned! { items.span()=> #scope.choice_with(#spec, #start, #items) },
-                None => quote! { #scope.choice(#spec, #start) },
+                Some(items) => quote_spanned! { items.span()=> #scope.choice(#spec, #start, #items) },
+                None => quote! { #scope.choice(#spec, #start, ::std::vec::Vec::new()) },
             },
             FieldType::Text => {
                 let start = option(declared.start.as_ref().map(borrowed).as_ref());
