@@ -54,6 +54,9 @@ enum ElementLocation {
     InitialUnknown(usize),
 }
 
+/// Least and greatest value.
+type Limits = (Option<f64>, Option<f64>);
+
 struct Check<'a> {
     description: &'a Description,
     lines: &'a Lines,
@@ -80,6 +83,13 @@ impl<'a> Check<'a> {
     }
 
     /// The element in words, and its line.
+    /// Reports what a rule does not allow.
+    fn require(&mut self, holds: bool, code: Code, place: ElementLocation, fault: impl FnOnce() -> String) {
+        if !holds {
+            self.add(code, place, fault());
+        }
+    }
+
     fn locate(&self, place: ElementLocation) -> (String, Option<&'a u32>) {
         let (all, lines) = (self.description, self.lines);
         let named = |what: &str, name: Option<&String>| format!("{what} `{}`", name.map_or("", |it| it));

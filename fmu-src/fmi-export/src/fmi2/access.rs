@@ -108,6 +108,12 @@ impl AccessTable {
         self.flags(base).get(references::index(base, reference)).copied()
     }
 
+    /// The least and the greatest value of the Real with a value reference.
+    pub(crate) fn limits_at(&self, reference: u32) -> (f64, f64) {
+        let limits = self.real_limits.get(references::index(BaseType::Real, reference));
+        limits.copied().unwrap_or((f64::MIN, f64::MAX))
+    }
+
     #[inline]
     pub(crate) fn admits_integer(&self, index: usize, value: i32) -> bool {
         let Some(&(min, max)) = self.integer_limits.get(index) else { return false };
@@ -202,8 +208,7 @@ impl AccessTable {
     #[cold]
     pub(crate) fn real_out_of_range(&self, reference: u32, value: f64) -> Problem {
         let name = self.named(BaseType::Real, reference);
-        let limits = self.real_limits.get(references::index(BaseType::Real, reference)).copied();
-        let allowed = match limits.unwrap_or((f64::MIN, f64::MAX)) {
+        let allowed = match self.limits_at(reference) {
             (f64::MIN, f64::MAX) => "any finite value".to_owned(),
             (min, f64::MAX) => format!("any finite value from {min:?} up"),
             (f64::MIN, max) => format!("any finite value up to {max:?}"),

@@ -165,17 +165,9 @@ impl Declare {
         Ok(Text(at))
     }
 
-    /// Declares an Enumeration; its values are in the Integer table.
+    /// Declares an Enumeration, whose values are in the Integer table; `further` are items of the setup behind those of `E`, which
+    /// makes variants of their values.
     pub fn choice<E: Enumeration>(
-        &mut self,
-        spec: &ScalarSpec<'_>,
-        start: Option<E>,
-    ) -> Result<Choice<E>, DeclareError> {
-        self.choice_with(spec, start, Vec::new())
-    }
-
-    /// The same with items of the setup behind those of `E`, which makes variants of their values.
-    pub fn choice_with<E: Enumeration>(
         &mut self,
         spec: &ScalarSpec<'_>,
         start: Option<E>,

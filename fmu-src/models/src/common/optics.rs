@@ -110,23 +110,17 @@ const NUMBERS: [Number; 9] = [
 
 impl Variables<SettableMaterials> for OpticsVariables {
     fn declare(scope: &mut Declare, setup: &SettableMaterials, _index: usize) -> Result<Self, DeclareError> {
-        let declared = setup
-            .all
-            .iter()
-            .map(|named| scope.group(&named.name, |scope| MaterialVariables::declare(scope, setup, named)));
+        let declared =
+            setup.all.iter().map(|named| scope.group(&named.name, |scope| setup.declare(scope, named)));
         declared.collect::<Result<_, _>>().map(Self)
     }
 }
 
-impl MaterialVariables {
-    fn declare(
-        scope: &mut Declare,
-        setup: &SettableMaterials,
-        named: &NamedMaterial,
-    ) -> Result<Self, DeclareError> {
+impl SettableMaterials {
+    fn declare(&self, scope: &mut Declare, named: &NamedMaterial) -> Result<MaterialVariables, DeclareError> {
         let values = named.values();
         let role = Role { causality: Causality::Parameter, variability: Variability::Tunable, initial: None };
-        let count = match (setup.heat, setup.air) {
+        let count = match (self.heat, self.air) {
             (false, _) => LIGHT,
             (true, false) => LIGHT_AND_HEAT,
             (true, true) => NUMBERS.len(),
@@ -137,9 +131,11 @@ impl MaterialVariables {
             let spec = RealSpec { name, description, role, unit, display_unit, min, max, nominal };
             scope.real(&spec, Some(start(&values)))
         });
-        declared.collect::<Result<_, _>>().map(Self)
+        declared.collect::<Result<_, _>>().map(MaterialVariables)
     }
+}
 
+impl MaterialVariables {
     /// Mirrored and scattered fraction.
     fn light(&self) -> [Real; LIGHT] {
         [self.0[0], self.0[1]]

@@ -6,6 +6,7 @@ use physics::environment::orientation::Orientation;
 
 use super::center::CenterBody;
 use super::choices::PlanetOrientation;
+use super::numbers::Number;
 
 /// Pole and rotation of a planet.
 #[derive(Variables)]
@@ -27,6 +28,18 @@ pub struct RotationVariables {
     /// here; other planets rotate uniformly.
     #[parameter(start = PlanetOrientation::for_body(setup.data.body))]
     pub orientation: Choice<PlanetOrientation>,
+}
+
+impl RotationVariables {
+    /// The parameters that are numbers of a body.
+    pub(crate) fn numbers(&self) -> [Number<BodyData>; 4] {
+        [
+            (self.pole_right_ascension, |it| &mut it.pole_right_ascension_rad),
+            (self.pole_declination, |it| &mut it.pole_declination_rad),
+            (self.prime_meridian, |it| &mut it.prime_meridian_rad),
+            (self.rotation_rate, |it| &mut it.rotation_rate_rad_s),
+        ]
+    }
 }
 
 impl PlanetOrientation {

@@ -18,6 +18,7 @@ use physics::environment::time;
 use crate::common::downlink::TIMELINE_FILE;
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
 use crate::common::start_values::{entry_of, item, of_spacecraft};
+use inputs::wheels;
 pub use setup::{MomentumPlant, PlantSetup};
 use setup::{Plan, Read};
 use state::PlantState;
@@ -95,7 +96,8 @@ impl Model for MomentumPlant {
         let read = Read::new(context, values);
         inputs::check_effects(read, start_s)?;
         let mut state = inputs::start(read, start_s)?;
-        outputs::write_guaranteed(context, values);
+        let guaranteed_n_m_s = wheels::guaranteed_threshold_n_m_s(read);
+        values.set_real(context.variables.dump.guaranteed_threshold, guaranteed_n_m_s);
         Call { context, values, state: &mut state }.start(start_s)?;
         Ok(state)
     }

@@ -2,7 +2,7 @@
 
 use fmi_export::{Failure, InputsOverTime, OutputGroups, Step, Values};
 use physics::numerics::Span;
-use physics::plant::{NEVER_DUMPED_N_M_S, StepContext, Undo};
+use physics::plant::{NEVER_DUMPED_N_M_S, Undo};
 
 use super::inputs::{self, Reading, Reconfigured, guidance, plausibility, propulsion};
 use super::outputs;
@@ -85,20 +85,21 @@ impl<'a> Call<'_, 'a> {
             guidance::report_start(read, state, time_s);
         }
         report_dumps(context, state, time_s);
-        let (external, planner) = (reading.external(), reading.planner());
         let log = |event: &_| log_event(context, event);
-        let given = StepContext { log: &log, ..reading.given(&external, &planner, &state.inputs.dynamics) };
-        state.saved.flight.begin(given, &state.saved.command, time_s).map_err(failure)?;
+        reading.with(&state.inputs.dynamics, &log, |given| {
+            state.saved.flight.begin(given, &state.saved.command, time_s).map_err(failure)
+        })?;
         if let Some(estimate) = state.saved.flight.estimate_at(time_s) {
             state.start_command(estimate.attitude, time_s)?;
         }
         let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
-        let given = StepContext { log: &log, ..reading.given(&external, &planner, &inputs.dynamics) };
-        plausibility::report(read, flight, given, time_s);
-        let undo = flight.sample_at_start(given, time_s).map_err(failure)?;
-        let reached = flight.evaluate(given, command, true, time_s).map_err(failure)?;
-        outputs::check(flight, &reached, time_s)?;
-        Ok(undo)
+        reading.with(&inputs.dynamics, &log, |given| {
+            plausibility::report(read, flight, given, time_s);
+            let undo = flight.sample_at_start(given, time_s).map_err(failure)?;
+            let reached = flight.evaluate(given, command, true, time_s).map_err(failure)?;
+            outputs::check(flight, &reached, time_s)?;
+            Ok(undo)
+        })
     }
 
     /// The flight continues to the step's end.
@@ -114,20 +115,19 @@ impl<'a> Call<'_, 'a> {
         let (is_requested, maneuver) = inputs.maneuver;
         inputs.dynamics.maneuver = maneuver_request.rises(is_requested).then_some(maneuver);
         propulsion::drop_empty_maneuver(self.context, &mut inputs.dynamics, step.start_s);
-        let (external, planner) = (reading.external(), reading.planner());
-        let log = |event: &_| log_event(self.context, event);
-        let given = StepContext { log: &log, ..reading.given(&external, &planner, &inputs.dynamics) };
-        flight.advance(given, Span::new(step.start_s, step.end_s)).map_err(failure)
+        reading.with(&inputs.dynamics, &|event| log_event(self.context, event), |given| {
+            flight.advance(given, Span::new(step.start_s, step.end_s)).map_err(failure)
+        })
     }
 
     /// Evaluates the flight at `time_s`, where every output belongs to, and judges it; writes what follows from the configuration.
     fn evaluate(&mut self, reading: &Reading<'_>, time_s: f64) -> Result<(), Failure> {
         let Self { context, values, state } = self;
-        let (external, planner) = (reading.external(), reading.planner());
         let PlantState { saved: SavedState { flight, command, waiting, warned, .. }, inputs } = state;
-        let given = reading.given(&external, &planner, &inputs.dynamics);
         let with_loads = warned.watch.looks_at_forces(flight.configuration(), time_s);
-        let reached = flight.evaluate(given, command, with_loads, time_s).map_err(failure)?;
+        let reached = reading.with(&inputs.dynamics, &|_| {}, |given| {
+            flight.evaluate(given, command, with_loads, time_s).map_err(failure)
+        })?;
         if !*waiting {
             outputs::check(flight, &reached, time_s)?;
         }

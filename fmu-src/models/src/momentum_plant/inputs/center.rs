@@ -8,7 +8,8 @@ use physics::enumeration::Enumerated;
 use physics::environment::frames::Frame;
 use physics::environment::orbit::Elements as KeplerElements;
 
-use crate::common::numbers::Numbers;
+use crate::common::ellipse::kepler_elements;
+use crate::common::numbers::{Number, Numbers};
 use crate::momentum_plant::setup::Read;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::choices::OrbitFrame;
@@ -33,29 +34,21 @@ pub(super) struct Center {
 /// Elements of the orbit.
 fn elements(variables: &PlantVariables) -> Numbers<KeplerElements, 6> {
     let orbit = &variables.orbit;
-    Numbers([
-        (orbit.semi_major_axis, |it| &mut it.semi_major_axis_m),
-        (orbit.eccentricity, |it| &mut it.eccentricity),
-        (orbit.inclination, |it| &mut it.inclination_rad),
-        (orbit.ascending_node, |it| &mut it.ascending_node_rad),
-        (orbit.periapsis_argument, |it| &mut it.periapsis_argument_rad),
-        (orbit.true_anomaly, |it| &mut it.true_anomaly_rad),
-    ])
+    let shape = [orbit.semi_major_axis, orbit.eccentricity, orbit.inclination];
+    kepler_elements(shape, [orbit.ascending_node, orbit.periapsis_argument, orbit.true_anomaly])
 }
 
 /// Gravity, figure, pole and rotation.
 fn planet(variables: &PlantVariables) -> Numbers<BodyData, 8> {
-    let (planet, rotation) = (&variables.planet, &variables.planet.rotation);
-    Numbers([
+    let planet = &variables.planet;
+    let figure: [Number<BodyData>; 4] = [
         (planet.gravitational_parameter, |it| &mut it.gm_m3_s2),
         (planet.radius, |it| &mut it.radius_m),
         (planet.j2, |it| &mut it.j2),
         (planet.j2_radius, |it| &mut it.j2_radius_m),
-        (rotation.pole_right_ascension, |it| &mut it.pole_right_ascension_rad),
-        (rotation.pole_declination, |it| &mut it.pole_declination_rad),
-        (rotation.prime_meridian, |it| &mut it.prime_meridian_rad),
-        (rotation.rotation_rate, |it| &mut it.rotation_rate_rad_s),
-    ])
+    ];
+    let ([a, b, c, d], [e, f, g, h]) = (figure, planet.rotation.numbers());
+    Numbers([a, b, c, d, e, f, g, h])
 }
 
 /// The exponential model of the air.

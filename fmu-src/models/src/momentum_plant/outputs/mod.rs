@@ -16,8 +16,7 @@ use physics::radiation::{SolarModel, TorquePolynomial, polynomial_valid};
 use physics::spacecraft::light_suns;
 
 use self::messages::failure;
-use super::inputs::wheels;
-use super::setup::{Plan, Read};
+use super::setup::Plan;
 use super::state::{PlantState, SavedState};
 use super::variables::PlantVariables;
 use crate::common::choices::OrbitCenter;
@@ -179,13 +178,8 @@ fn write_orbit(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     encounter::write_prediction(&variables.prediction, values, report);
 }
 
+/// Angles of the panels, and the light on their cells; thrusters and tanks.
 fn write_panels_and_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
-    write_panels(context, values, report);
-    write_thrusters(context, values, report);
-}
-
-/// Angles of the panels, and the light on their cells.
-fn write_panels(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let Report { time_s, configuration, evaluation, .. } = report;
     let (variables, time_s) = (context.variables, *time_s);
     let panels = context.setup.spacecraft.panels.iter().zip(&configuration.panels);
@@ -205,6 +199,7 @@ fn write_panels(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
         values.set_real(panel.suns, suns.unwrap_or(0.0));
         values.set_real(panel.corridor_margin, suns.map_or(0.0, |suns| corridor.margin_suns(suns)));
     }
+    write_thrusters(context, values, report);
 }
 
 /// Place over the planet, air and magnetic field.
@@ -366,12 +361,6 @@ pub(super) fn write_polynomial(context: &Plan<'_>, values: &mut Values, flight: 
                 .ok()
         });
     values.set_matrix(context.variables.sunshade.coefficient, polynomial.map_or([[0.0; 9]; 3], |p| p.k));
-}
-
-/// Writes the dump threshold that the wheels guarantee, which follows from parameters alone.
-pub(super) fn write_guaranteed(context: &Plan<'_>, values: &mut Values) {
-    let guaranteed_n_m_s = wheels::guaranteed_threshold_n_m_s(Read::new(context, values));
-    values.set_real(context.variables.dump.guaranteed_threshold, guaranteed_n_m_s);
 }
 
 /// Refuses a flight inside the planet or the Sun, or without position.

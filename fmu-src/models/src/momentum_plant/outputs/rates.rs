@@ -8,7 +8,7 @@ use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::state::PlantState;
 
 /// First time derivative of an output, from the rates at the same time; `None` of outputs that are not integrated.
-pub(in crate::momentum_plant) fn derivative(
+pub(crate) fn derivative(
     context: &Plan<'_>,
     values: &Values,
     state: &PlantState,
