@@ -312,11 +312,11 @@ fn write_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>)
             surface_in_plume(&context.setup.spacecraft, thruster, angle).is_some()
         };
         values.set_real(variables.thrust, thrust_n);
-        values.set_integer(variables.pulses, i32::try_from(thrusters.valves().pulses(k)).unwrap_or(i32::MAX));
-        values.set_boolean(variables.too_short, thrusters.valves().was_too_short(k));
+        values.set_integer(variables.pulses, i32::try_from(thrusters.valves.pulses(k)).unwrap_or(i32::MAX));
+        values.set_boolean(variables.too_short, thrusters.valves.was_too_short(k));
         values.set_boolean(variables.plume, hits);
     }
-    values.set_boolean(v.thrust.active, thrusters.burning().is_some());
+    values.set_boolean(v.thrust.active, thrusters.valves.burning().is_some());
     let propellant = &thrusters.propellant;
     for (k, (tank, variables)) in report.reaction_control.tanks.iter().zip(&v.tank).enumerate() {
         let used_kg = propellant.used_kg(k, time_s);
@@ -356,7 +356,7 @@ pub(super) fn write_polynomial(context: &Plan<'_>, values: &mut Values, flight: 
         context.setup.spacecraft.sunshade.as_ref().zip(flight.context()).and_then(|(shade, flown)| {
             let (configuration, materials) =
                 (&flown.configuration, flown.models.solar.as_ref().map_or(&[][..], SolarModel::materials));
-            let center_of_mass_body_m = &configuration.center_of_mass_body_m;
+            let center_of_mass_body_m = &configuration.wet_mass.center_of_mass_body_m;
             TorquePolynomial::of_sunshade(shade, configuration.sunshade, materials, center_of_mass_body_m)
                 .ok()
         });

@@ -164,26 +164,23 @@ fn orbital_rate_rad_s(spacecraft: &CartesianState) -> f64 {
 /// largest force and torque of all effects there, and the field; a torque counts against the largest force at an arm of 1 cm at least.
 fn fit_error(active: Active, nodes: &[Evaluation; 2], ends: &[Evaluation; 2]) -> f64 {
     let (mut scale, mut most) = ([0.0_f64; 2], [0.0_f64; 2]);
-    let beyond = NODES[0] / (NODES[1] - NODES[0]);
+    // Distance at the ends, and the largest value.
+    let off_line = |[a, b, start, end]: [Vector3<f64>; 4]| {
+        let slope = (b - a) * (NODES[0] / (NODES[1] - NODES[0]));
+        [(start - (a - slope)).amax().max((end - (b + slope)).amax()), a.amax().max(b.amax())]
+    };
+    let evaluations = [&nodes[0], &nodes[1], &ends[0], &ends[1]];
     for effect in active.disturbances().filter(|effect| !effect.is_in_field()) {
-        let [a, b, start, end] = [&nodes[0], &nodes[1], &ends[0], &ends[1]].map(|it| it.loads[effect]);
-        let kinds = [
-            [a.force_body_n, b.force_body_n, start.force_body_n, end.force_body_n],
-            [a.torque_body_n_m, b.torque_body_n_m, start.torque_body_n_m, end.torque_body_n_m],
-        ];
-        for (kind, [a, b, start, end]) in kinds.into_iter().enumerate() {
-            let slope = (b - a) * beyond;
-            most[kind] = most[kind].max((start - (a - slope)).amax()).max((end - (b + slope)).amax());
-            scale[kind] = [a, b, start, end].iter().fold(scale[kind], |most, it| most.max(it.amax()));
+        let loads = evaluations.map(|it| it.loads[effect]);
+        let kinds = [loads.map(|it| it.force_body_n), loads.map(|it| it.torque_body_n_m)];
+        for (kind, values) in kinds.into_iter().enumerate() {
+            most[kind] = most[kind].max(off_line(values)[0]);
+            scale[kind] = values.iter().fold(scale[kind], |most, it| most.max(it.amax()));
         }
     }
     let [force_n, torque_n_m] = scale;
     let torque_n_m = torque_n_m.max(force_n * LEAST_ARM_M);
     let share = |most: f64, scale: f64| if scale > 0.0 { most / scale } else { 0.0 };
-    let [a, b, start, end] =
-        [&nodes[0], &nodes[1], &ends[0], &ends[1]].map(|it| it.air_and_field.field_inertial_t);
-    let slope = (b - a) * beyond;
-    let field_most_t = (start - (a - slope)).amax().max((end - (b + slope)).amax());
-    let of_field = share(field_most_t, a.amax().max(b.amax()));
-    share(most[0], force_n).max(share(most[1], torque_n_m)).max(of_field)
+    let [field_most_t, field_t] = off_line(evaluations.map(|it| it.air_and_field.field_inertial_t));
+    share(most[0], force_n).max(share(most[1], torque_n_m)).max(share(field_most_t, field_t))
 }

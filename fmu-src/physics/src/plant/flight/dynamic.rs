@@ -10,13 +10,14 @@ use nalgebra::Vector3;
 use crate::attitude::control::ControlTarget;
 use crate::attitude::{Attitude, BodyMotion, MotionAt};
 use crate::loads::{Effect, ForceTorque, Writer};
-use crate::momentum::{DumpEvent, Totals, WorkKind};
+use crate::momentum::{DumpEvent, WorkKind};
 use crate::numerics::Span;
 use crate::spacecraft::MassProperties;
 
-use super::configured::ConfiguredFlight;
+use super::configured::{ConfiguredFlight, SunSelectionStart};
 use super::downlink_forecast::StartMomentum;
 use super::grid_edge;
+use super::report::dynamic_totals;
 use crate::plant::control::control_loop::{Actuators, Sampled};
 use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
@@ -185,8 +186,7 @@ impl Dynamic<'_> {
         let Self { state, settings, flight, .. } = self;
         settings.set_mass_properties(&state.mass.now);
         let context = &mut *flight.context;
-        context.current_mass_panels_stowed =
-            state.mass.stowed.unwrap_or_else(|| context.configuration.wet_mass_properties());
+        context.current_mass_panels_stowed = state.mass.stowed.unwrap_or(context.configuration.wet_mass);
     }
 
     /// The motion at its end.
@@ -202,7 +202,7 @@ impl Dynamic<'_> {
         let inputs = flight.given.inputs;
         state.dumps.accumulate(&state.motion, &end, state.dumps.is_dumping(flight.thrusters, time_s));
         let thruster_settings = &flight.context.allocator.settings;
-        if !flight.thrusters.load().law.is_none() {
+        if !flight.thrusters.load.law.is_none() {
             let tanks = &thruster_settings.tanks;
             let mass = flight.thrusters.propellant.mass_properties_since(&state.mass.now, tanks, time_s);
             grid_edge::set_mass(state, settings, mass);
@@ -219,7 +219,7 @@ impl Dynamic<'_> {
         let Self { state, settings, flight, .. } = self;
         grid_edge::turn_mass(state, settings, flight);
         let used_kg = flight.thrusters.propellant.total_used_kg(time_s);
-        state.mass.now.mass_kg = flight.context.configuration.mass_kg - used_kg;
+        state.mass.now.mass_kg = flight.context.configuration.wet_mass.mass_kg - used_kg;
         flight.thrusters.update_load(&flight.context.allocator.settings, &state.mass.now, time_s);
     }
 
@@ -238,7 +238,7 @@ impl Dynamic<'_> {
         let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
         let is_free = state.dumps.are_over(flight.thrusters) && !state.control.by_thrusters;
         let policy = flight.context.configuration.momentum.policy;
-        if is_free && flight.thrusters.burning().is_none() && policy.exceeded(&momentum_body) {
+        if is_free && flight.thrusters.valves.burning().is_none() && policy.exceeded(&momentum_body) {
             self.begin_dump(&momentum_body, policy.after(&momentum_body));
             self.state.dumps.dumps.check()?;
         }
@@ -294,15 +294,10 @@ impl Dynamic<'_> {
 
     /// Selects the Sun's direction where guidance is sampled.
     fn select_sun_direction(&mut self) -> Result<(), PlantError> {
-        let MotionAt { time_s, body, .. } = self.end();
-        let totals = Totals {
-            momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,
-            torque_integral_body_n_m_s: Vector3::zeros(),
-            delta_v_inertial_m_s: body.delta_v_inertial_m_s,
-        };
-        let momentum = StartMomentum::Inertial(body.momentum_inertial_n_m_s);
-        let is_first = self.state.control.is_unguided();
-        self.flight.select_sun_direction(time_s, &totals, momentum, is_first)
+        let end = self.end();
+        let momentum = StartMomentum::Inertial(end.body.momentum_inertial_n_m_s);
+        let (time_s, totals, is_first) = (end.time_s, dynamic_totals(&end), self.state.control.is_unguided());
+        self.flight.select_sun_direction(&SunSelectionStart { time_s, totals, momentum, is_first })
     }
 
     /// Whether guidance is sampled anew with a sample at `time_s`.
@@ -348,7 +343,7 @@ impl Dynamic<'_> {
     pub(super) fn evaluation(&mut self, at: &MotionAt) -> Evaluation {
         let MotionAt { time_s, body, .. } = *at;
         let Self { state, settings, flight, .. } = self;
-        let loaded = flight.context.configuration.wet_mass_properties();
+        let loaded = flight.context.configuration.wet_mass;
         flight.context.current_mass_panels_stowed = flight.used_mass(&loaded, time_s).unwrap_or(loaded);
         let mass_kg = loaded.mass_kg - flight.thrusters.propellant.total_used_kg(time_s);
         let mut plant = flight.plant_at(time_s, &body);
@@ -375,7 +370,7 @@ impl Dynamic<'_> {
             }
         }
         [loads[APPLIED], _] = (flight.given.external)(time_s);
-        let thrusters = flight.thrusters.load();
+        let thrusters = &flight.thrusters.load;
         loads[THRUSTERS] = ForceTorque {
             force_body_n: thrusters.law.force_at_n(time_s),
             torque_body_n_m: thrusters.torque_at_n_m(time_s, &body.rate_body_rad_s),

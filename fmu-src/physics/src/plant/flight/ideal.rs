@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use crate::attitude::Attitude;
 use crate::momentum::{DumpEvent, PreparedSegment, TorqueModel, Totals, WorkKind};
 
-use super::configured::ConfiguredFlight;
+use super::configured::{ConfiguredFlight, SunSelectionStart};
 use super::downlink_forecast::StartMomentum;
 use crate::plant::events::{self, EventKind, Eventful, LastEvents};
 use crate::plant::settings::error::{ManeuverError, PlantError};
@@ -113,7 +113,8 @@ impl<'f> Ideal<'f> {
         flight.context.models.begin_work(flight.given.work_limit);
         let frame = flight.plant().instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-        flight.select_sun_direction(time_s, &totals, StartMomentum::Body(momentum_body_n_m_s), true)?;
+        let momentum = StartMomentum::Body(momentum_body_n_m_s);
+        flight.select_sun_direction(&SunSelectionStart { time_s, totals, momentum, is_first: true })?;
         flight.context.models.begin_work(flight.given.work_limit);
         let mut plant = flight.plant();
         plant.prepare(time_s, time_s)?;
@@ -210,7 +211,7 @@ impl<'f> Ideal<'f> {
         let totals = self.state.integrator.totals(time_s);
         let convention = self.flight.context.configuration.momentum.convention;
         let momentum = StartMomentum::from_totals(&totals, convention);
-        self.flight.select_sun_direction(time_s, &totals, momentum, false)
+        self.flight.select_sun_direction(&SunSelectionStart { time_s, totals, momentum, is_first: false })
     }
 
     /// Dumps as far as the tanks feed the thrusters: momentum, propellant, push and mass properties after it. A dump that nothing

@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, Vector3};
 
 use super::geometry::Geometry;
 use crate::attitude::MovingFrame;
-use crate::guidance::DownlinkStatus;
+use crate::guidance::{Activity, DownlinkStatus, GuidedAttitude, Window};
 use crate::momentum::EventValues;
 use crate::numerics::scalar::Dual64;
 use crate::plant::settings::panel_setting::SunAt;
@@ -52,7 +52,7 @@ impl Instant {
             sun_distance_m: 0.0,
             planet_body_m: None,
             lit_fraction: 0.0,
-            regime: Regime::UNCHANGING,
+            regime: Regime::by_law(&without_windows(frame)),
             events: EventValues::repeat(f64::INFINITY),
             downlink: DownlinkStatus::default(),
             is_degenerate: false,
@@ -116,13 +116,25 @@ pub struct Regime {
 }
 
 impl Regime {
-    /// In sunlight by a law without windows, slews and scans.
-    pub(crate) const UNCHANGING: Self = Self {
-        window_since_s: f64::NEG_INFINITY,
-        downlink: false,
+    /// Form of the law that gives this attitude, in sunlight.
+    pub(super) fn by_law(law: &GuidedAttitude) -> Self {
+        let GuidedAttitude { window, row, slewing, corner_s, .. } = *law;
+        let downlink = window.activity == Activity::Downlink;
+        Self { window_since_s: window.since_s, downlink, row, slewing, corner_s, in_shadow: false }
+    }
+}
+
+/// Attitude by a law without windows, slews and scans.
+pub(super) fn without_windows(frame: MovingFrame) -> GuidedAttitude {
+    GuidedAttitude {
+        frame,
+        window: Window { activity: Activity::Science, since_s: f64::NEG_INFINITY, until_s: f64::INFINITY },
         row: 0,
         slewing: false,
+        margins: [f64::INFINITY; 2],
+        clamped: false,
+        degenerate: false,
         corner_s: f64::INFINITY,
-        in_shadow: false,
-    };
+        until_s: f64::INFINITY,
+    }
 }

@@ -132,6 +132,15 @@ pub enum Motion {
 }
 
 impl Motion {
+    /// Gravity of an integrated orbit.
+    pub(crate) fn gravity(&self) -> Option<&GravityModel> {
+        match self {
+            Self::Disturbed { gravity, .. } => Some(gravity),
+            Self::NBody { gravity, .. } => Some(&gravity.model),
+            Self::TwoBody | Self::Held { .. } => None,
+        }
+    }
+
     /// Whether light, heat and external forces accelerate the spacecraft.
     pub fn has_nongravitational_forces(&self) -> bool {
         matches!(self, Self::Disturbed { feedback: true, .. } | Self::NBody { feedback: true, .. })
@@ -246,16 +255,7 @@ impl Configuration {
         }
     }
 
-    /// Mass, centre of mass and inertia with every panel at angle 0 and full tanks.
-    pub fn wet_mass_properties(&self) -> MassProperties {
-        MassProperties {
-            mass_kg: self.mass_kg,
-            center_of_mass_body_m: self.center_of_mass_body_m,
-            inertia_body_kg_m2: self.inertia_body_kg_m2,
-        }
-    }
-
-    /// The same of a body that has `at_zero`, as the panels stand with the Sun there.
+    /// Mass, centre of mass and inertia of a body that has `at_zero`, as the panels stand with the Sun there.
     pub fn mass_properties(&self, at_zero: &MassProperties, panels: &[Panel], sun: &SunAt) -> MassProperties {
         with_panels(at_zero, panels, |index| panel_angle_rad(&self.panels, panels, index, sun))
     }
@@ -327,12 +327,8 @@ pub struct Configuration {
     pub sunshade: SunshadeModel,
     /// One setting a panel.
     pub panels: Vec<PanelSetting>,
-    /// Centre of mass, body frame, in m, with every panel at angle 0 and full tanks.
-    pub center_of_mass_body_m: Vector3<f64>,
-    /// Mass, in kg, with full tanks.
-    pub mass_kg: f64,
-    /// Inertia about the centre of mass, body frame, in kg m2, with every panel at angle 0 and full tanks.
-    pub inertia_body_kg_m2: Matrix3<f64>,
+    /// Mass, centre of mass and inertia with every panel at angle 0 and full tanks.
+    pub wet_mass: MassProperties,
     /// Effects that act.
     pub effects: Active,
     /// Parameters of effects in closed form.

@@ -121,7 +121,7 @@ macro_rules! sources {
             pub(crate) fn dipoles(&self, configuration: &Configuration, time_s: f64) -> Dipoles {
                 let mut dipoles = Dipoles::default();
                 $(if let [row, ..] = <$source as Source>::ROWS
-                    && let Some(place) = row.place_in_field()
+                    && let Some(place) = Effect::FIELD.iter().position(|it| it == row)
                     && configuration.effects.has(*row)
                 {
                     let settings = <$source as Source>::settings(configuration);

@@ -157,7 +157,7 @@ impl Valves {
     }
 
     /// The set that gives the current delta-v.
-    pub(super) fn burning(&self) -> Option<ThrusterSet> {
+    pub fn burning(&self) -> Option<ThrusterSet> {
         self.burn.map(|burn| burn.set)
     }
 
