@@ -34,9 +34,9 @@ pub(super) fn write(context: &Plan<'_>, values: &mut Values, state: &State, fixe
         .map(|timeline| timeline.slot(time_s, timeline.clock_minus_time_s(*epoch_minus_time_s)));
     let until_s = slot.map(|slot| slot.until_s).filter(|until_s| until_s.is_finite());
     values.set_real(v.timeline_until, until_s.unwrap_or(NEVER_S));
-    values.set_boolean(v.ephemeris.valid, state.ephemeris_is_valid());
+    values.set_boolean(v.ephemeris.valid, state.modes.ephemeris.is_valid());
     let is_coarse = match values.choice(v.ephemeris.source) {
-        EphemerisSource::Chebyshev => state.uses_coarse_ephemeris(),
+        EphemerisSource::Chebyshev => state.modes.ephemeris.uses_coarse(state.modes.mode),
         EphemerisSource::Coarse => true,
         _ => false,
     };

@@ -1,6 +1,7 @@
 //! A flight of the model begins, steps, and waits for inputs that are not set yet.
 
 use fmi_export::{Failure, InputsOverTime, OutputGroups, Step, Values};
+use physics::numerics::Span;
 use physics::plant::{NEVER_DUMPED_N_M_S, Undo};
 
 use super::inputs::{self, Reading, Reconfigured, guidance, plausibility, propulsion};
@@ -84,15 +85,18 @@ impl<'a> Call<'_, 'a> {
             guidance::report_start(read, state, time_s);
         }
         report_dumps(context, state, time_s);
-        reading.with(&|event| log_event(context, event), |given| {
-            state.saved.flight.begin(given, &state.saved.command, time_s).map_err(failure)?;
-            if let Some(estimate) = state.saved.flight.estimate_at(time_s) {
-                state.start_command(estimate.attitude, time_s)?;
-            }
-            let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
+        let log = |event: &_| log_event(context, event);
+        reading.with(&state.inputs.dynamics, &log, |given| {
+            state.saved.flight.begin(given, &state.saved.command, time_s).map_err(failure)
+        })?;
+        if let Some(estimate) = state.saved.flight.estimate_at(time_s) {
+            state.start_command(estimate.attitude, time_s)?;
+        }
+        let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
+        reading.with(&inputs.dynamics, &log, |given| {
             plausibility::report(read, flight, given, time_s);
-            let undo = flight.sample_at_start(given, &inputs.dynamics, time_s).map_err(failure)?;
-            let reached = flight.evaluate(given, &inputs.dynamics, command, time_s).map_err(failure)?;
+            let undo = flight.sample_at_start(given, time_s).map_err(failure)?;
+            let reached = flight.evaluate(given, command, true, time_s).map_err(failure)?;
             outputs::check(flight, &reached, time_s)?;
             Ok(undo)
         })
@@ -111,8 +115,8 @@ impl<'a> Call<'_, 'a> {
         let (is_requested, maneuver) = inputs.maneuver;
         inputs.dynamics.maneuver = maneuver_request.rises(is_requested).then_some(maneuver);
         propulsion::drop_empty_maneuver(self.context, &mut inputs.dynamics, step.start_s);
-        reading.with(&|event| log_event(self.context, event), |given| {
-            flight.advance(given, &inputs.dynamics, [step.start_s, step.end_s]).map_err(failure)
+        reading.with(&inputs.dynamics, &|event| log_event(self.context, event), |given| {
+            flight.advance(given, Span::new(step.start_s, step.end_s)).map_err(failure)
         })
     }
 
@@ -120,9 +124,10 @@ impl<'a> Call<'_, 'a> {
     fn evaluate(&mut self, reading: &Reading<'_>, time_s: f64) -> Result<(), Failure> {
         let Self { context, values, state } = self;
         let PlantState { saved: SavedState { flight, command, waiting, warned, .. }, inputs } = state;
-        let reached =
-            reading.with(&|_| {}, |given| flight.evaluate(given, &inputs.dynamics, command, time_s));
-        let reached = reached.map_err(failure)?;
+        let with_loads = warned.watch.looks_at_forces(flight.configuration(), time_s);
+        let reached = reading.with(&inputs.dynamics, &|_| {}, |given| {
+            flight.evaluate(given, command, with_loads, time_s).map_err(failure)
+        })?;
         if !*waiting {
             outputs::check(flight, &reached, time_s)?;
         }

@@ -143,18 +143,12 @@ impl Inertia {
     /// Components of a vector, given in body components, along the body's first and second axis made perpendicular to the third
     /// principal axis, and along that: azimuths of spin and nutation count in this frame.
     pub fn spin_frame_from_body(&self, v_body: &Vector3<f64>) -> Vector3<f64> {
-        match self.axes {
-            None => *v_body,
-            Some(_) => self.spin_frame_body().tr_mul(v_body),
-        }
+        self.axes.map_or(*v_body, |_| self.spin_frame_body().tr_mul(v_body))
     }
 
     /// Body components of a vector given along the axes of [`Self::spin_frame_from_body`].
     pub fn body_from_spin_frame(&self, v: &Vector3<f64>) -> Vector3<f64> {
-        match self.axes {
-            None => *v,
-            Some(_) => self.spin_frame_body() * v,
-        }
+        self.axes.map_or(*v, |_| self.spin_frame_body() * v)
     }
 
     /// The axes of that frame as columns.

@@ -182,7 +182,7 @@ pub fn bernstein_sign_changes<const N: usize>(coefficients: &[f64; N], from: f64
             // A zero at an end of the piece is not the root sought: start just inside.
             let lower = if piece[0] == 0.0 { NARROW } else { 0.0 };
             let upper = if piece[N - 1] == 0.0 { 1.0 - NARROW } else { 1.0 };
-            let root = bracketed(lower, upper, 0.0, |u| de_casteljau(&piece, u)).unwrap_or(lower);
+            let root = bracketed(lower, upper, 0.0, |u| split(&piece, u).0[N - 1]).unwrap_or(lower);
             found.push(start + root * (end - start));
         }
         if signs.last != 0.0 {
@@ -216,16 +216,6 @@ impl Signs {
         }
         signs
     }
-}
-
-fn de_casteljau<const N: usize>(coefficients: &[f64; N], u: f64) -> f64 {
-    let mut work = *coefficients;
-    for level in 1..N {
-        for i in 0..N - level {
-            work[i] = (1.0 - u) * work[i] + u * work[i + 1];
-        }
-    }
-    work[0]
 }
 
 /// The same polynomial on `[0, u]` and on `[u, 1]`.

@@ -10,7 +10,8 @@ use crate::math;
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::refusal::Refusal;
 use crate::spacecraft::{
-    BusLink, Conduction, Cylinder, Emission, Material, Panel, Plate, Spacecraft, SunshadeModel, Thermal,
+    BusLink, Conduction, Cylinder, Emission, FaceProperties, Material, Panel, Plate, Spacecraft,
+    SunshadeModel, Thermal,
 };
 
 /// Strips a cylindrical shade is cut into for planet light and heat; sunlight on it has a closed form.
@@ -78,10 +79,10 @@ impl Surface {
     }
 
     /// Advances the temperatures of the surface's faces by `duration_s` in place, from the heat of every face at the start and at the end;
-    /// `faces` and `temperatures_k` are those of the whole model. Does nothing where the surface stores no heat.
-    fn advance_temperatures(
+    /// `temperatures_k` has those of `all` faces. Does nothing where the surface stores no heat.
+    pub(super) fn advance_temperatures(
         &self,
-        (faces, materials): (&[Face], &[Material]),
+        all: &Faces,
         temperatures_k: &mut [f64],
         heat_w: [&[f64]; 2],
         duration_s: f64,
@@ -96,7 +97,7 @@ impl Surface {
             if count == 2 { [at(0), at(1)] } else { [at(0), 0.0] }
         };
         let store = HeatStore {
-            faces: self.environments(&faces[self.faces()], materials),
+            faces: self.environments(&all.faces[self.faces()], &all.materials),
             conduction: self.conduction,
             heat_capacity_j_m2_k: self.heat_capacity_j_m2_k,
         };
@@ -204,19 +205,6 @@ impl Faces {
         scene.has_pairs().then_some(scene)
     }
 
-    /// Temperatures of all faces `duration_s` later, in place, for the heat of every face at the start and at the end.
-    pub(super) fn advance_temperatures(
-        &self,
-        temperatures_k: &mut [f64],
-        heat_w: [&[f64]; 2],
-        duration_s: f64,
-    ) {
-        for surface in &self.surfaces {
-            let of_faces = (self.faces.as_slice(), self.materials.as_slice());
-            surface.advance_temperatures(of_faces, temperatures_k, heat_w, duration_s);
-        }
-    }
-
     /// Sets the spacecraft's material of this index.
     pub(crate) fn set_material(&mut self, place: usize, material: &Material) {
         if let Some(known) = self.materials.get_mut(place) {
@@ -237,18 +225,18 @@ impl Faces {
     }
 
     fn add(&mut self, plate: &Plate, normals: [Normal; 2], hinge: Option<Hinge>) {
-        let Thermal { front, rear, internal_heat_w, conduction, bus, heat_capacity_j_m2_k } = plate.thermal;
-        let sides =
-            [Some((plate.optics, front)), plate.rear_optics.map(|optics| (optics, rear.unwrap_or(front)))];
+        let FaceProperties { optics, rear_optics, gas_surface, thermal, materials } = plate.faces;
+        let Thermal { front, rear, internal_heat_w, conduction, bus, heat_capacity_j_m2_k } = thermal;
+        let sides = [Some((optics, front)), rear_optics.map(|optics| (optics, rear.unwrap_or(front)))];
         let first_face = self.faces.len();
         for (side, (optics, thermal)) in sides.into_iter().flatten().enumerate() {
             let normal = self.normal(normals[side]);
             let surface = self.surfaces.len();
-            let material = Material { optics, thermal, gas_surface: plate.gas_surface[side] };
-            let material = self.material(plate.materials[side], material);
+            let material = Material { optics, thermal, gas_surface: gas_surface[side] };
+            let material = self.material(materials[side], material);
             self.faces.push(Face { normal, surface, material, internal_heat_w: internal_heat_w[side] });
         }
-        let two_sided = plate.rear_optics.is_some();
+        let two_sided = rear_optics.is_some();
         let outline = plate.polygon.clone().map(|polygon| Outline { polygon, hinge, two_sided });
         self.surfaces.push(Surface {
             name: plate.name.clone(),
@@ -284,8 +272,8 @@ fn strips(cylinder: &Cylinder) -> impl Iterator<Item = Plate> + '_ {
         let area_m2 = cylinder.radius_m * width_rad * cylinder.height_m;
         let center_m = normal * cylinder.radius_m;
         let plate = Plate::insulated(name, area_m2, center_m, normal, (cylinder.optics, None));
-        let thermal = Thermal { front: cylinder.thermal, ..plate.thermal };
+        let thermal = Thermal { front: cylinder.thermal, ..plate.faces.thermal };
         let (gas_surface, materials) = ([cylinder.gas_surface; 2], [cylinder.material, None]);
-        Plate { gas_surface, thermal, materials, ..plate }
+        Plate { faces: FaceProperties { gas_surface, thermal, materials, ..plate.faces }, ..plate }
     })
 }

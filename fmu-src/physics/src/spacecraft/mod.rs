@@ -69,15 +69,15 @@ pub use panel_mass::{hinged_masses, with_panels};
 pub use planet_map::{PlanetCell, PlanetMap};
 pub use pointing::{
     AlignedAxes, AttitudeName, AttitudePart, AttitudeRefusal, NamedAttitude, PointingSettings,
-    PointingTarget, TargetItem, TargetedAxis, panels_need_yaw_steering,
+    PointingTarget, StarDirection, TargetItem, TargetedAxis, panels_need_yaw_steering,
 };
-pub(crate) use pointing_table::{StarDescription, TargetedAxisDescription, aligned};
+pub(crate) use pointing_table::{StarDescription, TargetedAxisDescription, aligned, axes};
 pub use polygon::Polygon;
 pub use slew::SlewDemand;
 pub use start::{StartEntry, StartValue};
 pub(crate) use start::{StartTable, start_entries};
 pub use sun_sensors::MountedSunSensor;
-pub use surface::{Cylinder, MOST_SURFACES, Plate, Sunshade, SunshadeModel};
+pub use surface::{Cylinder, FaceProperties, MOST_SURFACES, Plate, Sunshade, SunshadeModel};
 pub use swinging::{NamedMode, NamedSlosh};
 pub use tank::{Blowdown, Tank};
 pub use thermal::{

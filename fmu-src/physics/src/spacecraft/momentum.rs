@@ -21,28 +21,20 @@ struct MomentumDescription {
 
 /// Time between unloadings.
 pub(super) fn unload_every(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     description: &MomentumDescription,
 ) -> Option<TimeAfterPeriapsis> {
     let written = description.unload_every.as_ref()?;
     let is_some = |time: &TimeAfterPeriapsis| match time {
         TimeAfterPeriapsis::Seconds(length) | TimeAfterPeriapsis::PeriodShare(length) => *length > 0.0,
     };
-    let read = written.read().filter(is_some);
-    if read.is_none() {
-        let allowed = "a time above 0, up to 1e9 s: a number in s or a string with a unit (s, min, h, d), or a share of the \
-                       period (\"100 %\")";
-        part.report("unload_every", written.found(), allowed);
-    }
-    read
+    let allowed = "a time above 0, up to 1e9 s: a number in s or a string with a unit (s, min, h, d), or a share of the \
+                   period (\"100 %\")";
+    part.key("unload_every").known(written.read().filter(is_some), written.found(), allowed)
 }
 
 /// The slew that wheels are sized for.
-pub(super) fn slew(part: &mut PartReader<'_, '_>, description: &MomentumDescription) -> Option<SlewDemand> {
+pub(super) fn slew(part: &PartReader<'_>, description: &MomentumDescription) -> Option<SlewDemand> {
     let written = description.slew.as_ref()?;
-    let read = SlewDemand::read(written);
-    if read.is_none() {
-        part.report("slew", format_args!("{written:?}"), SlewDemand::ALLOWED);
-    }
-    read
+    part.key("slew").known(SlewDemand::read(written), format_args!("{written:?}"), SlewDemand::ALLOWED)
 }

@@ -3,12 +3,9 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use super::gas_surface::GasSurface;
 use super::mass::PanelMass;
-use super::optics::Optics;
 use super::polygon::Polygon;
-use super::surface::Plate;
-use super::thermal::Thermal;
+use super::surface::{FaceProperties, Plate};
 use crate::constants::ASTRONOMICAL_UNIT_M;
 use crate::enumeration::enumeration;
 use crate::numerics::scalar::{Scalar, acos, constant_vector, sin_cos};
@@ -16,7 +13,6 @@ use crate::numerics::scalar::{Scalar, acos, constant_vector, sin_cos};
 enumeration! {
     /// How a panel's angle comes about.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "snake_case")]
     pub enum PanelControl {
         /// A constant angle between the panel's normal and the Sun.
@@ -48,16 +44,8 @@ pub struct Panel {
     pub axis_body: Vector3<f64>,
     /// Unit normal of the cell side at angle 0, perpendicular to the axis.
     pub zero_normal_body: Vector3<f64>,
-    /// Optics of the cell side.
-    pub optics: Optics,
-    /// Optics of the back; `None` where no light can reach it.
-    pub rear_optics: Option<Optics>,
-    /// Cell side and back in the air; the back counts where light can reach it.
-    pub gas_surface: [GasSurface; 2],
-    /// Heat of both faces.
-    pub thermal: Thermal,
-    /// Places of the materials of cell side and back among the spacecraft's; `None` for a side of no named material.
-    pub materials: [Option<usize>; 2],
+    /// Cell side and back.
+    pub faces: FaceProperties,
     /// Outline at angle 0, body frame, counter-clockwise seen from the cell side; panels without one neither shadow
     /// nor are shadowed.
     pub polygon: Option<Polygon>,
@@ -84,11 +72,7 @@ impl Panel {
             area_m2: self.area_m2,
             center_m: self.center_body_m,
             normal: self.zero_normal_body,
-            optics: self.optics,
-            rear_optics: self.rear_optics,
-            gas_surface: self.gas_surface,
-            thermal: self.thermal,
-            materials: self.materials,
+            faces: self.faces,
             polygon: self.polygon.clone(),
         }
     }

@@ -63,20 +63,17 @@ struct PanelDescription called "panel" {
 }
 
 /// Reads a panel.
-pub(super) fn panel(part: &mut PartReader<'_, '_>, description: &PanelDescription) -> Panel {
-    let dcm_body_from_panel = part.check.rotation(
-        &part.at.key("dcm_body_from_panel"),
-        description.rotation_rad(),
-        description.dcm_body_from_panel,
-    );
+pub(super) fn panel(part: &PartReader<'_>, description: &PanelDescription) -> Panel {
+    let dcm_body_from_panel =
+        part.key("dcm_body_from_panel").rotation(description.rotation_rad(), description.dcm_body_from_panel);
     let axis = description.axis();
-    let zero_normal = part.perpendicular("zero_normal", description.zero_normal(), ("axis", &axis));
+    let zero_normal = part.key("zero_normal").perpendicular(description.zero_normal(), &axis, "axis");
     let tilt_sign = description.tilt_sign();
     if tilt_sign.abs() != 1 {
-        part.report("tilt_sign", tilt_sign, "1 or -1");
+        part.key("tilt_sign").report(tilt_sign, "1 or -1");
     }
     if let Some(side) = description.windmill_side.filter(|side| !(-1..=1).contains(side)) {
-        part.report("windmill_side", side, "1, -1 or 0");
+        part.key("windmill_side").report(side, "1, -1 or 0");
     }
     let front = part.material("optics", &description.optics);
     let rear = part.rear(description.rear_optics.as_deref());
@@ -95,11 +92,7 @@ pub(super) fn panel(part: &mut PartReader<'_, '_>, description: &PanelDescriptio
         mass: mass.map(|mass| mass.turned(&dcm_body_from_panel)),
         axis_body: dcm_body_from_panel * axis,
         zero_normal_body: dcm_body_from_panel * zero_normal,
-        optics: front.material.optics,
-        rear_optics: rear.map(|rear| rear.material.optics),
-        gas_surface: ChosenMaterial::in_air(front, rear),
-        materials: ChosenMaterial::places(front, rear),
-        thermal: thermal(part, description.thermal.as_ref(), front, rear),
+        faces: ChosenMaterial::faces(front, rear, thermal(part, description.thermal.as_ref(), front, rear)),
         polygon: outline.as_ref().map(|polygon| polygon.moved(|v| dcm_body_from_panel * v)),
         control: description.control(),
         sun_offset_rad: description.sun_offset_rad(),
@@ -111,7 +104,7 @@ pub(super) fn panel(part: &mut PartReader<'_, '_>, description: &PanelDescriptio
 
 /// A panel's mass in the panel frame.
 fn panel_mass(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     description: &PanelDescription,
     area_m2: f64,
     center_m: Vector3<f64>,

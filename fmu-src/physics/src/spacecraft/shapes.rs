@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix3, Vector3};
 
 use super::copies::{MOST_PLATES, MirrorPlane, RepeatDescription, check_apart, copy_name, motions};
-use super::facets::{BOX_FACES, Facet, box_faces, cylinder_facets, disc, dish_facets};
+use super::facets::{BoxFace, Facet, box_faces, cylinder_facets, disc, dish_facets};
 use super::materials::ChosenMaterial;
 use super::part_reader::PartReader;
 use super::polygon::Polygon;
@@ -13,7 +13,8 @@ use super::shape_tables::{BoxDescription, DiscDescription, DishDescription, Face
 use super::surface::Plate;
 use super::thermal::Thermal;
 use super::thermal_table::thermal;
-use crate::toml::{Checker, KeyPath, Named, Written, hint};
+use crate::enumeration::Enumerated;
+use crate::toml::{Named, Place, Written, hint};
 
 /// Data common to all shapes.
 struct Shape<'s> {
@@ -46,37 +47,34 @@ macro_rules! shape {
 }
 
 /// The plates of a box.
-pub(super) fn box_plates(part: &mut PartReader<'_, '_>, description: &BoxDescription) -> Vec<Plate> {
+pub(super) fn box_plates(part: &PartReader<'_>, description: &BoxDescription) -> Vec<Plate> {
     let front = part.material("optics", &description.optics);
     let mut own = Vec::new();
     let open = description.open_faces.as_deref().unwrap_or_default();
     for (face, name) in description.face_optics.iter().flatten() {
-        let mut optics = part.table("face_optics");
+        let optics = part.table("face_optics");
         let material = optics.material(face, name);
-        let names = BOX_FACES.map(|(.., name)| name);
-        match BOX_FACES.iter().find(|(.., name)| name == face) {
+        match BoxFace::ITEMS.iter().find(|it| it.name == face) {
             None => {
+                let names: Vec<&str> = BoxFace::ITEMS.iter().map(|it| it.name).collect();
                 let found = format!("the unknown face `{face}`{}", hint(face, &names));
-                optics.report(face, found, names.join(", "));
+                optics.key(face).report(found, names.join(", "));
             }
-            Some((which, ..)) if open.contains(which) => {
-                optics.report(face, "a face that is open too", "a face that the box has");
+            Some(it) if open.contains(&it.variant) => {
+                optics.key(face).report("a face that is open too", "a face that the box has");
             }
             Some(_) => own.push((face.clone(), material)),
         }
     }
     let facets = box_faces(&Vector3::from(description.size_m.value()), open);
-    let turn = part.check.rotation(&part.at, description.rotation_rad(), None);
+    let turn = part.rotation(description.rotation_rad(), None);
     let shape = shape!(part, description, front, [turn, description.center_body_m()], facets);
     let material = |face: &str| own.iter().find(|(name, _)| name == face).map_or(front, |(_, own)| *own);
     shape.plates(part, "faces", &material)
 }
 
 /// The plates of a cylinder.
-pub(super) fn cylinder_plates(
-    part: &mut PartReader<'_, '_>,
-    description: &FacetedCylinderDescription,
-) -> Vec<Plate> {
+pub(super) fn cylinder_plates(part: &PartReader<'_>, description: &FacetedCylinderDescription) -> Vec<Plate> {
     let front = part.material("optics", &description.optics);
     let end = description.end_optics.as_ref();
     let end = end.map_or(front, |name| part.material("end_optics", name));
@@ -90,7 +88,7 @@ pub(super) fn cylinder_plates(
 }
 
 /// The plate of a disc.
-pub(super) fn disc_plates(part: &mut PartReader<'_, '_>, description: &DiscDescription) -> Vec<Plate> {
+pub(super) fn disc_plates(part: &PartReader<'_>, description: &DiscDescription) -> Vec<Plate> {
     let front = part.material("optics", &description.optics);
     let facets = disc(description.radius_m.0, description.corners());
     let turn = frame(&description.normal_body());
@@ -99,7 +97,7 @@ pub(super) fn disc_plates(part: &mut PartReader<'_, '_>, description: &DiscDescr
 }
 
 /// The plates of a dish.
-pub(super) fn dish_plates(part: &mut PartReader<'_, '_>, description: &DishDescription) -> Vec<Plate> {
+pub(super) fn dish_plates(part: &PartReader<'_>, description: &DishDescription) -> Vec<Plate> {
     let front = part.material("optics", &description.optics);
     let (radius_m, depth_m) = (description.radius_m.0, description.depth_m.0);
     let facets = dish_facets(radius_m, depth_m, description.facets(), description.rings());
@@ -109,14 +107,14 @@ pub(super) fn dish_plates(part: &mut PartReader<'_, '_>, description: &DishDescr
 }
 
 /// Two plates of one name, made by different items of the file, could not be distinguished.
-pub(super) fn distinct_plates(check: &mut Checker<'_>, found: &[(KeyPath, Vec<Plate>)]) {
-    let mut known: BTreeMap<&str, &KeyPath> = BTreeMap::new();
+pub(super) fn distinct_plates(found: &[(Place<'_>, Vec<Plate>)]) {
+    let mut known: BTreeMap<&str, &Place<'_>> = BTreeMap::new();
     for (at, plates) in found {
         for plate in plates {
             let other = *known.entry(&plate.name).or_insert(at);
-            if other != at && !check.has_reported(&at.key("name")) {
+            if other.path() != at.path() && !at.key("name").has_reported() {
                 let found = format!("a plate `{}`, as {other} has", plate.name);
-                check.report(&at.key("name"), found, "a name whose plates have names of their own");
+                at.key("name").report(found, "a name whose plates have names of their own");
             }
         }
     }
@@ -126,17 +124,17 @@ impl Shape<'_> {
     /// Its plates and those of its copies; none where something was reported.
     fn plates(
         &self,
-        part: &mut PartReader<'_, '_>,
+        part: &PartReader<'_>,
         kind: &str,
         material: &dyn Fn(&str) -> ChosenMaterial,
     ) -> Vec<Plate> {
         let motions = motions(part, self.mirror, self.repeat);
-        if part.check.has_reported(&part.at) || part.check.has_stand_in(&part.at) {
+        if part.has_reported() || part.has_stand_in() {
             return Vec::new();
         }
         let count = motions.len() * self.facets.len();
         if count == 0 || count > MOST_PLATES {
-            part.check.report(&part.at, format_args!("{count} {kind}"), format_args!("1 to {MOST_PLATES}"));
+            part.report(format_args!("{count} {kind}"), format_args!("1 to {MOST_PLATES}"));
             return Vec::new();
         }
         let mut plates = Vec::with_capacity(count);
@@ -151,7 +149,7 @@ impl Shape<'_> {
                     }
                     Err(error) => {
                         let found = format!("lengths that make no outline of `{}` ({error})", facet.name);
-                        part.check.report(&part.at, found, "lengths within a factor of 1e8 of one another");
+                        part.report(found, "lengths within a factor of 1e8 of one another");
                         return Vec::new();
                     }
                 }
@@ -166,11 +164,9 @@ impl Shape<'_> {
         let mut thermal = self.thermal;
         thermal.front = front.material.thermal;
         let dot = if facet.name.is_empty() { "" } else { "." };
-        let (name, rear) = (format!("{name}{dot}{}", facet.name), self.rear.map(|it| it.material.optics));
-        let gas_surface = ChosenMaterial::in_air(front, self.rear);
-        let materials = ChosenMaterial::places(front, self.rear);
-        let plate = Plate::outlined(name, outline, front.material.optics, rear);
-        Plate { thermal, gas_surface, materials, ..plate }
+        let faces = ChosenMaterial::faces(front, self.rear, thermal);
+        let name = format!("{name}{dot}{}", facet.name);
+        Plate { faces, ..Plate::outlined(name, outline, faces.optics, faces.rear_optics) }
     }
 
     /// Divides the heat from inside among all plates by area.
@@ -178,7 +174,8 @@ impl Shape<'_> {
         let whole_m2: f64 = plates.iter().map(|plate| plate.area_m2).sum();
         for plate in plates {
             let fraction = plate.area_m2 / whole_m2;
-            plate.thermal.internal_heat_w = self.thermal.internal_heat_w.map(|heat_w| heat_w * fraction);
+            plate.faces.thermal.internal_heat_w =
+                self.thermal.internal_heat_w.map(|heat_w| heat_w * fraction);
         }
     }
 }

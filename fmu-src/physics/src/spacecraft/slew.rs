@@ -1,6 +1,6 @@
 //! Slew that wheels are sized for: an angle in a time, from rest to rest.
 
-use crate::toml::with_unit;
+use crate::toml::in_units;
 
 /// Units of an angle, and how many degrees they are.
 const ANGLES_DEG: [(&str, f64); 2] = [("deg", 1.0), ("rad", 180.0 / core::f64::consts::PI)];
@@ -25,7 +25,7 @@ impl SlewDemand {
     pub fn read(text: &str) -> Option<Self> {
         let (angle, time) = text.split_once(" in ")?;
         let demand =
-            Self { angle_rad: number(angle, &ANGLES_DEG)?.to_radians(), time_s: number(time, &TIMES_S)? };
+            Self { angle_rad: in_units(angle, &ANGLES_DEG)?.to_radians(), time_s: in_units(time, &TIMES_S)? };
         let is_slew = demand.angle_rad > 0.0 && demand.angle_rad <= core::f64::consts::PI;
         (is_slew && demand.time_s > 0.0 && demand.time_s <= 1e9).then_some(demand)
     }
@@ -39,12 +39,6 @@ impl SlewDemand {
     pub fn peak_rate_rad_s(&self) -> f64 {
         2.0 * self.angle_rad / self.time_s
     }
-}
-
-/// A number with one of these units.
-fn number(text: &str, units: &[(&str, f64)]) -> Option<f64> {
-    let (number, unit) = with_unit(text)?;
-    Some(number * units.iter().find(|(name, _)| *name == unit)?.1)
 }
 
 #[cfg(test)]

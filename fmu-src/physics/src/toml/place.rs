@@ -1,95 +1,202 @@
-//! Key path of a value in a TOML file: the keys and list items that lead to it.
+//! Place in a file that is read: problems are reported there, and each check hands its value on.
 
-use core::fmt;
+use core::fmt::{self, Display};
 
-/// A key with the tables and lists around it.
-///
-/// Key paths inside of another one follow it in their order, before all others.
-#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub struct KeyPath(pub(super) Vec<Part>);
+use nalgebra::{Matrix3, Vector3};
 
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Part {
-    Key(String),
-    Item(usize),
+use super::checker::Checker;
+use super::directions::UNIT_TOLERANCE;
+use super::key_path::KeyPath;
+use super::numbers::short;
+use super::ranges::GREATEST;
+use super::rules::{Demand, Rule};
+use crate::math;
+
+/// Key path with the checker that gathers the problems of its file.
+#[derive(Clone)]
+pub struct Place<'c> {
+    check: &'c Checker<'c>,
+    path: KeyPath,
 }
 
-impl KeyPath {
-    /// The whole file.
-    pub fn root() -> Self {
-        Self::default()
+impl<'c> Place<'c> {
+    /// The whole file that a checker reads.
+    pub fn root(check: &'c Checker<'c>) -> Self {
+        Self { check, path: KeyPath::root() }
+    }
+
+    /// A key of the file, whatever table this place is in.
+    pub fn of_file(&self, key: &str) -> Self {
+        Self { path: KeyPath::root().key(key), ..*self }
     }
 
     /// A key in the table at this place.
     pub fn key(&self, key: &str) -> Self {
-        self.with(Part::Key(key.to_owned()))
+        Self { path: self.path.key(key), ..*self }
     }
 
     /// An item, from 0, in the list at this place.
     pub fn item(&self, index: usize) -> Self {
-        self.with(Part::Item(index))
+        Self { path: self.path.item(index), ..*self }
     }
 
-    /// The table around this place, and its key there.
-    pub fn split(&self) -> (Self, String) {
-        match self.0.split_last() {
-            Some((last, rest)) => (Self(rest.to_vec()), Self(vec![last.clone()]).to_string()),
-            None => (Self::root(), String::new()),
+    /// The items of the list at this place, each with its own.
+    pub fn items<'i, T>(&self, list: &'i [T]) -> impl Iterator<Item = (Self, &'i T)> {
+        list.iter().enumerate().map(|(index, item)| (self.item(index), item))
+    }
+
+    /// Keys and items that lead here.
+    pub fn path(&self) -> &KeyPath {
+        &self.path
+    }
+
+    /// Its line, from 1.
+    pub fn line(&self) -> usize {
+        self.check.line(&self.path)
+    }
+
+    /// Whether somebody wrote what is here.
+    pub fn is_written(&self) -> bool {
+        self.check.is_written(&self.path)
+    }
+
+    /// Whether nobody wrote what is here.
+    pub fn is_stand_in(&self) -> bool {
+        self.check.is_stand_in(&self.path)
+    }
+
+    /// Whether nobody wrote this value or one inside of it.
+    pub fn has_stand_in(&self) -> bool {
+        self.is_stand_in() || self.check.has_stand_in_inside(&self.path)
+    }
+
+    /// Whether something was reported here or inside.
+    pub fn has_reported(&self) -> bool {
+        self.check.has_reported(&self.path)
+    }
+
+    /// Reports one problem, unless what is judged was not written.
+    pub fn report(&self, found: impl Display, allowed: impl Display) {
+        self.check.report(&self.path, found, allowed);
+    }
+
+    /// Reports what several values of the table around come to together, unless one of them was not written.
+    pub fn report_across(&self, found: impl Display, allowed: impl Display) {
+        self.check.report_across(&self.path.table(), &self.path, found, allowed);
+    }
+
+    /// Reports that the table here lacks a key, unless it was misspelt or written wrongly.
+    pub fn report_lack(&self, key: &str, allowed: impl Display) {
+        self.check.report_lack(&self.path, key, allowed);
+    }
+
+    /// Reports one problem whatever else was found.
+    pub fn push(&self, found: impl Display, allowed: impl Display) {
+        self.check.push(&self.path, found, allowed);
+    }
+
+    /// Hands a value on; reports where there is none.
+    pub fn known<T>(&self, value: Option<T>, found: impl Display, allowed: impl Display) -> Option<T> {
+        if value.is_none() {
+            self.report(found, allowed);
+        }
+        value
+    }
+
+    /// A number, not NaN, infinite or beyond all measure.
+    pub fn finite(&self, value: f64) -> f64 {
+        self.within(value, [-GREATEST, GREATEST], "a finite number up to 1e12 in magnitude")
+    }
+
+    /// A number between two bounds, both included; NaN is outside.
+    pub fn within(&self, value: f64, [low, high]: [f64; 2], allowed: &str) -> f64 {
+        if !(low..=high).contains(&value) {
+            self.report(short(value), allowed);
+        }
+        value
+    }
+
+    /// A direction perpendicular to another: refused when off by more than 1e-3 rad, squared up otherwise.
+    pub fn perpendicular(&self, unit: Vector3<f64>, to: &Vector3<f64>, to_key: &str) -> Vector3<f64> {
+        let along = unit.dot(to);
+        let square = unit - to * along;
+        if along.abs() <= UNIT_TOLERANCE {
+            return square / square.norm();
+        }
+        if !self.has_reported() {
+            let written = self.check.document.vector(&self.path).unwrap_or(unit.into());
+            let found = format_args!("{written:?}, whose component along `{to_key}` is {along}");
+            self.report_across(found, format_args!("a direction perpendicular to `{to_key}` within 1e-3"));
+        }
+        unit
+    }
+
+    /// A rotation given by angles or by a matrix, which is here, or neither (identity).
+    ///
+    /// Angles are turns of the part about the body's X, then Y, then Z axis: Rz Ry Rx takes components in the part's
+    /// frame to components in the body frame.
+    pub fn rotation(&self, angles_rad: Option<[f64; 3]>, matrix: Option<[[f64; 3]; 3]>) -> Matrix3<f64> {
+        match (angles_rad, matrix) {
+            (None, None) => Matrix3::identity(),
+            (Some(angles_rad), _) => {
+                // The matrix enters an FMU's GUID: no digit may hang on the machine's own library of functions.
+                let [(sx, cx), (sy, cy), (sz, cz)] = angles_rad.map(math::sin_cos);
+                let about_x = Matrix3::new(1.0, 0.0, 0.0, 0.0, cx, -sx, 0.0, sx, cx);
+                let about_y = Matrix3::new(cy, 0.0, sy, 0.0, 1.0, 0.0, -sy, 0.0, cy);
+                let about_z = Matrix3::new(cz, -sz, 0.0, sz, cz, 0.0, 0.0, 0.0, 1.0);
+                about_z * about_y * about_x
+            }
+            (None, Some(rows)) => self.rotation_matrix(rows),
         }
     }
 
-    /// The innermost key, unless this place is the whole file or an item of a list.
-    pub(super) fn last_key(&self) -> Option<&str> {
-        match self.0.last() {
-            Some(Part::Key(key)) => Some(key),
-            _ => None,
+    fn rotation_matrix(&self, rows: [[f64; 3]; 3]) -> Matrix3<f64> {
+        let [x, y, z] = rows.map(Vector3::from);
+        let square = [x.dot(&y), y.dot(&z), z.dot(&x)].iter().all(|dot| dot.abs() <= UNIT_TOLERANCE);
+        let unit = [x, y, z].iter().all(|row| (row.norm() - 1.0).abs() <= UNIT_TOLERANCE);
+        if !(square && unit && x.cross(&y).dot(&z) > 0.0) {
+            let allowed =
+                "a rotation matrix (orthonormal rows within 1e-3, determinant 1; it is then squared up)";
+            self.report(format_args!("{rows:?}"), allowed);
+            return Matrix3::identity();
         }
+        let x = x.normalize();
+        let y = (y - x * x.dot(&y)).normalize();
+        Matrix3::from_rows(&[x.transpose(), y.transpose(), x.cross(&y).transpose()])
     }
 
-    /// Whether this place is the other one or inside of it.
-    pub fn is_in(&self, other: &Self) -> bool {
-        self.0.starts_with(&other.0)
-    }
-
-    /// The places around this one, the whole file first, and this one.
-    pub fn around(&self) -> impl Iterator<Item = Self> {
-        (0..=self.0.len()).map(|depth| Self(self.0[..depth].to_vec()))
-    }
-
-    fn with(&self, part: Part) -> Self {
-        let mut parts = self.0.clone();
-        parts.push(part);
-        Self(parts)
-    }
-}
-
-impl fmt::Display for KeyPath {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, part) in self.0.iter().enumerate() {
-            match part {
-                Part::Key(key) => {
-                    f.write_str(if i > 0 { "." } else { "" })?;
-                    let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-                    if key.chars().all(is_bare) { write!(f, "{key}")? } else { write!(f, "{key:?}")? }
+    /// Reports the rules that the table here breaks.
+    pub fn rules(&self, rules: &[Rule]) {
+        let has = |key: &&str| self.key(key).is_written();
+        let is_meant = |key: &&str| has(key) || self.key(key).is_stand_in();
+        for &Rule { demand, keys, others, found, allowed } in rules {
+            let needs = |key: &&&str| has(key) && !others.iter().any(is_meant);
+            let first = keys.first();
+            let at_fault = match demand {
+                Demand::Requires => first.filter(needs),
+                Demand::RequiresIfPositive => {
+                    let is_positive = |key: &&&str| self.check.document.is_positive(&self.key(key).path);
+                    first.filter(is_positive).filter(needs)
                 }
-                Part::Item(index) => write!(f, "[{}]", index + 1)?,
+                Demand::Excludes => first.filter(|key| has(key) && others.iter().any(has)),
+                Demand::Either | Demand::AnyOf => None,
+            };
+            at_fault.into_iter().for_each(|key| self.key(key).report(found, allowed));
+            let written = keys.iter().filter(|key| has(key)).count() + usize::from(others.iter().any(has));
+            let is_broken = match demand {
+                Demand::Either => written > 1,
+                Demand::AnyOf => !keys.iter().any(is_meant),
+                _ => false,
+            };
+            if is_broken {
+                self.push(found, allowed);
             }
         }
-        Ok(())
     }
 }
 
-#[cfg(test)]
-mod tests {
-    //! Places contain each other.
-    use super::*;
-
-    #[test]
-    fn places_contain_each_other_by_whole_keys() {
-        let plates = KeyPath::root().key("plates");
-        let area = plates.item(1).key("area");
-        assert!(area.is_in(&plates) && area.is_in(&area) && area.is_in(&KeyPath::root()));
-        assert!(!plates.is_in(&area) && !KeyPath::root().key("plates2").is_in(&plates));
-        assert_eq!(area.split(), (plates.item(1), "area".to_owned()));
+impl Display for Place<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.path.fmt(f)
     }
 }

@@ -19,8 +19,8 @@ use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
 use physics::management::Manager;
 use physics::plant::{
-    Changes, Configuration, DownlinkForecast, ModeSettings, PreparedSpacecraft, SimulationContext, Sources,
-    StepContext, ThrusterAllocator, ThrusterEvent, Thrusters,
+    Changes, Configuration, DownlinkForecast, DynamicsInputs, ModeSettings, PreparedSpacecraft,
+    SimulationContext, Sources, StepContext, ThrusterAllocator, ThrusterEvent, Thrusters,
 };
 
 use self::center::Center;
@@ -60,12 +60,17 @@ pub(super) enum Reconfigured {
 }
 
 impl Reading<'_> {
-    /// Acts with the context of a step of the flight, whose dumps and maneuvers go to `log`.
-    pub(super) fn with<T>(&self, log: &dyn Fn(&ThrusterEvent), act: impl FnOnce(StepContext<'_>) -> T) -> T {
+    /// Acts with the context of a step of the flight with these inputs, whose dumps and maneuvers go to `log`.
+    pub(super) fn with<T>(
+        &self,
+        inputs: &DynamicsInputs,
+        log: &dyn Fn(&ThrusterEvent),
+        act: impl FnOnce(StepContext<'_>) -> T,
+    ) -> T {
         let Self { prepared, work_limit, .. } = *self;
         let external = |time_s| self.applied.at(time_s);
         let planner = |forecast: &mut DownlinkForecast<'_>| self.manager.choose(forecast);
-        act(StepContext { prepared, external: &external, planner: &planner, work_limit, log })
+        act(StepContext { prepared, external: &external, inputs, planner: &planner, work_limit, log })
     }
 }
 

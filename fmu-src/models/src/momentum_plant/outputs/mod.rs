@@ -130,13 +130,13 @@ fn write_loads(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
 
 /// Positions of spacecraft, Sun, Earth and planet.
 fn write_bodies(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
-    let Report { time_s, configuration, evaluation, .. } = report;
+    let Report { configuration, evaluation, .. } = report;
     let (variables, instant) = (context.variables, &evaluation.instant);
     let sun = SunAngles::from_direction(&instant.sun_body);
     let planet_body_m = instant.planet_body_m.unwrap_or_default();
     values.set_vector(variables.sun.position_body, instant.sun_position_body_m().into());
     values.set_vector(variables.planet.position_body, planet_body_m.into());
-    values.set_vector(variables.planet.pole_body, evaluation.pole_body(configuration, *time_s).into());
+    values.set_vector(variables.planet.pole_body, evaluation.pole_body(configuration).into());
     values.set_vector(variables.sun.direction, instant.sun_body.into());
     values.set_real(variables.sun.azimuth, sun.azimuth_rad);
     values.set_real(variables.sun.elevation, sun.elevation_rad);
@@ -183,7 +183,7 @@ fn write_panels_and_thrusters(context: &Plan<'_>, values: &mut Values, report: &
     let Report { time_s, configuration, evaluation, .. } = report;
     let (variables, time_s) = (context.variables, *time_s);
     let panels = context.setup.spacecraft.panels.iter().zip(&configuration.panels);
-    let sun = evaluation.instant.sun_at(time_s);
+    let sun = evaluation.instant.sun();
     // The corridor was checked where the flight began.
     let corridor = variables.articulation.read(values).unwrap_or_default();
     for (index, (panel, (body, setting))) in variables.panel.iter().zip(panels).enumerate() {
@@ -312,11 +312,11 @@ fn write_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>)
             surface_in_plume(&context.setup.spacecraft, thruster, angle).is_some()
         };
         values.set_real(variables.thrust, thrust_n);
-        values.set_integer(variables.pulses, i32::try_from(thrusters.valves().pulses(k)).unwrap_or(i32::MAX));
-        values.set_boolean(variables.too_short, thrusters.valves().was_too_short(k));
+        values.set_integer(variables.pulses, i32::try_from(thrusters.valves.pulses(k)).unwrap_or(i32::MAX));
+        values.set_boolean(variables.too_short, thrusters.valves.was_too_short(k));
         values.set_boolean(variables.plume, hits);
     }
-    values.set_boolean(v.thrust.active, thrusters.burning().is_some());
+    values.set_boolean(v.thrust.active, thrusters.valves.burning().is_some());
     let propellant = &thrusters.propellant;
     for (k, (tank, variables)) in report.reaction_control.tanks.iter().zip(&v.tank).enumerate() {
         let used_kg = propellant.used_kg(k, time_s);
@@ -356,7 +356,7 @@ pub(super) fn write_polynomial(context: &Plan<'_>, values: &mut Values, flight: 
         context.setup.spacecraft.sunshade.as_ref().zip(flight.context()).and_then(|(shade, flown)| {
             let (configuration, materials) =
                 (&flown.configuration, flown.models.solar.as_ref().map_or(&[][..], SolarModel::materials));
-            let center_of_mass_body_m = &configuration.center_of_mass_body_m;
+            let center_of_mass_body_m = &configuration.wet_mass.center_of_mass_body_m;
             TorquePolynomial::of_sunshade(shade, configuration.sunshade, materials, center_of_mass_body_m)
                 .ok()
         });

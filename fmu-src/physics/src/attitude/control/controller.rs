@@ -9,7 +9,7 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::estimate::Estimate;
+use super::estimator::Estimate;
 use super::reference::{ControlTarget, Reference, ReferenceSample, SlewLimits};
 use super::settings::ControllerSettings;
 use crate::attitude::rotation::Attitude;
@@ -18,7 +18,7 @@ use crate::attitude::rotation::Attitude;
 const LOST_REFERENCE: f64 = 2.0;
 
 /// State of the controller from one sample to the next.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ControllerState {
     reference: Reference,
     /// Integral of the angle error, in rad s, body frame.
@@ -65,15 +65,9 @@ impl ControllerState {
     pub fn new(attitude: Attitude, rate_body_rad_s: Vector3<f64>) -> Self {
         Self {
             reference: Reference::new(attitude, rate_body_rad_s),
-            integral_rad_s: Vector3::zeros(),
-            drift_rad: Vector3::zeros(),
-            last_rate_error_rad_s: Vector3::zeros(),
-            requested_body_n_m: Vector3::zeros(),
-            missing_body_n_m: Vector3::zeros(),
             has_reference: true,
             was_valid: true,
-            was_rate_only: false,
-            attitude_error_rad: 0.0,
+            ..Self::default()
         }
     }
 

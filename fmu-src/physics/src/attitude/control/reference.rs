@@ -59,7 +59,7 @@ pub struct ReferenceSample {
 }
 
 /// The reference attitude at the next sample.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Reference {
     /// EME2000 to reference frame.
     pub attitude: Attitude,

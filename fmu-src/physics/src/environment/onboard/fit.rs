@@ -53,7 +53,8 @@ impl FitError {
 /// Segments to fit, and the epochs at which the motion must be known for that.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitPlan {
-    edges_s: Vec<f64>,
+    /// Starts of the segments, and the end of the last one.
+    pub(super) edges_s: Vec<f64>,
 }
 
 /// Purpose of an epoch of the plan.
@@ -84,16 +85,6 @@ impl FitPlan {
         Self { edges_s }
     }
 
-    /// How many segments there are.
-    pub fn len(&self) -> usize {
-        self.edges_s.len() - 1
-    }
-
-    /// Whether there is none, which cannot be.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
     /// The epochs at which [`FitPlan::fit`] wants the states, in rising order.
     pub fn epochs_s(&self) -> Vec<f64> {
         self.edges_s.windows(2).flat_map(|edge| schedule(edge[0], edge[1])).map(|(at_s, _)| at_s).collect()
@@ -102,7 +93,7 @@ impl FitPlan {
     /// The segments of this degree through the states at [`FitPlan::epochs_s`], and their error.
     pub fn fit(&self, states: &[CartesianState], degree: usize) -> (SegmentTable, FitError) {
         let mut error = FitError::default();
-        let mut fitted = Vec::with_capacity(self.len());
+        let mut fitted = Vec::with_capacity(self.edges_s.len());
         for (edge, states) in self.edges_s.windows(2).zip(states.chunks(SAMPLES + CHECKS)) {
             let (start_s, end_s) = (edge[0], edge[1]);
             let purposes = schedule(start_s, end_s);

@@ -252,7 +252,10 @@ impl DisturbanceModel {
         end_heat_w: &[f64],
         duration_s: f64,
     ) {
-        self.faces.advance_temperatures(temperatures_k, [start_heat_w, end_heat_w], duration_s);
+        for surface in &self.faces.surfaces {
+            let heat_w = [start_heat_w, end_heat_w];
+            surface.advance_temperatures(&self.faces, temperatures_k, heat_w, duration_s);
+        }
     }
 
     fn check_temperatures(&self, recoil: Recoil<'_>) -> Result<(), Refusal> {
