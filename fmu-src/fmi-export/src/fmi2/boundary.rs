@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use std::ffi::CString;
 
 use model_description::Status;
-use model_description::call_table::Function;
+use model_description::call_table::{Function, State};
 use model_description::functions::types::{CallbackLogger, Component, FmuState};
 
 use super::arguments::null;
@@ -132,7 +132,9 @@ fn concluded(
 
 #[cold]
 fn panicked(inner: &mut Inner, function: Function, text: &str) -> Status {
-    inner.instance.poison();
+    // No call but free works from here on.
+    inner.instance.poisoned = true;
+    inner.instance.state.mode = State::Error;
     let logger = &inner.instance.logger;
     // The logger itself may have been what panicked.
     let _ = contain(|| logger.log(Status::Error, format_args!("{}: panic: {text}", function.symbol())));

@@ -148,22 +148,15 @@ impl MaterialVariables {
 
     /// Interaction with air.
     fn air(&self) -> Option<GasSurface<Real>> {
-        let &[
-            drag_coefficient,
-            energy_accommodation,
-            normal_accommodation,
-            tangential_accommodation,
-            wall_temperature_k,
-        ] = self.0.get(LIGHT_AND_HEAT..)?
-        else {
+        let &[drag, energy, normal, tangential, wall_temperature] = self.0.get(LIGHT_AND_HEAT..)? else {
             return None;
         };
         Some(GasSurface {
-            drag_coefficient,
-            energy_accommodation,
-            normal_accommodation,
-            tangential_accommodation,
-            wall_temperature_k,
+            drag_coefficient: drag,
+            energy_accommodation: energy,
+            normal_accommodation: normal,
+            tangential_accommodation: tangential,
+            wall_temperature_k: wall_temperature,
         })
     }
 

@@ -108,7 +108,8 @@ impl Instance {
         if let Some(before) = before {
             self.report_resolved(&before);
         }
-        self.allocate_spare();
+        // No step has to bring them to their size.
+        self.spare.clone_from(&self.state.values);
         Ok(())
     }
 

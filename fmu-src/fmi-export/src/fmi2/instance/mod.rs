@@ -21,7 +21,7 @@ use crate::logger::Logger;
 use crate::prepared::Prepared;
 use crate::runtime::Runtime;
 use crate::variables::{Element, Real, SetBits, Values};
-use model_description::call_table::{self, Access, Function, Next, State};
+use model_description::call_table::{self, Access, Function, Next};
 use model_description::{BaseType, Status};
 use pending::Deferred;
 
@@ -89,12 +89,6 @@ impl Instance {
             earliest_s: f64::NEG_INFINITY,
             poisoned: false,
         }
-    }
-
-    /// No call but free works from here on.
-    pub(crate) fn poison(&mut self) {
-        self.poisoned = true;
-        self.state.mode = State::Error;
     }
 
     /// Refuses a call that neither the table nor a leniency admits in this state. What is conditional is checked per
@@ -174,11 +168,6 @@ impl Instance {
     /// The values at which derivatives are taken: those of the last step, whatever was set since.
     pub(super) fn values_at_last_step(&self) -> &Values {
         self.state.at_last_step.as_ref().unwrap_or(&self.state.values)
-    }
-
-    /// Brings the spare values to their size, so that no step has to.
-    pub(super) fn allocate_spare(&mut self) {
-        self.spare.clone_from(&self.state.values);
     }
 
     /// Forgets the values kept for derivatives, but not their memory.

@@ -25,7 +25,7 @@ macro_rules! getter {
                 if self.reading_needs_preparation() {
                     self.prepare_reading(BaseType::$base, references)?;
                 }
-                if self.deferred.is_pending() {
+                if !self.deferred.pending.is_empty() {
                     self.write_read(BaseType::$base, references)?;
                 }
                 let table = &self.state.values.$table;
