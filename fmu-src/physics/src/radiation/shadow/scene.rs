@@ -126,11 +126,6 @@ impl ShadowScene {
         Self { before: before.collect(), surfaces, size_m }
     }
 
-    /// Whether any surface can shadow another at some direction and some angles.
-    pub fn has_pairs(&self) -> bool {
-        self.before.iter().flatten().any(|list| !list.is_empty())
-    }
-
     /// Ordered pairs in which the second surface can shadow a side of the first.
     pub fn candidate_pairs(&self) -> usize {
         self.before.iter().flatten().map(Vec::len).sum()
