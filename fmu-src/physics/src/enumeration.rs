@@ -38,6 +38,7 @@ macro_rules! enumeration {
         $($(#[$($of_item:tt)+])+ $value:literal => $variant:ident,)+
     }) => {
         $(#[$attribute])*
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
         $visibility enum $name {
             $($(#[$($of_item)+])+ $variant,)+
         }
@@ -74,7 +75,6 @@ macro_rules! file_enumerations {
         $crate::enumeration::enumeration! {
             $(#[$attribute])*
             #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-            #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
             #[serde(rename_all = "camelCase")]
             $visibility enum $name $items
         }

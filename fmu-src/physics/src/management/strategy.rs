@@ -59,7 +59,7 @@ impl Forecast for DownlinkForecast<'_> {
     type Error = PlantError;
 
     fn terms(&self) -> ForecastTerms {
-        let Settings { convention, policy, .. } = self.context.configuration.momentum;
+        let Settings { convention, policy, .. } = self.configuration().momentum;
         ForecastTerms {
             begin_s: self.time_s,
             cycle_s: if self.forecasts { self.law.schedule.cycle_s() } else { f64::INFINITY },
@@ -184,7 +184,7 @@ impl Manager<'_> {
                 cycles: later[axis].get(..prediction.count).unwrap_or_default(),
                 path: &prediction.path[axis],
                 threshold: policy.threshold_body_n_m_s[body_axis],
-                dumped: |before| policy.component_after(body_axis, before + bias_n_m_s) - bias_n_m_s,
+                dumped: |before| policy.after(&Vector3::repeat(before + bias_n_m_s))[body_axis] - bias_n_m_s,
             };
             component.target() - beside[axis] + bias_n_m_s
         };

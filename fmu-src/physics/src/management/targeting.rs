@@ -277,7 +277,7 @@ impl MomentumAim<'_> {
         let roots = (0..INTERVALS).filter_map(|k| {
             let (from, to) = (at(k), at(k + 1));
             let changes_sign = left(from) * left(to) <= 0.0;
-            changes_sign.then(|| roots::bracketed(from, to, 0.0, left).ok()).flatten()
+            changes_sign.then(|| roots::bracketed(from, to, left)).flatten()
         });
         let nearest = roots.min_by(|a, b| a.abs().total_cmp(&b.abs()));
         let angle_rad = nearest.unwrap_or_else(|| {

@@ -4,7 +4,6 @@ use crate::environment::ephemeris::Ephemeris;
 use crate::guidance::constraints::command_slew::CommandSlew;
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::constraints::slew::{Slew, SlewedFrame};
-use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::pointing::command::Scenario;
 use crate::guidance::timeline::{Slot, TimelineEntry, TimelineLaw, TimelineSettings, bodies_of};
 use crate::guidance::{
@@ -16,6 +15,7 @@ use super::geometry::{self, Geometry, GeometrySight, SimulationEphemeris};
 use super::trajectory::Trajectory;
 use crate::plant::settings::attitude_source::AttitudeSource;
 use crate::plant::settings::configuration::Configuration;
+use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 
 /// Returns the geometry at `time_s`; a law reads motions about `planet` from it as well, or directions alone.
 fn sight(
@@ -38,11 +38,9 @@ pub(super) struct GuidedLaw<'k> {
     pub configuration: &'k Configuration,
     pub trajectory: &'k Trajectory,
     pub ephemeris: &'k mut Ephemeris,
-    /// The default downlink of the spacecraft's antennas.
-    pub default_downlink: &'k DefaultDownlink,
-    /// Commands over time.
-    pub timeline: Option<TimelineLaw<'k>>,
-    /// Slews into them.
+    /// The spacecraft.
+    pub spacecraft: PreparedSpacecraft<'k>,
+    /// Slews into the timeline's commands.
     pub command_slews: &'k mut CommandSlews,
     /// Settings of the guidance.
     pub guided: &'k Guided,
@@ -67,7 +65,7 @@ impl GuidedLaw<'_> {
     /// Attitude that the timeline commands at `time_s`, else the orbit phase's own guidance.
     pub(super) fn attitude(&mut self, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let guided = self.guided;
-        let Some((law, settings)) = self.timeline.zip(self.configuration.timeline) else {
+        let Some((law, settings)) = self.spacecraft.timeline.zip(self.configuration.timeline) else {
             let (requested, cut) = guided.requested.at_distance(geometry.to_sun.position_m.norm());
             let own = self.by_orbit_phase(&Guided { requested, ..*guided }, time_s, geometry);
             return GuidedAttitude { clamped: own.clamped || cut, ..own };
@@ -207,7 +205,7 @@ impl GuidedLaw<'_> {
     fn by_orbit_phase(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
         let trajectory = self.trajectory;
-        let law = OrbitPhaseLaw { guided: *guided, default_downlink: self.default_downlink };
+        let law = OrbitPhaseLaw { guided: *guided, default_downlink: self.spacecraft.default_downlink };
         let epoch_s = time_s + configuration.epoch_minus_time_s;
         let planet =
             guided.science.reads_motion().then(|| TargetPlanet::from_body(configuration.center.data()));

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::commands::Commands;
 use crate::attitude::JetDamping;
+use crate::numerics::Span;
 use crate::propulsion::{PulseSchedule, ThrustLaw, Valve, due_s};
 use crate::spacecraft::{MOST_THRUSTERS, Thruster, steiner};
 use crate::spin::spinner::{PulseExecution, Spinner};
@@ -46,12 +47,12 @@ impl Valves {
 
     /// Takes what is commanded for the step from `start_s` to `end_s`, in s, by the law of [`PulseSchedule`].
     pub(super) fn command(&mut self, commands: &Commands, start_s: f64, end_s: f64) {
-        let step_s = [start_s, end_s];
+        let step = Span::new(start_s, end_s);
         for (k, schedule) in self.schedule.iter_mut().enumerate() {
             let timing = &self.execution[k].valve;
-            schedule.command(timing, &commands.pulses[k], step_s, true);
+            schedule.command(timing, &commands.pulses[k], step, true);
             if commands.fire >> k & 1 == 1 {
-                schedule.plan(timing, start_s, end_s);
+                schedule.plan(timing, step);
             }
         }
     }
