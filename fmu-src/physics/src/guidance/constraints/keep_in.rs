@@ -48,6 +48,8 @@ pub struct KeepIn {
     pub elevation_rad: f64,
     /// Boundary point.
     pub method: KeepInMethod,
+    /// Greatest distance from the Sun at which it counts, in m.
+    pub distance_m: f64,
 }
 
 /// An attitude with the Sun inside the zone.

@@ -67,7 +67,7 @@ impl CommandStatus {
         solution: &PointingSolution,
         constrained: &ConstrainedPointing,
     ) -> Self {
-        let SampleContext { settings, ephemeris, requested_sun: (_, is_sun_moved), .. } = *now;
+        let SampleContext { settings, ephemeris, requested_sun, .. } = *now;
         let ConstrainedPointing { pointing, sun_keep_in, hot_pole: turn, hot_pole_reached } = *constrained;
         let hot_pole = turn.is_some();
         let earth_body = value(&pointing.to_body(&ephemeris.to_earth()));
@@ -96,7 +96,7 @@ impl CommandStatus {
             scan_active: solution.scan_active,
             downlink: DownlinkStatus {
                 clamped: solution.downlink.active
-                    && (solution.downlink.clamped || is_sun_moved || sun_keep_in),
+                    && (solution.downlink.clamped || requested_sun.is_moved || sun_keep_in),
                 ..solution.downlink
             },
             sun_keep_in,

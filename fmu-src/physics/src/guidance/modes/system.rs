@@ -111,7 +111,7 @@ impl GuidanceState {
         let sensed = Sensed { time_s, ..inputs.sensed };
         let mut modes = settings.modes;
         let before = self.modes.ephemeris_in_mode(&inputs.positions).map(EphemerisAtTime::to_sun);
-        if before.is_some_and(|to_sun| value(&to_sun).norm() > settings.keep_in_distance_m) {
+        if before.is_some_and(|to_sun| value(&to_sun).norm() > settings.keep_in.distance_m) {
             modes.operational.keep_in = None;
         }
         modes.watches_hot_pole &= self.status.hot_pole_reached;
@@ -174,9 +174,10 @@ impl GuidanceState {
         let window = || present_window(law, &command, ephemeris, attitude, periapses);
         let window = is_operational.then(window).flatten();
         let is_chosen = self.downlink_sun.update(window.as_ref(), self.timers.entries.scenario, choose);
-        let requested_sun = match is_operational {
-            true => inputs.requested_sun.within(keep_in.as_ref()),
-            false => (SunRequest::default(), false),
+        let requested_sun = if is_operational {
+            inputs.requested_sun.within(keep_in.as_ref())
+        } else {
+            SunRequest::default()
         };
         let (constraints, sun_is_placed) = (*constraints, inputs.sun_is_placed);
         let now = SampleContext { settings, constraints, ephemeris, requested_sun, sun_is_placed, time_s };
@@ -295,7 +296,7 @@ impl GuidanceState {
     fn solution(&mut self, now: &SampleContext<'_>, command: &PointingCommand) -> Option<PointingSolution> {
         if command.scenario == Some(Scenario::OrbitPhase) {
             let guided = now.settings.orbit_phase.with_sun_directions(&self.sun_directions());
-            let guided = Guided { requested: now.requested_sun.0, ..guided };
+            let guided = Guided { requested: now.requested_sun, ..guided };
             let hardware = &now.settings.hardware;
             let law = OrbitPhaseLaw { guided, default_downlink: hardware.default_downlink };
             let attitude = self.periapses.attitude(&law, now.ephemeris);
@@ -305,7 +306,7 @@ impl GuidanceState {
             scan: self.timers.scan_time(now.time_s),
             limb_elapsed_s: self.timers.limb_elapsed_s(now.time_s),
             downlink_sun: self.sun_directions().in_downlink().filter(|_| !now.sun_is_placed),
-            requested: now.requested_sun.0,
+            requested: now.requested_sun,
             burn: self.burn.pointing(&now.settings.burn),
         };
         pointing_solution(command, &now.settings.hardware, now.ephemeris, &progress)

@@ -115,7 +115,6 @@ pub(crate) fn guidance_settings(burn: BurnSettings) -> GuidanceSettings<'static>
             sun_search_duration_s: 600.0,
         },
         keep_in,
-        keep_in_distance_m: 1e13,
         link: LinkLimits { sun_separation_rad: 0.05, coverage_rad: Some(0.05) },
         orbit_phase: guided(ScienceRule::Nadir, f64::INFINITY, [0.0, 0.0], 0),
         burn,

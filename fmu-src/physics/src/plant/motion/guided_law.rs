@@ -66,9 +66,9 @@ impl GuidedLaw<'_> {
     pub(super) fn attitude(&mut self, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let guided = self.guided;
         let Some((law, settings)) = self.spacecraft.timeline.zip(self.configuration.timeline) else {
-            let (requested, cut) = guided.requested.at_distance(geometry.to_sun.position_m.norm());
+            let requested = guided.requested.at_distance(geometry.to_sun.position_m.norm());
             let own = self.by_orbit_phase(&Guided { requested, ..*guided }, time_s, geometry);
-            return GuidedAttitude { clamped: own.clamped || cut, ..own };
+            return GuidedAttitude { clamped: own.clamped || requested.is_moved, ..own };
         };
         let slot = law.timeline.slot(time_s, settings.clock_minus_time_s);
         let command = SlotCommand { law: &law, settings: &settings, slot };
@@ -171,14 +171,15 @@ impl GuidedLaw<'_> {
             return GuidedAttitude { row: slot.row, ..GuidedAttitude::held(command, window) };
         }
         let keep_in = self.keep_in_of_orbit_phase(slot.entry);
-        let (requested, cut) = requested.at_distance(geometry.to_sun.position_m.norm());
+        let requested = requested.at_distance(geometry.to_sun.position_m.norm());
         let own = self.by_orbit_phase(&Guided { requested, keep_in, ..*guided }, time_s, geometry);
         let window = Window {
             since_s: own.window.since_s.max(since_s),
             until_s: own.window.until_s.min(until_s),
             ..own.window
         };
-        GuidedAttitude { window, clamped: own.clamped || cut, until_s: own.until_s.min(until_s), ..own }
+        let clamped = own.clamped || requested.is_moved;
+        GuidedAttitude { window, clamped, until_s: own.until_s.min(until_s), ..own }
     }
 
     /// The attitude of a command of the timeline.

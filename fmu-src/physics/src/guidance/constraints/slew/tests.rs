@@ -16,6 +16,7 @@ fn zone(random: &mut Random) -> KeepIn {
         azimuth_rad: random.within(0.05, 0.6),
         elevation_rad: random.within(0.05, 0.6),
         method: KeepInMethod::Nearest,
+        distance_m: f64::INFINITY,
     }
 }
 
