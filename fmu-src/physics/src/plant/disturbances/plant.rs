@@ -19,7 +19,6 @@ use crate::plant::instant::conditions::Conditions;
 use crate::plant::instant::path_ahead::PathAhead;
 use crate::plant::motion::instant::Instant;
 use crate::plant::motion::kinematics::Kinematics;
-use crate::plant::motion::panel_motion::Hinged;
 use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
 use crate::plant::settings::configuration::Configuration;
@@ -133,12 +132,6 @@ impl<'a> Plant<'a> {
             return Vector3::zeros();
         }
         configuration.panel_momentum_body_n_m_s(spacecraft.panels, mass, &instant.moving_sun())
-    }
-
-    /// The panels with what they belong to.
-    pub(crate) fn hinged(&self) -> Hinged<'a> {
-        let Kinematics { configuration, spacecraft, current_mass_panels_stowed, .. } = self.path.kinematics;
-        Hinged { panels: spacecraft.panels, configuration, current_mass_panels_stowed }
     }
 
     /// Geometry and attitude at `time_s`.

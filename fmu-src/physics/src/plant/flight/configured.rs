@@ -107,9 +107,9 @@ impl ConfiguredFlight<'_> {
         self.propagator.sources.dipoles(&self.context.configuration, time_s)
     }
 
-    /// Mass properties at `time_s` without the propellant used, panels at angle 0; `None` while none is used.
-    pub(super) fn used_mass(&self, wet: &MassProperties, time_s: f64) -> Option<MassProperties> {
-        self.thrusters.mass_properties_stowed(&self.context.allocator.settings, wet, time_s)
+    /// Mass properties at `time_s` without the propellant used, panels at angle 0.
+    pub(super) fn used_mass(&self, wet: &MassProperties, time_s: f64) -> MassProperties {
+        self.thrusters.propellant.mass_properties(wet, &self.context.allocator.settings.tanks, time_s)
     }
 
     /// Frame and rate that this guidance commands where the flight begins.

@@ -5,7 +5,6 @@
 mod configured;
 mod dynamic;
 mod encounter_prediction;
-mod flight_setup;
 mod fork;
 mod grid_edge;
 mod ideal;
@@ -25,6 +24,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use crate::attitude::control::Estimate;
 use crate::loads::ForceTorque;
 use crate::numerics::Span;
+use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::events::{self, EventKind};
@@ -45,7 +45,6 @@ use crate::spacecraft::Spacecraft;
 use configured::ConfiguredFlight;
 use dynamic::Dynamic;
 use encounter_prediction::predict_encounter;
-use flight_setup::FlightSetup;
 use ideal::Ideal;
 use in_flight::InFlight;
 use report::{ReachedState, Report};
@@ -56,6 +55,16 @@ use report::{ReachedState, Report};
 pub struct Flight {
     state: FlightState,
     setup: Option<Box<FlightSetup>>,
+}
+
+/// Configuration, settings and caches of a flight, none of them saved.
+#[derive(Clone, Debug)]
+struct FlightSetup {
+    context: SimulationContext,
+    settings: ModeSettings,
+    distribution: WheelDistribution,
+    /// Geometry, attitude and loads at the last report, kept in place because they are large.
+    evaluation: Option<Evaluation>,
 }
 
 impl From<FlightState> for Flight {
@@ -129,7 +138,12 @@ impl Flight {
 
     /// Takes what parameters and inputs set.
     pub fn configure(&mut self, context: SimulationContext, settings: ModeSettings) {
-        self.setup = Some(Box::new(FlightSetup::new(context, settings)));
+        self.setup = Some(Box::new(FlightSetup {
+            context,
+            settings,
+            distribution: Default::default(),
+            evaluation: None,
+        }));
         self.update_current_mass();
     }
 
@@ -152,9 +166,9 @@ impl Flight {
     fn update_current_mass(&mut self) {
         if let Some(FlightSetup { context, .. }) = self.setup.as_deref_mut() {
             let loaded = self.state.propagator.center_of_mass.mass_properties(&context.configuration);
-            let settings = &context.allocator.settings;
-            let current = self.state.thrusters.mass_properties_stowed(settings, &loaded, 0.0);
-            context.current_mass_panels_stowed = current.unwrap_or(loaded);
+            let propellant = &self.state.thrusters.propellant;
+            let tanks = &context.allocator.settings.tanks;
+            context.current_mass_panels_stowed = propellant.mass_properties(&loaded, tanks, 0.0);
         }
     }
 
