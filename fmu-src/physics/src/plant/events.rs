@@ -7,8 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::guidance::timeline::TimelineEvent;
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::last_event::LastEvent;
-use crate::plant::settings::thruster_events::ThrusterEventSettings;
+use crate::plant::settings::thruster_events::{LastEvent, ThrusterEventSettings};
 
 /// Kind of an event, in the order of those at equal times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

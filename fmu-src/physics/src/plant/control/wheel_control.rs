@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::control::WheelAllocator;
 use crate::attitude::{Gyrostat, Motor};
-use crate::plant::settings::wheel_control_settings::WheelControlSettings;
+use crate::plant::settings::dynamics_settings::WheelControlSettings;
 
 /// Motors of the wheels.
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -6,11 +6,10 @@ use crate::attitude::{Attitude, BodyMotion, GyrostatMotion, MovingFrame};
 use crate::guidance::pointing::boresight::Gimbal;
 use crate::guidance::{Activity, Guided, Schedule, ScienceRule, SelectedSunDirection, Window};
 use crate::loads::ForceTorque;
-use crate::momentum::{TorqueModel, Totals};
+use crate::momentum::{TorqueModel, Totals, WorkKind};
 
 use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 use super::fork::ForkOrigin;
-use crate::momentum::WorkKind;
 use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::External;
 use crate::plant::disturbances::plant::Plant;

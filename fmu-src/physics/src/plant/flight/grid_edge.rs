@@ -15,8 +15,7 @@ use crate::plant::motion::panel_motion::PanelMotion;
 use crate::plant::settings::dynamics_settings::{DynamicsSettings, StartMotion, StartPointing};
 use crate::plant::settings::error::PlantError;
 use crate::plant::state::disturbance_interval::DisturbanceInterval;
-use crate::plant::state::dynamic_state::DynamicState;
-use crate::plant::state::mass::MassState;
+use crate::plant::state::dynamic_state::{DynamicState, MassState};
 use crate::plant::state::momentum_dumps::MomentumDumps;
 
 /// Returns the state at the start of a flight in the attitude after `held`.

@@ -15,7 +15,7 @@ use super::configured::{ConfiguredFlight, SunSelectionStart};
 use super::downlink_forecast::StartMomentum;
 use crate::plant::events::{self, EventKind, Eventful, LastEvents};
 use crate::plant::settings::error::{ManeuverError, PlantError};
-use crate::plant::settings::ideal_settings::IdealSettings;
+use crate::plant::settings::mode_settings::IdealSettings;
 use crate::plant::settings::thruster_events::{Maneuver, ThrusterEvent};
 use crate::plant::state::ideal_state::IdealState;
 use crate::plant::thrusters::at_once::DumpAtOnce;
@@ -237,12 +237,9 @@ impl<'f> Ideal<'f> {
         if let Some(delta_v_inertial_m_s) = &pushed {
             self.state.integrator.push(delta_v_inertial_m_s);
             self.set_mass(time_s);
-            self.flight.propagator.cut_with_jump(
-                &self.flight.context.configuration,
-                time_s,
-                true,
-                delta_v_inertial_m_s,
-            );
+            let configuration = &self.flight.context.configuration;
+            self.flight.propagator.cut_with_jump(configuration, time_s, delta_v_inertial_m_s);
+            self.flight.propagator.sources.cut(time_s);
         }
         if self.move_center_of_mass(time_s) {
             self.set_mass(time_s);

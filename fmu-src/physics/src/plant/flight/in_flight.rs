@@ -9,8 +9,8 @@ use crate::plant::events;
 use crate::plant::motion::instant::Instant;
 use crate::plant::settings::attitude_source::{AttitudeSource, Command};
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::ideal_settings::IdealSettings;
-use crate::plant::state::encounter_prediction::EncounterPrediction;
+use crate::plant::settings::mode_settings::IdealSettings;
+use crate::plant::state::flight_state::EncounterPrediction;
 use crate::plant::state::ideal_state::IdealState;
 use crate::radiation::SolarModel;
 
