@@ -195,8 +195,10 @@ fn burn(read: Read<'_>) -> Result<BurnSettings, Failure> {
         gain: real(v.gain),
         predictive: read.boolean(v.predictive),
         reactive: read.boolean(v.reactive),
-        thrust_body: nominal.direction_body,
-        acceleration_m_s2: given_m_s2.unwrap_or(nominal.acceleration_m_s2),
+        nominal: NominalThrust {
+            acceleration_m_s2: given_m_s2.unwrap_or(nominal.acceleration_m_s2),
+            ..nominal
+        },
         timeout_s: real(v.timeout),
         wait_s: real(v.timeout),
     })

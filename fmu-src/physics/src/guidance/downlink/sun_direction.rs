@@ -295,7 +295,8 @@ pub struct Link {
 pub fn link(
     ephemeris: &EphemerisAtTime,
     earth_body: &Vector3<f64>,
-    (antennas, beam): (&Antennas, Option<&AntennaAzimuth>),
+    antennas: &Antennas,
+    beam: Option<&AntennaAzimuth>,
     limits: &LinkLimits,
 ) -> Option<Link> {
     let earth = unit(&ephemeris.to_earth())?;

@@ -221,7 +221,7 @@ pub fn unloading(lines: &LinesOfSight, sun: SunAngles, gimbal: &Gimbal) -> Optio
     let vectors = PointingVectors {
         boresight_body: fixed(sun_body),
         aimpoint: to_sun,
-        body_roll: gimbal.moving_boresight(off_beta + beta_rad),
+        body_roll: gimbal.boresight(off_beta + beta_rad),
         external_roll: to_planet,
     };
     Some(AttitudeCommand::new(vectors.pointing()?.frame(), margins))

@@ -5,7 +5,9 @@ use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::constraints::slew::{Slew, SlewedFrame};
 use crate::guidance::pointing::command::Scenario;
 use crate::guidance::timeline::{Slot, TimelineEntry, TimelineLaw, TimelineSettings, bodies_of};
-use crate::guidance::{Activity, AttitudeCommand, Guided, GuidedAttitude, Sight, TargetPlanet, Window};
+use crate::guidance::{
+    Activity, AttitudeCommand, Guided, GuidedAttitude, OrbitPhaseLaw, Sight, TargetPlanet, Window,
+};
 
 use super::command_slews::CommandSlews;
 use super::geometry::{Geometry, GeometrySight, SimulationEphemeris};
@@ -198,13 +200,14 @@ impl GuidedLaw<'_, '_> {
     /// Attitude that the orbit phase's own guidance commands at `time_s`.
     fn by_orbit_phase(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let (configuration, bodies) = (self.configuration, &mut *self.bodies);
-        let (trajectory, default_downlink) = (self.trajectory, self.spacecraft.default_downlink);
+        let trajectory = self.trajectory;
+        let law = OrbitPhaseLaw { guided: *guided, default_downlink: self.spacecraft.default_downlink };
         let epoch_s = time_s + configuration.epoch_minus_time_s;
         let planet =
             guided.science.reads_motion().then(|| TargetPlanet::from_body(configuration.center.data()));
         let window =
             trajectory.window(configuration, time_s).unwrap_or_else(|| guided.schedule.window(epoch_s));
-        guided.within(window, epoch_s, default_downlink, |at_epoch_s| {
+        law.within(window, epoch_s, |at_epoch_s| {
             if at_epoch_s == epoch_s {
                 return sight(bodies, time_s, *geometry, planet);
             }
