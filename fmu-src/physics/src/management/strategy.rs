@@ -94,9 +94,10 @@ impl Manager<'_> {
             return Ok(None);
         };
         let prediction = self.predict(forecast)?;
-        let linear = self.linear(forecast.materials(), &forecast.center_of_mass_body_m());
+        let sunlit = forecast.sunlit();
+        let linear = self.linear(sunlit.solar.materials(), &sunlit.center_of_mass_body_m());
         let ForecastTerms { convention, .. } = forecast.terms();
-        let torque = |sun_body: &Vector3<f64>| forecast.torque_body_n_m(sun_body);
+        let torque = |sun_body: &Vector3<f64>| sunlit.torque_body_n_m(sun_body, forecast.pressure_pa);
         let state = DownlinkState {
             to_sun: forecast.to_sun,
             to_earth,
