@@ -221,12 +221,9 @@ fn table(check: &mut Checker<'_>, at: &KeyPath, body: &BodyDescription) -> Optio
         let allowed = format!("a degree from 0 to {GREATEST_DEGREE}");
         check.report(&at.key("degree"), body.degree, allowed);
     }
-    let segments: Vec<EphemerisSegment> = body
-        .segment
-        .iter()
-        .enumerate()
-        .map(|(index, described)| segment(check, &place.item(index), described, degree))
-        .collect();
+    let described = body.segment.iter().enumerate();
+    let read = described.map(|(index, described)| segment(check, &place.item(index), described, degree));
+    let segments: Vec<EphemerisSegment> = read.collect();
     for (index, pair) in segments.windows(2).enumerate() {
         let (end_s, start_s) = (pair[0].end_s, pair[1].start_s);
         if end_s != start_s {
