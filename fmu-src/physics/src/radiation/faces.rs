@@ -12,7 +12,7 @@ use crate::math;
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::refusal::Refusal;
 use crate::spacecraft::{
-    BusLink, Cylinder, Emission, Material, Panel, Plate, Spacecraft, SunshadeModel, Thermal,
+    BusLink, Cylinder, Emission, FaceProperties, Material, Panel, Plate, Spacecraft, SunshadeModel, Thermal,
 };
 
 /// Strips a cylindrical shade is cut into for planet light and heat; sunlight on it has a closed form.
@@ -208,18 +208,18 @@ impl Faces {
     }
 
     fn add(&mut self, plate: &Plate, normals: [Normal; 2], hinge: Option<Hinge>) {
-        let thermal @ Thermal { front, rear, internal_heat_w, .. } = plate.thermal;
-        let sides =
-            [Some((plate.optics, front)), plate.rear_optics.map(|optics| (optics, rear.unwrap_or(front)))];
+        let FaceProperties { optics, rear_optics, gas_surface, thermal, materials } = plate.faces;
+        let Thermal { front, rear, internal_heat_w, .. } = thermal;
+        let sides = [Some((optics, front)), rear_optics.map(|optics| (optics, rear.unwrap_or(front)))];
         let first_face = self.faces.len();
         for (side, (optics, of_face)) in sides.into_iter().flatten().enumerate() {
             let normal = self.normal(normals[side]);
             let surface = self.surfaces.len();
-            let material = Material { optics, thermal: of_face, gas_surface: plate.gas_surface[side] };
-            let material = self.material(plate.materials[side], material);
+            let material = Material { optics, thermal: of_face, gas_surface: gas_surface[side] };
+            let material = self.material(materials[side], material);
             self.faces.push(Face { normal, surface, material, internal_heat_w: internal_heat_w[side] });
         }
-        let two_sided = plate.rear_optics.is_some();
+        let two_sided = rear_optics.is_some();
         let outline = plate.polygon.clone().map(|polygon| Outline { polygon, hinge, two_sided });
         self.surfaces.push(Surface {
             name: plate.name.clone(),
@@ -253,8 +253,8 @@ fn strips(cylinder: &Cylinder) -> impl Iterator<Item = Plate> + '_ {
         let area_m2 = cylinder.radius_m * width_rad * cylinder.height_m;
         let center_m = normal * cylinder.radius_m;
         let plate = Plate::insulated(name, area_m2, center_m, normal, (cylinder.optics, None));
-        let thermal = Thermal { front: cylinder.thermal, ..plate.thermal };
+        let thermal = Thermal { front: cylinder.thermal, ..plate.faces.thermal };
         let (gas_surface, materials) = ([cylinder.gas_surface; 2], [cylinder.material, None]);
-        Plate { gas_surface, thermal, materials, ..plate }
+        Plate { faces: FaceProperties { gas_surface, thermal, materials, ..plate.faces }, ..plate }
     })
 }

@@ -53,7 +53,7 @@ impl TorquePolynomial {
                 // The plates' front faces (eqs 6-8).
                 let mut sum = Self { k: [[0.0; 9]; 3] };
                 for plate in &shade.plates {
-                    let optics = optics(plate.materials[0], materials).unwrap_or(&plate.optics);
+                    let optics = optics(plate.faces.materials[0], materials).unwrap_or(&plate.faces.optics);
                     sum.add(&Moments::of_plate(plate, &center_of_mass_m), optics);
                 }
                 Ok(sum)

@@ -79,11 +79,11 @@ impl SolarModel {
             }
         }
         for panel in &mut self.panels {
-            let [front, rear] = panel.materials.map(|of_side| of_side == Some(place));
+            let [front, rear] = panel.faces.materials.map(|of_side| of_side == Some(place));
             if front {
-                panel.optics = material.optics;
+                panel.faces.optics = material.optics;
             }
-            if let Some(optics) = panel.rear_optics.as_mut().filter(|_| rear) {
+            if let Some(optics) = panel.faces.rear_optics.as_mut().filter(|_| rear) {
                 *optics = material.optics;
             }
         }
@@ -160,8 +160,11 @@ impl FixedFace {
 #[inline]
 fn panel_force_n<T: Scalar>(panel: &Panel, beam: &Beam<T>, normal: Vector3<T>) -> Vector3<T> {
     let is_front = normal.dot(&beam.source_body).value() > 0.0;
-    let (normal, optics) =
-        if is_front { (normal, Some(&panel.optics)) } else { (-normal, panel.rear_optics.as_ref()) };
+    let (normal, optics) = if is_front {
+        (normal, Some(&panel.faces.optics))
+    } else {
+        (-normal, panel.faces.rear_optics.as_ref())
+    };
     optics.map_or_else(Vector3::zeros, |optics| {
         force_per_area_pa(&optics.map(T::constant), &normal, &beam.received(&normal))
             * T::constant(panel.area_m2)

@@ -11,12 +11,11 @@ use nalgebra::Vector3;
 use crate::attitude::Attitude;
 use crate::momentum::{DumpEvent, PreparedSegment, TorqueModel, Totals, WorkKind};
 
-use super::configured::ConfiguredFlight;
+use super::configured::{ConfiguredFlight, SunSelectionStart};
 use super::downlink_forecast::StartMomentum;
 use crate::plant::events::{self, EventKind, Eventful, LastEvents};
-use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::{ManeuverError, PlantError};
-use crate::plant::settings::ideal_settings::IdealSettings;
+use crate::plant::settings::mode_settings::IdealSettings;
 use crate::plant::settings::thruster_events::{Maneuver, ThrusterEvent};
 use crate::plant::state::ideal_state::IdealState;
 use crate::plant::thrusters::at_once::DumpAtOnce;
@@ -27,8 +26,6 @@ pub(super) struct Ideal<'f> {
     pub state: &'f mut IdealState,
     /// Settings of wheels and sensors.
     pub settings: &'f IdealSettings,
-    /// Inputs of the step.
-    pub inputs: &'f DynamicsInputs,
     /// The flight that advances.
     pub flight: ConfiguredFlight<'f>,
     /// The segment that begins next.
@@ -116,7 +113,8 @@ impl<'f> Ideal<'f> {
         flight.context.models.begin_work(flight.given.work_limit);
         let frame = flight.plant().instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-        flight.select_sun_direction(time_s, &totals, StartMomentum::Body(momentum_body_n_m_s), true)?;
+        let momentum = StartMomentum::Body(momentum_body_n_m_s);
+        flight.select_sun_direction(&SunSelectionStart { time_s, totals, momentum, is_first: true })?;
         flight.context.models.begin_work(flight.given.work_limit);
         let mut plant = flight.plant();
         plant.prepare(time_s, time_s)?;
@@ -125,16 +123,15 @@ impl<'f> Ideal<'f> {
         let mut begun = IdealState::new(time_s, held, totals);
         flight.context.models.begin_work(flight.given.work_limit);
         flight.propagator.panel_turns.restart();
-        let inputs = &DynamicsInputs::default();
-        let mut ideal = Ideal { state: &mut begun, settings, inputs, flight, prepared: None };
+        let mut ideal = Ideal { state: &mut begun, settings, flight, prepared: None };
         events::advance(&mut ideal, time_s)?;
         Ok(begun)
     }
 
     /// Applies the requests of a step from `start_s` on: a maneuver, a dump.
     pub(super) fn apply_requests(&mut self, start_s: f64) -> Result<(), PlantError> {
-        let mut target = self.inputs.dump_to_body_n_m_s;
-        if let Some(maneuver) = self.inputs.maneuver {
+        let mut target = self.flight.given.inputs.dump_to_body_n_m_s;
+        if let Some(maneuver) = self.flight.given.inputs.maneuver {
             self.maneuver(start_s, &maneuver)?;
             let requested = self.flight.context.configuration.thruster_events.requested_body_n_m_s;
             target = target.or(maneuver.dumps.then_some(requested));
@@ -189,9 +186,8 @@ impl<'f> Ideal<'f> {
     /// Executes the event of the timeline that is due.
     fn scheduled_event(&mut self, time_s: f64) -> Result<(), PlantError> {
         let configuration = &self.flight.context.configuration;
-        let last = self.state.last.of_kind(EventKind::Schedule);
-        let Some(event) = configuration.thruster_events.next(*last).copied() else { return Ok(()) };
-        last.take(configuration.thruster_events.time_s(&event));
+        let taken = self.state.last.take_scheduled(&configuration.thruster_events);
+        let Some(event) = taken else { return Ok(()) };
         if let Some(place_body_m) = event.center_of_mass_body_m {
             self.flight.propagator.center_of_mass.place(configuration, place_body_m);
             self.state.integrator.cut(time_s);
@@ -214,7 +210,7 @@ impl<'f> Ideal<'f> {
         let totals = self.state.integrator.totals(time_s);
         let convention = self.flight.context.configuration.momentum.convention;
         let momentum = StartMomentum::from_totals(&totals, convention);
-        self.flight.select_sun_direction(time_s, &totals, momentum, false)
+        self.flight.select_sun_direction(&SunSelectionStart { time_s, totals, momentum, is_first: false })
     }
 
     /// Dumps as far as the tanks feed the thrusters: momentum, propellant, push and mass properties after it. A dump that nothing
@@ -226,7 +222,7 @@ impl<'f> Ideal<'f> {
         if !self.flight.context.allocator.settings.thrusters.is_empty() {
             let mut plant = self.flight.plant();
             let instant = plant.instant(time_s);
-            let mass = plant.mass_properties(&instant, time_s);
+            let mass = plant.mass_properties(&instant);
             let mut at_once = self.flight.thrusters.at_once(&mut self.flight.context.allocator, time_s);
             let given = at_once.dump(due, &mass.center_of_mass_body_m);
             let Some(given) = given else { return };
@@ -241,12 +237,9 @@ impl<'f> Ideal<'f> {
         if let Some(delta_v_inertial_m_s) = &pushed {
             self.state.integrator.push(delta_v_inertial_m_s);
             self.set_mass(time_s);
-            self.flight.propagator.cut_with_jump(
-                &self.flight.context.configuration,
-                time_s,
-                true,
-                delta_v_inertial_m_s,
-            );
+            let configuration = &self.flight.context.configuration;
+            self.flight.propagator.cut_with_jump(configuration, time_s, delta_v_inertial_m_s);
+            self.flight.propagator.sources.cut(time_s);
         }
         if self.move_center_of_mass(time_s) {
             self.set_mass(time_s);
@@ -271,6 +264,6 @@ impl<'f> Ideal<'f> {
     fn set_mass(&mut self, time_s: f64) {
         let flight = &mut self.flight;
         let loaded = flight.propagator.center_of_mass.mass_properties(&flight.context.configuration);
-        flight.context.current_mass_panels_stowed = flight.used_mass(&loaded, time_s).unwrap_or(loaded);
+        flight.context.current_mass_panels_stowed = flight.used_mass(&loaded, time_s);
     }
 }

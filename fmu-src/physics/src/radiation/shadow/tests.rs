@@ -327,12 +327,12 @@ fn orbiter() -> Vec<Outline> {
     let fixed = plates.iter().map(|plate| Outline {
         polygon: plate.polygon.clone().unwrap(),
         hinge: None,
-        two_sided: plate.rear_optics.is_some(),
+        two_sided: plate.faces.rear_optics.is_some(),
     });
     let turning = spacecraft.panels.iter().enumerate().map(|(index, panel)| Outline {
         polygon: panel.polygon.clone().unwrap(),
         hinge: Some(Hinge { panel: index, point_body_m: panel.center_body_m, axis_body: panel.axis_body }),
-        two_sided: panel.rear_optics.is_some(),
+        two_sided: panel.faces.rear_optics.is_some(),
     });
     fixed.chain(turning).collect()
 }
