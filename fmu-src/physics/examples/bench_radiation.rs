@@ -92,11 +92,11 @@ type Cell = (usize, f64, Optics);
 
 /// The twelve cells and their distinct normals, panels at angle 0.
 fn cells(spacecraft: &Spacecraft) -> (Vec<Cell>, Vec<Vector3<f64>>) {
-    let plates = spacecraft.plates.iter().map(|plate| (plate.normal, plate.area_m2, plate.optics));
+    let plates = spacecraft.plates.iter().map(|plate| (plate.normal, plate.area_m2, plate.faces.optics));
     let panels = spacecraft.panels.iter().flat_map(|panel| {
         let normal = panel.normal_body(0.0);
-        let rear = panel.rear_optics.map(|optics| (-normal, panel.area_m2, optics));
-        core::iter::once((normal, panel.area_m2, panel.optics)).chain(rear)
+        let rear = panel.faces.rear_optics.map(|optics| (-normal, panel.area_m2, optics));
+        core::iter::once((normal, panel.area_m2, panel.faces.optics)).chain(rear)
     });
     let mut normals: Vec<Vector3<f64>> = Vec::new();
     let cells = plates

@@ -7,8 +7,8 @@ use physics::guidance;
 use physics::guidance::downlink::sun_direction::SunZone;
 use physics::guidance::pointing::command;
 use physics::spacecraft::{
-    AlignedAxes, AttitudePart, AttitudeRefusal, NamedAttitude, Panel, PointingSettings, PointingTarget,
-    Spacecraft, TargetItem, TargetedAxis, panels_need_yaw_steering,
+    AlignedAxes, AttitudeName, AttitudePart, AttitudeRefusal, NamedAttitude, Panel, PointingSettings,
+    Spacecraft, StarDirection, TargetItem, TargetedAxis, panels_need_yaw_steering,
 };
 
 use super::choices::{PointingTarget as TargetChoice, ScienceRule};
@@ -35,9 +35,9 @@ impl AttitudeDefaults {
         match self.pointing.map(|pointing| pointing.attitude) {
             None if self.needs_yaw_steering && !is_about_sun => ScienceRule::YawSteering,
             None => ScienceRule::Nadir,
-            Some(NamedAttitude::Lvlh) => ScienceRule::Lvlh,
-            Some(NamedAttitude::YawSteering) => ScienceRule::YawSteering,
-            Some(NamedAttitude::SunPointing) => ScienceRule::SunPointing,
+            Some(NamedAttitude::Named(AttitudeName::Lvlh)) => ScienceRule::Lvlh,
+            Some(NamedAttitude::Named(AttitudeName::YawSteering)) => ScienceRule::YawSteering,
+            Some(NamedAttitude::Named(AttitudeName::SunPointing)) => ScienceRule::SunPointing,
             Some(NamedAttitude::Inertial(_)) => ScienceRule::Inertial,
             Some(NamedAttitude::Aligned(_)) => ScienceRule::Aligned,
         }
@@ -73,7 +73,7 @@ pub struct TargetedAxisVariables {
     #[parameter(unit = "1", start = setup.axis_body.into())]
     pub axis: RealVector<3>,
     /// The target; nadir is refused about the Sun.
-    #[parameter(start = TargetChoice(setup.target.item()))]
+    #[parameter(start = TargetChoice(setup.target.item))]
     pub target: Choice<TargetChoice>,
     /// Right ascension of a star.
     #[parameter(unit = "rad", display = "deg", min = command::BACK_TURN_RAD, max = command::FULL_TURN_RAD, start = star_rad(setup)[0])]
@@ -85,10 +85,8 @@ pub struct TargetedAxisVariables {
 
 /// Right ascension and declination of an axis's star, in rad; 0 without one.
 fn star_rad(axis: &TargetedAxis) -> [f64; 2] {
-    match axis.target {
-        PointingTarget::Star { right_ascension_rad, declination_rad } => {
-            [right_ascension_rad, declination_rad]
-        }
+    match axis.target.star {
+        Some(StarDirection::Angles(star_rad)) => star_rad,
         _ => [0.0; 2],
     }
 }
@@ -142,18 +140,18 @@ impl NamedAttitudeVariables {
         let [align, constrain] = [&self.align, &self.constrain].map(|axis| axis.read(values));
         let attitude = match rule {
             ScienceRule::Scaled | ScienceRule::Nadir | ScienceRule::FixedToSunLine => return Ok(None),
-            ScienceRule::Lvlh => NamedAttitude::Lvlh,
-            ScienceRule::YawSteering => NamedAttitude::YawSteering,
-            ScienceRule::SunPointing => NamedAttitude::SunPointing,
+            ScienceRule::Lvlh => NamedAttitude::Named(AttitudeName::Lvlh),
+            ScienceRule::YawSteering => NamedAttitude::Named(AttitudeName::YawSteering),
+            ScienceRule::SunPointing => NamedAttitude::Named(AttitudeName::SunPointing),
             ScienceRule::Inertial => NamedAttitude::Inertial(values.vector(self.attitude)),
             ScienceRule::Aligned => NamedAttitude::Aligned(AlignedAxes { align, constrain }),
         };
         let axes = attitude.axes(context.panels).map_err(|refusal| refused(&refusal))?;
         if context.is_about_sun && axes.needs_planet() {
             let (name, found) = match attitude {
-                NamedAttitude::Lvlh => ("scienceRule", "lvlh"),
-                NamedAttitude::YawSteering => ("scienceRule", "yawSteering"),
-                _ if align.target == PointingTarget::Nadir => ("align.target", TargetItem::Nadir.name()),
+                NamedAttitude::Named(AttitudeName::Lvlh) => ("scienceRule", "lvlh"),
+                NamedAttitude::Named(AttitudeName::YawSteering) => ("scienceRule", "yawSteering"),
+                _ if align.target.item == TargetItem::Nadir => ("align.target", TargetItem::Nadir.name()),
                 _ => ("constrain.target", TargetItem::Nadir.name()),
             };
             return Err(Failure::new(format!(

@@ -24,7 +24,6 @@ use surface::{DayTemperature, PlanetSurface};
 enumeration! {
     /// A body that a spacecraft can orbit or observe.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "camelCase")]
     pub enum Body {
         /// The Sun.
@@ -162,16 +161,41 @@ impl BodyData {
         }
     }
 
+    /// The same with its north pole and prime meridian at J2000 at these angles in deg, turning at a rate in deg/day.
+    const fn rotating(self, [ascension, declination, meridian]: [f64; 3], rate_deg_day: f64) -> Self {
+        Self {
+            pole_right_ascension_rad: ascension * DEG_RAD,
+            pole_declination_rad: declination * DEG_RAD,
+            prime_meridian_rad: meridian * DEG_RAD,
+            rotation_rate_rad_s: rate_deg_day * DEG_RAD / constants::DAY_S,
+            ..self
+        }
+    }
+
+    /// The same on a mean orbit at J2000: semi-major axis in AU, eccentricity, then ascending node, inclination and longitude of
+    /// perihelion in deg.
+    const fn on_orbit(
+        self,
+        axis_au: f64,
+        eccentricity: f64,
+        [node, inclination, perihelion]: [f64; 3],
+    ) -> Self {
+        Self {
+            orbit_semi_major_axis_m: axis_au * constants::ASTRONOMICAL_UNIT_M,
+            orbit_eccentricity: eccentricity,
+            orbit_node_rad: node * DEG_RAD,
+            orbit_inclination_rad: inclination * DEG_RAD,
+            orbit_perihelion_longitude_rad: perihelion * DEG_RAD,
+            ..self
+        }
+    }
+
     /// Unit vector to the north pole, in EME2000.
     pub fn pole(&self) -> Vector3<f64> {
         let (sin_ra, cos_ra) = math::sin_cos(self.pole_right_ascension_rad);
         let (sin_dec, cos_dec) = math::sin_cos(self.pole_declination_rad);
         Vector3::new(cos_ra * cos_dec, sin_ra * cos_dec, sin_dec)
     }
-}
-
-const fn degrees_a_day(rate: f64) -> f64 {
-    rate * DEG_RAD / constants::DAY_S
 }
 
 /// The surface of a body whose clouds or soil are known by Bond albedo and effective temperature alone.
@@ -220,12 +244,8 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         gm_m3_s2: constants::GM_SUN_M3_S2,
         radius_m: constants::RADIUS_SUN_M,
         j2_radius_m: constants::RADIUS_SUN_M,
-        pole_right_ascension_rad: 286.13 * DEG_RAD,
-        pole_declination_rad: 63.87 * DEG_RAD,
-        prime_meridian_rad: 84.176 * DEG_RAD,
-        rotation_rate_rad_s: degrees_a_day(14.184_4),
         equatorial_radius_m: constants::RADIUS_SUN_M,
-        ..CUSTOM
+        ..CUSTOM.rotating([286.13, 63.87, 84.176], 14.184_4)
     },
     BodyData {
         body: Body::Mercury,
@@ -234,21 +254,16 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         radius_m: constants::RADIUS_MERCURY_M,
         j2: constants::J2_MERCURY,
         j2_radius_m: constants::J2_REFERENCE_RADIUS_MERCURY_M,
-        pole_right_ascension_rad: 281.010_3 * DEG_RAD,
-        pole_declination_rad: 61.415_5 * DEG_RAD,
-        prime_meridian_rad: 329.598_8 * DEG_RAD,
-        rotation_rate_rad_s: degrees_a_day(6.138_510_8),
-        orbit_semi_major_axis_m: 0.387_099_27 * constants::ASTRONOMICAL_UNIT_M,
-        orbit_eccentricity: 0.205_635_93,
-        // Paper 004 Table 4; Standish has 48.3308 and 7.0050 deg.
-        orbit_node_rad: 48.33 * DEG_RAD,
-        orbit_inclination_rad: 7.0 * DEG_RAD,
-        orbit_perihelion_longitude_rad: 77.457_796_28 * DEG_RAD,
         equatorial_radius_m: 2_440.53e3,
         flattening: 1.0 - 2_438.26 / 2_440.53,
         dipole: Some(dipole::MERCURY),
         surface: Some(surface::MERCURY),
-        ..CUSTOM
+        // Node and inclination of paper 004 Table 4; Standish has 48.3308 and 7.0050 deg.
+        ..CUSTOM.rotating([281.010_3, 61.415_5, 329.598_8], 6.138_510_8).on_orbit(
+            0.387_099_27,
+            0.205_635_93,
+            [48.33, 7.0, 77.457_796_28],
+        )
     },
     BodyData {
         body: Body::Venus,
@@ -258,44 +273,33 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         // Konopliv et al. 1999, MGNP180U.
         j2: 4.404e-6,
         j2_radius_m: 6.051e6,
-        pole_right_ascension_rad: 272.76 * DEG_RAD,
-        pole_declination_rad: 67.16 * DEG_RAD,
-        prime_meridian_rad: 160.20 * DEG_RAD,
-        rotation_rate_rad_s: degrees_a_day(-1.481_368_8),
-        orbit_semi_major_axis_m: 0.723_335_66 * constants::ASTRONOMICAL_UNIT_M,
-        orbit_eccentricity: 0.006_776_72,
-        orbit_node_rad: 76.679_842_55 * DEG_RAD,
-        orbit_inclination_rad: 3.394_676_05 * DEG_RAD,
-        orbit_perihelion_longitude_rad: 131.602_467_18 * DEG_RAD,
         equatorial_radius_m: 6_051.8e3,
-        flattening: 0.0,
         atmosphere: Some(air::VENUS),
         surface: Some(gray(constants::RADIUS_VENUS_M, 0.77, 226.6)),
-        ..CUSTOM
+        ..CUSTOM.rotating([272.76, 67.16, 160.20], -1.481_368_8).on_orbit(
+            0.723_335_66,
+            0.006_776_72,
+            [76.679_842_55, 3.394_676_05, 131.602_467_18],
+        )
     },
     BodyData {
         body: Body::Earth,
         name: "the Earth",
-        parent: Some(Body::Sun),
         gm_m3_s2: constants::GM_EARTH_M3_S2,
         radius_m: constants::RADIUS_EARTH_M,
         // EGM2008.
         j2: 1.082_635_9e-3,
         j2_radius_m: 6.378_136_3e6,
-        pole_right_ascension_rad: 0.0,
-        pole_declination_rad: 90.0 * DEG_RAD,
-        prime_meridian_rad: 190.147 * DEG_RAD,
-        rotation_rate_rad_s: degrees_a_day(360.985_623_5),
-        orbit_semi_major_axis_m: 1.000_002_61 * constants::ASTRONOMICAL_UNIT_M,
-        orbit_eccentricity: 0.016_711_23,
-        orbit_node_rad: 0.0,
-        orbit_inclination_rad: 0.0,
-        orbit_perihelion_longitude_rad: 102.937_681_93 * DEG_RAD,
         equatorial_radius_m: 6_378_137.0,
         flattening: 1.0 / 298.257_223_563,
         atmosphere: Some(air::EARTH),
         dipole: Some(dipole::EARTH),
         surface: Some(gray(constants::RADIUS_EARTH_M, 0.294, 254.0)),
+        ..CUSTOM.rotating([0.0, 90.0, 190.147], 360.985_623_5).on_orbit(
+            1.000_002_61,
+            0.016_711_23,
+            [0.0, 0.0, 102.937_681_93],
+        )
     },
     BodyData {
         body: Body::Mars,
@@ -305,44 +309,34 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         // Konopliv et al. 2011, MRO110B.
         j2: 1.956_6e-3,
         j2_radius_m: 3.396e6,
-        pole_right_ascension_rad: 317.681_43 * DEG_RAD,
-        pole_declination_rad: 52.886_50 * DEG_RAD,
-        prime_meridian_rad: 176.630 * DEG_RAD,
-        rotation_rate_rad_s: degrees_a_day(350.891_982_26),
-        orbit_semi_major_axis_m: 1.523_710_34 * constants::ASTRONOMICAL_UNIT_M,
-        orbit_eccentricity: 0.093_394_1,
-        orbit_node_rad: 49.559_538_91 * DEG_RAD,
-        orbit_inclination_rad: 1.849_691_42 * DEG_RAD,
-        orbit_perihelion_longitude_rad: -23.943_629_59 * DEG_RAD,
         equatorial_radius_m: 3_396.19e3,
         flattening: 1.0 - 3_376.20 / 3_396.19,
         atmosphere: Some(air::MARS),
         surface: Some(gray(constants::RADIUS_MARS_M, 0.25, 209.8)),
-        ..CUSTOM
+        ..CUSTOM.rotating([317.681_43, 52.886_50, 176.630], 350.891_982_26).on_orbit(
+            1.523_710_34,
+            0.093_394_1,
+            [49.559_538_91, 1.849_691_42, -23.943_629_59],
+        )
     },
     BodyData {
         body: Body::Jupiter,
         name: "Jupiter",
-        parent: Some(Body::Sun),
         gm_m3_s2: constants::GM_JUPITER_M3_S2,
         radius_m: constants::RADIUS_JUPITER_M,
         // Iess et al. 2018.
         j2: 1.469_657_2e-2,
         j2_radius_m: 7.149_2e7,
-        pole_right_ascension_rad: 268.056_595 * DEG_RAD,
-        pole_declination_rad: 64.495_303 * DEG_RAD,
-        prime_meridian_rad: 284.95 * DEG_RAD,
-        rotation_rate_rad_s: degrees_a_day(870.536),
-        orbit_semi_major_axis_m: 5.202_887 * constants::ASTRONOMICAL_UNIT_M,
-        orbit_eccentricity: 0.048_386_24,
-        orbit_node_rad: 100.473_909_09 * DEG_RAD,
-        orbit_inclination_rad: 1.304_396_95 * DEG_RAD,
-        orbit_perihelion_longitude_rad: 14.728_479_83 * DEG_RAD,
         equatorial_radius_m: 71_492e3,
         flattening: 1.0 - 66_854.0 / 71_492.0,
         atmosphere: Some(air::JUPITER),
         dipole: Some(dipole::JUPITER),
         surface: Some(gray(constants::RADIUS_JUPITER_M, 0.343, 109.9)),
+        ..CUSTOM.rotating([268.056_595, 64.495_303, 284.95], 870.536).on_orbit(
+            5.202_887,
+            0.048_386_24,
+            [100.473_909_09, 1.304_396_95, 14.728_479_83],
+        )
     },
     CUSTOM,
 ];

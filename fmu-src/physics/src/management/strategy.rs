@@ -153,13 +153,13 @@ impl Manager<'_> {
             _ => None,
         };
         let target = predicted.unwrap_or(self.bias_body_n_m_s + self.target_body_n_m_s);
-        self.targeting.sun_direction_throughout(&state, &target, separations_rad)
+        self.targeting.sun_direction(&state, &target, separations_rad)
     }
 
     /// The target from which X and Z stay below their thresholds through the coming cycles.
     fn kept(&self, state: &DownlinkState<'_>, prediction: &Components) -> Option<Vector3<f64>> {
         let momentum_body_n_m_s = self.targeting.default_momentum(state)?;
-        let torques = self.targeting.present_torques(state, prediction.present().separations_rad)?;
+        let torques = self.targeting.present_torques(state, prediction.downlinks[0].separations_rad)?;
         let default_n_m = (state.torque_body_n_m)(&direction_from_angles(SunAngles::default())).xz();
         // What the default attitude adds beside sunlight alone comes in others too.
         let beside = |downlink: &PredictedDownlink| {
@@ -175,7 +175,7 @@ impl Manager<'_> {
                 torques_n_m.map(|it| it * light_s + beside[axis])
             })
         });
-        let beside = beside(prediction.present());
+        let beside = beside(&prediction.downlinks[0]);
         let policy = &prediction.policy;
         let target = |axis: usize| {
             let body_axis = 2 * axis;

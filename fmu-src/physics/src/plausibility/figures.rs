@@ -68,11 +68,11 @@ impl Figures {
         let mut total_area_m2 = 0.0;
         for surface in &surfaces {
             let [plus, minus] = &mut area_toward_m2;
-            let projected_m2 = surface.normal * surface.area_m2;
-            let rear = f64::from(u8::from(surface.is_two_sided));
+            let projected_m2 = surface.plate.normal * surface.plate.area_m2;
+            let rear = f64::from(u8::from(surface.plate.faces.rear_optics.is_some()));
             *plus += projected_m2.map(|area_m2| area_m2.max(0.0) + rear * (-area_m2).max(0.0));
             *minus += projected_m2.map(|area_m2| (-area_m2).max(0.0) + rear * area_m2.max(0.0));
-            total_area_m2 += surface.area_m2 * (1.0 + rear);
+            total_area_m2 += surface.plate.area_m2 * (1.0 + rear);
         }
         let angle_rad = |index: usize| angles_rad.get(index).copied().unwrap_or(0.0);
         let mass_properties = with_panels(&spacecraft.mass_properties, &spacecraft.panels, angle_rad);
@@ -129,13 +129,11 @@ fn black(spacecraft: &Spacecraft) -> Spacecraft {
         }
         &mut shade.plates
     });
-    for plate in spacecraft.plates.iter_mut().chain(shade_plates.into_iter().flatten()) {
-        plate.optics = black;
-        plate.rear_optics = plate.rear_optics.map(|_| black);
-    }
-    for panel in &mut spacecraft.panels {
-        panel.optics = black;
-        panel.rear_optics = panel.rear_optics.map(|_| black);
+    let plates = spacecraft.plates.iter_mut().chain(shade_plates.into_iter().flatten());
+    let plates = plates.map(|plate| &mut plate.faces);
+    for faces in plates.chain(spacecraft.panels.iter_mut().map(|panel| &mut panel.faces)) {
+        faces.optics = black;
+        faces.rear_optics = faces.rear_optics.map(|_| black);
     }
     spacecraft
 }

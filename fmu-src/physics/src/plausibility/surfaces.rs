@@ -10,17 +10,21 @@ use crate::spacecraft::{Cylinder, Panel, PanelControl, Plate, Polygon, Spacecraf
 /// A flat surface in the body frame.
 #[derive(Clone, Debug)]
 pub(super) struct Surface {
-    pub name: String,
-    pub area_m2: f64,
-    pub normal: Vector3<f64>,
+    /// Plate in the body frame; of a panel with the outline at angle 0.
+    pub plate: Plate,
     /// Corners of its outline, or of a square of its area where it has none, body frame, in m.
     pub corners_m: Vec<Vector3<f64>>,
-    /// Whether those corners are its own.
-    pub has_outline: bool,
+}
+
+impl Surface {
+    fn new(plate: Plate) -> Self {
+        Self { corners_m: corners(&plate), plate }
+    }
+
     /// How far a corner was off the outline's plane as the file has it, in m.
-    pub off_plane_m: f64,
-    /// Whether light on its rear counts.
-    pub is_two_sided: bool,
+    pub(super) fn off_plane_m(&self) -> f64 {
+        self.plate.polygon.as_ref().map_or(0.0, Polygon::off_plane_m)
+    }
 }
 
 /// Facets of a cylindrical sunshade.
@@ -44,34 +48,22 @@ pub(super) fn panel_angle_rad(panel: &Panel) -> f64 {
 /// Plates, the sunshade in the form that the file chooses, and panels.
 pub(super) fn surfaces(spacecraft: &Spacecraft) -> Vec<Surface> {
     let form = spacecraft.sunshade.as_ref().map_or(SunshadeModel::Plates, |shade| shade.model);
-    let mut found: Vec<Surface> = spacecraft.plates_body(form).iter().map(of_plate).collect();
+    let mut found: Vec<Surface> = spacecraft.plates_body(form).into_iter().map(Surface::new).collect();
     if let (SunshadeModel::Cylinder, Some(shade)) = (form, &spacecraft.sunshade) {
         let strips = shade.cylinder.iter().flat_map(strips);
-        found.extend(strips.map(|strip| of_plate(&strip.rotated(&shade.dcm_body_from_shade))));
+        found.extend(strips.map(|strip| Surface::new(strip.rotated(&shade.dcm_body_from_shade))));
     }
     found.extend(spacecraft.panels.iter().map(of_panel));
     found
 }
 
-fn of_plate(plate: &Plate) -> Surface {
-    Surface {
-        name: plate.name.clone(),
-        area_m2: plate.area_m2,
-        normal: plate.normal,
-        corners_m: corners(plate),
-        has_outline: plate.polygon.is_some(),
-        off_plane_m: plate.polygon.as_ref().map_or(0.0, Polygon::off_plane_m),
-        is_two_sided: plate.rear_optics.is_some(),
-    }
-}
-
 fn of_panel(panel: &Panel) -> Surface {
     let turn = Rotation3::from_axis_angle(&Unit::new_unchecked(panel.axis_body), panel_angle_rad(panel));
     let center_m = panel.center_body_m;
-    let flat = of_plate(&panel.plate_at_zero());
+    let Surface { plate, corners_m } = Surface::new(panel.plate_at_zero());
     let turned = |corner: &Vector3<f64>| center_m + turn * (corner - center_m);
-    let corners_m = flat.corners_m.iter().map(turned).collect();
-    Surface { normal: turn * flat.normal, corners_m, ..flat }
+    let corners_m = corners_m.iter().map(turned).collect();
+    Surface { plate: Plate { normal: turn * plate.normal, ..plate }, corners_m }
 }
 
 fn corners(plate: &Plate) -> Vec<Vector3<f64>> {

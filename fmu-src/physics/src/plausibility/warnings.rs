@@ -58,11 +58,11 @@ pub fn warnings(spacecraft: &Spacecraft, figures: &Figures) -> Vec<String> {
             "the axes of the {count} wheels lie in one plane or line: across it they give no torque and hold nothing"
         ));
     }
-    for surface in surfaces.iter().filter(|surface| surface.off_plane_m > ROUNDED_M) {
+    for surface in surfaces.iter().filter(|surface| surface.off_plane_m() > ROUNDED_M) {
         found.push(format!(
             "`{}` has a corner {:.2} mm off the plane of its outline; it was moved onto it",
-            surface.name,
-            surface.off_plane_m * 1e3
+            surface.plate.name,
+            surface.off_plane_m() * 1e3
         ));
     }
     found
@@ -156,7 +156,7 @@ fn gyration(figures: &Figures, found: &mut Vec<String>) {
 fn areas(spacecraft: &Spacecraft, surfaces: &[Surface], found: &mut Vec<String>) {
     let form = spacecraft.sunshade.as_ref().map_or(SunshadeModel::Plates, |shade| shade.model);
     let (_, without_outline) = spacecraft.outlines(form);
-    let of_area = surfaces.iter().enumerate().filter(|(_, it)| without_outline.contains(&it.name));
+    let of_area = surfaces.iter().enumerate().filter(|(_, it)| without_outline.contains(&it.plate.name));
     for (index, surface) in of_area {
         let corners = &surface.corners_m;
         let center_m = corners.iter().sum::<Vector3<f64>>() / corners.len() as f64;
@@ -169,11 +169,11 @@ fn areas(spacecraft: &Spacecraft, surfaces: &[Surface], found: &mut Vec<String>)
             around.fold((center_m, center_m), |(low, high), corner| (low.inf(&corner), high.sup(&corner)));
         let spans_m = high_m - low_m;
         let faces_m2 = Vector3::new(spans_m.y * spans_m.z, spans_m.z * spans_m.x, spans_m.x * spans_m.y);
-        let around_m2 = surface.normal.abs().dot(&faces_m2);
-        if surface.area_m2 > LARGE_AREA * around_m2 {
+        let around_m2 = surface.plate.normal.abs().dot(&faces_m2);
+        if surface.plate.area_m2 > LARGE_AREA * around_m2 {
             found.push(format!(
                 "`{}` has {:.3} m2, and all around it spans {around_m2:.3} m2 across it: areas are in m2",
-                surface.name, surface.area_m2
+                surface.plate.name, surface.plate.area_m2
             ));
         }
     }
@@ -219,30 +219,16 @@ fn center_of_mass(figures: &Figures, found: &mut Vec<String>) {
 pub fn defaults_at_their_bounds(spacecraft: &Spacecraft) -> Vec<String> {
     let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
     let defaults = ControlDefaults::new(spacecraft, &WheelArray::from_axes(&axes));
+    let slews = (SLEW_ACCELERATION_RAD_S2, "rad/s2");
     let rows = [
-        (
-            "control.slewAcceleration",
-            defaults.slew_acceleration_rad_s2,
-            SLEW_ACCELERATION_RAD_S2,
-            "rad/s2",
-            "wheels",
-        ),
-        (
-            "control.thrusterAcceleration",
-            defaults.thruster_acceleration_rad_s2,
-            SLEW_ACCELERATION_RAD_S2,
-            "rad/s2",
-            "thrusters",
-        ),
-        ("dump.torque", defaults.dump_torque_n_m, DUMP_TORQUE_N_M, "N.m", "wheels"),
+        ("control.slewAcceleration", defaults.slew_acceleration_rad_s2, slews, "wheels"),
+        ("control.thrusterAcceleration", defaults.thruster_acceleration_rad_s2, slews, "thrusters"),
+        ("dump.torque", defaults.dump_torque_n_m, (DUMP_TORQUE_N_M, "N.m"), "wheels"),
     ];
-    let at_bound = rows.into_iter().filter_map(|(name, start, [min, max], unit, of)| {
+    let at_bound = rows.into_iter().filter_map(|(name, start, ([min, max], unit), of)| {
         let (bound, than) = if start >= max { (max, "more") } else { (min, "less") };
-        (start == bound && start > 0.0).then(|| {
-            format!(
-                "{name} starts at {bound} {unit}, as far as it may be set: the {of} of the file give {than}"
-            )
-        })
+        let allowed = format!("as far as it may be set: the {of} of the file give {than}");
+        (start == bound && start > 0.0).then(|| format!("{name} starts at {bound} {unit}, {allowed}"))
     });
     at_bound.collect()
 }
@@ -250,11 +236,13 @@ pub fn defaults_at_their_bounds(spacecraft: &Spacecraft) -> Vec<String> {
 /// One-sided surfaces that have everything else in front of them, or nothing behind.
 fn one_sided(surfaces: &[Surface], figures: &Figures, found: &mut Vec<String>) {
     let slack_m = BEHIND * extents_m(figures).norm();
-    for (index, surface) in surfaces.iter().enumerate().filter(|(_, surface)| !surface.is_two_sided) {
+    for (index, surface) in
+        surfaces.iter().enumerate().filter(|(_, surface)| surface.plate.faces.rear_optics.is_none())
+    {
         let Some(origin_m) = surface.corners_m.first() else { continue };
         let others = surfaces.iter().enumerate().filter(|(other, _)| *other != index);
         let heights_m = others.flat_map(|(_, other)| &other.corners_m);
-        let heights_m = heights_m.map(|corner| surface.normal.dot(&(corner - origin_m)));
+        let heights_m = heights_m.map(|corner| surface.plate.normal.dot(&(corner - origin_m)));
         let (lowest_m, highest_m) = heights_m
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
                 (low.min(height), high.max(height))
@@ -263,18 +251,18 @@ fn one_sided(surfaces: &[Surface], figures: &Figures, found: &mut Vec<String>) {
         if is_inward {
             found.push(format!(
                 "`{}` faces inward: everything else lies in front of it, and light reaches it from there alone",
-                surface.name
+                surface.plate.name
             ));
         } else if lowest_m >= -slack_m {
             found.push(format!(
                 "`{}` has one side and nothing behind it: light on its back meets nothing; a membrane has `rear_optics`",
-                surface.name
+                surface.plate.name
             ));
         } else if let Some(rear) = rear_before(surfaces, index) {
             found.push(format!(
                 "`{}` faces inward: before it stands the rear of `{rear}`, which light does not pass, and behind it nothing; turn \
                  `normal` about",
-                surface.name
+                surface.plate.name
             ));
         }
     }
@@ -282,24 +270,27 @@ fn one_sided(surfaces: &[Surface], figures: &Figures, found: &mut Vec<String>) {
 
 /// The one-sided surface whose rear a surface has before its middle, while it has nothing behind; both with outlines of their own.
 fn rear_before(surfaces: &[Surface], index: usize) -> Option<&str> {
-    let own = surfaces.get(index).filter(|own| own.has_outline)?;
+    let own = surfaces.get(index).filter(|own| own.plate.polygon.is_some())?;
     let middle_m = own.corners_m.iter().sum::<Vector3<f64>>() / own.corners_m.len() as f64;
     let first_along = |direction: Vector3<f64>| {
         let others = surfaces.iter().enumerate().filter(|(other, _)| *other != index);
         let met = others.filter_map(|(_, it)| Some((it, ray_length_m(it, &middle_m, &direction)?)));
         met.min_by(|one, other| one.1.total_cmp(&other.1)).map(|(it, _)| it)
     };
-    let before = first_along(own.normal)?;
-    let is_rear = before.has_outline && !before.is_two_sided && before.normal.dot(&own.normal) > 0.0;
-    (is_rear && first_along(-own.normal).is_none()).then_some(before.name.as_str())
+    let before = first_along(own.plate.normal)?;
+    let is_rear = before.plate.polygon.is_some()
+        && before.plate.faces.rear_optics.is_none()
+        && before.plate.normal.dot(&own.plate.normal) > 0.0;
+    (is_rear && first_along(-own.plate.normal).is_none()).then_some(before.plate.name.as_str())
 }
 
 /// How far from a point a ray meets a surface, in m; `None` where it does not.
 fn ray_length_m(surface: &Surface, from_m: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
     let corners_m = &surface.corners_m;
-    let length_m = surface.normal.dot(&(corners_m.first()? - from_m)) / surface.normal.dot(direction);
+    let length_m =
+        surface.plate.normal.dot(&(corners_m.first()? - from_m)) / surface.plate.normal.dot(direction);
     let at_m = from_m + direction * length_m;
-    let across = surface.normal.iamax();
+    let across = surface.plate.normal.iamax();
     let (u, v) = ((across + 1) % 3, (across + 2) % 3);
     let following = corners_m.iter().cycle().skip(1);
     // A half line from a point inside of an outline crosses it an odd number of times.

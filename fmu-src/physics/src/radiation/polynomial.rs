@@ -60,7 +60,7 @@ impl TorquePolynomial {
     pub fn of_plates(plates: &[Plate], materials: &[Material], center_of_mass_m: &Vector3<f64>) -> Self {
         let mut sum = Self { k: [[0.0; 9]; 3] };
         for plate in plates {
-            let optics = optics(plate.materials[0], materials).unwrap_or(&plate.optics);
+            let optics = optics(plate.faces.materials[0], materials).unwrap_or(&plate.faces.optics);
             sum.add(&Moments::of_plate(plate, center_of_mass_m), optics);
         }
         sum

@@ -98,7 +98,7 @@ proptest! {
         let shade = spacecraft.sunshade.as_mut().unwrap();
         shade.dcm_body_from_shade = Rotation3::from_euler_angles(turn[0], turn[1], turn[2]).into_inner();
         for ((plate, s), d) in shade.plates.iter_mut().zip(specular).zip(diffuse) {
-            plate.optics = Optics::from_reflectivities(s, d);
+            plate.faces.optics = Optics::from_reflectivities(s, d);
         }
         shade.cylinder.as_mut().unwrap().optics = Optics::from_reflectivities(specular[0], diffuse[0]);
         let shade = &shade.clone();

@@ -29,8 +29,8 @@ fn crooked() -> Spacecraft {
     ));
     let shade = spacecraft.sunshade.as_mut().unwrap();
     shade.dcm_body_from_shade = Rotation3::from_euler_angles(0.02, -0.05, 0.1).into_inner();
-    shade.plates[3].optics = white;
-    spacecraft.panels[1].rear_optics = Some(white);
+    shade.plates[3].faces.optics = white;
+    spacecraft.panels[1].faces.rear_optics = Some(white);
     spacecraft.panels[1].axis_body = Vector3::new(0.8, 0.0, 0.6);
     spacecraft
 }
@@ -83,7 +83,7 @@ fn face_by_face(plates: &[Plate], beam: &Beam<f64>) -> ForceTorque<f64> {
     plates
         .iter()
         .flat_map(|plate| {
-            [(plate.normal, Some(plate.optics)), (-plate.normal, plate.rear_optics)].map(
+            [(plate.normal, Some(plate.faces.optics)), (-plate.normal, plate.faces.rear_optics)].map(
                 |(normal, optics)| {
                     let light = beam.received(&normal);
                     optics.map_or_else(ForceTorque::zero, |optics| {

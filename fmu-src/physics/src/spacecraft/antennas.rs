@@ -72,10 +72,8 @@ pub struct FanAzimuths {
 impl Antenna {
     /// The azimuths of a fan; `None` of an antenna along an axis.
     pub fn fan(&self) -> Option<FanAzimuths> {
-        match self.range {
-            AntennaRange::Fan(fan) => Some(fan),
-            AntennaRange::Axis(_) => None,
-        }
+        let AntennaRange::Fan(fan) = self.range else { return None };
+        Some(fan)
     }
 
     /// Half the width of the beam across the XY plane, in rad.
@@ -85,10 +83,8 @@ impl Antenna {
 
     /// The axis of a fixed antenna; `None` of a fan.
     pub fn axis_body(&self) -> Option<Vector3<f64>> {
-        match self.range {
-            AntennaRange::Fan(_) => None,
-            AntennaRange::Axis(axis_body) => Some(axis_body),
-        }
+        let AntennaRange::Axis(axis_body) = self.range else { return None };
+        Some(axis_body)
     }
 }
 
@@ -117,13 +113,13 @@ impl fmt::Display for AntennaRange {
 }
 
 /// Reads an antenna.
-pub(super) fn antenna(part: &mut PartReader<'_, '_>, description: &AntennaDescription) -> NamedAntenna {
-    check_item_name(part.check, &part.at.key("name"), &description.name);
+pub(super) fn antenna(part: &PartReader<'_>, description: &AntennaDescription) -> NamedAntenna {
+    check_item_name(&part.key("name"), &description.name);
     let range = match (description.azimuth_deg, description.axis_body()) {
         (None, Some(axis_body)) => AntennaRange::Axis(axis_body),
         (azimuth_deg, _) => AntennaRange::Fan(
             azimuth_deg.map_or(FanAzimuths { middle_rad: 0.0, half_rad: 0.0 }, |azimuth_deg| {
-                fan(part, azimuth_deg.map(f64::from))
+                fan(part, azimuth_deg.map(|it| it.0))
             }),
         ),
     };
@@ -132,7 +128,7 @@ pub(super) fn antenna(part: &mut PartReader<'_, '_>, description: &AntennaDescri
     NamedAntenna { name: description.name.clone(), antenna }
 }
 
-fn fan(part: &mut PartReader<'_, '_>, [from_deg, to_deg]: [f64; 2]) -> FanAzimuths {
+fn fan(part: &PartReader<'_>, [from_deg, to_deg]: [f64; 2]) -> FanAzimuths {
     let width_deg = to_deg - from_deg;
     if width_deg == 360.0 {
         return FanAzimuths { middle_rad: 0.5 * (from_deg + to_deg).to_radians(), half_rad: PI };
@@ -140,7 +136,7 @@ fn fan(part: &mut PartReader<'_, '_>, [from_deg, to_deg]: [f64; 2]) -> FanAzimut
     if !(width_deg > 0.0 && width_deg <= WIDEST_FAN_DEG) {
         let allowed =
             "from and to in deg, from -Y toward +X, 0 to 180 deg apart or 360, as in [-90, 0] or [170, 190]";
-        part.report("azimuth_deg", format_args!("[{from_deg}, {to_deg}]"), allowed);
+        part.key("azimuth_deg").report(format_args!("[{from_deg}, {to_deg}]"), allowed);
     }
     let [from_rad, to_rad] = [from_deg, to_deg].map(f64::to_radians);
     FanAzimuths { middle_rad: 0.5 * (from_rad + to_rad), half_rad: 0.5 * (to_rad - from_rad) }

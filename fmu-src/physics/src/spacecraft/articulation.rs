@@ -32,20 +32,17 @@ impl Articulation {
 }
 
 /// Reads the corridor.
-pub(super) fn articulation(
-    part: &mut PartReader<'_, '_>,
-    description: &ArticulationDescription,
-) -> Articulation {
+pub(super) fn articulation(part: &PartReader<'_>, description: &ArticulationDescription) -> Articulation {
     let found = description.value();
     let Articulation { min_suns, max_suns, target_suns } = found;
-    if ["min_suns", "max_suns", "target_suns"].iter().any(|key| part.has_reported(key)) {
+    if ["min_suns", "max_suns", "target_suns"].iter().any(|key| part.key(key).has_reported()) {
         return found;
     }
     if max_suns <= min_suns {
-        part.report_across("max_suns", max_suns, format_args!("more than min_suns, {min_suns}"));
+        part.key("max_suns").report_across(max_suns, format_args!("more than min_suns, {min_suns}"));
     } else if found.margin_suns(target_suns) < 0.0 {
         let allowed = format_args!("from min_suns to max_suns, {min_suns} to {max_suns}");
-        part.report_across("target_suns", target_suns, allowed);
+        part.key("target_suns").report_across(target_suns, allowed);
     }
     found
 }

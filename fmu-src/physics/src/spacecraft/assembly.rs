@@ -1,7 +1,5 @@
 //! The spacecraft, and its reading from a file: every part is read, then checked against the others.
 
-use std::collections::BTreeMap;
-
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -11,19 +9,17 @@ use super::body::{CustomBody, body};
 use super::description::SpacecraftDescription;
 use super::downlinks::{DownlinkWindows, TimeAfterPeriapsis, downlinks};
 use super::instruments::{Instrument, check_gimbals, instrument};
-use super::mass::{MassProperties, mass, parts_fit};
+use super::mass::{MassProperties, mass};
 use super::material::NamedMaterial;
 use super::materials::Materials;
-use super::momentum::{slew, unload_every};
-use super::panel::Panel;
-use super::panel_table::panel;
-use super::part_reader::PartReader;
+use super::momentum::{SlewDemand, slew, unload_every};
+use super::panel::{Panel, panel};
+use super::part_reader::{Names, PartReader};
 use super::planet_map::{PlanetMap, planet_map};
 use super::plate_table::{plates, sunshade};
 use super::pointing::PointingSettings;
 use super::pointing_table::pointing;
 use super::shapes::{box_plates, cylinder_plates, disc_plates, dish_plates, distinct_plates};
-use super::slew::SlewDemand;
 use super::start::{StartEntry, start_entries};
 use super::sun_sensors::MountedSunSensor;
 use super::surface::{MOST_SURFACES, Plate, Sunshade, SunshadeModel};
@@ -32,7 +28,7 @@ use super::tank::{Tank, tank};
 use super::thruster::{Thruster, ThrusterSet, thruster, thruster_sets};
 use super::wheels::{Wheel, wheel};
 use super::zones::{HotPoleZone, SunKeepIn};
-use crate::toml::{Checker, Document, FileError, KeyPath, Named, Table, Written};
+use crate::toml::{Checker, Document, FileError, Named, Place, Table, Written};
 
 /// A validated spacecraft.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -147,35 +143,35 @@ impl Spacecraft {
     /// with line, key, what was found and what is allowed.
     pub fn from_toml(file_name: &str, text: &str) -> Result<Self, FileError> {
         let document = Document::parse(file_name, text)?;
-        let (description, mut check) = Checker::read(&document)?;
-        let spacecraft = spacecraft(&mut check, &description);
+        let (description, check) = Checker::read(&document)?;
+        let spacecraft = spacecraft(Place::root(&check), &description);
         check.finish(spacecraft)
     }
 }
 
-fn spacecraft(check: &mut Checker<'_>, given: &SpacecraftDescription) -> Spacecraft {
-    let root = KeyPath::root();
+fn spacecraft(root: Place<'_>, given: &SpacecraftDescription) -> Spacecraft {
     if given.name.trim().is_empty() {
-        check.report(&root.key("name"), "an empty name", "a name");
+        root.key("name").report("an empty name", "a name");
     }
-    let materials = Materials::read(check, &given.optics, given.thermal.as_ref());
-    check.rules(&root, SpacecraftDescription::RULES);
-    check_names(check, given);
-    check_masses(check, given);
-    let file = &mut PartReader { check, materials: &materials, at: root, index: 0 };
+    let materials = Materials::read(&root, &given.optics, given.thermal.as_ref());
+    root.rules(SpacecraftDescription::RULES);
+    check_masses(&root, given);
+    let names = Names::default();
+    let file = &PartReader { at: root, materials: &materials, names: &names, index: 0 };
     let tanks = file.list("tanks", given.tanks.as_deref(), tank);
-    let thruster_sets = thruster_sets(file.check, given.sets.as_deref(), given.thrusters.as_deref());
+    let thruster_sets = thruster_sets(file, given.sets.as_deref(), given.thrusters.as_deref());
     let thrusters = file
         .list("thrusters", given.thrusters.as_deref(), |part, it| thruster(part, it, &tanks, &thruster_sets));
-    let mass_properties = mass(&mut file.table("mass_properties"), &given.mass_properties);
+    let mass_properties = mass(&file.table("mass_properties"), &given.mass_properties);
     let flexible_modes = file.list("flexible_modes", given.flexible_modes.as_deref(), mode);
     let sloshes = file.list("slosh", given.slosh.as_deref(), slosh);
-    swinging_fits(file.check, &flexible_modes, &sloshes, &mass_properties);
+    swinging_fits(file, &flexible_modes, &sloshes, &mass_properties);
     let instruments = file.list("instruments", given.instruments.as_deref(), instrument);
-    check_gimbals(file.check, &file.at.key("instruments"), &instruments);
-    let has_antenna = given.antennas.is_some() || file.is_stand_in("antennas");
-    let start = start_entries(file.check, given.start.as_ref(), given.fixed.as_ref());
+    check_gimbals(&file.key("instruments"), &instruments);
+    let has_antenna = given.antennas.is_some() || file.key("antennas").is_stand_in();
+    let start = start_entries(file, given.start.as_ref(), given.fixed.as_ref());
     let panels = file.list("panels", given.panels.as_deref(), panel);
+    let corridor = file.optional("articulation", given.articulation.as_ref(), articulation);
     let momentum = given.momentum.as_ref();
     let dump_threshold_n_m_s = momentum.and_then(|it| it.dump_threshold_n_m_s);
     Spacecraft {
@@ -209,9 +205,7 @@ fn spacecraft(check: &mut Checker<'_>, given: &SpacecraftDescription) -> Spacecr
         downlinks: file.optional("downlinks", given.downlinks.as_ref(), |part, it| {
             downlinks(part, it, &start, has_antenna)
         }),
-        articulation: file
-            .optional("articulation", given.articulation.as_ref(), articulation)
-            .unwrap_or_default(),
+        articulation: corridor.unwrap_or_default(),
         hot_pole: given.hot_pole.value(),
         start,
         sun_keep_in: given.sun_keep_in.value(),
@@ -221,16 +215,30 @@ fn spacecraft(check: &mut Checker<'_>, given: &SpacecraftDescription) -> Spacecr
 }
 
 /// Panels and tanks are a part of the spacecraft's mass.
-fn check_masses(check: &mut Checker<'_>, given: &SpacecraftDescription) {
+fn check_masses(root: &Place<'_>, given: &SpacecraftDescription) {
     let whole_kg = given.mass_properties.mass_kg.0;
     let panels = given.panels.iter().flat_map(|panels| panels.iter());
-    parts_fit(check, ("panels", "mass_kg"), panels.map(|panel| panel.mass_kg.value()), whole_kg);
+    let panels = panels.map(|panel| panel.mass_kg.value()).collect();
     let tanks = given.tanks.iter().flat_map(|tanks| tanks.iter());
-    parts_fit(check, ("tanks", "propellant_kg"), tanks.map(|tank| Some(tank.propellant_kg.0)), whole_kg);
+    let tanks = tanks.map(|tank| Some(tank.propellant_kg.0)).collect();
+    let kinds: [(_, _, Vec<_>); 2] = [("panels", "mass_kg", panels), ("tanks", "propellant_kg", tanks)];
+    for (kind, key, masses_kg) in kinds {
+        let mut sum_kg = 0.0;
+        for (at, mass_kg) in root.key(kind).items(&masses_kg) {
+            sum_kg += mass_kg.unwrap_or(0.0);
+            if let Some(mass_kg) = mass_kg.filter(|_| sum_kg >= whole_kg) {
+                let found = format!("{mass_kg}, with the {kind} before it {sum_kg}");
+                let allowed =
+                    format!("less than mass_properties.mass_kg = {whole_kg}, of which it is a part");
+                at.key(key).report(found, allowed);
+                break;
+            }
+        }
+    }
 }
 
 /// The plates that the file lists, then those of its shapes; none beyond the most that a spacecraft may have.
-fn body_plates(file: &mut PartReader<'_, '_>, description: &SpacecraftDescription) -> Vec<Plate> {
+fn body_plates(file: &PartReader<'_>, description: &SpacecraftDescription) -> Vec<Plate> {
     let mut found = Vec::new();
     let SpacecraftDescription { plates: listed, boxes, cylinders, discs, dishes, .. } = description;
     shaped(file, &mut found, ("plates", listed.as_deref()), plates);
@@ -240,76 +248,29 @@ fn body_plates(file: &mut PartReader<'_, '_>, description: &SpacecraftDescriptio
     shaped(file, &mut found, ("dishes", dishes.as_deref()), dish_plates);
     if surfaces(&found) > MOST_SURFACES {
         let found = "more surfaces, copies and facets of shapes among them";
-        file.check.push(&file.at, found, format_args!("at most {MOST_SURFACES}"));
+        file.push(found, format_args!("at most {MOST_SURFACES}"));
     }
-    distinct_plates(file.check, &found);
+    distinct_plates(&found);
     found.into_iter().flat_map(|(_, plates)| plates).collect()
 }
 
-/// Key path and plates of every item.
-type Found = Vec<(KeyPath, Vec<Plate>)>;
+/// Place and plates of every item.
+type Found<'p> = Vec<(Place<'p>, Vec<Plate>)>;
 
-fn surfaces(found: &Found) -> usize {
+fn surfaces(found: &Found<'_>) -> usize {
     found.iter().map(|(_, plates)| plates.len()).sum()
 }
 
 /// Adds the plates of every item under a key.
-fn shaped<D: Table>(
-    file: &mut PartReader<'_, '_>,
-    found: &mut Found,
+fn shaped<'p, D: Table + Named>(
+    file: &PartReader<'p>,
+    found: &mut Found<'p>,
     (key, items): (&str, Option<&[D]>),
-    plates: impl Fn(&mut PartReader<'_, '_>, &D) -> Vec<Plate>,
+    plates: impl Fn(&PartReader<'_>, &D) -> Vec<Plate>,
 ) {
-    let mut count = surfaces(found);
     file.list(key, items, |part, item| {
-        if count <= MOST_SURFACES {
-            let made = plates(part, item);
-            count += made.len();
-            found.push((part.at.clone(), made));
+        if surfaces(found) <= MOST_SURFACES {
+            found.push((part.at.clone(), plates(part, item)));
         }
     });
-}
-
-/// Key path of a part, its name, and whether the file gives the name.
-type Name = (KeyPath, String, bool);
-
-fn names<D: Named>(at: KeyPath, items: Option<&[D]>) -> Vec<Name> {
-    let items = items.unwrap_or_default().iter().enumerate();
-    items.map(|(i, item)| (at.item(i), item.called(i), item.name().is_some())).collect()
-}
-
-/// Names of the lists of these keys.
-macro_rules! names_of {
-    ($description:ident: $($key:ident),+) => {
-        [$(names(KeyPath::root().key(stringify!($key)), $description.$key.as_deref())),+]
-    };
-}
-
-/// Two parts of one kind with one name could not be distinguished; all plates are one kind, the shade's among them.
-fn check_names(check: &mut Checker<'_>, description: &SpacecraftDescription) {
-    let of_shade = description.sunshade.as_ref().map_or_else(Vec::new, |shade| {
-        names(KeyPath::root().key("sunshade").key("plates"), shade.plates.as_deref())
-    });
-    let plates = names_of!(description: plates, boxes, cylinders, discs, dishes);
-    let others = names_of!(
-        description: panels, wheels, sun_sensors, instruments, antennas, tanks, thrusters, flexible_modes, slosh
-    );
-    let kinds = [plates.into_iter().chain([of_shade]).flatten().collect()].into_iter().chain(others);
-    for kind in kinds {
-        check_kind(check, &kind);
-    }
-}
-
-fn check_kind(check: &mut Checker<'_>, names: &[Name]) {
-    let mut known: BTreeMap<&str, &Name> = BTreeMap::new();
-    for part in names {
-        let (at, name, is_given) = part;
-        let (other, _, other_is_given) = *known.entry(name).or_insert(part);
-        // A plate and one of the shade that nobody named are both called by their number.
-        if at != other && (*is_given || *other_is_given) {
-            let unnamed = if *is_given { "" } else { " as what has no name is called" };
-            let found = format!("`{name}`{unnamed}, the name of {other} too");
-            check.report(&at.key("name"), found, "a name of its own");
-        }
-    }
 }

@@ -171,26 +171,22 @@ impl CustomBody {
 }
 
 /// Reads the body.
-pub(super) fn body(part: &mut PartReader<'_, '_>, description: &BodyDescription) -> CustomBody {
+pub(super) fn body(part: &PartReader<'_>, description: &BodyDescription) -> CustomBody {
     if description.name.trim().is_empty() {
-        part.report("name", "an empty name", "a name");
+        part.key("name").report("an empty name", "a name");
     }
     let [right_ascension, declination] = description.pole_deg();
-    let pole = part.at.key("pole_deg");
-    part.check.within(&pole.item(0), right_ascension, -360.0, 360.0, "an angle from -360 to 360 deg");
-    part.check.within(&pole.item(1), declination, -90.0, 90.0, "an angle from -90 to 90 deg");
-    let (gm_m3_s2, radii_m) =
-        (description.gravitational_parameter_m3_s2.0, description.radii_m.map(f64::from));
+    let pole = part.key("pole_deg");
+    pole.item(0).within(right_ascension, [-360.0, 360.0], "an angle from -360 to 360 deg");
+    pole.item(1).within(declination, [-90.0, 90.0], "an angle from -90 to 90 deg");
+    let (gm_m3_s2, radii_m) = (description.gravitational_parameter_m3_s2.0, description.radii_m.value());
     // Values out of their own ranges are reported for themselves.
     let is_judged = gm_m3_s2 > 0.0 && radii_m.iter().all(|radius_m| (1.0..=1e9).contains(radius_m));
     let density_kg_m3 = impossible_density_kg_m3(gm_m3_s2, radii_m).filter(|_| is_judged);
     if let Some(density_kg_m3) = density_kg_m3 {
         let found = format_args!("{gm_m3_s2:?}, with radii_m a mean density of {density_kg_m3:.3e} kg/m3");
-        part.report(
-            "gravitational_parameter_m3_s2",
-            found,
-            "a mean density of 100 to 30000 kg/m3 (1 km3/s2 is 1e9 m3/s2)",
-        );
+        part.key("gravitational_parameter_m3_s2")
+            .report(found, "a mean density of 100 to 30000 kg/m3 (1 km3/s2 is 1e9 m3/s2)");
     }
     CustomBody {
         name: description.name.clone(),
@@ -207,35 +203,30 @@ pub(super) fn body(part: &mut PartReader<'_, '_>, description: &BodyDescription)
 }
 
 /// Its motion, if elements or a state say it; both at once, or a part of them, are reported.
-fn motion(part: &mut PartReader<'_, '_>, description: &BodyDescription) -> Option<BodyMotion> {
+fn motion(part: &PartReader<'_>, description: &BodyDescription) -> Option<BodyMotion> {
     let (position_m, velocity_m_s) = (description.position_m, description.velocity_m_s);
     let orbit = match (&description.elements, position_m.value(), velocity_m_s.value()) {
         (Some(elements), None, None) => BodyOrbit::Elements(elements.value()),
         (None, Some(position_m), Some(velocity_m_s)) => {
             if position_m.cross(&velocity_m_s) == Vector3::zeros() {
                 let allowed = "not along position_m: a fall along a line is no orbit about the Sun";
-                part.report("velocity_m_s", format_args!("{:?}", velocity_m_s.as_slice()), allowed);
+                part.key("velocity_m_s").report(format_args!("{:?}", velocity_m_s.as_slice()), allowed);
             }
             BodyOrbit::State { position_m, velocity_m_s }
         }
         (None, position_m, velocity_m_s) if position_m.is_some() || velocity_m_s.is_some() => {
             let missing = if position_m.is_some() { "velocity_m_s" } else { "position_m" };
             let allowed = "position_m in m and velocity_m_s in m/s, both from the Sun";
-            part.check.report_lack(&part.at, missing, allowed);
+            part.report_lack(missing, allowed);
             return None;
         }
         _ => return None,
     };
     let Some(epoch) = description.epoch.as_deref() else {
-        part.check.report_lack(&part.at, "epoch", format_args!("when the body is there, {ALLOWED_DATE}"));
+        part.report_lack("epoch", format_args!("when the body is there, {ALLOWED_DATE}"));
         return None;
     };
-    let epoch_s = match dates::epoch_s(epoch) {
-        Ok(epoch_s) => epoch_s,
-        Err(error) => {
-            part.report("epoch", format_args!("{epoch:?}, {error}"), ALLOWED_DATE);
-            return None;
-        }
-    };
+    let refuse = |error| part.key("epoch").report(format_args!("{epoch:?}, {error}"), ALLOWED_DATE);
+    let epoch_s = dates::epoch_s(epoch).map_err(refuse).ok()?;
     Some(BodyMotion { epoch_s, frame: description.frame.unwrap_or_default(), orbit })
 }

@@ -80,7 +80,7 @@ impl Motion {
 
 /// Every copy, the one that is written first: those of `repeat`, then the mirror images of all before.
 pub(super) fn motions(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     mirror: Option<&[MirrorPlane]>,
     repeat: Option<&RepeatDescription>,
 ) -> Vec<Motion> {
@@ -89,11 +89,11 @@ pub(super) fn motions(
     let mut motions = repeated.unwrap_or_else(|| vec![itself]);
     let planes = mirror.unwrap_or_default();
     if mirror.is_some_and(<[_]>::is_empty) {
-        part.report("mirror", "an empty list", "at least one of x, y, z, or no such key");
+        part.key("mirror").report("an empty list", "at least one of x, y, z, or no such key");
     }
     for (k, plane) in planes.iter().enumerate() {
         if planes[..k].contains(plane) {
-            part.check.report(&part.at.key("mirror").item(k), "the same plane again", "each of x, y, z once");
+            part.key("mirror").item(k).report("the same plane again", "each of x, y, z once");
             continue;
         }
         let images: Vec<Motion> = motions.iter().map(|motion| motion.mirrored(*plane)).collect();
@@ -108,7 +108,7 @@ pub(super) fn copy_name(name: &str, index: usize, count: usize) -> String {
 }
 
 /// Reports a copy that lies where an earlier one does; `count` copies have each the same number of plates.
-pub(super) fn check_apart(part: &mut PartReader<'_, '_>, plates: &[Plate], count: usize) {
+pub(super) fn check_apart(part: &PartReader<'_>, plates: &[Plate], count: usize) {
     for (index, later) in plates.iter().enumerate().skip(plates.len() / count.max(1)) {
         let size_m = later.area_m2.sqrt();
         let is_same = |plate: &&Plate| {
@@ -118,7 +118,7 @@ pub(super) fn check_apart(part: &mut PartReader<'_, '_>, plates: &[Plate], count
         };
         if let Some(earlier) = plates[..index].iter().find(is_same) {
             let found = format!("`{}` in the place of `{}`", later.name, earlier.name);
-            part.check.report(&part.at, found, "copies that lie apart");
+            part.report(found, "copies that lie apart");
             return;
         }
     }
@@ -150,7 +150,7 @@ fn repeated(repeat: &RepeatDescription) -> Option<Vec<Motion>> {
         }
         (None, Some(axis)) => {
             let (axis, point_m) = (axis.value(), repeat.point_m());
-            let angle_deg = repeat.angle_deg.map_or(360.0 / f64::from(count), f64::from);
+            let angle_deg = repeat.angle_deg.map_or(360.0 / f64::from(count), |it| it.0);
             let turned = |k: u32| {
                 let matrix = turn(&axis, angle_deg * f64::from(k));
                 Motion { matrix, shift_m: point_m - matrix * point_m }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::part_reader::PartReader;
 use super::start::StartEntry;
 use crate::constants::TIME_UNITS;
-use crate::toml::{Orbits, inline_schema, tables, with_unit};
+use crate::toml::{Orbits, in_units, tables, type_schema, with_unit};
 
 tables! {
 /// When an antenna looks at the Earth, counted from periapsis; left out, there are no downlinks. The start values of
@@ -52,10 +52,8 @@ impl TimeAfterPeriapsis {
 
     /// The share; `None` where it is no share.
     pub fn period_share(self) -> Option<f64> {
-        match self {
-            Self::Seconds(_) => None,
-            Self::PeriodShare(share) => Some(share),
-        }
+        let Self::PeriodShare(share) = self else { return None };
+        Some(share)
     }
 }
 
@@ -80,14 +78,13 @@ pub(crate) enum WrittenTime {
 impl WrittenTime {
     /// The time; `None` where this is none.
     pub(crate) fn read(&self) -> Option<TimeAfterPeriapsis> {
-        let (number, unit) = match self {
-            Self::Number(number) => return in_range(TimeAfterPeriapsis::Seconds(*number)),
-            Self::Text(text) => with_unit(text)?,
+        in_range(match self {
+            Self::Number(number) => TimeAfterPeriapsis::Seconds(*number),
+            Self::Text(text) => match with_unit(text)? {
+                (number, "%") => TimeAfterPeriapsis::PeriodShare(number / 100.0),
+                _ => TimeAfterPeriapsis::Seconds(in_units(text, &TIME_UNITS)?),
+            },
             Self::Other(_) => return None,
-        };
-        in_range(match unit {
-            "%" => TimeAfterPeriapsis::PeriodShare(number / 100.0),
-            _ => TimeAfterPeriapsis::Seconds(number * TIME_UNITS.iter().find(|(name, _)| *name == unit)?.1),
         })
     }
 
@@ -109,38 +106,35 @@ fn in_range(time: TimeAfterPeriapsis) -> Option<TimeAfterPeriapsis> {
     is_in.then_some(time)
 }
 
-inline_schema!(WrittenTime, "WrittenTime", |_| schemars::json_schema!({ "type": ["number", "string"] }));
+type_schema!([] WrittenTime, inline: true, "WrittenTime", |_| {
+    schemars::json_schema!({ "type": ["number", "string"] })
+});
 
 /// Reads the windows.
 pub(super) fn downlinks(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     description: &DownlinksDescription,
     start: &[StartEntry],
     has_antenna: bool,
 ) -> DownlinkWindows {
-    let mut time = |key: &str, written: &WrittenTime| {
-        written.read().unwrap_or_else(|| {
-            part.report(key, written.found(), ALLOWED_TIME);
-            TimeAfterPeriapsis::Seconds(0.0)
-        })
+    let time = |key: &str, written: &WrittenTime| {
+        let read = part.key(key).known(written.read(), written.found(), ALLOWED_TIME);
+        read.unwrap_or(TimeAfterPeriapsis::Seconds(0.0))
     };
     let (begin, end) = (time("start", &description.start), time("stop", &description.stop));
-    let is_backwards = match (begin, end) {
-        (TimeAfterPeriapsis::Seconds(begin), TimeAfterPeriapsis::Seconds(end))
-        | (TimeAfterPeriapsis::PeriodShare(begin), TimeAfterPeriapsis::PeriodShare(end)) => end <= begin,
-        _ => false,
-    };
-    if is_backwards && !part.has_reported("start") && !part.has_reported("stop") {
-        part.report("stop", description.stop.found(), "a time after the start");
+    let are_alike = begin.period_share().is_some() == end.period_share().is_some();
+    let is_backwards = are_alike && end.in_orbit_s(1.0) <= begin.in_orbit_s(1.0);
+    if is_backwards && !part.key("start").has_reported() && !part.key("stop").has_reported() {
+        part.key("stop").report(description.stop.found(), "a time after the start");
     }
     if let Some(entry) = start.iter().find(|it| !it.is_fixed && it.name.starts_with("guided.downlink")) {
         let allowed = format!("one of both: [downlinks], or {} in [start]", entry.name);
-        part.check.report(&part.at, format!("[downlinks] beside {}", entry.key), allowed);
+        part.report(format!("[downlinks] beside {}", entry.key), allowed);
     }
     let every = description.every();
-    if every > 0 && !has_antenna && !part.has_reported("every") {
+    if every > 0 && !has_antenna && !part.key("every").has_reported() {
         let allowed = "0, no downlink, where the spacecraft has no antenna ([[antennas]])";
-        part.report("every", every, allowed);
+        part.key("every").report(every, allowed);
     }
     DownlinkWindows { start: begin, stop: end, every }
 }

@@ -16,25 +16,27 @@ use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
+use crate::enumeration::{Enumerated, Item, enumeration};
 use crate::math;
 use serde::Deserialize;
 
-/// Face of a box, in its own axes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(crate) enum BoxFace {
-    #[serde(rename = "+X")]
-    PlusX,
-    #[serde(rename = "-X")]
-    MinusX,
-    #[serde(rename = "+Y")]
-    PlusY,
-    #[serde(rename = "-Y")]
-    MinusY,
-    #[serde(rename = "+Z")]
-    PlusZ,
-    #[serde(rename = "-Z")]
-    MinusZ,
+enumeration! {
+    /// Face of a box, in its own axes.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+    pub(crate) enum BoxFace {
+        #[serde(rename = "+X")]
+        1 => PlusX,
+        #[serde(rename = "-X")]
+        2 => MinusX,
+        #[serde(rename = "+Y")]
+        3 => PlusY,
+        #[serde(rename = "-Y")]
+        4 => MinusY,
+        #[serde(rename = "+Z")]
+        5 => PlusZ,
+        #[serde(rename = "-Z")]
+        6 => MinusZ,
+    }
 }
 
 /// End of a cylinder.
@@ -56,16 +58,6 @@ pub(super) struct Facet {
     pub vertices_m: Vec<Vector3<f64>>,
 }
 
-/// The faces of a box, with axis, side and name.
-pub(super) const BOX_FACES: [(BoxFace, usize, f64, &str); 6] = [
-    (BoxFace::PlusX, 0, 1.0, "+X"),
-    (BoxFace::MinusX, 0, -1.0, "-X"),
-    (BoxFace::PlusY, 1, 1.0, "+Y"),
-    (BoxFace::MinusY, 1, -1.0, "-Y"),
-    (BoxFace::PlusZ, 2, 1.0, "+Z"),
-    (BoxFace::MinusZ, 2, -1.0, "-Z"),
-];
-
 /// Sine and cosine of an angle in deg, exact at right angles.
 pub(super) fn sincos_deg(angle_deg: f64) -> (f64, f64) {
     let quarters = (angle_deg / 90.0).round();
@@ -80,8 +72,9 @@ pub(super) fn sincos_deg(angle_deg: f64) -> (f64, f64) {
 
 /// The faces of a box about the origin that it has, outside in front.
 pub(super) fn box_faces(size_m: &Vector3<f64>, open: &[BoxFace]) -> Vec<Facet> {
-    let faces = BOX_FACES.into_iter().filter(|(face, ..)| !open.contains(face));
-    let facet = |(_, axis, side, name): (BoxFace, usize, f64, &str)| {
+    let faces = BoxFace::ITEMS.iter().filter(|face| !open.contains(&face.variant));
+    let facet = |face: &Item<BoxFace>| {
+        let (axis, side) = (face.variant as usize / 2, [1.0, -1.0][face.variant as usize % 2]);
         let (second, third) = ((axis + 1) % 3, (axis + 2) % 3);
         let corner = |(along_second, along_third): (f64, f64)| {
             let mut corner = Vector3::zeros();
@@ -91,7 +84,7 @@ pub(super) fn box_faces(size_m: &Vector3<f64>, open: &[BoxFace]) -> Vec<Facet> {
             corner
         };
         let vertices_m = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(corner).to_vec();
-        Facet { name: name.to_owned(), vertices_m }
+        Facet { name: face.name.to_owned(), vertices_m }
     };
     faces.map(facet).collect()
 }

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use super::part_reader::PartReader;
-use crate::toml::{Checker, HalfTurnEither, KeyPath, UnitVector, Written, tables};
+use crate::toml::{HalfTurnEither, Place, UnitVector, Written, tables};
 
 tables! {
 /// An instrument.
@@ -39,7 +39,7 @@ pub struct Instrument {
 }
 
 /// Reads an instrument.
-pub(super) fn instrument(part: &mut PartReader<'_, '_>, description: &InstrumentDescription) -> Instrument {
+pub(super) fn instrument(part: &PartReader<'_>, description: &InstrumentDescription) -> Instrument {
     let boresight_body = description.boresight_body();
     let gimbal =
         part.optional("gimbal", description.gimbal.as_ref(), |part, it| gimbal(part, it, &boresight_body));
@@ -47,27 +47,26 @@ pub(super) fn instrument(part: &mut PartReader<'_, '_>, description: &Instrument
 }
 
 fn gimbal(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     description: &GimbalDescription,
     boresight_body: &Vector3<f64>,
 ) -> GimbalMount {
     let [minimum_deg, maximum_deg] = [description.minimum_deg.0, description.maximum_deg.0];
     if minimum_deg > maximum_deg {
         let allowed = format!("an angle from `minimum_deg`, {minimum_deg} deg, to 180 deg");
-        part.report("maximum_deg", maximum_deg, allowed);
+        part.key("maximum_deg").report(maximum_deg, allowed);
     }
     let made = description.value();
-    let axis_body = part.perpendicular("axis", made.axis_body, ("boresight", boresight_body));
+    let axis_body = part.key("axis").perpendicular(made.axis_body, boresight_body, "boresight");
     GimbalMount { axis_body, ..made }
 }
 
 /// At most one instrument has a gimbal.
-pub(super) fn check_gimbals(check: &mut Checker<'_>, at: &KeyPath, instruments: &[Instrument]) {
-    let mut with_gimbal =
-        instruments.iter().enumerate().filter(|(_, instrument)| instrument.gimbal.is_some());
+pub(super) fn check_gimbals(at: &Place<'_>, instruments: &[Instrument]) {
+    let mut with_gimbal = at.items(instruments).filter(|(_, instrument)| instrument.gimbal.is_some());
     let Some((_, first)) = with_gimbal.next() else { return };
-    for (index, _) in with_gimbal {
+    for (at, _) in with_gimbal {
         let found = format!("a gimbal beside that of `{}`", first.name);
-        check.report(&at.item(index).key("gimbal"), found, "one instrument with a gimbal");
+        at.key("gimbal").report(found, "one instrument with a gimbal");
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::part_reader::PartReader;
-use crate::toml::{Checker, KeyPath, Point, Positive, Written, tables};
+use crate::toml::{Point, Positive, Written, tables};
 
 tables! {
 /// Mass properties of the whole spacecraft.
@@ -99,7 +99,7 @@ pub fn check_inertia(inertia_kg_m2: &Matrix3<f64>) -> Result<(), &'static str> {
 }
 
 /// Reads the mass properties.
-pub(super) fn mass(part: &mut PartReader<'_, '_>, description: &MassDescription) -> MassProperties {
+pub(super) fn mass(part: &PartReader<'_>, description: &MassDescription) -> MassProperties {
     MassProperties {
         inertia_body_kg_m2: inertia_kg_m2(part, description.inertia_kg_m2),
         mass_kg: description.mass_kg.0,
@@ -107,32 +107,11 @@ pub(super) fn mass(part: &mut PartReader<'_, '_>, description: &MassDescription)
     }
 }
 
-/// Parts of one kind, each with its mass if it has one, are a part of the spacecraft's mass.
-pub(super) fn parts_fit(
-    check: &mut Checker<'_>,
-    (kind, key): (&str, &str),
-    masses_kg: impl Iterator<Item = Option<f64>>,
-    whole_kg: f64,
-) {
-    let mut sum_kg = 0.0;
-    for (index, mass_kg) in masses_kg.enumerate() {
-        let Some(mass_kg) = mass_kg else { continue };
-        sum_kg += mass_kg;
-        if sum_kg >= whole_kg {
-            let at = KeyPath::root().key(kind).item(index).key(key);
-            let found = format!("{mass_kg}, with the {kind} before it {sum_kg}");
-            let allowed = format!("less than mass_properties.mass_kg = {whole_kg}, of which it is a part");
-            check.report(&at, found, allowed);
-            return;
-        }
-    }
-}
-
 /// Reads an inertia, row by row.
-pub(super) fn inertia_kg_m2(part: &mut PartReader<'_, '_>, rows: [[f64; 3]; 3]) -> Matrix3<f64> {
+pub(super) fn inertia_kg_m2(part: &PartReader<'_>, rows: [[f64; 3]; 3]) -> Matrix3<f64> {
     let inertia_kg_m2 = Matrix3::from(rows).transpose();
     if let Err(allowed) = check_inertia(&inertia_kg_m2) {
-        part.report("inertia_kg_m2", format!("{rows:?}"), allowed);
+        part.key("inertia_kg_m2").report(format!("{rows:?}"), allowed);
     }
     inertia_kg_m2
 }

@@ -7,10 +7,9 @@ use super::gas_surface::GasSurface;
 use super::material::{Material, NamedMaterial, OPTICS_SUM_TOLERANCE};
 use super::names::variable_name;
 use super::optics::Optics;
-use super::thermal::{BACKGROUND_K, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal};
-use crate::toml::{
-    Checker, Emissivity, Finite, Fraction, Kelvin, KeyPath, NotNegative, Written, hint, rounded, tables,
-};
+use super::surface::FaceProperties;
+use super::thermal::{BACKGROUND_K, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, Thermal};
+use crate::toml::{Emissivity, Finite, Fraction, Kelvin, NotNegative, Place, Written, hint, rounded, tables};
 
 tables! {
 /// What a surface does with sunlight (absorptivity + specular + diffuse = 1), heat and air.
@@ -67,14 +66,15 @@ impl ChosenMaterial {
         Self { place: None, material: Material { optics, thermal, gas_surface: GasSurface::ASSUMED } }
     };
 
-    /// Front and rear of a surface in the air.
-    pub(super) fn in_air(front: Self, rear: Option<Self>) -> [GasSurface; 2] {
-        [front, rear.unwrap_or(front)].map(|it| it.material.gas_surface)
-    }
-
-    /// Places of the materials of front and rear.
-    pub(super) fn places(front: Self, rear: Option<Self>) -> [Option<usize>; 2] {
-        [front.place, rear.and_then(|it| it.place)]
+    /// Faces of a surface of these materials, front and rear.
+    pub(super) fn faces(front: Self, rear: Option<Self>, thermal: Thermal) -> FaceProperties {
+        FaceProperties {
+            optics: front.material.optics,
+            rear_optics: rear.map(|rear| rear.material.optics),
+            gas_surface: [front, rear.unwrap_or(front)].map(|it| it.material.gas_surface),
+            thermal,
+            materials: [front.place, rear.and_then(|it| it.place)],
+        }
     }
 }
 
@@ -89,17 +89,18 @@ pub(super) struct Materials {
 impl Materials {
     /// Reads the materials of a file.
     pub(super) fn read(
-        check: &mut Checker<'_>,
+        root: &Place<'_>,
         described: &BTreeMap<String, OpticsDescription>,
         surroundings: Option<&SurroundingsDescription>,
     ) -> Self {
         let none = SurroundingsDescription::default();
         let environment = surroundings.unwrap_or(&none).value();
-        let names = variable_names(check, described.keys());
+        let place = root.key("optics");
+        let names = variable_names(&place, described.keys());
         let materials = described.iter().zip(names).map(|((name, description), variable)| {
-            let at = KeyPath::root().key("optics").key(name);
-            let optics = optics(check, &at, description);
-            let thermal = face_thermal(check, &at, description, &optics);
+            let at = place.key(name);
+            let optics = optics(&at, description);
+            let thermal = face_thermal(&at, description, &optics);
             let material = NamedMaterial {
                 name: variable,
                 material: Material { optics, thermal, gas_surface: gas_surface(description) },
@@ -120,50 +121,50 @@ impl Materials {
     }
 
     /// The material of this name; an unknown one is reported.
-    pub(super) fn find(&self, check: &mut Checker<'_>, at: &KeyPath, name: &str) -> ChosenMaterial {
+    pub(super) fn find(&self, at: &Place<'_>, name: &str) -> ChosenMaterial {
         if let Some((named, place)) = self.by_name.get(name) {
             if place.get().is_none() {
                 place.set(Some(self.used.replace(self.used.get() + 1)));
             }
             return ChosenMaterial { place: place.get(), material: named.material };
         }
-        if check.is_stand_in(&KeyPath::root().key("optics")) {
+        if at.of_file("optics").is_stand_in() {
             return ChosenMaterial::BLACK;
         }
         let known: Vec<&str> = self.by_name.keys().map(String::as_str).collect();
         let allowed = format!("a material under [optics]: {}", known.join(", "));
-        check.report(at, format_args!("the unknown material `{name}`{}", hint(name, &known)), allowed);
+        at.report(format_args!("the unknown material `{name}`{}", hint(name, &known)), allowed);
         ChosenMaterial::BLACK
     }
 }
 
 /// Names of the parameters of materials, no two alike.
-fn variable_names<'n>(check: &mut Checker<'_>, names: impl Iterator<Item = &'n String>) -> Vec<String> {
+fn variable_names<'n>(optics: &Place<'_>, names: impl Iterator<Item = &'n String>) -> Vec<String> {
     let mut known: BTreeMap<String, &str> = BTreeMap::new();
     let called = names.map(|name| {
-        let at = KeyPath::root().key("optics").key(name);
+        let at = optics.key(name);
         let Some(variable) = variable_name(name) else {
             let allowed = "letters and digits, words apart by `-` or `_`, the first a letter: parameters are called after it, \
                            those of `shield-film` optics.shieldFilm.*";
-            check.report(&at, format_args!("{name:?}"), allowed);
+            at.report(format_args!("{name:?}"), allowed);
             return name.clone();
         };
         if let Some(other) = known.insert(variable.clone(), name) {
             let found = format!("parameters optics.{variable}.*, as of `{other}`");
-            check.report(&at, found, "a name of its own without `-` and `_` too");
+            at.report(found, "a name of its own without `-` and `_` too");
         }
         variable
     });
     called.collect()
 }
 
-fn optics(check: &mut Checker<'_>, at: &KeyPath, description: &OpticsDescription) -> Optics {
+fn optics(at: &Place<'_>, description: &OpticsDescription) -> Optics {
     let (specular, diffuse) = (description.specular.0, description.diffuse.0);
     let reflected = specular + diffuse;
     let Some(Fraction(absorptivity)) = description.absorptivity else {
-        if reflected > 1.0 + OPTICS_SUM_TOLERANCE && !check.has_reported(at) {
+        if reflected > 1.0 + OPTICS_SUM_TOLERANCE && !at.has_reported() {
             let found = format!("specular + diffuse = {}", rounded(reflected));
-            check.report_across(at, &at.key("specular"), found, "a sum of at most 1");
+            at.key("specular").report_across(found, "a sum of at most 1");
         }
         let absorptivity = (1.0 - reflected).max(0.0);
         return Optics { absorptivity, specular, diffuse };
@@ -171,7 +172,7 @@ fn optics(check: &mut Checker<'_>, at: &KeyPath, description: &OpticsDescription
     let sum = absorptivity + reflected;
     if (sum - 1.0).abs() > OPTICS_SUM_TOLERANCE {
         let found = format!("absorptivity + specular + diffuse = {}", rounded(sum));
-        check.report_across(at, &at.key("absorptivity"), found, "a sum of 1 within 1e-9");
+        at.key("absorptivity").report_across(found, "a sum of 1 within 1e-9");
     }
     Optics { absorptivity, specular, diffuse }
 }
@@ -195,25 +196,18 @@ fn gas_surface(description: &OpticsDescription) -> GasSurface {
     }
 }
 
-fn face_thermal(
-    check: &mut Checker<'_>,
-    at: &KeyPath,
-    description: &OpticsDescription,
-    sunlight: &Optics,
-) -> FaceThermal {
+fn face_thermal(at: &Place<'_>, description: &OpticsDescription, sunlight: &Optics) -> FaceThermal {
     let infrared_optics = description
         .infrared_absorptivity
         .map_or(*sunlight, |Fraction(absorptivity)| sunlight.with_absorptivity(absorptivity));
     let like_sunlight = FaceThermal::like_sunlight(sunlight).emission.emissivity;
     let emission = Emission {
-        emissivity: description.emissivity.map_or(like_sunlight, f64::from),
+        emissivity: description.emissivity.value().unwrap_or(like_sunlight),
         slope_per_k: description.emissivity_per_k(),
         reference_temperature_k: description.emissivity_temperature_k(),
     };
     if !emission.grows() {
-        check.report_across(
-            at,
-            &at.key("emissivity_per_k"),
+        at.key("emissivity_per_k").report_across(
             emission.slope_per_k,
             "a slope so small that up to 2000 K a hotter face emits more power",
         );

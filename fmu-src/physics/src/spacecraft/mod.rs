@@ -26,16 +26,13 @@ mod optics;
 mod outline;
 mod panel;
 mod panel_mass;
-mod panel_table;
 mod part_reader;
 mod planet_map;
 mod plate_table;
 mod pointing;
 mod pointing_table;
 mod polygon;
-mod shape_tables;
 mod shapes;
-mod slew;
 mod start;
 mod sun_sensors;
 mod surface;
@@ -63,21 +60,21 @@ pub use instruments::{GimbalMount, Instrument};
 pub(crate) use mass::steiner;
 pub use mass::{MassProperties, PanelMass, check_inertia};
 pub use material::{Following, Material, MaterialError, MaterialValues, NamedMaterial};
+pub use momentum::SlewDemand;
 pub use optics::Optics;
 pub use panel::{Panel, PanelControl, light_suns, offset_for_suns};
 pub use panel_mass::{hinged_masses, with_panels};
 pub use planet_map::{PlanetCell, PlanetMap};
 pub use pointing::{
     AlignedAxes, AttitudeName, AttitudePart, AttitudeRefusal, NamedAttitude, PointingSettings,
-    PointingTarget, TargetItem, TargetedAxis, panels_need_yaw_steering,
+    PointingTarget, StarDirection, TargetItem, TargetedAxis, panels_need_yaw_steering,
 };
-pub(crate) use pointing_table::{StarDescription, TargetedAxisDescription, aligned};
+pub(crate) use pointing_table::{StarDescription, TargetedAxisDescription, aligned, axes};
 pub use polygon::Polygon;
-pub use slew::SlewDemand;
 pub use start::{StartEntry, StartValue};
 pub(crate) use start::{StartTable, start_entries};
 pub use sun_sensors::MountedSunSensor;
-pub use surface::{Cylinder, MOST_SURFACES, Plate, Sunshade, SunshadeModel};
+pub use surface::{Cylinder, FaceProperties, MOST_SURFACES, Plate, Sunshade, SunshadeModel};
 pub use swinging::{NamedMode, NamedSlosh};
 pub use tank::{Blowdown, Tank};
 pub use thermal::{

@@ -1,6 +1,6 @@
 //! Names that items of enumerations and variables can have.
 
-use crate::toml::{Checker, KeyPath};
+use crate::toml::Place;
 
 /// Words that no enumeration of Modelica may have as an item (Modelica 3.6, 2.3.3).
 const MODELICA_KEYWORDS: &str = "algorithm and annotation block break class connect connector constant constrainedby der discrete \
@@ -13,11 +13,11 @@ const MODELICA_KEYWORDS: &str = "algorithm and annotation block break class conn
 const ALLOWED: &str = "letters and digits, the first a letter; not `none` and no keyword of Modelica";
 
 /// Refuses a name that no item of an enumeration can have.
-pub(super) fn check_item_name(check: &mut Checker<'_>, at: &KeyPath, name: &str) {
+pub(super) fn check_item_name(at: &Place<'_>, name: &str) {
     let begins = name.starts_with(|first: char| first.is_ascii_alphabetic());
     let is_word = begins && name.chars().all(|letter| letter.is_ascii_alphanumeric());
     if !is_word || name == "none" || MODELICA_KEYWORDS.split(' ').any(|word| word == name) {
-        check.report(at, format_args!("{name:?}"), ALLOWED);
+        at.report(format_args!("{name:?}"), ALLOWED);
     }
 }
 

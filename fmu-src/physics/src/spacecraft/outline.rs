@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use super::part_reader::PartReader;
 use super::polygon::Polygon;
 use crate::math;
+use crate::refusal::Refusal;
 use crate::toml::{Point, Positive, Written};
 
 /// How far area, centre and normal may be off the polygon's, relative to its size: printed tables are rounded ...
@@ -27,41 +28,30 @@ fn short(tolerance: f64) -> String {
 
 /// The outline with its front where the normal is, if both are given.
 pub(super) fn checked_outline(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     vertices_m: Option<&[Point]>,
     normal: Option<&Vector3<f64>>,
 ) -> Option<Polygon> {
     let vertices_m = vertices_m?;
-    match Polygon::new(vertices_m.iter().map(|v| v.value()).collect()) {
-        Ok(polygon) => {
-            let along = normal.map_or(1.0, |normal| polygon.normal().dot(normal));
-            let off = tolerance(&polygon);
-            if let (Some(normal), true) = (normal, along.abs() < (1.0 - math::powi(off, 2) / 2.0)) {
-                part.report_across(
-                    "polygon_m",
-                    format_args!("an outline with the normal {:?}", polygon.normal().as_slice()),
-                    format_args!(
-                        "one with the normal {:?} or its opposite, within {}",
-                        normal.as_slice(),
-                        short(off)
-                    ),
-                );
-            }
-            Some(if along < 0.0 { polygon.reversed() } else { polygon })
-        }
-        Err(error) => {
-            part.report("polygon_m", error.found, error.allowed);
-            None
-        }
+    let report = |error: Refusal| part.key("polygon_m").report(error.found, error.allowed);
+    let polygon = Polygon::new(vertices_m.iter().map(|v| v.value()).collect()).map_err(report).ok()?;
+    let along = normal.map_or(1.0, |normal| polygon.normal().dot(normal));
+    let off = tolerance(&polygon);
+    if let (Some(normal), true) = (normal, along.abs() < (1.0 - math::powi(off, 2) / 2.0)) {
+        let found = format!("an outline with the normal {:?}", polygon.normal().as_slice());
+        let (normal, within) = (normal.as_slice(), short(off));
+        let allowed = format!("one with the normal {normal:?} or its opposite, within {within}");
+        part.key("polygon_m").report_across(found, allowed);
     }
+    Some(if along < 0.0 { polygon.reversed() } else { polygon })
 }
 
 pub(super) fn checked_area(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     given_m2: Option<Positive>,
     outline: Option<&Polygon>,
 ) -> f64 {
-    match (given_m2.map(f64::from), outline) {
+    match (given_m2.value(), outline) {
         (Some(area_m2), None) => area_m2,
         (None, None) => missing(part, "area_m2", 1.0),
         (given_m2, Some(outline)) => {
@@ -70,7 +60,7 @@ pub(super) fn checked_area(
                 && (given_m2 / area_m2 - 1.0).abs() > tolerance(outline)
             {
                 let allowed = format!("the polygon's {area_m2} within {}", short(tolerance(outline)));
-                part.report_across("area_m2", given_m2, allowed);
+                part.key("area_m2").report_across(given_m2, allowed);
             }
             area_m2
         }
@@ -78,7 +68,7 @@ pub(super) fn checked_area(
 }
 
 pub(super) fn checked_center(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     given_m: Option<Point>,
     outline: Option<&Polygon>,
 ) -> Vector3<f64> {
@@ -96,7 +86,7 @@ pub(super) fn checked_center(
                     center_m.as_slice(),
                     short(tolerance(outline))
                 );
-                part.report_across("center_m", found, allowed);
+                part.key("center_m").report_across(found, allowed);
             }
             center_m
         }
@@ -104,7 +94,7 @@ pub(super) fn checked_center(
 }
 
 pub(super) fn checked_normal(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     given: Option<Vector3<f64>>,
     outline: Option<&Polygon>,
 ) -> Vector3<f64> {
@@ -115,11 +105,11 @@ pub(super) fn checked_normal(
     }
 }
 
-fn missing<V>(part: &mut PartReader<'_, '_>, key: &str, stand_in: V) -> V {
+fn missing<V>(part: &PartReader<'_>, key: &str, stand_in: V) -> V {
     // An outline that was refused would have given it.
-    if part.has_reported("polygon_m") || part.is_stand_in("polygon_m") {
+    if part.key("polygon_m").has_reported() || part.key("polygon_m").is_stand_in() {
         return stand_in;
     }
-    part.check.report_lack(&part.at, key, format_args!("a value for `{key}`, or an outline `polygon_m`"));
+    part.report_lack(key, format_args!("a value for `{key}`, or an outline `polygon_m`"));
     stand_in
 }

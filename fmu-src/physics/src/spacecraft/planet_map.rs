@@ -101,10 +101,7 @@ impl PlanetMap {
 }
 
 /// The map, unless something in it was reported.
-pub(super) fn planet_map(
-    part: &mut PartReader<'_, '_>,
-    description: &PlanetMapDescription,
-) -> Option<PlanetMap> {
+pub(super) fn planet_map(part: &PartReader<'_>, description: &PlanetMapDescription) -> Option<PlanetMap> {
     let belts = description.temperature_k.len();
     let [reflectivity, emissivity, temperature] = [
         ("diffuse_reflectivity", description.diffuse_reflectivity.value()),
@@ -114,11 +111,11 @@ pub(super) fn planet_map(
     .map(|(key, rows)| {
         if rows.len() != belts || !(1..=MOST_BELTS).contains(&belts) {
             let allowed = format!("as many as `temperature_k` has, 1 to {MOST_BELTS}");
-            part.report(key, format_args!("{} belts", rows.len()), allowed);
+            part.key(key).report(format_args!("{} belts", rows.len()), allowed);
         }
         for (belt, row) in rows.iter().enumerate().filter(|(_, row)| row.len() != 2 * rows.len()) {
             let allowed = format!("{}, twice as many as there are belts", 2 * rows.len());
-            part.check.report(&part.at.key(key).item(belt), format_args!("{} cells", row.len()), allowed);
+            part.key(key).item(belt).report(format_args!("{} cells", row.len()), allowed);
         }
         rows.concat()
     });

@@ -65,7 +65,7 @@ struct CylinderDescription {
 }
 
 /// A plate with its copies.
-pub(super) fn plates(part: &mut PartReader<'_, '_>, description: &PlateDescription) -> Vec<Plate> {
+pub(super) fn plates(part: &PartReader<'_>, description: &PlateDescription) -> Vec<Plate> {
     let plate = plate(part, description);
     let (mirror, repeat) = (description.mirror.as_deref(), description.repeat.as_ref());
     let motions = motions(part, mirror, repeat);
@@ -74,7 +74,7 @@ pub(super) fn plates(part: &mut PartReader<'_, '_>, description: &PlateDescripti
     plates
 }
 
-fn plate(part: &mut PartReader<'_, '_>, description: &PlateDescription) -> Plate {
+fn plate(part: &PartReader<'_>, description: &PlateDescription) -> Plate {
     let front = part.material("optics", &description.optics);
     let rear = part.rear(description.rear_optics.as_deref());
     let normal = description.normal.value();
@@ -84,24 +84,18 @@ fn plate(part: &mut PartReader<'_, '_>, description: &PlateDescription) -> Plate
         area_m2: checked_area(part, description.area_m2, outline.as_ref()),
         center_m: checked_center(part, description.center_m, outline.as_ref()),
         normal: checked_normal(part, normal, outline.as_ref()),
-        optics: front.material.optics,
-        rear_optics: rear.map(|rear| rear.material.optics),
-        gas_surface: ChosenMaterial::in_air(front, rear),
-        materials: ChosenMaterial::places(front, rear),
-        thermal: thermal(part, description.thermal.as_ref(), front, rear),
+        faces: ChosenMaterial::faces(front, rear, thermal(part, description.thermal.as_ref(), front, rear)),
         polygon: outline,
     }
 }
 
 /// Reads the sunshade.
-pub(super) fn sunshade(part: &mut PartReader<'_, '_>, description: &SunshadeDescription) -> Sunshade {
+pub(super) fn sunshade(part: &PartReader<'_>, description: &SunshadeDescription) -> Sunshade {
     let sunshade = Sunshade {
         model: description.model,
-        dcm_body_from_shade: part.check.rotation(
-            &part.at.key("dcm_body_from_shade"),
-            description.rotation_rad(),
-            description.dcm_body_from_shade,
-        ),
+        dcm_body_from_shade: part
+            .key("dcm_body_from_shade")
+            .rotation(description.rotation_rad(), description.dcm_body_from_shade),
         plates: part.list("plates", description.plates.as_deref(), plates).concat(),
         cylinder: part.optional("cylinder", description.cylinder.as_ref(), cylinder),
     };
@@ -110,12 +104,12 @@ pub(super) fn sunshade(part: &mut PartReader<'_, '_>, description: &SunshadeDesc
             SunshadeModel::Plates => ("`plates` without plates", "[[sunshade.plates]] or \"cylinder\""),
             SunshadeModel::Cylinder => ("`cylinder` without a cylinder", "[sunshade.cylinder] or \"plates\""),
         };
-        part.report_across("model", found, allowed);
+        part.key("model").report_across(found, allowed);
     }
     sunshade
 }
 
-fn cylinder(part: &mut PartReader<'_, '_>, description: &CylinderDescription) -> Cylinder {
+fn cylinder(part: &PartReader<'_>, description: &CylinderDescription) -> Cylinder {
     let ChosenMaterial { place, material } = part.material("optics", &description.optics);
     Cylinder {
         radius_m: description.radius_m.0,

@@ -21,7 +21,6 @@ const PARALLEL: f64 = 1e-9;
 enumeration! {
     /// Direction that a body axis is turned to.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "camelCase")]
     pub enum TargetItem {
         /// The planet's centre.
@@ -44,7 +43,6 @@ enumeration! {
 enumeration! {
     /// Attitude that its name alone gives.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "camelCase")]
     pub enum AttitudeName {
         /// Local vertical, local horizontal: +Z to nadir, -Y along the orbit normal (position x velocity).
@@ -56,69 +54,29 @@ enumeration! {
     }
 }
 
-impl From<AttitudeName> for NamedAttitude {
-    fn from(name: AttitudeName) -> Self {
-        match name {
-            AttitudeName::Lvlh => Self::Lvlh,
-            AttitudeName::YawSteering => Self::YawSteering,
-            AttitudeName::SunPointing => Self::SunPointing,
-        }
-    }
-}
-
 /// Direction in space that a body axis is turned to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PointingTarget {
-    /// To the planet's centre.
-    Nadir,
-    /// Along the velocity about the orbit's centre.
-    Velocity,
-    /// Along position x velocity about that centre.
-    OrbitNormal,
-    /// To the Sun.
-    Sun,
-    /// To the Earth.
-    Earth,
-    /// Toward a right ascension and declination in EME2000.
-    Star {
-        /// Right ascension, in rad.
-        right_ascension_rad: f64,
-        /// Declination, in rad.
-        declination_rad: f64,
-    },
-    /// Toward ecliptic north.
-    EclipticNorth,
-    /// Along a vector in EME2000, of any length.
-    Inertial(Vector3<f64>),
+pub struct PointingTarget {
+    /// Its item.
+    pub item: TargetItem,
+    /// Direction of a star; `None` of other items.
+    pub star: Option<StarDirection>,
+}
+
+/// Direction fixed in EME2000.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StarDirection {
+    /// Right ascension and declination, in rad.
+    Angles([f64; 2]),
+    /// Along a vector of any length.
+    Vector(Vector3<f64>),
 }
 
 impl TargetItem {
     /// The target, a star in this direction.
-    pub fn target(self, [right_ascension_rad, declination_rad]: [f64; 2]) -> PointingTarget {
-        match self {
-            Self::Nadir => PointingTarget::Nadir,
-            Self::Velocity => PointingTarget::Velocity,
-            Self::OrbitNormal => PointingTarget::OrbitNormal,
-            Self::Sun => PointingTarget::Sun,
-            Self::Earth => PointingTarget::Earth,
-            Self::Star => PointingTarget::Star { right_ascension_rad, declination_rad },
-            Self::EclipticNorth => PointingTarget::EclipticNorth,
-        }
-    }
-}
-
-impl PointingTarget {
-    /// Its item; a vector counts as a star.
-    pub fn item(self) -> TargetItem {
-        match self {
-            Self::Nadir => TargetItem::Nadir,
-            Self::Velocity => TargetItem::Velocity,
-            Self::OrbitNormal => TargetItem::OrbitNormal,
-            Self::Sun => TargetItem::Sun,
-            Self::Earth => TargetItem::Earth,
-            Self::Star { .. } | Self::Inertial(_) => TargetItem::Star,
-            Self::EclipticNorth => TargetItem::EclipticNorth,
-        }
+    pub fn target(self, star_rad: [f64; 2]) -> PointingTarget {
+        let star = (self == Self::Star).then_some(StarDirection::Angles(star_rad));
+        PointingTarget { item: self, star }
     }
 }
 
@@ -129,6 +87,13 @@ pub struct TargetedAxis {
     pub axis_body: Vector3<f64>,
     /// The target.
     pub target: PointingTarget,
+}
+
+impl TargetedAxis {
+    /// An axis whose target is no star.
+    const fn new(axis_body: Vector3<f64>, item: TargetItem) -> Self {
+        Self { axis_body, target: PointingTarget { item, star: None } }
+    }
 }
 
 /// Two body axes and their targets, which give an attitude.
@@ -143,16 +108,13 @@ pub struct AlignedAxes {
 impl AlignedAxes {
     /// +Z at nadir, -Y along the orbit normal.
     pub const LVLH: Self = Self {
-        align: TargetedAxis { axis_body: Vector3::new(0.0, 0.0, 1.0), target: PointingTarget::Nadir },
-        constrain: TargetedAxis {
-            axis_body: Vector3::new(0.0, -1.0, 0.0),
-            target: PointingTarget::OrbitNormal,
-        },
+        align: TargetedAxis::new(Vector3::new(0.0, 0.0, 1.0), TargetItem::Nadir),
+        constrain: TargetedAxis::new(Vector3::new(0.0, -1.0, 0.0), TargetItem::OrbitNormal),
     };
 
     /// Whether it aims at the centre of a planet, which is none about the Sun.
     pub fn needs_planet(&self) -> bool {
-        [self.align, self.constrain].iter().any(|axis| axis.target == PointingTarget::Nadir)
+        [self.align, self.constrain].iter().any(|axis| axis.target.item == TargetItem::Nadir)
     }
 
     /// Refuses axes and targets that give no attitude.
@@ -168,7 +130,7 @@ impl AlignedAxes {
             return Err(AttitudeRefusal::new(AttitudePart::ConstrainAxis, "parallel axes", allowed));
         }
         if align.target == constrain.target {
-            let found = format!("the target {} twice", align.target.item().name());
+            let found = format!("the target {} twice", align.target.item.name());
             return Err(AttitudeRefusal::new(
                 AttitudePart::ConstrainTarget,
                 found,
@@ -182,12 +144,8 @@ impl AlignedAxes {
 /// An attitude by its name, with what the name leaves open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NamedAttitude {
-    /// +Z at nadir, -Y along the orbit normal.
-    Lvlh,
-    /// +Z at nadir, p x Z toward the Sun, p the panels' common axis.
-    YawSteering,
-    /// -Y at the Sun, +Z toward ecliptic north.
-    SunPointing,
+    /// Attitude that its name alone gives.
+    Named(AttitudeName),
     /// Quaternion from EME2000 to the body, scalar last.
     Inertial([f64; 4]),
     /// Two axes and their targets.
@@ -200,16 +158,15 @@ impl NamedAttitude {
     /// # Errors
     /// A quaternion whose norm is off 1, axes or targets that give no attitude, `yawSteering` with panels along Z or on several axes.
     pub fn axes(&self, panels: &[Panel]) -> Result<AlignedAxes, AttitudeRefusal> {
-        let toward = |axis_body, target| TargetedAxis { axis_body, target };
         match self {
-            Self::Lvlh => Ok(AlignedAxes::LVLH),
-            Self::YawSteering => Ok(AlignedAxes {
-                constrain: toward(yaw_steering_axis(panels)?, PointingTarget::Sun),
+            Self::Named(AttitudeName::Lvlh) => Ok(AlignedAxes::LVLH),
+            Self::Named(AttitudeName::YawSteering) => Ok(AlignedAxes {
+                constrain: TargetedAxis::new(yaw_steering_axis(panels)?, TargetItem::Sun),
                 ..AlignedAxes::LVLH
             }),
-            Self::SunPointing => Ok(AlignedAxes {
-                align: toward(-Vector3::y(), PointingTarget::Sun),
-                constrain: toward(Vector3::z(), PointingTarget::EclipticNorth),
+            Self::Named(AttitudeName::SunPointing) => Ok(AlignedAxes {
+                align: TargetedAxis::new(-Vector3::y(), TargetItem::Sun),
+                constrain: TargetedAxis::new(Vector3::z(), TargetItem::EclipticNorth),
             }),
             Self::Inertial(q) => {
                 let attitude = Attitude::from_quaternion(*q).map_err(|error| {
@@ -217,8 +174,10 @@ impl NamedAttitude {
                     AttitudeRefusal { part: AttitudePart::Quaternion, found, allowed }
                 })?;
                 let inertial_from_body = attitude.inertial_from_body();
-                let held =
-                    |axis: Vector3<f64>| toward(axis, PointingTarget::Inertial(inertial_from_body * axis));
+                let held = |axis_body: Vector3<f64>| {
+                    let star = Some(StarDirection::Vector(inertial_from_body * axis_body));
+                    TargetedAxis { axis_body, target: PointingTarget { item: TargetItem::Star, star } }
+                };
                 Ok(AlignedAxes { align: held(Vector3::z()), constrain: held(-Vector3::y()) })
             }
             Self::Aligned(axes) => axes.checked(),

@@ -3,10 +3,11 @@
 use super::panel::Panel;
 use super::part_reader::PartReader;
 use super::pointing::{
-    AlignedAxes, AttitudeName, AttitudePart, NamedAttitude, PointingSettings, TargetItem, TargetedAxis,
+    AlignedAxes, AttitudeName, AttitudePart, AttitudeRefusal, NamedAttitude, PointingSettings, TargetItem,
+    TargetedAxis,
 };
 use super::start::StartEntry;
-use crate::toml::{Checker, KeyPath, NotNegative, Point, QuarterTurnEither, TurnEither, tables};
+use crate::toml::{NotNegative, Place, Point, QuarterTurnEither, TurnEither, tables};
 
 tables! {
 /// How the spacecraft stands while it observes, by a name, a quaternion, or two axes and their targets: the start values of
@@ -50,7 +51,7 @@ const SAME_IN_START: [&str; 4] =
 
 /// Reads the attitude.
 pub(super) fn pointing(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     description: &PointingDescription,
     start: &[StartEntry],
     panels: &[Panel],
@@ -62,25 +63,24 @@ pub(super) fn pointing(
     };
     if let Some(entry) = start.iter().find(is_same) {
         let allowed = format!("one of both: [pointing], or {} in [start]", entry.name);
-        part.check.report(&part.at, format!("[pointing] beside {}", entry.key), allowed);
+        part.report(format!("[pointing] beside {}", entry.key), allowed);
     }
     let attitude = match (attitude, quaternion, align, constrain) {
-        (Some(named), None, None, None) => Some((*named).into()),
+        (Some(named), None, None, None) => Some(NamedAttitude::Named(*named)),
         (None, Some(q), None, None) => Some(NamedAttitude::Inertial(*q)),
-        (None, None, Some(align), Some(constrain)) => {
-            aligned(part.check, &part.at, [align, constrain], star.as_ref())
-        }
+        (None, None, Some(align), Some(constrain)) => aligned(part, [align, constrain], star.as_ref()),
         (None, None, Some(_), None) | (None, None, None, Some(_)) => {
-            if !["attitude", "quaternion", "align", "constrain"].iter().any(|key| part.is_stand_in(key)) {
+            if !["attitude", "quaternion", "align", "constrain"].iter().any(|key| part.key(key).is_stand_in())
+            {
                 let lacking = if align.is_none() { "align" } else { "constrain" };
-                part.check.report_lack(&part.at, lacking, "both `align` and `constrain`, or neither");
+                part.report_lack(lacking, "both `align` and `constrain`, or neither");
             }
             None
         }
         // Several attitudes or none, which the rules report.
         _ => None,
     }?;
-    check(part.check, &part.at, &attitude, panels);
+    axes(part, &attitude, panels, [&part.key("attitude"), &part.key("quaternion")]);
     Some(PointingSettings {
         attitude,
         slew_rate_rad_s: slew_rate_deg_s.map(|rate_deg_s| rate_deg_s.0.to_radians()),
@@ -89,22 +89,17 @@ pub(super) fn pointing(
 
 /// Two axes and their targets in a table at `at`, the star of `to = "star"` beside them.
 pub(crate) fn aligned(
-    check: &mut Checker<'_>,
-    at: &KeyPath,
+    at: &Place<'_>,
     [align, constrain]: [&TargetedAxisDescription; 2],
     star: Option<&StarDescription>,
 ) -> Option<NamedAttitude> {
     let targets = [align.to, constrain.to];
     match star {
         Some(_) if !targets.contains(&TargetItem::Star) => {
-            check.report(&at.key("star"), "a star", "no such key: neither axis is turned to a star");
+            at.key("star").report("a star", "no such key: neither axis is turned to a star");
         }
         None if targets.contains(&TargetItem::Star) => {
-            check.report_lack(
-                at,
-                "star",
-                "`star = { right_ascension_deg, declination_deg }` for `to = \"star\"`",
-            );
+            at.report_lack("star", "`star = { right_ascension_deg, declination_deg }` for `to = \"star\"`");
             return None;
         }
         _ => {}
@@ -115,15 +110,23 @@ pub(crate) fn aligned(
     Some(NamedAttitude::Aligned(AlignedAxes { align, constrain }))
 }
 
-/// Reports an attitude that a spacecraft with these panels does not have, in a table at `at`.
-pub(crate) fn check(check: &mut Checker<'_>, at: &KeyPath, attitude: &NamedAttitude, panels: &[Panel]) {
-    let Err(refusal) = attitude.axes(panels) else { return };
-    let place = match refusal.part {
-        AttitudePart::Name => at.key("attitude"),
-        AttitudePart::Quaternion => at.key("quaternion"),
-        AttitudePart::AlignAxis => at.key("align").key("axis"),
-        AttitudePart::ConstrainAxis => at.key("constrain").key("axis"),
-        AttitudePart::ConstrainTarget => at.key("constrain").key("to"),
+/// Axes of an attitude on a spacecraft with these panels, in a table at `at`, its name and its quaternion at these places; reports an
+/// attitude that it does not have.
+pub(crate) fn axes(
+    at: &Place<'_>,
+    attitude: &NamedAttitude,
+    panels: &[Panel],
+    [name, quaternion]: [&Place<'_>; 2],
+) -> Option<AlignedAxes> {
+    let report = |refusal: AttitudeRefusal| {
+        let place = match refusal.part {
+            AttitudePart::Name => name.clone(),
+            AttitudePart::Quaternion => quaternion.clone(),
+            AttitudePart::AlignAxis => at.key("align").key("axis"),
+            AttitudePart::ConstrainAxis => at.key("constrain").key("axis"),
+            AttitudePart::ConstrainTarget => at.key("constrain").key("to"),
+        };
+        place.report(refusal.found, refusal.allowed);
     };
-    check.report(&place, refusal.found, refusal.allowed);
+    attitude.axes(panels).map_err(report).ok()
 }

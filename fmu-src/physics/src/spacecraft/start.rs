@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use crate::toml::{Checker, KeyPath};
+use crate::toml::{Place, type_schema};
 
 /// A start value of a model's variable, as the file gives it.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,14 +56,14 @@ enum Item {
 
 /// The entries of both tables, the constants last; what cannot be the value of any variable is reported.
 pub(crate) fn start_entries(
-    check: &mut Checker<'_>,
+    root: &Place<'_>,
     start: Option<&StartTable>,
     fixed: Option<&StartTable>,
 ) -> Vec<StartEntry> {
     let mut found = Vec::new();
     for (table_name, table) in [("start", start), ("fixed", fixed)] {
         for (key, item) in table.into_iter().flat_map(|table| &table.0) {
-            let place = KeyPath::root().key(table_name).key(key);
+            let place = root.key(table_name).key(key);
             let items = match item {
                 Item::Table(items) => items
                     .iter()
@@ -72,8 +72,8 @@ pub(crate) fn start_entries(
                 item => vec![(place, None, key, item)],
             };
             for (at, model, name, item) in items {
-                let Some(value) = value(check, &at, item) else { continue };
-                let (key, line, is_fixed) = (at.to_string(), check.line(&at), table_name == "fixed");
+                let Some(value) = value(&at, item) else { continue };
+                let (key, line, is_fixed) = (at.to_string(), at.line(), table_name == "fixed");
                 found.push(StartEntry { key, line, model, is_fixed, name: name.clone(), value });
             }
         }
@@ -81,43 +81,35 @@ pub(crate) fn start_entries(
     found
 }
 
-fn value(check: &mut Checker<'_>, at: &KeyPath, item: &Item) -> Option<StartValue> {
+fn value(at: &Place<'_>, item: &Item) -> Option<StartValue> {
     match item {
         Item::Value(value) => Some(value.clone()),
         Item::List(items) => {
-            let items = items.iter().enumerate();
-            let values: Vec<_> = items.map(|(i, item)| value(check, &at.item(i), item)).collect();
+            let values: Vec<_> = at.items(items).map(|(at, item)| value(&at, item)).collect();
             values.into_iter().collect::<Option<_>>().map(StartValue::List)
         }
         Item::Table(_) => {
             let allowed = "a number, a string, true or false, a list; the name of a variable stands in quotes as a whole";
-            check.report(at, "a table", allowed);
+            at.report("a table", allowed);
             None
         }
     }
 }
 
-#[cfg(feature = "schema")]
-impl schemars::JsonSchema for StartTable {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        "StartTable".into()
-    }
-
-    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        let scalar = || schemars::json_schema!({ "type": ["number", "string", "boolean"] });
-        let row = schemars::json_schema!({ "type": "array", "items": scalar() });
-        let list = schemars::json_schema!({ "type": "array", "items": { "anyOf": [scalar(), row] } });
-        let by_model = schemars::json_schema!({
-            "description": "For the model of this name alone.",
-            "type": "object",
-            "additionalProperties": { "anyOf": [scalar(), list] }
-        });
-        schemars::json_schema!({
-            "description": "Start values of the models' parameters and inputs by name, in quotes: SI numbers, strings with a \
-                unit (\"10 deg\"), true or false, names of items; a list for a vector under its bare name. A table with a \
-                model's name holds those for this model alone.",
-            "type": "object",
-            "additionalProperties": { "anyOf": [scalar(), list, by_model] }
-        })
-    }
-}
+type_schema!([] StartTable, inline: false, "StartTable", |_| {
+    let scalar = || schemars::json_schema!({ "type": ["number", "string", "boolean"] });
+    let row = schemars::json_schema!({ "type": "array", "items": scalar() });
+    let list = schemars::json_schema!({ "type": "array", "items": { "anyOf": [scalar(), row] } });
+    let by_model = schemars::json_schema!({
+        "description": "For the model of this name alone.",
+        "type": "object",
+        "additionalProperties": { "anyOf": [scalar(), list] }
+    });
+    schemars::json_schema!({
+        "description": "Start values of the models' parameters and inputs by name, in quotes: SI numbers, strings with a \
+            unit (\"10 deg\"), true or false, names of items; a list for a vector under its bare name. A table with a \
+            model's name holds those for this model alone.",
+        "type": "object",
+        "additionalProperties": { "anyOf": [scalar(), list, by_model] }
+    })
+});

@@ -12,6 +12,29 @@ use crate::enumeration::enumeration;
 /// Most surfaces of a spacecraft, copies and facets of shapes among them.
 pub const MOST_SURFACES: usize = 4000;
 
+/// Light, heat and air of front and rear of a plate or panel.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct FaceProperties {
+    /// Optics of the front face.
+    pub optics: Optics,
+    /// Optics of the rear face; `None` where no light can reach it.
+    pub rear_optics: Option<Optics>,
+    /// Front and rear in the air; the rear counts where light can reach it.
+    pub gas_surface: [GasSurface; 2],
+    /// Heat of both faces.
+    pub thermal: Thermal,
+    /// Places of the materials of front and rear among the spacecraft's; `None` for a face of no named material.
+    pub materials: [Option<usize>; 2],
+}
+
+impl FaceProperties {
+    /// Insulated faces of assumed accommodation and of no named material.
+    pub fn insulated(optics: Optics, rear_optics: Option<Optics>) -> Self {
+        let thermal = Thermal::insulated(&optics, rear_optics.as_ref());
+        Self { optics, rear_optics, gas_surface: [GasSurface::ASSUMED; 2], thermal, materials: [None; 2] }
+    }
+}
+
 /// A flat surface fixed in a frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plate {
@@ -23,16 +46,8 @@ pub struct Plate {
     pub center_m: Vector3<f64>,
     /// Unit vector out of the front face.
     pub normal: Vector3<f64>,
-    /// Optics of the front face.
-    pub optics: Optics,
-    /// Optics of the rear face; `None` where no light can reach it.
-    pub rear_optics: Option<Optics>,
-    /// Front and rear in the air; the rear counts where light can reach it.
-    pub gas_surface: [GasSurface; 2],
-    /// Heat of both faces.
-    pub thermal: Thermal,
-    /// Places of the materials of front and rear among the spacecraft's; `None` for a face of no named material.
-    pub materials: [Option<usize>; 2],
+    /// Its faces.
+    pub faces: FaceProperties,
     /// Outline, counter-clockwise seen from the front; surfaces without one neither shadow nor are shadowed.
     pub polygon: Option<Polygon>,
 }
@@ -46,21 +61,8 @@ impl Plate {
         normal: Vector3<f64>,
         (optics, rear_optics): (Optics, Option<Optics>),
     ) -> Self {
-        let thermal = Thermal::insulated(&optics, rear_optics.as_ref());
-        let gas_surface = [GasSurface::ASSUMED; 2];
-        let (materials, polygon) = ([None; 2], None);
-        Self {
-            name,
-            area_m2,
-            center_m,
-            normal,
-            optics,
-            rear_optics,
-            gas_surface,
-            thermal,
-            materials,
-            polygon,
-        }
+        let faces = FaceProperties::insulated(optics, rear_optics);
+        Self { name, area_m2, center_m, normal, faces, polygon: None }
     }
 
     /// One of this outline whose faces are insulated.
@@ -104,7 +106,6 @@ pub struct Cylinder {
 enumeration! {
     /// Which description of the sunshade is used.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     #[serde(rename_all = "lowercase")]
     pub enum SunshadeModel {
         /// Flat plates.

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::mass::MassProperties;
 use super::part_reader::PartReader;
 use crate::attitude::{Appendages, FlexibleMode, Gyrostat, GyrostatError, SloshPendulum};
-use crate::toml::{Checker, Fraction, Frequency, KeyPath, Named, Point, Positive, UnitVector, tables};
+use crate::toml::{Fraction, Frequency, Named, Place, Point, Positive, UnitVector, tables};
 
 /// Damping ratio of what swings where the file gives none. Assumed.
 const DAMPING: f64 = 0.005;
@@ -67,7 +67,7 @@ pub struct NamedSlosh {
 }
 
 /// A flexible mode.
-pub(super) fn mode(part: &mut PartReader<'_, '_>, description: &FlexibleModeDescription) -> NamedMode {
+pub(super) fn mode(part: &PartReader<'_>, description: &FlexibleModeDescription) -> NamedMode {
     NamedMode {
         name: description.called(part.index),
         mode: FlexibleMode {
@@ -79,7 +79,7 @@ pub(super) fn mode(part: &mut PartReader<'_, '_>, description: &FlexibleModeDesc
 }
 
 /// Propellant that swings.
-pub(super) fn slosh(part: &mut PartReader<'_, '_>, description: &SloshDescription) -> NamedSlosh {
+pub(super) fn slosh(part: &PartReader<'_>, description: &SloshDescription) -> NamedSlosh {
     NamedSlosh {
         name: description.called(part.index),
         pendulum: SloshPendulum {
@@ -95,12 +95,11 @@ pub(super) fn slosh(part: &mut PartReader<'_, '_>, description: &SloshDescriptio
 
 /// The body has mass and inertia without what swings.
 pub(super) fn swinging_fits(
-    check: &mut Checker<'_>,
+    root: &Place<'_>,
     modes: &[NamedMode],
     sloshes: &[NamedSlosh],
     mass: &MassProperties,
 ) {
-    let root = KeyPath::root();
     let appendages = Appendages {
         modes: modes.iter().map(|it| it.mode).collect(),
         sloshes: sloshes.iter().map(|it| it.pendulum).collect(),
@@ -124,5 +123,5 @@ pub(super) fn swinging_fits(
                 (key, error.to_string(), "modes and propellant that leave an inertia".to_owned())
             }
         };
-    check.report(&root.key(key), found, allowed);
+    root.key(key).report(found, allowed);
 }

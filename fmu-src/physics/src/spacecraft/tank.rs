@@ -101,7 +101,7 @@ impl Tank {
 }
 
 /// A tank that holds a part of `mass_kg`.
-pub(super) fn tank(part: &mut PartReader<'_, '_>, description: &TankDescription) -> Tank {
+pub(super) fn tank(part: &PartReader<'_>, description: &TankDescription) -> Tank {
     let pressure_pa = description.pressure_pa();
     let blowdown = description
         .ullage_m3
@@ -109,14 +109,11 @@ pub(super) fn tank(part: &mut PartReader<'_, '_>, description: &TankDescription)
     let allowed_pa = description.allowed_pressure_pa.unwrap_or([0.0, f64::MAX]);
     let [least_pa, greatest_pa] = allowed_pa;
     if !(least_pa >= 0.0 && greatest_pa > least_pa) {
-        part.report(
-            "allowed_pressure_pa",
-            format_args!("{allowed_pa:?}"),
-            "two rising numbers, not negative",
-        );
+        part.key("allowed_pressure_pa")
+            .report(format_args!("{allowed_pa:?}"), "two rising numbers, not negative");
     } else if !(least_pa..=greatest_pa).contains(&pressure_pa) {
         let allowed = format!("a range around pressure_pa = {pressure_pa}");
-        part.report("allowed_pressure_pa", format_args!("{allowed_pa:?}"), allowed);
+        part.key("allowed_pressure_pa").report(format_args!("{allowed_pa:?}"), allowed);
     }
     Tank {
         name: description.called(part.index),

@@ -35,7 +35,7 @@ fn messenger_is_as_published() {
     let area: f64 = shade.plates.iter().map(|plate| plate.area_m2).sum();
     assert_relative_eq!(area, 2.0 * (1.169 + 0.8672 + 0.02052) + 1.068 + 0.06409, epsilon = 1e-12);
     assert!(shade.plates.iter().all(|plate| (plate.normal.norm() - 1.0).abs() < 1e-15));
-    assert!(shade.plates.iter().all(|plate| (plate.optics.absorptivity - 0.5).abs() < 1e-15));
+    assert!(shade.plates.iter().all(|plate| (plate.faces.optics.absorptivity - 0.5).abs() < 1e-15));
     // Mirrored in X, plate by plate.
     for plate in &shade.plates {
         let mirror = |v: &Vector3<f64>| Vector3::new(-v.x, v.y, v.z);
@@ -64,7 +64,7 @@ fn defaults_are_the_documented_ones() {
     assert_eq!(panel.zero_normal_body, -Vector3::y());
     assert_eq!((panel.control, panel.sun_offset_rad, panel.tilt_sign), (PanelControl::SunOffset, 0.0, 1.0));
     assert_eq!((panel.name.as_str(), spacecraft.plates[0].name.as_str()), ("panel 1", "plate 1"));
-    assert_relative_eq!(spacecraft.plates[0].optics.absorptivity, 0.3, epsilon = 1e-15);
+    assert_relative_eq!(spacecraft.plates[0].faces.optics.absorptivity, 0.3, epsilon = 1e-15);
     assert!(
         spacecraft.sunshade.is_none()
             && spacecraft.sun_keep_in.is_none()
@@ -305,10 +305,13 @@ fn messenger_thermal_is_table_5() {
         epsilon = 1e-6
     );
     for panel in &spacecraft.panels {
-        assert_relative_eq!(panel.optics.absorptivity, 0.75);
-        assert_relative_eq!(panel.rear_optics.unwrap().absorptivity, 0.7, epsilon = 1e-15);
-        assert_eq!(panel.thermal.conduction.unwrap().conductance_w_m2_k, 18.0);
-        assert_eq!(panel.thermal.rear.unwrap().emission.emissivity, panel.rear_optics.unwrap().absorptivity);
+        assert_relative_eq!(panel.faces.optics.absorptivity, 0.75);
+        assert_relative_eq!(panel.faces.rear_optics.unwrap().absorptivity, 0.7, epsilon = 1e-15);
+        assert_eq!(panel.faces.thermal.conduction.unwrap().conductance_w_m2_k, 18.0);
+        assert_eq!(
+            panel.faces.thermal.rear.unwrap().emission.emissivity,
+            panel.faces.rear_optics.unwrap().absorptivity
+        );
     }
 }
 
@@ -365,7 +368,7 @@ fn bad_outlines_and_heat_are_named() {
     let small = with("polygon_m = [[-0.5, -1, -0.5], [0.5, -1, -0.5], [0.5, -1, 0.5], [-0.5, -1, 0.5]]");
     assert_eq!((small.key.as_str(), small.found.as_str()), ("plates[1].area_m2", "2"));
     let one_sided = with("thermal.conduction.conductance_w_m2_k = 3.0");
-    assert_eq!(one_sided.key, "plates[1].thermal.conduction");
+    assert_eq!(one_sided.key, "plates[1].faces.thermal.conduction");
     let falling = problem("diffuse = 0.5", "diffuse = 0.5\nemissivity = 0.8\nemissivity_per_k = -1e-3");
     assert_eq!(falling.key, "optics.white.emissivity_per_k");
     let sum = problem("diffuse = 0.5", "diffuse = 0.5\nabsorptivity = 0.4");
@@ -378,12 +381,12 @@ fn bad_outlines_and_heat_are_named() {
 fn emissivity_and_infrared_absorptivity_stand_for_themselves() {
     let text =
         SMALL.replace("diffuse = 0.5", "diffuse = 0.5\nemissivity = 0.85\ninfrared_absorptivity = 0.9");
-    let thermal = small(&text).plates[0].thermal;
+    let thermal = small(&text).plates[0].faces.thermal;
     assert_eq!(thermal.front.emission.emissivity, 0.85);
     let optics = thermal.front.infrared_optics;
     assert_relative_eq!(optics.absorptivity, 0.9);
     assert_relative_eq!(optics.diffuse / optics.specular, 2.5, epsilon = 1e-12);
-    let plain = small(SMALL).plates[0].thermal;
+    let plain = small(SMALL).plates[0].faces.thermal;
     assert_relative_eq!(plain.front.emission.emissivity, 0.3, epsilon = 1e-15);
 }
 

@@ -44,24 +44,20 @@ struct ThermalDescription {
 
 /// Heat of a surface whose faces are of these materials.
 pub(super) fn thermal(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     description: Option<&ThermalDescription>,
     front: ChosenMaterial,
     rear: Option<ChosenMaterial>,
 ) -> Thermal {
     let nothing = ThermalDescription::default();
-    let has_rear = rear.is_some() || part.is_stand_in("rear_optics");
+    let has_rear = rear.is_some() || part.key("rear_optics").is_stand_in();
     let mut part = part.table("thermal");
-    part.check.rules(&part.at, ThermalDescription::RULES);
+    part.rules(ThermalDescription::RULES);
     let description = description.unwrap_or(&nothing);
     if !has_rear {
-        let needs_rear = [
-            ("conduction", description.conduction.is_some()),
-            ("rear_internal_heat_w", description.rear_internal_heat_w.is_some()),
-            ("rear_bus_conductance_w_m2_k", description.rear_bus_conductance_w_m2_k.is_some()),
-        ];
-        for (key, _) in needs_rear.into_iter().filter(|(_, given)| *given) {
-            part.report(key, "a surface without `rear_optics`", "a surface with both faces");
+        let needs_rear = ["conduction", "rear_internal_heat_w", "rear_bus_conductance_w_m2_k"];
+        for at in needs_rear.map(|key| part.key(key)).iter().filter(|at| at.is_written()) {
+            at.report("a surface without `rear_optics`", "a surface with both faces");
         }
     }
     let bus = bus(&mut part, description);
@@ -76,8 +72,8 @@ pub(super) fn thermal(
 }
 
 /// Heat flow from front and rear to the bus.
-fn bus(part: &mut PartReader<'_, '_>, description: &ThermalDescription) -> [BusLink; 2] {
-    let own_k = description.bus_temperature_k.map(f64::from);
+fn bus(part: &PartReader<'_>, description: &ThermalDescription) -> [BusLink; 2] {
+    let own_k = description.bus_temperature_k.value();
     let faces = [
         ("bus_conductance_w_m2_k", description.bus_conductance_w_m2_k),
         ("rear_bus_conductance_w_m2_k", description.rear_bus_conductance_w_m2_k),
@@ -87,7 +83,7 @@ fn bus(part: &mut PartReader<'_, '_>, description: &ThermalDescription) -> [BusL
         let temperature_k = own_k.or(part.materials.environment.bus_temperature_k);
         if temperature_k.is_none() && conductance_w_m2_k > 0.0 {
             let allowed = "`bus_temperature_k` beside it or under [thermal]";
-            part.report(key, "no temperature of the bus", allowed);
+            part.key(key).report("no temperature of the bus", allowed);
         }
         BusLink { conductance_w_m2_k, temperature_k: temperature_k.unwrap_or(0.0) }
     })

@@ -8,8 +8,8 @@ use super::part_reader::PartReader;
 use super::tank::Tank;
 use crate::constants::STANDARD_GRAVITY_M_S2;
 use crate::toml::{
-    Checker, Fraction, KeyPath, Named, NotNegative, Point, Positive, QuarterTurn, SpecificImpulse,
-    UnitVector, hint, tables,
+    Fraction, Named, NotNegative, Place, Point, Positive, QuarterTurn, SpecificImpulse, UnitVector, Written,
+    hint, tables,
 };
 
 tables! {
@@ -167,7 +167,7 @@ pub struct Thrust {
 
 /// A thruster that one of `tanks` feeds, of one of `sets` or none.
 pub(super) fn thruster(
-    part: &mut PartReader<'_, '_>,
+    part: &PartReader<'_>,
     description: &ThrusterDescription,
     tanks: &[Tank],
     sets: &[String],
@@ -188,53 +188,49 @@ pub(super) fn thruster(
         flow_kg_s: force_n / (description.specific_impulse_s.0 * STANDARD_GRAVITY_M_S2),
         valve,
         scatter: description.scatter(),
-        power_w: description.power_w.map(f64::from),
+        power_w: description.power_w.value(),
         set: description.set.as_deref().and_then(|name| ThrusterSet::named(sets, name)),
         attitude_control: description.attitude_control(),
         tank: tank_of(part, tanks, description.tank.as_deref()),
-        at_pressure_pa: description.at_pressure_pa.map(f64::from),
+        at_pressure_pa: description.at_pressure_pa.value(),
         plume_half_angle_rad: description.plume_half_angle_rad(),
     }
 }
 
 /// Index of the tank of this name, the first without one.
-fn tank_of(part: &mut PartReader<'_, '_>, tanks: &[Tank], name: Option<&str>) -> usize {
+fn tank_of(part: &PartReader<'_>, tanks: &[Tank], name: Option<&str>) -> usize {
     if tanks.is_empty() {
-        if !part.check.is_stand_in(&KeyPath::root().key("tanks")) {
-            part.check.report(&part.at, "a thruster without a tank", "at least one of [[tanks]] in the file");
+        if !part.of_file("tanks").is_stand_in() {
+            part.report("a thruster without a tank", "at least one of [[tanks]] in the file");
         }
         return 0;
     }
     let Some(name) = name else { return 0 };
     let names: Vec<&str> = tanks.iter().map(|tank| tank.name.as_str()).collect();
-    names.iter().position(|known| *known == name).unwrap_or_else(|| {
-        let allowed = format!("a name under [[tanks]]: {}", names.join(", "));
-        part.report("tank", format_args!("the unknown tank `{name}`{}", hint(name, &names)), allowed);
-        0
-    })
+    let found = names.iter().position(|known| *known == name);
+    let unknown = format!("the unknown tank `{name}`{}", hint(name, &names));
+    let allowed = format!("a name under [[tanks]]: {}", names.join(", "));
+    part.key("tank").known(found, unknown, allowed).unwrap_or(0)
 }
 
 /// The names of the sets: those that `sets` lists, then others in the order of their first thruster.
 pub(super) fn thruster_sets(
-    check: &mut Checker<'_>,
+    root: &Place<'_>,
     listed: Option<&[String]>,
     thrusters: Option<&[ThrusterDescription]>,
 ) -> Vec<String> {
     let mut sets: Vec<String> = Vec::new();
-    let place = KeyPath::root().key("sets");
-    for (index, name) in listed.unwrap_or_default().iter().enumerate() {
-        let at = place.item(index);
-        check_item_name(check, &at, name);
+    for (at, name) in root.key("sets").items(listed.unwrap_or_default()) {
+        check_item_name(&at, name);
         if sets.contains(name) {
-            check.report(&at, format_args!("`{name}` once more"), "each set once");
+            at.report(format_args!("`{name}` once more"), "each set once");
         } else {
             sets.push(name.clone());
         }
     }
-    let place = KeyPath::root().key("thrusters");
-    for (index, thruster) in thrusters.unwrap_or_default().iter().enumerate() {
+    for (at, thruster) in root.key("thrusters").items(thrusters.unwrap_or_default()) {
         let Some(name) = thruster.set.as_ref().filter(|name| !sets.contains(name)) else { continue };
-        check_item_name(check, &place.item(index).key("set"), name);
+        check_item_name(&at.key("set"), name);
         sets.push(name.clone());
     }
     sets

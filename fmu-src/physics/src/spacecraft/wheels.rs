@@ -52,11 +52,11 @@ pub fn free_capacity_n_m_s(capacity_n_m_s: f64, bias_n_m_s: f64) -> f64 {
 }
 
 /// Reads a wheel.
-pub(super) fn wheel(part: &mut PartReader<'_, '_>, description: &WheelDescription) -> Wheel {
+pub(super) fn wheel(part: &PartReader<'_>, description: &WheelDescription) -> Wheel {
     let wheel = description.made(part.index);
     if wheel.bias_n_m_s.abs() > wheel.capacity_n_m_s {
         let allowed = format_args!("up to capacity_n_m_s either way, {}", wheel.capacity_n_m_s);
-        part.report_across("bias_momentum_n_m_s", wheel.bias_n_m_s, allowed);
+        part.key("bias_momentum_n_m_s").report_across(wheel.bias_n_m_s, allowed);
     }
     wheel
 }

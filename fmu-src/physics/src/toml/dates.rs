@@ -6,8 +6,6 @@
 //! 1972 (as announced by the IERS), and a minute that has one has a second 60. TDB differs from TT by its annual term of 1.7 ms
 //! (hifitime's, after Archinal).
 
-use core::fmt;
-
 use hifitime::{Epoch, TimeScale, Unit};
 
 use crate::constants::DAY_S;
@@ -33,33 +31,24 @@ const MOST_JULIAN_DIGITS: usize = 7;
 const FIRST_UTC_YEAR: i32 = 1972;
 
 /// Reason why a text is not a date.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum DateError {
     /// The text does not have the form of a date.
+    #[error("which is no date")]
     Form,
     /// The text does not end in a known time scale.
+    #[error("which does not end in UTC, Z, TDB, TT or TAI")]
     Scale,
     /// The calendar has no such day.
+    #[error("a day that no calendar has")]
     Day,
     /// The day has no such time.
+    #[error("a time that this day does not have")]
     Time,
     /// UTC had no leap seconds yet.
+    #[error("a time before UTC had leap seconds (1972): give TDB")]
     BeforeUtc,
 }
-
-impl fmt::Display for DateError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Form => "which is no date",
-            Self::Scale => "which does not end in UTC, Z, TDB, TT or TAI",
-            Self::Day => "a day that no calendar has",
-            Self::Time => "a time that this day does not have",
-            Self::BeforeUtc => "a time before UTC had leap seconds (1972): give TDB",
-        })
-    }
-}
-
-impl std::error::Error for DateError {}
 
 /// Whether a text is meant as a date: it begins with four digits and a hyphen, ends in the name of a time scale after a digit or a
 /// blank, or has `JD` on either side.

@@ -7,8 +7,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{FileError, Problem};
+use super::key_path::{KeyPath, Part};
 use super::limits::{MOST_PROBLEMS, MOST_TEXT_BYTES};
-use super::place::{KeyPath, Part};
 use super::reader::{Findings, Reader, real, vector};
 
 /// A parsed text with its file name.
@@ -38,7 +38,7 @@ impl<'t> Document<'t> {
                 let line = error.span().map(|span| line_of(text, span.start));
                 let written =
                     line.and_then(|line| text.lines().nth(line - 1)).map(excerpt).unwrap_or_default();
-                let message = one_line(error.message());
+                let message = error.message().split_whitespace().collect::<Vec<_>>().join(" ");
                 let found = format!("text that is not TOML ({message}){written}");
                 Err(FileError::one(file, line, found, grammar(&message).to_owned()))
             }
@@ -141,10 +141,6 @@ fn grammar(message: &str) -> &'static str {
 
 fn line_of(text: &str, offset: usize) -> usize {
     text.bytes().take(offset).filter(|byte| *byte == b'\n').count() + 1
-}
-
-fn one_line(message: &str) -> String {
-    message.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! A file beyond a limit is refused before anything is computed from it, so that no file costs more than a second and
 //! 200 MB.
 
-use super::place::KeyPath;
+use super::key_path::KeyPath;
 
 /// Longest text of a file, in bytes.
 pub const MOST_TEXT_BYTES: usize = 4 << 20;

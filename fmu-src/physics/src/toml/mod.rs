@@ -8,9 +8,9 @@ pub mod dates;
 mod directions;
 mod document;
 mod error;
+mod key_path;
 mod limits;
 mod numbers;
-mod place;
 mod ranges;
 mod reader;
 pub mod rules;
@@ -19,14 +19,14 @@ pub mod tables;
 pub mod written;
 
 pub use crate::tables;
-pub use checker::Checker;
+pub use checker::{Checker, Place};
 pub use document::Document;
 pub use error::{FileError, Problem};
+pub use key_path::KeyPath;
 pub use limits::{
     LIMITS, MOST_ANTENNAS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES, MOST_THRUSTERS, TIMELINE_LIMITS,
 };
-pub(crate) use numbers::{rounded, with_unit};
-pub use place::KeyPath;
+pub(crate) use numbers::{in_units, rounded, with_unit};
 pub use ranges::{
     AtLeastOne, BodyRadius, CellTemperature, Copies, Corners, Deviation, Distance, Eccentricity, Emissivity,
     Epoch, FieldOfView, FieldWidth, Finite, Fraction, Frequency, GravitationalParameter, HalfTurn,
@@ -38,4 +38,4 @@ pub use spelling::{hint, nearest};
 pub(crate) use tables::schema;
 pub use tables::{List, Named, NonEmpty, Point, Table, UnitVector};
 pub use written::{Plain, Written};
-pub(crate) use written::{inline_schema, plain};
+pub(crate) use written::{plain, type_schema};

@@ -19,3 +19,9 @@ pub(crate) fn with_unit(text: &str) -> Option<(f64, &str)> {
     let (number, unit) = text.split_at_checked(end)?;
     Some((number.parse().ok()?, unit.trim()))
 }
+
+/// The number with one of these units; `None` without a number or with another unit.
+pub(crate) fn in_units(text: &str, units: &[(&str, f64)]) -> Option<f64> {
+    let (number, unit) = with_unit(text)?;
+    Some(number * units.iter().find(|(name, _)| *name == unit)?.1)
+}

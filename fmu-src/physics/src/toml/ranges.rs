@@ -55,12 +55,6 @@ macro_rules! ranges {
                 pub const ALLOWED: &'static str = $allowed;
             }
 
-            impl From<$name> for $number {
-                fn from(value: $name) -> Self {
-                    value.0
-                }
-            }
-
             impl super::written::Written for $name {
                 type Value = $number;
 
@@ -77,7 +71,7 @@ macro_rules! ranges {
                 }
             }
 
-            super::written::inline_schema!($name, stringify!($name), |generator| {
+            super::written::type_schema!([] $name, inline: true, stringify!($name), |generator| {
                 bounded(<$number as schemars::JsonSchema>::json_schema(generator), $low, $high)
             });
         )+

@@ -9,9 +9,9 @@ use serde::forward_to_deserialize_any;
 use toml::de::{DeTable, DeValue};
 
 use super::directions;
+use super::key_path::KeyPath;
 use super::limits::{MOST_PROBLEMS, most_items};
 use super::numbers::short;
-use super::place::KeyPath;
 use super::ranges::Range;
 use super::spelling::{hint, nearest};
 

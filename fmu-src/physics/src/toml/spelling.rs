@@ -27,22 +27,13 @@ fn edits(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();
     for (i, from) in a.chars().enumerate() {
-        let mut diagonal = i;
-        let mut left = i + 1;
+        let mut diagonal = core::mem::replace(&mut row[0], i + 1);
         for (j, to) in b.iter().enumerate() {
-            let up = row.get(j + 1).copied().unwrap_or(usize::MAX);
-            let cost = (diagonal + usize::from(from != *to)).min(left + 1).min(up.saturating_add(1));
-            diagonal = up;
-            if let Some(entry) = row.get_mut(j) {
-                *entry = left;
-            }
-            left = cost;
-        }
-        if let Some(entry) = row.last_mut() {
-            *entry = left;
+            let cost = (diagonal + usize::from(from != *to)).min(row[j] + 1).min(row[j + 1] + 1);
+            diagonal = core::mem::replace(&mut row[j + 1], cost);
         }
     }
-    row.last().copied().unwrap_or_default()
+    row[b.len()]
 }
 
 #[cfg(test)]

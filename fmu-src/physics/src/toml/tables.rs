@@ -171,7 +171,7 @@ macro_rules! vectors {
             }
         }
 
-        super::written::inline_schema!($name, stringify!($name), |generator| {
+        super::written::type_schema!([] $name, inline: true, stringify!($name), |generator| {
             let mut schema = <[f64; 3] as schemars::JsonSchema>::json_schema(generator);
             if !$format.is_empty() {
                 schema.insert("format".to_owned(), $format.into());
@@ -183,7 +183,7 @@ macro_rules! vectors {
 
 vectors! {
     /// Three finite numbers: a position or another vector.
-    Point([super::ranges::Finite; 3]) = |written| Vector3::from(written.map(f64::from)), "";
+    Point([super::ranges::Finite; 3]) = |written| Vector3::from(written.value()), "";
     /// Direction: refused when its length is off 1 by more than 1e-3, renormalised otherwise.
     UnitVector([f64; 3]) = |written| super::directions::unit(written).unwrap_or_else(Vector3::x), "unit vector";
 }
@@ -218,19 +218,11 @@ impl<T: Written, const LEAST: usize, const MOST: usize> Written for List<T, LEAS
     }
 }
 
-#[cfg(feature = "schema")]
-impl<T: schemars::JsonSchema, const LEAST: usize, const MOST: usize> schemars::JsonSchema
-    for List<T, LEAST, MOST>
-{
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        format!("List_of_{}", T::schema_name()).into()
-    }
-
-    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+super::written::type_schema!(
+    [T: schemars::JsonSchema, const LEAST: usize, const MOST: usize] List<T, LEAST, MOST>,
+    inline: true,
+    format!("List_of_{}", T::schema_name()),
+    |generator| {
         let mut schema = Vec::<T>::json_schema(generator);
         schema.insert("minItems".to_owned(), LEAST.into());
         if MOST < usize::MAX {
@@ -238,4 +230,4 @@ impl<T: schemars::JsonSchema, const LEAST: usize, const MOST: usize> schemars::J
         }
         schema
     }
-}
+);

@@ -18,13 +18,13 @@ pub trait Plain: Written {
     fn from_plain(plain: Self::Plain) -> Self;
 }
 
-/// Schema of a type that stands where the type is used.
-macro_rules! inline_schema {
-    ($type:ty, $name:expr, |$generator:pat_param| $schema:expr) => {
+/// Schema of a type, which stands where the type is used if it is inline.
+macro_rules! type_schema {
+    ([$($generics:tt)*] $type:ty, inline: $inline:literal, $name:expr, |$generator:pat_param| $schema:expr) => {
         #[cfg(feature = "schema")]
-        impl schemars::JsonSchema for $type {
+        impl<$($generics)*> schemars::JsonSchema for $type {
             fn inline_schema() -> bool {
-                true
+                $inline
             }
 
             fn schema_name() -> std::borrow::Cow<'static, str> {
@@ -38,7 +38,7 @@ macro_rules! inline_schema {
     };
 }
 
-pub(crate) use inline_schema;
+pub(crate) use type_schema;
 
 /// Types that are written as they are used.
 macro_rules! plain {

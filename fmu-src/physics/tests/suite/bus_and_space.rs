@@ -21,8 +21,8 @@ fn refusal(top: &str, plate: &str, panel: &str) -> String {
 fn space_is_the_microwave_background_and_no_surface_conducts_to_the_bus() {
     let spacecraft = Spacecraft::from_toml("my.toml", &file("", "", "")).unwrap();
     assert_eq!((spacecraft.background_k, BACKGROUND_K), (2.725, 2.725));
-    assert_eq!(spacecraft.plates[0].thermal.bus, [BusLink::NONE; 2]);
-    assert_eq!(spacecraft.panels[0].thermal.bus, [BusLink::NONE; 2]);
+    assert_eq!(spacecraft.plates[0].faces.thermal.bus, [BusLink::NONE; 2]);
+    assert_eq!(spacecraft.panels[0].faces.thermal.bus, [BusLink::NONE; 2]);
 }
 
 #[test]
@@ -33,13 +33,13 @@ fn a_surface_takes_the_files_bus_or_its_own() {
         Spacecraft::from_toml("my.toml", &file(top, "thermal.bus_conductance_w_m2_k = 3", panel)).unwrap();
     let link = |conductance_w_m2_k, temperature_k| BusLink { conductance_w_m2_k, temperature_k };
     assert_eq!(spacecraft.background_k, 40.0);
-    assert_eq!(spacecraft.plates[0].thermal.bus, [link(3.0, 290.0), BusLink::NONE]);
-    assert_eq!(spacecraft.panels[0].thermal.bus, [link(1.5, 250.0), link(0.5, 250.0)]);
+    assert_eq!(spacecraft.plates[0].faces.thermal.bus, [link(3.0, 290.0), BusLink::NONE]);
+    assert_eq!(spacecraft.panels[0].faces.thermal.bus, [link(1.5, 250.0), link(0.5, 250.0)]);
     // A box hands it on to its faces.
     let boxed = "[[boxes]]\nname = \"bus\"\ncenter_m = [0, 0, 0]\nsize_m = [1, 1, 2]\noptics = \"white\"\n\
                  thermal = { bus_conductance_w_m2_k = 3 }";
     let spacecraft = Spacecraft::from_toml("my.toml", &file(top, "", boxed)).unwrap();
-    let faces = spacecraft.plates.iter().filter(|plate| plate.thermal.bus[0] == link(3.0, 290.0));
+    let faces = spacecraft.plates.iter().filter(|plate| plate.faces.thermal.bus[0] == link(3.0, 290.0));
     assert_eq!(faces.count(), 6);
 }
 

@@ -72,7 +72,7 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
     let mut advance = |to_s: f64| {
         flight.advance(given, Span::new(now_s, to_s)).unwrap();
         now_s = to_s;
-        flight.evaluate(given, &held, to_s).unwrap();
+        flight.evaluate(given, &held, true, to_s).unwrap();
         let report = flight.report(given.prepared, &inputs, &held, to_s).unwrap();
         report.summary.totals.momentum_inertial_n_m_s
     };

@@ -78,8 +78,8 @@ fn a_box_is_the_plates_somebody_could_have_written() {
         assert_eq!((&one.name, one.area_m2), (&other.name, other.area_m2));
         assert_eq!((one.center_m, one.normal), (other.center_m, other.normal));
         assert_eq!(
-            (one.optics, one.rear_optics, one.thermal),
-            (other.optics, other.rear_optics, other.thermal)
+            (one.faces.optics, one.faces.rear_optics, one.faces.thermal),
+            (other.faces.optics, other.faces.rear_optics, other.faces.thermal)
         );
         // The same outline, from another corner on.
         let (one, other) = (one.polygon.as_ref().unwrap(), other.polygon.as_ref().unwrap());

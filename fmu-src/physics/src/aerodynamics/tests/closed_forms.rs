@@ -8,7 +8,7 @@ use super::*;
 use crate::constants::GAS_CONSTANT_J_MOL_K;
 use crate::math;
 use crate::numerics::quadrature::Rule;
-use crate::spacecraft::{Optics, Plate};
+use crate::spacecraft::{FaceProperties, Optics, Plate};
 
 #[test]
 fn drag_is_dynamic_pressure_times_area_and_coefficient() {
@@ -39,7 +39,7 @@ fn sphere(radius_m: f64, center_m: Vector3<f64>) -> Vec<Plate> {
             let optics = Optics::from_reflectivities(0.0, 0.0);
             let center_m = center_m + normal * radius_m;
             let plate = Plate::insulated("part".to_owned(), area_m2, center_m, normal, (optics, None));
-            Plate { gas_surface: [SURFACE; 2], ..plate }
+            Plate { faces: FaceProperties { gas_surface: [SURFACE; 2], ..plate.faces }, ..plate }
         })
     });
     plates.collect()

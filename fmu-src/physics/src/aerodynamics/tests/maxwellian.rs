@@ -80,7 +80,7 @@ fn expected_pa(law: (AerodynamicLaw, Reemission), flow: &AirFlow<f64>) -> Vector
 fn both_gas_laws_are_integrals_over_the_maxwellian() {
     let mut spacecraft = spacecraft(PLATE);
     let plate = &mut spacecraft.plates[0];
-    (plate.normal, plate.area_m2, plate.gas_surface) = (Vector3::z(), 1.0, [SURFACE; 2]);
+    (plate.normal, plate.area_m2, plate.faces.gas_surface) = (Vector3::z(), 1.0, [SURFACE; 2]);
     for law in &LAWS[1..] {
         let model = model(&spacecraft, *law);
         for (speed_m_s, degrees) in [

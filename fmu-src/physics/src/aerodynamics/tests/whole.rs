@@ -71,8 +71,8 @@ fn shadows_are_those_of_rays() {
     let mut outlines: Vec<_> = spacecraft.plates.iter().map(|plate| plate.polygon.clone().unwrap()).collect();
     outlines.push(turned(&spacecraft.panels[0], angle_rad));
     // Drag coefficients of front and rear.
-    let mut coefficients: Vec<_> = spacecraft.plates.iter().map(|plate| plate.gas_surface).collect();
-    coefficients.push(spacecraft.panels[0].gas_surface);
+    let mut coefficients: Vec<_> = spacecraft.plates.iter().map(|plate| plate.faces.gas_surface).collect();
+    coefficients.push(spacecraft.panels[0].faces.gas_surface);
     const RAYS: u32 = 400_000;
     for upstream in [[1.0, 0.2, 0.1], [0.5, -0.7, 0.6], [-0.3, 0.5, 0.9]] {
         let upstream = Vector3::from(upstream).normalize();
@@ -184,8 +184,8 @@ fn wall_temperatures_of_a_heat_balance_replace_those_of_the_materials() {
     let count = AerodynamicModel::new(&spacecraft, &AerodynamicOptions::default()).unwrap().face_count();
     for law in &LAWS[1..] {
         let mut hot = spacecraft.clone();
-        let faces = hot.plates.iter_mut().map(|plate| &mut plate.gas_surface);
-        for face in faces.chain(hot.panels.iter_mut().map(|panel| &mut panel.gas_surface)).flatten() {
+        let faces = hot.plates.iter_mut().map(|plate| &mut plate.faces.gas_surface);
+        for face in faces.chain(hot.panels.iter_mut().map(|panel| &mut panel.faces.gas_surface)).flatten() {
             face.wall_temperature_k = 500.0;
         }
         let (cold, hot) = (model(&spacecraft, *law), model(&hot, *law));

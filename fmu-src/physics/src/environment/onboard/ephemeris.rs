@@ -13,7 +13,7 @@ use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
-use crate::toml::{Checker, Document, FileError, Finite, KeyPath, Written};
+use crate::toml::{Checker, Document, FileError, Finite, Place, Written};
 
 /// A model of a body's motion with the error it was made with.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,48 +48,40 @@ impl OnboardEphemeris {
     /// bodies that have no place, each with line, key, what was found and what is allowed.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, FileError> {
         let document = Document::parse(file, text)?;
-        let (description, mut check) = Checker::read::<EphemerisDescription>(&document)?;
+        let (description, check) = Checker::read::<EphemerisDescription>(&document)?;
         let Frame::Eme2000 = description.frame;
-        let root = KeyPath::root();
+        let root = Place::root(&check);
         let bodies = description.body.as_deref().unwrap_or_default();
         let coarse_bodies = description.coarse.as_deref().unwrap_or_default();
         if bodies.is_empty() && coarse_bodies.is_empty() {
-            check.report(&root, "no body", "at least one [[body]] or [[coarse]]");
+            root.report("no body", "at least one [[body]] or [[coarse]]");
         }
         let mut found = Self { source: description.source.clone(), ..Self::default() };
-        for (index, body) in bodies.iter().enumerate() {
-            let at = root.key("body").item(index);
-            let is_new = found.precise.iter().all(|other| other.target != body.body);
-            check_target(&mut check, &at, body.body, body.center, is_new);
-            if is_new
-                && body.body != OnboardTarget::from(body.center)
-                && found.leads_to(body.center.into(), body.body)
-            {
-                let center = OnboardTarget::from(body.center);
-                let text = format!("{center}, whose own position counts from {}", body.body);
-                check.report(&at.key("center"), text, "a body that does not count from this one");
+        for (at, body) in root.key("body").items(bodies) {
+            let (target, center) = (body.body, OnboardTarget::from(body.center));
+            let is_new = check_target(&at, [target, center], &found.precise);
+            if is_new && target != center && found.leads_to(center, target) {
+                let text = format!("{center}, whose own position counts from {target}");
+                at.key("center").report(text, "a body that does not count from this one");
             }
             let error = FitError { position_m: body.error_m.0, velocity_m_s: body.error_m_s.0 };
-            if let Some(motion) = table(&mut check, &at, body) {
-                found.precise.push(FittedBody { target: body.body, center: body.center, motion, error });
+            if let Some(motion) = table(&at, body) {
+                found.precise.push(FittedBody { target, center: body.center, motion, error });
             }
         }
-        for (index, body) in coarse_bodies.iter().enumerate() {
-            let at = root.key("coarse").item(index);
-            let is_new = found.coarse.iter().all(|other| other.target != body.body);
-            check_target(&mut check, &at, body.body, body.center, is_new);
-            let is_planet = body.body != OnboardTarget::Spacecraft;
-            if is_planet && body.center != Body::Sun && body.body != OnboardTarget::from(body.center) {
-                let center = OnboardTarget::from(body.center);
-                check.report(&at.key("center"), center, "sun, which planets move about");
+        for (at, body) in root.key("coarse").items(coarse_bodies) {
+            let (target, center) = (body.body, OnboardTarget::from(body.center));
+            check_target(&at, [target, center], &found.coarse);
+            if ![OnboardTarget::Spacecraft, center].contains(&target) && body.center != Body::Sun {
+                at.key("center").report(center, "sun, which planets move about");
             }
             if body.center == Body::Custom {
                 let allowed = "a body of known gravity: [[body]] places what moves about another";
-                check.report(&at.key("center"), "custom", allowed);
+                at.key("center").report("custom", allowed);
             }
             let error = FitError { position_m: body.error_m.0, velocity_m_s: body.error_m_s.0 };
-            let motion = coarse(&mut check, &at, body);
-            found.coarse.push(FittedBody { target: body.body, center: body.center, motion, error });
+            let motion = coarse(&at, body);
+            found.coarse.push(FittedBody { target, center: body.center, motion, error });
         }
         check.finish(found)
     }
@@ -191,41 +183,39 @@ impl OnboardEphemeris {
     }
 }
 
-/// A target that is not its own centre and stands here for the first time.
-fn check_target(check: &mut Checker<'_>, at: &KeyPath, target: OnboardTarget, center: Body, is_new: bool) {
-    if target == OnboardTarget::from(center) {
-        check.report_across(at, &at.key("center"), target, "another body than the one that is placed");
+/// Reports a target that is its own centre, and one that stands among the `known` already; tells whether it is new.
+fn check_target<M>(at: &Place<'_>, [target, center]: [OnboardTarget; 2], known: &[FittedBody<M>]) -> bool {
+    let is_new = known.iter().all(|other| other.target != target);
+    if target == center {
+        at.key("center").report_across(target, "another body than the one that is placed");
     }
     if !is_new {
-        check.report(&at.key("body"), format_args!("{target} for the second time"), "each body once");
+        at.key("body").report(format_args!("{target} for the second time"), "each body once");
     }
+    is_new
 }
 
 /// The epochs of a span, one after the other.
-fn span(check: &mut Checker<'_>, at: &KeyPath, [start_s, end_s]: [f64; 2]) -> Span {
+fn span(at: &Place<'_>, [start_s, end_s]: [f64; 2]) -> Span {
     if end_s <= start_s {
-        check.report(&at.key("end_s"), format_args!("{end_s:e}"), format!("more than start_s, {start_s:e}"));
+        at.key("end_s").report(format_args!("{end_s:e}"), format!("more than start_s, {start_s:e}"));
     }
     Span::new(start_s, end_s)
 }
 
 /// The polynomials of a body; `None` where they leave a gap or something was reported.
-fn table(check: &mut Checker<'_>, at: &KeyPath, body: &BodyDescription) -> Option<SegmentTable> {
+fn table(at: &Place<'_>, body: &BodyDescription) -> Option<SegmentTable> {
     let place = at.key("segment");
     if body.segment.is_empty() {
-        check.report(&place, "an empty list", "at least one segment");
+        place.report("an empty list", "at least one segment");
     }
     let degree = body.degree as usize;
     if degree > GREATEST_DEGREE {
         let allowed = format!("a degree from 0 to {GREATEST_DEGREE}");
-        check.report(&at.key("degree"), body.degree, allowed);
+        at.key("degree").report(body.degree, allowed);
     }
-    let segments: Vec<EphemerisSegment> = body
-        .segment
-        .iter()
-        .enumerate()
-        .map(|(index, described)| segment(check, &place.item(index), described, degree))
-        .collect();
+    let segments = place.items(&body.segment).map(|(at, described)| segment(&at, described, degree));
+    let segments: Vec<EphemerisSegment> = segments.collect();
     for (index, pair) in segments.windows(2).enumerate() {
         let (end_s, start_s) = (pair[0].end_s, pair[1].start_s);
         if end_s != start_s {
@@ -233,23 +223,18 @@ fn table(check: &mut Checker<'_>, at: &KeyPath, body: &BodyDescription) -> Optio
                 if start_s > end_s { ("a gap", start_s - end_s) } else { ("an overlap", end_s - start_s) };
             let here = place.item(index + 1).key("start_s");
             let found = format!("{start_s:e}, {word} of {by_s:e} s");
-            check.report(&here, found, format!("{end_s:e}, where {} ends", place.item(index)));
+            here.report(found, format!("{end_s:e}, where {} ends", place.item(index)));
         }
     }
     SegmentTable::new(segments)
 }
 
-fn segment(
-    check: &mut Checker<'_>,
-    at: &KeyPath,
-    described: &SegmentDescription,
-    degree: usize,
-) -> EphemerisSegment {
-    let Span { start_s, end_s } = span(check, at, [described.start_s, described.end_s].value());
+fn segment(at: &Place<'_>, described: &SegmentDescription, degree: usize) -> EphemerisSegment {
+    let Span { start_s, end_s } = span(at, [described.start_s, described.end_s].value());
     let lists = [("x_m", &described.x_m), ("y_m", &described.y_m), ("z_m", &described.z_m)];
     for (key, list) in lists.into_iter().filter(|(_, list)| list.len() != degree + 1) {
         let allowed = format!("{}, one more than the degree", degree + 1);
-        check.report(&at.key(key), format!("{} coefficients", list.len()), allowed);
+        at.key(key).report(format!("{} coefficients", list.len()), allowed);
     }
     let coefficient = |list: &[Finite], k: usize| list.get(k).map_or(0.0, Finite::value);
     let terms = lists.iter().map(|(_, list)| list.len()).max().unwrap_or(0);
@@ -260,9 +245,8 @@ fn segment(
 /// Epochs at which elements are looked at.
 const LOOKS: u32 = 400;
 
-fn coarse(check: &mut Checker<'_>, at: &KeyPath, body: &CoarseDescription) -> CoarseElements {
-    let span = span(check, at, [body.start_s, body.end_s].value());
-    let Span { start_s, end_s } = span;
+fn coarse(at: &Place<'_>, body: &CoarseDescription) -> CoarseElements {
+    let span @ Span { start_s, end_s } = span(at, [body.start_s, body.end_s].value());
     let rows = [
         body.semi_major_axis_m,
         body.eccentricity,
@@ -272,30 +256,18 @@ fn coarse(check: &mut Checker<'_>, at: &KeyPath, body: &CoarseDescription) -> Co
         body.mean_anomaly_rad,
     ];
     let coefficients = SMatrix::<f64, 6, COARSE_TERMS>::from_fn(|row, k| rows[row][k].0);
-    let motion = CoarseElements {
-        center: body.center,
-        span,
-        elements: Segment::from_coefficients(start_s, end_s, coefficients),
-    };
-    if !check.has_reported(at) {
+    let elements = Segment::from_coefficients(start_s, end_s, coefficients);
+    if !at.has_reported() {
         let epochs = (0..=LOOKS).map(|k| start_s + (end_s - start_s) * (f64::from(k) / f64::from(LOOKS)));
         let bad = |row: usize, is_good: fn(f64) -> bool| {
-            epochs.clone().map(|at_s| motion.elements.value(at_s)[row]).find(|value| !is_good(*value))
+            epochs.clone().map(|at_s| elements.value(at_s)[row]).find(|value| !is_good(*value))
         };
         if let Some(a_m) = bad(0, |a_m| a_m > 0.0) {
-            check.report(
-                &at.key("semi_major_axis_m"),
-                format_args!("{a_m:e} m"),
-                "above 0 all over the span",
-            );
+            at.key("semi_major_axis_m").report(format_args!("{a_m:e} m"), "above 0 all over the span");
         }
         if let Some(e) = bad(1, |e| (0.0..1.0).contains(&e)) {
-            check.report(
-                &at.key("eccentricity"),
-                format_args!("{e}"),
-                "from 0 to less than 1 all over the span",
-            );
+            at.key("eccentricity").report(e, "from 0 to less than 1 all over the span");
         }
     }
-    motion
+    CoarseElements { center: body.center, span, elements }
 }

@@ -10,7 +10,7 @@ use super::roll::external_roll;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::SubsolarMethod;
 use crate::guidance::geometry::moving::fixed;
-use crate::spacecraft::{AlignedAxes, PointingTarget};
+use crate::spacecraft::{AlignedAxes, PointingTarget, StarDirection, TargetItem};
 
 /// Returns the command of the scenario generic that aligns one axis and constrains the other.
 pub fn aligned_command(axes: &AlignedAxes) -> PointingCommand {
@@ -50,22 +50,24 @@ pub fn aligned_vectors(axes: &AlignedAxes, ephemeris: &EphemerisAtTime) -> Optio
 fn commands_toward(target: PointingTarget) -> (AimpointCommand, ExternalRollCommand) {
     use {AimpointOption as Aim, ExternalRollOption as Roll};
     let (mut aim, mut roll) = (AimpointCommand::default(), ExternalRollCommand::default());
-    let options = match target {
-        PointingTarget::Nadir => (Aim::Nadir, Roll::Planet),
-        PointingTarget::Velocity => (Aim::Velocity, Roll::Velocity),
-        PointingTarget::OrbitNormal => (Aim::OrbitNormal, Roll::OrbitNormal),
-        PointingTarget::Sun => (Aim::Sun, Roll::Sun),
-        PointingTarget::Earth => (Aim::Earth, Roll::Earth),
-        PointingTarget::EclipticNorth => (Aim::EclipticNorth, Roll::EclipticNorth),
-        PointingTarget::Inertial(vector) => {
-            (aim.vector, roll.vector) = (vector, vector);
-            (Aim::Vector, Roll::Vector)
-        }
-        PointingTarget::Star { right_ascension_rad, declination_rad } => {
+    let options = match (target.item, target.star) {
+        (TargetItem::Nadir, _) => (Aim::Nadir, Roll::Planet),
+        (TargetItem::Velocity, _) => (Aim::Velocity, Roll::Velocity),
+        (TargetItem::OrbitNormal, _) => (Aim::OrbitNormal, Roll::OrbitNormal),
+        (TargetItem::Sun, _) => (Aim::Sun, Roll::Sun),
+        (TargetItem::Earth, _) => (Aim::Earth, Roll::Earth),
+        (TargetItem::EclipticNorth, _) => (Aim::EclipticNorth, Roll::EclipticNorth),
+        (TargetItem::Star, Some(StarDirection::Angles([right_ascension_rad, declination_rad]))) => {
             (aim.right_ascension_rad, aim.declination_rad) = (right_ascension_rad, declination_rad);
             (roll.right_ascension_rad, roll.declination_rad) = (right_ascension_rad, declination_rad);
             (Aim::RightAscensionDeclination, Roll::RightAscensionDeclination)
         }
+        (TargetItem::Star, Some(StarDirection::Vector(vector))) => {
+            (aim.vector, roll.vector) = (vector, vector);
+            (Aim::Vector, Roll::Vector)
+        }
+        // Without a direction there is none to aim at.
+        (TargetItem::Star, None) => (Aim::Vector, Roll::Vector),
     };
     (aim.option, roll.option) = (Some(options.0), Some(options.1));
     (aim, roll)

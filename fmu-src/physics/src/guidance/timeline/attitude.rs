@@ -4,84 +4,64 @@ use super::description::{AttitudeDescription, AxesDescription, CommandDescriptio
 use crate::enumeration::Enumerated;
 use crate::guidance::pointing::aligned::aligned_command;
 use crate::guidance::pointing::command::PointingCommand;
-use crate::spacecraft::{AttitudeName, AttitudePart, NamedAttitude, Panel, aligned};
-use crate::toml::{Checker, KeyPath, nearest};
+use crate::spacecraft::{AttitudeName, NamedAttitude, Panel, aligned, axes};
+use crate::toml::{Place, hint};
 
 /// Attitudes that have a name.
 const NAMES: [AttitudeName; 3] = [AttitudeName::Lvlh, AttitudeName::YawSteering, AttitudeName::SunPointing];
 
 /// Reads the command of an attitude at `place`, without its scan, for a spacecraft with these panels.
 pub(super) fn by_attitude(
-    check: &mut Checker<'_>,
-    place: KeyPath,
+    place: &Place<'_>,
     attitude: &AttitudeDescription,
     panels: &[Panel],
 ) -> PointingCommand {
-    let Some(attitude) = read(check, &place, attitude) else { return PointingCommand::default() };
-    match attitude.axes(panels) {
-        Ok(axes) => aligned_command(&axes),
-        Err(refusal) => {
-            let place = match refusal.part {
-                AttitudePart::Name | AttitudePart::Quaternion => place,
-                AttitudePart::AlignAxis => place.key("align").key("axis"),
-                AttitudePart::ConstrainAxis => place.key("constrain").key("axis"),
-                AttitudePart::ConstrainTarget => place.key("constrain").key("to"),
-            };
-            check.report(&place, refusal.found, refusal.allowed);
-            PointingCommand::default()
-        }
-    }
+    let axes = read(place, attitude).and_then(|it| axes(place, &it, panels, [place, place]));
+    axes.map_or_else(PointingCommand::default, |axes| aligned_command(&axes))
 }
 
 /// The attitude of a description.
-fn read(check: &mut Checker<'_>, at: &KeyPath, given: &AttitudeDescription) -> Option<NamedAttitude> {
+fn read(at: &Place<'_>, given: &AttitudeDescription) -> Option<NamedAttitude> {
     match given {
         AttitudeDescription::Name(name) => {
+            let names = NAMES.map(Enumerated::name);
+            let unknown = format!("the unknown word `{name}`{}", hint(name, &names));
+            let allowed = format!("{}, or a quaternion, or `align` and `constrain`", names.join(", "));
             let found = NAMES.into_iter().find(|known| known.name() == name);
-            if found.is_none() {
-                let names = NAMES.map(Enumerated::name);
-                let allowed = format!("{}, or a quaternion, or `align` and `constrain`", names.join(", "));
-                let hint =
-                    nearest(name, &names).map_or_else(String::new, |it| format!(" (did you mean `{it}`?)"));
-                check.report(at, format_args!("the unknown word `{name}`{hint}"), allowed);
-            }
-            found.map(NamedAttitude::from)
+            at.known(found, unknown, allowed).map(NamedAttitude::Named)
         }
         AttitudeDescription::Quaternion(numbers) => {
+            let allowed = "four: a quaternion from EME2000 to the body, scalar last";
             let q = <[f64; 4]>::try_from(numbers.as_slice()).ok();
-            if q.is_none() {
-                let found = format!("{} numbers", numbers.len());
-                check.report(at, found, "four: a quaternion from EME2000 to the body, scalar last");
-            }
-            q.map(NamedAttitude::Inertial)
+            at.known(q, format_args!("{} numbers", numbers.len()), allowed).map(NamedAttitude::Inertial)
         }
         AttitudeDescription::Axes(AxesDescription { align, constrain, star, unknown }) => {
             for key in unknown {
-                check.report(&at.key(key), format_args!("the unknown key `{key}`"), "align, constrain, star");
+                at.key(key).report(format_args!("the unknown key `{key}`"), "align, constrain, star");
             }
             if let (Some(align), Some(constrain)) = (align, constrain) {
-                return aligned(check, at, [align, constrain], star.as_ref());
+                return aligned(at, [align, constrain], star.as_ref());
             }
             let lacking = if align.is_none() { "align" } else { "constrain" };
-            check.report_lack(at, lacking, "both `align` and `constrain`");
+            at.report_lack(lacking, "both `align` and `constrain`");
             None
         }
         AttitudeDescription::Other => {
-            check.report(at, "no attitude", "a name, a quaternion, or a table with `align` and `constrain`");
+            at.report("no attitude", "a name, a quaternion, or a table with `align` and `constrain`");
             None
         }
     }
 }
 
 /// The name of a command: its own, or its scenario's or attitude's.
-pub(super) fn name(check: &mut Checker<'_>, at: &KeyPath, given: &CommandDescription) -> String {
+pub(super) fn name(at: &Place<'_>, given: &CommandDescription) -> String {
     /// Longest name in a report.
     const MOST: usize = 60;
     match (&given.name, given.scenario) {
         (Some(name), _) => {
             if name.trim().is_empty() || name.chars().count() > MOST || name.chars().any(char::is_control) {
                 let allowed = format!("a text of 1 to {MOST} characters on one line");
-                check.report(&at.key("name"), format_args!("{name:?}"), allowed);
+                at.key("name").report(format_args!("{name:?}"), allowed);
             }
             name.clone()
         }
@@ -103,7 +83,7 @@ mod tests {
 
     use super::*;
     use crate::guidance::timeline::Timeline;
-    use crate::spacecraft::{AlignedAxes, MESSENGER_TOML, PointingTarget, Spacecraft, TargetedAxis};
+    use crate::spacecraft::{AlignedAxes, MESSENGER_TOML, Spacecraft, TargetItem, TargetedAxis};
 
     #[test]
     fn attitudes_are_commands_by_two_axes() {
@@ -114,13 +94,10 @@ mod tests {
         };
         assert_eq!(command("\"lvlh\""), aligned_command(&AlignedAxes::LVLH));
         let toward = |axis_body, target| TargetedAxis { axis_body, target };
-        let star = PointingTarget::Star {
-            right_ascension_rad: 10_f64.to_radians(),
-            declination_rad: -20_f64.to_radians(),
-        };
+        let star = TargetItem::Star.target([10_f64, -20_f64].map(f64::to_radians));
         let axes = AlignedAxes {
             align: toward(Vector3::new(0.0, 0.0, 2.0), star),
-            constrain: toward(-Vector3::y(), PointingTarget::Sun),
+            constrain: toward(-Vector3::y(), TargetItem::Sun.target([0.0; 2])),
         };
         let written = "{ align = { axis = [0, 0, 2], to = \"star\" }, constrain = { axis = [0, -1, 0], to = \"sun\" }, \
                        star = { right_ascension_deg = 10, declination_deg = -20 } }";

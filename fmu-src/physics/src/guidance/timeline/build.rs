@@ -10,12 +10,12 @@ use super::entry::{
     Slot, TimelineClock, TimelineEntry, TimelineEvent, TimelinePanels, begun, simulation_time_s,
 };
 use super::events::event;
-use super::panels::panels;
+use super::panels::panels as panels_from;
 use super::scans::scan;
 use super::times::Times;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use crate::spacecraft::Spacecraft;
-use crate::toml::{Checker, Document, FileError, KeyPath, TIMELINE_LIMITS};
+use crate::toml::{Checker, Document, FileError, Place, TIMELINE_LIMITS};
 
 /// Commands, panels and events one after the other; of each list the times grow, and one list at least is not empty.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,36 +51,35 @@ impl Timeline {
     fn read(file: &str, text: &str, spacecraft: &Spacecraft, reader: Reader) -> Result<Self, FileError> {
         let document = Document::parse(file, text)?.limited(TIMELINE_LIMITS);
         let (description, check) = Checker::read::<TimelineDescription>(&document)?;
-        let mut commands = Commands::new(check, spacecraft, reader);
-        let [place, panels_place, events_place] =
-            ["command", "panels", "event"].map(|list| KeyPath::root().key(list));
+        let root = Place::root(&check);
+        let mut commands = Commands::new(spacecraft, reader);
+        let [place, panels_place, events_place] = ["command", "panels", "event"].map(|list| root.key(list));
         let list = description.command.as_deref().unwrap_or_default();
         let panels_list = description.panels.as_deref().unwrap_or_default();
         let events_list = description.event.as_deref().unwrap_or_default();
         if list.is_empty() && panels_list.is_empty() && events_list.is_empty() {
             let allowed = "at least one [[command]], [[panels]] or [[event]]";
-            commands.check.report(&KeyPath::root(), "an empty timeline", allowed);
+            root.report("an empty timeline", allowed);
         }
-        let mut times = Times::new(&mut commands.check);
+        let mut times = Times::default();
         let spans = times.spans(&place, list.iter().map(|command| (&command.at, command.until.as_ref())));
         let panel_times = times.instants(&panels_place, panels_list.iter().map(|it| &it.at));
         let event_times = times.instants(&events_place, events_list.iter().map(|it| &it.at));
         let clock = times.clock();
         let mut entries = Vec::with_capacity(list.len());
         let mut names = Vec::with_capacity(list.len());
-        for (index, (description, [at_s, until_s])) in list.iter().zip(spans.iter().copied()).enumerate() {
-            let at = place.item(index);
+        for (index, ((at, description), &[at_s, until_s])) in place.items(list).zip(&spans).enumerate() {
             let command = commands.pointing(&at, description);
-            names.push(name(&mut commands.check, &at, description));
+            names.push(name(&at, description));
             let next_s = spans.iter().skip(index + 1).find_map(|[next_s, _]| *next_s);
             let end_s = until_s.or(next_s).unwrap_or(f64::INFINITY);
             let span = Span { clock, at_s: at_s.unwrap_or(f64::NAN), end_s };
             let burns = command.scenario == Some(Scenario::Burn);
             let burn = description.burn.as_ref().filter(|_| burns);
-            let burn = burn.map(|given| burn_of(&mut commands, &at.key("burn"), given, span));
-            let scan = scan(&mut commands, &at, description, &command);
+            let burn = burn.map(|given| burn_of(spacecraft, &at.key("burn"), given, span));
+            let scan = scan(&at, description, &command);
             entries.push(TimelineEntry {
-                line: commands.check.line(&at),
+                line: at.line(),
                 at_s: at_s.unwrap_or(f64::NAN),
                 until_s,
                 command: PointingCommand { scan, ..command },
@@ -91,19 +90,11 @@ impl Timeline {
                 status: description.status.unwrap_or_default(),
             });
         }
-        let panels = panels_list
-            .iter()
-            .zip(panel_times)
-            .enumerate()
-            .map(|(index, (given, at_s))| panels(&mut commands, &panels_place.item(index), given, at_s))
-            .collect();
-        let events = events_list
-            .iter()
-            .zip(event_times)
-            .enumerate()
-            .map(|(index, (given, at_s))| event(&mut commands, &events_place.item(index), given, at_s))
-            .collect();
-        commands.check.finish(Self { clock, entries, names, panels, events })
+        let panels = panels_place.items(panels_list).zip(panel_times);
+        let panels = panels.map(|((at, given), at_s)| panels_from(&at, given, at_s, &spacecraft.panels));
+        let (panels, events) = (panels.collect(), events_place.items(events_list).zip(event_times));
+        let events = events.map(|((at, given), at_s)| event(spacecraft, &at, given, at_s)).collect();
+        check.finish(Self { clock, entries, names, panels, events })
     }
 
     /// By which clock it counts.

@@ -2,15 +2,14 @@
 
 use nalgebra::Vector3;
 
-use super::commands::Commands;
 use super::description::BurnDescription;
 use super::entry::{TimelineBurn, TimelineClock};
-use super::instant::{instant, is_date};
-use super::quantity::{SPEED, TIME};
+use super::quantity::{SPEED, TIME, three};
+use super::times::{instant, is_date};
 use crate::guidance::burn::nominal_thrust::NominalThrust;
 use crate::guidance::burn::velocity_path::VelocityPath;
-use crate::spacecraft::ThrusterSet;
-use crate::toml::{KeyPath, Positive, hint};
+use crate::spacecraft::{Spacecraft, ThrusterSet};
+use crate::toml::{Place, Positive, hint};
 
 /// When a command begins and ends, in s of a clock; without end infinite.
 #[derive(Clone, Copy)]
@@ -22,37 +21,36 @@ pub(super) struct Span {
 
 /// The burn of the command at `at`, within its span.
 pub(super) fn burn(
-    commands: &mut Commands<'_, '_>,
-    at: &KeyPath,
+    spacecraft: &Spacecraft,
+    at: &Place<'_>,
     given: &BurnDescription,
     span: Span,
 ) -> TimelineBurn {
-    let spacecraft = commands.spacecraft;
-    let delta_v_m_s = Vector3::from(commands.three(&at.key("deltaV"), &Some(given.delta_v.clone()), &SPEED));
+    let delta_v_m_s = Vector3::from(three(&at.key("deltaV"), Some(&given.delta_v), &SPEED));
     let profile_place = at.key("profile");
     let rows = given.profile.as_ref().map_or([[0.0; 3]; 3], |rows| {
-        [0, 1, 2].map(|i| commands.three(&profile_place.item(i), &Some(rows[i].clone()), &SPEED))
+        [0, 1, 2].map(|i| three(&profile_place.item(i), Some(&rows[i]), &SPEED))
     });
     let columns = [0, 1, 2].map(|power| Vector3::from(rows.map(|component| component[power])));
     let path = match VelocityPath::of_burn(delta_v_m_s, columns) {
         Ok(Some(path)) => Some(path),
         Ok(None) => {
-            commands.check.report(&at.key("deltaV"), "a zero vector", "a velocity of any size but 0, in m/s");
+            at.key("deltaV").report("a zero vector", "a velocity of any size but 0, in m/s");
             None
         }
         Err(error) => {
             let allowed =
                 "rows whose sums are deltaV, one a component: its powers 1, 2 and 3 of the progress";
-            commands.check.report(&profile_place, error, allowed);
+            profile_place.report(error, allowed);
             None
         }
     };
-    let set = thruster_set(commands, &at.key("thrusters"), &given.thrusters);
-    let begin_s = start(commands, at, given, span);
+    let set = thruster_set(spacecraft, &at.key("thrusters"), &given.thrusters);
+    let begin_s = start(at, given, span);
     let duration_s = given.duration.as_ref().map(|duration| {
         let place = at.key("duration");
-        let duration_s = commands.quantity(&place, duration, &TIME);
-        commands.check.within(&place, duration_s, f64::MIN_POSITIVE, 1e12, Positive::ALLOWED)
+        let duration_s = duration.read(&place, &TIME);
+        place.within(duration_s, [f64::MIN_POSITIVE, 1e12], Positive::ALLOWED)
     });
     let nominal = NominalThrust::new(spacecraft, set, Vector3::zeros());
     let acceleration_m_s2 = nominal.acceleration_m_s2;
@@ -61,16 +59,14 @@ pub(super) fn burn(
     let lasts_s = duration_s.or(nominal_s).unwrap_or(0.0);
     let first_s = begin_s.unwrap_or(span.at_s);
     if first_s.is_finite() && first_s < span.at_s {
-        commands.check.report(
-            &at.key("start"),
+        at.key("start").report(
             format_args!("{}, before the command begins", shown(given)),
             "a time after `at`, or no such key: when the attitude is reached",
         );
     } else if first_s + lasts_s > span.end_s {
         let key = if given.start.is_some() { "start" } else { "duration" };
-        let place = if commands.check.is_written(&at.key(key)) { at.key(key) } else { at.clone() };
-        commands.check.report(
-            &place,
+        let place = if at.key(key).is_written() { at.key(key) } else { at.clone() };
+        place.report(
             format_args!(
                 "a burn that lasts {:.1} s and ends {:.1} s after the command does",
                 lasts_s,
@@ -87,32 +83,27 @@ fn shown(given: &BurnDescription) -> String {
 }
 
 /// When the burn begins, in s of the clock; `None` when the attitude is reached.
-fn start(commands: &mut Commands<'_, '_>, at: &KeyPath, given: &BurnDescription, span: Span) -> Option<f64> {
+fn start(at: &Place<'_>, given: &BurnDescription, span: Span) -> Option<f64> {
     let (place, written) = (at.key("start"), given.start.as_ref()?);
     if !is_date(written) {
-        return Some(span.at_s + commands.quantity(&place, written, &TIME));
+        return Some(span.at_s + written.read(&place, &TIME));
     }
-    let (clock, start_s) = instant(&mut commands.check, &place, written)?;
+    let (clock, start_s) = instant(&place, written)?;
     if clock != span.clock {
         let allowed = "a time after `at`, as FMI time in s or with a unit: this file counts in FMI time";
-        commands.check.report(&place, format_args!("{written}, a date"), allowed);
+        place.report(format_args!("{written}, a date"), allowed);
         return None;
     }
     Some(start_s)
 }
 
 /// The set of this name.
-pub(super) fn thruster_set(commands: &mut Commands<'_, '_>, at: &KeyPath, name: &str) -> Option<ThrusterSet> {
-    let spacecraft = commands.spacecraft;
-    let found = spacecraft.thruster_set(name);
-    if found.is_none() && !commands.check.is_stand_in(at) {
-        let sets: Vec<&str> = spacecraft.thruster_sets.iter().map(String::as_str).collect();
-        let allowed = match sets.is_empty() {
-            true => "a set of thrusters; the spacecraft has none: give its [[thrusters]] a `set`".to_owned(),
-            false => format!("a set of the spacecraft's thrusters: {}", sets.join(", ")),
-        };
-        let unknown = format!("the unknown set `{name}`{}", hint(name, &sets));
-        commands.check.report(at, unknown, allowed);
-    }
-    found
+pub(super) fn thruster_set(spacecraft: &Spacecraft, at: &Place<'_>, name: &str) -> Option<ThrusterSet> {
+    let sets: Vec<&str> = spacecraft.thruster_sets.iter().map(String::as_str).collect();
+    let allowed = match sets.is_empty() {
+        true => "a set of thrusters; the spacecraft has none: give its [[thrusters]] a `set`".to_owned(),
+        false => format!("a set of the spacecraft's thrusters: {}", sets.join(", ")),
+    };
+    let unknown = format!("the unknown set `{name}`{}", hint(name, &sets));
+    at.known(spacecraft.thruster_set(name), unknown, allowed)
 }

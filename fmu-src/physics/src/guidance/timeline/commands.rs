@@ -10,7 +10,7 @@ use super::description::{
 };
 use super::devices::{body, check_fan, check_gimbal, instrument};
 use super::entry::{DownlinkOverride, KeepInOverride};
-use super::quantity::{LATITUDE, LENGTH, QUARTER_TURN, Quantity, QuantityKind, SPEED, TURN};
+use super::quantity::{LATITUDE, LENGTH, QUARTER_TURN, Quantity, SPEED, TURN, or_zero, three};
 use super::reads::{
     Keys, NOTHING, TABLES, aimpoint_keys, body_roll_keys, boresight_keys, external_roll_keys, keys,
     limb_keys, own_aimpoint, tables,
@@ -22,7 +22,7 @@ use crate::guidance::pointing::command::{
     PointingCommand, Scenario,
 };
 use crate::spacecraft::Spacecraft;
-use crate::toml::{Checker, KeyPath, Point, Table, Written};
+use crate::toml::{Place, Point, Table, Written};
 
 const BORESIGHT: &[&str] = &["option", "vector", "azimuth", "elevation", "angle", "instrument"];
 const AIMPOINT: &[&str] = &[
@@ -47,48 +47,47 @@ pub(super) enum Reader {
     Plant,
 }
 
-/// Builds commands and gathers what is wrong with them.
-pub(super) struct Commands<'d, 'i> {
-    pub check: Checker<'d>,
+/// Builds commands and reports what is wrong with them.
+pub(super) struct Commands<'i> {
     pub spacecraft: &'i Spacecraft,
     reader: Reader,
     /// The scenario of the current command, or its attitude, for messages.
     pub(super) scenario: String,
 }
 
-impl<'d, 'i> Commands<'d, 'i> {
+impl<'i> Commands<'i> {
     /// For this spacecraft.
-    pub(super) fn new(check: Checker<'d>, spacecraft: &'i Spacecraft, reader: Reader) -> Self {
-        Self { check, spacecraft, reader, scenario: String::new() }
+    pub(super) fn new(spacecraft: &'i Spacecraft, reader: Reader) -> Self {
+        Self { spacecraft, reader, scenario: String::new() }
     }
 
     /// Returns the pointing of a command without its scan.
-    pub(super) fn pointing(&mut self, at: &KeyPath, given: &CommandDescription) -> PointingCommand {
+    pub(super) fn pointing(&mut self, at: &Place<'_>, given: &CommandDescription) -> PointingCommand {
         let scenario_place = at.key("scenario");
-        self.check.rules(at, CommandDescription::RULES);
+        at.rules(CommandDescription::RULES);
         self.check_reader(at, given);
         if let Some(attitude) = &given.attitude {
             let place = at.key("attitude");
             "the attitude".clone_into(&mut self.scenario);
             self.check_mode(&place, Scenario::Generic, given.mode);
             self.check_scenario_keys(at, TABLES, keys(&[], &["scan"]));
-            return by_attitude(&mut self.check, place, attitude, &self.spacecraft.panels);
+            return by_attitude(&place, attitude, &self.spacecraft.panels);
         }
         let Some(scenario) = given.scenario else {
             self.report_lack_of_scenario(at, given);
             return PointingCommand::default();
         };
-        if self.check.is_stand_in(&scenario_place) {
+        if scenario_place.is_stand_in() {
             return PointingCommand::default();
         }
         self.scenario = named("the scenario", scenario);
         self.check_mode(&scenario_place, scenario, given.mode);
         if matches!(scenario, Scenario::Gimbal | Scenario::DoubleTarget) {
-            check_gimbal(&mut self.check, self.spacecraft, &scenario_place, named("the scenario", scenario));
+            check_gimbal(self.spacecraft, &scenario_place, named("the scenario", scenario));
         }
         if scenario == Scenario::Downlink && self.spacecraft.antennas.is_empty() {
             let allowed = "a scenario without a downlink: the spacecraft has no antenna ([[antennas]])";
-            self.check.report(&scenario_place, named("the scenario", scenario), allowed);
+            scenario_place.report(named("the scenario", scenario), allowed);
         }
         let read = tables(scenario);
         self.check_scenario_keys(at, TABLES, read);
@@ -115,49 +114,49 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// Reports what the mode beside it does not follow.
-    pub(super) fn check_mode(&mut self, at: &KeyPath, scenario: Scenario, mode: Option<Mode>) {
+    pub(super) fn check_mode(&self, at: &Place<'_>, scenario: Scenario, mode: Option<Mode>) {
         if let Some(mode) = mode.filter(|mode| !mode.follows(scenario)) {
             let allowed = match mode {
                 Mode::SafeHold => "downlink, which alone Safe Hold follows, or no scenario",
                 _ => "no scenario: Earth Acquisition follows none",
             };
-            self.check.report(at, &self.scenario, allowed);
+            at.report(&self.scenario, allowed);
         }
     }
 
     /// Reports what Guidance alone does.
-    fn check_reader(&mut self, at: &KeyPath, given: &CommandDescription) {
+    fn check_reader(&self, at: &Place<'_>, given: &CommandDescription) {
         if self.reader != Reader::Plant {
             return;
         }
         if let Some(mode) = given.mode {
             let allowed = "no such key: MomentumPlant has no modes; FMU Guidance has, and commands it";
-            self.check.report(&at.key("mode"), named("the mode", mode), allowed);
+            at.key("mode").report(named("the mode", mode), allowed);
         }
         if given.scenario == Some(Scenario::Burn) {
             let allowed = "another scenario: in MomentumPlant a change of velocity is an [[event]] with `maneuver`; FMU Guidance \
                            steers burns";
-            self.check.report(&at.key("scenario"), named("the scenario", Scenario::Burn), allowed);
+            at.key("scenario").report(named("the scenario", Scenario::Burn), allowed);
         }
     }
 
     /// Returns a command's direction of the Sun in a downlink.
-    pub(super) fn downlink(&mut self, at: &KeyPath, given: &CommandDescription) -> DownlinkOverride {
+    pub(super) fn downlink(&self, at: &Place<'_>, given: &CommandDescription) -> DownlinkOverride {
         let place = at.key("sun");
         let sun = given.sun.as_ref().map(|sun| SunAngles {
-            azimuth_rad: self.or_zero(&place.key("azimuth"), &sun.azimuth, &TURN),
-            elevation_rad: self.or_zero(&place.key("elevation"), &sun.elevation, &LATITUDE),
+            azimuth_rad: or_zero(&place.key("azimuth"), &sun.azimuth, &TURN),
+            elevation_rad: or_zero(&place.key("elevation"), &sun.elevation, &LATITUDE),
         });
         DownlinkOverride { sun, alternate: given.alternate.unwrap_or_default() }
     }
 
     /// Changes of the Sun keep-in zone.
-    pub(super) fn keep_in(&mut self, at: &KeyPath, given: Option<&KeepInDescription>) -> KeepInOverride {
+    pub(super) fn keep_in(&self, at: &Place<'_>, given: Option<&KeepInDescription>) -> KeepInOverride {
         let Some(given) = given else { return KeepInOverride::default() };
         let place = at.key("keepIn");
-        self.check.rules(&place, KeepInDescription::RULES);
-        let mut angle = |key: &str, quantity: &Option<Quantity>| {
-            Some(self.quantity(&place.key(key), quantity.as_ref()?, &QUARTER_TURN))
+        place.rules(KeepInDescription::RULES);
+        let angle = |key: &str, quantity: &Option<Quantity>| {
+            Some(quantity.as_ref()?.read(&place.key(key), &QUARTER_TURN))
         };
         KeepInOverride {
             enabled: given.enabled,
@@ -166,70 +165,46 @@ impl<'d, 'i> Commands<'d, 'i> {
         }
     }
 
-    fn report_lack_of_scenario(&mut self, at: &KeyPath, given: &CommandDescription) {
-        if let Some(table) = TABLES.iter().find(|table| self.check.is_written(&at.key(table))) {
-            self.check.report_lack(at, "scenario", format_args!("a scenario, which `{table}` is for"));
+    fn report_lack_of_scenario(&self, at: &Place<'_>, given: &CommandDescription) {
+        if let Some(table) = TABLES.iter().find(|table| at.key(table).is_written()) {
+            at.report_lack("scenario", format_args!("a scenario, which `{table}` is for"));
         } else if given.keep_in.is_none() && given.mode.is_none() {
             let lacks = ["scenario", "attitude", "keepIn", "mode"];
-            if !lacks.iter().any(|key| self.check.is_stand_in(&at.key(key))) {
-                self.check.push(
-                    at,
-                    "a command of nothing",
-                    "at least one of scenario, attitude, keepIn, mode",
-                );
+            if !lacks.iter().any(|key| at.key(key).is_stand_in()) {
+                at.push("a command of nothing", "at least one of scenario, attitude, keepIn, mode");
             }
         }
     }
 
-    /// Reports keys among the `known` ones that are given and not read, and keys that lack.
-    pub(super) fn check_keys(
-        &mut self,
-        at: &KeyPath,
-        known: &[&str],
-        Keys { needed, optional }: Keys,
-        reader: &str,
-    ) {
-        for key in known {
-            let (is_given, is_needed) = (self.check.is_written(&at.key(key)), needed.contains(key));
-            if is_given && !is_needed && !optional.contains(key) {
-                let read: Vec<&str> = needed.iter().chain(optional).copied().collect();
-                let allowed = if read.is_empty() { "no other key".to_owned() } else { read.join(", ") };
-                self.check.report(&at.key(key), format_args!("what {reader} does not read"), allowed);
-            } else if is_needed && !is_given {
-                self.check.report_lack(at, key, format_args!("a value for `{key}`, which {reader} reads"));
-            }
-        }
-    }
-
-    /// The same where the scenario reads them.
-    pub(super) fn check_scenario_keys(&mut self, at: &KeyPath, known: &[&str], read: Keys) {
-        self.check_keys(at, known, read, &self.scenario.clone());
+    /// Reports keys among the `known` ones that the scenario does not read, and keys that lack.
+    fn check_scenario_keys(&self, at: &Place<'_>, known: &[&str], read: Keys) {
+        read.check(at, known, &self.scenario);
     }
 
     /// The same where an option reads them, unless nobody wrote the option.
-    fn check_option_keys(&mut self, at: &KeyPath, known: &[&str], read: Keys, option: impl Serialize) {
-        if !self.check.is_stand_in(&at.key("option")) {
-            self.check_keys(at, known, read, &named("the option", option));
+    fn check_option_keys(at: &Place<'_>, known: &[&str], read: Keys, option: impl Serialize) {
+        if !at.key("option").is_stand_in() {
+            read.check(at, known, &named("the option", option));
         }
     }
 
     fn boresight(
-        &mut self,
-        at: &KeyPath,
+        &self,
+        at: &Place<'_>,
         given: &BoresightDescription,
         scenario: Scenario,
     ) -> BoresightCommand {
         let place = at.key("option");
-        match (scenario, given.option.filter(|_| !self.check.is_stand_in(&place))) {
+        match (scenario, given.option.filter(|_| !place.is_stand_in())) {
             (Scenario::Generic, Some(option)) => {
                 if option == BoresightOption::Gimbal {
-                    check_gimbal(&mut self.check, self.spacecraft, &place, named("the option", option));
+                    check_gimbal(self.spacecraft, &place, named("the option", option));
                 }
                 if option == BoresightOption::PhasedArray {
-                    check_fan(&mut self.check, self.spacecraft, &place, named("the option", option));
+                    check_fan(self.spacecraft, &place, named("the option", option));
                 }
                 let read = Keys { optional: &["option"], ..boresight_keys(option) };
-                self.check_option_keys(at, BORESIGHT, read, option);
+                Self::check_option_keys(at, BORESIGHT, read, option);
             }
             (Scenario::Generic, None) => self.check_scenario_keys(at, &["option"], keys(&["option"], &[])),
             // That the scenario's own boresight is the boresight may be written.
@@ -237,139 +212,98 @@ impl<'d, 'i> Commands<'d, 'i> {
                 self.check_scenario_keys(at, BORESIGHT, keys(&["angle"], &["option"]));
             }
             (Scenario::Downlink, None | Some(BoresightOption::PhasedArray)) => {
-                let is_given = ["option", "azimuth"].iter().any(|key| self.check.is_written(&at.key(key)));
+                let is_given = ["option", "azimuth"].iter().any(|key| at.key(key).is_written());
                 let read = if is_given { keys(&["option", "azimuth"], &[]) } else { NOTHING };
                 if is_given && !self.spacecraft.antennas.is_empty() {
-                    check_fan(
-                        &mut self.check,
-                        self.spacecraft,
-                        &place,
-                        named("the option", BoresightOption::PhasedArray),
-                    );
+                    check_fan(self.spacecraft, &place, named("the option", BoresightOption::PhasedArray));
                 }
                 self.check_scenario_keys(at, BORESIGHT, read);
             }
             (Scenario::Gimbal, Some(option)) => {
-                self.check.report(&place, named("the option", option), "gimbal, this scenario's boresight");
+                place.report(named("the option", option), "gimbal, this scenario's boresight");
             }
             (Scenario::Downlink, Some(option)) => {
                 let allowed = "phasedArray, this scenario's boresight, or no boresight";
-                self.check.report(&place, named("the option", option), allowed);
+                place.report(named("the option", option), allowed);
             }
             _ => self.check_scenario_keys(at, BORESIGHT, keys(&[], &["instrument"])),
         }
         let named_instrument = given.instrument.as_ref();
         BoresightCommand {
             option: given.option,
-            vector: self.direction(&at.key("vector"), given.vector),
-            azimuth_rad: self.or_zero(&at.key("azimuth"), &given.azimuth, &TURN),
-            elevation_rad: self.or_zero(&at.key("elevation"), &given.elevation, &LATITUDE),
-            angle_rad: self.or_zero(&at.key("angle"), &given.angle, &TURN),
+            vector: direction(&at.key("vector"), given.vector),
+            azimuth_rad: or_zero(&at.key("azimuth"), &given.azimuth, &TURN),
+            elevation_rad: or_zero(&at.key("elevation"), &given.elevation, &LATITUDE),
+            angle_rad: or_zero(&at.key("angle"), &given.angle, &TURN),
             instrument: named_instrument
-                .map_or(0, |name| instrument(&mut self.check, self.spacecraft, &at.key("instrument"), name)),
+                .map_or(0, |name| instrument(self.spacecraft, &at.key("instrument"), name)),
         }
     }
 
-    fn aimpoint(&mut self, at: &KeyPath, given: &AimpointDescription, scenario: Scenario) -> AimpointCommand {
+    fn aimpoint(&self, at: &Place<'_>, given: &AimpointDescription, scenario: Scenario) -> AimpointCommand {
         match own_aimpoint(scenario).filter(|own| *own != given.option) {
             Some(own) => {
                 let allowed = named("no aimpoint, or this scenario's own:", own);
-                self.check.report(&at.key("option"), named("the option", given.option), allowed);
+                at.key("option").report(named("the option", given.option), allowed);
             }
-            None => self.check_option_keys(at, AIMPOINT, aimpoint_keys(given.option), given.option),
+            None => Self::check_option_keys(at, AIMPOINT, aimpoint_keys(given.option), given.option),
         }
         AimpointCommand {
             option: Some(given.option),
-            vector: self.direction(&at.key("vector"), given.vector),
-            position_m: self.three(&at.key("position"), &given.position, &LENGTH).into(),
+            vector: direction(&at.key("vector"), given.vector),
+            position_m: three(&at.key("position"), given.position.as_ref(), &LENGTH).into(),
             velocity_m_s: Vector3::zeros(),
-            right_ascension_rad: self.or_zero(&at.key("rightAscension"), &given.right_ascension, &TURN),
-            declination_rad: self.or_zero(&at.key("declination"), &given.declination, &LATITUDE),
-            latitude_rad: self.or_zero(&at.key("latitude"), &given.latitude, &LATITUDE),
-            longitude_rad: self.or_zero(&at.key("longitude"), &given.longitude, &TURN),
-            height_m: self.or_zero(&at.key("height"), &given.height, &LENGTH),
-            azimuth_rad: self.or_zero(&at.key("azimuth"), &given.azimuth, &TURN),
-            elevation_rad: self.or_zero(&at.key("elevation"), &given.elevation, &LATITUDE),
-            body: body(&mut self.check, self.spacecraft, &at.key("body"), given.body),
+            right_ascension_rad: or_zero(&at.key("rightAscension"), &given.right_ascension, &TURN),
+            declination_rad: or_zero(&at.key("declination"), &given.declination, &LATITUDE),
+            latitude_rad: or_zero(&at.key("latitude"), &given.latitude, &LATITUDE),
+            longitude_rad: or_zero(&at.key("longitude"), &given.longitude, &TURN),
+            height_m: or_zero(&at.key("height"), &given.height, &LENGTH),
+            azimuth_rad: or_zero(&at.key("azimuth"), &given.azimuth, &TURN),
+            elevation_rad: or_zero(&at.key("elevation"), &given.elevation, &LATITUDE),
+            body: body(self.spacecraft, &at.key("body"), given.body),
         }
     }
 
-    fn body_roll(&mut self, at: &KeyPath, given: &BodyRollDescription) -> BodyRollCommand {
+    fn body_roll(&self, at: &Place<'_>, given: &BodyRollDescription) -> BodyRollCommand {
         let known = &["vector", "azimuth", "elevation"];
-        self.check_option_keys(at, known, body_roll_keys(given.option), given.option);
+        Self::check_option_keys(at, known, body_roll_keys(given.option), given.option);
         BodyRollCommand {
             option: Some(given.option),
-            vector: self.direction(&at.key("vector"), given.vector),
-            azimuth_rad: self.or_zero(&at.key("azimuth"), &given.azimuth, &TURN),
-            elevation_rad: self.or_zero(&at.key("elevation"), &given.elevation, &LATITUDE),
+            vector: direction(&at.key("vector"), given.vector),
+            azimuth_rad: or_zero(&at.key("azimuth"), &given.azimuth, &TURN),
+            elevation_rad: or_zero(&at.key("elevation"), &given.elevation, &LATITUDE),
         }
     }
 
-    fn external_roll(&mut self, at: &KeyPath, given: &ExternalRollDescription) -> ExternalRollCommand {
+    fn external_roll(&self, at: &Place<'_>, given: &ExternalRollDescription) -> ExternalRollCommand {
         let known = &["vector", "rightAscension", "declination"];
-        self.check_option_keys(at, known, external_roll_keys(given.option), given.option);
+        Self::check_option_keys(at, known, external_roll_keys(given.option), given.option);
         ExternalRollCommand {
             option: Some(given.option),
-            vector: self.direction(&at.key("vector"), given.vector),
-            right_ascension_rad: self.or_zero(&at.key("rightAscension"), &given.right_ascension, &TURN),
-            declination_rad: self.or_zero(&at.key("declination"), &given.declination, &LATITUDE),
+            vector: direction(&at.key("vector"), given.vector),
+            right_ascension_rad: or_zero(&at.key("rightAscension"), &given.right_ascension, &TURN),
+            declination_rad: or_zero(&at.key("declination"), &given.declination, &LATITUDE),
         }
     }
 
-    fn limb(&mut self, at: &KeyPath, given: &LimbDescription, scenario: Scenario) -> LimbCommand {
+    fn limb(&self, at: &Place<'_>, given: &LimbDescription, scenario: Scenario) -> LimbCommand {
         self.check_scenario_keys(at, &["azimuth", "reference", "height", "heightRate"], limb_keys(scenario));
         LimbCommand {
-            azimuth_rad: self.or_zero(&at.key("azimuth"), &given.azimuth, &TURN),
+            azimuth_rad: or_zero(&at.key("azimuth"), &given.azimuth, &TURN),
             reference: given.reference,
-            height_m: self.or_zero(&at.key("height"), &given.height, &LENGTH),
-            height_rate_m_s: self.or_zero(&at.key("heightRate"), &given.height_rate, &SPEED),
+            height_m: or_zero(&at.key("height"), &given.height, &LENGTH),
+            height_rate_m_s: or_zero(&at.key("heightRate"), &given.height_rate, &SPEED),
         }
     }
+}
 
-    /// A quantity, in SI.
-    pub(super) fn quantity(&mut self, at: &KeyPath, given: &Quantity, kind: &QuantityKind) -> f64 {
-        let Some(value) = given.si(kind) else {
-            self.check.report(at, given, kind);
-            return 0.0;
-        };
-        let Some((range_rad, allowed)) = &kind.range_rad else { return self.check.finite(at, value) };
-        if !range_rad.contains(&value) {
-            let found = match given {
-                Quantity::Number(number) if range_rad.contains(&number.to_radians()) => {
-                    format!("{number} rad (did you mean \"{number} deg\"?)")
-                }
-                Quantity::Number(number) => format!("{number} rad"),
-                _ => given.to_string(),
-            };
-            self.check.report(at, found, allowed);
-        }
-        value
+/// A vector that has a direction, if one is given.
+fn direction(at: &Place<'_>, given: Option<Point>) -> Vector3<f64> {
+    let vector = given.value().unwrap_or_default();
+    if given.is_some() && vector == Vector3::zeros() {
+        at.report("a zero vector", "a vector of any length but 0");
     }
-
-    /// A quantity in SI, 0 unless given.
-    fn or_zero(&mut self, at: &KeyPath, given: &Option<Quantity>, kind: &QuantityKind) -> f64 {
-        given.as_ref().map_or(0.0, |quantity| self.quantity(at, quantity, kind))
-    }
-
-    /// Three quantities in SI, 0 unless given.
-    pub(super) fn three(
-        &mut self,
-        at: &KeyPath,
-        given: &Option<[Quantity; 3]>,
-        kind: &QuantityKind,
-    ) -> [f64; 3] {
-        let Some(given) = given else { return [0.0; 3] };
-        [0, 1, 2].map(|index| self.quantity(&at.item(index), &given[index], kind))
-    }
-
-    /// A vector that has a direction, if one is given.
-    fn direction(&mut self, at: &KeyPath, given: Option<Point>) -> Vector3<f64> {
-        let vector = given.value().unwrap_or_default();
-        if given.is_some() && vector == Vector3::zeros() {
-            self.check.report(at, "a zero vector", "a vector of any length but 0");
-        }
-        vector
-    }
+    vector
 }
 
 /// A scenario, option or frame by its name in the file, behind what it is.

@@ -10,7 +10,7 @@ use crate::constants::{ASTRONOMICAL_UNIT_M, DEG_RAD, RPM_RAD_S, TIME_UNITS};
 use crate::guidance::pointing::command::{
     BACK_HALF_TURN_RAD, BACK_TURN_RAD, DOWN_ANGLE_RAD, FULL_TURN_RAD, RIGHT_ANGLE_RAD,
 };
-use crate::toml::with_unit;
+use crate::toml::{Place, type_schema, with_unit};
 
 /// Quantity as written in the file.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -36,7 +36,7 @@ pub(super) struct QuantityKind {
     /// Names and how much of the SI unit they are.
     units: &'static [(&'static str, f64)],
     /// Allowed range of an angle, with its words for messages.
-    pub range_rad: Option<(RangeInclusive<f64>, &'static str)>,
+    range_rad: Option<(RangeInclusive<f64>, &'static str)>,
 }
 
 const fn kind(name: &'static str, units: &'static [(&'static str, f64)]) -> QuantityKind {
@@ -87,6 +87,36 @@ impl Quantity {
         };
         Some(number * factor)
     }
+
+    /// The value in the SI unit; what is no quantity of this kind is reported.
+    pub(super) fn read(&self, at: &Place<'_>, kind: &QuantityKind) -> f64 {
+        let Some(value) = self.si(kind) else {
+            at.report(self, kind);
+            return 0.0;
+        };
+        let Some((range_rad, allowed)) = &kind.range_rad else { return at.finite(value) };
+        if !range_rad.contains(&value) {
+            let found = match self {
+                Self::Number(number) if range_rad.contains(&number.to_radians()) => {
+                    format!("{number} rad (did you mean \"{number} deg\"?)")
+                }
+                Self::Number(number) => format!("{number} rad"),
+                _ => self.to_string(),
+            };
+            at.report(found, allowed);
+        }
+        value
+    }
+}
+
+/// A quantity in SI, 0 unless given.
+pub(super) fn or_zero(at: &Place<'_>, given: &Option<Quantity>, kind: &QuantityKind) -> f64 {
+    given.as_ref().map_or(0.0, |quantity| quantity.read(at, kind))
+}
+
+/// Three quantities in SI, 0 unless given.
+pub(super) fn three(at: &Place<'_>, given: Option<&[Quantity; 3]>, kind: &QuantityKind) -> [f64; 3] {
+    given.map_or([0.0; 3], |given| [0, 1, 2].map(|index| given[index].read(&at.item(index), kind)))
 }
 
 impl fmt::Display for Quantity {
@@ -109,19 +139,12 @@ impl fmt::Display for QuantityKind {
     }
 }
 
-#[cfg(feature = "schema")]
-impl schemars::JsonSchema for Quantity {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        "Quantity".into()
-    }
-
-    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        schemars::json_schema!({
-            "description": "An SI number, or a string with a unit (\"10 deg\").",
-            "type": ["number", "string"]
-        })
-    }
-}
+type_schema!([] Quantity, inline: false, "Quantity", |_| {
+    schemars::json_schema!({
+        "description": "An SI number, or a string with a unit (\"10 deg\").",
+        "type": ["number", "string"]
+    })
+});
 
 #[cfg(test)]
 mod tests {

@@ -3,6 +3,7 @@
 use crate::guidance::pointing::command::{
     AimpointOption, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame, Scenario,
 };
+use crate::toml::Place;
 
 /// Keys of a table.
 #[derive(Clone, Copy)]
@@ -17,6 +18,21 @@ impl Keys {
     /// Whether a key is among them.
     pub(super) fn has(&self, key: &str) -> bool {
         self.needed.contains(&key) || self.optional.contains(&key)
+    }
+
+    /// Reports keys among the `known` ones that are given and that `reader` does not read, and keys that lack.
+    pub(super) fn check(self, at: &Place<'_>, known: &[&str], reader: &str) {
+        let Self { needed, optional } = self;
+        for key in known {
+            let (is_given, is_needed) = (at.key(key).is_written(), needed.contains(key));
+            if is_given && !is_needed && !optional.contains(key) {
+                let read: Vec<&str> = needed.iter().chain(optional).copied().collect();
+                let allowed = if read.is_empty() { "no other key".to_owned() } else { read.join(", ") };
+                at.key(key).report(format_args!("what {reader} does not read"), allowed);
+            } else if is_needed && !is_given {
+                at.report_lack(key, format_args!("a value for `{key}`, which {reader} reads"));
+            }
+        }
     }
 }
 

@@ -99,21 +99,32 @@ impl<'a> Plant<'a> {
 
     /// Everything at `time_s`, which the propagator must have reached ([`TorqueModel::prepare`]).
     pub fn evaluate(&mut self, time_s: f64) -> Evaluation {
+        let mut evaluation = self.evaluate_without_loads(time_s);
+        self.write_loads(&mut evaluation, self.external(time_s)[0]);
+        evaluation
+    }
+
+    /// The same but for the loads, which are zero.
+    pub(crate) fn evaluate_without_loads(&mut self, time_s: f64) -> Evaluation {
         let instant = self.path.kinematics.instant(time_s);
         let air_and_field = self.path.air_and_field(time_s);
         let mass = self.mass_properties(&instant);
+        let panels_body_n_m_s = self.panel_momentum_body_n_m_s(&instant, &mass);
+        Evaluation { instant, loads: Loads::zero(), mass, panels_body_n_m_s, air_and_field }
+    }
+
+    /// Writes the loads of an evaluation, `applied` from outside.
+    pub(crate) fn write_loads(&mut self, evaluation: &mut Evaluation, applied: ForceTorque) {
+        let Evaluation { instant, loads, mass, air_and_field, .. } = evaluation;
         let at = Conditions {
             kinematics: &self.path.kinematics,
-            instant: &instant,
-            mass: &mass,
-            air_and_field: &air_and_field,
-            flow: air_and_field.flow(&instant),
-            applied: self.external(time_s)[0],
+            instant,
+            mass,
+            air_and_field,
+            flow: air_and_field.flow(instant),
+            applied,
         };
-        let mut loads = Loads::zero();
-        self.sources.write_loads(self.states, &at, &mut loads);
-        let panels_body_n_m_s = self.panel_momentum_body_n_m_s(&instant, &mass);
-        Evaluation { instant, loads, mass, panels_body_n_m_s, air_and_field }
+        self.sources.write_loads(self.states, &at, loads);
     }
 
     /// Force and torque from outside at `time_s` and their slopes per second.

@@ -16,6 +16,7 @@ use crate::radiation::SolarModel;
 
 use super::configured::ConfiguredFlight;
 use super::dynamic::Dynamic;
+use super::flight_setup::Evaluated;
 use super::ideal::Ideal;
 use super::report::{ReachedState, Report, dynamic, dynamic_totals, ideal};
 
@@ -68,13 +69,17 @@ impl<'f> InFlight<'f> {
         }
     }
 
-    /// Evaluates geometry, attitude and loads at `time_s`, where the flight has come; one that waits holds the attitude of `held`.
+    /// Evaluates geometry and attitude at `time_s`, where the flight has come, and its loads, of an attitude that is followed ideally only
+    /// `with_loads`; a flight that waits holds the attitude of `held`.
     pub(super) fn evaluate(
         &mut self,
         held: &Command,
-        evaluation: &mut Option<Evaluation>,
+        evaluated: &mut Evaluated,
+        with_loads: bool,
         time_s: f64,
     ) -> ReachedState {
+        let Evaluated { evaluation, applied } = evaluated;
+        *applied = None;
         match self {
             Self::Dynamic(it) => {
                 it.resume();
@@ -86,7 +91,13 @@ impl<'f> InFlight<'f> {
                 }
             }
             Self::Ideal(Ideal { state, flight, .. }) => {
-                let evaluation = evaluation.insert(flight.plant().evaluate(time_s));
+                let mut plant = flight.plant();
+                let evaluation = evaluation.insert(plant.evaluate_without_loads(time_s));
+                let [outside, _] = plant.external(time_s);
+                match with_loads {
+                    true => plant.write_loads(evaluation, outside),
+                    false => *applied = Some(outside),
+                }
                 ReachedState {
                     totals_are_finite: state.integrator.totals(time_s).is_finite(),
                     is_degenerate: evaluation.instant.is_degenerate,
@@ -98,6 +109,13 @@ impl<'f> InFlight<'f> {
                 let evaluation = evaluation.insert(evaluated);
                 ReachedState { totals_are_finite: true, is_degenerate: evaluation.instant.is_degenerate }
             }
+        }
+    }
+
+    /// Computes the loads where the flight was evaluated, if that was without them.
+    pub(super) fn write_loads(&mut self, Evaluated { evaluation, applied }: &mut Evaluated) {
+        if let Some((evaluation, outside)) = evaluation.as_mut().zip(applied.take()) {
+            self.flight().plant().write_loads(evaluation, outside);
         }
     }
 

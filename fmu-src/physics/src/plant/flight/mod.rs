@@ -5,6 +5,7 @@
 mod configured;
 mod dynamic;
 mod encounter_prediction;
+mod flight_setup;
 mod fork;
 mod grid_edge;
 mod ideal;
@@ -24,7 +25,6 @@ use serde::{Deserialize, Serialize, Serializer};
 use crate::attitude::control::Estimate;
 use crate::loads::ForceTorque;
 use crate::numerics::Span;
-use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::events::{self, EventKind};
@@ -43,6 +43,7 @@ use crate::spacecraft::Spacecraft;
 use configured::ConfiguredFlight;
 use dynamic::Dynamic;
 use encounter_prediction::predict_encounter;
+use flight_setup::{Evaluated, FlightSetup};
 use ideal::Ideal;
 use in_flight::InFlight;
 use report::{ReachedState, Report};
@@ -53,16 +54,6 @@ use report::{ReachedState, Report};
 pub struct Flight {
     state: FlightState,
     setup: Option<Box<FlightSetup>>,
-}
-
-/// Configuration, settings and caches of a flight, none of them saved.
-#[derive(Clone, Debug)]
-struct FlightSetup {
-    context: SimulationContext,
-    settings: ModeSettings,
-    distribution: WheelDistribution,
-    /// Geometry, attitude and loads at the last report, kept in place because they are large.
-    evaluation: Option<Evaluation>,
 }
 
 impl From<FlightState> for Flight {
@@ -100,7 +91,7 @@ impl Flight {
 
     /// Geometry, attitude and loads at the last report; `None` before any.
     pub fn evaluation(&self) -> Option<&Evaluation> {
-        self.setup.as_ref()?.evaluation.as_ref().filter(|_| !self.is_waiting())
+        self.setup.as_ref()?.evaluated.evaluation.as_ref().filter(|_| !self.is_waiting())
     }
 
     /// Whether it waits.
@@ -140,7 +131,7 @@ impl Flight {
             context,
             settings,
             distribution: Default::default(),
-            evaluation: None,
+            evaluated: Default::default(),
         }));
         self.update_current_mass();
     }
@@ -218,8 +209,8 @@ impl Flight {
 
     /// Returns the body before the Sun's disc where the flight was evaluated; `quiet_until_s` becomes the time of the next look.
     pub fn occultation(&mut self, time_s: f64, quiet_until_s: &mut Option<f64>) -> Option<Occultation> {
-        let FlightSetup { context, evaluation, .. } = self.setup.as_deref_mut()?;
-        survey::occultation(context, &evaluation.as_ref()?.instant.geometry, time_s, quiet_until_s)
+        let FlightSetup { context, evaluated, .. } = self.setup.as_deref_mut()?;
+        survey::occultation(context, &evaluated.evaluation.as_ref()?.instant.geometry, time_s, quiet_until_s)
     }
 
     /// Replaces the schedule from `time_s` on: earlier events are past, and the Sun's direction in a downlink is selected anew.
@@ -237,11 +228,11 @@ impl Flight {
     fn in_flight<'a>(
         &'a mut self,
         given: StepContext<'a>,
-    ) -> Result<(InFlight<'a>, &'a mut Option<Evaluation>), PlantError> {
+    ) -> Result<(InFlight<'a>, &'a mut Evaluated), PlantError> {
         let Self { state: FlightState { propagator, thrusters, mode, .. }, setup: Some(setup) } = self else {
             return Err(PlantError::OtherMode);
         };
-        let FlightSetup { context, settings, distribution, evaluation } = &mut **setup;
+        let FlightSetup { context, settings, distribution, evaluated } = &mut **setup;
         let turning = Turning::still();
         let flight = ConfiguredFlight { given, context, propagator, thrusters, turning };
         let in_flight = match (mode, settings) {
@@ -254,7 +245,7 @@ impl Flight {
             }
             _ => return Err(PlantError::OtherMode),
         };
-        Ok((in_flight, evaluation))
+        Ok((in_flight, evaluated))
     }
 
     /// Begins at `time_s`, where the attitude was the one of `held`: the quaternion takes the sign nearer to that.
@@ -333,7 +324,8 @@ impl Flight {
         (self.state.mode, self.state.thrusters, self.state.prediction) = (mode, thrusters, prediction);
     }
 
-    /// Evaluates geometry, attitude and loads at `time_s`, where the flight has come; one that waits holds the attitude of `held`.
+    /// Evaluates geometry and attitude at `time_s`, where the flight has come, and its loads; those of an attitude that is followed
+    /// ideally only `with_loads`, else [`Self::report`] computes them. A flight that waits holds the attitude of `held`.
     ///
     /// # Errors
     /// A state that belongs to another mode than the settings.
@@ -341,10 +333,11 @@ impl Flight {
         &mut self,
         given: StepContext<'_>,
         held: &Command,
+        with_loads: bool,
         time_s: f64,
     ) -> Result<ReachedState, PlantError> {
-        let (mut in_flight, evaluation) = self.in_flight(given)?;
-        Ok(in_flight.evaluate(held, evaluation, time_s))
+        let (mut in_flight, evaluated) = self.in_flight(given)?;
+        Ok(in_flight.evaluate(held, evaluated, with_loads, time_s))
     }
 
     /// Everything at `time_s`, where the flight was evaluated last; one that waits has the attitude of `held`.
@@ -359,8 +352,9 @@ impl Flight {
         time_s: f64,
     ) -> Result<Report<'a>, PlantError> {
         let prediction = self.state.prediction;
-        let (in_flight, evaluation) = self.in_flight(StepContext::at_rest(prepared, inputs))?;
-        let evaluation = evaluation.as_ref().ok_or(PlantError::OtherMode)?;
+        let (mut in_flight, evaluated) = self.in_flight(StepContext::at_rest(prepared, inputs))?;
+        in_flight.write_loads(evaluated);
+        let evaluation = evaluated.evaluation.as_ref().ok_or(PlantError::OtherMode)?;
         Ok(in_flight.report(held, evaluation, prediction, time_s))
     }
 

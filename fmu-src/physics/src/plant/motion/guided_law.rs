@@ -4,10 +4,8 @@ use crate::guidance::constraints::command_slew::CommandSlew;
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::constraints::slew::{Slew, SlewedFrame};
 use crate::guidance::pointing::command::Scenario;
-use crate::guidance::timeline::{
-    Slot, TimelineAttitude, TimelineEntry, TimelineLaw, TimelineSettings, bodies_of,
-};
-use crate::guidance::{Activity, Guided, GuidedAttitude, Sight, TargetPlanet, Window};
+use crate::guidance::timeline::{Slot, TimelineEntry, TimelineLaw, TimelineSettings, bodies_of};
+use crate::guidance::{Activity, AttitudeCommand, Guided, GuidedAttitude, Sight, TargetPlanet, Window};
 
 use super::command_slews::CommandSlews;
 use super::geometry::{Geometry, GeometrySight, SimulationEphemeris};
@@ -164,17 +162,9 @@ impl GuidedLaw<'_, '_> {
                 Some(Scenario::Downlink) => Activity::Downlink,
                 _ => Activity::Science,
             };
-            return GuidedAttitude {
-                frame: found.frame,
-                window: Window { activity, since_s, until_s },
-                row: slot.row,
-                slewing: false,
-                margins: found.margins,
-                clamped: found.clamped,
-                degenerate: found.degenerate,
-                corner_s: found.corner_s + epoch_minus_time_s,
-                until_s: until_s.min(found.corner_s + epoch_minus_time_s),
-            };
+            let command = AttitudeCommand { corner_s: found.corner_s + epoch_minus_time_s, ..found };
+            let window = Window { activity, since_s, until_s };
+            return GuidedAttitude { row: slot.row, ..GuidedAttitude::held(command, window) };
         }
         let keep_in = self.keep_in_of_orbit_phase(slot.entry);
         let (requested, cut) = requested.at_distance(geometry.to_sun.position_m.norm());
@@ -194,7 +184,7 @@ impl GuidedLaw<'_, '_> {
         entry: &TimelineEntry,
         time_s: f64,
         geometry: &Geometry,
-    ) -> Option<TimelineAttitude> {
+    ) -> Option<AttitudeCommand> {
         let SlotCommand { law, settings, slot } = *command;
         let sight = sight(self.bodies, time_s, *geometry, Some(settings.planet));
         let mut ephemeris_at_time = sight.ephemeris()?;

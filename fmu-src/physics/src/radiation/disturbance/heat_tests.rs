@@ -33,7 +33,7 @@ fn sunlit(sun_direction_body: Vector3<f64>) -> Geometry<'static, f64> {
 #[test]
 fn planet_heat_is_absorbed_by_infrared_optics() {
     let mut plate = square(Vector3::z(), Vector3::zeros(), 0.5, Optics::from_reflectivities(0.1, 0.1));
-    plate.thermal.front = FaceThermal {
+    plate.faces.thermal.front = FaceThermal {
         infrared_optics: Optics::from_reflectivities(0.5, 0.2),
         emission: Emission { emissivity: 0.6, slope_per_k: 0.0, reference_temperature_k: 300.0 },
     };
@@ -71,9 +71,9 @@ fn planet_heat_is_absorbed_by_infrared_optics() {
 fn each_side_gives_off_the_heat_from_inside_that_is_its_own() {
     let black = Optics::from_reflectivities(0.0, 0.0);
     let mut plate = square(Vector3::z(), Vector3::x(), 0.5, black);
-    plate.rear_optics = Some(black);
-    plate.thermal = Thermal::insulated(&black, Some(&black));
-    plate.thermal.internal_heat_w = [300.0, 120.0];
+    plate.faces.rear_optics = Some(black);
+    plate.faces.thermal = Thermal::insulated(&black, Some(&black));
+    plate.faces.thermal.internal_heat_w = [300.0, 120.0];
     let model = DisturbanceModel::new(&spacecraft(vec![plate]), &Options::default()).unwrap();
     let dark = Geometry { lit_fraction: 0.0, ..sunlit(Vector3::z()) };
     let found = model.evaluate(&dark, Recoil::Balance, &mut Workspace::default()).unwrap();
@@ -117,7 +117,7 @@ fn a_plate_on_the_bus_pushes_by_what_the_bus_leaves() {
     let radiated = crate::constants::STEFAN_BOLTZMANN_W_M2_K4 * target_k.powi(4);
     let link = BusLink { conductance_w_m2_k: (9000.0 - radiated) / (target_k - bus_k), temperature_k: bus_k };
     let mut plate = square(Vector3::z(), Vector3::x(), 0.5, black);
-    plate.thermal.bus[0] = link;
+    plate.faces.thermal.bus[0] = link;
     let bare = square(-Vector3::z(), Vector3::x(), 0.5, black);
     let two_plates = Spacecraft { background_k: 0.0, ..spacecraft(vec![plate.clone(), bare.clone()]) };
     let model =
@@ -150,8 +150,8 @@ fn a_plate_on_the_bus_pushes_by_what_the_bus_leaves() {
 fn stored_heat_goes_to_the_bus_as_in_balance() {
     let white = Optics::from_reflectivities(0.2, 0.5);
     let mut plate = square(Vector3::z(), Vector3::x(), 0.5, white);
-    plate.thermal.heat_capacity_j_m2_k = 2000.0;
-    plate.thermal.bus[0] = BusLink { conductance_w_m2_k: 4.0, temperature_k: 280.0 };
+    plate.faces.thermal.heat_capacity_j_m2_k = 2000.0;
+    plate.faces.thermal.bus[0] = BusLink { conductance_w_m2_k: 4.0, temperature_k: 280.0 };
     let model = DisturbanceModel::new(&spacecraft(vec![plate]), &Options::default()).unwrap();
     let mut workspace = Workspace::default();
     let lit = sunlit(Vector3::z());

@@ -119,7 +119,7 @@ fn an_insulated_black_plate_recoils_by_two_thirds_of_the_light() {
 #[test]
 fn heat_from_inside_pushes_where_it_leaves() {
     let mut body = plate(Vector3::z(), Vector3::x(), 1.0, Optics::from_reflectivities(0.2, 0.0));
-    body.thermal.internal_heat_w[0] = 300.0;
+    body.faces.thermal.internal_heat_w[0] = 300.0;
     let model = DisturbanceModel::new(&bare(vec![body]), &Options::default()).unwrap();
     let dark = Geometry::sunlit(-Vector3::z(), 1361.0);
     let found = model.evaluate(&dark, Recoil::Balance, &mut Workspace::default()).unwrap();
@@ -211,7 +211,7 @@ fn a_cylinder_of_strips_recoils_like_its_light_says() {
 fn stored_heat_radiates_into_the_eclipse() {
     let mut spacecraft = thermal_messenger();
     for panel in &mut spacecraft.panels {
-        panel.thermal.heat_capacity_j_m2_k = 3000.0;
+        panel.faces.thermal.heat_capacity_j_m2_k = 3000.0;
     }
     let model = DisturbanceModel::new(&spacecraft, &options(6)).unwrap();
     assert!(model.stores_heat());
@@ -368,7 +368,7 @@ proptest! {
         };
         let before = recoil(&spacecraft);
         for plate in &mut spacecraft.plates {
-            plate.thermal.front = FaceThermal {
+            plate.faces.thermal.front = FaceThermal {
                 infrared_optics: black,
                 emission: Emission { emissivity, slope_per_k: slope, reference_temperature_k: 300.0 },
             };

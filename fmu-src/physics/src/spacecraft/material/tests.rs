@@ -105,5 +105,5 @@ fn unused_materials_are_left_out() {
     let keys = "specular = 0.1\ndiffuse = 0.1\n[optics.unused]\nspecular = 0.0\ndiffuse = 0.0";
     let spacecraft = Spacecraft::from_toml("", &file(keys)).unwrap();
     assert_eq!(spacecraft.materials.len(), 1);
-    assert_eq!(spacecraft.plates[0].materials, [Some(0), None]);
+    assert_eq!(spacecraft.plates[0].faces.materials, [Some(0), None]);
 }

@@ -5,6 +5,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::numerics::scalar::Dual64;
+use crate::spacecraft::Optics;
 
 fn panel() -> Panel {
     Panel {
@@ -13,11 +14,7 @@ fn panel() -> Panel {
         center_body_m: Vector3::new(2.28, 0.0, 0.0),
         axis_body: Vector3::x(),
         zero_normal_body: -Vector3::y(),
-        optics: Optics::from_reflectivities(0.52, 0.07),
-        rear_optics: None,
-        gas_surface: [GasSurface::ASSUMED; 2],
-        materials: [None; 2],
-        thermal: Thermal::insulated(&Optics::from_reflectivities(0.52, 0.07), None),
+        faces: FaceProperties::insulated(Optics::from_reflectivities(0.52, 0.07), None),
         polygon: None,
         control: PanelControl::SunOffset,
         sun_offset_rad: 65_f64.to_radians(),

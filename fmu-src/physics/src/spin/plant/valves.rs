@@ -79,7 +79,7 @@ impl Valves {
     }
 
     /// Thrusters for which the last step commanded a pulse that does not open their valves, bit by bit.
-    pub(super) fn too_short_mask(&self) -> u32 {
+    pub fn too_short_mask(&self) -> u32 {
         self.schedule.iter().enumerate().map(|(k, it)| u32::from(it.was_too_short()) << k).sum()
     }
 

@@ -38,6 +38,12 @@ impl KeyPath {
         }
     }
 
+    /// The innermost table around this place.
+    pub(super) fn table(&self) -> Self {
+        let depth = self.0.iter().rposition(|part| matches!(part, Part::Key(_)));
+        Self(self.0[..depth.unwrap_or(0)].to_vec())
+    }
+
     /// The innermost key, unless this place is the whole file or an item of a list.
     pub(super) fn last_key(&self) -> Option<&str> {
         match self.0.last() {
@@ -91,5 +97,6 @@ mod tests {
         assert!(area.is_in(&plates) && area.is_in(&area) && area.is_in(&KeyPath::root()));
         assert!(!plates.is_in(&area) && !KeyPath::root().key("plates2").is_in(&plates));
         assert_eq!(area.split(), (plates.item(1), "area".to_owned()));
+        assert_eq!([area.table(), area.item(2).table()], [plates.item(1), plates.item(1)]);
     }
 }
