@@ -10,8 +10,9 @@ use syn::{
 use crate::field::FieldType;
 
 /// `#[parameter(...)]`, `#[input(...)]` and so on.
+#[derive(Default)]
 pub(crate) struct Declaration {
-    pub span: Span,
+    pub span: Option<Span>,
     pub causality: Causality,
     pub variability: Option<Variability>,
     pub initial: Option<Initial>,
@@ -76,20 +77,7 @@ pub(crate) fn of_field(name: &Ident, field: &Field) -> syn::Result<FieldAttribut
 }
 
 fn declaration(attribute: &Attribute, causality: Causality) -> syn::Result<Declaration> {
-    let mut all = Declaration {
-        span: attribute.path().span(),
-        causality,
-        variability: None,
-        initial: None,
-        name: None,
-        unit: None,
-        display: None,
-        min: None,
-        max: None,
-        nominal: None,
-        start: None,
-        items: None,
-    };
+    let mut all = Declaration { span: Some(attribute.path().span()), causality, ..Declaration::default() };
     each_item(attribute, |item, word| {
         if let Some(variability) = Variability::from_word(word) {
             return once(&mut all.variability, item, |_| Ok(variability));

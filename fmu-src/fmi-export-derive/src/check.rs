@@ -5,6 +5,7 @@ use model_description::{
     rules::{self, RoleFault},
     units,
 };
+use proc_macro2::Span;
 use syn::{Expr, Ident, LitStr, spanned::Spanned};
 
 use crate::attribute::Declaration;
@@ -36,7 +37,9 @@ fn role(declared: &Declaration, kind: FieldType, field: &Ident) -> syn::Result<(
     let is_real = kind.is_real();
     rules::check_role(*causality, variability, *initial, is_real, start.is_some()).map_err(
         |fault| match fault {
-            RoleFault::Role(problem) => syn::Error::new(declared.span, problem),
+            RoleFault::Role(problem) => {
+                syn::Error::new(declared.span.unwrap_or_else(Span::call_site), problem)
+            }
             RoleFault::StartMissing(problem) => syn::Error::new(field.span(), format!("`{field}` {problem}")),
             RoleFault::StartForbidden(problem) => {
                 syn::Error::new_spanned(start, format!("`{field}` {problem}"))
@@ -46,9 +49,8 @@ fn role(declared: &Declaration, kind: FieldType, field: &Ident) -> syn::Result<(
 }
 
 fn unit(declared: &Declaration, kind: FieldType, field: &Ident) -> syn::Result<()> {
-    let only_real = |place: proc_macro2::Span, item: &str| {
-        Err(syn::Error::new(place, format!("only a Real has a {item}")))
-    };
+    let only_real =
+        |place: Span, item: &str| Err(syn::Error::new(place, format!("only a Real has a {item}")));
     if !kind.is_real() {
         return match (&declared.unit, &declared.display, &declared.nominal) {
             (Some(unit), _, _) => only_real(unit.span(), "unit"),
@@ -106,23 +108,18 @@ fn limits(declared: &Declaration, kind: FieldType) -> syn::Result<()> {
 }
 
 /// Checks a structured name (FMI 2.0.5, 2.2.9) and that it is new among `known`.
-pub(crate) fn name(
-    given: &str,
-    suffix: &str,
-    place: &impl Spanned,
-    known: &mut Vec<String>,
-) -> syn::Result<()> {
+pub(crate) fn name(given: &str, suffix: &str, place: Span, known: &mut Vec<String>) -> syn::Result<()> {
     let full = format!("{given}{suffix}");
     structured(&full, &full, place)?;
     if known.iter().any(|other| other == given) {
-        return Err(syn::Error::new(place.span(), format!("two names are `{given}`")));
+        return Err(syn::Error::new(place, format!("two names are `{given}`")));
     }
     known.push(given.to_owned());
     Ok(())
 }
 
 /// Checks the name of a group, which may be empty (no prefix) unless it is counted.
-pub(crate) fn group_name(given: &str, counted: bool, place: &impl Spanned) -> syn::Result<()> {
+pub(crate) fn group_name(given: &str, counted: bool, place: Span) -> syn::Result<()> {
     if given.is_empty() && !counted {
         return Ok(());
     }
@@ -130,9 +127,9 @@ pub(crate) fn group_name(given: &str, counted: bool, place: &impl Spanned) -> sy
     structured(&prefix, &format!("{prefix}.x"), place)
 }
 
-fn structured(shown: &str, full: &str, place: &impl Spanned) -> syn::Result<()> {
+fn structured(shown: &str, full: &str, place: Span) -> syn::Result<()> {
     names::check_structured(full)
-        .map_err(|problem| syn::Error::new(place.span(), format!("the name `{shown}` {problem}")))
+        .map_err(|problem| syn::Error::new(place, format!("the name `{shown}` {problem}")))
 }
 
 /// The text of a name attribute, or else the default.

@@ -90,7 +90,7 @@ fn item(variant: &Variant, before: i32, names: &mut Vec<String>) -> syn::Result<
     }
     let given = enumeration_name(&variant.attrs)?;
     let name = check::name_or(given.as_ref(), || camel_from_pascal(&ident.to_string()));
-    check::name(&name, "", ident, names)?;
+    check::name(&name, "", ident.span(), names)?;
     let description = description(&variant.attrs).ok_or_else(|| {
         syn::Error::new(ident.span(), format!("`{ident}` needs a doc comment: it is the item's description"))
     })?;

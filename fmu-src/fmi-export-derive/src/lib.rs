@@ -15,8 +15,8 @@ use syn::{DeriveInput, parse_macro_input};
 
 /// Declares the fields of a struct as FMI variables: implements `fmi_export::Variables` and `fmi_export::Section`.
 ///
-/// `#[variables(setup = Type)]` on the struct names the type `setup` has in expressions; without it the
-/// struct serves every setup type. `#[variables(label = expression)]` begins the descriptions of its variables with what the user
+/// `#[variables(setup = Type)]` on the struct names the type `setup` has in expressions; without it that is `Setup`, and a struct
+/// that does not mention `setup` serves every setup type. `#[variables(label = expression)]` begins the descriptions of its variables with what the user
 /// calls the group. Expressions may use `setup: &Type` and `index: usize`, the 0-based
 /// position in the innermost `Vec` of groups around the struct (0 outside of any).
 ///

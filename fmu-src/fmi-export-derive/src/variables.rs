@@ -1,9 +1,9 @@
 //! The code of `#[derive(Variables)]`: one call of the builder a field.
 
 use model_description::Variability;
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::{Span, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
-use syn::{Data, DeriveInput, Expr, Field, Fields, Ident, Type, spanned::Spanned};
+use syn::{Data, DeriveInput, Expr, Field, Fields, Ident, spanned::Spanned};
 
 use crate::attribute::{self, Declaration, FieldAttribute, Group};
 use crate::check;
@@ -13,22 +13,19 @@ use crate::source::{Errors, camel_from_snake, description};
 /// Expands the derive.
 pub(crate) fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
     let fields = named_fields(input)?;
-    let mut errors = Errors::default();
-    let (setup, label) = errors.take(attribute::of_struct(&input.attrs)).unwrap_or_default();
     // Hygienic: an expression of the user's must not see the builder.
     let scope = Ident::new("scope", Span::mixed_site());
-    let mut names = Vec::new();
+    let mut expansion = Expansion { scope: &scope, names: Vec::new(), errors: Errors::default() };
+    let (setup, label) = expansion.errors.take(attribute::of_struct(&input.attrs)).unwrap_or_default();
     let mut statements = Vec::new();
     let mut members = Vec::new();
     let mut parts = Vec::new();
     for (position, (ident, field)) in fields.iter().enumerate() {
         let binding = Ident::new(&format!("field_{position}"), Span::mixed_site());
-        let Some(attribute) = errors.take(attribute::of_field(ident, field)) else { continue };
+        let Some(attribute) = expansion.errors.take(attribute::of_field(ident, field)) else { continue };
         let call = match &attribute {
-            FieldAttribute::Declaration(declared) => {
-                declare(declared, (ident, field), &scope, &mut names, &mut errors)
-            }
-            FieldAttribute::Group(group) => declare_group(group, ident, field, &scope, &mut errors),
+            FieldAttribute::Declaration(declared) => expansion.variable(declared, ident, field),
+            FieldAttribute::Group(group) => expansion.group(group, ident, field),
         };
         let ty = &field.ty;
         statements.extend(call.map(|call| quote! { let #binding: #ty = #call?; }));
@@ -38,7 +35,7 @@ pub(crate) fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
             FieldAttribute::Group(_) => quote! { .and(&self.#ident) },
         });
     }
-    errors.finish()?;
+    expansion.errors.finish()?;
 
     let label = label.as_ref().map(borrowed).map(|label| quote! { #scope.label(#label); });
     let struct_name = &input.ident;
@@ -46,6 +43,7 @@ pub(crate) fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
     let mut generics = input.generics.clone();
     let setup = match setup {
         Some(ty) => quote! { #ty },
+        None if mentions(input.to_token_stream(), "setup") => quote! { Setup },
         None => {
             let parameter = format_ident!("AnySetup", span = Span::mixed_site());
             generics.params.push(syn::parse_quote! { #parameter });
@@ -91,106 +89,110 @@ fn named_fields(input: &DeriveInput) -> syn::Result<Vec<(&Ident, &Field)>> {
     Err(syn::Error::new(input.ident.span(), "Variables can be derived for a struct with named fields only"))
 }
 
-fn declare(
-    declared: &Declaration,
-    (ident, field): (&Ident, &Field),
-    scope: &Ident,
-    names: &mut Vec<String>,
-    errors: &mut Errors,
-) -> Option<TokenStream> {
-    let kind = errors.take(FieldType::from_type(&field.ty))?;
-    check::declaration(declared, kind, ident, errors);
-    let name = check::name_or(declared.name.as_ref(), || camel_from_snake(&ident.to_string()));
-    errors.take(match &declared.name {
-        Some(given) => check::name(&name, kind.first_element(), given, names),
-        None => check::name(&name, kind.first_element(), ident, names),
-    });
-    let Some(description) = description(&field.attrs) else {
-        let problem = format!("`{ident}` needs a doc comment: it is the variable's description");
-        errors.push(syn::Error::new(ident.span(), problem));
-        return None;
-    };
-    let role = role_tokens(declared, check::variability(declared, kind));
-    let (min, max) = (option(declared.min.as_ref()), option(declared.max.as_ref()));
-    let start = option(declared.start.as_ref());
-    let spec = quote! {
-        &::fmi_export::variables::ScalarSpec { name: #name, description: #description, role: #role }
-    };
-    Some(match kind {
-        FieldType::Real | FieldType::RealVector | FieldType::RealMatrix => {
-            let unit = declared.unit.as_ref().map(syn::LitStr::value);
-            let display = option(declared.display.as_ref());
-            let nominal = option(declared.nominal.as_ref());
-            let method = match kind {
-                FieldType::RealVector => quote! { real_vector },
-                FieldType::RealMatrix => quote! { real_matrix },
-                _ => quote! { real },
-            };
-            quote! {
-                #scope.#method(
-                    &::fmi_export::variables::RealSpec {
-                        name: #name,
-                        description: #description,
-                        role: #role,
-                        unit: #unit,
-                        display_unit: #display,
-                        min: #min,
-                        max: #max,
-                        nominal: #nominal,
-                    },
-                    #start,
-                )
+/// State of the expansion of one struct.
+struct Expansion<'s> {
+    scope: &'s Ident,
+    names: Vec<String>,
+    errors: Errors,
+}
+
+impl Expansion<'_> {
+    fn variable(&mut self, declared: &Declaration, ident: &Ident, field: &Field) -> Option<TokenStream> {
+        let Self { scope, names, errors } = self;
+        let kind = errors.take(FieldType::from_type(&field.ty))?;
+        check::declaration(declared, kind, ident, errors);
+        let (name, place) = named(declared.name.as_ref(), ident);
+        errors.take(check::name(&name, kind.first_element(), place, names));
+        let Some(description) = description(&field.attrs) else {
+            let problem = format!("`{ident}` needs a doc comment: it is the variable's description");
+            errors.push(syn::Error::new(ident.span(), problem));
+            return None;
+        };
+        let role = role_tokens(declared, check::variability(declared, kind));
+        let (min, max) = (option(declared.min.as_ref()), option(declared.max.as_ref()));
+        let start = option(declared.start.as_ref());
+        let spec = quote! {
+            &::fmi_export::variables::ScalarSpec { name: #name, description: #description, role: #role }
+        };
+        Some(match kind {
+            FieldType::Real | FieldType::RealVector | FieldType::RealMatrix => {
+                let unit = declared.unit.as_ref().map(syn::LitStr::value);
+                let display = option(declared.display.as_ref());
+                let nominal = option(declared.nominal.as_ref());
+                let method = match kind {
+                    FieldType::RealVector => quote! { real_vector },
+                    FieldType::RealMatrix => quote! { real_matrix },
+                    _ => quote! { real },
+                };
+                quote! {
+                    #scope.#method(
+                        &::fmi_export::variables::RealSpec {
+                            name: #name,
+                            description: #description,
+                            role: #role,
+                            unit: #unit,
+                            display_unit: #display,
+                            min: #min,
+                            max: #max,
+                            nominal: #nominal,
+                        },
+                        #start,
+                    )
+                }
             }
-        }
-        FieldType::Integer => quote! { #scope.integer(#spec, #start, #min, #max) },
-        FieldType::Boolean => quote! { #scope.boolean(#spec, #start) },
-        FieldType::Choice => match &declared.items {
-            Some(items) => quote_spanned! { items.span()=> #scope.choice_with(#spec, #start, #items) },
-            None => quote! { #scope.choice(#spec, #start) },
-        },
-        FieldType::Text => {
-            let start = option(declared.start.as_ref().map(borrowed).as_ref());
-            quote! { #scope.text(#spec, #start) }
-        }
-    })
-}
-
-fn declare_group(
-    group: &Group,
-    ident: &Ident,
-    field: &Field,
-    scope: &Ident,
-    errors: &mut Errors,
-) -> Option<TokenStream> {
-    let name = check::name_or(group.name.as_ref(), || camel_from_snake(&ident.to_string()));
-    errors.take(match &group.name {
-        Some(given) => check::group_name(&name, group.count.is_some(), given),
-        None => check::group_name(&name, group.count.is_some(), ident),
-    });
-    let element = match (element_of_vec(&field.ty), &group.count) {
-        (Some(element), Some(_)) => element,
-        (None, None) => &field.ty,
-        (None, Some(_)) => {
-            errors.push(syn::Error::new_spanned(&field.ty, "a group with `count` is a Vec<...>"));
-            return None;
-        }
-        (Some(_), None) => {
-            errors.push(syn::Error::new_spanned(&field.ty, "a Vec of groups needs #[group(count = ...)]"));
-            return None;
-        }
-    };
-    let declare = declare_element(element, group.setup.as_ref(), scope);
-    Some(match &group.count {
-        Some(count) => quote! { #scope.groups(#name, #count, |#scope, index| #declare) },
-        None => quote! { #scope.group(#name, |#scope| #declare) },
-    })
-}
-
-fn declare_element(element: &Type, setup: Option<&Expr>, scope: &Ident) -> TokenStream {
-    let setup = setup.map_or_else(|| quote! { setup }, |setup| quote! { #setup });
-    quote_spanned! { element.span()=>
-        <#element as ::fmi_export::Variables<_>>::declare(#scope, #setup, index)
+            FieldType::Integer => quote! { #scope.integer(#spec, #start, #min, #max) },
+            FieldType::Boolean => quote! { #scope.boolean(#spec, #start) },
+            FieldType::Choice => match &declared.items {
+                Some(items) => quote_spanned! { items.span()=> #scope.choice(#spec, #start, #items) },
+                None => quote! { #scope.choice(#spec, #start, ::std::vec::Vec::new()) },
+            },
+            FieldType::Text => {
+                let start = option(declared.start.as_ref().map(borrowed).as_ref());
+                quote! { #scope.text(#spec, #start) }
+            }
+        })
     }
+
+    fn group(&mut self, group: &Group, ident: &Ident, field: &Field) -> Option<TokenStream> {
+        let Self { scope, errors, .. } = self;
+        let (name, place) = named(group.name.as_ref(), ident);
+        errors.take(check::group_name(&name, group.count.is_some(), place));
+        let element = match (element_of_vec(&field.ty), &group.count) {
+            (Some(element), Some(_)) => element,
+            (None, None) => &field.ty,
+            (None, Some(_)) => {
+                errors.push(syn::Error::new_spanned(&field.ty, "a group with `count` is a Vec<...>"));
+                return None;
+            }
+            (Some(_), None) => {
+                errors
+                    .push(syn::Error::new_spanned(&field.ty, "a Vec of groups needs #[group(count = ...)]"));
+                return None;
+            }
+        };
+        let setup = group.setup.as_ref().map_or_else(|| quote! { setup }, |setup| quote! { #setup });
+        let declare = quote_spanned! { element.span()=>
+            <#element as ::fmi_export::Variables<_>>::declare(#scope, #setup, index)
+        };
+        Some(match &group.count {
+            Some(count) => quote! { #scope.groups(#name, #count, |#scope, index| #declare) },
+            None => quote! { #scope.group(#name, |#scope| #declare) },
+        })
+    }
+}
+
+/// The name that is given, or that of the field in lowerCamelCase, and its place in the source.
+fn named(given: Option<&syn::LitStr>, ident: &Ident) -> (String, Span) {
+    given.map_or_else(|| (camel_from_snake(&ident.to_string()), ident.span()), |it| (it.value(), it.span()))
+}
+
+/// Whether a word stands in tokens, at any depth.
+fn mentions(tokens: TokenStream, word: &str) -> bool {
+    tokens.into_iter().any(|token| match token {
+        TokenTree::Ident(ident) => ident == word,
+        TokenTree::Group(group) => mentions(group.stream(), word),
+        TokenTree::Punct(_) | TokenTree::Literal(_) => false,
+    })
 }
 
 /// The text of an expression.

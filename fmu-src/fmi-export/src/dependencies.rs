@@ -139,9 +139,12 @@ impl<T: Section> From<&T> for Knowns {
 /// parameters with `initial="exact"`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Dependencies {
-    at_steps: BTreeMap<Element, Knowns>,
-    at_start: BTreeMap<Element, Knowns>,
-    inputs_at_start: BTreeMap<Element, Knowns>,
+    /// Inputs that count for each output.
+    pub(crate) at_steps: BTreeMap<Element, Knowns>,
+    /// Parameters that count for each output and calculated parameter after initialization.
+    pub(crate) at_start: BTreeMap<Element, Knowns>,
+    /// Further inputs that count for an output after initialization.
+    pub(crate) inputs_at_start: BTreeMap<Element, Knowns>,
 }
 
 impl Dependencies {
@@ -172,21 +175,6 @@ impl Dependencies {
     /// Calculated parameters, every element alike, and the parameters they are calculated from.
     pub fn calculated(&mut self, parameters: impl Into<Knowns>, at_start: impl Into<Knowns>) {
         insert(&mut self.at_start, &parameters.into(), &at_start.into());
-    }
-
-    /// The inputs that count for each output.
-    pub(crate) fn at_steps(&self) -> &BTreeMap<Element, Knowns> {
-        &self.at_steps
-    }
-
-    /// The further inputs that count for an output after initialization.
-    pub(crate) fn inputs_at_start(&self) -> &BTreeMap<Element, Knowns> {
-        &self.inputs_at_start
-    }
-
-    /// The parameters that count for each output and calculated parameter after initialization.
-    pub(crate) fn at_start(&self) -> &BTreeMap<Element, Knowns> {
-        &self.at_start
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use crate::location;
-use crate::model::{Manual, Model, SetupError};
+use crate::model::{Manual, Model};
 use crate::panics::contain;
 use crate::prepared::{DescribeError, Prepared};
 use crate::start_values::{OtherReader, Reader};
@@ -87,23 +87,10 @@ impl Entry {
         let Ok(Some(folder)) = resources else { return Ok(prepared) };
         for file in self.schedule_files {
             if let Some(text) = location::read_if_there(folder, file)? {
-                Self::set_schedule(&mut prepared, file, file, &text).map_err(|error| error.to_string())?;
+                prepared.set_schedule(file, file, &text).map_err(|error| error.to_string())?;
             }
         }
         Ok(prepared)
-    }
-
-    /// Gives a schedule to the prepared model.
-    fn set_schedule(
-        prepared: &mut Prepared,
-        schedule: &str,
-        file: &str,
-        text: &str,
-    ) -> Result<(), DescribeError> {
-        match contain(|| prepared.runtime.set_schedule(schedule, file, text)) {
-            Ok(taken) => taken.map_err(DescribeError::Setup),
-            Err(panic) => Err(DescribeError::Panic(panic)),
-        }
     }
 }
 
@@ -129,26 +116,6 @@ impl Library {
         setup_text: Option<&str>,
     ) -> Result<model_description::Description, DescribeError> {
         Ok(entry.prepare(file, setup_text, self.entries)?.description)
-    }
-
-    /// Whether a model takes a schedule with this setup.
-    #[allow(clippy::too_many_arguments, reason = "the signature of `CheckSchedule`")]
-    pub(crate) fn check_schedule(
-        &self,
-        entry: &Entry,
-        file: Option<&str>,
-        setup_text: Option<&str>,
-        schedule: &str,
-        schedule_file: Option<&str>,
-        schedule_text: &str,
-    ) -> Result<(), DescribeError> {
-        let schedule_file = schedule_file.unwrap_or(schedule);
-        if !entry.schedule_files.contains(&schedule) {
-            return Err(SetupError(format!("{schedule_file}: {} takes no {schedule}", entry.name)).into());
-        }
-        let mut prepared = entry.prepare(file, setup_text, self.entries)?;
-        Entry::set_schedule(&mut prepared, schedule, schedule_file, schedule_text)?;
-        Ok(())
     }
 
     /// The names, for messages.

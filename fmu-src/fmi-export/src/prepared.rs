@@ -6,6 +6,7 @@ use model_description::Description;
 use uuid::Uuid;
 
 use crate::model::SetupError;
+use crate::panics::contain;
 use crate::runtime::Runtime;
 use crate::variables::{DeclareError, Real, Values};
 
@@ -40,4 +41,17 @@ pub(crate) struct Prepared {
     pub(crate) digest: Uuid,
     /// The parameter that the experiment's tolerance stands in for.
     pub(crate) tolerance: Option<Real>,
+}
+
+impl Prepared {
+    /// Gives a schedule to the model.
+    pub(crate) fn set_schedule(
+        &mut self,
+        schedule: &str,
+        file: &str,
+        text: &str,
+    ) -> Result<(), DescribeError> {
+        let set = contain(|| self.runtime.set_schedule(schedule, file, text));
+        set.map_or_else(|panic| Err(DescribeError::Panic(panic)), |set| set.map_err(DescribeError::Setup))
+    }
 }

@@ -11,51 +11,18 @@ use crate::variables::{Element, Real, SetBits, Values};
 /// A model's state, its type erased: an `Option<M::State>`, `None` before initialization.
 pub(crate) type ErasedState = Box<dyn Any + Send>;
 
-/// One model instance; every method is one call of the [`Model`] trait.
-pub(crate) trait Runtime: Send {
-    /// Parses a schedule into the setup, before anything else is called.
-    fn set_schedule(&mut self, schedule: &str, file: &str, text: &str) -> Result<(), SetupError>;
-    fn initialize(&mut self, values: &mut Values, start_s: f64, log: &dyn Log) -> Result<(), Failure>;
-    /// Writes parameters as they act.
-    fn resolve_parameters(&self, values: &mut Values, log: &dyn Log);
-    fn step(&mut self, values: &mut Values, step: &Step<'_>, log: &dyn Log) -> Result<StepEnd, Failure>;
-    /// Groups of outputs that are written when they are read.
-    fn output_groups(&self) -> Vec<Knowns>;
-    /// Writes the outputs of these groups at the last communication point.
-    fn write_outputs(
-        &mut self,
-        values: &mut Values,
-        groups: OutputGroups,
-        time_s: f64,
-        log: &dyn Log,
-    ) -> Result<(), Failure>;
-    fn output_rate(&self, values: &Values, output: Real, log: &dyn Log) -> Result<f64, Failure>;
-    fn jacobian_vector_product(
-        &self,
-        values: &Values,
-        unknowns: &[Real],
-        seeds: &[(Real, f64)],
-        products: &mut [f64],
-        log: &dyn Log,
-    ) -> Result<(), Failure>;
-    /// Forgets the state.
-    fn clear(&mut self);
-    /// A copy of the state, in `reuse` where its type allows.
-    fn save(&self, reuse: Option<ErasedState>) -> ErasedState;
-    /// Takes over a saved state.
-    fn restore(&mut self, saved: &ErasedState) -> Result<(), Failure>;
-    /// Whether a saved state holds one, that is, was taken after initialization.
-    fn is_initialized(&self, saved: &ErasedState) -> bool;
-    /// Whether [`Runtime::decode`] would take what is saved.
-    fn check(&self, saved: &ErasedState) -> Result<(), Failure>;
-    /// Bytes that [`Runtime::encode`] needs.
-    fn encoded_size(&self, saved: &ErasedState) -> Result<usize, Failure>;
-    /// Writes a saved state into `bytes` and returns how many it took.
-    fn encode(&self, saved: &ErasedState, bytes: &mut [u8]) -> Result<usize, Failure>;
-    /// Reads what [`Runtime::encode`] wrote, all of `bytes`; total: any bytes give a state or an error.
-    fn decode(&self, bytes: &[u8]) -> Result<ErasedState, Failure>;
-    /// Whether a decoded state belongs to a communication point.
-    fn check_time(&self, decoded: &ErasedState, time_s: f64) -> Result<(), Failure>;
+/// Declares [`Runtime`] and implements it for every model from one text.
+macro_rules! runtime {
+    ($($(#[$doc:meta])* fn $name:ident $parameters:tt $(-> $result:ty)? $body:block)*) => {
+        /// One model instance; every method is one call of the [`Model`] trait.
+        pub(crate) trait Runtime: Send {
+            $($(#[$doc])* fn $name $parameters $(-> $result)?;)*
+        }
+
+        impl<M: Model> Runtime for Typed<M> {
+            $(fn $name $parameters $(-> $result)? $body)*
+        }
+    };
 }
 
 /// The one [`Runtime`].
@@ -96,7 +63,8 @@ impl<M: Model> Typed<M> {
     }
 }
 
-impl<M: Model> Runtime for Typed<M> {
+runtime! {
+    /// Parses a schedule into the setup, before anything else is called.
     fn set_schedule(&mut self, schedule: &str, file: &str, text: &str) -> Result<(), SetupError> {
         M::parse_schedule(&mut self.setup, schedule, file, text)
     }
@@ -106,6 +74,7 @@ impl<M: Model> Runtime for Typed<M> {
         Ok(())
     }
 
+    /// Writes parameters as they act.
     fn resolve_parameters(&self, values: &mut Values, log: &dyn Log) {
         M::resolve_parameters(&self.context(values, log), values);
     }
@@ -115,10 +84,12 @@ impl<M: Model> Runtime for Typed<M> {
         M::step(&context, values, state, step)
     }
 
+    /// Groups of outputs that are written when they are read.
     fn output_groups(&self) -> Vec<Knowns> {
         M::EXTENSIONS.deferred_outputs.map_or_else(Vec::new, |it| (it.groups)(&self.variables))
     }
 
+    /// Writes the outputs of these groups at the last communication point.
     fn write_outputs(
         &mut self,
         values: &mut Values,
@@ -152,10 +123,12 @@ impl<M: Model> Runtime for Typed<M> {
         product(&self.context(values, log), values, state, unknowns, seeds, products)
     }
 
+    /// Forgets the state.
     fn clear(&mut self) {
         self.state = None;
     }
 
+    /// A copy of the state, in `reuse` where its type allows.
     fn save(&self, reuse: Option<ErasedState>) -> ErasedState {
         match reuse.map(|old| old.downcast::<Option<M::State>>()) {
             Some(Ok(mut old)) => {
@@ -166,15 +139,18 @@ impl<M: Model> Runtime for Typed<M> {
         }
     }
 
+    /// Takes over a saved state.
     fn restore(&mut self, saved: &ErasedState) -> Result<(), Failure> {
         self.state.clone_from(Self::own(saved)?);
         Ok(())
     }
 
+    /// Whether a saved state holds one, that is, was taken after initialization.
     fn is_initialized(&self, saved: &ErasedState) -> bool {
         Self::own(saved).is_ok_and(Option::is_some)
     }
 
+    /// Whether [`Runtime::decode`] would take what is saved.
     fn check(&self, saved: &ErasedState) -> Result<(), Failure> {
         match Self::own(saved)? {
             Some(state) => self.check_state(state),
@@ -182,15 +158,18 @@ impl<M: Model> Runtime for Typed<M> {
         }
     }
 
+    /// Bytes that [`Runtime::encode`] needs.
     fn encoded_size(&self, saved: &ErasedState) -> Result<usize, Failure> {
         postcard::serialize_with_flavor(Self::own(saved)?, postcard::ser_flavors::Size::default())
             .map_err(unencodable)
     }
 
+    /// Writes a saved state into `bytes` and returns how many it took.
     fn encode(&self, saved: &ErasedState, bytes: &mut [u8]) -> Result<usize, Failure> {
         postcard::to_slice(Self::own(saved)?, bytes).map(|used| used.len()).map_err(unencodable)
     }
 
+    /// Reads what [`Runtime::encode`] wrote, all of `bytes`; total: any bytes give a state or an error.
     fn decode(&self, bytes: &[u8]) -> Result<ErasedState, Failure> {
         let (state, rest) = postcard::take_from_bytes::<Option<M::State>>(bytes)
             .map_err(|error| Failure::new(format!("model state: {error}")))?;
@@ -203,6 +182,7 @@ impl<M: Model> Runtime for Typed<M> {
         Ok(Box::new(state))
     }
 
+    /// Whether a decoded state belongs to a communication point.
     fn check_time(&self, decoded: &ErasedState, time_s: f64) -> Result<(), Failure> {
         match Self::own(decoded)? {
             Some(state) => M::check_time(state, time_s),

@@ -144,22 +144,6 @@ pub(crate) fn apply(
     Ok(fixed)
 }
 
-/// Puts start values that follow from others into description and table, as given by nobody.
-pub(crate) fn follow(
-    following: &[StartValue],
-    readers: &Readers<'_>,
-    description: &mut Description,
-    start: &mut Values,
-) -> Result<(), String> {
-    if following.is_empty() {
-        return Ok(());
-    }
-    let given = start.set.clone();
-    let fixed = apply(following, readers, description, start);
-    start.set = given;
-    fixed.map(drop)
-}
-
 /// How many variables of the same base type are declared before this one.
 fn position_in_table(variables: &[ScalarVariable], index: usize) -> usize {
     let base = variables.get(index).map(|variable| variable.kind.base_type());

@@ -69,6 +69,19 @@ macro_rules! enumeration {
 }
 pub(crate) use enumeration;
 
+/// Defines enums by [`enumeration`] that files name as well: by the items' names, the same in a schema.
+macro_rules! file_enumerations {
+    ($($(#[$attribute:meta])* $visibility:vis enum $name:ident $items:tt)+) => {$(
+        $crate::enumeration::enumeration! {
+            $(#[$attribute])*
+            #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+            #[serde(rename_all = "camelCase")]
+            $visibility enum $name $items
+        }
+    )+};
+}
+pub(crate) use file_enumerations;
+
 /// The bytes of a name with a small first letter.
 pub(crate) const fn small<const N: usize>(name: &str) -> [u8; N] {
     let mut bytes = [0; N];

@@ -11,22 +11,14 @@ use crate::{SimpleType, SimpleTypeKind, Unit};
 impl Read<'_> {
     pub(super) fn source_files(&mut self, start: &Start) -> Result<Vec<String>, ReadError> {
         let mut files = Vec::new();
-        let mut seen = false;
-        while let Some(mut child) = self.xml.child(start)? {
-            if child.name != "SourceFiles" {
-                self.unknown(&child)?;
-                continue;
-            }
-            if core::mem::replace(&mut seen, true) {
-                return Err(twice(&child));
-            }
-            self.list(&mut child, "File", |read, file| {
+        self.ordered(start, ["SourceFiles"], 0, |read, _, list| {
+            read.list(list, "File", |read, file| {
                 let mut fields = file.fields();
                 files.push(fields.required("name")?);
                 read.xml.warn_of_unknown(&fields);
                 read.end(file)
-            })?;
-        }
+            })
+        })?;
         Ok(files)
     }
 

@@ -134,34 +134,32 @@ impl Read<'_> {
                 self.lines.model_exchange = start.line;
                 let (flags, source_files) = (self.attributes(start)?, self.source_files(start)?);
                 self.description.model_exchange = Some(ModelExchange { source_files, ..flags });
-                Ok(())
             }
             "CoSimulation" => {
                 self.lines.co_simulation = start.line;
                 let (flags, source_files) = (self.attributes(start)?, self.source_files(start)?);
                 self.description.co_simulation = Some(CoSimulation { source_files, ..flags });
-                Ok(())
             }
-            "UnitDefinitions" => self.list(start, "Unit", Self::unit),
-            "TypeDefinitions" => self.list(start, "SimpleType", Self::simple_type),
+            "UnitDefinitions" => self.list(start, "Unit", Self::unit)?,
+            "TypeDefinitions" => self.list(start, "SimpleType", Self::simple_type)?,
             "LogCategories" => self.list(start, "Category", |read, start| {
                 read.lines.log_categories.push(start.line);
                 let category = read.leaf(start)?;
                 read.description.log_categories.push(category);
                 Ok(())
-            }),
+            })?,
             "DefaultExperiment" => {
                 self.lines.default_experiment = start.line;
                 self.description.default_experiment = Some(self.leaf(start)?);
-                Ok(())
             }
-            "VendorAnnotations" => self.annotations(start),
+            "VendorAnnotations" => self.annotations(start)?,
             "ModelVariables" => {
                 self.lines.model_variables = start.line;
-                self.list(start, "ScalarVariable", Self::variable)
+                self.list(start, "ScalarVariable", Self::variable)?;
             }
-            _ => self.structure(start),
+            _ => self.structure(start)?,
         }
+        Ok(())
     }
 
     /// Reads every child `name` of `start` with `item`.

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use super::{Check, ElementLocation, some_of};
 use crate::finding::Code;
-use crate::{BaseType, Causality, ScalarVariable, SimpleTypeKind, Variability, VariableKind, rules, value};
+use crate::{BaseType, Causality, ScalarVariable, Variability, rules, value};
 
-impl<'a> Check<'a> {
+impl Check<'_> {
     pub(super) fn aliases(&mut self) {
         let mut sets: BTreeMap<(BaseType, u32), Vec<usize>> = BTreeMap::new();
         for (index, variable) in self.description.variables.iter().enumerate() {
@@ -27,54 +27,42 @@ impl<'a> Check<'a> {
         let count = |is: &dyn Fn(&ScalarVariable) -> bool| set.iter().filter(|v| is(v)).count();
 
         let constants = count(&|v| v.variability == Variability::Constant);
-        if constants > 0 && constants < set.len() {
-            let message = format!(
-                "value reference {reference} is shared by constants and others ({names}); \
-                                   allowed are all constant or none"
-            );
-            self.add(Code::AliasConstant, place, message);
-        } else if constants > 0 && set.windows(2).any(|pair| value::start(pair[0]) != value::start(pair[1])) {
-            let message = format!(
-                "constants with value reference {reference} ({names}) differ in start; \
-                                   allowed is one value"
-            );
-            self.add(Code::AliasConstant, place, message);
-        }
+        self.require(constants == 0 || constants == set.len(), Code::AliasConstant, place, || {
+            format!(
+                "value reference {reference} is shared by constants and others ({names}); allowed are all constant or none"
+            )
+        });
+        let differ = || set.windows(2).any(|pair| value::start(pair[0]) != value::start(pair[1]));
+        self.require(constants < set.len() || !differ(), Code::AliasConstant, place, || {
+            format!(
+                "constants with value reference {reference} ({names}) differ in start; allowed is one value"
+            )
+        });
 
         let settable = count(&|v| matches!(v.causality, Causality::Input | Causality::Parameter));
         let independent = count(&|v| v.causality == Causality::Independent);
         let with_start = count(&|v| v.variability != Variability::Constant && rules::has_start(v));
-        if settable > 1 || (independent > 0 && settable > 0) {
-            let message = format!(
-                "value reference {reference} is shared by several variables that are set from \
-                                   outside ({names}); allowed is one input or parameter, not beside the \
-                                   independent variable"
-            );
-            self.add(Code::AliasSettable, place, message);
-        } else if with_start > 1 {
-            let message = format!(
-                "{with_start} variables with value reference {reference} ({names}) have a \
-                                   start; allowed is one"
-            );
-            self.add(Code::AliasStart, place, message);
-        }
+        let is_set_once = settable <= 1 && (independent == 0 || settable == 0);
+        self.require(is_set_once, Code::AliasSettable, place, || {
+            format!(
+                "value reference {reference} is shared by several variables that are set from outside ({names}); allowed is \
+                 one input or parameter, not beside the independent variable"
+            )
+        });
+        self.require(!is_set_once || with_start <= 1, Code::AliasStart, place, || {
+            format!(
+                "{with_start} variables with value reference {reference} ({names}) have a start; allowed is one"
+            )
+        });
 
-        let unit_of_first = set.first().and_then(|first| self.unit_of(first));
-        if set.iter().any(|variable| self.unit_of(variable) != unit_of_first) {
-            let message = format!(
-                "variables with value reference {reference} ({names}) differ in unit; the \
-                                   value is one number, so its unit should be one"
-            );
-            self.add(Code::AliasUnit, place, message);
-        }
-    }
-
-    fn unit_of(&self, variable: &'a ScalarVariable) -> Option<&'a str> {
-        let VariableKind::Real { attributes, .. } = &variable.kind else { return None };
-        let inherited = match self.declared(variable) {
-            Some(SimpleTypeKind::Real { attributes: inherited }) => inherited.unit.as_deref(),
-            _ => None,
-        };
-        attributes.unit.as_deref().or(inherited)
+        let mut units = set.iter().map(|variable| value::unit(self.description, variable));
+        let unit_of_first = units.next();
+        let agree = units.all(|unit| Some(unit) == unit_of_first);
+        self.require(agree, Code::AliasUnit, place, || {
+            format!(
+                "variables with value reference {reference} ({names}) differ in unit; the value is one number, so its unit \
+                 should be one"
+            )
+        });
     }
 }

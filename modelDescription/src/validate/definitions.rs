@@ -1,6 +1,6 @@
 //! Units, types and log categories.
 
-use super::{Check, ElementLocation, some_of};
+use super::{Check, ElementLocation, Limits, some_of};
 use crate::finding::Code;
 use crate::lexical::double;
 use crate::{RealAttributes, SimpleTypeKind};
@@ -16,15 +16,14 @@ impl Check<'_> {
             let displays = unit.display_units.iter();
             let displays = displays.map(|d| (format!("display unit `{}`", d.name), d.factor, d.offset));
             for (what, factor, offset) in base.chain(displays) {
-                if factor == 0.0 || !factor.is_finite() || !offset.is_finite() {
-                    let message = format!(
-                        "{what} has factor {} and offset {}; allowed are a finite factor other than 0 and a \
-                         finite offset",
-                        double(factor),
-                        double(offset)
-                    );
-                    self.add(Code::UnitConversion, ElementLocation::Unit(index), message);
-                }
+                let is_usable = factor != 0.0 && factor.is_finite() && offset.is_finite();
+                self.require(is_usable, Code::UnitConversion, ElementLocation::Unit(index), || {
+                    let (factor, offset) = (double(factor), double(offset));
+                    format!(
+                        "{what} has factor {factor} and offset {offset}; allowed are a finite factor other than 0 and a finite \
+                         offset"
+                    )
+                });
             }
         }
     }
@@ -42,13 +41,14 @@ impl Check<'_> {
                 SimpleTypeKind::Real { attributes } => {
                     self.real_attributes(place, attributes, None);
                 }
-                SimpleTypeKind::Integer { min, max, .. } => self.limits(place, *min, *max),
+                SimpleTypeKind::Integer { min, max, .. } => {
+                    self.limits(place, (min.map(f64::from), max.map(f64::from)));
+                }
                 SimpleTypeKind::Boolean | SimpleTypeKind::String => {}
                 SimpleTypeKind::Enumeration { items, .. } => {
-                    if items.is_empty() {
-                        let message = "the enumeration has no items; at least one is required".to_owned();
-                        self.add(Code::EnumerationEmpty, place, message);
-                    }
+                    self.require(!items.is_empty(), Code::EnumerationEmpty, place, || {
+                        "the enumeration has no items; at least one is required".to_owned()
+                    });
                     self.unique(Code::DuplicateItem, items.iter().map(|item| item.name.as_str()), |_| place);
                     let mut values: Vec<i32> = items.iter().map(|item| item.value).collect();
                     values.sort_unstable();
@@ -74,9 +74,7 @@ impl Check<'_> {
         inherited: Option<&RealAttributes>,
     ) {
         let unit = attributes.unit.as_deref().or(inherited.and_then(|from| from.unit.as_deref()));
-        if let Some(name) = attributes.unit.as_deref()
-            && !self.units.contains_key(name)
-        {
+        if let Some(name) = attributes.unit.as_deref().filter(|name| !self.units.contains_key(name)) {
             let defined = some_of(self.units.keys().copied());
             let message = format!("unit `{name}` is not in UnitDefinitions; defined are {defined}");
             self.add(Code::UndefinedUnit, place, message);
@@ -85,14 +83,14 @@ impl Check<'_> {
             self.display_unit(place, display, unit);
         }
         for (name, limit) in [("min", attributes.min), ("max", attributes.max)] {
-            if limit.is_some_and(f64::is_nan) {
-                self.add(Code::LimitNotANumber, place, format!("{name} is NaN; allowed is a number"));
-            }
+            self.require(!limit.is_some_and(f64::is_nan), Code::LimitNotANumber, place, || {
+                format!("{name} is NaN; allowed is a number")
+            });
         }
         let inherited_limits = inherited.map_or((None, None), |from| (from.min, from.max));
         if attributes.min.is_some() || attributes.max.is_some() {
-            let min = attributes.min.or(inherited_limits.0);
-            self.limits(place, min, attributes.max.or(inherited_limits.1));
+            let max = attributes.max.or(inherited_limits.1);
+            self.limits(place, (attributes.min.or(inherited_limits.0), max));
         }
         if let Some(nominal) = attributes.nominal.filter(|value| !(value.is_finite() && *value > 0.0)) {
             let message = format!("nominal is {}; allowed is a finite number above 0", double(nominal));
@@ -117,21 +115,11 @@ impl Check<'_> {
         }
     }
 
-    pub(super) fn limits<T: PartialOrd + Copy + Into<f64>>(
-        &mut self,
-        place: ElementLocation,
-        min: Option<T>,
-        max: Option<T>,
-    ) {
-        if let (Some(min), Some(max)) = (min, max)
-            && min > max
-        {
-            let message = format!(
-                "min {} is above max {}; allowed is at most max",
-                double(min.into()),
-                double(max.into())
-            );
-            self.add(Code::MinAboveMax, place, message);
-        }
+    pub(super) fn limits(&mut self, place: ElementLocation, (min, max): Limits) {
+        let (Some(min), Some(max)) = (min, max) else { return };
+        let is_reversed = min > max;
+        self.require(!is_reversed, Code::MinAboveMax, place, || {
+            format!("min {} is above max {}; allowed is at most max", double(min), double(max))
+        });
     }
 }

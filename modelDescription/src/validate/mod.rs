@@ -54,6 +54,9 @@ enum ElementLocation {
     InitialUnknown(usize),
 }
 
+/// Least and greatest value.
+type Limits = (Option<f64>, Option<f64>);
+
 struct Check<'a> {
     description: &'a Description,
     lines: &'a Lines,
@@ -79,14 +82,23 @@ impl<'a> Check<'a> {
         self.findings.push(Finding { code, subject, line, message });
     }
 
+    /// Reports what a rule does not allow.
+    fn require(&mut self, holds: bool, code: Code, place: ElementLocation, fault: impl FnOnce() -> String) {
+        if !holds {
+            self.add(code, place, fault());
+        }
+    }
+
     /// The element in words, and its line.
     fn locate(&self, place: ElementLocation) -> (String, Option<&'a u32>) {
         let (all, lines) = (self.description, self.lines);
-        let named = |what: &str, name: Option<&String>| format!("{what} `{}`", name.map_or("", |it| it));
-        let entry = |list: &str, unknowns: &[Unknown], at: usize| {
+        let item = |what: &str, name: Option<&String>, lines: &'a [u32], at: usize| {
+            (format!("{what} `{}`", name.map_or("", |it| it)), lines.get(at))
+        };
+        let entry = |list: &str, unknowns: &[Unknown], lines: &'a [u32], at: usize| {
             let variable = unknowns.get(at).and_then(|unknown| self.variable(unknown.index));
             let name = variable.map(|variable| format!(" (`{}`)", variable.name)).unwrap_or_default();
-            format!("ModelStructure/{list} entry {}{name}", at + 1)
+            (format!("ModelStructure/{list} entry {}{name}", at + 1), lines.get(at))
         };
         let structure = &all.structure;
         match place {
@@ -95,25 +107,21 @@ impl<'a> Check<'a> {
             ElementLocation::CoSimulation => ("CoSimulation".to_owned(), Some(&lines.co_simulation)),
             ElementLocation::Experiment => ("DefaultExperiment".to_owned(), Some(&lines.default_experiment)),
             ElementLocation::Variables => ("ModelVariables".to_owned(), Some(&lines.model_variables)),
-            ElementLocation::Unit(at) => {
-                (named("unit", all.units.get(at).map(|it| &it.name)), lines.units.get(at))
-            }
-            ElementLocation::Type(at) => {
-                (named("type", all.types.get(at).map(|it| &it.name)), lines.types.get(at))
-            }
+            ElementLocation::Unit(at) => item("unit", all.units.get(at).map(|it| &it.name), &lines.units, at),
+            ElementLocation::Type(at) => item("type", all.types.get(at).map(|it| &it.name), &lines.types, at),
             ElementLocation::Category(at) => {
                 let name = all.log_categories.get(at).map(|it| &it.name);
-                (named("log category", name), lines.log_categories.get(at))
+                item("log category", name, &lines.log_categories, at)
             }
             ElementLocation::Variable(at) => {
-                (named("variable", all.variables.get(at).map(|it| &it.name)), lines.variables.get(at))
+                item("variable", all.variables.get(at).map(|it| &it.name), &lines.variables, at)
             }
-            ElementLocation::Output(at) => (entry("Outputs", &structure.outputs, at), lines.outputs.get(at)),
+            ElementLocation::Output(at) => entry("Outputs", &structure.outputs, &lines.outputs, at),
             ElementLocation::Derivative(at) => {
-                (entry("Derivatives", &structure.derivatives, at), lines.derivatives.get(at))
+                entry("Derivatives", &structure.derivatives, &lines.derivatives, at)
             }
             ElementLocation::InitialUnknown(at) => {
-                (entry("InitialUnknowns", &structure.initial_unknowns, at), lines.initial_unknowns.get(at))
+                entry("InitialUnknowns", &structure.initial_unknowns, &lines.initial_unknowns, at)
             }
         }
     }

@@ -10,26 +10,21 @@ impl Check<'_> {
     pub(super) fn root(&mut self) {
         let all = self.description;
         for (name, text) in [("modelName", &all.model_name), ("guid", &all.guid)] {
-            if text.trim().is_empty() {
-                self.add(
-                    Code::EmptyText,
-                    ElementLocation::Root,
-                    format!("{name} is empty; it should name something"),
-                );
-            }
+            self.require(!text.trim().is_empty(), Code::EmptyText, ElementLocation::Root, || {
+                format!("{name} is empty; it should name something")
+            });
         }
-        if let Some(text) = &all.generation_date_and_time
-            && !is_date_time(text)
-        {
-            let message = format!(
-                "generationDateAndTime is `{text}`; allowed is an xs:dateTime such as 2026-01-02T03:04:05Z"
-            );
-            self.add(Code::DateTime, ElementLocation::Root, message);
+        if let Some(text) = &all.generation_date_and_time {
+            self.require(is_date_time(text), Code::DateTime, ElementLocation::Root, || {
+                format!(
+                    "generationDateAndTime is `{text}`; allowed is an xs:dateTime such as 2026-01-02T03:04:05Z"
+                )
+            });
         }
-        if all.co_simulation.is_none() && all.model_exchange.is_none() {
-            let message = "has neither CoSimulation nor ModelExchange; at least one is required".to_owned();
-            self.add(Code::NoInterface, ElementLocation::Root, message);
-        }
+        let has_interface = all.co_simulation.is_some() || all.model_exchange.is_some();
+        self.require(has_interface, Code::NoInterface, ElementLocation::Root, || {
+            "has neither CoSimulation nor ModelExchange; at least one is required".to_owned()
+        });
         for (element, name, c) in illegal_characters(all) {
             let message = format!(
                 "attribute `{name}` of <{element}> holds U+{:04X}; allowed are tab, line breaks and characters from U+0020",
@@ -50,17 +45,15 @@ impl Check<'_> {
             (ElementLocation::CoSimulation, &it.model_identifier, states, &it.source_files)
         });
         for (place, identifier, states, source_files) in model_exchange.into_iter().chain(co_simulation) {
-            if !is_c_identifier(identifier) {
-                let message = format!(
+            self.require(is_c_identifier(identifier), Code::ModelIdentifier, place, || {
+                format!(
                     "modelIdentifier is `{identifier}`; allowed are letters, digits and `_`, not starting with a digit"
-                );
-                self.add(Code::ModelIdentifier, place, message);
-            }
-            if states == (false, true) {
-                let message = "canSerializeFMUstate is true but canGetAndSetFMUstate is false; allowed is true with \
-                               canGetAndSetFMUstate true";
-                self.add(Code::SerializeWithoutState, place, message.to_owned());
-            }
+                )
+            });
+            self.require(states != (false, true), Code::SerializeWithoutState, place, || {
+                "canSerializeFMUstate is true but canGetAndSetFMUstate is false; allowed is true with canGetAndSetFMUstate true"
+                    .to_owned()
+            });
             self.unique(Code::DuplicateSourceFile, source_files.iter().map(String::as_str), |_| place);
         }
     }
@@ -74,11 +67,11 @@ impl Check<'_> {
             }
         }
         let start = experiment.start_time.unwrap_or(0.0);
-        if let Some(stop) = experiment.stop_time.filter(|stop| *stop < start) {
-            let message =
-                format!("stopTime {stop} s lies before startTime {start} s; allowed is startTime or later");
-            self.add(Code::StopBeforeStart, ElementLocation::Experiment, message);
-        }
+        let stop = experiment.stop_time.unwrap_or(f64::INFINITY);
+        let is_before_start = stop < start;
+        self.require(!is_before_start, Code::StopBeforeStart, ElementLocation::Experiment, || {
+            format!("stopTime {stop} s lies before startTime {start} s; allowed is startTime or later")
+        });
         let above_zero = [
             ("stepSize", experiment.step_size, Code::StepSize),
             ("tolerance", experiment.tolerance, Code::Tolerance),

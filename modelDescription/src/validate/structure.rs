@@ -44,10 +44,10 @@ impl Check<'_> {
         let all = self.description;
         let listed: BTreeSet<u32> = all.structure.outputs.iter().map(|unknown| unknown.index).collect();
         for index in rules::outputs(&all.variables) {
-            if !listed.contains(&index) {
-                let message = format!("is an output (index {index}) but not in ModelStructure/Outputs");
-                self.add(Code::OutputMissing, ElementLocation::Variable(index as usize - 1), message);
-            }
+            let place = ElementLocation::Variable(index as usize - 1);
+            self.require(listed.contains(&index), Code::OutputMissing, place, || {
+                format!("is an output (index {index}) but not in ModelStructure/Outputs")
+            });
         }
         for (at, unknown) in all.structure.outputs.iter().enumerate() {
             if let Some(variable) = self.variable(unknown.index)
@@ -62,21 +62,20 @@ impl Check<'_> {
     fn derivatives(&mut self) {
         let all = self.description;
         for (at, unknown) in all.structure.derivatives.iter().enumerate() {
-            if self.variable(unknown.index).is_some_and(|variable| derivative_of(variable).is_none()) {
-                let message = "has no attribute `derivative`; allowed are derivatives of states".to_owned();
-                self.add(Code::DerivativeEntry, ElementLocation::Derivative(at), message);
-            }
+            let is_derivative = self.variable(unknown.index).is_none_or(|it| derivative_of(it).is_some());
+            self.require(is_derivative, Code::DerivativeEntry, ElementLocation::Derivative(at), || {
+                "has no attribute `derivative`; allowed are derivatives of states".to_owned()
+            });
         }
         if all.model_exchange.is_none() {
             return;
         }
         let listed: BTreeSet<u32> = all.structure.derivatives.iter().map(|unknown| unknown.index).collect();
         for (index, at) in (1..).zip(0..all.variables.len()) {
-            if derivative_of(&all.variables[at]).is_some() && !listed.contains(&index) {
-                let message =
-                    format!("is a derivative (index {index}) but not in ModelStructure/Derivatives");
-                self.add(Code::DerivativeUnlisted, ElementLocation::Variable(at), message);
-            }
+            let is_listed = derivative_of(&all.variables[at]).is_none() || listed.contains(&index);
+            self.require(is_listed, Code::DerivativeUnlisted, ElementLocation::Variable(at), || {
+                format!("is a derivative (index {index}) but not in ModelStructure/Derivatives")
+            });
         }
     }
 
@@ -103,15 +102,14 @@ impl Check<'_> {
                 self.add(Code::InitialUnknownExtra, ElementLocation::InitialUnknown(at), message);
             }
         }
-        for at in 1..list.len() {
-            if list[at].index < list[at - 1].index {
-                let message = format!(
-                    "index {} follows {}; the list must be ordered by index",
-                    list[at].index,
-                    list[at - 1].index
-                );
-                self.add(Code::InitialUnknownOrder, ElementLocation::InitialUnknown(at), message);
-            }
+        for (at, pair) in (1..).zip(list.windows(2)) {
+            let (before, index) = (pair[0].index, pair[1].index);
+            self.require(
+                before <= index,
+                Code::InitialUnknownOrder,
+                ElementLocation::InitialUnknown(at),
+                || format!("index {index} follows {before}; the list must be ordered by index"),
+            );
         }
     }
 
@@ -150,12 +148,12 @@ impl Check<'_> {
 
     fn unknown(&mut self, unknown: &Unknown, place: ElementLocation, known: Known<'_>, rule: &str) {
         let Some(dependencies) = &unknown.dependencies else {
-            if unknown.dependencies_kind.is_some() {
-                let message =
-                    "has dependenciesKind but no dependencies; allowed is both or neither".to_owned();
-                self.add(Code::DependencyKindAlone, place, message);
-            }
-            return;
+            return self.require(
+                unknown.dependencies_kind.is_none(),
+                Code::DependencyKindAlone,
+                place,
+                || "has dependenciesKind but no dependencies; allowed is both or neither".to_owned(),
+            );
         };
         let count = self.description.variables.len();
         if let Some(bad) = dependencies.iter().find(|index| self.variable(**index).is_none()) {
@@ -172,23 +170,20 @@ impl Check<'_> {
             .filter_map(|&index| self.variable(index).filter(|v| !known(index, v)))
             .map(|variable| variable.name.as_str())
             .collect();
-        if !strangers.is_empty() {
-            let message = format!("dependencies has {}; allowed are {rule}", some_of(strangers.into_iter()));
-            self.add(Code::DependencyKnown, place, message);
-        }
+        self.require(strangers.is_empty(), Code::DependencyKnown, place, || {
+            format!("dependencies has {}; allowed are {rule}", some_of(strangers.into_iter()))
+        });
         self.dependency_kinds(unknown, dependencies, place);
     }
 
     fn dependency_kinds(&mut self, unknown: &Unknown, dependencies: &[u32], place: ElementLocation) {
         let Some(kinds) = &unknown.dependencies_kind else { return };
-        if kinds.len() != dependencies.len() {
+        let (found, expected) = (kinds.len(), dependencies.len());
+        if found != expected {
             let message = format!(
-                "dependenciesKind has {} entries, dependencies {}; allowed is the same number",
-                kinds.len(),
-                dependencies.len()
+                "dependenciesKind has {found} entries, dependencies {expected}; allowed is the same number"
             );
-            self.add(Code::DependencyKindCount, place, message);
-            return;
+            return self.add(Code::DependencyKindCount, place, message);
         }
         // The standard requires this of the unknown alone: a Real may have a factor for a known of any type.
         let variable = self.variable(unknown.index);

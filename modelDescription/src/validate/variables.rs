@@ -2,22 +2,18 @@
 
 use std::collections::BTreeSet;
 
-use super::{Check, ElementLocation, declared_type, derivative_of, some_of};
+use super::{Check, ElementLocation, Limits, declared_type, derivative_of, some_of};
 use crate::finding::Code;
 use crate::lexical::double;
-use crate::rules::{self, StartRule};
-use crate::{
-    Causality, EnumerationItem, Initial, RealAttributes, ScalarVariable, SimpleTypeKind, Variability,
-    VariableKind,
-};
+use crate::rules;
+use crate::{Causality, EnumerationItem, ScalarVariable, SimpleTypeKind, Variability, VariableKind};
 
 impl Check<'_> {
     pub(super) fn variables(&mut self) {
         let all = self.description;
-        if all.variables.is_empty() {
-            let message = "has no variables; the schema requires at least one".to_owned();
-            self.add(Code::NoVariables, ElementLocation::Variables, message);
-        }
+        self.require(!all.variables.is_empty(), Code::NoVariables, ElementLocation::Variables, || {
+            "has no variables; the schema requires at least one".to_owned()
+        });
         let states: BTreeSet<u32> = all.variables.iter().filter_map(derivative_of).collect();
         let mut independent = None;
         for (index, variable) in all.variables.iter().enumerate() {
@@ -41,53 +37,40 @@ impl Check<'_> {
     fn role(&mut self, place: ElementLocation, variable: &ScalarVariable) {
         let ScalarVariable { causality, variability, initial, .. } = *variable;
         let is_real = matches!(variable.kind, VariableKind::Real { .. });
-        if variability == Variability::Continuous && !is_real {
-            let message = format!(
-                "is {} with variability continuous (the default); only Real variables may be continuous",
-                variable.kind.name()
-            );
-            self.add(Code::ContinuousNotReal, place, message);
-        }
+        let may_be_continuous = is_real || variability != Variability::Continuous;
+        self.require(may_be_continuous, Code::ContinuousNotReal, place, || {
+            let kind = variable.kind.name();
+            format!(
+                "is {kind} with variability continuous (the default); only Real variables may be continuous"
+            )
+        });
         let Some(rule) = rules::initial(causality, variability) else {
             // Already reported for Integers and the like that leave out their variability.
-            if is_real || variability != Variability::Continuous {
-                let allowed: Vec<_> =
-                    rules::legal_variabilities(causality).map(Variability::as_str).collect();
-                let message = format!(
-                    "has causality {causality} with variability {variability}; allowed with {causality}: {}",
-                    allowed.join(", ")
-                );
-                self.add(Code::CausalityVariability, place, message);
-            }
-            return;
+            return self.require(!may_be_continuous, Code::CausalityVariability, place, || {
+                let allowed = rules::listed(rules::legal_variabilities(causality).map(Variability::as_str));
+                format!(
+                    "has causality {causality} with variability {variability}; allowed with {causality}: {allowed}"
+                )
+            });
         };
-        let bad = initial.filter(|initial| !rule.allowed.contains(initial));
-        if let Some(bad) = bad {
-            if rule.allowed.is_empty() {
-                let message = format!("has initial {bad}; with causality {causality} it must be left out");
-                self.add(Code::InitialForbidden, place, message);
-            } else {
-                let allowed: Vec<_> = rule.allowed.iter().map(|initial| initial.as_str()).collect();
-                let message = format!(
-                    "has initial {bad}; allowed with {causality} {variability}: {}",
-                    allowed.join(", ")
-                );
-                self.add(Code::InitialNotAllowed, place, message);
-                return;
+        if let Some(bad) = initial.filter(|initial| !rule.allowed.contains(initial)) {
+            if !rule.allowed.is_empty() {
+                let allowed = rules::listed(rule.allowed.iter().map(|initial| initial.as_str()));
+                let message = format!("has initial {bad}; allowed with {causality} {variability}: {allowed}");
+                return self.add(Code::InitialNotAllowed, place, message);
             }
+            let message = format!("has initial {bad}; with causality {causality} it must be left out");
+            self.add(Code::InitialForbidden, place, message);
         }
         let effective = rules::effective(causality, variability, initial);
-        match (rules::start(causality, effective), rules::has_start(variable)) {
-            (StartRule::Required, false) => {
-                let message = format!("has no start; {} requires one", why(causality, effective));
-                self.add(Code::StartMissing, place, message);
-            }
-            (StartRule::Forbidden, true) => {
-                let message = format!("has a start; {} must not have one", why(causality, effective));
-                self.add(Code::StartForbidden, place, message);
-            }
-            _ => {}
-        }
+        let why = || effective.map_or_else(|| format!("causality {causality}"), |it| format!("initial {it}"));
+        let (is_required, has_start) = (rules::start_required(variable), rules::has_start(variable));
+        self.require(!is_required || has_start, Code::StartMissing, place, || {
+            format!("has no start; {} requires one", why())
+        });
+        self.require(is_required || !has_start, Code::StartForbidden, place, || {
+            format!("has a start; {} must not have one", why())
+        });
     }
 
     fn declared_type(&mut self, place: ElementLocation, variable: &ScalarVariable) {
@@ -98,17 +81,15 @@ impl Check<'_> {
             self.add(Code::DeclaredTypeUndefined, place, message);
             return;
         };
-        let type_name = kind.name();
-        let own = variable.kind.name();
-        if type_name != own {
-            let message =
-                format!("is {own}, its declaredType `{name}` is {type_name}; allowed is a type of {own}");
-            self.add(Code::DeclaredTypeKind, place, message);
-        }
+        let (type_name, own) = (kind.name(), variable.kind.name());
+        self.require(type_name == own, Code::DeclaredTypeKind, place, || {
+            format!("is {own}, its declaredType `{name}` is {type_name}; allowed is a type of {own}")
+        });
     }
 
     fn kind(&mut self, place: ElementLocation, variable: &ScalarVariable) {
         let checked = rules::start_required(variable);
+        let real = |min: Option<i32>, max: Option<i32>| (min.map(f64::from), max.map(f64::from));
         match (&variable.kind, self.declared(variable)) {
             (VariableKind::Real { start, attributes, .. }, declared) => {
                 let inherited = match declared {
@@ -121,15 +102,17 @@ impl Check<'_> {
                     self.beyond_type(place, own, (inherited.min, inherited.max));
                 }
                 if let Some(start) = start.filter(|_| checked) {
-                    self.real_start(place, start, attributes, inherited);
+                    let min = attributes.min.or(inherited.and_then(|from| from.min));
+                    let max = attributes.max.or(inherited.and_then(|from| from.max));
+                    self.real_start(place, start, (min, max));
                 }
             }
             (VariableKind::Integer { start, min, max, .. }, declared) => {
-                let (type_min, type_max) = match declared {
-                    Some(SimpleTypeKind::Integer { min, max, .. }) => (*min, *max),
+                let inherited = match declared {
+                    Some(SimpleTypeKind::Integer { min, max, .. }) => real(*min, *max),
                     _ => (None, None),
                 };
-                self.integer(place, start.filter(|_| checked), (*min, *max), (type_min, type_max));
+                self.integer(place, start.filter(|_| checked), real(*min, *max), inherited);
             }
             (VariableKind::Enumeration { start, min, max, .. }, declared) => {
                 let start = start.filter(|_| checked);
@@ -144,39 +127,25 @@ impl Check<'_> {
                     let message = format!("start {start} is no item; allowed are {}", item_list(items));
                     self.add(Code::StartNotAnItem, place, message);
                 } else {
-                    self.integer(place, start, (*min, *max), (None, None));
+                    self.integer(place, start, real(*min, *max), (None, None));
                 }
             }
             (VariableKind::Boolean { .. } | VariableKind::String { .. }, _) => {}
         }
     }
 
-    fn integer(
-        &mut self,
-        place: ElementLocation,
-        start: Option<i32>,
-        own: (Option<i32>, Option<i32>),
-        inherited: (Option<i32>, Option<i32>),
-    ) {
-        let (min, max) = (own.0.or(inherited.0), own.1.or(inherited.1));
+    fn integer(&mut self, place: ElementLocation, start: Option<i32>, own: Limits, inherited: Limits) {
+        let limits = (own.0.or(inherited.0), own.1.or(inherited.1));
         if own != (None, None) {
-            self.limits(place, min, max);
+            self.limits(place, limits);
         }
         self.beyond_type(place, own, inherited);
         if let Some(start) = start {
-            self.range(place, f64::from(start), min.map(f64::from), max.map(f64::from));
+            self.range(place, f64::from(start), limits);
         }
     }
 
-    fn real_start(
-        &mut self,
-        place: ElementLocation,
-        start: f64,
-        own: &RealAttributes,
-        inherited: Option<&RealAttributes>,
-    ) {
-        let min = own.min.or(inherited.and_then(|from| from.min));
-        let max = own.max.or(inherited.and_then(|from| from.max));
+    fn real_start(&mut self, place: ElementLocation, start: f64, (min, max): Limits) {
         // Without a limit the largest finite number is the limit (2.2.3).
         let infinite_is_within = start == max.unwrap_or(f64::MAX) || start == min.unwrap_or(f64::MIN);
         if start.is_nan() || (start.is_infinite() && !infinite_is_within) {
@@ -187,10 +156,10 @@ impl Check<'_> {
             self.add(Code::StartNotFinite, place, message);
             return;
         }
-        self.range(place, start, min, max);
+        self.range(place, start, (min, max));
     }
 
-    fn range(&mut self, place: ElementLocation, start: f64, min: Option<f64>, max: Option<f64>) {
+    fn range(&mut self, place: ElementLocation, start: f64, (min, max): Limits) {
         let reversed = matches!((min, max), (Some(min), Some(max)) if min > max);
         if !reversed && (min.is_some_and(|min| start < min) || max.is_some_and(|max| start > max)) {
             let text = |limit: Option<f64>| limit.map_or("unlimited".to_owned(), double);
@@ -200,16 +169,11 @@ impl Check<'_> {
         }
     }
 
-    fn beyond_type<T: PartialOrd + Copy + Into<f64>>(
-        &mut self,
-        place: ElementLocation,
-        own: (Option<T>, Option<T>),
-        inherited: (Option<T>, Option<T>),
-    ) {
+    fn beyond_type(&mut self, place: ElementLocation, own: Limits, inherited: Limits) {
         let below = matches!((own.0, inherited.0), (Some(own), Some(from)) if own < from);
         let above = matches!((own.1, inherited.1), (Some(own), Some(from)) if own > from);
         if below || above {
-            let text = |limit: Option<T>| limit.map_or("unlimited".to_owned(), |value| double(value.into()));
+            let text = |limit: Option<f64>| limit.map_or("unlimited".to_owned(), double);
             let message = format!(
                 "min {} and max {} reach beyond those of the declared type, {} to {}",
                 text(own.0),
@@ -233,13 +197,12 @@ impl Check<'_> {
             };
             self.add(Code::Reinit, place, message.to_owned());
         }
-        if variable.can_handle_multiple_set_per_time_instant.is_some()
-            && !(has_model_exchange && variable.causality == Causality::Input)
-        {
-            let message =
-                "has canHandleMultipleSetPerTimeInstant; allowed on inputs of a model-exchange FMU only";
-            self.add(Code::MultipleSet, place, message.to_owned());
-        }
+        let may_be_set = has_model_exchange && variable.causality == Causality::Input;
+        let is_fitting = may_be_set || variable.can_handle_multiple_set_per_time_instant.is_none();
+        self.require(is_fitting, Code::MultipleSet, place, || {
+            "has canHandleMultipleSetPerTimeInstant; allowed on inputs of a model-exchange FMU only"
+                .to_owned()
+        });
     }
 
     fn derivative(&mut self, place: ElementLocation, index: usize, variable: &ScalarVariable) {
@@ -261,13 +224,6 @@ impl Check<'_> {
             );
             self.add(Code::DerivativeKind, place, message);
         }
-    }
-}
-
-fn why(causality: Causality, initial: Option<Initial>) -> String {
-    match initial {
-        Some(initial) => format!("initial {initial}"),
-        None => format!("causality {causality}"),
     }
 }
 

@@ -103,6 +103,17 @@ impl AccessTable {
     }
 
     /// Whether the Integer or Enumeration at `index` may take `value`.
+    /// The flags of the variable with a value reference.
+    pub(crate) fn flags_at(&self, base: BaseType, reference: u32) -> Option<u16> {
+        self.flags(base).get(references::index(base, reference)).copied()
+    }
+
+    /// The least and the greatest value of the Real with a value reference.
+    pub(crate) fn limits_at(&self, reference: u32) -> (f64, f64) {
+        let limits = self.real_limits.get(references::index(BaseType::Real, reference));
+        limits.copied().unwrap_or((f64::MIN, f64::MAX))
+    }
+
     #[inline]
     pub(crate) fn admits_integer(&self, index: usize, value: i32) -> bool {
         let Some(&(min, max)) = self.integer_limits.get(index) else { return false };
@@ -174,8 +185,7 @@ impl AccessTable {
     /// The refusal of a set in a state that does not admit it.
     #[cold]
     pub(crate) fn not_settable(&self, base: BaseType, reference: u32, state: State) -> Problem {
-        let flags = self.flags(base).get(references::index(base, reference)).copied().unwrap_or(0);
-        let when = match flags {
+        let when = match self.flags_at(base, reference).unwrap_or(0) {
             f if f & (SET_STEP | INPUT) != 0 => "before a step",
             f if f & (SET_INSTANTIATED | SET_INITIALIZATION) != 0 => "before the end of Initialization Mode",
             _ => "never",
@@ -198,8 +208,7 @@ impl AccessTable {
     #[cold]
     pub(crate) fn real_out_of_range(&self, reference: u32, value: f64) -> Problem {
         let name = self.named(BaseType::Real, reference);
-        let limits = self.real_limits.get(references::index(BaseType::Real, reference)).copied();
-        let allowed = match limits.unwrap_or((f64::MIN, f64::MAX)) {
+        let allowed = match self.limits_at(reference) {
             (f64::MIN, f64::MAX) => "any finite value".to_owned(),
             (min, f64::MAX) => format!("any finite value from {min:?} up"),
             (f64::MIN, max) => format!("any finite value up to {max:?}"),

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use std::ffi::CString;
 
 use model_description::Status;
-use model_description::call_table::Function;
+use model_description::call_table::{Function, State};
 use model_description::functions::types::{CallbackLogger, Component, FmuState};
 
 use super::arguments::null;
@@ -120,7 +120,7 @@ fn concluded(
     function: Function,
     body: impl FnOnce(&mut Inner) -> Result<(), Problem>,
 ) -> Status {
-    let usable = !inner.instance.is_poisoned() || function == Function::FreeFmuState;
+    let usable = !inner.instance.poisoned || function == Function::FreeFmuState;
     let result = match usable {
         true => inner.instance.guard(function).and_then(|()| body(inner)),
         false => Err(Problem::error(
@@ -132,8 +132,10 @@ fn concluded(
 
 #[cold]
 fn panicked(inner: &mut Inner, function: Function, text: &str) -> Status {
-    inner.instance.poison();
-    let logger = inner.instance.logger();
+    // No call but free works from here on.
+    inner.instance.poisoned = true;
+    inner.instance.state.mode = State::Error;
+    let logger = &inner.instance.logger;
     // The logger itself may have been what panicked.
     let _ = contain(|| logger.log(Status::Error, format_args!("{}: panic: {text}", function.symbol())));
     Status::Error
@@ -151,7 +153,7 @@ pub(super) unsafe fn free(component: Component) {
     }
     // SAFETY: ours, made by `handle_of`, not in a call, and never used again.
     let handle = unsafe { Box::from_raw(component.cast::<Handle>()) };
-    let (logger, runtime) = handle.inner.into_inner().instance.dismantle();
+    let Instance { logger, runtime, .. } = handle.inner.into_inner().instance;
     if let Err(text) = contain(|| drop(runtime)) {
         let symbol = Function::FreeInstance.symbol();
         let _ = contain(|| logger.log(Status::Error, format_args!("{symbol}: panic: {text}")));

@@ -80,13 +80,9 @@ pub unsafe fn describe(
             return Ok(());
         }
         // SAFETY: the caller's promise.
-        let (model, file, setup) = unsafe {
-            (
-                optional(model, "model")?,
-                optional(setup_file, "setup_file")?,
-                optional(setup_text, "setup_text")?,
-            )
-        };
+        let given = |text, name| unsafe { optional(text, name) };
+        let (model, file) = (given(model, "model")?, given(setup_file, "setup_file")?);
+        let setup = given(setup_text, "setup_text")?;
         let entry = found(library, model.unwrap_or_default())?;
         let description =
             library.describe(entry, file, setup).map_err(|error| message(entry.name, &error))?;
@@ -115,21 +111,21 @@ pub unsafe fn check_schedule(
     let Some(receive) = receive else { return 1 };
     Sender { context, receive }.run(|| {
         // SAFETY: the caller's promise.
-        let (model, file, setup, schedule, schedule_file, text) = unsafe {
-            (
-                optional(model, "model")?,
-                optional(setup_file, "setup_file")?,
-                optional(setup_text, "setup_text")?,
-                optional(schedule, "schedule")?,
-                optional(schedule_file, "schedule_file")?,
-                optional(schedule_text, "schedule_text")?,
-            )
-        };
+        let given = |text, name| unsafe { optional(text, name) };
+        let (model, file) = (given(model, "model")?, given(setup_file, "setup_file")?);
+        let (setup, schedule) = (given(setup_text, "setup_text")?, given(schedule, "schedule")?);
+        let (schedule_file, text) =
+            (given(schedule_file, "schedule_file")?, given(schedule_text, "schedule_text")?);
         let entry = found(library, model.unwrap_or_default())?;
         let schedule = schedule.ok_or("argument schedule is NULL")?;
         let text = text.ok_or("argument schedule_text is NULL")?;
-        library
-            .check_schedule(entry, file, setup, schedule, schedule_file, text)
+        let schedule_file = schedule_file.unwrap_or(schedule);
+        if !entry.schedule_files.contains(&schedule) {
+            return Err(format!("{schedule_file}: {} takes no {schedule}", entry.name));
+        }
+        let prepared = entry.prepare(file, setup, library.entries);
+        prepared
+            .and_then(|mut prepared| prepared.set_schedule(schedule, schedule_file, text))
             .map_err(|error| message(entry.name, &error))
     })
 }

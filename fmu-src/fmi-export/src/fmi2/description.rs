@@ -88,8 +88,11 @@ pub(crate) fn prepare<M: Model>(
     let fixed = start_values::apply(&given, &readers, &mut description, &mut interface.start)
         .map_err(DescribeError::Start)?;
     let following = M::following_start_values(&setup, &variables, &interface.start);
-    start_values::follow(&following, &readers, &mut description, &mut interface.start)
+    // Nobody gave what follows from others.
+    let given = interface.start.set.clone();
+    start_values::apply(&following, &readers, &mut description, &mut interface.start)
         .map_err(DescribeError::Start)?;
+    interface.start.set = given;
     description.co_simulation = Some(co_simulation::<M>(&description.variables));
     description.structure = structure(&dependencies, &description.variables).map_err(DescribeError::Table)?;
     // Which of them the setup gave stands in the setup.

@@ -22,6 +22,7 @@ use model_description::functions::{
 use super::arguments::{flag, null, place, slice, slice_mut, text};
 use super::boundary::{self, ImporterLogger, call, saved, state_handle_of};
 use super::instance::Instance;
+use super::instance::state::Experiment;
 use super::problem::Problem;
 use crate::library::Library;
 use crate::logger::{Category, Logger};
@@ -147,8 +148,8 @@ functions! {
         inner, tolerance_defined: c_int, tolerance: f64, start_time: f64, stop_time_defined: c_int, stop_time: f64,
     ) {
         let tolerance = flag(tolerance_defined, "toleranceDefined")?.then_some(tolerance);
-        let stop_time = flag(stop_time_defined, "stopTimeDefined")?.then_some(stop_time);
-        inner.instance.setup_experiment(tolerance, start_time, stop_time)
+        let stop_s = flag(stop_time_defined, "stopTimeDefined")?.then_some(stop_time);
+        inner.instance.setup_experiment(Experiment { start_s: start_time, stop_s, tolerance })
     }
     /// Begins Initialization Mode at the start time.
     EnterInitializationMode fmi2EnterInitializationMode(inner) {
@@ -170,26 +171,25 @@ functions! {
     /// Copies the values of Reals into `value`.
     GetReal fmi2GetReal(inner, references: *const u32, count: usize, values: *mut f64) {
         let values = slice_mut(values, count, "value")?;
-        inner.instance.get_real(slice(references, count, "vr")?, values)
+        inner.instance.get_real(slice(references, count, "vr")?, values, |_, stored| *stored)
     }
     /// Copies the values of Integers and Enumerations into `value`.
     GetInteger fmi2GetInteger(inner, references: *const u32, count: usize, values: *mut c_int) {
         let values = slice_mut(values, count, "value")?;
-        inner.instance.get_integer(slice(references, count, "vr")?, values)
+        inner.instance.get_integer(slice(references, count, "vr")?, values, |_, stored| *stored)
     }
     /// Copies the values of Booleans into `value`, 0 or 1.
     GetBoolean fmi2GetBoolean(inner, references: *const u32, count: usize, values: *mut c_int) {
         let values = slice_mut(values, count, "value")?;
-        inner.instance.get_boolean(slice(references, count, "vr")?, values)
+        inner.instance.get_boolean(slice(references, count, "vr")?, values, |_, stored| c_int::from(*stored))
     }
     /// Points the elements of `value` to texts in UTF-8. They are the instance's: each is valid until the same variable is read
     /// again with another value or the instance is freed.
     GetString fmi2GetString(inner, references: *const u32, count: usize, values: *mut *const c_char) {
         let values = slice_mut(values, count, "value")?;
         let strings = &mut inner.strings;
-        inner.instance.get_string(slice(references, count, "vr")?, |position, index, text| {
-            values[position] = strings.hold(index, text);
-        })
+        let references = slice(references, count, "vr")?;
+        inner.instance.get_string(references, values, |index, stored| strings.hold(index, stored))
     }
     /// Sets Reals: all of them, or none where one is refused.
     SetReal fmi2SetReal(inner, references: *const u32, count: usize, values: *const f64) {

@@ -32,16 +32,16 @@ pub(crate) fn structure(
     let (mut inputs_of_last, mut parameters_of_last) = (LastList::default(), LastList::default());
     let mut structure = rules::structure(variables);
     for unknown in &mut structure.outputs {
-        let inputs = lists.row(unknown, dependencies.at_steps())?;
+        let inputs = lists.row(unknown, &dependencies.at_steps)?;
         unknown.dependencies = Some(lists.indices(inputs, &lists.is_input, &mut inputs_of_last)?);
     }
     for unknown in &mut structure.initial_unknowns {
-        let parameters = lists.row(unknown, dependencies.at_start())?;
+        let parameters = lists.row(unknown, &dependencies.at_start)?;
         let mut indices = lists.indices(parameters, &lists.is_exact_parameter, &mut parameters_of_last)?;
         if variables[unknown.index as usize - 1].causality == Causality::Output {
-            let at_once = lists.row(unknown, dependencies.at_steps())?;
+            let at_once = lists.row(unknown, &dependencies.at_steps)?;
             let inputs = match lists.keys[unknown.index as usize - 1] {
-                Some(key) => dependencies.inputs_at_start().get(&key).map(|more| more.clone().and(at_once)),
+                Some(key) => dependencies.inputs_at_start.get(&key).map(|more| more.clone().and(at_once)),
                 None => None,
             };
             let inputs = inputs.as_ref().unwrap_or(at_once);

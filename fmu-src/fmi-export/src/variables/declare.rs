@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 use std::collections::BTreeSet;
 
-use model_description::{BaseType, Causality, labels::LABEL_END, units};
+use model_description::{Causality, labels::LABEL_END, units};
 
 use super::check;
 use super::handle::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
@@ -145,58 +145,29 @@ impl Declare {
         max: Option<i32>,
     ) -> Result<Integer, DeclareError> {
         self.checked(spec.name, check::range(start, min, max))?;
-        let at = self.interface.start.integers.len() as u32;
-        self.push(
-            spec,
-            &[],
-            Element { base: BaseType::Integer, place: at },
-            DeclaredType::Integer { min, max },
-            start.is_some(),
-        )?;
+        let at = self.scalar(spec, DeclaredType::Integer { min, max }, start.is_some())?;
         self.interface.start.integers.push(start.unwrap_or(0));
         Ok(Integer(at))
     }
 
     /// Declares a Boolean.
     pub fn boolean(&mut self, spec: &ScalarSpec<'_>, start: Option<bool>) -> Result<Boolean, DeclareError> {
-        let at = self.interface.start.booleans.len() as u32;
-        self.push(
-            spec,
-            &[],
-            Element { base: BaseType::Boolean, place: at },
-            DeclaredType::Boolean,
-            start.is_some(),
-        )?;
+        let at = self.scalar(spec, DeclaredType::Boolean, start.is_some())?;
         self.interface.start.booleans.push(start.unwrap_or(false));
         Ok(Boolean(at))
     }
 
     /// Declares a String.
     pub fn text(&mut self, spec: &ScalarSpec<'_>, start: Option<&str>) -> Result<Text, DeclareError> {
-        let at = self.interface.start.strings.len() as u32;
         self.checked(spec.name, check::text("start", start.unwrap_or_default()))?;
-        self.push(
-            spec,
-            &[],
-            Element { base: BaseType::String, place: at },
-            DeclaredType::Text,
-            start.is_some(),
-        )?;
+        let at = self.scalar(spec, DeclaredType::Text, start.is_some())?;
         self.interface.start.strings.push(start.unwrap_or_default().to_owned());
         Ok(Text(at))
     }
 
-    /// Declares an Enumeration; its values are in the Integer table.
+    /// Declares an Enumeration, whose values are in the Integer table; `further` are items of the setup behind those of `E`, which
+    /// makes variants of their values.
     pub fn choice<E: Enumeration>(
-        &mut self,
-        spec: &ScalarSpec<'_>,
-        start: Option<E>,
-    ) -> Result<Choice<E>, DeclareError> {
-        self.choice_with(spec, start, Vec::new())
-    }
-
-    /// The same with items of the setup behind those of `E`, which makes variants of their values.
-    pub fn choice_with<E: Enumeration>(
         &mut self,
         spec: &ScalarSpec<'_>,
         start: Option<E>,
@@ -206,14 +177,7 @@ impl Declare {
         if spec.role.causality == Causality::Input {
             self.checked(spec.name, check::has_none(E::TYPE.items))?;
         }
-        let at = self.interface.start.integers.len() as u32;
-        self.push(
-            spec,
-            &[],
-            Element { base: BaseType::Integer, place: at },
-            DeclaredType::Enumeration(E::TYPE.name),
-            start.is_some(),
-        )?;
+        let at = self.scalar(spec, DeclaredType::Enumeration(E::TYPE.name), start.is_some())?;
         self.interface.start.integers.push(start.map_or(first, E::value));
         Ok(Choice(at, PhantomData))
     }
@@ -276,7 +240,6 @@ impl Declare {
         {
             return Err(self.error(&first, format!("nominal is {nominal}; it must be above 0")));
         }
-        let at = self.interface.start.reals.len() as u32;
         let kind = DeclaredType::Real {
             unit: unit.to_owned(),
             display_unit: display_unit.map(str::to_owned),
@@ -285,46 +248,43 @@ impl Declare {
             nominal,
         };
         let scalar = ScalarSpec { name, description, role };
-        let variable = self.variable(&scalar, dimensions, Element { base: BaseType::Real, place: at }, kind);
+        let variable = self.variable(&scalar, dimensions, kind);
         for (at, &value) in start.unwrap_or_default().iter().enumerate() {
             let checked =
                 check::finite("start", Some(value)).and_then(|()| check::range(Some(value), min, max));
             checked.map_err(|problem| DeclareError { name: variable.element_name(at), problem })?;
         }
-        let count = variable.count();
+        let (Element { place, .. }, count) = (variable.first, variable.count());
         self.add(variable, start.is_some())?;
         match start {
             Some(values) => self.interface.start.reals.extend(values),
-            None => self.interface.start.reals.resize(at as usize + count, 0.0),
+            None => self.interface.start.reals.resize(place as usize + count, 0.0),
         }
-        Ok(at)
+        Ok(place)
     }
 
-    fn push(
+    /// Declares a scalar that is no Real; its place in the table of its type.
+    fn scalar(
         &mut self,
         spec: &ScalarSpec<'_>,
-        dimensions: &[usize],
-        first: Element,
         kind: DeclaredType,
         has_start: bool,
-    ) -> Result<(), DeclareError> {
-        let variable = self.variable(spec, dimensions, first, kind);
-        self.add(variable, has_start)
+    ) -> Result<u32, DeclareError> {
+        let variable = self.variable(spec, &[], kind);
+        let Element { place, .. } = variable.first;
+        self.add(variable, has_start)?;
+        Ok(place)
     }
 
-    fn variable(
-        &self,
-        spec: &ScalarSpec<'_>,
-        dimensions: &[usize],
-        first: Element,
-        kind: DeclaredType,
-    ) -> Variable {
+    /// A variable whose elements follow those declared so far.
+    fn variable(&self, spec: &ScalarSpec<'_>, dimensions: &[usize], kind: DeclaredType) -> Variable {
+        let base = kind.base_type();
         Variable {
             name: format!("{}{}", self.prefix, spec.name),
             description: format!("{}{}", self.label, spec.description),
             role: spec.role,
             dimensions: dimensions.to_vec(),
-            first,
+            first: Element { base, place: self.interface.start.lengths()[base as usize] as u32 },
             kind,
         }
     }

@@ -295,6 +295,11 @@ impl<'a> Given<'a> {
     pub fn real_or(&self, variable: Real, own: f64) -> f64 {
         if self.has(variable) { self.values.real(variable) } else { own }
     }
+
+    /// The item that the user gave, else `own`.
+    pub fn choice_or<E: Enumeration>(&self, variable: Choice<E>, own: E) -> E {
+        if self.has(variable) { self.values.choice(variable) } else { own }
+    }
 }
 
 #[cfg(test)]

@@ -72,6 +72,18 @@ pub enum DeclaredType {
     Enumeration(&'static str),
 }
 
+impl DeclaredType {
+    /// Type of the table of values.
+    pub(super) const fn base_type(&self) -> BaseType {
+        match self {
+            Self::Real { .. } => BaseType::Real,
+            Self::Integer { .. } | Self::Enumeration(_) => BaseType::Integer,
+            Self::Boolean => BaseType::Boolean,
+            Self::Text => BaseType::String,
+        }
+    }
+}
+
 /// One scalar, by its place in the table of values of its type; Enumerations share the Integers' table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Element {

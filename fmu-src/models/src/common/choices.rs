@@ -1,7 +1,7 @@
 //! Choices that several models have; those that physics makes have its items.
 
 use fmi_export::Enumeration;
-use fmi_export::variables::{DeclaredItem, EnumerationType, Item};
+use fmi_export::variables::{DeclaredItem, Item};
 use physics::aerodynamics;
 use physics::bodies::{Body, surface};
 use physics::enumeration::{Enumerated, Item as EnumeratedItem};
@@ -11,33 +11,45 @@ use physics::guidance::modes::guidance_command;
 use physics::momentum::Convention;
 use physics::spacecraft::{CustomBody, Panel, Spacecraft, SunshadeModel, TargetItem, ThrusterSet};
 
-/// Enumerations that are those of physics: `Name(type);` each, or `Name(type) of ITEMS;` for some of its items, described by its
-/// doc comment.
-macro_rules! choices {
-    ($($(#[doc = $about:literal])+ $name:ident($type:ty) $(of $some:ident)?;)+) => {$(
+/// An enumeration of what a `Name(type)` holds: the first, the items, from a number, to a number. Its doc comment is its description.
+macro_rules! choice {
+    ($(#[doc = $about:literal])+ $name:ident($held:ty): $first:expr, $items:expr, $from:expr, $value:expr) => {
         $(#[doc = $about])+
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub struct $name(pub $type);
+        pub struct $name(pub $held);
 
         impl ::fmi_export::Enumeration for $name {
-            const FIRST: Self = Self(<$type as ::physics::enumeration::Enumerated>::ITEMS[0].variant);
+            const FIRST: Self = Self($first);
 
             const TYPE: ::fmi_export::variables::EnumerationType = ::fmi_export::variables::EnumerationType {
                 name: stringify!($name),
                 description: concat!($($about),+).trim_ascii(),
-                items: &$crate::common::choices::items::<
-                    $type,
-                    { $crate::common::choices::choices!(@items $type $(, $some)?).len() },
-                >($crate::common::choices::choices!(@items $type $(, $some)?), None),
+                items: $items,
             };
 
             fn from_value(value: i32) -> Option<Self> {
-                ::physics::enumeration::Enumerated::from_value(value).map(Self)
+                $from(value).map(Self)
             }
 
             fn value(self) -> i32 {
-                ::physics::enumeration::Enumerated::value(self.0)
+                $value(self.0)
             }
+        }
+    };
+}
+pub(crate) use choice;
+
+/// Enumerations that are those of physics: `Name(type);` each, or `Name(type) of ITEMS;` for some of its items, described by its
+/// doc comment.
+macro_rules! choices {
+    ($($(#[doc = $about:literal])+ $name:ident($type:ty) $(of $some:ident)?;)+) => {$(
+        $crate::common::choices::choice! {
+            $(#[doc = $about])+
+            $name($type): <$type as ::physics::enumeration::Enumerated>::ITEMS[0].variant,
+            &$crate::common::choices::items::<_, { $crate::common::choices::choices!(@items $type $(, $some)?).len() }>(
+                $crate::common::choices::choices!(@items $type $(, $some)?), None
+            ),
+            ::physics::enumeration::Enumerated::from_value, ::physics::enumeration::Enumerated::value
         }
     )+};
     (@items $type:ty) => { <$type as ::physics::enumeration::Enumerated>::ITEMS };
@@ -49,36 +61,35 @@ pub(crate) use choices;
 /// means";`.
 macro_rules! optional_choices {
     ($($(#[doc = $about:literal])+ $name:ident($type:ty) $(of $some:ident)? or $none:literal;)+) => {$(
-        $(#[doc = $about])+
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub struct $name(pub Option<$type>);
-
-        impl ::fmi_export::Enumeration for $name {
-            const FIRST: Self = Self(None);
-
-            const TYPE: ::fmi_export::variables::EnumerationType = ::fmi_export::variables::EnumerationType {
-                name: stringify!($name),
-                description: concat!($($about),+).trim_ascii(),
-                items: &$crate::common::choices::items::<
-                    $type,
-                    { $crate::common::choices::choices!(@items $type $(, $some)?).len() + 1 },
-                >($crate::common::choices::choices!(@items $type $(, $some)?), Some($none)),
-            };
-
-            fn from_value(value: i32) -> Option<Self> {
-                match value {
-                    0 => Some(Self(None)),
-                    _ => ::physics::enumeration::Enumerated::from_value(value).map(|it| Self(Some(it))),
-                }
-            }
-
-            fn value(self) -> i32 {
-                self.0.map_or(0, ::physics::enumeration::Enumerated::value)
-            }
+        $crate::common::choices::choice! {
+            $(#[doc = $about])+
+            $name(Option<$type>): None,
+            &$crate::common::choices::items::<
+                _, { $crate::common::choices::choices!(@items $type $(, $some)?).len() + 1 },
+            >($crate::common::choices::choices!(@items $type $(, $some)?), Some($none)),
+            |value| match value {
+                0 => Some(None),
+                _ => ::physics::enumeration::Enumerated::from_value(value).map(Some),
+            },
+            |it: Option<$type>| it.map_or(0, ::physics::enumeration::Enumerated::value)
         }
     )+};
 }
 pub(crate) use optional_choices;
+
+/// A row of a table of the spacecraft's file, from 0, or none: `Name(row) or "what none means"`; the setup adds the rows' items.
+macro_rules! row_choice {
+    ($(#[doc = $about:literal])+ $name:ident($row:ident) or $none:literal) => {
+        $crate::common::choices::choice! {
+            $(#[doc = $about])+
+            $name(Option<$row>): None,
+            &[::fmi_export::variables::Item { name: "none", value: 0, description: $none }],
+            |value: i32| Some(u16::try_from(value).ok()?.checked_sub(1).map($row)),
+            |it: Option<$row>| it.map_or(0, |$row(index)| i32::from(index) + 1)
+        }
+    };
+}
+pub(crate) use row_choice;
 
 /// Items by their numbers, after the item `none` if that has a meaning.
 pub(crate) const fn items<E: Enumerated, const N: usize>(
@@ -227,27 +238,9 @@ pub(crate) fn custom_body(spacecraft: &Spacecraft) -> Vec<DeclaredItem> {
     spacecraft.body.iter().map(item).collect()
 }
 
-/// Thrusters for a delta-v.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ThrustRequest(pub Option<ThrusterSet>);
-
-/// Its items are none and the spacecraft's sets.
-impl Enumeration for ThrustRequest {
-    const FIRST: Self = Self(None);
-
-    const TYPE: EnumerationType = EnumerationType {
-        name: "ThrustRequest",
-        description: "Thrusters for a delta-v.",
-        items: &[Item { name: "none", value: 0, description: "None." }],
-    };
-
-    fn from_value(value: i32) -> Option<Self> {
-        Some(Self(u16::try_from(value).ok()?.checked_sub(1).map(ThrusterSet)))
-    }
-
-    fn value(self) -> i32 {
-        self.0.map_or(0, |ThrusterSet(index)| i32::from(index) + 1)
-    }
+row_choice! {
+    /// Thrusters for a delta-v.
+    ThrustRequest(ThrusterSet) or "None."
 }
 
 impl ThrustRequest {

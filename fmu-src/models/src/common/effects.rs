@@ -10,7 +10,7 @@ use physics::plant::{Laws, TUNABLE_COUNT};
 use physics::spacecraft::{Spacecraft, StartValue, SunshadeModel};
 
 use super::center::CenterBody;
-use super::choices::{AerodynamicLaw, Reemission};
+use super::choices::{AerodynamicLaw, Reemission, SunshadeShape};
 use super::start_values::entry_of;
 
 /// Number of surfaces that a message names at most.
@@ -146,10 +146,9 @@ impl AerodynamicVariables {
         shape: SunshadeModel,
     ) -> Result<AerodynamicOptions, Failure> {
         let shadowing = values.boolean(self.shadowing);
-        let outlines = Outlines::new(spacecraft, shape);
-        if shadowing && outlines.given == 0 {
-            let refusal = outlines.refusal(&spacecraft.name);
-            return Err(Failure::new(format!("aerodynamics.shadowing: {refusal}")));
+        if shadowing {
+            without_outline(spacecraft, shape)
+                .map_err(|refusal| Failure::new(format!("aerodynamics.shadowing: {refusal}")))?;
         }
         Ok(AerodynamicOptions {
             law: values.choice(self.law).0,
@@ -174,15 +173,13 @@ impl ShadowingVariables {
         if !values.boolean(self.enabled) {
             return Ok(None);
         }
-        let outlines = Outlines::new(spacecraft, shape);
-        if outlines.given == 0 {
-            return Err(Failure::new(format!("shadowing.enabled: {}", outlines.refusal(&spacecraft.name))));
-        }
-        Ok((!outlines.missing.is_empty()).then(|| {
-            let plural = if outlines.missing.len() == 1 { "has" } else { "have" };
+        let missing = without_outline(spacecraft, shape)
+            .map_err(|refusal| Failure::new(format!("shadowing.enabled: {refusal}")))?;
+        Ok((!missing.is_empty()).then(|| {
+            let plural = if missing.len() == 1 { "has" } else { "have" };
             format!(
                 "shadowing.enabled: {} {plural} no outline (polygon_m), cast no shadow and are never shadowed",
-                outlines.names()
+                listed(&missing)
             )
         }))
     }
@@ -192,13 +189,9 @@ impl ShadowingVariables {
 pub(crate) fn check_start(file: &str, spacecraft: &Spacecraft, model: &str) -> Result<(), SetupError> {
     let entry = entry_of(&spacecraft.start, model, "shadowing.enabled");
     let Some(entry) = entry.filter(|entry| entry.value == StartValue::Boolean(true)) else { return Ok(()) };
-    let shape = spacecraft.sunshade.as_ref().map_or(SunshadeModel::Plates, |shade| shade.model);
-    let outlines = Outlines::new(spacecraft, shape);
-    if outlines.given > 0 {
-        return Ok(());
-    }
-    let refusal = outlines.refusal(&spacecraft.name);
-    Err(SetupError(format!("{file}:{}: {}: {refusal}", entry.line, entry.key)))
+    without_outline(spacecraft, SunshadeShape::for_spacecraft(spacecraft).0)
+        .map(drop)
+        .map_err(|refusal| SetupError(format!("{file}:{}: {}: {refusal}", entry.line, entry.key)))
 }
 
 /// Returns a warning where a file's `[planet_map]` is without effect.
@@ -212,32 +205,28 @@ pub(crate) fn unused_map(spacecraft: &Spacecraft) -> Option<String> {
     })
 }
 
-/// Number of surfaces with an outline, and names of those without.
-struct Outlines {
-    given: usize,
-    missing: Vec<String>,
+/// Names of the surfaces without an outline.
+///
+/// # Errors
+/// No surface has one: the refusal of shadows.
+fn without_outline(spacecraft: &Spacecraft, shape: SunshadeModel) -> Result<Vec<String>, String> {
+    let (given, missing) = spacecraft.outlines(shape);
+    if given > 0 {
+        return Ok(missing);
+    }
+    Err(format!(
+        "found true, allowed: false, as no surface of {} has an outline that could cast a shadow; polygon_m gives one \
+         to {}",
+        spacecraft.name,
+        listed(&missing)
+    ))
 }
 
-impl Outlines {
-    fn new(spacecraft: &Spacecraft, shape: SunshadeModel) -> Self {
-        let (given, missing) = spacecraft.outlines(shape);
-        Self { given, missing }
+/// The first of these surfaces, and how many more there are.
+fn listed(names: &[String]) -> String {
+    let mut listed: Vec<String> = names.iter().take(MOST_NAMES).map(|name| format!("`{name}`")).collect();
+    if let Some(more) = names.len().checked_sub(MOST_NAMES).filter(|more| *more > 0) {
+        listed.push(format!("{more} more"));
     }
-
-    fn refusal(&self, name: &str) -> String {
-        format!(
-            "found true, allowed: false, as no surface of {name} has an outline that could cast a shadow; polygon_m gives one \
-             to {}",
-            self.names()
-        )
-    }
-
-    fn names(&self) -> String {
-        let mut names: Vec<String> =
-            self.missing.iter().take(MOST_NAMES).map(|name| format!("`{name}`")).collect();
-        if let Some(more) = self.missing.len().checked_sub(MOST_NAMES).filter(|more| *more > 0) {
-            names.push(format!("{more} more"));
-        }
-        names.join(", ")
-    }
+    listed.join(", ")
 }

@@ -35,16 +35,25 @@ pub struct EllipseVariables {
     pub true_anomaly: Real,
 }
 
+/// Parameters of an orbit: semi-major axis, eccentricity, inclination; ascending node, argument of periapsis, true anomaly.
+pub(crate) fn kepler_elements(
+    [axis, eccentricity, inclination]: [Real; 3],
+    [node, argument, anomaly]: [Real; 3],
+) -> Numbers<KeplerElements, 6> {
+    Numbers([
+        (axis, |it| &mut it.semi_major_axis_m),
+        (eccentricity, |it| &mut it.eccentricity),
+        (inclination, |it| &mut it.inclination_rad),
+        (node, |it| &mut it.ascending_node_rad),
+        (argument, |it| &mut it.periapsis_argument_rad),
+        (anomaly, |it| &mut it.true_anomaly_rad),
+    ])
+}
+
 impl EllipseVariables {
     fn numbers(&self) -> Numbers<KeplerElements, 6> {
-        Numbers([
-            (self.semi_major_axis, |it| &mut it.semi_major_axis_m),
-            (self.eccentricity, |it| &mut it.eccentricity),
-            (self.inclination, |it| &mut it.inclination_rad),
-            (self.ascending_node, |it| &mut it.ascending_node_rad),
-            (self.periapsis_argument, |it| &mut it.periapsis_argument_rad),
-            (self.true_anomaly, |it| &mut it.true_anomaly_rad),
-        ])
+        let shape = [self.semi_major_axis, self.eccentricity, self.inclination];
+        kepler_elements(shape, [self.ascending_node, self.periapsis_argument, self.true_anomaly])
     }
 
     /// Elements of the planet's ellipse about the Sun, in the ecliptic of J2000: those that are given, else the body's own.

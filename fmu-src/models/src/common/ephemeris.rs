@@ -51,40 +51,39 @@ pub(crate) fn custom(body: &CenterBody, source: &str) -> Result<KeplerPlanet, Fa
     })
 }
 
-/// Refuses onboard ephemerides that do not place Sun and Earth from a centre, or not at `epoch_s`, which `what` gives.
-pub(crate) fn check_onboard(
-    carried: &OnboardEphemeris,
-    center: Body,
-    what: &str,
-    epoch_s: f64,
-) -> Result<(), Failure> {
-    let from = OnboardTarget::from(center);
-    let targets = [OnboardTarget::Sun, OnboardTarget::Earth].into_iter().filter(|target| *target != from);
-    for target in targets {
-        let found = carried.span(target, center).ok_or_else(|| {
-            Failure::new(format!(
-                "{EPHEMERIS_FILE}: found no [[body]] that joins {target} with {from}, allowed: positions of sun and earth \
-                 that lead to {from}, from whose centre this model counts"
-            ))
-        })?;
-        check_epoch(target, found, what, epoch_s)?;
-    }
-    Ok(())
+/// Epoch, and what gives it.
+#[derive(Clone, Copy)]
+pub(crate) struct NamedEpoch {
+    pub name: &'static str,
+    pub epoch_s: f64,
 }
 
-/// Refuses an epoch, which `what` gives, outside the span over which the onboard ephemerides place a target.
-pub(crate) fn check_epoch(
-    target: OnboardTarget,
-    span: Span,
-    what: &str,
-    epoch_s: f64,
-) -> Result<(), Failure> {
-    let Span { start_s, end_s } = span;
-    if span.contains(epoch_s) {
-        return Ok(());
+impl NamedEpoch {
+    /// Refuses onboard ephemerides that do not place Sun and Earth from a centre, or not at this epoch.
+    pub(crate) fn check_onboard(self, carried: &OnboardEphemeris, center: Body) -> Result<(), Failure> {
+        let from = OnboardTarget::from(center);
+        let targets = [OnboardTarget::Sun, OnboardTarget::Earth].into_iter().filter(|target| *target != from);
+        for target in targets {
+            let found = carried.span(target, center).ok_or_else(|| {
+                Failure::new(format!(
+                    "{EPHEMERIS_FILE}: found no [[body]] that joins {target} with {from}, allowed: positions of sun and earth \
+                     that lead to {from}, from whose centre this model counts"
+                ))
+            })?;
+            self.check(target, found)?;
+        }
+        Ok(())
     }
-    Err(Failure::new(format!(
-        "{what}: found {epoch_s:?} s, allowed: from {start_s:?} to {end_s:?} s past J2000, where {EPHEMERIS_FILE} \
-         places {target}"
-    )))
+
+    /// Refuses an epoch outside the span over which the onboard ephemerides place a target.
+    pub(crate) fn check(self, target: OnboardTarget, span: Span) -> Result<(), Failure> {
+        let (Self { name, epoch_s }, Span { start_s, end_s }) = (self, span);
+        if span.contains(epoch_s) {
+            return Ok(());
+        }
+        Err(Failure::new(format!(
+            "{name}: found {epoch_s:?} s, allowed: from {start_s:?} to {end_s:?} s past J2000, where {EPHEMERIS_FILE} \
+             places {target}"
+        )))
+    }
 }

@@ -148,26 +148,17 @@ impl GuidedVariables {
         about: &RuleContext<'_>,
     ) -> Result<Guided, Failure> {
         let law = self.by_shares(read, defaults, law);
-        let throughout = self.phase(read, defaults, about.is_about_sun) == GuidedPhase::Cruise;
-        let rule = self.rule(read, defaults, about.is_about_sun);
+        let throughout = self.phase(read, defaults.phase(about.is_about_sun)) == GuidedPhase::Cruise;
+        let rule = self.rule(read, defaults.attitude.rule(about.is_about_sun));
         let named = if law.science.unloads() { None } else { self.named.read(read.values, rule, about)? };
         let schedule = Schedule { throughout, ..law.schedule };
         Ok(Guided { schedule, science: named.unwrap_or(law.science), ..law })
     }
 
-    /// The rule that acts.
-    pub fn rule(
-        &self,
-        read: ValueReader<'_, impl Model>,
-        defaults: &GuidedDefaults,
-        is_about_sun: bool,
-    ) -> ScienceRule {
+    /// The rule that acts: the given one, else `own`.
+    fn rule(&self, read: ValueReader<'_, impl Model>, own: ScienceRule) -> ScienceRule {
         let group = [self.science_rule.into(), self.science_gain.into(), self.slew_rate.into()];
-        if read.given(&group).has(self.science_rule) {
-            read.choice(self.science_rule)
-        } else {
-            defaults.attitude.rule(is_about_sun)
-        }
+        read.given(&group).choice_or(self.science_rule, own)
     }
 
     /// Writes phase and rule as they act.
@@ -179,27 +170,18 @@ impl GuidedVariables {
         is_about_sun: bool,
     ) {
         let read = ValueReader::new(context, values);
-        let phase = self.phase(read, defaults, is_about_sun);
-        let rule = self.rule(read, defaults, is_about_sun);
+        let phase = self.phase(read, defaults.phase(is_about_sun));
+        let rule = self.rule(read, defaults.attitude.rule(is_about_sun));
         values.set_choice(self.phase, phase);
         values.set_choice(self.science_rule, rule);
     }
 
-    /// The phase that acts.
-    pub fn phase(
-        &self,
-        read: ValueReader<'_, impl Model>,
-        defaults: &GuidedDefaults,
-        is_about_sun: bool,
-    ) -> GuidedPhase {
+    /// The phase that acts: the given one, else `own`.
+    fn phase(&self, read: ValueReader<'_, impl Model>, own: GuidedPhase) -> GuidedPhase {
         let [start, end] = [self.downlink_start, self.downlink_end].map(Elements::from);
         let windows =
             [self.phase.into(), self.downlink_reference.into(), self.downlink_every.into(), start, end];
-        if read.given(&windows).has(self.phase) {
-            read.choice(self.phase)
-        } else {
-            defaults.phase(is_about_sun)
-        }
+        read.given(&windows).choice_or(self.phase, own)
     }
 
     /// Refuses science that unloads without a strategy that chooses the Sun's place.

@@ -3,7 +3,7 @@
 use fmi_export::{Elements, Given, Real, Values};
 
 /// A parameter with the number of a `T` that it is.
-type Number<T> = (Real, fn(&mut T) -> &mut f64);
+pub(crate) type Number<T> = (Real, fn(&mut T) -> &mut f64);
 
 /// Group of parameters with defaults from one body.
 pub(crate) struct Numbers<T, const N: usize>(pub [Number<T>; N]);

@@ -46,109 +46,118 @@ impl SettableMaterials {
 /// Parameters by material, in the spacecraft's order.
 pub struct OpticsVariables(Vec<MaterialVariables>);
 
-/// Parameters of one material.
-struct MaterialVariables {
-    /// Mirrored and scattered fraction.
-    light: [Real; 2],
-    /// Emissivity and absorbed fraction of infrared light.
-    heat: Option<[Real; 2]>,
-    /// Interaction with air.
-    air: Option<GasSurface<Real>>,
+/// Parameters of one material: the first of [`NUMBERS`], as many as its model has.
+struct MaterialVariables(Vec<Real>);
+
+/// A number of a material.
+struct Number {
+    name: &'static str,
+    description: &'static str,
+    unit: &'static str,
+    limits: [Option<f64>; 2],
+    start: fn(&MaterialValues) -> f64,
 }
+
+/// A number from 0 to 1.
+const fn fraction(
+    name: &'static str,
+    description: &'static str,
+    start: fn(&MaterialValues) -> f64,
+) -> Number {
+    Number { name, description, unit: "1", limits: [Some(0.0), Some(1.0)], start }
+}
+
+/// Number of the parameters that act on light, and on light and heat.
+const LIGHT: usize = 2;
+const LIGHT_AND_HEAT: usize = 4;
+
+/// Mirrored and scattered fraction; emissivity and absorbed fraction of infrared light; interaction with air.
+const NUMBERS: [Number; 9] = [
+    fraction("specular", "Mirrored fraction; the rest of both is absorbed", |it| it.specular),
+    fraction("diffuse", "Scattered fraction (Lambert)", |it| it.diffuse),
+    Number {
+        limits: [Some(1e-3), Some(1.0)],
+        ..fraction("emissivity", "Infrared emissivity; unless given, the absorptivity", |it| {
+            it.emissivity.value
+        })
+    },
+    fraction(
+        "infraredAbsorptivity",
+        "Absorbed fraction of infrared light; unless given, the absorptivity",
+        |it| it.infrared_absorptivity.value,
+    ),
+    Number {
+        limits: [Some(0.0), None],
+        ..fraction("dragCoefficient", "For aerodynamics.law dragCoefficient", |it| {
+            it.gas_surface.drag_coefficient
+        })
+    },
+    fraction("energyAccommodation", "For aerodynamics.law sentman", |it| it.gas_surface.energy_accommodation),
+    fraction("normalAccommodation", "For aerodynamics.law schaafChambre", |it| {
+        it.gas_surface.normal_accommodation
+    }),
+    fraction("tangentialAccommodation", "For aerodynamics.law schaafChambre", |it| {
+        it.gas_surface.tangential_accommodation
+    }),
+    Number {
+        unit: "K",
+        limits: [Some(0.0), Some(2000.0)],
+        ..fraction("wallTemperature", "In air, without thermal.enabled", |it| {
+            it.gas_surface.wall_temperature_k
+        })
+    },
+];
 
 impl Variables<SettableMaterials> for OpticsVariables {
     fn declare(scope: &mut Declare, setup: &SettableMaterials, _index: usize) -> Result<Self, DeclareError> {
-        let declared = setup
-            .all
-            .iter()
-            .map(|named| scope.group(&named.name, |scope| MaterialVariables::declare(scope, setup, named)));
+        let declared =
+            setup.all.iter().map(|named| scope.group(&named.name, |scope| setup.declare(scope, named)));
         declared.collect::<Result<_, _>>().map(Self)
     }
 }
 
-impl MaterialVariables {
-    fn declare(
-        scope: &mut Declare,
-        setup: &SettableMaterials,
-        named: &NamedMaterial,
-    ) -> Result<Self, DeclareError> {
+impl SettableMaterials {
+    fn declare(&self, scope: &mut Declare, named: &NamedMaterial) -> Result<MaterialVariables, DeclareError> {
         let values = named.values();
-        let (emissivity, infrared) = (values.emissivity.value, values.infrared_absorptivity.value);
-        let light = [
-            fraction(scope, "specular", "Mirrored fraction; the rest of both is absorbed", values.specular)?,
-            fraction(scope, "diffuse", "Scattered fraction (Lambert)", values.diffuse)?,
-        ];
-        let heat = match setup.heat {
-            true => Some([
-                parameter(
-                    scope,
-                    ("emissivity", "Infrared emissivity; unless given, the absorptivity"),
-                    "1",
-                    [Some(1e-3), Some(1.0)],
-                    emissivity,
-                )?,
-                fraction(
-                    scope,
-                    "infraredAbsorptivity",
-                    "Absorbed fraction of infrared light; unless given, the absorptivity",
-                    infrared,
-                )?,
-            ]),
-            false => None,
+        let role = Role { causality: Causality::Parameter, variability: Variability::Tunable, initial: None };
+        let count = match (self.heat, self.air) {
+            (false, _) => LIGHT,
+            (true, false) => LIGHT_AND_HEAT,
+            (true, true) => NUMBERS.len(),
         };
-        let gas = values.gas_surface;
-        let air = match setup.air {
-            true => Some(GasSurface {
-                drag_coefficient: parameter(
-                    scope,
-                    ("dragCoefficient", "For aerodynamics.law dragCoefficient"),
-                    "1",
-                    [Some(0.0), None],
-                    gas.drag_coefficient,
-                )?,
-                energy_accommodation: fraction(
-                    scope,
-                    "energyAccommodation",
-                    "For aerodynamics.law sentman",
-                    gas.energy_accommodation,
-                )?,
-                normal_accommodation: fraction(
-                    scope,
-                    "normalAccommodation",
-                    "For aerodynamics.law schaafChambre",
-                    gas.normal_accommodation,
-                )?,
-                tangential_accommodation: fraction(
-                    scope,
-                    "tangentialAccommodation",
-                    "For aerodynamics.law schaafChambre",
-                    gas.tangential_accommodation,
-                )?,
-                wall_temperature_k: parameter(
-                    scope,
-                    ("wallTemperature", "In air, without thermal.enabled"),
-                    "K",
-                    [Some(0.0), Some(2000.0)],
-                    gas.wall_temperature_k,
-                )?,
-            }),
-            false => None,
-        };
-        Ok(Self { light, heat, air })
+        let declared = NUMBERS.iter().take(count).map(|number| {
+            let &Number { name, description, unit, limits: [min, max], start } = number;
+            let (display_unit, nominal) = (None, None);
+            let spec = RealSpec { name, description, role, unit, display_unit, min, max, nominal };
+            scope.real(&spec, Some(start(&values)))
+        });
+        declared.collect::<Result<_, _>>().map(MaterialVariables)
+    }
+}
+
+impl MaterialVariables {
+    /// Mirrored and scattered fraction.
+    fn light(&self) -> [Real; LIGHT] {
+        [self.0[0], self.0[1]]
     }
 
-    /// All of them.
-    fn each(&self) -> impl Iterator<Item = Real> + '_ {
-        let air = self.air.as_ref().map(|it| {
-            [
-                it.drag_coefficient,
-                it.energy_accommodation,
-                it.normal_accommodation,
-                it.tangential_accommodation,
-                it.wall_temperature_k,
-            ]
-        });
-        self.light.into_iter().chain(self.heat.into_iter().flatten()).chain(air.into_iter().flatten())
+    /// Emissivity and absorbed fraction of infrared light.
+    fn heat(&self) -> Option<[Real; 2]> {
+        self.0.get(LIGHT..LIGHT_AND_HEAT)?.try_into().ok()
+    }
+
+    /// Interaction with air.
+    fn air(&self) -> Option<GasSurface<Real>> {
+        let &[drag, energy, normal, tangential, wall_temperature] = self.0.get(LIGHT_AND_HEAT..)? else {
+            return None;
+        };
+        Some(GasSurface {
+            drag_coefficient: drag,
+            energy_accommodation: energy,
+            normal_accommodation: normal,
+            tangential_accommodation: tangential,
+            wall_temperature_k: wall_temperature,
+        })
     }
 
     /// Values as `read` reads them; a number counts as given where `is_given` says so.
@@ -163,13 +172,13 @@ impl MaterialVariables {
             parameter
                 .map_or(known, |it| Following { value: read(it), follows: known.follows && !is_given(it) })
         };
-        let [specular, diffuse] = self.light.map(&read);
+        let ([specular, diffuse], heat) = (self.light().map(&read), self.heat());
         MaterialValues {
             specular,
             diffuse,
-            emissivity: following(own.emissivity, self.heat.map(|[it, _]| it)),
-            infrared_absorptivity: following(own.infrared_absorptivity, self.heat.map(|[_, it]| it)),
-            gas_surface: self.air.map_or(own.gas_surface, |air| air.map(&read)),
+            emissivity: following(own.emissivity, heat.map(|[it, _]| it)),
+            infrared_absorptivity: following(own.infrared_absorptivity, heat.map(|[_, it]| it)),
+            gas_surface: self.air().map_or(own.gas_surface, |air| air.map(&read)),
         }
     }
 }
@@ -177,17 +186,17 @@ impl MaterialVariables {
 impl OpticsVariables {
     /// Reflectivities.
     pub fn light(&self) -> Knowns {
-        self.0.iter().flat_map(|it| it.light).collect()
+        self.0.iter().flat_map(MaterialVariables::light).collect()
     }
 
     /// The parameters that act on light and heat.
     pub fn light_and_heat(&self) -> Knowns {
-        self.0.iter().flat_map(|it| it.light.into_iter().chain(it.heat.into_iter().flatten())).collect()
+        self.0.iter().flat_map(|it| it.0.iter().take(LIGHT_AND_HEAT).copied()).collect()
     }
 
     /// Every parameter.
     pub fn each(&self) -> impl Iterator<Item = Real> + '_ {
-        self.0.iter().flat_map(MaterialVariables::each)
+        self.0.iter().flat_map(|it| it.0.iter().copied())
     }
 
     /// Values of every material, as `read` reads a parameter.
@@ -199,7 +208,7 @@ impl OpticsVariables {
         read: impl Fn(Real) -> T + Copy + 'v,
     ) -> impl Iterator<Item = MaterialValues<T>> + 'v {
         self.0.iter().zip(&own.all).map(move |(material, own)| {
-            let heat = material.heat.unwrap_or(material.light).map(Into::into);
+            let heat = material.heat().unwrap_or(material.light()).map(Into::into);
             let given = || context.given_deliberately(values, &heat);
             material.values(own, |parameter| given().has(parameter), read)
         })
@@ -237,20 +246,4 @@ pub(crate) fn material<T: Scalar>(
     values: &MaterialValues<T>,
 ) -> Result<Material<T>, Failure> {
     own.with(values).map_err(|error| Failure::new(error.to_string()))
-}
-
-fn fraction(scope: &mut Declare, name: &str, description: &str, start: f64) -> Result<Real, DeclareError> {
-    parameter(scope, (name, description), "1", [Some(0.0), Some(1.0)], start)
-}
-
-fn parameter(
-    scope: &mut Declare,
-    (name, description): (&str, &str),
-    unit: &str,
-    [min, max]: [Option<f64>; 2],
-    start: f64,
-) -> Result<Real, DeclareError> {
-    let role = Role { causality: Causality::Parameter, variability: Variability::Tunable, initial: None };
-    let (display_unit, nominal) = (None, None);
-    scope.real(&RealSpec { name, description, role, unit, display_unit, min, max, nominal }, Some(start))
 }

@@ -1,11 +1,12 @@
 //! Rotation model of a planet from its parameters.
 
-use fmi_export::{Choice, Failure, Given, Real, Values, Variables};
+use fmi_export::{Choice, Failure, Real, Variables};
 use physics::bodies::{Body, BodyData};
 use physics::environment::orientation::Orientation;
 
 use super::center::CenterBody;
 use super::choices::PlanetOrientation;
+use super::numbers::Number;
 
 /// Pole and rotation of a planet.
 #[derive(Variables)]
@@ -30,13 +31,14 @@ pub struct RotationVariables {
 }
 
 impl RotationVariables {
-    /// The orientation that is set, else that of a body.
-    pub fn choice(&self, given: &Given<'_>, values: &Values, body: Body) -> PlanetOrientation {
-        if given.has(self.orientation) {
-            values.choice(self.orientation)
-        } else {
-            PlanetOrientation::for_body(body)
-        }
+    /// The parameters that are numbers of a body.
+    pub(crate) fn numbers(&self) -> [Number<BodyData>; 4] {
+        [
+            (self.pole_right_ascension, |it| &mut it.pole_right_ascension_rad),
+            (self.pole_declination, |it| &mut it.pole_declination_rad),
+            (self.prime_meridian, |it| &mut it.prime_meridian_rad),
+            (self.rotation_rate, |it| &mut it.rotation_rate_rad_s),
+        ]
     }
 }
 

@@ -1,7 +1,8 @@
 //! Surfaces, antennas, wheels and inertia of a spacecraft, for several models.
 
-use fmi_export::{Failure, RealMatrix, SetupError, Values};
+use fmi_export::{Failure, RealMatrix, RealVector, SetupError, Values};
 use nalgebra::{Matrix3, Vector3};
+use physics::attitude::Attitude;
 use physics::guidance::downlink::default_downlink::DefaultDownlink;
 use physics::guidance::pointing::antenna::Antennas;
 use physics::momentum::{WheelArray, wheels_body_n_m_s};
@@ -21,6 +22,15 @@ pub(crate) fn inertia_body_kg_m2(values: &Values, handle: RealMatrix<3, 3>) -> R
     spacecraft::check_inertia(&inertia)
         .map_err(|allowed| Failure::new(format!("spacecraft.inertia is {rows:?}, allowed: {allowed}")))?;
     Ok(inertia)
+}
+
+/// The attitude that `start.q` holds.
+///
+/// # Errors
+/// A quaternion that is no attitude.
+pub(crate) fn start_attitude(values: &Values, handle: RealVector<4>) -> Result<Attitude, Failure> {
+    Attitude::from_quaternion(values.vector(handle))
+        .map_err(|error| Failure::new(format!("start.q: {error}")))
 }
 
 /// A spacecraft prepared for sunlight with its shade in each shape.

@@ -49,12 +49,9 @@ impl SurfaceVariables {
     }
 
     /// The surface, of what is not given `own`.
-    pub fn read_or(&self, values: &Values, given: Given<'_>, own: &PlanetSurface) -> PlanetSurface {
-        let mut surface = self.numbers().read_or(given, own);
-        if given.has(self.day_temperature) {
-            surface.day_temperature = values.choice(self.day_temperature).0;
-        }
-        surface
+    pub fn read_or(&self, given: Given<'_>, own: &PlanetSurface) -> PlanetSurface {
+        let day_temperature = given.choice_or(self.day_temperature, DayTemperature(own.day_temperature)).0;
+        PlanetSurface { day_temperature, ..self.numbers().read_or(given, own) }
     }
 
     /// Writes this surface, but for its radius.

@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::common::start_values::of_spacecraft;
 use inputs::Prepared;
+use outputs::Shown;
 use setup::Plan;
 pub use setup::{DisturbanceSetup, DisturbanceTorque};
 use state::Materials;
@@ -187,8 +188,10 @@ impl Differentiable for DisturbanceTorque {
         let materials = state.materials.seeded(context, values, along)?;
         let mut workspaces = Workspaces::<Dual64>::default();
         let found = prepared.evaluate(&parameters, &materials, &positions, &mut workspaces)?;
+        let shown = Shown { variables, found: &found, workspace: &workspaces.light };
         for (unknown, product) in unknowns.iter().zip(products) {
-            *product = outputs::value(variables, &found, &workspaces.light, *unknown)
+            *product = shown
+                .value(*unknown)
                 .ok_or_else(|| Failure::new("directional derivatives are known of the outputs only"))?
                 .eps;
         }
@@ -210,7 +213,7 @@ impl DeferredOutputs for DisturbanceTorque {
     ) -> Result<(), Failure> {
         let DisturbanceState { found, workspaces, .. } = state;
         let found = found.as_ref().ok_or_else(|| Failure::new("nothing was evaluated since the restore"))?;
-        outputs::write(context.variables, values, (found, &workspaces.light), groups);
+        Shown { variables: context.variables, found, workspace: &workspaces.light }.write(values, groups);
         Ok(())
     }
 }

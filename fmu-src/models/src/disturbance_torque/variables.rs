@@ -6,7 +6,7 @@ use physics::constants::RADIUS_SUN_M;
 use physics::numerics::scalar::Scalar;
 use physics::plant::{Parameters, Positions};
 
-use super::setup::DisturbanceSetup;
+use super::setup::DisturbanceSetup as Setup;
 use crate::common::choices::SunshadeShape;
 use crate::common::effects::{self, LawVariables, RecoilVariables, ShadowingVariables};
 use crate::common::loads::{self, BySource, PlateVariables};
@@ -15,7 +15,6 @@ use crate::common::variables::{EclipseVariables, SolarFluxVariables, SurfaceVari
 
 /// Every variable, in the order of the XML.
 #[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
 pub struct DisturbanceVariables {
     pub sun: SunVariables,
     pub planet: PlanetVariables,
@@ -81,7 +80,6 @@ impl DisturbanceVariables {
 
 /// The Sun.
 #[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
 pub struct SunVariables {
     /// Radius of the Sun (IAU 2015 nominal): width of the penumbra, and of shadows of parts by shadowing.sunDisc. Others use
     /// 695,000 or 696,000 km, which moves an edge of a shadow by some 2 ms.
@@ -97,7 +95,6 @@ pub struct SunVariables {
 
 /// The planet: where it is and what its surface does with sunlight.
 #[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
 pub struct PlanetVariables {
     /// From the spacecraft to the planet's centre, body frame.
     #[input(unit = "m", display = "km", start = setup.center.data.usual_planet_body_m())]
@@ -145,7 +142,6 @@ pub struct AtmosphereVariables {
 
 /// One solar panel.
 #[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
 pub struct PanelVariables {
     /// Rotation angle about the panel's axis from its zero position.
     #[input(unit = "rad", display = "deg", start = setup.spacecraft.panels[index].angle_rad)]
@@ -179,7 +175,6 @@ pub struct PlanetLightVariables {
 
 /// Mass properties.
 #[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
 pub struct SpacecraftVariables {
     /// Centre of mass in the body frame, as the panels stand.
     #[input(unit = "m", display = "cm", min = -1e4, max = 1e4, start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]

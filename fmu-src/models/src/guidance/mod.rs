@@ -16,13 +16,15 @@ use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
 use physics::guidance::burn::delta_v::{BurnPhase, BurnState, Interruption};
-use physics::guidance::modes::mode::{Mode, ModeReason};
+use physics::guidance::modes::mode::ModeReason;
 use physics::guidance::modes::system::{GuidanceState, SAMPLE_WORK};
+use physics::guidance::modes::transitions::ModeState;
 use physics::management::DumpRequests;
 use physics::numerics::work::Work;
 
 use crate::common::downlink::TIMELINE_FILE;
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
+use crate::common::spacecraft::start_attitude;
 use crate::common::start_values::of_spacecraft;
 use inputs::Fixed;
 use inputs::reader::Reader;
@@ -89,7 +91,7 @@ impl Model for Guidance {
     fn initialize(context: &Plan<'_>, values: &mut Values, start_s: f64) -> Result<State, Failure> {
         let epoch_s = values.real(context.variables.start.epoch);
         let mut state = State {
-            system: GuidanceState::new(inputs::start_attitude(Read::new(context, values))?, start_s),
+            system: GuidanceState::new(start_attitude(values, context.variables.start.q)?, start_s),
             dumps: DumpRequests::default(),
             events_until_s: start_s.next_down(),
             burn_entry: None,
@@ -116,8 +118,7 @@ impl Model for Guidance {
                            stands in for it";
             context.log.event(start_s, message);
         }
-        let burn = shown.burn_settings(context, &fixed.burn);
-        outputs::write(context, values, &shown, &burn, epoch_s);
+        outputs::write(context, values, &shown, &fixed, epoch_s);
         state.fixed = Some(fixed);
         Ok(state)
     }
@@ -153,16 +154,15 @@ impl Model for Guidance {
                 )));
             }
             let (burn, sampled_s) = (state.system.burn, state.system.next_sample_s);
-            let before = (state.system.modes.mode, state.system.modes.reason);
+            let before = state.system.modes;
             work.spend(0, state.sample(read, &fixed, &settings, step.inputs)?);
             requested_s = Some(sampled_s).filter(|_| state.dumps.is_requested);
             warn_of_missed_burn(context, &burn, &state.system.burn, sampled_s);
-            log_demotion(context, sampled_s, before, (state.system.modes.mode, state.system.modes.reason));
+            log_demotion(context, sampled_s, &before, &state.system.modes);
         }
         let epoch_s = time::epoch_at_s(step.end_s, state.epoch_minus_time_s);
         state.time_s = step.end_s;
-        let burn = state.burn_settings(context, &fixed.burn);
-        outputs::write(context, values, state, &burn, epoch_s);
+        outputs::write(context, values, state, &fixed, epoch_s);
         state.fixed = Some(fixed);
         Ok(StepEnd::at(step.end_s))
     }
@@ -187,17 +187,12 @@ impl Model for Guidance {
 }
 
 /// Reports why the mode fell at the sample, or what was lost beside: a request as an event, what comes by itself as a warning.
-fn log_demotion(
-    context: &Plan<'_>,
-    sampled_s: f64,
-    (mode_before, reason_before): (Mode, Option<ModeReason>),
-    (mode, reason): (Mode, Option<ModeReason>),
-) {
-    let Some(reason) = reason else { return };
-    let has_fallen = mode.value() > mode_before.value();
+fn log_demotion(context: &Plan<'_>, sampled_s: f64, before: &ModeState, now: &ModeState) {
+    let (mode, Some(reason)) = (now.mode, now.reason) else { return };
+    let has_fallen = mode.value() > before.mode.value();
     let is_requested = matches!(reason, ModeReason::Request | ModeReason::Timeline);
     let is_lost = matches!(reason, ModeReason::AttitudeLost | ModeReason::SunLost);
-    let is_lost_anew = is_lost && reason_before != Some(reason);
+    let is_lost_anew = is_lost && before.reason != Some(reason);
     if !has_fallen && !is_lost_anew {
         return;
     }
@@ -221,7 +216,7 @@ fn log_demotion(
             "the turn back within the constraints came no nearer to them for monitor.persistence"
         }
     };
-    let (from, to, name) = (mode_before.name(), mode.name(), reason.name());
+    let (from, to, name) = (before.mode.name(), mode.name(), reason.name());
     let change = if has_fallen { format!("mode {from} -> {to}") } else { format!("mode {to} stays") };
     if is_requested {
         context.log.event(sampled_s, &format!("{change} (mode.reason {name}): {why}"));
@@ -261,6 +256,6 @@ fn warn_of_missed_burn(context: &Plan<'_>, before: &BurnState, now: &BurnState, 
 
 impl OutputRates for Guidance {
     fn output_rate(context: &Plan<'_>, _values: &Values, state: &State, output: Real) -> Option<f64> {
-        outputs::derivative(context, &state.system, state.time_s, output)
+        outputs::derivative(context, state, output)
     }
 }

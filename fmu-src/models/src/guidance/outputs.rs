@@ -3,8 +3,8 @@
 use fmi_export::{Real, Values};
 
 use physics::guidance::burn::delta_v::{BurnSettings, BurnState};
-use physics::guidance::modes::system::GuidanceState;
 
+use super::inputs::Fixed;
 use super::setup::Plan;
 use super::state::State;
 use super::variables::choices::{ActiveMode, AntennaSelect, EphemerisModel, EphemerisSource, ModeReason};
@@ -14,13 +14,8 @@ use crate::common::choices::{CommandKind, ThrustRequest};
 const NEVER_S: f64 = -1.0;
 
 /// Writes every output at the communication point reached, the epoch there being `epoch_s`.
-pub(super) fn write(
-    context: &Plan<'_>,
-    values: &mut Values,
-    state: &State,
-    burn: &BurnSettings,
-    epoch_s: f64,
-) {
+pub(super) fn write(context: &Plan<'_>, values: &mut Values, state: &State, fixed: &Fixed, epoch_s: f64) {
+    let burn = state.burn_settings(context, &fixed.burn);
     let v = context.variables;
     let (State { system: state, dumps, epoch_minus_time_s, .. }, time_s) = (state, state.time_s);
     let command = &state.command;
@@ -39,9 +34,9 @@ pub(super) fn write(
         .map(|timeline| timeline.slot(time_s, timeline.clock_minus_time_s(*epoch_minus_time_s)));
     let until_s = slot.map(|slot| slot.until_s).filter(|until_s| until_s.is_finite());
     values.set_real(v.timeline_until, until_s.unwrap_or(NEVER_S));
-    values.set_boolean(v.ephemeris.valid, state.ephemeris_is_valid());
+    values.set_boolean(v.ephemeris.valid, state.modes.ephemeris.is_valid());
     let is_coarse = match values.choice(v.ephemeris.source) {
-        EphemerisSource::Chebyshev => state.uses_coarse_ephemeris(),
+        EphemerisSource::Chebyshev => state.modes.ephemeris.uses_coarse(state.modes.mode),
         EphemerisSource::Coarse => true,
         _ => false,
     };
@@ -66,7 +61,7 @@ pub(super) fn write(
     values.set_boolean(v.constraint.clamped, status.clamped);
     values.set_boolean(v.downlink.active, status.downlink.active);
     values.set_boolean(v.downlink.clamped, status.downlink.clamped);
-    self::burn(context, values, &state.burn, burn);
+    self::burn(context, values, &state.burn, &burn);
     for panel in &v.panel {
         values.set_real(panel.sun_offset, values.real(panel.nominal_sun_offset));
     }
@@ -90,20 +85,15 @@ fn burn(context: &Plan<'_>, values: &mut Values, state: &BurnState, settings: &B
 }
 
 /// Time derivative of an output at the last communication point.
-pub(super) fn derivative(
-    context: &Plan<'_>,
-    state: &GuidanceState,
-    time_s: f64,
-    output: Real,
-) -> Option<f64> {
-    let v = context.variables;
+pub(super) fn derivative(context: &Plan<'_>, state: &State, output: Real) -> Option<f64> {
+    let (v, State { system, time_s, .. }) = (context.variables, state);
     if output == v.epoch {
         return Some(1.0);
     }
     if let Some(index) = v.command.q.index_of(output) {
-        return Some(state.command.quaternion_rate_at(time_s)[index]);
+        return Some(system.command.quaternion_rate_at(*time_s)[index]);
     }
-    let rates = state.sun_line.angle_rates_at(&state.command, time_s);
+    let rates = system.sun_line.angle_rates_at(&system.command, *time_s);
     [v.sun.azimuth, v.sun.elevation]
         .into_iter()
         .zip(rates)

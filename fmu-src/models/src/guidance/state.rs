@@ -87,7 +87,7 @@ impl State {
         settings: &GuidanceSettings<'_>,
         inputs: InputsOverTime<'_>,
     ) -> Result<u32, Failure> {
-        let context = read.context;
+        let (context, v) = (read.context, read.variables);
         let time_s = self.system.next_sample_s;
         let epoch_s = time::epoch_at_s(time_s, self.epoch_minus_time_s);
         let reader = Reader::new(read, inputs, time_s);
@@ -98,7 +98,7 @@ impl State {
         let given = reader.command();
         let mut requested_sun = match management::is_managed(read) {
             true => SunRequest::default(),
-            false => context.variables.downlink.request(read.values),
+            false => v.downlink.request(read.values),
         };
         let mut command = given;
         if command.scenario == Some(Scenario::Burn) {
@@ -116,7 +116,7 @@ impl State {
         let mut entries = TimedEntries {
             scan: begun_s.filter(|_| given.scan.frame.is_none()),
             scenario: begun_s.filter(|_| given.scenario.is_none() && names_a_scenario),
-            mode: begun_s.filter(|_| !reader.asks_for_a_mode()),
+            mode: begun_s.filter(|_| read.choice(v.mode.request).mode().is_none()),
             burn_is_over: false,
         };
         if entries.scenario.is_some() && command.scenario == Some(Scenario::Burn) {
@@ -135,8 +135,8 @@ impl State {
         }
         sensed.request = sensed.request.or(entry.and_then(|entry| entry.mode));
         sensed.is_of_timeline = entries.mode.is_some();
-        let delta_v_body_m_s = reader.delta_v_body_m_s();
-        let momentum_body_n_m_s = reader.momentum_body_n_m_s();
+        let delta_v_body_m_s = reader.vector(v.accelerometer_delta_v);
+        let momentum_body_n_m_s = reader.vector(v.momentum.body);
         let scheduled = self.scheduled_dump(context, time_s);
         self.dumps.sample(&management::policy(read), &momentum_body_n_m_s, scheduled);
         let keep_in = settings.modes.operational.keep_in.unwrap_or(settings.keep_in);

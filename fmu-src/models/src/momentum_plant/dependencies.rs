@@ -82,13 +82,8 @@ impl OpenChoices {
 /// Outputs that follow the attitude.
 fn turned(v: &PlantVariables) -> Knowns {
     let sun = knowns![v.sun.direction, v.sun.azimuth, v.sun.elevation, v.sun.position_body];
-    let others = knowns![
-        v.planet.position_body,
-        v.planet.pole_body,
-        v.earth.azimuth,
-        v.earth.elevation,
-        v.keep_in.margin
-    ];
+    let others = knowns![v.planet.position_body, v.planet.pole_body, v.earth.azimuth, v.earth.elevation];
+    let sun = knowns![sun, v.keep_in.margin];
     let seen = knowns![&v.attitude, sun, others, v.sunshade.polynomial_valid, &v.panel, &v.downlink];
     let sensed = knowns![&v.estimate, v.sun.sensed, v.sun.sensed_valid, &v.control];
     let loads = knowns![&v.torque, &v.force, &v.plate, v.acceleration, v.delta_v, v.accelerometer.delta_v];
@@ -161,30 +156,14 @@ impl Parameters {
         // A maneuver of the timeline at the start puts it on another orbit.
         let maneuver = knowns![&v.timeline, &v.maneuver, v.noise_seed].only_if(choice.ideal);
         let between = knowns![&v.encounter, maneuver];
-        let orbit = knowns![
-            &v.start,
-            &v.orbit,
-            &v.planet,
-            v.ephemeris_source,
-            &v.ephemeris,
-            v.sun.radius,
-            &v.eclipse,
-            between
-        ];
+        let bodies = knowns![&v.planet, v.ephemeris_source, &v.ephemeris, v.sun.radius, &v.eclipse];
+        let orbit = knowns![&v.start, &v.orbit, bodies, between];
         let wheels =
             v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.bias_momentum, wheel.start_momentum]);
         // Guidance balances torques against the momentum.
         let air = &knowns![&v.atmosphere, &v.space_weather, &v.magnetic_field, v.earth.ut1_offset];
-        let solution = &knowns![
-            air,
-            &v.laws,
-            &v.guided,
-            &v.momentum,
-            &v.solar,
-            v.optics.light(),
-            &v.spacecraft,
-            wheels.collect::<Knowns>()
-        ];
+        let balanced = knowns![air, &v.laws, &v.solar, v.optics.light(), &v.spacecraft];
+        let solution = &knowns![balanced, &v.guided, &v.momentum, wheels.collect::<Knowns>()];
         let panels = knowns![&v.panel, v.articulation.target_suns];
         let followed = knowns![&v.attitude, &v.command, &v.timeline, &v.keep_in];
         let turned = knowns![&orbit, followed, &v.sunshade, panels];
@@ -193,21 +172,9 @@ impl Parameters {
         // In controlled and free flight they are fitted along the turn ahead, by the torque that is foreseen.
         let turning = knowns![&sensors, &v.control, &v.wheel, &v.thruster, &v.thrust, &v.dump];
         let turning = turning.only_if(choice.by_torque);
-        let light = knowns![
-            &attitude,
-            turning,
-            &v.planet_light,
-            &v.thermal,
-            v.thermal_storage,
-            &v.shadowing,
-            &v.laws,
-            air,
-            &v.solver,
-            &v.solar,
-            &v.optics,
-            &v.spacecraft,
-            &v.tank,
-        ];
+        let effects = knowns![&v.planet_light, &v.thermal, v.thermal_storage, &v.shadowing, &v.laws, air];
+        let body = knowns![&v.optics, &v.spacecraft, &v.tank];
+        let light = knowns![&attitude, turning, effects, body, &v.solver, &v.solar];
         let momentum = knowns![&attitude, solution, &v.dump];
         Self {
             // A dump at once takes propellant, which moves the centre of mass, and may move it at random.
@@ -244,11 +211,8 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramet
     let sun = knowns![v.sun.direction, v.sun.azimuth, v.sun.elevation, v.sun.position_body];
     let others = knowns![v.planet.position_body, v.earth.azimuth, v.earth.elevation, v.keep_in.margin];
     let seen = knowns![v.attitude.q, v.attitude.rate, sun, others, v.sunshade.polynomial_valid];
-    table.output(
-        knowns![seen, v.guided_degenerate, &v.downlink, &v.timeline],
-        &inputs.attitude,
-        &parameters.attitude,
-    );
+    let seen = knowns![seen, v.guided_degenerate, &v.downlink, &v.timeline];
+    table.output(seen, &inputs.attitude, &parameters.attitude);
     // How the panels stand, and to the corridor.
     let stood = knowns![&parameters.attitude, &v.articulation];
     table.output(&v.panel, knowns![&inputs.attitude, &v.panel], stood);
@@ -275,11 +239,8 @@ fn loads(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramete
     let moving = rows.map(|(_, output)| output).collect::<Knowns>();
     let total = knowns![v.torque.total, v.force.total, v.force.inertial, v.acceleration, moving];
     let applied = knowns![v.torque.applied, v.force.applied];
-    table.output(
-        total,
-        knowns![lit, applied, &inputs.commanded, &inputs.failures],
-        knowns![&parameters.light, &parameters.actuators],
-    );
+    let acting = knowns![lit, applied, &inputs.commanded, &inputs.failures];
+    table.output(total, acting, knowns![&parameters.light, &parameters.actuators]);
     let shape = knowns![v.spacecraft.center_of_mass, v.sunshade.shape, v.optics.light()];
     table.calculated(v.sunshade.coefficient, shape);
 }

@@ -18,9 +18,11 @@ use physics::environment::time;
 use crate::common::downlink::TIMELINE_FILE;
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
 use crate::common::start_values::{entry_of, item, of_spacecraft};
+use inputs::wheels;
 pub use setup::{MomentumPlant, PlantSetup};
 use setup::{Plan, Read};
 use state::PlantState;
+use step::Call;
 use variables::PlantVariables;
 use variables::choices::AttitudeSource;
 
@@ -94,8 +96,9 @@ impl Model for MomentumPlant {
         let read = Read::new(context, values);
         inputs::check_effects(read, start_s)?;
         let mut state = inputs::start(read, start_s)?;
-        outputs::write_guaranteed(context, values);
-        step::start(context, values, &mut state, start_s)?;
+        let guaranteed_n_m_s = wheels::guaranteed_threshold_n_m_s(read);
+        values.set_real(context.variables.dump.guaranteed_threshold, guaranteed_n_m_s);
+        Call { context, values, state: &mut state }.start(start_s)?;
         Ok(state)
     }
 
@@ -106,7 +109,7 @@ impl Model for MomentumPlant {
         step: &Step<'_>,
     ) -> Result<StepEnd, Failure> {
         inputs::check_span(Read::new(context, values), state, step.end_s)?;
-        step::step(context, values, state, step)?;
+        Call { context, values, state }.step(step)?;
         Ok(StepEnd::at(step.end_s))
     }
 

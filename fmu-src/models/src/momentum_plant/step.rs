@@ -1,7 +1,8 @@
 //! A flight of the model begins, steps, and waits for inputs that are not set yet.
 
 use fmi_export::{Failure, InputsOverTime, OutputGroups, Step, Values};
-use physics::plant::{NEVER_DUMPED_N_M_S, StepContext, Undo};
+use physics::numerics::Span;
+use physics::plant::{NEVER_DUMPED_N_M_S, Undo};
 
 use super::inputs::{self, Reading, Reconfigured, guidance, plausibility, propulsion};
 use super::outputs;
@@ -10,104 +11,135 @@ use super::setup::{Plan, Read};
 use super::state::{PlantState, SavedState};
 use crate::common::management::window_warning;
 
-/// The flight begins at `time_s`, or waits.
-pub(super) fn start(
-    context: &Plan<'_>,
-    values: &mut Values,
-    state: &mut PlantState,
-    time_s: f64,
-) -> Result<(), Failure> {
-    let inputs = InputsOverTime::held();
-    let start = Step { start_s: time_s, end_s: time_s, changed: true, parameters_changed: true, inputs };
-    let reading = inputs::read(context, values, state, &start)?;
-    configure(context, values, state, &reading, &start)?;
-    // Samples at the start are taken anew by the first step, with its inputs.
-    let undo = if reading.begins { Some(begin(context, values, state, &reading, time_s)?) } else { None };
-    evaluate(context, values, state, &reading, time_s)?;
-    outputs::write(context, values, state, OutputGroups::ALL, time_s)?;
-    if let Some(undo) = undo {
-        state.saved.flight.undo(undo);
-    }
-    Ok(())
+/// One call of the model.
+pub(super) struct Call<'c, 'a> {
+    pub context: &'c Plan<'a>,
+    pub values: &'c mut Values,
+    pub state: &'c mut PlantState,
 }
 
-/// One step: what is set, the flight on to the step's end, outputs.
-pub(super) fn step(
-    context: &Plan<'_>,
-    values: &mut Values,
-    state: &mut PlantState,
-    step: &Step<'_>,
-) -> Result<(), Failure> {
-    let reading = inputs::read(context, values, state, step)?;
-    state.warn_unset_inputs(context);
-    state.warn_command_norm(context, step.start_s);
-    configure(context, values, state, &reading, step)?;
-    if reading.begins {
-        let undo = begin(context, values, state, &reading, step.start_s)?;
-        state.saved.flight.undo(undo);
-    }
-    if !state.saved.waiting {
-        advance(context, state, &reading, step)?;
-    }
-    evaluate(context, values, state, &reading, step.end_s)
-}
-
-/// The flight takes what was read, from the step's start on.
-fn configure(
-    context: &Plan<'_>,
-    values: &Values,
-    state: &mut PlantState,
-    reading: &Reading<'_>,
-    step: &Step<'_>,
-) -> Result<(), Failure> {
-    let (mut configuration, mut settings) = (None, None);
-    if reading.is_reconfigured {
-        match inputs::configured(Read::new(context, values), state, step.inputs, reading)? {
-            Reconfigured::Simulation(simulation, settings) => {
-                state.saved.flight.configure(*simulation, settings)
-            }
-            Reconfigured::Changed(changed, with) => (configuration, settings) = (Some(changed), with),
+impl<'a> Call<'_, 'a> {
+    /// The flight begins at `time_s`, or waits.
+    pub(super) fn start(mut self, time_s: f64) -> Result<(), Failure> {
+        let inputs = InputsOverTime::held();
+        let start = Step { start_s: time_s, end_s: time_s, changed: true, parameters_changed: true, inputs };
+        let reading = inputs::read(self.context, self.values, self.state, &start)?;
+        self.configure(&reading, &start)?;
+        // Samples at the start are taken anew by the first step, with its inputs.
+        let undo = if reading.begins { Some(self.begin(&reading, time_s)?) } else { None };
+        self.evaluate(&reading, time_s)?;
+        outputs::write(self.context, self.values, self.state, OutputGroups::ALL, time_s)?;
+        if let Some(undo) = undo {
+            self.state.saved.flight.undo(undo);
         }
+        Ok(())
     }
-    state.pass_digest();
-    if let Some(changes) = reading.changes.filter(|_| !state.saved.waiting && !reading.begins) {
-        state.saved.flight.apply(changes, configuration, settings, step.start_s).map_err(failure)?;
-    }
-    // After what was computed ahead with those before is void.
-    if reading.is_reconfigured { inputs::update_materials(Read::new(context, values), state) } else { Ok(()) }
-}
 
-/// The flight begins at `time_s`, where a first sample is taken: how to undo that.
-fn begin(
-    context: &Plan<'_>,
-    values: &Values,
-    state: &mut PlantState,
-    reading: &Reading<'_>,
-    time_s: f64,
-) -> Result<Undo, Failure> {
-    propulsion::check(&state.saved.flight)?;
-    let guided = state.saved.flight.configuration().and_then(|it| it.attitude.guided());
-    if let Some(warning) = guided.and_then(|law| window_warning(&law.schedule)) {
-        context.log.warning(&warning);
+    /// One step: what is set, the flight on to the step's end, outputs.
+    pub(super) fn step(mut self, step: &Step<'a>) -> Result<(), Failure> {
+        let reading = inputs::read(self.context, self.values, self.state, step)?;
+        self.state.warn_unset_inputs(self.context);
+        self.state.warn_command_norm(self.context, step.start_s);
+        self.configure(&reading, step)?;
+        if reading.begins {
+            let undo = self.begin(&reading, step.start_s)?;
+            self.state.saved.flight.undo(undo);
+        }
+        if !self.state.saved.waiting {
+            self.advance(&reading, step)?;
+        }
+        self.evaluate(&reading, step.end_s)
     }
-    let is_dynamic = state.inputs.source.is_dynamic;
-    if is_dynamic {
-        guidance::report_start(Read::new(context, values), state, time_s);
+
+    /// The flight takes what was read, from the step's start on.
+    fn configure(&mut self, reading: &Reading<'_>, step: &Step<'_>) -> Result<(), Failure> {
+        let Self { context, values, state } = self;
+        let read = Read::new(context, values);
+        let (mut configuration, mut settings) = (None, None);
+        if reading.is_reconfigured {
+            match inputs::configured(read, state, step.inputs, reading)? {
+                Reconfigured::Simulation(simulation, settings) => {
+                    state.saved.flight.configure(*simulation, settings)
+                }
+                Reconfigured::Changed(changed, with) => (configuration, settings) = (Some(changed), with),
+            }
+        }
+        state.pass_digest();
+        if let Some(changes) = reading.changes.filter(|_| !state.saved.waiting && !reading.begins) {
+            state.saved.flight.apply(changes, configuration, settings, step.start_s).map_err(failure)?;
+        }
+        // After what was computed ahead with those before is void.
+        if reading.is_reconfigured { inputs::update_materials(read, state) } else { Ok(()) }
     }
-    report_dumps(context, state, time_s);
-    let (external, planner) = (reading.external(), reading.planner());
-    let log = |event: &_| log_event(context, event);
-    let given = StepContext { log: &log, ..reading.given(&external, &planner) };
-    state.saved.flight.begin(given, &state.saved.command, time_s).map_err(failure)?;
-    if let Some(estimate) = state.saved.flight.estimate_at(time_s) {
-        state.start_command(estimate.attitude, time_s)?;
+
+    /// The flight begins at `time_s`, where a first sample is taken: how to undo that.
+    fn begin(&mut self, reading: &Reading<'_>, time_s: f64) -> Result<Undo, Failure> {
+        let Self { context, values, state } = self;
+        let read = Read::new(context, values);
+        propulsion::check(&state.saved.flight)?;
+        let guided = state.saved.flight.configuration().and_then(|it| it.attitude.guided());
+        if let Some(warning) = guided.and_then(|law| window_warning(&law.schedule)) {
+            context.log.warning(&warning);
+        }
+        if state.inputs.source.is_dynamic {
+            guidance::report_start(read, state, time_s);
+        }
+        report_dumps(context, state, time_s);
+        let log = |event: &_| log_event(context, event);
+        reading.with(&state.inputs.dynamics, &log, |given| {
+            state.saved.flight.begin(given, &state.saved.command, time_s).map_err(failure)
+        })?;
+        if let Some(estimate) = state.saved.flight.estimate_at(time_s) {
+            state.start_command(estimate.attitude, time_s)?;
+        }
+        let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
+        reading.with(&inputs.dynamics, &log, |given| {
+            plausibility::report(read, flight, given, time_s);
+            let undo = flight.sample_at_start(given, time_s).map_err(failure)?;
+            let reached = flight.evaluate(given, command, true, time_s).map_err(failure)?;
+            outputs::check(flight, &reached, time_s)?;
+            Ok(undo)
+        })
     }
-    let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
-    plausibility::report(Read::new(context, values), flight, given, time_s);
-    let undo = flight.sample_at_start(given, &inputs.dynamics, time_s).map_err(failure)?;
-    let reached = flight.evaluate(given, &inputs.dynamics, command, time_s).map_err(failure)?;
-    outputs::check(flight, &reached, time_s)?;
-    Ok(undo)
+
+    /// The flight continues to the step's end.
+    fn advance(&mut self, reading: &Reading<'_>, step: &Step<'_>) -> Result<(), Failure> {
+        let PlantState { saved: SavedState { flight, request, maneuver_request, warned, .. }, inputs } =
+            self.state;
+        if let Some(flown) = flight.context() {
+            let settings = &flown.allocator.settings;
+            propulsion::warn(self.context, &inputs.dynamics, settings, &mut warned.thrusters, step);
+        }
+        let (is_requested, target_body_n_m_s) = inputs.dump;
+        inputs.dynamics.dump_to_body_n_m_s = request.rises(is_requested).then_some(target_body_n_m_s);
+        let (is_requested, maneuver) = inputs.maneuver;
+        inputs.dynamics.maneuver = maneuver_request.rises(is_requested).then_some(maneuver);
+        propulsion::drop_empty_maneuver(self.context, &mut inputs.dynamics, step.start_s);
+        reading.with(&inputs.dynamics, &|event| log_event(self.context, event), |given| {
+            flight.advance(given, Span::new(step.start_s, step.end_s)).map_err(failure)
+        })
+    }
+
+    /// Evaluates the flight at `time_s`, where every output belongs to, and judges it; writes what follows from the configuration.
+    fn evaluate(&mut self, reading: &Reading<'_>, time_s: f64) -> Result<(), Failure> {
+        let Self { context, values, state } = self;
+        let PlantState { saved: SavedState { flight, command, waiting, warned, .. }, inputs } = state;
+        let with_loads = warned.watch.looks_at_forces(flight.configuration(), time_s);
+        let reached = reading.with(&inputs.dynamics, &|_| {}, |given| {
+            flight.evaluate(given, command, with_loads, time_s).map_err(failure)
+        })?;
+        if !*waiting {
+            outputs::check(flight, &reached, time_s)?;
+        }
+        propulsion::warn_unserved(context, flight, &mut warned.thrusters, time_s);
+        guidance::warn_degenerate(context, &reached, &mut warned.degenerate, time_s);
+        let spacecraft = &context.setup.spacecraft;
+        warned.watch.see((flight, time_s), spacecraft, |text| context.log.warning(text));
+        if reading.is_reconfigured {
+            outputs::write_polynomial(context, values, flight);
+        }
+        Ok(())
+    }
 }
 
 /// Reports where no dump comes, and dumps that cost nothing.
@@ -146,52 +178,4 @@ fn report_dumps(context: &Plan<'_>, state: &PlantState, time_s: f64) {
             ),
         );
     }
-}
-
-/// The flight continues to the step's end.
-fn advance(
-    context: &Plan<'_>,
-    state: &mut PlantState,
-    reading: &Reading<'_>,
-    step: &Step<'_>,
-) -> Result<(), Failure> {
-    let PlantState { saved: SavedState { flight, request, maneuver_request, warned, .. }, inputs } = state;
-    if let Some(flown) = flight.context() {
-        let settings = &flown.allocator.settings;
-        propulsion::warn(context, &inputs.dynamics, settings, &mut warned.thrusters, step);
-    }
-    let (is_requested, target_body_n_m_s) = inputs.dump;
-    inputs.dynamics.dump_to_body_n_m_s = request.rises(is_requested).then_some(target_body_n_m_s);
-    let (is_requested, maneuver) = inputs.maneuver;
-    inputs.dynamics.maneuver = maneuver_request.rises(is_requested).then_some(maneuver);
-    propulsion::drop_empty_maneuver(context, &mut inputs.dynamics, step.start_s);
-    let (external, planner) = (reading.external(), reading.planner());
-    let log = |event: &_| log_event(context, event);
-    let given = StepContext { log: &log, ..reading.given(&external, &planner) };
-    flight.advance(given, &inputs.dynamics, [step.start_s, step.end_s]).map_err(failure)
-}
-
-/// Evaluates the flight at `time_s`, where every output belongs to, and judges it; writes what follows from the configuration.
-fn evaluate(
-    context: &Plan<'_>,
-    values: &mut Values,
-    state: &mut PlantState,
-    reading: &Reading<'_>,
-    time_s: f64,
-) -> Result<(), Failure> {
-    let (external, planner) = (reading.external(), reading.planner());
-    let given = reading.given(&external, &planner);
-    let PlantState { saved: SavedState { flight, command, waiting, warned, .. }, inputs } = state;
-    let reached = flight.evaluate(given, &inputs.dynamics, command, time_s).map_err(failure)?;
-    if !*waiting {
-        outputs::check(flight, &reached, time_s)?;
-    }
-    propulsion::warn_unserved(context, flight, &mut warned.thrusters, time_s);
-    guidance::warn_degenerate(context, &reached, &mut warned.degenerate, time_s);
-    let spacecraft = &context.setup.spacecraft;
-    warned.watch.see((flight, time_s), spacecraft, |text| context.log.warning(text));
-    if reading.is_reconfigured {
-        outputs::write_polynomial(context, values, flight);
-    }
-    Ok(())
 }

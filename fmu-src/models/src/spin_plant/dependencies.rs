@@ -12,15 +12,8 @@ pub(super) fn table(_setup: &Spinner, v: &SpinVariables) -> Dependencies {
     // Where thrusters or the outside torque change, a pulse that is on ends and its propellant is taken: inertia and rate follow,
     // the predicted nutation is that of the new torque, and the plan's next pulse is timed anew.
     let switched = &knowns![&v.thruster, v.torque.applied];
-    let body = &knowns![
-        v.inertia,
-        v.products_of_inertia,
-        &v.mass_properties,
-        &v.propellant,
-        &v.spin,
-        &v.start,
-        v.damper_time_constant
-    ];
+    let mass = knowns![v.inertia, v.products_of_inertia, &v.mass_properties, &v.propellant];
+    let body = &knowns![mass, &v.spin, &v.start, v.damper_time_constant];
     let plan = &knowns![body, &v.burn, v.pulse_resolution, &v.thruster];
     let seen = &knowns![body, &v.geometry, &v.limit, &v.star_tracker];
 

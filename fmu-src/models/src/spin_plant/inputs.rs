@@ -97,8 +97,10 @@ fn burn(context: &Plan<'_>, values: &Values) -> Option<BurnRequest> {
 pub(super) fn commands(context: &Plan<'_>, values: &Values) -> Commands {
     let v = context.variables;
     let resolution_s = values.real(v.pulse_resolution);
-    let mut commands =
-        Commands { torque: BodyTorque::constant(values.vector(v.torque.applied).into()), ..Commands::none() };
+    let mut commands = Commands {
+        torque: BodyTorque::constant(values.vector(v.torque.applied).into()),
+        ..Commands::default()
+    };
     for (k, (thruster, pulse)) in v.thruster.iter().zip(&mut commands.pulses).enumerate() {
         if values.boolean(thruster.fire) {
             commands.fire |= 1 << k;

@@ -26,6 +26,8 @@ pub(super) fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     let v = context.variables;
     let spinner = context.setup;
     let seen = Outputs::from_plant(plant, spinner);
+    let Plant { time_s, propulsion, .. } = plant;
+    let (directions, valves) = (plant.directions_at(*time_s), &propulsion.valves);
     values.set_vector(v.attitude.q, seen.state.attitude.0);
     values.set_vector(v.attitude.rate, seen.rate_rad_s.into());
     values.set_vector(v.momentum.inertial, seen.state.momentum_inertial.into());
@@ -43,9 +45,9 @@ pub(super) fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     values.set_real(v.spin.period_variation, seen.period_variation_s);
     values.set_real(v.spin.sector_error, seen.sector_error);
     values.set_integer(v.spin.sun_crossings, count(plant.sensors.sun.count));
-    values.set_vector(v.sun.inertial, seen.directions.sun_inertial.into());
+    values.set_vector(v.sun.inertial, directions.sun_inertial.into());
     values.set_real(v.sun.angle, seen.sun_angle_rad);
-    values.set_vector(v.earth.inertial, seen.directions.earth_inertial.into());
+    values.set_vector(v.earth.inertial, directions.earth_inertial.into());
     values.set_real(v.earth.angle, seen.earth_angle_rad);
     values.set_real(v.sun_sensor_angle, plant.sensors.sun_sample_rad);
     values.set_real(v.star_tracker.declination, plant.sensors.sample.declination_rad);
@@ -61,15 +63,15 @@ pub(super) fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     values.set_vector(v.mass_properties.inertia, seen.inertia.principal_kg_m2());
     values.set_real(v.inertia_ratio, seen.inertia.ratio());
     for (k, thruster) in v.thruster.iter().enumerate() {
-        values.set_boolean(thruster.active, seen.thrusters_on >> k & 1 == 1);
-        values.set_boolean(thruster.too_short, seen.too_short >> k & 1 == 1);
+        values.set_boolean(thruster.active, valves.open_mask() >> k & 1 == 1);
+        values.set_boolean(thruster.too_short, valves.too_short_mask() >> k & 1 == 1);
     }
-    values.set_vector(v.force_thruster, seen.force_body_n.into());
-    values.set_vector(v.torque.thruster, seen.torque_body_n_m.into());
+    values.set_vector(v.force_thruster, valves.law.force_at_n(*time_s).into());
+    values.set_vector(v.torque.thruster, valves.law.torque_at_n_m(*time_s).into());
     values.set_vector(v.delta_v, seen.delta_v_inertial_m_s.into());
     values.set_real(v.propellant.used, seen.propellant_used_kg);
     values.set_real(v.propellant.left, seen.propellant_remaining_kg);
-    values.set_real(v.mass, seen.mass_kg);
+    values.set_real(v.mass, propulsion.mass_at_kg(spinner, *time_s));
     values.set_real(v.energy, seen.energy_j);
     let violated = seen.violations(&Bounds {
         sun_angle_rad: values.real(v.limit.sun_angle),
@@ -94,6 +96,7 @@ fn count(number: impl TryInto<i32>) -> i32 {
 pub(super) fn derivative(context: &Plan<'_>, plant: &Plant, output: Real) -> Option<f64> {
     let v = context.variables;
     let rates = Rates::from_plant(plant, context.setup);
+    let law = &plant.propulsion.valves.law;
     let of = |handle: Real, value: f64| (handle == output).then_some(value);
     let of_vector =
         |handle: RealVector<3>, value: &Vector3<f64>| handle.index_of(output).map(|index| value[index]);
@@ -103,8 +106,8 @@ pub(super) fn derivative(context: &Plan<'_>, plant: &Plant, output: Real) -> Opt
         .or_else(|| of_vector(v.momentum.body, &rates.momentum_body_n_m))
         .or_else(|| of_vector(v.spin_axis.inertial, &rates.spin_axis_1_s))
         .or_else(|| of_vector(v.delta_v, &rates.delta_v_m_s2))
-        .or_else(|| of_vector(v.force_thruster, &rates.force_body_n_s))
-        .or_else(|| of_vector(v.torque.thruster, &rates.torque_body_n_m_s))
+        .or_else(|| of_vector(v.force_thruster, &law.force_body_n[1]))
+        .or_else(|| of_vector(v.torque.thruster, &law.torque_body_n_m[1]))
         .or_else(|| of(v.spin.rate, rates.spin_rate_rad_s2))
         .or_else(|| of(v.nutation.angle, rates.nutation_rad_s))
         .or_else(|| of(v.nutation.phase, rates.nutation_phase_rad_s))

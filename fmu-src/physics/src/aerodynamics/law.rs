@@ -49,14 +49,6 @@ enumeration! {
     }
 }
 
-/// The incident temperature is M V^2 / R over this.
-fn incident_divisor(reemission: Reemission) -> f64 {
-    match reemission {
-        Reemission::Effusive => 4.0,
-        Reemission::Moe => 3.0,
-    }
-}
-
 /// A law in one flow, common to all faces.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LawAtFlow<'a, T: Scalar> {
@@ -77,7 +69,9 @@ impl<'a, T: Scalar> LawAtFlow<'a, T> {
                 flow.speed_squared(flow.temperature_k).sqrt()
             }
         };
-        let incident_m2_s2 = velocity.dot(velocity) * (2.0 / incident_divisor(reemission));
+        // The incident temperature is M V^2 / R over this.
+        let divisor = if reemission == Reemission::Moe { 3.0 } else { 4.0 };
+        let incident_m2_s2 = velocity.dot(velocity) * (2.0 / divisor);
         Self { law, flow, thermal_m_s, incident_m2_s2 }
     }
 

@@ -9,7 +9,7 @@ use super::mass_flow::MassFlow;
 use super::quaternion::Quaternion;
 
 /// Load on the body over a segment, body frame, by polynomials of the time since its start.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BodyLoad {
     /// Torque about the centre of mass in N m, and its slope in N m/s.
     pub torque_body_n_m: [Vector3<f64>; 2],
@@ -30,16 +30,7 @@ pub struct BodyLoad {
 impl BodyLoad {
     /// No load, on a body of this mass.
     pub fn none(mass_kg: f64) -> Self {
-        let nothing = [Vector3::zeros(); 2];
-        Self {
-            torque_body_n_m: nothing,
-            force_body_n: nothing,
-            mass_kg,
-            flow_kg_s: [0.0; 2],
-            mass_flow: None,
-            dipole: None,
-            internal: None,
-        }
+        Self { mass_kg, ..Self::default() }
     }
 
     /// Whether nothing acts.
@@ -77,10 +68,6 @@ impl BodyLoad {
     pub(super) fn acceleration_body_m_s2(&self) -> [Vector3<f64>; 2] {
         let start = self.force_body_n[0] / self.mass_kg;
         [start, (self.force_body_n[1] + start * self.flow_kg_s[0]) / self.mass_kg]
-    }
-
-    pub(super) fn is_valid(&self) -> bool {
-        self.mass_kg > 0.0
     }
 }
 

@@ -22,7 +22,7 @@ pub struct Appendages {
 }
 
 /// A body with reaction wheels.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Gyrostat {
     inertia_body_kg_m2: Matrix3<f64>,
     /// Without the rotors about their axes that can turn, and its inverse in 1/(kg m2).
@@ -101,14 +101,7 @@ impl Gyrostat {
             let axis = wheel.axis_body.try_normalize(0.0).filter(|axis| axis.iter().all(|x| x.is_finite()));
             wheel.axis_body = axis.ok_or(GyrostatError::Axis { wheel: number, found })?;
         }
-        let mut body = Self {
-            inertia_body_kg_m2,
-            carrier_body_kg_m2: inertia_body_kg_m2,
-            inverse_carrier: None,
-            wheels,
-            appendages: Appendages::default(),
-            center_of_mass_body_m: Vector3::zeros(),
-        };
+        let mut body = Self { inertia_body_kg_m2, wheels, ..Self::default() };
         body.set_carrier();
         let found = SymmetricEigen::new(body.carrier_body_kg_m2).eigenvalues.min();
         if found > 0.0 { Ok(body) } else { Err(GyrostatError::Body { found }) }

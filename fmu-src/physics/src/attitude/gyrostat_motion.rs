@@ -39,12 +39,7 @@ const ROUNDS_A_ROTOR: usize = 3;
 pub struct GyrostatMotion {
     start_s: f64,
     end_s: f64,
-    series: RotationSeries<TERMS>,
-    rotors: Vec<RotorMotion>,
-    oscillators: Vec<OscillatorMotion>,
-    imbalances: Vec<ImbalanceMotion>,
-    inverse_inertia: Matrix3<f64>,
-    load: BodyLoad,
+    series: GyrostatSeries,
     momentum_inertial_n_m_s: Vector3<f64>,
     delta_v_inertial_m_s: Vector3<f64>,
 }
@@ -59,79 +54,76 @@ impl GyrostatMotion {
         rotors_n_m_s: impl Fn(usize) -> f64,
     ) -> Self {
         let momentum_body = gyrostat.momentum_body_n_m_s(rate_body_rad_s, &rotors_n_m_s);
-        let mut motion = Self {
-            start_s: time_s,
-            end_s: time_s,
-            series: RotationSeries::new(attitude, *rate_body_rad_s, momentum_body),
-            rotors: Vec::with_capacity(gyrostat.wheels().len()),
-            oscillators: vec![OscillatorMotion::at_rest(); gyrostat.oscillator_count()],
-            imbalances: Vec::with_capacity(gyrostat.appendages().imbalances.len()),
-            inverse_inertia: Matrix3::zeros(),
-            load: BodyLoad::none(1.0),
-            momentum_inertial_n_m_s: attitude.inertial_from_body(&momentum_body),
-            delta_v_inertial_m_s: Vector3::zeros(),
-        };
-        motion.rotors.extend(gyrostat.wheels().iter().enumerate().map(|(k, wheel)| {
+        let rotors = gyrostat.wheels().iter().enumerate().map(|(k, wheel)| {
             let held_n_m_s = rotors_n_m_s(k);
             let mut axial = [0.0; TERMS];
             axial[0] = held_n_m_s + wheel.carried_n_m_s(rate_body_rad_s);
             RotorMotion { rotor: Rotor::at_start(wheel, held_n_m_s), next: None, axial }
-        }));
-        let unbalanced = gyrostat.appendages().imbalances.iter();
-        motion.imbalances.extend(unbalanced.filter_map(|imbalance| {
+        });
+        let imbalances = gyrostat.appendages().imbalances.iter().filter_map(|imbalance| {
             let wheel = gyrostat.wheels().get(imbalance.wheel)?;
             Some(ImbalanceMotion::new(imbalance, &wheel.axis_body, gyrostat.center_of_mass_body_m()))
-        }));
-        motion.inverse_inertia = motion.inverse_inertia_of(gyrostat);
-        motion
+        });
+        let mut series = GyrostatSeries {
+            rotation: RotationSeries::new(attitude, *rate_body_rad_s, momentum_body),
+            rotors: rotors.collect(),
+            oscillators: vec![OscillatorMotion::at_rest(); gyrostat.oscillator_count()],
+            imbalances: imbalances.collect(),
+            inverse_inertia: Matrix3::zeros(),
+            load: BodyLoad::none(1.0),
+        };
+        series.inverse_inertia = series.inverse_inertia_of(gyrostat);
+        Self {
+            start_s: time_s,
+            end_s: time_s,
+            series,
+            momentum_inertial_n_m_s: attitude.inertial_from_body(&momentum_body),
+            delta_v_inertial_m_s: Vector3::zeros(),
+        }
     }
 
     /// Rejects decoded states that no simulation with these numbers of wheels and modal coordinates can produce.
     pub fn is_valid(&self, wheels: usize, oscillators: usize) -> bool {
-        self.rotors.len() == wheels
-            && self.oscillators.len() == oscillators
-            && self.imbalances.len() <= wheels
-            && self.oscillators.iter().all(OscillatorMotion::is_valid)
-            && self.imbalances.iter().all(ImbalanceMotion::is_valid)
-            && self.series.is_valid()
-            && self.start_s <= self.end_s
-            && self.load.is_valid()
-            && self.rotors.iter().all(RotorMotion::is_valid)
+        let series = &self.series;
+        self.start_s <= self.end_s
+            && series.rotors.len() == wheels
+            && series.oscillators.len() == oscillators
+            && series.imbalances.len() <= wheels
+            && series.is_valid()
     }
 
     /// Before the first segment, what turns on hinges adds to the momentum.
     pub fn add_hinges(&mut self, internal: Option<InternalMotion>) {
         if let Some(internal) = &internal {
-            let added_body = internal.momentum_after(0.0);
-            self.momentum_inertial_n_m_s += self.series.attitude_after(0.0).inertial_from_body(&added_body);
+            let attitude = self.series.rotation.attitude_after(0.0);
+            self.momentum_inertial_n_m_s += attitude.inertial_from_body(&internal.momentum_after(0.0));
         }
-        self.load.internal = internal;
+        self.series.load.internal = internal;
     }
 
     /// Sets the attitude at the end at once, with the present inertia, and the motion of what turns on hinges
     /// from there on: the momentum is kept, those of rotors and modal coordinates along their axes too, and the rate follows.
     pub fn reorient(&mut self, gyrostat: &Gyrostat, attitude: Quaternion, internal: Option<InternalMotion>) {
         let elapsed_s = self.end_s - self.start_s;
-        let attitudes = node_attitudes(&self.series, elapsed_s);
+        let attitudes = node_attitudes(&self.series.rotation, elapsed_s);
         [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s] = self.totals_after(elapsed_s, &attitudes);
-        let order = self.series.order;
-        self.rotors.iter_mut().for_each(|it| it.axial[0] = it.axial_after(order, elapsed_s));
-        self.oscillators.iter_mut().for_each(|it| it.hold(order, elapsed_s));
-        for (it, imbalance) in self.imbalances.iter_mut().zip(&gyrostat.appendages().imbalances) {
-            it.begin(imbalance, gyrostat.center_of_mass_body_m(), self.series.order, elapsed_s);
-        }
-        self.load.mass_kg = self.load.mass_after_kg(elapsed_s);
-        self.load.internal = internal;
-        (self.start_s, self.series.order) = (self.end_s, 0);
-        self.series.attitude[0] = attitude.0.into();
-        self.inverse_inertia = self.inverse_inertia_of(gyrostat);
+        self.start_s = self.end_s;
+        let series = &mut self.series;
+        let order = series.rotation.order;
+        series.rotors.iter_mut().for_each(|it| it.axial[0] = it.axial_after(order, elapsed_s));
+        series.oscillators.iter_mut().for_each(|it| it.hold(order, elapsed_s));
+        series.begin_imbalances(gyrostat, elapsed_s);
+        series.load.mass_kg = series.load.mass_after_kg(elapsed_s);
+        series.load.internal = internal;
+        series.rotation.order = 0;
+        series.rotation.attitude[0] = attitude.0.into();
+        series.inverse_inertia = series.inverse_inertia_of(gyrostat);
     }
 
     /// Inverse inertia that gives the change of rate by an internal momentum, in 1/(kg m2), with the inertia of `gyrostat`: rotors that turn
     /// and modal coordinates keep their own.
     pub fn inverse_inertia_of(&self, gyrostat: &Gyrostat) -> Matrix3<f64> {
-        let swinging = self.oscillators.iter().map(OscillatorMotion::inertia_body_kg_m2);
-        gyrostat.inverse_inertia(self.rotors.iter().map(|it| &it.rotor), swinging)
+        self.series.inverse_inertia_of(gyrostat)
     }
 
     /// End of the present segment, in s.
@@ -148,7 +140,7 @@ impl GyrostatMotion {
     pub fn cut(&mut self, time_s: f64) {
         if time_s < self.end_s {
             self.end_s = time_s.max(self.start_s);
-            self.rotors.iter_mut().for_each(|it| it.next = None);
+            self.series.rotors.iter_mut().for_each(|it| it.next = None);
         }
     }
 
@@ -160,21 +152,22 @@ impl GyrostatMotion {
     /// The body at `time_s` within the segment, and what impulses up to there are integrated with.
     pub fn evaluated_at(&self, gyrostat: &Gyrostat, time_s: f64) -> MotionAt {
         let elapsed_s = time_s - self.start_s;
-        let attitude = self.series.attitude_after(elapsed_s);
-        let attitudes = node_attitudes(&self.series, elapsed_s);
+        let GyrostatSeries { rotation, rotors, oscillators, load, .. } = &self.series;
+        let attitude = rotation.attitude_after(elapsed_s);
+        let attitudes = node_attitudes(rotation, elapsed_s);
         let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = self.totals_after(elapsed_s, &attitudes);
         let momentum_body = attitude.body_from_inertial(&momentum_inertial_n_m_s);
         let rest = momentum_body
-            - gyrostat.along_axes(|k| match self.rotors[k].rotor {
-                Rotor::Turning { .. } => self.rotors[k].axial_after(self.series.order, elapsed_s),
+            - gyrostat.along_axes(|k| match rotors[k].rotor {
+                Rotor::Turning { .. } => rotors[k].axial_after(rotation.order, elapsed_s),
                 Rotor::Held { momentum_n_m_s } => momentum_n_m_s,
             });
-        let swinging = self.oscillators.iter().map(|it| it.carried_after(self.series.order, elapsed_s));
+        let swinging = oscillators.iter().map(|it| it.carried_after(rotation.order, elapsed_s));
         let rest = swinging.fold(rest, |rest, carried| rest - carried);
-        let rest = self.load.internal.iter().fold(rest, |rest, it| rest - it.momentum_after(elapsed_s));
+        let rest = load.internal.iter().fold(rest, |rest, it| rest - it.momentum_after(elapsed_s));
         let body = BodyMotion {
             attitude,
-            rate_body_rad_s: self.load.inverse_inertia_after(&self.inverse_inertia, elapsed_s) * rest,
+            rate_body_rad_s: load.inverse_inertia_after(&self.series.inverse_inertia, elapsed_s) * rest,
             momentum_inertial_n_m_s,
             delta_v_inertial_m_s,
         };
@@ -188,29 +181,29 @@ impl GyrostatMotion {
         dipole_body_a_m2: &[Vector3<f64>; 2],
         until: &MotionAt,
     ) -> Option<Vector3<f64>> {
-        let part = DipoleInField { dipole_body_a_m2: *dipole_body_a_m2, ..self.load.dipole? };
+        let part = DipoleInField { dipole_body_a_m2: *dipole_body_a_m2, ..self.series.load.dipole? };
         Some(until.impulse_inertial_n_m_s(|attitude, at_s| part.torque_n_m(attitude, at_s)))
     }
 
     /// The same by rotors out of balance; `None` where all are in balance.
     pub fn imbalance_impulse_inertial_n_m_s(&self, until: &MotionAt) -> Option<Vector3<f64>> {
-        let torque = |_: &Quaternion, at_s: f64| self.imbalance_after(at_s)[0];
-        (!self.imbalances.is_empty()).then(|| until.impulse_inertial_n_m_s(torque))
+        let torque = |_: &Quaternion, at_s: f64| self.series.imbalance_after(at_s)[0];
+        (!self.series.imbalances.is_empty()).then(|| until.impulse_inertial_n_m_s(torque))
     }
 
     /// The same by what swings under the load; `None` where nothing does.
     pub fn swing_impulse_inertial_n_m_s(&self, until: &MotionAt) -> Option<Vector3<f64>> {
-        let swings = !self.oscillators.is_empty() && !self.load.is_zero();
-        swings.then(|| until.impulse_inertial_n_m_s(|_, at_s| self.swing_torque_after(at_s)))
+        let swings = !self.series.oscillators.is_empty() && !self.series.load.is_zero();
+        swings.then(|| until.impulse_inertial_n_m_s(|_, at_s| self.series.swing_torque_after(at_s)))
     }
 
     /// Momentum of rotor `k` (0-based) relative to the body at `time_s`, where the body moves like this, in N m s.
     pub fn rotor_n_m_s(&self, gyrostat: &Gyrostat, k: usize, time_s: f64, motion: &BodyMotion) -> f64 {
-        let (wheel, it) = (&gyrostat.wheels()[k], &self.rotors[k]);
+        let (wheel, it) = (&gyrostat.wheels()[k], &self.series.rotors[k]);
         match it.rotor {
             Rotor::Held { momentum_n_m_s } => momentum_n_m_s,
             Rotor::Turning { .. } => {
-                let axial = it.axial_after(self.series.order, time_s - self.start_s);
+                let axial = it.axial_after(self.series.rotation.order, time_s - self.start_s);
                 axial - wheel.carried_n_m_s(&motion.rate_body_rad_s)
             }
         }
@@ -220,10 +213,10 @@ impl GyrostatMotion {
     /// none of one that is locked or has no motor; at its capacity what holds it there, d/dt (h + I a.w) + f = I a.w' + f.
     pub fn motor_n_m(&self, gyrostat: &Gyrostat, motor: &Motor, k: usize, time_s: f64) -> f64 {
         let wheel = &gyrostat.wheels()[k];
-        match self.rotors[k].rotor {
+        match self.series.rotors[k].rotor {
             _ if motor.failed || wheel.locked => 0.0,
             Rotor::Held { momentum_n_m_s } if wheel.is_saturated(momentum_n_m_s) => {
-                let acceleration = slope(&self.series.rate[..=self.series.order], time_s - self.start_s);
+                let acceleration = slope(self.series.rotation.rates(), time_s - self.start_s);
                 wheel.carried_n_m_s(&acceleration) + wheel.friction_n_m(momentum_n_m_s)
             }
             Rotor::Held { .. } | Rotor::Turning { .. } => motor.torque_n_m,
@@ -233,18 +226,19 @@ impl GyrostatMotion {
     /// Displacement in sqrt(kg) m and speed in sqrt(kg) m/s of modal coordinate `k` (0-based) at `time_s`, where the body moves
     /// like this.
     pub fn oscillator(&self, k: usize, time_s: f64, motion: &BodyMotion) -> [f64; 2] {
-        self.oscillators[k].after(self.series.order, time_s - self.start_s, &motion.rate_body_rad_s)
+        let order = self.series.rotation.order;
+        self.series.oscillators[k].after(order, time_s - self.start_s, &motion.rate_body_rad_s)
     }
 
     /// Torque about the centre of mass in N m and force in N by rotors out of balance, body frame, where the body moves like this.
     pub fn imbalance_load(&self, gyrostat: &Gyrostat, time_s: f64, motion: &BodyMotion) -> [Vector3<f64>; 2] {
         let elapsed_s = time_s - self.start_s;
-        let unbalanced = self.imbalances.iter().zip(&gyrostat.appendages().imbalances);
+        let unbalanced = self.series.imbalances.iter().zip(&gyrostat.appendages().imbalances);
         let mut sum = [Vector3::zeros(); 2];
         for (it, imbalance) in unbalanced {
             let held_n_m_s = self.rotor_n_m_s(gyrostat, imbalance.wheel, time_s, motion);
             let speed_rad_s = gyrostat.wheels()[imbalance.wheel].speed_rad_s(held_n_m_s);
-            let load = it.at_speed(self.series.order, elapsed_s, speed_rad_s);
+            let load = it.at_speed(self.series.rotation.order, elapsed_s, speed_rad_s);
             sum.iter_mut().zip(load).for_each(|(sum, it)| *sum += it);
         }
         sum
@@ -252,17 +246,11 @@ impl GyrostatMotion {
 
     /// Torque by what swings under the load at `time_s`, body frame, in N m.
     pub fn swing_torque_n_m(&self, time_s: f64) -> Vector3<f64> {
-        self.swing_torque_after(time_s - self.start_s)
+        self.series.swing_torque_after(time_s - self.start_s)
     }
 
-    /// Continues from the end: the next segment, at most to `limit_s`, under these motor torques and loads (linear in time from
-    /// the present end on).
-    pub fn advance(&mut self, gyrostat: &Gyrostat, motors: &[Motor], load: &BodyLoad, limit_s: f64) {
-        let motion = self.at(gyrostat, self.end_s);
-        self.advance_from(&motion, gyrostat, motors, load, limit_s);
-    }
-
-    /// The same where the body is known at the end.
+    /// Continues from the end, where the body moves like this: the next segment, at most to `limit_s`, under these motor torques and
+    /// loads (linear in time from the present end on).
     pub fn advance_from(
         &mut self,
         motion: &BodyMotion,
@@ -272,9 +260,9 @@ impl GyrostatMotion {
         limit_s: f64,
     ) {
         let start_s = self.end_s;
-        for k in 0..self.rotors.len() {
+        for k in 0..self.series.rotors.len() {
             let relative_n_m_s = self.rotor_n_m_s(gyrostat, k, start_s, motion);
-            let (wheel, it) = (&gyrostat.wheels()[k], &mut self.rotors[k]);
+            let (wheel, it) = (&gyrostat.wheels()[k], &mut self.series.rotors[k]);
             let carried = wheel.carried_n_m_s(&motion.rate_body_rad_s);
             let (rotor, relative_n_m_s) = match it.next.take() {
                 Some(Rotor::Held { momentum_n_m_s }) => (Rotor::Held { momentum_n_m_s }, momentum_n_m_s),
@@ -285,106 +273,57 @@ impl GyrostatMotion {
             it.axial[0] = relative_n_m_s + carried;
         }
         let elapsed_s = start_s - self.start_s;
-        for (it, imbalance) in self.imbalances.iter_mut().zip(&gyrostat.appendages().imbalances) {
-            it.begin(imbalance, gyrostat.center_of_mass_body_m(), self.series.order, elapsed_s);
-        }
-        if !self.oscillators.is_empty() {
+        self.start_s = start_s;
+        self.momentum_inertial_n_m_s = motion.momentum_inertial_n_m_s;
+        self.delta_v_inertial_m_s = motion.delta_v_inertial_m_s;
+        let (series, wheels) = (&mut self.series, gyrostat.wheels());
+        series.begin_imbalances(gyrostat, elapsed_s);
+        if !series.oscillators.is_empty() {
             let acceleration = load.acceleration_body_m_s2();
-            let order = self.series.order;
+            let order = series.rotation.order;
             let oscillators = gyrostat.oscillators(load.mass_kg, &acceleration);
-            for (it, oscillator) in self.oscillators.iter_mut().zip(oscillators) {
+            for (it, oscillator) in series.oscillators.iter_mut().zip(oscillators) {
                 let state = it.after(order, elapsed_s, &motion.rate_body_rad_s);
                 it.begin(oscillator, state, &motion.rate_body_rad_s);
             }
         }
-        (self.start_s, self.load) = (start_s, *load);
-        self.momentum_inertial_n_m_s = motion.momentum_inertial_n_m_s;
-        self.delta_v_inertial_m_s = motion.delta_v_inertial_m_s;
-        self.series.attitude[0] = motion.attitude.0.into();
-        self.series.momentum[0] = motion.attitude.body_from_inertial(&motion.momentum_inertial_n_m_s);
+        series.load = *load;
+        series.rotation.attitude[0] = motion.attitude.0.into();
+        series.rotation.momentum[0] = motion.attitude.body_from_inertial(&motion.momentum_inertial_n_m_s);
         let longest_s = limit_s - start_s;
-        self.build(gyrostat, motors, longest_s);
+        series.build(gyrostat, motors, longest_s);
         // One rotor after another, as each that is set free or held changes what drives the others.
-        for _ in 0..ROUNDS_A_ROTOR * self.rotors.len() {
-            let rate = &self.series.rate[..=self.series.order];
-            if !rotor_motion::change_one(&mut self.rotors, gyrostat.wheels(), motors, rate) {
+        for _ in 0..ROUNDS_A_ROTOR * series.rotors.len() {
+            if !rotor_motion::change_one(&mut series.rotors, wheels, motors, series.rotation.rates()) {
                 break;
             }
-            self.build(gyrostat, motors, longest_s);
+            series.build(gyrostat, motors, longest_s);
         }
-        let converged_s = self.coefficients(gyrostat).converged_s(longest_s);
-        let rate = &self.series.rate[..=self.series.order];
-        let event_s =
-            rotor_motion::first_event_s(&mut self.rotors, gyrostat.wheels(), motors, rate, converged_s);
+        let converged_s = series.converged_s(gyrostat, longest_s);
+        let rate = series.rotation.rates();
+        let event_s = rotor_motion::first_event_s(&mut series.rotors, wheels, motors, rate, converged_s);
         self.end_s = if event_s < longest_s { start_s + event_s } else { limit_s };
-    }
-
-    /// Computes the coefficients, as many as count within `longest_s`.
-    fn build(&mut self, gyrostat: &Gyrostat, motors: &[Motor], longest_s: f64) {
-        self.inverse_inertia = self.inverse_inertia_of(gyrostat);
-        self.coefficients(gyrostat).build(motors, longest_s);
-    }
-
-    fn coefficients<'a>(&'a mut self, gyrostat: &'a Gyrostat) -> GyrostatSeries<'a> {
-        GyrostatSeries {
-            gyrostat,
-            series: &mut self.series,
-            rotors: &mut self.rotors,
-            oscillators: &mut self.oscillators,
-            imbalances: &mut self.imbalances,
-            inverse_inertia: &self.inverse_inertia,
-            load: &self.load,
-        }
     }
 
     /// EME2000 to body at `time_s` within the segment.
     pub fn attitude_at(&self, time_s: f64) -> Quaternion {
-        self.series.attitude_after(time_s - self.start_s)
+        self.series.rotation.attitude_after(time_s - self.start_s)
     }
 
     /// Angular rate at `time_s` within the segment, body frame, in rad/s.
     pub fn rate_at(&self, time_s: f64) -> Vector3<f64> {
-        polynomial(&self.series.rate[..=self.series.order], time_s - self.start_s)
-    }
-
-    /// Torque and acceleration by the load, rotors out of balance and what swings under the acceleration, body frame.
-    fn loads_after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
-        let [mut torque, mut acceleration] = self.load.after(elapsed_s);
-        if let Some(flow) = &self.load.mass_flow {
-            let rate = polynomial(&self.series.rate[..=self.series.order], elapsed_s);
-            torque += flow.jet_damping.torque_n_m(elapsed_s, &rate);
-        }
-        if !self.imbalances.is_empty() {
-            let [imbalance, force] = self.imbalance_after(elapsed_s);
-            torque += imbalance;
-            acceleration += force / self.load.mass_after_kg(elapsed_s);
-        }
-        if !self.oscillators.is_empty() {
-            torque += self.swing_torque_after(elapsed_s);
-        }
-        [torque, acceleration]
-    }
-
-    /// Torque and force by rotors out of balance, body frame, as the series of the motion has them.
-    fn imbalance_after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
-        let loads = self.imbalances.iter().map(|it| it.after(self.series.order, elapsed_s));
-        loads.fold([Vector3::zeros(); 2], |[torque, force], [own, push]| [torque + own, force + push])
-    }
-
-    /// Torque by what swings under the load, body frame.
-    fn swing_torque_after(&self, elapsed_s: f64) -> Vector3<f64> {
-        self.oscillators.iter().map(|it| it.torque_after(self.series.order, elapsed_s)).sum()
+        polynomial(self.series.rotation.rates(), time_s - self.start_s)
     }
 
     /// Total momentum and velocity change, inertial.
     fn totals_after(&self, elapsed_s: f64, attitudes: &[Quaternion; 3]) -> [Vector3<f64>; 2] {
         let mut totals = [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s];
-        let is_free = self.load.is_zero() && self.imbalances.is_empty();
+        let is_free = self.series.load.is_zero() && self.series.imbalances.is_empty();
         if !is_free {
             for ((node, weight), attitude) in GAUSS_3.into_iter().zip(attitudes) {
                 let at_s = node * elapsed_s;
-                let [mut torque, acceleration] = self.loads_after(at_s);
-                if let Some(dipole) = &self.load.dipole {
+                let [mut torque, acceleration] = self.series.loads_after(at_s);
+                if let Some(dipole) = &self.series.load.dipole {
                     torque += dipole.torque_n_m(attitude, at_s);
                 }
                 for (total, load) in totals.iter_mut().zip([torque, acceleration]) {

@@ -27,7 +27,7 @@ pub struct RotorImbalance {
 }
 
 /// The force of one rotor over a segment.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct ImbalanceMotion {
     /// U e1, U e2, body frame, in kg m.
     across_body_kg_m: [Vector3<f64>; 2],
@@ -48,18 +48,13 @@ impl ImbalanceMotion {
         axis_body: &Vector3<f64>,
         center_of_mass_body_m: &Vector3<f64>,
     ) -> Self {
-        let zeros = [0.0; TERMS];
-        let mut cosine = zeros;
-        cosine[0] = 1.0;
-        Self {
+        let mut motion = Self {
             across_body_kg_m: across(axis_body).map(|it| it * imbalance.static_imbalance_kg_m),
             from_center_body_m: imbalance.position_body_m - center_of_mass_body_m,
-            cosine,
-            sine: zeros,
-            speed: zeros,
-            squared: zeros,
-            force: [zeros; 2],
-        }
+            ..Self::default()
+        };
+        motion.cosine[0] = 1.0;
+        motion
     }
 
     /// Begins a segment at the phase that the last one has after `elapsed_s`.

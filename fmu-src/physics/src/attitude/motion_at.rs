@@ -31,16 +31,9 @@ impl MotionAt {
         &self,
         torques: &[Option<[Vector3<f64>; 2]>; N],
     ) -> [Vector3<f64>; N] {
-        let mut sums = [Vector3::zeros(); N];
-        for ((node, weight), attitude) in GAUSS_3.into_iter().zip(self.attitudes) {
-            let at_s = node * self.elapsed_s;
-            for (sum, torque) in sums.iter_mut().zip(torques) {
-                if let Some([start, slope]) = torque {
-                    *sum += attitude.inertial_from_body(&(start + slope * at_s)) * (weight * self.elapsed_s);
-                }
-            }
-        }
-        sums
+        let impulse =
+            |[start, slope]: [Vector3<f64>; 2]| self.impulse_inertial_n_m_s(|_, at_s| start + slope * at_s);
+        torques.map(|torque| torque.map_or_else(Vector3::zeros, impulse))
     }
 
     /// The same by a torque in N m, body frame, by attitude and s since the start.

@@ -109,17 +109,11 @@ pub(super) fn change_one(
     motors: &[Motor],
     rate: &[Vector3<f64>],
 ) -> bool {
-    let mut worst: Option<(&mut RotorMotion, f64, Rotor)> = None;
-    for ((it, wheel), motor) in rotors.iter_mut().zip(wheels).zip(motors) {
-        if let Some((excess, rotor)) = it.change_at_start(wheel, motor, rate)
-            && worst.as_ref().is_none_or(|(_, most, _)| excess > *most)
-        {
-            worst = Some((it, excess, rotor));
-        }
-    }
-    let Some((it, _, rotor)) = worst else { return false };
-    it.rotor = rotor;
-    true
+    let changes = rotors.iter_mut().zip(wheels).zip(motors).filter_map(|((it, wheel), motor)| {
+        it.change_at_start(wheel, motor, rate).map(|(excess_n_m, rotor)| (excess_n_m, it, rotor))
+    });
+    let worst = changes.reduce(|worst, next| if next.0 > worst.0 { next } else { worst });
+    worst.map(|(_, it, rotor)| it.rotor = rotor).is_some()
 }
 
 /// When the first rotor changes how it moves, at most `longest_s` after the start, in s, which changes that rotor.

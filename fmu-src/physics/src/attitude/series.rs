@@ -103,6 +103,11 @@ impl<const N: usize> RotationSeries<N> {
         series
     }
 
+    /// Terms of the rate that count.
+    pub(crate) fn rates(&self) -> &[Vector3<f64>] {
+        &self.rate[..=self.order]
+    }
+
     /// The next terms of attitude and momentum, from the torque's present one and the rate's up to that.
     #[inline]
     pub(crate) fn extend(&mut self, torque: Vector3<f64>) {

@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 
 use super::CartesianState;
 use super::bodies_from_center::BodiesFromCenter;
-use super::ephemeris::{Theory, eme2000_from_vsop87, theory};
+use super::ephemeris::{Theory, eme2000_from_vsop87, state_without_theory, theory};
 use super::onboard::{CoarseElements, KeplerianElements, OnboardEphemeris};
 use super::time::julian_date;
 use crate::bodies::Body;
@@ -37,23 +37,17 @@ pub struct CoarseEphemeris {
 impl CoarseEphemeris {
     /// Heliocentric position and velocity in EME2000 at `epoch_s` past J2000 TDB.
     pub fn state(&mut self, body: Body, epoch_s: f64) -> CartesianState {
-        let unknown =
-            CartesianState { position_m: Vector3::repeat(f64::NAN), velocity_m_s: Vector3::repeat(f64::NAN) };
-        let Some(theory) = theory(body) else {
-            let sun =
-                CartesianState { position_m: Vector3::repeat(0.0 * epoch_s), ..CartesianState::default() };
-            return if body == Body::Sun { sun } else { unknown };
-        };
+        let Some(theory) = theory(body) else { return state_without_theory(body, epoch_s) };
         let number = (epoch_s / WINDOW_S).floor() as i64;
         let slot = &mut self.held[body as usize];
         let fitted = match slot {
             Some((held, fitted)) if *held == number => fitted,
             _ => {
                 let start_s = number as f64 * WINDOW_S;
-                &mut slot.insert((number, averaged(theory, Span::new(start_s, start_s + WINDOW_S)))).1
+                &mut slot.insert((number, averaged(&theory, Span::new(start_s, start_s + WINDOW_S)))).1
             }
         };
-        fitted.state(epoch_s).unwrap_or(unknown)
+        fitted.state(epoch_s).unwrap_or_else(|| state_without_theory(body, epoch_s))
     }
 
     /// Position and velocity of a body from the centre, by the coarse models that a spacecraft carries where it has them.

@@ -52,6 +52,8 @@ const ELEMENT_EVALUATIONS: u64 = ELEMENT_NODES as u64 + 6;
 const PLANET_TERMS: usize = 13;
 /// Coefficients of a position segment of the Earth.
 const EARTH_TERMS: usize = 17;
+/// Number of the Moon, after those of the bodies.
+const MOON: usize = Body::COUNT;
 /// Coefficients of a position segment of the Moon from the Earth.
 const MOON_TERMS: usize = 12;
 /// Length of an element segment.
@@ -80,23 +82,24 @@ pub(super) struct Theory {
     pub mean_motion: f64,
 }
 
-const MERCURY: Theory = Theory { elements: vsop87::mercury, mean_motion: 26_087.903_141_574_2 };
-const VENUS: Theory = Theory { elements: vsop87::venus, mean_motion: 10_213.285_546_211 };
-const EARTH_MOON: Theory = Theory { elements: vsop87::earth_moon, mean_motion: 6_283.075_849_991_4 };
-const MARS: Theory = Theory { elements: vsop87::mars, mean_motion: 3_340.612_434_14 };
-const JUPITER: Theory = Theory { elements: vsop87::jupiter, mean_motion: 529.690_965_09 };
-
 /// Theory of a planet's orbit, the Earth's being that of its barycentre with the Moon; `None` for the Sun and the body of the
 /// spacecraft's file.
-pub(super) fn theory(body: Body) -> Option<&'static Theory> {
-    Some(match body {
+pub(super) fn theory(body: Body) -> Option<Theory> {
+    let (elements, mean_motion): (fn(f64) -> vsop87::VSOP87Elements, f64) = match body {
         Body::Sun | Body::Custom => return None,
-        Body::Mercury => &MERCURY,
-        Body::Venus => &VENUS,
-        Body::Earth => &EARTH_MOON,
-        Body::Mars => &MARS,
-        Body::Jupiter => &JUPITER,
-    })
+        Body::Mercury => (vsop87::mercury, 26_087.903_141_574_2),
+        Body::Venus => (vsop87::venus, 10_213.285_546_211),
+        Body::Earth => (vsop87::earth_moon, 6_283.075_849_991_4),
+        Body::Mars => (vsop87::mars, 3_340.612_434_14),
+        Body::Jupiter => (vsop87::jupiter, 529.690_965_09),
+    };
+    Some(Theory { elements, mean_motion })
+}
+
+/// State of a body without a theory: the Sun in its centre; of others nothing is computed, so NaN.
+pub(super) fn state_without_theory(body: Body, epoch_s: f64) -> CartesianState {
+    let unknown = if body == Body::Sun { 0.0 } else { f64::NAN };
+    CartesianState { position_m: Vector3::repeat(unknown * epoch_s), velocity_m_s: Vector3::repeat(unknown) }
 }
 
 impl Theory {
@@ -155,10 +158,9 @@ impl EphemerisCache {
 #[derive(Clone, Debug)]
 pub struct Ephemeris {
     fitted: FittedSegments,
-    interpolated: [SegmentCache<3, INTERPOLATION_TERMS>; Body::COUNT],
-    moon_interpolated: SegmentCache<3, INTERPOLATION_TERMS>,
-    entered: [SegmentCounter; Body::COUNT],
-    moon_entered: SegmentCounter,
+    /// By body, the Moon last.
+    interpolated: [SegmentCache<3, INTERPOLATION_TERMS>; MOON + 1],
+    entered: [SegmentCounter; MOON + 1],
 }
 
 /// Segments of positions fitted to VSOP87.
@@ -172,13 +174,10 @@ struct FittedSegments {
 
 impl Default for Ephemeris {
     fn default() -> Self {
-        let interpolated = || SegmentCache::spanning(INTERPOLATED_S, INTERPOLATION_S);
         Self {
             fitted: FittedSegments::default(),
-            interpolated: core::array::from_fn(|_| interpolated()),
-            moon_interpolated: interpolated(),
+            interpolated: core::array::from_fn(|_| SegmentCache::spanning(INTERPOLATED_S, INTERPOLATION_S)),
             entered: Default::default(),
-            moon_entered: SegmentCounter::default(),
         }
     }
 }
@@ -195,20 +194,23 @@ impl Ephemeris {
     /// The velocity is the derivative of the position, within 0.01 m/s. Beyond [`VALID_EPOCH_S`] the series loses its meaning;
     /// an epoch that is not finite gives NaN, as does a body that it does not know.
     pub fn state(&mut self, body: Body, epoch_s: f64) -> CartesianState {
-        let Some(theory) = theory(body) else {
-            let unknown = if body == Body::Custom { f64::NAN } else { 0.0 };
-            return CartesianState {
-                position_m: Vector3::repeat(unknown * epoch_s),
-                velocity_m_s: Vector3::repeat(unknown),
-            };
-        };
+        let Some(theory) = theory(body) else { return state_without_theory(body, epoch_s) };
         self.entered[body as usize].enter(epoch_s, FittedSegments::length_s(body));
-        let segment = self.interpolated[body as usize].segment(epoch_s, INTERPOLATION_S, |start_s, end_s| {
-            let span = Span::new(start_s, end_s);
-            match body {
-                Body::Earth => interpolation(self.fitted.earth(epoch_s), span),
-                _ => interpolation(self.fitted.planet(body, theory, epoch_s), span),
-            }
+        self.interpolated_state(body as usize, epoch_s, |fitted, span| match body {
+            Body::Earth => interpolation(fitted.earth(epoch_s), span),
+            _ => interpolation(fitted.planet(body, &theory, epoch_s), span),
+        })
+    }
+
+    /// State by the interpolation of this number that contains an epoch, computed from the fitted segments if it is not held.
+    fn interpolated_state(
+        &mut self,
+        number: usize,
+        epoch_s: f64,
+        part: impl FnOnce(&mut FittedSegments, Span) -> Segment<3, INTERPOLATION_TERMS>,
+    ) -> CartesianState {
+        let segment = self.interpolated[number].segment(epoch_s, INTERPOLATION_S, |start_s, end_s| {
+            part(&mut self.fitted, Span::new(start_s, end_s))
         });
         let (position_m, velocity_m_s) = segment.value_and_derivative(epoch_s);
         CartesianState { position_m, velocity_m_s }
@@ -221,19 +223,13 @@ impl Ephemeris {
 
     /// Position and velocity of the Moon from the Earth in EME2000 at `epoch_s`, geometric; see [`Ephemeris::state`].
     pub fn moon_from_earth(&mut self, epoch_s: f64) -> CartesianState {
-        self.moon_entered.enter(epoch_s, MIDDLE_S);
-        let segment = self.moon_interpolated.segment(epoch_s, INTERPOLATION_S, |start_s, end_s| {
-            interpolation(self.fitted.moon(epoch_s), Span::new(start_s, end_s))
-        });
-        let (position_m, velocity_m_s) = segment.value_and_derivative(epoch_s);
-        CartesianState { position_m, velocity_m_s }
+        self.entered[MOON].enter(epoch_s, MIDDLE_S);
+        self.interpolated_state(MOON, epoch_s, |fitted, span| interpolation(fitted.moon(epoch_s), span))
     }
 
     /// Begins a count of work: of each body the segment that is requested first counts as held.
     pub fn count_from_here(&mut self) {
-        for entered in self.entered.iter_mut().chain([&mut self.moon_entered]) {
-            entered.restart();
-        }
+        self.entered.iter_mut().for_each(SegmentCounter::restart);
     }
 
     /// How often VSOP87 itself, which takes some 100 to 200 microseconds each time, would have been evaluated so far by an
@@ -247,7 +243,7 @@ impl Ephemeris {
         };
         let planets: u64 =
             Body::ALL.iter().map(|&body| terms(body) * self.entered[body as usize].count).sum();
-        planets + 2 * MOON_TERMS as u64 * self.moon_entered.count
+        planets + 2 * MOON_TERMS as u64 * self.entered[MOON].count
     }
 
     /// The position alone, see [`Ephemeris::state`].
@@ -263,25 +259,17 @@ impl FittedSegments {
     }
 
     fn earth(&mut self, epoch_s: f64) -> &Segment<3, EARTH_TERMS> {
-        self.cache.rectangular_segment(
-            &mut self.earth,
-            |all| &mut all.earth,
-            epoch_s,
-            |date| from_rectangular(vsop87::vsop87a::earth(date)),
-        )
+        let position_m = |date| from_rectangular(vsop87::vsop87a::earth(date));
+        self.cache.rectangular_segment(&mut self.earth, |all| &mut all.earth, epoch_s, position_m)
     }
 
     fn moon(&mut self, epoch_s: f64) -> &Segment<3, MOON_TERMS> {
-        self.cache.rectangular_segment(
-            &mut self.moon,
-            |all| &mut all.moon,
-            epoch_s,
-            |date| {
-                let barycentre_m = from_rectangular(vsop87::vsop87a::earth_moon(date));
-                let earth_m = from_rectangular(vsop87::vsop87a::earth(date));
-                (barycentre_m - earth_m) * (1.0 + EARTH_TO_MOON_MASS)
-            },
-        )
+        let position_m = |date| {
+            let barycentre_m = from_rectangular(vsop87::vsop87a::earth_moon(date));
+            let earth_m = from_rectangular(vsop87::vsop87a::earth(date));
+            (barycentre_m - earth_m) * (1.0 + EARTH_TO_MOON_MASS)
+        };
+        self.cache.rectangular_segment(&mut self.moon, |all| &mut all.moon, epoch_s, position_m)
     }
 
     /// Segment of positions that contains `epoch_s`, computed from slowly varying elements.
@@ -291,12 +279,8 @@ impl FittedSegments {
         self.planets[body as usize].segment(epoch_s, SHORT_S, |start_s, end_s| {
             // Nodes lie inside the segment that `epoch_s` chose, and that inside one segment of elements.
             let middle_s = ((epoch_s / LONG_S).floor() + 0.5) * LONG_S;
-            let slow = cache.segment(
-                |all| &mut all.elements[body as usize],
-                epoch_s,
-                LONG_S,
-                |start_s, end_s| fit_elements(theory, mean_motion_rad_s, [start_s, middle_s, end_s]),
-            );
+            let fit = |start_s, end_s| fit_elements(theory, [start_s, middle_s, end_s]);
+            let slow = cache.segment(|all| &mut all.elements[body as usize], epoch_s, LONG_S, fit);
             Segment::fit(start_s, end_s, |node_s| {
                 let [[a, longitude_rad, k, h, q, p]] = slow.value(node_s).data.0;
                 let mean_longitude_rad = longitude_rad + mean_motion_rad_s * (node_s - middle_s);
@@ -313,11 +297,8 @@ fn interpolation<const N: usize>(fitted: &Segment<3, N>, span: Span) -> Segment<
 
 /// Elements with the slow remainder of the longitude, in segments that continue smoothly: their ends have values, and rates by
 /// differences, that are functions of the end alone.
-fn fit_elements(
-    theory: &Theory,
-    mean_motion_rad_s: f64,
-    [start_s, middle_s, end_s]: [f64; 3],
-) -> Segment<6, ELEMENT_TERMS> {
+fn fit_elements(theory: &Theory, [start_s, middle_s, end_s]: [f64; 3]) -> Segment<6, ELEMENT_TERMS> {
+    let mean_motion_rad_s = theory.mean_motion_rad_s();
     let mut first_rad = None;
     let mut slow = |at_s: f64| {
         let e = (theory.elements)(julian_date(at_s));

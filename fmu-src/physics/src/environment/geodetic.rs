@@ -72,17 +72,6 @@ impl Ellipsoid {
             height_m: axial_m * cosine + z * sine - under_m,
         }
     }
-
-    /// Position in the planet-fixed frame, in m.
-    pub fn position_fixed_m(&self, place: &Geodetic) -> Vector3<f64> {
-        let ((sine, cosine), share) = (math::sin_cos(place.latitude_rad), 1.0 - self.flattening);
-        let square = self.flattening * (2.0 - self.flattening);
-        let across_m = self.equatorial_radius_m / (1.0 - square * sine * sine).sqrt();
-        let (sine_east, cosine_east) = math::sin_cos(place.longitude_rad);
-        let axial_m = (across_m + place.height_m) * cosine;
-        let along_m = (across_m * share * share + place.height_m) * sine;
-        Vector3::new(axial_m * cosine_east, axial_m * sine_east, along_m)
-    }
 }
 
 impl Geodetic {
@@ -106,6 +95,17 @@ mod tests {
     const WGS84: Ellipsoid =
         Ellipsoid { equatorial_radius_m: 6_378_137.0, flattening: 1.0 / 298.257_223_563 };
 
+    /// Position in the planet-fixed frame, in m, by the closed form.
+    fn position_fixed_m(ellipsoid: &Ellipsoid, place: &Geodetic) -> Vector3<f64> {
+        let ((sine, cosine), share) = (math::sin_cos(place.latitude_rad), 1.0 - ellipsoid.flattening);
+        let square = ellipsoid.flattening * (2.0 - ellipsoid.flattening);
+        let across_m = ellipsoid.equatorial_radius_m / (1.0 - square * sine * sine).sqrt();
+        let (sine_east, cosine_east) = math::sin_cos(place.longitude_rad);
+        let axial_m = (across_m + place.height_m) * cosine;
+        let along_m = (across_m * share * share + place.height_m) * sine;
+        Vector3::new(axial_m * cosine_east, axial_m * sine_east, along_m)
+    }
+
     #[test]
     fn places_come_back() {
         let jupiter = Ellipsoid { equatorial_radius_m: 71_492e3, flattening: 0.064_87 };
@@ -116,7 +116,7 @@ mod tests {
             for degrees in [-90.0_f64, -89.999, -60.0, -1e-7, 0.0, 30.0, 45.0, 89.999_999, 90.0] {
                 for height_m in [-5e3, 0.0, 1e5, 4e5, 2e6, 3.6e7, 4e8] {
                     let place = Geodetic { latitude_rad: degrees.to_radians(), longitude_rad: 2.5, height_m };
-                    let position_m = ellipsoid.position_fixed_m(&place);
+                    let position_m = position_fixed_m(&ellipsoid, &place);
                     let found = ellipsoid.geodetic(&position_m);
                     assert!(
                         (found.height_m - height_m).abs() < 4e-8 * (1.0 + height_m.abs() * 1e-7),
@@ -125,7 +125,7 @@ mod tests {
                     assert!((found.latitude_rad - place.latitude_rad).abs() < 1e-14, "{place:?} {found:?}");
                     let up = found.east_north_up().column(2).into_owned();
                     let higher = Geodetic { height_m: height_m + 10.0, ..place };
-                    let climbed = ellipsoid.position_fixed_m(&higher) - position_m;
+                    let climbed = position_fixed_m(&ellipsoid, &higher) - position_m;
                     assert!((climbed - up * 10.0).norm() < 1e-6, "{place:?}");
                 }
             }

@@ -16,7 +16,7 @@ pub mod timeline;
 pub use downlink::sun_direction::{DownlinkSunDirection, SelectedSunDirection, SelectedSunDirections};
 pub use geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
 pub use orbit_phase::attitudes::{
-    AttitudeCommand, LinesOfSight, ScienceRule, Sight, downlink_toward, science, sun_pointing, unloading,
+    AttitudeCommand, LinesOfSight, ScienceRule, Sight, downlink_toward, sun_pointing,
 };
 pub use orbit_phase::downlink_sun::{DownlinkSun, WindowStart};
 pub use orbit_phase::guided::{DownlinkStatus, Guided, GuidedAttitude};

@@ -156,18 +156,6 @@ impl Effect {
         rows
     };
 
-    /// Place among those effects.
-    pub(crate) const fn place_in_field(self) -> Option<usize> {
-        let mut place = 0;
-        while place < Self::IN_FIELD {
-            if Self::FIELD[place] as usize == self as usize {
-                return Some(place);
-            }
-            place += 1;
-        }
-        None
-    }
-
     /// Whether it is of light and heat.
     pub const fn is_light(self) -> bool {
         matches!(self.row().grid, Grid::Light)

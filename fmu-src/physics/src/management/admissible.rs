@@ -46,18 +46,20 @@ impl Branch {
         let branch = |earth_ahead, fan| Self { earth_ahead, fan: Some(fan), separations_rad, limits };
         // The azimuth of the Earth is negative behind the Sun and positive ahead.
         let own_side = |fan: &FanAzimuths| (fan.middle_rad + PI).rem_euclid(TAU) - PI > 0.0;
-        let mut all = Branches { list: [Self::zone(limits); 2 * MOST_ANTENNAS], count: 0 };
-        for (_, fan) in antennas.fans() {
-            all.push(branch(own_side(&fan), fan));
-        }
-        for (_, fan) in antennas.fans() {
-            all.push(branch(!own_side(&fan), fan));
-        }
+        let fans = || antennas.fans().map(|(_, fan)| fan);
+        let (own, other) =
+            (fans().map(|it| branch(own_side(&it), it)), fans().map(|it| branch(!own_side(&it), it)));
+        let mut all = [None; 2 * MOST_ANTENNAS];
+        all.iter_mut().zip(own.chain(other)).for_each(|(place, branch)| *place = Some(branch));
         let azimuths_rad = [-separation_rad, separation_rad];
         let ahead = is_ahead(antennas, azimuths_rad, math::cos(separation_rad));
         let nearest = antennas.nearest_fan(azimuths_rad[usize::from(ahead)]).antenna;
         let default = nearest.and_then(|row| antennas.get(row)?.fan());
-        all.put_first(|branch| branch.earth_ahead == ahead && branch.fan == default);
+        let is_default = |branch: &Self| branch.earth_ahead == ahead && branch.fan == default;
+        let found = all.iter().flatten().position(is_default);
+        if let Some(moved) = found.and_then(|index| all.get_mut(..=index)) {
+            moved.rotate_right(1);
+        }
         all
     }
 
@@ -119,44 +121,8 @@ impl Branch {
     }
 }
 
-/// The branches of all fans.
-pub(super) struct Branches {
-    list: [Branch; 2 * MOST_ANTENNAS],
-    count: usize,
-}
-
-impl Branches {
-    fn push(&mut self, branch: Branch) {
-        if let Some(place) = self.list.get_mut(self.count) {
-            *place = branch;
-            self.count += 1;
-        }
-    }
-
-    /// Moves the first branch of this kind to the front; the others keep their order.
-    fn put_first(&mut self, is_it: impl Fn(&Branch) -> bool) {
-        let found = self.list.iter().take(self.count).position(is_it);
-        if let Some(moved) = found.and_then(|index| self.list.get_mut(..=index)) {
-            moved.rotate_right(1);
-        }
-    }
-
-    /// The same where the angle between Sun and Earth goes from the least to the greatest of these while the downlink lasts.
-    #[must_use]
-    pub(super) fn lasting(self, separations_rad: [f64; 2]) -> Self {
-        Self { list: self.list.map(|branch| branch.lasting(separations_rad)), ..self }
-    }
-
-    /// In their order.
-    pub(super) fn as_slice(&self) -> &[Branch] {
-        self.list.get(..self.count).unwrap_or_default()
-    }
-
-    /// Branch of the default attitude; `None` without a fan.
-    pub(super) fn first(&self) -> Option<&Branch> {
-        self.as_slice().first()
-    }
-}
+/// Branches in the order in which they are tried.
+pub(super) type Branches = [Option<Branch>; 2 * MOST_ANTENNAS];
 
 /// Angles closer than this are one, in rad.
 const ROUNDING_RAD: f64 = 1e-12;

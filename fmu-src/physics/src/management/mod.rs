@@ -8,7 +8,6 @@ mod prediction;
 mod profile;
 mod rotated_momentum;
 mod sampled;
-mod sampled_forecast;
 mod searches;
 mod strategy;
 mod targeting;
@@ -21,6 +20,5 @@ pub use prediction::{
 pub use profile::{Component, ControlAuthority, Cycle, Excursion};
 pub use rotated_momentum::{RotatedMomentum, SquareSum, best_turned};
 pub use sampled::SampledManager;
-pub use sampled_forecast::SampledForecast;
 pub use strategy::{Manager, Strategy};
 pub use targeting::{DownlinkState, TargetAxes, Targeting, TargetingMethod};

@@ -119,7 +119,8 @@ pub struct Components {
     /// Cycles that were forecast.
     pub count: usize,
     excursions: [[Excursion; LONGEST_HORIZON]; 2],
-    downlinks: [PredictedDownlink; LONGEST_HORIZON],
+    /// The downlink that begins, and those to come.
+    pub downlinks: [PredictedDownlink; LONGEST_HORIZON],
     /// X and Z through the first science, relative to its start, in N m s.
     pub path: [[f64; NEXT_SAMPLES]; 2],
     /// When thrusters dump, and what they leave.
@@ -142,7 +143,10 @@ impl Components {
         let first_end_s = begin_s + spans_s[0];
         // Without a science first all that comes after it comes so much sooner.
         let sooner_s = if begins_in_science { science_s } else { 0.0 };
-        let times_s = (0..visits_before(count) + 1).map(|visit| match cycle_and_sample(visit) {
+        // Each cycle has the begin of its downlink, then its science, whose last sample is the next downlink's begin.
+        let samples = |cycle| (0..=samples_of(cycle)).map(move |sample| (cycle, sample));
+        let mut visits = (0..count).flat_map(samples).chain([(count, 0)]);
+        let times_s = visits.clone().map(|visit| match visit {
             (0, 0) => begin_s,
             (0, _) if sooner_s > 0.0 => first_end_s,
             (cycle, 0) => first_end_s + (cycle - 1) as f64 * cycle_s + (science_s - sooner_s),
@@ -151,11 +155,10 @@ impl Components {
                 first_end_s + cycle as f64 * cycle_s + (share * science_s - sooner_s)
             }
         });
-        let (mut visited, mut base) = (0, [0.0; 2]);
+        let mut base = [0.0; 2];
         forecast.simulated(times_s, science_s / LATER_SAMPLES as f64, |at| {
             let separation_rad = at.to_earth.map(|earth| angle_between_rad(&at.to_sun, &earth));
-            let (cycle, sample) = cycle_and_sample(visited);
-            visited += 1;
+            let Some((cycle, sample)) = visits.next() else { return };
             let momentum = [at.momentum_body_n_m_s.x, at.momentum_body_n_m_s.z];
             let since = [momentum[0] - base[0], momentum[1] - base[1]];
             match sample {
@@ -202,11 +205,6 @@ impl Components {
         }
     }
 
-    /// The downlink that begins.
-    pub fn present(&self) -> &PredictedDownlink {
-        &self.downlinks[0]
-    }
-
     /// Cycles to come of X and of Z, `authority` being what a coming downlink can add to each.
     pub fn cycles(
         &self,
@@ -231,20 +229,6 @@ impl Components {
 /// Samples of the science of a cycle.
 fn samples_of(cycle: usize) -> usize {
     if cycle == 0 { NEXT_SAMPLES } else { LATER_SAMPLES }
-}
-
-/// Visits before a cycle. Each has the begin of its downlink, then its science, whose last sample is the next downlink's begin.
-fn visits_before(cycle: usize) -> usize {
-    let first = if cycle == 0 { 0 } else { NEXT_SAMPLES + 1 };
-    first + cycle.saturating_sub(1) * (LATER_SAMPLES + 1)
-}
-
-/// Cycle of a visit, and its number there.
-fn cycle_and_sample(visit: usize) -> (usize, usize) {
-    match visit.checked_sub(visits_before(1)) {
-        None => (0, visit),
-        Some(later) => (1 + later / (LATER_SAMPLES + 1), later % (LATER_SAMPLES + 1)),
-    }
 }
 
 /// The science after a downlink in its default attitude.

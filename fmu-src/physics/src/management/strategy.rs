@@ -59,7 +59,7 @@ impl Forecast for DownlinkForecast<'_> {
     type Error = PlantError;
 
     fn terms(&self) -> ForecastTerms {
-        let Settings { convention, policy, .. } = self.context.configuration.momentum;
+        let Settings { convention, policy, .. } = self.configuration().momentum;
         ForecastTerms {
             begin_s: self.time_s,
             cycle_s: if self.forecasts { self.law.schedule.cycle_s() } else { f64::INFINITY },
@@ -152,13 +152,13 @@ impl Manager<'_> {
             _ => None,
         };
         let target = predicted.unwrap_or(self.bias_body_n_m_s + self.target_body_n_m_s);
-        self.targeting.sun_direction_throughout(&state, &target, separations_rad)
+        self.targeting.sun_direction(&state, &target, separations_rad)
     }
 
     /// The target from which X and Z stay below their thresholds through the coming cycles.
     fn kept(&self, state: &DownlinkState<'_>, prediction: &Components) -> Option<Vector3<f64>> {
         let momentum_body_n_m_s = self.targeting.default_momentum(state)?;
-        let torques = self.targeting.present_torques(state, prediction.present().separations_rad)?;
+        let torques = self.targeting.present_torques(state, prediction.downlinks[0].separations_rad)?;
         let default_n_m = (state.torque_body_n_m)(&direction_from_angles(SunAngles::default())).xz();
         // What the default attitude adds beside sunlight alone comes in others too.
         let beside = |downlink: &PredictedDownlink| {
@@ -174,7 +174,7 @@ impl Manager<'_> {
                 torques_n_m.map(|it| it * light_s + beside[axis])
             })
         });
-        let beside = beside(prediction.present());
+        let beside = beside(&prediction.downlinks[0]);
         let policy = &prediction.policy;
         let target = |axis: usize| {
             let body_axis = 2 * axis;
@@ -185,7 +185,7 @@ impl Manager<'_> {
                 cycles: later[axis].get(..prediction.count).unwrap_or_default(),
                 path: &prediction.path[axis],
                 threshold: policy.threshold_body_n_m_s[body_axis],
-                dumped: |before| policy.component_after(body_axis, before + bias_n_m_s) - bias_n_m_s,
+                dumped: |before| policy.after(&Vector3::repeat(before + bias_n_m_s))[body_axis] - bias_n_m_s,
             };
             component.target() - beside[axis] + bias_n_m_s
         };

@@ -19,7 +19,7 @@ use crate::attitude::{MovingUnit, SunAngles, angle_between_rad, direction_from_a
 use crate::enumeration::enumeration;
 use crate::guidance::pointing::antenna::Antennas;
 use crate::guidance::{
-    DownlinkSunDirection, LinesOfSight, ScienceArc, SelectedSunDirection, downlink_toward,
+    DownlinkSunDirection, LinesOfSight, ScienceArc, SelectedSunDirection, downlink_toward, sun_pointing,
 };
 use crate::math;
 use crate::momentum::Convention;
@@ -109,30 +109,21 @@ const ROUNDING: f64 = 1e-13;
 const INTERVALS: usize = 16;
 
 impl Targeting<'_> {
-    /// The place of the Sun for `target_body_n_m_s` at the downlink's end; `None` where Sun and Earth give no downlink attitude,
-    /// or no place is admissible.
+    /// The place of the Sun for `target_body_n_m_s` at the downlink's end, Sun and Earth coming from the least to the greatest of
+    /// `separations_rad` apart while it lasts; `None` where Sun and Earth give no downlink attitude, or no place is admissible.
     pub fn sun_direction(
-        &self,
-        state: &DownlinkState<'_>,
-        target_body_n_m_s: &Vector3<f64>,
-    ) -> Option<SelectedSunDirection> {
-        self.sun_direction_throughout(state, target_body_n_m_s, [state.separation_rad(); 2])
-    }
-
-    /// The same where Sun and Earth come from the least to the greatest of these angles apart while the downlink lasts.
-    pub fn sun_direction_throughout(
         &self,
         state: &DownlinkState<'_>,
         target_body_n_m_s: &Vector3<f64>,
         separations_rad: [f64; 2],
     ) -> Option<SelectedSunDirection> {
         let (zone, sides);
-        let branches: &[Branch] = if state.science.is_some() {
-            zone = [self.zone()];
+        let branches: &[Option<Branch>] = if state.science.is_some() {
+            zone = [Some(self.zone())];
             &zone
         } else {
-            sides = self.branches(state.separation_rad())?.lasting(separations_rad);
-            sides.as_slice()
+            sides = self.branches(state.separation_rad())?.map(|it| Some(it?.lasting(separations_rad)));
+            &sides
         };
         let aim = MomentumAim { axes: self.axes, state, target: target_body_n_m_s };
         match self.method {
@@ -162,8 +153,8 @@ impl Targeting<'_> {
         state: &DownlinkState<'_>,
         [begin_rad, end_rad]: [f64; 2],
     ) -> Option<[[f64; 2]; 2]> {
-        let branches = self.branches(begin_rad)?;
-        let branch = branches.first()?.lasting([begin_rad.min(end_rad), begin_rad.max(end_rad)]);
+        let first = self.branches(begin_rad)?[0]?;
+        let branch = first.lasting([begin_rad.min(end_rad), begin_rad.max(end_rad)]);
         Self::torques_on(state, &branch)
     }
 
@@ -185,7 +176,7 @@ impl Targeting<'_> {
     pub fn default_momentum(&self, state: &DownlinkState<'_>) -> Option<Vector3<f64>> {
         let first = match state.science {
             Some(_) => self.zone(),
-            None => *self.branches(state.separation_rad())?.first()?,
+            None => self.branches(state.separation_rad())?[0]?,
         };
         let place = first.nearest(SunAngles::default())?;
         Some(state.momentum_body_n_m_s(&place))
@@ -214,10 +205,10 @@ struct MomentumAim<'a> {
 }
 
 impl MomentumAim<'_> {
-    fn exact(&self, branches: &[Branch]) -> Option<SelectedSunDirection> {
+    fn exact(&self, branches: &[Option<Branch>]) -> Option<SelectedSunDirection> {
         let tolerance = ROUNDING * (1.0 + self.state.momentum.magnitude_n_m_s() + self.target.norm());
         let mut best: Option<(f64, SelectedSunDirection)> = None;
-        for branch in branches {
+        for branch in branches.iter().flatten() {
             let found = match self.axes {
                 TargetAxes::Xz => self.both(branch, tolerance),
                 TargetAxes::X | TargetAxes::Z => self.one(branch),
@@ -285,7 +276,7 @@ impl MomentumAim<'_> {
         let roots = (0..INTERVALS).filter_map(|k| {
             let (from, to) = (at(k), at(k + 1));
             let changes_sign = left(from) * left(to) <= 0.0;
-            changes_sign.then(|| roots::bracketed(from, to, 0.0, left).ok()).flatten()
+            changes_sign.then(|| roots::bracketed(from, to, left)).flatten()
         });
         let nearest = roots.min_by(|a, b| a.abs().total_cmp(&b.abs()));
         let angle_rad = nearest.unwrap_or_else(|| {
@@ -300,9 +291,9 @@ impl MomentumAim<'_> {
         left.is_finite().then_some((place, left))
     }
 
-    fn linear(&self, branches: &[Branch]) -> Option<SelectedSunDirection> {
+    fn linear(&self, branches: &[Option<Branch>]) -> Option<SelectedSunDirection> {
         let linear = self.state.linear.as_ref()?;
-        let start = branches.iter().find_map(|branch| branch.nearest(SunAngles::default()))?;
+        let start = branches.iter().flatten().find_map(|branch| branch.nearest(SunAngles::default()))?;
         let [by_x, by_z] = self.axes.requested();
         let mut change = self.target - self.state.momentum_body_n_m_s(&start);
         change.y = 0.0;
@@ -317,7 +308,7 @@ impl MomentumAim<'_> {
             let to = direction_from_angles(place.angles);
             angle_between_rad(&to, &direction_from_angles(requested))
         };
-        let places = branches.iter().filter_map(|branch| branch.nearest(requested));
+        let places = branches.iter().flatten().filter_map(|branch| branch.nearest(requested));
         let nearest = |best: DownlinkSunDirection, next: DownlinkSunDirection| {
             if distance_rad(&next) < distance_rad(&best) - ROUNDING { next } else { best }
         };
@@ -344,7 +335,8 @@ impl DownlinkState<'_> {
                 let still = |direction| MovingUnit { direction, rate_1_s: Vector3::zeros() };
                 let (sun, earth) = (still(self.to_sun), still(self.to_earth));
                 let lines = LinesOfSight { sun, earth, planet: None, sun_from_planet: None };
-                downlink_toward(&lines, place).frame.inertial_from_body.inverse() * momentum
+                let command = downlink_toward(&lines, place).unwrap_or_else(|| sun_pointing(&lines));
+                command.frame.inertial_from_body.inverse() * momentum
             }
         }
     }

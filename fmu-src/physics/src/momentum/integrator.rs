@@ -9,7 +9,7 @@ use crate::numerics::intervals::next_multiple_s;
 use super::by_source::SourceMomenta;
 use super::dump::{DumpEvent, Dumps};
 use super::segment::{MomentumSegment, Settings};
-use super::torque_model::{TorqueModel, WorkKind};
+use super::torque_model::TorqueModel;
 use super::totals::Totals;
 
 /// Totals of a flight with their dense output.
@@ -52,7 +52,7 @@ impl MomentumIntegrator {
         &self.dumps
     }
 
-    /// Totals at a time inside the current segment, which [`MomentumIntegrator::advance`] has reached.
+    /// Totals at a time inside the current segment, which the integration has reached.
     pub fn totals(&self, time_s: f64) -> Totals {
         self.segment.totals(time_s)
     }
@@ -78,10 +78,10 @@ impl MomentumIntegrator {
         self.segment.structure_rate_body_n_m(inertia_body_kg_m2, time_s)
     }
 
-    /// Whether [`MomentumIntegrator::advance`] has reached `time_s`, and its totals are known there.
+    /// Whether the integration has reached `time_s`, and its totals are known there.
     pub fn covers(&self, time_s: f64) -> bool {
         let edge_tolerance_s = edge_tolerance_s(time_s);
-        self.segment.start_s() <= time_s + edge_tolerance_s && time_s <= self.segment.end_s()
+        self.segment.span.start_s <= time_s + edge_tolerance_s && time_s <= self.segment.span.end_s
     }
 
     /// Forgets what was computed ahead of `time_s`: the flight changes there.
@@ -100,57 +100,28 @@ impl MomentumIntegrator {
         let totals = self.segment.totals(time_s);
         let inertial_from_body = flight.inertial_from_body(time_s);
         let before_body_n_m_s = totals.momentum_body_n_m_s(settings.convention, &inertial_from_body);
-        self.segment = self.segment.expecting(f64::INFINITY);
+        self.segment.span.next_longest_s = f64::INFINITY;
         DumpEvent { time_s, before_body_n_m_s, after_body_n_m_s: target_body_n_m_s }
     }
 
     /// Dumps as this event says.
     pub fn dump(&mut self, flight: &mut impl TorqueModel, event: &DumpEvent) {
-        let (time_s, longest_s) = (event.time_s, self.segment.next_longest_s());
+        let time_s = event.time_s;
         let mut totals = self.segment.totals(time_s);
         totals.torque_integral_body_n_m_s += event.impulse_body_n_m_s();
         totals.momentum_inertial_n_m_s += flight.inertial_from_body(time_s) * event.impulse_body_n_m_s();
-        let attitude = self.segment.attitude(time_s);
-        self.segment =
-            MomentumSegment::point(time_s, attitude, totals, SourceMomenta::default()).expecting(longest_s);
+        self.segment = self.segment.restarted(time_s, totals, SourceMomenta::default());
         self.dumps = self.dumps.with(*event);
     }
 
     /// End of the current segment, in s: up to there everything is known.
     pub fn end_s(&self) -> f64 {
-        self.segment.end_s()
+        self.segment.span.end_s
     }
 
     /// Whether the current segment ends before `time_s` or there; an edge belongs to the segment that begins there.
     pub fn ends_by(&self, time_s: f64) -> bool {
-        self.segment.end_s() <= time_s + edge_tolerance_s(time_s)
-    }
-
-    /// Advances until the current segment covers `time_s`, dumping where a threshold is exceeded.
-    ///
-    /// # Errors
-    /// What ends the flight; everything before stays.
-    pub fn advance<F: TorqueModel>(
-        &mut self,
-        flight: &mut F,
-        settings: &Settings,
-        time_s: f64,
-        mut report: impl FnMut(&DumpEvent),
-    ) -> Result<(), F::Failure> {
-        let mut dumped_s = None;
-        while self.ends_by(time_s) {
-            let prepared = self.prepare(flight, settings, f64::INFINITY)?;
-            if let Some(event) = prepared.due.filter(|due| dumped_s != Some(due.time_s)) {
-                flight.spend(WorkKind::Dump, event.time_s)?;
-                self.dump(flight, &event);
-                self.dumps.check()?;
-                report(&event);
-                dumped_s = Some(event.time_s);
-            } else {
-                self.advance_segment(flight, settings, &prepared)?;
-            }
-        }
-        Ok(())
+        self.segment.span.end_s <= time_s + edge_tolerance_s(time_s)
     }
 
     /// Makes the next segment ready, which ends at `limit_s` at the latest.
@@ -163,14 +134,14 @@ impl MomentumIntegrator {
         settings: &Settings,
         limit_s: f64,
     ) -> Result<PreparedSegment, F::Failure> {
-        let start_s = self.segment.end_s();
+        let start_s = self.segment.span.end_s;
         let (totals, by_source) = (self.segment.totals(start_s), self.segment.by_source(start_s));
         let limit_s = next_multiple_s(start_s, settings.grid_s).min(limit_s);
         let (horizon_s, inertial_from_body) = flight.prepare(start_s, limit_s)?;
         let before_body_n_m_s = totals.momentum_body_n_m_s(settings.convention, &inertial_from_body);
         // A component that just came to its threshold does not exceed it yet.
         let mut exceeded = settings.policy.exceeded_by(&before_body_n_m_s);
-        exceeded.iter_mut().zip(self.segment.at_threshold()).for_each(|(it, reached)| *it |= reached);
+        exceeded.iter_mut().zip(self.segment.at_threshold).for_each(|(it, reached)| *it |= reached);
         let due = exceeded.contains(&true).then(|| {
             let after_body_n_m_s = settings.policy.reinitialised(&before_body_n_m_s, &exceeded);
             DumpEvent { time_s: start_s, before_body_n_m_s, after_body_n_m_s }
@@ -192,12 +163,13 @@ impl MomentumIntegrator {
         prepared: &PreparedSegment,
     ) -> Result<(), F::Failure> {
         let PreparedSegment { horizon_s, attitude, totals, by_source, .. } = *prepared;
-        self.segment.advance(flight, settings, horizon_s, (attitude, totals, by_source))
+        let start = MomentumSegment::point(self.segment.span.end_s, attitude, totals, by_source);
+        self.segment.advance(flight, settings, horizon_s, &start)
     }
 
     /// The velocity changes by `delta_v_inertial_m_s` where a dump just ended.
     pub fn push(&mut self, delta_v_inertial_m_s: &Vector3<f64>) {
-        let time_s = self.segment.end_s();
+        let time_s = self.segment.span.end_s;
         let mut totals = self.segment.totals(time_s);
         totals.delta_v_inertial_m_s += delta_v_inertial_m_s;
         self.go_on(time_s, totals);
@@ -205,9 +177,7 @@ impl MomentumIntegrator {
 
     /// Goes on from `time_s`, inside the current segment, with these totals.
     fn go_on(&mut self, time_s: f64, totals: Totals) {
-        let (longest_s, by_source) = (self.segment.next_longest_s(), self.segment.by_source(time_s));
-        let attitude = self.segment.attitude(time_s);
-        self.segment = MomentumSegment::point(time_s, attitude, totals, by_source).expecting(longest_s);
+        self.segment = self.segment.restarted(time_s, totals, self.segment.by_source(time_s));
     }
 }
 

@@ -45,7 +45,7 @@ pub struct Settings {
 /// One interval without events.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct MomentumSegment {
-    span: SegmentSpan,
+    pub(super) span: SegmentSpan,
     at_start: Totals,
     /// Attitude at the start, the sign of its quaternion continuing from segment to segment.
     attitude_at_start: Quaternion,
@@ -60,8 +60,8 @@ pub(super) struct MomentumSegment {
     fastest_rad_s: f64,
     /// Momentum of the body and its panels, body frame, in N m s; absent where no panel has a mass.
     structure_body_n_m_s: Option<Segment<3, NODES>>,
-    /// Components of the momentum, body frame, that come to their dump thresholds at the end.
-    at_threshold: [bool; 3],
+    /// Components of the momentum, body frame, that come to their dump thresholds at the end: there thrusters dump.
+    pub(super) at_threshold: [bool; 3],
 }
 
 impl MomentumSegment {
@@ -78,30 +78,25 @@ impl MomentumSegment {
 
     /// Rejects decoded states that no simulation can produce.
     pub(super) fn is_valid(&self) -> bool {
+        let SegmentSpan { start_s, end_s, .. } = self.span;
+        let vectors = [&self.rate_body_rad_s, &self.structure_body_n_m_s];
         self.span.is_valid()
             && !self.span.is_before()
             && self.fastest_rad_s >= 0.0
             && Attitude::from_unit(self.attitude_at_start).is_rotation()
-            && self
-                .totals
-                .as_ref()
-                .is_none_or(|it| it.is_valid() && it.spans(self.span.start_s, self.span.end_s))
-            && self
-                .by_source
-                .present()
-                .all(|(_, it)| it.is_valid() && it.spans(self.span.start_s, self.span.end_s))
-            && [&self.rate_body_rad_s, &self.structure_body_n_m_s]
-                .into_iter()
-                .flatten()
-                .all(|it| it.is_valid() && it.spans(self.span.start_s, self.span.end_s))
+            && self.totals.as_ref().is_none_or(|it| it.is_valid() && it.spans(start_s, end_s))
+            && self.by_source.present().all(|(_, it)| it.is_valid() && it.spans(start_s, end_s))
+            && vectors.into_iter().flatten().all(|it| it.is_valid() && it.spans(start_s, end_s))
     }
 
-    /// The same, expecting that the tolerance allows the next segment this length, in s.
-    pub(super) fn expecting(self, next_longest_s: f64) -> Self {
-        Self { span: SegmentSpan { next_longest_s, ..self.span }, ..self }
+    /// A segment without length at `time_s`, in the attitude there; the tolerance allows the next one the same length.
+    pub(super) fn restarted(&self, time_s: f64, totals: Totals, by_source: SourceMomenta) -> Self {
+        let mut point = Self::point(time_s, self.attitude(time_s), totals, by_source);
+        point.span.next_longest_s = self.span.next_longest_s;
+        point
     }
 
-    /// Becomes the next segment, with this attitude and these totals at its start. It ends at the next multiple of the grid step or sooner: at
+    /// Becomes the next segment, with attitude and totals of this one without length at its start. It ends at the next multiple of the grid step or sooner: at
     /// `horizon_s`, up to where the flight is prepared, at an event, where the last Chebyshev terms of a total or of the momentum of
     /// body and panels would exceed the tolerance, or where momentum exceeds a dump threshold. Longer than this segment expects the
     /// tolerance to allow is not tried.
@@ -113,8 +108,9 @@ impl MomentumSegment {
         flight: &mut F,
         settings: &Settings,
         horizon_s: f64,
-        (attitude_at_start, at_start, by_source_at_start): (Quaternion, Totals, SourceMomenta),
+        start: &Self,
     ) -> Result<(), F::Failure> {
+        let Self { at_start, attitude_at_start, by_source_at_start, .. } = *start;
         let (start_s, longest_s) = (self.span.end_s, self.span.next_longest_s);
         flight.spend(WorkKind::Segment, start_s)?;
         let interval = AdaptiveInterval::new(start_s, settings.grid_s, longest_s, horizon_s, SHORTEST_S);
@@ -184,21 +180,6 @@ impl MomentumSegment {
         Ok(())
     }
 
-    /// Start, in s.
-    pub(super) fn start_s(&self) -> f64 {
-        self.span.start_s
-    }
-
-    /// End, in s.
-    pub(super) fn end_s(&self) -> f64 {
-        self.span.end_s
-    }
-
-    /// Length the tolerance will probably allow the next segment, in s.
-    pub(super) fn next_longest_s(&self) -> f64 {
-        self.span.next_longest_s
-    }
-
     /// Totals at a time inside the segment.
     pub(super) fn totals(&self, time_s: f64) -> Totals {
         match &self.totals {
@@ -253,11 +234,6 @@ impl MomentumSegment {
             Some(momentum) => momentum.value_and_derivative(time_s).1,
             None => inertia_body_kg_m2 * self.acceleration_body_rad_s2(time_s),
         }
-    }
-
-    /// Components of the momentum, body frame, that come to their dump thresholds at the end: there thrusters dump.
-    pub(super) fn at_threshold(&self) -> &[bool; 3] {
-        &self.at_threshold
     }
 
     /// The first time inside the segment at which a component of the momentum exceeds its threshold.

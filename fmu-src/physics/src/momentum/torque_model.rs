@@ -86,11 +86,6 @@ pub trait TorqueModel {
     /// Whatever ends a flight.
     fn prepare(&mut self, start_s: f64, limit_s: f64) -> Result<(f64, Rotation3<f64>), Self::Failure>;
 
-    /// Whether something has to be chosen where a segment begins, before it can be made ready.
-    fn must_choose(&mut self, _start_s: f64) -> bool {
-        false
-    }
-
     /// Sample at `time_s`; a pure function of time within what was prepared.
     fn sample(&mut self, time_s: f64) -> TorqueSample;
 

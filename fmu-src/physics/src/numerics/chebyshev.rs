@@ -50,7 +50,6 @@ impl<const D: usize, const N: usize> Segment<D, N> {
 
     /// The polynomial through `samples`, taken at [`Segment::nodes`] of the same interval. Needs `N >= 1`.
     pub fn from_samples(start: f64, end: f64, samples: &[SVector<f64, D>; N]) -> Self {
-        let (center, half_length) = center_and_half_length(start, end);
         let mut coefficients = SMatrix::<f64, D, N>::zeros();
         for (sample, x) in samples.iter().zip(Self::UNIT_NODES) {
             let weighted = sample * (2.0 / N as f64);
@@ -64,7 +63,7 @@ impl<const D: usize, const N: usize> Segment<D, N> {
             let mut mean = coefficients.column_mut(0);
             mean *= 0.5;
         }
-        Self { center, half_length, coefficients }
+        Self::from_coefficients(start, end, coefficients)
     }
 
     /// Interpolates `function` on `[start, end]`.

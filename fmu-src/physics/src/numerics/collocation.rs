@@ -58,17 +58,8 @@ pub struct Collocation<const S: usize, const M: usize> {
 }
 
 impl<const S: usize, const M: usize> Default for Collocation<S, M> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl<const S: usize, const M: usize> Collocation<S, M> {
-    /// Rounds until the sweeps count as diverging.
-    const SWEEPS: usize = 60;
-
     /// Computes the coefficients.
-    pub fn new() -> Self {
+    fn default() -> Self {
         const { assert!(M == S + 1 && S > 0, "dense output has one coefficient more than there are nodes") }
         let rule = Rule::<S>::gauss_legendre();
         // Each Lagrange basis polynomial of the nodes, integrated from -1.
@@ -80,6 +71,11 @@ impl<const S: usize, const M: usize> Collocation<S, M> {
         }
         Self { rule, to_node, to_integral: *integral.coefficients() }
     }
+}
+
+impl<const S: usize, const M: usize> Collocation<S, M> {
+    /// Rounds until the sweeps count as diverging.
+    const SWEEPS: usize = 60;
 
     /// The solution of `y' = rhs(t, y)`, `y(start_s) = start`, on `[start_s, end_s]`, and its value at the end.
     ///
@@ -200,13 +196,18 @@ fn is_finite<const D: usize>(vector: &SVector<f64, D>) -> bool {
 /// are whole multiples again. Segments depend on nothing but their start: asking more or less often changes no bit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SegmentChain<const D: usize, const M: usize> {
-    length_s: f64,
+    /// Length of the segments, s.
+    pub(crate) length_s: f64,
     /// Number of the edge the last segment ends at.
     edge: i64,
-    start_s: f64,
-    end_s: f64,
+    /// Start of the present segment, s.
+    pub(crate) start_s: f64,
+    /// How far the integration has come, s.
+    pub(crate) end_s: f64,
+    /// Solution there.
     end: SVector<f64, D>,
-    segment: Segment<D, M>,
+    /// Dense output between start and end of the present segment.
+    pub(crate) segment: Segment<D, M>,
 }
 
 impl<const D: usize, const M: usize> SegmentChain<D, M> {
@@ -229,31 +230,6 @@ impl<const D: usize, const M: usize> SegmentChain<D, M> {
     /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         self.length_s > 0.0 && self.segment.is_valid() && self.segment.spans(self.start_s, self.end_s)
-    }
-
-    /// Length of the segments, s.
-    pub fn length_s(&self) -> f64 {
-        self.length_s
-    }
-
-    /// Start of the present segment, s.
-    pub fn start_s(&self) -> f64 {
-        self.start_s
-    }
-
-    /// How far the integration has come, s.
-    pub fn end_s(&self) -> f64 {
-        self.end_s
-    }
-
-    /// The solution at [`SegmentChain::end_s`].
-    pub fn end(&self) -> &SVector<f64, D> {
-        &self.end
-    }
-
-    /// Dense output between [`SegmentChain::start_s`] and [`SegmentChain::end_s`].
-    pub fn segment(&self) -> &Segment<D, M> {
-        &self.segment
     }
 
     /// The solution at a time of the present segment.

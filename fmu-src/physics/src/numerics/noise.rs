@@ -75,36 +75,24 @@ impl Channel {
     }
 }
 
-/// Two independent normally distributed numbers by Box and Muller.
-struct NormalPairs(ChaCha8Rng);
-
-impl NormalPairs {
-    fn new(seed: u64, channel: Channel, event: u64) -> Self {
-        let mut generator = ChaCha8Rng::seed_from_u64(seed);
-        generator.set_stream(channel.stream(event));
-        Self(generator)
-    }
-
-    /// Radius and angle of the next pair in the plane.
-    fn polar(&mut self) -> (f64, f64) {
-        // 53 random bits, shifted off 0 so that the logarithm is finite.
-        let mut uniform = || ((self.0.next_u64() >> 11) as f64 + 0.5) / 9_007_199_254_740_992.0;
-        let (first, second) = (uniform(), uniform());
-        ((-2.0 * math::ln(first)).sqrt(), 2.0 * PI * second)
-    }
+/// Points of the plane by radius and angle, whose coordinates are independent and normally distributed (Box and Muller).
+fn polar_points<const N: usize>(seed: u64, channel: Channel, event: u64) -> [(f64, f64); N] {
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    generator.set_stream(channel.stream(event));
+    // 53 random bits, shifted off 0 so that the logarithm is finite.
+    let mut uniform = || ((generator.next_u64() >> 11) as f64 + 0.5) / 9_007_199_254_740_992.0;
+    core::array::from_fn(|_| ((-2.0 * math::ln(uniform())).sqrt(), 2.0 * PI * uniform()))
 }
 
 /// A normally distributed number of mean 0 and variance 1.
 pub fn normal(seed: u64, channel: Channel, event: u64) -> f64 {
-    let (radius, angle) = NormalPairs::new(seed, channel, event).polar();
+    let [(radius, angle)] = polar_points(seed, channel, event);
     radius * math::cos(angle)
 }
 
 /// Three independent normally distributed numbers of mean 0 and variance 1; the first is that of [`normal`].
 pub fn normal_vector(seed: u64, channel: Channel, event: u64) -> Vector3<f64> {
-    let mut pairs = NormalPairs::new(seed, channel, event);
-    let (radius, angle) = pairs.polar();
-    let (third_radius, third_angle) = pairs.polar();
+    let [(radius, angle), (third_radius, third_angle)] = polar_points(seed, channel, event);
     Vector3::new(radius * math::cos(angle), radius * math::sin(angle), third_radius * math::cos(third_angle))
 }
 

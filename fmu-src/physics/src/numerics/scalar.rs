@@ -96,54 +96,36 @@ impl Scalar for Dual64 {
     }
 }
 
-/// e to the power `x`.
-#[inline]
-pub fn exp<T: Scalar>(x: T) -> T {
-    let value = math::exp(x.value());
-    x.chain(value, || value)
+/// Elementary functions of [`crate::math`], each with its slope by the number and the function there.
+macro_rules! functions {
+    ($($(#[$doc:meta])* $name:ident: |$number:pat_param, $function:pat_param| $slope:expr;)+) => {$(
+        $(#[$doc])*
+        #[inline]
+        pub fn $name<T: Scalar>(x: T) -> T {
+            let value = math::$name(x.value());
+            let ($number, $function) = (x.value(), value);
+            x.chain(value, || $slope)
+        }
+    )+};
 }
 
-/// Natural logarithm.
-#[inline]
-pub fn ln<T: Scalar>(x: T) -> T {
-    x.chain(math::ln(x.value()), || 1.0 / x.value())
-}
-
-/// Angle in [-pi/2, pi/2] with the sine `x`, in rad.
-#[inline]
-pub fn asin<T: Scalar>(x: T) -> T {
-    x.chain(math::asin(x.value()), || 1.0 / (1.0 - x.value() * x.value()).sqrt())
-}
-
-/// Angle in [0, pi] with the cosine `x`, in rad.
-#[inline]
-pub fn acos<T: Scalar>(x: T) -> T {
-    x.chain(math::acos(x.value()), || -1.0 / (1.0 - x.value() * x.value()).sqrt())
-}
-
-/// Angle in (-pi/2, pi/2) with the tangent `x`, in rad.
-#[inline]
-pub fn atan<T: Scalar>(x: T) -> T {
-    x.chain(math::atan(x.value()), || 1.0 / (1.0 + x.value() * x.value()))
-}
-
-/// Sine of an angle in rad.
-#[inline]
-pub fn sin<T: Scalar>(angle_rad: T) -> T {
-    angle_rad.chain(math::sin(angle_rad.value()), || math::cos(angle_rad.value()))
-}
-
-/// Cosine of an angle in rad.
-#[inline]
-pub fn cos<T: Scalar>(angle_rad: T) -> T {
-    angle_rad.chain(math::cos(angle_rad.value()), || -math::sin(angle_rad.value()))
-}
-
-/// Tangent of an angle in rad.
-#[inline]
-pub fn tan<T: Scalar>(angle_rad: T) -> T {
-    let value = math::tan(angle_rad.value());
-    angle_rad.chain(value, || 1.0 + value * value)
+functions! {
+    /// e to the power `x`.
+    exp: |_, exp| exp;
+    /// Natural logarithm.
+    ln: |x, _| 1.0 / x;
+    /// Angle in [-pi/2, pi/2] with the sine `x`, in rad.
+    asin: |x, _| 1.0 / (1.0 - x * x).sqrt();
+    /// Angle in [0, pi] with the cosine `x`, in rad.
+    acos: |x, _| -1.0 / (1.0 - x * x).sqrt();
+    /// Angle in (-pi/2, pi/2) with the tangent `x`, in rad.
+    atan: |x, _| 1.0 / (1.0 + x * x);
+    /// Sine of an angle in rad.
+    sin: |x, _| math::cos(x);
+    /// Cosine of an angle in rad.
+    cos: |x, _| -math::sin(x);
+    /// Tangent of an angle in rad.
+    tan: |_, tan| 1.0 + tan * tan;
 }
 
 /// Sine and cosine of an angle in rad.

@@ -32,37 +32,22 @@ pub(crate) enum EventKind {
 }
 
 impl EventKind {
-    /// Kinds in the order of events at equal times.
-    const ALL: [Self; 9] = [
-        Self::Accounts,
-        Self::Valves,
-        Self::DumpEnd,
-        Self::Grid,
-        Self::Schedule,
-        Self::SunDirection,
-        Self::Threshold,
-        Self::Sample,
-        Self::Load,
+    /// Kinds in the order of events at equal times, with their names in messages.
+    const ALL: [(Self, &'static str); 9] = [
+        (Self::Accounts, "accounts of a segment"),
+        (Self::Valves, "edge of a valve"),
+        (Self::DumpEnd, "end of a dump"),
+        (Self::Grid, "edge of the disturbance grid"),
+        (Self::Schedule, "event of the timeline"),
+        (Self::SunDirection, "choice of the Sun's direction"),
+        (Self::Threshold, "dump at a threshold"),
+        (Self::Sample, "sample of the controller"),
+        (Self::Load, "load of thrusters"),
     ];
 
     /// Whether several may come at one time: those of the timeline, and what every segment ends with, be it without length.
     fn may_repeat(self) -> bool {
         matches!(self, Self::Accounts | Self::Valves | Self::Schedule | Self::Load)
-    }
-
-    /// Name in messages.
-    fn name(self) -> &'static str {
-        match self {
-            Self::Accounts => "accounts of a segment",
-            Self::Valves => "edge of a valve",
-            Self::DumpEnd => "end of a dump",
-            Self::Grid => "edge of the disturbance grid",
-            Self::Schedule => "event of the timeline",
-            Self::SunDirection => "choice of the Sun's direction",
-            Self::Threshold => "dump at a threshold",
-            Self::Sample => "sample of the controller",
-            Self::Load => "load of thrusters",
-        }
     }
 }
 
@@ -140,7 +125,7 @@ pub(crate) fn advance(flight: &mut impl Eventful, limit_s: f64) -> Result<(), Pl
     while flight.ends_by(limit_s) {
         flight.spend(None)?;
         apply_due(flight)?;
-        let next_s = EventKind::ALL.into_iter().map(|kind| flight.next_event_s(kind));
+        let next_s = EventKind::ALL.into_iter().map(|(kind, _)| flight.next_event_s(kind));
         let next_s = next_s.fold(f64::INFINITY, f64::min);
         flight.advance_segment(next_s)?;
     }
@@ -153,12 +138,12 @@ pub(crate) fn advance(flight: &mut impl Eventful, limit_s: f64) -> Result<(), Pl
 /// What ends a flight; an event of a kind twice at one time, where only one may come.
 pub(crate) fn apply_due(flight: &mut impl Eventful) -> Result<(), PlantError> {
     let time_s = flight.reached_s();
-    for kind in EventKind::ALL {
+    for (kind, name) in EventKind::ALL {
         while flight.is_due(kind)? {
             flight.spend(Some(kind))?;
             if !kind.may_repeat() {
                 if flight.last().has_come(kind, time_s) {
-                    return Err(PlantError::RepeatedEvent { time_s, kind: kind.name() });
+                    return Err(PlantError::RepeatedEvent { time_s, kind: name });
                 }
                 flight.last().of_kind(kind).take(time_s);
             }

@@ -196,7 +196,7 @@ fn shadows(of: &FlightSettings<'_>, found: &mut Vec<String>) {
 }
 
 fn dipole(of: &FlightSettings<'_>, found: &mut Vec<String>) {
-    let Configuration { laws, mass_kg, .. } = of.configuration;
+    let (laws, mass_kg) = (&of.configuration.laws, of.configuration.wet_mass.mass_kg);
     let dipole_a_m2 = laws.dipole_body_a_m2.norm();
     if dipole_a_m2 > DIPOLE_A_M2_KG * mass_kg {
         found.push(format!(
@@ -207,7 +207,7 @@ fn dipole(of: &FlightSettings<'_>, found: &mut Vec<String>) {
 }
 
 fn wheels(of: &FlightSettings<'_>, found: &mut Vec<String>) {
-    let mass_kg = of.configuration.mass_kg;
+    let mass_kg = of.configuration.wet_mass.mass_kg;
     let heavy = of.wheels.iter().enumerate().filter(|(_, it)| it.capacity_n_m_s > WHEEL_N_M_S_KG * mass_kg);
     found.extend(heavy.map(|(k, it)| {
         format!(
@@ -221,7 +221,7 @@ fn wheels(of: &FlightSettings<'_>, found: &mut Vec<String>) {
 }
 
 fn rotors(of: &FlightSettings<'_>, found: &mut Vec<String>) {
-    let inertia_kg_m2 = of.configuration.inertia_body_kg_m2;
+    let inertia_kg_m2 = of.configuration.wet_mass.inertia_body_kg_m2;
     for (k, wheel) in of.wheels.iter().enumerate() {
         let Some(axis) = wheel.axis_body.try_normalize(0.0) else { continue };
         let own_kg_m2 = axis.dot(&(inertia_kg_m2 * axis));

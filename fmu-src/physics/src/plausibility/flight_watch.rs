@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::environment::time;
 use crate::loads::Effect;
-use crate::plant::{Evaluation, Flight, Motion};
+use crate::plant::{Configuration, Evaluation, Flight, Motion};
 use crate::spacecraft::Spacecraft;
 use crate::toml::dates;
 
@@ -45,6 +45,12 @@ pub fn is_sun_offset_reached([meant_rad, actual_rad]: [f64; 2]) -> bool {
 }
 
 impl FlightWatch {
+    /// Whether [`Self::see`] reads the loads at `time_s`.
+    pub fn looks_at_forces(&self, configuration: Option<&Configuration>, time_s: f64) -> bool {
+        let is_closed_orbit = configuration.is_some_and(|it| matches!(it.motion, Motion::TwoBody));
+        !self.force && is_closed_orbit && !is_before(time_s, self.force_from_s)
+    }
+
     /// Tells what a flight that was evaluated at `time_s` shows for the first time.
     pub fn see(
         &mut self,
@@ -55,8 +61,7 @@ impl FlightWatch {
         let Some((configuration, evaluation)) = flight.configuration().zip(flight.evaluation()) else {
             return;
         };
-        let is_closed_orbit = matches!(configuration.motion, Motion::TwoBody);
-        if !self.force && is_closed_orbit && !is_before(time_s, self.force_from_s) {
+        if self.looks_at_forces(Some(configuration), time_s) {
             self.force_from_s = Some(time_s + LOOK_EVERY_S);
             let mu_m3_s2 = configuration.orbit.mu_m3_s2();
             if let Some(text) = force_over_gravity(evaluation, mu_m3_s2) {
@@ -64,7 +69,7 @@ impl FlightWatch {
                 tell(&text);
             }
         }
-        let sun = evaluation.instant.sun_at(time_s);
+        let sun = evaluation.instant.sun();
         let panels = spacecraft.panels.iter().zip(&configuration.panels).take(PANELS);
         for (k, (panel, setting)) in panels.enumerate() {
             let bit = 1_u64 << k;

@@ -7,8 +7,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::numerics::or_infinite;
 use crate::numerics::spacing::spacing;
+use crate::numerics::{Span, or_infinite};
 use crate::spacecraft::ValveTiming;
 
 use super::pulse_command::PulseCommand;
@@ -49,14 +49,14 @@ impl PulseSchedule {
         self.next.is_none_or(|next| next.opens_s <= next.closes_s)
     }
 
-    /// Takes the pulse commanded for the step from `start_s` to `end_s`, both in s; whether anything opens or continues.
+    /// Takes the pulse commanded for a step; whether anything opens or continues.
     ///
     /// A valve that is busy otherwise (`is_free` false) takes none.
     pub fn command(
         &mut self,
         timing: &ValveTiming,
         pulse: &PulseCommand,
-        [start_s, end_s]: [f64; 2],
+        Span { start_s, end_s }: Span,
         is_free: bool,
     ) -> bool {
         self.was_too_short = false;
@@ -73,14 +73,15 @@ impl PulseSchedule {
         self.was_too_short = !opens;
         if opens && is_free {
             let closes_s = if reaches_end { end_s } else { opens_s + pulse.on_s };
-            self.plan(timing, opens_s, closes_s);
+            self.plan(timing, Span::new(opens_s, closes_s));
         }
         opens && is_free
     }
 
     /// Plans a pulse; one that begins before the present one ends makes that end as late as it does itself, but not before the
     /// valve may close.
-    pub fn plan(&mut self, timing: &ValveTiming, opens_s: f64, closes_s: f64) {
+    pub fn plan(&mut self, timing: &ValveTiming, pulse: Span) {
+        let Span { start_s: opens_s, end_s: closes_s } = pulse;
         match &mut self.open {
             Some(open) if opens_s <= due_s(open.closes_s) => open.closes_s = closes_s.max(open.holds_until_s),
             _ => {

@@ -35,13 +35,11 @@ pub enum Preference {
 /// Thrusters that give no torque one way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the thrusters {of} give no torque about {axis} of the centre of mass: none of them has a lever there"
+    "the thrusters that may fire give no torque about {axis} of the centre of mass: none of them has a lever there"
 )]
 pub struct SelectionError {
     /// The body axis and the way about it.
     pub axis: &'static str,
-    /// Thrusters in question, for the message.
-    pub of: &'static str,
 }
 
 /// On-times of the selected thrusters for torque about each axis.
@@ -69,8 +67,7 @@ impl ThrusterSelection {
         for ((axis, sign, name), on_times) in SENSES.into_iter().zip(&mut per_impulse_s) {
             let mut requested = Vector3::zeros();
             requested[axis] = sign;
-            *on_times =
-                problem.solve(&requested).ok_or(SelectionError { axis: name, of: "that may fire" })?;
+            *on_times = problem.solve(&requested).ok_or(SelectionError { axis: name })?;
         }
         Ok(Self { per_impulse_s, count })
     }

@@ -5,7 +5,7 @@
 use nalgebra::Vector3;
 
 use super::cylinder::CylinderFace;
-use super::faces::{Faces, Normal, Surface};
+use super::faces::{Faces, Normal};
 use super::flat_plate::{Beam, force_per_area_pa};
 use crate::loads::ForceTorque;
 use crate::numerics::scalar::{Scalar, constant_vector};
@@ -27,7 +27,7 @@ pub struct SolarModel {
 }
 
 /// A face fixed in the body frame, everything constant of the flat-plate law multiplied out.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct FixedFace {
     normal: Vector3<f64>,
     center_m: Vector3<f64>,
@@ -52,8 +52,11 @@ impl SolarModel {
             Faces::new(spacecraft, form)?;
         let fixed = faces.iter().filter_map(|face| match (normals[face.normal], &surfaces[face.surface]) {
             (Normal::Fixed(normal), surface) if !surface.closed_form_sun => {
-                let fixed = FixedFace::new(surface, normal, &materials[face.material].optics);
-                Some((fixed, (surface.area_m2, face.material)))
+                let (center_m, area_m2) = (surface.center_body_m, surface.area_m2);
+                let dark =
+                    FixedFace { normal, center_m, arm_m: center_m.cross(&normal), ..FixedFace::default() };
+                let fixed = dark.with_optics(area_m2, &materials[face.material].optics);
+                Some((fixed, (area_m2, face.material)))
             }
             _ => None,
         });
@@ -72,7 +75,7 @@ impl SolarModel {
         *known = *material;
         for (face, (area_m2, of_face)) in self.fixed.iter_mut().zip(&self.fixed_surfaces) {
             if *of_face == place {
-                face.set_optics(*area_m2, &material.optics);
+                *face = face.with_optics(*area_m2, &material.optics);
             }
         }
         for panel in &mut self.panels {
@@ -143,23 +146,13 @@ impl SolarModel {
 }
 
 impl FixedFace {
-    fn new(surface: &Surface, normal: Vector3<f64>, optics: &Optics) -> Self {
-        let mut face = Self {
-            normal,
-            center_m: surface.center_body_m,
-            arm_m: surface.center_body_m.cross(&normal),
-            light_m2: 0.0,
-            diffuse_m2: 0.0,
-            specular_m2: 0.0,
-        };
-        face.set_optics(surface.area_m2, optics);
-        face
-    }
-
-    fn set_optics(&mut self, area_m2: f64, optics: &Optics) {
-        self.light_m2 = area_m2 * (optics.absorptivity + optics.diffuse);
-        self.diffuse_m2 = area_m2 * optics.diffuse * 2.0 / 3.0;
-        self.specular_m2 = area_m2 * optics.specular * 2.0;
+    fn with_optics(self, area_m2: f64, optics: &Optics) -> Self {
+        Self {
+            light_m2: area_m2 * (optics.absorptivity + optics.diffuse),
+            diffuse_m2: area_m2 * optics.diffuse * 2.0 / 3.0,
+            specular_m2: area_m2 * optics.specular * 2.0,
+            ..self
+        }
     }
 }
 

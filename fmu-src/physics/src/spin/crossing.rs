@@ -38,7 +38,7 @@ const ROUNDING_RAD: f64 = 1e-12;
 /// The search on the closed form has converged at this angle.
 const CONVERGED_RAD: f64 = 1e-9;
 /// A body slower than this is no spinner: nothing is searched for.
-const SLOWEST_RAD_S: f64 = 1e-4;
+pub(super) const SLOWEST_RAD_S: f64 = 1e-4;
 
 /// To what a time on a motion is known, in s: by the spacing of doubles at that time and at its distance from the anchor.
 fn rounding_s(motion: &Motion, time_s: f64) -> f64 {

@@ -4,10 +4,8 @@ use core::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use super::{crossing::Crossing, motion::Motion, work::Work};
-
-/// Half a turn of a slower body is not waited for.
-const SLOWEST_RAD_S: f64 = 1e-4;
+use super::crossing::{Crossing, SLOWEST_RAD_S};
+use super::{motion::Motion, work::Work};
 
 /// Between these lies every time between two crossings in a state that is one: what is divided by it stays finite.
 const SHORTEST_PERIOD_S: f64 = 1e-12;
@@ -86,6 +84,7 @@ impl CrossingDetector {
         self.period_s = self.last_s.map(|last_s| time_s - last_s);
         self.last_s = Some(time_s);
         self.count = self.count.wrapping_add(1);
+        // Half a turn of a slower body is not waited for.
         self.search_from_s = time_s + PI / rate_rad_s.max(SLOWEST_RAD_S);
         self.next_s = None;
     }

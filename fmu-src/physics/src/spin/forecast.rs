@@ -43,8 +43,6 @@ pub struct Forecast {
     pub peak_nutation_rad: f64,
     /// Momentum moved toward the target, in rad.
     pub moved_rad: f64,
-    /// Momentum moved at right angles to it, in rad.
-    pub aside_rad: f64,
 }
 
 impl ForecastCase {
@@ -74,11 +72,10 @@ impl ForecastCase {
             last_s = time_s;
             sum.final_nutation_rad = math::hypot(re, im);
             sum.peak_nutation_rad = sum.peak_nutation_rad.max(sum.final_nutation_rad);
-            let (late_sine, late_cosine) = math::sin_cos(
+            let (_, late_cosine) = math::sin_cos(
                 spin.rate_rad_s * time_s + 2.0 * PI * train.offset_turns(0) - PI * f64::from(half_turns),
             );
             sum.moved_rad += move_rad * late_cosine;
-            sum.aside_rad += move_rad * late_sine;
         }
         sum
     }

@@ -68,13 +68,6 @@ pub struct L1Ephemeris {
     pub phases: L1Phases,
 }
 
-impl L1Ephemeris {
-    /// Directions at `time_s`.
-    pub fn sun_earth(&self, time_s: f64) -> SunEarth {
-        self.orbit.sun_earth(&self.phases, time_s)
-    }
-}
-
 impl L1Orbit {
     /// Rate of the Earth-Sun line, in rad/s.
     pub fn line_rate_rad_s(&self) -> f64 {

@@ -27,7 +27,7 @@ pub const TORQUE_TERMS: usize = 8;
 
 /// Torque on the body in body components, polynomial in time, with jet damping: T(t) = sum of c[k] (t - origin)^k - D(t) w, in
 /// N m.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BodyTorque {
     /// Origin of the polynomial, in s.
     pub origin_s: f64,
@@ -40,9 +40,9 @@ pub struct BodyTorque {
 impl BodyTorque {
     /// A constant torque.
     pub fn constant(torque_body_n_m: Vector3<f64>) -> Self {
-        let mut coefficients_n_m = [Vector3::zeros(); TORQUE_TERMS];
-        coefficients_n_m[0] = torque_body_n_m;
-        Self { origin_s: 0.0, coefficients_n_m, jet_damping: JetDamping::default() }
+        let mut torque = Self::default();
+        torque.coefficients_n_m[0] = torque_body_n_m;
+        torque
     }
 
     /// Adds the derivative of an order from 1 along a body axis, at the origin; `None` beyond the orders that are used.

@@ -8,6 +8,7 @@ use physics::guidance::SelectedSunDirection;
 use physics::guidance::timeline::{TimelineEvent, TimelineManeuver};
 use physics::loads::ForceTorque;
 use physics::momentum::WheelArray;
+use physics::numerics::Span;
 use physics::plant::{
     AttitudeSource, Command, DownlinkForecast, DynamicsInputs, Flight, IdealSettings, ModeSettings,
     PlantError, SimulationContext, StepContext, ThrusterEventSettings, Thrusters,
@@ -42,9 +43,11 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
         Ok(None)
     };
     let external = |_: f64| [ForceTorque::zero(); 2];
+    let inputs = DynamicsInputs::default();
     let given = StepContext {
         prepared: rig.prepared(),
         external: &external,
+        inputs: &inputs,
         planner: &planner,
         work_limit: u32::MAX,
         log: &|_| {},
@@ -65,11 +68,11 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
         since_s: 0.0,
     };
     flight.begin(given, &held, 0.0).unwrap();
-    let (inputs, mut now_s) = (DynamicsInputs::default(), 0.0);
+    let mut now_s = 0.0;
     let mut advance = |to_s: f64| {
-        flight.advance(given, &inputs, [now_s, to_s]).unwrap();
+        flight.advance(given, Span::new(now_s, to_s)).unwrap();
         now_s = to_s;
-        flight.evaluate(given, &inputs, &held, to_s).unwrap();
+        flight.evaluate(given, &held, true, to_s).unwrap();
         let report = flight.report(given.prepared, &inputs, &held, to_s).unwrap();
         report.summary.totals.momentum_inertial_n_m_s
     };

@@ -9,7 +9,7 @@ use physics::loads::{Active, ForceTorque};
 use physics::momentum::{MomentumIntegrator, TorqueModel, Totals};
 use physics::plant::{AttitudeSource, Command, Configuration, EphemerisSource, LightSource, SunLight};
 
-use super::plant_flight::{EPOCH_S, Rig, configuration, still};
+use super::plant_flight::{EPOCH_S, Rig, configuration, integrate, still};
 
 const RADIUS_M: f64 = 3.2e6;
 const DURATION_S: f64 = 4_000.0;
@@ -67,7 +67,7 @@ fn momentum_after(configuration: &Configuration, time_s: f64) -> Vector3<f64> {
     let mut rig = Rig::new();
     let mut plant = rig.plant_with(configuration, &|_| [ForceTorque::zero(); 2]);
     let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
-    integrator.advance(&mut plant, &configuration.momentum, time_s, |_| {}).unwrap();
+    integrate(&mut integrator, &mut plant, &configuration.momentum, time_s);
     integrator.totals(time_s).momentum_inertial_n_m_s
 }
 

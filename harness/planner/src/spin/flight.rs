@@ -137,7 +137,7 @@ pub(super) fn simulated(
         earth_inertial: task.geometry.earth_inertial.unwrap_or_else(Vector3::zeros),
         star_inertial: Vector3::zeros(),
     };
-    let plant = Plant::start(spinner, &start(spinner, task, row), directions, Commands::none(), 0.0)
+    let plant = Plant::start(spinner, &start(spinner, task, row), directions, Commands::default(), 0.0)
         .map_err(failed)?;
     let period_s = task.case.spin.period_s();
     let latest_s = row.duration_s + 6.0 * period_s;

@@ -123,8 +123,7 @@ impl Instance {
 
     /// Refuses a Real reference without any of the flags `any`, or without all of the flags `all`.
     fn require(&self, reference: u32, any: u16, all: u16, role: &'static str) -> Result<(), Problem> {
-        let table = self.access.flags(BaseType::Real);
-        match table.get(references::index(BaseType::Real, reference)) {
+        match self.access.flags_at(BaseType::Real, reference) {
             Some(flags) if flags & any != 0 && flags & all == all => Ok(()),
             Some(_) => {
                 let name = self.access.named(BaseType::Real, reference);

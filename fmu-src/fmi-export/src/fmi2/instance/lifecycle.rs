@@ -33,14 +33,9 @@ impl Instance {
     }
 
     /// `fmi2SetupExperiment`.
-    pub(crate) fn setup_experiment(
-        &mut self,
-        tolerance: Option<f64>,
-        start_s: f64,
-        stop_s: Option<f64>,
-    ) -> Result<(), Problem> {
+    pub(crate) fn setup_experiment(&mut self, experiment: Experiment) -> Result<(), Problem> {
+        let Experiment { start_s, stop_s, tolerance } = experiment;
         let usable = |tolerance: &f64| *tolerance > 0.0 && tolerance.is_finite();
-        let experiment = Experiment { start_s, stop_s, tolerance: tolerance.filter(usable) };
         if !experiment.is_valid() {
             return Err(match stop_s {
                 None => Problem::error(format_args!("the start time is {start_s:?} s, it must be finite")),
@@ -58,7 +53,7 @@ impl Instance {
                 ),
             );
         }
-        self.state.experiment = Some(experiment);
+        self.state.experiment = Some(Experiment { tolerance: tolerance.filter(usable), ..experiment });
         Ok(())
     }
 
@@ -77,23 +72,18 @@ impl Instance {
     /// read, saved and restored like any value.
     fn set_tolerance(&mut self, tolerance: Option<f64>) {
         let is_settable = |at: &Real| {
-            let (base, reference) = (BaseType::Real, references::for_variable(*at));
-            let flags = self.access.flags(base).get(references::index(base, reference));
+            let flags = self.access.flags_at(BaseType::Real, references::for_variable(*at));
             flags.is_some_and(|flags| flags & SET_BY_IMPORTER != 0)
         };
         let is_open = |at: &Real| !self.state.values.is_set(*at) && is_settable(at);
         let Some(at) = self.tolerance.filter(is_open) else { return };
         let default = self.start.real(at);
-        let limits = self
-            .access
-            .real_limits
-            .get(references::index(BaseType::Real, references::for_variable(at)))
-            .copied();
-        let (min, max) = limits.unwrap_or((f64::MIN, f64::MAX));
+        let reference = references::for_variable(at);
+        let (min, max) = self.access.limits_at(reference);
+        let name = self.access.any_name(reference).unwrap_or_default();
         // Not `clamp`, which panics where the limits are no range.
         let taken = tolerance.map_or(default, |tolerance| tolerance.max(min).min(max));
         if let Some(tolerance) = tolerance.filter(|tolerance| *tolerance != taken) {
-            let name = self.access.any_name(references::for_variable(at)).unwrap_or_default();
             self.logger.log(
                 Status::Warning,
                 format_args!(
@@ -103,7 +93,6 @@ impl Instance {
             );
         }
         if taken != default {
-            let name = self.access.any_name(references::for_variable(at)).unwrap_or_default();
             let message =
                 format!("{name} = {taken:?}, the tolerance of fmi2SetupExperiment, as it is not set");
             self.logger.event(self.state.time_s, &message);
@@ -119,7 +108,8 @@ impl Instance {
         if let Some(before) = before {
             self.report_resolved(&before);
         }
-        self.allocate_spare();
+        // No step has to bring them to their size.
+        self.spare.clone_from(&self.state.values);
         Ok(())
     }
 

@@ -21,7 +21,7 @@ use crate::logger::Logger;
 use crate::prepared::Prepared;
 use crate::runtime::Runtime;
 use crate::variables::{Element, Real, SetBits, Values};
-use model_description::call_table::{self, Access, Function, Next, State};
+use model_description::call_table::{self, Access, Function, Next};
 use model_description::{BaseType, Status};
 use pending::Deferred;
 
@@ -59,7 +59,7 @@ pub(crate) struct Instance {
     tolerance: Option<Real>,
     /// Highest order of an output's derivative.
     output_derivative_order: u32,
-    poisoned: bool,
+    pub(super) poisoned: bool,
 }
 
 impl Instance {
@@ -89,28 +89,6 @@ impl Instance {
             earliest_s: f64::NEG_INFINITY,
             poisoned: false,
         }
-    }
-
-    /// Whether a panic ended this instance.
-    #[inline]
-    pub(crate) fn is_poisoned(&self) -> bool {
-        self.poisoned
-    }
-
-    /// No call but free works from here on.
-    pub(crate) fn poison(&mut self) {
-        self.poisoned = true;
-        self.state.mode = State::Error;
-    }
-
-    /// The log.
-    pub(crate) fn logger(&self) -> &Logger {
-        &self.logger
-    }
-
-    /// The log, and what else must be dropped.
-    pub(crate) fn dismantle(self) -> (Logger, Box<dyn Runtime>) {
-        (self.logger, self.runtime)
     }
 
     /// Refuses a call that neither the table nor a leniency admits in this state. What is conditional is checked per
@@ -176,7 +154,10 @@ impl Instance {
     pub(super) fn not_finite(&self, reference: u32, value: f64, initially: bool) -> Problem {
         let name = self.access.named(BaseType::Real, reference);
         let dependencies = self.access.dependencies(reference, initially).unwrap_or_default();
-        let shown = |at: &u32| Some(format!("{} = {}", self.access.any_name(*at)?, self.shown(*at)?));
+        let shown = |at: &u32| {
+            let (base, name) = (references::base_type(*at)?, self.access.any_name(*at)?);
+            Some(format!("{name} = {}", self.state.values.shown(base, references::index(base, *at))))
+        };
         let advice = match dependencies.iter().filter_map(shown).collect::<Vec<_>>().join(", ") {
             none if none.is_empty() => "look for inputs or parameters beyond what can be".to_owned(),
             listed => format!("it depends on {listed}"),
@@ -184,27 +165,9 @@ impl Instance {
         Problem::error(format_args!("{name} came out as {value:?}, which is no finite number; {advice}"))
     }
 
-    /// A variable's value for a message.
-    fn shown(&self, reference: u32) -> Option<String> {
-        let values = &self.state.values;
-        let base = references::base_type(reference)?;
-        let index = references::index(base, reference);
-        Some(match base {
-            BaseType::Real => format!("{:?}", values.reals.get(index)?),
-            BaseType::Integer => values.integers.get(index)?.to_string(),
-            BaseType::Boolean => values.booleans.get(index)?.to_string(),
-            BaseType::String => format!("{:?}", values.strings.get(index)?),
-        })
-    }
-
     /// The values at which derivatives are taken: those of the last step, whatever was set since.
     pub(super) fn values_at_last_step(&self) -> &Values {
         self.state.at_last_step.as_ref().unwrap_or(&self.state.values)
-    }
-
-    /// Brings the spare values to their size, so that no step has to.
-    pub(super) fn allocate_spare(&mut self) {
-        self.spare.clone_from(&self.state.values);
     }
 
     /// Forgets the values kept for derivatives, but not their memory.

@@ -51,19 +51,9 @@ impl Deferred {
         }
     }
 
-    /// Marks all groups as pending, after a step.
-    pub(super) fn mark_all(&mut self) {
-        self.pending = self.all;
-    }
-
     /// Marks no group as pending: all outputs are written, or none will be.
     pub(super) fn mark_none(&mut self) {
         self.pending = OutputGroups::NONE;
-    }
-
-    #[inline]
-    pub(super) fn is_pending(&self) -> bool {
-        !self.pending.is_empty()
     }
 
     /// The first Real that a step wrote and that is no finite number, with its reference.

@@ -104,11 +104,7 @@ impl InstanceState {
         }
         for &InputDerivative { input, order, value } in &self.input_derivatives {
             let reference = references::for_variable(input);
-            let flags = access
-                .flags(BaseType::Real)
-                .get(references::index(BaseType::Real, reference))
-                .copied()
-                .unwrap_or(0);
+            let flags = access.flags_at(BaseType::Real, reference).unwrap_or(0);
             let fits = flags & INPUT != 0 && flags & CONTINUOUS != 0;
             let is_within = (-GREATEST_SET..=GREATEST_SET).contains(&value);
             if !fits || !(1..=MAX_INPUT_DERIVATIVE_ORDER).contains(&order) || !is_within {

@@ -38,7 +38,7 @@ impl Instance {
         self.deferred.mark_none();
         let terminate = self.advance(start_s, end_s)?;
         self.check_finite(false)?;
-        self.deferred.mark_all();
+        self.deferred.pending = self.deferred.all;
         let state = &mut self.state;
         state.derivatives_ended = !state.input_derivatives.is_empty();
         state.input_derivatives.clear();

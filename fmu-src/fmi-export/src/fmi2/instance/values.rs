@@ -10,22 +10,29 @@ use crate::fmi2::references;
 use model_description::call_table::State;
 use model_description::{BaseType, Status};
 
-/// `fmi2GetXXX` of a base type whose values are plain.
+/// `fmi2GetXXX` of a base type.
 macro_rules! getter {
-    ($name:ident, $base:ident, $table:ident, $value:ty, $read:expr) => {
+    ($name:ident, $base:ident, $table:ident, $stored:ty) => {
         impl Instance {
-            /// One of `fmi2GetXXX`.
-            pub(crate) fn $name(&mut self, references: &[u32], values: &mut [$value]) -> Result<(), Problem> {
+            /// One of `fmi2GetXXX`: `read` makes a value of the one at a place in the table.
+            #[inline]
+            pub(crate) fn $name<V>(
+                &mut self,
+                references: &[u32],
+                values: &mut [V],
+                mut read: impl FnMut(usize, &$stored) -> V,
+            ) -> Result<(), Problem> {
                 if self.reading_needs_preparation() {
                     self.prepare_reading(BaseType::$base, references)?;
                 }
-                if self.deferred.is_pending() {
+                if !self.deferred.pending.is_empty() {
                     self.write_read(BaseType::$base, references)?;
                 }
                 let table = &self.state.values.$table;
                 for (&reference, value) in references.iter().zip(values) {
-                    match table.get(references::index(BaseType::$base, reference)) {
-                        Some(stored) => *value = $read(stored),
+                    let index = references::index(BaseType::$base, reference);
+                    match table.get(index) {
+                        Some(stored) => *value = read(index, stored),
                         None => return Err(self.access.unknown(BaseType::$base, reference)),
                     }
                 }
@@ -86,9 +93,10 @@ macro_rules! setter {
     };
 }
 
-getter!(get_real, Real, reals, f64, |stored: &f64| *stored);
-getter!(get_integer, Integer, integers, i32, |stored: &i32| *stored);
-getter!(get_boolean, Boolean, booleans, i32, |stored: &bool| i32::from(*stored));
+getter!(get_real, Real, reals, f64);
+getter!(get_integer, Integer, integers, i32);
+getter!(get_boolean, Boolean, booleans, bool);
+getter!(get_string, String, strings, String);
 
 setter!(set_real, Real, reals, f64,
     check: |access: &AccessTable, reference: u32, value: &f64| {
@@ -137,29 +145,6 @@ setter!(set_string, String, strings, MaybeText<'_>,
     write: |stored: &mut String, value: &MaybeText<'_>| value.unwrap_or_default().clone_into(stored));
 
 impl Instance {
-    /// `fmi2GetString`: hands each value to `take`, by position and place in the table.
-    pub(crate) fn get_string(
-        &mut self,
-        references: &[u32],
-        mut take: impl FnMut(usize, usize, &str),
-    ) -> Result<(), Problem> {
-        if self.reading_needs_preparation() {
-            self.prepare_reading(BaseType::String, references)?;
-        }
-        if self.deferred.is_pending() {
-            self.write_read(BaseType::String, references)?;
-        }
-        let table = &self.state.values.strings;
-        for (position, &reference) in references.iter().enumerate() {
-            let index = references::index(BaseType::String, reference);
-            match table.get(index) {
-                Some(stored) => take(position, index, stored),
-                None => return Err(self.access.unknown(BaseType::String, reference)),
-            }
-        }
-        self.conclude_reading()
-    }
-
     /// The warning that goes with values read before Initialization Mode.
     #[inline]
     fn conclude_reading(&self) -> Result<(), Problem> {

@@ -5,7 +5,6 @@ pub(super) mod reader;
 
 use fmi_export::{Failure, Values};
 use nalgebra::Vector3;
-use physics::attitude::Attitude;
 use physics::bodies::{Body, BodyData};
 use physics::enumeration::Enumerated;
 use physics::environment::bodies_from_center::BodiesFromCenter;
@@ -33,7 +32,7 @@ use super::variables::celestial_bodies::PlanetVariables;
 use super::variables::choices::EphemerisSource;
 use crate::common::choices::PlanetOrientation;
 use crate::common::downlink::ZERO_KEEP_IN_AXIS;
-use crate::common::ephemeris;
+use crate::common::ephemeris::{self, NamedEpoch};
 use crate::common::guided::NO_GIMBAL;
 use crate::common::management::{NO_ANTENNA, check_windows_have_antenna};
 use crate::common::numbers::Numbers;
@@ -91,7 +90,7 @@ impl Fixed {
         }
         let precise = ephemeris::precise(read.setup.ephemeris.as_ref());
         if let Some(carried) = precise.filter(|_| source == EphemerisSource::Chebyshev) {
-            ephemeris::check_onboard(carried, body, "start.epoch", epoch_s)?;
+            NamedEpoch { name: "start.epoch", epoch_s }.check_onboard(carried, body)?;
         }
         let (target, has_table) = (read.setup.bodies.body(body), precise.is_some());
         let ellipse = match source {
@@ -127,13 +126,8 @@ struct Target {
 
 /// Pole, rotation and gravity.
 fn planet(v: &PlanetVariables) -> Numbers<BodyData, 5> {
-    Numbers([
-        (v.rotation.pole_right_ascension, |it| &mut it.pole_right_ascension_rad),
-        (v.rotation.pole_declination, |it| &mut it.pole_declination_rad),
-        (v.rotation.prime_meridian, |it| &mut it.prime_meridian_rad),
-        (v.rotation.rotation_rate, |it| &mut it.rotation_rate_rad_s),
-        (v.gravitational_parameter, |it| &mut it.gm_m3_s2),
-    ])
+    let [a, b, c, d] = v.rotation.numbers();
+    Numbers([a, b, c, d, (v.gravitational_parameter, |it| &mut it.gm_m3_s2)])
 }
 
 impl Target {
@@ -146,7 +140,7 @@ impl Target {
         let radius_m = |i| given.real_or(v.radii.element(i), own.radii_m[i]);
         Self {
             radii_m: Vector3::from([0, 1, 2].map(radius_m)),
-            orientation: v.rotation.choice(&given, read.values, own.data.body),
+            orientation: given.choice_or(v.rotation.orientation, PlanetOrientation::for_body(own.data.body)),
             data: planet(v).read_or(given, &own.data),
         }
     }
@@ -358,10 +352,4 @@ fn scans(read: Read<'_>) -> ScanCompatibility {
         *allowed = kinds.map(|kind| read.boolean(kind));
     }
     scans
-}
-
-/// The attitude to start from.
-pub(super) fn start_attitude(read: Read<'_>) -> Result<Attitude, Failure> {
-    let q = read.values.vector(read.variables.start.q);
-    Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))
 }

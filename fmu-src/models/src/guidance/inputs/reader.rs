@@ -1,6 +1,6 @@
 //! Reads what is commanded, measured and known of positions at the time of a sample.
 
-use fmi_export::{Boolean, Choice, Enumeration, Failure, InputsOverTime, Integer, Real, RealVector};
+use fmi_export::{Failure, InputsOverTime, Real, RealVector};
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::bodies::Body;
@@ -19,7 +19,7 @@ use physics::guidance::pointing::command::{
 use super::Fixed;
 use crate::common::ephemeris;
 use crate::guidance::setup::Read;
-use crate::guidance::variables::choices::{EphemerisSource, ModeRequest};
+use crate::guidance::variables::choices::EphemerisSource;
 use crate::guidance::variables::commands::AimpointVariables;
 
 /// The start value of `estimate.q`.
@@ -43,7 +43,7 @@ impl<'a> Reader<'a> {
         self.inputs.real(self.read.values, handle, self.time_s)
     }
 
-    fn vector(&self, handle: RealVector<3>) -> Vector3<f64> {
+    pub(crate) fn vector(&self, handle: RealVector<3>) -> Vector3<f64> {
         Vector3::from(self.inputs.vector(self.read.values, handle, self.time_s))
     }
 
@@ -52,63 +52,50 @@ impl<'a> Reader<'a> {
         Vector3::from([0, 1, 2].map(|i| self.inputs.rate(handle.element(i), self.time_s)))
     }
 
-    fn count(&self, handle: Integer) -> u32 {
-        self.read.count(handle)
-    }
-
-    fn flag(&self, handle: Boolean) -> bool {
-        self.read.boolean(handle)
-    }
-
-    /// The item of an input; none where nothing is chosen.
-    fn item<E: Enumeration, T>(&self, handle: Choice<E>, inner: impl Fn(E) -> Option<T>) -> Option<T> {
-        inner(self.read.choice(handle))
-    }
-
     /// Pointing command of the inputs.
     pub(crate) fn command(&self) -> PointingCommand {
         let v = self.read.variables;
         let (boresight, body_roll, external_roll) = (&v.boresight, &v.body_roll, &v.external_roll);
         let (limb, scan) = (&v.limb, &v.scan);
         PointingCommand {
-            scenario: self.item(v.pointing_scenario, |it| it.0),
+            scenario: self.read.choice(v.pointing_scenario).0,
             boresight: BoresightCommand {
-                option: self.item(boresight.option, |it| it.0),
+                option: self.read.choice(boresight.option).0,
                 vector: self.vector(boresight.vector),
                 azimuth_rad: self.real(boresight.azimuth),
                 elevation_rad: self.real(boresight.elevation),
                 angle_rad: self.real(boresight.angle),
-                instrument: self.count(boresight.instrument),
+                instrument: self.read.count(boresight.instrument),
             },
             aimpoint: self.aimpoint(&v.aimpoint),
             second_aimpoint: self.aimpoint(&v.second_aimpoint),
             body_roll: BodyRollCommand {
-                option: self.item(body_roll.option, |it| it.0),
+                option: self.read.choice(body_roll.option).0,
                 vector: self.vector(body_roll.vector),
                 azimuth_rad: self.real(body_roll.azimuth),
                 elevation_rad: self.real(body_roll.elevation),
             },
             external_roll: ExternalRollCommand {
-                option: self.item(external_roll.option, |it| it.0),
+                option: self.read.choice(external_roll.option).0,
                 vector: self.vector(external_roll.vector),
                 right_ascension_rad: self.real(external_roll.right_ascension),
                 declination_rad: self.real(external_roll.declination),
             },
             limb: LimbCommand {
                 azimuth_rad: self.real(limb.azimuth),
-                reference: self.item(limb.reference, |it| it.0),
+                reference: self.read.choice(limb.reference).0,
                 height_m: self.real(limb.height),
                 height_rate_m_s: self.real(limb.height_rate),
             },
             scan: ScanCommand {
-                frame: self.item(scan.frame, |it| it.0),
-                reference: self.item(scan.reference, |it| it.0),
+                frame: self.read.choice(scan.frame).0,
+                reference: self.read.choice(scan.reference).0,
                 rate_rad_s: self.vector(scan.rate).into(),
                 speed_m_s: self.vector(scan.speed).into(),
                 duration_s: self.vector(scan.duration).into(),
                 pause_s: self.vector(scan.pause).into(),
-                segments: [scan.segments_x, scan.segments_y, scan.segments_z].map(|it| self.count(it)),
-                reverse: [scan.reverse_x, scan.reverse_y, scan.reverse_z].map(|it| self.flag(it)),
+                segments: [scan.segments_x, scan.segments_y, scan.segments_z].map(|it| self.read.count(it)),
+                reverse: [scan.reverse_x, scan.reverse_y, scan.reverse_z].map(|it| self.read.boolean(it)),
             },
         }
     }
@@ -168,21 +155,6 @@ impl<'a> Reader<'a> {
         CartesianState { position_m: self.vector(position), velocity_m_s: self.vector(velocity) }
     }
 
-    /// Sum of the accelerometers' increments.
-    pub(crate) fn delta_v_body_m_s(&self) -> Vector3<f64> {
-        self.vector(self.read.variables.accelerometer_delta_v)
-    }
-
-    /// System momentum along the body axes.
-    pub(crate) fn momentum_body_n_m_s(&self) -> Vector3<f64> {
-        self.vector(self.read.variables.momentum.body)
-    }
-
-    /// Whether an input asks for a mode.
-    pub(crate) fn asks_for_a_mode(&self) -> bool {
-        self.item(self.read.variables.mode.request, ModeRequest::mode).is_some()
-    }
-
     /// Whether estimate.q is connected.
     pub(crate) fn has_estimate(&self) -> bool {
         let v = self.read.variables;
@@ -196,7 +168,7 @@ impl<'a> Reader<'a> {
     pub(crate) fn sensed(&self, commanded: Attitude, is_placed: bool) -> Result<(Sensed, bool), Failure> {
         let v = self.read.variables;
         let q = self.inputs.vector(self.read.values, v.estimate.q, self.time_s);
-        let valid = self.flag(v.estimate.valid);
+        let valid = self.read.boolean(v.estimate.valid);
         let is_estimated = is_placed && (self.has_estimate() || !valid);
         let estimate = if !is_estimated {
             Some(commanded)
@@ -208,17 +180,17 @@ impl<'a> Reader<'a> {
         };
         let sensed = Sensed {
             time_s: self.time_s,
-            request: self.item(v.mode.request, ModeRequest::mode),
+            request: self.read.choice(v.mode.request).mode(),
             is_of_timeline: false,
             estimate,
-            sun_body: self.flag(v.sun.sensed_valid).then(|| self.vector(v.sun.sensed)),
+            sun_body: self.read.boolean(v.sun.sensed_valid).then(|| self.vector(v.sun.sensed)),
         };
         Ok((sensed, is_estimated))
     }
 
     fn aimpoint(&self, aimpoint: &AimpointVariables) -> AimpointCommand {
         AimpointCommand {
-            option: self.item(aimpoint.option, |it| it.0),
+            option: self.read.choice(aimpoint.option).0,
             vector: self.vector(aimpoint.vector),
             position_m: self.vector(aimpoint.position),
             velocity_m_s: self.rate(aimpoint.position),
@@ -229,7 +201,7 @@ impl<'a> Reader<'a> {
             height_m: self.real(aimpoint.height),
             azimuth_rad: self.real(aimpoint.azimuth),
             elevation_rad: self.real(aimpoint.elevation),
-            body: self.item(aimpoint.body, |it| it.0),
+            body: self.read.choice(aimpoint.body).0,
         }
     }
 }

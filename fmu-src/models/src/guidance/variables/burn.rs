@@ -4,12 +4,11 @@ use fmi_export::{Boolean, Choice, Real, RealMatrix, RealVector, Variables};
 use physics::guidance::burn::delta_v;
 
 use crate::common::choices::ThrustRequest;
-use crate::guidance::setup::GuidanceSetup;
+use crate::guidance::setup::GuidanceSetup as Setup;
 
 /// A burn. It begins where the scenario burn is commanded, by the input or by a command of the timeline without a table `burn`,
 /// and its time has come; a demotion of the mode or another scenario ends it.
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct BurnVariables {
     /// Velocity to add, without gravity, EME2000; with zero, and no profile, there is no direction: the last command stays.
     #[parameter(unit = "m/s", min = -1e6, max = 1e6, start = [0.0; 3])]
@@ -69,7 +68,6 @@ pub struct BurnVariables {
 
 /// Requests of Guidance to the thrusters.
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct ThrustVariables {
     /// Thrusters that are requested, from when the scenario burn is commanded until the burn is over.
     #[output(items = ThrustRequest::sets(&setup.spacecraft))]

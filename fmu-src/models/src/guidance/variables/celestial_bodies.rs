@@ -7,7 +7,7 @@ use physics::constants::{HALF_TURNS_RAD, QUARTER_TURNS_RAD};
 use physics::environment::{ephemeris, time};
 use physics::guidance::pointing::command;
 
-use super::super::setup::GuidanceSetup;
+use super::super::setup::GuidanceSetup as Setup;
 use crate::common::choices::{OrbitCenter, custom_body};
 use crate::common::orientation::RotationVariables;
 
@@ -24,7 +24,6 @@ pub struct StartVariables {
 
 /// Planet that is observed.
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct TargetVariables {
     /// The planet that is observed, from whose centre positions count; by default orbit.center of the file's [start]. Set after
     /// packing, what nobody sets of planet.* and ephemeris.* is that body's own and reads back so once initialized; a group of
@@ -38,7 +37,6 @@ pub struct TargetVariables {
 
 /// Shape, pole and rotation of the target planet.
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct PlanetVariables {
     /// Radii of the ellipsoid along the planet's x, y and z.
     #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.target.radii_m)]

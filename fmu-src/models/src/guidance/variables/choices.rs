@@ -1,7 +1,7 @@
 //! Guidance's choices.
 
 use fmi_export::Enumeration;
-use fmi_export::variables::{DeclaredItem, EnumerationType, Item};
+use fmi_export::variables::DeclaredItem;
 use physics::bodies::Body;
 use physics::enumeration::Enumerated;
 use physics::guidance::geometry::{lighting, lvlh};
@@ -10,7 +10,7 @@ use physics::guidance::pointing::antenna::AntennaRow;
 use physics::guidance::pointing::command;
 use physics::spacecraft::{NamedAntenna, Spacecraft};
 
-use crate::common::choices::{KNOWN_BODIES, choices, optional_choices};
+use crate::common::choices::{KNOWN_BODIES, choices, optional_choices, row_choice};
 
 optional_choices! {
     /// What is pointed at what (paper 001, Table 5).
@@ -60,27 +60,9 @@ choices! {
     SubsolarMethod(lighting::SubsolarMethod);
 }
 
-/// The antenna in use.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct AntennaSelect(pub Option<AntennaRow>);
-
-/// Its items are none and the spacecraft's antennas.
-impl Enumeration for AntennaSelect {
-    const FIRST: Self = Self(None);
-
-    const TYPE: EnumerationType = EnumerationType {
-        name: "AntennaSelect",
-        description: "The antenna in use.",
-        items: &[Item { name: "none", value: 0, description: "None: no downlink." }],
-    };
-
-    fn from_value(value: i32) -> Option<Self> {
-        Some(Self(u16::try_from(value).ok()?.checked_sub(1).map(AntennaRow)))
-    }
-
-    fn value(self) -> i32 {
-        self.0.map_or(0, |AntennaRow(row)| i32::from(row) + 1)
-    }
+row_choice! {
+    /// The antenna in use.
+    AntennaSelect(AntennaRow) or "None: no downlink."
 }
 
 impl AntennaSelect {

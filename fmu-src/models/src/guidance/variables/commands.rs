@@ -6,7 +6,7 @@ use physics::guidance::pointing::aimpoint::AimpointKind;
 use physics::guidance::pointing::command;
 use physics::guidance::pointing::scan::DEFAULT_COMPATIBILITY;
 
-use super::super::setup::GuidanceSetup;
+use super::super::setup::GuidanceSetup as Setup;
 use super::choices::{
     ActiveMode, AimpointBody, AimpointOption, AzimuthReference, BodyRollOption, BoresightOption,
     ExternalRollOption, ModeReason, ModeRequest, ScanFrame,
@@ -14,7 +14,6 @@ use super::choices::{
 
 /// The boresight.
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct BoresightVariables {
     /// How it is given, in the scenario generic; phasedArray also asks the scenario downlink for boresight.azimuth.
     #[input(start = BoresightOption(None))]
@@ -38,7 +37,6 @@ pub struct BoresightVariables {
 
 /// An aimpoint.
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct AimpointVariables {
     /// What is aimed at.
     #[input(start = AimpointOption(None))]

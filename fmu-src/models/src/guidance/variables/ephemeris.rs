@@ -5,13 +5,12 @@ use core::f64::consts::PI;
 use fmi_export::{Boolean, Choice, Real, Variables};
 use physics::guidance::modes::body_positions;
 
-use super::super::setup::GuidanceSetup;
+use super::super::setup::GuidanceSetup as Setup;
 use super::choices::{EphemerisModel, EphemerisSource};
 use crate::common::ellipse::EllipseVariables;
 
 /// Positions of the Sun, the target planet and the Earth.
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct EphemerisVariables {
     /// Where the positions of Sun and Earth come from.
     #[parameter(start = EphemerisSource::Vsop87)]

@@ -10,13 +10,12 @@ use physics::guidance::modes::transitions;
 use physics::guidance::pointing::command;
 use physics::spacecraft::SunKeepIn;
 
-use super::super::setup::GuidanceSetup;
+use super::super::setup::GuidanceSetup as Setup;
 use super::choices::AntennaSelect;
 use crate::common::choices::KeepInMethod;
 
 /// Sun keep-in zone. The timeline can switch and resize it.
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct KeepInVariables {
     /// Whether commands keep the Sun inside the zone.
     #[parameter(tunable, start = setup.spacecraft.sun_keep_in.is_some())]
@@ -41,7 +40,6 @@ pub struct KeepInVariables {
 
 /// The zone of Safe Hold.
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct SafeHoldVariables {
     /// Largest Sun azimuth either way in Safe Hold.
     #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = FRAC_PI_2, start = setup.keep_in().azimuth_rad)]
@@ -53,7 +51,6 @@ pub struct SafeHoldVariables {
 
 /// Hot-pole keep-out, by the file's [hot_pole].
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct HotPoleVariables {
     /// Whether -Z is kept away from the planet over the subsolar region; false unless the file has [hot_pole].
     #[parameter(tunable, start = setup.spacecraft.hot_pole.is_some())]
@@ -71,7 +68,6 @@ pub struct HotPoleVariables {
 
 /// The constraint monitor.
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct MonitorVariables {
     /// Whether a violation that lasts demotes the mode.
     #[parameter(tunable, start = true)]
@@ -87,7 +83,6 @@ pub struct MonitorVariables {
 
 /// The gimbal of the instrument that has one by [[instruments]]; without one its numbers mean nothing.
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct GimbalVariables {
     /// Smallest angle from the instrument's boresight in the file, right-handed about the gimbal's axis.
     #[parameter(unit = "rad", display = "deg", min = command::BACK_HALF_TURN_RAD, max = PI, start = setup.gimbal_range_rad()[0])]
@@ -106,7 +101,6 @@ pub struct GimbalVariables {
 
 /// The antennas.
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct AntennaVariables {
     /// The antenna in use.
     #[output(items = AntennaSelect::antennas(&setup.spacecraft))]
@@ -118,7 +112,6 @@ pub struct AntennaVariables {
 
 /// The radio link with the Earth.
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct LinkVariables {
     /// The Sun's neighbourhood in the sky, where there is no link (assumed; paper 001 names no angle).
     #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = sun_direction::SOLAR_EXCLUSION_RAD)]

@@ -14,7 +14,7 @@ use physics::guidance::geometry::lighting;
 use physics::guidance::modes::transitions;
 use physics::guidance::pointing::scan::DEFAULT_COMPATIBILITY;
 
-use super::setup::GuidanceSetup;
+use super::setup::GuidanceSetup as Setup;
 use crate::common::choices::SunshadeShape;
 use crate::common::downlink::DownlinkVariables;
 use crate::common::guided::GuidedVariables;
@@ -39,7 +39,6 @@ use outputs::{CommandVariables, ConstraintVariables};
 
 /// Every variable of guidance, in the order of the XML.
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct GuidanceVariables {
     pub command: CommandVariables,
     pub mode: ModeVariables,

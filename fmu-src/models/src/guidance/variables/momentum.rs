@@ -6,7 +6,7 @@ use physics::management::Strategy;
 use physics::momentum::Convention;
 use physics::plant::LEAST_DUMP_THRESHOLD_N_M_S;
 
-use super::super::setup::GuidanceSetup;
+use super::super::setup::GuidanceSetup as Setup;
 use super::choices::DumpReinitTo;
 use crate::common::choices::{MomentumConvention, PanelTilt};
 use crate::common::management::{MomentumStrategy, TargetingVariables};
@@ -14,7 +14,6 @@ use crate::common::spacecraft::dump_threshold_n_m_s;
 
 /// One solar panel.
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct PanelVariables {
     /// Angle between the panel's normal and the Sun direction that is commanded, and that targets count on; its sign is a sense of tilt.
     #[parameter(tunable, unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1], start = setup.spacecraft.panels[index].sun_offset_rad)]
@@ -58,7 +57,6 @@ pub struct MomentumVariables {
 
 /// Thruster dumps.
 #[derive(Variables)]
-#[variables(setup = GuidanceSetup)]
 pub struct DumpVariables {
     /// Magnitude of a body component of momentum, from the bias of the file's wheels, that triggers a dump, here a request of one;
     /// a very large value means never.

@@ -154,7 +154,8 @@ impl BodyDefaults {
             let is_set = given.has(switch);
             (switch, if is_set { read.boolean(switch) } else { body == Body::Earth }, is_set)
         });
-        Self { orientation: rotation.choice(&given, read.values, body), switches }
+        let orientation = given.choice_or(rotation.orientation, PlanetOrientation::for_body(body));
+        Self { orientation, switches }
     }
 
     /// Value of a switch, including the default by the planet.

@@ -8,7 +8,8 @@ use physics::enumeration::Enumerated;
 use physics::environment::frames::Frame;
 use physics::environment::orbit::Elements as KeplerElements;
 
-use crate::common::numbers::Numbers;
+use crate::common::ellipse::kepler_elements;
+use crate::common::numbers::{Number, Numbers};
 use crate::momentum_plant::setup::Read;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::choices::OrbitFrame;
@@ -33,29 +34,21 @@ pub(super) struct Center {
 /// Elements of the orbit.
 fn elements(variables: &PlantVariables) -> Numbers<KeplerElements, 6> {
     let orbit = &variables.orbit;
-    Numbers([
-        (orbit.semi_major_axis, |it| &mut it.semi_major_axis_m),
-        (orbit.eccentricity, |it| &mut it.eccentricity),
-        (orbit.inclination, |it| &mut it.inclination_rad),
-        (orbit.ascending_node, |it| &mut it.ascending_node_rad),
-        (orbit.periapsis_argument, |it| &mut it.periapsis_argument_rad),
-        (orbit.true_anomaly, |it| &mut it.true_anomaly_rad),
-    ])
+    let shape = [orbit.semi_major_axis, orbit.eccentricity, orbit.inclination];
+    kepler_elements(shape, [orbit.ascending_node, orbit.periapsis_argument, orbit.true_anomaly])
 }
 
 /// Gravity, figure, pole and rotation.
 fn planet(variables: &PlantVariables) -> Numbers<BodyData, 8> {
-    let (planet, rotation) = (&variables.planet, &variables.planet.rotation);
-    Numbers([
+    let planet = &variables.planet;
+    let figure: [Number<BodyData>; 4] = [
         (planet.gravitational_parameter, |it| &mut it.gm_m3_s2),
         (planet.radius, |it| &mut it.radius_m),
         (planet.j2, |it| &mut it.j2),
         (planet.j2_radius, |it| &mut it.j2_radius_m),
-        (rotation.pole_right_ascension, |it| &mut it.pole_right_ascension_rad),
-        (rotation.pole_declination, |it| &mut it.pole_declination_rad),
-        (rotation.prime_meridian, |it| &mut it.prime_meridian_rad),
-        (rotation.rotation_rate, |it| &mut it.rotation_rate_rad_s),
-    ])
+    ];
+    let ([a, b, c, d], [e, f, g, h]) = (figure, planet.rotation.numbers());
+    Numbers([a, b, c, d, e, f, g, h])
 }
 
 /// The exponential model of the air.
@@ -82,14 +75,13 @@ impl Center {
         let given = read.given(&[a, b, c, d, e, f, g, h, i, j, k, l, m]);
         let planet = numbers.read_or(given, &near.data);
         let own = PlanetSurface { radius_m: planet.radius_m, ..near.surface() };
-        let surface = surface.read_or(read.values, given, &own);
+        let surface = surface.read_or(given, &own);
         let planet = BodyData { surface: Some(surface), ..planet };
         let numbers = air(variables);
         let air = numbers.read_or(read.given(&numbers.group()), &near.air());
         let elements = elements(variables);
         let [a, b, c, d, e, _] = elements.group();
         let given = read.given(&[a, b, c, d, e, orbit.frame.into()]);
-        let has_frame = given.has(orbit.frame);
         // The true anomaly follows no centre.
         let true_anomaly_rad = read.real(orbit.true_anomaly);
         let own = KeplerElements { true_anomaly_rad, ..body.elements() };
@@ -99,7 +91,7 @@ impl Center {
             surface,
             air,
             elements: elements.read_or(given, &own),
-            frame: if has_frame { read.choice(orbit.frame).0 } else { body.frame() },
+            frame: given.choice_or(orbit.frame, OrbitFrame(body.frame())).0,
         }
     }
 

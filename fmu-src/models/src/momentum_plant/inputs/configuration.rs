@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use physics::environment::time;
 use physics::momentum::{DumpPolicy, Reinitialise, Settings};
 use physics::plant::{Configuration, RadiationSettings, ThrusterEventSettings};
+use physics::spacecraft::MassProperties;
 
 use super::center::Center;
 use super::orbit::OrbitReader;
@@ -81,9 +82,11 @@ pub(super) fn read(
         },
         sunshade: read.choice(variables.sunshade.shape).0,
         panels,
-        center_of_mass_body_m: read.vector(variables.spacecraft.center_of_mass),
-        mass_kg: read.real(variables.spacecraft.mass),
-        inertia_body_kg_m2,
+        wet_mass: MassProperties {
+            center_of_mass_body_m: read.vector(variables.spacecraft.center_of_mass),
+            mass_kg: read.real(variables.spacecraft.mass),
+            inertia_body_kg_m2,
+        },
         effects: planet.effects,
         laws: variables.laws.read(read.values, laws.map(|(parameter, _)| parameter), of_planet),
         momentum,

@@ -53,9 +53,13 @@ pub(super) fn dynamic(
     }
     let axes: Vec<_> = rotors.iter().map(|wheel| wheel.axis_body).collect();
     let appendages = appendages(read)?;
-    let gyrostat = Gyrostat::new(configuration.inertia_body_kg_m2, rotors)
+    let gyrostat = Gyrostat::new(configuration.wet_mass.inertia_body_kg_m2, rotors)
         .and_then(|rigid| {
-            rigid.with_appendages(appendages, configuration.mass_kg, configuration.center_of_mass_body_m)
+            rigid.with_appendages(
+                appendages,
+                configuration.wet_mass.mass_kg,
+                configuration.wet_mass.center_of_mass_body_m,
+            )
         })
         .map_err(|error| Failure::new(format!("spacecraft.inertia, wheel[k].*: {error}")))?;
     let control = match read.choice(v.attitude.source) {

@@ -8,7 +8,7 @@ use physics::plant;
 
 use super::n_body;
 use crate::common::center::CenterBody;
-use crate::common::ephemeris;
+use crate::common::ephemeris::{self, NamedEpoch};
 use crate::momentum_plant::setup::Read;
 use crate::momentum_plant::variables::choices::EphemerisSource;
 
@@ -41,8 +41,7 @@ pub(super) fn read(read: Read<'_>, center: Body, waiting: bool) -> Result<plant:
         }
         EphemerisSource::Chebyshev => match ephemeris::precise(read.setup.ephemeris.as_ref()) {
             Some(carried) => {
-                ephemeris::check_onboard(carried, center.data.body, "start.epoch", epoch_s)?;
-                n_body::check_onboard(read, carried, "start.epoch", epoch_s)?;
+                n_body::check_onboard(read, carried, NamedEpoch { name: "start.epoch", epoch_s })?;
                 plant::EphemerisSource::Simulated(carried.clone())
             }
             None => without_table(center, "chebyshev")?,

@@ -2,7 +2,6 @@
 
 use fmi_export::Failure;
 use nalgebra::Vector3;
-use physics::attitude::Attitude;
 use physics::bodies::BodyData;
 use physics::environment::orbit::TwoBodyOrbit;
 use physics::environment::orientation::Orientation;
@@ -18,6 +17,7 @@ use super::wheels;
 use crate::common::downlink::ZERO_KEEP_IN_AXIS;
 use crate::common::management::{check_strategy_has_antenna, check_windows, check_windows_have_antenna};
 use crate::common::pointing::RuleContext;
+use crate::common::spacecraft::start_attitude;
 use crate::momentum_plant::setup::{Plan, Read};
 use crate::momentum_plant::state::PlantState;
 use crate::momentum_plant::variables::choices::StartAttitude;
@@ -125,12 +125,7 @@ fn managed_law(read: Read<'_>, state: &PlantState, orbit: &TwoBodyOrbit) -> Resu
 }
 
 /// Warns once of targets on one line.
-pub(in crate::momentum_plant) fn warn_degenerate(
-    context: &Plan<'_>,
-    reached: &ReachedState,
-    warned: &mut bool,
-    time_s: f64,
-) {
+pub(crate) fn warn_degenerate(context: &Plan<'_>, reached: &ReachedState, warned: &mut bool, time_s: f64) {
     if reached.is_degenerate && !*warned {
         *warned = true;
         context.log.warning(&format!(
@@ -156,7 +151,7 @@ fn given_at_start(read: Read<'_>) -> [bool; 2] {
 }
 
 /// Reports by what a flight by torque starts where it does.
-pub(in crate::momentum_plant) fn report_start(read: Read<'_>, state: &PlantState, start_s: f64) {
+pub(crate) fn report_start(read: Read<'_>, state: &PlantState, start_s: f64) {
     let start = &read.variables.start;
     let ([is_given, has_rate], source) = (given_at_start(read), state.inputs.source);
     let pointed = match state.attitude_command() {
@@ -191,8 +186,7 @@ pub(super) fn start_motion(
     state: &PlantState,
 ) -> Result<StartMotion, Failure> {
     let start = &read.variables.start;
-    let q = read.values.vector(start.q);
-    let attitude = Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
+    let attitude = start_attitude(read.values, start.q)?;
     let [is_given, has_rate] = given_at_start(read);
     let pointing = match configuration.attitude.guided() {
         _ if is_given => None,

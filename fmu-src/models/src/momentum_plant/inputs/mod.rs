@@ -15,14 +15,12 @@ mod solvers;
 pub(super) mod wheels;
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
-use physics::attitude::Attitude;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
-use physics::guidance::SelectedSunDirection;
 use physics::management::Manager;
 use physics::plant::{
-    Changes, Configuration, DownlinkForecast, External, ModeSettings, PlantError, PreparedSpacecraft,
-    SimulationContext, Sources, StepContext, SunPlanner, ThrusterAllocator, Thrusters,
+    Changes, Configuration, DownlinkForecast, DynamicsInputs, ModeSettings, PreparedSpacecraft,
+    SimulationContext, Sources, StepContext, ThrusterAllocator, ThrusterEvent, Thrusters,
 };
 
 use self::center::Center;
@@ -32,8 +30,9 @@ use super::state::PlantState;
 use super::state::step_inputs::{AppliedLoad, StepInputs};
 use super::variables::choices::EphemerisSource;
 use crate::common::effects::unused_map;
-use crate::common::ephemeris;
+use crate::common::ephemeris::{self, NamedEpoch};
 use crate::common::management::ManagedSpacecraft;
+use crate::common::spacecraft::start_attitude;
 
 /// Parameters and inputs of one step that [`PlantState::inputs`] do not hold.
 pub(super) struct Reading<'a> {
@@ -61,25 +60,17 @@ pub(super) enum Reconfigured {
 }
 
 impl Reading<'_> {
-    /// Force and torque from outside.
-    pub(super) fn external(&self) -> impl Fn(f64) -> [physics::loads::ForceTorque; 2] + '_ {
-        |time_s| self.applied.at(time_s)
-    }
-
-    /// The selection of the Sun's direction in downlinks.
-    pub(super) fn planner(
+    /// Acts with the context of a step of the flight with these inputs, whose dumps and maneuvers go to `log`.
+    pub(super) fn with<T>(
         &self,
-    ) -> impl Fn(&mut DownlinkForecast<'_>) -> Result<Option<SelectedSunDirection>, PlantError> + '_ {
-        |forecast| self.manager.choose(forecast)
-    }
-
-    /// The context of a step of the flight, with the load from outside.
-    pub(super) fn given<'r>(
-        &'r self,
-        external: &'r External<'r>,
-        planner: &'r SunPlanner<'r>,
-    ) -> StepContext<'r> {
-        StepContext { prepared: self.prepared, external, planner, work_limit: self.work_limit, log: &|_| {} }
+        inputs: &DynamicsInputs,
+        log: &dyn Fn(&ThrusterEvent),
+        act: impl FnOnce(StepContext<'_>) -> T,
+    ) -> T {
+        let Self { prepared, work_limit, .. } = *self;
+        let external = |time_s| self.applied.at(time_s);
+        let planner = |forecast: &mut DownlinkForecast<'_>| self.manager.choose(forecast);
+        act(StepContext { prepared, external: &external, inputs, planner: &planner, work_limit, log })
     }
 }
 
@@ -117,7 +108,11 @@ pub(super) fn read<'a>(
         begins,
         is_reconfigured,
         is_complete,
-        applied: state.inputs.applied_load(variables, step.inputs),
+        applied: AppliedLoad {
+            inputs: [variables.force.applied, variables.torque.applied],
+            held: state.inputs.applied,
+            over_time: step.inputs,
+        },
         manager: momentum.targeting.manager(
             values,
             strategy,
@@ -188,8 +183,7 @@ pub(super) fn update_materials(read: Read<'_>, state: &mut PlantState) -> Result
 pub(super) fn start(read: Read<'_>, start_s: f64) -> Result<PlantState, Failure> {
     let mut inputs = StepInputs::default();
     inputs.update(&read, read.values, InputsOverTime::held());
-    let q = read.values.vector(read.variables.start.q);
-    let attitude = Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
+    let attitude = start_attitude(read.values, read.variables.start.q)?;
     let settings = propulsion::reaction_control(read)?;
     let thrusters = Thrusters::new(settings.thrusters.len(), settings.tanks.len(), start_s);
     PlantState::new(inputs, attitude, thrusters, start_s, read.setup.schedules)
@@ -237,8 +231,6 @@ pub(super) fn check_span(read: Read<'_>, state: &PlantState, end_s: f64) -> Resu
     };
     let epoch_minus_time_s = time::epoch_minus_time_s(read.real(variables.start.epoch), state.saved.start_s);
     let end_epoch_s = time::epoch_at_s(end_s, epoch_minus_time_s);
-    let center = read.choice(variables.orbit.center).0;
-    let end = "the epoch at the end of the step";
-    ephemeris::check_onboard(carried, center, end, end_epoch_s)?;
-    n_body::check_onboard(read, carried, end, end_epoch_s)
+    let name = "the epoch at the end of the step";
+    n_body::check_onboard(read, carried, NamedEpoch { name, epoch_s: end_epoch_s })
 }

@@ -8,7 +8,7 @@ use physics::environment::orbit::{Attractor, GravityModel, NBodyGravity, NBodySe
 use physics::plant::{Encounter, PredictionSettings};
 
 use super::center::Center;
-use crate::common::ephemeris::{EPHEMERIS_FILE, check_epoch, precise};
+use crate::common::ephemeris::{EPHEMERIS_FILE, NamedEpoch, precise};
 use crate::momentum_plant::setup::Read;
 use crate::momentum_plant::variables::choices::EphemerisSource;
 
@@ -128,14 +128,14 @@ fn placed<'a>(read: Read<'a>) -> impl Iterator<Item = (OnboardTarget, Body)> + '
     planets.chain(has_moon.then_some((OnboardTarget::Moon, Body::Earth)))
 }
 
-/// Refuses onboard ephemerides that do not place all that attracts, or not at `epoch_s`, which `what` gives.
+/// Refuses onboard ephemerides that do not place Sun, Earth and all that attracts, or not at this epoch.
 pub(super) fn check_onboard(
     read: Read<'_>,
     carried: &OnboardEphemeris,
-    what: &str,
-    epoch_s: f64,
+    epoch: NamedEpoch,
 ) -> Result<(), Failure> {
     let variables = read.variables;
+    epoch.check_onboard(carried, read.choice(variables.orbit.center).0)?;
     if !variables.orbit.is_n_body(read.values) {
         return Ok(());
     }
@@ -147,7 +147,7 @@ pub(super) fn check_onboard(
                 OnboardTarget::from(from)
             ))
         })?;
-        check_epoch(target, span, what, epoch_s)?;
+        epoch.check(target, span)?;
     }
     Ok(())
 }

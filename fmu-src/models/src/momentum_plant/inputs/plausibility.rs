@@ -53,10 +53,7 @@ fn is_disturbed(variables: &PlantVariables, values: &Values) -> bool {
 }
 
 /// Declares `orbit.dynamics` disturbed where the file's orbit is, unless the file gives it.
-pub(in crate::momentum_plant) fn following_dynamics(
-    variables: &PlantVariables,
-    start: &Values,
-) -> Option<StartValue> {
+pub(crate) fn following_dynamics(variables: &PlantVariables, start: &Values) -> Option<StartValue> {
     let is_open = !start.is_set(variables.orbit.dynamics);
     (is_open && is_disturbed(variables, start)).then(|| StartValue {
         key: DYNAMICS.to_owned(),
@@ -69,12 +66,7 @@ pub(in crate::momentum_plant) fn following_dynamics(
 }
 
 /// Warns of settings that are hardly meant where the flight begins at `time_s`.
-pub(in crate::momentum_plant) fn report(
-    read: Read<'_>,
-    flight: &Flight,
-    given: StepContext<'_>,
-    time_s: f64,
-) {
+pub(crate) fn report(read: Read<'_>, flight: &Flight, given: StepContext<'_>, time_s: f64) {
     let Some(configuration) = flight.configuration() else { return };
     let (v, spacecraft) = (read.variables, &read.setup.spacecraft);
     let figures = Figures::new(spacecraft);

@@ -2,9 +2,7 @@
 
 use fmi_export::{Failure, Step};
 use nalgebra::Vector3;
-use physics::plant::{
-    Configuration, DynamicsInputs, Flight, ReactionControlSettings, SimulationContext, UnservedDumps,
-};
+use physics::plant::{DynamicsInputs, Flight, ReactionControlSettings, SimulationContext, UnservedDumps};
 use physics::propulsion::{PulseCommand, ThrustErrors};
 use physics::spacecraft::{Tank, Thruster};
 
@@ -54,7 +52,7 @@ pub(crate) fn reaction_control(read: Read<'_>) -> Result<ReactionControlSettings
 /// Refuses tanks that hold more than there is.
 pub(crate) fn check(flight: &Flight) -> Result<(), Failure> {
     let Some(SimulationContext { configuration, allocator, .. }) = flight.context() else { return Ok(()) };
-    let Configuration { mass_kg, .. } = configuration;
+    let mass_kg = &configuration.wet_mass.mass_kg;
     let held_kg: f64 = allocator.settings.tanks.iter().map(|tank| tank.propellant_kg).sum();
     if held_kg >= *mass_kg {
         return Err(Failure::new(format!(
@@ -68,7 +66,7 @@ pub(crate) fn check(flight: &Flight) -> Result<(), Failure> {
 /// Reports once that a dump found no thrusters, and once that those it found were not fed.
 pub(crate) fn warn_unserved(context: &Plan<'_>, flight: &Flight, warned: &mut ThrusterWarnings, time_s: f64) {
     let thrusters = flight.thrusters();
-    let UnservedDumps { unfed, one_sided } = thrusters.unserved_dumps();
+    let UnservedDumps { unfed, one_sided } = thrusters.unserved;
     if unfed == 0 && one_sided == 0 {
         return;
     }

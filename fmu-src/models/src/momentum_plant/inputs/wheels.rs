@@ -10,20 +10,20 @@ use crate::momentum_plant::setup::{Plan, Read};
 use crate::momentum_plant::variables::body::WheelVariables;
 
 /// Distribution of momentum over the wheels; those without a direction hold nothing.
-pub(in crate::momentum_plant) fn array(read: Read<'_>) -> WheelArray {
+pub(crate) fn array(read: Read<'_>) -> WheelArray {
     let wheels = read.variables.wheel.iter();
     let axes = wheels.map(|wheel| read.vector(wheel.axis).try_normalize(0.0).unwrap_or_default());
     WheelArray::from_axes(&axes.collect::<Vec<_>>())
 }
 
 /// Sum of the wheels' biases, body frame, in N m s.
-pub(in crate::momentum_plant) fn bias_body_n_m_s(read: Read<'_>) -> Vector3<f64> {
+pub(crate) fn bias_body_n_m_s(read: Read<'_>) -> Vector3<f64> {
     let wheels = read.variables.wheel.iter();
     wheels_body_n_m_s(wheels.map(|wheel| (read.vector(wheel.axis), read.real(wheel.bias_momentum))))
 }
 
 /// The largest dump threshold at which no wheel saturates, in N m s.
-pub(in crate::momentum_plant) fn guaranteed_threshold_n_m_s(read: Read<'_>) -> f64 {
+pub(crate) fn guaranteed_threshold_n_m_s(read: Read<'_>) -> f64 {
     let free_n_m_s = |wheel: &WheelVariables| {
         free_capacity_n_m_s(read.real(wheel.capacity), read.real(wheel.bias_momentum))
     };

@@ -7,7 +7,7 @@ use physics::plant::{PlantError, ThrusterEvent};
 use crate::momentum_plant::setup::Plan;
 
 /// The failure of a flight that ends, with the variables to look at.
-pub(in crate::momentum_plant) fn failure(error: PlantError) -> Failure {
+pub(crate) fn failure(error: PlantError) -> Failure {
     let hint = match &error {
         PlantError::WithoutPosition { .. } | PlantError::Light { .. } => {
             "; see orbit.*, sun.position and planet.radius"
@@ -48,7 +48,7 @@ pub(in crate::momentum_plant) fn failure(error: PlantError) -> Failure {
 }
 
 /// Reports a dump or a maneuver.
-pub(in crate::momentum_plant) fn log_event(context: &Plan<'_>, event: &ThrusterEvent) {
+pub(crate) fn log_event(context: &Plan<'_>, event: &ThrusterEvent) {
     if !context.log.events_enabled() {
         return;
     }

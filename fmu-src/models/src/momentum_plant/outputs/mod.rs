@@ -16,8 +16,7 @@ use physics::radiation::{SolarModel, TorquePolynomial, polynomial_valid};
 use physics::spacecraft::light_suns;
 
 use self::messages::failure;
-use super::inputs::wheels;
-use super::setup::{Plan, Read};
+use super::setup::Plan;
 use super::state::{PlantState, SavedState};
 use super::variables::PlantVariables;
 use crate::common::choices::OrbitCenter;
@@ -30,49 +29,39 @@ struct Group {
     write: fn(&Plan<'_>, &mut Values, &Report<'_>),
 }
 
+const fn group(
+    write: fn(&Plan<'_>, &mut Values, &Report<'_>),
+    outputs: fn(&PlantVariables) -> Knowns,
+) -> Group {
+    Group { outputs, write }
+}
+
 /// The outputs in groups, but for the faces; all of them are written when one is read.
 const GROUPS: [Group; 10] = [
-    Group {
-        outputs: |v| knowns![v.momentum.body, v.momentum.inertial, v.delta_v, &v.attitude, v.epoch],
-        write: write_motion,
-    },
-    Group {
-        outputs: |v| knowns![&v.torque, &v.force, v.acceleration, v.mass, v.center_of_mass],
-        write: write_loads,
-    },
-    Group {
-        outputs: |v| {
-            let sun = knowns![v.sun.position_body, v.sun.direction, v.sun.azimuth, v.sun.elevation];
-            let light = knowns![v.sun.lit_fraction, v.sun.distance, v.sunshade.polynomial_valid];
-            let others = knowns![&v.earth, v.planet.position_body, v.planet.pole_body, &v.keep_in];
-            let inertial = knowns![v.sun.position_inertial, v.sun.velocity_inertial, v.heliocentric_position];
-            knowns![sun, light, others, inertial, v.position, v.velocity]
-        },
-        write: write_bodies,
-    },
-    Group {
-        outputs: |v| knowns![&v.orbit, &v.osculating, v.sun.beta, &v.encounter, &v.prediction],
-        write: write_orbit,
-    },
-    Group { outputs: |v| knowns![&v.geodetic, &v.atmosphere, &v.magnetic_field], write: write_air_and_field },
+    group(write_motion, |v| knowns![v.momentum.body, v.momentum.inertial, v.delta_v, &v.attitude, v.epoch]),
+    group(write_loads, |v| knowns![&v.torque, &v.force, v.acceleration, v.mass, v.center_of_mass]),
+    group(write_bodies, |v| {
+        let sun = knowns![v.sun.position_body, v.sun.direction, v.sun.azimuth, v.sun.elevation];
+        let light = knowns![v.sun.lit_fraction, v.sun.distance, v.sunshade.polynomial_valid];
+        let others = knowns![&v.earth, v.planet.position_body, v.planet.pole_body, &v.keep_in];
+        let inertial = knowns![v.sun.position_inertial, v.sun.velocity_inertial, v.heliocentric_position];
+        knowns![sun, light, others, inertial, v.position, v.velocity]
+    }),
+    group(write_orbit, |v| knowns![&v.orbit, &v.osculating, v.sun.beta, &v.encounter, &v.prediction]),
+    group(write_air_and_field, |v| knowns![&v.geodetic, &v.atmosphere, &v.magnetic_field]),
     // The plume of a thruster reaches panels as they stand.
-    Group {
-        outputs: |v| knowns![&v.panel, &v.thruster, &v.thrust, &v.tank, v.propellant_used],
-        write: write_panels_and_thrusters,
-    },
-    Group {
-        outputs: |v| {
-            let momentum = knowns![&v.momentum.by_source, v.momentum.bias, v.momentum.unheld];
-            knowns![momentum, v.momentum.target_clamped, v.guided_degenerate, &v.downlink, &v.timeline]
-        },
-        write: write_momentum,
-    },
-    Group { outputs: |v| knowns![&v.wheel, &v.flexible_mode, &v.slosh], write: write_wheels },
-    Group { outputs: |v| knowns![&v.dump, &v.maneuver], write: write_dumps },
-    Group {
-        outputs: |v| knowns![&v.estimate, v.sun.sensed, v.sun.sensed_valid, &v.accelerometer, &v.control],
-        write: write_sensors,
-    },
+    group(write_panels_and_thrusters, |v| {
+        knowns![&v.panel, &v.thruster, &v.thrust, &v.tank, v.propellant_used]
+    }),
+    group(write_momentum, |v| {
+        let momentum = knowns![&v.momentum.by_source, v.momentum.bias, v.momentum.unheld];
+        knowns![momentum, v.momentum.target_clamped, v.guided_degenerate, &v.downlink, &v.timeline]
+    }),
+    group(write_wheels, |v| knowns![&v.wheel, &v.flexible_mode, &v.slosh]),
+    group(write_dumps, |v| knowns![&v.dump, &v.maneuver]),
+    group(write_sensors, |v| {
+        knowns![&v.estimate, v.sun.sensed, v.sun.sensed_valid, &v.accelerometer, &v.control]
+    }),
 ];
 
 /// The outputs of each group, those of the faces last.
@@ -141,13 +130,13 @@ fn write_loads(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
 
 /// Positions of spacecraft, Sun, Earth and planet.
 fn write_bodies(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
-    let Report { time_s, configuration, evaluation, .. } = report;
+    let Report { configuration, evaluation, .. } = report;
     let (variables, instant) = (context.variables, &evaluation.instant);
     let sun = SunAngles::from_direction(&instant.sun_body);
     let planet_body_m = instant.planet_body_m.unwrap_or_default();
     values.set_vector(variables.sun.position_body, instant.sun_position_body_m().into());
     values.set_vector(variables.planet.position_body, planet_body_m.into());
-    values.set_vector(variables.planet.pole_body, evaluation.pole_body(configuration, *time_s).into());
+    values.set_vector(variables.planet.pole_body, evaluation.pole_body(configuration).into());
     values.set_vector(variables.sun.direction, instant.sun_body.into());
     values.set_real(variables.sun.azimuth, sun.azimuth_rad);
     values.set_real(variables.sun.elevation, sun.elevation_rad);
@@ -189,17 +178,12 @@ fn write_orbit(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     encounter::write_prediction(&variables.prediction, values, report);
 }
 
+/// Angles of the panels, and the light on their cells; thrusters and tanks.
 fn write_panels_and_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
-    write_panels(context, values, report);
-    write_thrusters(context, values, report);
-}
-
-/// Angles of the panels, and the light on their cells.
-fn write_panels(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let Report { time_s, configuration, evaluation, .. } = report;
     let (variables, time_s) = (context.variables, *time_s);
     let panels = context.setup.spacecraft.panels.iter().zip(&configuration.panels);
-    let sun = evaluation.instant.sun_at(time_s);
+    let sun = evaluation.instant.sun();
     // The corridor was checked where the flight began.
     let corridor = variables.articulation.read(values).unwrap_or_default();
     for (index, (panel, (body, setting))) in variables.panel.iter().zip(panels).enumerate() {
@@ -215,6 +199,7 @@ fn write_panels(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
         values.set_real(panel.suns, suns.unwrap_or(0.0));
         values.set_real(panel.corridor_margin, suns.map_or(0.0, |suns| corridor.margin_suns(suns)));
     }
+    write_thrusters(context, values, report);
 }
 
 /// Place over the planet, air and magnetic field.
@@ -327,11 +312,11 @@ fn write_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>)
             surface_in_plume(&context.setup.spacecraft, thruster, angle).is_some()
         };
         values.set_real(variables.thrust, thrust_n);
-        values.set_integer(variables.pulses, i32::try_from(thrusters.valves().pulses(k)).unwrap_or(i32::MAX));
-        values.set_boolean(variables.too_short, thrusters.valves().was_too_short(k));
+        values.set_integer(variables.pulses, i32::try_from(thrusters.valves.pulses(k)).unwrap_or(i32::MAX));
+        values.set_boolean(variables.too_short, thrusters.valves.was_too_short(k));
         values.set_boolean(variables.plume, hits);
     }
-    values.set_boolean(v.thrust.active, thrusters.burning().is_some());
+    values.set_boolean(v.thrust.active, thrusters.valves.burning().is_some());
     let propellant = &thrusters.propellant;
     for (k, (tank, variables)) in report.reaction_control.tanks.iter().zip(&v.tank).enumerate() {
         let used_kg = propellant.used_kg(k, time_s);
@@ -371,17 +356,11 @@ pub(super) fn write_polynomial(context: &Plan<'_>, values: &mut Values, flight: 
         context.setup.spacecraft.sunshade.as_ref().zip(flight.context()).and_then(|(shade, flown)| {
             let (configuration, materials) =
                 (&flown.configuration, flown.models.solar.as_ref().map_or(&[][..], SolarModel::materials));
-            let center_of_mass_body_m = &configuration.center_of_mass_body_m;
+            let center_of_mass_body_m = &configuration.wet_mass.center_of_mass_body_m;
             TorquePolynomial::of_sunshade(shade, configuration.sunshade, materials, center_of_mass_body_m)
                 .ok()
         });
     values.set_matrix(context.variables.sunshade.coefficient, polynomial.map_or([[0.0; 9]; 3], |p| p.k));
-}
-
-/// Writes the dump threshold that the wheels guarantee, which follows from parameters alone.
-pub(super) fn write_guaranteed(context: &Plan<'_>, values: &mut Values) {
-    let guaranteed_n_m_s = wheels::guaranteed_threshold_n_m_s(Read::new(context, values));
-    values.set_real(context.variables.dump.guaranteed_threshold, guaranteed_n_m_s);
 }
 
 /// Refuses a flight inside the planet or the Sun, or without position.

@@ -1,6 +1,6 @@
 //! Time derivatives of the outputs that the plant integrates.
 
-use fmi_export::{Real, Values};
+use fmi_export::{Real, RealVector, Values};
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
 
@@ -8,7 +8,7 @@ use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::state::PlantState;
 
 /// First time derivative of an output, from the rates at the same time; `None` of outputs that are not integrated.
-pub(in crate::momentum_plant) fn derivative(
+pub(crate) fn derivative(
     context: &Plan<'_>,
     values: &Values,
     state: &PlantState,
@@ -27,18 +27,19 @@ pub(in crate::momentum_plant) fn derivative(
         let attitude = Attitude::from_quaternion(values.vector(variables.attitude.q)).ok()?;
         return Some(attitude.quaternion_rate(&values.vector(variables.attitude.rate).into())[element]);
     }
+    let momentum_rate = |momentum: RealVector<3>, torque_body: &Vector3<f64>, axis: usize| {
+        let [momentum_body, rate_body] =
+            [momentum, variables.attitude.rate].map(|handle| Vector3::from(values.vector(handle)));
+        Some(convention.momentum_rate_body_n_m(&momentum_body, torque_body, &rate_body)[axis])
+    };
     if let Some(axis) = variables.momentum.body.index_of(output) {
-        let [momentum_body, rate_body] = [variables.momentum.body, variables.attitude.rate]
-            .map(|handle| Vector3::from(values.vector(handle)));
-        return Some(convention.momentum_rate_body_n_m(&momentum_body, &torque_body, &rate_body)[axis]);
+        return momentum_rate(variables.momentum.body, &torque_body, axis);
     }
     let mut by_source = variables.momentum.by_source.iter();
     let found = by_source.find_map(|(effect, handle)| Some((effect, handle, handle.index_of(output)?)));
     if let Some((effect, handle, axis)) = found {
         let torque = variables.torque.by_source.output(effect).unwrap_or(variables.torque.applied);
-        let [momentum_body, torque_body, rate_body] =
-            [handle, torque, variables.attitude.rate].map(|handle| Vector3::from(values.vector(handle)));
-        return Some(convention.momentum_rate_body_n_m(&momentum_body, &torque_body, &rate_body)[axis]);
+        return momentum_rate(handle, &values.vector(torque).into(), axis);
     }
     if let Some(axis) = variables.momentum.inertial.index_of(output) {
         let attitude = Attitude::from_quaternion(values.vector(variables.attitude.q)).ok()?;

@@ -106,15 +106,15 @@ impl CommandInputs {
 }
 
 /// Force and torque from outside over a step.
-pub struct AppliedLoad<'a> {
-    inputs: [RealVector<3>; 2],
-    held: [[f64; 3]; 2],
-    over_time: InputsOverTime<'a>,
+pub(crate) struct AppliedLoad<'a> {
+    pub inputs: [RealVector<3>; 2],
+    pub held: [[f64; 3]; 2],
+    pub over_time: InputsOverTime<'a>,
 }
 
 impl AppliedLoad<'_> {
     /// At a time, and how they change.
-    pub fn at(&self, time_s: f64) -> [ForceTorque; 2] {
+    pub(crate) fn at(&self, time_s: f64) -> [ForceTorque; 2] {
         let Self { inputs: [force, torque], held: [force_now, torque_now], over_time } = self;
         let value = |handle: &RealVector<3>, held: &[f64; 3]| {
             Vector3::from([0, 1, 2].map(|i| over_time.from_held(held[i], handle.element(i), time_s)))
@@ -218,16 +218,6 @@ impl StepInputs {
             star_tracker: !(values.boolean(tracker.failed) && values.boolean(tracker.spare_failed)),
             gyro: !values.boolean(v.gyro.failed),
         };
-    }
-
-    /// Force and torque from outside over a step; the values at its start are those last read.
-    pub fn applied_load<'a>(
-        &self,
-        variables: &PlantVariables,
-        over_time: InputsOverTime<'a>,
-    ) -> AppliedLoad<'a> {
-        let inputs = [variables.force.applied, variables.torque.applied];
-        AppliedLoad { inputs, held: self.applied, over_time }
     }
 }
 

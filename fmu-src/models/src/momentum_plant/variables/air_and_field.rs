@@ -3,7 +3,7 @@
 use fmi_export::{Choice, Enumeration, Real, RealVector, Variables};
 use physics::constants::{HALF_TURNS_RAD, QUARTER_TURNS_RAD};
 
-use super::super::setup::PlantSetup;
+use super::super::setup::PlantSetup as Setup;
 
 /// Where density, temperature and molar mass of the air come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
@@ -29,7 +29,6 @@ pub enum MagneticFieldMethod {
 
 /// The air about the planet.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct AtmosphereVariables {
     /// Where density, temperature and molar mass come from. Above 2000 km a model has no air.
     #[parameter(start = AtmosphereMethod::Exponential)]

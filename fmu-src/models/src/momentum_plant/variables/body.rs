@@ -6,13 +6,12 @@ use physics::spacecraft::{Articulation, SunKeepIn};
 
 use physics::guidance::constraints::keep_in;
 
-use super::super::setup::PlantSetup;
+use super::super::setup::PlantSetup as Setup;
 use super::choices::PanelControl;
 use crate::common::choices::{KeepInMethod, PanelTilt, SunshadeShape};
 
 /// Mass properties.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct SpacecraftVariables {
     /// Spacecraft mass.
     #[parameter(tunable, unit = "kg", min = 1e-3, max = 1e12, start = setup.spacecraft.mass_properties.mass_kg)]
@@ -31,7 +30,6 @@ pub struct SpacecraftVariables {
 
 /// Sunshade.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct SunshadeVariables {
     /// Which model of the shade takes the light; without a shade it does not count.
     #[parameter(start = SunshadeShape::for_spacecraft(&setup.spacecraft))]
@@ -48,7 +46,6 @@ pub struct SunshadeVariables {
 
 /// One solar panel.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct PanelVariables {
     /// What sets the panel's rotation angle.
     #[parameter(start = PanelControl(setup.spacecraft.panels[index].control))]
@@ -94,7 +91,6 @@ pub struct PanelVariables {
 
 /// Corridor of light on the cells of the panels, in suns: 1 is full sunlight across the cells at 1 AU.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct ArticulationVariables {
     /// Least light on the cells, for power.
     #[parameter(unit = "1", min = 0.0, max = 1e12, start = setup.spacecraft.articulation.min_suns)]
@@ -127,7 +123,6 @@ impl ArticulationVariables {
 /// One reaction wheel. In guided and commanded flight the wheels hold the system momentum less the body's own; there friction
 /// and torque play no part.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct WheelVariables {
     /// Greatest spin momentum the wheel can hold.
     #[parameter(unit = "N.m.s", min = 0.0, max = 1e12, start = setup.spacecraft.wheels[index].capacity_n_m_s)]
@@ -189,7 +184,6 @@ pub struct WheelVariables {
 
 /// Sun keep-in zone: of guided attitudes azimuth and elevation about -Y, of the timeline's scenarios all of it.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct KeepInVariables {
     /// Whether commands keep the Sun inside the zone: scenarios of the timeline, which can switch and resize it, and the rules lvlh to
     /// aligned of guided.scienceRule. Guided flight by the others always does.

@@ -3,13 +3,12 @@
 use fmi_export::{Boolean, Real, RealVector, Variables};
 use physics::constants::{HALF_TURNS_RAD, QUARTER_TURNS_RAD, RADIUS_SUN_M};
 
-use super::super::setup::PlantSetup;
+use super::super::setup::PlantSetup as Setup;
 use crate::common::orientation::RotationVariables;
 use crate::common::variables::SurfaceVariables;
 
 /// The planet the spacecraft orbits.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct PlanetVariables {
     /// Gravitational parameter of the planet: by default that of orbit.center, as everything of planet.* is.
     #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, max = 1e21, start = setup.center.data.gm_m3_s2)]

@@ -4,12 +4,11 @@ use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 use physics::attitude::control::Allocation;
 use physics::plant::{SLEW_ACCELERATION_RAD_S2, SLEW_RATE_RAD_S};
 
-use super::super::setup::PlantSetup;
+use super::super::setup::PlantSetup as Setup;
 use super::choices::WheelAllocation;
 
 /// The controller when attitude.source is controlled.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct ControlVariables {
     /// Samples of sensors and controller a second, in free flight of the sensors alone.
     #[parameter(unit = "Hz", min = 0.1, max = 1_000.0, start = 50.0)]
@@ -116,7 +115,6 @@ pub struct GyroVariables {
 
 /// One Sun sensor.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct SunSensorVariables {
     /// Whether it gives nothing.
     #[input(start = false)]

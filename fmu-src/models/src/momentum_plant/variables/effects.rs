@@ -6,7 +6,7 @@ use physics::management::Strategy;
 use physics::momentum::Convention;
 use physics::plant::{DUMP_TORQUE_N_M, LEAST_DUMP_THRESHOLD_N_M_S};
 
-use super::super::setup::PlantSetup;
+use super::super::setup::PlantSetup as Setup;
 use super::choices::DumpReinitTo;
 use crate::common::choices::MomentumConvention;
 use crate::common::loads::{self, BySource};
@@ -110,7 +110,6 @@ pub struct MomentumVariables {
 /// Thruster dumps: in guided and commanded flight an impulse, in controlled and free flight pulses of the file's thrusters, or
 /// the constant dump.torque where it has none that give torque about every axis both ways.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct DumpVariables {
     /// Magnitude of a body component of momentum, from momentum.bias, that triggers a dump; a very large value means never, and in free
     /// flight, where the master controls, none is triggered unless this is set. By default what the wheels hold beside their bias on

@@ -2,12 +2,11 @@
 
 use fmi_export::{Real, RealVector, Variables};
 
-use super::super::setup::PlantSetup;
+use super::super::setup::PlantSetup as Setup;
 
 /// One flexible mode, normalised to a modal mass of 1 kg, so that its coupling in kg m is that in sqrt(kg) m. It plays no part
 /// in guided and commanded flight.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct FlexibleModeVariables {
     /// Frequency with the body held.
     #[parameter(unit = "Hz", min = 1e-9, max = 1e3, start = setup.spacecraft.flexible_modes[index].mode.frequency_hz)]
@@ -25,7 +24,6 @@ pub struct FlexibleModeVariables {
 
 /// Propellant that swings as a pendulum, linear in its angles. It plays no part in guided and commanded flight.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct SloshVariables {
     /// Mass that swings, a part of spacecraft.mass.
     #[parameter(unit = "kg", min = 1e-9, max = 1e12, start = setup.spacecraft.sloshes[index].pendulum.mass_kg)]

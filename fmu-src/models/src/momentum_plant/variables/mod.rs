@@ -32,7 +32,7 @@ use propulsion::{
     AccelerometerVariables, ManeuverVariables, TankVariables, ThrustVariables, ThrusterVariables,
 };
 
-use super::setup::PlantSetup;
+use super::setup::PlantSetup as Setup;
 use crate::common::downlink::DownlinkVariables;
 use crate::common::effects::{LawVariables, PlanetLightVariables, RecoilVariables, ShadowingVariables};
 use crate::common::ellipse::EllipseVariables;
@@ -43,7 +43,6 @@ use crate::common::variables::{EclipseVariables, SolarVariables};
 
 /// Every variable of the plant, in the order of the XML.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct PlantVariables {
     pub attitude: AttitudeVariables,
     pub command: CommandVariables,

@@ -2,7 +2,7 @@
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Values, Variables};
 
-use super::super::setup::PlantSetup;
+use super::super::setup::PlantSetup as Setup;
 use physics::bodies::Body;
 use physics::environment::{ephemeris, time};
 use physics::guidance::modes::guidance_command;
@@ -78,7 +78,6 @@ pub struct StartVariables {
 
 /// The spacecraft's orbit.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct OrbitVariables {
     /// What the spacecraft flies around. By a file that sets it in [start] the elements' and the planet's start values are of that
     /// body; set later, what nobody sets of orbit.*, planet.* and ephemeris.* is that body's own and reads back so once

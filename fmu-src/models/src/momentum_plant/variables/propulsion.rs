@@ -2,13 +2,13 @@
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
-use super::super::setup::PlantSetup;
+use super::super::setup::PlantSetup as Setup;
 use crate::common::choices::ThrustRequest;
 use crate::common::variables::ValveVariables;
 
 /// One thruster, in controlled and free flight; descriptions begin with its name in the spacecraft's file.
 #[derive(Variables)]
-#[variables(setup = PlantSetup, label = setup.spacecraft.thrusters[index].name)]
+#[variables(label = setup.spacecraft.thrusters[index].name)]
 pub struct ThrusterVariables {
     #[group(name = "", setup = &setup.spacecraft.thrusters[index].valve)]
     pub valve: ValveVariables,
@@ -39,7 +39,7 @@ pub struct ThrusterVariables {
 
 /// One propellant tank; descriptions begin with its name in the spacecraft's file.
 #[derive(Variables)]
-#[variables(setup = PlantSetup, label = setup.spacecraft.tanks[index].name)]
+#[variables(label = setup.spacecraft.tanks[index].name)]
 pub struct TankVariables {
     /// Propellant loaded, a part of spacecraft.mass; inertia and centre of mass are those of the loaded spacecraft.
     #[parameter(unit = "kg", min = 1e-9, max = 1e12, start = setup.spacecraft.tanks[index].propellant_kg)]
@@ -61,7 +61,6 @@ pub struct TankVariables {
 /// A delta-v, in controlled and free flight. While it lasts the other thrusters control the attitude of controlled flight, the
 /// wheels go on as they are, and no dump begins.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct ThrustVariables {
     /// The thrusters that fire.
     #[input(start = ThrustRequest(None), items = ThrustRequest::sets(&setup.spacecraft))]
@@ -89,7 +88,6 @@ pub struct ThrustVariables {
 /// A delta-v as an impulse through the centre of mass, in guided and commanded flight; in controlled and free flight burns are
 /// thrust.*, and a request is refused. Momentum stays as it is, and the orbit changes there unless it is held.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
 pub struct ManeuverVariables {
     /// A rising edge executes maneuver.deltaV where the step begins.
     #[input(start = false)]

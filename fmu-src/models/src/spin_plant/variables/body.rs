@@ -4,7 +4,7 @@ use fmi_export::{Choice, Integer, Real, RealVector, Variables};
 
 use super::choices::MassSource;
 use physics::constants::HALF_TURNS_RAD;
-use physics::spin::{plant, spinner::Spinner};
+use physics::spin::{plant, spinner::Spinner as Setup};
 
 /// Mass properties.
 #[derive(Variables)]
@@ -20,7 +20,6 @@ pub struct MassVariables {
 
 /// Propellant.
 #[derive(Variables)]
-#[variables(setup = Spinner)]
 pub struct PropellantVariables {
     /// On board at the start, up to the last point of the setup's mass properties. When it is used up, nothing fires any
     /// more: a pulse ends there.
@@ -41,7 +40,6 @@ pub struct PropellantVariables {
 
 /// Spin about the spin axis: the principal axis nearest to the third axis.
 #[derive(Variables)]
-#[variables(setup = Spinner)]
 pub struct SpinRateVariables {
     /// Rate about the spin axis at the start.
     #[parameter(unit = "rad/s", display = "rpm", min = 1e-4, max = 1e4, start = setup.limits.spin_rate_rad_s())]

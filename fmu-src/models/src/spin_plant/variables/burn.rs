@@ -7,11 +7,10 @@ use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Text, Variables};
 use super::choices::{BurnPlan, BurnTiming};
 use crate::common::variables::ValveVariables;
 use physics::spacecraft::Thruster;
-use physics::spin::{forecast::Timing, spinner::Spinner};
+use physics::spin::{forecast::Timing, spinner::Spinner as Setup};
 
 /// The burn the spacecraft makes without commands.
 #[derive(Variables)]
-#[variables(setup = Spinner)]
 pub struct BurnVariables {
     /// Shape of the train of pulses; commanded where the spacecraft file has no thruster that tilts the momentum.
     #[parameter(start = plan(setup))]
@@ -94,14 +93,14 @@ pub struct BurnVariables {
 }
 
 /// Numbers of the thruster that moves the momentum and of its opposite, from 1; 0 for none.
-fn thruster(setup: &Spinner) -> (i32, i32) {
+fn thruster(setup: &Setup) -> (i32, i32) {
     let number = |index: usize| i32::try_from(index + 1).unwrap_or(0);
     let pair = setup.steering_pair();
     pair.map_or((0, 0), |(first, opposite)| (number(first), opposite.map_or(0, number)))
 }
 
 /// The train that can be simulated.
-fn plan(setup: &Spinner) -> BurnPlan {
+fn plan(setup: &Setup) -> BurnPlan {
     if setup.steering_pair().is_some() { BurnPlan::Uniform } else { BurnPlan::Commanded }
 }
 

@@ -15,11 +15,10 @@ use burn::{BurnVariables, ThrusterVariables, TorqueVariables};
 use observation::{EarthVariables, GeometryVariables, LimitVariables, StarTrackerVariables, SunVariables};
 
 use crate::common::variables::WorkLimit;
-use physics::spin::spinner::Spinner;
+use physics::spin::spinner::Spinner as Setup;
 
 /// Every variable of the spinner, in the order of the XML.
 #[derive(Variables)]
-#[variables(setup = Spinner)]
 pub struct SpinVariables {
     /// Moments of inertia about the body axes through the centre of mass, the principal ones where productsOfInertia is 0. The
     /// principal axis nearest to the third is the spin axis.

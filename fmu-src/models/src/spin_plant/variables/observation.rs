@@ -6,13 +6,12 @@ use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
 use super::choices::{GeometrySource, StarSampling};
 use physics::constants::QUARTER_TURNS_RAD;
-use physics::spin::{plant::Sampling, spinner::Spinner};
+use physics::spin::{plant::Sampling, spinner::Spinner as Setup};
 
 use physics::math;
 
 /// Directions of Sun and Earth.
 #[derive(Variables)]
-#[variables(setup = Spinner)]
 pub struct GeometryVariables {
     /// Where the directions of Sun and Earth come from.
     #[parameter(start = GeometrySource::Inputs)]
@@ -65,7 +64,6 @@ pub struct EarthVariables {
 
 /// Mission limits and whether they are violated.
 #[derive(Variables)]
-#[variables(setup = Spinner)]
 pub struct LimitVariables {
     /// Greatest Sun angle.
     #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = setup.limits.sun_angle_rad())]

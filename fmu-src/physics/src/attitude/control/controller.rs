@@ -9,8 +9,8 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::estimate::Estimate;
-use super::reference::{ControlTarget, Reference, ReferenceSample, SlewLimits};
+use super::estimator::Estimate;
+use super::reference::{ControlTarget, Reference, SlewLimits};
 use super::settings::ControllerSettings;
 use crate::attitude::rotation::Attitude;
 
@@ -18,7 +18,7 @@ use crate::attitude::rotation::Attitude;
 const LOST_REFERENCE: f64 = 2.0;
 
 /// State of the controller from one sample to the next.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ControllerState {
     reference: Reference,
     /// Integral of the angle error, in rad s, body frame.
@@ -45,35 +45,14 @@ struct Tracking {
     acceleration_rad_s2: Vector3<f64>,
 }
 
-impl Tracking {
-    fn of_attitude(reference: &ReferenceSample, attitude: &Attitude, rate_rad_s: &Vector3<f64>) -> Self {
-        let relative = reference.attitude.inverse().then(attitude);
-        let [x, y, z, _] = relative.quaternion(None);
-        let requested = relative.to_body(&reference.rate_body_rad_s);
-        let error = rate_rad_s - requested;
-        Self {
-            angle_rad: Vector3::new(x, y, z) * 2.0,
-            rate_rad_s: error,
-            acceleration_rad_s2: relative.to_body(&reference.acceleration_body_rad_s2)
-                - error.cross(&requested),
-        }
-    }
-}
-
 impl ControllerState {
     /// Before the first sample, with the reference where the body is.
     pub fn new(attitude: Attitude, rate_body_rad_s: Vector3<f64>) -> Self {
         Self {
             reference: Reference::new(attitude, rate_body_rad_s),
-            integral_rad_s: Vector3::zeros(),
-            drift_rad: Vector3::zeros(),
-            last_rate_error_rad_s: Vector3::zeros(),
-            requested_body_n_m: Vector3::zeros(),
-            missing_body_n_m: Vector3::zeros(),
             has_reference: true,
             was_valid: true,
-            was_rate_only: false,
-            attitude_error_rad: 0.0,
+            ..Self::default()
         }
     }
 
@@ -198,7 +177,18 @@ impl ControllerState {
         };
         let reference = self.reference.step(target, &limits, settings.interval_s());
         match target {
-            ControlTarget::Attitude { .. } => Tracking::of_attitude(&reference, &estimate.attitude, rate),
+            ControlTarget::Attitude { .. } => {
+                let relative = reference.attitude.inverse().then(&estimate.attitude);
+                let [x, y, z, _] = relative.quaternion(None);
+                let requested = relative.to_body(&reference.rate_body_rad_s);
+                let error = rate - requested;
+                Tracking {
+                    angle_rad: Vector3::new(x, y, z) * 2.0,
+                    rate_rad_s: error,
+                    acceleration_rad_s2: relative.to_body(&reference.acceleration_body_rad_s2)
+                        - error.cross(&requested),
+                }
+            }
             ControlTarget::RateOnly { .. } => {
                 let error = rate - reference.rate_body_rad_s;
                 if !is_limited {

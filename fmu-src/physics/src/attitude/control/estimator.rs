@@ -13,7 +13,6 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::estimate::Estimate;
 use super::sensors::{SensorHealth, SensorSettings};
 use crate::attitude::rotation::Attitude;
 use crate::math;
@@ -24,6 +23,17 @@ const UNKNOWN_RATE_RAD2_S2: f64 = 1.0;
 
 /// As many measurements of an attitude give a rate.
 const FIXES_FOR_A_RATE: u8 = 2;
+
+/// Estimated attitude and rate at a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// EME2000 to body; relative to an unknown inertial frame where not valid.
+    pub attitude: Attitude,
+    /// Whether the attitude is known in EME2000.
+    pub is_valid: bool,
+    /// Body rate, in rad/s; `None` where nothing measures it.
+    pub rate_body_rad_s: Option<Vector3<f64>>,
+}
 
 /// The rate while the gyros do not work.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,7 +46,7 @@ struct RateFilter {
 }
 
 /// Covariance of attitude error and bias error of each body axis.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Covariance {
     /// In rad2.
     angle: Vector3<f64>,
@@ -47,7 +57,7 @@ struct Covariance {
 }
 
 /// The gyros' true bias, and what the estimator keeps from one sample to the next.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EstimatorState {
     /// Bias of the gyros at the last sample, in rad/s.
     true_bias_rad_s: Vector3<f64>,
@@ -100,22 +110,11 @@ impl Covariance {
 impl EstimatorState {
     /// At the start, where the attitude is known.
     pub fn new(settings: &SensorSettings, attitude: Attitude) -> Self {
-        let squared = |vector: &Vector3<f64>| vector.component_mul(vector);
-        Self {
-            true_bias_rad_s: settings.gyro.initial_bias_rad_s,
-            last_truth: None,
-            attitude,
-            bias_rad_s: Vector3::zeros(),
-            covariance: Covariance {
-                angle: squared(&settings.star_tracker.noise_rad),
-                cross: Vector3::zeros(),
-                bias: squared(&settings.gyro.initial_bias_rad_s),
-            },
-            rate_body_rad_s: None,
-            without_gyros: None,
-            samples_since_fix: 0,
-            is_lost: false,
-        }
+        let true_bias_rad_s = settings.gyro.initial_bias_rad_s;
+        let [angle, bias] = [settings.star_tracker.noise_rad, true_bias_rad_s]
+            .map(|deviation| deviation.component_mul(&deviation));
+        let covariance = Covariance { angle, bias, ..Covariance::default() };
+        Self { true_bias_rad_s, attitude, covariance, ..Self::default() }
     }
 
     /// Rejects decoded states that no simulation can produce.

@@ -7,7 +7,6 @@
 mod accelerometer;
 mod allocation;
 mod controller;
-mod estimate;
 mod estimator;
 mod reference;
 mod sensors;
@@ -17,8 +16,7 @@ mod sun_sensors;
 pub use accelerometer::{AccelerometerSettings, AccelerometerState};
 pub use allocation::{Allocation, WheelAllocator};
 pub use controller::ControllerState;
-pub use estimate::Estimate;
-pub use estimator::EstimatorState;
+pub use estimator::{Estimate, EstimatorState};
 pub use reference::{ControlTarget, Reference, ReferenceSample, SlewLimits};
 pub use sensors::{Gyro, SensorHealth, SensorSettings, StarTracker, sample_number};
 pub use settings::{ControllerSettings, GainError};

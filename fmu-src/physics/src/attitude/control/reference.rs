@@ -59,7 +59,7 @@ pub struct ReferenceSample {
 }
 
 /// The reference attitude at the next sample.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Reference {
     /// EME2000 to reference frame.
     pub attitude: Attitude,
@@ -67,14 +67,6 @@ pub struct Reference {
     pub rate_body_rad_s: Vector3<f64>,
     /// Whether it has reached the command, within 1e-5 rad and 1e-5 rad/s.
     pub is_settled: bool,
-}
-
-impl SlewLimits {
-    /// Both limits, with infinity for none.
-    fn or_infinite(&self) -> (f64, f64) {
-        let or_infinite = |limit: f64| if limit > 0.0 { limit } else { f64::INFINITY };
-        (or_infinite(self.rate_rad_s), or_infinite(self.acceleration_rad_s2))
-    }
 }
 
 impl Reference {
@@ -90,7 +82,8 @@ impl Reference {
 
     /// The reference at this sample; moves on to the next, `interval_s` later.
     pub fn step(&mut self, target: &ControlTarget, limits: &SlewLimits, interval_s: f64) -> ReferenceSample {
-        let (slew_rad_s, acceleration_rad_s2) = limits.or_infinite();
+        let [slew_rad_s, acceleration_rad_s2] = [limits.rate_rad_s, limits.acceleration_rad_s2]
+            .map(|limit| if limit > 0.0 { limit } else { f64::INFINITY });
         let change_rad_s = match target {
             ControlTarget::RateOnly { rate_body_rad_s } => {
                 let requested = rate_body_rad_s - self.rate_body_rad_s;

@@ -72,25 +72,18 @@ pub enum GainError {
 impl ControllerSettings {
     /// Checks that every number is in its range and that the sampled closed loop is stable.
     pub fn check(&self) -> Result<(), GainError> {
-        let range = |what, found, unit, allowed| Err(GainError::Range { what, found, unit, allowed });
-        let positive = "a positive finite number";
-        let not_negative = "0 or a positive finite number";
-        for (what, found, unit) in [
-            ("sample rate", self.rate_hz, "Hz"),
-            ("bandwidth", self.bandwidth_rad_s, "rad/s"),
-            ("damping ratio", self.damping, ""),
+        let (positive, not_negative) = ("a positive finite number", "0 or a positive finite number");
+        for (what, found, unit, allowed) in [
+            ("sample rate", self.rate_hz, "Hz", positive),
+            ("bandwidth", self.bandwidth_rad_s, "rad/s", positive),
+            ("damping ratio", self.damping, "", positive),
+            ("integral ratio", self.integral, "", not_negative),
+            ("slew rate", self.slew_rate_rad_s, "rad/s", not_negative),
+            ("slew acceleration", self.slew_acceleration_rad_s2, "rad/s2", not_negative),
         ] {
-            if !(found > 0.0 && found.is_finite()) {
-                return range(what, found, unit, positive);
-            }
-        }
-        for (what, found, unit) in [
-            ("integral ratio", self.integral, ""),
-            ("slew rate", self.slew_rate_rad_s, "rad/s"),
-            ("slew acceleration", self.slew_acceleration_rad_s2, "rad/s2"),
-        ] {
-            if !(found >= 0.0 && found.is_finite()) {
-                return range(what, found, unit, not_negative);
+            let is_zero_allowed = allowed == not_negative;
+            if !found.is_finite() || found < 0.0 || (found == 0.0 && !is_zero_allowed) {
+                return Err(GainError::Range { what, found, unit, allowed });
             }
         }
         if self.is_stable_at(self.bandwidth_rad_s) {

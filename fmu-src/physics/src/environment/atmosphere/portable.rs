@@ -22,6 +22,12 @@ impl From<f64> for Portable {
     }
 }
 
+impl From<&Portable> for Portable {
+    fn from(number: &Portable) -> Self {
+        *number
+    }
+}
+
 impl From<Portable> for f64 {
     fn from(number: Portable) -> Self {
         number.0
@@ -35,37 +41,24 @@ impl fmt::Display for Portable {
 }
 
 macro_rules! operators {
-    ($other:ident: $right:ty => $number:expr; $($trait:ident $method:ident),+) => {$(
-        impl $trait<$right> for Portable {
+    ($($trait:ident $method:ident $assign:ident $assign_method:ident),+) => {$(
+        impl<R: Into<Portable>> $trait<R> for Portable {
             type Output = Self;
-            fn $method(self, $other: $right) -> Self {
-                Self($trait::$method(self.0, $number))
+            fn $method(self, other: R) -> Self {
+                Self($trait::$method(self.0, other.into().0))
+            }
+        }
+        impl<R: Into<Portable>> $assign<R> for Portable {
+            fn $assign_method(&mut self, other: R) {
+                $assign::$assign_method(&mut self.0, other.into().0);
             }
         }
     )+};
 }
 
-operators! { other: Self => other.0; Add add, Sub sub, Mul mul, Div div, Rem rem }
-operators! { other: &Self => other.0; Add add, Sub sub, Mul mul, Div div, Rem rem }
-operators! { other: f64 => other; Add add, Sub sub, Mul mul, Div div, Rem rem }
-
-macro_rules! assignments {
-    ($other:ident: $right:ty => $number:expr; $($trait:ident $method:ident),+) => {$(
-        impl $trait<$right> for Portable {
-            fn $method(&mut self, $other: $right) {
-                $trait::$method(&mut self.0, $number);
-            }
-        }
-    )+};
-}
-
-assignments! {
-    other: Self => other.0;
-    AddAssign add_assign, SubAssign sub_assign, MulAssign mul_assign, DivAssign div_assign, RemAssign rem_assign
-}
-assignments! {
-    other: f64 => other;
-    AddAssign add_assign, SubAssign sub_assign, MulAssign mul_assign, DivAssign div_assign, RemAssign rem_assign
+operators! {
+    Add add AddAssign add_assign, Sub sub SubAssign sub_assign, Mul mul MulAssign mul_assign,
+    Div div DivAssign div_assign, Rem rem RemAssign rem_assign
 }
 
 impl Neg for Portable {

@@ -58,24 +58,21 @@ impl OnboardEphemeris {
         }
         let mut found = Self { source: description.source.clone(), ..Self::default() };
         for (at, body) in root.key("body").items(bodies) {
-            let is_new = found.precise.iter().all(|other| other.target != body.body);
-            let center = OnboardTarget::from(body.center);
-            check_target(&at, body.body, center, is_new);
-            if is_new && body.body != center && found.leads_to(center, body.body) {
-                let text = format!("{center}, whose own position counts from {}", body.body);
+            let (target, center) = (body.body, OnboardTarget::from(body.center));
+            let is_new = check_target(&at, [target, center], &found.precise);
+            if is_new && target != center && found.leads_to(center, target) {
+                let text = format!("{center}, whose own position counts from {target}");
                 at.key("center").report(text, "a body that does not count from this one");
             }
             let error = FitError { position_m: body.error_m.0, velocity_m_s: body.error_m_s.0 };
             if let Some(motion) = table(&at, body) {
-                found.precise.push(FittedBody { target: body.body, center: body.center, motion, error });
+                found.precise.push(FittedBody { target, center: body.center, motion, error });
             }
         }
         for (at, body) in root.key("coarse").items(coarse_bodies) {
-            let is_new = found.coarse.iter().all(|other| other.target != body.body);
-            let center = OnboardTarget::from(body.center);
-            check_target(&at, body.body, center, is_new);
-            let is_planet = body.body != OnboardTarget::Spacecraft;
-            if is_planet && body.center != Body::Sun && body.body != center {
+            let (target, center) = (body.body, OnboardTarget::from(body.center));
+            check_target(&at, [target, center], &found.coarse);
+            if ![OnboardTarget::Spacecraft, center].contains(&target) && body.center != Body::Sun {
                 at.key("center").report(center, "sun, which planets move about");
             }
             if body.center == Body::Custom {
@@ -84,7 +81,7 @@ impl OnboardEphemeris {
             }
             let error = FitError { position_m: body.error_m.0, velocity_m_s: body.error_m_s.0 };
             let motion = coarse(&at, body);
-            found.coarse.push(FittedBody { target: body.body, center: body.center, motion, error });
+            found.coarse.push(FittedBody { target, center: body.center, motion, error });
         }
         check.finish(found)
     }
@@ -186,14 +183,16 @@ impl OnboardEphemeris {
     }
 }
 
-/// A target that is not its own centre and stands here for the first time.
-fn check_target(at: &Place<'_>, target: OnboardTarget, center: OnboardTarget, is_new: bool) {
+/// Reports a target that is its own centre, and one that stands among the `known` already; tells whether it is new.
+fn check_target<M>(at: &Place<'_>, [target, center]: [OnboardTarget; 2], known: &[FittedBody<M>]) -> bool {
+    let is_new = known.iter().all(|other| other.target != target);
     if target == center {
         at.key("center").report_across(target, "another body than the one that is placed");
     }
     if !is_new {
         at.key("body").report(format_args!("{target} for the second time"), "each body once");
     }
+    is_new
 }
 
 /// The epochs of a span, one after the other.
@@ -247,8 +246,7 @@ fn segment(at: &Place<'_>, described: &SegmentDescription, degree: usize) -> Eph
 const LOOKS: u32 = 400;
 
 fn coarse(at: &Place<'_>, body: &CoarseDescription) -> CoarseElements {
-    let span = span(at, [body.start_s, body.end_s].value());
-    let Span { start_s, end_s } = span;
+    let span @ Span { start_s, end_s } = span(at, [body.start_s, body.end_s].value());
     let rows = [
         body.semi_major_axis_m,
         body.eccentricity,
@@ -258,22 +256,18 @@ fn coarse(at: &Place<'_>, body: &CoarseDescription) -> CoarseElements {
         body.mean_anomaly_rad,
     ];
     let coefficients = SMatrix::<f64, 6, COARSE_TERMS>::from_fn(|row, k| rows[row][k].0);
-    let motion = CoarseElements {
-        center: body.center,
-        span,
-        elements: Segment::from_coefficients(start_s, end_s, coefficients),
-    };
+    let elements = Segment::from_coefficients(start_s, end_s, coefficients);
     if !at.has_reported() {
         let epochs = (0..=LOOKS).map(|k| start_s + (end_s - start_s) * (f64::from(k) / f64::from(LOOKS)));
         let bad = |row: usize, is_good: fn(f64) -> bool| {
-            epochs.clone().map(|at_s| motion.elements.value(at_s)[row]).find(|value| !is_good(*value))
+            epochs.clone().map(|at_s| elements.value(at_s)[row]).find(|value| !is_good(*value))
         };
         if let Some(a_m) = bad(0, |a_m| a_m > 0.0) {
             at.key("semi_major_axis_m").report(format_args!("{a_m:e} m"), "above 0 all over the span");
         }
         if let Some(e) = bad(1, |e| (0.0..1.0).contains(&e)) {
-            at.key("eccentricity").report(format_args!("{e}"), "from 0 to less than 1 all over the span");
+            at.key("eccentricity").report(e, "from 0 to less than 1 all over the span");
         }
     }
-    motion
+    CoarseElements { center: body.center, span, elements }
 }

@@ -53,14 +53,8 @@ impl FitError {
 /// Segments to fit, and the epochs at which the motion must be known for that.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitPlan {
-    edges_s: Vec<f64>,
-}
-
-/// Purpose of an epoch of the plan.
-#[derive(Clone, Copy)]
-enum Purpose {
-    Node(usize),
-    Check,
+    /// Starts of the segments, and the end of the last one.
+    pub(super) edges_s: Vec<f64>,
 }
 
 impl FitPlan {
@@ -84,16 +78,6 @@ impl FitPlan {
         Self { edges_s }
     }
 
-    /// How many segments there are.
-    pub fn len(&self) -> usize {
-        self.edges_s.len() - 1
-    }
-
-    /// Whether there is none, which cannot be.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
     /// The epochs at which [`FitPlan::fit`] wants the states, in rising order.
     pub fn epochs_s(&self) -> Vec<f64> {
         self.edges_s.windows(2).flat_map(|edge| schedule(edge[0], edge[1])).map(|(at_s, _)| at_s).collect()
@@ -102,23 +86,21 @@ impl FitPlan {
     /// The segments of this degree through the states at [`FitPlan::epochs_s`], and their error.
     pub fn fit(&self, states: &[CartesianState], degree: usize) -> (SegmentTable, FitError) {
         let mut error = FitError::default();
-        let mut fitted = Vec::with_capacity(self.len());
+        let mut fitted = Vec::with_capacity(self.edges_s.len());
         for (edge, states) in self.edges_s.windows(2).zip(states.chunks(SAMPLES + CHECKS)) {
             let (start_s, end_s) = (edge[0], edge[1]);
-            let purposes = schedule(start_s, end_s);
+            let scheduled = schedule(start_s, end_s);
             let mut samples = [SVector::<f64, 3>::zeros(); SAMPLES];
-            for ((_, purpose), state) in purposes.iter().zip(states) {
-                if let Purpose::Node(node) = purpose {
+            for ((_, node), state) in scheduled.iter().zip(states) {
+                if let Some(node) = node {
                     samples[*node] = state.position_m;
                 }
             }
             let whole = Segment::<3, SAMPLES>::from_samples(start_s, end_s, &samples);
             let lowest = whole.coefficients().data.0.iter().take(degree.min(GREATEST_DEGREE) + 1);
             let segment = EphemerisSegment { start_s, end_s, coefficients_m: lowest.copied().collect() };
-            for ((at_s, purpose), state) in purposes.iter().zip(states) {
-                if matches!(purpose, Purpose::Check) {
-                    error = error.worst(FitError::from_states(&segment.state(*at_s), state));
-                }
+            for ((at_s, _), state) in scheduled.iter().zip(states).filter(|((_, node), _)| node.is_none()) {
+                error = error.worst(FitError::from_states(&segment.state(*at_s), state));
             }
             fitted.push(segment);
         }
@@ -126,8 +108,8 @@ impl FitPlan {
     }
 }
 
-/// Epochs of a segment in the order of time.
-fn schedule(start_s: f64, end_s: f64) -> Vec<(f64, Purpose)> {
+/// Epochs of a segment in the order of time, each with the number of its node; without one it is for a check.
+fn schedule(start_s: f64, end_s: f64) -> Vec<(f64, Option<usize>)> {
     let nodes = Segment::<3, SAMPLES>::nodes(start_s, end_s).into_iter().enumerate();
     let last = (CHECKS - 1) as f64;
     let check = |k: usize| match k {
@@ -135,8 +117,8 @@ fn schedule(start_s: f64, end_s: f64) -> Vec<(f64, Purpose)> {
         _ if k == CHECKS - 1 => end_s - END_MARGIN * (end_s - start_s),
         _ => start_s + (end_s - start_s) * (k as f64 / last),
     };
-    let checks = (0..CHECKS).map(|k| (check(k), Purpose::Check));
-    let mut all: Vec<_> = nodes.map(|(node, at_s)| (at_s, Purpose::Node(node))).chain(checks).collect();
+    let checks = (0..CHECKS).map(|k| (check(k), None));
+    let mut all: Vec<_> = nodes.map(|(node, at_s)| (at_s, Some(node))).chain(checks).collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
     all
 }

@@ -145,14 +145,14 @@ fn a_file_is_read_back_to_the_bit() {
 fn edges_lie_at_whole_multiples_of_the_length() {
     let plan = FitPlan::new(Span::new(-12.0, 31.0), 10.0);
     let epochs_s = plan.epochs_s();
-    assert_eq!(plan.len(), 6);
+    assert_eq!(plan.edges_s.len(), 7);
     for edge_s in [-10.0, 0.0, 10.0, 20.0, 30.0] {
         assert_eq!(epochs_s.iter().filter(|at_s| **at_s == edge_s).count(), 1, "{edge_s}");
     }
     assert!(epochs_s.is_sorted_by(|a, b| a < b) && epochs_s[0] == -12.0);
     assert!((epochs_s.last().unwrap() - 31.0).abs() < 2e-6);
-    assert_eq!(FitPlan::new(Span::new(0.0, 1.0), 0.0).len(), 1);
-    assert_eq!(FitPlan::new(Span::new(0.0, 20.0), 10.0).len(), 2);
+    assert_eq!(FitPlan::new(Span::new(0.0, 1.0), 0.0).edges_s.len(), 2);
+    assert_eq!(FitPlan::new(Span::new(0.0, 20.0), 10.0).edges_s.len(), 3);
 }
 
 /// An ellipse whose elements drift evenly is given back, over many turns.

@@ -2,7 +2,7 @@
 
 use core::fmt::Write;
 
-use super::ephemeris::OnboardEphemeris;
+use super::ephemeris::{FittedBody, OnboardEphemeris};
 use super::target::OnboardTarget;
 use crate::numerics::Span;
 
@@ -15,11 +15,7 @@ pub fn to_toml(ephemeris: &OnboardEphemeris) -> String {
     for body in &ephemeris.precise {
         let segments = body.motion.segments();
         let degree = segments.first().map_or(0, |segment| segment.coefficients_m.len().saturating_sub(1));
-        let center = OnboardTarget::from(body.center);
-        let _ = writeln!(text, "\n[[body]]\nbody = \"{}\"\ncenter = \"{center}\"", body.target);
-        let _ = writeln!(text, "degree = {degree}");
-        let _ = writeln!(text, "error_m = {:e}", body.error.position_m);
-        let _ = writeln!(text, "error_m_s = {:e}", body.error.velocity_m_s);
+        write_body(&mut text, "body", body, &format!("degree = {degree}"));
         for segment in segments {
             let _ = writeln!(text, "\n[[body.segment]]");
             let _ = writeln!(text, "start_s = {:e}\nend_s = {:e}", segment.start_s, segment.end_s);
@@ -31,11 +27,7 @@ pub fn to_toml(ephemeris: &OnboardEphemeris) -> String {
     }
     for body in &ephemeris.coarse {
         let Span { start_s, end_s } = body.motion.span;
-        let center = OnboardTarget::from(body.center);
-        let _ = writeln!(text, "\n[[coarse]]\nbody = \"{}\"\ncenter = \"{center}\"", body.target);
-        let _ = writeln!(text, "start_s = {start_s:e}\nend_s = {end_s:e}");
-        let _ = writeln!(text, "error_m = {:e}", body.error.position_m);
-        let _ = writeln!(text, "error_m_s = {:e}", body.error.velocity_m_s);
+        write_body(&mut text, "coarse", body, &format!("start_s = {start_s:e}\nend_s = {end_s:e}"));
         let keys = [
             "semi_major_axis_m",
             "eccentricity",
@@ -50,6 +42,13 @@ pub fn to_toml(ephemeris: &OnboardEphemeris) -> String {
         }
     }
     text
+}
+
+/// Writes the keys that every model begins with, its `own` between centre and errors.
+fn write_body<M>(text: &mut String, kind: &str, body: &FittedBody<M>, own: &str) {
+    let (center, error) = (OnboardTarget::from(body.center), body.error);
+    let _ = writeln!(text, "\n[[{kind}]]\nbody = \"{}\"\ncenter = \"{center}\"\n{own}", body.target);
+    let _ = writeln!(text, "error_m = {:e}\nerror_m_s = {:e}", error.position_m, error.velocity_m_s);
 }
 
 fn list(numbers: impl Iterator<Item = f64>) -> String {

@@ -26,7 +26,8 @@ const ITERATIONS: usize = 40;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Deviation {
     start_s: f64,
-    end_s: f64,
+    /// End of the last interval, s.
+    pub(super) end_s: f64,
     position_m: Segment<3, { NODES + 2 }>,
     velocity_m_s: Segment<3, { NODES + 1 }>,
 }
@@ -93,11 +94,6 @@ impl Deviation {
         let velocity_m_s = self.velocity_m_s.value(within_s);
         let position_m = self.position_m.value(within_s) + velocity_m_s * (at_s - within_s).max(0.0);
         CartesianState { position_m, velocity_m_s }
-    }
-
-    /// End of the last interval, s.
-    pub(super) fn end_s(&self) -> f64 {
-        self.end_s
     }
 
     /// Rejects decoded states that no simulation can produce.

@@ -71,19 +71,13 @@ impl DisturbedOrbit {
         segment_length_s: f64,
         radius_m: f64,
     ) -> Result<Self, OrbitIntegrationError> {
-        check("start time in s", start_s, start_s.is_finite(), "a finite number")?;
-        check(
-            "segment length in s",
-            segment_length_s,
-            segment_length_s.is_finite() && segment_length_s > 0.0,
-            "a finite number above 0",
-        )?;
-        check(
-            "radius in m",
-            radius_m,
-            radius_m.is_finite() && radius_m >= 0.0,
-            "a finite number, 0 or more",
-        )?;
+        for (what, found, is_in_range, allowed) in [
+            ("start time in s", start_s, true, "a finite number"),
+            ("segment length in s", segment_length_s, segment_length_s > 0.0, "a finite number above 0"),
+            ("radius in m", radius_m, radius_m >= 0.0, "a finite number, 0 or more"),
+        ] {
+            check(what, found, found.is_finite() && is_in_range, allowed)?;
+        }
         let start = pack(state);
         start.iter().try_for_each(|x| check("position or velocity", *x, x.is_finite(), "finite numbers"))?;
         check_above(state.position_m.norm(), start_s, radius_m)?;
@@ -119,12 +113,12 @@ impl DisturbedOrbit {
 
     /// How far the integration has come, s.
     pub fn end_s(&self) -> f64 {
-        self.chain.end_s()
+        self.chain.end_s
     }
 
     /// Start of the present segment, s.
     pub fn start_s(&self) -> f64 {
-        self.chain.start_s()
+        self.chain.start_s
     }
 
     /// Span of the present segment.
@@ -134,7 +128,7 @@ impl DisturbedOrbit {
 
     /// Length of the segments, s.
     pub fn segment_length_s(&self) -> f64 {
-        self.chain.length_s()
+        self.chain.length_s
     }
 
     /// Position and velocity at a time of the present segment.
@@ -157,7 +151,7 @@ impl DisturbedOrbit {
 
     /// End of the deviation, s.
     pub fn deviated_until_s(&self) -> f64 {
-        self.deviation.as_ref().map_or(f64::NEG_INFINITY, Deviation::end_s)
+        self.deviation.as_ref().map_or(f64::NEG_INFINITY, |it| it.end_s)
     }
 
     /// Integrates the deviation under the perturbing acceleration `extra_m_s2(t)`, EME2000, smooth over `span`, within the
@@ -204,7 +198,7 @@ impl DisturbedOrbit {
         check_mu(gravity.gm_m3_s2(gravity.center))?;
         let mut next = self.chain;
         if self.deviation.is_some() {
-            next.cut(next.end_s(), pack(&self.own_state_at(next.end_s())));
+            next.cut(next.end_s, pack(&self.own_state_at(next.end_s)));
         }
         next.advance_to(&method.0, limit_s, |at_s, y| {
             let state = unpack(y);
@@ -213,7 +207,7 @@ impl DisturbedOrbit {
         })?;
         // The lowest point of a segment is near an end or where the radial speed changes sign: look at nine points.
         for i in 0..=8 {
-            let at_s = next.start_s() + (next.end_s() - next.start_s()) * f64::from(i) / 8.0;
+            let at_s = next.start_s + (next.end_s - next.start_s) * f64::from(i) / 8.0;
             check_above(unpack(&next.value(at_s)).position_m.norm(), at_s, self.radius_m)?;
         }
         (self.chain, self.deviation) = (next, None);
@@ -236,7 +230,7 @@ impl DisturbedOrbit {
         mut extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
     ) -> Result<u32, OrbitIntegrationError> {
         let mut chain = self.chain;
-        let start_s = chain.end_s();
+        let start_s = chain.end_s;
         let limit_s = limit_s.min(ephemeris.smooth_until_s(start_s));
         let mut state = self.own_state_at(start_s);
         let mut center = self.center.unwrap_or(IntegrationCenter::new(gravity.model.center));
@@ -271,7 +265,7 @@ impl DisturbedOrbit {
             count += 1;
             let may_halve = center.level < IntegrationCenter::FINEST;
             match integrate(to_s, &mut bodies) {
-                Ok(next) if !may_halve || gravity.is_resolved(next.segment()) => break next,
+                Ok(next) if !may_halve || gravity.is_resolved(&next.segment) => break next,
                 Err(error) if !may_halve => return Err(error.into()),
                 Ok(_) | Err(IntegrationError::NotConverged { .. }) => center.level += 1,
                 Err(error) => return Err(error.into()),
@@ -279,15 +273,15 @@ impl DisturbedOrbit {
         };
         center.reaches = None;
         let path = |next: &SegmentChain<6, TERMS>, at_s: f64| unpack(&next.value(at_s));
-        let span = Span::new(start_s, next.end_s());
+        let span = Span::new(start_s, next.end_s);
         if let Some(reached) = bodies.sphere_reached(span, |at_s| path(&next, at_s))
             && reached.at_s > start_s
         {
             count += 1;
             next = integrate(reached.at_s, &mut bodies)?;
-            center.reaches = Some(SphereCrossing { at_s: next.end_s(), ..reached });
+            center.reaches = Some(SphereCrossing { at_s: next.end_s, ..reached });
         }
-        let span = Span::new(start_s, next.end_s());
+        let span = Span::new(start_s, next.end_s);
         bodies.check_above(span, |at_s| path(&next, at_s))?;
         center.set_offset(span, gravity.model.center, bodies.ephemeris);
         (self.chain, self.deviation, self.center) = (next, None, Some(center));

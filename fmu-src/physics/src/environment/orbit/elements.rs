@@ -20,7 +20,7 @@ const DEGENERATE: f64 = 1e-13;
 /// in `(-pi, pi)`. Where an angle has no meaning it is defined so: *equatorial* orbits (inclination 0 or pi within
 /// 1e-13) have their ascending node on +x (node 0); *circular* orbits (eccentricity below 1e-13) have their periapsis at the
 /// ascending node (argument 0). The state is the same to 1e-13 of its length either way.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Elements {
     /// Semi-major axis, m; negative for a hyperbola.
     pub semi_major_axis_m: f64,
@@ -86,15 +86,8 @@ pub fn period_s(mu_m3_s2: f64, semi_major_axis_m: f64) -> f64 {
 
 impl Elements {
     /// A circle of `radius_m` whose node lies on the first axis.
-    pub const fn circle(radius_m: f64, inclination_rad: f64) -> Self {
-        Self {
-            semi_major_axis_m: radius_m,
-            eccentricity: 0.0,
-            inclination_rad,
-            ascending_node_rad: 0.0,
-            periapsis_argument_rad: 0.0,
-            true_anomaly_rad: 0.0,
-        }
+    pub fn circle(radius_m: f64, inclination_rad: f64) -> Self {
+        Self { semi_major_axis_m: radius_m, inclination_rad, ..Self::default() }
     }
 
     /// An orbit to begin with: about the Sun a circle of 1 AU, about a planet one of three radii over the poles.
@@ -222,7 +215,7 @@ impl Elements {
             semi_major_axis_m: 1.0 / inverse_axis,
             eccentricity,
             true_anomaly_rad: if eccentricity < 1.0 { positive(anomaly_rad) } else { anomaly_rad },
-            ..Self::circle(0.0, 0.0)
+            ..Self::default()
         };
         Ok((elements.with_axes(&normal, &to_periapsis), gap.abs()))
     }
@@ -231,13 +224,11 @@ impl Elements {
     pub(super) fn with_axes(self, normal: &Vector3<f64>, to_periapsis: &Vector3<f64>) -> Self {
         let to_node = node(normal);
         let across_node = normal.cross(&to_node);
+        let argument_rad = math::atan2(to_periapsis.dot(&across_node), to_periapsis.dot(&to_node));
         Self {
             inclination_rad: math::atan2(math::hypot(normal.x, normal.y), normal.z),
             ascending_node_rad: positive(math::atan2(to_node.y, to_node.x)),
-            periapsis_argument_rad: positive(math::atan2(
-                to_periapsis.dot(&across_node),
-                to_periapsis.dot(&to_node),
-            )),
+            periapsis_argument_rad: positive(argument_rad),
             ..self
         }
     }

@@ -119,10 +119,9 @@ impl GravityModel {
 
     /// Planets that attract.
     pub(super) fn planets(&self) -> impl Iterator<Item = Body> + use<> {
-        let attracts = Body::ALL.map(|body| (body, self.gm_m3_s2(body) > 0.0));
-        let custom = (Body::Custom, self.gm_m3_s2(Body::Custom) > 0.0);
-        let all = attracts.into_iter().chain([custom]);
-        all.filter(|(body, attracts)| *attracts && body.is_planet()).map(|(body, _)| body)
+        let model = *self;
+        let all = Body::ALL.into_iter().chain([Body::Custom]);
+        all.filter(move |body| model.gm_m3_s2(*body) > 0.0 && body.is_planet())
     }
 
     /// Acceleration toward `about` alone, m/s2, EME2000, at a position from it.

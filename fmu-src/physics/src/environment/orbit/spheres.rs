@@ -161,16 +161,13 @@ impl<E: BodyEphemeris> BodiesAbout<'_, E> {
         if is_short {
             return None;
         }
-        let mut first: Option<SphereCrossing> = None;
-        for body in self.spheres(about) {
+        let crossings = self.spheres(about).filter_map(|body| {
             let is_left = body == about;
             let sphere = Sphere { body, radius_m: self.model.sphere_m(body), is_left };
-            let at_s = self.first_crossing(sphere, span, &path);
-            if let Some(at_s) = at_s.filter(|at_s| first.is_none_or(|first| *at_s < first.at_s)) {
-                first = Some(SphereCrossing { at_s, body: if is_left { Body::Sun } else { body } });
-            }
-        }
-        first
+            let at_s = self.first_crossing(sphere, span, &path)?;
+            Some(SphereCrossing { at_s, body: if is_left { Body::Sun } else { body } })
+        });
+        crossings.min_by(|one, other| one.at_s.total_cmp(&other.at_s))
     }
 
     /// Refuses a path from `about` that goes through a body.

@@ -14,9 +14,7 @@ use nalgebra::{ComplexField, Matrix3, Vector3};
 
 use crate::attitude::SunAngles;
 use crate::enumeration::enumeration;
-use crate::guidance::geometry::moving::{
-    Moving, MovingMatrix, MovingVector, PARALLEL_RAD, direction, fixed, unit, value,
-};
+use crate::guidance::geometry::moving::{Moving, MovingVector, PARALLEL_RAD, direction, fixed, unit, value};
 use crate::guidance::pointing::law::{Pointing, PointingVectors};
 use crate::math;
 use crate::numerics::scalar::{Scalar, sin_cos};
@@ -135,15 +133,16 @@ impl KeepIn {
     /// The boundary point for the unit vector `sun_body`, inner `None` inside the zone; outer `None` where the axis has no
     /// direction.
     fn boundary_point(&self, sun_body: &MovingVector) -> Option<Option<MovingVector>> {
-        let body_from_zone = fixed_matrix(&self.body_from_zone()?);
+        let body_from_zone = self.body_from_zone()?.map(Moving::from_re);
         let sun = body_from_zone.tr_mul(sun_body);
         let now = SunAngles::from_direction(&value(&sun));
         if now.keep_in_margin_rad(self.azimuth_rad, self.elevation_rad) >= -BOUNDARY_RAD {
             return Some(None);
         }
         // What lies on an axis within rounding takes the positive side, and an azimuth of 0.
-        let side =
-            |angle_rad: f64, off: Moving| if off.re.abs() < PARALLEL_RAD { 1.0 } else { sign(angle_rad) };
+        let side = |angle_rad: f64, off: Moving| {
+            if off.re.abs() >= PARALLEL_RAD && angle_rad < 0.0 { -1.0 } else { 1.0 }
+        };
         let azimuth_sign = side(now.azimuth_rad, sun.x);
         let elevation_sign = side(now.elevation_rad, sun.z);
         // In the octant of positive azimuth and elevation.
@@ -223,13 +222,6 @@ impl KeepIn {
 }
 
 /// 1 for zero and more, else -1.
-fn sign(x: f64) -> f64 {
-    if x < 0.0 { -1.0 } else { 1.0 }
-}
-
-fn fixed_matrix(matrix: &Matrix3<f64>) -> MovingMatrix {
-    matrix.map(Moving::from_re)
-}
 
 #[cfg(test)]
 mod tests;

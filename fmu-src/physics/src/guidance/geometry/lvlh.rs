@@ -4,16 +4,13 @@
 //! the direction from the planet to the Sun), up x reference, and up. Azimuth is right-handed about up from the reference,
 //! elevation is toward up.
 
-use serde::{Deserialize, Serialize};
-
 use super::ephemeris_at_time::EphemerisAtTime;
 use super::moving::{MovingMatrix, MovingVector, fixed, spherical, unit, unit_normal};
-use crate::enumeration::enumeration;
+use crate::enumeration::file_enumerations;
 
-enumeration! {
+file_enumerations! {
     /// From which horizontal direction an azimuth about the local vertical counts.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-    #[serde(rename_all = "camelCase")]
+    #[derive(Default)]
     pub enum AzimuthReference {
         /// The horizontal part of the velocity.
         #[default]

@@ -71,12 +71,6 @@ impl EphemerisTrust {
             Mode::EarthAcquisition => true,
         }
     }
-
-    /// Trusts them again, to be judged anew.
-    pub fn renew(&mut self) {
-        *self = Self::default();
-    }
-
     /// Takes a sample. Where attitude or Sun are not known, or `check` is `None`, nothing contradicts the models.
     pub fn sample(
         &mut self,

@@ -2,13 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::enumeration::enumeration;
+use crate::enumeration::{enumeration, file_enumerations};
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 
-enumeration! {
+file_enumerations! {
     /// How much the guidance is trusted with.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-    #[serde(rename_all = "camelCase")]
+    #[derive(Default)]
     pub enum Mode {
         /// Every command is followed.
         #[default]

@@ -11,7 +11,7 @@ use super::command_status::CommandStatus;
 use super::command_timers::CommandTimers;
 use super::guidance_command::{CommandKind, GuidanceCommand};
 use super::mode::Mode;
-use super::present_window::PresentWindow;
+use super::present_window::present_window;
 use super::sample_inputs::{GuidanceSettings, SampleContext, SampleInputs, TimedEntries};
 use super::sun_line::SunLine;
 use super::transitions::{ModeState, Sensed, Steering};
@@ -30,8 +30,9 @@ use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
 use crate::guidance::orbit_phase::schedule::{Activity, Schedule};
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use crate::guidance::pointing::law::Pointing;
-use crate::guidance::scenario::orbit_phase_solution::orbit_phase_solution;
-use crate::guidance::scenario::{PointingProgress, PointingSolution, pointing_solution};
+use crate::guidance::scenario::{
+    PointingProgress, PointingSolution, orbit_phase_solution, pointing_solution,
+};
 use crate::numerics::spacing::spacing;
 
 /// Time between two samples, in s.
@@ -85,17 +86,6 @@ impl GuidanceState {
             next_sample_s: start_s,
         }
     }
-
-    /// Whether the precise ephemerides are trusted.
-    pub fn ephemeris_is_valid(&self) -> bool {
-        self.modes.ephemeris.is_valid()
-    }
-
-    /// Whether the mode uses the coarse ephemerides, where modes choose.
-    pub fn uses_coarse_ephemeris(&self) -> bool {
-        self.modes.ephemeris.uses_coarse(self.modes.mode)
-    }
-
     /// The windows of the orbit phase where the spacecraft is; `None` where that is not known.
     pub fn windows(&self, law: &Guided, positions: &BodyPositions) -> Option<Schedule> {
         let mut periapses = self.periapses;
@@ -224,21 +214,18 @@ impl GuidanceState {
         choose: impl Fn(&WindowStart<'_>) -> Option<SelectedSunDirection>,
     ) -> bool {
         let is_operational = self.modes.mode == Mode::Operational;
-        let found = is_operational
-            .then(|| PresentWindow::find(&settings.orbit_phase, command, ephemeris, &mut self.periapses))
-            .flatten();
-        let Some(PresentWindow { scenario, activity, schedule, span_s }) = found else {
+        let (law, periapses) = (&settings.orbit_phase, &mut self.periapses);
+        let window = || present_window(law, command, ephemeris, attitude, periapses);
+        let Some(start) = is_operational.then(window).flatten() else {
             self.downlink_sun.end();
             return false;
         };
-        let chosen = || {
-            let law = Guided { schedule, ..settings.orbit_phase };
-            let is_span = span_s.is_finite() && span_s > 0.0;
-            let start = WindowStart { activity, ephemeris, attitude, span_s, law };
-            is_span.then(|| choose(&start)).flatten()
-        };
-        match activity {
-            Activity::Downlink => self.downlink_sun.last(scenario, self.timers.entries.scenario, chosen),
+        let is_span = start.span_s.is_finite() && start.span_s > 0.0;
+        let chosen = || is_span.then(|| choose(&start)).flatten();
+        match start.activity {
+            Activity::Downlink => {
+                self.downlink_sun.last(start.scenario, self.timers.entries.scenario, chosen)
+            }
             Activity::Science => self.downlink_sun.last_in_science(chosen),
         }
     }
@@ -275,7 +262,7 @@ impl GuidanceState {
         let is_burn = command.scenario == Some(Scenario::Burn) && !entries.burn_is_over;
         self.burn.command(is_burn, self.timers.is_new_scenario(&entries), time_s);
         if entries.mode != self.timers.entries.mode {
-            self.modes.renew_request();
+            self.modes.last_request = None;
         }
         self.timers.update(command, entries, time_s);
     }

@@ -105,11 +105,6 @@ pub struct ModeState {
 }
 
 impl ModeState {
-    /// The request of a new command acts even where it is that of the command before.
-    pub fn renew_request(&mut self) {
-        self.last_request = None;
-    }
-
     /// Changes the mode by a sample and returns the steering in it; `None` where no boresight has a direction.
     /// While positions are unknown no constraint is judged.
     pub fn sample(
@@ -158,7 +153,7 @@ impl ModeState {
             // A violation is judged anew, without the lenience toward a safing turn.
             self.monitor = MonitorState::default();
             if mode == Mode::Operational {
-                self.ephemeris.renew();
+                self.ephemeris = EphemerisTrust::default();
             }
         }
         let sensed_sun = sensed.sun_body.and_then(direction);

@@ -53,16 +53,6 @@ pub trait Sight {
     fn ephemeris(&self) -> Option<EphemerisAtTime>;
 }
 
-impl Sight for LinesOfSight {
-    fn lines(&self) -> LinesOfSight {
-        *self
-    }
-
-    fn ephemeris(&self) -> Option<EphemerisAtTime> {
-        None
-    }
-}
-
 impl Sight for EphemerisAtTime {
     fn lines(&self) -> LinesOfSight {
         let [to_sun, to_earth, to_planet] =
@@ -152,11 +142,14 @@ pub struct AttitudeCommand {
     pub clamped: bool,
     /// Whether a substitute stands in for a target on one line with the other.
     pub degenerate: bool,
+    /// When the next motion of a scan begins or ends, in s; infinite without one.
+    pub corner_s: f64,
 }
 
 impl AttitudeCommand {
-    fn new(frame: MovingFrame, margins: [f64; 2]) -> Self {
-        Self { frame, margins, clamped: false, degenerate: false }
+    /// Returns the attitude of a law without scans that is kept.
+    pub fn new(frame: MovingFrame, margins: [f64; 2]) -> Self {
+        Self { frame, margins, clamped: false, degenerate: false, corner_s: f64::INFINITY }
     }
 
     /// Turned by 180 deg about the Sun line: the Sun stays in its place.
@@ -170,24 +163,22 @@ impl AttitudeCommand {
 const NO_MARGINS: [f64; 2] = [f64::INFINITY; 2];
 
 /// Science attitude: -Y toward the Sun, +Z on the planet's side of it, then pitched about X until the Sun stands
-/// at the elevation of `rule`, within +-`elevation_limit_rad`; by other rules as they say.
-pub fn science(sight: &impl Sight, rule: ScienceRule, elevation_limit_rad: f64) -> AttitudeCommand {
-    let lines = &sight.lines();
+/// at the elevation of `rule`, within +-`elevation_limit_rad`; by other rules as they say. `None`, as of every law here, where a vector
+/// that it reads has no direction of its own.
+pub fn science(
+    lines: &LinesOfSight,
+    ephemeris: impl FnOnce() -> Option<EphemerisAtTime>,
+    rule: ScienceRule,
+    elevation_limit_rad: f64,
+) -> Option<AttitudeCommand> {
     let gain = match rule {
         ScienceRule::Scaled { gain } => gain,
         ScienceRule::Nadir => 1.0,
         ScienceRule::PlanetOrbit => return planet_orbit(lines),
         ScienceRule::Unloading { sun, gimbal } => return unloading(lines, sun, &gimbal),
-        ScienceRule::Aligned { axes, zone } => {
-            let found = sight.ephemeris().and_then(|ephemeris| aligned(&axes, zone, &ephemeris));
-            return found.unwrap_or_else(|| sun_pointing(lines));
-        }
+        ScienceRule::Aligned { axes, zone } => return aligned(&axes, zone, &ephemeris()?),
     };
-    let Some((side, angle_rad, angle_rate_rad_s)) =
-        lines.planet.as_ref().and_then(|planet| lines.sun.perpendicular_part(planet))
-    else {
-        return sun_pointing(lines);
-    };
+    let (side, angle_rad, angle_rate_rad_s) = lines.sun.perpendicular_part(lines.planet.as_ref()?)?;
     let elevation_rad = gain * (angle_rad - core::f64::consts::FRAC_PI_2);
     let base = MovingFrame::from_yz(&opposite(&lines.sun), &side);
     let margins = [elevation_limit_rad - elevation_rad, elevation_limit_rad + elevation_rad];
@@ -199,7 +190,7 @@ pub fn science(sight: &impl Sight, rule: ScienceRule, elevation_limit_rad: f64) 
         (elevation_rad, gain * angle_rate_rad_s)
     };
     // A positive pitch lifts the Sun toward +Z, which is negative elevation.
-    AttitudeCommand::new(base.pitched(-elevation_rad, -rate_rad_s), margins)
+    Some(AttitudeCommand::new(base.pitched(-elevation_rad, -rate_rad_s), margins))
 }
 
 /// Science attitude of paper 001's off-pointing: the Sun at `sun`, turned about the Sun line until nadir lies in the plane that the
@@ -209,8 +200,8 @@ pub fn science(sight: &impl Sight, rule: ScienceRule, elevation_limit_rad: f64) 
 /// With the components z and q of the Sun's direction along the boresights at 0 and +90 deg, rho = hypot(q, z) and
 /// beta = atan2(-z, q), the camera at the angle phi is off the Sun by theta, cos theta = rho sin(phi - beta): theta between Sun and
 /// nadir gives phi.
-pub fn unloading(lines: &LinesOfSight, sun: SunAngles, gimbal: &Gimbal) -> AttitudeCommand {
-    let Some(planet) = &lines.planet else { return sun_pointing(lines) };
+pub fn unloading(lines: &LinesOfSight, sun: SunAngles, gimbal: &Gimbal) -> Option<AttitudeCommand> {
+    let planet = lines.planet.as_ref()?;
     let [to_sun, to_planet] = [&lines.sun, planet].map(|to| moving(to.direction, to.rate_1_s));
     let sun_body = direction_from_angles(sun);
     let (zero, quarter) = (sun_body.dot(&gimbal.zero_body), sun_body.dot(&gimbal.quarter_body));
@@ -233,9 +224,7 @@ pub fn unloading(lines: &LinesOfSight, sun: SunAngles, gimbal: &Gimbal) -> Attit
         body_roll: gimbal.moving_boresight(off_beta + beta_rad),
         external_roll: to_planet,
     };
-    vectors
-        .pointing()
-        .map_or_else(|| sun_pointing(lines), |pointing| AttitudeCommand::new(pointing.frame(), margins))
+    Some(AttitudeCommand::new(vectors.pointing()?.frame(), margins))
 }
 
 /// Attitude of two axes at their targets, the Sun inside the zone; `None` where the target of the first has no direction.
@@ -245,35 +234,28 @@ fn aligned(
     ephemeris: &EphemerisAtTime,
 ) -> Option<AttitudeCommand> {
     let to_sun = ephemeris.to_sun();
-    let zone = zone.filter(|zone| value(&to_sun).norm() <= zone.distance_m);
-    let kept = within_zone(
-        &aligned_vectors(axes, ephemeris)?,
-        zone.map(|zone| zone.keep_in).as_ref(),
-        &to_sun,
-        false,
-    )?;
+    let keep_in = zone.filter(|zone| value(&to_sun).norm() <= zone.distance_m).map(|zone| zone.keep_in);
+    let kept = within_zone(&aligned_vectors(axes, ephemeris)?, keep_in.as_ref(), &to_sun, false)?;
     Some(AttitudeCommand {
-        frame: kept.pointing.frame(),
-        margins: [kept.margin, f64::INFINITY],
         clamped: kept.is_moved,
         degenerate: kept.pointing.degenerate,
+        ..AttitudeCommand::new(kept.pointing.frame(), [kept.margin, f64::INFINITY])
     })
 }
 
-/// Paper 004's attitude; without a planet that moves about the Sun, [`sun_pointing`].
-fn planet_orbit(lines: &LinesOfSight) -> AttitudeCommand {
-    let frame = lines.sun_from_planet.as_ref().and_then(|sun| {
-        let toward = MovingUnit::from_vector(sun.position_m, sun.velocity_m_s)?;
-        // The normal stands still as long as the Sun alone moves the planet.
-        let north = MovingUnit::from_vector(sun.position_m.cross(&sun.velocity_m_s), Vector3::zeros())?;
-        Some(MovingFrame::from_yz(&opposite(&toward), &opposite(&north)))
-    });
-    frame.map_or_else(|| sun_pointing(lines), |frame| AttitudeCommand::new(frame, NO_MARGINS))
+/// Paper 004's attitude; `None` without a planet that moves about the Sun.
+fn planet_orbit(lines: &LinesOfSight) -> Option<AttitudeCommand> {
+    let sun = lines.sun_from_planet.as_ref()?;
+    let toward = MovingUnit::from_vector(sun.position_m, sun.velocity_m_s)?;
+    // The normal stands still as long as the Sun alone moves the planet.
+    let north = MovingUnit::from_vector(sun.position_m.cross(&sun.velocity_m_s), Vector3::zeros())?;
+    let frame = MovingFrame::from_yz(&opposite(&toward), &opposite(&north));
+    Some(AttitudeCommand::new(frame, NO_MARGINS))
 }
 
 /// Default downlink attitude (eq 18): -Y toward the Sun, the Earth where `law` has it; MESSENGER's in the -X,-Y quadrant of the XY
 /// plane while it is less than 90 deg from the Sun, in the +X,+Y quadrant otherwise.
-pub fn downlink(lines: &LinesOfSight, law: &DefaultDownlink) -> AttitudeCommand {
+pub fn downlink(lines: &LinesOfSight, law: &DefaultDownlink) -> Option<AttitudeCommand> {
     let cosine = lines.sun.direction.dot(&lines.earth.direction);
     let (sun, earth) = (&lines.sun, &lines.earth);
     let margins = [law.margin(cosine), f64::INFINITY];
@@ -284,29 +266,22 @@ pub fn downlink(lines: &LinesOfSight, law: &DefaultDownlink) -> AttitudeCommand 
             let [external_roll, aimpoint] = [sun, earth].map(|to| moving(to.direction, to.rate_1_s));
             let (boresight_body, body_roll) = (fixed(boresight_body), fixed(-Vector3::y()));
             let vectors = PointingVectors { boresight_body, aimpoint, body_roll, external_roll };
-            return vectors.pointing().map_or_else(
-                || sun_pointing(lines),
-                |pointing| AttitudeCommand::new(pointing.frame(), margins),
-            );
+            return Some(AttitudeCommand::new(vectors.pointing()?.frame(), margins));
         }
     };
     let normal = from.direction.cross(&to.direction);
     let normal_rate = from.rate_1_s.cross(&to.direction) + from.direction.cross(&to.rate_1_s);
     if normal.norm() < 1e-9 {
-        return sun_pointing(lines);
+        return None;
     }
-    match MovingUnit::from_vector(normal, normal_rate) {
-        Some(z) => AttitudeCommand::new(MovingFrame::from_yz(&opposite(sun), &z), margins),
-        None => sun_pointing(lines),
-    }
+    let z = MovingUnit::from_vector(normal, normal_rate)?;
+    Some(AttitudeCommand::new(MovingFrame::from_yz(&opposite(sun), &z), margins))
 }
 
 /// Downlink attitude with the Sun off -Y (eqs 19 to 22): the Sun at `place`, the Earth in the XY plane on that side of it.
-pub fn downlink_toward(lines: &LinesOfSight, place: &DownlinkSunDirection) -> AttitudeCommand {
+pub fn downlink_toward(lines: &LinesOfSight, place: &DownlinkSunDirection) -> Option<AttitudeCommand> {
     let [to_sun, to_earth] = [&lines.sun, &lines.earth].map(|to| moving(to.direction, to.rate_1_s));
-    let Some(solutions) = both_solutions(&to_sun, &to_earth, place.angles) else {
-        return sun_pointing(lines);
-    };
+    let solutions = both_solutions(&to_sun, &to_earth, place.angles)?;
     let [behind, ahead] = solutions.azimuths;
     let vectors = PointingVectors {
         boresight_body: solutions.sun_body,
@@ -314,25 +289,21 @@ pub fn downlink_toward(lines: &LinesOfSight, place: &DownlinkSunDirection) -> At
         body_roll: direction(if place.earth_ahead { ahead } else { behind }, Moving::constant(0.0)),
         external_roll: to_earth,
     };
-    let Some(pointing) = vectors.pointing() else { return sun_pointing(lines) };
+    let pointing = vectors.pointing()?;
     // Beyond it no attitude has the Sun there and the Earth in the plane.
     let sine = math::sin(angle_between_rad(&lines.sun.direction, &lines.earth.direction));
     let margin = sine - math::sin(place.angles.elevation_rad).abs();
-    AttitudeCommand {
-        clamped: margin < 0.0,
-        ..AttitudeCommand::new(pointing.frame(), [margin, f64::INFINITY])
-    }
+    let command = AttitudeCommand::new(pointing.frame(), [margin, f64::INFINITY]);
+    Some(AttitudeCommand { clamped: margin < 0.0, ..command })
 }
 
 /// Downlink attitude with the Sun at a place that is requested, as near as Sun, Earth and antennas allow.
-pub fn downlink_with(lines: &LinesOfSight, sun: SunAngles, antennas: &Antennas) -> AttitudeCommand {
+pub fn downlink_with(lines: &LinesOfSight, sun: SunAngles, antennas: &Antennas) -> Option<AttitudeCommand> {
     let [to_sun, to_earth] = [&lines.sun, &lines.earth].map(|to| moving(to.direction, to.rate_1_s));
     let request = DownlinkRequest { sun_body: sun, ..DownlinkRequest::default() };
-    let found = sun_direction::downlink(&to_sun, &to_earth, antennas, &request);
-    let Some((found, pointing)) = found.and_then(|found| Some((found, found.vectors.pointing()?))) else {
-        return sun_pointing(lines);
-    };
-    AttitudeCommand { clamped: found.clamped, ..AttitudeCommand::new(pointing.frame(), found.margins) }
+    let found = sun_direction::downlink(&to_sun, &to_earth, antennas, &request)?;
+    let command = AttitudeCommand::new(found.vectors.pointing()?.frame(), found.margins);
+    Some(AttitudeCommand { clamped: found.clamped, ..command })
 }
 
 /// Fallback with nothing but the Sun: -Y toward it, +Z toward the north of EME2000 as far as possible (toward the

@@ -16,6 +16,8 @@ use crate::guidance::pointing::command::Scenario;
 /// Begin of a downlink, or of science that unloads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WindowStart<'a> {
+    /// Scenario that it belongs to: downlink or orbit phase.
+    pub scenario: Scenario,
     /// Activity that begins.
     pub activity: Activity,
     /// Positions and motions at the begin.

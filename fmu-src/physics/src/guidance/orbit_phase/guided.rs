@@ -6,6 +6,7 @@ use crate::attitude::{MovingFrame, SunAngles};
 
 use super::attitudes::{
     AttitudeCommand, LinesOfSight, ScienceRule, Sight, downlink, downlink_toward, downlink_with, science,
+    sun_pointing,
 };
 use super::schedule::{Activity, Schedule, Window};
 use crate::guidance::constraints::keep_in::KeepIn;
@@ -58,6 +59,15 @@ pub struct GuidedAttitude {
     pub until_s: f64,
 }
 
+impl GuidedAttitude {
+    /// Returns a commanded attitude that is kept through its window, up to the next corner of a scan.
+    pub fn held(command: AttitudeCommand, window: Window) -> Self {
+        let AttitudeCommand { frame, margins, clamped, degenerate, corner_s } = command;
+        let until_s = window.until_s.min(corner_s);
+        Self { frame, window, row: 0, slewing: false, margins, clamped, degenerate, corner_s, until_s }
+    }
+}
+
 /// Status of a downlink, as the outputs report it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DownlinkStatus {
@@ -108,17 +118,7 @@ impl Guided {
         let sight = sight_at(time_s);
         let command = |activity, sight: &S| self.command(activity, sight, default_downlink);
         let target = command(window.activity, &sight);
-        let held = GuidedAttitude {
-            frame: target.frame,
-            window,
-            row: 0,
-            slewing: false,
-            margins: target.margins,
-            clamped: target.clamped,
-            degenerate: target.degenerate,
-            corner_s: f64::INFINITY,
-            until_s: window.until_s,
-        };
+        let held = GuidedAttitude::held(target, window);
         if self.slew_rate_rad_s.is_nan() || self.slew_rate_rad_s <= 0.0 || !window.since_s.is_finite() {
             return held;
         }
@@ -183,21 +183,20 @@ impl Guided {
         sight: &impl Sight,
         default_downlink: &DefaultDownlink,
     ) -> AttitudeCommand {
-        match activity {
-            Activity::Science => science(sight, self.science, self.elevation_limit_rad),
-            Activity::Downlink => {
-                let lines = &sight.lines();
-                let SunRequest { sun, alternate, .. } = self.requested;
-                let command = match &self.sun_direction {
-                    Some(place) => downlink_toward(lines, place),
-                    None if sun != SunAngles::default() => {
-                        downlink_with(lines, sun, default_downlink.antennas())
-                    }
-                    None => downlink(lines, default_downlink),
-                };
-                if alternate { command.alternate(&lines.sun) } else { command }
+        let lines = &sight.lines();
+        let SunRequest { sun, alternate, .. } = self.requested;
+        let found = match (activity, &self.sun_direction) {
+            (Activity::Science, _) => {
+                science(lines, || sight.ephemeris(), self.science, self.elevation_limit_rad)
             }
-        }
+            (Activity::Downlink, Some(place)) => downlink_toward(lines, place),
+            (Activity::Downlink, None) if sun != SunAngles::default() => {
+                downlink_with(lines, sun, default_downlink.antennas())
+            }
+            (Activity::Downlink, None) => downlink(lines, default_downlink),
+        };
+        let command = found.unwrap_or_else(|| sun_pointing(lines));
+        if alternate && activity == Activity::Downlink { command.alternate(&lines.sun) } else { command }
     }
 }
 

@@ -7,7 +7,7 @@
 
 use nalgebra::{Rotation3, Vector3};
 
-use super::attitudes::{LinesOfSight, unloading};
+use super::attitudes::{LinesOfSight, sun_pointing, unloading};
 use crate::attitude::{MovingUnit, SunAngles};
 use crate::guidance::pointing::boresight::Gimbal;
 use crate::numerics::quadrature::GAUSS_3;
@@ -93,6 +93,7 @@ impl ScienceArc {
             earth: to_sun,
             sun_from_planet: None,
         };
-        unloading(&lines, sun, &self.gimbal).frame.inertial_from_body
+        let command = unloading(&lines, sun, &self.gimbal).unwrap_or_else(|| sun_pointing(&lines));
+        command.frame.inertial_from_body
     }
 }

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::bodies::Body;
-use crate::enumeration::enumeration;
+use crate::enumeration::file_enumerations;
 use crate::guidance::geometry::lvlh::AzimuthReference;
 
 /// Greatest azimuth, longitude or right ascension either way, in rad.
@@ -22,10 +22,8 @@ pub const DOWN_ANGLE_RAD: f64 = -RIGHT_ANGLE_RAD;
 /// Least angle in a half turn either way, in rad.
 pub const BACK_HALF_TURN_RAD: f64 = -core::f64::consts::PI;
 
-enumeration! {
+file_enumerations! {
     /// Sets of vectors under one name (Table 5).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[serde(rename_all = "camelCase")]
     pub enum Scenario {
         /// The four vectors by their options.
         1 => Generic,
@@ -48,12 +46,8 @@ enumeration! {
         /// Science and downlink in turn by guided.*, as MomentumPlant flies by itself.
         10 => OrbitPhase,
     }
-}
 
-enumeration! {
     /// How the boresight is given (Table 1).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[serde(rename_all = "camelCase")]
     pub enum BoresightOption {
         /// By boresight.vector.
         1 => Vector,
@@ -65,12 +59,8 @@ enumeration! {
         /// An antenna that is steered in the XY plane, at boresight.azimuth.
         4 => PhasedArray,
     }
-}
 
-enumeration! {
     /// What the boresight aims at (Table 2), and any body of the table.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[serde(rename_all = "camelCase")]
     pub enum AimpointOption {
         /// The direction vector in EME2000.
         1 => Vector,
@@ -112,12 +102,8 @@ enumeration! {
         /// North of the ecliptic of J2000.
         18 => EclipticNorth,
     }
-}
 
-enumeration! {
     /// How the body roll vector is given (Table 3).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[serde(rename_all = "camelCase")]
     pub enum BodyRollOption {
         /// By bodyRoll.vector.
         1 => Vector,
@@ -125,12 +111,8 @@ enumeration! {
         #[serde(rename = "azEl")]
         2 => AzimuthElevation,
     }
-}
 
-enumeration! {
     /// How the external roll reference is given (Table 4).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[serde(rename_all = "camelCase")]
     pub enum ExternalRollOption {
         /// The direction externalRoll.vector in EME2000.
         1 => Vector,
@@ -150,12 +132,8 @@ enumeration! {
         /// North of the ecliptic of J2000.
         8 => EclipticNorth,
     }
-}
 
-enumeration! {
     /// Frame of a scan.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[serde(rename_all = "camelCase")]
     pub enum ScanFrame {
         /// The boresight turns about the body axes by scan.rate.
         1 => Body,

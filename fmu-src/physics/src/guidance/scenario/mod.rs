@@ -2,8 +2,6 @@
 //!
 //! All but the generic one roll -Y toward the Sun. A scan may move any but downlink and burn.
 
-pub mod orbit_phase_solution;
-
 use nalgebra::Vector3;
 
 use crate::guidance::burn::delta_v::BurnPointing;
@@ -15,8 +13,11 @@ use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::SubsolarMethod;
 use crate::guidance::geometry::limb::{LimbPoint, generic_limb, terminator_limb};
 use crate::guidance::geometry::moving::{Moving, MovingVector, fixed, unit, unit_normal, value};
-use crate::guidance::orbit_phase::guided::DownlinkStatus;
+use crate::guidance::orbit_phase::attitudes::ScienceRule;
+use crate::guidance::orbit_phase::guided::{DownlinkStatus, Guided, GuidedAttitude};
+use crate::guidance::orbit_phase::schedule::Activity;
 use crate::guidance::pointing::aimpoint::{Aimpoint, AimpointKind, aimpoint};
+use crate::guidance::pointing::aligned::aligned_vectors;
 use crate::guidance::pointing::antenna::{Antennas, Beam};
 use crate::guidance::pointing::boresight::{Boresight, DeviceAngle, Gimbal, boresight, instrument_boresight};
 use crate::guidance::pointing::command::{BodyRollCommand, BoresightOption, PointingCommand, Scenario};
@@ -135,6 +136,35 @@ pub fn pointing_solution(
     let directed =
         |vector: &MovingVector| value(vector).amax() > 0.0 && vector.iter().all(|x| x.re.is_finite());
     directed(&solution.vectors.boresight_body).then_some(solution)
+}
+
+/// Returns an attitude of the orbit phase as vectors: axes and targets of its science where those are its law, else +Z at its
+/// own direction, -Y rolled to its own.
+pub fn orbit_phase_solution(
+    attitude: &GuidedAttitude,
+    law: &Guided,
+    ephemeris: &EphemerisAtTime,
+    hardware: &GuidanceHardware<'_>,
+) -> PointingSolution {
+    let pointing = Pointing::from_frame(&attitude.frame);
+    let is_downlink = attitude.window.activity == Activity::Downlink && !attitude.slewing;
+    let keeps_nadir = attitude.window.activity == Activity::Science && law.science.unloads();
+    let earth_body = || value(&pointing.to_body(&ephemeris.to_earth()));
+    // The zone exchanges the vectors of the targets themselves.
+    let aligned = match law.science {
+        ScienceRule::Aligned { axes, .. } if attitude.window.activity == Activity::Science => {
+            aligned_vectors(&axes, ephemeris).filter(|_| !attitude.slewing)
+        }
+        _ => None,
+    };
+    PointingSolution {
+        second: keeps_nadir.then(|| ephemeris.to_planet()),
+        antenna: (is_downlink && !law.requested.alternate)
+            .then(|| Beam::AtTheEarth(hardware.antennas.toward(&earth_body()))),
+        downlink: DownlinkStatus::from_attitude(attitude),
+        reachable: !attitude.slewing && (is_downlink || attitude.margins.iter().all(|margin| *margin >= 0.0)),
+        ..PointingSolution::at(aligned.unwrap_or_else(|| pointing.vectors()))
+    }
 }
 
 /// Whether the body roll axis of a command lies along the boresight that it gives: then a fallback stands in for it.

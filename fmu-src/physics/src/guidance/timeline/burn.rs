@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 
 use super::description::BurnDescription;
 use super::entry::{TimelineBurn, TimelineClock};
-use super::instant::{instant, is_date};
 use super::quantity::{SPEED, TIME, three};
+use super::times::{instant, is_date};
 use crate::guidance::burn::nominal_thrust::NominalThrust;
 use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::spacecraft::{Spacecraft, ThrusterSet};

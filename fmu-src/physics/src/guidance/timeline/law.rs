@@ -6,12 +6,12 @@
 
 use super::build::Timeline;
 use super::entry::{TimelineEntry, simulation_time_s};
-use crate::attitude::MovingFrame;
 use crate::bodies::Body;
 use crate::guidance::constraints::keep_in::{KeepIn, within_zone};
 use crate::guidance::downlink::sun_direction::{DownlinkSunDirection, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
 use crate::guidance::geometry::moving::value;
+use crate::guidance::orbit_phase::attitudes::AttitudeCommand;
 use crate::guidance::pointing::command::{AimpointOption, PointingCommand};
 use crate::guidance::pointing::scan::{ScanTime, next_corner_s};
 use crate::guidance::scenario::{GuidanceHardware, PointingProgress, pointing_solution};
@@ -49,22 +49,6 @@ pub struct TimelineLaw<'a> {
     pub hardware: GuidanceHardware<'a>,
 }
 
-/// A commanded attitude.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TimelineAttitude {
-    /// Body frame and rate.
-    pub frame: MovingFrame,
-    /// At roots of these the law takes another form; infinite where there is none. The first is how far the Sun is inside the keep-in
-    /// zone in the attitude without it, in rad.
-    pub margins: [f64; 2],
-    /// Whether the Sun's place in a downlink is not the one that was requested.
-    pub clamped: bool,
-    /// Whether a substitute stands in for a vector that lies on one line with the other.
-    pub degenerate: bool,
-    /// When the next motion of a scan begins or ends, in s.
-    pub corner_s: f64,
-}
-
 /// Bodies that a command aims at.
 pub fn bodies_of(command: &PointingCommand) -> impl Iterator<Item = Body> + '_ {
     let aimpoints = [&command.aimpoint, &command.second_aimpoint].into_iter();
@@ -81,7 +65,7 @@ impl TimelineLaw<'_> {
         time_s: f64,
         ephemeris: &EphemerisAtTime,
         (chosen, requested): (Option<DownlinkSunDirection>, SunRequest),
-    ) -> Option<TimelineAttitude> {
+    ) -> Option<AttitudeCommand> {
         let begin_s = simulation_time_s(entry.at_s, settings.clock_minus_time_s);
         let elapsed_s = time_s - begin_s;
         let scan = ScanTime { elapsed_s, tolerance_s: 4.0 * (spacing(entry.at_s) + spacing(time_s)) };
@@ -100,12 +84,11 @@ impl TimelineLaw<'_> {
         let kept = within_zone(&solution.vectors, keep_in.as_ref(), &to_sun, is_held)?;
         let corner_s = next_corner_s(&entry.command.scan, scan).map_or(f64::INFINITY, |it| it + begin_s);
         let [form, bound] = solution.margins;
-        Some(TimelineAttitude {
-            frame: kept.pointing.frame(),
-            margins: [kept.margin.min(bound), form],
+        Some(AttitudeCommand {
             clamped: solution.downlink.clamped || cut || kept.is_moved,
             degenerate: kept.pointing.degenerate,
             corner_s,
+            ..AttitudeCommand::new(kept.pointing.frame(), [kept.margin.min(bound), form])
         })
     }
 }

@@ -11,7 +11,6 @@ mod description;
 mod devices;
 mod entry;
 mod events;
-mod instant;
 mod law;
 mod panels;
 mod quantity;
@@ -29,4 +28,4 @@ pub use entry::{
     DownlinkOverride, KeepInOverride, PlanStatus, Slot, TimelineBurn, TimelineClock, TimelineDump,
     TimelineEntry, TimelineEvent, TimelineManeuver, TimelinePanels, begun, simulation_time_s,
 };
-pub use law::{TimelineAttitude, TimelineLaw, TimelineSettings, bodies_of};
+pub use law::{TimelineLaw, TimelineSettings, bodies_of};

@@ -131,9 +131,9 @@ fn science_that_unloads_looks_ahead_over_the_next_downlink() {
     let Ok(Some(Prediction::Components(components))) = Prediction::new(&mut forecast, 3) else {
         panic!("no forecast")
     };
-    assert_eq!(components.present().span_s, SCIENCE_S);
+    assert_eq!(components.downlinks[0].span_s, SCIENCE_S);
     // What it adds by itself, then nothing before the next downlink, then two sciences of -1.
-    assert_relative_eq!(components.present().added[0], -1.0, epsilon = 1e-12);
+    assert_relative_eq!(components.downlinks[0].added[0], -1.0, epsilon = 1e-12);
     let [x, _] = components.cycles(|downlink| [[-downlink.span_s, downlink.span_s]; 2]);
     let changes: Vec<f64> = x.iter().take(3).map(|cycle| cycle.excursion.change).collect();
     assert_relative_eq!(changes.as_slice(), [0.0, -1.0, -1.0].as_slice(), epsilon = 1e-12);

@@ -113,7 +113,8 @@ fn an_attainable_target_is_hit_to_rounding() {
             for (axes, count) in [(TargetAxes::X, 0), (TargetAxes::Z, 1), (TargetAxes::Xz, 2)] {
                 let targeting = Targeting { axes, ..targeting() };
                 let target = Vector3::new(-0.05, 7.0, 0.1);
-                let Some(SelectedSunDirection { place, clamped }) = targeting.sun_direction(&state, &target)
+                let Some(SelectedSunDirection { place, clamped }) =
+                    targeting.sun_direction(&state, &target, [state.separation_rad(); 2])
                 else {
                     panic!("{degrees} {momentum:?}")
                 };
@@ -165,10 +166,10 @@ fn no_admissible_place_comes_nearer_to_a_target_out_of_reach() {
         for target in
             [Vector3::new(5.0, 0.0, 3.0), Vector3::new(-4.0, 0.0, 0.1), Vector3::new(0.0, 0.0, -6.0)]
         {
-            let found = targeting().sun_direction(&state, &target).unwrap();
+            let found = targeting().sun_direction(&state, &target, [state.separation_rad(); 2]).unwrap();
             clamped += i32::from(found.clamped);
             let best = state.left(&found.place, &target).xz().norm();
-            for branch in targeting().branches(state.separation_rad()).unwrap().as_slice() {
+            for branch in targeting().branches(state.separation_rad()).unwrap().iter().flatten() {
                 for i in -40..=40 {
                     for j in -40..=40 {
                         let angles = SunAngles {
@@ -207,7 +208,8 @@ fn the_linear_formula_falls_short_by_a_few_per_cent() {
         science: None,
     };
     let by = |method, target: &Vector3<f64>| {
-        Targeting { method, ..targeting() }.sun_direction(&state, target).unwrap()
+        let targeting = Targeting { method, ..targeting() };
+        targeting.sun_direction(&state, target, [state.separation_rad(); 2]).unwrap()
     };
     let mut worst = 0.0_f64;
     for share in [-0.9, -0.4, 0.3, 0.9] {
@@ -235,6 +237,7 @@ fn without_a_plane_of_sun_and_earth_there_is_no_place() {
             linear: None,
             science: None,
         };
-        assert_eq!(targeting().sun_direction(&state, &Vector3::zeros()), None);
+        let separations_rad = [state.separation_rad(); 2];
+        assert_eq!(targeting().sun_direction(&state, &Vector3::zeros(), separations_rad), None);
     }
 }

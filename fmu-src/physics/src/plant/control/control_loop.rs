@@ -124,7 +124,7 @@ impl ControlLoop {
         let Sampled { number, gyrostat, motion, body, mass, .. } = *sampled;
         let Actuators { thrusters, allocator, distribution } = actuators;
         let time_s = motion.end_s();
-        let burning = thrusters.burning();
+        let burning = thrusters.valves.burning();
         let lacks_wheels = !self.wheels.span(distribution, gyrostat);
         let by_thrusters = (burning.is_some() || lacks_wheels) && thrusters.spans(allocator, mass, time_s);
         let is_new = by_thrusters != self.by_thrusters;

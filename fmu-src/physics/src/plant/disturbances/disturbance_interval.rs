@@ -59,15 +59,15 @@ pub(crate) fn next_interval(
 ) -> Result<DisturbanceInterval, PlantError> {
     plant.spend(WorkKind::Segment, start_s)?;
     let (known_s, begin) = plant.begin(start_s, next_multiple_s(start_s, grid_s))?;
-    let limit_s = match plant.kinematics.excludes_events(&begin, known_s - start_s) {
+    let limit_s = match plant.path.kinematics.excludes_events(&begin, known_s - start_s) {
         true => known_s,
-        false => plant.kinematics.smooth_until(start_s, known_s),
+        false => plant.path.kinematics.smooth_until(start_s, known_s),
     };
     let rate_rad_s = begin.frame.rate_body_rad_s.norm();
     let turning_rad_s = rate_rad_s + orbital_rate_rad_s(&begin.geometry.spacecraft);
     let longest_s = last.span.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s);
     let shortest_s = (SHORTEST_TURN_RAD / turning_rad_s).min(SHORTEST_SHARE * grid_s);
-    let configuration = plant.kinematics.configuration;
+    let configuration = plant.path.kinematics.configuration;
     let (active, tolerance) = (configuration.effects, configuration.light_and_heat.tolerance);
     let interval = AdaptiveInterval::new(start_s, grid_s, longest_s, limit_s, shortest_s);
     let ([first, second], span) = interval.fit::<_, PlantError>(ORDER, |interval| {
@@ -81,7 +81,7 @@ pub(crate) fn next_interval(
             free_inverse_inertia.map_or(0.0, |it| unforeseen(last, active, it, &nodes, span_s));
         let mut unresolved = 0.5 * unforeseen_rad_s2 * span_s * span_s;
         if turning_rad_s * span_s >= SHORTEST_TURN_RAD {
-            let last_s = plant.kinematics.configuration.last_of_panels_s(start_s, interval.end_s());
+            let last_s = plant.path.kinematics.configuration.last_of_panels_s(start_s, interval.end_s());
             let ends = [start_s, last_s].map(|at_s| plant.evaluate(at_s));
             let fit_error = fit_error(active, &nodes, &ends);
             unresolved = unresolved.max(fit_error * fit_error.max(math::powi(rate_rad_s * span_s, 2) / 12.0));
@@ -108,7 +108,14 @@ pub(crate) fn next_interval(
     let [to_sun, to_sun_then] = [now, then].map(|it| it.geometry.to_sun.position_m.normalize());
     let to_sun = [to_sun, (to_sun_then - to_sun) / elapsed_s];
     let lit_fraction = [now.lit_fraction, (then.lit_fraction - now.lit_fraction) / elapsed_s];
-    Ok(DisturbanceInterval { span, made_for: plant.digest, loads, field_inertial_t, to_sun, lit_fraction })
+    Ok(DisturbanceInterval {
+        span,
+        made_for: plant.path.digest,
+        loads,
+        field_inertial_t,
+        to_sun,
+        lit_fraction,
+    })
 }
 
 /// Angular acceleration by which the disturbances at the nodes of an interval after this one, `span_s` long, are off from what
@@ -136,7 +143,7 @@ fn unforeseen(
 pub(crate) fn deviate(interval: &DisturbanceInterval, plant: &mut Plant<'_>) -> Result<(), PlantError> {
     let applied = plant.external(interval.span.start_s);
     let Kinematics { configuration, turning, trajectory, current_mass_panels_stowed, .. } =
-        &mut plant.kinematics;
+        &mut plant.path.kinematics;
     if !configuration.uses_encke() {
         return Ok(());
     }
@@ -157,26 +164,23 @@ fn orbital_rate_rad_s(spacecraft: &CartesianState) -> f64 {
 /// largest force and torque of all effects there, and the field; a torque counts against the largest force at an arm of 1 cm at least.
 fn fit_error(active: Active, nodes: &[Evaluation; 2], ends: &[Evaluation; 2]) -> f64 {
     let (mut scale, mut most) = ([0.0_f64; 2], [0.0_f64; 2]);
-    let beyond = NODES[0] / (NODES[1] - NODES[0]);
+    // Distance at the ends, and the largest value.
+    let off_line = |[a, b, start, end]: [Vector3<f64>; 4]| {
+        let slope = (b - a) * (NODES[0] / (NODES[1] - NODES[0]));
+        [(start - (a - slope)).amax().max((end - (b + slope)).amax()), a.amax().max(b.amax())]
+    };
+    let evaluations = [&nodes[0], &nodes[1], &ends[0], &ends[1]];
     for effect in active.disturbances().filter(|effect| !effect.is_in_field()) {
-        let [a, b, start, end] = [&nodes[0], &nodes[1], &ends[0], &ends[1]].map(|it| it.loads[effect]);
-        let kinds = [
-            [a.force_body_n, b.force_body_n, start.force_body_n, end.force_body_n],
-            [a.torque_body_n_m, b.torque_body_n_m, start.torque_body_n_m, end.torque_body_n_m],
-        ];
-        for (kind, [a, b, start, end]) in kinds.into_iter().enumerate() {
-            let slope = (b - a) * beyond;
-            most[kind] = most[kind].max((start - (a - slope)).amax()).max((end - (b + slope)).amax());
-            scale[kind] = [a, b, start, end].iter().fold(scale[kind], |most, it| most.max(it.amax()));
+        let loads = evaluations.map(|it| it.loads[effect]);
+        let kinds = [loads.map(|it| it.force_body_n), loads.map(|it| it.torque_body_n_m)];
+        for (kind, values) in kinds.into_iter().enumerate() {
+            most[kind] = most[kind].max(off_line(values)[0]);
+            scale[kind] = values.iter().fold(scale[kind], |most, it| most.max(it.amax()));
         }
     }
     let [force_n, torque_n_m] = scale;
     let torque_n_m = torque_n_m.max(force_n * LEAST_ARM_M);
     let share = |most: f64, scale: f64| if scale > 0.0 { most / scale } else { 0.0 };
-    let [a, b, start, end] =
-        [&nodes[0], &nodes[1], &ends[0], &ends[1]].map(|it| it.air_and_field.field_inertial_t);
-    let slope = (b - a) * beyond;
-    let field_most_t = (start - (a - slope)).amax().max((end - (b + slope)).amax());
-    let of_field = share(field_most_t, a.amax().max(b.amax()));
-    share(most[0], force_n).max(share(most[1], torque_n_m)).max(of_field)
+    let [field_most_t, field_t] = off_line(evaluations.map(|it| it.air_and_field.field_inertial_t));
+    share(most[0], force_n).max(share(most[1], torque_n_m)).max(share(field_most_t, field_t))
 }

@@ -29,9 +29,9 @@ pub struct Evaluation {
 
 impl Evaluation {
     /// Spacecraft with a known attitude and no position: no Sun, no planet, no force.
-    pub fn without_position(frame: MovingFrame, mass: MassProperties) -> Self {
+    pub fn without_position(frame: MovingFrame, mass: MassProperties, time_s: f64) -> Self {
         Self {
-            instant: Instant::without_position(frame),
+            instant: Instant::without_position(frame, time_s),
             loads: Loads::zero(),
             mass,
             panels_body_n_m_s: Vector3::zeros(),
@@ -77,8 +77,9 @@ impl Evaluation {
     }
 
     /// North of the planet, body frame, where its flattening acts on the gravity gradient; otherwise zero.
-    pub fn pole_body(&self, configuration: &Configuration, time_s: f64) -> Vector3<f64> {
-        pole_inertial(configuration, time_s).map_or_else(Vector3::zeros, |it| self.instant.to_body * it)
+    pub fn pole_body(&self, configuration: &Configuration) -> Vector3<f64> {
+        pole_inertial(configuration, self.instant.time_s)
+            .map_or_else(Vector3::zeros, |it| self.instant.to_body * it)
     }
 
     /// Magnetic field, body frame, in T.

@@ -15,7 +15,6 @@ use crate::loads::{ForceTorque, Loads};
 use crate::momentum::{EventValues, TorqueModel, TorqueSample, WorkKind, torques_body_n_m};
 use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
-use crate::plant::instant::air_and_field_segment::{AirAndField, AirAndFieldSegment};
 use crate::plant::instant::conditions::Conditions;
 use crate::plant::instant::path_ahead::PathAhead;
 use crate::plant::motion::instant::Instant;
@@ -24,10 +23,9 @@ use crate::plant::motion::panel_motion::Hinged;
 use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
 use crate::plant::settings::configuration::Configuration;
-use crate::plant::settings::digest::Digest;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
-use crate::plant::sources::sunlight::report_faces;
+use crate::plant::sources::sunlight::light_and_heat::RadiationBuilder;
 use crate::plant::sources::{SourceStates, Sources};
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::plant::state::sun_choice::SunDirectionSelection;
@@ -49,12 +47,9 @@ pub struct PlantSettings<'a> {
 
 /// A configured flight, ready to be evaluated.
 pub struct Plant<'a> {
-    prepared: PreparedSpacecraft<'a>,
-    pub(crate) kinematics: Kinematics<'a>,
-    pub(super) digest: Digest,
+    pub(crate) path: PathAhead<'a>,
     sources: &'a mut Sources,
     states: &'a mut SourceStates,
-    air_and_field: &'a mut AirAndFieldSegment,
     sun_choice: SunDirectionSelection,
     panel_turns: &'a mut PanelTurns,
     external: &'a External<'a>,
@@ -74,7 +69,7 @@ impl<'a> Plant<'a> {
     ) -> Self {
         let PlantSettings { configuration, current_mass_panels_stowed, turning } = settings;
         let SimulationModels { ephemeris, solar, digest, sources, work } = models;
-        let prepared = PreparedSpacecraft { solar: solar.as_ref().unwrap_or(prepared.solar), ..prepared };
+        let spacecraft = PreparedSpacecraft { solar: solar.as_ref().unwrap_or(prepared.solar), ..prepared };
         let PropagatorState {
             trajectory,
             sources: states,
@@ -93,45 +88,43 @@ impl<'a> Plant<'a> {
             turning,
             trajectory,
             ephemeris,
-            default_downlink: prepared.default_downlink,
-            timeline: prepared.timeline,
+            spacecraft,
             command_slews,
             work,
             current_mass_panels_stowed,
         };
-        Self {
-            prepared,
-            kinematics,
-            digest: *digest,
-            sources,
-            states,
-            air_and_field,
-            sun_choice: *sun_choice,
-            panel_turns,
-            external,
-        }
+        let path = PathAhead { digest: *digest, kinematics, air_and_field };
+        Self { path, sources, states, sun_choice: *sun_choice, panel_turns, external }
     }
 
     /// Everything at `time_s`, which the propagator must have reached ([`TorqueModel::prepare`]).
     pub fn evaluate(&mut self, time_s: f64) -> Evaluation {
-        let instant = self.kinematics.instant(time_s);
-        let air_and_field = self.air_and_field(time_s);
-        let mass = self.mass_properties(&instant, time_s);
+        let mut evaluation = self.evaluate_without_loads(time_s);
+        self.write_loads(&mut evaluation, self.external(time_s)[0]);
+        evaluation
+    }
+
+    /// The same but for the loads, which are zero.
+    pub(crate) fn evaluate_without_loads(&mut self, time_s: f64) -> Evaluation {
+        let instant = self.path.kinematics.instant(time_s);
+        let air_and_field = self.path.air_and_field(time_s);
+        let mass = self.mass_properties(&instant);
+        let panels_body_n_m_s = self.panel_momentum_body_n_m_s(&instant, &mass);
+        Evaluation { instant, loads: Loads::zero(), mass, panels_body_n_m_s, air_and_field }
+    }
+
+    /// Writes the loads of an evaluation, `applied` from outside.
+    pub(crate) fn write_loads(&mut self, evaluation: &mut Evaluation, applied: ForceTorque) {
+        let Evaluation { instant, loads, mass, air_and_field, .. } = evaluation;
         let at = Conditions {
-            time_s,
-            configuration: self.kinematics.configuration,
-            spacecraft: self.prepared,
-            current_mass_panels_stowed: &self.kinematics.current_mass_panels_stowed,
-            instant: &instant,
-            mass: &mass,
-            air_and_field: &air_and_field,
-            flow: air_and_field.flow(&instant),
-            applied: self.external(time_s)[0],
+            kinematics: &self.path.kinematics,
+            instant,
+            mass,
+            air_and_field,
+            flow: air_and_field.flow(instant),
+            applied,
         };
-        let mut loads = Loads::zero();
-        self.sources.write_loads(self.states, &at, &mut loads);
-        let panels_body_n_m_s = self.panel_momentum_body_n_m_s(&instant, &mass, time_s);
-        Evaluation { instant, loads, mass, panels_body_n_m_s, air_and_field }
+        self.sources.write_loads(self.states, &at, loads);
     }
 
     /// Force and torque from outside at `time_s` and their slopes per second.
@@ -139,49 +132,34 @@ impl<'a> Plant<'a> {
         (self.external)(time_s)
     }
 
-    /// Air and magnetic field at `time_s`, which the propagator must have reached.
-    pub(crate) fn air_and_field(&mut self, time_s: f64) -> AirAndField {
-        let (path, ..) = self.path();
-        path.air_and_field(time_s)
+    /// Mass, centre of mass and inertia as the panels stand at `instant`.
+    pub fn mass_properties(&self, instant: &Instant) -> MassProperties {
+        self.path.kinematics.mass_properties(&instant.sun())
     }
 
-    /// Mass, centre of mass and inertia as the panels stand at `time_s`.
-    pub fn mass_properties(&self, instant: &Instant, time_s: f64) -> MassProperties {
-        self.kinematics.mass_properties(self.prepared.panels, &instant.sun_at(time_s))
-    }
-
-    /// Momentum in N m s of the panels relative to the body, body frame, as their laws turn them at `time_s`.
-    pub(crate) fn panel_momentum_body_n_m_s(
-        &self,
-        instant: &Instant,
-        mass: &MassProperties,
-        time_s: f64,
-    ) -> Vector3<f64> {
-        if !self.has_panel_mass() {
+    /// Momentum in N m s of the panels relative to the body, body frame, as their laws turn them at `instant`.
+    pub(crate) fn panel_momentum_body_n_m_s(&self, instant: &Instant, mass: &MassProperties) -> Vector3<f64> {
+        let Kinematics { configuration, spacecraft, .. } = &self.path.kinematics;
+        if !spacecraft.has_panel_mass() {
             return Vector3::zeros();
         }
-        let configuration = self.kinematics.configuration;
-        configuration.panel_momentum_body_n_m_s(self.prepared.panels, mass, &instant.moving_sun_at(time_s))
-    }
-
-    fn has_panel_mass(&self) -> bool {
-        self.prepared.panels.iter().any(|panel| panel.mass.is_some())
+        configuration.panel_momentum_body_n_m_s(spacecraft.panels, mass, &instant.moving_sun())
     }
 
     /// The panels with what they belong to.
     pub(crate) fn hinged(&self) -> Hinged<'a> {
-        let Kinematics { configuration, current_mass_panels_stowed, .. } = self.kinematics;
-        Hinged { panels: self.prepared.panels, configuration, current_mass_panels_stowed }
+        let Kinematics { configuration, spacecraft, current_mass_panels_stowed, .. } = self.path.kinematics;
+        Hinged { panels: spacecraft.panels, configuration, current_mass_panels_stowed }
     }
 
     /// Geometry and attitude at `time_s`.
     pub fn instant(&mut self, time_s: f64) -> Instant {
-        self.kinematics.instant(time_s)
+        self.path.kinematics.instant(time_s)
     }
 
     /// Time since the last periapsis, in s.
     pub fn time_since_periapsis_s(&self, time_s: f64) -> f64 {
-        self.kinematics.trajectory.time_since_periapsis_s(self.kinematics.configuration, time_s)
+        self.path.kinematics.trajectory.time_since_periapsis_s(self.path.kinematics.configuration, time_s)
     }
 
     /// Reports temperature in K and force in N, body frame, of every face of the light model at `time_s`, in its order; the
@@ -190,37 +168,24 @@ impl<'a> Plant<'a> {
     /// # Errors
     /// A geometry without meaning.
     pub fn faces(&mut self, time_s: f64, report: impl FnMut(f64, Vector3<f64>)) -> Result<(), PlantError> {
-        let (mut path, sources, states) = self.path();
-        report_faces(&mut sources.sunlight, &states.sunlight, &mut path, time_s, report)
+        let Some(solver) = &mut self.sources.sunlight else { return Ok(()) };
+        let segment = self.states.sunlight.as_ref();
+        RadiationBuilder { solver, path: &mut self.path }.faces(segment, time_s, report)
     }
 
-    /// Extends air, magnetic field and the states of the sources from `start_s` on; returns up to where they are valid, at most `limit_s`.
-    fn extend_disturbances(
-        &mut self,
-        start_s: f64,
-        limit_s: f64,
-        orbit_has_moved: bool,
-    ) -> Result<f64, PlantError> {
-        let span = Span { start_s, end_s: limit_s };
-        let (mut path, sources, states) = self.path();
-        let known_s = path.extend(span, orbit_has_moved)?;
-        Ok(sources.extend(states, &mut path, span)?.min(known_s))
-    }
-
-    /// The path ahead, and the sources with their states.
-    fn path(&mut self) -> (PathAhead<'_, 'a>, &mut Sources, &mut SourceStates) {
-        let Self { prepared, kinematics, digest, sources, states, air_and_field, .. } = self;
-        let path = PathAhead { spacecraft: *prepared, digest: *digest, kinematics, air_and_field };
-        (path, sources, states)
+    /// Extends air, magnetic field and the states of the sources over a span; returns up to where they are valid, at most to its end.
+    fn extend_disturbances(&mut self, span: Span, orbit_has_moved: bool) -> Result<f64, PlantError> {
+        let known_s = self.path.extend(span, orbit_has_moved)?;
+        Ok(self.sources.extend(self.states, &mut self.path, span)?.min(known_s))
     }
 
     /// [`TorqueModel::prepare`] with the whole instant at `start_s`.
     pub(crate) fn begin(&mut self, start_s: f64, limit_s: f64) -> Result<(f64, Instant), PlantError> {
         let known_s = self.orbit_and_light(start_s)?.min(limit_s);
-        let instant = self.kinematics.instant(start_s);
-        let settings = &self.kinematics.configuration.panels;
-        self.panel_turns.begin(settings, self.prepared.panels, &instant, start_s);
-        Ok((self.kinematics.laws_until_s(start_s, &instant, known_s), instant))
+        let instant = self.path.kinematics.instant(start_s);
+        let Kinematics { configuration, spacecraft, .. } = &self.path.kinematics;
+        self.panel_turns.begin(&configuration.panels, spacecraft.panels, &instant);
+        Ok((self.path.kinematics.laws_until_s(&instant, known_s), instant))
     }
 
     /// Makes sure that the orbit is known from `start_s` on, with the light that pushes it; returns up to where.
@@ -228,39 +193,50 @@ impl<'a> Plant<'a> {
     /// # Errors
     /// What ends a flight.
     pub(crate) fn orbit_and_light(&mut self, start_s: f64) -> Result<f64, PlantError> {
-        let by_interval = self.kinematics.configuration.uses_encke();
-        if self.kinematics.trajectory.end_s() > start_s {
-            return self.extend_disturbances(start_s, self.kinematics.trajectory.end_s(), by_interval);
+        let configuration = self.path.kinematics.configuration;
+        let by_interval = configuration.uses_encke();
+        let known = Span::new(start_s, self.path.kinematics.trajectory.end_s());
+        if known.end_s > start_s {
+            return self.extend_disturbances(known, by_interval);
         }
         // Two integrations of some 40 evaluations, and the search for changes in between.
-        self.kinematics.spend_units(WorkKind::Orbit, 60, start_s)?;
-        self.kinematics.trajectory.close_segment(self.kinematics.configuration, start_s);
-        let before = *self.kinematics.trajectory;
+        self.path.kinematics.spend_units(WorkKind::Orbit, 60, start_s)?;
+        self.path.kinematics.trajectory.close_segment(configuration, start_s);
+        let before = *self.path.kinematics.trajectory;
         self.integrate(f64::INFINITY, |_| Vector3::zeros())?;
-        if self.kinematics.configuration.motion.has_nongravitational_forces() && !by_interval {
-            let lit_s = self.extend_disturbances(start_s, self.kinematics.trajectory.end_s(), false)?;
-            let mut end_s = self.kinematics.smooth_until(start_s, lit_s);
+        if configuration.motion.has_nongravitational_forces() && !by_interval {
+            let predicted = Span::new(start_s, self.path.kinematics.trajectory.end_s());
+            let lit_s = self.extend_disturbances(predicted, false)?;
+            let mut end_s = self.path.kinematics.smooth_until(start_s, lit_s);
             let acceleration_m_s2 = loop {
-                let fitted = Segment::<3, NODES>::fit(start_s, end_s, |at_s| {
-                    self.sample(at_s).acceleration_inertial_m_s2
-                });
-                if self.kinematics.configuration.motion.resolves(&fitted) {
+                let acceleration_m_s2 = |at_s: f64| self.sample(at_s).acceleration_inertial_m_s2;
+                let fitted = Segment::<3, NODES>::fit(start_s, end_s, acceleration_m_s2);
+                if configuration.motion.resolves(&fitted) {
                     break fitted;
                 }
-                self.kinematics.spend_units(WorkKind::Orbit, NODES as u32, start_s)?;
+                self.path.kinematics.spend_units(WorkKind::Orbit, NODES as u32, start_s)?;
                 end_s = 0.5 * (start_s + end_s);
             };
-            *self.kinematics.trajectory = before;
+            *self.path.kinematics.trajectory = before;
             self.integrate(end_s, |at_s| acceleration_m_s2.value(at_s))?;
             // Those ahead began on the predicted orbit.
-            self.kinematics.command_slews.forget_after(start_s);
+            self.path.kinematics.command_slews.forget_after(start_s);
         }
-        let end_s = self.kinematics.trajectory.end_s();
+        let end_s = self.path.kinematics.trajectory.end_s();
         // Written so that a NaN is stuck too.
         if end_s > start_s {
-            self.extend_disturbances(start_s, end_s, true)
+            self.extend_disturbances(Span { start_s, end_s }, true)
         } else {
             Err(PlantError::Stuck { start_s, end_s })
+        }
+    }
+
+    /// Whether the Sun's direction has to be chosen at `start_s`, where a segment begins, before it can be made ready.
+    pub(crate) fn must_choose(&mut self, start_s: f64) -> bool {
+        let attitude = &self.path.kinematics.configuration.attitude;
+        matches!(attitude, AttitudeSource::Guided(guided) if guided.managed) && {
+            let regime = self.path.kinematics.instant(start_s).regime;
+            self.sun_choice.is_due(regime.downlink, regime.row)
         }
     }
 
@@ -269,13 +245,13 @@ impl<'a> Plant<'a> {
         limit_s: f64,
         extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
     ) -> Result<(), PlantError> {
-        let Kinematics { configuration, trajectory, ephemeris, .. } = &mut self.kinematics;
-        let method = self.prepared.orbit_method;
+        let Kinematics { configuration, spacecraft, trajectory, ephemeris, .. } = &mut self.path.kinematics;
+        let method = spacecraft.orbit_method;
         let shortened = trajectory.advance(configuration, ephemeris, method, limit_s, extra_m_s2)?;
         if shortened > 0 {
             // Between bodies a segment is tried until it is short enough: some 40 times the gravity of all of them a trial.
-            let end_s = self.kinematics.trajectory.end_s();
-            self.kinematics.spend_units(WorkKind::Orbit, 60 * shortened, end_s)?;
+            let end_s = self.path.kinematics.trajectory.end_s();
+            self.path.kinematics.spend_units(WorkKind::Orbit, 60 * shortened, end_s)?;
         }
         Ok(())
     }
@@ -289,40 +265,31 @@ impl TorqueModel for Plant<'_> {
         Ok((until_s, instant.frame.inertial_from_body))
     }
 
-    fn must_choose(&mut self, start_s: f64) -> bool {
-        match &self.kinematics.configuration.attitude {
-            AttitudeSource::Guided(guided) if guided.managed => {
-                let regime = self.kinematics.instant(start_s).regime;
-                self.sun_choice.is_due(regime.downlink, regime.row)
-            }
-            _ => false,
-        }
-    }
-
     fn sample(&mut self, time_s: f64) -> TorqueSample {
         let evaluation = self.evaluate(time_s);
+        let Kinematics { configuration, spacecraft, .. } = &self.path.kinematics;
         let [_, acceleration_inertial_m_s2] = evaluation.force_and_acceleration_inertial();
         TorqueSample {
             inertial_from_body: evaluation.instant.frame.inertial_from_body,
             rate_body_rad_s: evaluation.instant.frame.rate_body_rad_s,
-            structure_body_n_m_s: self.has_panel_mass().then(|| evaluation.structure_body_n_m_s()),
+            structure_body_n_m_s: spacecraft.has_panel_mass().then(|| evaluation.structure_body_n_m_s()),
             torque_body_n_m: evaluation.loads.total().torque_body_n_m,
-            by_source_body_n_m: torques_body_n_m(&evaluation.loads, self.kinematics.configuration.effects),
+            by_source_body_n_m: torques_body_n_m(&evaluation.loads, configuration.effects),
             acceleration_inertial_m_s2,
             events: evaluation.instant.events,
         }
     }
 
     fn inertial_from_body(&mut self, time_s: f64) -> Rotation3<f64> {
-        self.kinematics.inertial_from_body(time_s)
+        self.path.kinematics.inertial_from_body(time_s)
     }
 
     fn events(&mut self, time_s: f64) -> EventValues {
-        self.kinematics.events(time_s)
+        self.path.kinematics.events(time_s)
     }
 
     fn time_rounding_s(&self, time_s: f64) -> f64 {
-        self.kinematics.time_rounding_s(time_s)
+        self.path.kinematics.time_rounding_s(time_s)
     }
 
     fn spend(&mut self, kind: WorkKind, time_s: f64) -> Result<(), PlantError> {
@@ -333,8 +300,9 @@ impl TorqueModel for Plant<'_> {
             WorkKind::Dump => 16,
             WorkKind::Light | WorkKind::Orbit | WorkKind::Ephemeris | WorkKind::Air => 1,
         };
-        let faces = self.prepared.solar.face_count() as u32;
-        let units = Self::SAMPLE_UNITS + faces / 50 + self.sources.load_units(self.kinematics.configuration);
-        self.kinematics.spend_units(kind, samples * units, time_s)
+        let Kinematics { configuration, spacecraft, .. } = &self.path.kinematics;
+        let faces = spacecraft.solar.face_count() as u32;
+        let units = Self::SAMPLE_UNITS + faces / 50 + self.sources.load_units(configuration);
+        self.path.kinematics.spend_units(kind, samples * units, time_s)
     }
 }

@@ -37,7 +37,7 @@ impl SimulationContext {
     /// Context of this configuration with full tanks, without light and heat beyond direct sunlight.
     pub fn new(configuration: Configuration) -> Self {
         Self {
-            current_mass_panels_stowed: configuration.wet_mass_properties(),
+            current_mass_panels_stowed: configuration.wet_mass,
             models: SimulationModels::default(),
             allocator: ThrusterAllocator::default(),
             fork: Box::new(ForkScratch { configuration: configuration.clone(), states: Default::default() }),

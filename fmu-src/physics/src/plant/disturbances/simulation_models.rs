@@ -3,7 +3,6 @@
 use crate::environment::ephemeris::Ephemeris;
 use crate::momentum::WorkKind;
 use crate::plant::settings::digest::Digest;
-use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::settings::work::{Work, WorkExceeded};
 use crate::plant::sources::Sources;
 use crate::radiation::SolarModel;
@@ -32,11 +31,6 @@ impl Default for SimulationModels {
 }
 
 impl SimulationModels {
-    /// The spacecraft in sunlight as it is here.
-    pub(crate) fn in_sunlight<'c>(&'c self, prepared: PreparedSpacecraft<'c>) -> PreparedSpacecraft<'c> {
-        PreparedSpacecraft { solar: self.solar.as_ref().unwrap_or(prepared.solar), ..prepared }
-    }
-
     /// Sets the material with this index where it differs from the present one; allocates nothing.
     pub fn set_material(&mut self, place: usize, material: &Material) {
         let Self { solar, sources, .. } = self;

@@ -9,15 +9,16 @@ use crate::loads::ForceTorque;
 use crate::momentum::{TorqueModel, Totals};
 
 use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
+use super::fork::ForkOrigin;
 use crate::momentum::WorkKind;
 use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::External;
 use crate::plant::disturbances::plant::Plant;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::settings::attitude_source::{Command, Turning};
+use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
-use crate::plant::settings::reaction_control_settings::ThrustCommand;
 use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::sources::Dipoles;
 use crate::plant::state::disturbance_interval::DisturbanceInterval;
@@ -51,6 +52,8 @@ pub struct StepContext<'a> {
     pub prepared: PreparedSpacecraft<'a>,
     /// Force and torque from outside.
     pub external: &'a External<'a>,
+    /// Inputs of the step.
+    pub inputs: &'a DynamicsInputs,
     /// Planner of the Sun's direction in downlinks and in science that unloads; called where the guidance is managed.
     pub planner: &'a SunPlanner<'a>,
     /// Units of about a microsecond that a step may take.
@@ -61,10 +64,11 @@ pub struct StepContext<'a> {
 
 impl<'a> StepContext<'a> {
     /// Context in which nothing advances and nothing acts from outside.
-    pub(super) fn at_rest(prepared: PreparedSpacecraft<'a>) -> Self {
+    pub(super) fn at_rest(prepared: PreparedSpacecraft<'a>, inputs: &'a DynamicsInputs) -> Self {
         Self {
             prepared,
             external: &|_| [ForceTorque::zero(); 2],
+            inputs,
             planner: &|_| Ok(None),
             work_limit: 0,
             log: &|_| {},
@@ -82,24 +86,17 @@ pub(crate) struct ConfiguredFlight<'a> {
     pub turning: Turning,
 }
 
-/// Start of a downlink, or of science that unloads, for which the Sun's direction is selected.
-struct SunSelectionStart {
-    law: Guided,
-    /// The camera's gimbal in science that unloads; `None` in a downlink.
-    gimbal: Option<Gimbal>,
-    momentum: StartMomentum,
-    /// Whether the planner may forecast.
-    forecasts: bool,
-    time_s: f64,
-    until_s: f64,
+/// Flight where the Sun's direction may be selected.
+pub(super) struct SunSelectionStart {
+    pub time_s: f64,
+    pub totals: Totals,
+    /// Momentum from which a choice of attitude counts.
+    pub momentum: StartMomentum,
+    /// Whether the flight begins there.
+    pub is_first: bool,
 }
 
 impl ConfiguredFlight<'_> {
-    /// Commands a delta-v from `time_s` on; true if that changes the present one.
-    pub(super) fn command_thrust(&mut self, command: &ThrustCommand, time_s: f64) -> bool {
-        self.thrusters.command_thrust(&self.context.allocator.settings, command, time_s)
-    }
-
     /// Time of the next edge of a valve or of an empty tank, in s.
     pub(super) fn next_thruster_edge_s(&self) -> f64 {
         self.thrusters.next_edge_s(&self.context.allocator.settings)
@@ -120,25 +117,20 @@ impl ConfiguredFlight<'_> {
         self.context.models.begin_work(self.given.work_limit);
         let mut plant = self.plant();
         plant.prepare(time_s, time_s)?;
-        Ok(plant.kinematics.attitude_by(law, time_s).frame)
+        Ok(plant.path.kinematics.attitude_by(law, time_s).frame)
     }
 
-    /// Selects the Sun's direction where a downlink has begun at `time_s`, or began right there and its momentum changed since;
+    /// Selects the Sun's direction where a downlink has begun at `start`, or began right there and its momentum changed since;
     /// where it is over, the next one may select. A downlink of the timeline is planned as long as the windows'. Science that
-    /// unloads is alike. At the `first` time of a flight nothing is forecast, and a downlink that has begun before keeps its
+    /// unloads is alike. Where a flight begins nothing is forecast, and a downlink that has begun before keeps its
     /// default attitude; science that has is planned for its remaining time.
-    pub(super) fn select_sun_direction(
-        &mut self,
-        time_s: f64,
-        totals: &Totals,
-        momentum: StartMomentum,
-        first: bool,
-    ) -> Result<(), PlantError> {
+    pub(super) fn select_sun_direction(&mut self, start: &SunSelectionStart) -> Result<(), PlantError> {
+        let SunSelectionStart { time_s, is_first, .. } = *start;
         let Some(law) = self.context.configuration.attitude.guided().copied().filter(|law| law.managed)
         else {
             return Ok(());
         };
-        let Some(guided) = self.plant().kinematics.guided_attitude(time_s) else { return Ok(()) };
+        let Some(guided) = self.plant().path.kinematics.guided_attitude(time_s) else { return Ok(()) };
         let downlink = guided.window.activity == Activity::Downlink;
         let gimbal = match law.science {
             ScienceRule::Unloading { gimbal, .. } if !downlink => Some(gimbal),
@@ -148,7 +140,7 @@ impl ConfiguredFlight<'_> {
         let choice = &mut self.propagator.sun_choice;
         let is_due = choice.is_due(downlink, guided.row);
         let is_anew = has_place && choice.in_force == downlink && choice.chosen_s == Some(time_s);
-        if !(is_due || is_anew || (first && gimbal.is_some())) {
+        if !(is_due || is_anew || (is_first && gimbal.is_some())) {
             return Ok(());
         }
         choice.in_force = downlink;
@@ -159,7 +151,7 @@ impl ConfiguredFlight<'_> {
             choice.row = guided.row;
         }
         // A dump at the very start changes nothing of it.
-        choice.chosen_s = (!first).then_some(time_s);
+        choice.chosen_s = (!is_first).then_some(time_s);
         let epoch_minus_time_s = self.context.configuration.epoch_minus_time_s;
         let now_epoch_s = time_s + epoch_minus_time_s;
         let (law, until_s) = match downlink && guided.row != 0 {
@@ -170,10 +162,9 @@ impl ConfiguredFlight<'_> {
             false => (law, end_epoch_s(&law.schedule, &guided.window, now_epoch_s) - epoch_minus_time_s),
         };
         let since_s = guided.window.since_s - epoch_minus_time_s;
-        let is_under_way = first && downlink && since_s < time_s - EPOCH_ROUNDING_S;
+        let is_under_way = is_first && downlink && since_s < time_s - EPOCH_ROUNDING_S;
         let is_ahead = until_s.is_finite() && until_s > time_s && !is_under_way;
-        let start = SunSelectionStart { law, gimbal, momentum, forecasts: !first, time_s, until_s };
-        let chosen = if is_ahead { self.plan_sun_direction(&start, totals)? } else { None };
+        let chosen = if is_ahead { self.plan_sun_direction(start, law, gimbal, until_s)? } else { None };
         let choice = &mut self.propagator.sun_choice;
         if downlink {
             choice.selected.downlink = chosen;
@@ -184,30 +175,31 @@ impl ConfiguredFlight<'_> {
         Ok(())
     }
 
-    /// Direction of the Sun that the planner selects for a window; `None`: on -Y.
+    /// Direction of the Sun that the planner selects for a window up to `until_s`, of science that unloads with the gimbal of its
+    /// camera; `None`: on -Y.
     fn plan_sun_direction(
         &mut self,
         start: &SunSelectionStart,
-        totals: &Totals,
+        law: Guided,
+        gimbal: Option<Gimbal>,
+        until_s: f64,
     ) -> Result<Option<SelectedSunDirection>, PlantError> {
-        let SunSelectionStart { law, gimbal, momentum, forecasts, time_s, until_s } = *start;
+        let SunSelectionStart { time_s, totals, momentum, is_first } = *start;
         let mut plant = self.plant();
         let instant = plant.instant(time_s);
-        let pressure_pa = plant.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
-        let separations_rad = plant.kinematics.separations_rad(time_s, until_s);
-        let science = gimbal.map(|gimbal| plant.kinematics.science_arc(gimbal, time_s, until_s));
+        let pressure_pa = plant.path.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
+        let separations_rad = plant.path.kinematics.separations_rad(time_s, until_s);
+        let science = gimbal.map(|gimbal| plant.path.kinematics.science_arc(gimbal, time_s, until_s));
         if science.is_some() {
             self.context.models.spend(WorkKind::Search, SCIENCE_UNITS, time_s)?;
         }
-        let [applied, _] = (self.given.external)(time_s);
+        let Self { given: StepContext { prepared, external, planner, .. }, context, propagator, .. } = self;
+        let [applied, _] = external(time_s);
         let mut downlink_forecast = DownlinkForecast {
-            prepared: self.given.prepared,
-            context: self.context,
-            propagator: self.propagator,
-            applied,
+            flight: ForkOrigin { prepared: *prepared, context, propagator, applied },
             law,
-            totals: *totals,
-            forecasts,
+            totals,
+            forecasts: !is_first,
             time_s,
             span_s: until_s - time_s,
             momentum,
@@ -218,7 +210,7 @@ impl ConfiguredFlight<'_> {
             separations_rad,
             science,
         };
-        (self.given.planner)(&mut downlink_forecast)
+        planner(&mut downlink_forecast)
     }
 
     /// Integrates the deviation of the orbit under thrust over the present segment of the motion, and with Encke's method under the
@@ -229,7 +221,7 @@ impl ConfiguredFlight<'_> {
         interval: &DisturbanceInterval,
         mass_kg: f64,
     ) -> Result<(), PlantError> {
-        let (load, configuration) = (self.thrusters.load(), &self.context.configuration);
+        let (load, configuration) = (&self.thrusters.load, &self.context.configuration);
         let trajectory = &mut self.propagator.trajectory;
         let span = Span::new(motion.start_s(), motion.end_s());
         let (thrusts, disturbed) = (!load.law.is_none(), configuration.motion.uses_encke());

@@ -5,17 +5,15 @@
 
 use nalgebra::Vector3;
 
-use super::fork::{ForecastMomentum, Fork, ForkStart};
+use super::fork::{ForecastMomentum, Fork, ForkOrigin};
 use crate::guidance::{Guided, ScienceArc, SelectedSunDirection};
-use crate::loads::ForceTorque;
 use crate::momentum::{Convention, Totals};
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::events;
 use crate::plant::settings::attitude_source::AttitudeSource;
+use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::sources::sunlight::sunlit::SunlitConfiguration;
-use crate::plant::state::propagator_state::PropagatorState;
 use crate::spacecraft::Material;
 
 /// Momentum where a downlink begins, in N m s.
@@ -51,10 +49,7 @@ pub type SunPlanner<'a> =
 
 /// Start of a downlink, or of science that unloads, from which it is forecast.
 pub struct DownlinkForecast<'o> {
-    pub(crate) prepared: PreparedSpacecraft<'o>,
-    pub(crate) context: &'o mut SimulationContext,
-    pub(crate) propagator: &'o PropagatorState,
-    pub(crate) applied: ForceTorque,
+    pub(super) flight: ForkOrigin<'o>,
     pub(crate) law: Guided,
     pub(crate) totals: Totals,
     pub(crate) forecasts: bool,
@@ -80,16 +75,21 @@ pub struct DownlinkForecast<'o> {
 
 impl DownlinkForecast<'_> {
     fn sunlit(&self) -> SunlitConfiguration<'_> {
-        let SimulationContext { configuration, current_mass_panels_stowed, .. } = &*self.context;
-        let spacecraft = self.context.models.in_sunlight(self.prepared);
-        let (time_s, sun_distance_m) = (self.time_s, self.sun_distance_m);
-        SunlitConfiguration::new(
-            spacecraft,
-            configuration,
-            current_mass_panels_stowed,
-            time_s,
-            sun_distance_m,
-        )
+        let ForkOrigin { prepared, context, .. } = &self.flight;
+        let SimulationContext { configuration, current_mass_panels_stowed, models, .. } = &**context;
+        SunlitConfiguration {
+            solar: models.solar.as_ref().unwrap_or(prepared.solar),
+            panels: prepared.panels,
+            settings: &configuration.panels,
+            current_mass_panels_stowed: *current_mass_panels_stowed,
+            time_s: self.time_s,
+            sun_distance_m: self.sun_distance_m,
+        }
+    }
+
+    /// Settings of the flight.
+    pub(crate) fn configuration(&self) -> &Configuration {
+        &self.flight.context.configuration
     }
 
     /// Materials of the spacecraft's faces.
@@ -117,15 +117,8 @@ impl DownlinkForecast<'_> {
         step_s: f64,
         mut visit: impl FnMut(ForecastMomentum),
     ) -> Result<(), PlantError> {
-        let start = ForkStart {
-            prepared: self.prepared,
-            propagator: self.propagator,
-            attitude: AttitudeSource::Guided(Guided { managed: false, ..self.law }),
-            applied: self.applied,
-            time_s: self.time_s,
-            totals: self.totals,
-        };
-        let mut fork = Fork::new(self.context, &start);
+        let attitude = AttitudeSource::Guided(Guided { managed: false, ..self.law });
+        let mut fork = Fork::new(&mut self.flight, attitude, self.totals, self.time_s);
         fork.deselect_sun_directions();
         fork.coarsen(self.time_s, step_s);
         times_s.try_for_each(|at_s| {

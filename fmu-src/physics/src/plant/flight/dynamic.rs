@@ -10,18 +10,20 @@ use nalgebra::Vector3;
 use crate::attitude::control::ControlTarget;
 use crate::attitude::{Attitude, BodyMotion, MotionAt};
 use crate::loads::{Effect, ForceTorque, Writer};
-use crate::momentum::{DumpEvent, Totals, WorkKind};
+use crate::momentum::{DumpEvent, WorkKind};
+use crate::numerics::Span;
 use crate::spacecraft::MassProperties;
 
-use super::configured::ConfiguredFlight;
+use super::configured::{ConfiguredFlight, SunSelectionStart};
 use super::downlink_forecast::StartMomentum;
 use super::grid_edge;
+use super::report::dynamic_totals;
 use crate::plant::control::control_loop::{Actuators, Sampled};
 use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::events::{EventKind, Eventful, LastEvents};
 use crate::plant::settings::attitude_source::{AttitudeSource, Command};
-use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings, Tracked};
+use crate::plant::settings::dynamics_settings::{DynamicsSettings, Tracked};
 use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::sources::applied::APPLIED;
@@ -37,8 +39,6 @@ pub(super) struct Dynamic<'f> {
     pub state: &'f mut DynamicState,
     /// Settings; the gyrostat's mass properties are those of the current mass.
     pub settings: &'f mut DynamicsSettings,
-    /// Inputs of the step.
-    pub inputs: &'f DynamicsInputs,
     /// The flight that advances.
     pub flight: ConfiguredFlight<'f>,
     /// The distribution of torque over the wheels.
@@ -149,18 +149,19 @@ impl Eventful for Dynamic<'_> {
 
 impl Dynamic<'_> {
     /// Applies the requests of a step from its start on: dumps, pulses, thrust.
-    pub(super) fn apply_requests(&mut self, [start_s, end_s]: [f64; 2]) -> Result<(), PlantError> {
-        if self.inputs.maneuver.is_some() {
+    pub(super) fn apply_requests(&mut self, step: Span) -> Result<(), PlantError> {
+        let (inputs, start_s) = (self.flight.given.inputs, step.start_s);
+        if inputs.maneuver.is_some() {
             return Err(PlantError::Maneuver { time_s: start_s, why: ManeuverError::ByTorque });
         }
-        if let Some(target_body_n_m_s) = self.inputs.dump_to_body_n_m_s {
+        if let Some(target_body_n_m_s) = inputs.dump_to_body_n_m_s {
             self.state.cut(start_s, false);
             self.dump_to(target_body_n_m_s);
         }
-        let Self { inputs, flight, .. } = self;
-        let settings = &flight.context.allocator.settings;
-        let pulses = flight.thrusters.command_pulses(settings, &inputs.pulses, [start_s, end_s]);
-        if flight.command_thrust(&inputs.thrust, start_s) || pulses {
+        let ConfiguredFlight { thrusters, context, .. } = &mut self.flight;
+        let settings = &context.allocator.settings;
+        let pulses = thrusters.command_pulses(settings, &inputs.pulses, step);
+        if thrusters.command_thrust(settings, &inputs.thrust, start_s) || pulses {
             self.state.cut(start_s, false);
         }
         Ok(())
@@ -169,7 +170,7 @@ impl Dynamic<'_> {
     /// Attitude of a fork from `time_s` on: the commanded one, followed ideally; without a command the present one, held.
     pub(super) fn ideal_attitude(&self, time_s: f64) -> AttitudeSource {
         let guided = self.flight.context.configuration.attitude.guided();
-        match (&self.settings.control, self.inputs.tracked, guided) {
+        match (&self.settings.control, self.flight.given.inputs.tracked, guided) {
             (Some(_), Tracked::Guidance, Some(law)) => AttitudeSource::Guided(*law),
             (Some(_), Tracked::Attitude(command), _) => AttitudeSource::Commanded(command),
             _ => AttitudeSource::Commanded(Command {
@@ -185,8 +186,7 @@ impl Dynamic<'_> {
         let Self { state, settings, flight, .. } = self;
         settings.set_mass_properties(&state.mass.now);
         let context = &mut *flight.context;
-        context.current_mass_panels_stowed =
-            state.mass.stowed.unwrap_or_else(|| context.configuration.wet_mass_properties());
+        context.current_mass_panels_stowed = state.mass.stowed.unwrap_or(context.configuration.wet_mass);
     }
 
     /// The motion at its end.
@@ -198,10 +198,11 @@ impl Dynamic<'_> {
     /// Closes the accounts of the segment that ends: momentum by effect, mass, impulse and propellant; and takes the wheels' inputs.
     fn close_accounts(&mut self, time_s: f64) {
         let end = self.end();
-        let Self { state, settings, flight, inputs, .. } = self;
+        let Self { state, settings, flight, .. } = self;
+        let inputs = flight.given.inputs;
         state.dumps.accumulate(&state.motion, &end, state.dumps.is_dumping(flight.thrusters, time_s));
         let thruster_settings = &flight.context.allocator.settings;
-        if !flight.thrusters.load().law.is_none() {
+        if !flight.thrusters.load.law.is_none() {
             let tanks = &thruster_settings.tanks;
             let mass = flight.thrusters.propellant.mass_properties_since(&state.mass.now, tanks, time_s);
             grid_edge::set_mass(state, settings, mass);
@@ -218,7 +219,7 @@ impl Dynamic<'_> {
         let Self { state, settings, flight, .. } = self;
         grid_edge::turn_mass(state, settings, flight);
         let used_kg = flight.thrusters.propellant.total_used_kg(time_s);
-        state.mass.now.mass_kg = flight.context.configuration.mass_kg - used_kg;
+        state.mass.now.mass_kg = flight.context.configuration.wet_mass.mass_kg - used_kg;
         flight.thrusters.update_load(&flight.context.allocator.settings, &state.mass.now, time_s);
     }
 
@@ -231,13 +232,13 @@ impl Dynamic<'_> {
     /// Sensors, watch of the momentum, controller.
     fn sample(&mut self) -> Result<(), PlantError> {
         let MotionAt { time_s, body, .. } = self.end();
-        let Self { state, settings, flight, inputs, .. } = self;
+        let Self { state, settings, flight, .. } = self;
         let sun = state.disturbance.sun_at(time_s);
-        let number = state.sensing.sample(settings, inputs, time_s, &body, sun);
+        let number = state.sensing.sample(settings, flight.given.inputs, time_s, &body, sun);
         let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
         let is_free = state.dumps.are_over(flight.thrusters) && !state.control.by_thrusters;
         let policy = flight.context.configuration.momentum.policy;
-        if is_free && flight.thrusters.burning().is_none() && policy.exceeded(&momentum_body) {
+        if is_free && flight.thrusters.valves.burning().is_none() && policy.exceeded(&momentum_body) {
             self.begin_dump(&momentum_body, policy.after(&momentum_body));
             self.state.dumps.dumps.check()?;
         }
@@ -271,7 +272,7 @@ impl Dynamic<'_> {
 
     /// Returns the attitude and rate that the controller tracks at the end of the motion.
     fn target(&mut self, time_s: f64, body: &BodyMotion) -> ControlTarget {
-        let command = match self.inputs.tracked {
+        let command = match self.flight.given.inputs.tracked {
             Tracked::Rate(rate_body_rad_s) => return ControlTarget::RateOnly { rate_body_rad_s },
             Tracked::Attitude(command) => command,
             Tracked::Guidance => self.guided(time_s, body),
@@ -286,28 +287,23 @@ impl Dynamic<'_> {
     fn guided(&mut self, time_s: f64, body: &BodyMotion) -> Command {
         let Self { state: DynamicState { control, sensing, .. }, flight, .. } = self;
         control.guidance_at(time_s).unwrap_or_else(|| {
-            let guided = flight.plant_at(time_s, body).kinematics.guided_attitude(time_s);
+            let guided = flight.plant_at(time_s, body).path.kinematics.guided_attitude(time_s);
             control.guide(time_s, guided.as_ref(), &sensing.estimate)
         })
     }
 
     /// Selects the Sun's direction where guidance is sampled.
     fn select_sun_direction(&mut self) -> Result<(), PlantError> {
-        let MotionAt { time_s, body, .. } = self.end();
-        let totals = Totals {
-            momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,
-            torque_integral_body_n_m_s: Vector3::zeros(),
-            delta_v_inertial_m_s: body.delta_v_inertial_m_s,
-        };
-        let momentum = StartMomentum::Inertial(body.momentum_inertial_n_m_s);
-        let is_first = self.state.control.is_unguided();
-        self.flight.select_sun_direction(time_s, &totals, momentum, is_first)
+        let end = self.end();
+        let momentum = StartMomentum::Inertial(end.body.momentum_inertial_n_m_s);
+        let (time_s, totals, is_first) = (end.time_s, dynamic_totals(&end), self.state.control.is_unguided());
+        self.flight.select_sun_direction(&SunSelectionStart { time_s, totals, momentum, is_first })
     }
 
     /// Whether guidance is sampled anew with a sample at `time_s`.
     fn samples_guidance(&self, time_s: f64) -> bool {
         self.settings.control.is_some()
-            && matches!(self.inputs.tracked, Tracked::Guidance)
+            && matches!(self.flight.given.inputs.tracked, Tracked::Guidance)
             && self.state.control.guidance_at(time_s).is_none()
     }
 
@@ -347,14 +343,14 @@ impl Dynamic<'_> {
     pub(super) fn evaluation(&mut self, at: &MotionAt) -> Evaluation {
         let MotionAt { time_s, body, .. } = *at;
         let Self { state, settings, flight, .. } = self;
-        let loaded = flight.context.configuration.wet_mass_properties();
+        let loaded = flight.context.configuration.wet_mass;
         flight.context.current_mass_panels_stowed = flight.used_mass(&loaded, time_s).unwrap_or(loaded);
         let mass_kg = loaded.mass_kg - flight.thrusters.propellant.total_used_kg(time_s);
         let mut plant = flight.plant_at(time_s, &body);
         let instant = plant.instant(time_s);
-        let mass = MassProperties { mass_kg, ..plant.mass_properties(&instant, time_s) };
-        let panels_body_n_m_s = plant.panel_momentum_body_n_m_s(&instant, &mass, time_s);
-        let air_and_field = plant.air_and_field(time_s);
+        let mass = MassProperties { mass_kg, ..plant.mass_properties(&instant) };
+        let panels_body_n_m_s = plant.panel_momentum_body_n_m_s(&instant, &mass);
+        let air_and_field = plant.path.air_and_field(time_s);
         let mut loads = state.disturbance.loads_at(time_s);
         for (row, dipole) in Effect::FIELD.into_iter().zip(flight.dipoles(time_s)) {
             if let Some([dipole_body_a_m2, _]) = dipole.filter(|[now, _]| *now != Vector3::zeros()) {
@@ -374,7 +370,7 @@ impl Dynamic<'_> {
             }
         }
         [loads[APPLIED], _] = (flight.given.external)(time_s);
-        let thrusters = flight.thrusters.load();
+        let thrusters = &flight.thrusters.load;
         loads[THRUSTERS] = ForceTorque {
             force_body_n: thrusters.law.force_at_n(time_s),
             torque_body_n_m: thrusters.torque_at_n_m(time_s, &body.rate_body_rad_s),

@@ -5,7 +5,7 @@
 //! flight's own attitude it has the flight's own segments, to the bit.
 
 use super::configured::ConfiguredFlight;
-use super::fork::{Fork, ForkStart};
+use super::fork::{Fork, ForkOrigin};
 use crate::environment::orbit::{BPlane, Collision, OrbitIntegrationError};
 use crate::loads::ForceTorque;
 use crate::momentum::Totals;
@@ -39,9 +39,8 @@ pub(super) fn predict_encounter(
     if let AttitudeSource::Guided(law) = &mut attitude {
         law.managed = false;
     }
-    let totals = Totals::default();
-    let start = ForkStart { prepared: given.prepared, propagator, attitude, applied, time_s, totals };
-    let mut fork = Fork::new(context, &start);
+    let mut origin = ForkOrigin { prepared: given.prepared, context, propagator, applied };
+    let mut fork = Fork::new(&mut origin, attitude, Totals::default(), time_s);
     if is_another || slope != ForceTorque::zero() {
         fork.cut(time_s);
     }

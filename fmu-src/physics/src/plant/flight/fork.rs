@@ -49,20 +49,13 @@ pub struct ForecastMomentum {
     pub body_from_inertial: Rotation3<f64>,
 }
 
-/// Start of a fork, and what it holds from there on.
-pub(super) struct ForkStart<'f> {
-    /// The spacecraft.
+/// Flight from which a fork begins.
+pub(super) struct ForkOrigin<'f> {
     pub prepared: PreparedSpacecraft<'f>,
-    /// State of the flight.
+    pub context: &'f mut SimulationContext,
     pub propagator: &'f PropagatorState,
-    /// Attitude of the fork.
-    pub attitude: AttitudeSource,
-    /// Applied from outside.
+    /// Applied from outside; the fork holds it.
     pub applied: ForceTorque<f64>,
-    /// When, in s.
-    pub time_s: f64,
-    /// Momentum and velocity change so far.
-    pub totals: Totals,
 }
 
 /// A fork: copies of settings and state, which it changes for itself, and the flight's models.
@@ -139,25 +132,31 @@ impl Eventful for Fork<'_> {
 }
 
 impl<'f> Fork<'f> {
-    /// Begins where the flight is.
-    pub(super) fn new(context: &'f mut SimulationContext, start: &ForkStart<'f>) -> Self {
-        let SimulationContext { configuration, current_mass_panels_stowed, models, fork, .. } = context;
+    /// Begins at `time_s`, where the flight is, in this attitude.
+    pub(super) fn new(
+        flight: &'f mut ForkOrigin<'_>,
+        attitude: AttitudeSource,
+        totals: Totals,
+        time_s: f64,
+    ) -> Self {
+        let SimulationContext { configuration, current_mass_panels_stowed, models, fork, .. } =
+            &mut *flight.context;
         let ForkScratch { configuration: own_configuration, states: [propagator, first, second] } =
             &mut **fork;
         own_configuration.copy_from(configuration);
-        own_configuration.attitude = start.attitude;
-        propagator.copy_from(start.propagator);
-        let mut last = LastEvents::before(start.time_s);
+        own_configuration.attitude = attitude;
+        propagator.copy_from(flight.propagator);
+        let mut last = LastEvents::before(time_s);
         // Those of this time are over.
-        *last.of_kind(EventKind::Schedule) = LastEvent::until(start.time_s);
+        *last.of_kind(EventKind::Schedule) = LastEvent::until(time_s);
         Self {
-            prepared: start.prepared,
+            prepared: flight.prepared,
             models,
             configuration: own_configuration,
             current_mass_panels_stowed: *current_mass_panels_stowed,
             propagator,
-            integrator: MomentumIntegrator::new(start.time_s, start.totals),
-            applied: [start.applied, ForceTorque::zero()],
+            integrator: MomentumIntegrator::new(time_s, totals),
+            applied: [flight.applied, ForceTorque::zero()],
             last,
             waypoints: [(None, first), (None, second)],
         }
@@ -278,8 +277,8 @@ impl<'f> Fork<'f> {
         let external = |_: f64| applied;
         let (mut plant, integrator) = self.plant(&external);
         let instant = plant.instant(time_s);
-        let pressure_pa = plant.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
-        let convention = plant.kinematics.configuration.momentum.convention;
+        let pressure_pa = plant.path.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
+        let convention = plant.path.kinematics.configuration.momentum.convention;
         let (totals, inertial_from_body) = (integrator.totals(time_s), instant.frame.inertial_from_body);
         ForecastMomentum {
             time_s,

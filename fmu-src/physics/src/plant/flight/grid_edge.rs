@@ -43,12 +43,12 @@ pub(super) fn begin(
     let unit = attitude.unit_quaternion();
     let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = [Vector3::zeros(); 2];
     let body = BodyMotion { attitude: unit, rate_body_rad_s, momentum_inertial_n_m_s, delta_v_inertial_m_s };
-    let mut mass = flight.context.configuration.wet_mass_properties();
+    let mut mass = flight.context.configuration.wet_mass;
     if settings.panels_have_mass {
         let still = BodyMotion { rate_body_rad_s: Vector3::zeros(), ..body };
         let mut plant = flight.plant_at(time_s, &still);
         let instant = plant.instant(time_s);
-        mass = plant.mass_properties(&instant, time_s);
+        mass = plant.mass_properties(&instant);
         settings.set_mass_properties(&mass);
     }
     let gyrostat = &settings.gyrostat;
@@ -57,7 +57,7 @@ pub(super) fn begin(
         motion: GyrostatMotion::new(gyrostat, time_s, unit, &rate_body_rad_s, wheel_n_m_s),
         mass: MassState::new(mass),
         panels: PanelMotion::default(),
-        disturbance: DisturbanceInterval::before(),
+        disturbance: DisturbanceInterval::default(),
         sensing: Sensing::new(settings, time_s, attitude, rate_body_rad_s),
         control: ControlLoop::new(gyrostat.wheels().len(), time_s, attitude, rate_body_rad_s),
         dumps: MomentumDumps::default(),
@@ -66,7 +66,7 @@ pub(super) fn begin(
     if settings.panels_have_mass {
         let mut plant = flight.plant_at(time_s, &body);
         let instant = plant.instant(time_s);
-        begun.panels = PanelMotion::at_start(plant.hinged(), &instant, time_s);
+        begun.panels = PanelMotion::at_start(plant.hinged(), &instant);
         let internal = begun.panels.internal(flight.given.prepared.panels, &mass, begun.motion.end_s());
         begun.motion.add_hinges(internal);
     }
@@ -83,7 +83,7 @@ pub(super) fn begin_interval(
     let time_s = state.motion.end_s();
     let body = state.motion.at(&settings.gyrostat, time_s);
     let context = &mut *flight.context;
-    let loaded = context.configuration.wet_mass_properties();
+    let loaded = context.configuration.wet_mass;
     state.mass.stowed = flight.thrusters.mass_properties_stowed(&context.allocator.settings, &loaded, time_s);
     context.current_mass_panels_stowed = state.mass.stowed.unwrap_or(loaded);
     let begins = state.disturbance.is_before();
@@ -106,14 +106,14 @@ pub(super) fn begin_interval(
     deviate(&state.disturbance, &mut plant)?;
     if settings.panels_have_mass || state.mass.stowed.is_some() || has_thrusters {
         let instant = plant.instant(time_s);
-        set_known_mass(state, settings, plant.mass_properties(&instant, time_s));
+        set_known_mass(state, settings, plant.mass_properties(&instant));
     }
     if settings.panels_have_mass {
         let was_turning = state.panels.is_turning();
         let hinged = plant.hinged();
         let end_s = hinged.configuration.last_of_panels_s(time_s, state.disturbance.end_s());
         let [now, end] = [time_s, end_s].map(|at_s| plant.instant(at_s));
-        state.panels.turn_until(hinged, &now, &end, end_s);
+        state.panels.turn_until(hinged, &now, &end);
         if was_turning || state.panels.is_turning() {
             turn_mass(state, settings, flight);
             let internal = state.panels.internal(flight.given.prepared.panels, &state.mass.now, time_s);
@@ -143,7 +143,7 @@ fn predicted_rate_terms(
     // A pulse that ends before the interval says little of it.
     let steady_until_s = flight.next_thruster_edge_s().min(state.dumps.until_s());
     if steady_until_s >= time_s + settings.grid_s {
-        let [turn, turn_slope] = flight.thrusters.load().law.torque_body_n_m;
+        let [turn, turn_slope] = flight.thrusters.load.law.torque_body_n_m;
         torque += state.dumps.torque_body_n_m() + turn;
         slope += turn_slope;
     }
@@ -188,7 +188,7 @@ pub(super) fn turn_mass(
         return;
     }
     let time_s = state.motion.end_s();
-    let loaded = flight.context.configuration.wet_mass_properties();
+    let loaded = flight.context.configuration.wet_mass;
     let left = state.mass.stowed.and_then(|_| flight.used_mass(&loaded, time_s)).unwrap_or(loaded);
     set_mass(state, settings, state.panels.mass_properties(&left, flight.given.prepared.panels, time_s));
 }

@@ -11,10 +11,9 @@ use nalgebra::Vector3;
 use crate::attitude::Attitude;
 use crate::momentum::{DumpEvent, PreparedSegment, TorqueModel, Totals, WorkKind};
 
-use super::configured::ConfiguredFlight;
+use super::configured::{ConfiguredFlight, SunSelectionStart};
 use super::downlink_forecast::StartMomentum;
 use crate::plant::events::{self, EventKind, Eventful, LastEvents};
-use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::ideal_settings::IdealSettings;
 use crate::plant::settings::thruster_events::{Maneuver, ThrusterEvent};
@@ -27,8 +26,6 @@ pub(super) struct Ideal<'f> {
     pub state: &'f mut IdealState,
     /// Settings of wheels and sensors.
     pub settings: &'f IdealSettings,
-    /// Inputs of the step.
-    pub inputs: &'f DynamicsInputs,
     /// The flight that advances.
     pub flight: ConfiguredFlight<'f>,
     /// The segment that begins next.
@@ -116,7 +113,8 @@ impl<'f> Ideal<'f> {
         flight.context.models.begin_work(flight.given.work_limit);
         let frame = flight.plant().instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-        flight.select_sun_direction(time_s, &totals, StartMomentum::Body(momentum_body_n_m_s), true)?;
+        let momentum = StartMomentum::Body(momentum_body_n_m_s);
+        flight.select_sun_direction(&SunSelectionStart { time_s, totals, momentum, is_first: true })?;
         flight.context.models.begin_work(flight.given.work_limit);
         let mut plant = flight.plant();
         plant.prepare(time_s, time_s)?;
@@ -125,16 +123,15 @@ impl<'f> Ideal<'f> {
         let mut begun = IdealState::new(time_s, held, totals);
         flight.context.models.begin_work(flight.given.work_limit);
         flight.propagator.panel_turns.restart();
-        let inputs = &DynamicsInputs::default();
-        let mut ideal = Ideal { state: &mut begun, settings, inputs, flight, prepared: None };
+        let mut ideal = Ideal { state: &mut begun, settings, flight, prepared: None };
         events::advance(&mut ideal, time_s)?;
         Ok(begun)
     }
 
     /// Applies the requests of a step from `start_s` on: a maneuver, a dump.
     pub(super) fn apply_requests(&mut self, start_s: f64) -> Result<(), PlantError> {
-        let mut target = self.inputs.dump_to_body_n_m_s;
-        if let Some(maneuver) = self.inputs.maneuver {
+        let mut target = self.flight.given.inputs.dump_to_body_n_m_s;
+        if let Some(maneuver) = self.flight.given.inputs.maneuver {
             self.maneuver(start_s, &maneuver)?;
             let requested = self.flight.context.configuration.thruster_events.requested_body_n_m_s;
             target = target.or(maneuver.dumps.then_some(requested));
@@ -214,7 +211,7 @@ impl<'f> Ideal<'f> {
         let totals = self.state.integrator.totals(time_s);
         let convention = self.flight.context.configuration.momentum.convention;
         let momentum = StartMomentum::from_totals(&totals, convention);
-        self.flight.select_sun_direction(time_s, &totals, momentum, false)
+        self.flight.select_sun_direction(&SunSelectionStart { time_s, totals, momentum, is_first: false })
     }
 
     /// Dumps as far as the tanks feed the thrusters: momentum, propellant, push and mass properties after it. A dump that nothing
@@ -226,7 +223,7 @@ impl<'f> Ideal<'f> {
         if !self.flight.context.allocator.settings.thrusters.is_empty() {
             let mut plant = self.flight.plant();
             let instant = plant.instant(time_s);
-            let mass = plant.mass_properties(&instant, time_s);
+            let mass = plant.mass_properties(&instant);
             let mut at_once = self.flight.thrusters.at_once(&mut self.flight.context.allocator, time_s);
             let given = at_once.dump(due, &mass.center_of_mass_body_m);
             let Some(given) = given else { return };

@@ -3,11 +3,11 @@
 use crate::attitude::MotionAt;
 use crate::attitude::control::{sample_number, sensed_sun};
 use crate::momentum::Totals;
+use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::events;
 use crate::plant::motion::instant::Instant;
 use crate::plant::settings::attitude_source::{AttitudeSource, Command};
-use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::ideal_settings::IdealSettings;
 use crate::plant::state::encounter_prediction::EncounterPrediction;
@@ -16,13 +16,14 @@ use crate::radiation::SolarModel;
 
 use super::configured::ConfiguredFlight;
 use super::dynamic::Dynamic;
+use super::flight_setup::Evaluated;
 use super::ideal::Ideal;
-use super::report::{BySource, ReachedState, Report, dynamic, dynamic_totals, ideal};
+use super::report::{ReachedState, Report, dynamic, dynamic_totals, ideal};
 
 /// A flight in one step.
 pub(super) enum InFlight<'f> {
     /// The attitude is held, and nothing acts.
-    Waiting { settings: &'f IdealSettings, inputs: &'f DynamicsInputs, flight: ConfiguredFlight<'f> },
+    Waiting { settings: &'f IdealSettings, flight: ConfiguredFlight<'f> },
     /// The attitude is followed ideally.
     Ideal(Ideal<'f>),
     /// The body turns by torque.
@@ -40,11 +41,11 @@ impl<'f> InFlight<'f> {
     }
 
     /// Applies the requests of a step.
-    pub(super) fn apply_requests(&mut self, span_s: [f64; 2]) -> Result<(), PlantError> {
+    pub(super) fn apply_requests(&mut self, step: Span) -> Result<(), PlantError> {
         match self {
             Self::Waiting { .. } => Ok(()),
-            Self::Ideal(it) => it.apply_requests(span_s[0]),
-            Self::Dynamic(it) => it.apply_requests(span_s),
+            Self::Ideal(it) => it.apply_requests(step.start_s),
+            Self::Dynamic(it) => it.apply_requests(step),
         }
     }
 
@@ -68,13 +69,17 @@ impl<'f> InFlight<'f> {
         }
     }
 
-    /// Evaluates geometry, attitude and loads at `time_s`, where the flight has come; one that waits holds the attitude of `held`.
+    /// Evaluates geometry and attitude at `time_s`, where the flight has come, and its loads, of an attitude that is followed ideally only
+    /// `with_loads`; a flight that waits holds the attitude of `held`.
     pub(super) fn evaluate(
         &mut self,
         held: &Command,
-        evaluation: &mut Option<Evaluation>,
+        evaluated: &mut Evaluated,
+        with_loads: bool,
         time_s: f64,
     ) -> ReachedState {
+        let Evaluated { evaluation, applied } = evaluated;
+        *applied = None;
         match self {
             Self::Dynamic(it) => {
                 it.resume();
@@ -86,7 +91,13 @@ impl<'f> InFlight<'f> {
                 }
             }
             Self::Ideal(Ideal { state, flight, .. }) => {
-                let evaluation = evaluation.insert(flight.plant().evaluate(time_s));
+                let mut plant = flight.plant();
+                let evaluation = evaluation.insert(plant.evaluate_without_loads(time_s));
+                let [outside, _] = plant.external(time_s);
+                match with_loads {
+                    true => plant.write_loads(evaluation, outside),
+                    false => *applied = Some(outside),
+                }
                 ReachedState {
                     totals_are_finite: state.integrator.totals(time_s).is_finite(),
                     is_degenerate: evaluation.instant.is_degenerate,
@@ -94,10 +105,17 @@ impl<'f> InFlight<'f> {
             }
             Self::Waiting { flight, .. } => {
                 let mass = flight.context.current_mass_panels_stowed;
-                let evaluated = Evaluation::without_position(held.frame_at(time_s), mass);
+                let evaluated = Evaluation::without_position(held.frame_at(time_s), mass, time_s);
                 let evaluation = evaluation.insert(evaluated);
                 ReachedState { totals_are_finite: true, is_degenerate: evaluation.instant.is_degenerate }
             }
+        }
+    }
+
+    /// Computes the loads where the flight was evaluated, if that was without them.
+    pub(super) fn write_loads(&mut self, Evaluated { evaluation, applied }: &mut Evaluated) {
+        if let Some((evaluation, outside)) = evaluation.as_mut().zip(applied.take()) {
+            self.flight().plant().write_loads(evaluation, outside);
         }
     }
 
@@ -117,9 +135,10 @@ impl<'f> InFlight<'f> {
                 let at: MotionAt = state.motion.evaluated_at(&settings.gyrostat, time_s);
                 (dynamic(state, settings, flight.thrusters, evaluation, at), flight)
             }
-            Self::Ideal(Ideal { state, settings, inputs, flight, .. }) => {
-                let mut summary = ideal((state, settings), evaluation, inputs, time_s);
-                summary.by_source = BySource::Ideal(&state.integrator);
+            Self::Ideal(Ideal { state, settings, flight, .. }) => {
+                let inputs = flight.given.inputs;
+                let integrator = Some(&state.integrator);
+                let mut summary = ideal(state, settings, integrator, evaluation, inputs);
                 let Instant { sun_body, lit_fraction, .. } = &evaluation.instant;
                 summary.sun_sensed_body = sensed_sun(
                     &settings.sun_sensors,
@@ -130,13 +149,13 @@ impl<'f> InFlight<'f> {
                 );
                 (summary, flight)
             }
-            Self::Waiting { settings, inputs, flight } => {
+            Self::Waiting { settings, flight } => {
                 let (frame, attitude) = (held.frame_at(time_s), held.attitude_at(time_s));
                 let bias_body_n_m_s = flight.context.configuration.momentum.policy.bias_body_n_m_s;
                 let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
                 let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
                 let waiting = IdealState::new(time_s, &attitude, totals);
-                (ideal((&waiting, settings), evaluation, inputs, time_s), flight)
+                (ideal(&waiting, settings, None, evaluation, flight.given.inputs), flight)
             }
         };
         let ConfiguredFlight { given, context, propagator, thrusters, .. } = flight;

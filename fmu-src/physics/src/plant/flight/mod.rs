@@ -24,6 +24,7 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use crate::attitude::control::Estimate;
 use crate::loads::ForceTorque;
+use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::events::{self, EventKind};
@@ -44,7 +45,7 @@ use crate::spacecraft::Spacecraft;
 use configured::ConfiguredFlight;
 use dynamic::Dynamic;
 use encounter_prediction::predict_encounter;
-use flight_setup::FlightSetup;
+use flight_setup::{Evaluated, FlightSetup};
 use ideal::Ideal;
 use in_flight::InFlight;
 use report::{ReachedState, Report};
@@ -92,7 +93,7 @@ impl Flight {
 
     /// Geometry, attitude and loads at the last report; `None` before any.
     pub fn evaluation(&self) -> Option<&Evaluation> {
-        self.setup.as_ref()?.evaluation.as_ref().filter(|_| !self.is_waiting())
+        self.setup.as_ref()?.evaluated.evaluation.as_ref().filter(|_| !self.is_waiting())
     }
 
     /// Whether it waits.
@@ -205,8 +206,8 @@ impl Flight {
 
     /// Returns the body before the Sun's disc where the flight was evaluated; `quiet_until_s` becomes the time of the next look.
     pub fn occultation(&mut self, time_s: f64, quiet_until_s: &mut Option<f64>) -> Option<Occultation> {
-        let FlightSetup { context, evaluation, .. } = self.setup.as_deref_mut()?;
-        survey::occultation(context, &evaluation.as_ref()?.instant.geometry, time_s, quiet_until_s)
+        let FlightSetup { context, evaluated, .. } = self.setup.as_deref_mut()?;
+        survey::occultation(context, &evaluated.evaluation.as_ref()?.instant.geometry, time_s, quiet_until_s)
     }
 
     /// Replaces the schedule from `time_s` on: earlier events are past, and the Sun's direction in a downlink is selected anew.
@@ -224,31 +225,24 @@ impl Flight {
     fn in_flight<'a>(
         &'a mut self,
         given: StepContext<'a>,
-        inputs: &'a DynamicsInputs,
-    ) -> Result<(InFlight<'a>, &'a mut Option<Evaluation>), PlantError> {
+    ) -> Result<(InFlight<'a>, &'a mut Evaluated), PlantError> {
         let Self { state: FlightState { propagator, thrusters, mode, .. }, setup: Some(setup) } = self else {
             return Err(PlantError::OtherMode);
         };
-        let FlightSetup { context, settings, distribution, evaluation } = &mut **setup;
+        let FlightSetup { context, settings, distribution, evaluated } = &mut **setup;
         let turning = Turning::still();
         let flight = ConfiguredFlight { given, context, propagator, thrusters, turning };
         let in_flight = match (mode, settings) {
-            (Mode::Waiting, ModeSettings::Ideal(settings)) => InFlight::Waiting { settings, inputs, flight },
+            (Mode::Waiting, ModeSettings::Ideal(settings)) => InFlight::Waiting { settings, flight },
             (Mode::Ideal(state), ModeSettings::Ideal(settings)) => {
-                InFlight::Ideal(Ideal { state, settings, inputs, flight, prepared: None })
+                InFlight::Ideal(Ideal { state, settings, flight, prepared: None })
             }
-            (Mode::Dynamic(state), ModeSettings::Dynamic(settings)) => InFlight::Dynamic(Dynamic {
-                state,
-                settings,
-                inputs,
-                flight,
-                distribution,
-                end: None,
-                applied: None,
-            }),
+            (Mode::Dynamic(state), ModeSettings::Dynamic(settings)) => {
+                InFlight::Dynamic(Dynamic { state, settings, flight, distribution, end: None, applied: None })
+            }
             _ => return Err(PlantError::OtherMode),
         };
-        Ok((in_flight, evaluation))
+        Ok((in_flight, evaluated))
     }
 
     /// Begins at `time_s`, where the attitude was the one of `held`: the quaternion takes the sign nearer to that.
@@ -279,21 +273,16 @@ impl Flight {
     ///
     /// # Errors
     /// What ends a flight.
-    pub fn advance(
-        &mut self,
-        given: StepContext<'_>,
-        inputs: &DynamicsInputs,
-        [start_s, end_s]: [f64; 2],
-    ) -> Result<(), PlantError> {
+    pub fn advance(&mut self, given: StepContext<'_>, step: Span) -> Result<(), PlantError> {
         let predicted = self.prediction_settings();
-        let (mut in_flight, _) = self.in_flight(given, inputs)?;
+        let (mut in_flight, _) = self.in_flight(given)?;
         in_flight.flight().context.models.begin_work(given.work_limit);
-        in_flight.apply_requests([start_s, end_s])?;
-        for time_s in predicted.times_s([start_s, end_s]) {
-            self.in_flight(given, inputs)?.0.advance(time_s)?;
-            self.predict(given, inputs, time_s)?;
+        in_flight.apply_requests(step)?;
+        for time_s in predicted.times_s(step) {
+            self.in_flight(given)?.0.advance(time_s)?;
+            self.predict(given, time_s)?;
         }
-        self.in_flight(given, inputs)?.0.advance(end_s)
+        self.in_flight(given)?.0.advance(step.end_s)
     }
 
     fn prediction_settings(&self) -> PredictionSettings {
@@ -302,13 +291,8 @@ impl Flight {
     }
 
     /// Predicts the encounter at `time_s`, where the flight has come, in the attitude that timeline and inputs command.
-    fn predict(
-        &mut self,
-        given: StepContext<'_>,
-        inputs: &DynamicsInputs,
-        time_s: f64,
-    ) -> Result<(), PlantError> {
-        let (mut in_flight, _) = self.in_flight(given, inputs)?;
+    fn predict(&mut self, given: StepContext<'_>, time_s: f64) -> Result<(), PlantError> {
+        let (mut in_flight, _) = self.in_flight(given)?;
         let attitude = in_flight.fork_attitude(time_s);
         self.state.prediction = Some(predict_encounter(in_flight.flight(), attitude, time_s)?);
         Ok(())
@@ -319,20 +303,15 @@ impl Flight {
     ///
     /// # Errors
     /// What ends a flight.
-    pub fn sample_at_start(
-        &mut self,
-        given: StepContext<'_>,
-        inputs: &DynamicsInputs,
-        time_s: f64,
-    ) -> Result<Undo, PlantError> {
+    pub fn sample_at_start(&mut self, given: StepContext<'_>, time_s: f64) -> Result<Undo, PlantError> {
         let undo = Undo(self.state.mode.clone(), self.state.thrusters.clone(), self.state.prediction);
         let given = StepContext { log: &|_| {}, ..given };
-        if let (InFlight::Dynamic(mut dynamic), _) = self.in_flight(given, inputs)? {
+        if let (InFlight::Dynamic(mut dynamic), _) = self.in_flight(given)? {
             dynamic.flight.context.models.begin_work(given.work_limit);
             events::apply_due(&mut dynamic)?;
         }
         if self.prediction_settings().is_due(time_s) {
-            self.predict(given, inputs, time_s)?;
+            self.predict(given, time_s)?;
         }
         Ok(undo)
     }
@@ -342,19 +321,20 @@ impl Flight {
         (self.state.mode, self.state.thrusters, self.state.prediction) = (mode, thrusters, prediction);
     }
 
-    /// Evaluates geometry, attitude and loads at `time_s`, where the flight has come; one that waits holds the attitude of `held`.
+    /// Evaluates geometry and attitude at `time_s`, where the flight has come, and its loads; those of an attitude that is followed
+    /// ideally only `with_loads`, else [`Self::report`] computes them. A flight that waits holds the attitude of `held`.
     ///
     /// # Errors
     /// A state that belongs to another mode than the settings.
     pub fn evaluate(
         &mut self,
         given: StepContext<'_>,
-        inputs: &DynamicsInputs,
         held: &Command,
+        with_loads: bool,
         time_s: f64,
     ) -> Result<ReachedState, PlantError> {
-        let (mut in_flight, evaluation) = self.in_flight(given, inputs)?;
-        Ok(in_flight.evaluate(held, evaluation, time_s))
+        let (mut in_flight, evaluated) = self.in_flight(given)?;
+        Ok(in_flight.evaluate(held, evaluated, with_loads, time_s))
     }
 
     /// Everything at `time_s`, where the flight was evaluated last; one that waits has the attitude of `held`.
@@ -369,8 +349,9 @@ impl Flight {
         time_s: f64,
     ) -> Result<Report<'a>, PlantError> {
         let prediction = self.state.prediction;
-        let (in_flight, evaluation) = self.in_flight(StepContext::at_rest(prepared), inputs)?;
-        let evaluation = evaluation.as_ref().ok_or(PlantError::OtherMode)?;
+        let (mut in_flight, evaluated) = self.in_flight(StepContext::at_rest(prepared, inputs))?;
+        in_flight.write_loads(evaluated);
+        let evaluation = evaluated.evaluation.as_ref().ok_or(PlantError::OtherMode)?;
         Ok(in_flight.report(held, evaluation, prediction, time_s))
     }
 

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::attitude::control::Estimate;
-use crate::attitude::{Appendages, Attitude, BodyMotion, MotionAt, motor_power_w, wheel_speed_rad_s};
+use crate::attitude::{Appendages, Attitude, MotionAt, motor_power_w, wheel_speed_rad_s};
 use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::orbit::BPlane;
@@ -110,7 +110,6 @@ pub struct FlightSummary<'a> {
     time_s: f64,
     /// Momentum and velocity change so far.
     pub totals: Totals,
-    pub(super) by_source: BySource<'a>,
     /// Dumps so far.
     pub dumps: Dumps,
     /// Time between dumps.
@@ -134,15 +133,6 @@ pub struct FlightSummary<'a> {
     /// Control of the attitude.
     pub control: ControlReport,
     body: Bodies<'a>,
-}
-
-/// Source of the momenta by effect.
-#[expect(clippy::large_enum_variant, reason = "a report allocates nothing")]
-pub(super) enum BySource<'a> {
-    /// A flight that waits has none.
-    Waiting,
-    Ideal(&'a MomentumIntegrator),
-    Dynamic(&'a DynamicState, MotionAt),
 }
 
 /// Control of the attitude at one time.
@@ -176,21 +166,24 @@ enum Bodies<'a> {
     /// Ideal wheels: their momentum without the body's own, in N m s, its rate in N m, and the body's acceleration in rad/s2.
     Ideal {
         settings: &'a IdealSettings,
+        /// Momenta by effect; absent of a flight that waits.
+        integrator: Option<&'a MomentumIntegrator>,
         momentum_body_n_m_s: Vector3<f64>,
         rate_body_n_m: Vector3<f64>,
         acceleration_body_rad_s2: Vector3<f64>,
     },
     /// Body and wheels by their dynamics.
-    Dynamic { settings: &'a DynamicsSettings, dynamics: &'a DynamicState, body: BodyMotion },
+    Dynamic { settings: &'a DynamicsSettings, dynamics: &'a DynamicState, at: MotionAt },
 }
 
 impl FlightSummary<'_> {
     /// Change of momentum by each effect since the last dump.
     pub fn by_source(&self) -> SourceMomenta {
-        match &self.by_source {
-            BySource::Waiting => SourceMomenta::default(),
-            BySource::Ideal(integrator) => integrator.by_source(self.time_s),
-            BySource::Dynamic(DynamicState { motion, dumps, .. }, at) => dumps.by_source(motion, at),
+        match &self.body {
+            Bodies::Ideal { integrator, .. } => {
+                integrator.map_or_else(SourceMomenta::default, |it| it.by_source(self.time_s))
+            }
+            Bodies::Dynamic { dynamics, at, .. } => dynamics.dumps.by_source(&dynamics.motion, at),
         }
     }
 
@@ -207,7 +200,9 @@ impl FlightSummary<'_> {
     /// Wheel `k` (0-based).
     pub fn wheel(&self, k: usize) -> Option<WheelReport> {
         let (momentum_n_m_s, torque_n_m, speed_rad_s, is_saturated) = match &self.body {
-            Bodies::Ideal { settings, momentum_body_n_m_s, rate_body_n_m, acceleration_body_rad_s2 } => {
+            Bodies::Ideal {
+                settings, momentum_body_n_m_s, rate_body_n_m, acceleration_body_rad_s2, ..
+            } => {
                 let IdealWheel { inertia_kg_m2, capacity_n_m_s, .. } = *settings.wheels.get(k)?;
                 let momentum_n_m_s = settings.momentum_n_m_s(k, momentum_body_n_m_s);
                 let speed_rad_s = wheel_speed_rad_s(momentum_n_m_s, inertia_kg_m2);
@@ -215,7 +210,7 @@ impl FlightSummary<'_> {
                 let torque_n_m = array.motor_n_m(k, inertia_kg_m2, rate_body_n_m, acceleration_body_rad_s2);
                 (momentum_n_m_s, torque_n_m, speed_rad_s, momentum_n_m_s.abs() > capacity_n_m_s)
             }
-            Bodies::Dynamic { settings, dynamics, body } => {
+            Bodies::Dynamic { settings, dynamics, at: MotionAt { body, .. } } => {
                 let (gyrostat, motion) = (&settings.gyrostat, &dynamics.motion);
                 let wheel = gyrostat.wheels().get(k)?;
                 let momentum_n_m_s = motion.rotor_n_m_s(gyrostat, k, self.time_s, body);
@@ -233,16 +228,17 @@ impl FlightSummary<'_> {
     pub fn mode_sqrt_kg_m(&self, k: usize) -> f64 {
         match &self.body {
             Bodies::Ideal { .. } => 0.0,
-            Bodies::Dynamic { dynamics, body, .. } => dynamics.motion.oscillator(k, self.time_s, body)[0],
+            Bodies::Dynamic { dynamics, at, .. } => dynamics.motion.oscillator(k, self.time_s, &at.body)[0],
         }
     }
 
     /// Angles of slosh pendulum `k` (0-based), in rad.
     pub fn slosh_rad(&self, k: usize) -> [f64; 2] {
-        let Bodies::Dynamic { settings, dynamics, body } = &self.body else { return [0.0; 2] };
+        let Bodies::Dynamic { settings, dynamics, at } = &self.body else { return [0.0; 2] };
         let Appendages { modes, sloshes, .. } = settings.gyrostat.appendages();
         [0, 1].map(|axis| {
-            let [displacement, _] = dynamics.motion.oscillator(modes.len() + 2 * k + axis, self.time_s, body);
+            let place = modes.len() + 2 * k + axis;
+            let [displacement, _] = dynamics.motion.oscillator(place, self.time_s, &at.body);
             sloshes[k].angle_rad(displacement)
         })
     }
@@ -251,11 +247,13 @@ impl FlightSummary<'_> {
 /// Ideal wheels hold the system's momentum less what the body's own rotation and panels that turn take; sensors see the true
 /// attitude.
 pub(super) fn ideal<'a>(
-    (simulated, settings): (&IdealState, &'a IdealSettings),
+    simulated: &IdealState,
+    settings: &'a IdealSettings,
+    integrator: Option<&'a MomentumIntegrator>,
     evaluation: &Evaluation,
     inputs: &DynamicsInputs,
-    time_s: f64,
 ) -> FlightSummary<'a> {
+    let time_s = evaluation.instant.time_s;
     let (totals, dumps) = (simulated.integrator.totals(time_s), *simulated.integrator.dumps());
     let Evaluation { instant, loads, mass, .. } = evaluation;
     let frame = &instant.frame;
@@ -265,7 +263,6 @@ pub(super) fn ideal<'a>(
     FlightSummary {
         time_s,
         totals,
-        by_source: BySource::Waiting,
         dumps,
         spacing: simulated.spacing,
         is_dumping: false,
@@ -283,6 +280,7 @@ pub(super) fn ideal<'a>(
         control: ControlReport::default(),
         body: Bodies::Ideal {
             settings,
+            integrator,
             momentum_body_n_m_s: totals.wheels_body_n_m_s(&evaluation.structure_body_n_m_s(), frame),
             rate_body_n_m: totals.wheels_rate_body_n_m(
                 &structure_rate_body_n_m,
@@ -318,7 +316,6 @@ pub(super) fn dynamic<'a>(
     FlightSummary {
         time_s,
         totals: dynamic_totals(&at),
-        by_source: BySource::Dynamic(dynamics, at),
         dumps: dumps.dumps,
         spacing: dumps.spacing,
         is_dumping: dumps.is_dumping(thrusters, time_s),
@@ -336,7 +333,7 @@ pub(super) fn dynamic<'a>(
             is_settled: is_controlled && control.controller.is_settled(),
             is_limited: control.is_limited(),
         },
-        body: Bodies::Dynamic { settings, dynamics, body },
+        body: Bodies::Dynamic { settings, dynamics, at },
     }
 }
 

@@ -63,8 +63,7 @@ pub fn survey(
         // Commands are taken at once.
         command_slews: &mut CommandSlews::beginning(f64::INFINITY),
         ephemeris: &mut context.models.ephemeris.clone(),
-        default_downlink: given.prepared.default_downlink,
-        timeline: given.prepared.timeline,
+        spacecraft: given.prepared,
         work: &mut Work::new(u32::MAX, 0),
         current_mass_panels_stowed: context.current_mass_panels_stowed,
     };

@@ -4,20 +4,13 @@ use super::air_and_field_segment::AirAndField;
 use crate::aerodynamics::AirFlow;
 use crate::loads::ForceTorque;
 use crate::plant::motion::instant::Instant;
-use crate::plant::settings::configuration::Configuration;
-use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
+use crate::plant::motion::kinematics::Kinematics;
 use crate::spacecraft::MassProperties;
 
 /// Everything at one time that sources read.
 pub(crate) struct Conditions<'a> {
-    /// Time of the conditions, in s.
-    pub time_s: f64,
-    /// Settings.
-    pub configuration: &'a Configuration,
-    /// The spacecraft.
-    pub spacecraft: PreparedSpacecraft<'a>,
-    /// Mass properties with every panel at angle 0 and the remaining propellant.
-    pub current_mass_panels_stowed: &'a MassProperties,
+    /// Settings, the spacecraft and its mass properties with every panel at angle 0.
+    pub kinematics: &'a Kinematics<'a>,
     /// Geometry and attitude.
     pub instant: &'a Instant,
     /// Mass, centre of mass and inertia as the panels stand.

@@ -7,21 +7,18 @@ use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::digest::Digest;
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 
 /// Motion of a spacecraft with air and field along it, from which sources are computed ahead.
-pub(crate) struct PathAhead<'r, 'a> {
-    /// The spacecraft.
-    pub spacecraft: PreparedSpacecraft<'a>,
+pub(crate) struct PathAhead<'a> {
     /// Digest of the settings on which loads depend: a fit made for another one is cut.
     pub digest: Digest,
     /// Orbit and attitude.
-    pub kinematics: &'r mut Kinematics<'a>,
+    pub kinematics: Kinematics<'a>,
     /// Air and field along them.
-    pub air_and_field: &'r mut AirAndFieldSegment,
+    pub air_and_field: &'a mut AirAndFieldSegment,
 }
 
-impl PathAhead<'_, '_> {
+impl PathAhead<'_> {
     /// Extends air and field over a span; returns up to where they are valid, at most to its end.
     ///
     /// # Errors
@@ -30,7 +27,7 @@ impl PathAhead<'_, '_> {
         let Configuration { air_and_field, figure, .. } = self.kinematics.configuration;
         let Some((settings, figure)) = air_and_field.zip(*figure) else { return Ok(span.end_s) };
         let mut builder =
-            AirAndFieldBuilder { settings, figure, kinematics: &mut *self.kinematics, orbit_has_moved };
+            AirAndFieldBuilder { settings, figure, kinematics: &mut self.kinematics, orbit_has_moved };
         builder.extend(self.air_and_field, span.start_s, span.end_s)
     }
 

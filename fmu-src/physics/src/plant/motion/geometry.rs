@@ -160,11 +160,8 @@ impl SimulationEphemeris<'_> {
     /// Acceleration by all gravity of the flight, without other forces, in m/s2, EME2000, of a spacecraft there about the orbit's centre at
     /// `at_s`; `None` where the centre's point mass alone attracts.
     pub(super) fn gravity_m_s2(&mut self, at_s: f64, spacecraft: &CartesianState) -> Option<Vector3<f64>> {
-        match &self.configuration.motion {
-            Motion::TwoBody | Motion::Held { .. } => None,
-            Motion::Disturbed { gravity, .. } => Some(gravity.acceleration_m_s2(at_s, spacecraft, self)),
-            Motion::NBody { gravity, .. } => Some(gravity.model.acceleration_m_s2(at_s, spacecraft, self)),
-        }
+        let gravity = self.configuration.motion.gravity();
+        gravity.map(|gravity| gravity.acceleration_m_s2(at_s, spacecraft, self))
     }
 }
 

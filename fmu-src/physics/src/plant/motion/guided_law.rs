@@ -4,18 +4,16 @@ use crate::environment::ephemeris::Ephemeris;
 use crate::guidance::constraints::command_slew::CommandSlew;
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::constraints::slew::{Slew, SlewedFrame};
-use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::pointing::command::Scenario;
-use crate::guidance::timeline::{
-    Slot, TimelineAttitude, TimelineEntry, TimelineLaw, TimelineSettings, bodies_of,
-};
-use crate::guidance::{Activity, Guided, GuidedAttitude, Sight, TargetPlanet, Window};
+use crate::guidance::timeline::{Slot, TimelineEntry, TimelineLaw, TimelineSettings, bodies_of};
+use crate::guidance::{Activity, AttitudeCommand, Guided, GuidedAttitude, Sight, TargetPlanet, Window};
 
 use super::command_slews::CommandSlews;
 use super::geometry::{self, Geometry, GeometrySight, SimulationEphemeris};
 use super::trajectory::Trajectory;
 use crate::plant::settings::attitude_source::AttitudeSource;
 use crate::plant::settings::configuration::Configuration;
+use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 
 /// Returns the geometry at `time_s`; a law reads motions about `planet` from it as well, or directions alone.
 fn sight(
@@ -38,11 +36,9 @@ pub(super) struct GuidedLaw<'k> {
     pub configuration: &'k Configuration,
     pub trajectory: &'k Trajectory,
     pub ephemeris: &'k mut Ephemeris,
-    /// The default downlink of the spacecraft's antennas.
-    pub default_downlink: &'k DefaultDownlink,
-    /// Commands over time.
-    pub timeline: Option<TimelineLaw<'k>>,
-    /// Slews into them.
+    /// The spacecraft.
+    pub spacecraft: PreparedSpacecraft<'k>,
+    /// Slews into the timeline's commands.
     pub command_slews: &'k mut CommandSlews,
     /// Settings of the guidance.
     pub guided: &'k Guided,
@@ -67,7 +63,7 @@ impl GuidedLaw<'_> {
     /// Attitude that the timeline commands at `time_s`, else the orbit phase's own guidance.
     pub(super) fn attitude(&mut self, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let guided = self.guided;
-        let Some((law, settings)) = self.timeline.zip(self.configuration.timeline) else {
+        let Some((law, settings)) = self.spacecraft.timeline.zip(self.configuration.timeline) else {
             let (requested, cut) = guided.requested.at_distance(geometry.to_sun.position_m.norm());
             let own = self.by_orbit_phase(&Guided { requested, ..*guided }, time_s, geometry);
             return GuidedAttitude { clamped: own.clamped || cut, ..own };
@@ -168,17 +164,9 @@ impl GuidedLaw<'_> {
                 Some(Scenario::Downlink) => Activity::Downlink,
                 _ => Activity::Science,
             };
-            return GuidedAttitude {
-                frame: found.frame,
-                window: Window { activity, since_s, until_s },
-                row: slot.row,
-                slewing: false,
-                margins: found.margins,
-                clamped: found.clamped,
-                degenerate: found.degenerate,
-                corner_s: found.corner_s + epoch_minus_time_s,
-                until_s: until_s.min(found.corner_s + epoch_minus_time_s),
-            };
+            let command = AttitudeCommand { corner_s: found.corner_s + epoch_minus_time_s, ..found };
+            let window = Window { activity, since_s, until_s };
+            return GuidedAttitude { row: slot.row, ..GuidedAttitude::held(command, window) };
         }
         let keep_in = self.keep_in_of_orbit_phase(slot.entry);
         let (requested, cut) = requested.at_distance(geometry.to_sun.position_m.norm());
@@ -198,7 +186,7 @@ impl GuidedLaw<'_> {
         entry: &TimelineEntry,
         time_s: f64,
         geometry: &Geometry,
-    ) -> Option<TimelineAttitude> {
+    ) -> Option<AttitudeCommand> {
         let SlotCommand { law, settings, slot } = *command;
         let epoch_s = time_s + self.configuration.epoch_minus_time_s;
         let sight = sight(self.configuration, self.ephemeris, time_s, *geometry, Some(settings.planet));
@@ -214,7 +202,7 @@ impl GuidedLaw<'_> {
     /// Attitude that the orbit phase's own guidance commands at `time_s`.
     fn by_orbit_phase(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
-        let (trajectory, default_downlink) = (self.trajectory, self.default_downlink);
+        let (trajectory, default_downlink) = (self.trajectory, self.spacecraft.default_downlink);
         let epoch_s = time_s + configuration.epoch_minus_time_s;
         let planet =
             guided.science.reads_motion().then(|| TargetPlanet::from_body(configuration.center.data()));

@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, Vector3};
 
 use super::geometry::Geometry;
 use crate::attitude::MovingFrame;
-use crate::guidance::DownlinkStatus;
+use crate::guidance::{Activity, DownlinkStatus, GuidedAttitude, Window};
 use crate::momentum::EventValues;
 use crate::numerics::scalar::Dual64;
 use crate::plant::settings::panel_setting::SunAt;
@@ -12,6 +12,8 @@ use crate::plant::settings::panel_setting::SunAt;
 /// Everything about one time but what acts on the spacecraft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Instant {
+    /// Time of the flight, in s.
+    pub time_s: f64,
     /// Sun, planet and Earth as the spacecraft sees them.
     pub geometry: Geometry,
     /// Body frame and rate.
@@ -40,8 +42,9 @@ pub struct Instant {
 
 impl Instant {
     /// Spacecraft with a known attitude and no position: no Sun, no planet, no field.
-    pub fn without_position(frame: MovingFrame) -> Self {
+    pub fn without_position(frame: MovingFrame, time_s: f64) -> Self {
         Self {
+            time_s,
             geometry: Geometry::default(),
             frame,
             to_body: frame.inertial_from_body.inverse(),
@@ -49,7 +52,7 @@ impl Instant {
             sun_distance_m: 0.0,
             planet_body_m: None,
             lit_fraction: 0.0,
-            regime: Regime::UNCHANGING,
+            regime: Regime::by_law(&without_windows(frame)),
             events: EventValues::repeat(f64::INFINITY),
             downlink: DownlinkStatus::default(),
             is_degenerate: false,
@@ -57,18 +60,18 @@ impl Instant {
         }
     }
 
-    /// The Sun from the spacecraft; this being the instant at `time_s`.
-    pub fn sun_at(&self, time_s: f64) -> SunAt {
-        SunAt { time_s, direction_body: self.sun_body, distance_m: self.sun_distance_m }
+    /// The Sun from the spacecraft.
+    pub fn sun(&self) -> SunAt {
+        SunAt { time_s: self.time_s, direction_body: self.sun_body, distance_m: self.sun_distance_m }
     }
 
     /// The same with the rate of everything, time's being 1.
-    pub fn moving_sun_at(&self, time_s: f64) -> SunAt<Dual64> {
+    pub fn moving_sun(&self) -> SunAt<Dual64> {
         let to_sun = &self.geometry.to_sun;
         let approach_m_s =
             to_sun.position_m.try_normalize(0.0).map_or(0.0, |unit| unit.dot(&to_sun.velocity_m_s));
         SunAt {
-            time_s: Dual64::new(time_s, 1.0),
+            time_s: Dual64::new(self.time_s, 1.0),
             direction_body: self.sun_body.zip_map(&self.sun_rate_body_1_s(), Dual64::new),
             distance_m: Dual64::new(self.sun_distance_m, approach_m_s),
         }
@@ -113,13 +116,25 @@ pub struct Regime {
 }
 
 impl Regime {
-    /// In sunlight by a law without windows, slews and scans.
-    pub(crate) const UNCHANGING: Self = Self {
-        window_since_s: f64::NEG_INFINITY,
-        downlink: false,
+    /// Form of the law that gives this attitude, in sunlight.
+    pub(super) fn by_law(law: &GuidedAttitude) -> Self {
+        let GuidedAttitude { window, row, slewing, corner_s, .. } = *law;
+        let downlink = window.activity == Activity::Downlink;
+        Self { window_since_s: window.since_s, downlink, row, slewing, corner_s, in_shadow: false }
+    }
+}
+
+/// Attitude by a law without windows, slews and scans.
+pub(super) fn without_windows(frame: MovingFrame) -> GuidedAttitude {
+    GuidedAttitude {
+        frame,
+        window: Window { activity: Activity::Science, since_s: f64::NEG_INFINITY, until_s: f64::INFINITY },
         row: 0,
         slewing: false,
+        margins: [f64::INFINITY; 2],
+        clamped: false,
+        degenerate: false,
         corner_s: f64::INFINITY,
-        in_shadow: false,
-    };
+        until_s: f64::INFINITY,
+    }
 }

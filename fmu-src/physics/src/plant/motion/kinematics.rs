@@ -4,50 +4,39 @@
 //! their directions into a body frame, the frame turns them into the body, and the planet's disc takes its part of the
 //! Sun's. Momentum, light and outputs all read this.
 
-use crate::attitude::{MovingFrame, angle_between_rad};
+use crate::attitude::angle_between_rad;
 use crate::environment::CartesianState;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::TwoBodyOrbit;
-use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::pointing::boresight::Gimbal;
-use crate::guidance::timeline::TimelineLaw;
-use crate::guidance::{Activity, ArcPoint, DownlinkStatus, Guided, GuidedAttitude, ScienceArc};
+use crate::guidance::{ArcPoint, DownlinkStatus, Guided, GuidedAttitude, ScienceArc};
 use crate::math;
 use crate::momentum::{EventValues, after_event_s};
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::events::first_event;
 use crate::numerics::intervals::{first_change_s, sampled_range};
 use crate::numerics::spacing::spacing;
-use crate::spacecraft::{MassProperties, Panel};
+use crate::spacecraft::MassProperties;
 
 use nalgebra::{Rotation3, Vector3};
 
 use super::command_slews::CommandSlews;
 use super::geometry::{self, Geometry};
 use super::guided_law::GuidedLaw;
-use super::instant::{Instant, Regime};
+use super::instant::{Instant, Regime, without_windows};
 use super::trajectory::Trajectory;
 use crate::momentum::WorkKind;
 use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
 use crate::plant::settings::configuration::{Configuration, Motion};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::panel_setting::SunAt;
+use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::settings::work::Work;
 
 /// Nodes at which a span is looked through for events.
 const NODES: usize = 8;
 /// The end of a window or slew, computed in epochs, is this near its number in flight time, in s.
 const EPOCH_ROUNDING_S: f64 = 1e-6;
-
-/// Body frame, window and margins of the attitude law.
-struct LawAt {
-    frame: MovingFrame,
-    regime: Regime,
-    status: DownlinkStatus,
-    degenerate: bool,
-    margins: [f64; 2],
-    until_s: f64,
-}
 
 /// Motion and light of a configured flight, and the work that is done for it.
 pub(crate) struct Kinematics<'a> {
@@ -58,11 +47,9 @@ pub(crate) struct Kinematics<'a> {
     pub turning: Turning,
     pub trajectory: &'a mut Trajectory,
     pub ephemeris: &'a mut Ephemeris,
-    /// The default downlink of the spacecraft's antennas.
-    pub default_downlink: &'a DefaultDownlink,
-    /// Commands over time.
-    pub timeline: Option<TimelineLaw<'a>>,
-    /// Slews into them.
+    /// The spacecraft.
+    pub spacecraft: PreparedSpacecraft<'a>,
+    /// Slews into the timeline's commands.
     pub command_slews: &'a mut CommandSlews,
     /// Work of the step so far.
     pub work: &'a mut Work,
@@ -77,19 +64,19 @@ impl Kinematics<'_> {
     }
 
     /// Mass, centre of mass and inertia as the panels stand with the Sun there.
-    pub(crate) fn mass_properties(&self, panels: &[Panel], sun: &SunAt) -> MassProperties {
-        self.configuration.mass_properties(&self.current_mass_panels_stowed, panels, sun)
+    pub(crate) fn mass_properties(&self, sun: &SunAt) -> MassProperties {
+        self.configuration.mass_properties(&self.current_mass_panels_stowed, self.spacecraft.panels, sun)
     }
 
     /// The event functions alone, counted as a search.
     pub(crate) fn events(&mut self, time_s: f64) -> EventValues {
-        self.work.note_search();
+        self.work.note_search(false);
         self.instant(time_s).events
     }
 
     /// Matrix that takes body components to EME2000 alone, by which a dump is sought and for which it counts.
     pub(crate) fn inertial_from_body(&mut self, time_s: f64) -> Rotation3<f64> {
-        self.work.note_dump_search();
+        self.work.note_search(true);
         let geometry = self.geometry(time_s);
         self.attitude(time_s, &geometry).frame.inertial_from_body
     }
@@ -107,6 +94,7 @@ impl Kinematics<'_> {
         let to_body = law.frame.inertial_from_body.inverse();
         let sun_distance_m = geometry.to_sun.position_m.norm();
         Instant {
+            time_s,
             to_body,
             sun_body: to_body * (geometry.to_sun.position_m / sun_distance_m),
             sun_distance_m,
@@ -114,11 +102,11 @@ impl Kinematics<'_> {
             geometry,
             frame: law.frame,
             lit_fraction,
-            regime: Regime { in_shadow: gaps_rad[0] <= 0.0, ..law.regime },
+            regime: Regime { in_shadow: gaps_rad[0] <= 0.0, ..Regime::by_law(&law) },
             events: EventValues::new(gaps_rad[0], gaps_rad[1], law.margins[0], law.margins[1]),
-            downlink: law.status,
+            downlink: DownlinkStatus::from_attitude(&law),
             is_degenerate: law.degenerate,
-            attitude_until_s: law.until_s,
+            attitude_until_s: law.until_s - self.configuration.epoch_minus_time_s,
         }
     }
 
@@ -145,37 +133,12 @@ impl Kinematics<'_> {
         Geometry::at(self.configuration, self.ephemeris, time_s, spacecraft)
     }
 
-    /// Body frame and rate, and the form of the law they come from.
-    fn attitude(&mut self, time_s: f64, geometry: &Geometry) -> LawAt {
-        let held = |frame: MovingFrame| LawAt {
-            frame,
-            regime: Regime::UNCHANGING,
-            status: DownlinkStatus::default(),
-            degenerate: false,
-            margins: [f64::INFINITY; 2],
-            until_s: f64::INFINITY,
-        };
+    /// Body frame and rate, window and margins of the attitude law.
+    fn attitude(&mut self, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         match (&self.configuration.attitude, self.law) {
-            (AttitudeSource::Guided(_), Some(law)) => {
-                let guided = self.guided(&law, time_s, geometry);
-                LawAt {
-                    frame: guided.frame,
-                    regime: Regime {
-                        window_since_s: guided.window.since_s,
-                        downlink: guided.window.activity == Activity::Downlink,
-                        row: guided.row,
-                        slewing: guided.slewing,
-                        corner_s: guided.corner_s,
-                        in_shadow: false,
-                    },
-                    status: DownlinkStatus::from_attitude(&guided),
-                    degenerate: guided.degenerate,
-                    margins: guided.margins,
-                    until_s: guided.until_s - self.configuration.epoch_minus_time_s,
-                }
-            }
-            (AttitudeSource::Commanded(command), _) => held(command.frame_at(time_s)),
-            _ => held(self.turning.frame_at(time_s)),
+            (AttitudeSource::Guided(_), Some(law)) => self.guided(&law, time_s, geometry),
+            (AttitudeSource::Commanded(command), _) => without_windows(command.frame_at(time_s)),
+            _ => without_windows(self.turning.frame_at(time_s)),
         }
     }
 
@@ -185,8 +148,7 @@ impl Kinematics<'_> {
             configuration: self.configuration,
             trajectory: self.trajectory,
             ephemeris: self.ephemeris,
-            default_downlink: self.default_downlink,
-            timeline: self.timeline,
+            spacecraft: self.spacecraft,
             command_slews: self.command_slews,
             guided,
         };
@@ -253,9 +215,10 @@ impl Kinematics<'_> {
         }
     }
 
-    /// The number at which the window or slew of `instant`, at `time_s`, ends or a panel goes elsewhere at once, if that is before
+    /// The number at which the window or slew of `instant` ends or a panel goes elsewhere at once, if that is before
     /// `limit_s`.
-    pub(crate) fn laws_until_s(&mut self, time_s: f64, instant: &Instant, limit_s: f64) -> f64 {
+    pub(crate) fn laws_until_s(&mut self, instant: &Instant, limit_s: f64) -> f64 {
+        let time_s = instant.time_s;
         let limit_s = limit_s.min(self.configuration.panels_until_s(time_s));
         let epoch_s = instant.attitude_until_s + self.configuration.epoch_minus_time_s;
         let rounding_s = EPOCH_ROUNDING_S + 4.0 * (spacing(epoch_s) + spacing(instant.attitude_until_s));
@@ -267,7 +230,7 @@ impl Kinematics<'_> {
         let form = |it: &Regime| (it.window_since_s, it.downlink, it.slewing, it.corner_s);
         let same = |it: &mut Self, at_s: f64| {
             let geometry = it.geometry(at_s);
-            form(&it.attitude(at_s, &geometry).regime) == form(&instant.regime)
+            form(&Regime::by_law(&it.attitude(at_s, &geometry))) == form(&instant.regime)
         };
         if same(self, behind_s) {
             return limit_s;
@@ -306,7 +269,7 @@ impl Kinematics<'_> {
         let first = self.instant(after_s);
         // Where a panel goes elsewhere is known to the number, however soon that is.
         let limit_s = limit_s.min(self.configuration.panels_until_s(start_s));
-        let limit_s = self.laws_until_s(after_s, &first, limit_s);
+        let limit_s = self.laws_until_s(&first, limit_s);
         let samples = Segment::<4, NODES>::nodes(start_s, limit_s).map(|at_s| self.instant(at_s).events);
         let rounding_s = self.time_rounding_s(limit_s);
         first_event([after_s, start_s, limit_s], rounding_s, &samples, |at_s| self.events(at_s))

@@ -70,15 +70,15 @@ impl Hinged<'_> {
 
 impl PanelMotion {
     /// At the start of a flight, where everything is like that.
-    pub(crate) fn at_start(hinged: Hinged<'_>, instant: &Instant, time_s: f64) -> Self {
-        let sun = instant.moving_sun_at(time_s);
+    pub(crate) fn at_start(hinged: Hinged<'_>, instant: &Instant) -> Self {
+        let sun = instant.moving_sun();
         let settings = hinged.configuration.panels.iter().zip(hinged.panels);
         let turns = settings.map(|(setting, panel)| {
             let [angle_rad, rate_rad_s] = setting.turn_rad(panel, &sun);
             let rate_rad_s = if panel.mass.is_some() { rate_rad_s } else { 0.0 };
             PanelTurn { angle_rad, rate_rad_s, ..PanelTurn::default() }
         });
-        Self { since_s: time_s, turns: turns.collect() }
+        Self { since_s: instant.time_s, turns: turns.collect() }
     }
 
     /// Whether a simulation can produce it.
@@ -163,10 +163,10 @@ impl PanelMotion {
         moved.then_some(attitude)
     }
 
-    /// From here to `end_s` the panels turn to where their laws have them then, everything being like `now` and `end`.
-    pub(crate) fn turn_until(&mut self, hinged: Hinged<'_>, now: &Instant, end: &Instant, end_s: f64) {
-        let span_s = end_s - self.since_s;
-        let (sun, end_sun) = (now.moving_sun_at(self.since_s), end.sun_at(end_s));
+    /// From `now` to `end` the panels turn to where their laws have them then.
+    pub(crate) fn turn_until(&mut self, hinged: Hinged<'_>, now: &Instant, end: &Instant) {
+        let span_s = end.time_s - self.since_s;
+        let (sun, end_sun) = (now.moving_sun(), end.sun());
         let settings = hinged.configuration.panels.iter().zip(hinged.panels);
         for (turn, (setting, panel)) in self.turns.iter_mut().zip(settings) {
             (turn.rate_rad_s, turn.acceleration_rad_s2) = (0.0, 0.0);

@@ -25,27 +25,21 @@ impl PanelTurns {
         self.turns.clear();
     }
 
-    /// A segment begins at `time_s`, everything being like `instant`.
-    pub(crate) fn begin(
-        &mut self,
-        settings: &[PanelSetting],
-        panels: &[Panel],
-        instant: &Instant,
-        time_s: f64,
-    ) {
-        let sun = instant.moving_sun_at(time_s);
+    /// A segment begins at `instant`.
+    pub(crate) fn begin(&mut self, settings: &[PanelSetting], panels: &[Panel], instant: &Instant) {
+        let sun = instant.moving_sun();
         if self.turns.len() != panels.len() {
             self.turns.clear();
         }
         for (index, (setting, panel)) in settings.iter().zip(panels).enumerate() {
             let [angle_rad, rate_rad_s] = setting.turn_rad(panel, &sun);
-            let begun = [self.continued_rad(index, angle_rad, time_s), rate_rad_s];
+            let begun = [self.continued_rad(index, angle_rad, instant.time_s), rate_rad_s];
             match self.turns.get_mut(index) {
                 Some(turn) => *turn = begun,
                 None => self.turns.push(begun),
             }
         }
-        self.since_s = time_s;
+        self.since_s = instant.time_s;
     }
 
     /// The angle of panel `index` that is `angle_rad` but for whole turns, at `time_s` within the present segment, in rad.

@@ -248,11 +248,7 @@ impl Trajectory {
         else {
             return Ok(());
         };
-        let gravity = match &configuration.motion {
-            Motion::Disturbed { gravity, .. } => gravity,
-            Motion::NBody { gravity, .. } => &gravity.model,
-            Motion::TwoBody | Motion::Held { .. } => return Ok(()),
-        };
+        let Some(gravity) = configuration.motion.gravity() else { return Ok(()) };
         if !orbit.is_deviated() {
             if extra_m_s2.is_none() {
                 return Ok(());

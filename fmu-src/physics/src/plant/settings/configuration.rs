@@ -16,13 +16,14 @@ use crate::environment::sun::pressure_n_m2;
 use crate::guidance::timeline::TimelineSettings;
 use crate::loads::Active;
 use crate::momentum::Settings;
+use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::scalar::Dual64;
 use crate::numerics::spacing::spacing;
 use crate::spacecraft::{MassProperties, Panel, Spacecraft, SunshadeModel, hinged_masses, with_panels};
 
 use super::air_and_field_settings::{AirAndFieldSettings, PlanetFigure};
-use super::panel_setting::{PanelSetting, SunAt};
+use super::panel_setting::{PanelSetting, SunAt, panel_angle_rad};
 use super::radiation_settings::RadiationSettings;
 use super::thruster_events::ThrusterEventSettings;
 
@@ -75,10 +76,11 @@ impl PredictionSettings {
     /// Settings without predictions.
     pub(crate) const NEVER: Self = Self { refresh_s: 0.0, horizon_s: 0.0, last_epoch_s: 0.0, lead_s: 0.0 };
 
-    /// The times from `start_s` on and before `end_s` at which a prediction is due, in s.
-    pub(crate) fn times_s(self, [start_s, end_s]: [f64; 2]) -> impl Iterator<Item = f64> {
+    /// Times of a step, before its end, at which a prediction is due, in s.
+    pub(crate) fn times_s(self, step: Span) -> impl Iterator<Item = f64> {
         let is_on = self.refresh_s > 0.0;
-        let numbers = if is_on { self.first_number(start_s)..self.first_number(end_s) } else { 0..0 };
+        let numbers =
+            if is_on { self.first_number(step.start_s)..self.first_number(step.end_s) } else { 0..0 };
         numbers.map(move |number| number as f64 * self.refresh_s)
     }
 
@@ -130,6 +132,15 @@ pub enum Motion {
 }
 
 impl Motion {
+    /// Gravity of an integrated orbit.
+    pub(crate) fn gravity(&self) -> Option<&GravityModel> {
+        match self {
+            Self::Disturbed { gravity, .. } => Some(gravity),
+            Self::NBody { gravity, .. } => Some(&gravity.model),
+            Self::TwoBody | Self::Held { .. } => None,
+        }
+    }
+
     /// Whether light, heat and external forces accelerate the spacecraft.
     pub fn has_nongravitational_forces(&self) -> bool {
         matches!(self, Self::Disturbed { feedback: true, .. } | Self::NBody { feedback: true, .. })
@@ -240,27 +251,13 @@ impl Configuration {
         angles_rad: &mut [f64],
     ) {
         for (angle_rad, &index) in angles_rad.iter_mut().zip(enabled_panels) {
-            *angle_rad = self.panel_angle_rad(panels, index, sun);
+            *angle_rad = panel_angle_rad(&self.panels, panels, index, sun);
         }
     }
 
-    /// Mass, centre of mass and inertia with every panel at angle 0 and full tanks.
-    pub fn wet_mass_properties(&self) -> MassProperties {
-        MassProperties {
-            mass_kg: self.mass_kg,
-            center_of_mass_body_m: self.center_of_mass_body_m,
-            inertia_body_kg_m2: self.inertia_body_kg_m2,
-        }
-    }
-
-    /// The same of a body that has `at_zero`, as the panels stand with the Sun there.
+    /// Mass, centre of mass and inertia of a body that has `at_zero`, as the panels stand with the Sun there.
     pub fn mass_properties(&self, at_zero: &MassProperties, panels: &[Panel], sun: &SunAt) -> MassProperties {
-        with_panels(at_zero, panels, |index| self.panel_angle_rad(panels, index, sun))
-    }
-
-    fn panel_angle_rad(&self, panels: &[Panel], index: usize, sun: &SunAt) -> f64 {
-        let set = self.panels.get(index).zip(panels.get(index));
-        set.and_then(|(setting, panel)| setting.angle_rad(panel, sun)).unwrap_or(0.0)
+        with_panels(at_zero, panels, |index| panel_angle_rad(&self.panels, panels, index, sun))
     }
 
     /// The first time after `time_s` at which a panel goes elsewhere at once, in s; infinite where none does.
@@ -330,12 +327,8 @@ pub struct Configuration {
     pub sunshade: SunshadeModel,
     /// One setting a panel.
     pub panels: Vec<PanelSetting>,
-    /// Centre of mass, body frame, in m, with every panel at angle 0 and full tanks.
-    pub center_of_mass_body_m: Vector3<f64>,
-    /// Mass, in kg, with full tanks.
-    pub mass_kg: f64,
-    /// Inertia about the centre of mass, body frame, in kg m2, with every panel at angle 0 and full tanks.
-    pub inertia_body_kg_m2: Matrix3<f64>,
+    /// Mass, centre of mass and inertia with every panel at angle 0 and full tanks.
+    pub wet_mass: MassProperties,
     /// Effects that act.
     pub effects: Active,
     /// Parameters of effects in closed form.

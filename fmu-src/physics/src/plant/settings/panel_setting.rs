@@ -245,6 +245,12 @@ enum Commanded<T> {
     },
 }
 
+/// Angle of panel `index` about its axis, in rad, with the Sun there; 0 of one that is left out.
+pub(crate) fn panel_angle_rad(settings: &[PanelSetting], panels: &[Panel], index: usize, sun: &SunAt) -> f64 {
+    let set = settings.get(index).zip(panels.get(index));
+    set.and_then(|(setting, panel)| setting.angle_rad(panel, sun)).unwrap_or(0.0)
+}
+
 /// How many of the steps have begun at `time_s`.
 fn begun_steps(steps: &[PanelStep], clock_minus_time_s: f64, time_s: f64) -> usize {
     begun(steps, clock_minus_time_s, time_s, |step| step.at_s)

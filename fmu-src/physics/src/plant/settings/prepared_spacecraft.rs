@@ -20,3 +20,10 @@ pub struct PreparedSpacecraft<'a> {
     /// Commands over time, which guided flight follows.
     pub timeline: Option<TimelineLaw<'a>>,
 }
+
+impl PreparedSpacecraft<'_> {
+    /// Whether a panel has a mass.
+    pub(crate) fn has_panel_mass(&self) -> bool {
+        self.panels.iter().any(|panel| panel.mass.is_some())
+    }
+}

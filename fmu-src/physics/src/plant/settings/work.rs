@@ -36,14 +36,10 @@ impl Work {
         Self { spent: numerics::work::Work::new(limit), evaluations, searched: [0; 2] }
     }
 
-    /// A unit for an event function, to be counted with the next that is spent.
-    pub(crate) fn note_search(&mut self) {
-        self.searched[0] = self.searched[0].saturating_add(1);
-    }
-
-    /// A unit for the attitude alone, by which a dump is sought, to be counted with the next that is spent.
-    pub(crate) fn note_dump_search(&mut self) {
-        self.searched[1] = self.searched[1].saturating_add(1);
+    /// A unit for an event function, or for the attitude alone by which a dump is sought, to be counted with the next that is spent.
+    pub(crate) fn note_search(&mut self, of_dump: bool) {
+        let searched = &mut self.searched[usize::from(of_dump)];
+        *searched = searched.saturating_add(1);
     }
 
     /// Counts `units`, the flight having come to `time_s`, and what the ephemeris counts by now.

@@ -1,15 +1,12 @@
 //! Air on the spacecraft's surfaces.
 
-use nalgebra::Vector3;
-
 use super::source::{Source, Workspace};
-use crate::aerodynamics::{AerodynamicModel, AerodynamicOptions, AerodynamicWorkspace, AirFlow, Walls};
-use crate::loads::{Effect, ForceTorque, Loads};
+use crate::aerodynamics::{AerodynamicModel, AerodynamicOptions, AerodynamicWorkspace, Walls};
+use crate::loads::{Effect, Loads};
 use crate::plant::instant::conditions::Conditions;
 use crate::plant::settings::configuration::Configuration;
-use crate::plant::settings::panel_setting::SunAt;
 use crate::refusal::Refusal;
-use crate::spacecraft::{Material, Panel, Spacecraft};
+use crate::spacecraft::{Material, Spacecraft};
 
 /// Aerodynamic model and workspace. All of it follows from setup and configuration: a cache, not state.
 #[derive(Clone, Debug)]
@@ -40,34 +37,6 @@ impl AerodynamicSolver {
             model,
         })
     }
-
-    /// Force and torque about the centre of mass, panels at the angles of their settings; wall temperatures are these of all faces
-    /// where they are known, else the materials'.
-    fn load(
-        &mut self,
-        (configuration, panels): (&Configuration, &[Panel]),
-        face_temperatures_k: &[f64],
-        sun: &SunAt,
-        flow: &AirFlow<f64>,
-        center_of_mass_body_m: &Vector3<f64>,
-    ) -> ForceTorque {
-        configuration.panel_angles_rad(panels, &self.panels, sun, &mut self.panel_angles_rad);
-        let is_known =
-            !face_temperatures_k.is_empty() && face_temperatures_k.len() == self.model.face_count();
-        let temperatures_k = is_known.then_some(face_temperatures_k);
-        self.model.load(
-            flow,
-            &self.panel_angles_rad,
-            center_of_mass_body_m,
-            Walls { temperatures_k, ..Walls::OWN },
-            &mut self.workspace,
-        )
-    }
-
-    /// About how many microseconds an evaluation takes.
-    fn evaluation_units(&self) -> u32 {
-        self.model.evaluation_units()
-    }
 }
 
 /// Surfaces in air, where that acts.
@@ -85,19 +54,24 @@ impl Source for Option<AerodynamicSolver> {
         configuration: &Configuration,
         (): &(),
         at: &Conditions<'_>,
-        workspace: &mut Workspace,
+        known: &mut Workspace,
         loads: &mut Loads,
     ) {
         let Some((solver, flow)) = self.as_mut().zip(at.flow) else { return };
-        let sun = at.instant.sun_at(at.time_s);
-        let (panels, center_of_mass) = (at.spacecraft.panels, &at.mass.center_of_mass_body_m);
-        let temperatures_k = workspace.face_temperatures_k.as_slice();
+        let AerodynamicSolver { model, panels, panel_angles_rad, workspace } = solver;
+        let sun = &at.instant.sun();
+        configuration.panel_angles_rad(at.kinematics.spacecraft.panels, panels, sun, panel_angles_rad);
+        // Temperatures of the faces where they are known, else the materials'.
+        let temperatures_k = Some(known.face_temperatures_k.as_slice());
+        let temperatures_k = temperatures_k.filter(|it| !it.is_empty() && it.len() == model.face_count());
+        let walls = Walls { temperatures_k, ..Walls::OWN };
+        let center_of_mass_body_m = &at.mass.center_of_mass_body_m;
         loads[Effect::Aerodynamic] =
-            solver.load((configuration, panels), temperatures_k, &sun, &flow, center_of_mass);
+            model.load(&flow, panel_angles_rad, center_of_mass_body_m, walls, workspace);
     }
 
     fn load_units(&self) -> u32 {
-        self.as_ref().map_or(0, AerodynamicSolver::evaluation_units)
+        self.as_ref().map_or(0, |solver| solver.model.evaluation_units())
     }
 
     fn set_material(&mut self, index: usize, material: &Material) {

@@ -50,7 +50,7 @@ impl Source for GravityGradient {
     fn load(&mut self, laws: &Laws, (): &(), at: &Conditions<'_>, _: &mut Workspace, loads: &mut Loads) {
         let Some(planet_body_m) = &at.instant.planet_body_m else { return };
         let pole = || {
-            let pole_inertial = pole_inertial(at.configuration, at.time_s);
+            let pole_inertial = pole_inertial(at.kinematics.configuration, at.instant.time_s);
             at.instant.to_body * pole_inertial.unwrap_or_else(Vector3::z)
         };
         loads[Effect::GravityGradient].torque_body_n_m =

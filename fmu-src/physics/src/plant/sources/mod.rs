@@ -49,12 +49,12 @@ macro_rules! sources {
             /// Writes the loads of the sources that act.
             pub(crate) fn write_loads(&mut self, states: &SourceStates, at: &Conditions<'_>, loads: &mut Loads) {
                 let Self { workspace, .. } = self;
-                $(if at.configuration.effects.has_any(<$source as Source>::ROWS) {
-                    let settings = <$source as Source>::settings(at.configuration);
+                $(if at.kinematics.configuration.effects.has_any(<$source as Source>::ROWS) {
+                    let settings = <$source as Source>::settings(at.kinematics.configuration);
                     self.$name.load(settings, &states.$name, at, workspace, loads);
                     let [row, ..] = <$source as Source>::ROWS else { unreachable!() };
                     if row.is_in_field() && at.instant.planet_body_m.is_some() {
-                        let [dipole_body_a_m2, _] = <$source as Source>::dipole(settings, &states.$name, at.time_s);
+                        let [dipole_body_a_m2, _] = <$source as Source>::dipole(settings, &states.$name, at.instant.time_s);
                         let field_body_t = at.instant.to_body * at.air_and_field.field_inertial_t;
                         loads[*row].torque_body_n_m = magnetic::torque_n_m(&dipole_body_a_m2, &field_body_t);
                     }
@@ -69,7 +69,7 @@ macro_rules! sources {
             pub(crate) fn extend(
                 &mut self,
                 states: &mut SourceStates,
-                path: &mut PathAhead<'_, '_>,
+                path: &mut PathAhead<'_>,
                 span: Span,
             ) -> Result<f64, PlantError> {
                 let mut until_s = span.end_s;
@@ -121,7 +121,7 @@ macro_rules! sources {
             pub(crate) fn dipoles(&self, configuration: &Configuration, time_s: f64) -> Dipoles {
                 let mut dipoles = Dipoles::default();
                 $(if let [row, ..] = <$source as Source>::ROWS
-                    && let Some(place) = row.place_in_field()
+                    && let Some(place) = Effect::FIELD.iter().position(|it| it == row)
                     && configuration.effects.has(*row)
                 {
                     let settings = <$source as Source>::settings(configuration);
@@ -136,7 +136,7 @@ macro_rules! sources {
 impl Sources {
     /// Sources with these solvers of light and air, where they act.
     pub fn new(light: Option<RadiationSolver>, air: Option<AerodynamicSolver>) -> Self {
-        let faces = light.as_ref().map_or(0, RadiationSolver::face_count);
+        let faces = light.as_ref().map_or(0, |solver| solver.model.face_count());
         Self {
             sunlight: light,
             air,

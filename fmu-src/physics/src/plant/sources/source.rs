@@ -39,7 +39,7 @@ pub(crate) trait Source {
     fn extend(
         &mut self,
         _state: &mut Self::State,
-        _path: &mut PathAhead<'_, '_>,
+        _path: &mut PathAhead<'_>,
         span: Span,
     ) -> Result<f64, PlantError> {
         Ok(span.end_s)

@@ -24,17 +24,19 @@ pub struct CenterOfMass {
 impl CenterOfMass {
     /// An event places it there.
     pub(crate) fn place(&mut self, configuration: &Configuration, place_body_m: Vector3<f64>) {
-        self.placed = Some(Placed { place_body_m, parameter_body_m: configuration.center_of_mass_body_m });
+        self.placed =
+            Some(Placed { place_body_m, parameter_body_m: configuration.wet_mass.center_of_mass_body_m });
     }
 
     /// A parameter that is set anew rules from there on.
     pub(crate) fn reconfigured(&mut self, configuration: &Configuration) {
-        self.placed = self.placed.filter(|it| it.parameter_body_m == configuration.center_of_mass_body_m);
+        self.placed =
+            self.placed.filter(|it| it.parameter_body_m == configuration.wet_mass.center_of_mass_body_m);
     }
 
     /// Mass properties with full tanks: inertia about the centre of mass, which moves alone.
     pub(crate) fn mass_properties(&self, configuration: &Configuration) -> MassProperties {
-        let mut loaded = configuration.wet_mass_properties();
+        let mut loaded = configuration.wet_mass;
         if let Some(Placed { place_body_m, .. }) = self.placed {
             loaded.center_of_mass_body_m = place_body_m;
         }

@@ -7,8 +7,8 @@ use crate::loads::{ByEffect, Effect, ForceTorque, Linear, Loads};
 use crate::numerics::adaptive::SegmentSpan;
 use crate::plant::settings::digest::Digest;
 
-/// Loads on the body and direction of the Sun over one interval.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// Loads on the body and direction of the Sun over one interval. The default stands before the first one.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct DisturbanceInterval {
     pub span: SegmentSpan,
     /// Digest of the settings that it was made for.
@@ -25,19 +25,6 @@ pub(crate) struct DisturbanceInterval {
 }
 
 impl DisturbanceInterval {
-    /// Returns the interval before the first one.
-    pub(crate) fn before() -> Self {
-        let nothing = [Vector3::zeros(); 2];
-        Self {
-            span: SegmentSpan::default(),
-            made_for: Digest::default(),
-            loads: ByEffect::default(),
-            field_inertial_t: nothing,
-            to_sun: nothing,
-            lit_fraction: [0.0; 2],
-        }
-    }
-
     /// Whether no interval has begun.
     pub(crate) fn is_before(&self) -> bool {
         self.span.is_before()

@@ -73,7 +73,7 @@ impl DynamicState {
     ) -> BodyLoad {
         let [[force, force_slope], [torque, torque_slope]] = self.disturbance.total_at(time_s);
         let dump = self.dumps.torque_body_n_m();
-        let thrusters = thrusters.load();
+        let thrusters = &thrusters.load;
         let [thrust, thrust_slope] = thrusters.law.force_body_n;
         let [turn, turn_slope] = thrusters.law.torque_body_n_m;
         BodyLoad {

@@ -59,12 +59,10 @@ impl PropagatorState {
 
     /// Becomes another one; allocates nothing where it held as much before.
     pub(crate) fn copy_from(&mut self, other: &Self) {
-        self.sources.copy_from(&other.sources);
         // Nobody asks for the turns of a fork's panels.
-        let Self { trajectory, air_and_field, sun_choice, center_of_mass, command_slews, .. } = *other;
-        (self.trajectory, self.air_and_field) = (trajectory, air_and_field);
-        (self.sun_choice, self.center_of_mass) = (sun_choice, center_of_mass);
-        self.command_slews = command_slews;
+        let Self { mut sources, panel_turns, .. } = core::mem::take(self);
+        sources.copy_from(&other.sources);
+        *self = Self { sources, panel_turns, ..*other };
     }
 
     /// Continues from another place; the heat stored in the surfaces comes along.

@@ -8,9 +8,10 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::GyrostatMotion;
+use crate::numerics::Span;
 use crate::numerics::quadrature::GAUSS_3;
 use crate::propulsion::{PropellantState, PulseCommand, due_s};
-use crate::spacecraft::{MassProperties, Spacecraft, Thrust, Thruster, ThrusterSet};
+use crate::spacecraft::{MassProperties, Spacecraft, Thrust, Thruster};
 
 use super::allocation::{Purpose, ThrusterAllocator, Unserved, UnservedDumps};
 use super::at_once::AtOnce;
@@ -24,11 +25,14 @@ use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSet
 pub struct Thrusters {
     /// Propellant used so far.
     pub propellant: PropellantState,
-    valves: Valves,
+    /// Valves, their pulses and the current delta-v.
+    pub valves: Valves,
     dump: Option<PulsedDump>,
-    load: ThrusterLoad,
+    /// Force, torque and flow of the thrusters in the motion's present segment.
+    pub load: ThrusterLoad,
     totals: ThrusterTotals,
-    unserved: UnservedDumps,
+    /// Dumps so far that thrusters did not carry out, or not to their end.
+    pub unserved: UnservedDumps,
 }
 
 impl Thrusters {
@@ -52,20 +56,15 @@ impl Thrusters {
             && self.load.is_valid()
     }
 
-    /// Valves, their pulses and the current delta-v.
-    pub fn valves(&self) -> &Valves {
-        &self.valves
-    }
-
-    /// Commands these pulses for the step over `span_s`, by the law of [`crate::propulsion::PulseSchedule`]; true if there are any.
+    /// Commands these pulses for a step, by the law of [`crate::propulsion::PulseSchedule`]; true if there are any.
     pub fn command_pulses(
         &mut self,
         settings: &ReactionControlSettings,
         pulses: &[PulseCommand],
-        span_s: [f64; 2],
+        step: Span,
     ) -> bool {
         let is_dumping = self.is_dumping();
-        self.valves.command_pulses(&settings.thrusters, pulses, span_s, is_dumping)
+        self.valves.command_pulses(&settings.thrusters, pulses, step, is_dumping)
     }
 
     /// Commands a delta-v from `time_s` on; true if that changes the present one.
@@ -143,11 +142,6 @@ impl Thrusters {
         self.load.drain(drained, &nozzles_kg_m_s);
     }
 
-    /// Force, torque and flow of the thrusters in the motion's present segment.
-    pub fn load(&self) -> &ThrusterLoad {
-        &self.load
-    }
-
     /// Impulse and velocity change up to `time_s` in the motion's present segment.
     pub fn totals_at(&self, motion: &GyrostatMotion, time_s: f64) -> ThrusterTotals {
         let mut totals = self.totals;
@@ -164,16 +158,6 @@ impl Thrusters {
             totals.delta_v_inertial_m_s += attitude.inertial_from_body(&acceleration) * (weight * span_s);
         }
         totals
-    }
-
-    /// The set that gives the current delta-v.
-    pub fn burning(&self) -> Option<ThrusterSet> {
-        self.valves.burning()
-    }
-
-    /// Dumps so far that thrusters did not carry out, or not to their end.
-    pub fn unserved_dumps(&self) -> UnservedDumps {
-        self.unserved
     }
 
     /// Impulsive dumps and velocity changes at `time_s`.
@@ -260,7 +244,7 @@ impl Thrusters {
                     attitude.body_from_inertial(&(dump.target_inertial_n_m_s - momentum_inertial_n_m_s));
                 let opened_s = dump.decide(&feed, selection, &remaining_body_n_m_s, center_of_mass_body_m);
                 for (k, on_s) in opened_s.iter().enumerate().filter(|(_, on_s)| **on_s > 0.0) {
-                    valves.open(k, &feed.settings.thrusters[k], [time_s, time_s + on_s]);
+                    valves.open(k, &feed.settings.thrusters[k], Span::new(time_s, time_s + on_s));
                 }
             }
             // Open valves deliver the rest of their pulses.
@@ -279,7 +263,7 @@ impl Thrusters {
         mass: &MassProperties,
         [time_s, period_s]: [f64; 2],
     ) -> Option<f64> {
-        let purpose = Purpose::Attitude { burning: self.burning() };
+        let purpose = Purpose::Attitude { burning: self.valves.burning() };
         let Self { propellant, valves, .. } = self;
         let selected = allocator.select(propellant, time_s, purpose, &mass.center_of_mass_body_m);
         let (feed, selection) = selected.ok()?;
@@ -298,7 +282,7 @@ impl Thrusters {
                 0.0
             };
             if opens_s > 0.0 {
-                valves.open(k, &feed.settings.thrusters[k], [time_s, time_s + opens_s]);
+                valves.open(k, &feed.settings.thrusters[k], Span::new(time_s, time_s + opens_s));
             }
         }
         Some(given)
@@ -306,7 +290,7 @@ impl Thrusters {
 
     /// Whether thrusters that are fed at `time_s`, other than a delta-v's, give torque in both senses about every axis.
     pub fn spans(&self, allocator: &mut ThrusterAllocator, mass: &MassProperties, time_s: f64) -> bool {
-        let purpose = Purpose::Attitude { burning: self.burning() };
+        let purpose = Purpose::Attitude { burning: self.valves.burning() };
         !allocator.settings.thrusters.is_empty()
             && allocator.select(&self.propellant, time_s, purpose, &mass.center_of_mass_body_m).is_ok()
     }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::numerics::or_infinite;
+use crate::numerics::{Span, or_infinite};
 use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSettings, ThrustCommand};
 use crate::propulsion::{PulseCommand, PulseSchedule, Valve, due_s};
 use crate::spacecraft::{Thruster, ThrusterSet};
@@ -45,18 +45,18 @@ impl Valves {
             && self.burn.is_none_or(|it| it.stop_s > f64::NEG_INFINITY && has_members(it.set))
     }
 
-    /// Commands these pulses for the step over `span_s`; thrusters of the delta-v, and all during a dump, keep their own.
+    /// Commands these pulses for a step; thrusters of the delta-v, and all during a dump, keep their own.
     pub(super) fn command_pulses(
         &mut self,
         thrusters: &[Thruster],
         pulses: &[PulseCommand],
-        span_s: [f64; 2],
+        step: Span,
         is_dumping: bool,
     ) -> bool {
         let mut any = false;
         for (k, (thruster, pulse)) in thrusters.iter().zip(pulses).enumerate() {
             let is_own = self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) || is_dumping;
-            any |= self.schedule[k].command(&thruster.valve, pulse, span_s, !is_own);
+            any |= self.schedule[k].command(&thruster.valve, pulse, step, !is_own);
         }
         any
     }
@@ -75,7 +75,7 @@ impl Valves {
                 self.schedule[k].end(time_s);
             }
             if requested.is_some() && thruster.set == requested {
-                self.schedule[k].plan(&thruster.valve, time_s, command.stop_s);
+                self.schedule[k].plan(&thruster.valve, Span::new(time_s, command.stop_s));
             }
         }
         let goes_on = self.burn.filter(|burn| Some(burn.set) == requested);
@@ -87,9 +87,9 @@ impl Valves {
         true
     }
 
-    /// Plans a pulse of thruster `k` from the first to the second time, in s.
-    pub(super) fn open(&mut self, k: usize, thruster: &Thruster, [from_s, to_s]: [f64; 2]) {
-        self.schedule[k].plan(&thruster.valve, from_s, to_s);
+    /// Plans a pulse of thruster `k`.
+    pub(super) fn open(&mut self, k: usize, thruster: &Thruster, pulse: Span) {
+        self.schedule[k].plan(&thruster.valve, pulse);
     }
 
     /// Time of the next edge of a pulse or end of a ramp, in s.
@@ -157,7 +157,7 @@ impl Valves {
     }
 
     /// The set that gives the current delta-v.
-    pub(super) fn burning(&self) -> Option<ThrusterSet> {
+    pub fn burning(&self) -> Option<ThrusterSet> {
         self.burn.map(|burn| burn.set)
     }
 

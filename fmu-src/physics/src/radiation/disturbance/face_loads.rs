@@ -73,10 +73,10 @@ impl<T: Scalar> FaceLoads<'_, T> {
             return sum;
         }
         for surface in &self.faces.surfaces {
-            let range = surface.faces();
+            let range = surface.faces.clone();
             let faces = &self.faces.faces[range.clone()];
             let states = &mut workspace.faces[range.clone()];
-            let stores = surface.heat_capacity_j_m2_k > 0.0;
+            let stores = surface.thermal.heat_capacity_j_m2_k > 0.0;
             let stored = match recoil {
                 Recoil::Stored(temperatures_k) if stores => Some(&temperatures_k[range]),
                 _ => None,
@@ -124,7 +124,7 @@ fn set_temperatures<T: Scalar>(
         (state.absorbed_sun_w + state.absorbed_planet_w + face.internal_heat_w) * (1.0 / surface.area_m2)
     };
     if let (Some(conduction), [front, rear], [front_state, rear_state]) =
-        (&surface.conduction, faces, &mut *states)
+        (&surface.thermal.conduction, faces, &mut *states)
         && (conduction.conductance_w_m2_k > 0.0 || conduction.radiative_exchange > 0.0)
     {
         let heat_w_m2 = [heat(front, front_state), heat(rear, rear_state)];

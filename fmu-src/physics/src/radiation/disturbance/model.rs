@@ -92,7 +92,7 @@ impl DisturbanceModel {
     /// Names of the faces in their order: plates, sunshade, panels, the back of a surface after its front.
     pub fn face_names(&self) -> impl Iterator<Item = String> + '_ {
         self.faces.surfaces.iter().flat_map(|surface| {
-            let rear = surface.two_sided.then(|| format!("{}, rear", surface.name));
+            let rear = (surface.faces.len() == 2).then(|| format!("{}, rear", surface.name));
             core::iter::once(surface.name.clone()).chain(rear)
         })
     }
@@ -121,12 +121,10 @@ impl DisturbanceModel {
     /// # Errors
     /// More work than that.
     pub fn within(self, limit_units: u32) -> Result<Self, Refusal> {
-        let found = self.evaluation_units();
-        if found > limit_units {
-            return Err(Refusal::new(
-                format_args!("one evaluation takes {found} units of work"),
-                limit_units,
-            ));
+        let units = self.evaluation_units();
+        if units > limit_units {
+            let found = format_args!("one evaluation takes {units} units of work");
+            return Err(Refusal::new(found, limit_units));
         }
         Ok(self)
     }
@@ -138,7 +136,7 @@ impl DisturbanceModel {
 
     /// Whether any face stores heat, so that [`super::Recoil::Stored`] differs from balance.
     pub fn stores_heat(&self) -> bool {
-        self.faces.surfaces.iter().any(|surface| surface.heat_capacity_j_m2_k > 0.0)
+        self.faces.surfaces.iter().any(|surface| surface.thermal.heat_capacity_j_m2_k > 0.0)
     }
 
     /// Force and torque about the centre of mass by effect; by face in the workspace.
@@ -252,7 +250,10 @@ impl DisturbanceModel {
         end_heat_w: &[f64],
         duration_s: f64,
     ) {
-        self.faces.advance_temperatures(temperatures_k, [start_heat_w, end_heat_w], duration_s);
+        for surface in &self.faces.surfaces {
+            let heat_w = [start_heat_w, end_heat_w];
+            surface.advance_temperatures(&self.faces, temperatures_k, heat_w, duration_s);
+        }
     }
 
     fn check_temperatures(&self, recoil: Recoil<'_>) -> Result<(), Refusal> {

@@ -81,7 +81,7 @@ impl<T: Scalar> Pieces<T> {
         remaining.ends.clear();
         remaining.flat_m2 = self.flat_m2;
         for piece in self.iter() {
-            if apart(piece, hole) {
+            if separates(hole, piece) || separates(piece, hole) {
                 remaining.points.extend_from_slice(piece);
                 remaining.ends.push(remaining.points.len());
                 continue;
@@ -185,13 +185,25 @@ pub(super) fn edges<T: Scalar>(piece: &[Vector2<T>]) -> impl Iterator<Item = (Ve
 fn clip<T: Scalar>(piece: &[Vector2<T>], a: &Vector2<T>, b: &Vector2<T>, kept: &mut Vec<Vector2<T>>) {
     let along = b - a;
     let side = |p: &Vector2<T>| cross(&along, &(p - a));
-    let Some(mut from) = piece.last() else { return };
+    keep_positive(piece, side, |from, to, share| from + (to - from) * share, kept);
+}
+
+/// Appends to `kept` the part of a convex outline where `side` is not negative; `between` gives a point of an edge by its share of the
+/// way from the first corner to the second.
+#[inline]
+pub(super) fn keep_positive<P: Copy, T: Scalar>(
+    outline: &[P],
+    side: impl Fn(&P) -> T,
+    between: impl Fn(&P, &P, T) -> P,
+    kept: &mut Vec<P>,
+) {
+    let Some(mut from) = outline.last() else { return };
     let mut from_side = side(from);
-    for to in piece {
+    for to in outline {
         let to_side = side(to);
         let (before, after) = (from_side.value(), to_side.value());
         if (before > 0.0 && after < 0.0) || (before < 0.0 && after > 0.0) {
-            kept.push(from + (to - from) * (from_side / (from_side - to_side)));
+            kept.push(between(from, to, from_side / (from_side - to_side)));
         }
         if after >= 0.0 {
             kept.push(*to);
@@ -199,11 +211,6 @@ fn clip<T: Scalar>(piece: &[Vector2<T>], a: &Vector2<T>, b: &Vector2<T>, kept: &
         from = to;
         from_side = to_side;
     }
-}
-
-/// Whether an edge of either keeps them apart.
-fn apart<T: Scalar>(piece: &[Vector2<T>], hole: &[Vector2<T>]) -> bool {
-    separates(hole, piece) || separates(piece, hole)
 }
 
 /// Whether everything of `other` lies right of an edge of the first outline.

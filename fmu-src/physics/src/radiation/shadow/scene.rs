@@ -2,7 +2,7 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::clip::{Pieces, cross, drop_flat_corners, flat_m2};
+use super::clip::{Pieces, cross, drop_flat_corners, flat_m2, keep_positive};
 use super::convex::FlatParts;
 use super::disc::{DIRECTIONS, LitMean, SunDisc};
 use crate::numerics::scalar::{Scalar, constant_vector, sin_cos};
@@ -37,20 +37,19 @@ pub struct Hinge {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShadowScene {
     surfaces: Vec<ShadowSurface>,
+    /// For every surface those that can stand before its front, and before its rear.
+    before: Vec<[Vec<usize>; 2]>,
     /// Radius of the sphere about the body frame's origin that contains all outlines, in m.
     size_m: f64,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 struct ShadowSurface {
+    outline: Outline,
     flat: FlatParts,
-    hinge: Option<Hinge>,
-    two_sided: bool,
     area_m2: f64,
     /// Radius of the sphere about the outline's centre that contains the outline, in m.
     radius_m: f64,
-    /// Surfaces that can stand before the front, and before the rear.
-    before: [Vec<usize>; 2],
 }
 
 /// Position and axes of a surface at the panels' present angles.
@@ -106,49 +105,30 @@ impl<T: Scalar> ShadowWorkspace<T> {
 impl ShadowScene {
     /// Prepares outlines: convex parts, and who can ever shadow whom.
     pub fn new(outlines: Vec<Outline>) -> Self {
-        let mut surfaces: Vec<ShadowSurface> = outlines
-            .into_iter()
-            .map(|outline| {
-                let flat = FlatParts::new(&outline.polygon);
-                let away = |v: &Vector3<f64>| (v - flat.origin).norm();
-                ShadowSurface {
-                    area_m2: outline.polygon.area_m2(),
-                    radius_m: outline.polygon.vertices_m().iter().map(away).fold(0.0, f64::max),
-                    flat,
-                    hinge: outline.hinge,
-                    two_sided: outline.two_sided,
-                    before: [Vec::new(), Vec::new()],
-                }
-            })
-            .collect();
+        let surfaces = outlines.into_iter().map(|outline| {
+            let flat = FlatParts::new(&outline.polygon);
+            let away = |v: &Vector3<f64>| (v - flat.origin).norm();
+            let radius_m = outline.polygon.vertices_m().iter().map(away).fold(0.0, f64::max);
+            ShadowSurface { area_m2: outline.polygon.area_m2(), radius_m, flat, outline }
+        });
+        let surfaces: Vec<ShadowSurface> = surfaces.collect();
         let size_m = surfaces.iter().map(|s| s.flat.origin.norm() + s.radius_m).fold(0.0, f64::max);
-        let before: Vec<[Vec<usize>; 2]> = surfaces
-            .iter()
-            .map(|surface| {
-                let candidates = |sign: f64| {
-                    let can = |other: &ShadowSurface| surface.highest(other, sign) > IN_PLANE * size_m;
-                    (0..surfaces.len())
-                        .filter(|&j| !core::ptr::eq(&surfaces[j], surface) && can(&surfaces[j]))
-                        .filter(|&j| !surfaces[..j].iter().any(|known| known.covers(&surfaces[j], size_m)))
-                        .collect()
-                };
-                [candidates(1.0), if surface.two_sided { candidates(-1.0) } else { Vec::new() }]
-            })
-            .collect();
-        for (surface, before) in surfaces.iter_mut().zip(before) {
-            surface.before = before;
-        }
-        Self { surfaces, size_m }
-    }
-
-    /// Whether any surface can shadow another at some direction and some angles.
-    pub fn has_pairs(&self) -> bool {
-        self.surfaces.iter().any(|surface| surface.before.iter().any(|list| !list.is_empty()))
+        let before = surfaces.iter().map(|surface| {
+            let candidates = |sign: f64| {
+                let can = |other: &ShadowSurface| surface.highest(other, sign) > IN_PLANE * size_m;
+                (0..surfaces.len())
+                    .filter(|&j| !core::ptr::eq(&surfaces[j], surface) && can(&surfaces[j]))
+                    .filter(|&j| !surfaces[..j].iter().any(|known| known.covers(&surfaces[j], size_m)))
+                    .collect()
+            };
+            [candidates(1.0), if surface.outline.two_sided { candidates(-1.0) } else { Vec::new() }]
+        });
+        Self { before: before.collect(), surfaces, size_m }
     }
 
     /// Ordered pairs in which the second surface can shadow a side of the first.
     pub fn candidate_pairs(&self) -> usize {
-        self.surfaces.iter().flat_map(|surface| &surface.before).map(Vec::len).sum()
+        self.before.iter().flatten().map(Vec::len).sum()
     }
 
     /// Finds what the Sun lights of every outline's sunward side.
@@ -211,7 +191,7 @@ impl ShadowScene {
             }
             let mut touched = false;
             let center = workspace.poses[index].origin.map(T::value);
-            for &other in &surface.before[usize::from(cos < 0.0)] {
+            for &other in &self.before[index][usize::from(cos < 0.0)] {
                 let away = workspace.poses[other].origin.map(T::value) - center;
                 let reach = surface.radius_m + self.surfaces[other].radius_m;
                 let along = away.dot(&sun);
@@ -251,6 +231,9 @@ impl ShadowScene {
         let (pose, caster) = (&poses[index], &poses[other]);
         let height = |p: &Vector3<T>| (p - pose.origin).dot(&pose.normal) * side;
         let per_cos = (sun.dot(&pose.normal) * side).recip();
+        let at_height_0 = |from: &(Vector3<T>, T), to: &(Vector3<T>, T), share: T| {
+            (from.0 + (to.0 - from.0) * share, T::constant(0.0))
+        };
         for part in &self.surfaces[other].flat.parts {
             let [whole, above] = &mut *space;
             whole.clear();
@@ -258,7 +241,8 @@ impl ShadowScene {
                 let point = caster.origin + caster.east * T::constant(p.x) + caster.north * T::constant(p.y);
                 (point, height(&point))
             }));
-            keep_above(whole, above);
+            above.clear();
+            keep_positive(whole, |corner| corner.1, at_height_0, above);
             if above.len() < 3 {
                 continue;
             }
@@ -295,8 +279,10 @@ impl ShadowSurface {
         let flat = &self.flat;
         let fixed = [flat.origin, flat.east, flat.north, flat.normal].map(|v| constant_vector::<T>(&v));
         let [origin, east, north, normal] = fixed;
-        let turned =
-            self.hinge.and_then(|hinge| panel_angles_rad.get(hinge.panel).map(|angle| (hinge, angle)));
+        let turned = self
+            .outline
+            .hinge
+            .and_then(|hinge| panel_angles_rad.get(hinge.panel).map(|angle| (hinge, angle)));
         let Some((hinge, angle_rad)) = turned else { return Pose { origin, east, north, normal } };
         let (sin, cos) = sin_cos(*angle_rad);
         let axis = constant_vector::<T>(&hinge.axis_body);
@@ -325,7 +311,7 @@ impl ShadowSurface {
     fn highest(&self, other: &Self, sign: f64) -> f64 {
         let points = other.flat.parts.iter().flat_map(|part| other.flat.in_space(part));
         let normal = &self.flat.normal;
-        let height = |point: Vector3<f64>| match (&self.hinge, &other.hinge) {
+        let height = |point: Vector3<f64>| match (&self.outline.hinge, &other.outline.hinge) {
             (Some(a), Some(b)) if a.panel != b.panel => f64::INFINITY,
             // The point circles about its axis; where the plane turns instead, seen from the plane.
             (None, Some(hinge)) | (Some(hinge), None) => {
@@ -346,27 +332,10 @@ impl ShadowSurface {
             s.flat.parts.iter().flat_map(|part| s.flat.in_space(part)).collect()
         };
         let (mine, theirs) = (points(self), points(other));
-        self.hinge == other.hinge
+        self.outline.hinge == other.outline.hinge
             && mine.len() == theirs.len()
             && self.flat.parts.len() == 1
             && other.flat.parts.len() == 1
             && mine.iter().all(|a| theirs.iter().any(|b| near(a, b)))
-    }
-}
-
-/// The part of a convex outline in space with a height above 0.
-fn keep_above<T: Scalar>(whole: &[(Vector3<T>, T)], above: &mut Vec<(Vector3<T>, T)>) {
-    above.clear();
-    let Some(mut from) = whole.last() else { return };
-    for to in whole {
-        let (before, after) = (from.1.value(), to.1.value());
-        if (before > 0.0 && after < 0.0) || (before < 0.0 && after > 0.0) {
-            let share = from.1 / (from.1 - to.1);
-            above.push((from.0 + (to.0 - from.0) * share, T::constant(0.0)));
-        }
-        if after >= 0.0 {
-            above.push(*to);
-        }
-        from = to;
     }
 }

@@ -1,14 +1,13 @@
 //! Commands of the master: thrusters over a step, pulses within it, torque from outside.
 
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::propulsion::PulseCommand;
 use crate::spacecraft::MOST_THRUSTERS;
 use crate::spin::series::BodyTorque;
 
-/// Commands of the master for a step.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// Commands of the master for a step; by default they fire no thruster and exert no torque.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Commands {
     /// Thrusters that fire over the whole step.
     pub fire: u32,
@@ -21,16 +20,6 @@ pub struct Commands {
 }
 
 impl Commands {
-    /// Returns commands that fire no thruster and exert no torque.
-    pub fn none() -> Self {
-        Self {
-            fire: 0,
-            pulses: [PulseCommand::default(); MOST_THRUSTERS],
-            any_pulse: false,
-            torque: BodyTorque::constant(Vector3::zeros()),
-        }
-    }
-
     /// Whether any thruster is to fire.
     pub(super) fn fires(&self) -> bool {
         self.fire != 0 || self.any_pulse

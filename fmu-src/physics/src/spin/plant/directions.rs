@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::numerics::or_infinite;
-use crate::spin::geometry::L1Ephemeris;
+use crate::spin::geometry::{L1Ephemeris, SunEarth};
 
 /// Sun and Earth of the L1 orbit stand still for the sensors over intervals of this length, in s: less than 0.01 deg.
 const INTERVAL_S: f64 = 600.0;
@@ -69,9 +69,8 @@ impl DirectionSource {
 
     /// New directions; with the L1 orbit in charge, only the star of `given` counts.
     pub(super) fn give(&mut self, given: Directions) {
-        let Directions { sun_inertial, earth_inertial, .. } = self.present;
         self.present = match self.l1 {
-            Some(_) => Directions { sun_inertial, earth_inertial, ..given },
+            Some(_) => Directions { star_inertial: given.star_inertial, ..self.present },
             None => given,
         };
     }
@@ -88,13 +87,9 @@ impl DirectionSource {
 
     /// Directions at a time: on the L1 orbit they move.
     pub(super) fn at(&self, time_s: f64) -> Directions {
-        let mut directions = self.present;
-        if let Some(l1) = &self.l1 {
-            let seen = l1.sun_earth(time_s);
-            directions.sun_inertial = seen.sun_inertial;
-            directions.earth_inertial = seen.earth_inertial;
-        }
-        directions
+        let Some(L1Ephemeris { orbit, phases }) = &self.l1 else { return self.present };
+        let SunEarth { sun_inertial, earth_inertial } = orbit.sun_earth(phases, time_s);
+        Directions { sun_inertial, earth_inertial, ..self.present }
     }
 
     /// Whether a decoded source can be one at `time_s`.

@@ -4,7 +4,6 @@ use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::directions::Directions;
 use super::predictions::finite;
 use super::state::Plant;
 use crate::attitude::{Inertia, RigidBodyState, angle_between_rad};
@@ -79,8 +78,6 @@ pub struct Outputs {
     pub sector_error: f64,
     /// Eq 1, at most one period, in s.
     pub period_variation_s: f64,
-    /// Directions that the sensors look for.
-    pub directions: Directions,
     /// From the spin axis, in rad.
     pub sun_angle_rad: f64,
     /// From the antenna (-Z), in rad.
@@ -99,44 +96,12 @@ pub struct Outputs {
     pub next_edge_s: f64,
     /// Moments of inertia and principal axes.
     pub inertia: Inertia,
-    /// Thrusters whose valves are open, bit by bit.
-    pub thrusters_on: u32,
-    /// Thrusters whose commanded pulse is too short for their valves, bit by bit.
-    pub too_short: u32,
-    /// Body components, in N.
-    pub force_body_n: Vector3<f64>,
-    /// Body components, in N m.
-    pub torque_body_n_m: Vector3<f64>,
     /// EME2000, in m/s.
     pub delta_v_inertial_m_s: Vector3<f64>,
     /// In kg.
     pub propellant_used_kg: f64,
     /// In kg.
     pub propellant_remaining_kg: f64,
-    /// Mass with the remaining propellant, in kg.
-    pub mass_kg: f64,
-}
-
-/// Time between crossings of the Sun.
-struct SunPeriod {
-    /// Time between the last two, s.
-    last_s: f64,
-    /// Change from the time before, s.
-    change_s: f64,
-    /// Change as a fraction of the time before.
-    change: f64,
-}
-
-impl SunPeriod {
-    /// Returns the last period; `nominal_period_s` before there are two crossings.
-    fn new(plant: &Plant, nominal_period_s: f64) -> Self {
-        let sun = &plant.sensors.sun;
-        let (change_s, change) = match (sun.period_s, sun.period_before_s) {
-            (Some(last), Some(before)) => (last - before, (last - before) / before),
-            _ => (0.0, 0.0),
-        };
-        Self { last_s: sun.period_s.unwrap_or(nominal_period_s), change_s, change }
-    }
 }
 
 impl Outputs {
@@ -153,14 +118,16 @@ impl Outputs {
         let directions = plant.directions_at(time_s);
         let sun_angle_rad = angle_to_rad(&spin_axis_inertial, &directions.sun_inertial);
         let nominal_period_s = finite(2.0 * PI / spin_rate_rad_s.abs());
-        let period = SunPeriod::new(plant, nominal_period_s);
+        let sun = &plant.sensors.sun;
+        let period_change =
+            sun.period_s.zip(sun.period_before_s).map(|(last, before)| (last - before, before));
         let sectors = f64::from(spinner.sun_sensor.sectors);
         // Without a Sun there is no period of its crossings.
         let variation_s = match directions.sun_inertial == Vector3::zeros() {
             true => 0.0,
             false => period_variation_s(nutation_rad, spin_rate_rad_s, sun_angle_rad).abs(),
         };
-        let (law, sequencer) = (&plant.propulsion.valves.law, plant.sequencer.as_ref());
+        let sequencer = plant.sequencer.as_ref();
         let next_edge_s = match sequencer.map(|it| it.phase) {
             Some(Phase::Waiting { on_s, .. }) => on_s,
             Some(Phase::Firing { off_s }) => off_s,
@@ -183,12 +150,11 @@ impl Outputs {
                 &state.momentum_inertial,
                 &plant.initial.momentum_inertial,
             ),
-            period_s: period.last_s,
-            period_change_s: period.change_s,
-            sector_error: sectors * period.change,
+            period_s: sun.period_s.unwrap_or(nominal_period_s),
+            period_change_s: period_change.map_or(0.0, |(change_s, _)| change_s),
+            sector_error: sectors * period_change.map_or(0.0, |(change_s, before_s)| change_s / before_s),
             // A NaN (no nutation, Sun on the axis) counts as no variation.
             period_variation_s: if variation_s.is_nan() { 0.0 } else { variation_s.min(nominal_period_s) },
-            directions,
             sun_angle_rad,
             earth_angle_rad: angle_to_rad(&-spin_axis_inertial, &directions.earth_inertial),
             declination_rad: math::asin(spin_axis_inertial.dot(&directions.star_inertial).clamp(-1.0, 1.0)),
@@ -198,14 +164,9 @@ impl Outputs {
             burn_done: sequencer.is_some_and(|s| s.phase == Phase::Done),
             next_edge_s,
             inertia: *inertia,
-            thrusters_on: plant.propulsion.valves.open_mask(),
-            too_short: plant.propulsion.valves.too_short_mask(),
-            force_body_n: law.force_at_n(time_s),
-            torque_body_n_m: law.torque_at_n_m(time_s),
             delta_v_inertial_m_s: plant.propulsion.delta_v_at(spinner, &plant.motion, time_s),
             propellant_used_kg: plant.propulsion.used_at(time_s),
             propellant_remaining_kg: plant.propulsion.remaining_at(time_s),
-            mass_kg: plant.propulsion.mass_at_kg(spinner, time_s),
         }
     }
 

@@ -5,15 +5,13 @@ use std::sync::LazyLock;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::start::{MassSource, Start};
 use super::valves::Valves;
 use crate::attitude::{Inertia, JetDamping};
-use crate::enumeration::enumeration;
 use crate::math;
 use crate::numerics::quadrature::Rule;
 use crate::propulsion::ThrustLaw;
-use crate::spacecraft::MOST_THRUSTERS;
 use crate::spin::{
-    execution::PulseExecution,
     motion::Motion,
     nutation::{LinearNutation, Spin},
     series::BodyTorque,
@@ -34,17 +32,6 @@ const EDGE_ROUNDING: f64 = 1e-11;
 const _: () = assert!(!core::mem::needs_drop::<Rule<8>>());
 static IMPULSE_RULE: LazyLock<Rule<8>> = LazyLock::new(Rule::gauss_legendre);
 
-enumeration! {
-    /// Source of the inertia.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    pub enum MassSource {
-        /// The parameters inertia and productsOfInertia, unchanged by propellant use; no jet damping.
-        1 => Fixed,
-        /// The setup's table over propellant, at the end of each pulse; jet damping while thrusters fire.
-        2 => Propellant,
-    }
-}
-
 /// Thrusters, tank and what they did so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Propulsion {
@@ -62,17 +49,11 @@ pub struct Propulsion {
 
 impl Propulsion {
     /// No thruster on, and nothing used.
-    pub(super) fn new(
-        mass_source: MassSource,
-        propellant_kg: f64,
-        execution: [PulseExecution; MOST_THRUSTERS],
-        seed: u64,
-        start_s: f64,
-    ) -> Self {
+    pub(super) fn new(start: &Start, start_s: f64) -> Self {
         Self {
-            mass_source,
-            initial_propellant_kg: propellant_kg,
-            valves: Valves::new(execution, seed, start_s),
+            mass_source: start.mass_source,
+            initial_propellant_kg: start.propellant_kg,
+            valves: Valves::new(start.execution, start.seed, start_s),
             used_kg: 0.0,
             delta_v_inertial_m_s: Vector3::zeros(),
             delta_v_until_s: start_s,

@@ -14,10 +14,6 @@ pub struct Rates {
     pub rate_rad_s2: Vector3<f64>,
     /// Rate of the spin about the third principal axis.
     pub spin_rate_rad_s2: f64,
-    /// Rate of the thrusters' force, body components.
-    pub force_body_n_s: Vector3<f64>,
-    /// Rate of the thrusters' torque, body components.
-    pub torque_body_n_m_s: Vector3<f64>,
     /// Rate of the momentum, inertial.
     pub momentum_inertial_n_m: Vector3<f64>,
     /// Rate of the momentum, body components.
@@ -58,8 +54,8 @@ impl Rates {
         let q = state.attitude;
         // Everything about the principal axes, and from there to the body's.
         let h = inertia.principal_from_body(&state.momentum_body);
-        let [i1, i2, i3] = inertia.principal_kg_m2();
-        let rate = Vector3::new(h.x / i1, h.y / i2, h.z / i3);
+        let moments_kg_m2 = Vector3::from(inertia.principal_kg_m2());
+        let rate = h.component_div(&moments_kg_m2);
         let gain = motion.damper.gain(&h);
         // See `damper`: the body turns at J^-1 h and a little about the line of nodes.
         let turning_principal = rate + Vector3::new(-h.y, h.x, 0.0) * gain;
@@ -67,7 +63,7 @@ impl Rates {
         let torque_body = motion.torque.at(time_s, &turning);
         let torque = inertia.principal_from_body(&torque_body);
         let h_dot = h.cross(&turning_principal) + torque;
-        let rate_dot = Vector3::new(h_dot.x / i1, h_dot.y / i2, h_dot.z / i3);
+        let rate_dot = h_dot.component_div(&moments_kg_m2);
         let [x, y, z, w] = q.0;
         let v_dot = turning * w + Vector3::new(x, y, z).cross(&turning);
         let w_dot = -(x * turning.x + y * turning.y + z * turning.z);
@@ -79,7 +75,6 @@ impl Rates {
         let across = across_square.sqrt();
         let directions = plant.directions_at(time_s);
         let law = &plant.propulsion.valves.law;
-        let force_body_n = law.force_at_n(time_s);
         let flow_kg_s = law.flow_at_kg_s(time_s);
         let mass_kg = plant.propulsion.mass_at_kg(spinner, time_s);
         let ratio = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
@@ -88,12 +83,10 @@ impl Rates {
             attitude_1_s: [0.5 * v_dot.x, 0.5 * v_dot.y, 0.5 * v_dot.z, 0.5 * w_dot],
             rate_rad_s2: inertia.body_from_principal(&rate_dot),
             spin_rate_rad_s2: rate_dot.z,
-            force_body_n_s: law.force_body_n[1],
-            torque_body_n_m_s: law.torque_body_n_m[1],
             momentum_inertial_n_m: momentum_dot,
             momentum_body_n_m: inertia.body_from_principal(&h_dot),
             spin_axis_1_s: axis_dot,
-            delta_v_m_s2: q.inertial_from_body(&force_body_n) / mass_kg,
+            delta_v_m_s2: q.inertial_from_body(&law.force_at_n(time_s)) / mass_kg,
             nutation_rad_s: ratio(across_dot * h.z - across * h_dot.z, h.norm_squared()),
             nutation_phase_rad_s: ratio(h.x * h_dot.y - h.y * h_dot.x, across_square),
             sun_angle_rad_s: angle_rate(&axis, &axis_dot, &directions.sun_inertial),

@@ -6,8 +6,8 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::directions::{Directions, is_unit};
+use super::start::{Sampling, Start};
 use crate::attitude::{Inertia, RigidBodyState, angle_between_rad};
-use crate::enumeration::enumeration;
 use crate::math;
 use crate::numerics::noise::{Channel, normal};
 use crate::spin::{
@@ -19,17 +19,6 @@ use crate::spin::{
     tracker::{NutationEstimator, picket_of, searched},
     work::{Work, WorkKind},
 };
-
-enumeration! {
-    /// When the star tracker samples its star.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    pub enum Sampling {
-        /// When it passes the boresight, on the turns that search its picket.
-        1 => Spins,
-        /// Every 8 turns of the nominal rate by the clock, as paper 002 assumes in eqs 16 to 20.
-        2 => Clock,
-    }
-}
 
 /// A star tracker sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -80,14 +69,8 @@ struct SensorAzimuths {
 }
 
 impl Sensors {
-    /// Returns sensors before their first reading; `nominal_rate_rad_s` sets the clock of the star tracker.
-    pub(super) fn new(
-        spinner: &Spinner,
-        sampling: Sampling,
-        nominal_rate_rad_s: f64,
-        seed: u64,
-        start_s: f64,
-    ) -> Self {
+    /// Returns sensors before their first reading.
+    pub(super) fn new(spinner: &Spinner, start: &Start, start_s: f64) -> Self {
         let slit = |azimuth_deg: f64| {
             let (sine, cosine) = math::sin_cos(azimuth_deg.to_radians());
             Vector3::new(cosine, sine, 0.0)
@@ -96,8 +79,8 @@ impl Sensors {
             sun: CrossingDetector::new(start_s),
             star: CrossingDetector::new(start_s),
             sun_sample_rad: 0.0,
-            sampling,
-            clock_period_s: f64::from(spinner.star_tracker.every) * 2.0 * PI / nominal_rate_rad_s,
+            sampling: start.sampling,
+            clock_period_s: f64::from(spinner.star_tracker.every) * 2.0 * PI / start.nominal_rate_rad_s,
             clock_start_s: start_s,
             clock_count: 0,
             every: spinner.star_tracker.every,
@@ -108,7 +91,7 @@ impl Sensors {
                 sun: slit(spinner.sun_sensor.azimuth_deg),
                 star: slit(spinner.star_tracker.azimuth_deg),
             },
-            seed,
+            seed: start.seed,
         }
     }
 

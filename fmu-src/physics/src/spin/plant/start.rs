@@ -4,9 +4,8 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::directions::{has_directions, is_unit};
-use super::propulsion::MassSource;
-use super::sensors::Sampling;
 use crate::attitude::{Inertia, InertiaError, Quaternion, angle_between_rad};
+use crate::enumeration::enumeration;
 use crate::math;
 use crate::spacecraft::MOST_THRUSTERS;
 use crate::spin::{
@@ -26,6 +25,28 @@ use crate::spin::{
 pub const LEAST_WORK: u32 = 1000;
 /// Greatest work of a step that may be allowed.
 pub const MOST_WORK: u32 = 1_000_000_000;
+
+enumeration! {
+    /// Source of the inertia.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum MassSource {
+        /// The parameters inertia and productsOfInertia, unchanged by propellant use; no jet damping.
+        1 => Fixed,
+        /// The setup's table over propellant, at the end of each pulse; jet damping while thrusters fire.
+        2 => Propellant,
+    }
+}
+
+enumeration! {
+    /// When the star tracker samples its star.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum Sampling {
+        /// When it passes the boresight, on the turns that search its picket.
+        1 => Spins,
+        /// Every 8 turns of the nominal rate by the clock, as paper 002 assumes in eqs 16 to 20.
+        2 => Clock,
+    }
+}
 
 /// Start of a flight.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,5 @@
 //! The spinner in flight: body, burn, outside commands and sensors, from edge to edge.
 
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::commands::Commands;
@@ -96,9 +95,8 @@ impl Plant {
         let slit_rad = spinner.sun_sensor.azimuth_deg.to_radians();
         let sequencer = burn.map(|burn| Sequencer::new(burn, slit_rad));
         let damper = Damper::new(start.damper_time_constant_s, &inertia);
-        let quiet = BodyTorque::constant(Vector3::zeros());
         let anchor = Anchor { time_s: start_s, attitude, momentum_inertial };
-        let motion = Motion::new(inertia, damper, quiet, anchor, f64::INFINITY);
+        let motion = Motion::new(inertia, damper, BodyTorque::default(), anchor, f64::INFINITY);
         let mut plant = Self {
             present: Some(motion.at(start_s)),
             motion,
@@ -109,17 +107,11 @@ impl Plant {
                 theory,
             },
             sequencer,
-            commands: Commands::none(),
+            commands: Commands::default(),
             commanded: true,
             directions: DirectionSource::new(directions, start.l1, start_s),
-            propulsion: Propulsion::new(
-                start.mass_source,
-                start.propellant_kg,
-                start.execution,
-                start.seed,
-                start_s,
-            ),
-            sensors: Sensors::new(spinner, start.sampling, start.nominal_rate_rad_s, start.seed, start_s),
+            propulsion: Propulsion::new(start, start_s),
+            sensors: Sensors::new(spinner, start, start_s),
             work_limit: start.work_limit,
         };
         start

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::commands::Commands;
 use crate::attitude::JetDamping;
+use crate::numerics::Span;
 use crate::propulsion::{PulseSchedule, ThrustLaw, Valve, due_s};
 use crate::spacecraft::{MOST_THRUSTERS, Thruster, steiner};
 use crate::spin::{execution::PulseExecution, spinner::Spinner};
@@ -46,12 +47,12 @@ impl Valves {
 
     /// Takes what is commanded for the step from `start_s` to `end_s`, in s, by the law of [`PulseSchedule`].
     pub(super) fn command(&mut self, commands: &Commands, start_s: f64, end_s: f64) {
-        let step_s = [start_s, end_s];
+        let step = Span::new(start_s, end_s);
         for (k, schedule) in self.schedule.iter_mut().enumerate() {
             let timing = &self.execution[k].valve;
-            schedule.command(timing, &commands.pulses[k], step_s, true);
+            schedule.command(timing, &commands.pulses[k], step, true);
             if commands.fire >> k & 1 == 1 {
-                schedule.plan(timing, start_s, end_s);
+                schedule.plan(timing, step);
             }
         }
     }
@@ -78,7 +79,7 @@ impl Valves {
     }
 
     /// Thrusters for which the last step commanded a pulse that does not open their valves, bit by bit.
-    pub(super) fn too_short_mask(&self) -> u32 {
+    pub fn too_short_mask(&self) -> u32 {
         self.schedule.iter().enumerate().map(|(k, it)| u32::from(it.was_too_short()) << k).sum()
     }
 

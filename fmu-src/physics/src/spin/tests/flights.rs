@@ -188,7 +188,7 @@ fn commanded_pulses_and_held_thrusters_do_what_the_plan_does() {
         plant.command(pulses(&[8], first + f64::from(i) * period - from, 0.032), directions());
         plant.advance(&spinner, from + period).unwrap();
     }
-    plant.command(Commands::none(), directions());
+    plant.command(Commands::default(), directions());
     plant.advance(&spinner, 60.0).unwrap();
     let seen = Outputs::from_plant(&plant, &spinner);
     assert!((seen.state.momentum_inertial - expected.state.momentum_inertial).norm() < 1e-11);
@@ -201,7 +201,7 @@ fn commanded_pulses_and_held_thrusters_do_what_the_plan_does() {
         plant.command(firing(&[8]), directions());
         plant.advance(&spinner, on + 0.016).unwrap();
         plant.advance(&spinner, on + 0.032).unwrap();
-        plant.command(Commands::none(), directions());
+        plant.command(Commands::default(), directions());
     }
     plant.advance(&spinner, 60.0).unwrap();
     let seen = Outputs::from_plant(&plant, &spinner);
@@ -259,7 +259,7 @@ fn inertia_follows_the_propellant_when_requested() {
     let before = Outputs::from_plant(&plant, &spinner);
     plant.command(firing(&[7, 9]), directions());
     plant.advance(&spinner, 5000.0).unwrap();
-    plant.command(Commands::none(), directions());
+    plant.command(Commands::default(), directions());
     plant.advance(&spinner, 5001.0).unwrap();
     let after = Outputs::from_plant(&plant, &spinner);
     let used = 2.0 * 5000.0 * 4.448 / (220.0 * 9.80665);
@@ -364,7 +364,7 @@ fn outside_torque_precesses_the_spin_axis() {
     let mut plant = launch(&spinner, &start);
     let before = Outputs::from_plant(&plant, &spinner);
     let torque = crate::spin::series::BodyTorque::constant(Vector3::new(0.0, 0.0, 0.01));
-    plant.command(Commands { torque, ..Commands::none() }, directions());
+    plant.command(Commands { torque, ..Commands::default() }, directions());
     plant.advance(&spinner, 1000.0).unwrap();
     let after = Outputs::from_plant(&plant, &spinner);
     assert_relative_eq!(after.rate_rad_s.z - before.rate_rad_s.z, 10.0 / 353.82, max_relative = 1e-9);

@@ -14,7 +14,7 @@ fn simulated(inertia_kg_m2: [f64; 3], timing: Timing, start_s: f64) -> crate::sp
     let spinner = ace();
     let burn = Some(BurnRequest { timing, start_s, ..request() });
     let start = Start { inertia_kg_m2, burn, damper_time_constant_s: 0.0, ..paper_start(1.483) };
-    let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), start_s).unwrap();
+    let mut plant = Plant::start(&spinner, &start, directions(), Commands::default(), start_s).unwrap();
     for i in 1..=16 {
         plant.advance(&spinner, start_s + 100.0 * f64::from(i)).unwrap();
     }
@@ -50,7 +50,7 @@ fn a_burn_that_waits_for_11_days_fires_every_pulse() {
     for timing in [Timing::Clock, Timing::SunCrossing, Timing::TruePhase] {
         let mut start = paper_start(1.483);
         start.burn = Some(BurnRequest { timing, start_s: 1e6, ..request() });
-        let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+        let mut plant = Plant::start(&spinner, &start, directions(), Commands::default(), 0.0).unwrap();
         plant.advance(&spinner, 1e6 + 1600.0).unwrap();
         let outputs = Outputs::from_plant(&plant, &spinner);
         assert_eq!((outputs.pulses_fired, outputs.burn_done), (114, true), "{timing:?}");
@@ -66,7 +66,7 @@ fn a_burn_that_waits_for_11_days_fires_every_pulse() {
 fn a_time_at_which_doubles_are_too_far_apart_is_refused() {
     let spinner = ace();
     let mut plant =
-        Plant::start(&spinner, &paper_start(1.483), directions(), Commands::none(), 1e16).unwrap();
+        Plant::start(&spinner, &paper_start(1.483), directions(), Commands::default(), 1e16).unwrap();
     let error = plant.advance(&spinner, 1e16 + 100.0).unwrap_err().to_string();
     for part in ["10000000000000000 s", "2e0 s apart", "nearer to time 0"] {
         assert!(error.contains(part), "{error}");

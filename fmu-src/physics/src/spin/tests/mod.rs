@@ -51,17 +51,17 @@ fn reach(motion: &mut Motion, time_s: f64) {
 
 /// A flight at 0 s without commands.
 fn launch(spinner: &Spinner, start: &Start) -> Plant {
-    Plant::start(spinner, start, directions(), Commands::none(), 0.0).unwrap()
+    Plant::start(spinner, start, directions(), Commands::default(), 0.0).unwrap()
 }
 
 /// Thrusters, numbered from 1, that fire over whole steps.
 fn firing(thrusters: &[u32]) -> Commands {
-    Commands { fire: thrusters.iter().map(|k| 1 << (k - 1)).sum(), ..Commands::none() }
+    Commands { fire: thrusters.iter().map(|k| 1 << (k - 1)).sum(), ..Commands::default() }
 }
 
 /// A pulse of thrusters numbered from 1.
 fn pulses(thrusters: &[usize], delay_s: f64, on_s: f64) -> Commands {
-    let mut commands = Commands { any_pulse: true, ..Commands::none() };
+    let mut commands = Commands { any_pulse: true, ..Commands::default() };
     for k in thrusters {
         commands.pulses[k - 1] = PulseCommand { delay_s, on_s };
     }

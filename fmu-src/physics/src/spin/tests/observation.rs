@@ -23,7 +23,7 @@ fn sun_crossing_periods_spread_as_eq_1_says_for_small_nutation() {
         let beta = beta_deg.to_radians();
         let sun = Directions { sun_inertial: Vector3::new(0.0, beta.sin(), beta.cos()), ..directions() };
         // Put the momentum, not the body axis, at that Sun angle.
-        let mut plant = Plant::start(&spinner, &start, sun, Commands::none(), 0.0).unwrap();
+        let mut plant = Plant::start(&spinner, &start, sun, Commands::default(), 0.0).unwrap();
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
         for i in 1..2000 {
             plant.advance(&spinner, 6.0 * f64::from(i)).unwrap();
@@ -230,7 +230,7 @@ fn a_star_is_sampled_where_it_passes_the_boresight_also_after_another_is_chosen(
         Directions { star_inertial, ..directions() }
     };
     let mut plant =
-        Plant::start(&spinner, &paper_start(1.483), star(210.0, 3.0), Commands::none(), 0.0).unwrap();
+        Plant::start(&spinner, &paper_start(1.483), star(210.0, 3.0), Commands::default(), 0.0).unwrap();
     // 30 deg a second: from 90 to 210 deg in 4 s.
     plant.advance(&spinner, 26.0).unwrap();
     assert_relative_eq!(
@@ -243,7 +243,7 @@ fn a_star_is_sampled_where_it_passes_the_boresight_also_after_another_is_chosen(
     assert_relative_eq!(seen.time_s, 16.0, max_relative = 1e-12);
     assert_relative_eq!(seen.declination_rad.to_degrees(), 3.0, max_relative = 1e-12);
     // At 26 s the boresight is at 150 deg; a star at 240 deg comes 3 s later, the old one would in 2 s.
-    plant.command(Commands::none(), star(240.0, -9.9));
+    plant.command(Commands::default(), star(240.0, -9.9));
     plant.advance(&spinner, 28.5).unwrap();
     assert_eq!(plant.sensors.sample.count, 2);
     plant.advance(&spinner, 30.0).unwrap();
@@ -252,7 +252,7 @@ fn a_star_is_sampled_where_it_passes_the_boresight_also_after_another_is_chosen(
     assert_relative_eq!(seen.time_s, 29.0, max_relative = 1e-12);
     assert_relative_eq!(seen.declination_rad.to_degrees(), -9.9, max_relative = 1e-12);
     // The field of view is 20 deg, 10 to either side.
-    plant.command(Commands::none(), star(240.0, 10.1));
+    plant.command(Commands::default(), star(240.0, 10.1));
     plant.advance(&spinner, 90.0).unwrap();
     assert_eq!(plant.sensors.sample.count, 3);
 }
@@ -267,9 +267,9 @@ fn a_pulse_begins_the_estimate_anew() {
     plant.advance(&spinner, 4.0 * 3600.0).unwrap();
     let before = Outputs::from_plant(&plant, &spinner);
     assert_relative_eq!(before.estimate.nutation_rad, before.nutation_rad, max_relative = 0.01);
-    plant.command(Commands { fire: 1 << 7, ..Commands::none() }, directions());
+    plant.command(Commands { fire: 1 << 7, ..Commands::default() }, directions());
     plant.advance(&spinner, 4.0 * 3600.0 + 0.2).unwrap();
-    plant.command(Commands::none(), directions());
+    plant.command(Commands::default(), directions());
     plant.advance(&spinner, 4.0 * 3600.0 + 3.0).unwrap();
     assert_eq!(plant.sensors.estimator.count, 0);
     plant.advance(&spinner, 8.0 * 3600.0).unwrap();

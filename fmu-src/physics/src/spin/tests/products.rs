@@ -89,9 +89,9 @@ fn the_same_body_described_in_principal_axes_moves_the_same() {
         (other.inertia_kg_m2, other.products_kg_m2) = (inertia.principal_kg_m2(), [0.0; 3]);
         other.attitude = inertia.principal_attitude(Quaternion(start.attitude)).0;
         let simulate = |spinner: &Spinner, start| {
-            let mut plant = Plant::start(spinner, start, directions(), Commands::none(), 0.0).unwrap();
+            let mut plant = Plant::start(spinner, start, directions(), Commands::default(), 0.0).unwrap();
             for i in 0..60_u32 {
-                let mut commands = Commands::none();
+                let mut commands = Commands::default();
                 commands.pulses[i as usize % 10] =
                     PulseCommand { delay_s: 0.2, on_s: 0.1 * f64::from(i % 4) };
                 commands.any_pulse = true;

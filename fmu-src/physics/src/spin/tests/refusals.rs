@@ -15,7 +15,7 @@ use crate::toml::Problem;
 fn refusal(request: BurnRequest) -> String {
     let mut start = paper_start(1.483);
     start.burn = Some(request);
-    Plant::start(&ace(), &start, directions(), Commands::none(), 0.0).unwrap_err().to_string()
+    Plant::start(&ace(), &start, directions(), Commands::default(), 0.0).unwrap_err().to_string()
 }
 
 fn assert_names(text: &str, parts: &[&str]) {
@@ -54,7 +54,8 @@ fn a_burn_goes_no_farther_than_its_target() {
             BurnRequest { angle_rad: angle_deg.to_radians(), target_inertial: target.into(), ..request() };
         let mut start = paper_start(1.483);
         start.burn = Some(burn);
-        Plant::start(&ace(), &start, directions(), Commands::none(), 0.0).map_err(|error| error.to_string())
+        Plant::start(&ace(), &start, directions(), Commands::default(), 0.0)
+            .map_err(|error| error.to_string())
     };
     let beyond = ["burn.angle", "100.0000 deg", "burn.targetDirection is 90.0000 deg", "momentum"];
     assert_names(&aimed(100.0, [0.8, 0.6, 0.0]).unwrap_err(), &beyond);
@@ -73,7 +74,7 @@ fn a_burn_goes_no_farther_than_its_target() {
     (start.nutation_rad, start.nutation_phase_rad) = (0.1, 0.0);
     start.burn =
         Some(BurnRequest { target_inertial: Vector3::new(0.1_f64.sin(), 0.0, 0.1_f64.cos()), ..request() });
-    let text = Plant::start(&ace(), &start, directions(), Commands::none(), 0.0).unwrap_err().to_string();
+    let text = Plant::start(&ace(), &start, directions(), Commands::default(), 0.0).unwrap_err().to_string();
     assert_names(&text, &["burn.targetDirection", "across the angular momentum"]);
 }
 
@@ -86,11 +87,12 @@ fn thrusters_that_alternate_have_one_torque() {
     let mut start = paper_start(1.483);
     start.burn = Some(BurnRequest { turns_per_pulse: 1.5, group: "axial couple I-IV".into(), ..request() });
     let spinner = Spinner::parse("my.toml", &uneven).unwrap();
-    let text = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap_err().to_string();
+    let text =
+        Plant::start(&spinner, &start, directions(), Commands::default(), 0.0).unwrap_err().to_string();
     assert_names(&text, &["burn.group", "N m", "0.1 %"]);
     // Once a turn the opposite has no part in it.
     start.burn = Some(BurnRequest { opposite_thruster: 7, ..request() });
-    assert!(Plant::start(&ace(), &start, directions(), Commands::none(), 0.0).is_ok());
+    assert!(Plant::start(&ace(), &start, directions(), Commands::default(), 0.0).is_ok());
 }
 
 #[test]
@@ -98,7 +100,7 @@ fn starts_that_make_no_sense_say_why() {
     let refuse = |change: &dyn Fn(&mut crate::spin::plant::Start)| {
         let mut start = paper_start(1.483);
         change(&mut start);
-        Plant::start(&ace(), &start, directions(), Commands::none(), 0.0).unwrap_err().to_string()
+        Plant::start(&ace(), &start, directions(), Commands::default(), 0.0).unwrap_err().to_string()
     };
     assert_names(&refuse(&|s| s.inertia_kg_m2[1] = -2.0), &["inertia[2]", "-2", "positive"]);
     for axis in 0..3 {
@@ -121,7 +123,7 @@ fn starts_that_make_no_sense_say_why() {
     let mut start = paper_start(1.483);
     start.burn = Some(BurnRequest { timing: Timing::SunCrossing, ..request() });
     let on_axis = Directions { sun_inertial: Vector3::z(), ..directions() };
-    let text = Plant::start(&ace(), &start, on_axis, Commands::none(), 0.0).unwrap_err().to_string();
+    let text = Plant::start(&ace(), &start, on_axis, Commands::default(), 0.0).unwrap_err().to_string();
     assert_names(&text, &["burn.timing", "off the axis"]);
 }
 

@@ -91,7 +91,7 @@ fn a_pulse_fired_in_two_gives_what_it_gives_in_one() {
         two.advance(&spinner, 0.6 * whole_s).unwrap();
         two.command(pulse(thruster, 0.4 * whole_s), directions());
         two.advance(&spinner, 1.3 * whole_s).unwrap();
-        two.command(Commands::none(), directions());
+        two.command(Commands::default(), directions());
         two.advance(&spinner, 2.0 * whole_s).unwrap();
         let (one, two) = (Outputs::from_plant(&one, &spinner), Outputs::from_plant(&two, &spinner));
         let apart = (one.delta_v_inertial_m_s - two.delta_v_inertial_m_s).norm();

@@ -50,7 +50,7 @@ fn an_angle_that_no_split_train_reaches_is_refused() {
     // A gain of 0.498 turns a turn: the longer the train, the farther apart its halves.
     let mut start = paper_start(1.498);
     start.burn = Some(BurnRequest { shape: Shape::Split, count: 0, angle_rad: 0.035, ..request() });
-    let error = Plant::start(&ace(), &start, directions(), Commands::none(), 0.0).unwrap_err().to_string();
+    let error = Plant::start(&ace(), &start, directions(), Commands::default(), 0.0).unwrap_err().to_string();
     for part in ["burn.angle", "0.035 rad", "split", "1.498"] {
         assert!(error.contains(part), "{error}");
     }

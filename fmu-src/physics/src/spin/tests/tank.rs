@@ -29,7 +29,7 @@ fn a_held_thruster_goes_off_when_the_last_drop_is_gone() {
         for i in 1..=(20.0_f64 / step_s).floor() as u32 {
             plant.advance(&spinner, f64::from(i) * step_s).unwrap();
             let outputs = Outputs::from_plant(&plant, &spinner);
-            assert_eq!(outputs.thrusters_on == 0, plant.time_s >= depletion_time_s);
+            assert_eq!(plant.propulsion.valves.open_mask() == 0, plant.time_s >= depletion_time_s);
             assert_relative_eq!(
                 outputs.propellant_used_kg,
                 (FLOW_KG_S * plant.time_s).min(0.01),
@@ -70,13 +70,13 @@ fn a_burn_is_refused_what_is_not_on_board_and_simulated_with_the_last_drop() {
     let mut start = start(0.999 * needed_kg);
     start.burn = Some(request());
     let refusal = |start: &Start| {
-        Plant::start(&spinner, start, directions(), Commands::none(), 0.0).unwrap_err().to_string()
+        Plant::start(&spinner, start, directions(), Commands::default(), 0.0).unwrap_err().to_string()
     };
     for part in ["propellant would be 0.0075", "propellant.loaded = 0.0075"] {
         assert!(refusal(&start).contains(part), "{}", refusal(&start));
     }
     start.propellant_kg = needed_kg;
-    let mut plant = launch(&spinner, &start, Commands::none());
+    let mut plant = launch(&spinner, &start, Commands::default());
     plant.advance(&spinner, 1400.0).unwrap();
     let outputs = Outputs::from_plant(&plant, &spinner);
     assert!(outputs.burn_done && outputs.pulses_fired == 114);
@@ -96,7 +96,7 @@ fn a_burn_whose_propellant_others_take_ends_in_the_midst_of_its_pulse() {
     start.burn = Some(BurnRequest { pulse_width_s: 1.0, count: 4, start_s: 5.0, ..request() });
     let mut plant = launch(&spinner, &start, firing(&[7, 9]));
     plant.advance(&spinner, 0.75).unwrap();
-    plant.command(Commands::none(), directions());
+    plant.command(Commands::default(), directions());
     plant.advance(&spinner, 200.0).unwrap();
     let outputs = Outputs::from_plant(&plant, &spinner);
     assert_eq!(outputs.pulses_fired, 2);
@@ -110,7 +110,7 @@ fn a_burn_whose_propellant_others_take_ends_in_the_midst_of_its_pulse() {
 #[test]
 fn a_lighter_spinner_gains_more_speed() {
     let spinner = ace();
-    let mut plant = launch(&spinner, &start(97.5), Commands::none());
+    let mut plant = launch(&spinner, &start(97.5), Commands::default());
     let mut expected = 0.0;
     let mut mass_kg = 562.0 + 97.5;
     // Along the axis, so that nothing turns.
@@ -118,7 +118,7 @@ fn a_lighter_spinner_gains_more_speed() {
         let from_s = 6000.0 * f64::from(firing_number);
         plant.command(firing(&[7, 9]), directions());
         plant.advance(&spinner, from_s + 5000.0).unwrap();
-        plant.command(Commands::none(), directions());
+        plant.command(Commands::default(), directions());
         plant.advance(&spinner, from_s + 6000.0).unwrap();
         let before_kg = mass_kg;
         mass_kg -= 2.0 * FLOW_KG_S * 5000.0;

@@ -28,7 +28,7 @@ fn pulsed(spinner: &Spinner, start: &Start, thrusters: &[usize], on_s: f64) -> P
     let mut plant = launch(spinner, start);
     plant.command(pulses(thrusters, 0.5, on_s), directions());
     plant.advance(spinner, 0.5 + on_s).unwrap();
-    plant.command(Commands::none(), directions());
+    plant.command(Commands::default(), directions());
     plant.advance(spinner, 3.0 + on_s).unwrap();
     plant
 }
@@ -52,11 +52,13 @@ fn the_impulse_is_the_nominal_thrust_times_the_area_of_the_valve_law() {
         let delta_v = -EXHAUST_M_S * (-burnt_kg / (562.0 + 97.5)).ln_1p();
         assert_relative_eq!(seen.delta_v_inertial_m_s.z, delta_v, max_relative = 1e-12);
         // A couple about the axis: force times lever times time.
-        let seen = Outputs::from_plant(&pulsed(&spinner, &start(TIMING, 0.0), &[2, 5], on_s), &spinner);
+        let plant = pulsed(&spinner, &start(TIMING, 0.0), &[2, 5], on_s);
+        let seen = Outputs::from_plant(&plant, &spinner);
         let lever_m = 0.78 * core::f64::consts::FRAC_1_SQRT_2;
         let spun_up = 353.82 * core::f64::consts::PI / 6.0 + 2.0 * FORCE_N * lever_m * area_s(on_s);
         assert_relative_eq!(seen.state.momentum_inertial.z, spun_up, max_relative = 1e-13);
-        assert!(seen.state.momentum_inertial.xy().norm() < 1e-13 && seen.thrusters_on == 0);
+        let open_mask = plant.propulsion.valves.open_mask();
+        assert!(seen.state.momentum_inertial.xy().norm() < 1e-13 && open_mask == 0);
     }
 }
 
@@ -226,12 +228,12 @@ fn pulses_too_short_for_their_valve_do_not_fire() {
     commands.pulses[9].on_s = 0.02;
     plant.command(commands, directions());
     plant.advance(&spinner, 0.01).unwrap();
-    let seen = Outputs::from_plant(&plant, &spinner);
-    assert_eq!((seen.thrusters_on, seen.too_short), (1 << 9, 1 << 7));
-    plant.command(Commands::none(), directions());
+    let valves = &plant.propulsion.valves;
+    assert_eq!((valves.open_mask(), valves.too_short_mask()), (1 << 9, 1 << 7));
+    plant.command(Commands::default(), directions());
     plant.advance(&spinner, 1.0).unwrap();
     let seen = Outputs::from_plant(&plant, &spinner);
-    assert_eq!(seen.too_short, 0);
+    assert_eq!(plant.propulsion.valves.too_short_mask(), 0);
     // Its step ends at 0.01 s, and the valve does not close before 0.02 s.
     assert_relative_eq!(seen.propellant_used_kg, FORCE_N / EXHAUST_M_S * area_s(0.02), max_relative = 1e-12);
 }
@@ -243,7 +245,7 @@ fn burns_that_valves_cannot_do_are_refused_by_name() {
         let mut start = start(valve, 0.0);
         start.burn = Some(request);
         change(&mut start);
-        Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap_err().to_string()
+        Plant::start(&spinner, &start, directions(), Commands::default(), 0.0).unwrap_err().to_string()
     };
     let slow = |rise_s, tail_off_s| ValveTiming { min_on_s: 0.0, rise_s, tail_off_s };
     for (valve, width_s) in [
@@ -276,16 +278,17 @@ fn an_empty_tank_shuts_a_rising_valve() {
     let loaded_kg = FORCE_N / EXHAUST_M_S;
     let mut start = start(slow, 0.0);
     start.propellant_kg = loaded_kg;
-    let fire = Commands { fire: 1 << 7, ..Commands::none() };
+    let fire = Commands { fire: 1 << 7, ..Commands::default() };
     let mut ends = Vec::new();
     for step_s in [0.01, 0.7, 5.0] {
         let mut plant = Plant::start(&spinner, &start, directions(), fire.clone(), 0.0).unwrap();
         for i in 1..=(5.0_f64 / step_s).round() as u32 {
             plant.advance(&spinner, (f64::from(i) * step_s).min(5.0)).unwrap();
-            let seen = Outputs::from_plant(&plant, &spinner);
-            assert_eq!(seen.thrusters_on == 0, plant.time_s > 8f64.sqrt());
-            let share = if seen.thrusters_on == 0 { 0.0 } else { plant.time_s / 4.0 };
-            assert_relative_eq!(seen.force_body_n.norm(), FORCE_N * share, max_relative = 1e-12);
+            let valves = &plant.propulsion.valves;
+            assert_eq!(valves.open_mask() == 0, plant.time_s > 8f64.sqrt());
+            let share = if valves.open_mask() == 0 { 0.0 } else { plant.time_s / 4.0 };
+            let force_n = valves.law.force_at_n(plant.time_s).norm();
+            assert_relative_eq!(force_n, FORCE_N * share, max_relative = 1e-12);
         }
         plant.advance(&spinner, 5.0).unwrap();
         ends.push(Outputs::from_plant(&plant, &spinner));
@@ -293,7 +296,7 @@ fn an_empty_tank_shuts_a_rising_valve() {
     let mut plant = Plant::start(&spinner, &start, directions(), fire, 0.0).unwrap();
     for (time_s, on) in [(8f64.sqrt() - 1e-7, true), (8f64.sqrt() + 1e-7, false)] {
         plant.advance(&spinner, time_s).unwrap();
-        assert_eq!(Outputs::from_plant(&plant, &spinner).thrusters_on != 0, on, "{time_s}");
+        assert_eq!(plant.propulsion.valves.open_mask() != 0, on, "{time_s}");
     }
     assert_eq!(ends[0].propellant_remaining_kg, 0.0);
     assert!(ends.iter().all(|end| *end == ends[0]));

@@ -26,12 +26,17 @@ fn limited() -> Start {
 #[test]
 fn steps_that_would_not_end_name_what_asks_for_so_much() {
     let asymmetric = [230.0, 245.0, 353.82];
-    let fire = |mask| Commands { fire: mask, ..Commands::none() };
+    let fire = |mask| Commands { fire: mask, ..Commands::default() };
     let clocked = Start { sampling: Sampling::Clock, nominal_rate_rad_s: 1e4, ..limited() };
     for (start, commands, end_s, named) in [
-        (limited(), Commands::none(), 1e12, "crossings of Sun and star"),
-        (Start { inertia_kg_m2: asymmetric, ..limited() }, Commands::none(), 1e12, "segments of the motion"),
-        (clocked, Commands::none(), 1e3, "limit.spinRate"),
+        (limited(), Commands::default(), 1e12, "crossings of Sun and star"),
+        (
+            Start { inertia_kg_m2: asymmetric, ..limited() },
+            Commands::default(),
+            1e12,
+            "segments of the motion",
+        ),
+        (clocked, Commands::default(), 1e3, "limit.spinRate"),
         (Start { spin_rate_rad_s: 1e3, ..limited() }, fire(1 << 6 | 1 << 8), 1e5, "spin.initialRate"),
     ] {
         let text = refusal(&start, commands, end_s);
@@ -45,10 +50,10 @@ fn steps_that_would_not_end_name_what_asks_for_so_much() {
 #[test]
 fn a_step_to_where_a_longer_one_came_ends_well() {
     let spinner = ace();
-    let text = refusal(&limited(), Commands::none(), 1e12);
+    let text = refusal(&limited(), Commands::default(), 1e12);
     let reached_s: f64 =
         text.trim_start_matches("the step came to ").split(' ').next().unwrap().parse().unwrap();
-    let mut plant = Plant::start(&spinner, &limited(), directions(), Commands::none(), 0.0).unwrap();
+    let mut plant = Plant::start(&spinner, &limited(), directions(), Commands::default(), 0.0).unwrap();
     plant.advance(&spinner, 0.99 * reached_s).unwrap();
     // 12 s a turn, in which Sun and star cross.
     assert!(reached_s > 1e5 && reached_s < 2e5, "{reached_s}");
@@ -73,7 +78,7 @@ fn the_longest_trains_are_planned_in_time() {
             ..request()
         });
         let begun = Instant::now();
-        let planned = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0);
+        let planned = Plant::start(&spinner, &start, directions(), Commands::default(), 0.0);
         let took_s = begun.elapsed().as_secs_f64();
         println!("{shape:?}: {took_s:.2} s, {:?}", planned.map(|p| Predictions::from_plant(&p).count));
         assert!(took_s < 60.0);

@@ -18,7 +18,7 @@ use physics::{
         ThrusterEventSettings, Turning,
     },
     radiation::SolarModel,
-    spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel},
+    spacecraft::{MESSENGER_TOML, MassProperties, Spacecraft, SunshadeModel},
 };
 
 use crate::refit::{Failure, Flights, History, Parameters};
@@ -117,9 +117,11 @@ impl Cruise {
             timeline: None,
             sunshade: SunshadeModel::Plates,
             panels: self.steps.iter().map(panel).collect(),
-            center_of_mass_body_m: parameters.center_of_mass_body_m,
-            mass_kg: 900.0,
-            inertia_body_kg_m2: Matrix3::from_diagonal(&Vector3::new(199.6, 507.1, 484.9)),
+            wet_mass: MassProperties {
+                center_of_mass_body_m: parameters.center_of_mass_body_m,
+                mass_kg: 900.0,
+                inertia_body_kg_m2: Matrix3::from_diagonal(&Vector3::new(199.6, 507.1, 484.9)),
+            },
             effects: Active::by(|_| false),
             momentum: Settings {
                 grid_s: 3600.0,
@@ -155,7 +157,10 @@ impl Flights for Cruise {
         let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
         let mut momentum_inertial_n_m_s = Vec::with_capacity(times_s.len());
         for time_s in times_s {
-            integrator.advance(&mut plant, &settings, *time_s, |_| {})?;
+            while integrator.ends_by(*time_s) {
+                let prepared = integrator.prepare(&mut plant, &settings, f64::INFINITY)?;
+                integrator.advance_segment(&mut plant, &settings, &prepared)?;
+            }
             momentum_inertial_n_m_s.push(integrator.totals(*time_s).momentum_inertial_n_m_s);
         }
         Ok(History { momentum_inertial_n_m_s, dumps: vec![0; times_s.len()] })

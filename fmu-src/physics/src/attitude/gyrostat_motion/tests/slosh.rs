@@ -98,7 +98,7 @@ fn body_and_bob_swing_as_the_rod_between_them_says() {
             let found = matrix.lu().solve(&right).unwrap();
             SVector::<f64, 8>::from([y[4], y[5], y[6], y[7], found[0], found[1], found[2], found[3]])
         };
-        let method = Collocation::<6, 7>::new();
+        let method = Collocation::<6, 7>::default();
         let mut y = SVector::<f64, 8>::zeros();
         // Where the body's forces and the bob's weight are in balance, relative to whose angle errors are measured.
         let mut largest = 0.0_f64;

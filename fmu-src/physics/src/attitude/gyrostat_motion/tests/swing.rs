@@ -95,9 +95,9 @@ fn only_damping_takes_energy() {
     let locked =
         spacecraft.wheels().iter().map(|wheel| ReactionWheel { locked: true, ..wheel.clone() }).collect();
     let spacecraft = self::spacecraft(locked, &spacecraft.appendages().modes);
-    motion.rotors.iter_mut().for_each(|it| it.rotor = Rotor::Held { momentum_n_m_s: 0.0 });
+    motion.series.rotors.iter_mut().for_each(|it| it.rotor = Rotor::Held { momentum_n_m_s: 0.0 });
     let mut motion =
-        GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &motion.series.rate[0], |_| 0.0);
+        GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &motion.series.rotation.rate[0], |_| 0.0);
     let load = BodyLoad {
         torque_body_n_m: [Vector3::new(0.5, -1.0, 2.0), Vector3::zeros()],
         ..BodyLoad::none(MASS_KG)
@@ -189,7 +189,7 @@ fn an_integration_of_order_twelve_agrees() {
         (rates[9], rates[10]) = (solved[3], solved[4]);
         rates
     };
-    let method = Collocation::<6, 7>::new();
+    let method = Collocation::<6, 7>::default();
     let mut y = SVector::<f64, 11>::zeros();
     y[3] = 1.0;
     y.fixed_rows_mut::<3>(4).copy_from(&rate);

@@ -6,7 +6,6 @@ use proptest::prelude::*;
 use super::*;
 use crate::constants::{GM_EARTH_M3_S2, GM_MERCURY_M3_S2 as MU};
 
-#[path = "universal_variables.rs"]
 #[allow(clippy::unreadable_literal, reason = "a table")]
 mod universal_variables;
 

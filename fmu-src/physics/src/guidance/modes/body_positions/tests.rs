@@ -55,7 +55,7 @@ fn a_span_that_is_left_ends_them_at_once_and_lack_of_places_does_not() {
     assert!(trust.is_valid());
     trust.sample(None, 0.0, &BodyPositions { precise: None, ..positions() }, None);
     assert!(!trust.is_valid());
-    trust.renew();
+    trust = EphemerisTrust::default();
     assert!(trust.is_valid());
 }
 

@@ -1,9 +1,20 @@
 //! A slew begins where the old attitude was, ends at the new one, and its rate is the derivative of its axes.
 use super::*;
 use crate::attitude::{MovingUnit, rotation_vector};
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::scenario::scenario_tests::camera;
 use approx::assert_relative_eq;
 use nalgebra::Vector3;
+
+impl Sight for LinesOfSight {
+    fn lines(&self) -> LinesOfSight {
+        *self
+    }
+
+    fn ephemeris(&self) -> Option<EphemerisAtTime> {
+        None
+    }
+}
 
 fn lines(t: f64) -> LinesOfSight {
     let moving = |p: Vector3<f64>, v: Vector3<f64>| MovingUnit::from_vector(p, v).unwrap();

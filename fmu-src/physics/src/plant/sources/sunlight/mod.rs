@@ -8,8 +8,6 @@ pub(crate) mod radiation_segment;
 pub(crate) mod radiation_solver;
 pub(crate) mod sunlit;
 
-use nalgebra::Vector3;
-
 use self::light_and_heat::RadiationBuilder;
 use self::radiation_segment::RadiationSegment;
 use self::radiation_solver::RadiationSolver;
@@ -19,6 +17,7 @@ use crate::loads::{Effect, Loads};
 use crate::numerics::Span;
 use crate::plant::instant::conditions::Conditions;
 use crate::plant::instant::path_ahead::PathAhead;
+use crate::plant::motion::instant::Instant;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
 use crate::radiation::Beam;
@@ -26,22 +25,6 @@ use crate::spacecraft::{Material, Spacecraft};
 
 /// Rows of the Sun's light, direct and reflected: no infrared light and no heat enters them.
 pub const REFLECTED_LIGHT: [Effect; 2] = [Effect::Solar, Effect::Albedo];
-
-/// Reports temperature in K and force in N, body frame, of every face of the light model at `time_s`, in its order; the force of the
-/// effects that act.
-///
-/// # Errors
-/// A geometry without meaning.
-pub(crate) fn report_faces(
-    solver: &mut Option<RadiationSolver>,
-    state: &Option<RadiationSegment>,
-    path: &mut PathAhead<'_, '_>,
-    time_s: f64,
-    report: impl FnMut(f64, Vector3<f64>),
-) -> Result<(), PlantError> {
-    let Some(solver) = solver else { return Ok(()) };
-    RadiationBuilder::along(path).faces(solver, state.as_ref(), time_s, report)
-}
 
 /// Sunlight; with its solver of light and heat, where there is more of them than direct sunlight.
 impl Source for Option<RadiationSolver> {
@@ -61,7 +44,7 @@ impl Source for Option<RadiationSolver> {
         workspace: &mut Workspace,
         loads: &mut Loads,
     ) {
-        let Conditions { time_s, instant, .. } = *at;
+        let Instant { time_s, sun_distance_m, .. } = *at.instant;
         workspace.face_temperatures_k.clear();
         if let Some(segment) = state.as_ref().filter(|_| at.flow.is_some()) {
             segment.write_wall_temperatures(time_s, &mut workspace.face_temperatures_k);
@@ -75,12 +58,16 @@ impl Source for Option<RadiationSolver> {
             loads[Effect::Solar] = loads[Effect::Solar].scaled(configuration.light.scale);
         }
         if !is_shadowed {
-            let pressure_pa = configuration.light.pressure_pa(instant.sun_distance_m);
-            let beam =
-                Beam { source_body: instant.sun_body, pressure_pa: pressure_pa * instant.lit_fraction };
-            let (stowed, sun_distance_m) = (at.current_mass_panels_stowed, instant.sun_distance_m);
-            let sunlit =
-                SunlitConfiguration::new(at.spacecraft, configuration, stowed, time_s, sun_distance_m);
+            let pressure_pa = configuration.light.pressure_pa(sun_distance_m) * at.instant.lit_fraction;
+            let beam = Beam { source_body: at.instant.sun_body, pressure_pa };
+            let sunlit = SunlitConfiguration {
+                solar: at.kinematics.spacecraft.solar,
+                panels: at.kinematics.spacecraft.panels,
+                settings: &configuration.panels,
+                current_mass_panels_stowed: at.kinematics.current_mass_panels_stowed,
+                time_s,
+                sun_distance_m,
+            };
             loads[Effect::Solar] = sunlit.load(&beam, &at.mass.center_of_mass_body_m);
         }
     }
@@ -88,12 +75,12 @@ impl Source for Option<RadiationSolver> {
     fn extend(
         &mut self,
         state: &mut Option<RadiationSegment>,
-        path: &mut PathAhead<'_, '_>,
+        path: &mut PathAhead<'_>,
         span: Span,
     ) -> Result<f64, PlantError> {
         match self {
             Some(solver) if path.kinematics.configuration.has_light_and_heat() => {
-                RadiationBuilder::along(path).extend(solver, state, span.start_s, span.end_s)
+                RadiationBuilder { solver, path }.extend(state.get_or_insert_default(), span)
             }
             _ => Ok(span.end_s),
         }

@@ -48,14 +48,9 @@ impl RadiationSolver {
         Ok(Self { nodes: vec![node; NODES], heat_rule: HeatRule::new(), panels, model })
     }
 
-    /// Number of faces: those of plates, sunshade and the panels that take part, in this order.
-    pub fn face_count(&self) -> usize {
-        self.model.face_count()
-    }
-
     /// About how many microseconds a segment of light and heat takes.
     pub(crate) fn segment_units(&self, stores: bool) -> u32 {
-        let heat = if stores { self.face_count() as u32 } else { 0 };
+        let heat = if stores { self.model.face_count() as u32 } else { 0 };
         NODES as u32 * self.model.evaluation_units() + heat
     }
 }

@@ -3,9 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::loads::ForceTorque;
-use crate::plant::settings::configuration::Configuration;
-use crate::plant::settings::panel_setting::{PanelSetting, SunAt};
-use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
+use crate::plant::settings::panel_setting::{PanelSetting, SunAt, panel_angle_rad};
 use crate::radiation::{Beam, SolarModel};
 use crate::spacecraft::{MassProperties, Panel, with_panels};
 
@@ -26,33 +24,12 @@ pub struct SunlitConfiguration<'a> {
     pub sun_distance_m: f64,
 }
 
-impl<'a> SunlitConfiguration<'a> {
-    /// The spacecraft at `time_s` and this distance from the Sun.
-    pub(crate) fn new(
-        spacecraft: PreparedSpacecraft<'a>,
-        configuration: &'a Configuration,
-        current_mass_panels_stowed: &MassProperties,
-        time_s: f64,
-        sun_distance_m: f64,
-    ) -> Self {
-        Self {
-            solar: spacecraft.solar,
-            panels: spacecraft.panels,
-            settings: &configuration.panels,
-            current_mass_panels_stowed: *current_mass_panels_stowed,
-            time_s,
-            sun_distance_m,
-        }
-    }
-
+impl SunlitConfiguration<'_> {
     /// Mass, centre of mass and inertia as the panels stand, the Sun being there (unit vector, body frame).
     pub fn mass_properties(&self, sun_body: &Vector3<f64>) -> MassProperties {
         let sun = self.sun_at(sun_body);
-        let angle_rad = |index: usize| {
-            let (panel, setting) = self.panels.get(index).zip(self.settings.get(index))?;
-            setting.angle_rad(panel, &sun)
-        };
-        with_panels(&self.current_mass_panels_stowed, self.panels, |index| angle_rad(index).unwrap_or(0.0))
+        let angle_rad = |index| panel_angle_rad(self.settings, self.panels, index, &sun);
+        with_panels(&self.current_mass_panels_stowed, self.panels, angle_rad)
     }
 
     /// Direct sunlight without self-shadows, about the centre of mass.
