@@ -5,7 +5,6 @@
 mod configured;
 mod dynamic;
 mod encounter_prediction;
-mod flight_setup;
 mod fork;
 mod grid_edge;
 mod ideal;
@@ -25,6 +24,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use crate::attitude::control::Estimate;
 use crate::loads::ForceTorque;
 use crate::numerics::Span;
+use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::events::{self, EventKind};
