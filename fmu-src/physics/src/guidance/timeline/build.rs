@@ -57,7 +57,7 @@ impl Timeline {
         let document = Document::parse(file, text)?.limited(TIMELINE_LIMITS);
         let (description, check) = Checker::read::<TimelineDescription>(&document)?;
         let root = Place::root(&check);
-        let mut commands = Commands::new(spacecraft, reader);
+        let mut commands = Commands { spacecraft, reader, scenario: String::new() };
         let [place, panels_place, events_place] = ["command", "panels", "event"].map(|list| root.key(list));
         let list = description.command.as_deref().unwrap_or_default();
         let panels_list = description.panels.as_deref().unwrap_or_default();

@@ -47,17 +47,12 @@ pub(super) enum Reader {
 /// Builds commands and reports what is wrong with them.
 pub(super) struct Commands<'i> {
     pub spacecraft: &'i Spacecraft,
-    reader: Reader,
+    pub reader: Reader,
     /// The scenario of the current command, or its attitude, for messages.
-    pub(super) scenario: String,
+    pub scenario: String,
 }
 
-impl<'i> Commands<'i> {
-    /// For this spacecraft.
-    pub(super) fn new(spacecraft: &'i Spacecraft, reader: Reader) -> Self {
-        Self { spacecraft, reader, scenario: String::new() }
-    }
-
+impl Commands<'_> {
     /// Returns the pointing of a command without its scan.
     pub(super) fn pointing(&mut self, at: &Place<'_>, given: &CommandDescription) -> PointingCommand {
         let scenario_place = at.key("scenario");

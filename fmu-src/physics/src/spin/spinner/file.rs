@@ -194,12 +194,8 @@ fn thrusters(list: &Place<'_>, entries: &[ThrusterEntry], exhaust_m_s: f64) -> V
                 tail_off_s: entry.tail_off_time_s(),
             },
             scatter: entry.scatter(),
-            power_w: None,
-            set: None,
             attitude_control: true,
-            tank: 0,
-            at_pressure_pa: None,
-            plume_half_angle_rad: 0.0,
+            ..Thruster::default()
         });
     }
     thrusters
