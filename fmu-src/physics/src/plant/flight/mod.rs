@@ -5,6 +5,7 @@
 mod configured;
 mod dynamic;
 mod encounter_prediction;
+mod flight_setup;
 mod fork;
 mod grid_edge;
 mod ideal;
@@ -24,7 +25,6 @@ use serde::{Deserialize, Serialize, Serializer};
 use crate::attitude::control::Estimate;
 use crate::loads::ForceTorque;
 use crate::numerics::Span;
-use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::events::{self, EventKind};
@@ -139,7 +139,7 @@ impl Flight {
             context,
             settings,
             distribution: Default::default(),
-            evaluated: Evaluated::default(),
+            evaluated: Default::default(),
         }));
         self.update_current_mass();
     }
