@@ -54,7 +54,7 @@ pub(super) fn begin(
     let wheel_n_m_s = |k: usize| settings.start.wheels_n_m_s.get(k).copied().unwrap_or(0.0);
     let mut begun = DynamicState {
         motion: GyrostatMotion::new(gyrostat, time_s, unit, &rate_body_rad_s, wheel_n_m_s),
-        mass: MassState::new(mass),
+        mass: MassState { known: mass, now: mass, stowed: None },
         panels: PanelMotion::default(),
         disturbance: DisturbanceInterval::default(),
         sensing: Sensing::new(settings, time_s, attitude, rate_body_rad_s),
@@ -140,7 +140,8 @@ fn predicted_rate_terms(
     torque += now.torque_body_n_m;
     slope += per_s.torque_body_n_m;
     // A pulse that ends before the interval says little of it.
-    let steady_until_s = flight.next_thruster_edge_s().min(state.dumps.until_s());
+    let edge_s = flight.thrusters.next_edge_s(&flight.context.allocator.settings);
+    let steady_until_s = edge_s.min(state.dumps.until_s());
     if steady_until_s >= time_s + settings.grid_s {
         let [turn, turn_slope] = flight.thrusters.load.law.torque_body_n_m;
         torque += state.dumps.torque_body_n_m() + turn;

@@ -61,14 +61,6 @@ impl<'f> InFlight<'f> {
         }
     }
 
-    /// Attitude of a fork from `time_s` on, where it is not the flight's.
-    pub(super) fn fork_attitude(&self, time_s: f64) -> Option<AttitudeSource> {
-        match self {
-            Self::Dynamic(it) => Some(it.ideal_attitude(time_s)),
-            Self::Waiting { .. } | Self::Ideal(_) => None,
-        }
-    }
-
     /// Evaluates geometry and attitude at `time_s`, where the flight has come, and its loads, of an attitude that is followed ideally only
     /// `with_loads`; a flight that waits holds the attitude of `held`.
     pub(super) fn evaluate(

@@ -71,7 +71,8 @@ impl Serialize for Flight {
 impl Flight {
     /// Flight that waits for its inputs.
     pub fn waiting(thrusters: Thrusters) -> Self {
-        FlightState::waiting(thrusters).into()
+        let propagator = PropagatorState::default();
+        FlightState { propagator, thrusters, mode: Mode::Waiting, prediction: None }.into()
     }
 
     /// Rejects decoded states that no flight of this spacecraft can produce.
@@ -296,7 +297,10 @@ impl Flight {
     /// Predicts the encounter at `time_s`, where the flight has come, in the attitude that timeline and inputs command.
     fn predict(&mut self, given: StepContext<'_>, time_s: f64) -> Result<(), PlantError> {
         let (mut in_flight, _) = self.in_flight(given)?;
-        let attitude = in_flight.fork_attitude(time_s);
+        let attitude = match &in_flight {
+            InFlight::Dynamic(it) => Some(it.ideal_attitude(time_s)),
+            InFlight::Waiting { .. } | InFlight::Ideal(_) => None,
+        };
         self.state.prediction = Some(predict_encounter(in_flight.flight(), attitude, time_s)?);
         Ok(())
     }
