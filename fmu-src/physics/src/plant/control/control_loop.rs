@@ -83,7 +83,7 @@ impl ControlLoop {
 
     /// Whether wheels or thrusters could not give the torque requested at the last sample.
     pub(crate) fn is_limited(&self) -> bool {
-        if self.by_thrusters { self.thrusters_limited } else { self.wheels.is_limited() }
+        if self.by_thrusters { self.thrusters_limited } else { self.wheels.is_limited }
     }
 
     /// The command of guidance in force at `time_s`; `None` where it is sampled anew there.

@@ -69,7 +69,7 @@ impl Eventful for Dynamic<'_> {
         match kind {
             EventKind::Valves => flight.thrusters.next_edge_s(&flight.context.allocator.settings),
             EventKind::DumpEnd => state.dumps.until_s(),
-            EventKind::Grid => state.disturbance.end_s(),
+            EventKind::Grid => state.disturbance.span.end_s,
             EventKind::Schedule => {
                 flight.context.configuration.thruster_events.next_s(state.last.scheduled())
             }
@@ -143,7 +143,7 @@ impl Eventful for Dynamic<'_> {
         load.dipole = state.in_field(&state.dumps.dipoles);
         load.internal = state.panels.internal(flight.given.prepared.panels, &state.mass.now, time_s);
         state.dumps.torques = state.torques_by_source(&external, time_s);
-        let motors = state.control.wheels.motors();
+        let motors = &state.control.wheels.motors;
         state.motion.advance_from(&body, &settings.gyrostat, motors, &load, limit_s);
         flight.integrate_thrust(&state.motion, &state.disturbance, state.mass.now.mass_kg)
     }

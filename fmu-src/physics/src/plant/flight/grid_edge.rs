@@ -110,7 +110,7 @@ pub(super) fn begin_interval(
     if settings.panels_have_mass {
         let was_turning = state.panels.is_turning();
         let configuration = plant.path.kinematics.configuration;
-        let end_s = configuration.last_of_panels_s(time_s, state.disturbance.end_s());
+        let end_s = configuration.last_of_panels_s(time_s, state.disturbance.span.end_s);
         let [now, end] = [time_s, end_s].map(|at_s| plant.instant(at_s));
         state.panels.turn_until(&plant.path.kinematics, &now, &end);
         if was_turning || state.panels.is_turning() {
@@ -155,7 +155,7 @@ fn predicted_rate_terms(
     }
     let gyrostat = &settings.gyrostat;
     let motor_n_m = |k: usize| {
-        if gyrostat.wheels()[k].locked { 0.0 } else { state.control.wheels.motors()[k].torque_n_m }
+        if gyrostat.wheels()[k].locked { 0.0 } else { state.control.wheels.motors[k].torque_n_m }
     };
     let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
     gyrostat.rate_terms(rate, &momentum_body, [torque, slope], &gyrostat.along_axes(motor_n_m))

@@ -7,7 +7,7 @@ use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::events;
 use crate::plant::motion::instant::Instant;
-use crate::plant::settings::attitude_source::{AttitudeSource, Command};
+use crate::plant::settings::attitude_source::Command;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::mode_settings::IdealSettings;
 use crate::plant::state::flight_state::EncounterPrediction;
@@ -85,7 +85,7 @@ impl<'f> InFlight<'f> {
             Self::Ideal(Ideal { state, flight, .. }) => {
                 let mut plant = flight.plant();
                 let evaluation = evaluation.insert(plant.evaluate_without_loads(time_s));
-                let [outside, _] = plant.external(time_s);
+                let [outside, _] = (plant.external)(time_s);
                 match with_loads {
                     true => plant.write_loads(evaluation, outside),
                     false => *applied = Some(outside),
@@ -175,7 +175,7 @@ impl<'f> InFlight<'f> {
             evaluation,
             integration_center: trajectory.integration_center(configuration),
             from_integration_center: trajectory.state_from_integration_center(time_s),
-            approaches: trajectory.approaches_until(time_s),
+            approaches: trajectory.approaches.until(time_s),
             panel_turns: &propagator.panel_turns,
             prediction,
             summary,

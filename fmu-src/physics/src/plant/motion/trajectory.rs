@@ -12,7 +12,7 @@ use crate::guidance::Window;
 use crate::numerics::Span;
 use crate::numerics::spacing::spacing;
 
-use super::approaches::{ClosestApproach, ClosestApproaches};
+use super::approaches::ClosestApproaches;
 use super::geometry::SimulationEphemeris;
 use super::periapses::Periapses;
 use crate::plant::settings::configuration::{Configuration, Encounter, Motion};
@@ -31,7 +31,7 @@ pub struct Trajectory {
     coast: Option<Coast>,
     periapses: Periapses,
     /// Closest approaches to the encounter's body.
-    approaches: ClosestApproaches,
+    pub(crate) approaches: ClosestApproaches,
     /// Time and state at the start of the present science or downlink window, once that time lies before the
     /// current segment: a slew starts from the attitude there.
     window_start: Option<(f64, CartesianState)>,
@@ -152,16 +152,6 @@ impl Trajectory {
     pub(crate) fn state_from_integration_center(&self, time_s: f64) -> Option<CartesianState> {
         let orbit = self.orbit.as_ref().filter(|orbit| orbit.integration_center().is_some());
         orbit.map(|orbit| orbit.own_state_at(time_s))
-    }
-
-    /// How many closest approaches there were until `time_s`, and the last of them.
-    pub(crate) fn approaches_until(&self, time_s: f64) -> (i32, Option<ClosestApproach>) {
-        self.approaches.until(time_s)
-    }
-
-    /// The first closest approach that was found beyond `time_s`.
-    pub(crate) fn approach_after(&self, time_s: f64) -> Option<ClosestApproach> {
-        self.approaches.after(time_s)
     }
 
     /// Up to where the orbit is known; infinite in closed form.

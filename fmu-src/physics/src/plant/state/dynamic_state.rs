@@ -59,7 +59,7 @@ impl DynamicState {
             self.motion.cut(time_s);
         }
         if loads_change {
-            self.disturbance.cut(time_s);
+            self.disturbance.span.cut(time_s);
         }
     }
 

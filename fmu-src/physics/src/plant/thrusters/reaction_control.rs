@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::attitude::GyrostatMotion;
 use crate::numerics::Span;
 use crate::numerics::quadrature::GAUSS_3;
-use crate::propulsion::{PropellantState, PulseCommand, due_s};
+use crate::propulsion::{PropellantState, due_s};
 use crate::spacecraft::{MassProperties, Spacecraft, Thrust, Thruster};
 
 use super::allocation::{Purpose, ThrusterAllocator, Unserved, UnservedDumps};
@@ -18,7 +18,7 @@ use super::at_once::AtOnce;
 use super::pulsed_dump::PulsedDump;
 use super::thruster_load::{ThrusterLoad, ThrusterTotals};
 use super::valves::Valves;
-use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSettings, ThrustCommand};
+use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSettings};
 
 /// State of thrusters and tanks: propellant, valves, the current dump, load and totals.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -53,7 +53,7 @@ impl Thrusters {
         self.valves.is_valid(&spacecraft.thrusters)
             && self.propellant.is_valid(spacecraft.tanks.len())
             && self.dump.as_ref().is_none_or(PulsedDump::is_valid)
-            && self.load.is_valid()
+            && self.load.mass_kg > 0.0
     }
 
     /// Time of the next edge of a valve or of an empty tank, in s.
