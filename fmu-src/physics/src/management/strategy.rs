@@ -101,6 +101,7 @@ impl Manager<'_> {
         let state = DownlinkState {
             to_sun: forecast.to_sun,
             to_earth,
+            separations_rad: forecast.separations_rad,
             momentum: forecast.momentum,
             span_s: forecast.science.as_ref().map_or(forecast.span_s, ScienceArc::light_s),
             torque_body_n_m: &torque,
@@ -108,8 +109,7 @@ impl Manager<'_> {
             linear,
             science: forecast.science.as_ref().map(|arc| ScienceUnload { arc, convention }),
         };
-        let separations_rad = forecast.separations_rad;
-        Ok(self.place(state, prediction.as_ref(), separations_rad))
+        Ok(self.place(state, prediction.as_ref()))
     }
 
     /// The linear formula of the shade of these materials about this centre of mass; `None` without a shade.
@@ -138,7 +138,6 @@ impl Manager<'_> {
         &self,
         mut state: DownlinkState<'_>,
         prediction: Option<&Prediction>,
-        separations_rad: [f64; 2],
     ) -> Option<SelectedSunDirection> {
         let predicted = match (prediction, state.momentum) {
             (Some(Prediction::Science(science)), StartMomentum::Inertial(momentum)) => {
@@ -153,7 +152,7 @@ impl Manager<'_> {
             _ => None,
         };
         let target = predicted.unwrap_or(self.bias_body_n_m_s + self.target_body_n_m_s);
-        self.targeting.sun_direction(&state, &target, separations_rad)
+        self.targeting.sun_direction(&state, &target)
     }
 
     /// The target from which X and Z stay below their thresholds through the coming cycles.

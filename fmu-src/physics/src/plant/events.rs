@@ -73,7 +73,7 @@ impl LastEvents {
     }
 
     /// Takes the next event of a schedule, if there is one.
-    pub(crate) fn take_scheduled(&mut self, events: &ThrusterEventSettings) -> Option<TimelineEvent> {
+    pub(crate) fn pop_scheduled(&mut self, events: &ThrusterEventSettings) -> Option<TimelineEvent> {
         let last = &mut self.0[EventKind::Schedule as usize];
         let event = events.next(*last).copied()?;
         last.take(events.time_s(&event));

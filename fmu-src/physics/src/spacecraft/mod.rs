@@ -71,6 +71,7 @@ pub use pointing::{
 };
 pub(crate) use pointing_table::{StarDescription, TargetedAxisDescription, aligned, axes};
 pub use polygon::Polygon;
+pub(crate) use shapes::frame;
 pub use start::{StartEntry, StartValue};
 pub(crate) use start::{StartTable, start_entries};
 pub use sun_sensors::MountedSunSensor;

@@ -299,7 +299,7 @@ impl Shape<'_> {
 }
 
 /// Axes with Z along a direction, as columns: X is the body axis that is most across it, made perpendicular.
-fn frame(z: &Vector3<f64>) -> Matrix3<f64> {
+pub(crate) fn frame(z: &Vector3<f64>) -> Matrix3<f64> {
     let mut across = Vector3::zeros();
     across[z.iamin()] = 1.0;
     let x = (across - z * z.dot(&across)).normalize();

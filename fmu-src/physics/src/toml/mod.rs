@@ -37,5 +37,5 @@ pub use spelling::{hint, nearest};
 #[cfg(feature = "schema")]
 pub(crate) use tables::schema;
 pub use tables::{List, Named, NonEmpty, Point, Table, UnitVector};
-pub use written::{Plain, Written};
+pub use written::Written;
 pub(crate) use written::{plain, type_schema};

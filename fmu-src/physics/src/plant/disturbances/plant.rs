@@ -78,9 +78,8 @@ impl<'a> Plant<'a> {
             command_slews,
             ..
         } = propagator;
-        let selected = &sun_choice.selected;
         let guided = configuration.attitude.guided();
-        let law = guided.map(|law| law.with_sun_directions(selected.in_downlink(), selected.in_science()));
+        let law = guided.map(|law| law.with_sun_directions(&sun_choice.selected));
         let bodies = SimulationEphemeris { configuration, ephemeris };
         let kinematics = Kinematics {
             configuration,

@@ -326,7 +326,7 @@ impl Dynamic<'_> {
         let events = &self.flight.context.configuration.thruster_events;
         // The schedule may be another than at the start.
         events.check_for_dynamics(self.state.last.scheduled())?;
-        let taken = self.state.last.take_scheduled(events);
+        let taken = self.state.last.pop_scheduled(events);
         if let Some(target_body_n_m_s) = taken.and_then(|event| events.dump_target_body_n_m_s(&event)) {
             self.dump_to(target_body_n_m_s);
         }

@@ -240,7 +240,7 @@ impl<'f> Fork<'f> {
     /// Executes the scheduled event at `time_s`, the end of the fork; returns its velocity change, EME2000, in m/s.
     fn scheduled_event(&mut self, time_s: f64) -> Result<Vector3<f64>, PlantError> {
         let Self { configuration, current_mass_panels_stowed, propagator, last, .. } = self;
-        let taken = last.take_scheduled(&configuration.thruster_events);
+        let taken = last.pop_scheduled(&configuration.thruster_events);
         let Some(event) = taken else { return Ok(Vector3::zeros()) };
         if let Some(place_body_m) = event.center_of_mass_body_m {
             let before = propagator.center_of_mass.mass_properties(configuration);

@@ -186,7 +186,7 @@ impl<'f> Ideal<'f> {
     /// Executes the event of the timeline that is due.
     fn scheduled_event(&mut self, time_s: f64) -> Result<(), PlantError> {
         let configuration = &self.flight.context.configuration;
-        let taken = self.state.last.take_scheduled(&configuration.thruster_events);
+        let taken = self.state.last.pop_scheduled(&configuration.thruster_events);
         let Some(event) = taken else { return Ok(()) };
         if let Some(place_body_m) = event.center_of_mass_body_m {
             self.flight.propagator.center_of_mass.place(configuration, place_body_m);

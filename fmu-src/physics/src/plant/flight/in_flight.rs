@@ -2,6 +2,7 @@
 
 use crate::attitude::MotionAt;
 use crate::attitude::control::{sample_number, sensed_sun};
+use crate::loads::ForceTorque;
 use crate::momentum::Totals;
 use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::Evaluation;
@@ -16,9 +17,16 @@ use crate::radiation::SolarModel;
 
 use super::configured::ConfiguredFlight;
 use super::dynamic::Dynamic;
-use super::flight_setup::Evaluated;
 use super::ideal::Ideal;
 use super::report::{ReachedState, Report, dynamic, dynamic_totals, ideal};
+
+/// The last evaluation, kept in memory because it is large.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Evaluated {
+    pub evaluation: Option<Evaluation>,
+    /// Load from outside, where the loads are not computed yet.
+    pub applied: Option<ForceTorque>,
+}
 
 /// A flight in one step.
 pub(super) enum InFlight<'f> {

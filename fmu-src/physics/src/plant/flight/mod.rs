@@ -43,9 +43,8 @@ use crate::spacecraft::Spacecraft;
 use configured::ConfiguredFlight;
 use dynamic::Dynamic;
 use encounter_prediction::predict_encounter;
-use flight_setup::{Evaluated, FlightSetup};
 use ideal::Ideal;
-use in_flight::InFlight;
+use in_flight::{Evaluated, InFlight};
 use report::{ReachedState, Report};
 
 /// A flight: its state, and apart from it settings and caches, which are not saved.
@@ -54,6 +53,15 @@ use report::{ReachedState, Report};
 pub struct Flight {
     state: FlightState,
     setup: Option<Box<FlightSetup>>,
+}
+
+/// Configuration, settings and caches of a flight, none of them saved.
+#[derive(Clone, Debug)]
+struct FlightSetup {
+    context: SimulationContext,
+    settings: ModeSettings,
+    distribution: WheelDistribution,
+    evaluated: Evaluated,
 }
 
 impl From<FlightState> for Flight {

@@ -5,7 +5,9 @@ use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::constraints::slew::{Slew, SlewedFrame};
 use crate::guidance::pointing::command::Scenario;
 use crate::guidance::timeline::{Slot, TimelineEntry, TimelineLaw, TimelineSettings, bodies_of};
-use crate::guidance::{Activity, AttitudeCommand, Guided, GuidedAttitude, Sight, TargetPlanet, Window};
+use crate::guidance::{
+    Activity, AttitudeCommand, Guided, GuidedAttitude, OrbitPhaseLaw, Sight, TargetPlanet, Window,
+};
 
 use super::command_slews::CommandSlews;
 use super::geometry::{Geometry, GeometrySight, SimulationEphemeris};
@@ -62,9 +64,9 @@ impl GuidedLaw<'_, '_> {
     pub(super) fn attitude(&mut self, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let guided = self.guided;
         let Some((law, settings)) = self.spacecraft.timeline.zip(self.configuration.timeline) else {
-            let (requested, cut) = guided.requested.at_distance(geometry.to_sun.position_m.norm());
+            let requested = guided.requested.at_distance(geometry.to_sun.position_m.norm());
             let own = self.by_orbit_phase(&Guided { requested, ..*guided }, time_s, geometry);
-            return GuidedAttitude { clamped: own.clamped || cut, ..own };
+            return GuidedAttitude { clamped: own.clamped || requested.is_moved, ..own };
         };
         let slot = law.timeline.slot(time_s, settings.clock_minus_time_s);
         let command = SlotCommand { law: &law, settings: &settings, slot };
@@ -167,14 +169,15 @@ impl GuidedLaw<'_, '_> {
             return GuidedAttitude { row: slot.row, ..GuidedAttitude::held(command, window) };
         }
         let keep_in = self.keep_in_of_orbit_phase(slot.entry);
-        let (requested, cut) = requested.at_distance(geometry.to_sun.position_m.norm());
+        let requested = requested.at_distance(geometry.to_sun.position_m.norm());
         let own = self.by_orbit_phase(&Guided { requested, keep_in, ..*guided }, time_s, geometry);
         let window = Window {
             since_s: own.window.since_s.max(since_s),
             until_s: own.window.until_s.min(until_s),
             ..own.window
         };
-        GuidedAttitude { window, clamped: own.clamped || cut, until_s: own.until_s.min(until_s), ..own }
+        let clamped = own.clamped || requested.is_moved;
+        GuidedAttitude { window, clamped, until_s: own.until_s.min(until_s), ..own }
     }
 
     /// The attitude of a command of the timeline.
@@ -198,13 +201,14 @@ impl GuidedLaw<'_, '_> {
     /// Attitude that the orbit phase's own guidance commands at `time_s`.
     fn by_orbit_phase(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let (configuration, bodies) = (self.configuration, &mut *self.bodies);
-        let (trajectory, default_downlink) = (self.trajectory, self.spacecraft.default_downlink);
+        let trajectory = self.trajectory;
+        let law = OrbitPhaseLaw { guided: *guided, default_downlink: self.spacecraft.default_downlink };
         let epoch_s = time_s + configuration.epoch_minus_time_s;
         let planet =
             guided.science.reads_motion().then(|| TargetPlanet::from_body(configuration.center.data()));
         let window =
             trajectory.window(configuration, time_s).unwrap_or_else(|| guided.schedule.window(epoch_s));
-        guided.within(window, epoch_s, default_downlink, |at_epoch_s| {
+        law.within(window, epoch_s, |at_epoch_s| {
             if at_epoch_s == epoch_s {
                 return sight(bodies, time_s, *geometry, planet);
             }

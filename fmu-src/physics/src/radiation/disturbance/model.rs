@@ -293,10 +293,8 @@ impl DisturbanceModel {
             let turns = !matches!(self.faces.normals[index], Normal::Fixed(_));
             let alike =
                 turns.then(|| workspace.normals[..index].iter().position(|known| same(known, normal)));
-            workspace.lights[index] = match alike.flatten() {
-                Some(known) => workspace.lights[known],
-                None => planet_source.receive(normal),
-            };
+            let known = alike.flatten().map(|known| workspace.lights[known]);
+            workspace.lights[index] = known.unwrap_or_else(|| planet_source.receive(normal));
         }
         Ok(())
     }
