@@ -19,7 +19,7 @@ use super::configured::{ConfiguredFlight, SunSelectionStart};
 use super::downlink_forecast::StartMomentum;
 use super::grid_edge;
 use super::report::dynamic_totals;
-use crate::plant::control::control_loop::{Actuators, Sampled};
+use crate::plant::control::control_loop::Sampled;
 use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::events::{EventKind, Eventful, LastEvents};
@@ -269,10 +269,11 @@ impl Dynamic<'_> {
             estimate: &state.sensing.estimate,
             mass: &state.mass.known,
             dump_body_n_m: state.dumps.torque_body_n_m(),
+            thrusters: flight.thrusters,
+            allocator: &mut flight.context.allocator,
+            distribution,
         };
-        let thrusters = &mut *flight.thrusters;
-        let actuators = Actuators { thrusters, allocator: &mut flight.context.allocator, distribution };
-        state.control.control(control, actuators, &target, &sampled);
+        state.control.control(control, &target, sampled);
         Ok(())
     }
 
