@@ -31,11 +31,6 @@ pub struct AirFlow<T: Scalar> {
 }
 
 impl<T: Scalar> AirFlow<T> {
-    /// Whether the density is zero, its derivative included.
-    pub(super) fn is_vacuum(&self) -> bool {
-        self.density_kg_m3.same(T::constant(0.0))
-    }
-
     /// Unit vector against the flow; `None` at rest.
     pub(super) fn upstream(&self) -> Option<Vector3<T>> {
         let speed_m_s = self.velocity_body_m_s.dot(&self.velocity_body_m_s).sqrt();

@@ -120,7 +120,8 @@ impl AerodynamicModel {
         walls: Walls<'_, T>,
         workspace: &mut AerodynamicWorkspace<T>,
     ) -> ForceTorque<T> {
-        if flow.is_vacuum() {
+        // A vacuum, the density's derivative included.
+        if flow.density_kg_m3.same(T::constant(0.0)) {
             return ForceTorque::zero();
         }
         let law = LawAtFlow::new(self.law, self.reemission, flow);

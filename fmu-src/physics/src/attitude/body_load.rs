@@ -69,10 +69,6 @@ impl BodyLoad {
         let start = self.force_body_n[0] / self.mass_kg;
         [start, (self.force_body_n[1] + start * self.flow_kg_s[0]) / self.mass_kg]
     }
-
-    pub(super) fn is_valid(&self) -> bool {
-        self.mass_kg > 0.0
-    }
 }
 
 /// The body at one time.

@@ -54,18 +54,10 @@ impl MovingFrame {
     pub fn from_yz(y: &MovingUnit, z: &MovingUnit) -> Self {
         let x = y.direction.cross(&z.direction);
         let x_rate = y.rate_1_s.cross(&z.direction) + y.direction.cross(&z.rate_1_s);
-        Self {
-            inertial_from_body: Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[
-                x,
-                y.direction,
-                z.direction,
-            ])),
-            rate_body_rad_s: Vector3::new(
-                y.rate_1_s.dot(&z.direction),
-                z.rate_1_s.dot(&x),
-                x_rate.dot(&y.direction),
-            ),
-        }
+        let axes = Matrix3::from_columns(&[x, y.direction, z.direction]);
+        let rate_x_rad_s = y.rate_1_s.dot(&z.direction);
+        let rate_body_rad_s = Vector3::new(rate_x_rad_s, z.rate_1_s.dot(&x), x_rate.dot(&y.direction));
+        Self { inertial_from_body: Rotation3::from_matrix_unchecked(axes), rate_body_rad_s }
     }
 
     /// The frame turned about its own X axis by `angle_rad`, which changes by `angle_rate_rad_s`.

@@ -129,10 +129,8 @@ impl GyrostatSeries {
             return longest_s;
         }
         let scale_n_m_s = self.momentum_scale_n_m_s(gyrostat);
-        exact_length_s(
-            longest_s,
-            [ORDER - 1, ORDER].map(|j| (j, self.size(gyrostat, scale_n_m_s, j))).into_iter(),
-        )
+        let sizes = [ORDER - 1, ORDER].map(|j| (j, self.size(gyrostat, scale_n_m_s, j)));
+        exact_length_s(longest_s, sizes.into_iter())
     }
 
     /// Rejects decoded states that no simulation can produce.
@@ -140,7 +138,7 @@ impl GyrostatSeries {
         self.oscillators.iter().all(OscillatorMotion::is_valid)
             && self.imbalances.iter().all(ImbalanceMotion::is_valid)
             && self.rotation.is_valid()
-            && self.load.is_valid()
+            && self.load.mass_kg > 0.0
             && self.rotors.iter().all(RotorMotion::is_valid)
     }
 
@@ -154,7 +152,7 @@ impl GyrostatSeries {
     /// Inverse inertia that gives the change of rate by an internal momentum, in 1/(kg m2), with the inertia of `gyrostat`: rotors that turn
     /// and modal coordinates keep their own.
     pub(super) fn inverse_inertia_of(&self, gyrostat: &Gyrostat) -> Matrix3<f64> {
-        let swinging = self.oscillators.iter().map(OscillatorMotion::inertia_body_kg_m2);
+        let swinging = self.oscillators.iter().map(|it| it.oscillator.inertia_body_kg_m2());
         gyrostat.inverse_inertia(self.rotors.iter().map(|it| &it.rotor), swinging)
     }
 

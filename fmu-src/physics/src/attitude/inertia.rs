@@ -3,11 +3,11 @@
 //! The tensor in body axes is J = [[J1, P12, P13], [P12, J2, P23], [P13, P23, J3]] with P_ij = -integral of x_i x_j dm: its
 //! elements, as `spacecraft.inertia[i,j]` of a three-axis spacecraft has them.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, SymmetricEigen, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::principal_axes::principal_axes;
 use super::quaternion::Quaternion;
+use super::rotation::Attitude;
 
 use crate::math;
 
@@ -97,12 +97,10 @@ impl Inertia {
         }
         let ([j1, j2, j3], [p12, p13, p23]) = (diagonal_kg_m2, products_kg_m2);
         let (principal, axes) = principal_axes(&Matrix3::new(j1, p12, p13, p12, j2, p23, p13, p23, j3));
-        match Self::new(principal) {
-            Ok(body) => Ok(Self { axes: Some(axes), ..body }),
-            Err(_) => {
-                Err(InertiaError::Tensor { diagonal: diagonal_kg_m2, products: products_kg_m2, principal })
-            }
-        }
+        let (diagonal, products) = (diagonal_kg_m2, products_kg_m2);
+        let body =
+            Self::new(principal).map_err(|_| InertiaError::Tensor { diagonal, products, principal })?;
+        Ok(Self { axes: Some(axes), ..body })
     }
 
     /// Whether decoded numbers can be some.
@@ -188,14 +186,9 @@ impl Inertia {
         self.principal_kg_m2[2]
     }
 
-    /// I_T = sqrt(I1 I2), paper 002 after eq 11.
-    pub fn transverse_kg_m2(&self) -> f64 {
-        (self.principal_kg_m2[0] * self.principal_kg_m2[1]).sqrt()
-    }
-
-    /// I3/I_T.
+    /// I3/I_T with I_T = sqrt(I1 I2), paper 002 after eq 11.
     pub fn ratio(&self) -> f64 {
-        self.spin_kg_m2() / self.transverse_kg_m2()
+        self.spin_kg_m2() / (self.principal_kg_m2[0] * self.principal_kg_m2[1]).sqrt()
     }
 
     /// Whether I1 = I2.
@@ -231,8 +224,65 @@ impl Inertia {
 }
 
 fn check_positive(moments_kg_m2: &[f64; 3]) -> Result<(), InertiaError> {
-    match moments_kg_m2.iter().position(|moment| !(moment.is_finite() && *moment > 0.0)) {
-        Some(i) => Err(InertiaError::NotPositive { index: i + 1, value: moments_kg_m2[i] }),
-        None => Ok(()),
+    let bad = moments_kg_m2.iter().position(|moment| !(moment.is_finite() && *moment > 0.0));
+    bad.map_or(Ok(()), |i| Err(InertiaError::NotPositive { index: i + 1, value: moments_kg_m2[i] }))
+}
+
+/// Moments about the principal axes, in kg m2, and those axes as an attitude in the body frame.
+///
+/// The third axis is the one nearest to the body's third, the first that of the others nearest to the body's first; both
+/// point to its side.
+fn principal_axes(tensor_body_kg_m2: &Matrix3<f64>) -> ([f64; 3], Quaternion) {
+    let SymmetricEigen { eigenvalues, eigenvectors: axes } = SymmetricEigen::new(*tensor_body_kg_m2);
+    let along = |body_axis: usize, k: usize| axes[(body_axis, k)].abs();
+    let nearest = |body_axis: usize, one: usize, other: usize| {
+        if along(body_axis, other) > along(body_axis, one) { other } else { one }
+    };
+    let third = nearest(2, 2, nearest(2, 0, 1));
+    let [one, other] = [[1, 2], [0, 2], [0, 1]][third];
+    let first = nearest(0, one, other);
+    let second = 3 - third - first;
+    let toward = |body_axis: usize, k: usize| -> Vector3<f64> {
+        let axis: Vector3<f64> = axes.column(k).into();
+        if axis[body_axis] < 0.0 { -axis } else { axis }
+    };
+    let (x, z) = (toward(0, first), toward(2, third));
+    let moments = [first, second, third].map(|k| eigenvalues[k]);
+    let body_axes = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), z]));
+    (moments, Attitude::from_rotation(&body_axes).unit_quaternion())
+}
+
+#[cfg(test)]
+mod tests {
+    //! Tensors put together from moments and turned axes give both back.
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_turned_body_gives_back_its_moments_and_axes() {
+        let moments = Vector3::new(210.0, 260.0, 353.0);
+        for angle_rad in [0.0, 1e-9, 1e-3, 0.2, 0.7] {
+            for axis in [Vector3::x(), Vector3::new(0.3, -0.8, 0.5), Vector3::new(-0.6, 0.1, 0.7)] {
+                let turned = Rotation3::new(axis.normalize() * angle_rad);
+                let tensor = turned * Matrix3::from_diagonal(&moments) * turned.inverse();
+                let (found, axes) = principal_axes(&tensor);
+                assert_relative_eq!(Vector3::from(found), moments, max_relative = 1e-14);
+                for (k, unit) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().enumerate() {
+                    let expected: Vector3<f64> = turned.matrix().column(k).into();
+                    assert_relative_eq!(axes.inertial_from_body(unit), expected, epsilon = 2e-14);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_third_axis_is_the_one_nearest_to_z_whatever_its_moment() {
+        for moments in [[350.0, 200.0, 210.0], [200.0, 350.0, 210.0], [210.0, 200.0, 350.0]] {
+            let turned = Rotation3::new(Vector3::new(0.4, -0.5, 0.3));
+            let diagonal = Matrix3::from_diagonal(&Vector3::from(moments));
+            let (found, axes) = principal_axes(&(turned * diagonal * turned.inverse()));
+            assert_relative_eq!(Vector3::from(found), Vector3::from(moments), max_relative = 1e-14);
+            assert_relative_eq!(axes.spin_axis_inertial(), turned * Vector3::z(), epsilon = 1e-14);
+        }
     }
 }

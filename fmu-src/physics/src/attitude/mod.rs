@@ -19,7 +19,6 @@ mod internal_motion;
 mod mass_flow;
 mod motion_at;
 mod oscillator;
-mod principal_axes;
 mod quaternion;
 mod rigid_body;
 mod rotation;

@@ -65,7 +65,7 @@ impl Oscillator {
 /// One modal coordinate over a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct OscillatorMotion {
-    oscillator: Oscillator,
+    pub(super) oscillator: Oscillator,
     /// Series of e, in sqrt(kg) m.
     displacement: [f64; TERMS],
     /// Series of p, in sqrt(kg) m/s.
@@ -135,11 +135,6 @@ impl OscillatorMotion {
         self.displacement[j + 1] = speed / divisor;
         self.momentum[j + 1] =
             (drive - stiffness_1_s2 * self.displacement[j] - damping_1_s * speed) / divisor;
-    }
-
-    /// Part of the body's inertia that moves with it, in kg m2.
-    pub(super) fn inertia_body_kg_m2(&self) -> Matrix3<f64> {
-        self.oscillator.inertia_body_kg_m2()
     }
 
     /// Size of coefficient `j`, in sqrt(kg) m/s.

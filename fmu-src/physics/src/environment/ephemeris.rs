@@ -28,18 +28,14 @@ use nalgebra::{Matrix3, SVector, Vector3};
 
 mod segments;
 
-use super::{
-    CartesianState,
-    orbit::kepler::eccentric_anomaly,
-    time::{julian_date, julian_date_rounding_s},
-};
+use super::CartesianState;
+use super::orbit::kepler::eccentric_anomaly;
+use super::time::{julian_date, julian_date_rounding_s};
+use crate::bodies::Body;
+use crate::constants::{ASTRONOMICAL_UNIT_M, DAY_S, EARTH_TO_MOON_MASS};
 use crate::math;
 use crate::numerics::Span;
-use crate::{
-    bodies::Body,
-    constants::{ASTRONOMICAL_UNIT_M, DAY_S, EARTH_TO_MOON_MASS},
-    numerics::chebyshev::Segment,
-};
+use crate::numerics::chebyshev::Segment;
 use segments::{SegmentCache, SegmentCounter};
 
 /// Nodes within an element segment.
@@ -245,11 +241,6 @@ impl Ephemeris {
             Body::ALL.iter().map(|&body| terms(body) * self.entered[body as usize].count).sum();
         planets + 2 * MOON_TERMS as u64 * self.entered[MOON].count
     }
-
-    /// The position alone, see [`Ephemeris::state`].
-    pub fn position_m(&mut self, body: Body, epoch_s: f64) -> Vector3<f64> {
-        self.state(body, epoch_s).position_m
-    }
 }
 
 impl FittedSegments {
@@ -259,25 +250,17 @@ impl FittedSegments {
     }
 
     fn earth(&mut self, epoch_s: f64) -> &Segment<3, EARTH_TERMS> {
-        self.cache.rectangular_segment(
-            &mut self.earth,
-            |all| &mut all.earth,
-            epoch_s,
-            |date| from_rectangular(vsop87::vsop87a::earth(date)),
-        )
+        let position_m = |date| from_rectangular(vsop87::vsop87a::earth(date));
+        self.cache.rectangular_segment(&mut self.earth, |all| &mut all.earth, epoch_s, position_m)
     }
 
     fn moon(&mut self, epoch_s: f64) -> &Segment<3, MOON_TERMS> {
-        self.cache.rectangular_segment(
-            &mut self.moon,
-            |all| &mut all.moon,
-            epoch_s,
-            |date| {
-                let barycentre_m = from_rectangular(vsop87::vsop87a::earth_moon(date));
-                let earth_m = from_rectangular(vsop87::vsop87a::earth(date));
-                (barycentre_m - earth_m) * (1.0 + EARTH_TO_MOON_MASS)
-            },
-        )
+        let position_m = |date| {
+            let barycentre_m = from_rectangular(vsop87::vsop87a::earth_moon(date));
+            let earth_m = from_rectangular(vsop87::vsop87a::earth(date));
+            (barycentre_m - earth_m) * (1.0 + EARTH_TO_MOON_MASS)
+        };
+        self.cache.rectangular_segment(&mut self.moon, |all| &mut all.moon, epoch_s, position_m)
     }
 
     /// Segment of positions that contains `epoch_s`, computed from slowly varying elements.
@@ -287,12 +270,8 @@ impl FittedSegments {
         self.planets[body as usize].segment(epoch_s, SHORT_S, |start_s, end_s| {
             // Nodes lie inside the segment that `epoch_s` chose, and that inside one segment of elements.
             let middle_s = ((epoch_s / LONG_S).floor() + 0.5) * LONG_S;
-            let slow = cache.segment(
-                |all| &mut all.elements[body as usize],
-                epoch_s,
-                LONG_S,
-                |start_s, end_s| fit_elements(theory, mean_motion_rad_s, [start_s, middle_s, end_s]),
-            );
+            let fit = |start_s, end_s| fit_elements(theory, [start_s, middle_s, end_s]);
+            let slow = cache.segment(|all| &mut all.elements[body as usize], epoch_s, LONG_S, fit);
             Segment::fit(start_s, end_s, |node_s| {
                 let [[a, longitude_rad, k, h, q, p]] = slow.value(node_s).data.0;
                 let mean_longitude_rad = longitude_rad + mean_motion_rad_s * (node_s - middle_s);
@@ -309,11 +288,8 @@ fn interpolation<const N: usize>(fitted: &Segment<3, N>, span: Span) -> Segment<
 
 /// Elements with the slow remainder of the longitude, in segments that continue smoothly: their ends have values, and rates by
 /// differences, that are functions of the end alone.
-fn fit_elements(
-    theory: &Theory,
-    mean_motion_rad_s: f64,
-    [start_s, middle_s, end_s]: [f64; 3],
-) -> Segment<6, ELEMENT_TERMS> {
+fn fit_elements(theory: &Theory, [start_s, middle_s, end_s]: [f64; 3]) -> Segment<6, ELEMENT_TERMS> {
+    let mean_motion_rad_s = theory.mean_motion_rad_s();
     let mut first_rad = None;
     let mut slow = |at_s: f64| {
         let e = (theory.elements)(julian_date(at_s));

@@ -43,15 +43,8 @@ const NUTATION: [([f64; 5], f64, f64); 10] = [
 /// Rotation model of a planet.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Orientation {
-    /// Constant rotation rate about a fixed pole.
-    Uniform {
-        /// Components along the equator's axes of a vector in EME2000.
-        equator_from_eme2000: Matrix3<f64>,
-        /// Prime meridian at J2000 TDB from the ascending node of the equator, in rad.
-        prime_meridian_rad: f64,
-        /// About the north pole, in rad/s.
-        rotation_rate_rad_s: f64,
-    },
+    /// Constant rotation rate about a fixed pole: the equator at J2000 TDB.
+    Uniform(Equator),
     /// The Earth by the IAU's models.
     Iau {
         /// UT1 less UTC, in s.
@@ -60,7 +53,7 @@ pub enum Orientation {
 }
 
 /// True equator of a planet at one time, and its rotation angle in it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Equator {
     /// Components along the equator's axes of a vector in EME2000.
     pub equator_from_eme2000: Matrix3<f64>,
@@ -86,21 +79,20 @@ impl Equator {
 impl Orientation {
     /// Uniform rotation with a body's pole, prime meridian and rate.
     pub fn uniform(body: &BodyData) -> Self {
-        Self::Uniform {
-            equator_from_eme2000: dcm_from_pole(body.pole_right_ascension_rad, body.pole_declination_rad)
-                .transpose(),
-            prime_meridian_rad: body.prime_meridian_rad,
-            rotation_rate_rad_s: body.rotation_rate_rad_s,
-        }
+        let equatorial = dcm_from_pole(body.pole_right_ascension_rad, body.pole_declination_rad);
+        Self::Uniform(Equator {
+            equator_from_eme2000: equatorial.transpose(),
+            rotation_angle_rad: body.prime_meridian_rad,
+            rate_rad_s: body.rotation_rate_rad_s,
+        })
     }
 
     /// Equator and rotation angle at an epoch in s past J2000 TDB.
     pub fn equator(&self, epoch_s: f64) -> Equator {
         match *self {
-            Self::Uniform { equator_from_eme2000, prime_meridian_rad, rotation_rate_rad_s } => Equator {
-                equator_from_eme2000,
-                rotation_angle_rad: (prime_meridian_rad + rotation_rate_rad_s * epoch_s) % TAU,
-                rate_rad_s: rotation_rate_rad_s,
+            Self::Uniform(at_j2000) => Equator {
+                rotation_angle_rad: (at_j2000.rotation_angle_rad + at_j2000.rate_rad_s * epoch_s) % TAU,
+                ..at_j2000
             },
             Self::Iau { ut1_minus_utc_s } => of_earth(epoch_s, ut1_minus_utc_s),
         }

@@ -82,6 +82,8 @@ pub struct DownlinkState<'a> {
     pub to_earth: Vector3<f64>,
     /// Momentum at the start.
     pub momentum: StartMomentum,
+    /// Least and greatest angle between Sun and Earth while it lasts, in rad.
+    pub separations_rad: [f64; 2],
     /// How long light as at the start acts, in s.
     pub span_s: f64,
     /// Torque of sunlight in N m, body frame, with the Sun in this direction of the body frame.
@@ -109,20 +111,19 @@ const ROUNDING: f64 = 1e-13;
 const INTERVALS: usize = 16;
 
 impl Targeting<'_> {
-    /// The place of the Sun for `target_body_n_m_s` at the downlink's end, Sun and Earth coming from the least to the greatest of
-    /// `separations_rad` apart while it lasts; `None` where Sun and Earth give no downlink attitude, or no place is admissible.
+    /// The place of the Sun for `target_body_n_m_s` at the downlink's end; `None` where Sun and Earth give no downlink attitude, or no
+    /// place is admissible.
     pub fn sun_direction(
         &self,
         state: &DownlinkState<'_>,
         target_body_n_m_s: &Vector3<f64>,
-        separations_rad: [f64; 2],
     ) -> Option<SelectedSunDirection> {
         let (zone, sides);
         let branches: &[Option<Branch>] = if state.science.is_some() {
             zone = [Some(self.zone())];
             &zone
         } else {
-            sides = self.branches(state.separation_rad())?.map(|it| Some(it?.lasting(separations_rad)));
+            sides = self.branches(state.separation_rad())?.map(|it| Some(it?.lasting(state.separations_rad)));
             &sides
         };
         let aim = MomentumAim { axes: self.axes, state, target: target_body_n_m_s };
@@ -276,7 +277,7 @@ impl MomentumAim<'_> {
         let roots = (0..INTERVALS).filter_map(|k| {
             let (from, to) = (at(k), at(k + 1));
             let changes_sign = left(from) * left(to) <= 0.0;
-            changes_sign.then(|| roots::bracketed(from, to, 0.0, left).ok()).flatten()
+            changes_sign.then(|| roots::bracketed(from, to, left)).flatten()
         });
         let nearest = roots.min_by(|a, b| a.abs().total_cmp(&b.abs()));
         let angle_rad = nearest.unwrap_or_else(|| {

@@ -12,29 +12,11 @@ use core::f64::consts::PI;
 use crate::math;
 
 /// Nodes and weights of Gauss-Legendre quadrature of order 4 on [0, 1].
-pub const GAUSS_2: [(f64, f64); 2] = {
-    let [first, last] = pair(1.0 / 3.0);
-    [(first, 0.5), (last, 0.5)]
-};
+pub const GAUSS_2: [(f64, f64); 2] = [(0.211_324_865_405_187_13, 0.5), (0.788_675_134_594_812_9, 0.5)];
 
 /// The same of order 6.
-pub const GAUSS_3: [(f64, f64); 3] = {
-    let [first, last] = pair(0.6);
-    [(first, 5.0 / 18.0), (0.5, 8.0 / 18.0), (last, 5.0 / 18.0)]
-};
-
-/// The numbers on [0, 1] whose places on [-1, 1] have this square.
-const fn pair(square: f64) -> [f64; 2] {
-    // Newton's iteration for the square root.
-    let (mut root, mut round) = (1.0, 0);
-    while round < 8 {
-        root = 0.5 * (root + square / root);
-        round += 1;
-    }
-    // (1 - root) / 2 without cancellation.
-    let first = (1.0 - square) / (2.0 * (1.0 + root));
-    [first, 1.0 - first]
-}
+pub const GAUSS_3: [(f64, f64); 3] =
+    [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
 
 /// Shares of values at different `nodes` in the value at `at` of the polynomial through them: Lagrange's polynomials.
 pub fn lagrange<const N: usize>(nodes: &[f64; N], at: f64) -> [f64; N] {

@@ -11,59 +11,24 @@
 //! Reference: Chandrupatla, Advances in Engineering Software 28, 1997; Lane and Riesenfeld, BIT 21, 1981 (Descartes' rule
 //! in Bernstein form).
 
-use thiserror::Error;
-
-/// Why a bracket holds no root that could be found.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum RootError {
-    /// The function has the same sign at both ends.
-    #[error("no change of sign between {from} (function {at_from:e}) and {to} (function {at_to:e})")]
-    NotBracketed {
-        /// Lower end.
-        from: f64,
-        /// Upper end.
-        to: f64,
-        /// Function at the lower end.
-        at_from: f64,
-        /// Function at the upper end.
-        at_to: f64,
-    },
-    /// The function or an end is not a number.
-    #[error("the function is not finite at {at}")]
-    NotFinite {
-        /// Argument at which it is not.
-        at: f64,
-    },
-}
-
 /// The root of a continuous `function` between `from` and `to`, by Chandrupatla's method (inverse quadratic
 /// interpolation where it is safe, bisection elsewhere).
 ///
-/// The result is within `tolerance + 4 ulp` of a sign change. `tolerance` may be 0: then the bracket shrinks to
-/// neighbouring numbers or an exact zero. At most 200 evaluations, usually 6 to 10.
-///
-/// # Errors
-/// [`RootError::NotBracketed`] when both ends have the same sign, [`RootError::NotFinite`] on NaN or infinity.
-pub fn bracketed(
-    from: f64,
-    to: f64,
-    tolerance: f64,
-    mut function: impl FnMut(f64) -> f64,
-) -> Result<f64, RootError> {
-    let mut evaluate = |at: f64| {
-        let value = function(at);
-        if value.is_finite() && at.is_finite() { Ok(value) } else { Err(RootError::NotFinite { at }) }
-    };
+/// The result is within 4 ulp of a sign change: the bracket shrinks to neighbouring numbers or an exact zero. At most 200
+/// evaluations, usually 6 to 10. `None` when both ends have the same sign, and on
+/// NaN or infinity.
+pub fn bracketed(from: f64, to: f64, mut function: impl FnMut(f64) -> f64) -> Option<f64> {
+    let mut evaluate = |at: f64| Some(function(at)).filter(|value| value.is_finite() && at.is_finite());
     let (mut a, mut b) = (to, from);
     let (mut f_a, mut f_b) = (evaluate(a)?, evaluate(b)?);
     if f_a == 0.0 {
-        return Ok(a);
+        return Some(a);
     }
     if f_b == 0.0 {
-        return Ok(b);
+        return Some(b);
     }
     if (f_a > 0.0) == (f_b > 0.0) {
-        return Err(RootError::NotBracketed { from, to, at_from: f_b, at_to: f_a });
+        return None;
     }
     let mut fraction = 0.5;
     for _ in 0..200 {
@@ -78,10 +43,10 @@ pub fn bracketed(
         };
         (a, f_a) = (x, f_x);
         let best = if f_a.abs() < f_b.abs() { a } else { b };
-        let resolution = 2.0 * f64::EPSILON * best.abs() + 0.5 * tolerance.max(0.0) + f64::MIN_POSITIVE;
+        let resolution = 2.0 * f64::EPSILON * best.abs() + f64::MIN_POSITIVE;
         let relative = resolution / (b - a).abs();
         if relative > 0.5 || f_a == 0.0 || f_b == 0.0 {
-            return Ok(best);
+            return Some(best);
         }
         let xi = (a - b) / (c - b);
         let phi = (f_a - f_b) / (f_c - f_b);
@@ -93,7 +58,7 @@ pub fn bracketed(
         };
         fraction = fraction.clamp(relative, 1.0 - relative);
     }
-    Ok(0.5 * (a + b))
+    Some(0.5 * (a + b))
 }
 
 /// Up to `N` roots in rising order, without allocation.
@@ -110,24 +75,14 @@ impl<const N: usize> Default for Roots<N> {
 }
 
 impl<const N: usize> Roots<N> {
-    /// How many there are.
-    pub fn len(&self) -> usize {
-        self.count
-    }
-
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
 
     /// All of them, rising.
-    pub fn as_slice(&self) -> &[f64] {
-        self.at.get(..self.count).unwrap_or_default()
-    }
-
-    /// All of them, rising.
     pub fn iter(&self) -> impl Iterator<Item = f64> + '_ {
-        self.as_slice().iter().copied()
+        self.at.iter().take(self.count).copied()
     }
 
     pub(super) fn map(&mut self, change: impl Fn(f64) -> f64) {
@@ -182,7 +137,7 @@ pub fn bernstein_sign_changes<const N: usize>(coefficients: &[f64; N], from: f64
             // A zero at an end of the piece is not the root sought: start just inside.
             let lower = if piece[0] == 0.0 { NARROW } else { 0.0 };
             let upper = if piece[N - 1] == 0.0 { 1.0 - NARROW } else { 1.0 };
-            let root = bracketed(lower, upper, 0.0, |u| split(&piece, u).0[N - 1]).unwrap_or(lower);
+            let root = bracketed(lower, upper, |u| split(&piece, u).0[N - 1]).unwrap_or(lower);
             found.push(start + root * (end - start));
         }
         if signs.last != 0.0 {

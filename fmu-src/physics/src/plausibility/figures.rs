@@ -122,15 +122,11 @@ fn sunlight(
 fn black(spacecraft: &Spacecraft) -> Spacecraft {
     let black = Optics::from_reflectivities(0.0, 0.0);
     let mut spacecraft = spacecraft.clone();
-    let shade = spacecraft.sunshade.as_mut();
-    let shade_plates = shade.map(|shade| {
-        if let Some(cylinder) = &mut shade.cylinder {
-            cylinder.optics = black;
-        }
+    let shade_plates = spacecraft.sunshade.iter_mut().flat_map(|shade| {
+        shade.cylinder.iter_mut().for_each(|cylinder| cylinder.optics = black);
         &mut shade.plates
     });
-    let plates = spacecraft.plates.iter_mut().chain(shade_plates.into_iter().flatten());
-    let plates = plates.map(|plate| &mut plate.faces);
+    let plates = spacecraft.plates.iter_mut().chain(shade_plates).map(|plate| &mut plate.faces);
     for faces in plates.chain(spacecraft.panels.iter_mut().map(|panel| &mut panel.faces)) {
         faces.optics = black;
         faces.rear_optics = faces.rear_optics.map(|_| black);

@@ -5,7 +5,7 @@ use core::f64::consts::FRAC_PI_4;
 use nalgebra::{Rotation3, Unit, Vector3};
 
 use crate::math;
-use crate::spacecraft::{Cylinder, Panel, PanelControl, Plate, Polygon, Spacecraft, SunshadeModel};
+use crate::spacecraft::{Cylinder, Panel, PanelControl, Plate, Polygon, Spacecraft, SunshadeModel, frame};
 
 /// A flat surface in the body frame.
 #[derive(Clone, Debug)]
@@ -71,10 +71,8 @@ fn corners(plate: &Plate) -> Vec<Vector3<f64>> {
         return outline.vertices_m().to_vec();
     }
     let (center_m, normal) = (&plate.center_m, &plate.normal);
-    let mut across = Vector3::zeros();
-    across[normal.iamin()] = 1.0;
-    let east = (across - normal * normal.dot(&across)).normalize();
-    let north = normal.cross(&east);
+    let axes = frame(normal);
+    let (east, north) = (axes.column(0), axes.column(1));
     let half_diagonal_m = (plate.area_m2 / 2.0).sqrt();
     let corner = |k: u8| {
         let (sin, cos) = math::sin_cos(f64::from(2 * k + 1) * FRAC_PI_4);

@@ -56,18 +56,20 @@ pub fn cylinder_force_torque<T: Scalar>(
     beam: &Beam<T>,
 ) -> ForceTorque<T> {
     let sun = &beam.source_body;
-    let moments = lit_arcs(cylinder.half_angle_rad, sun)
-        .iter()
-        .flatten()
-        .map(|[from, to]| Moments::over(from, to, sun))
-        .fold(Moments::zero(), Moments::plus);
+    let mut light = T::constant(0.0);
+    let [mut light_normal, mut light_squared_normal] = [Vector3::zeros(); 2];
+    for [from, to] in lit_arcs(cylinder.half_angle_rad, sun).iter().flatten() {
+        let arc = Moments::over(from, to, sun);
+        light += arc.light;
+        light_normal += arc.light_normal;
+        light_squared_normal += arc.light_squared_normal;
+    }
     // P times the area of a strip of one radian.
     let strip_n = beam.pressure_pa * (cylinder.radius_m * cylinder.height_m);
-    let along_light = moments.light * (optics.absorptivity + optics.diffuse);
-    let along_normal = moments.light_normal * (optics.diffuse * (2.0 / 3.0))
-        + moments.light_squared_normal * (optics.specular * 2.0);
-    let moment =
-        moments.light_normal.cross(sun) * ((optics.absorptivity + optics.diffuse) * cylinder.radius_m);
+    let along_light = light * (optics.absorptivity + optics.diffuse);
+    let along_normal =
+        light_normal * (optics.diffuse * (2.0 / 3.0)) + light_squared_normal * (optics.specular * 2.0);
+    let moment = light_normal.cross(sun) * ((optics.absorptivity + optics.diffuse) * cylinder.radius_m);
     ForceTorque {
         force_body_n: -(sun * along_light + along_normal) * strip_n,
         torque_body_n_m: -moment * strip_n,
@@ -109,7 +111,6 @@ fn lit_arcs<T: Scalar>(half_angle_rad: f64, sun: &Vector3<T>) -> [Option<[ArcEnd
 }
 
 /// Integrals over an arc of angles.
-#[derive(Clone, Copy)]
 struct Moments<T: Scalar> {
     /// int c dtheta
     light: T,
@@ -120,22 +121,6 @@ struct Moments<T: Scalar> {
 }
 
 impl<T: Scalar> Moments<T> {
-    fn zero() -> Self {
-        Self {
-            light: T::constant(0.0),
-            light_normal: Vector3::zeros(),
-            light_squared_normal: Vector3::zeros(),
-        }
-    }
-
-    fn plus(self, other: Self) -> Self {
-        Self {
-            light: self.light + other.light,
-            light_normal: self.light_normal + other.light_normal,
-            light_squared_normal: self.light_squared_normal + other.light_squared_normal,
-        }
-    }
-
     fn over(from: &ArcEnd<T>, to: &ArcEnd<T>, sun: &Vector3<T>) -> Self {
         // c = u sin + v cos
         let u = sun.x;

@@ -1,5 +1,7 @@
 //! The spacecraft taken apart into faces, for light, heat and air.
 
+use core::ops::Range;
+
 use nalgebra::Vector3;
 
 use super::cylinder::CylinderFace;
@@ -10,8 +12,7 @@ use crate::math;
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::refusal::Refusal;
 use crate::spacecraft::{
-    BusLink, Conduction, Cylinder, Emission, FaceProperties, Material, Panel, Plate, Spacecraft,
-    SunshadeModel, Thermal,
+    BusLink, Cylinder, Emission, FaceProperties, Material, Panel, Plate, Spacecraft, SunshadeModel, Thermal,
 };
 
 /// Strips a cylindrical shade is cut into for planet light and heat; sunlight on it has a closed form.
@@ -36,15 +37,9 @@ pub(crate) struct Surface {
     pub name: String,
     pub area_m2: f64,
     pub center_body_m: Vector3<f64>,
-    /// First of its faces; the rear follows the front.
-    pub first_face: usize,
-    pub two_sided: bool,
-    /// Heat flow between its faces.
-    pub conduction: Option<Conduction>,
-    /// Heat flow from front and rear to the bus.
-    pub bus: [BusLink; 2],
-    /// Heat capacity of each face, in J/m2/K; 0 where the face follows its light at once.
-    pub heat_capacity_j_m2_k: f64,
+    /// Its faces among all; the rear follows the front.
+    pub faces: Range<usize>,
+    pub thermal: Thermal,
     /// Temperature of the space it sees, in K.
     pub background_k: f64,
     /// Whether sunlight's force on it is computed elsewhere, in closed form.
@@ -54,11 +49,6 @@ pub(crate) struct Surface {
 }
 
 impl Surface {
-    /// Its faces among all.
-    pub(super) fn faces(&self) -> core::ops::Range<usize> {
-        self.first_face..self.first_face + if self.two_sided { 2 } else { 1 }
-    }
-
     /// Returns the thermal surroundings of front and rear from the surface's own `faces`; a missing face emits no heat.
     pub(super) fn environments<T: Scalar>(
         &self,
@@ -73,7 +63,7 @@ impl Surface {
                     |face| materials[face.material].thermal.emission,
                 ),
                 background_k: self.background_k,
-                bus: face.map_or(BusLink::NONE, |_| self.bus[side]),
+                bus: face.map_or(BusLink::NONE, |_| self.thermal.bus[side]),
             }
         })
     }
@@ -87,20 +77,17 @@ impl Surface {
         heat_w: [&[f64]; 2],
         duration_s: f64,
     ) {
-        if self.heat_capacity_j_m2_k <= 0.0 {
+        let Thermal { conduction, heat_capacity_j_m2_k, .. } = self.thermal;
+        if heat_capacity_j_m2_k <= 0.0 {
             return;
         }
-        let first = self.first_face;
-        let count = self.faces().len();
+        let (first, count) = (self.faces.start, self.faces.len());
         let pick = |values: &[f64], scale: f64| {
             let at = |side: usize| values.get(first + side).map_or(0.0, |value| value * scale);
             if count == 2 { [at(0), at(1)] } else { [at(0), 0.0] }
         };
-        let store = HeatStore {
-            faces: self.environments(&all.faces[self.faces()], &all.materials),
-            conduction: self.conduction,
-            heat_capacity_j_m2_k: self.heat_capacity_j_m2_k,
-        };
+        let faces = self.environments(&all.faces[self.faces.clone()], &all.materials);
+        let store = HeatStore { faces, conduction, heat_capacity_j_m2_k };
         let per_area = 1.0 / self.area_m2;
         let heat = heat_w.map(|heat_w| pick(heat_w, per_area));
         let next = store.advance(pick(temperatures_k, 1.0), heat, duration_s);
@@ -171,10 +158,6 @@ impl Faces {
             for plate in plates {
                 faces.add_plate(&plate.rotated(&dcm_body_from_shade));
             }
-            let first_of_shade = spacecraft.plates.len();
-            for surface in &mut faces.surfaces[first_of_shade..] {
-                surface.closed_form_sun = cylinder.is_some();
-            }
         }
         faces.panels = spacecraft.panels.clone();
         for (index, panel) in spacecraft.panels.iter().enumerate() {
@@ -202,7 +185,7 @@ impl Faces {
     /// Moves the outlines into a scene of shadows; `None` where no surface can shadow another.
     pub(crate) fn extract_scene(&mut self) -> Option<ShadowScene> {
         let scene = ShadowScene::new(core::mem::take(&mut self.outlines));
-        scene.has_pairs().then_some(scene)
+        (scene.candidate_pairs() > 0).then_some(scene)
     }
 
     /// Sets the spacecraft's material of this index.
@@ -226,13 +209,13 @@ impl Faces {
 
     fn add(&mut self, plate: &Plate, normals: [Normal; 2], hinge: Option<Hinge>) {
         let FaceProperties { optics, rear_optics, gas_surface, thermal, materials } = plate.faces;
-        let Thermal { front, rear, internal_heat_w, conduction, bus, heat_capacity_j_m2_k } = thermal;
+        let Thermal { front, rear, internal_heat_w, .. } = thermal;
         let sides = [Some((optics, front)), rear_optics.map(|optics| (optics, rear.unwrap_or(front)))];
         let first_face = self.faces.len();
-        for (side, (optics, thermal)) in sides.into_iter().flatten().enumerate() {
+        for (side, (optics, of_face)) in sides.into_iter().flatten().enumerate() {
             let normal = self.normal(normals[side]);
             let surface = self.surfaces.len();
-            let material = Material { optics, thermal, gas_surface: gas_surface[side] };
+            let material = Material { optics, thermal: of_face, gas_surface: gas_surface[side] };
             let material = self.material(materials[side], material);
             self.faces.push(Face { normal, surface, material, internal_heat_w: internal_heat_w[side] });
         }
@@ -242,13 +225,11 @@ impl Faces {
             name: plate.name.clone(),
             area_m2: plate.area_m2,
             center_body_m: plate.center_m,
-            first_face,
-            two_sided,
-            conduction,
-            bus,
-            heat_capacity_j_m2_k,
+            faces: first_face..self.faces.len(),
+            thermal,
             background_k: self.background_k,
-            closed_form_sun: false,
+            // Plates come before a cylinder, panels have a hinge.
+            closed_form_sun: self.cylinder.is_some() && hinge.is_none(),
             outline: outline.is_some().then_some(self.outlines.len()),
         });
         self.outlines.extend(outline);

@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::flat_plate::ReceivedLight;
 use super::planet_light::PlanetLight;
 use super::ring::PlanetView;
-use crate::bodies::surface::PlanetSurface;
+use crate::bodies::surface::SurfaceExitance;
 use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::math;
 use crate::numerics::scalar::{Scalar, constant_vector};
@@ -93,10 +93,10 @@ impl PlanetGrid {
     }
 
     /// Light on a face of unit `normal`; `planet_axes` has the cells' axes as columns ([`sun_fixed_axes`]) in the frame of
-    /// `normal`, `solar_flux_w_m2` is the Sun's at the planet. A map of the grid's own goes before `surface`.
+    /// `normal`, `solar_flux_w_m2` is the Sun's at the planet. A map of the grid's own goes before `exitance`.
     pub fn receive<T: Scalar>(
         &self,
-        surface: &PlanetSurface<T>,
+        exitance: &SurfaceExitance<T>,
         solar_flux_w_m2: T,
         view: &PlanetView<T>,
         planet_axes: &Matrix3<T>,
@@ -109,12 +109,9 @@ impl PlanetGrid {
                     (cell.reflected_w_m2(solar_flux_w_m2, cos_sun), infrared_w_m2)
                 })
             }),
-            None => {
-                let exitance = surface.exitance(solar_flux_w_m2);
-                self.sum(view, planet_axes, normal, |_, cos_sun| {
-                    (exitance.reflected_w_m2(cos_sun), exitance.infrared_w_m2(cos_sun))
-                })
-            }
+            None => self.sum(view, planet_axes, normal, |_, cos_sun| {
+                (exitance.reflected_w_m2(cos_sun), exitance.infrared_w_m2(cos_sun))
+            }),
         }
     }
 

@@ -161,18 +161,15 @@ fn variable_names<'n>(optics: &Place<'_>, names: impl Iterator<Item = &'n String
 fn optics(at: &Place<'_>, description: &OpticsDescription) -> Optics {
     let (specular, diffuse) = (description.specular.0, description.diffuse.0);
     let reflected = specular + diffuse;
-    let Some(Fraction(absorptivity)) = description.absorptivity else {
-        if reflected > 1.0 + OPTICS_SUM_TOLERANCE && !at.has_reported() {
-            let found = format!("specular + diffuse = {}", rounded(reflected));
-            at.key("specular").report_across(found, "a sum of at most 1");
-        }
-        let absorptivity = (1.0 - reflected).max(0.0);
-        return Optics { absorptivity, specular, diffuse };
-    };
+    let given = description.absorptivity.value();
+    let absorptivity = given.unwrap_or((1.0 - reflected).max(0.0));
     let sum = absorptivity + reflected;
-    if (sum - 1.0).abs() > OPTICS_SUM_TOLERANCE {
+    if given.is_some() && (sum - 1.0).abs() > OPTICS_SUM_TOLERANCE {
         let found = format!("absorptivity + specular + diffuse = {}", rounded(sum));
         at.key("absorptivity").report_across(found, "a sum of 1 within 1e-9");
+    } else if given.is_none() && reflected > 1.0 + OPTICS_SUM_TOLERANCE && !at.has_reported() {
+        let found = format!("specular + diffuse = {}", rounded(reflected));
+        at.key("specular").report_across(found, "a sum of at most 1");
     }
     Optics { absorptivity, specular, diffuse }
 }
@@ -207,10 +204,8 @@ fn face_thermal(at: &Place<'_>, description: &OpticsDescription, sunlight: &Opti
         reference_temperature_k: description.emissivity_temperature_k(),
     };
     if !emission.grows() {
-        at.key("emissivity_per_k").report_across(
-            emission.slope_per_k,
-            "a slope so small that up to 2000 K a hotter face emits more power",
-        );
+        let allowed = "a slope so small that up to 2000 K a hotter face emits more power";
+        at.key("emissivity_per_k").report_across(emission.slope_per_k, allowed);
     }
     FaceThermal { infrared_optics, emission }
 }

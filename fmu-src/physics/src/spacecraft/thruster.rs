@@ -102,7 +102,7 @@ impl ValveTiming {
 }
 
 /// One thruster.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Thruster {
     /// Name.
     pub name: String,

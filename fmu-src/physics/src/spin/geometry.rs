@@ -28,7 +28,7 @@ struct L1OrbitEntry makes #[derive(Clone, Copy, Debug, PartialEq, Serialize, Des
     /// Earth to L1, in m; otherwise 1.4976e9.
     earth_l1_distance_m: Distance => |_| EARTH_L1_AU * ASTRONOMICAL_UNIT_M,
     /// Lissajous amplitudes along the line, in the ecliptic across it, normal to the ecliptic, in m.
-    amplitude_m: [Finite; 3] = [0.0, 0.0, 0.0],
+    amplitude_m: [Finite; 3] = [Finite(0.0), Finite(0.0), Finite(0.0)],
     // Linear frequencies about L1 in units of the mean motion, from the same root as its distance.
     /// In-plane frequency over the line's rate.
     in_plane_frequency: Finite = 2.0864,

@@ -11,7 +11,6 @@ mod error;
 mod key_path;
 mod limits;
 mod numbers;
-mod place;
 mod ranges;
 mod reader;
 pub mod rules;
@@ -20,7 +19,7 @@ pub mod tables;
 pub mod written;
 
 pub use crate::tables;
-pub use checker::Checker;
+pub use checker::{Checker, Place};
 pub use document::Document;
 pub use error::{FileError, Problem};
 pub use key_path::KeyPath;
@@ -28,7 +27,6 @@ pub use limits::{
     LIMITS, MOST_ANTENNAS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES, MOST_THRUSTERS, TIMELINE_LIMITS,
 };
 pub(crate) use numbers::{in_units, rounded, with_unit};
-pub use place::Place;
 pub use ranges::{
     AtLeastOne, BodyRadius, CellTemperature, Copies, Corners, Deviation, Distance, Eccentricity, Emissivity,
     Epoch, FieldOfView, FieldWidth, Finite, Fraction, Frequency, GravitationalParameter, HalfTurn,
@@ -39,5 +37,5 @@ pub use spelling::{hint, nearest};
 #[cfg(feature = "schema")]
 pub(crate) use tables::schema;
 pub use tables::{List, Named, NonEmpty, Point, Table, UnitVector};
-pub use written::{Plain, Written};
+pub use written::Written;
 pub(crate) use written::{plain, type_schema};

@@ -63,11 +63,9 @@ macro_rules! ranges {
                 }
             }
 
-            impl super::written::Plain for $name {
-                type Plain = $number;
-
-                fn from_plain(plain: $number) -> Self {
-                    Self(plain)
+            impl From<$number> for $name {
+                fn from(number: $number) -> Self {
+                    Self(number)
                 }
             }
 

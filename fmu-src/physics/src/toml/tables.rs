@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::rules::Rule;
-use super::written::{Plain, Written};
+use super::written::Written;
 
 /// Declares structs that read a table each: they refuse unknown keys and have a schema.
 ///
@@ -122,7 +122,7 @@ macro_rules! tables {
     }};
     (@value $type:ty, $written:expr) => { <$type as $crate::toml::written::Written>::value(&$written) };
     (@value $type:ty, $written:expr, $default:expr) => {{
-        let default = <$type as $crate::toml::written::Plain>::from_plain($default);
+        let default = <$type>::from($default);
         $crate::toml::written::Written::value($written.as_ref().unwrap_or(&default))
     }};
 }
@@ -163,11 +163,9 @@ macro_rules! vectors {
             }
         }
 
-        impl Plain for $name {
-            type Plain = [f64; 3];
-
-            fn from_plain(plain: [f64; 3]) -> Self {
-                Self(Plain::from_plain(plain))
+        impl From<[f64; 3]> for $name {
+            fn from(numbers: [f64; 3]) -> Self {
+                Self(numbers.map(Into::into))
             }
         }
 

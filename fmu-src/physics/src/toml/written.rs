@@ -9,15 +9,6 @@ pub trait Written {
     fn value(&self) -> Self::Value;
 }
 
-/// Written value whose default a table may declare.
-pub trait Plain: Written {
-    /// Type in which a default is declared.
-    type Plain;
-
-    /// Returns the written form of a default.
-    fn from_plain(plain: Self::Plain) -> Self;
-}
-
 /// Schema of a type, which stands where the type is used if it is inline.
 macro_rules! type_schema {
     ([$($generics:tt)*] $type:ty, inline: $inline:literal, $name:expr, |$generator:pat_param| $schema:expr) => {
@@ -50,14 +41,6 @@ macro_rules! plain {
                 Clone::clone(self)
             }
         }
-
-        impl $crate::toml::written::Plain for $type {
-            type Plain = Self;
-
-            fn from_plain(plain: Self) -> Self {
-                plain
-            }
-        }
     )+};
 }
 
@@ -70,14 +53,6 @@ impl<W: Written, const N: usize> Written for [W; N] {
 
     fn value(&self) -> Self::Value {
         self.each_ref().map(W::value)
-    }
-}
-
-impl<W: Plain, const N: usize> Plain for [W; N] {
-    type Plain = [W::Plain; N];
-
-    fn from_plain(plain: Self::Plain) -> Self {
-        plain.map(W::from_plain)
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use physics::{
     environment::dates::{self, ALLOWED_DATE},
-    toml::KeyPath,
+    toml::Place,
 };
 
 use super::description::{LimitDescription, MissionDescription, PlotDescription};
@@ -137,7 +137,7 @@ impl Mission {
 
 impl Builder<'_> {
     fn mission(&mut self, file: &Path, description: MissionDescription) -> Mission {
-        let root = KeyPath::root();
+        let root = self.root.clone();
         let spacecraft_source = self.spacecraft_source(&description);
         let [start, stop, step, every] = ["start", "stop", "step", "every"].map(|key| root.key(key));
         let (begin, end) = (description.start.as_deref(), description.stop.as_deref());
@@ -150,7 +150,7 @@ impl Builder<'_> {
             && end_s <= begin_s
         {
             let found = format_args!("{end}, not after `start`");
-            self.check.report(&stop, found, format_args!("a time after {begin}"));
+            stop.report(found, format_args!("a time after {begin}"));
         }
         let allowed_span = format!("a time above 0: {ALLOWED_TIME}");
         let plots = description.plot.unwrap_or_default().into_iter().enumerate();
@@ -180,13 +180,11 @@ impl Builder<'_> {
     }
 
     fn spacecraft_source(&mut self, description: &MissionDescription) -> SpacecraftSource {
-        let root = KeyPath::root();
+        let root = self.root.clone();
         let MissionDescription { fmu, spacecraft, model, timeline, ephemeris, .. } = description;
         let Some(fmu) = fmu else {
             if spacecraft.is_none() && model.is_none() {
-                self.check.report_lack(
-                    &root,
-                    "spacecraft",
+                root.report_lack("spacecraft",
                     "spacecraft = \"my.toml\", or fmu = \"My.fmu\", or model = \"MomentumPlant\" for the model's own spacecraft",
                 );
             }
@@ -205,12 +203,12 @@ impl Builder<'_> {
             [("spacecraft", spacecraft), ("model", model), ("timeline", timeline), ("ephemeris", ephemeris)];
         for (key, _) in others.into_iter().filter(|(_, other)| other.is_some()) {
             let allowed = "one of them: the FMU has its own, packed with it";
-            self.check.report(&root.key(key), format_args!("`{key}` beside `fmu`"), allowed);
+            root.key(key).report(format_args!("`{key}` beside `fmu`"), allowed);
         }
         SpacecraftSource::Fmu(self.input_file(&root.key("fmu"), fmu))
     }
 
-    fn input_file(&mut self, place: &KeyPath, path: &str) -> PathBuf {
+    fn input_file(&mut self, place: &Place<'_>, path: &str) -> PathBuf {
         let path = self.written_path(place, path.to_owned());
         if !path.as_os_str().is_empty() && !path.exists() {
             self.report_missing(place, &path);
@@ -218,61 +216,61 @@ impl Builder<'_> {
         path
     }
 
-    fn written_path(&mut self, place: &KeyPath, path: String) -> PathBuf {
+    fn written_path(&mut self, place: &Place<'_>, path: String) -> PathBuf {
         if path.is_empty() {
-            self.check.report(place, "an empty string", "the path of a file");
+            place.report("an empty string", "the path of a file");
         }
         // The standard output.
         if path == "-" { PathBuf::from(path) } else { self.folder.join(path) }
     }
 
-    fn names(&mut self, place: &KeyPath, names: Vec<String>) -> Vec<At<String>> {
+    fn names(&mut self, place: &Place<'_>, names: Vec<String>) -> Vec<At<String>> {
         if names.is_empty() {
-            self.check.report(place, "an empty list", "at least one name, or no such key: then every output");
+            place.report("an empty list", "at least one name, or no such key: then every output");
         }
         self.each(place, names)
     }
 
-    fn plot(&mut self, place: &KeyPath, plot: PlotDescription) -> Plot {
+    fn plot(&mut self, place: &Place<'_>, plot: PlotDescription) -> Plot {
         let key = place.key("file");
         let file = self.written_path(&key, plot.file);
         if !is_svg_path(&file) {
             let found = format!("{}, no SVG file's name", file.display());
-            self.check.report(&key, found, "one that ends in .svg, or -");
+            key.report(found, "one that ends in .svg, or -");
         }
         Plot { file, names: plot.names.map(|names| self.names(&place.key("names"), names)) }
     }
 
     fn set(
         &mut self,
-        place: &KeyPath,
+        place: &Place<'_>,
         name: String,
         written: &Written,
         is_dated: bool,
     ) -> Option<At<(String, String)>> {
         if name.eq_ignore_ascii_case("start.epoch") && is_dated {
-            self.check.report(place, "start.epoch beside a date in `start`", "one of them");
+            place.report("start.epoch beside a date in `start`", "one of them");
         }
         let value = self.value(place, written)?;
         Some(self.at(place, (name, value)))
     }
 
     /// What `--set` would take.
-    fn value(&mut self, place: &KeyPath, written: &Written) -> Option<String> {
+    fn value(&mut self, place: &Place<'_>, written: &Written) -> Option<String> {
         let value = written.setting();
         if value.is_none() {
             let allowed = "a number, a string, true or false, a list; the name of a variable stands in quotes as a whole";
-            self.check.report(place, "a table", allowed);
+            place.report("a table", allowed);
         }
         value
     }
 
-    fn inputs(&mut self, place: &KeyPath, written: Written, zero_epoch_s: Option<f64>) -> Option<Inputs> {
+    fn inputs(&mut self, place: &Place<'_>, written: Written, zero_epoch_s: Option<f64>) -> Option<Inputs> {
         let table = match written {
             Written::Text(path) => return Some(Inputs::File(self.input_file(place, &path))),
             Written::Table(table) => table,
             other => {
-                self.check.report(place, other, "a CSV file, or a table of inputs by name");
+                place.report(other, "a CSV file, or a table of inputs by name");
                 return None;
             }
         };
@@ -290,22 +288,22 @@ impl Builder<'_> {
         Some(Inputs::Rows(inputs))
     }
 
-    fn rows(&mut self, place: &KeyPath, written: &[Written], zero_epoch_s: Option<f64>) -> InputRows {
+    fn rows(&mut self, place: &Place<'_>, written: &[Written], zero_epoch_s: Option<f64>) -> InputRows {
         let mut rows = InputRows::new();
         for (i, row) in written.iter().enumerate() {
             let at = place.item(i);
             let Written::List(row) = row else {
-                self.check.report(&at, row, "a list of a time and a value: [\"10 min\", 0.5]");
+                at.report(row, "a list of a time and a value: [\"10 min\", 0.5]");
                 continue;
             };
             let [time, values @ ..] = row.as_slice() else {
-                self.check.report(&at, "an empty list", "a list of a time and a value: [\"10 min\", 0.5]");
+                at.report("an empty list", "a list of a time and a value: [\"10 min\", 0.5]");
                 continue;
             };
             let Some(time_s) = self.time(&at.item(0), time, zero_epoch_s) else { continue };
             if rows.last().is_some_and(|(before_s, _)| time_s < *before_s) {
                 let found = format_args!("{time}, before the row above");
-                self.check.report(&at.item(0), found, "a time that does not fall");
+                at.item(0).report(found, "a time that does not fall");
             }
             let values = Written::List(values.to_vec());
             if let Some(value) = self.value(&at, &values) {
@@ -315,9 +313,9 @@ impl Builder<'_> {
         rows
     }
 
-    fn limit(&mut self, place: &KeyPath, name: String, limit: LimitDescription) -> At<Bounds> {
+    fn limit(&mut self, place: &Place<'_>, name: String, limit: LimitDescription) -> At<Bounds> {
         if limit.min.is_none() && limit.max.is_none() {
-            self.check.report(place, "no bound", "min, max or both");
+            place.report("no bound", "min, max or both");
         }
         let mut bound = |key: &str, written: Option<&Written>| {
             let allowed = "a number in SI, or a string with a unit";
@@ -328,13 +326,13 @@ impl Builder<'_> {
     }
 
     /// Simulation time; or a date, where `start` is one, the epoch of time 0.
-    fn time(&mut self, place: &KeyPath, written: &Written, zero_epoch_s: Option<f64>) -> Option<f64> {
+    fn time(&mut self, place: &Place<'_>, written: &Written, zero_epoch_s: Option<f64>) -> Option<f64> {
         if let Some(date) = written.date() {
             let epoch_s = self.checked_date(place, date)?;
-            if zero_epoch_s.is_none() {
+            if zero_epoch_s.is_none() && !self.root.key("start").has_stand_in() {
                 let found = format_args!("the date {written}");
                 let allowed = format!("simulation time, {ALLOWED_TIME}; or a date, where `start` is one");
-                self.check.report_across(&KeyPath::root().key("start"), place, found, allowed);
+                place.report(found, allowed);
             }
             return zero_epoch_s.map(|zero_s| dates::span_s(zero_s, epoch_s));
         }
@@ -343,8 +341,8 @@ impl Builder<'_> {
         self.read(place, Some(written), time_s, allowed)
     }
 
-    fn checked_date(&mut self, place: &KeyPath, date: &str) -> Option<f64> {
+    fn checked_date(&mut self, place: &Place<'_>, date: &str) -> Option<f64> {
         let read = dates::epoch_s(date);
-        read.map_err(|error| self.check.report(place, format_args!("{date:?}, {error}"), ALLOWED_DATE)).ok()
+        read.map_err(|error| place.report(format_args!("{date:?}, {error}"), ALLOWED_DATE)).ok()
     }
 }

@@ -9,7 +9,7 @@ use std::{
 
 use physics::{
     environment::dates,
-    toml::{Checker, Document, KeyPath},
+    toml::{Checker, Document, Place},
 };
 use serde::de::DeserializeOwned;
 
@@ -69,32 +69,32 @@ pub(crate) fn parse<D: DeserializeOwned, T>(
     let document = Document::parse(&shown, text).map_err(|error| error.to_string())?;
     let (description, check) = Checker::read::<D>(&document).map_err(|error| error.to_string())?;
     let folder = file.parent().unwrap_or(Path::new(""));
-    let mut builder = Builder { check, folder };
-    let built = build(&mut builder, description);
-    builder.check.finish(built).map_err(|error| error.to_string())
+    let built = build(&mut Builder { root: Place::root(&check), folder }, description);
+    check.finish(built).map_err(|error| error.to_string())
 }
 
 /// Reads the tables of a file.
 pub(crate) struct Builder<'d> {
-    pub check: Checker<'d>,
+    /// The whole file.
+    pub root: Place<'d>,
     /// That of the file.
     pub folder: &'d Path,
 }
 
 impl Builder<'_> {
-    pub(crate) fn at<T>(&self, place: &KeyPath, it: T) -> At<T> {
-        At { it, key: place.to_string(), line: self.check.line(place) }
+    pub(crate) fn at<T>(&self, place: &Place<'_>, it: T) -> At<T> {
+        At { it, key: place.to_string(), line: place.line() }
     }
 
     /// Values with their places in a list.
-    pub(crate) fn each<T>(&self, list: &KeyPath, values: Vec<T>) -> Vec<At<T>> {
+    pub(crate) fn each<T>(&self, list: &Place<'_>, values: Vec<T>) -> Vec<At<T>> {
         values.into_iter().enumerate().map(|(index, it)| self.at(&list.item(index), it)).collect()
     }
 
     /// Converts a written value by `read`; reports a value that `read` rejects.
     pub(crate) fn read<T>(
         &mut self,
-        place: &KeyPath,
+        place: &Place<'_>,
         written: Option<&Written>,
         read: impl FnOnce(&Written) -> Option<T>,
         allowed: impl Display,
@@ -102,13 +102,13 @@ impl Builder<'_> {
         let written = written?;
         let read = read(written);
         if read.is_none() {
-            self.check.report(place, written, allowed);
+            place.report(written, allowed);
         }
         read
     }
 
     /// A file that is read; reported unless it `is_there`.
-    pub(crate) fn path(&mut self, place: &KeyPath, path: &str, is_there: fn(&Path) -> bool) -> PathBuf {
+    pub(crate) fn path(&mut self, place: &Place<'_>, path: &str, is_there: fn(&Path) -> bool) -> PathBuf {
         let found = self.folder.join(path);
         if !is_there(&found) {
             self.report_missing(place, &found);
@@ -116,14 +116,14 @@ impl Builder<'_> {
         found
     }
 
-    pub(crate) fn report_missing(&mut self, place: &KeyPath, path: &Path) {
+    pub(crate) fn report_missing(&mut self, place: &Place<'_>, path: &Path) {
         let found = format_args!("{}, which is not there", path.display());
-        self.check.report(place, found, "a file; paths are relative to this one's folder");
+        place.report(found, "a file; paths are relative to this one's folder");
     }
 
     pub(crate) fn span(
         &mut self,
-        place: &KeyPath,
+        place: &Place<'_>,
         written: Option<&Written>,
         default_s: f64,
         least_s: f64,
@@ -134,12 +134,12 @@ impl Builder<'_> {
         self.read(place, written, span_s, allowed).unwrap_or(default_s)
     }
 
-    pub(crate) fn length(&mut self, place: &KeyPath, written: Option<&Written>) -> Option<f64> {
+    pub(crate) fn length(&mut self, place: &Place<'_>, written: Option<&Written>) -> Option<f64> {
         self.read(place, written, |written| written.quantity("m"), ALLOWED_LENGTH)
     }
 
     /// An angle from 0 to 90 deg.
-    pub(crate) fn angle(&mut self, place: &KeyPath, written: Option<&Written>) -> Option<f64> {
+    pub(crate) fn angle(&mut self, place: &Place<'_>, written: Option<&Written>) -> Option<f64> {
         let angle_rad = |written: &Written| {
             let angle_rad = match written {
                 Written::Number(angle_rad) => Some(*angle_rad),
@@ -152,7 +152,7 @@ impl Builder<'_> {
         self.read(place, written, angle_rad, format_args!("an angle from 0 to 90 deg: {ALLOWED_ANGLE}"))
     }
 
-    pub(crate) fn momentum(&mut self, place: &KeyPath, written: Option<&Written>) -> Option<f64> {
+    pub(crate) fn momentum(&mut self, place: &Place<'_>, written: Option<&Written>) -> Option<f64> {
         let momentum_n_m_s = |written: &Written| {
             let number = match written {
                 Written::Text(text) => {
@@ -168,7 +168,7 @@ impl Builder<'_> {
 
     pub(crate) fn share(
         &mut self,
-        place: &KeyPath,
+        place: &Place<'_>,
         written: Option<&Written>,
         default: f64,
         most: f64,
@@ -177,7 +177,7 @@ impl Builder<'_> {
         self.read(place, written, share, format_args!("a share from 0 to {most}")).unwrap_or(default)
     }
 
-    pub(crate) fn count(&mut self, place: &KeyPath, written: Option<&Written>, least: u64) -> Option<u64> {
+    pub(crate) fn count(&mut self, place: &Place<'_>, written: Option<&Written>, least: u64) -> Option<u64> {
         let count = |written: &Written| {
             let Written::Integer(number) = written else { return None };
             u64::try_from(*number).ok().filter(|number| *number >= least)
@@ -185,21 +185,21 @@ impl Builder<'_> {
         self.read(place, written, count, format_args!("a whole number from {least} on"))
     }
 
-    pub(crate) fn instant(&mut self, place: &KeyPath, written: &Written) -> Option<Instant> {
+    pub(crate) fn instant(&mut self, place: &Place<'_>, written: &Written) -> Option<Instant> {
         let instant = |written: &Written| values::instant(&written.scalar()?).ok();
         let allowed = format_args!("{}; or simulation time, {ALLOWED_SPAN}", dates::ALLOWED_DATE);
         self.read(place, Some(written), instant, allowed)
     }
 
     /// The same with its place.
-    pub(crate) fn instant_at(&mut self, place: &KeyPath, written: &Written) -> Option<At<Instant>> {
+    pub(crate) fn instant_at(&mut self, place: &Place<'_>, written: &Written) -> Option<At<Instant>> {
         let instant = self.instant(place, written)?;
         Some(self.at(place, instant))
     }
 
     pub(crate) fn spanned(
         &mut self,
-        place: &KeyPath,
+        place: &Place<'_>,
         start: &Written,
         stop: &Written,
     ) -> Option<[Instant; 2]> {
@@ -208,13 +208,13 @@ impl Builder<'_> {
             [Instant::Time(a), Instant::Time(b)] | [Instant::Epoch(a), Instant::Epoch(b)] => a < b,
             _ => {
                 let allowed = "a date as start is one, or both simulation times";
-                self.check.report(&place.key("stop"), stop, allowed);
+                place.key("stop").report(stop, allowed);
                 return None;
             }
         };
         if !is_ordered {
             let found = format!("{stop}, not after `start`");
-            self.check.report(&place.key("stop"), found, format_args!("a time after {start}"));
+            place.key("stop").report(found, format_args!("a time after {start}"));
         }
         Some(span)
     }

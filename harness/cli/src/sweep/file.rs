@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use physics::toml::KeyPath;
+use physics::toml::Place;
 
 use super::description::{CampaignDescription, KeepDescription, SamplingWord, VaryDescription};
 use crate::{
@@ -91,7 +91,7 @@ impl CampaignFile {
 
 impl Builder<'_> {
     fn campaign(&mut self, file: &Path, description: CampaignDescription) -> CampaignFile {
-        let root = KeyPath::root();
+        let root = self.root.clone();
         let simulated = self.simulated(&description);
         let sampling = description.sampling.unwrap_or_default();
         let table = description.file.as_ref().map(|path| self.path(&root.key("file"), path, Path::exists));
@@ -125,13 +125,13 @@ impl Builder<'_> {
     }
 
     fn simulated(&mut self, description: &CampaignDescription) -> PathBuf {
-        let root = KeyPath::root();
+        let root = self.root.clone();
         match (&description.mission, &description.fmu) {
             (Some(mission), None) => {
                 for (key, it) in [("start", &description.start), ("stop", &description.stop)] {
                     if it.is_some() {
                         let found = format!("`{key}` beside `mission`");
-                        self.check.report(&root.key(key), found, "the mission's own");
+                        root.key(key).report(found, "the mission's own");
                     }
                 }
                 self.path(&root.key("mission"), mission, Path::exists)
@@ -143,11 +143,11 @@ impl Builder<'_> {
             }
             (None, None) => {
                 let allowed = "mission = \"mission.toml\", or fmu = \"My.fmu\" with stop and step";
-                self.check.report_lack(&root, "mission", allowed);
+                root.report_lack("mission", allowed);
                 PathBuf::new()
             }
             (Some(_), Some(_)) => {
-                self.check.report(&root.key("fmu"), "`fmu` beside `mission`", "one of them");
+                root.key("fmu").report("`fmu` beside `mission`", "one of them");
                 PathBuf::new()
             }
         }
@@ -155,28 +155,28 @@ impl Builder<'_> {
 
     /// Values come from `vary` or from a file.
     fn one_sampling(&mut self, description: &CampaignDescription, sampling: SamplingWord) {
-        let root = KeyPath::root();
+        let root = self.root.clone();
         if sampling == SamplingWord::File {
             if description.file.is_none() {
-                self.check.report_lack(&root, "file", "file = \"table.csv\" with sampling file");
+                root.report_lack("file", "file = \"table.csv\" with sampling file");
             }
             if description.vary.is_some() {
-                self.check.report(&root.key("vary"), "`vary` beside sampling file", "one of them");
+                root.key("vary").report("`vary` beside sampling file", "one of them");
             }
         } else {
             if description.file.is_some() {
                 let found = "`file` with another sampling";
-                self.check.report(&root.key("file"), found, "sampling = \"file\", or no `file`");
+                root.key("file").report(found, "sampling = \"file\", or no `file`");
             }
             if description.vary.is_none() {
-                self.check.report_lack(&root, "vary", "a table [vary] with at least one variable");
+                root.report_lack("vary", "a table [vary] with at least one variable");
             }
         }
     }
 
     fn varied(
         &mut self,
-        place: &KeyPath,
+        place: &Place<'_>,
         name: String,
         description: &VaryDescription,
     ) -> Option<At<WrittenDistribution>> {
@@ -188,24 +188,24 @@ impl Builder<'_> {
             let found: Vec<&str> = given.iter().map(|((key, ..), _)| *key).collect();
             let found = if found.is_empty() { "no distribution".to_owned() } else { found.join(" and ") };
             let allowed = DISTRIBUTIONS.map(|(key, ..)| key).join(", ");
-            self.check.report(place, found, format_args!("one of {allowed}"));
+            place.report(found, format_args!("one of {allowed}"));
             return None;
         };
         if count.is_some_and(|count| count != list.len()) || list.is_empty() {
             let found = format!("a list of {}", list.len());
-            self.check.report(&place.key(key), found, format_args!("{meaning}"));
+            place.key(key).report(found, format_args!("{meaning}"));
             return None;
         }
         let texts: Option<Vec<String>> =
             list.iter().map(|it| it.setting().filter(|_| !matches!(it, Written::List(_)))).collect();
         let Some(values) = texts else {
-            self.check.report(&place.key(key), "a list in the list", meaning);
+            place.key(key).report("a list in the list", meaning);
             return None;
         };
         Some(self.at(&place.key(key), WrittenDistribution { name, key, values }))
     }
 
-    fn correlation(&mut self, place: &KeyPath, written: &Written) -> Option<At<([String; 2], f64)>> {
+    fn correlation(&mut self, place: &Place<'_>, written: &Written) -> Option<At<([String; 2], f64)>> {
         if let Written::List(items) = written
             && let [Written::Text(one), Written::Text(other), coefficient] = &items[..]
             && let Some(coefficient) = coefficient.number().filter(|it| it.abs() <= 1.0)
@@ -213,17 +213,17 @@ impl Builder<'_> {
             return Some(self.at(place, ([one.clone(), other.clone()], coefficient)));
         }
         let allowed = "two names and a coefficient from -1 to 1: [\"a\", \"b\", 0.5]";
-        self.check.report(place, written, allowed);
+        place.report(written, allowed);
         None
     }
 
     fn keep(&mut self, description: Option<KeepDescription>) -> WrittenKeep {
-        let place = KeyPath::root().key("keep");
+        let place = self.root.clone().key("keep");
         let is_given = description.is_some();
         let KeepDescription { r#final, extremes, percentiles, every, histories } =
             description.unwrap_or_default();
         if let (Some(written), None) = (every.as_deref(), &percentiles) {
-            self.check.report(&place.key("every"), written, "`every` beside `percentiles`");
+            place.key("every").report(written, "`every` beside `percentiles`");
         }
         let names =
             |key: &str, names: Option<Vec<String>>| self.each(&place.key(key), names.unwrap_or_default());

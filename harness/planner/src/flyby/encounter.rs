@@ -216,7 +216,7 @@ impl PredictedPath<'_> {
                 return Ok(true);
             }
             let radial_at = |at_s: f64| radial(orbit.state_at(at_s));
-            found_s = roots::bracketed(orbit.start_s(), orbit.end_s(), 0.0, radial_at).ok();
+            found_s = roots::bracketed(orbit.start_s(), orbit.end_s(), radial_at);
             Ok(false)
         })?;
         found_s.ok_or_else(|| {

@@ -16,7 +16,7 @@ use thiserror::Error;
 use physics::constants::DAY_S;
 use physics::environment::orbit::{OrbitError, check, check_mu};
 use physics::math;
-use physics::numerics::roots::{RootError, bracketed};
+use physics::numerics::roots::bracketed;
 
 /// Places nearer than this to one line with the centre have no plane, sine of the angle between them.
 const IN_LINE: f64 = 1e-6;
@@ -101,7 +101,7 @@ impl LambertArc {
     /// Places in line with the centre, numbers that are none.
     pub fn direct(&self) -> Result<LambertVelocities, LambertError> {
         let shape = Shape::new(self)?;
-        let x = shape.root(0, None).map_err(|_| LambertError::Time { time_s: self.time_s })?;
+        let x = shape.root(0, None).ok_or(LambertError::Time { time_s: self.time_s })?;
         Ok(self.velocities(&shape, x))
     }
 
@@ -115,14 +115,14 @@ impl LambertArc {
         branch: LambertBranch,
     ) -> Result<LambertVelocities, LambertError> {
         let shape = Shape::new(self)?;
-        let lost = |_: RootError| LambertError::Time { time_s: self.time_s };
-        let least_x = shape.least(revolutions).map_err(lost)?;
+        let lost = || LambertError::Time { time_s: self.time_s };
+        let least_x = shape.least(revolutions).ok_or_else(lost)?;
         let least_time = shape.time(least_x, revolutions);
         if shape.time < least_time {
             let least_s = self.time_s * least_time / shape.time;
             return Err(LambertError::TooShort { revolutions, least_s, time_s: self.time_s });
         }
-        let x = shape.root(revolutions, Some((branch, least_x))).map_err(lost)?;
+        let x = shape.root(revolutions, Some((branch, least_x))).ok_or_else(lost)?;
         Ok(self.velocities(&shape, x))
     }
 
@@ -210,15 +210,15 @@ impl Shape {
     }
 
     /// The x of the least time of these revolutions: dT/dx = (3 T x - 2 + 2 lambda^3 x / y) / (1 - x^2) = 0.
-    fn least(&self, revolutions: u32) -> Result<f64, RootError> {
+    fn least(&self, revolutions: u32) -> Option<f64> {
         let cube = self.lambda * self.lambda * self.lambda;
-        bracketed(-1.0 + NEAREST, 1.0 - NEAREST, 0.0, |x| {
+        bracketed(-1.0 + NEAREST, 1.0 - NEAREST, |x| {
             3.0 * self.time(x, revolutions) * x - 2.0 + 2.0 * cube * x / self.y(x)
         })
     }
 
     /// The x of the arc's time.
-    fn root(&self, revolutions: u32, branch: Option<(LambertBranch, f64)>) -> Result<f64, RootError> {
+    fn root(&self, revolutions: u32, branch: Option<(LambertBranch, f64)>) -> Option<f64> {
         let [from, to] = match branch {
             Some((LambertBranch::Left, least_x)) => [-1.0 + NEAREST, least_x],
             Some((LambertBranch::Right, least_x)) => [least_x, 1.0 - NEAREST],
@@ -231,7 +231,7 @@ impl Shape {
                 [-1.0 + NEAREST, most]
             }
         };
-        bracketed(from, to, 0.0, |x| self.time(x, revolutions) - self.time)
+        bracketed(from, to, |x| self.time(x, revolutions) - self.time)
     }
 }
 

@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::estimator::Estimate;
-use super::reference::{ControlTarget, Reference, ReferenceSample, SlewLimits};
+use super::reference::{ControlTarget, Reference};
 use super::settings::ControllerSettings;
 use crate::attitude::rotation::Attitude;
 
@@ -43,21 +43,6 @@ struct Tracking {
     angle_rad: Vector3<f64>,
     rate_rad_s: Vector3<f64>,
     acceleration_rad_s2: Vector3<f64>,
-}
-
-impl Tracking {
-    fn of_attitude(reference: &ReferenceSample, attitude: &Attitude, rate_rad_s: &Vector3<f64>) -> Self {
-        let relative = reference.attitude.inverse().then(attitude);
-        let [x, y, z, _] = relative.quaternion(None);
-        let requested = relative.to_body(&reference.rate_body_rad_s);
-        let error = rate_rad_s - requested;
-        Self {
-            angle_rad: Vector3::new(x, y, z) * 2.0,
-            rate_rad_s: error,
-            acceleration_rad_s2: relative.to_body(&reference.acceleration_body_rad_s2)
-                - error.cross(&requested),
-        }
-    }
 }
 
 impl ControllerState {
@@ -186,13 +171,20 @@ impl ControllerState {
         rate: &Vector3<f64>,
         is_limited: bool,
     ) -> Tracking {
-        let limits = SlewLimits {
-            rate_rad_s: settings.slew_rate_rad_s,
-            acceleration_rad_s2: settings.slew_acceleration_rad_s2,
-        };
-        let reference = self.reference.step(target, &limits, settings.interval_s());
+        let reference = self.reference.step(target, settings);
         match target {
-            ControlTarget::Attitude { .. } => Tracking::of_attitude(&reference, &estimate.attitude, rate),
+            ControlTarget::Attitude { .. } => {
+                let relative = reference.attitude.inverse().then(&estimate.attitude);
+                let [x, y, z, _] = relative.quaternion(None);
+                let requested = relative.to_body(&reference.rate_body_rad_s);
+                let error = rate - requested;
+                Tracking {
+                    angle_rad: Vector3::new(x, y, z) * 2.0,
+                    rate_rad_s: error,
+                    acceleration_rad_s2: relative.to_body(&reference.acceleration_body_rad_s2)
+                        - error.cross(&requested),
+                }
+            }
             ControlTarget::RateOnly { .. } => {
                 let error = rate - reference.rate_body_rad_s;
                 if !is_limited {

@@ -10,6 +10,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::settings::ControllerSettings;
 use crate::attitude::rotation::Attitude;
 
 /// Angle from the command below which the reference becomes the command, in rad.
@@ -38,15 +39,6 @@ pub enum ControlTarget {
     },
 }
 
-/// Limits of the reference's motion; 0 means none.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SlewLimits {
-    /// Greatest rate relative to the command, in rad/s.
-    pub rate_rad_s: f64,
-    /// Greatest acceleration, in rad/s2.
-    pub acceleration_rad_s2: f64,
-}
-
 /// The reference at a sample, and its acceleration up to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferenceSample {
@@ -69,14 +61,6 @@ pub struct Reference {
     pub is_settled: bool,
 }
 
-impl SlewLimits {
-    /// Both limits, with infinity for none.
-    fn or_infinite(&self) -> (f64, f64) {
-        let or_infinite = |limit: f64| if limit > 0.0 { limit } else { f64::INFINITY };
-        (or_infinite(self.rate_rad_s), or_infinite(self.acceleration_rad_s2))
-    }
-}
-
 impl Reference {
     /// At an attitude and a rate, on the way to whatever is commanded.
     pub fn new(attitude: Attitude, rate_body_rad_s: Vector3<f64>) -> Self {
@@ -88,9 +72,11 @@ impl Reference {
         self.attitude.is_rotation()
     }
 
-    /// The reference at this sample; moves on to the next, `interval_s` later.
-    pub fn step(&mut self, target: &ControlTarget, limits: &SlewLimits, interval_s: f64) -> ReferenceSample {
-        let (slew_rad_s, acceleration_rad_s2) = limits.or_infinite();
+    /// The reference at this sample; moves on to the next.
+    pub fn step(&mut self, target: &ControlTarget, settings: &ControllerSettings) -> ReferenceSample {
+        let interval_s = settings.interval_s();
+        let [slew_rad_s, acceleration_rad_s2] = [settings.slew_rate_rad_s, settings.slew_acceleration_rad_s2]
+            .map(|limit| if limit > 0.0 { limit } else { f64::INFINITY });
         let change_rad_s = match target {
             ControlTarget::RateOnly { rate_body_rad_s } => {
                 let requested = rate_body_rad_s - self.rate_body_rad_s;

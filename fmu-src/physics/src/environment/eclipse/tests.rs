@@ -155,7 +155,7 @@ fn edges_on_an_orbit() {
     let edges_s = |edge: usize| {
         [[0.25, 0.5], [0.5, 0.75]].map(|quarter| {
             let [from_s, to_s] = quarter.map(|share| share * revolution_s);
-            bracketed(from_s, to_s, 0.0, |t| gap_rad(&shadow, edge, t)).unwrap()
+            bracketed(from_s, to_s, |t| gap_rad(&shadow, edge, t)).unwrap()
         })
     };
     let [outer_s, inner_s] = [0, 1].map(edges_s);

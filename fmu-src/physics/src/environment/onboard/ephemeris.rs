@@ -184,11 +184,7 @@ impl OnboardEphemeris {
 }
 
 /// Reports a target that is its own centre, and one that stands among the `known` already; tells whether it is new.
-fn check_target<M>(
-    at: &Place<'_>,
-    [target, center]: [OnboardTarget; 2],
-    known: &[FittedBody<M>],
-) -> bool {
+fn check_target<M>(at: &Place<'_>, [target, center]: [OnboardTarget; 2], known: &[FittedBody<M>]) -> bool {
     let is_new = known.iter().all(|other| other.target != target);
     if target == center {
         at.key("center").report_across(target, "another body than the one that is placed");

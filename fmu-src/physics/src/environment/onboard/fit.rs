@@ -57,13 +57,6 @@ pub struct FitPlan {
     pub(super) edges_s: Vec<f64>,
 }
 
-/// Purpose of an epoch of the plan.
-#[derive(Clone, Copy)]
-enum Purpose {
-    Node(usize),
-    Check,
-}
-
 impl FitPlan {
     /// Segments over a span; inner edges are whole multiples of their length past J2000.
     /// A length that is not above 0 makes one segment of the whole span.
@@ -96,29 +89,27 @@ impl FitPlan {
         let mut fitted = Vec::with_capacity(self.edges_s.len());
         for (edge, states) in self.edges_s.windows(2).zip(states.chunks(SAMPLES + CHECKS)) {
             let (start_s, end_s) = (edge[0], edge[1]);
-            let purposes = schedule(start_s, end_s);
+            let scheduled = schedule(start_s, end_s);
             let mut samples = [SVector::<f64, 3>::zeros(); SAMPLES];
-            for ((_, purpose), state) in purposes.iter().zip(states) {
-                if let Purpose::Node(node) = purpose {
+            for ((_, node), state) in scheduled.iter().zip(states) {
+                if let Some(node) = node {
                     samples[*node] = state.position_m;
                 }
             }
             let whole = Segment::<3, SAMPLES>::from_samples(start_s, end_s, &samples);
             let lowest = whole.coefficients().data.0.iter().take(degree.min(GREATEST_DEGREE) + 1);
             let segment = EphemerisSegment { start_s, end_s, coefficients_m: lowest.copied().collect() };
-            for ((at_s, purpose), state) in purposes.iter().zip(states) {
-                if matches!(purpose, Purpose::Check) {
-                    error = error.worst(FitError::from_states(&segment.state(*at_s), state));
-                }
+            for ((at_s, _), state) in scheduled.iter().zip(states).filter(|((_, node), _)| node.is_none()) {
+                error = error.worst(FitError::from_states(&segment.state(*at_s), state));
             }
             fitted.push(segment);
         }
-        (SegmentTable::joined(fitted), error)
+        (SegmentTable { segments: fitted }, error)
     }
 }
 
-/// Epochs of a segment in the order of time.
-fn schedule(start_s: f64, end_s: f64) -> Vec<(f64, Purpose)> {
+/// Epochs of a segment in the order of time, each with the number of its node; without one it is for a check.
+fn schedule(start_s: f64, end_s: f64) -> Vec<(f64, Option<usize>)> {
     let nodes = Segment::<3, SAMPLES>::nodes(start_s, end_s).into_iter().enumerate();
     let last = (CHECKS - 1) as f64;
     let check = |k: usize| match k {
@@ -126,8 +117,8 @@ fn schedule(start_s: f64, end_s: f64) -> Vec<(f64, Purpose)> {
         _ if k == CHECKS - 1 => end_s - END_MARGIN * (end_s - start_s),
         _ => start_s + (end_s - start_s) * (k as f64 / last),
     };
-    let checks = (0..CHECKS).map(|k| (check(k), Purpose::Check));
-    let mut all: Vec<_> = nodes.map(|(node, at_s)| (at_s, Purpose::Node(node))).chain(checks).collect();
+    let checks = (0..CHECKS).map(|k| (check(k), None));
+    let mut all: Vec<_> = nodes.map(|(node, at_s)| (at_s, Some(node))).chain(checks).collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
     all
 }

@@ -12,12 +12,10 @@ use super::integration_center::{IntegrationCenter, pack, unpack};
 use super::n_body::NBodyGravity;
 use super::orbit_method::{OrbitMethod, TERMS};
 use super::spheres::{BodiesAbout, Collision, SphereCrossing};
-use crate::{
-    bodies::Body,
-    environment::CartesianState,
-    numerics::Span,
-    numerics::collocation::{IntegrationError, SegmentChain, edge_after_s},
-};
+use crate::bodies::Body;
+use crate::environment::CartesianState;
+use crate::numerics::Span;
+use crate::numerics::collocation::{IntegrationError, SegmentChain, edge_after_s};
 
 /// Why an integrated orbit ends.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]

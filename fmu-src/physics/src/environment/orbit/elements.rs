@@ -224,13 +224,11 @@ impl Elements {
     pub(super) fn with_axes(self, normal: &Vector3<f64>, to_periapsis: &Vector3<f64>) -> Self {
         let to_node = node(normal);
         let across_node = normal.cross(&to_node);
+        let argument_rad = math::atan2(to_periapsis.dot(&across_node), to_periapsis.dot(&to_node));
         Self {
             inclination_rad: math::atan2(math::hypot(normal.x, normal.y), normal.z),
             ascending_node_rad: positive(math::atan2(to_node.y, to_node.x)),
-            periapsis_argument_rad: positive(math::atan2(
-                to_periapsis.dot(&across_node),
-                to_periapsis.dot(&to_node),
-            )),
+            periapsis_argument_rad: positive(argument_rad),
             ..self
         }
     }

@@ -28,16 +28,6 @@ impl Flattening {
     pub fn from_body(body: &BodyData) -> Self {
         Self { j2: body.j2, reference_radius_m: body.j2_radius_m, pole: body.pole() }
     }
-
-    /// Adds its acceleration, m/s2, at a position from the body's centre; `inverse` is 1 / r, `point` is mu / r^3.
-    fn add_to(&self, sum: &mut Vector3<f64>, position_m: &Vector3<f64>, inverse: f64, point: f64) {
-        let Self { j2, reference_radius_m, pole } = self;
-        let sin_latitude = position_m.dot(pole) * inverse;
-        let ratio = reference_radius_m * inverse;
-        let factor = 1.5 * j2 * ratio * ratio * point;
-        *sum += position_m * (factor * (5.0 * sin_latitude * sin_latitude - 1.0));
-        *sum -= pole * (2.0 * factor * sin_latitude / inverse);
-    }
 }
 
 /// Gravity of one body.
@@ -63,24 +53,23 @@ impl Gravity {
 
     /// Acceleration in EME2000, m/s2, at a position from the body's centre.
     pub fn acceleration_m_s2(&self, position_m: &Vector3<f64>) -> Vector3<f64> {
-        let mut sum = point_mass_acceleration_m_s2(position_m, self.mu_m3_s2);
+        let inverse = 1.0 / position_m.norm();
+        let mut sum = position_m * (-self.mu_m3_s2 * inverse * inverse * inverse);
         self.add_flattening_m_s2(&mut sum, position_m);
         sum
     }
 
     /// Adds the acceleration by the flattening alone, m/s2, at a position from the body's centre.
     pub(super) fn add_flattening_m_s2(&self, sum: &mut Vector3<f64>, position_m: &Vector3<f64>) {
-        if let Some(flattening) = self.flattening {
-            let inverse = 1.0 / position_m.norm();
-            flattening.add_to(sum, position_m, inverse, self.mu_m3_s2 * inverse * inverse * inverse);
-        }
+        let Some(Flattening { j2, reference_radius_m, pole }) = &self.flattening else { return };
+        let inverse = 1.0 / position_m.norm();
+        let point = self.mu_m3_s2 * inverse * inverse * inverse;
+        let sin_latitude = position_m.dot(pole) * inverse;
+        let ratio = reference_radius_m * inverse;
+        let factor = 1.5 * j2 * ratio * ratio * point;
+        *sum += position_m * (factor * (5.0 * sin_latitude * sin_latitude - 1.0));
+        *sum -= pole * (2.0 * factor * sin_latitude / inverse);
     }
-}
-
-/// Acceleration toward a point mass, m/s2, at a position from it.
-fn point_mass_acceleration_m_s2(position_m: &Vector3<f64>, gm_m3_s2: f64) -> Vector3<f64> {
-    let inverse = 1.0 / position_m.norm();
-    position_m * (-gm_m3_s2 * inverse * inverse * inverse)
 }
 
 /// Gradient of the acceleration toward a point mass, 1/s2, at a position from it: mu / r^3 (3 u uT - 1), u along the position.

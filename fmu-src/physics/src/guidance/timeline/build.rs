@@ -9,8 +9,7 @@ use super::description::TimelineDescription;
 use super::entry::{
     Slot, TimelineClock, TimelineEntry, TimelineEvent, TimelinePanels, begun, simulation_time_s,
 };
-use super::events::event;
-use super::panels::panels as panels_from;
+use super::events::{event, panels as panels_from};
 use super::scans::scan;
 use super::times::Times;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
@@ -20,11 +19,16 @@ use crate::toml::{Checker, Document, FileError, Place, TIMELINE_LIMITS};
 /// Commands, panels and events one after the other; of each list the times grow, and one list at least is not empty.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Timeline {
-    clock: TimelineClock,
-    entries: Vec<TimelineEntry>,
-    names: Vec<String>,
-    panels: Vec<TimelinePanels>,
-    events: Arc<[TimelineEvent]>,
+    /// Clock of all times.
+    pub clock: TimelineClock,
+    /// Commands in the order of their times.
+    pub entries: Vec<TimelineEntry>,
+    /// Name of each command.
+    pub names: Vec<String>,
+    /// Positions of the panels in the order of their times.
+    pub panels: Vec<TimelinePanels>,
+    /// Events, each at one time, in the order of the times.
+    pub events: Arc<[TimelineEvent]>,
 }
 
 impl Timeline {
@@ -52,7 +56,7 @@ impl Timeline {
         let document = Document::parse(file, text)?.limited(TIMELINE_LIMITS);
         let (description, check) = Checker::read::<TimelineDescription>(&document)?;
         let root = Place::root(&check);
-        let mut commands = Commands::new(spacecraft, reader);
+        let mut commands = Commands { spacecraft, reader, scenario: String::new() };
         let [place, panels_place, events_place] = ["command", "panels", "event"].map(|list| root.key(list));
         let list = description.command.as_deref().unwrap_or_default();
         let panels_list = description.panels.as_deref().unwrap_or_default();
@@ -97,31 +101,6 @@ impl Timeline {
         check.finish(Self { clock, entries, names, panels, events })
     }
 
-    /// By which clock it counts.
-    pub fn clock(&self) -> TimelineClock {
-        self.clock
-    }
-
-    /// The commands in the order of their times.
-    pub fn entries(&self) -> &[TimelineEntry] {
-        &self.entries
-    }
-
-    /// Name of each command.
-    pub fn names(&self) -> &[String] {
-        &self.names
-    }
-
-    /// How the panels stand, in the order of the times.
-    pub fn panels(&self) -> &[TimelinePanels] {
-        &self.panels
-    }
-
-    /// Events, each at one time, in the order of the times.
-    pub fn events(&self) -> &Arc<[TimelineEvent]> {
-        &self.events
-    }
-
     /// The clock at a time of the simulation, minus that time, in s, the epoch being `epoch_minus_time_s` ahead of it.
     pub fn clock_minus_time_s(&self, epoch_minus_time_s: f64) -> f64 {
         match self.clock {
@@ -142,7 +121,7 @@ impl Timeline {
 
     /// Returns the entry in force at a time of the simulation, in s, the clock being `clock_minus_time_s` ahead of it.
     pub fn slot(&self, now_s: f64, clock_minus_time_s: f64) -> Slot<'_> {
-        let entries = self.entries();
+        let entries = &self.entries;
         let time_s = |at_s: f64| simulation_time_s(at_s, clock_minus_time_s);
         let begun = begun(entries, clock_minus_time_s, now_s, |entry| entry.at_s);
         let next_s = entries.get(begun).map_or(f64::INFINITY, |next| time_s(next.at_s));

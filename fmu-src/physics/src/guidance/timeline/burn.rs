@@ -59,27 +59,17 @@ pub(super) fn burn(
     let lasts_s = duration_s.or(nominal_s).unwrap_or(0.0);
     let first_s = begin_s.unwrap_or(span.at_s);
     if first_s.is_finite() && first_s < span.at_s {
-        at.key("start").report(
-            format_args!("{}, before the command begins", shown(given)),
-            "a time after `at`, or no such key: when the attitude is reached",
-        );
+        let written = given.start.as_ref().map(ToString::to_string).unwrap_or_default();
+        let allowed = "a time after `at`, or no such key: when the attitude is reached";
+        at.key("start").report(format_args!("{written}, before the command begins"), allowed);
     } else if first_s + lasts_s > span.end_s {
         let key = if given.start.is_some() { "start" } else { "duration" };
         let place = if at.key(key).is_written() { at.key(key) } else { at.clone() };
-        place.report(
-            format_args!(
-                "a burn that lasts {:.1} s and ends {:.1} s after the command does",
-                lasts_s,
-                first_s + lasts_s - span.end_s
-            ),
-            "one that ends before `until` and the next command",
-        );
+        let late_s = first_s + lasts_s - span.end_s;
+        let found = format!("a burn that lasts {lasts_s:.1} s and ends {late_s:.1} s after the command does");
+        place.report(found, "one that ends before `until` and the next command");
     }
     TimelineBurn { path, thrusters: set, nominal, start_s: begin_s, duration_s }
-}
-
-fn shown(given: &BurnDescription) -> String {
-    given.start.as_ref().map(ToString::to_string).unwrap_or_default()
 }
 
 /// When the burn begins, in s of the clock; `None` when the attitude is reached.

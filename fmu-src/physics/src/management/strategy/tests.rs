@@ -97,6 +97,7 @@ fn target_x(separations_rad: [f64; 4], horizon: u32) -> f64 {
     let state = DownlinkState {
         to_sun: Vector3::x(),
         to_earth: Vector3::new(separations_rad[0].cos(), separations_rad[0].sin(), 0.0),
+        separations_rad: [separations_rad[0]; 2],
         momentum: StartMomentum::Body(Vector3::new(0.9, 0.0, 0.0)),
         span_s: DOWNLINK_S,
         torque_body_n_m: &torque,

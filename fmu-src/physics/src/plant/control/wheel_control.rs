@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::control::WheelAllocator;
 use crate::attitude::{Gyrostat, Motor};
-use crate::plant::settings::wheel_control_settings::WheelControlSettings;
+use crate::plant::settings::dynamics_settings::WheelControlSettings;
 
 /// Motors of the wheels.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -39,7 +39,7 @@ impl WheelDistribution {
         let is_same = |k: usize| {
             let (known, works) = &self.wheels[k];
             let axis = &gyrostat.wheels()[k].axis_body;
-            *works == gives(k) && known.x == axis.x && known.y == axis.y && known.z == axis.z
+            *works == gives(k) && known == axis
         };
         if self.balance_n_m.len() == count && self.wheels.len() == count && (0..count).all(is_same) {
             return;

@@ -318,12 +318,10 @@ impl Dynamic<'_> {
     /// Begins the dump of the schedule that is due.
     fn dump_as_scheduled(&mut self) -> Result<(), PlantError> {
         let events = &self.flight.context.configuration.thruster_events;
-        let last = self.state.last.of_kind(EventKind::Schedule);
         // The schedule may be another than at the start.
-        events.check_for_dynamics(*last)?;
-        let Some(event) = events.next(*last) else { return Ok(()) };
-        last.take(events.time_s(event));
-        if let Some(target_body_n_m_s) = events.dump_target_body_n_m_s(event) {
+        events.check_for_dynamics(self.state.last.scheduled())?;
+        let taken = self.state.last.pop_scheduled(events);
+        if let Some(target_body_n_m_s) = taken.and_then(|event| events.dump_target_body_n_m_s(&event)) {
             self.dump_to(target_body_n_m_s);
         }
         Ok(())
@@ -344,7 +342,7 @@ impl Dynamic<'_> {
         let MotionAt { time_s, body, .. } = *at;
         let Self { state, settings, flight, .. } = self;
         let loaded = flight.context.configuration.wet_mass;
-        flight.context.current_mass_panels_stowed = flight.used_mass(&loaded, time_s).unwrap_or(loaded);
+        flight.context.current_mass_panels_stowed = flight.used_mass(&loaded, time_s);
         let mass_kg = loaded.mass_kg - flight.thrusters.propellant.total_used_kg(time_s);
         let mut plant = flight.plant_at(time_s, &body);
         let instant = plant.instant(time_s);

@@ -2,6 +2,7 @@
 
 use crate::attitude::MotionAt;
 use crate::attitude::control::{sample_number, sensed_sun};
+use crate::loads::ForceTorque;
 use crate::momentum::Totals;
 use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::Evaluation;
@@ -9,16 +10,23 @@ use crate::plant::events;
 use crate::plant::motion::instant::Instant;
 use crate::plant::settings::attitude_source::{AttitudeSource, Command};
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::ideal_settings::IdealSettings;
-use crate::plant::state::encounter_prediction::EncounterPrediction;
+use crate::plant::settings::mode_settings::IdealSettings;
+use crate::plant::state::flight_state::EncounterPrediction;
 use crate::plant::state::ideal_state::IdealState;
 use crate::radiation::SolarModel;
 
 use super::configured::ConfiguredFlight;
 use super::dynamic::Dynamic;
-use super::flight_setup::Evaluated;
 use super::ideal::Ideal;
 use super::report::{ReachedState, Report, dynamic, dynamic_totals, ideal};
+
+/// The last evaluation, kept in memory because it is large.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Evaluated {
+    pub evaluation: Option<Evaluation>,
+    /// Load from outside, where the loads are not computed yet.
+    pub applied: Option<ForceTorque>,
+}
 
 /// A flight in one step.
 pub(super) enum InFlight<'f> {

@@ -5,7 +5,6 @@
 mod configured;
 mod dynamic;
 mod encounter_prediction;
-mod flight_setup;
 mod fork;
 mod grid_edge;
 mod ideal;
@@ -36,18 +35,15 @@ use crate::plant::settings::error::PlantError;
 use crate::plant::settings::mode_settings::{Changes, ModeSettings};
 use crate::plant::settings::panel_setting::PanelSetting;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
-use crate::plant::state::encounter_prediction::EncounterPrediction;
-use crate::plant::state::flight_state::{FlightState, Mode};
-use crate::plant::state::propagator_state::PropagatorState;
-use crate::plant::state::sun_choice::SunDirectionSelection;
+use crate::plant::state::flight_state::{EncounterPrediction, FlightState, Mode};
+use crate::plant::state::propagator_state::{PropagatorState, SunDirectionSelection};
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::Spacecraft;
 use configured::ConfiguredFlight;
 use dynamic::Dynamic;
 use encounter_prediction::predict_encounter;
-use flight_setup::{Evaluated, FlightSetup};
 use ideal::Ideal;
-use in_flight::InFlight;
+use in_flight::{Evaluated, InFlight};
 use report::{ReachedState, Report};
 
 /// A flight: its state, and apart from it settings and caches, which are not saved.
@@ -56,6 +52,15 @@ use report::{ReachedState, Report};
 pub struct Flight {
     state: FlightState,
     setup: Option<Box<FlightSetup>>,
+}
+
+/// Configuration, settings and caches of a flight, none of them saved.
+#[derive(Clone, Debug)]
+struct FlightSetup {
+    context: SimulationContext,
+    settings: ModeSettings,
+    distribution: WheelDistribution,
+    evaluated: Evaluated,
 }
 
 impl From<FlightState> for Flight {
@@ -129,7 +134,12 @@ impl Flight {
 
     /// Takes what parameters and inputs set.
     pub fn configure(&mut self, context: SimulationContext, settings: ModeSettings) {
-        self.setup = Some(Box::new(FlightSetup::new(context, settings)));
+        self.setup = Some(Box::new(FlightSetup {
+            context,
+            settings,
+            distribution: Default::default(),
+            evaluated: Default::default(),
+        }));
         self.update_current_mass();
     }
 
@@ -152,9 +162,9 @@ impl Flight {
     fn update_current_mass(&mut self) {
         if let Some(FlightSetup { context, .. }) = self.setup.as_deref_mut() {
             let loaded = self.state.propagator.center_of_mass.mass_properties(&context.configuration);
-            let settings = &context.allocator.settings;
-            let current = self.state.thrusters.mass_properties_stowed(settings, &loaded, 0.0);
-            context.current_mass_panels_stowed = current.unwrap_or(loaded);
+            let propellant = &self.state.thrusters.propellant;
+            let tanks = &context.allocator.settings.tanks;
+            context.current_mass_panels_stowed = propellant.mass_properties(&loaded, tanks, 0.0);
         }
     }
 

@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::bodies::Body;
 use crate::environment::CartesianState;
-use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::{
     BodyEphemeris, DisturbedOrbit, OrbitError, OrbitIntegrationError, OrbitMethod, TwoBodyOrbit,
 };
@@ -322,28 +321,25 @@ impl Trajectory {
     /// See [`OrbitIntegrationError`].
     pub(crate) fn advance(
         &mut self,
-        configuration: &Configuration,
-        ephemeris: &mut Ephemeris,
+        bodies: &mut SimulationEphemeris<'_>,
         method: &OrbitMethod,
         limit_s: f64,
         extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
     ) -> Result<u32, OrbitIntegrationError> {
+        let configuration = bodies.configuration;
         let Some(mut orbit) = self.orbit else { return Ok(0) };
         let shortened = match &configuration.motion {
             Motion::Disturbed { gravity, .. } => {
-                let bodies = &mut SimulationEphemeris { configuration, ephemeris };
                 orbit.advance_to(limit_s, method, gravity, bodies, extra_m_s2)?;
                 0
             }
             Motion::NBody { gravity, .. } => {
-                let body_ephemeris = &mut SimulationEphemeris { configuration, ephemeris };
-                let count =
-                    orbit.advance_between_bodies(limit_s, method, gravity, body_ephemeris, extra_m_s2)?;
+                let count = orbit.advance_between_bodies(limit_s, method, gravity, bodies, extra_m_s2)?;
                 if let Some(Encounter { body, radius_m, .. }) = configuration.encounter {
                     let sizes_m = [radius_m, gravity.model.sphere_m(body)];
                     self.approaches.detect(orbit.span(), sizes_m, |at_s| {
                         let [center, body] =
-                            [configuration.center, body].map(|body| body_ephemeris.heliocentric(body, at_s));
+                            [configuration.center, body].map(|body| bodies.heliocentric(body, at_s));
                         orbit.state_at(at_s) + (center - body)
                     });
                 }

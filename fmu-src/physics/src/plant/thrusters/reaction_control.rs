@@ -306,15 +306,4 @@ impl Thrusters {
         let feed = Feed { settings, propellant: &self.propellant, time_s };
         thruster.force_body_n.norm() * opening * feed.pressure_ratio(k)
     }
-
-    /// Mass properties at `time_s` with every panel at angle 0; `None` while no propellant is used.
-    pub fn mass_properties_stowed(
-        &self,
-        settings: &ReactionControlSettings,
-        wet: &MassProperties,
-        time_s: f64,
-    ) -> Option<MassProperties> {
-        let is_used = self.propellant.total_used_kg(time_s) > 0.0;
-        is_used.then(|| self.propellant.mass_properties(wet, &settings.tanks, time_s))
-    }
 }

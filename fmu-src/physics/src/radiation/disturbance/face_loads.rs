@@ -38,7 +38,6 @@ impl<T: Scalar> FaceLoads<'_, T> {
                 let shadowed =
                     surface.outline.filter(|_| self.shadowing).and_then(|o| workspace.shadow.lit(o));
                 let (lit_area_m2, lit_center_m) = shadowed.unwrap_or((area_m2, center_m));
-                state.lit_area_m2 = lit_area_m2;
                 state.lit_center_body_m = lit_center_m;
                 state.absorbed_sun_w =
                     sunlight.pressure_pa * lit_area_m2 * (material.optics.absorptivity * SPEED_OF_LIGHT_M_S);
@@ -73,10 +72,10 @@ impl<T: Scalar> FaceLoads<'_, T> {
             return sum;
         }
         for surface in &self.faces.surfaces {
-            let range = surface.faces();
+            let range = surface.faces.clone();
             let faces = &self.faces.faces[range.clone()];
             let states = &mut workspace.faces[range.clone()];
-            let stores = surface.heat_capacity_j_m2_k > 0.0;
+            let stores = surface.thermal.heat_capacity_j_m2_k > 0.0;
             let stored = match recoil {
                 Recoil::Stored(temperatures_k) if stores => Some(&temperatures_k[range]),
                 _ => None,
@@ -124,7 +123,7 @@ fn set_temperatures<T: Scalar>(
         (state.absorbed_sun_w + state.absorbed_planet_w + face.internal_heat_w) * (1.0 / surface.area_m2)
     };
     if let (Some(conduction), [front, rear], [front_state, rear_state]) =
-        (&surface.conduction, faces, &mut *states)
+        (&surface.thermal.conduction, faces, &mut *states)
         && (conduction.conductance_w_m2_k > 0.0 || conduction.radiative_exchange > 0.0)
     {
         let heat_w_m2 = [heat(front, front_state), heat(rear, rear_state)];

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::constants::{RADIUS_SUN_M, SPEED_OF_LIGHT_M_S};
-use crate::environment::sun::{SunError, flux_w_m2};
+use crate::environment::sun::flux_w_m2;
 use crate::numerics::scalar::Scalar;
 use crate::radiation::flat_plate::Beam;
 use crate::refusal::Refusal;
@@ -85,11 +85,11 @@ impl<'a, T: Scalar> Geometry<'a, T> {
     ) -> Result<Self, Refusal> {
         let flux = |position_m: &Vector3<T>| -> Result<(T, T), Refusal> {
             let distance_m = position_m.dot(position_m).sqrt();
-            let flux_w_m2 =
-                flux_w_m2(flux_at_1_au_w_m2, distance_m).map_err(|SunError::Distance { found_m }| {
-                    let found = format_args!("the Sun is at a distance of {found_m} m");
-                    Refusal::new(found, "a finite distance above 0 m")
-                })?;
+            let found_m = distance_m.value();
+            let flux_w_m2 = flux_w_m2(flux_at_1_au_w_m2, distance_m).ok_or_else(|| {
+                let found = format_args!("the Sun is at a distance of {found_m} m");
+                Refusal::new(found, "a finite distance above 0 m")
+            })?;
             Ok((flux_w_m2, distance_m))
         };
         let (sun_flux_w_m2, distance_m) = flux(sun_position_body_m)?;

@@ -92,7 +92,7 @@ impl DisturbanceModel {
     /// Names of the faces in their order: plates, sunshade, panels, the back of a surface after its front.
     pub fn face_names(&self) -> impl Iterator<Item = String> + '_ {
         self.faces.surfaces.iter().flat_map(|surface| {
-            let rear = surface.two_sided.then(|| format!("{}, rear", surface.name));
+            let rear = (surface.faces.len() == 2).then(|| format!("{}, rear", surface.name));
             core::iter::once(surface.name.clone()).chain(rear)
         })
     }
@@ -121,12 +121,10 @@ impl DisturbanceModel {
     /// # Errors
     /// More work than that.
     pub fn within(self, limit_units: u32) -> Result<Self, Refusal> {
-        let found = self.evaluation_units();
-        if found > limit_units {
-            return Err(Refusal::new(
-                format_args!("one evaluation takes {found} units of work"),
-                limit_units,
-            ));
+        let units = self.evaluation_units();
+        if units > limit_units {
+            let found = format_args!("one evaluation takes {units} units of work");
+            return Err(Refusal::new(found, limit_units));
         }
         Ok(self)
     }
@@ -138,7 +136,7 @@ impl DisturbanceModel {
 
     /// Whether any face stores heat, so that [`super::Recoil::Stored`] differs from balance.
     pub fn stores_heat(&self) -> bool {
-        self.faces.surfaces.iter().any(|surface| surface.heat_capacity_j_m2_k > 0.0)
+        self.faces.surfaces.iter().any(|surface| surface.thermal.heat_capacity_j_m2_k > 0.0)
     }
 
     /// Force and torque about the centre of mass by effect; by face in the workspace.
@@ -295,10 +293,8 @@ impl DisturbanceModel {
             let turns = !matches!(self.faces.normals[index], Normal::Fixed(_));
             let alike =
                 turns.then(|| workspace.normals[..index].iter().position(|known| same(known, normal)));
-            workspace.lights[index] = match alike.flatten() {
-                Some(known) => workspace.lights[known],
-                None => planet_source.receive(normal),
-            };
+            let known = alike.flatten().map(|known| workspace.lights[known]);
+            workspace.lights[index] = known.unwrap_or_else(|| planet_source.receive(normal));
         }
         Ok(())
     }

@@ -36,19 +36,13 @@ pub(super) enum PlanetRule {
 }
 
 /// The planet as one geometry shows it, for every face.
-pub(super) enum PlanetSource<'r, T: Scalar> {
-    Rings {
-        rings: &'r RingRule,
-        view: PlanetView<T>,
-        exitance: SurfaceExitance<T>,
-    },
-    Cells {
-        grid: &'r PlanetGrid,
-        view: PlanetView<T>,
-        surface: PlanetSurface<T>,
-        flux_w_m2: T,
-        axes: Matrix3<T>,
-    },
+pub(super) struct PlanetSource<'r, T: Scalar> {
+    rule: &'r PlanetRule,
+    view: PlanetView<T>,
+    sun_flux_w_m2: T,
+    exitance: SurfaceExitance<T>,
+    /// Axes of the cells as columns; without effect on rings.
+    cell_axes: Matrix3<T>,
 }
 
 impl PlanetRule {
@@ -80,29 +74,23 @@ impl PlanetRule {
     ) -> Result<PlanetSource<'_, T>, Refusal> {
         let view =
             PlanetView::new(&planet.position_body_m, &planet.sun_from_planet_body_m, surface.radius_m)?;
-        Ok(match self {
-            Self::Rings(rings) => {
-                PlanetSource::Rings { rings, view, exitance: surface.exitance(planet.sun_flux_w_m2) }
-            }
-            Self::Cells(grid) => PlanetSource::Cells {
-                grid,
-                surface: *surface,
-                flux_w_m2: planet.sun_flux_w_m2,
-                axes: sun_fixed_axes(&view.sun, &planet.pole_body)?,
-                view,
-            },
-        })
+        let cell_axes = match self {
+            Self::Rings(_) => Matrix3::identity(),
+            Self::Cells(_) => sun_fixed_axes(&view.sun, &planet.pole_body)?,
+        };
+        let sun_flux_w_m2 = planet.sun_flux_w_m2;
+        let exitance = surface.exitance(sun_flux_w_m2);
+        Ok(PlanetSource { rule: self, view, sun_flux_w_m2, exitance, cell_axes })
     }
 }
 
 impl<T: Scalar> PlanetSource<'_, T> {
     /// Light on a face of unit `normal`.
     pub(super) fn receive(&self, normal: &Vector3<T>) -> PlanetLight<T> {
-        match self {
-            Self::Rings { rings, view, exitance } => rings.receive(view, exitance, normal),
-            Self::Cells { grid, view, surface, flux_w_m2, axes } => {
-                grid.receive(surface, *flux_w_m2, view, axes, normal)
-            }
+        let Self { view, sun_flux_w_m2, exitance, cell_axes, .. } = self;
+        match self.rule {
+            PlanetRule::Rings(rings) => rings.receive(view, exitance, normal),
+            PlanetRule::Cells(grid) => grid.receive(exitance, *sun_flux_w_m2, view, cell_axes, normal),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Cells with properties of their own, and what grids refuse.
 
 use super::*;
-use crate::bodies::surface::MERCURY;
+use crate::bodies::surface::{MERCURY, PlanetSurface};
 use crate::constants::STEFAN_BOLTZMANN_W_M2_K4;
 use crate::numerics::scalar::Dual64;
 use crate::spacecraft::PlanetCell;
@@ -54,7 +54,8 @@ fn a_map_of_one_kind_is_a_planet_of_one_kind() {
     let axes = sun_fixed_axes(&sun, &sun.cross(&Vector3::x())).unwrap();
     let view = PlanetView::new(&Vector3::new(0.2, 0.8, -1.1), &sun, 1.0).unwrap();
     let normal = Vector3::new(0.0, 0.6, -0.8);
-    let [a, b] = [&map, &plain].map(|grid| grid.receive(&surface, FLUX_W_M2, &view, &axes, &normal));
+    let [a, b] = [&map, &plain]
+        .map(|grid| grid.receive(&surface.exitance(FLUX_W_M2), FLUX_W_M2, &view, &axes, &normal));
     for (a, b) in [(a.albedo, b.albedo), (a.infrared, b.infrared)] {
         assert!((a.vector_pa - b.vector_pa).norm() < 1e-12 * b.pressure_pa && b.pressure_pa > 0.0);
     }
@@ -71,7 +72,7 @@ fn a_hot_spot_pushes_from_where_it_is() {
     });
     let distance = 3.0;
     let view = PlanetView::new(&(-spot * distance), &Vector3::x(), 1.0).unwrap();
-    let light = map.receive(&PLANET, FLUX_W_M2, &view, &Matrix3::identity(), &-spot);
+    let light = map.receive(&PLANET.exitance(FLUX_W_M2), FLUX_W_M2, &view, &Matrix3::identity(), &-spot);
     // Belt 1234 / 80 from the south; a cell's area is its width times the difference of its borders' sines.
     let step = core::f64::consts::PI / BELTS as f64;
     let south = -core::f64::consts::FRAC_PI_2 + (1234 / (2 * BELTS)) as f64 * step;
@@ -93,9 +94,16 @@ fn slopes_of_cells_are_those_of_small_differences() {
         let sun = constant_vector::<Dual64>(&sun) + Vector3::new(seed * -0.1, seed * 0.4, seed * 0.2);
         let view = PlanetView::new(&planet_m, &sun, Dual64::from_re(1.0)).unwrap();
         let axes = sun_fixed_axes(&view.sun, &constant_vector(&Vector3::new(0.1, 0.1, 0.9))).unwrap();
-        grid.receive(&PLANET.constant(), seed + FLUX_W_M2, &view, &axes, &constant_vector(&-normal))
-            .albedo
-            .vector_pa
+        let flux_w_m2 = seed + FLUX_W_M2;
+        grid.receive(
+            &PLANET.constant().exitance(flux_w_m2),
+            flux_w_m2,
+            &view,
+            &axes,
+            &constant_vector(&-normal),
+        )
+        .albedo
+        .vector_pa
     };
     let exact = moved(Dual64::new(0.0, 1.0)).map(|x| x.eps);
     let [ahead, behind] = [1e-5, -1e-5].map(|h| moved(Dual64::new(h, 0.0)).map(|x| x.re));

@@ -63,10 +63,8 @@ impl RingRule {
     /// Unless there are 1 to 64 nodes.
     pub fn new(nodes_per_segment: usize) -> Result<Self, Refusal> {
         if !(1..=MOST_NODES).contains(&nodes_per_segment) {
-            return Err(Refusal::new(
-                format_args!("{nodes_per_segment} quadrature nodes a segment"),
-                "1 to 64 (6 for 1e-4, 16 for 1e-5)",
-            ));
+            let found = format_args!("{nodes_per_segment} quadrature nodes a segment");
+            return Err(Refusal::new(found, "1 to 64 (6 for 1e-4, 16 for 1e-5)"));
         }
         let mut positions = vec![0.0; nodes_per_segment];
         let mut weights = vec![0.0; nodes_per_segment];

@@ -124,7 +124,7 @@ fn grid_error(grid: &PlanetGrid) -> f64 {
         let sun = (sun - planet).normalize();
         let view = PlanetView::new(&planet, &sun, 1.0).unwrap();
         let rings = rule.receive(&view, &exitance, &normal);
-        let cells = grid.receive(&surface, FLUX_W_M2, &view, &Matrix3::identity(), &normal);
+        let cells = grid.receive(&exitance, FLUX_W_M2, &view, &Matrix3::identity(), &normal);
         for (a, b) in [(rings.albedo, cells.albedo), (rings.infrared, cells.infrared)] {
             worst = worst.max((a.vector_pa - b.vector_pa).norm() / a.vector_pa.norm());
             worst = worst.max((a.pressure_pa / b.pressure_pa - 1.0).abs());

@@ -48,16 +48,13 @@ impl<T: Scalar> PlanetView<T> {
         let above = distance_m.value() > radius_m.value() && radius_m.value() > 0.0;
         if !(above && distance_m.value().is_finite()) {
             let (distance_m, radius_m) = (distance_m.value(), radius_m.value());
-            return Err(Refusal::new(
-                format_args!("spacecraft {distance_m} m from the planet's centre"),
-                format_args!("more than its radius of {radius_m} m"),
-            ));
+            let found = format_args!("spacecraft {distance_m} m from the planet's centre");
+            return Err(Refusal::new(found, format_args!("more than its radius of {radius_m} m")));
         }
         if !(sun_distance_m.value() > 0.0 && sun_distance_m.value().is_finite()) {
-            return Err(Refusal::new(
-                format_args!("Sun {} m from the planet's centre", sun_distance_m.value()),
-                "a finite distance above 0 m",
-            ));
+            let sun_distance_m = sun_distance_m.value();
+            let found = format_args!("Sun {sun_distance_m} m from the planet's centre");
+            return Err(Refusal::new(found, "a finite distance above 0 m"));
         }
         let nadir = planet_m / distance_m;
         let sun = sun_from_planet_m / sun_distance_m;

@@ -81,7 +81,7 @@ impl<T: Scalar> Pieces<T> {
         remaining.ends.clear();
         remaining.flat_m2 = self.flat_m2;
         for piece in self.iter() {
-            if apart(piece, hole) {
+            if separates(hole, piece) || separates(piece, hole) {
                 remaining.points.extend_from_slice(piece);
                 remaining.ends.push(remaining.points.len());
                 continue;
@@ -211,11 +211,6 @@ pub(super) fn keep_positive<P: Copy, T: Scalar>(
         from = to;
         from_side = to_side;
     }
-}
-
-/// Whether an edge of either keeps them apart.
-fn apart<T: Scalar>(piece: &[Vector2<T>], hole: &[Vector2<T>]) -> bool {
-    separates(hole, piece) || separates(piece, hole)
 }
 
 /// Whether everything of `other` lies right of an edge of the first outline.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use nalgebra::Vector3;
-use physics::{environment::dates, toml::KeyPath};
+use physics::{environment::dates, toml::Place};
 use planner::{leg::FlybyAimpoint, orbit::LambertBranch};
 
 use super::description::{ArcBranch, ArriveDescription, LegDescription};
@@ -59,7 +59,7 @@ impl LegFile {
 
 impl Builder<'_> {
     fn leg(&mut self, file: &Path, description: &LegDescription) -> LegFile {
-        let root = KeyPath::root();
+        let root = self.root.clone();
         let [mission, depart, arrive] = ["mission", "depart", "arrive"].map(|key| root.key(key));
         let LegDescription { depart: from, arrive: to, .. } = description;
         let path = self.path(&mission, &description.mission, Path::is_file);
@@ -87,11 +87,16 @@ impl Builder<'_> {
         }
     }
 
-    fn required(&mut self, place: &KeyPath, written: &Written, (unit, allowed): (&str, &str)) -> f64 {
+    fn required(&mut self, place: &Place<'_>, written: &Written, (unit, allowed): (&str, &str)) -> f64 {
         self.read(place, Some(written), |written| written.quantity(unit), allowed).unwrap_or(0.0)
     }
 
-    fn vector(&mut self, place: &KeyPath, written: &Written, (unit, allowed): (&str, &str)) -> Vector3<f64> {
+    fn vector(
+        &mut self,
+        place: &Place<'_>,
+        written: &Written,
+        (unit, allowed): (&str, &str),
+    ) -> Vector3<f64> {
         let vector = |written: &Written| {
             let Written::List(items) = written else { return None };
             let parts = items.iter().map(|item| item.quantity(unit)).collect::<Option<Vec<f64>>>()?;
@@ -102,7 +107,7 @@ impl Builder<'_> {
         self.read(place, Some(written), vector, allowed).unwrap_or_else(Vector3::x)
     }
 
-    fn date(&mut self, place: &KeyPath, written: &Written) -> Option<(f64, String)> {
+    fn date(&mut self, place: &Place<'_>, written: &Written) -> Option<(f64, String)> {
         let date = |written: &Written| {
             let text = written.date()?;
             Some((dates::epoch_s(text).ok()?, text.to_owned()))
@@ -111,19 +116,19 @@ impl Builder<'_> {
     }
 
     /// With the key that it stands in.
-    fn aimpoint(&mut self, arrive: &KeyPath, to: &ArriveDescription) -> (KeyPath, FlybyAimpoint) {
+    fn aimpoint<'p>(&mut self, arrive: &Place<'p>, to: &ArriveDescription) -> (Place<'p>, FlybyAimpoint) {
         let [altitude, angle, b_t, b_r] = ["altitude", "angle", "bT", "bR"].map(|key| arrive.key(key));
         match (to.altitude.as_deref(), to.angle.as_deref(), to.b_t.as_deref(), to.b_r.as_deref()) {
             (Some(above), Some(toward), None, None) => {
                 let altitude_m = self.required(&altitude, above, ("m", ALLOWED_LENGTH));
-                if altitude_m <= 0.0 && !self.check.has_reported(&altitude) {
+                if altitude_m <= 0.0 && !altitude.has_reported() {
                     let found = format!("{above}, inside the planet");
                     let allowed = format_args!("an altitude above 0: {ALLOWED_LENGTH}");
-                    self.check.report(&altitude, found, allowed);
+                    altitude.report(found, allowed);
                 }
                 let angle_rad = self.required(&angle, toward, ("rad", ALLOWED_ANGLE));
                 if angle_rad.abs() > core::f64::consts::TAU {
-                    self.check.report(&angle, toward, ALLOWED_ANGLE);
+                    angle.report(toward, ALLOWED_ANGLE);
                 }
                 (altitude, FlybyAimpoint::Altitude { altitude_m, angle_rad })
             }
@@ -137,13 +142,13 @@ impl Builder<'_> {
                 let found: Vec<&str> =
                     keys.iter().filter(|(_, it)| it.is_some()).map(|(key, _)| *key).collect();
                 let found = if found.is_empty() { "no aim".to_owned() } else { found.join(", ") };
-                self.check.report(arrive, found, "altitude and angle, or bT and bR");
+                arrive.report(found, "altitude and angle, or bT and bR");
                 (arrive.clone(), FlybyAimpoint::Plane { b_t_m: 0.0, b_r_m: 0.0 })
             }
         }
     }
 
-    fn revolutions(&mut self, arrive: &KeyPath, to: &ArriveDescription) -> Option<(u32, LambertBranch)> {
+    fn revolutions(&mut self, arrive: &Place<'_>, to: &ArriveDescription) -> Option<(u32, LambertBranch)> {
         let [key, branch] = ["revolutions", "branch"].map(|key| arrive.key(key));
         let number = |written: &Written| {
             let Written::Integer(number) = written else { return None };
@@ -157,14 +162,14 @@ impl Builder<'_> {
         match (number, to.branch) {
             (0, None) => None,
             (0, Some(_)) => {
-                self.check.report(&branch, "it without revolutions", "revolutions = 1 or more, or no branch");
+                branch.report("it without revolutions", "revolutions = 1 or more, or no branch");
                 None
             }
             (number, Some(ArcBranch::Left)) => Some((number, LambertBranch::Left)),
             (number, Some(ArcBranch::Right)) => Some((number, LambertBranch::Right)),
             (_, None) => {
                 let allowed = "branch = \"left\" or \"right\", of two arcs that go around so often";
-                self.check.report_lack(arrive, "branch", allowed);
+                arrive.report_lack("branch", allowed);
                 None
             }
         }

@@ -4,7 +4,7 @@ pub(in crate::plan) mod encounter;
 
 use std::path::{Path, PathBuf};
 
-use physics::{constants::DAY_S, toml::KeyPath};
+use physics::{constants::DAY_S, toml::Place};
 
 use self::encounter::{Compare, Flyby, MonteCarlo, Update};
 use super::description::{ActivityDescription, ContactDescription, MomentumPlanDescription};
@@ -110,10 +110,10 @@ impl PlanFile {
 
 impl Builder<'_> {
     fn plan(&mut self, file: &Path, description: MomentumPlanDescription) -> PlanFile {
-        let root = KeyPath::root();
+        let root = self.root.clone();
         let of_cruise = ["window", "windmill", "alternation", "sunOffset", "contact", "contactShare"];
         let of_cruise = of_cruise.map(|key| root.key(key)).into_iter();
-        let of_cruise = of_cruise.filter(|key| self.check.is_written(key)).map(|key| self.at(&key, ()));
+        let of_cruise = of_cruise.filter(|key| key.is_written()).map(|key| self.at(&key, ()));
         let of_cruise = of_cruise.collect();
         let momentum = description.momentum.unwrap_or_default();
         let sun_offset = description.sun_offset.unwrap_or_default();
@@ -126,11 +126,11 @@ impl Builder<'_> {
         let windmill_rad = self.angle(&windmill, description.windmill.as_deref());
         let share = root.key("contactShare");
         if description.contact_share.is_some() && description.contact.is_some() {
-            self.check.report(&share, "contactShare beside [[contact]]", "one of them");
+            share.report("contactShare beside [[contact]]", "one of them");
         }
         let margin = of_momentum.key("margin");
         if momentum.margin.is_some() && momentum.refit.is_some() {
-            self.check.report(&margin, "margin beside refit", "one of them");
+            margin.report("margin beside refit", "one of them");
         }
         let freeze_s = self.span(&root.key("freeze"), description.freeze.as_deref(), 14.0 * DAY_S, 0.0);
         let window_s = self.span(&root.key("window"), description.window.as_deref(), 3.0 * DAY_S, 3600.0);
@@ -177,7 +177,11 @@ impl Builder<'_> {
         }
     }
 
-    fn contacts(&mut self, list: &KeyPath, contacts: &[ContactDescription]) -> Vec<At<[values::Instant; 2]>> {
+    fn contacts(
+        &mut self,
+        list: &Place<'_>,
+        contacts: &[ContactDescription],
+    ) -> Vec<At<[values::Instant; 2]>> {
         let mut found: Vec<At<[values::Instant; 2]>> = Vec::new();
         for (index, contact) in contacts.iter().enumerate() {
             let place = list.item(index);
@@ -190,23 +194,23 @@ impl Builder<'_> {
             if overlaps {
                 let found = format!("{}, before the contact above ends", *contact.start);
                 let allowed = "contacts in the order of time, none overlapping";
-                self.check.report(&place.key("start"), found, allowed);
+                place.key("start").report(found, allowed);
             }
             found.push(self.at(&place, span));
         }
         found
     }
 
-    fn activity(&mut self, place: &KeyPath, activity: ActivityDescription) -> Option<At<Activity>> {
+    fn activity(&mut self, place: &Place<'_>, activity: ActivityDescription) -> Option<At<Activity>> {
         let span = self.spanned(place, &activity.start, &activity.stop);
         let key = place.key("command");
         let command = &*activity.command;
         let Written::Table(table) = command else {
-            self.check.report(&key, command, "a table with the keys of a command in a timeline");
+            key.report(command, "a table with the keys of a command in a timeline");
             return None;
         };
         for clock in ["at", "until"].into_iter().filter(|clock| table.contains_key(*clock)) {
-            self.check.report(&key.key(clock), "it", "start and stop of the activity alone");
+            key.key(clock).report("it", "start and stop of the activity alone");
         }
         let command = table.iter().map(|(name, value)| format!("{name} = {}\n", inline(value))).collect();
         Some(self.at(place, Activity { name: activity.name, span: span?, command }))

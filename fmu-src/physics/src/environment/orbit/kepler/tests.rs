@@ -73,7 +73,7 @@ proptest! {
 
     #[test]
     fn agrees_with_bisection(m in 0.0..PI, e in 0.0..0.95f64) {
-        let root = roots::bracketed(-0.1, PI + 0.1, 0.0, |x| x - e * x.sin() - m).unwrap();
+        let root = roots::bracketed(-0.1, PI + 0.1, |x| x - e * x.sin() - m).unwrap();
         prop_assert!((eccentric(m, e).angle_rad - root).abs() < 1e-14 / (1.0 - e));
     }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use nalgebra::{Matrix6, SymmetricEigen, Vector3};
-use physics::{constants::DAY_S, toml::KeyPath};
+use physics::{constants::DAY_S, toml::Place};
 use planner::leg::FlybyAimpoint;
 
 use crate::{
@@ -62,7 +62,7 @@ pub(in crate::plan) struct MonteCarlo {
 }
 
 impl Builder<'_> {
-    pub(super) fn flyby(&mut self, place: &KeyPath, flyby: FlybyDescription) -> Option<Flyby> {
+    pub(super) fn flyby(&mut self, place: &Place<'_>, flyby: FlybyDescription) -> Option<Flyby> {
         let [b_t_m, b_r_m, altitude_m] =
             [("bT", &flyby.b_t), ("bR", &flyby.b_r), ("altitude", &flyby.altitude)]
                 .map(|(key, written)| self.length(&place.key(key), written.as_deref()));
@@ -76,12 +76,12 @@ impl Builder<'_> {
             (None, None, Some(altitude_m), Some(angle_rad)) => {
                 if altitude_m < 0.0 {
                     let found = format!("{altitude_m} m, inside of the planet");
-                    self.check.report(&place.key("altitude"), found, "an altitude from 0 on");
+                    place.key("altitude").report(found, "an altitude from 0 on");
                 }
                 Some((FlybyAimpoint::Altitude { altitude_m, angle_rad }, "altitude"))
             }
             _ => {
-                self.check.report(place, "no whole aim, or two", "either bT and bR, or altitude and angle");
+                place.report("no whole aim, or two", "either bT and bR, or altitude and angle");
                 None
             }
         };
@@ -90,18 +90,18 @@ impl Builder<'_> {
             None | Some("free") => false,
             Some("fixed") => true,
             Some(found) => {
-                self.check.report(&arrival, format_args!("{found:?}"), "free or fixed");
+                arrival.report(format_args!("{found:?}"), "free or fixed");
                 false
             }
         };
         let time = match (&flyby.time, is_fixed) {
             (Some(written), true) => self.instant_at(&place.key("time"), written),
             (None, true) => {
-                self.check.report(&arrival, "fixed without time", "time = a date, beside it");
+                arrival.report("fixed without time", "time = a date, beside it");
                 None
             }
             (Some(_), false) => {
-                self.check.report(&place.key("time"), "it", "arrival = \"fixed\" beside it");
+                place.key("time").report("it", "arrival = \"fixed\" beside it");
                 None
             }
             (None, false) => None,
@@ -110,7 +110,7 @@ impl Builder<'_> {
         let tolerance = place.key("tolerance");
         let tolerance_m = self.length(&tolerance, flyby.tolerance.as_deref()).unwrap_or(1e3);
         if let Some(written) = flyby.tolerance.as_deref().filter(|_| tolerance_m < LEAST_TOLERANCE_M) {
-            self.check.report(&tolerance, written, "a length from 1 m on");
+            tolerance.report(written, "a length from 1 m on");
         }
         let (aimpoint, key) = aimpoint?;
         Some(Flyby {
@@ -122,14 +122,14 @@ impl Builder<'_> {
         })
     }
 
-    pub(super) fn update(&mut self, place: &KeyPath, update: UpdateDescription) -> Option<Update> {
+    pub(super) fn update(&mut self, place: &Place<'_>, update: UpdateDescription) -> Option<Update> {
         let at = self.instant_at(&place.key("at"), &update.at);
         let [position_m, velocity_m_s] =
             [("position", update.position), ("velocity", update.velocity)].map(|(key, vector)| {
                 let vector = vector?;
                 let is_finite = vector.iter().all(|component| component.is_finite());
                 if !is_finite {
-                    self.check.report(&place.key(key), format_args!("{vector:?}"), "three finite numbers");
+                    place.key(key).report(format_args!("{vector:?}"), "three finite numbers");
                 }
                 Some(Vector3::from(vector))
             });
@@ -137,12 +137,12 @@ impl Builder<'_> {
             let key = place.key("covariance");
             let file = self.path(&key, &path, Path::is_file);
             let found = file.is_file().then(|| covariance(&file))?;
-            found.map_err(|(found, allowed)| self.check.report(&key, found, allowed)).ok()
+            found.map_err(|(found, allowed)| key.report(found, allowed)).ok()
         });
         Some(Update { at: at?, position_m, velocity_m_s, covariance })
     }
 
-    pub(super) fn compare(&mut self, place: &KeyPath, compare: CompareDescription) -> Option<Compare> {
+    pub(super) fn compare(&mut self, place: &Place<'_>, compare: CompareDescription) -> Option<Compare> {
         let direction = place.key("directionError");
         let direction_error_rad = self.angle(&direction, compare.direction_error.as_deref());
         let magnitude = place.key("magnitudeError");
@@ -172,14 +172,14 @@ impl Builder<'_> {
         })
     }
 
-    pub(super) fn monte_carlo(&mut self, place: &KeyPath, table: MonteCarloDescription) -> MonteCarlo {
+    pub(super) fn monte_carlo(&mut self, place: &Place<'_>, table: MonteCarloDescription) -> MonteCarlo {
         let runs = place.key("runs");
         let count = match table.runs.as_deref() {
             None => 200,
             written => self.count(&runs, written, 0).unwrap_or(0) as usize,
         };
         if !(2..=MOST_RUNS).contains(&count) {
-            self.check.report(&runs, count, format_args!("from 2 to {MOST_RUNS}"));
+            runs.report(count, format_args!("from 2 to {MOST_RUNS}"));
         }
         let seed = self.count(&place.key("seed"), table.seed.as_deref(), 0).unwrap_or(1);
         let deviation_m = |written: &Written| written.quantity("m").filter(|it| *it >= 0.0);
