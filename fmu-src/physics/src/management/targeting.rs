@@ -66,10 +66,8 @@ pub struct Targeting<'a> {
     pub axes: TargetAxes,
     /// Formula.
     pub method: TargetingMethod,
-    /// Keep-in limits of the Sun about -Y: greatest magnitude of the azimuth, in rad.
-    pub azimuth_limit_rad: f64,
-    /// Greatest magnitude of the elevation, in rad.
-    pub elevation_limit_rad: f64,
+    /// Limits of the Sun's place.
+    pub limits: KeepInLimits,
     /// Antennas; one of them keeps the Earth in its range.
     pub antennas: &'a Antennas,
 }
@@ -186,15 +184,11 @@ impl Targeting<'_> {
     fn branches(&self, separation_rad: f64) -> Option<Branches> {
         // Neither places nor separation is known where one has no direction.
         let has_plane = math::sin(separation_rad) > 1e-9;
-        has_plane.then(|| Branch::all(self.limits(), self.antennas, separation_rad))
+        has_plane.then(|| Branch::all(self.limits, self.antennas, separation_rad))
     }
 
     fn zone(&self) -> Branch {
-        Branch::zone(self.limits())
-    }
-
-    fn limits(&self) -> KeepInLimits {
-        KeepInLimits { azimuth_rad: self.azimuth_limit_rad, elevation_rad: self.elevation_limit_rad }
+        Branch::zone(self.limits)
     }
 }
 

@@ -149,12 +149,6 @@ impl AttitudeCommand {
     pub fn new(frame: MovingFrame, margins: [f64; 2]) -> Self {
         Self { frame, margins, clamped: false, degenerate: false, corner_s: f64::INFINITY }
     }
-
-    /// Turned by 180 deg about the Sun line: the Sun stays in its place.
-    #[must_use]
-    pub fn alternate(self, to_sun: &MovingUnit) -> Self {
-        Self { frame: self.frame.half_turned(to_sun), ..self }
-    }
 }
 
 /// Margins of a law that has one form only.

@@ -186,7 +186,10 @@ impl OrbitPhaseLaw<'_> {
             (Activity::Downlink, None) => downlink(lines, self.default_downlink),
         };
         let command = found.unwrap_or_else(|| sun_pointing(lines));
-        if alternate && activity == Activity::Downlink { command.alternate(&lines.sun) } else { command }
+        // Turned by 180 deg about the Sun line: the Sun stays in its place.
+        let is_turned = alternate && activity == Activity::Downlink;
+        let frame = if is_turned { command.frame.half_turned(&lines.sun) } else { command.frame };
+        AttitudeCommand { frame, ..command }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::attitude::name;
-use super::burn::{Span, burn as burn_of};
+use super::burn::burn as burn_of;
 use super::commands::{Commands, Reader};
 use super::description::TimelineDescription;
 use super::entry::{
@@ -13,6 +13,7 @@ use super::events::{event, panels as panels_from};
 use super::scans::scan;
 use super::times::Times;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
+use crate::numerics::Span;
 use crate::spacecraft::Spacecraft;
 use crate::toml::{Checker, Document, FileError, Place, TIMELINE_LIMITS};
 
@@ -77,10 +78,10 @@ impl Timeline {
             names.push(name(&at, description));
             let next_s = spans.iter().skip(index + 1).find_map(|[next_s, _]| *next_s);
             let end_s = until_s.or(next_s).unwrap_or(f64::INFINITY);
-            let span = Span { clock, at_s: at_s.unwrap_or(f64::NAN), end_s };
+            let span = Span::new(at_s.unwrap_or(f64::NAN), end_s);
             let burns = command.scenario == Some(Scenario::Burn);
             let burn = description.burn.as_ref().filter(|_| burns);
-            let burn = burn.map(|given| burn_of(spacecraft, &at.key("burn"), given, span));
+            let burn = burn.map(|given| burn_of(spacecraft, &at.key("burn"), given, clock, span));
             let scan = scan(&at, description, &command);
             entries.push(TimelineEntry {
                 line: at.line(),

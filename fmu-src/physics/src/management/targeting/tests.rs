@@ -18,8 +18,10 @@ fn targeting() -> Targeting<'static> {
     Targeting {
         axes: TargetAxes::Xz,
         method: TargetingMethod::Exact,
-        azimuth_limit_rad: 15.0 * crate::constants::DEG_RAD,
-        elevation_limit_rad: 13.0 * crate::constants::DEG_RAD,
+        limits: KeepInLimits {
+            azimuth_rad: 15.0 * crate::constants::DEG_RAD,
+            elevation_rad: 13.0 * crate::constants::DEG_RAD,
+        },
         antennas: &QUADRANTS,
     }
 }
@@ -133,8 +135,8 @@ fn an_attainable_target_is_hit_to_rounding() {
                         assert_relative_eq!(end[component], target[component], epsilon = 1e-11);
                     }
                 }
-                assert!(place.angles.azimuth_rad.abs() <= targeting.azimuth_limit_rad);
-                assert!(place.angles.elevation_rad.abs() <= targeting.elevation_limit_rad);
+                assert!(place.angles.azimuth_rad.abs() <= targeting.limits.azimuth_rad);
+                assert!(place.angles.elevation_rad.abs() <= targeting.limits.elevation_rad);
                 let earth_rad = SunAngles::from_direction(&(body * to_earth)).azimuth_rad.to_degrees();
                 assert!(
                     (-90.0 - 1e-9..=1e-9).contains(&earth_rad) || earth_rad >= 90.0 - 1e-9,
@@ -174,8 +176,8 @@ fn no_admissible_place_comes_nearer_to_a_target_out_of_reach() {
                 for i in -40..=40 {
                     for j in -40..=40 {
                         let angles = SunAngles {
-                            azimuth_rad: targeting().azimuth_limit_rad * f64::from(i) / 40.0,
-                            elevation_rad: targeting().elevation_limit_rad * f64::from(j) / 40.0,
+                            azimuth_rad: targeting().limits.azimuth_rad * f64::from(i) / 40.0,
+                            elevation_rad: targeting().limits.elevation_rad * f64::from(j) / 40.0,
                         };
                         let Some(place) = branch.place(angles) else { continue };
                         let other = state.left(&place, &target).xz().norm();

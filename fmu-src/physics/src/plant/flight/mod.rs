@@ -24,6 +24,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use crate::attitude::control::Estimate;
 use crate::loads::ForceTorque;
 use crate::numerics::Span;
+use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::events::{self, EventKind};
