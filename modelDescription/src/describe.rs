@@ -6,6 +6,9 @@ use core::ffi::{c_char, c_int, c_void};
 /// Name of the symbol.
 pub const SYMBOL: &str = "fmi_export_describe";
 
+/// A text of the caller, or NULL.
+pub type Text = *const c_char;
+
 /// Takes one text: the caller's context, the [`kind`], the UTF-8 text and its length in bytes. The text is the library's
 /// and is valid until the function returns.
 pub type Receive = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, usize);
@@ -17,8 +20,7 @@ pub type Receive = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, usize
 /// flight, the beginning of its manual, and by what it computes, one `quantity TAB source` at a time. With a model's name: the same, then the `modelDescription.xml` for `setup_text`, or for
 /// the compiled-in text if that is NULL. `setup_file` names the text in errors; NULL means the model's own file name. Returns
 /// 0, or 1 after an error was sent. The texts given stay the caller's and are not kept; `context` goes to `receive` unread.
-pub type Describe =
-    unsafe extern "C" fn(*const c_char, *const c_char, *const c_char, *mut c_void, Option<Receive>) -> c_int;
+pub type Describe = unsafe extern "C" fn(Text, Text, Text, *mut c_void, Option<Receive>) -> c_int;
 
 /// Name of the symbol of [`CheckSchedule`].
 pub const CHECK_SCHEDULE_SYMBOL: &str = "fmi_export_check_schedule_file";
@@ -29,16 +31,8 @@ pub const CHECK_SCHEDULE_SYMBOL: &str = "fmi_export_check_schedule_file";
 /// Whether the model takes this text as its `schedule`, one of the [`kind::SCHEDULE_FILE`]s it was introduced with, with this
 /// setup: 0, or 1 after an error was sent. Everything else as in [`Describe`]; `schedule_file` names the text in errors; NULL
 /// means `schedule` itself.
-pub type CheckSchedule = unsafe extern "C" fn(
-    *const c_char,
-    *const c_char,
-    *const c_char,
-    *const c_char,
-    *const c_char,
-    *const c_char,
-    *mut c_void,
-    Option<Receive>,
-) -> c_int;
+pub type CheckSchedule =
+    unsafe extern "C" fn(Text, Text, Text, Text, Text, Text, *mut c_void, Option<Receive>) -> c_int;
 
 /// Kinds of texts that are received.
 pub mod kind {

@@ -89,8 +89,7 @@ impl std::error::Error for Misfit {}
 
 /// Unit of a Real, its own or its declared type's.
 pub fn unit<'a>(description: &'a Description, variable: &'a ScalarVariable) -> Option<&'a str> {
-    let VariableKind::Real { declared_type, attributes, .. } = &variable.kind else { return None };
-    attributes.unit.as_deref().or_else(|| real_type(description, declared_type.as_deref()?)?.unit.as_deref())
+    attribute(description, variable, |it| it.unit.as_deref())
 }
 
 /// The display unit of a Real as (name, factor, offset): value_display = factor * value + offset.
@@ -100,21 +99,23 @@ pub fn display_unit<'a>(
     description: &'a Description,
     variable: &'a ScalarVariable,
 ) -> Option<(&'a str, f64, f64)> {
-    let VariableKind::Real { declared_type, attributes, .. } = &variable.kind else { return None };
-    let name = attributes
-        .display_unit
-        .as_deref()
-        .or_else(|| real_type(description, declared_type.as_deref()?)?.display_unit.as_deref())?;
+    let name = attribute(description, variable, |it| it.display_unit.as_deref())?;
     let displays = display_units(description, unit(description, variable)?);
     let display = displays.iter().find(|candidate| candidate.name == name)?;
     Some((name, display.factor, display.offset))
 }
 
-fn real_type<'a>(description: &'a Description, name: &str) -> Option<&'a RealAttributes> {
-    match type_named(description, name)? {
-        SimpleTypeKind::Real { attributes } => Some(attributes),
+/// An attribute of a Real, its own or its declared type's.
+fn attribute<'a, T>(
+    description: &'a Description,
+    variable: &'a ScalarVariable,
+    of: impl Fn(&'a RealAttributes) -> Option<T>,
+) -> Option<T> {
+    let VariableKind::Real { declared_type, attributes, .. } = &variable.kind else { return None };
+    of(attributes).or_else(|| match type_named(description, declared_type.as_deref()?)? {
+        SimpleTypeKind::Real { attributes } => of(attributes),
         _ => None,
-    }
+    })
 }
 
 fn type_named<'a>(description: &'a Description, name: &str) -> Option<&'a SimpleTypeKind> {
@@ -246,15 +247,22 @@ pub fn check(description: &Description, variable: &ScalarVariable, value: &Value
             (None, None) => allowed(description, variable),
         }
     };
-    let range = match (&variable.kind, value) {
+    let fits = match (&variable.kind, value) {
         (VariableKind::Real { .. }, Value::Real(number)) => {
+            number.is_finite() && is_within(*number, limits(description, variable))
+        }
+        (VariableKind::Integer { min, max, .. }, Value::Integer(number)) => is_within(*number, (*min, *max)),
+        (VariableKind::Enumeration { .. }, Value::Integer(number)) => {
+            items(description, variable).iter().any(|item| item.value == *number)
+        }
+        (kind, value) => kind.base_type() == value.base_type(),
+    };
+    if fits {
+        return Ok(());
+    }
+    let range = match (&variable.kind, value) {
+        (VariableKind::Real { .. }, Value::Real(_)) => {
             let (min, max) = limits(description, variable);
-            if number.is_finite()
-                && min.is_none_or(|min| *number >= min)
-                && max.is_none_or(|max| *number <= max)
-            {
-                return Ok(());
-            }
             let short = |bound: f64| {
                 if bound == 0.0 || (1e-3..1e7).contains(&bound.abs()) {
                     bound.to_string()
@@ -264,20 +272,8 @@ pub fn check(description: &Description, variable: &ScalarVariable, value: &Value
             };
             between(min.map(short), max.map(short), unit(description, variable))
         }
-        (VariableKind::Integer { min, max, .. }, Value::Integer(number)) => {
-            if min.is_none_or(|min| *number >= min) && max.is_none_or(|max| *number <= max) {
-                return Ok(());
-            }
+        (VariableKind::Integer { min, max, .. }, Value::Integer(_)) => {
             between(min.map(|min| min.to_string()), max.map(|max| max.to_string()), None)
-        }
-        (VariableKind::Enumeration { .. }, Value::Integer(number)) => {
-            if items(description, variable).iter().any(|item| item.value == *number) {
-                return Ok(());
-            }
-            allowed(description, variable)
-        }
-        (VariableKind::Boolean { .. }, Value::Boolean(_)) | (VariableKind::String { .. }, Value::Text(_)) => {
-            return Ok(());
         }
         _ => allowed(description, variable),
     };
@@ -329,9 +325,11 @@ pub fn angle_misfit(
 
 /// `min` and `max` of a Real, its own or its declared type's.
 pub fn limits(description: &Description, variable: &ScalarVariable) -> (Option<f64>, Option<f64>) {
-    let VariableKind::Real { declared_type, attributes, .. } = &variable.kind else { return (None, None) };
-    let of_type = declared_type.as_deref().and_then(|name| real_type(description, name));
-    (attributes.min.or_else(|| of_type?.min), attributes.max.or_else(|| of_type?.max))
+    (attribute(description, variable, |it| it.min), attribute(description, variable, |it| it.max))
+}
+
+fn is_within<T: PartialOrd>(number: T, (min, max): (Option<T>, Option<T>)) -> bool {
+    min.is_none_or(|min| number >= min) && max.is_none_or(|max| number <= max)
 }
 
 /// The start value of a variable.

@@ -89,6 +89,7 @@ const PUBLIC_MACROS: &[&str] = &[
     "tables!",
     "ranges!",
     "enumeration!",
+    "file_enumerations!",
     "effects!",
     "codes!",
     "functions!",

@@ -29,21 +29,10 @@ impl Problem {
         Self { status: Status::Discard, text: text.to_string() }
     }
 
-    /// Values were read before Initialization Mode: they are start values, or what was set since.
+    /// The call was carried out, with something to tell.
     #[cold]
-    pub(crate) fn read_before_initialization() -> Self {
-        let text = "variables are read before Initialization Mode, which FMI 2.0 does not allow: answered with their start \
-                    values, or what was set since";
-        Self { status: Status::Warning, text: text.to_owned() }
-    }
-
-    /// Output derivatives beyond maxOutputDerivativeOrder were requested: they are 0.
-    #[cold]
-    pub(crate) fn beyond_output_derivatives(order: u32, largest: u32) -> Self {
-        let text = format!(
-            "output derivatives of order {order} are answered with 0: maxOutputDerivativeOrder is {largest}"
-        );
-        Self { status: Status::Warning, text }
+    pub(crate) fn warning(text: impl fmt::Display) -> Self {
+        Self { status: Status::Warning, text: text.to_string() }
     }
 
     /// An argument breaks the C contract: null pointer, bad flag, wrong size.

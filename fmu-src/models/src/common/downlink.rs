@@ -43,7 +43,7 @@ impl DownlinkVariables {
                 elevation_rad: values.real(self.sun_elevation),
             },
             alternate: values.boolean(self.alternate),
-            zone: None,
+            ..SunRequest::default()
         }
     }
 }

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use physics::enumeration::Enumerated;
 use physics::guidance::pointing::antenna::Antennas;
 use physics::guidance::{NoCycle, Schedule};
-use physics::management::{self, Manager, Strategy, TargetAxes, Targeting, TargetingMethod};
+use physics::management::{self, KeepInLimits, Manager, Strategy, TargetAxes, Targeting, TargetingMethod};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 
 use super::choices::choices;
@@ -75,14 +75,13 @@ impl TargetingVariables {
         managed: ManagedSpacecraft<'s>,
     ) -> Manager<'s> {
         let ManagedSpacecraft { spacecraft, sunshade, antennas, sun_limits_rad, bias_body_n_m_s } = managed;
-        let [azimuth_limit_rad, elevation_limit_rad] = sun_limits_rad;
+        let [azimuth_rad, elevation_rad] = sun_limits_rad;
         Manager {
             strategy,
             targeting: Targeting {
                 axes: values.choice(self.target_axes).0,
                 method: values.choice(self.targeting).0,
-                azimuth_limit_rad,
-                elevation_limit_rad,
+                limits: KeepInLimits { azimuth_rad, elevation_rad },
                 antennas,
             },
             target_body_n_m_s: self.target_body_n_m_s(values),

@@ -4,7 +4,7 @@ use fmi_export::{Choice, Failure, Real, RealVector, Values, Variables};
 use nalgebra::Vector3;
 use physics::enumeration::Enumerated;
 use physics::guidance;
-use physics::guidance::downlink::sun_direction::SunZone;
+use physics::guidance::constraints::keep_in::KeepIn;
 use physics::guidance::pointing::command;
 use physics::spacecraft::{
     AlignedAxes, AttitudeName, AttitudePart, AttitudeRefusal, NamedAttitude, Panel, PointingSettings,
@@ -123,7 +123,7 @@ pub struct RuleContext<'a> {
     /// The spacecraft's panels.
     pub panels: &'a [Panel],
     /// Zone that keeps the Sun, where one is in force.
-    pub zone: Option<SunZone>,
+    pub zone: Option<KeepIn>,
 }
 
 impl NamedAttitudeVariables {

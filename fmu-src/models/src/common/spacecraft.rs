@@ -54,15 +54,11 @@ impl PreparedShapes {
     /// # Errors
     /// A shape that the file does not describe.
     pub fn solar(&self, model: SunshadeModel, name: &str) -> Result<&SolarModel, Failure> {
-        let prepared = match model {
-            SunshadeModel::Plates => &self.plates,
-            SunshadeModel::Cylinder => &self.cylinder,
+        let (prepared, requested, other) = match model {
+            SunshadeModel::Plates => (&self.plates, "plates", "cylinder"),
+            SunshadeModel::Cylinder => (&self.cylinder, "cylinder", "plates"),
         };
         prepared.as_ref().ok_or_else(|| {
-            let (requested, other) = match model {
-                SunshadeModel::Plates => ("plates", "cylinder"),
-                SunshadeModel::Cylinder => ("cylinder", "plates"),
-            };
             Failure::new(format!(
                 "sunshade.shape: found {requested}, allowed: {other}, as which alone the spacecraft.toml of {name} describes the \
                  shade"

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use fmi_export::{
     About, DeferredOutputs, Dependencies, Differentiable, Extensions, Failure, Knowns, Manual, Model,
-    OutputGroups, Real, SetupError, StartValue, Step, StepEnd, Values,
+    OutputGroups, Real, SetupError, StartValue, Step, StepEnd, Values, knowns,
 };
 use physics::numerics::scalar::Dual64;
 use physics::plant::{BySource, Parameters, Positions, TUNABLE_COUNT, Workspaces};
@@ -200,8 +200,10 @@ impl Differentiable for DisturbanceTorque {
 }
 
 impl DeferredOutputs for DisturbanceTorque {
-    fn output_groups(variables: &DisturbanceVariables) -> Vec<Knowns> {
-        outputs::groups(variables).into()
+    /// The outputs in groups: totals, sources, faces.
+    fn output_groups(v: &DisturbanceVariables) -> Vec<Knowns> {
+        let totals = knowns![v.torque.total, v.force.total, v.sun.lit_fraction];
+        vec![totals, knowns![&v.torque.by_source, &v.force.by_source], knowns![&v.plate]]
     }
 
     fn write_outputs(

@@ -1,6 +1,6 @@
 //! From what acts by source to the output variables.
 
-use fmi_export::{Knowns, OutputGroups, Real, RealVector, Values, knowns};
+use fmi_export::{OutputGroups, Real, RealVector, Values};
 use nalgebra::Vector3;
 use physics::numerics::scalar::Scalar;
 use physics::plant::BySource;
@@ -8,12 +8,6 @@ use physics::radiation::disturbance::Workspace;
 
 use super::variables::DisturbanceVariables;
 use crate::common::loads;
-
-/// The outputs in groups: totals, sources, faces.
-pub(super) fn groups(v: &DisturbanceVariables) -> [Knowns; 3] {
-    let totals = knowns![v.torque.total, v.force.total, v.sun.lit_fraction];
-    [totals, knowns![&v.torque.by_source, &v.force.by_source], knowns![&v.plate]]
-}
 
 /// What the outputs show.
 pub(super) struct Shown<'v, T: Scalar> {

@@ -8,8 +8,8 @@ mod state;
 mod variables;
 
 use fmi_export::{
-    About, Dependencies, Extensions, Failure, InputsOverTime, Manual, Model, OutputRates, Real, SetupError,
-    StartValue, Step, StepEnd, Values,
+    About, Dependencies, Extensions, Failure, InputsOverTime, Manual, Model, SetupError, StartValue, Step,
+    StepEnd, Values,
 };
 use physics::enumeration::Enumerated;
 use physics::environment::coarse_ephemeris::CoarseEphemeris;
@@ -251,11 +251,5 @@ fn warn_of_missed_burn(context: &Plan<'_>, before: &BurnState, now: &BurnState, 
             "burn.timedOut: the burn ended before it began, by another scenario or mode or after waiting for burn.timeout",
         ),
         _ => {}
-    }
-}
-
-impl OutputRates for Guidance {
-    fn output_rate(context: &Plan<'_>, _values: &Values, state: &State, output: Real) -> Option<f64> {
-        outputs::derivative(context, state, output)
     }
 }

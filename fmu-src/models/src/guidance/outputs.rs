@@ -1,11 +1,11 @@
 //! From the command in force to the output variables.
 
-use fmi_export::{Real, Values};
+use fmi_export::{OutputRates, Real, Values};
 
 use physics::guidance::burn::delta_v::{BurnSettings, BurnState};
 
 use super::inputs::Fixed;
-use super::setup::Plan;
+use super::setup::{Guidance, Plan};
 use super::state::State;
 use super::variables::choices::{ActiveMode, AntennaSelect, EphemerisModel, EphemerisSource, ModeReason};
 use crate::common::choices::{CommandKind, ThrustRequest};
@@ -84,19 +84,21 @@ fn burn(context: &Plan<'_>, values: &mut Values, state: &BurnState, settings: &B
     values.set_boolean(burn.timed_out, state.is_missed());
 }
 
-/// Time derivative of an output at the last communication point.
-pub(super) fn derivative(context: &Plan<'_>, state: &State, output: Real) -> Option<f64> {
-    let (v, State { system, time_s, .. }) = (context.variables, state);
-    if output == v.epoch {
-        return Some(1.0);
+impl OutputRates for Guidance {
+    /// Time derivative of an output at the last communication point.
+    fn output_rate(context: &Plan<'_>, _values: &Values, state: &State, output: Real) -> Option<f64> {
+        let (v, State { system, time_s, .. }) = (context.variables, state);
+        if output == v.epoch {
+            return Some(1.0);
+        }
+        if let Some(index) = v.command.q.index_of(output) {
+            return Some(system.command.quaternion_rate_at(*time_s)[index]);
+        }
+        let rates = system.sun_line.angle_rates_at(&system.command, *time_s);
+        [v.sun.azimuth, v.sun.elevation]
+            .into_iter()
+            .zip(rates)
+            .find(|(angle, _)| *angle == output)
+            .map(|(_, rate)| rate)
     }
-    if let Some(index) = v.command.q.index_of(output) {
-        return Some(system.command.quaternion_rate_at(*time_s)[index]);
-    }
-    let rates = system.sun_line.angle_rates_at(&system.command, *time_s);
-    [v.sun.azimuth, v.sun.elevation]
-        .into_iter()
-        .zip(rates)
-        .find(|(angle, _)| *angle == output)
-        .map(|(_, rate)| rate)
 }

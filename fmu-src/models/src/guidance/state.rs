@@ -70,7 +70,7 @@ impl State {
         let since_s = core::mem::replace(&mut self.events_until_s, time_s);
         let timeline = context.setup.timeline.as_ref()?;
         let (clock_minus_time_s, events) =
-            (timeline.clock_minus_time_s(self.epoch_minus_time_s), timeline.events());
+            (timeline.clock_minus_time_s(self.epoch_minus_time_s), &timeline.events);
         let [before, now] =
             [since_s, time_s].map(|it| begun(events, clock_minus_time_s, it, |event| event.at_s));
         events.get(before..now)?.iter().rev().find_map(|event| event.dump).map(|dump| match dump {

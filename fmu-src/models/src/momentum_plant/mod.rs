@@ -10,8 +10,8 @@ mod step;
 mod variables;
 
 use fmi_export::{
-    About, DeferredOutputs, Dependencies, Extensions, Failure, Knowns, Manual, Model, OutputGroups,
-    OutputRates, Real, SetupError, StartValue, Step, StepEnd, Values, checksum,
+    About, Dependencies, Extensions, Failure, Manual, Model, Real, SetupError, StartValue, Step, StepEnd,
+    Values, checksum,
 };
 use physics::environment::time;
 
@@ -130,28 +130,6 @@ impl Model for MomentumPlant {
             Some(what) => Err(Failure::new(format!("{what} elsewhere than at {time_s:?} s"))),
             None => Ok(()),
         }
-    }
-}
-
-impl DeferredOutputs for MomentumPlant {
-    fn output_groups(variables: &PlantVariables) -> Vec<Knowns> {
-        outputs::groups(variables)
-    }
-
-    fn write_outputs(
-        context: &Plan<'_>,
-        values: &mut Values,
-        state: &mut PlantState,
-        groups: OutputGroups,
-        time_s: f64,
-    ) -> Result<(), Failure> {
-        outputs::write(context, values, state, groups, time_s)
-    }
-}
-
-impl OutputRates for MomentumPlant {
-    fn output_rate(context: &Plan<'_>, values: &Values, state: &PlantState, output: Real) -> Option<f64> {
-        outputs::derivative(context, values, state, output)
     }
 }
 

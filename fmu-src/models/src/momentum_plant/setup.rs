@@ -107,7 +107,7 @@ impl PlantSetup {
         let timeline = timeline.map_err(|error| SetupError(error.to_string()))?;
         let panels = self.spacecraft.panels.iter().enumerate();
         self.panel_steps =
-            panels.map(|(k, panel)| PanelStep::of_timeline(timeline.panels(), k, panel)).collect();
+            panels.map(|(k, panel)| PanelStep::of_timeline(&timeline.panels, k, panel)).collect();
         self.timeline = Some(Arc::new(timeline));
         Ok(())
     }

@@ -1,13 +1,13 @@
 //! A flight of the model begins, steps, and waits for inputs that are not set yet.
 
-use fmi_export::{Failure, InputsOverTime, OutputGroups, Step, Values};
+use fmi_export::{DeferredOutputs, Failure, InputsOverTime, OutputGroups, Step, Values};
 use physics::numerics::Span;
 use physics::plant::{NEVER_DUMPED_N_M_S, Undo};
 
 use super::inputs::{self, Reading, Reconfigured, guidance, plausibility, propulsion};
 use super::outputs;
 use super::outputs::messages::{failure, log_event};
-use super::setup::{Plan, Read};
+use super::setup::{MomentumPlant, Plan, Read};
 use super::state::{PlantState, SavedState};
 use crate::common::management::window_warning;
 
@@ -28,7 +28,7 @@ impl<'a> Call<'_, 'a> {
         // Samples at the start are taken anew by the first step, with its inputs.
         let undo = if reading.begins { Some(self.begin(&reading, time_s)?) } else { None };
         self.evaluate(&reading, time_s)?;
-        outputs::write(self.context, self.values, self.state, OutputGroups::ALL, time_s)?;
+        MomentumPlant::write_outputs(self.context, self.values, self.state, OutputGroups::ALL, time_s)?;
         if let Some(undo) = undo {
             self.state.saved.flight.undo(undo);
         }

@@ -5,9 +5,8 @@ use nalgebra::Vector3;
 use physics::spacecraft::MOST_THRUSTERS;
 use physics::spin::{
     burn_request::BurnRequest,
-    execution::PulseExecution,
     geometry::{L1Ephemeris, L1Phases},
-    plant::{Commands, Directions, PulseCommand, Start},
+    plant::{Commands, Directions, PulseCommand, PulseExecution, Start},
     series::{BodyTorque, TORQUE_TERMS},
     train::Shape,
 };

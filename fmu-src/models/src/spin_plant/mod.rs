@@ -8,8 +8,7 @@ mod setup;
 mod variables;
 
 use fmi_export::{
-    About, Dependencies, Extensions, Failure, Manual, Model, OutputRates, Real, SetupError, StartValue, Step,
-    StepEnd, Values,
+    About, Dependencies, Extensions, Failure, Manual, Model, SetupError, StartValue, Step, StepEnd, Values,
 };
 use nalgebra::Vector3;
 use physics::spin::{
@@ -130,12 +129,6 @@ impl Model for SpinPlant {
             return Ok(());
         }
         Err(Failure::new(format!("the state is one of {} s, not of {time_s} s", state.time_s)))
-    }
-}
-
-impl OutputRates for SpinPlant {
-    fn output_rate(context: &Plan<'_>, _values: &Values, state: &Plant, output: Real) -> Option<f64> {
-        outputs::derivative(context, state, output)
     }
 }
 

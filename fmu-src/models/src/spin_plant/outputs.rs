@@ -1,10 +1,10 @@
 //! From what the physics shows to the master's variables.
 
-use fmi_export::{Real, RealVector, Values};
+use fmi_export::{OutputRates, Real, RealVector, Values};
 use nalgebra::Vector3;
 use physics::spin::plant::{Bounds, Outputs, Plant, Predictions, Rates};
 
-use super::setup::Plan;
+use super::setup::{Plan, SpinPlant};
 
 /// Writes what holds for the whole flight.
 pub(super) fn write_calculated(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
@@ -92,33 +92,35 @@ fn count(number: impl TryInto<i32>) -> i32 {
     number.try_into().unwrap_or(i32::MAX)
 }
 
-/// First time derivative of an output that is continuous in time.
-pub(super) fn derivative(context: &Plan<'_>, plant: &Plant, output: Real) -> Option<f64> {
-    let v = context.variables;
-    let rates = Rates::from_plant(plant, context.setup);
-    let law = &plant.propulsion.valves.law;
-    let of = |handle: Real, value: f64| (handle == output).then_some(value);
-    let of_vector =
-        |handle: RealVector<3>, value: &Vector3<f64>| handle.index_of(output).map(|index| value[index]);
-    let of_q = v.attitude.q.index_of(output).map(|index| rates.attitude_1_s[index]);
-    of_q.or_else(|| of_vector(v.attitude.rate, &rates.rate_rad_s2))
-        .or_else(|| of_vector(v.momentum.inertial, &rates.momentum_inertial_n_m))
-        .or_else(|| of_vector(v.momentum.body, &rates.momentum_body_n_m))
-        .or_else(|| of_vector(v.spin_axis.inertial, &rates.spin_axis_1_s))
-        .or_else(|| of_vector(v.delta_v, &rates.delta_v_m_s2))
-        .or_else(|| of_vector(v.force_thruster, &law.force_body_n[1]))
-        .or_else(|| of_vector(v.torque.thruster, &law.torque_body_n_m[1]))
-        .or_else(|| of(v.spin.rate, rates.spin_rate_rad_s2))
-        .or_else(|| of(v.nutation.angle, rates.nutation_rad_s))
-        .or_else(|| of(v.nutation.phase, rates.nutation_phase_rad_s))
-        .or_else(|| of(v.sun.angle, rates.sun_angle_rad_s))
-        .or_else(|| of(v.earth.angle, rates.earth_angle_rad_s))
-        .or_else(|| of(v.spin_axis.displacement, rates.spin_axis_displacement_rad_s))
-        .or_else(|| of(v.momentum.displacement, rates.momentum_displacement_rad_s))
-        .or_else(|| of(v.star_tracker.declination_true, rates.declination_rad_s))
-        .or_else(|| of(v.energy, rates.power_w))
-        .or_else(|| of(v.propellant.used, rates.flow_kg_s))
-        .or_else(|| of(v.propellant.left, rates.mass_kg_s))
-        .or_else(|| of(v.mass, rates.mass_kg_s))
-        .filter(|rate| rate.is_finite())
+impl OutputRates for SpinPlant {
+    /// First time derivative of an output that is continuous in time.
+    fn output_rate(context: &Plan<'_>, _values: &Values, plant: &Plant, output: Real) -> Option<f64> {
+        let v = context.variables;
+        let rates = Rates::from_plant(plant, context.setup);
+        let law = &plant.propulsion.valves.law;
+        let of = |handle: Real, value: f64| (handle == output).then_some(value);
+        let of_vector =
+            |handle: RealVector<3>, value: &Vector3<f64>| handle.index_of(output).map(|index| value[index]);
+        let of_q = v.attitude.q.index_of(output).map(|index| rates.attitude_1_s[index]);
+        of_q.or_else(|| of_vector(v.attitude.rate, &rates.rate_rad_s2))
+            .or_else(|| of_vector(v.momentum.inertial, &rates.momentum_inertial_n_m))
+            .or_else(|| of_vector(v.momentum.body, &rates.momentum_body_n_m))
+            .or_else(|| of_vector(v.spin_axis.inertial, &rates.spin_axis_1_s))
+            .or_else(|| of_vector(v.delta_v, &rates.delta_v_m_s2))
+            .or_else(|| of_vector(v.force_thruster, &law.force_body_n[1]))
+            .or_else(|| of_vector(v.torque.thruster, &law.torque_body_n_m[1]))
+            .or_else(|| of(v.spin.rate, rates.spin_rate_rad_s2))
+            .or_else(|| of(v.nutation.angle, rates.nutation_rad_s))
+            .or_else(|| of(v.nutation.phase, rates.nutation_phase_rad_s))
+            .or_else(|| of(v.sun.angle, rates.sun_angle_rad_s))
+            .or_else(|| of(v.earth.angle, rates.earth_angle_rad_s))
+            .or_else(|| of(v.spin_axis.displacement, rates.spin_axis_displacement_rad_s))
+            .or_else(|| of(v.momentum.displacement, rates.momentum_displacement_rad_s))
+            .or_else(|| of(v.star_tracker.declination_true, rates.declination_rad_s))
+            .or_else(|| of(v.energy, rates.power_w))
+            .or_else(|| of(v.propellant.used, rates.flow_kg_s))
+            .or_else(|| of(v.propellant.left, rates.mass_kg_s))
+            .or_else(|| of(v.mass, rates.mass_kg_s))
+            .filter(|rate| rate.is_finite())
+    }
 }

@@ -124,9 +124,8 @@ impl Gyrostat {
         self.appendages = appendages;
         self.center_of_mass_body_m = center_of_mass_body_m;
         let still = [Vector3::zeros(); 2];
-        let rest = self
-            .oscillators(mass_kg, &still)
-            .fold(self.carrier_body_kg_m2, |rest, it| rest - it.inertia_body_kg_m2());
+        let swinging = self.oscillators(mass_kg, &still);
+        let rest = swinging.fold(self.carrier_body_kg_m2, |rest, it| rest - it.inertia_body_kg_m2());
         let found = SymmetricEigen::new(rest).eigenvalues.min();
         if found > 0.0 { Ok(self) } else { Err(GyrostatError::Swinging { found }) }
     }

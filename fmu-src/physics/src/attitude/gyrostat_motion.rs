@@ -234,14 +234,12 @@ impl GyrostatMotion {
     pub fn imbalance_load(&self, gyrostat: &Gyrostat, time_s: f64, motion: &BodyMotion) -> [Vector3<f64>; 2] {
         let elapsed_s = time_s - self.start_s;
         let unbalanced = self.series.imbalances.iter().zip(&gyrostat.appendages().imbalances);
-        let mut sum = [Vector3::zeros(); 2];
-        for (it, imbalance) in unbalanced {
+        unbalanced.fold([Vector3::zeros(); 2], |[torque, force], (it, imbalance)| {
             let held_n_m_s = self.rotor_n_m_s(gyrostat, imbalance.wheel, time_s, motion);
             let speed_rad_s = gyrostat.wheels()[imbalance.wheel].speed_rad_s(held_n_m_s);
-            let load = it.at_speed(self.series.rotation.order, elapsed_s, speed_rad_s);
-            sum.iter_mut().zip(load).for_each(|(sum, it)| *sum += it);
-        }
-        sum
+            let [own, push] = it.at_speed(self.series.rotation.order, elapsed_s, speed_rad_s);
+            [torque + own, force + push]
+        })
     }
 
     /// Torque by what swings under the load at `time_s`, body frame, in N m.

@@ -186,14 +186,9 @@ impl Inertia {
         self.principal_kg_m2[2]
     }
 
-    /// I_T = sqrt(I1 I2), paper 002 after eq 11.
-    pub fn transverse_kg_m2(&self) -> f64 {
-        (self.principal_kg_m2[0] * self.principal_kg_m2[1]).sqrt()
-    }
-
-    /// I3/I_T.
+    /// I3/I_T with I_T = sqrt(I1 I2), paper 002 after eq 11.
     pub fn ratio(&self) -> f64 {
-        self.spin_kg_m2() / self.transverse_kg_m2()
+        self.spin_kg_m2() / (self.principal_kg_m2[0] * self.principal_kg_m2[1]).sqrt()
     }
 
     /// Whether I1 = I2.
@@ -229,10 +224,8 @@ impl Inertia {
 }
 
 fn check_positive(moments_kg_m2: &[f64; 3]) -> Result<(), InertiaError> {
-    match moments_kg_m2.iter().position(|moment| !(moment.is_finite() && *moment > 0.0)) {
-        Some(i) => Err(InertiaError::NotPositive { index: i + 1, value: moments_kg_m2[i] }),
-        None => Ok(()),
-    }
+    let bad = moments_kg_m2.iter().position(|moment| !(moment.is_finite() && *moment > 0.0));
+    bad.map_or(Ok(()), |i| Err(InertiaError::NotPositive { index: i + 1, value: moments_kg_m2[i] }))
 }
 
 /// Moments about the principal axes, in kg m2, and those axes as an attitude in the body frame.

@@ -73,11 +73,8 @@ impl Attitude {
     /// Scalar-last quaternion (EME2000 to body), of the two signs the one nearest to `near`.
     pub fn quaternion(&self, near: Option<[f64; 4]>) -> [f64; 4] {
         let q = self.quaternion.0;
-        let flip = match near {
-            Some(near) => q.iter().zip(near).map(|(a, b)| a * b).sum::<f64>() < 0.0,
-            None => q[3] < 0.0,
-        };
-        let sign = if flip { -1.0 } else { 1.0 };
+        let along = near.map_or(q[3], |near| q.iter().zip(near).map(|(a, b)| a * b).sum());
+        let sign = if along < 0.0 { -1.0 } else { 1.0 };
         q.map(|x| sign * x)
     }
 

@@ -81,9 +81,8 @@ impl RotorMotion {
                 // Most rotors are far from rest and capacity.
                 let swing_n_m_s = swing(&relative[..rate.len()], longest_s);
                 let is_far = |first_n_m_s: f64| first_n_m_s > swing_n_m_s;
-                let rests_s = (wheel.coulomb_friction_n_m > 0.0 && !is_far(direction * relative[0]))
-                    .then(|| falls_s(&plus(&relative, 0.0, direction)))
-                    .flatten();
+                let may_rest = wheel.coulomb_friction_n_m > 0.0 && !is_far(direction * relative[0]);
+                let rests_s = may_rest.then(|| falls_s(&plus(&relative, 0.0, direction))).flatten();
                 let limit = wheel.capacity_n_m_s;
                 let sign = 1.0_f64.copysign(motor.torque_n_m);
                 let is_driven =

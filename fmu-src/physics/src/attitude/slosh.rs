@@ -45,11 +45,6 @@ pub(super) fn across(axis: &Vector3<f64>) -> [Vector3<f64>; 2] {
 }
 
 impl SloshPendulum {
-    /// Directions of the two displacements, body frame.
-    pub fn across_body(&self) -> [Vector3<f64>; 2] {
-        across(&self.axis_body)
-    }
-
     /// Angle of the pendulum by a displacement in sqrt(kg) m, in rad.
     pub fn angle_rad(&self, displacement_sqrt_kg_m: f64) -> f64 {
         displacement_sqrt_kg_m / (self.mass_kg.sqrt() * self.length_m)
@@ -67,7 +62,7 @@ impl SloshPendulum {
         let [start, slope] = acceleration_body_m_s2;
         let coast_rad_s = self.coast_frequency_hz * TAU;
         let stiffness_1_s2 = start.norm() / self.length_m + coast_rad_s * coast_rad_s;
-        self.across_body().map(|direction| {
+        across(&self.axis_body).map(|direction| {
             let direction = direction * root;
             Oscillator {
                 coupling_body_sqrt_kg_m: bob_from_center_m.cross(&direction),

@@ -39,17 +39,13 @@ impl BodiesFromCenter {
     }
 
     fn center_state(&self, ephemeris: &mut Ephemeris, epoch_s: f64) -> CartesianState {
-        match self.ellipse {
-            Some(planet) => planet.state(epoch_s),
-            None => self.heliocentric(self.center, ephemeris, epoch_s),
-        }
+        let ellipse = self.ellipse.map(|planet| planet.state(epoch_s));
+        ellipse.unwrap_or_else(|| self.heliocentric(self.center, ephemeris, epoch_s))
     }
 
     fn heliocentric(&self, body: Body, ephemeris: &mut Ephemeris, epoch_s: f64) -> CartesianState {
-        match self.custom.filter(|_| body == Body::Custom) {
-            Some(custom) => custom.state(epoch_s),
-            None => ephemeris.state(body, epoch_s),
-        }
+        let custom = self.custom.filter(|_| body == Body::Custom);
+        custom.map_or_else(|| ephemeris.state(body, epoch_s), |custom| custom.state(epoch_s))
     }
 }
 

@@ -28,18 +28,14 @@ use nalgebra::{Matrix3, SVector, Vector3};
 
 mod segments;
 
-use super::{
-    CartesianState,
-    orbit::kepler::eccentric_anomaly,
-    time::{julian_date, julian_date_rounding_s},
-};
+use super::CartesianState;
+use super::orbit::kepler::eccentric_anomaly;
+use super::time::{julian_date, julian_date_rounding_s};
+use crate::bodies::Body;
+use crate::constants::{ASTRONOMICAL_UNIT_M, DAY_S, EARTH_TO_MOON_MASS};
 use crate::math;
 use crate::numerics::Span;
-use crate::{
-    bodies::Body,
-    constants::{ASTRONOMICAL_UNIT_M, DAY_S, EARTH_TO_MOON_MASS},
-    numerics::chebyshev::Segment,
-};
+use crate::numerics::chebyshev::Segment;
 use segments::{SegmentCache, SegmentCounter};
 
 /// Nodes within an element segment.
@@ -244,11 +240,6 @@ impl Ephemeris {
         let planets: u64 =
             Body::ALL.iter().map(|&body| terms(body) * self.entered[body as usize].count).sum();
         planets + 2 * MOON_TERMS as u64 * self.entered[MOON].count
-    }
-
-    /// The position alone, see [`Ephemeris::state`].
-    pub fn position_m(&mut self, body: Body, epoch_s: f64) -> Vector3<f64> {
-        self.state(body, epoch_s).position_m
     }
 }
 

@@ -7,11 +7,9 @@ use core::f64::consts::PI;
 
 use nalgebra::Matrix3;
 
-use super::{
-    CartesianState,
-    frames::dcm_eme2000_from_ecliptic,
-    orbit::{Elements, OrbitError, TwoBodyOrbit},
-};
+use super::CartesianState;
+use super::frames::dcm_eme2000_from_ecliptic;
+use super::orbit::{Elements, OrbitError, TwoBodyOrbit};
 use crate::constants::GM_SUN_M3_S2;
 use crate::spacecraft::{BodyMotion, BodyOrbit, InertialFrame};
 

@@ -41,6 +41,12 @@ impl CartesianState {
         }
     }
 
+    /// Returns the state after `span_s` of even motion.
+    #[must_use]
+    pub fn moved_evenly(self, span_s: f64) -> Self {
+        Self { position_m: self.position_m + self.velocity_m_s * span_s, ..self }
+    }
+
     /// Position times velocity, m2/s, the radius times its rate: it rises through zero at periapsis.
     pub fn radial_m2_s(&self) -> f64 {
         self.position_m.dot(&self.velocity_m_s)

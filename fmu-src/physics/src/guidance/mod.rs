@@ -19,7 +19,7 @@ pub use orbit_phase::attitudes::{
     AttitudeCommand, LinesOfSight, ScienceRule, Sight, downlink_toward, sun_pointing,
 };
 pub use orbit_phase::downlink_sun::{DownlinkSun, WindowStart};
-pub use orbit_phase::guided::{DownlinkStatus, Guided, GuidedAttitude};
+pub use orbit_phase::guided::{DownlinkStatus, Guided, GuidedAttitude, OrbitPhaseLaw};
 pub use orbit_phase::predicted_orbit::PredictedOrbit;
 pub use orbit_phase::schedule::{Activity, NoCycle, Schedule, Window};
 pub use orbit_phase::science_arc::{ArcPoint, ScienceArc};

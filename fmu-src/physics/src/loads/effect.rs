@@ -125,23 +125,19 @@ impl Effect {
     pub const COUNT: usize = Self::ALL.len();
 
     /// Number of effects of light and heat, which stand first.
-    pub const LIGHT: usize = {
-        let mut count = 0;
-        while count < Self::COUNT && Self::ALL[count].is_light() {
-            count += 1;
-        }
-        count
-    };
+    pub const LIGHT: usize = Self::count(Grid::Light);
 
     /// Number of effects by a dipole in the magnetic field.
-    pub const IN_FIELD: usize = {
+    pub const IN_FIELD: usize = Self::count(Grid::Field);
+
+    const fn count(grid: Grid) -> usize {
         let (mut count, mut k) = (0, 0);
         while k < Self::COUNT {
-            count += Self::ALL[k].is_in_field() as usize;
+            count += (Self::ALL[k].row().grid as usize == grid as usize) as usize;
             k += 1;
         }
         count
-    };
+    }
 
     /// Effects by a dipole in the magnetic field, in the table's order.
     pub const FIELD: [Self; Self::IN_FIELD] = {
@@ -176,6 +172,8 @@ impl Effect {
         matches!(self.row().grid, Grid::MovingParts)
     }
 }
+
+const _: () = assert!(Effect::ALL[Effect::LIGHT - 1].is_light(), "effects of light and heat stand first");
 
 /// Effects that act.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

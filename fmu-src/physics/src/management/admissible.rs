@@ -19,7 +19,7 @@ use crate::spacecraft::{FanAzimuths, MOST_ANTENNAS};
 
 /// Limits of the Sun's place about -Y.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct KeepInLimits {
+pub struct KeepInLimits {
     /// Greatest magnitude of the azimuth, 0 to pi/2.
     pub azimuth_rad: f64,
     /// Greatest magnitude of the elevation, 0 to pi/2.

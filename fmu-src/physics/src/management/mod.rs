@@ -12,6 +12,7 @@ mod searches;
 mod strategy;
 mod targeting;
 
+pub use admissible::KeepInLimits;
 pub use dump_request::DumpRequests;
 pub use linear::LinearTorque;
 pub use prediction::{

@@ -19,8 +19,8 @@ use crate::attitude::angle_between_rad;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::{
-    Activity, ArcPoint, EphemerisAtTime, Guided, GuidedAttitude, PredictedOrbit, ScienceArc, ScienceRule,
-    SelectedSunDirection, WindowStart,
+    Activity, ArcPoint, EphemerisAtTime, Guided, GuidedAttitude, OrbitPhaseLaw, PredictedOrbit, ScienceArc,
+    ScienceRule, SelectedSunDirection, WindowStart,
 };
 use crate::momentum::{Convention, DumpPolicy, Totals};
 use crate::numerics::intervals::sampled_range;
@@ -59,9 +59,13 @@ impl SampledManager<'_> {
         let totals = Totals::at_start(self.momentum_body_n_m_s, &start.attitude.inertial_from_body());
         let torque = |sun_body: &Vector3<f64>| spacecraft.torque_body_n_m(sun_body, pressure_pa);
         let science = self.science_arc(start);
+        let at = ephemeris_ahead(start);
+        let separation_rad =
+            |it: EphemerisAtTime| angle_between_rad(&value(&it.to_sun()), &value(&it.to_earth()));
         let state = DownlinkState {
             to_sun: to_sun_m.try_normalize(0.0)?,
             to_earth: to_earth_m.try_normalize(0.0)?,
+            separations_rad: sampled_range(|fraction| separation_rad(at(fraction))),
             momentum: StartMomentum::from_totals(&totals, self.convention),
             span_s: science.as_ref().map_or(start.span_s, ScienceArc::light_s),
             torque_body_n_m: &torque,
@@ -69,11 +73,7 @@ impl SampledManager<'_> {
             linear: self.manager.linear(spacecraft.solar.materials(), &spacecraft.center_of_mass_body_m()),
             science: science.as_ref().map(|arc| ScienceUnload { arc, convention: self.convention }),
         };
-        let at = ephemeris_ahead(start);
-        let separation_rad =
-            |it: EphemerisAtTime| angle_between_rad(&value(&it.to_sun()), &value(&it.to_earth()));
-        let separations_rad = sampled_range(|fraction| separation_rad(at(fraction)));
-        self.manager.place(state, self.predict(start, totals).as_ref(), separations_rad)
+        self.manager.place(state, self.predict(start, totals).as_ref())
     }
 }
 
@@ -129,7 +129,10 @@ impl SampledManager<'_> {
         let mut forecast = SampledForecast {
             manager: self,
             orbit,
-            law: Guided { schedule, ..start.law },
+            law: OrbitPhaseLaw {
+                guided: Guided { schedule, ..start.law },
+                default_downlink: self.default_downlink,
+            },
             totals,
             terms: ForecastTerms {
                 begin_s: start.ephemeris.epoch_s,
@@ -154,7 +157,7 @@ struct SampledForecast<'a> {
     /// Orbits of spacecraft and bodies ahead.
     orbit: PredictedOrbit<'a>,
     /// Windows and attitudes, the Sun on -Y in downlink and in science that unloads.
-    law: Guided,
+    law: OrbitPhaseLaw<'a>,
     /// Momentum at the begin.
     totals: Totals,
     /// Its terms, the begin in s past J2000 TDB.
@@ -164,7 +167,7 @@ struct SampledForecast<'a> {
 impl SampledForecast<'_> {
     fn attitude(&self, now: &EphemerisAtTime) -> GuidedAttitude {
         let sight_at = |at_s: f64| if at_s == now.epoch_s { *now } else { self.orbit.at(at_s) };
-        self.law.at(now.epoch_s, self.manager.default_downlink, sight_at)
+        self.law.at(now.epoch_s, sight_at)
     }
 
     /// Adds the torque at a time, for `span_s`.

@@ -94,12 +94,14 @@ impl Manager<'_> {
             return Ok(None);
         };
         let prediction = self.predict(forecast)?;
-        let linear = self.linear(forecast.materials(), &forecast.center_of_mass_body_m());
+        let sunlit = forecast.sunlit();
+        let linear = self.linear(sunlit.solar.materials(), &sunlit.center_of_mass_body_m());
         let ForecastTerms { convention, .. } = forecast.terms();
-        let torque = |sun_body: &Vector3<f64>| forecast.torque_body_n_m(sun_body);
+        let torque = |sun_body: &Vector3<f64>| sunlit.torque_body_n_m(sun_body, forecast.pressure_pa);
         let state = DownlinkState {
             to_sun: forecast.to_sun,
             to_earth,
+            separations_rad: forecast.separations_rad,
             momentum: forecast.momentum,
             span_s: forecast.science.as_ref().map_or(forecast.span_s, ScienceArc::light_s),
             torque_body_n_m: &torque,
@@ -107,8 +109,7 @@ impl Manager<'_> {
             linear,
             science: forecast.science.as_ref().map(|arc| ScienceUnload { arc, convention }),
         };
-        let separations_rad = forecast.separations_rad;
-        Ok(self.place(state, prediction.as_ref(), separations_rad))
+        Ok(self.place(state, prediction.as_ref()))
     }
 
     /// The linear formula of the shade of these materials about this centre of mass; `None` without a shade.
@@ -137,7 +138,6 @@ impl Manager<'_> {
         &self,
         mut state: DownlinkState<'_>,
         prediction: Option<&Prediction>,
-        separations_rad: [f64; 2],
     ) -> Option<SelectedSunDirection> {
         let predicted = match (prediction, state.momentum) {
             (Some(Prediction::Science(science)), StartMomentum::Inertial(momentum)) => {
@@ -152,7 +152,7 @@ impl Manager<'_> {
             _ => None,
         };
         let target = predicted.unwrap_or(self.bias_body_n_m_s + self.target_body_n_m_s);
-        self.targeting.sun_direction(&state, &target, separations_rad)
+        self.targeting.sun_direction(&state, &target)
     }
 
     /// The target from which X and Z stay below their thresholds through the coming cycles.

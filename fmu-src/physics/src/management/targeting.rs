@@ -66,10 +66,8 @@ pub struct Targeting<'a> {
     pub axes: TargetAxes,
     /// Formula.
     pub method: TargetingMethod,
-    /// Keep-in limits of the Sun about -Y: greatest magnitude of the azimuth, in rad.
-    pub azimuth_limit_rad: f64,
-    /// Greatest magnitude of the elevation, in rad.
-    pub elevation_limit_rad: f64,
+    /// Limits of the Sun's place.
+    pub limits: KeepInLimits,
     /// Antennas; one of them keeps the Earth in its range.
     pub antennas: &'a Antennas,
 }
@@ -82,6 +80,8 @@ pub struct DownlinkState<'a> {
     pub to_earth: Vector3<f64>,
     /// Momentum at the start.
     pub momentum: StartMomentum,
+    /// Least and greatest angle between Sun and Earth while it lasts, in rad.
+    pub separations_rad: [f64; 2],
     /// How long light as at the start acts, in s.
     pub span_s: f64,
     /// Torque of sunlight in N m, body frame, with the Sun in this direction of the body frame.
@@ -109,20 +109,19 @@ const ROUNDING: f64 = 1e-13;
 const INTERVALS: usize = 16;
 
 impl Targeting<'_> {
-    /// The place of the Sun for `target_body_n_m_s` at the downlink's end, Sun and Earth coming from the least to the greatest of
-    /// `separations_rad` apart while it lasts; `None` where Sun and Earth give no downlink attitude, or no place is admissible.
+    /// The place of the Sun for `target_body_n_m_s` at the downlink's end; `None` where Sun and Earth give no downlink attitude, or no
+    /// place is admissible.
     pub fn sun_direction(
         &self,
         state: &DownlinkState<'_>,
         target_body_n_m_s: &Vector3<f64>,
-        separations_rad: [f64; 2],
     ) -> Option<SelectedSunDirection> {
         let (zone, sides);
         let branches: &[Option<Branch>] = if state.science.is_some() {
             zone = [Some(self.zone())];
             &zone
         } else {
-            sides = self.branches(state.separation_rad())?.map(|it| Some(it?.lasting(separations_rad)));
+            sides = self.branches(state.separation_rad())?.map(|it| Some(it?.lasting(state.separations_rad)));
             &sides
         };
         let aim = MomentumAim { axes: self.axes, state, target: target_body_n_m_s };
@@ -185,15 +184,11 @@ impl Targeting<'_> {
     fn branches(&self, separation_rad: f64) -> Option<Branches> {
         // Neither places nor separation is known where one has no direction.
         let has_plane = math::sin(separation_rad) > 1e-9;
-        has_plane.then(|| Branch::all(self.limits(), self.antennas, separation_rad))
+        has_plane.then(|| Branch::all(self.limits, self.antennas, separation_rad))
     }
 
     fn zone(&self) -> Branch {
-        Branch::zone(self.limits())
-    }
-
-    fn limits(&self) -> KeepInLimits {
-        KeepInLimits { azimuth_rad: self.azimuth_limit_rad, elevation_rad: self.elevation_limit_rad }
+        Branch::zone(self.limits)
     }
 }
 

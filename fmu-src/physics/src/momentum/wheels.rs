@@ -65,16 +65,6 @@ impl WheelArray {
         self.axes_body.iter().zip(momenta_n_m_s).map(|(axis, momentum)| axis * momentum).sum()
     }
 
-    /// Number of wheels.
-    pub fn len(&self) -> usize {
-        self.rows.len()
-    }
-
-    /// Whether there is no wheel.
-    pub fn is_empty(&self) -> bool {
-        self.rows.is_empty()
-    }
-
     /// Spin momentum of wheel `wheel` (0-based) when the array holds `momentum_body_n_m_s`, in N m s.
     pub fn momentum_n_m_s(&self, wheel: usize, momentum_body_n_m_s: &Vector3<f64>) -> f64 {
         self.rows[wheel].dot(momentum_body_n_m_s)

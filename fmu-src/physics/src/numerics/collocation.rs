@@ -17,10 +17,8 @@ use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{
-    chebyshev::Segment,
-    quadrature::{Rule, lagrange},
-};
+use super::chebyshev::Segment;
+use super::quadrature::{Rule, lagrange};
 
 /// Why a segment could not be integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]

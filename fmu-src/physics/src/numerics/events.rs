@@ -53,10 +53,8 @@ pub fn first_event<const K: usize, const N: usize>(
         fits += 1;
         let (start, end, depth, suspects) = waiting[height];
         let segment = Segment::<K, TERMS>::fit(start, end, &mut values);
-        let zeros: [Zero; K] = core::array::from_fn(|k| match suspects[k] {
-            true => zero_of_row(&segment, k, rounding),
-            false => Zero::Excluded,
-        });
+        let zero = |k: usize| if suspects[k] { zero_of_row(&segment, k, rounding) } else { Zero::Excluded };
+        let zeros: [Zero; K] = core::array::from_fn(zero);
         let suspects = zeros.map(|zero| zero != Zero::Excluded);
         if zeros.contains(&Zero::Unresolved) && depth < DEPTH && fits < MOST_FITS {
             let middle = 0.5 * (start + end);

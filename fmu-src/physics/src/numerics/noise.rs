@@ -3,10 +3,8 @@
 use core::f64::consts::PI;
 
 use nalgebra::Vector3;
-use rand_chacha::{
-    ChaCha8Rng,
-    rand_core::{Rng, SeedableRng},
-};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use crate::math;
 

@@ -5,8 +5,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::guidance::timeline::TimelineEvent;
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::last_event::LastEvent;
+use crate::plant::settings::thruster_events::{LastEvent, ThrusterEventSettings};
 
 /// Kind of an event, in the order of those at equal times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,6 +70,14 @@ impl LastEvents {
     /// The last one of the timeline.
     pub(crate) fn scheduled(&self) -> LastEvent {
         self.0[EventKind::Schedule as usize]
+    }
+
+    /// Takes the next event of a schedule, if there is one.
+    pub(crate) fn pop_scheduled(&mut self, events: &ThrusterEventSettings) -> Option<TimelineEvent> {
+        let last = &mut self.0[EventKind::Schedule as usize];
+        let event = events.next(*last).copied()?;
+        last.take(events.time_s(&event));
+        Some(event)
     }
 
     /// Whether one of this kind came at `time_s`.

@@ -43,6 +43,7 @@ pub use settings::air_and_field_settings::{
     AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure,
 };
 pub use settings::attitude_source::{AttitudeSource, Command, Turning};
+pub use settings::configuration::RadiationSettings;
 pub use settings::configuration::{
     Configuration, Encounter, EphemerisSource, LightSource, Motion, PredictionSettings, SunLight,
 };
@@ -51,19 +52,18 @@ pub use settings::control_defaults::{
     SLEW_ACCELERATION_RAD_S2, SLEW_RATE_RAD_S,
 };
 pub use settings::digest::Digest;
+pub use settings::dynamics_settings::WheelControlSettings;
 pub use settings::dynamics_settings::{
     Control, DynamicsInputs, DynamicsSettings, StartMotion, StartPointing, ThrusterControl, Tracked,
 };
 pub use settings::error::{ManeuverError, PlantError};
-pub use settings::ideal_settings::{IdealSettings, IdealWheel};
 pub use settings::laws::{Laws, TUNABLE_COUNT};
 pub use settings::mode_settings::{Changes, ModeSettings};
+pub use settings::mode_settings::{IdealSettings, IdealWheel};
 pub use settings::panel_setting::{PanelSetting, PanelStep, Ramp, SunAt, Tilt};
 pub use settings::prepared_spacecraft::PreparedSpacecraft;
-pub use settings::radiation_settings::RadiationSettings;
 pub use settings::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
 pub use settings::thruster_events::{Maneuver, ThrusterEvent, ThrusterEventSettings};
-pub use settings::wheel_control_settings::WheelControlSettings;
 pub use settings::work::{Work, WorkExceeded};
 pub use sources::air::AerodynamicSolver;
 pub use sources::by_source::{BySource, Parameters, PositionError, Positions, Surfaces, Workspaces};
@@ -73,10 +73,10 @@ pub use sources::sunlight::radiation_solver::RadiationSolver;
 pub use sources::sunlight::sunlit::SunlitConfiguration;
 pub use sources::thrusters::THRUSTERS;
 pub use sources::{SourceStates, Sources};
-pub use state::encounter_prediction::{EncounterPrediction, PredictedArrival};
+pub use state::flight_state::{EncounterPrediction, PredictedArrival};
 pub use state::ideal_state::Maneuvers;
 pub use state::propagator_state::PropagatorState;
-pub use state::sun_choice::SunDirectionSelection;
+pub use state::propagator_state::SunDirectionSelection;
 pub use thrusters::allocation::{ThrusterAllocator, UnservedDumps};
 pub use thrusters::reaction_control::Thrusters;
 pub use thrusters::thruster_load::{ThrusterLoad, ThrusterTotals};

@@ -1,6 +1,6 @@
 //! Plume of a thruster: which surface stands in the cone that its exhaust fills.
 
-use nalgebra::{Rotation3, Unit, Vector3};
+use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
 use crate::math;
 use crate::spacecraft::{Panel, Plate, Polygon, Spacecraft, Thruster};
@@ -21,38 +21,29 @@ pub fn surface_in_plume<'s>(
         let from_nozzle = point - thruster.position_body_m;
         from_nozzle.dot(&exhaust) > least * from_nozzle.norm()
     };
-    let any_in = |center: &Vector3<f64>,
-                  outline: Option<&Polygon>,
-                  place: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| {
-        is_in(&place(center))
-            || outline.is_some_and(|outline| outline.vertices_m().iter().any(|vertex| is_in(&place(vertex))))
+    // The surface is turned about a pivot.
+    let is_met =
+        |center: &Vector3<f64>, outline: Option<&Polygon>, turn: &Matrix3<f64>, pivot: &Vector3<f64>| {
+            let vertices = outline.map_or(&[][..], Polygon::vertices_m);
+            core::iter::once(center).chain(vertices).any(|point| is_in(&(pivot + turn * (point - pivot))))
+        };
+    let first_met = |plates: &'s [Plate], turn: &Matrix3<f64>| {
+        let is_met = |it: &&Plate| is_met(&it.center_m, it.polygon.as_ref(), turn, &Vector3::zeros());
+        plates.iter().find(is_met).map(|plate| plate.name.as_str())
     };
-    let fixed = |point: &Vector3<f64>| *point;
-    let is_met = |plate: &&Plate, place: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| {
-        any_in(&plate.center_m, plate.polygon.as_ref(), place)
-    };
-    let plate = spacecraft.plates.iter().find(|plate| is_met(plate, &fixed));
     let of_shade = || {
         let shade = spacecraft.sunshade.as_ref()?;
-        let turned = |point: &Vector3<f64>| shade.dcm_body_from_shade * point;
-        shade.plates.iter().find(|plate| is_met(plate, &turned))
+        first_met(&shade.plates, &shade.dcm_body_from_shade)
     };
-    let panel = || {
-        let numbered = spacecraft.panels.iter().enumerate();
-        let mut met = numbered.filter(|(k, panel)| {
-            panel_angle_rad(*k).is_some_and(|angle_rad| panel_hit(panel, angle_rad, &any_in))
-        });
-        met.next().map(|(_, panel)| panel.name.as_str())
+    let is_panel_met = |(k, panel): &(usize, &Panel)| {
+        panel_angle_rad(*k).is_some_and(|angle_rad| {
+            let turn = Rotation3::from_axis_angle(&Unit::new_unchecked(panel.axis_body), angle_rad);
+            is_met(&panel.center_body_m, panel.polygon.as_ref(), turn.matrix(), &panel.center_body_m)
+        })
     };
-    plate.or_else(of_shade).map(|plate| plate.name.as_str()).or_else(panel)
-}
-
-type AnyIn<'a> = dyn Fn(&Vector3<f64>, Option<&Polygon>, &dyn Fn(&Vector3<f64>) -> Vector3<f64>) -> bool + 'a;
-
-fn panel_hit(panel: &Panel, angle_rad: f64, any_in: &AnyIn<'_>) -> bool {
-    let turn = Rotation3::from_axis_angle(&Unit::new_unchecked(panel.axis_body), angle_rad);
-    let turned = |point: &Vector3<f64>| panel.center_body_m + turn * (point - panel.center_body_m);
-    any_in(&panel.center_body_m, panel.polygon.as_ref(), &turned)
+    let of_panels =
+        || spacecraft.panels.iter().enumerate().find(is_panel_met).map(|(_, it)| it.name.as_str());
+    first_met(&spacecraft.plates, &Matrix3::identity()).or_else(of_shade).or_else(of_panels)
 }
 
 #[cfg(test)]

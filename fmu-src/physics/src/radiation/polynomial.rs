@@ -50,20 +50,16 @@ impl TorquePolynomial {
                 Ok(Self::of_cylinder(cylinder, materials, &center_of_mass_m))
             }
             (SunshadeModel::Plates, _) if !shade.plates.is_empty() => {
-                Ok(Self::of_plates(&shade.plates, materials, &center_of_mass_m))
+                // The plates' front faces (eqs 6-8).
+                let mut sum = Self { k: [[0.0; 9]; 3] };
+                for plate in &shade.plates {
+                    let optics = optics(plate.faces.materials[0], materials).unwrap_or(&plate.faces.optics);
+                    sum.add(&Moments::of_plate(plate, &center_of_mass_m), optics);
+                }
+                Ok(sum)
             }
             _ => Err(no_such_sunshade(model)),
         }
-    }
-
-    /// Returns the polynomial of the plates' front faces (eqs 6-8), in the plates' frame.
-    pub fn of_plates(plates: &[Plate], materials: &[Material], center_of_mass_m: &Vector3<f64>) -> Self {
-        let mut sum = Self { k: [[0.0; 9]; 3] };
-        for plate in plates {
-            let optics = optics(plate.faces.materials[0], materials).unwrap_or(&plate.faces.optics);
-            sum.add(&Moments::of_plate(plate, center_of_mass_m), optics);
-        }
-        sum
     }
 
     /// Returns the polynomial of a cylindrical section (eqs 4-5), in its own frame.

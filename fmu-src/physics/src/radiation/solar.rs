@@ -173,7 +173,5 @@ fn panel_force_n<T: Scalar>(panel: &Panel, beam: &Beam<T>, normal: Vector3<T>) -
 
 #[inline]
 fn add_scaled<T: Scalar>(sum: &mut Vector3<T>, constant: &Vector3<f64>, factor: T) {
-    sum.x += factor * constant.x;
-    sum.y += factor * constant.y;
-    sum.z += factor * constant.z;
+    *sum += constant.map(|component| factor * component);
 }

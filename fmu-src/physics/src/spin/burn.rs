@@ -8,10 +8,9 @@ use serde::{Deserialize, Serialize};
 use super::{
     burn_error::BurnError,
     burn_request::{BurnRequest, parameter},
-    execution::PulseExecution,
     forecast::{ForecastCase, Timing},
     nutation::Spin,
-    spinner::Spinner,
+    spinner::{PulseExecution, Spinner},
     train::Train,
 };
 use crate::attitude::Inertia;

@@ -172,11 +172,8 @@ impl BurnRequest {
                 "{:?}, {apart_deg:.6} deg from the angular momentum",
                 self.target_inertial.as_slice()
             );
-            return Err(parameter(
-                "burn.targetDirection",
-                found,
-                "it needs a part across the angular momentum",
-            ));
+            let allowed = "it needs a part across the angular momentum";
+            return Err(parameter("burn.targetDirection", found, allowed));
         }
         if self.angle_rad > apart_rad * (1.0 + 1e-9) {
             let found = format!("{} rad ({:.4} deg)", self.angle_rad, self.angle_rad.to_degrees());

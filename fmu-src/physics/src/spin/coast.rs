@@ -7,7 +7,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::damper::Damper;
+use super::{damper::Damper, series::Anchor};
 use crate::attitude::{Inertia, Quaternion};
 use crate::math;
 
@@ -31,13 +31,9 @@ pub struct Coast {
 }
 
 impl Coast {
-    /// The arc through `attitude` with momentum `momentum_inertial` (N m s).
-    pub fn new(
-        inertia: &Inertia,
-        damper: &Damper,
-        attitude: Quaternion,
-        momentum_inertial: &Vector3<f64>,
-    ) -> Self {
+    /// The arc from an anchor whose attitude is that of the principal axes.
+    pub fn new(inertia: &Inertia, damper: &Damper, principal: &Anchor) -> Self {
+        let Anchor { attitude, momentum_inertial, .. } = *principal;
         let [transverse, _, spin] = inertia.principal_kg_m2();
         let momentum = momentum_inertial.norm();
         let spin_axis = attitude.spin_axis_inertial();

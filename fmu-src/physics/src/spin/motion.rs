@@ -90,7 +90,7 @@ impl Motion {
     pub fn new(inertia: Inertia, damper: Damper, torque: BodyTorque, anchor: Anchor, hint_s: f64) -> Self {
         let principal = Anchor { attitude: inertia.principal_attitude(anchor.attitude), ..anchor };
         let path = if torque.is_zero() && inertia.is_axisymmetric() {
-            Path::Coast(Coast::new(&inertia, &damper, principal.attitude, &anchor.momentum_inertial))
+            Path::Coast(Coast::new(&inertia, &damper, &principal))
         } else {
             let torque = torque.about_principal_axes(&inertia);
             Path::Series(TaylorSegment::new(&inertia, &damper, &torque, &principal, hint_s))
@@ -121,8 +121,8 @@ impl Motion {
         let path = match &self.path {
             // What it is made of says all of it.
             Path::Coast(coast) => {
-                let principal = self.inertia.principal_attitude(self.anchor.attitude);
-                *coast == Coast::new(&self.inertia, &self.damper, principal, &self.anchor.momentum_inertial)
+                let attitude = self.inertia.principal_attitude(self.anchor.attitude);
+                *coast == Coast::new(&self.inertia, &self.damper, &Anchor { attitude, ..self.anchor })
             }
             Path::Series(segment) => segment.is_valid(),
         };
@@ -135,7 +135,7 @@ impl Motion {
     /// # Errors
     /// The body turns too fast there, is not finite, or its torque leaves it a segment too short.
     pub fn check(&self) -> Result<(), MotionError> {
-        self.check_rate(self.anchor.time_s, &self.anchor.momentum_inertial, &self.anchor.attitude)?;
+        self.check_rate(&self.anchor)?;
         let Path::Series(segment) = &self.path else { return Ok(()) };
         // Written so that a NaN is refused.
         if segment.length_s >= SHORTEST_SEGMENT_S {
@@ -151,16 +151,13 @@ impl Motion {
     /// It turns too fast or is not finite.
     pub fn check_at(&self, time_s: f64) -> Result<RigidBodyState, MotionError> {
         let state = self.at(time_s);
-        self.check_rate(time_s, &state.momentum_inertial, &state.attitude)?;
+        let RigidBodyState { attitude, momentum_inertial, .. } = state;
+        self.check_rate(&Anchor { time_s, attitude, momentum_inertial })?;
         Ok(state)
     }
 
-    fn check_rate(
-        &self,
-        time_s: f64,
-        momentum_inertial: &Vector3<f64>,
-        attitude: &Quaternion,
-    ) -> Result<(), MotionError> {
+    fn check_rate(&self, at: &Anchor) -> Result<(), MotionError> {
+        let Anchor { time_s, attitude, momentum_inertial } = *at;
         let least_kg_m2 = self.inertia.principal_kg_m2().into_iter().fold(f64::INFINITY, f64::min);
         let finite = attitude.0.iter().all(|x| x.is_finite());
         let rate_rad_s = if finite { momentum_inertial.norm() / least_kg_m2 } else { f64::NAN };

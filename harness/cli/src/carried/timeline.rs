@@ -33,16 +33,16 @@ pub(crate) fn read(fmu: &Fmu, resources: &Path) -> Result<String, String> {
 pub(crate) fn names(folder: &Path) -> Option<Vec<String>> {
     let text = |file: &str| files::read_text(&folder.join("resources").join(file)).ok();
     let spacecraft = Spacecraft::from_toml("", &text("spacecraft.toml")?).ok()?;
-    Some(Timeline::of_plant(FILE, &text(FILE)?, &spacecraft).ok()?.names().to_vec())
+    Some(Timeline::of_plant(FILE, &text(FILE)?, &spacecraft).ok()?.names.to_vec())
 }
 
 /// How many commands, positions of panels and events, from when to when.
 pub(crate) fn summary(timeline: &Timeline) -> String {
-    let shown = |time_s: f64| match timeline.clock() {
+    let shown = |time_s: f64| match timeline.clock {
         TimelineClock::Epoch => dates::utc(time_s),
         TimelineClock::FmiTime => format!("{} s", terminal::short(time_s)),
     };
-    let (entries, panels, events) = (timeline.entries(), timeline.panels(), timeline.events());
+    let (entries, panels, events) = (&timeline.entries, &timeline.panels, &timeline.events);
     let until = entries.last().and_then(|entry| entry.until_s);
     // Begin of the first and end of the last, where that has one.
     let commands =
@@ -80,9 +80,9 @@ pub(crate) fn of_one_model(
     let guidance = problems.into_iter().map(|Problem { line, key, found, .. }| {
         format!("Guidance only: {file}{}: {key}: {found}; MomentumPlant refuses it", place(line))
     });
-    let events = timeline.events();
+    let events = &timeline.events;
     let counted = [
-        (timeline.panels().len(), "position of the panels"),
+        (timeline.panels.len(), "position of the panels"),
         (events.iter().filter(|it| it.maneuver.is_some()).count(), "maneuver"),
         (events.iter().filter(|it| it.center_of_mass_body_m.is_some()).count(), "centre of mass"),
     ];

@@ -198,7 +198,7 @@ impl SimulatedMission {
         let mut sunlit = plant::sunlit(spacecraft_of(&self.fmu)?, &self.values(), CONVENTION)?;
         if let Some(timeline) = timeline {
             let clock_minus_time_s = self.clock_minus_time_s(timeline);
-            let moved = timeline.events().iter().filter_map(|event| {
+            let moved = timeline.events.iter().filter_map(|event| {
                 Some((simulation_time_s(event.at_s, clock_minus_time_s), event.center_of_mass_body_m?))
             });
             sunlit.centers_of_mass = moved.collect();

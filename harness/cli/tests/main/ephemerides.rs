@@ -71,7 +71,8 @@ fn placed_by_theory(text: &str, bodies: &[Body], within_m: f64) {
         let Span { start_s: first_s, end_s: last_s } = model.motion.span();
         for share in [0.1, 0.55, 0.9] {
             let at_s = first_s + share * (last_s - first_s);
-            let from_mercury_m = theory.position_m(*body, at_s) - theory.position_m(Body::Mercury, at_s);
+            let from_mercury_m =
+                theory.state(*body, at_s).position_m - theory.state(Body::Mercury, at_s).position_m;
             let off_m = (model.motion.state(at_s).unwrap().position_m - from_mercury_m).norm();
             assert!(off_m < within_m, "{}: {off_m} m", model.target);
         }

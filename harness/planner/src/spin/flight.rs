@@ -7,7 +7,6 @@ use physics::{
     attitude::{RigidBodyState, angle_between_rad},
     spin::{
         burn_request::BurnRequest,
-        execution::PulseExecution,
         plant::{Commands, Directions, MOST_WORK, MassSource, Plant, Sampling, Start},
         sequencer::{Phase, Sequencer},
         spinner::Spinner,
@@ -90,7 +89,7 @@ fn start(spinner: &Spinner, task: &Task, row: &TrainForecast) -> Start {
         products_kg_m2: task.products_kg_m2,
         mass_source: MassSource::Fixed,
         propellant_kg: task.propellant_kg,
-        execution: PulseExecution::from_spinner(spinner),
+        execution: spinner.execution(),
         spin_rate_rad_s: case.spin.rate_rad_s,
         attitude: task.attitude().0,
         nutation_rad: 0.0,

@@ -252,7 +252,7 @@ fn inertial(given: RightAscensionDeclination) -> Vector3<f64> {
 
 /// Sun and Earth from the Sun-Earth L1 point of that date: the Lissajous motion about it has no date in the file.
 fn seen_from_l1(orbit: &L1Orbit, epoch_s: f64) -> (Vector3<f64>, Vector3<f64>) {
-    let earth_m = Ephemeris::default().position_m(Body::Earth, epoch_s);
+    let earth_m = Ephemeris::default().state(Body::Earth, epoch_s).position_m;
     let from_sun = earth_m.normalize();
     // L1 stands on the line between them.
     let toward_earth = if earth_m.norm() > orbit.earth_l1_distance_m { from_sun } else { -from_sun };

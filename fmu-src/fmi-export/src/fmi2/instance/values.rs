@@ -149,7 +149,10 @@ impl Instance {
     #[inline]
     fn conclude_reading(&self) -> Result<(), Problem> {
         match self.state.mode {
-            State::Instantiated => Err(Problem::read_before_initialization()),
+            State::Instantiated => Err(Problem::warning(
+                "variables are read before Initialization Mode, which FMI 2.0 does not allow: answered with their start \
+                 values, or what was set since",
+            )),
             _ => Ok(()),
         }
     }

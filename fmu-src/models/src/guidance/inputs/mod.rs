@@ -195,8 +195,10 @@ fn burn(read: Read<'_>) -> Result<BurnSettings, Failure> {
         gain: real(v.gain),
         predictive: read.boolean(v.predictive),
         reactive: read.boolean(v.reactive),
-        thrust_body: nominal.direction_body,
-        acceleration_m_s2: given_m_s2.unwrap_or(nominal.acceleration_m_s2),
+        nominal: NominalThrust {
+            acceleration_m_s2: given_m_s2.unwrap_or(nominal.acceleration_m_s2),
+            ..nominal
+        },
         timeout_s: real(v.timeout),
         wait_s: real(v.timeout),
     })
@@ -240,13 +242,15 @@ pub(super) fn settings<'a>(read: Read<'a>, fixed: &Fixed) -> Result<GuidanceSett
         azimuth_rad: real(azimuth),
         elevation_rad: real(elevation),
         method,
+        distance_m: f64::INFINITY,
     };
     let hot_pole = read.boolean(v.hot_pole.enabled).then(|| HotPole {
         altitude_m: real(v.hot_pole.altitude),
         angle_rad: real(v.hot_pole.angle),
         cone_rad: real(v.hot_pole.cone),
     });
-    let keep_in = zone(v.keep_in.azimuth, v.keep_in.elevation);
+    let distance_m = real(v.keep_in.distance);
+    let keep_in = KeepIn { distance_m, ..zone(v.keep_in.azimuth, v.keep_in.elevation) };
     let beam = read.given(&[v.link.beam.into()]);
     Ok(GuidanceSettings {
         hardware: GuidanceHardware {
@@ -281,7 +285,6 @@ pub(super) fn settings<'a>(read: Read<'a>, fixed: &Fixed) -> Result<GuidanceSett
             sun_search_duration_s: real(v.sun_search.duration),
         },
         keep_in,
-        keep_in_distance_m: real(v.keep_in.distance),
         link: LinkLimits {
             sun_separation_rad: real(v.link.sun_exclusion),
             coverage_rad: beam.has(v.link.beam).then(|| real(v.link.beam)),

@@ -98,7 +98,7 @@ pub(super) fn read(
 fn thruster_events(read: Read<'_>, timeline: &ActiveTimeline<'_>) -> ThrusterEventSettings {
     let variables = read.variables;
     ThrusterEventSettings {
-        schedule: timeline.law.map(|it| it.events().clone()).unwrap_or_default(),
+        schedule: timeline.law.map(|it| it.events.clone()).unwrap_or_default(),
         clock_minus_time_s: timeline.clock_minus_time_s,
         thrusters: read.choice(variables.maneuver.thrusters).0,
         dumps: read.boolean(variables.maneuver.dump),

@@ -6,7 +6,7 @@ use physics::bodies::BodyData;
 use physics::environment::orbit::TwoBodyOrbit;
 use physics::environment::orientation::Orientation;
 use physics::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
-use physics::guidance::downlink::sun_direction::{SunRequest, SunZone};
+use physics::guidance::downlink::sun_direction::SunRequest;
 use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::timeline::TimelineSettings;
 use physics::guidance::{Guided, TargetPlanet};
@@ -35,14 +35,14 @@ fn zone(read: Read<'_>) -> Result<KeepIn, Failure> {
         azimuth_rad: read.real(v.azimuth).min(core::f64::consts::FRAC_PI_2),
         elevation_rad: read.real(v.elevation),
         method: read.choice(v.method).0,
+        distance_m: read.real(v.distance),
     })
 }
 
-/// The same where it is in force, with the distance at which it counts.
-fn zone_in_force(read: Read<'_>) -> Result<Option<SunZone>, Failure> {
-    let variables = read.variables;
-    let zone = SunZone { keep_in: zone(read)?, distance_m: read.real(variables.keep_in.distance) };
-    Ok(read.boolean(variables.keep_in.enabled).then_some(zone))
+/// The same where it is in force.
+fn zone_in_force(read: Read<'_>) -> Result<Option<KeepIn>, Failure> {
+    let zone = zone(read)?;
+    Ok(read.boolean(read.variables.keep_in.enabled).then_some(zone))
 }
 
 /// Settings of the timeline about a centre of this rotation.
@@ -58,7 +58,6 @@ pub(super) fn timeline(
     Ok(TimelineSettings {
         keep_in: zone(read)?,
         keep_in_is_enabled: read.boolean(v.enabled),
-        keep_in_distance_m: read.real(v.distance),
         planet: TargetPlanet { orientation: rotation.unwrap_or(own.orientation), ..own },
         clock_minus_time_s,
     })
@@ -74,6 +73,7 @@ fn law(read: Read<'_>, orbit: &TwoBodyOrbit) -> Result<Guided, Failure> {
         azimuth_rad: read.real(variables.keep_in.azimuth),
         elevation_rad: read.real(variables.keep_in.elevation),
         method: KeepInMethod::Nearest,
+        distance_m: f64::INFINITY,
     };
     let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), read.real(variables.start.epoch));
     let gimbal = Gimbal::from_instruments(&read.setup.spacecraft.instruments);

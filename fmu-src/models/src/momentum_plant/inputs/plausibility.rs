@@ -103,7 +103,7 @@ pub(crate) fn report(read: Read<'_>, flight: &Flight, given: StepContext<'_>, ti
     let survey = FlightSurvey::new(flight, given, spacecraft, time_s);
     let timeline = given.prepared.timeline.filter(|_| configuration.timeline.is_some());
     let rolled = timeline.and_then(|TimelineLaw { timeline, hardware }| {
-        timeline.entries().iter().find(|entry| is_rolled_about_boresight(&entry.command, &hardware))
+        timeline.entries.iter().find(|entry| is_rolled_about_boresight(&entry.command, &hardware))
     });
     let rolled =
         rolled.map(|entry| roll_warning(&format!("the command in line {} of the timeline", entry.line)));

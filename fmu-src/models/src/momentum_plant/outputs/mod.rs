@@ -4,7 +4,7 @@ mod encounter;
 pub(super) mod messages;
 mod rates;
 
-use fmi_export::{Failure, Knowns, OutputGroups, Values, knowns};
+use fmi_export::{DeferredOutputs, Failure, Knowns, OutputGroups, Values, knowns};
 use nalgebra::Vector3;
 use physics::attitude::SunAngles;
 use physics::environment::time;
@@ -16,12 +16,11 @@ use physics::radiation::{SolarModel, TorquePolynomial, polynomial_valid};
 use physics::spacecraft::light_suns;
 
 use self::messages::failure;
-use super::setup::Plan;
+use super::setup::{MomentumPlant, Plan};
 use super::state::{PlantState, SavedState};
 use super::variables::PlantVariables;
 use crate::common::choices::OrbitCenter;
 use crate::common::loads;
-pub(super) use rates::derivative;
 
 /// Outputs that are written together, and what writes them.
 struct Group {
@@ -64,33 +63,36 @@ const GROUPS: [Group; 10] = [
     }),
 ];
 
-/// The outputs of each group, those of the faces last.
-pub(super) fn groups(v: &PlantVariables) -> Vec<Knowns> {
-    let of_faces = core::iter::once(knowns![&v.plate]);
-    GROUPS.iter().map(|group| (group.outputs)(v)).chain(of_faces).collect()
-}
+impl DeferredOutputs for MomentumPlant {
+    /// The outputs of each group, those of the faces last.
+    fn output_groups(v: &PlantVariables) -> Vec<Knowns> {
+        let of_faces = core::iter::once(knowns![&v.plate]);
+        GROUPS.iter().map(|group| (group.outputs)(v)).chain(of_faces).collect()
+    }
 
-/// Writes the outputs of these groups at `time_s`, where the flight was evaluated last.
-pub(super) fn write(
-    context: &Plan<'_>,
-    values: &mut Values,
-    state: &mut PlantState,
-    groups: OutputGroups,
-    time_s: f64,
-) -> Result<(), Failure> {
-    let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
-    let prepared = context.setup.prepared_spacecraft(values.choice(context.variables.sunshade.shape).0)?;
-    // Not `map_err`, which would copy the report.
-    let report = match flight.report(prepared, &inputs.dynamics, command, time_s) {
-        Ok(report) => report,
-        Err(error) => return Err(failure(error)),
-    };
-    let asked = GROUPS.iter().enumerate().filter(|(index, _)| groups.contains(*index));
-    asked.for_each(|(_, group)| (group.write)(context, values, &report));
-    if groups.contains(GROUPS.len()) {
-        write_faces(context, values, flight, prepared, time_s)
-    } else {
-        Ok(())
+    /// Writes the outputs of these groups at `time_s`, where the flight was evaluated last.
+    fn write_outputs(
+        context: &Plan<'_>,
+        values: &mut Values,
+        state: &mut PlantState,
+        groups: OutputGroups,
+        time_s: f64,
+    ) -> Result<(), Failure> {
+        let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
+        let prepared =
+            context.setup.prepared_spacecraft(values.choice(context.variables.sunshade.shape).0)?;
+        // Not `map_err`, which would copy the report.
+        let report = match flight.report(prepared, &inputs.dynamics, command, time_s) {
+            Ok(report) => report,
+            Err(error) => return Err(failure(error)),
+        };
+        let asked = GROUPS.iter().enumerate().filter(|(index, _)| groups.contains(*index));
+        asked.for_each(|(_, group)| (group.write)(context, values, &report));
+        if groups.contains(GROUPS.len()) {
+            write_faces(context, values, flight, prepared, time_s)
+        } else {
+            Ok(())
+        }
     }
 }
 

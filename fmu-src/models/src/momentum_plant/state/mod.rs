@@ -9,7 +9,7 @@ use physics::guidance::modes::guidance_command::CommandKind as GuidanceCommandKi
 use physics::plant::{Changes, Command, Digest, Flight, Thrusters, Tracked};
 use physics::plausibility::FlightWatch;
 use physics::spacecraft::Spacecraft;
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 use self::step_inputs::{CommandInputs, StepInputs};
 use super::setup::Plan;
@@ -18,25 +18,14 @@ use super::setup::Plan;
 const NORM_TOLERANCE: f64 = 0.05;
 
 /// State of one plant, and apart from it what the step has read; that is not saved but read anew after a restore.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(from = "SavedState")]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(transparent)]
 pub struct PlantState {
     /// Everything that is saved.
     pub saved: SavedState,
     /// Inputs and tunable parameters of the step.
+    #[serde(skip)]
     pub inputs: StepInputs,
-}
-
-impl From<SavedState> for PlantState {
-    fn from(saved: SavedState) -> Self {
-        Self { saved, inputs: StepInputs::default() }
-    }
-}
-
-impl Serialize for PlantState {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.saved.serialize(serializer)
-    }
 }
 
 /// The part of a plant's state that is saved.

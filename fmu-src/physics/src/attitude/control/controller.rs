@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::estimator::Estimate;
-use super::reference::{ControlTarget, Reference, SlewLimits};
+use super::reference::{ControlTarget, Reference};
 use super::settings::ControllerSettings;
 use crate::attitude::rotation::Attitude;
 
@@ -171,11 +171,7 @@ impl ControllerState {
         rate: &Vector3<f64>,
         is_limited: bool,
     ) -> Tracking {
-        let limits = SlewLimits {
-            rate_rad_s: settings.slew_rate_rad_s,
-            acceleration_rad_s2: settings.slew_acceleration_rad_s2,
-        };
-        let reference = self.reference.step(target, &limits, settings.interval_s());
+        let reference = self.reference.step(target, settings);
         match target {
             ControlTarget::Attitude { .. } => {
                 let relative = reference.attitude.inverse().then(&estimate.attitude);

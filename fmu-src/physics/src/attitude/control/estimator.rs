@@ -138,10 +138,8 @@ impl EstimatorState {
         if is_fix {
             self.correct(settings, truth_attitude, sample);
         }
-        self.rate_body_rad_s = match &self.without_gyros {
-            None => health.gyro.then(|| rate - self.bias_rad_s),
-            Some(filter) => filter.rate(),
-        };
+        let of_gyros = health.gyro.then(|| rate - self.bias_rad_s);
+        self.rate_body_rad_s = self.without_gyros.as_ref().map_or(of_gyros, RateFilter::rate);
         let without_fix_s = self.samples_since_fix as f64 * settings.interval_s;
         let is_between_fixes = health.star_tracker && self.samples_since_fix < settings.samples_per_fix();
         let is_recent = is_between_fixes || without_fix_s <= settings.longest_without_tracker_s;
@@ -206,18 +204,13 @@ impl EstimatorState {
                 let known = self.rate_body_rad_s.filter(|_| self.last_truth.is_some() && !self.is_lost);
                 let of_gyros_rad2_s2 =
                     math::powi(settings.gyro.angle_random_walk_rad_sqrt_s, 2) / settings.interval_s;
-                self.without_gyros = Some(RateFilter {
-                    rate_body_rad_s: known.unwrap_or_default(),
-                    covariance: Covariance {
-                        angle: self.covariance.angle,
-                        cross: Vector3::zeros(),
-                        bias: match known {
-                            Some(_) => self.covariance.bias.add_scalar(of_gyros_rad2_s2),
-                            None => Vector3::repeat(UNKNOWN_RATE_RAD2_S2),
-                        },
-                    },
-                    fixes: if known.is_some() { FIXES_FOR_A_RATE } else { 0 },
-                });
+                let Covariance { angle, bias, .. } = self.covariance;
+                let unknown = (Vector3::repeat(UNKNOWN_RATE_RAD2_S2), 0);
+                let (bias, fixes) =
+                    known.map_or(unknown, |_| (bias.add_scalar(of_gyros_rad2_s2), FIXES_FOR_A_RATE));
+                let covariance = Covariance { angle, bias, ..Covariance::default() };
+                let rate_body_rad_s = known.unwrap_or_default();
+                self.without_gyros = Some(RateFilter { rate_body_rad_s, covariance, fixes });
             }
             (SensorHealth { gyro: true, .. }, Some(filter)) => {
                 self.covariance.replace(&filter.covariance.angle);
@@ -238,10 +231,7 @@ impl EstimatorState {
             truth_attitude.turned(drawn.component_mul(&noise))
         };
         let variance = noise.component_mul(&noise);
-        let is_first = match &self.without_gyros {
-            Some(filter) => filter.fixes == 0,
-            None => self.is_lost,
-        };
+        let is_first = self.without_gyros.as_ref().map_or(self.is_lost, |filter| filter.fixes == 0);
         let innovation = self.attitude.rotation_vector_to(&measured);
         let (covariance, known, sign) = match &mut self.without_gyros {
             Some(filter) => (&mut filter.covariance, &mut filter.rate_body_rad_s, -1.0),
@@ -255,10 +245,9 @@ impl EstimatorState {
             *known += known_gain.component_mul(&innovation) * sign;
             Some(gain)
         };
-        self.attitude = match gain.filter(|_| noise != Vector3::zeros()) {
-            Some(gain) => self.attitude.turned(gain.component_mul(&innovation)).normalized(),
-            None => measured,
-        };
+        let corrected =
+            |gain: Vector3<f64>| self.attitude.turned(gain.component_mul(&innovation)).normalized();
+        self.attitude = gain.filter(|_| noise != Vector3::zeros()).map_or(measured, corrected);
         if let Some(filter) = &mut self.without_gyros {
             filter.fixes = filter.fixes.saturating_add(1).min(FIXES_FOR_A_RATE);
         }

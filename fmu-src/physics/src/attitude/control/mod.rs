@@ -17,7 +17,7 @@ pub use accelerometer::{AccelerometerSettings, AccelerometerState};
 pub use allocation::{Allocation, WheelAllocator};
 pub use controller::ControllerState;
 pub use estimator::{Estimate, EstimatorState};
-pub use reference::{ControlTarget, Reference, ReferenceSample, SlewLimits};
+pub use reference::{ControlTarget, Reference, ReferenceSample};
 pub use sensors::{Gyro, SensorHealth, SensorSettings, StarTracker, sample_number};
 pub use settings::{ControllerSettings, GainError};
 pub use sun_sensors::{SunSensor, sensed_sun};

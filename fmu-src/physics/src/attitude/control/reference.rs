@@ -10,6 +10,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::settings::ControllerSettings;
 use crate::attitude::rotation::Attitude;
 
 /// Angle from the command below which the reference becomes the command, in rad.
@@ -36,15 +37,6 @@ pub enum ControlTarget {
         /// In rad/s.
         rate_body_rad_s: Vector3<f64>,
     },
-}
-
-/// Limits of the reference's motion; 0 means none.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SlewLimits {
-    /// Greatest rate relative to the command, in rad/s.
-    pub rate_rad_s: f64,
-    /// Greatest acceleration, in rad/s2.
-    pub acceleration_rad_s2: f64,
 }
 
 /// The reference at a sample, and its acceleration up to the next.
@@ -80,9 +72,10 @@ impl Reference {
         self.attitude.is_rotation()
     }
 
-    /// The reference at this sample; moves on to the next, `interval_s` later.
-    pub fn step(&mut self, target: &ControlTarget, limits: &SlewLimits, interval_s: f64) -> ReferenceSample {
-        let [slew_rad_s, acceleration_rad_s2] = [limits.rate_rad_s, limits.acceleration_rad_s2]
+    /// The reference at this sample; moves on to the next.
+    pub fn step(&mut self, target: &ControlTarget, settings: &ControllerSettings) -> ReferenceSample {
+        let interval_s = settings.interval_s();
+        let [slew_rad_s, acceleration_rad_s2] = [settings.slew_rate_rad_s, settings.slew_acceleration_rad_s2]
             .map(|limit| if limit > 0.0 { limit } else { f64::INFINITY });
         let change_rad_s = match target {
             ControlTarget::RateOnly { rate_body_rad_s } => {

@@ -21,12 +21,10 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::constants::RADIUS_SUN_M;
 use crate::enumeration::enumeration;
-use crate::{
-    constants::RADIUS_SUN_M,
-    math,
-    numerics::scalar::{Scalar, asin, vector_value},
-};
+use crate::math;
+use crate::numerics::scalar::{Scalar, asin, vector_value};
 
 pub use discs::Discs;
 

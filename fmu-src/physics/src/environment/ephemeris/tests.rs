@@ -45,7 +45,7 @@ fn check_values_of_the_authors() {
         (Body::Mars, 0.0, 1.390_715_926_4, -0.013_415_704_3),
         (Body::Jupiter, 0.0, 4.001_174_026_8, 2.938_581_007_7),
     ] {
-        let position = ephemeris.position_m(body, day * DAY_S);
+        let position = ephemeris.state(body, day * DAY_S).position_m;
         let ecliptic = eme2000_from_vsop87().transpose() * position / ASTRONOMICAL_UNIT_M;
         let tolerance = match body {
             Body::Mercury => 2e-9,
@@ -86,7 +86,7 @@ fn fit_error_stays_below_the_stated() {
         for epoch_s in scattered(short_or_long(60, 200)) {
             // At a date that is a Julian one to the last place.
             let epoch_s = epoch_s - julian_date_rounding_s(epoch_s);
-            let found = ephemeris.position_m(body, epoch_s);
+            let found = ephemeris.state(body, epoch_s).position_m;
             let jd = julian_date(epoch_s);
             if let Some(e) = elements(body, jd) {
                 let error_m = (found - from_elements([e.a, e.l, e.k, e.h, e.q, e.p])).norm();
@@ -148,7 +148,7 @@ fn new_moon_of_an_eclipse_stands_before_the_sun() {
     let epoch_s = epoch_s("2017-08-21T18:25:32 UTC");
     let mut ephemeris = Ephemeris::default();
     let moon_m = ephemeris.moon_from_earth(epoch_s).position_m;
-    let sun_m = -ephemeris.position_m(Body::Earth, epoch_s - 499.0);
+    let sun_m = -ephemeris.state(Body::Earth, epoch_s - 499.0).position_m;
     let axis = (moon_m - sun_m).normalize();
     let apart_radii = (moon_m - axis * moon_m.dot(&axis)).norm() / 6.378_137e6;
     assert!((apart_radii - 0.4367).abs() < 0.05, "{apart_radii}");
@@ -168,11 +168,11 @@ fn observed_transits_across_the_sun() {
     ] {
         let mut ephemeris = Ephemeris::default();
         let mut separation_arcsec = |epoch_s: f64| {
-            let earth = ephemeris.position_m(Body::Earth, epoch_s);
-            let mut planet = ephemeris.position_m(body, epoch_s);
+            let earth = ephemeris.state(Body::Earth, epoch_s).position_m;
+            let mut planet = ephemeris.state(body, epoch_s).position_m;
             for _ in 0..3 {
                 let light_time_s = (planet - earth).norm() / crate::constants::SPEED_OF_LIGHT_M_S;
-                planet = ephemeris.position_m(body, epoch_s - light_time_s);
+                planet = ephemeris.state(body, epoch_s - light_time_s).position_m;
             }
             (planet - earth).angle(&-earth).to_degrees() * 3600.0
         };
@@ -241,7 +241,7 @@ fn history_leaves_no_trace() {
             assert_eq!(used.state(body, epoch_s), Ephemeris::default().state(body, epoch_s));
         }
     }
-    assert!(used.position_m(Body::Mercury, f64::NAN).x.is_nan());
+    assert!(used.state(Body::Mercury, f64::NAN).position_m.x.is_nan());
 }
 
 #[test]
@@ -280,6 +280,6 @@ fn a_cached_segment_is_not_evaluated_again() {
     // A wrong one, so that its use shows.
     let wrong = Segment::<3, EARTH_TERMS>::from_samples(0.0, MIDDLE_S, &[Vector3::repeat(7.0); EARTH_TERMS]);
     cache.0.lock().unwrap().earth.as_mut().unwrap().held[0] = Some((0, wrong));
-    let taken_m = Ephemeris::with_cache(&cache).position_m(Body::Earth, 0.0);
+    let taken_m = Ephemeris::with_cache(&cache).state(Body::Earth, 0.0).position_m;
     assert!((taken_m - Vector3::repeat(7.0)).norm() < 1e-12, "{taken_m}");
 }

@@ -104,7 +104,7 @@ impl FitPlan {
             }
             fitted.push(segment);
         }
-        (SegmentTable::joined(fitted), error)
+        (SegmentTable { segments: fitted }, error)
     }
 }
 

@@ -36,7 +36,8 @@ impl EphemerisSegment {
 /// Segments without gaps. At a common edge the later one counts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SegmentTable {
-    segments: Vec<EphemerisSegment>,
+    /// At least one, in order and without gaps.
+    pub(super) segments: Vec<EphemerisSegment>,
 }
 
 impl SegmentTable {
@@ -45,11 +46,6 @@ impl SegmentTable {
         let is_ordered = segments.iter().all(|segment| segment.start_s < segment.end_s);
         let is_whole = segments.windows(2).all(|pair| pair[0].end_s == pair[1].start_s);
         (!segments.is_empty() && is_ordered && is_whole).then_some(Self { segments })
-    }
-
-    /// Joins segments in order and without gaps, at least one.
-    pub(super) fn joined(segments: Vec<EphemerisSegment>) -> Self {
-        Self { segments }
     }
 
     /// The segments in the order of time.

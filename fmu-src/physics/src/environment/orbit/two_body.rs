@@ -10,10 +10,8 @@ use core::f64::consts::TAU;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::{
-    elements::{Elements, OrbitError, check, check_mu},
-    kepler::{Anomaly, eccentric_anomaly, hyperbolic_anomaly},
-};
+use super::elements::{Elements, OrbitError, check, check_mu};
+use super::kepler::{Anomaly, eccentric_anomaly, hyperbolic_anomaly};
 use crate::environment::CartesianState;
 use crate::math;
 

@@ -18,6 +18,7 @@
 use nalgebra::{Rotation3, Vector3};
 use serde::{Deserialize, Serialize};
 
+use super::nominal_thrust::NominalThrust;
 use super::velocity_path::VelocityPath;
 use crate::attitude::{Attitude, angle_between_rad};
 use crate::constants::DEG_RAD;
@@ -59,10 +60,8 @@ pub struct BurnSettings {
     pub predictive: bool,
     /// Whether beta is.
     pub reactive: bool,
-    /// Unit vector of the nominal thrust.
-    pub thrust_body: Vector3<f64>,
-    /// Nominal acceleration, in m/s2; 0 where none is known.
-    pub acceleration_m_s2: f64,
+    /// Thrust and acceleration as planned: its direction is where the estimate begins; an acceleration of 0 is not known.
+    pub nominal: NominalThrust,
     /// Longest time that thrust may last, in s.
     pub timeout_s: f64,
     /// Longest time that a burn which is due waits for its direction, in s.
@@ -147,8 +146,8 @@ pub enum Interruption {
 
 impl BurnSettings {
     fn is_thrust(&self, acceleration_m_s2: f64) -> bool {
-        let least_m_s2 = if self.acceleration_m_s2 > 0.0 {
-            LEAST_FRACTION * self.acceleration_m_s2
+        let least_m_s2 = if self.nominal.acceleration_m_s2 > 0.0 {
+            LEAST_FRACTION * self.nominal.acceleration_m_s2
         } else {
             LEAST_ACCELERATION_M_S2
         };
@@ -164,10 +163,8 @@ impl BurnState {
 
     /// When thrust ends, in s; `None` without thrust.
     pub fn stop_s(&self) -> Option<f64> {
-        match self.phase {
-            BurnPhase::Burning { stop_s, .. } => Some(stop_s),
-            _ => None,
-        }
+        let BurnPhase::Burning { stop_s, .. } = self.phase else { return None };
+        Some(stop_s)
     }
 
     /// How far that is off the path at the magnitude reached, in m/s.
@@ -178,7 +175,7 @@ impl BurnState {
 
     /// Estimated thrust direction in the body frame, a unit vector.
     pub fn thrust_body(&self, settings: &BurnSettings) -> Vector3<f64> {
-        self.thrust_body.unwrap_or(settings.thrust_body)
+        self.thrust_body.unwrap_or(settings.nominal.direction_body)
     }
 
     /// Rejects decoded states that no simulation can produce.
@@ -226,8 +223,8 @@ impl BurnState {
             Some(_) if settings.awaits_attitude && !self.is_reached(settings) => {
                 BurnPhase::Waiting { since_s, refused: false }
             }
-            Some(path) => {
-                let stop_s = self.predicted_stop_s(settings, &path, time_s, time_s);
+            Some(_) => {
+                let stop_s = self.predicted_stop_s(settings, time_s, time_s);
                 BurnPhase::Burning { since_s: time_s, stop_s }
             }
             None if time_s >= since_s.max(settings.start_s) + settings.wait_s => {
@@ -247,13 +244,13 @@ impl BurnState {
     pub fn measure(&mut self, settings: &BurnSettings, motion: Option<MeasuredMotion>) {
         let last = core::mem::replace(&mut self.last, motion);
         let BurnPhase::Burning { since_s, stop_s } = self.phase else { return };
-        let (Some(path), Some(now)) = (settings.path, motion) else { return };
+        let Some(now) = motion.filter(|_| settings.path.is_some()) else { return };
         if let Some(last) = last.filter(|last| last.time_s < now.time_s) {
             self.add(settings, &last, &now);
         }
         let timeout_s = since_s + settings.timeout_s;
         let is_seen = self.accelerations_m_s2.iter().any(|it| settings.is_thrust(*it));
-        let predicted_s = self.predicted_stop_s(settings, &path, now.time_s, since_s);
+        let predicted_s = self.predicted_stop_s(settings, now.time_s, since_s);
         // The spacecraft stopped by the last prediction, where that is over.
         let is_spent = is_seen && now.time_s >= stop_s.min(predicted_s);
         self.phase = if is_spent || now.time_s >= timeout_s {
@@ -314,16 +311,11 @@ impl BurnState {
     }
 
     /// When the path's length is used up, at the latest when the burn times out, in s.
-    fn predicted_stop_s(
-        &self,
-        settings: &BurnSettings,
-        path: &VelocityPath,
-        now_s: f64,
-        since_s: f64,
-    ) -> f64 {
+    fn predicted_stop_s(&self, settings: &BurnSettings, now_s: f64, since_s: f64) -> f64 {
+        let length_m_s = settings.path.as_ref().map_or(0.0, VelocityPath::length_m_s);
         let timeout_s = since_s + settings.timeout_s;
-        let acceleration_m_s2 = self.measured_m_s2(settings).unwrap_or(settings.acceleration_m_s2);
-        let remaining_m_s = (path.length_m_s() - self.magnitude_m_s).max(0.0);
+        let acceleration_m_s2 = self.measured_m_s2(settings).unwrap_or(settings.nominal.acceleration_m_s2);
+        let remaining_m_s = (length_m_s - self.magnitude_m_s).max(0.0);
         let stop_s =
             if acceleration_m_s2 > 0.0 { now_s + remaining_m_s / acceleration_m_s2 } else { timeout_s };
         stop_s.min(timeout_s)

@@ -24,6 +24,7 @@ fn zone(method: KeepInMethod) -> Constraints {
             azimuth_rad: 0.05,
             elevation_rad: 0.03,
             method,
+            distance_m: f64::INFINITY,
         }),
         hot_pole: None,
     }

@@ -48,6 +48,8 @@ pub struct KeepIn {
     pub elevation_rad: f64,
     /// Boundary point.
     pub method: KeepInMethod,
+    /// Greatest distance from the Sun at which it counts, in m.
+    pub distance_m: f64,
 }
 
 /// An attitude with the Sun inside the zone.
@@ -78,12 +80,11 @@ pub fn within_zone(
     to_sun: &MovingVector,
     is_held: bool,
 ) -> Option<WithinZone> {
+    let pointing = vectors.pointing()?;
     let Some(zone) = zone else {
-        let pointing = vectors.pointing()?;
         return Some(WithinZone { pointing, margin: f64::INFINITY, is_moved: false });
     };
-    let unconstrained = vectors.pointing()?;
-    let sun_body = value(&unconstrained.to_body(to_sun)).try_normalize(0.0);
+    let sun_body = value(&pointing.to_body(to_sun)).try_normalize(0.0);
     let margin = sun_body.and_then(|sun_body| Some(-zone.excess_rad(&sun_body)?));
     let is_moved = margin.is_some_and(|margin| margin < -ON_BOUNDARY_RAD);
     let margin = margin.filter(|margin| !is_held || margin.abs() > ON_BOUNDARY_RAD);

@@ -142,25 +142,18 @@ impl Slew {
         let elapsed_s = time_s - begin_s;
         // Written so that a NaN ends it.
         (elapsed_s < duration_s).then(|| SlewedFrame {
-            frame: self.frame(target, to_sun, 1.0 - elapsed_s / duration_s, -1.0 / duration_s),
+            frame: self.frame(target, to_sun, Moving::new(1.0 - elapsed_s / duration_s, -1.0 / duration_s)),
             end_s: begin_s + duration_s,
         })
     }
 
-    /// The attitude with the fraction `remaining` of the turn to go, which changes by `rate_1_s` a second; `target` is the new attitude
-    /// and `to_sun` the Sun at this time.
-    pub fn frame(
-        &self,
-        target: &MovingFrame,
-        to_sun: &MovingUnit,
-        remaining: f64,
-        rate_1_s: f64,
-    ) -> MovingFrame {
+    /// The attitude with the fraction `remaining` of the turn to go, and its rate in 1/s; `target` is the new attitude and `to_sun` the
+    /// Sun at this time.
+    pub fn frame(&self, target: &MovingFrame, to_sun: &MovingUnit, remaining: Moving) -> MovingFrame {
         let Self::WithinZone { body_from_zone, from, back_rad, .. } = self else {
             let Self::Eigenaxis { back_body_rad } = self else { return *target };
-            return target.offset(back_body_rad, remaining, rate_1_s);
+            return target.offset(back_body_rad, remaining.re, remaining.eps);
         };
-        let remaining = Moving::new(remaining, rate_1_s);
         let target = Pointing::from_frame(target);
         let zone = body_from_zone.map(Moving::from_re);
         let to_sun = crate::guidance::geometry::moving::moving(to_sun.direction, to_sun.rate_1_s);

@@ -64,31 +64,26 @@ pub struct SunRequest {
     /// Whether the attitude is turned by 180 deg about the Sun line: the Sun stays in its place, there is no link.
     pub alternate: bool,
     /// Zone that holds that direction.
-    pub zone: Option<SunZone>,
-}
-
-/// A keep-in zone of the Sun.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SunZone {
-    /// The zone.
-    pub keep_in: KeepIn,
-    /// Greatest distance from the Sun at which it counts, in m.
-    pub distance_m: f64,
+    pub zone: Option<KeepIn>,
+    /// Whether a zone moved that direction.
+    pub is_moved: bool,
 }
 
 impl SunRequest {
-    /// The same inside a zone, and whether that moved the Sun's place: to the point that the zone's method takes.
-    pub fn within(self, zone: Option<&KeepIn>) -> (Self, bool) {
+    /// The same inside a zone, a direction outside at the point that the zone's method takes.
+    #[must_use]
+    pub fn within(self, zone: Option<&KeepIn>) -> Self {
         if self.sun == SunAngles::default() {
-            return (self, false);
+            return self;
         }
         let moved = zone.and_then(|zone| zone.boundary_angles(&direction_from_angles(self.sun)));
-        (Self { sun: moved.unwrap_or(self.sun), ..self }, moved.is_some())
+        Self { sun: moved.unwrap_or(self.sun), is_moved: moved.is_some(), ..self }
     }
 
     /// The same inside its own zone, this far from the Sun, in m.
-    pub fn at_distance(self, distance_m: f64) -> (Self, bool) {
-        self.within(self.zone.filter(|zone| distance_m <= zone.distance_m).map(|zone| zone.keep_in).as_ref())
+    #[must_use]
+    pub fn at_distance(self, distance_m: f64) -> Self {
+        self.within(self.zone.filter(|zone| distance_m <= zone.distance_m).as_ref())
     }
 }
 
@@ -295,7 +290,8 @@ pub struct Link {
 pub fn link(
     ephemeris: &EphemerisAtTime,
     earth_body: &Vector3<f64>,
-    (antennas, beam): (&Antennas, Option<&AntennaAzimuth>),
+    antennas: &Antennas,
+    beam: Option<&AntennaAzimuth>,
     limits: &LinkLimits,
 ) -> Option<Link> {
     let earth = unit(&ephemeris.to_earth())?;

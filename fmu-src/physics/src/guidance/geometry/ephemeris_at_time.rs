@@ -109,10 +109,7 @@ impl EphemerisAtTime {
 
     /// At another epoch with the spacecraft in `spacecraft`; Sun and Earth moved evenly.
     pub fn moved_to(&self, epoch_s: f64, spacecraft: &CartesianState) -> Self {
-        let evenly = |vector: &MovingVector| {
-            let now = state(vector);
-            CartesianState { position_m: now.position_m + now.velocity_m_s * (epoch_s - self.epoch_s), ..now }
-        };
+        let evenly = |vector: &MovingVector| state(vector).moved_evenly(epoch_s - self.epoch_s);
         Self::new(epoch_s, self.planet, spacecraft, &evenly(&self.sun), &evenly(&self.earth))
     }
 

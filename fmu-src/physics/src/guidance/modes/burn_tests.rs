@@ -112,7 +112,7 @@ fn powered_turn() -> VelocityPath {
 fn a_powered_turn_is_followed() {
     let mut flight = BurnFlight::new(5);
     flight.settings.path = Some(powered_turn());
-    flight.settings.acceleration_m_s2 = 0.66;
+    flight.settings.nominal.acceleration_m_s2 = 0.66;
     flight.thrust.force_n = 660.0;
     flight.thrust.exhaust_m_s = 3100.0;
     flight.accelerometers = AccelerometerSettings::default();

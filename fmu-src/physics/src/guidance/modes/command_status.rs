@@ -2,10 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::sample_inputs::GuidanceSettings;
+use super::sample_inputs::SampleContext;
 use crate::guidance::constraints::constrained::ConstrainedPointing;
 use crate::guidance::downlink::sun_direction::link;
-use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{MovingVector, value};
 use crate::guidance::orbit_phase::guided::DownlinkStatus;
 use crate::guidance::pointing::antenna::{AntennaRow, Beam};
@@ -62,14 +61,13 @@ impl CommandStatus {
         clamped: false,
     };
 
-    /// Status of an attitude within the constraints; `is_sun_moved`: a zone moved the requested direction of the Sun.
+    /// Status of an attitude within the constraints.
     pub(super) fn new(
-        settings: &GuidanceSettings<'_>,
-        ephemeris: &EphemerisAtTime,
+        now: &SampleContext<'_>,
         solution: &PointingSolution,
         constrained: &ConstrainedPointing,
-        is_sun_moved: bool,
     ) -> Self {
+        let SampleContext { settings, ephemeris, requested_sun, .. } = *now;
         let ConstrainedPointing { pointing, sun_keep_in, hot_pole: turn, hot_pole_reached } = *constrained;
         let hot_pole = turn.is_some();
         let earth_body = value(&pointing.to_body(&ephemeris.to_earth()));
@@ -80,7 +78,7 @@ impl CommandStatus {
             Beam::AtTheEarth(beam) if is_moved => antennas.following(beam, &earth_body),
             Beam::AtTheEarth(azimuth) | Beam::Commanded(azimuth) => azimuth,
         });
-        let link = link(ephemeris, &earth_body, (antennas, beam.as_ref()), &settings.link);
+        let link = link(ephemeris, &earth_body, antennas, beam.as_ref(), &settings.link);
         let gimbal = solution
             .gimbal_angle(&pointing, settings.hardware.gimbal.as_ref())
             .unwrap_or(Self::NOTHING.gimbal);
@@ -98,7 +96,7 @@ impl CommandStatus {
             scan_active: solution.scan_active,
             downlink: DownlinkStatus {
                 clamped: solution.downlink.active
-                    && (solution.downlink.clamped || is_sun_moved || sun_keep_in),
+                    && (solution.downlink.clamped || requested_sun.is_moved || sun_keep_in),
                 ..solution.downlink
             },
             sun_keep_in,

@@ -33,16 +33,10 @@ impl CommandTimers {
             self.limb = None;
         }
         self.entries = entries;
-        self.scan = command.scan.frame.map(|_| match self.scan {
-            Some((before, since_s)) if before == command.scan => (before, since_s),
-            _ => (command.scan, time_s),
-        });
+        self.scan = since(self.scan, command.scan.frame.map(|_| command.scan), time_s);
         let limb =
             command.scenario.filter(|it| matches!(it, Scenario::LimbTerminator | Scenario::LimbGeneric));
-        self.limb = limb.map(|scenario| match self.limb {
-            Some((before, since_s)) if before == scenario => (scenario, since_s),
-            _ => (scenario, time_s),
-        });
+        self.limb = since(self.limb, limb, time_s);
     }
 
     /// Time of the scan at `time_s`; `None` while there is none.
@@ -55,4 +49,10 @@ impl CommandTimers {
     pub(super) fn limb_elapsed_s(&self, time_s: f64) -> f64 {
         self.limb.map_or(0.0, |(_, since_s)| time_s - since_s)
     }
+}
+
+/// What is commanded now with the time since when, in s: that of the last sample where it is the same.
+fn since<T: PartialEq>(last: Option<(T, f64)>, now: Option<T>, time_s: f64) -> Option<(T, f64)> {
+    let since_s = last.filter(|(before, _)| now.as_ref() == Some(before)).map(|(_, since_s)| since_s);
+    now.map(|now| (now, since_s.unwrap_or(time_s)))
 }

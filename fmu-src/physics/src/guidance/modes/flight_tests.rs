@@ -21,7 +21,7 @@ use crate::guidance::scenario::scenario_tests::{SCENARIOS, command, hardware};
 use crate::guidance::tests::burn::{guidance_settings, sample_inputs, settings, still_inputs};
 use crate::guidance::tests::geometry::{Random, nearest_zone};
 use crate::guidance::tests::orbit::{TestOrbit, guided};
-use crate::guidance::{Guided, ScienceRule, Sight};
+use crate::guidance::{Guided, OrbitPhaseLaw, ScienceRule, Sight};
 use crate::tests::short_or_long;
 
 const HALF_DAY_S: u32 = 43_200;
@@ -209,13 +209,13 @@ fn random_flights_with_slews_stay_in_the_zone() {
             ..base
         };
         let eigenaxis = Guided { keep_in: None, ..law };
-        let base_hardware = hardware();
+        let by = |guided| OrbitPhaseLaw { guided, default_downlink: hardware().default_downlink };
         let offset_s = start_s - orbit.ephemeris(start_s).epoch_s;
         let lines = |epoch_s: f64| orbit.ephemeris(epoch_s + offset_s);
         for edge_s in [begin_s, begin_s + length_s] {
             for step in 0..3_000 {
                 let at_s = edge_s + 0.5 * f64::from(step);
-                let found = law.at(at_s, base_hardware.default_downlink, lines);
+                let found = by(law).at(at_s, lines);
                 if !found.slewing {
                     break;
                 }
@@ -225,8 +225,7 @@ fn random_flights_with_slews_stay_in_the_zone() {
                     zone.excess_rad(&(attitude.inertial_from_body.inverse() * sun)).unwrap()
                 };
                 worst_rad = worst_rad.max(excess(&found.frame));
-                without_zone_rad = without_zone_rad
-                    .max(excess(&eigenaxis.at(at_s, base_hardware.default_downlink, lines).frame));
+                without_zone_rad = without_zone_rad.max(excess(&by(eigenaxis).at(at_s, lines).frame));
                 assert!(
                     excess(&found.frame) < 1e-9,
                     "{flight}: {:e} at {at_s} s, {law:?}",

@@ -3,7 +3,8 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::attitude::{Attitude, MovingFrame};
+use super::transitions::Steering;
+use crate::attitude::{Attitude, MovingFrame, Quaternion};
 use crate::enumeration::enumeration;
 
 enumeration! {
@@ -57,13 +58,14 @@ impl GuidanceCommand {
     }
 
     /// A command without an attitude of its own: the attitude reached at `time_s` is propagated by the rate.
-    pub(super) fn followed_by_rate(
-        &self,
-        kind: CommandKind,
-        error: [f64; 4],
-        rate_body_rad_s: Vector3<f64>,
-        time_s: f64,
-    ) -> Self {
+    pub(super) fn followed_by_rate(&self, steering: &Steering, time_s: f64) -> Self {
+        let (kind, Quaternion(error), rate_body_rad_s) = match *steering {
+            Steering::Pointing(_) => return *self,
+            Steering::RateOnly(rate) => (CommandKind::RateOnly, Quaternion::IDENTITY, rate),
+            Steering::ErrorQuaternion { error, rate_body_rad_s } => {
+                (CommandKind::ErrorQuaternion, error, rate_body_rad_s)
+            }
+        };
         Self { kind, since_s: time_s, attitude: self.attitude_at(time_s), rate_body_rad_s, error }
     }
 

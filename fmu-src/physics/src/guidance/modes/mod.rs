@@ -10,7 +10,6 @@ pub(crate) mod flight_tests;
 pub mod guidance_command;
 pub mod mode;
 pub mod monitor;
-mod present_window;
 pub mod sample_inputs;
 pub mod sun_line;
 pub mod system;

@@ -23,8 +23,6 @@ pub struct GuidanceSettings<'a> {
     pub modes: ModeSettings,
     /// The keep-in zone of Operational, in force or not.
     pub keep_in: KeepIn,
-    /// Greatest distance from the Sun at which the keep-in zone of Operational counts, in m.
-    pub keep_in_distance_m: f64,
     /// The radio link.
     pub link: LinkLimits,
     /// The law of the orbit phase; its periapsis and period are computed.
@@ -75,8 +73,8 @@ pub(super) struct SampleContext<'a> {
     pub constraints: Constraints,
     /// Positions that the mode uses.
     pub ephemeris: &'a EphemerisAtTime,
-    /// Requested direction of the Sun in downlinks, and whether the zone moved it.
-    pub requested_sun: (SunRequest, bool),
+    /// Requested direction of the Sun in downlinks, inside the zone.
+    pub requested_sun: SunRequest,
     /// Whether the timeline gives the Sun's direction.
     pub sun_is_placed: bool,
     /// Time of the sample, in s.

@@ -11,7 +11,6 @@ use super::command_status::CommandStatus;
 use super::command_timers::CommandTimers;
 use super::guidance_command::{CommandKind, GuidanceCommand};
 use super::mode::Mode;
-use super::present_window::present_window;
 use super::sample_inputs::{GuidanceSettings, SampleContext, SampleInputs, TimedEntries};
 use super::sun_line::SunLine;
 use super::transitions::{ModeState, Sensed, Steering};
@@ -20,14 +19,14 @@ use crate::guidance::burn::delta_v::{BurnState, MeasuredMotion};
 use crate::guidance::constraints::command_slew::CommandSlew;
 use crate::guidance::constraints::constrained::{ConstrainedPointing, Constraints};
 use crate::guidance::constraints::hot_pole::TurnSide;
-use crate::guidance::downlink::sun_direction::{DownlinkSunDirection, SelectedSunDirection, SunRequest};
+use crate::guidance::downlink::sun_direction::{SelectedSunDirection, SelectedSunDirections, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::orbit_phase::attitudes::Sight;
-use crate::guidance::orbit_phase::downlink_sun::{DownlinkSun, WindowStart};
-use crate::guidance::orbit_phase::guided::{DownlinkStatus, Guided};
+use crate::guidance::orbit_phase::downlink_sun::{DownlinkSun, WindowStart, present_window};
+use crate::guidance::orbit_phase::guided::{DownlinkStatus, Guided, OrbitPhaseLaw};
 use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
-use crate::guidance::orbit_phase::schedule::{Activity, Schedule};
+use crate::guidance::orbit_phase::schedule::Schedule;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use crate::guidance::pointing::law::Pointing;
 use crate::guidance::scenario::{
@@ -112,7 +111,7 @@ impl GuidanceState {
         let sensed = Sensed { time_s, ..inputs.sensed };
         let mut modes = settings.modes;
         let before = self.modes.ephemeris_in_mode(&inputs.positions).map(EphemerisAtTime::to_sun);
-        if before.is_some_and(|to_sun| value(&to_sun).norm() > settings.keep_in_distance_m) {
+        if before.is_some_and(|to_sun| value(&to_sun).norm() > settings.keep_in.distance_m) {
             modes.operational.keep_in = None;
         }
         modes.watches_hot_pole &= self.status.hot_pole_reached;
@@ -135,14 +134,8 @@ impl GuidanceState {
             Some(Steering::Pointing(constraints)) => {
                 is_chosen = self.point(settings, inputs, &constraints, &sensed, choose);
             }
-            Some(Steering::ErrorQuaternion { error, rate_body_rad_s }) => {
-                let kind = CommandKind::ErrorQuaternion;
-                self.command = self.command.followed_by_rate(kind, error.0, rate_body_rad_s, time_s);
-                self.status = CommandStatus::NOTHING;
-            }
-            Some(Steering::RateOnly(rate_body_rad_s)) => {
-                let (kind, error) = (CommandKind::RateOnly, [0.0, 0.0, 0.0, 1.0]);
-                self.command = self.command.followed_by_rate(kind, error, rate_body_rad_s, time_s);
+            Some(rate) => {
+                self.command = self.command.followed_by_rate(&rate, time_s);
                 self.status = CommandStatus::NOTHING;
             }
             None => self.status = CommandStatus { degenerate: true, ..CommandStatus::NOTHING },
@@ -176,11 +169,15 @@ impl GuidanceState {
         let settings = &GuidanceSettings { orbit_phase, ..*settings };
         let time_s = sensed.time_s;
         let attitude = sensed.estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
-        let is_chosen = self.place_sun(settings, &command, ephemeris, attitude, choose);
         let is_operational = self.modes.mode == Mode::Operational;
-        let requested_sun = match is_operational {
-            true => inputs.requested_sun.within(keep_in.as_ref()),
-            false => (SunRequest::default(), false),
+        let (law, periapses) = (&settings.orbit_phase, &mut self.periapses);
+        let window = || present_window(law, &command, ephemeris, attitude, periapses);
+        let window = is_operational.then(window).flatten();
+        let is_chosen = self.downlink_sun.update(window.as_ref(), self.timers.entries.scenario, choose);
+        let requested_sun = if is_operational {
+            inputs.requested_sun.within(keep_in.as_ref())
+        } else {
+            SunRequest::default()
         };
         let (constraints, sun_is_placed) = (*constraints, inputs.sun_is_placed);
         let now = SampleContext { settings, constraints, ephemeris, requested_sun, sun_is_placed, time_s };
@@ -204,35 +201,10 @@ impl GuidanceState {
         }
     }
 
-    /// Puts the Sun where a downlink begins, or science that unloads; whether one does.
-    fn place_sun(
-        &mut self,
-        settings: &GuidanceSettings<'_>,
-        command: &PointingCommand,
-        ephemeris: &EphemerisAtTime,
-        attitude: Attitude,
-        choose: impl Fn(&WindowStart<'_>) -> Option<SelectedSunDirection>,
-    ) -> bool {
+    /// Directions of the Sun in the mode.
+    fn sun_directions(&self) -> SelectedSunDirections {
         let is_operational = self.modes.mode == Mode::Operational;
-        let (law, periapses) = (&settings.orbit_phase, &mut self.periapses);
-        let window = || present_window(law, command, ephemeris, attitude, periapses);
-        let Some(start) = is_operational.then(window).flatten() else {
-            self.downlink_sun.end();
-            return false;
-        };
-        let is_span = start.span_s.is_finite() && start.span_s > 0.0;
-        let chosen = || is_span.then(|| choose(&start)).flatten();
-        match start.activity {
-            Activity::Downlink => {
-                self.downlink_sun.last(start.scenario, self.timers.entries.scenario, chosen)
-            }
-            Activity::Science => self.downlink_sun.last_in_science(chosen),
-        }
-    }
-
-    /// The Sun's place in the downlinks of the mode; `None`: on -Y.
-    fn sun_direction(&self) -> Option<DownlinkSunDirection> {
-        self.downlink_sun.selected.in_downlink().filter(|_| self.modes.mode == Mode::Operational)
+        if is_operational { self.downlink_sun.selected } else { SelectedSunDirections::default() }
     }
 
     /// Rejects decoded states that no simulation can produce.
@@ -287,8 +259,7 @@ impl GuidanceState {
         });
         self.hot_pole_turn = constrained.hot_pole;
         self.command = self.command.followed_by(&constrained.pointing.frame(), now.time_s);
-        let (_, is_sun_moved) = now.requested_sun;
-        self.status = CommandStatus::new(now.settings, now.ephemeris, &solution, &constrained, is_sun_moved);
+        self.status = CommandStatus::new(now, &solution, &constrained);
         self.status.degenerate |= !is_given;
         self.status.reachable &= !is_slewing;
     }
@@ -324,19 +295,18 @@ impl GuidanceState {
     /// The vectors that the command asks for.
     fn solution(&mut self, now: &SampleContext<'_>, command: &PointingCommand) -> Option<PointingSolution> {
         if command.scenario == Some(Scenario::OrbitPhase) {
-            let science =
-                self.downlink_sun.selected.in_science().filter(|_| self.modes.mode == Mode::Operational);
-            let law = now.settings.orbit_phase.with_sun_directions(self.sun_direction(), science);
-            let law = Guided { requested: now.requested_sun.0, ..law };
+            let guided = now.settings.orbit_phase.with_sun_directions(&self.sun_directions());
+            let guided = Guided { requested: now.requested_sun, ..guided };
             let hardware = &now.settings.hardware;
-            let attitude = self.periapses.attitude(&law, hardware.default_downlink, now.ephemeris);
-            return Some(orbit_phase_solution(&attitude, &law, now.ephemeris, hardware));
+            let law = OrbitPhaseLaw { guided, default_downlink: hardware.default_downlink };
+            let attitude = self.periapses.attitude(&law, now.ephemeris);
+            return Some(orbit_phase_solution(&attitude, &guided, now.ephemeris, hardware));
         }
         let progress = PointingProgress {
             scan: self.timers.scan_time(now.time_s),
             limb_elapsed_s: self.timers.limb_elapsed_s(now.time_s),
-            downlink_sun: self.sun_direction().filter(|_| !now.sun_is_placed),
-            requested: now.requested_sun.0,
+            downlink_sun: self.sun_directions().in_downlink().filter(|_| !now.sun_is_placed),
+            requested: now.requested_sun,
             burn: self.burn.pointing(&now.settings.burn),
         };
         pointing_solution(command, &now.settings.hardware, now.ephemeris, &progress)

@@ -7,9 +7,7 @@ use crate::attitude::{MovingFrame, MovingUnit, SunAngles, angle_between_rad, dir
 use crate::environment::CartesianState;
 use crate::guidance::constraints::keep_in::{KeepIn, within_zone};
 use crate::guidance::downlink::default_downlink::{DefaultDownlink, EarthBoresight};
-use crate::guidance::downlink::sun_direction::{
-    self, DownlinkRequest, DownlinkSunDirection, SunZone, both_solutions,
-};
+use crate::guidance::downlink::sun_direction::{self, DownlinkRequest, DownlinkSunDirection, both_solutions};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{Moving, direction, fixed, moving, state, value};
 use crate::guidance::pointing::aligned::aligned_vectors;
@@ -93,7 +91,7 @@ pub enum ScienceRule {
         /// The axes and their targets.
         axes: AlignedAxes,
         /// Zone that keeps the Sun, as in a command of a timeline.
-        zone: Option<SunZone>,
+        zone: Option<KeepIn>,
     },
 }
 
@@ -122,7 +120,7 @@ impl ScienceRule {
     pub fn within(self, keep_in: Option<KeepIn>) -> Self {
         match self {
             Self::Aligned { axes, .. } => {
-                let zone = keep_in.map(|keep_in| SunZone { keep_in, distance_m: f64::INFINITY });
+                let zone = keep_in.map(|zone| KeepIn { distance_m: f64::INFINITY, ..zone });
                 Self::Aligned { axes, zone }
             }
             Self::Scaled { .. } | Self::Nadir | Self::PlanetOrbit | Self::Unloading { .. } => self,
@@ -150,12 +148,6 @@ impl AttitudeCommand {
     /// Returns the attitude of a law without scans that is kept.
     pub fn new(frame: MovingFrame, margins: [f64; 2]) -> Self {
         Self { frame, margins, clamped: false, degenerate: false, corner_s: f64::INFINITY }
-    }
-
-    /// Turned by 180 deg about the Sun line: the Sun stays in its place.
-    #[must_use]
-    pub fn alternate(self, to_sun: &MovingUnit) -> Self {
-        Self { frame: self.frame.half_turned(to_sun), ..self }
     }
 }
 
@@ -221,21 +213,17 @@ pub fn unloading(lines: &LinesOfSight, sun: SunAngles, gimbal: &Gimbal) -> Optio
     let vectors = PointingVectors {
         boresight_body: fixed(sun_body),
         aimpoint: to_sun,
-        body_roll: gimbal.moving_boresight(off_beta + beta_rad),
+        body_roll: gimbal.boresight(off_beta + beta_rad),
         external_roll: to_planet,
     };
     Some(AttitudeCommand::new(vectors.pointing()?.frame(), margins))
 }
 
 /// Attitude of two axes at their targets, the Sun inside the zone; `None` where the target of the first has no direction.
-fn aligned(
-    axes: &AlignedAxes,
-    zone: Option<SunZone>,
-    ephemeris: &EphemerisAtTime,
-) -> Option<AttitudeCommand> {
+fn aligned(axes: &AlignedAxes, zone: Option<KeepIn>, ephemeris: &EphemerisAtTime) -> Option<AttitudeCommand> {
     let to_sun = ephemeris.to_sun();
-    let keep_in = zone.filter(|zone| value(&to_sun).norm() <= zone.distance_m).map(|zone| zone.keep_in);
-    let kept = within_zone(&aligned_vectors(axes, ephemeris)?, keep_in.as_ref(), &to_sun, false)?;
+    let zone = zone.filter(|zone| value(&to_sun).norm() <= zone.distance_m);
+    let kept = within_zone(&aligned_vectors(axes, ephemeris)?, zone.as_ref(), &to_sun, false)?;
     Some(AttitudeCommand {
         clamped: kept.is_moved,
         degenerate: kept.pointing.degenerate,

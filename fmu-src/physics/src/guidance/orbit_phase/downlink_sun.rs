@@ -7,11 +7,13 @@
 use serde::{Deserialize, Serialize};
 
 use super::guided::Guided;
-use super::schedule::Activity;
+use super::periapsis_count::PeriapsisCount;
+use super::predicted_orbit::ellipse_of;
+use super::schedule::{Activity, Schedule};
 use crate::attitude::Attitude;
 use crate::guidance::downlink::sun_direction::{SelectedSunDirection, SelectedSunDirections};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
-use crate::guidance::pointing::command::Scenario;
+use crate::guidance::pointing::command::{BoresightOption, PointingCommand, Scenario};
 
 /// Begin of a downlink, or of science that unloads.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +31,44 @@ pub struct WindowStart<'a> {
     /// Science and downlink from here on, in s past J2000 TDB; the scenario downlink counts on the windows of the orbit phase, of
     /// which one begins here. Places of the Sun are those of default attitudes.
     pub law: Guided,
+}
+
+/// Returns the rest of the window of a command; `None` where it has no selected direction of the Sun.
+pub fn present_window<'e>(
+    law: &Guided,
+    command: &PointingCommand,
+    ephemeris: &'e EphemerisAtTime,
+    attitude: Attitude,
+    periapses: &mut PeriapsisCount,
+) -> Option<WindowStart<'e>> {
+    let epoch_s = ephemeris.epoch_s;
+    let windows = &in_present_orbit(&law.schedule, ephemeris);
+    let scenario = command.scenario?;
+    let (activity, schedule, span_s) = match scenario {
+        Scenario::Downlink if command.boresight.option != Some(BoresightOption::PhasedArray) => {
+            (Activity::Downlink, windows.begun_at(epoch_s), windows.downlink_s())
+        }
+        Scenario::OrbitPhase => {
+            let schedule = periapses.windows(windows, ephemeris);
+            let window = schedule.window(epoch_s);
+            (window.activity, schedule, window.until_s - epoch_s)
+        }
+        _ => return None,
+    };
+    let is_selected = activity == Activity::Downlink || law.science.unloads();
+    let law = Guided { schedule, ..*law };
+    is_selected.then_some(WindowStart { scenario, activity, ephemeris, attitude, span_s, law })
+}
+
+/// Windows with fractions of the period taken of the orbit that the spacecraft is on.
+fn in_present_orbit(windows: &Schedule, ephemeris: &EphemerisAtTime) -> Schedule {
+    if windows.period_shares == [None; 2] {
+        return *windows;
+    }
+    ellipse_of(ephemeris).map_or(*windows, |orbit| Schedule {
+        period_s: windows.period_s,
+        ..windows.in_orbit(orbit.period_s())
+    })
 }
 
 /// Last selection.
@@ -50,6 +90,26 @@ impl DownlinkSun {
         let SelectedSunDirections { downlink, science } = self.selected;
         let present = if self.lasts.is_some() { downlink } else { science.filter(|_| self.science_lasts) };
         present.is_some_and(|chosen| chosen.clamped)
+    }
+
+    /// Selects the Sun's direction where a downlink begins, or science that unloads; returns whether one does. `entry` is the timeline's
+    /// that names the scenario.
+    pub fn update(
+        &mut self,
+        window: Option<&WindowStart<'_>>,
+        entry: Option<f64>,
+        choose: impl Fn(&WindowStart<'_>) -> Option<SelectedSunDirection>,
+    ) -> bool {
+        let Some(start) = window else {
+            self.end();
+            return false;
+        };
+        let is_span = start.span_s.is_finite() && start.span_s > 0.0;
+        let chosen = || is_span.then(|| choose(start)).flatten();
+        match start.activity {
+            Activity::Downlink => self.last(start.scenario, entry, chosen),
+            Activity::Science => self.last_in_science(chosen),
+        }
     }
 
     /// Ends the downlink or the science that lasts.

@@ -12,7 +12,7 @@ use super::schedule::{Activity, Schedule, Window};
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::constraints::slew::{Slew, SlewStart, SlewedFrame};
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
-use crate::guidance::downlink::sun_direction::{DownlinkSunDirection, SunRequest};
+use crate::guidance::downlink::sun_direction::{DownlinkSunDirection, SelectedSunDirections, SunRequest};
 
 /// The guidance law of the orbital phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,25 +86,27 @@ impl DownlinkStatus {
 }
 
 impl Guided {
-    /// Returns the law with these directions of the Sun in downlink and in science that unloads; `None`: on -Y.
+    /// Returns the law with these directions of the Sun in downlink and in science that unloads; on -Y without one.
     #[must_use]
-    pub fn with_sun_directions(
-        self,
-        sun_direction: Option<DownlinkSunDirection>,
-        science: Option<SunAngles>,
-    ) -> Self {
-        Self { sun_direction, science: self.science.with_sun(science.unwrap_or_default()), ..self }
+    pub fn with_sun_directions(self, selected: &SelectedSunDirections) -> Self {
+        let science = self.science.with_sun(selected.in_science().unwrap_or_default());
+        Self { sun_direction: selected.in_downlink(), science, ..self }
     }
+}
 
-    /// Attitude at `time_s` (time scale of the schedule) with the antennas of this default downlink. `sight_at` gives what
-    /// surrounds the spacecraft at any time.
-    pub fn at<S: Sight>(
-        &self,
-        time_s: f64,
-        default_downlink: &DefaultDownlink,
-        sight_at: impl FnMut(f64) -> S,
-    ) -> GuidedAttitude {
-        self.within(self.schedule.window(time_s), time_s, default_downlink, sight_at)
+/// Guidance of the orbit phase with the default downlink of the spacecraft's antennas.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OrbitPhaseLaw<'a> {
+    /// Settings.
+    pub guided: Guided,
+    /// Downlink without a requested direction of the Sun.
+    pub default_downlink: &'a DefaultDownlink,
+}
+
+impl OrbitPhaseLaw<'_> {
+    /// Attitude at `time_s` (time scale of the schedule). `sight_at` gives what surrounds the spacecraft at any time.
+    pub fn at<S: Sight>(&self, time_s: f64, sight_at: impl FnMut(f64) -> S) -> GuidedAttitude {
+        self.within(self.guided.schedule.window(time_s), time_s, sight_at)
     }
 
     /// The same in a window found by other means than the schedule's own counting.
@@ -112,17 +114,16 @@ impl Guided {
         &self,
         window: Window,
         time_s: f64,
-        default_downlink: &DefaultDownlink,
         mut sight_at: impl FnMut(f64) -> S,
     ) -> GuidedAttitude {
         let sight = sight_at(time_s);
-        let command = |activity, sight: &S| self.command(activity, sight, default_downlink);
-        let target = command(window.activity, &sight);
+        let Guided { slew_rate_rad_s, keep_in, .. } = &self.guided;
+        let target = self.command(window.activity, &sight);
         let held = GuidedAttitude::held(target, window);
-        if self.slew_rate_rad_s.is_nan() || self.slew_rate_rad_s <= 0.0 || !window.since_s.is_finite() {
+        if slew_rate_rad_s.is_nan() || *slew_rate_rad_s <= 0.0 || !window.since_s.is_finite() {
             return held;
         }
-        let longest_s = Slew::longest_rad(self.keep_in.as_ref()) / self.slew_rate_rad_s;
+        let longest_s = Slew::longest_rad(keep_in.as_ref()) / slew_rate_rad_s;
         if time_s - window.since_s >= longest_s {
             return held;
         }
@@ -131,18 +132,18 @@ impl Guided {
             Activity::Downlink => Activity::Science,
         };
         let sight_then = sight_at(window.since_s);
-        let from = command(before, &sight_then).frame;
-        let to = command(window.activity, &sight_then).frame;
+        let from = self.command(before, &sight_then).frame;
+        let to = self.command(window.activity, &sight_then).frame;
         let lines_then = sight_then.lines();
         let start = SlewStart {
             from: &from,
             to: &to,
             to_sun: lines_then.sun.direction,
-            sun_drift_rad_s: self.sun_drift_rad_s(window.activity, &lines_then, &to, default_downlink),
+            sun_drift_rad_s: self.sun_drift_rad_s(window.activity, &lines_then, &to),
         };
-        let slew = Slew::between(&start, self.keep_in.as_ref(), self.slew_rate_rad_s);
+        let slew = Slew::between(&start, keep_in.as_ref(), *slew_rate_rad_s);
         let sun = sight.lines().sun;
-        let slewed = slew.at(window.since_s, time_s, &target.frame, &sun, self.slew_rate_rad_s);
+        let slewed = slew.at(window.since_s, time_s, &target.frame, &sun, *slew_rate_rad_s);
         slewed.map_or(held, |SlewedFrame { frame, end_s }| GuidedAttitude {
             frame,
             slewing: true,
@@ -153,15 +154,10 @@ impl Guided {
 
     /// Bound of the rate at which the Sun moves in the body frame during a turn to an attitude, in rad/s: twice what the lines
     /// of sight allow where the turn begins.
-    fn sun_drift_rad_s(
-        &self,
-        activity: Activity,
-        lines: &LinesOfSight,
-        to: &MovingFrame,
-        default_downlink: &DefaultDownlink,
-    ) -> f64 {
-        let gain = match (activity, self.science) {
-            (Activity::Downlink, _) if self.sun_direction.is_none() && default_downlink.moves_the_sun() => {
+    fn sun_drift_rad_s(&self, activity: Activity, lines: &LinesOfSight, to: &MovingFrame) -> f64 {
+        let is_default = self.guided.sun_direction.is_none();
+        let gain = match (activity, self.guided.science) {
+            (Activity::Downlink, _) if is_default && self.default_downlink.moves_the_sun() => {
                 return 2.0 * (lines.earth.rate_1_s.norm() + lines.sun.rate_1_s.norm());
             }
             (Activity::Downlink, _) | (Activity::Science, ScienceRule::Unloading { .. }) => return 0.0,
@@ -177,26 +173,23 @@ impl Guided {
         2.0 * gain * (planet_rad_s + lines.sun.rate_1_s.norm())
     }
 
-    fn command(
-        &self,
-        activity: Activity,
-        sight: &impl Sight,
-        default_downlink: &DefaultDownlink,
-    ) -> AttitudeCommand {
+    fn command(&self, activity: Activity, sight: &impl Sight) -> AttitudeCommand {
         let lines = &sight.lines();
-        let SunRequest { sun, alternate, .. } = self.requested;
-        let found = match (activity, &self.sun_direction) {
-            (Activity::Science, _) => {
-                science(lines, || sight.ephemeris(), self.science, self.elevation_limit_rad)
-            }
+        let Guided { science: rule, elevation_limit_rad, sun_direction, requested, .. } = &self.guided;
+        let SunRequest { sun, alternate, .. } = *requested;
+        let found = match (activity, sun_direction) {
+            (Activity::Science, _) => science(lines, || sight.ephemeris(), *rule, *elevation_limit_rad),
             (Activity::Downlink, Some(place)) => downlink_toward(lines, place),
             (Activity::Downlink, None) if sun != SunAngles::default() => {
-                downlink_with(lines, sun, default_downlink.antennas())
+                downlink_with(lines, sun, self.default_downlink.antennas())
             }
-            (Activity::Downlink, None) => downlink(lines, default_downlink),
+            (Activity::Downlink, None) => downlink(lines, self.default_downlink),
         };
         let command = found.unwrap_or_else(|| sun_pointing(lines));
-        if alternate && activity == Activity::Downlink { command.alternate(&lines.sun) } else { command }
+        // Turned by 180 deg about the Sun line: the Sun stays in its place.
+        let is_turned = alternate && activity == Activity::Downlink;
+        let frame = if is_turned { command.frame.half_turned(&lines.sun) } else { command.frame };
+        AttitudeCommand { frame, ..command }
     }
 }
 

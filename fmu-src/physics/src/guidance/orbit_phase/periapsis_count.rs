@@ -2,11 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::guided::{Guided, GuidedAttitude};
+use super::guided::{Guided, GuidedAttitude, OrbitPhaseLaw};
 use super::predicted_orbit::ellipse_of;
 use super::schedule::Schedule;
 use crate::environment::orbit::TwoBodyOrbit;
-use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 
 /// The periapsis from which downlinks are counted; that of the orbit on which counting began.
@@ -19,15 +18,11 @@ impl PeriapsisCount {
     /// The attitude of the orbit phase. Periapsis and period of `law` are replaced by those of the orbit that position and
     /// velocity give; between disturbed orbits the count continues. Where a slew begins the spacecraft stood on that orbit, and
     /// Sun and Earth moved evenly since.
-    pub fn attitude(
-        &mut self,
-        law: &Guided,
-        default_downlink: &DefaultDownlink,
-        ephemeris: &EphemerisAtTime,
-    ) -> GuidedAttitude {
-        let (orbit, schedule) = self.counted(&law.schedule, ephemeris);
+    pub fn attitude(&mut self, law: &OrbitPhaseLaw<'_>, ephemeris: &EphemerisAtTime) -> GuidedAttitude {
+        let (orbit, schedule) = self.counted(&law.guided.schedule, ephemeris);
         let epoch_s = ephemeris.epoch_s;
-        Guided { schedule, ..*law }.at(epoch_s, default_downlink, |at_s| match orbit {
+        let guided = Guided { schedule, ..law.guided };
+        OrbitPhaseLaw { guided, ..*law }.at(epoch_s, |at_s| match orbit {
             Some(orbit) if at_s != epoch_s => ephemeris.moved_to(at_s, &orbit.state_at(at_s)),
             _ => *ephemeris,
         })

@@ -62,10 +62,7 @@ impl PredictedBody {
     }
 
     fn at(&self, epoch_s: f64) -> CartesianState {
-        let evenly = || CartesianState {
-            position_m: self.state.position_m + self.state.velocity_m_s * (epoch_s - self.epoch_s),
-            ..self.state
-        };
+        let evenly = || self.state.moved_evenly(epoch_s - self.epoch_s);
         self.ellipse.map_or_else(evenly, |ellipse| ellipse.state_at(epoch_s))
     }
 }

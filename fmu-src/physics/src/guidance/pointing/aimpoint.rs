@@ -1,8 +1,14 @@
-//! The aimpoint options of paper 001's Table 2, and any body.
+//! The aimpoint options of paper 001's Table 2, and any body; the body roll vector and the external roll reference (Tables 3 and 4).
+//!
+//! Where no roll is commanded the scenarios' own hold (Table 5): -Y toward the Sun.
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::command::{AimpointCommand, AimpointOption};
+use super::command::{
+    AimpointCommand, AimpointOption, BodyRollCommand, BodyRollOption, ExternalRollCommand, ExternalRollOption,
+};
+use crate::attitude::{SunAngles, direction_from_angles};
 use crate::bodies::Body;
 use crate::environment::frames::ecliptic_north;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
@@ -87,12 +93,8 @@ pub fn aimpoint(
         AimpointOption::PlanetCentered => ephemeris.to_planet() + position,
         AimpointOption::PlanetFixed => ephemeris.to_planet() + planet_fixed(ephemeris, &position),
         AimpointOption::LatitudeLongitude => {
-            let at_m = geographic_m(
-                &ephemeris.planet.radii_m,
-                command.latitude_rad,
-                command.longitude_rad,
-                command.height_m,
-            );
+            let AimpointCommand { latitude_rad, longitude_rad, height_m, .. } = *command;
+            let at_m = geographic_m(&ephemeris.planet.radii_m, latitude_rad, longitude_rad, height_m);
             ephemeris.to_planet() + planet_fixed(ephemeris, &fixed(at_m))
         }
         AimpointOption::LvlhDowntrack => lvlh(AzimuthReference::Downtrack)?,
@@ -112,6 +114,34 @@ pub fn aimpoint(
         AimpointOption::EclipticNorth => fixed(ecliptic_north()),
     };
     Aimpoint::new(toward, aimpoint_kind(option))
+}
+
+/// The commanded body roll vector, body frame, of any length.
+pub fn body_roll(command: &BodyRollCommand) -> MovingVector {
+    fixed(match command.option {
+        None => -Vector3::y(),
+        Some(BodyRollOption::Vector) => command.vector,
+        Some(BodyRollOption::AzimuthElevation) => {
+            let BodyRollCommand { azimuth_rad, elevation_rad, .. } = *command;
+            direction_from_angles(SunAngles { azimuth_rad, elevation_rad })
+        }
+    })
+}
+
+/// The commanded external roll reference, from the spacecraft, EME2000, of any length.
+pub fn external_roll(command: &ExternalRollCommand, ephemeris: &EphemerisAtTime) -> MovingVector {
+    match command.option {
+        Some(ExternalRollOption::Vector) => fixed(command.vector),
+        Some(ExternalRollOption::RightAscensionDeclination) => {
+            fixed(spherical(command.right_ascension_rad, command.declination_rad))
+        }
+        None | Some(ExternalRollOption::Sun) => ephemeris.to_sun(),
+        Some(ExternalRollOption::Earth) => ephemeris.to_earth(),
+        Some(ExternalRollOption::Planet) => ephemeris.to_planet(),
+        Some(ExternalRollOption::Velocity) => ephemeris.velocity,
+        Some(ExternalRollOption::OrbitNormal) => ephemeris.orbit_normal(),
+        Some(ExternalRollOption::EclipticNorth) => fixed(ecliptic_north()),
+    }
 }
 
 #[cfg(test)]

@@ -1,12 +1,11 @@
 //! Attitudes by two axes and their targets as commands of the scenario generic, and their vectors.
 
-use super::aimpoint::aimpoint;
+use super::aimpoint::{aimpoint, external_roll};
 use super::command::{
     AimpointCommand, AimpointOption, BodyRollCommand, BodyRollOption, BoresightCommand, BoresightOption,
     ExternalRollCommand, ExternalRollOption, PointingCommand, Scenario,
 };
 use super::law::PointingVectors;
-use super::roll::external_roll;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::SubsolarMethod;
 use crate::guidance::geometry::moving::fixed;

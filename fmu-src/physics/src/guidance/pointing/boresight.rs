@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::antenna::{AntennaAzimuth, Antennas};
 use super::command::{BoresightCommand, BoresightOption};
 use crate::attitude::{SunAngles, direction_from_angles};
-use crate::guidance::geometry::moving::{Moving, MovingVector, fixed};
+use crate::guidance::geometry::moving::{MovingVector, fixed};
 use crate::math::{self, wrapped_rad};
-use crate::numerics::scalar::sin_cos;
+use crate::numerics::scalar::{Scalar, constant_vector, sin_cos};
 use crate::spacecraft::Instrument;
 
 /// Boresight of an instrument, body frame: number 0 is +Z, then the rows of the table from 1; `None` past the last row.
@@ -72,16 +72,10 @@ impl Gimbal {
         self.nearest(math::atan2(sine, cosine))
     }
 
-    /// Body-frame boresight at an angle.
-    pub fn boresight(&self, angle_rad: f64) -> Vector3<f64> {
-        let (sine, cosine) = math::sin_cos(angle_rad);
-        self.zero_body * cosine + self.quarter_body * sine
-    }
-
-    /// The same at an angle that moves.
-    pub fn moving_boresight(&self, angle: Moving) -> MovingVector {
-        let (sine, cosine) = sin_cos(angle);
-        fixed(self.zero_body) * cosine + fixed(self.quarter_body) * sine
+    /// Boresight at an angle, with its rate where the angle has one.
+    pub fn boresight<T: Scalar>(&self, angle_rad: T) -> Vector3<T> {
+        let (sine, cosine) = sin_cos(angle_rad);
+        constant_vector::<T>(&self.zero_body) * cosine + constant_vector::<T>(&self.quarter_body) * sine
     }
 }
 
@@ -123,10 +117,10 @@ pub fn boresight(
 ) -> Option<Boresight> {
     Some(match command.option? {
         BoresightOption::Vector => Boresight::fixed(command.vector),
-        BoresightOption::AzimuthElevation => Boresight::fixed(direction_from_angles(SunAngles {
-            azimuth_rad: command.azimuth_rad,
-            elevation_rad: command.elevation_rad,
-        })),
+        BoresightOption::AzimuthElevation => {
+            let BoresightCommand { azimuth_rad, elevation_rad, .. } = *command;
+            Boresight::fixed(direction_from_angles(SunAngles { azimuth_rad, elevation_rad }))
+        }
         BoresightOption::Gimbal => Boresight::gimbal(command.angle_rad, gimbal?),
         BoresightOption::PhasedArray => Boresight::antenna(command.azimuth_rad, antennas)?,
     })

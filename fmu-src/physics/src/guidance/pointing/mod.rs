@@ -6,5 +6,4 @@ pub mod antenna;
 pub mod boresight;
 pub mod command;
 pub mod law;
-pub mod roll;
 pub mod scan;

@@ -46,6 +46,36 @@ impl ScanCompatibility {
     pub fn allows(&self, frame: ScanFrame, kind: AimpointKind) -> bool {
         self.allowed[frame as usize][kind as usize]
     }
+
+    /// The boresight and aim at a time of a scan from `basic`; `None` where none is commanded, it does not go with the kind of
+    /// aimpoint, or the moved aimpoint has no direction: then the basic pointing stands.
+    pub fn scanned(
+        &self,
+        basic: &Scanned,
+        kind: AimpointKind,
+        command: &ScanCommand,
+        ephemeris: &EphemerisAtTime,
+        time: ScanTime,
+    ) -> Option<Scanned> {
+        let frame = command.frame.filter(|frame| self.allows(*frame, kind))?;
+        let mut moved = *basic;
+        match frame {
+            ScanFrame::Body => moved.boresight_body = rotation(command, time) * basic.boresight_body,
+            ScanFrame::InertialRotation => moved.toward = rotation(command, time) * basic.toward,
+            ScanFrame::InertialTranslation => moved.toward += translation_m(command, time),
+            ScanFrame::PlanetTranslation => {
+                let planet_from_inertial = ephemeris.planet.planet_from_inertial(ephemeris.epoch_s);
+                moved.toward += planet_from_inertial.tr_mul(&translation_m(command, time));
+            }
+            ScanFrame::LvlhRotation => {
+                let inertial_from_lvlh = lvlh_axes(ephemeris, command.reference.unwrap_or_default())?;
+                // The change alone is turned back: a turn by nothing then changes no bit.
+                let change = rotation(command, time) - MovingMatrix::identity();
+                moved.toward += inertial_from_lvlh * (change * inertial_from_lvlh.tr_mul(&basic.toward));
+            }
+        }
+        Aimpoint::new(moved.toward, kind).is_some().then_some(moved)
+    }
 }
 
 /// Boresight and aimpoint under a scan.
@@ -64,35 +94,6 @@ pub struct ScanTime {
     pub elapsed_s: f64,
     /// Rounding of the two times whose difference it is, in s: a corner so near counts as reached.
     pub tolerance_s: f64,
-}
-
-/// The boresight and aim at a time of a scan; `None` where none is commanded, it does not go with the aimpoint,
-/// or the moved aimpoint has no direction: then the basic pointing stands.
-pub fn scanned(
-    boresight_body: &MovingVector,
-    aimpoint: &Aimpoint,
-    command: &ScanCommand,
-    compatibility: &ScanCompatibility,
-    (ephemeris, time): (&EphemerisAtTime, ScanTime),
-) -> Option<Scanned> {
-    let frame = command.frame.filter(|frame| compatibility.allows(*frame, aimpoint.kind))?;
-    let mut moved = Scanned { boresight_body: *boresight_body, toward: aimpoint.toward };
-    match frame {
-        ScanFrame::Body => moved.boresight_body = rotation(command, time) * boresight_body,
-        ScanFrame::InertialRotation => moved.toward = rotation(command, time) * aimpoint.toward,
-        ScanFrame::InertialTranslation => moved.toward += translation_m(command, time),
-        ScanFrame::PlanetTranslation => {
-            let planet_from_inertial = ephemeris.planet.planet_from_inertial(ephemeris.epoch_s);
-            moved.toward += planet_from_inertial.tr_mul(&translation_m(command, time));
-        }
-        ScanFrame::LvlhRotation => {
-            let inertial_from_lvlh = lvlh_axes(ephemeris, command.reference.unwrap_or_default())?;
-            // The change alone is turned back: a turn by nothing then changes no bit.
-            let change = rotation(command, time) - MovingMatrix::identity();
-            moved.toward += inertial_from_lvlh * (change * inertial_from_lvlh.tr_mul(&aimpoint.toward));
-        }
-    }
-    Aimpoint::new(moved.toward, aimpoint.kind).is_some().then_some(moved)
 }
 
 /// Offset of one axis and its rate: `speed` per second in each motion.

@@ -16,14 +16,13 @@ use crate::guidance::geometry::moving::{Moving, MovingVector, fixed, unit, unit_
 use crate::guidance::orbit_phase::attitudes::ScienceRule;
 use crate::guidance::orbit_phase::guided::{DownlinkStatus, Guided, GuidedAttitude};
 use crate::guidance::orbit_phase::schedule::Activity;
-use crate::guidance::pointing::aimpoint::{Aimpoint, AimpointKind, aimpoint};
+use crate::guidance::pointing::aimpoint::{Aimpoint, AimpointKind, aimpoint, body_roll, external_roll};
 use crate::guidance::pointing::aligned::aligned_vectors;
 use crate::guidance::pointing::antenna::{Antennas, Beam};
 use crate::guidance::pointing::boresight::{Boresight, DeviceAngle, Gimbal, boresight, instrument_boresight};
 use crate::guidance::pointing::command::{BodyRollCommand, BoresightOption, PointingCommand, Scenario};
 use crate::guidance::pointing::law::{Pointing, PointingVectors};
-use crate::guidance::pointing::roll::{body_roll, external_roll};
-use crate::guidance::pointing::scan::{ScanCompatibility, ScanTime, scanned};
+use crate::guidance::pointing::scan::{ScanCompatibility, ScanTime, Scanned};
 use crate::spacecraft::Instrument;
 
 /// Devices of the spacecraft and settings that pointing options read.
@@ -240,14 +239,12 @@ impl Reading<'_> {
 
     /// The boresight at the aimpoint with -Y rolled toward the Sun, and the scan on top.
     fn sunward(&self, boresight: Boresight, aimpoint: Aimpoint) -> PointingSolution {
+        let basic = Scanned { boresight_body: boresight.body, toward: aimpoint.toward };
         let scan = self.progress.scan.and_then(|time| {
-            let (scan, scans) = (&self.command.scan, &self.hardware.scans);
-            scanned(&boresight.body, &aimpoint, scan, scans, (self.ephemeris, time))
+            let scans = &self.hardware.scans;
+            scans.scanned(&basic, aimpoint.kind, &self.command.scan, self.ephemeris, time)
         });
-        let vectors = self.rolled_sunward(
-            scan.map_or(boresight.body, |scan| scan.boresight_body),
-            scan.map_or(aimpoint.toward, |scan| scan.toward),
-        );
+        let Scanned { boresight_body, toward } = scan.unwrap_or(basic);
         PointingSolution {
             gimbal: boresight.gimbal,
             antenna: boresight.antenna.map(Beam::Commanded),
@@ -255,7 +252,7 @@ impl Reading<'_> {
             clamped: boresight.gimbal.is_some_and(|angle| !angle.in_range)
                 || boresight.antenna.is_some_and(|antenna| !antenna.is_in_range()),
             scan_active: scan.is_some(),
-            ..PointingSolution::at(vectors)
+            ..PointingSolution::at(self.rolled_sunward(boresight_body, toward))
         }
     }
 

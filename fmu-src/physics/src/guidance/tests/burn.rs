@@ -10,6 +10,7 @@ use crate::attitude::control::{AccelerometerSettings, AccelerometerState};
 use crate::bodies::Body;
 use crate::constants::DEG_RAD;
 use crate::guidance::burn::delta_v::{BurnPhase, BurnSettings, GAIN, LOOK_AHEAD_S};
+use crate::guidance::burn::nominal_thrust::NominalThrust;
 use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::guidance::constraints::constrained::Constraints;
 use crate::guidance::downlink::sun_direction::{LinkLimits, SunRequest};
@@ -91,8 +92,7 @@ pub(crate) fn settings(delta_v_m_s: Vector3<f64>) -> BurnSettings {
         gain: GAIN,
         predictive: true,
         reactive: true,
-        thrust_body: Vector3::z(),
-        acceleration_m_s2: 0.088,
+        nominal: NominalThrust { direction_body: Vector3::z(), acceleration_m_s2: 0.088 },
         timeout_s: 3600.0,
         wait_s: 3600.0,
     }
@@ -115,7 +115,6 @@ pub(crate) fn guidance_settings(burn: BurnSettings) -> GuidanceSettings<'static>
             sun_search_duration_s: 600.0,
         },
         keep_in,
-        keep_in_distance_m: 1e13,
         link: LinkLimits { sun_separation_rad: 0.05, coverage_rad: Some(0.05) },
         orbit_phase: guided(ScienceRule::Nadir, f64::INFINITY, [0.0, 0.0], 0),
         burn,
@@ -184,7 +183,7 @@ impl BurnFlight {
         let jitter = normal_vector(self.seed, Channel::GyroBias, elapsed_s as u64) * self.thrust.jitter_rad;
         let steady = off(0, self.thrust.misalignment_rad) + off(1, self.thrust.drift_rad * elapsed_s / 100.0);
         let turn = steady + Vector3::new(jitter.x, jitter.y, 0.0);
-        UnitQuaternion::from_scaled_axis(turn) * self.settings.thrust_body
+        UnitQuaternion::from_scaled_axis(turn) * self.settings.nominal.direction_body
     }
 
     /// Simulates it for `duration_s`.

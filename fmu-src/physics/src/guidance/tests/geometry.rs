@@ -8,7 +8,8 @@ use crate::guidance::pointing::law::Pointing;
 
 /// The zone about -Y with its nearest boundary point.
 pub(crate) fn nearest_zone(azimuth_rad: f64, elevation_rad: f64) -> KeepIn {
-    KeepIn { axis_body: -Vector3::y(), azimuth_rad, elevation_rad, method: KeepInMethod::Nearest }
+    let method = KeepInMethod::Nearest;
+    KeepIn { axis_body: -Vector3::y(), azimuth_rad, elevation_rad, method, distance_m: 1e13 }
 }
 
 /// Numbers of SplitMix64 (Steele, Lea and Flood 2014).

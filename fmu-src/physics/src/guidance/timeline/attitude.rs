@@ -90,7 +90,7 @@ mod tests {
         let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
         let command = |attitude: &str| {
             let text = format!("[[command]]\nat = 0\nattitude = {attitude}\n");
-            Timeline::of_plant("t.toml", &text, &spacecraft).unwrap().entries()[0].command
+            Timeline::of_plant("t.toml", &text, &spacecraft).unwrap().entries[0].command
         };
         assert_eq!(command("\"lvlh\""), aligned_command(&AlignedAxes::LVLH));
         let toward = |axis_body, target| TargetedAxis { axis_body, target };
@@ -116,6 +116,6 @@ mod tests {
                     aimpoint = { option = \"earth\" }\n[[command]]\nat = 2\nattitude = \"sunPointing\"\n\
                     [[command]]\nat = 3\nattitude = [0, 0, 0, 1]\n[[command]]\nat = 4\nkeepIn = { enabled = false }\n";
         let timeline = Timeline::of_plant("t.toml", text, &spacecraft).unwrap();
-        assert_eq!(timeline.names(), ["relay", "plusZ", "sunPointing", "inertial", "guided"]);
+        assert_eq!(timeline.names, ["relay", "plusZ", "sunPointing", "inertial", "guided"]);
     }
 }

@@ -3,28 +3,33 @@
 use std::sync::Arc;
 
 use super::attitude::name;
-use super::burn::{Span, burn as burn_of};
+use super::burn::burn as burn_of;
 use super::commands::{Commands, Reader};
 use super::description::TimelineDescription;
 use super::entry::{
     Slot, TimelineClock, TimelineEntry, TimelineEvent, TimelinePanels, begun, simulation_time_s,
 };
-use super::events::event;
-use super::panels::panels as panels_from;
+use super::events::{event, panels as panels_from};
 use super::scans::scan;
 use super::times::Times;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
+use crate::numerics::Span;
 use crate::spacecraft::Spacecraft;
 use crate::toml::{Checker, Document, FileError, Place, TIMELINE_LIMITS};
 
 /// Commands, panels and events one after the other; of each list the times grow, and one list at least is not empty.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Timeline {
-    clock: TimelineClock,
-    entries: Vec<TimelineEntry>,
-    names: Vec<String>,
-    panels: Vec<TimelinePanels>,
-    events: Arc<[TimelineEvent]>,
+    /// Clock of all times.
+    pub clock: TimelineClock,
+    /// Commands in the order of their times.
+    pub entries: Vec<TimelineEntry>,
+    /// Name of each command.
+    pub names: Vec<String>,
+    /// Positions of the panels in the order of their times.
+    pub panels: Vec<TimelinePanels>,
+    /// Events, each at one time, in the order of the times.
+    pub events: Arc<[TimelineEvent]>,
 }
 
 impl Timeline {
@@ -73,10 +78,10 @@ impl Timeline {
             names.push(name(&at, description));
             let next_s = spans.iter().skip(index + 1).find_map(|[next_s, _]| *next_s);
             let end_s = until_s.or(next_s).unwrap_or(f64::INFINITY);
-            let span = Span { clock, at_s: at_s.unwrap_or(f64::NAN), end_s };
+            let span = Span::new(at_s.unwrap_or(f64::NAN), end_s);
             let burns = command.scenario == Some(Scenario::Burn);
             let burn = description.burn.as_ref().filter(|_| burns);
-            let burn = burn.map(|given| burn_of(spacecraft, &at.key("burn"), given, span));
+            let burn = burn.map(|given| burn_of(spacecraft, &at.key("burn"), given, clock, span));
             let scan = scan(&at, description, &command);
             entries.push(TimelineEntry {
                 line: at.line(),
@@ -95,31 +100,6 @@ impl Timeline {
         let (panels, events) = (panels.collect(), events_place.items(events_list).zip(event_times));
         let events = events.map(|((at, given), at_s)| event(spacecraft, &at, given, at_s)).collect();
         check.finish(Self { clock, entries, names, panels, events })
-    }
-
-    /// By which clock it counts.
-    pub fn clock(&self) -> TimelineClock {
-        self.clock
-    }
-
-    /// The commands in the order of their times.
-    pub fn entries(&self) -> &[TimelineEntry] {
-        &self.entries
-    }
-
-    /// Name of each command.
-    pub fn names(&self) -> &[String] {
-        &self.names
-    }
-
-    /// How the panels stand, in the order of the times.
-    pub fn panels(&self) -> &[TimelinePanels] {
-        &self.panels
-    }
-
-    /// Events, each at one time, in the order of the times.
-    pub fn events(&self) -> &Arc<[TimelineEvent]> {
-        &self.events
     }
 
     /// The clock at a time of the simulation, minus that time, in s, the epoch being `epoch_minus_time_s` ahead of it.
@@ -142,7 +122,7 @@ impl Timeline {
 
     /// Returns the entry in force at a time of the simulation, in s, the clock being `clock_minus_time_s` ahead of it.
     pub fn slot(&self, now_s: f64, clock_minus_time_s: f64) -> Slot<'_> {
-        let entries = self.entries();
+        let entries = &self.entries;
         let time_s = |at_s: f64| simulation_time_s(at_s, clock_minus_time_s);
         let begun = begun(entries, clock_minus_time_s, now_s, |entry| entry.at_s);
         let next_s = entries.get(begun).map_or(f64::INFINITY, |next| time_s(next.at_s));

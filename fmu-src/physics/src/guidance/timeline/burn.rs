@@ -8,22 +8,16 @@ use super::quantity::{SPEED, TIME, three};
 use super::times::{instant, is_date};
 use crate::guidance::burn::nominal_thrust::NominalThrust;
 use crate::guidance::burn::velocity_path::VelocityPath;
+use crate::numerics::Span;
 use crate::spacecraft::{Spacecraft, ThrusterSet};
 use crate::toml::{Place, Positive, hint};
 
-/// When a command begins and ends, in s of a clock; without end infinite.
-#[derive(Clone, Copy)]
-pub(super) struct Span {
-    pub clock: TimelineClock,
-    pub at_s: f64,
-    pub end_s: f64,
-}
-
-/// The burn of the command at `at`, within its span.
+/// The burn of the command at `at`, within its span on this clock, whose end may be infinite.
 pub(super) fn burn(
     spacecraft: &Spacecraft,
     at: &Place<'_>,
     given: &BurnDescription,
+    clock: TimelineClock,
     span: Span,
 ) -> TimelineBurn {
     let delta_v_m_s = Vector3::from(three(&at.key("deltaV"), Some(&given.delta_v), &SPEED));
@@ -46,7 +40,7 @@ pub(super) fn burn(
         }
     };
     let set = thruster_set(spacecraft, &at.key("thrusters"), &given.thrusters);
-    let begin_s = start(at, given, span);
+    let begin_s = start(at, given, clock, span.start_s);
     let duration_s = given.duration.as_ref().map(|duration| {
         let place = at.key("duration");
         let duration_s = duration.read(&place, &TIME);
@@ -57,39 +51,29 @@ pub(super) fn burn(
     let nominal_s =
         path.filter(|_| acceleration_m_s2 > 0.0).map(|path| path.length_m_s() / acceleration_m_s2);
     let lasts_s = duration_s.or(nominal_s).unwrap_or(0.0);
-    let first_s = begin_s.unwrap_or(span.at_s);
-    if first_s.is_finite() && first_s < span.at_s {
-        at.key("start").report(
-            format_args!("{}, before the command begins", shown(given)),
-            "a time after `at`, or no such key: when the attitude is reached",
-        );
+    let first_s = begin_s.unwrap_or(span.start_s);
+    if first_s.is_finite() && first_s < span.start_s {
+        let written = given.start.as_ref().map(ToString::to_string).unwrap_or_default();
+        let allowed = "a time after `at`, or no such key: when the attitude is reached";
+        at.key("start").report(format_args!("{written}, before the command begins"), allowed);
     } else if first_s + lasts_s > span.end_s {
         let key = if given.start.is_some() { "start" } else { "duration" };
         let place = if at.key(key).is_written() { at.key(key) } else { at.clone() };
-        place.report(
-            format_args!(
-                "a burn that lasts {:.1} s and ends {:.1} s after the command does",
-                lasts_s,
-                first_s + lasts_s - span.end_s
-            ),
-            "one that ends before `until` and the next command",
-        );
+        let late_s = first_s + lasts_s - span.end_s;
+        let found = format!("a burn that lasts {lasts_s:.1} s and ends {late_s:.1} s after the command does");
+        place.report(found, "one that ends before `until` and the next command");
     }
     TimelineBurn { path, thrusters: set, nominal, start_s: begin_s, duration_s }
 }
 
-fn shown(given: &BurnDescription) -> String {
-    given.start.as_ref().map(ToString::to_string).unwrap_or_default()
-}
-
 /// When the burn begins, in s of the clock; `None` when the attitude is reached.
-fn start(at: &Place<'_>, given: &BurnDescription, span: Span) -> Option<f64> {
+fn start(at: &Place<'_>, given: &BurnDescription, clock: TimelineClock, since_s: f64) -> Option<f64> {
     let (place, written) = (at.key("start"), given.start.as_ref()?);
     if !is_date(written) {
-        return Some(span.at_s + written.read(&place, &TIME));
+        return Some(since_s + written.read(&place, &TIME));
     }
-    let (clock, start_s) = instant(&place, written)?;
-    if clock != span.clock {
+    let (counted_by, start_s) = instant(&place, written)?;
+    if counted_by != clock {
         let allowed = "a time after `at`, as FMI time in s or with a unit: this file counts in FMI time";
         place.report(format_args!("{written}, a date"), allowed);
         return None;

@@ -1,7 +1,6 @@
 //! One command of a timeline: its tables are what its scenario reads, their numbers what their options read.
 
 use nalgebra::Vector3;
-use serde::Serialize;
 
 use super::attitude::by_attitude;
 use super::description::{
@@ -11,11 +10,9 @@ use super::description::{
 use super::devices::{body, check_fan, check_gimbal, instrument};
 use super::entry::{DownlinkOverride, KeepInOverride};
 use super::quantity::{LATITUDE, LENGTH, QUARTER_TURN, Quantity, SPEED, TURN, or_zero, three};
-use super::reads::{
-    Keys, NOTHING, TABLES, aimpoint_keys, body_roll_keys, boresight_keys, external_roll_keys, keys,
-    limb_keys, own_aimpoint, tables,
-};
+use super::reads::{Keys, NOTHING, TABLES, keys, limb_keys, option_keys, own_aimpoint, tables};
 use crate::attitude::SunAngles;
+use crate::enumeration::Enumerated;
 use crate::guidance::modes::mode::Mode;
 use crate::guidance::pointing::command::{
     AimpointCommand, BodyRollCommand, BoresightCommand, BoresightOption, ExternalRollCommand, LimbCommand,
@@ -177,9 +174,19 @@ impl Commands<'_> {
     }
 
     /// The same where an option reads them, unless nobody wrote the option.
-    fn check_option_keys(at: &Place<'_>, known: &[&str], read: Keys, option: impl Serialize) {
+    fn check_option_keys(at: &Place<'_>, known: &[&str], option: impl Enumerated) {
         if !at.key("option").is_stand_in() {
-            read.check(at, known, &named("the option", option));
+            option_keys(option.name()).check(at, known, &named("the option", option));
+        }
+    }
+
+    /// Reports a boresight for which the spacecraft has no device.
+    fn check_device(&self, at: &Place<'_>, option: BoresightOption) {
+        let found = named("the option", option);
+        match option {
+            BoresightOption::Gimbal => check_gimbal(self.spacecraft, at, found),
+            BoresightOption::PhasedArray => check_fan(self.spacecraft, at, found),
+            BoresightOption::Vector | BoresightOption::AzimuthElevation => {}
         }
     }
 
@@ -192,14 +199,8 @@ impl Commands<'_> {
         let place = at.key("option");
         match (scenario, given.option.filter(|_| !place.is_stand_in())) {
             (Scenario::Generic, Some(option)) => {
-                if option == BoresightOption::Gimbal {
-                    check_gimbal(self.spacecraft, &place, named("the option", option));
-                }
-                if option == BoresightOption::PhasedArray {
-                    check_fan(self.spacecraft, &place, named("the option", option));
-                }
-                let read = Keys { optional: &["option"], ..boresight_keys(option) };
-                Self::check_option_keys(at, BORESIGHT, read, option);
+                self.check_device(&place, option);
+                Self::check_option_keys(at, &BORESIGHT[1..], option);
             }
             (Scenario::Generic, None) => self.check_scenario_keys(at, &["option"], keys(&["option"], &[])),
             // That the scenario's own boresight is the boresight may be written.
@@ -210,7 +211,7 @@ impl Commands<'_> {
                 let is_given = ["option", "azimuth"].iter().any(|key| at.key(key).is_written());
                 let read = if is_given { keys(&["option", "azimuth"], &[]) } else { NOTHING };
                 if is_given && !self.spacecraft.antennas.is_empty() {
-                    check_fan(self.spacecraft, &place, named("the option", BoresightOption::PhasedArray));
+                    self.check_device(&place, BoresightOption::PhasedArray);
                 }
                 self.check_scenario_keys(at, BORESIGHT, read);
             }
@@ -241,7 +242,7 @@ impl Commands<'_> {
                 let allowed = named("no aimpoint, or this scenario's own:", own);
                 at.key("option").report(named("the option", given.option), allowed);
             }
-            None => Self::check_option_keys(at, AIMPOINT, aimpoint_keys(given.option), given.option),
+            None => Self::check_option_keys(at, AIMPOINT, given.option),
         }
         AimpointCommand {
             option: Some(given.option),
@@ -261,7 +262,7 @@ impl Commands<'_> {
 
     fn body_roll(&self, at: &Place<'_>, given: &BodyRollDescription) -> BodyRollCommand {
         let known = &["vector", "azimuth", "elevation"];
-        Self::check_option_keys(at, known, body_roll_keys(given.option), given.option);
+        Self::check_option_keys(at, known, given.option);
         BodyRollCommand {
             option: Some(given.option),
             vector: direction(&at.key("vector"), given.vector),
@@ -272,7 +273,7 @@ impl Commands<'_> {
 
     fn external_roll(&self, at: &Place<'_>, given: &ExternalRollDescription) -> ExternalRollCommand {
         let known = &["vector", "rightAscension", "declination"];
-        Self::check_option_keys(at, known, external_roll_keys(given.option), given.option);
+        Self::check_option_keys(at, known, given.option);
         ExternalRollCommand {
             option: Some(given.option),
             vector: direction(&at.key("vector"), given.vector),
@@ -302,9 +303,6 @@ fn direction(at: &Place<'_>, given: Option<Point>) -> Vector3<f64> {
 }
 
 /// A scenario, option or frame by its name in the file, behind what it is.
-pub(super) fn named(what: &str, item: impl Serialize) -> String {
-    match toml::Value::try_from(item) {
-        Ok(toml::Value::String(name)) => format!("{what} {name}"),
-        _ => what.to_owned(),
-    }
+pub(super) fn named(what: &str, item: impl Enumerated) -> String {
+    format!("{what} {}", item.name())
 }

@@ -188,8 +188,7 @@ impl TimelineBurn {
             thrusters: self.thrusters,
             start_s: start_s.unwrap_or(f64::NEG_INFINITY),
             awaits_attitude: start_s.is_none(),
-            thrust_body: self.nominal.direction_body,
-            acceleration_m_s2: self.nominal.acceleration_m_s2,
+            nominal: self.nominal,
             timeout_s: self.duration_s.unwrap_or(parameters.timeout_s),
             // It waits until its command ends.
             wait_s: f64::INFINITY,

@@ -24,8 +24,6 @@ pub struct TimelineSettings {
     pub keep_in: KeepIn,
     /// Whether it is in force where the timeline does not say so.
     pub keep_in_is_enabled: bool,
-    /// Greatest distance from the Sun at which it counts, in m.
-    pub keep_in_distance_m: f64,
     /// The planet that is orbited.
     pub planet: TargetPlanet,
     /// The clock of the timeline minus the time of the simulation, in s.
@@ -35,8 +33,8 @@ pub struct TimelineSettings {
 impl TimelineSettings {
     /// The keep-in zone in force under a command this far from the Sun.
     pub fn keep_in(&self, entry: &TimelineEntry, sun_distance_m: f64) -> Option<KeepIn> {
-        let counts = sun_distance_m <= self.keep_in_distance_m;
-        entry.keep_in.applied(&self.keep_in, self.keep_in_is_enabled).filter(|_| counts)
+        let zone = entry.keep_in.applied(&self.keep_in, self.keep_in_is_enabled);
+        zone.filter(|zone| sun_distance_m <= zone.distance_m)
     }
 }
 
@@ -71,7 +69,7 @@ impl TimelineLaw<'_> {
         let scan = ScanTime { elapsed_s, tolerance_s: 4.0 * (spacing(entry.at_s) + spacing(time_s)) };
         let to_sun = ephemeris.to_sun();
         let keep_in = settings.keep_in(entry, value(&to_sun).norm());
-        let (requested, cut) = requested.within(keep_in.as_ref());
+        let requested = requested.within(keep_in.as_ref());
         let progress = PointingProgress {
             scan: entry.command.scan.frame.map(|_| scan),
             limb_elapsed_s: elapsed_s,
@@ -80,12 +78,12 @@ impl TimelineLaw<'_> {
             burn: None,
         };
         let solution = pointing_solution(&entry.command, &self.hardware, ephemeris, &progress)?;
-        let is_held = cut || solution.downlink.active;
+        let is_held = requested.is_moved || solution.downlink.active;
         let kept = within_zone(&solution.vectors, keep_in.as_ref(), &to_sun, is_held)?;
         let corner_s = next_corner_s(&entry.command.scan, scan).map_or(f64::INFINITY, |it| it + begin_s);
         let [form, bound] = solution.margins;
         Some(AttitudeCommand {
-            clamped: solution.downlink.clamped || cut || kept.is_moved,
+            clamped: solution.downlink.clamped || requested.is_moved || kept.is_moved,
             degenerate: kept.pointing.degenerate,
             corner_s,
             ..AttitudeCommand::new(kept.pointing.frame(), [kept.margin.min(bound), form])

@@ -12,7 +12,6 @@ mod devices;
 mod entry;
 mod events;
 mod law;
-mod panels;
 mod quantity;
 mod reads;
 mod scans;

@@ -1,8 +1,6 @@
 //! Keys that scenarios and options read: tables of a command and keys of its tables.
 
-use crate::guidance::pointing::command::{
-    AimpointOption, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame, Scenario,
-};
+use crate::guidance::pointing::command::{AimpointOption, ScanFrame, Scenario};
 use crate::toml::Place;
 
 /// Keys of a table.
@@ -43,10 +41,6 @@ pub(super) const fn keys(needed: &'static [&'static str], optional: &'static [&'
 
 /// No key.
 pub(super) const NOTHING: Keys = keys(&[], &[]);
-/// Options of vectors.
-const VECTOR: Keys = keys(&["vector"], &[]);
-const AZIMUTH_ELEVATION: Keys = keys(&["azimuth", "elevation"], &[]);
-const CELESTIAL: Keys = keys(&["rightAscension", "declination"], &[]);
 
 /// Tables of a command that a scenario may read.
 pub(super) const TABLES: &[&str] = &[
@@ -95,58 +89,18 @@ pub(super) fn limb_keys(scenario: Scenario) -> Keys {
     }
 }
 
-/// Keys that an option of the boresight reads.
-pub(super) fn boresight_keys(option: BoresightOption) -> Keys {
+/// Keys that an option of boresight, aimpoint or roll reads, by the option's name in files; one that is not here reads none.
+pub(super) fn option_keys(option: &str) -> Keys {
     match option {
-        BoresightOption::Vector => VECTOR,
-        BoresightOption::AzimuthElevation => AZIMUTH_ELEVATION,
-        BoresightOption::Gimbal => keys(&["angle"], &[]),
-        BoresightOption::PhasedArray => keys(&["azimuth"], &[]),
-    }
-}
-
-/// Keys that an option of an aimpoint reads.
-pub(super) fn aimpoint_keys(option: AimpointOption) -> Keys {
-    match option {
-        AimpointOption::Vector => VECTOR,
-        AimpointOption::RightAscensionDeclination => CELESTIAL,
-        AimpointOption::EarthCentered
-        | AimpointOption::SunCentered
-        | AimpointOption::PlanetCentered
-        | AimpointOption::PlanetFixed => keys(&["position"], &[]),
-        AimpointOption::LatitudeLongitude => keys(&["latitude", "longitude"], &["height"]),
-        AimpointOption::LvlhDowntrack | AimpointOption::LvlhSun => AZIMUTH_ELEVATION,
-        AimpointOption::Sun
-        | AimpointOption::Earth
-        | AimpointOption::Nadir
-        | AimpointOption::Subsolar
-        | AimpointOption::OptimalLighting
-        | AimpointOption::Velocity
-        | AimpointOption::OrbitNormal
-        | AimpointOption::EclipticNorth => NOTHING,
-        AimpointOption::Body => keys(&["body"], &[]),
-    }
-}
-
-/// Keys that an option of the body roll vector reads.
-pub(super) fn body_roll_keys(option: BodyRollOption) -> Keys {
-    match option {
-        BodyRollOption::Vector => VECTOR,
-        BodyRollOption::AzimuthElevation => AZIMUTH_ELEVATION,
-    }
-}
-
-/// Keys that an option of the external roll reference reads.
-pub(super) fn external_roll_keys(option: ExternalRollOption) -> Keys {
-    match option {
-        ExternalRollOption::Vector => VECTOR,
-        ExternalRollOption::RightAscensionDeclination => CELESTIAL,
-        ExternalRollOption::Sun
-        | ExternalRollOption::Earth
-        | ExternalRollOption::Planet
-        | ExternalRollOption::Velocity
-        | ExternalRollOption::OrbitNormal
-        | ExternalRollOption::EclipticNorth => NOTHING,
+        "vector" => keys(&["vector"], &[]),
+        "azEl" | "lvlhDowntrack" | "lvlhSun" => keys(&["azimuth", "elevation"], &[]),
+        "raDec" => keys(&["rightAscension", "declination"], &[]),
+        "latLon" => keys(&["latitude", "longitude"], &["height"]),
+        "earthCentered" | "sunCentered" | "planetCentered" | "planetFixed" => keys(&["position"], &[]),
+        "body" => keys(&["body"], &[]),
+        "gimbal" => keys(&["angle"], &[]),
+        "phasedArray" => keys(&["azimuth"], &[]),
+        _ => NOTHING,
     }
 }
 

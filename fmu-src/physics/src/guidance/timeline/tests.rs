@@ -33,19 +33,19 @@ fn read(text: &str) -> Timeline {
 
 /// One command at 0 s.
 fn command(text: &str) -> TimelineEntry {
-    read(&format!("[[command]]\nat = 0\n{text}")).entries()[0]
+    read(&format!("[[command]]\nat = 0\n{text}")).entries[0]
 }
 
 #[test]
 fn the_example_is_a_day_at_mercury() {
     let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
     let timeline = Timeline::from_toml("timeline.toml", EXAMPLE, &spacecraft).unwrap();
-    assert_eq!(timeline.clock(), TimelineClock::Epoch);
-    let [first, .., last] = timeline.entries() else { panic!("too few") };
+    assert_eq!(timeline.clock, TimelineClock::Epoch);
+    let [first, .., last] = &timeline.entries[..] else { panic!("too few") };
     let start_s = crate::environment::dates::epoch_s("2011-04-06T00:00:00 UTC").unwrap();
     assert_eq!(first.at_s, start_s);
     assert!((last.until_s.unwrap() - first.at_s - 86_400.0).abs() < 1e-3);
-    let scenarios: Vec<_> = timeline.entries().iter().filter_map(|entry| entry.command.scenario).collect();
+    let scenarios: Vec<_> = timeline.entries.iter().filter_map(|entry| entry.command.scenario).collect();
     use Scenario::{Downlink, Generic, Gimbal, LimbTerminator, Nadir, PlusZ};
     assert_eq!(scenarios, [Nadir, LimbTerminator, Gimbal, Generic, Downlink, PlusZ, Nadir]);
     // Between the mosaic's end and the star nothing is commanded.
@@ -305,13 +305,13 @@ fn times_are_dates_or_fmi_time() {
         ))
     };
     let fmi = two("-10", "\"90 min\"");
-    assert_eq!(fmi.clock(), TimelineClock::FmiTime);
-    assert_eq!([fmi.entries()[0].at_s, fmi.entries()[1].at_s], [-10.0, 5400.0]);
-    assert_eq!([fmi.entries()[0].line, fmi.entries()[1].line], [1, 4]);
+    assert_eq!(fmi.clock, TimelineClock::FmiTime);
+    assert_eq!([fmi.entries[0].at_s, fmi.entries[1].at_s], [-10.0, 5400.0]);
+    assert_eq!([fmi.entries[0].line, fmi.entries[1].line], [1, 4]);
     // The same instant in both scales, 66.184 s apart within TDB's annual term.
     let dates = two("\"2009-04-06T00:00:00 TDB\"", "\"2009-04-06T00:00:00 UTC\"");
-    assert_eq!((dates.clock(), dates.entries()[0].at_s), (TimelineClock::Epoch, 292_248_000.0));
-    assert!((dates.entries()[1].at_s - 292_248_066.184).abs() < 2e-3);
+    assert_eq!((dates.clock, dates.entries[0].at_s), (TimelineClock::Epoch, 292_248_000.0));
+    assert!((dates.entries[1].at_s - 292_248_066.184).abs() < 2e-3);
     assert_eq!(dates.slot(1.0, 292_248_000.0).entry.unwrap().line, 1);
     assert_eq!(fmi.slot(5400.0, 0.0).entry.unwrap().line, 4);
     assert_eq!(fmi.slot(f64::NAN, 0.0).entry, None);
@@ -418,7 +418,7 @@ fn a_burn_is_read_with_its_set_and_times() {
         "[[command]]\nat = \"2011-04-06T00:00:00 UTC\"\nscenario = \"burn\"\n\
          burn = { deltaV = [0, 0, 1], thrusters = \"c22\", start = \"2011-04-06T00:10:00 UTC\" }",
     );
-    let entry = dated.entries()[0];
+    let entry = dated.entries[0];
     assert!((entry.burn.unwrap().start_s.unwrap() - entry.at_s - 600.0).abs() < 1e-3);
     let turn = "scenario = \"burn\"\nburn = { deltaV = [1, 1, 0], profile = [[1, 0, 0], [0, 1, 0], [0, 0, 0]], thrusters = \"c22\" }";
     let curved = VelocityPath::cubic([Vector3::x(), Vector3::y(), Vector3::zeros()]);
@@ -448,13 +448,13 @@ fn panels_and_events_stand_without_commands() {
          maneuver = { deltaV = [1, 0, \"-2 km/s\"] }\ncenterOfMass = [\"1 cm\", 0, 0.1]\n\
          [[event]]\nat = \"4 h\"\nmaneuver = { deltaV = [0, 1, 0], thrusters = \"lva\", dump = false }",
     );
-    assert!(timeline.entries().is_empty());
-    let [first, second] = timeline.panels() else { panic!("not two") };
+    assert!(timeline.entries.is_empty());
+    let [first, second] = &timeline.panels[..] else { panic!("not two") };
     let offset_rad = -40.0 * DEG_RAD;
     assert_eq!((first.at_s, &first.sun_offsets_rad[..]), (0.0, &[offset_rad, offset_rad][..]));
     assert_eq!((second.at_s, second.windmill_rad), (86_400.0, 0.5));
     assert_eq!(second.sun_offsets_rad, [0.0, 60.0 * DEG_RAD]);
-    let [dump, maneuver, last] = timeline.events().as_ref() else { panic!("not three") };
+    let [dump, maneuver, last] = timeline.events.as_ref() else { panic!("not three") };
     assert_eq!((dump.at_s, dump.dump), (7200.0, Some(TimelineDump::Requested)));
     let to = TimelineDump::To { momentum_body_n_m_s: Vector3::new(0.0, 0.02, -1.0) };
     assert_eq!(
@@ -486,7 +486,7 @@ fn panels_over_time_are_as_many_as_commands() {
     let rows = |count: usize| -> String {
         (0..count).map(|at| format!("[[panels]]\nat = {at}\nsunOffset = 0\n")).collect()
     };
-    assert_eq!(read(&rows(10_000)).panels().len(), 10_000);
+    assert_eq!(read(&rows(10_000)).panels.len(), 10_000);
     let error = Timeline::from_toml("t.toml", &rows(10_001), &spacecraft()).unwrap_err().to_string();
     assert!(error.contains("found 10001 entries, allowed: at most 10000"), "{error}");
 }

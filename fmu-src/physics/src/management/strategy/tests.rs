@@ -2,6 +2,7 @@
 use approx::assert_relative_eq;
 use nalgebra::Rotation3;
 
+use super::super::admissible::KeepInLimits;
 use super::super::prediction::Forecast;
 use super::super::targeting::{TargetAxes, TargetingMethod};
 use super::*;
@@ -81,8 +82,7 @@ fn target_x(separations_rad: [f64; 4], horizon: u32) -> f64 {
         targeting: Targeting {
             axes: TargetAxes::Xz,
             method: TargetingMethod::Exact,
-            azimuth_limit_rad: 0.2,
-            elevation_limit_rad: 0.2,
+            limits: KeepInLimits { azimuth_rad: 0.2, elevation_rad: 0.2 },
             antennas: &crate::guidance::pointing::antenna::tests::quadrants(),
         },
         target_body_n_m_s: Vector3::zeros(),
@@ -97,6 +97,7 @@ fn target_x(separations_rad: [f64; 4], horizon: u32) -> f64 {
     let state = DownlinkState {
         to_sun: Vector3::x(),
         to_earth: Vector3::new(separations_rad[0].cos(), separations_rad[0].sin(), 0.0),
+        separations_rad: [separations_rad[0]; 2],
         momentum: StartMomentum::Body(Vector3::new(0.9, 0.0, 0.0)),
         span_s: DOWNLINK_S,
         torque_body_n_m: &torque,

@@ -18,8 +18,10 @@ fn targeting() -> Targeting<'static> {
     Targeting {
         axes: TargetAxes::Xz,
         method: TargetingMethod::Exact,
-        azimuth_limit_rad: 15.0 * crate::constants::DEG_RAD,
-        elevation_limit_rad: 13.0 * crate::constants::DEG_RAD,
+        limits: KeepInLimits {
+            azimuth_rad: 15.0 * crate::constants::DEG_RAD,
+            elevation_rad: 13.0 * crate::constants::DEG_RAD,
+        },
         antennas: &QUADRANTS,
     }
 }
@@ -103,6 +105,7 @@ fn an_attainable_target_is_hit_to_rounding() {
             let state = DownlinkState {
                 to_sun,
                 to_earth,
+                separations_rad: [angle_between_rad(&to_sun, &to_earth); 2],
                 momentum,
                 span_s: SPAN_S,
                 torque_body_n_m: &torque,
@@ -113,8 +116,7 @@ fn an_attainable_target_is_hit_to_rounding() {
             for (axes, count) in [(TargetAxes::X, 0), (TargetAxes::Z, 1), (TargetAxes::Xz, 2)] {
                 let targeting = Targeting { axes, ..targeting() };
                 let target = Vector3::new(-0.05, 7.0, 0.1);
-                let Some(SelectedSunDirection { place, clamped }) =
-                    targeting.sun_direction(&state, &target, [state.separation_rad(); 2])
+                let Some(SelectedSunDirection { place, clamped }) = targeting.sun_direction(&state, &target)
                 else {
                     panic!("{degrees} {momentum:?}")
                 };
@@ -133,8 +135,8 @@ fn an_attainable_target_is_hit_to_rounding() {
                         assert_relative_eq!(end[component], target[component], epsilon = 1e-11);
                     }
                 }
-                assert!(place.angles.azimuth_rad.abs() <= targeting.azimuth_limit_rad);
-                assert!(place.angles.elevation_rad.abs() <= targeting.elevation_limit_rad);
+                assert!(place.angles.azimuth_rad.abs() <= targeting.limits.azimuth_rad);
+                assert!(place.angles.elevation_rad.abs() <= targeting.limits.elevation_rad);
                 let earth_rad = SunAngles::from_direction(&(body * to_earth)).azimuth_rad.to_degrees();
                 assert!(
                     (-90.0 - 1e-9..=1e-9).contains(&earth_rad) || earth_rad >= 90.0 - 1e-9,
@@ -156,6 +158,7 @@ fn no_admissible_place_comes_nearer_to_a_target_out_of_reach() {
         let state = DownlinkState {
             to_sun,
             to_earth,
+            separations_rad: [angle_between_rad(&to_sun, &to_earth); 2],
             momentum,
             span_s: SPAN_S,
             torque_body_n_m: &torque,
@@ -166,15 +169,15 @@ fn no_admissible_place_comes_nearer_to_a_target_out_of_reach() {
         for target in
             [Vector3::new(5.0, 0.0, 3.0), Vector3::new(-4.0, 0.0, 0.1), Vector3::new(0.0, 0.0, -6.0)]
         {
-            let found = targeting().sun_direction(&state, &target, [state.separation_rad(); 2]).unwrap();
+            let found = targeting().sun_direction(&state, &target).unwrap();
             clamped += i32::from(found.clamped);
             let best = state.left(&found.place, &target).xz().norm();
             for branch in targeting().branches(state.separation_rad()).unwrap().iter().flatten() {
                 for i in -40..=40 {
                     for j in -40..=40 {
                         let angles = SunAngles {
-                            azimuth_rad: targeting().azimuth_limit_rad * f64::from(i) / 40.0,
-                            elevation_rad: targeting().elevation_limit_rad * f64::from(j) / 40.0,
+                            azimuth_rad: targeting().limits.azimuth_rad * f64::from(i) / 40.0,
+                            elevation_rad: targeting().limits.elevation_rad * f64::from(j) / 40.0,
                         };
                         let Some(place) = branch.place(angles) else { continue };
                         let other = state.left(&place, &target).xz().norm();
@@ -200,6 +203,7 @@ fn the_linear_formula_falls_short_by_a_few_per_cent() {
     let state = DownlinkState {
         to_sun,
         to_earth,
+        separations_rad: [angle_between_rad(&to_sun, &to_earth); 2],
         momentum,
         span_s: SPAN_S,
         torque_body_n_m: &shade,
@@ -209,7 +213,7 @@ fn the_linear_formula_falls_short_by_a_few_per_cent() {
     };
     let by = |method, target: &Vector3<f64>| {
         let targeting = Targeting { method, ..targeting() };
-        targeting.sun_direction(&state, target, [state.separation_rad(); 2]).unwrap()
+        targeting.sun_direction(&state, target).unwrap()
     };
     let mut worst = 0.0_f64;
     for share in [-0.9, -0.4, 0.3, 0.9] {
@@ -230,6 +234,7 @@ fn without_a_plane_of_sun_and_earth_there_is_no_place() {
         let state = DownlinkState {
             to_sun: Vector3::y(),
             to_earth,
+            separations_rad: [angle_between_rad(&Vector3::y(), &to_earth); 2],
             momentum,
             span_s: SPAN_S,
             torque_body_n_m: &none,
@@ -237,7 +242,6 @@ fn without_a_plane_of_sun_and_earth_there_is_no_place() {
             linear: None,
             science: None,
         };
-        let separations_rad = [state.separation_rad(); 2];
-        assert_eq!(targeting().sun_direction(&state, &Vector3::zeros(), separations_rad), None);
+        assert_eq!(targeting().sun_direction(&state, &Vector3::zeros()), None);
     }
 }

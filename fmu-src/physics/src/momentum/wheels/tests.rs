@@ -71,7 +71,7 @@ fn the_sphere_is_the_least_reach_over_all_directions() {
 #[test]
 fn a_symmetric_pyramid_shares_equally() {
     let array = WheelArray::new(&pyramid()).unwrap();
-    for wheel in 0..array.len() {
+    for wheel in 0..array.rows.len() {
         assert_relative_eq!(array.momentum_n_m_s(wheel, &Vector3::y()), 3.0f64.sqrt() / 4.0, epsilon = 1e-14);
     }
 }

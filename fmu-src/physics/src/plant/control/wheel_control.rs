@@ -8,14 +8,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::control::WheelAllocator;
 use crate::attitude::{Gyrostat, Motor};
-use crate::plant::settings::wheel_control_settings::WheelControlSettings;
+use crate::plant::settings::dynamics_settings::WheelControlSettings;
 
 /// Motors of the wheels.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct WheelControl {
-    motors: Vec<Motor>,
+    pub motors: Vec<Motor>,
     /// Whether the wheels could not give the torque that was requested.
-    is_limited: bool,
+    pub is_limited: bool,
 }
 
 /// The distribution of a torque over the wheels that turn and have a motor, made anew where those or the axes change; a cache that
@@ -39,7 +39,7 @@ impl WheelDistribution {
         let is_same = |k: usize| {
             let (known, works) = &self.wheels[k];
             let axis = &gyrostat.wheels()[k].axis_body;
-            *works == gives(k) && known.x == axis.x && known.y == axis.y && known.z == axis.z
+            *works == gives(k) && known == axis
         };
         if self.balance_n_m.len() == count && self.wheels.len() == count && (0..count).all(is_same) {
             return;
@@ -63,16 +63,6 @@ impl WheelControl {
     /// Rejects decoded states that no simulation with this number of wheels can produce.
     pub(crate) fn is_valid(&self, wheels: usize) -> bool {
         self.motors.len() == wheels
-    }
-
-    /// The motors.
-    pub(crate) fn motors(&self) -> &[Motor] {
-        &self.motors
-    }
-
-    /// Whether the wheels could not give the torque requested last.
-    pub(crate) fn is_limited(&self) -> bool {
-        self.is_limited
     }
 
     /// Sets which wheels failed, one flag a wheel: their motors give no torque.

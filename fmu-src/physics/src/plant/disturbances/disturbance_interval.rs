@@ -20,8 +20,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::environment::CartesianState;
 use crate::loads::{Active, ByEffect, Linear};
 use crate::math;
-use crate::momentum::TorqueModel;
-use crate::momentum::WorkKind;
+use crate::momentum::{TorqueModel, WorkKind};
 use crate::numerics::adaptive::{AdaptiveInterval, Attempt};
 use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::quadrature::GAUSS_2;
@@ -141,7 +140,7 @@ fn unforeseen(
 /// # Errors
 /// What ends a flight.
 pub(crate) fn deviate(interval: &DisturbanceInterval, plant: &mut Plant<'_>) -> Result<(), PlantError> {
-    let applied = plant.external(interval.span.start_s);
+    let applied = (plant.external)(interval.span.start_s);
     let Kinematics { configuration, turning, trajectory, current_mass_panels_stowed, .. } =
         &mut plant.path.kinematics;
     if !configuration.uses_encke() {

@@ -17,9 +17,9 @@ use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
 use crate::plant::instant::conditions::Conditions;
 use crate::plant::instant::path_ahead::PathAhead;
+use crate::plant::motion::geometry::SimulationEphemeris;
 use crate::plant::motion::instant::Instant;
 use crate::plant::motion::kinematics::Kinematics;
-use crate::plant::motion::panel_motion::Hinged;
 use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
 use crate::plant::settings::configuration::Configuration;
@@ -27,8 +27,7 @@ use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::sources::sunlight::light_and_heat::RadiationBuilder;
 use crate::plant::sources::{SourceStates, Sources};
-use crate::plant::state::propagator_state::PropagatorState;
-use crate::plant::state::sun_choice::SunDirectionSelection;
+use crate::plant::state::propagator_state::{PropagatorState, SunDirectionSelection};
 use crate::spacecraft::MassProperties;
 
 /// Nodes at which the acceleration of a segment is taken.
@@ -52,7 +51,7 @@ pub struct Plant<'a> {
     states: &'a mut SourceStates,
     sun_choice: SunDirectionSelection,
     panel_turns: &'a mut PanelTurns,
-    external: &'a External<'a>,
+    pub(crate) external: &'a External<'a>,
 }
 
 impl<'a> Plant<'a> {
@@ -79,15 +78,15 @@ impl<'a> Plant<'a> {
             command_slews,
             ..
         } = propagator;
-        let selected = &sun_choice.selected;
         let guided = configuration.attitude.guided();
-        let law = guided.map(|law| law.with_sun_directions(selected.in_downlink(), selected.in_science()));
+        let law = guided.map(|law| law.with_sun_directions(&sun_choice.selected));
+        let bodies = SimulationEphemeris { configuration, ephemeris };
         let kinematics = Kinematics {
             configuration,
             law,
             turning,
             trajectory,
-            ephemeris,
+            bodies,
             spacecraft,
             command_slews,
             work,
@@ -100,7 +99,7 @@ impl<'a> Plant<'a> {
     /// Everything at `time_s`, which the propagator must have reached ([`TorqueModel::prepare`]).
     pub fn evaluate(&mut self, time_s: f64) -> Evaluation {
         let mut evaluation = self.evaluate_without_loads(time_s);
-        self.write_loads(&mut evaluation, self.external(time_s)[0]);
+        self.write_loads(&mut evaluation, (self.external)(time_s)[0]);
         evaluation
     }
 
@@ -127,11 +126,6 @@ impl<'a> Plant<'a> {
         self.sources.write_loads(self.states, &at, loads);
     }
 
-    /// Force and torque from outside at `time_s` and their slopes per second.
-    pub(crate) fn external(&self, time_s: f64) -> [ForceTorque; 2] {
-        (self.external)(time_s)
-    }
-
     /// Mass, centre of mass and inertia as the panels stand at `instant`.
     pub fn mass_properties(&self, instant: &Instant) -> MassProperties {
         self.path.kinematics.mass_properties(&instant.sun())
@@ -144,12 +138,6 @@ impl<'a> Plant<'a> {
             return Vector3::zeros();
         }
         configuration.panel_momentum_body_n_m_s(spacecraft.panels, mass, &instant.moving_sun())
-    }
-
-    /// The panels with what they belong to.
-    pub(crate) fn hinged(&self) -> Hinged<'a> {
-        let Kinematics { configuration, spacecraft, current_mass_panels_stowed, .. } = self.path.kinematics;
-        Hinged { panels: spacecraft.panels, configuration, current_mass_panels_stowed }
     }
 
     /// Geometry and attitude at `time_s`.
@@ -245,9 +233,8 @@ impl<'a> Plant<'a> {
         limit_s: f64,
         extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
     ) -> Result<(), PlantError> {
-        let Kinematics { configuration, spacecraft, trajectory, ephemeris, .. } = &mut self.path.kinematics;
-        let method = spacecraft.orbit_method;
-        let shortened = trajectory.advance(configuration, ephemeris, method, limit_s, extra_m_s2)?;
+        let Kinematics { spacecraft, trajectory, bodies, .. } = &mut self.path.kinematics;
+        let shortened = trajectory.advance(bodies, spacecraft.orbit_method, limit_s, extra_m_s2)?;
         if shortened > 0 {
             // Between bodies a segment is tried until it is short enough: some 40 times the gravity of all of them a trial.
             let end_s = self.path.kinematics.trajectory.end_s();

@@ -6,11 +6,10 @@ use crate::attitude::{Attitude, BodyMotion, GyrostatMotion, MovingFrame};
 use crate::guidance::pointing::boresight::Gimbal;
 use crate::guidance::{Activity, Guided, Schedule, ScienceRule, SelectedSunDirection, Window};
 use crate::loads::ForceTorque;
-use crate::momentum::{TorqueModel, Totals};
+use crate::momentum::{TorqueModel, Totals, WorkKind};
 
 use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 use super::fork::ForkOrigin;
-use crate::momentum::WorkKind;
 use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::External;
 use crate::plant::disturbances::plant::Plant;
@@ -97,19 +96,14 @@ pub(super) struct SunSelectionStart {
 }
 
 impl ConfiguredFlight<'_> {
-    /// Time of the next edge of a valve or of an empty tank, in s.
-    pub(super) fn next_thruster_edge_s(&self) -> f64 {
-        self.thrusters.next_edge_s(&self.context.allocator.settings)
-    }
-
     /// Dipoles of the sources at `time_s`.
     pub(super) fn dipoles(&self, time_s: f64) -> Dipoles {
         self.propagator.sources.dipoles(&self.context.configuration, time_s)
     }
 
-    /// Mass properties at `time_s` without the propellant used, panels at angle 0; `None` while none is used.
-    pub(super) fn used_mass(&self, wet: &MassProperties, time_s: f64) -> Option<MassProperties> {
-        self.thrusters.mass_properties_stowed(&self.context.allocator.settings, wet, time_s)
+    /// Mass properties at `time_s` without the propellant used, panels at angle 0.
+    pub(super) fn used_mass(&self, wet: &MassProperties, time_s: f64) -> MassProperties {
+        self.thrusters.propellant.mass_properties(wet, &self.context.allocator.settings.tanks, time_s)
     }
 
     /// Frame and rate that this guidance commands where the flight begins.

@@ -14,7 +14,6 @@ use crate::plant::settings::attitude_source::AttitudeSource;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
 use crate::plant::sources::sunlight::sunlit::SunlitConfiguration;
-use crate::spacecraft::Material;
 
 /// Momentum where a downlink begins, in N m s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,7 +73,8 @@ pub struct DownlinkForecast<'o> {
 }
 
 impl DownlinkForecast<'_> {
-    fn sunlit(&self) -> SunlitConfiguration<'_> {
+    /// The spacecraft in direct sunlight without shadows.
+    pub(crate) fn sunlit(&self) -> SunlitConfiguration<'_> {
         let ForkOrigin { prepared, context, .. } = &self.flight;
         let SimulationContext { configuration, current_mass_panels_stowed, models, .. } = &**context;
         SunlitConfiguration {
@@ -90,21 +90,6 @@ impl DownlinkForecast<'_> {
     /// Settings of the flight.
     pub(crate) fn configuration(&self) -> &Configuration {
         &self.flight.context.configuration
-    }
-
-    /// Materials of the spacecraft's faces.
-    pub fn materials(&self) -> &[Material] {
-        self.sunlit().solar.materials()
-    }
-
-    /// Torque of direct sunlight without shadows in N m, body frame, the Sun being there in the body frame.
-    pub fn torque_body_n_m(&self, sun_body: &Vector3<f64>) -> Vector3<f64> {
-        self.sunlit().torque_body_n_m(sun_body, self.pressure_pa)
-    }
-
-    /// Centre of mass with the panels as they stand to a Sun on -Y, body frame, in m.
-    pub fn center_of_mass_body_m(&self) -> Vector3<f64> {
-        self.sunlit().center_of_mass_body_m()
     }
 
     /// Momentum from here on at `times_s`, which do not descend; about `step_s` apart.

@@ -8,12 +8,11 @@ use super::configured::ConfiguredFlight;
 use super::fork::{Fork, ForkOrigin};
 use crate::environment::orbit::{BPlane, Collision, OrbitIntegrationError};
 use crate::loads::ForceTorque;
-use crate::momentum::Totals;
-use crate::momentum::WorkKind;
+use crate::momentum::{Totals, WorkKind};
 use crate::plant::settings::attitude_source::AttitudeSource;
 use crate::plant::settings::configuration::Encounter;
 use crate::plant::settings::error::PlantError;
-use crate::plant::state::encounter_prediction::{EncounterPrediction, PredictedArrival};
+use crate::plant::state::flight_state::{EncounterPrediction, PredictedArrival};
 
 /// Units of work of a prediction beside its orbit.
 const UNITS: u32 = 10;

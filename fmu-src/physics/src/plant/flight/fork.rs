@@ -16,12 +16,12 @@ use crate::plant::disturbances::simulation_context::{ForkScratch, SimulationCont
 use crate::plant::disturbances::simulation_models::SimulationModels;
 use crate::plant::events::{EventKind, Eventful, LastEvents};
 use crate::plant::motion::approaches::ClosestApproach;
-use crate::plant::motion::geometry::Geometry;
+use crate::plant::motion::geometry::{Geometry, SimulationEphemeris};
 use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::last_event::LastEvent;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
+use crate::plant::settings::thruster_events::LastEvent;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::spacecraft::MassProperties;
 
@@ -240,10 +240,8 @@ impl<'f> Fork<'f> {
     /// Executes the scheduled event at `time_s`, the end of the fork; returns its velocity change, EME2000, in m/s.
     fn scheduled_event(&mut self, time_s: f64) -> Result<Vector3<f64>, PlantError> {
         let Self { configuration, current_mass_panels_stowed, propagator, last, .. } = self;
-        let last = last.of_kind(EventKind::Schedule);
-        let next = configuration.thruster_events.next(*last).copied();
-        let Some(event) = next else { return Ok(Vector3::zeros()) };
-        last.take(configuration.thruster_events.time_s(&event));
+        let taken = last.pop_scheduled(&configuration.thruster_events);
+        let Some(event) = taken else { return Ok(Vector3::zeros()) };
         if let Some(place_body_m) = event.center_of_mass_body_m {
             let before = propagator.center_of_mass.mass_properties(configuration);
             propagator.center_of_mass.place(configuration, place_body_m);
@@ -262,13 +260,14 @@ impl<'f> Fork<'f> {
 
     /// The closest approach to the encounter's body beyond `time_s`, as far as the orbit is known.
     pub(super) fn approach_after(&self, time_s: f64) -> Option<ClosestApproach> {
-        self.propagator.trajectory.approach_after(time_s)
+        self.propagator.trajectory.approaches.after(time_s)
     }
 
     /// Sun, planet and Earth at `time_s` as the spacecraft sees them, where the orbit is known.
     pub(super) fn geometry_at(&mut self, time_s: f64) -> Geometry {
         let spacecraft = self.propagator.trajectory.state_at(self.configuration, time_s);
-        Geometry::at(self.configuration, &mut self.models.ephemeris, time_s, spacecraft)
+        let (configuration, ephemeris) = (&*self.configuration, &mut self.models.ephemeris);
+        SimulationEphemeris { configuration, ephemeris }.geometry(time_s, spacecraft)
     }
 
     /// Momentum and geometry at `time_s`, where the fork has come.

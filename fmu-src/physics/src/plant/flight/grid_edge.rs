@@ -15,8 +15,7 @@ use crate::plant::motion::panel_motion::PanelMotion;
 use crate::plant::settings::dynamics_settings::{DynamicsSettings, StartMotion, StartPointing};
 use crate::plant::settings::error::PlantError;
 use crate::plant::state::disturbance_interval::DisturbanceInterval;
-use crate::plant::state::dynamic_state::DynamicState;
-use crate::plant::state::mass::MassState;
+use crate::plant::state::dynamic_state::{DynamicState, MassState};
 use crate::plant::state::momentum_dumps::MomentumDumps;
 
 /// Returns the state at the start of a flight in the attitude after `held`.
@@ -55,7 +54,7 @@ pub(super) fn begin(
     let wheel_n_m_s = |k: usize| settings.start.wheels_n_m_s.get(k).copied().unwrap_or(0.0);
     let mut begun = DynamicState {
         motion: GyrostatMotion::new(gyrostat, time_s, unit, &rate_body_rad_s, wheel_n_m_s),
-        mass: MassState::new(mass),
+        mass: MassState { known: mass, now: mass, stowed: None },
         panels: PanelMotion::default(),
         disturbance: DisturbanceInterval::default(),
         sensing: Sensing::new(settings, time_s, attitude, rate_body_rad_s),
@@ -66,7 +65,7 @@ pub(super) fn begin(
     if settings.panels_have_mass {
         let mut plant = flight.plant_at(time_s, &body);
         let instant = plant.instant(time_s);
-        begun.panels = PanelMotion::at_start(plant.hinged(), &instant);
+        begun.panels = PanelMotion::at_start(&plant.path.kinematics, &instant);
         let internal = begun.panels.internal(flight.given.prepared.panels, &mass, begun.motion.end_s());
         begun.motion.add_hinges(internal);
     }
@@ -82,10 +81,10 @@ pub(super) fn begin_interval(
 ) -> Result<(), PlantError> {
     let time_s = state.motion.end_s();
     let body = state.motion.at(&settings.gyrostat, time_s);
+    let stowed = flight.used_mass(&flight.context.configuration.wet_mass, time_s);
+    state.mass.stowed = (flight.thrusters.propellant.total_used_kg(time_s) > 0.0).then_some(stowed);
     let context = &mut *flight.context;
-    let loaded = context.configuration.wet_mass;
-    state.mass.stowed = flight.thrusters.mass_properties_stowed(&context.allocator.settings, &loaded, time_s);
-    context.current_mass_panels_stowed = state.mass.stowed.unwrap_or(loaded);
+    context.current_mass_panels_stowed = stowed;
     let begins = state.disturbance.is_before();
     if begins || !context.configuration.motion.uses_encke() {
         flight.propagator.cut(&context.configuration, time_s, true);
@@ -110,10 +109,10 @@ pub(super) fn begin_interval(
     }
     if settings.panels_have_mass {
         let was_turning = state.panels.is_turning();
-        let hinged = plant.hinged();
-        let end_s = hinged.configuration.last_of_panels_s(time_s, state.disturbance.end_s());
+        let configuration = plant.path.kinematics.configuration;
+        let end_s = configuration.last_of_panels_s(time_s, state.disturbance.span.end_s);
         let [now, end] = [time_s, end_s].map(|at_s| plant.instant(at_s));
-        state.panels.turn_until(hinged, &now, &end);
+        state.panels.turn_until(&plant.path.kinematics, &now, &end);
         if was_turning || state.panels.is_turning() {
             turn_mass(state, settings, flight);
             let internal = state.panels.internal(flight.given.prepared.panels, &state.mass.now, time_s);
@@ -141,7 +140,8 @@ fn predicted_rate_terms(
     torque += now.torque_body_n_m;
     slope += per_s.torque_body_n_m;
     // A pulse that ends before the interval says little of it.
-    let steady_until_s = flight.next_thruster_edge_s().min(state.dumps.until_s());
+    let edge_s = flight.thrusters.next_edge_s(&flight.context.allocator.settings);
+    let steady_until_s = edge_s.min(state.dumps.until_s());
     if steady_until_s >= time_s + settings.grid_s {
         let [turn, turn_slope] = flight.thrusters.load.law.torque_body_n_m;
         torque += state.dumps.torque_body_n_m() + turn;
@@ -155,7 +155,7 @@ fn predicted_rate_terms(
     }
     let gyrostat = &settings.gyrostat;
     let motor_n_m = |k: usize| {
-        if gyrostat.wheels()[k].locked { 0.0 } else { state.control.wheels.motors()[k].torque_n_m }
+        if gyrostat.wheels()[k].locked { 0.0 } else { state.control.wheels.motors[k].torque_n_m }
     };
     let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
     gyrostat.rate_terms(rate, &momentum_body, [torque, slope], &gyrostat.along_axes(motor_n_m))
@@ -169,11 +169,12 @@ fn track_panel_laws(
 ) -> Option<BodyMotion> {
     let time_s = state.motion.end_s();
     let to_sun_m = plant.instant(time_s).geometry.to_sun.position_m;
-    let hinged = plant.hinged();
-    let attitude = state.panels.track_law(hinged, &mut settings.gyrostat, &state.motion, &to_sun_m)?;
-    let mass = state.panels.mass_properties(&hinged.current_mass_panels_stowed, hinged.panels, time_s);
+    let kinematics = &plant.path.kinematics;
+    let attitude = state.panels.track_law(kinematics, &mut settings.gyrostat, &state.motion, &to_sun_m)?;
+    let panels = kinematics.spacecraft.panels;
+    let mass = state.panels.mass_properties(&kinematics.current_mass_panels_stowed, panels, time_s);
     set_known_mass(state, settings, mass);
-    let internal = state.panels.internal(hinged.panels, &mass, time_s);
+    let internal = state.panels.internal(panels, &mass, time_s);
     state.motion.reorient(&settings.gyrostat, attitude, internal);
     Some(state.motion.at(&settings.gyrostat, time_s))
 }
@@ -189,7 +190,7 @@ pub(super) fn turn_mass(
     }
     let time_s = state.motion.end_s();
     let loaded = flight.context.configuration.wet_mass;
-    let left = state.mass.stowed.and_then(|_| flight.used_mass(&loaded, time_s)).unwrap_or(loaded);
+    let left = state.mass.stowed.map_or(loaded, |_| flight.used_mass(&loaded, time_s));
     set_mass(state, settings, state.panels.mass_properties(&left, flight.given.prepared.panels, time_s));
 }
 

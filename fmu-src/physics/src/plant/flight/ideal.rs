@@ -15,7 +15,7 @@ use super::configured::{ConfiguredFlight, SunSelectionStart};
 use super::downlink_forecast::StartMomentum;
 use crate::plant::events::{self, EventKind, Eventful, LastEvents};
 use crate::plant::settings::error::{ManeuverError, PlantError};
-use crate::plant::settings::ideal_settings::IdealSettings;
+use crate::plant::settings::mode_settings::IdealSettings;
 use crate::plant::settings::thruster_events::{Maneuver, ThrusterEvent};
 use crate::plant::state::ideal_state::IdealState;
 use crate::plant::thrusters::at_once::DumpAtOnce;
@@ -186,9 +186,8 @@ impl<'f> Ideal<'f> {
     /// Executes the event of the timeline that is due.
     fn scheduled_event(&mut self, time_s: f64) -> Result<(), PlantError> {
         let configuration = &self.flight.context.configuration;
-        let last = self.state.last.of_kind(EventKind::Schedule);
-        let Some(event) = configuration.thruster_events.next(*last).copied() else { return Ok(()) };
-        last.take(configuration.thruster_events.time_s(&event));
+        let taken = self.state.last.pop_scheduled(&configuration.thruster_events);
+        let Some(event) = taken else { return Ok(()) };
         if let Some(place_body_m) = event.center_of_mass_body_m {
             self.flight.propagator.center_of_mass.place(configuration, place_body_m);
             self.state.integrator.cut(time_s);
@@ -238,12 +237,9 @@ impl<'f> Ideal<'f> {
         if let Some(delta_v_inertial_m_s) = &pushed {
             self.state.integrator.push(delta_v_inertial_m_s);
             self.set_mass(time_s);
-            self.flight.propagator.cut_with_jump(
-                &self.flight.context.configuration,
-                time_s,
-                true,
-                delta_v_inertial_m_s,
-            );
+            let configuration = &self.flight.context.configuration;
+            self.flight.propagator.cut_with_jump(configuration, time_s, delta_v_inertial_m_s);
+            self.flight.propagator.sources.cut(time_s);
         }
         if self.move_center_of_mass(time_s) {
             self.set_mass(time_s);
@@ -268,6 +264,6 @@ impl<'f> Ideal<'f> {
     fn set_mass(&mut self, time_s: f64) {
         let flight = &mut self.flight;
         let loaded = flight.propagator.center_of_mass.mass_properties(&flight.context.configuration);
-        flight.context.current_mass_panels_stowed = flight.used_mass(&loaded, time_s).unwrap_or(loaded);
+        flight.context.current_mass_panels_stowed = flight.used_mass(&loaded, time_s);
     }
 }

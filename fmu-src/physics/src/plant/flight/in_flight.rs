@@ -2,23 +2,31 @@
 
 use crate::attitude::MotionAt;
 use crate::attitude::control::{sample_number, sensed_sun};
+use crate::loads::ForceTorque;
 use crate::momentum::Totals;
 use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::events;
 use crate::plant::motion::instant::Instant;
-use crate::plant::settings::attitude_source::{AttitudeSource, Command};
+use crate::plant::settings::attitude_source::Command;
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::ideal_settings::IdealSettings;
-use crate::plant::state::encounter_prediction::EncounterPrediction;
+use crate::plant::settings::mode_settings::IdealSettings;
+use crate::plant::state::flight_state::EncounterPrediction;
 use crate::plant::state::ideal_state::IdealState;
 use crate::radiation::SolarModel;
 
 use super::configured::ConfiguredFlight;
 use super::dynamic::Dynamic;
-use super::flight_setup::Evaluated;
 use super::ideal::Ideal;
 use super::report::{ReachedState, Report, dynamic, dynamic_totals, ideal};
+
+/// The last evaluation, kept in memory because it is large.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Evaluated {
+    pub evaluation: Option<Evaluation>,
+    /// Load from outside, where the loads are not computed yet.
+    pub applied: Option<ForceTorque>,
+}
 
 /// A flight in one step.
 pub(super) enum InFlight<'f> {
@@ -61,14 +69,6 @@ impl<'f> InFlight<'f> {
         }
     }
 
-    /// Attitude of a fork from `time_s` on, where it is not the flight's.
-    pub(super) fn fork_attitude(&self, time_s: f64) -> Option<AttitudeSource> {
-        match self {
-            Self::Dynamic(it) => Some(it.ideal_attitude(time_s)),
-            Self::Waiting { .. } | Self::Ideal(_) => None,
-        }
-    }
-
     /// Evaluates geometry and attitude at `time_s`, where the flight has come, and its loads, of an attitude that is followed ideally only
     /// `with_loads`; a flight that waits holds the attitude of `held`.
     pub(super) fn evaluate(
@@ -93,7 +93,7 @@ impl<'f> InFlight<'f> {
             Self::Ideal(Ideal { state, flight, .. }) => {
                 let mut plant = flight.plant();
                 let evaluation = evaluation.insert(plant.evaluate_without_loads(time_s));
-                let [outside, _] = plant.external(time_s);
+                let [outside, _] = (plant.external)(time_s);
                 match with_loads {
                     true => plant.write_loads(evaluation, outside),
                     false => *applied = Some(outside),
@@ -183,7 +183,7 @@ impl<'f> InFlight<'f> {
             evaluation,
             integration_center: trajectory.integration_center(configuration),
             from_integration_center: trajectory.state_from_integration_center(time_s),
-            approaches: trajectory.approaches_until(time_s),
+            approaches: trajectory.approaches.until(time_s),
             panel_turns: &propagator.panel_turns,
             prediction,
             summary,

@@ -5,7 +5,6 @@
 mod configured;
 mod dynamic;
 mod encounter_prediction;
-mod flight_setup;
 mod fork;
 mod grid_edge;
 mod ideal;
@@ -25,6 +24,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use crate::attitude::control::Estimate;
 use crate::loads::ForceTorque;
 use crate::numerics::Span;
+use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::events::{self, EventKind};
@@ -36,18 +36,15 @@ use crate::plant::settings::error::PlantError;
 use crate::plant::settings::mode_settings::{Changes, ModeSettings};
 use crate::plant::settings::panel_setting::PanelSetting;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
-use crate::plant::state::encounter_prediction::EncounterPrediction;
-use crate::plant::state::flight_state::{FlightState, Mode};
-use crate::plant::state::propagator_state::PropagatorState;
-use crate::plant::state::sun_choice::SunDirectionSelection;
+use crate::plant::state::flight_state::{EncounterPrediction, FlightState, Mode};
+use crate::plant::state::propagator_state::{PropagatorState, SunDirectionSelection};
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::Spacecraft;
 use configured::ConfiguredFlight;
 use dynamic::Dynamic;
 use encounter_prediction::predict_encounter;
-use flight_setup::{Evaluated, FlightSetup};
 use ideal::Ideal;
-use in_flight::InFlight;
+use in_flight::{Evaluated, InFlight};
 use report::{ReachedState, Report};
 
 /// A flight: its state, and apart from it settings and caches, which are not saved.
@@ -56,6 +53,15 @@ use report::{ReachedState, Report};
 pub struct Flight {
     state: FlightState,
     setup: Option<Box<FlightSetup>>,
+}
+
+/// Configuration, settings and caches of a flight, none of them saved.
+#[derive(Clone, Debug)]
+struct FlightSetup {
+    context: SimulationContext,
+    settings: ModeSettings,
+    distribution: WheelDistribution,
+    evaluated: Evaluated,
 }
 
 impl From<FlightState> for Flight {
@@ -73,7 +79,8 @@ impl Serialize for Flight {
 impl Flight {
     /// Flight that waits for its inputs.
     pub fn waiting(thrusters: Thrusters) -> Self {
-        FlightState::waiting(thrusters).into()
+        let propagator = PropagatorState::default();
+        FlightState { propagator, thrusters, mode: Mode::Waiting, prediction: None }.into()
     }
 
     /// Rejects decoded states that no flight of this spacecraft can produce.
@@ -129,7 +136,12 @@ impl Flight {
 
     /// Takes what parameters and inputs set.
     pub fn configure(&mut self, context: SimulationContext, settings: ModeSettings) {
-        self.setup = Some(Box::new(FlightSetup::new(context, settings)));
+        self.setup = Some(Box::new(FlightSetup {
+            context,
+            settings,
+            distribution: Default::default(),
+            evaluated: Default::default(),
+        }));
         self.update_current_mass();
     }
 
@@ -152,9 +164,9 @@ impl Flight {
     fn update_current_mass(&mut self) {
         if let Some(FlightSetup { context, .. }) = self.setup.as_deref_mut() {
             let loaded = self.state.propagator.center_of_mass.mass_properties(&context.configuration);
-            let settings = &context.allocator.settings;
-            let current = self.state.thrusters.mass_properties_stowed(settings, &loaded, 0.0);
-            context.current_mass_panels_stowed = current.unwrap_or(loaded);
+            let propellant = &self.state.thrusters.propellant;
+            let tanks = &context.allocator.settings.tanks;
+            context.current_mass_panels_stowed = propellant.mass_properties(&loaded, tanks, 0.0);
         }
     }
 
@@ -278,22 +290,24 @@ impl Flight {
         let (mut in_flight, _) = self.in_flight(given)?;
         in_flight.flight().context.models.begin_work(given.work_limit);
         in_flight.apply_requests(step)?;
-        for time_s in predicted.times_s(step) {
+        for time_s in predicted.into_iter().flat_map(|it| it.times_s(step)) {
             self.in_flight(given)?.0.advance(time_s)?;
             self.predict(given, time_s)?;
         }
         self.in_flight(given)?.0.advance(step.end_s)
     }
 
-    fn prediction_settings(&self) -> PredictionSettings {
-        let encounter = self.configuration().and_then(|it| it.encounter);
-        encounter.filter(|_| !self.is_waiting()).map_or(PredictionSettings::NEVER, |it| it.prediction)
+    fn prediction_settings(&self) -> Option<PredictionSettings> {
+        self.configuration()?.encounter.filter(|_| !self.is_waiting()).map(|it| it.prediction)
     }
 
     /// Predicts the encounter at `time_s`, where the flight has come, in the attitude that timeline and inputs command.
     fn predict(&mut self, given: StepContext<'_>, time_s: f64) -> Result<(), PlantError> {
         let (mut in_flight, _) = self.in_flight(given)?;
-        let attitude = in_flight.fork_attitude(time_s);
+        let attitude = match &in_flight {
+            InFlight::Dynamic(it) => Some(it.ideal_attitude(time_s)),
+            InFlight::Waiting { .. } | InFlight::Ideal(_) => None,
+        };
         self.state.prediction = Some(predict_encounter(in_flight.flight(), attitude, time_s)?);
         Ok(())
     }
@@ -310,7 +324,7 @@ impl Flight {
             dynamic.flight.context.models.begin_work(given.work_limit);
             events::apply_due(&mut dynamic)?;
         }
-        if self.prediction_settings().is_due(time_s) {
+        if self.prediction_settings().is_some_and(|it| it.is_due(time_s)) {
             self.predict(given, time_s)?;
         }
         Ok(undo)

@@ -10,13 +10,11 @@ use crate::environment::eclipse::{Shadow, ShadowModel};
 use crate::environment::orbit::BodyEphemeris;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::motion::command_slews::CommandSlews;
-use crate::plant::motion::geometry::{Geometry, SimulationEphemeris, body};
+use crate::plant::motion::geometry::{Geometry, SimulationEphemeris};
 use crate::plant::motion::instant::Instant;
-use crate::plant::motion::kinematics::Kinematics;
-use crate::plant::motion::trajectory::Trajectory;
 use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
 use crate::plant::settings::configuration::{Configuration, EphemerisSource, Motion};
-use crate::plant::settings::work::Work;
+use crate::plant::state::propagator_state::PropagatorState;
 
 /// The Moon's rate against the Sun as seen from the Earth is at most that, in rad/s.
 const MOON_RATE_RAD_S: f64 = 3.3e-6;
@@ -55,21 +53,14 @@ pub fn survey(
         },
         ..context.configuration.clone()
     };
-    let mut kinematics = Kinematics {
-        configuration: &configuration,
-        law: Some(guided),
-        turning: Turning::still(),
-        trajectory: &mut Trajectory::default(),
-        // Commands are taken at once.
-        command_slews: &mut CommandSlews::beginning(f64::INFINITY),
-        ephemeris: &mut context.models.ephemeris.clone(),
-        spacecraft: given.prepared,
-        work: &mut Work::new(u32::MAX, 0),
-        current_mass_panels_stowed: context.current_mass_panels_stowed,
-    };
+    let mut context = SimulationContext { configuration, ..context.clone() };
+    // Commands are taken at once.
+    let command_slews = CommandSlews::beginning(f64::INFINITY);
+    let mut propagator = PropagatorState { command_slews, ..PropagatorState::default() };
+    let mut plant = context.plant(given.prepared, Turning::still(), &mut propagator, given.external);
     for time_s in times_s {
-        let instant = kinematics.instant(time_s);
-        see(&configuration, time_s, &instant);
+        let instant = plant.instant(time_s);
+        see(plant.path.kinematics.configuration, time_s, &instant);
     }
 }
 
@@ -81,7 +72,8 @@ pub(super) fn occultation(
     time_s: f64,
     quiet_until_s: &mut Option<f64>,
 ) -> Option<Occultation> {
-    let (configuration, ephemeris) = (&context.configuration, &mut context.models.ephemeris);
+    let configuration = &context.configuration;
+    let mut bodies = SimulationEphemeris { configuration, ephemeris: &mut context.models.ephemeris };
     let planet = configuration.planet();
     let known = |body: Body| Some(body) != planet && body != configuration.center;
     // An Earth that no input placed stands in the centre.
@@ -92,8 +84,7 @@ pub(super) fn occultation(
     });
     let is_given = matches!(configuration.ephemeris, EphemerisSource::Given { .. });
     if configuration.center == Body::Earth && !is_given {
-        let mut simulated = SimulationEphemeris { configuration, ephemeris };
-        let moon_m = simulated.moon_from_earth_m(time_s);
+        let moon_m = bodies.moon_from_earth_m(time_s);
         let sun_m = geometry.sun_from_center().position_m;
         let away_m = geometry.spacecraft.position_m.norm();
         // By which the spacecraft's place moves Moon and Sun against one another, both discs included.
@@ -106,10 +97,8 @@ pub(super) fn occultation(
     *quiet_until_s = Some(time_s + TRANSIT_S);
     let others = Body::ALL.into_iter().filter(|body| *body != Body::Earth && body.is_planet());
     let others = others.filter(|_| matches!(configuration.motion, Motion::NBody { .. }) && !is_given);
-    let epoch_s = time_s + configuration.epoch_minus_time_s;
     let found = others.filter(|it| known(*it)).find_map(|other| {
-        let to_body_m =
-            body(configuration, ephemeris, other, epoch_s).position_m - geometry.spacecraft.position_m;
+        let to_body_m = bodies.body(other, time_s).position_m - geometry.spacecraft.position_m;
         hidden(geometry, &to_body_m, (other.data().name, other.data().radius_m))
     });
     found.or(earth.flatten())

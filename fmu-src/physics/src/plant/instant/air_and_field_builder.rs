@@ -8,8 +8,8 @@ use crate::environment::atmosphere::{Air, BREAKS};
 use crate::environment::orientation::Equator;
 use crate::environment::utc::next_midnight_s;
 use crate::math;
-use crate::momentum::WorkKind;
-use crate::momentum::after_event_s;
+use crate::momentum::{WorkKind, after_event_s};
+use crate::numerics::Span;
 use crate::numerics::adaptive::{AdaptiveInterval, Attempt};
 use crate::numerics::events::first_event;
 use crate::plant::motion::kinematics::Kinematics;
@@ -50,22 +50,17 @@ pub(crate) struct AirAndFieldBuilder<'r, 'a> {
 }
 
 impl AirAndFieldBuilder<'_, '_> {
-    /// Extends air and field from `start_s` on; returns up to where they are valid, at most `limit_s`.
+    /// Extends air and field over a span; returns up to where they are valid, at most to its end.
     ///
     /// # Errors
     /// Where a model does not reach; work.
-    pub(crate) fn extend(
-        &mut self,
-        segment: &mut AirAndFieldSegment,
-        start_s: f64,
-        limit_s: f64,
-    ) -> Result<f64, PlantError> {
-        let is_made =
-            segment.span.contains(start_s) && segment.made_for == Some((self.settings, self.figure));
-        if !is_made || (self.orbit_has_moved && self.orbit_differs(segment, limit_s)) {
-            self.build(segment, start_s, limit_s)?;
+    pub(crate) fn extend(&mut self, segment: &mut AirAndFieldSegment, span: Span) -> Result<f64, PlantError> {
+        let is_made = segment.span.contains(span.start_s);
+        let is_made = is_made && segment.made_for == Some((self.settings, self.figure));
+        if !is_made || (self.orbit_has_moved && self.orbit_differs(segment, span.end_s)) {
+            self.build(segment, span)?;
         }
-        Ok(segment.span.end_s.min(limit_s))
+        Ok(segment.span.end_s.min(span.end_s))
     }
 
     /// Whether the orbit, valid up to `limit_s`, differs from the one on which the segment was fitted.
@@ -80,12 +75,8 @@ impl AirAndFieldBuilder<'_, '_> {
         })
     }
 
-    fn build(
-        &mut self,
-        segment: &mut AirAndFieldSegment,
-        start_s: f64,
-        limit_s: f64,
-    ) -> Result<(), PlantError> {
+    fn build(&mut self, segment: &mut AirAndFieldSegment, span: Span) -> Result<(), PlantError> {
+        let Span { start_s, end_s: limit_s } = span;
         let longest_s = segment.span.next_longest_s.min(LONGEST_S);
         let mut interval = AdaptiveInterval::new(start_s, f64::INFINITY, longest_s, limit_s, SHORTEST_S);
         // Within a segment the equator moves by 1e-3 arcsec.
@@ -94,7 +85,7 @@ impl AirAndFieldBuilder<'_, '_> {
         interval.end_at(self.smooth_until(&equator, start_s, interval.end_s()));
         let (series, span) = interval.fit(NODES, |interval| {
             self.spend(start_s)?;
-            Ok(match self.fit(&equator, start_s, interval.end_s()) {
+            Ok(match self.fit(&equator, Span::new(start_s, interval.end_s())) {
                 Ok((fit, unresolved)) => {
                     Attempt::Fitted { fit, unresolved, tolerance: self.settings.tolerance }
                 }
@@ -138,12 +129,8 @@ impl AirAndFieldBuilder<'_, '_> {
     }
 
     /// The series over an interval, and their greatest last term relative to the tolerance's measure.
-    fn fit(
-        &mut self,
-        equator: &Equator,
-        start_s: f64,
-        end_s: f64,
-    ) -> Result<(AirAndFieldSegment, f64), PlantError> {
+    fn fit(&mut self, equator: &Equator, span: Span) -> Result<(AirAndFieldSegment, f64), PlantError> {
+        let Span { start_s, end_s } = span;
         let [position_m, air, air_velocity_m_s, field_t] = [Vector3::zeros(); 4];
         let mut nodes = [Node { position_m, air, air_velocity_m_s, field_t }; NODES];
         let mut has_air = true;

@@ -28,7 +28,7 @@ impl PathAhead<'_> {
         let Some((settings, figure)) = air_and_field.zip(*figure) else { return Ok(span.end_s) };
         let mut builder =
             AirAndFieldBuilder { settings, figure, kinematics: &mut self.kinematics, orbit_has_moved };
-        builder.extend(self.air_and_field, span.start_s, span.end_s)
+        builder.extend(self.air_and_field, span)
     }
 
     /// Air and magnetic field at `time_s`, up to which they are known.

@@ -26,28 +26,6 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// At `time_s` of the flight, the spacecraft being there about the orbit's centre.
-    pub fn at(
-        configuration: &Configuration,
-        ephemeris: &mut Ephemeris,
-        time_s: f64,
-        spacecraft: CartesianState,
-    ) -> Self {
-        let epoch_s = time_s + configuration.epoch_minus_time_s;
-        let Configuration { center, ephemeris: source, .. } = configuration;
-        let (sun, earth) = sun_and_earth(*center, source, ephemeris, epoch_s);
-        let planet = configuration.planet().map(|planet| match planet == configuration.center {
-            true => CartesianState::default(),
-            false => body(configuration, ephemeris, planet, epoch_s),
-        });
-        Self {
-            spacecraft,
-            to_sun: sun - spacecraft,
-            to_planet: planet.map(|planet| planet - spacecraft),
-            to_earth: earth - spacecraft,
-        }
-    }
-
     /// Position about the Sun, EME2000, in m.
     pub fn heliocentric_position_m(&self) -> Vector3<f64> {
         -self.to_sun.position_m
@@ -101,29 +79,6 @@ impl Sight for GeometrySight {
     }
 }
 
-/// A body from the orbit's centre.
-pub(crate) fn body(
-    configuration: &Configuration,
-    ephemeris: &mut Ephemeris,
-    body: Body,
-    epoch_s: f64,
-) -> CartesianState {
-    let ellipse = match &configuration.ephemeris {
-        EphemerisSource::Given { sun, .. } if body == Body::Sun => return *sun,
-        EphemerisSource::Given { earth, .. } if body == Body::Earth => return *earth,
-        EphemerisSource::Simulated(carried) => {
-            let found = carried.state_carried_on(body.into(), configuration.center, epoch_s);
-            if let Some(found) = found {
-                return found;
-            }
-            None
-        }
-        EphemerisSource::Kepler(planet) => Some(*planet),
-        EphemerisSource::Given { .. } | EphemerisSource::Vsop87 => None,
-    };
-    BodiesFromCenter { center: configuration.center, ellipse, custom: None }.body(body, ephemeris, epoch_s)
-}
-
 /// Sun and Earth from the orbit's centre by this source.
 pub fn sun_and_earth(
     center: Body,
@@ -134,16 +89,19 @@ pub fn sun_and_earth(
     let ellipse = match source {
         EphemerisSource::Given { sun, earth } => return (*sun, *earth),
         EphemerisSource::Simulated(carried) => {
-            let state = |body: Body| {
-                let found = carried.state_carried_on(body.into(), center, epoch_s);
-                found.unwrap_or_else(|| fixed(Vector3::repeat(f64::NAN)))
-            };
+            let state =
+                |body: Body| carried.state_carried_on(body.into(), center, epoch_s).unwrap_or_else(nowhere);
             return (state(Body::Sun), state(Body::Earth));
         }
         EphemerisSource::Vsop87 => None,
         EphemerisSource::Kepler(planet) => Some(*planet),
     };
     BodiesFromCenter { center, ellipse, custom: None }.sun_and_earth(ephemeris, epoch_s)
+}
+
+/// A body that no ephemeris places.
+fn nowhere() -> CartesianState {
+    fixed(Vector3::repeat(f64::NAN))
 }
 
 /// Sun, planets and Moon by the simulation's ephemeris and clock.
@@ -155,6 +113,41 @@ pub(crate) struct SimulationEphemeris<'a> {
 impl SimulationEphemeris<'_> {
     fn epoch_s(&self, at_s: f64) -> f64 {
         at_s + self.configuration.epoch_minus_time_s
+    }
+
+    /// Geometry at `time_s` of the flight, the spacecraft being there about the orbit's centre.
+    pub(crate) fn geometry(&mut self, time_s: f64, spacecraft: CartesianState) -> Geometry {
+        let Configuration { center, ephemeris: source, .. } = self.configuration;
+        let (sun, earth) = sun_and_earth(*center, source, self.ephemeris, self.epoch_s(time_s));
+        let planet = self.configuration.planet().map(|planet| match planet == *center {
+            true => CartesianState::default(),
+            false => self.body(planet, time_s),
+        });
+        Geometry {
+            spacecraft,
+            to_sun: sun - spacecraft,
+            to_planet: planet.map(|planet| planet - spacecraft),
+            to_earth: earth - spacecraft,
+        }
+    }
+
+    /// A body from the orbit's centre at `time_s`.
+    pub(crate) fn body(&mut self, body: Body, time_s: f64) -> CartesianState {
+        let (Configuration { center, ephemeris: source, .. }, epoch_s) =
+            (self.configuration, self.epoch_s(time_s));
+        let ellipse = match source {
+            EphemerisSource::Given { sun, .. } if body == Body::Sun => return *sun,
+            EphemerisSource::Given { earth, .. } if body == Body::Earth => return *earth,
+            EphemerisSource::Simulated(carried) => {
+                if let Some(found) = carried.state_carried_on(body.into(), *center, epoch_s) {
+                    return found;
+                }
+                None
+            }
+            EphemerisSource::Kepler(planet) => Some(*planet),
+            EphemerisSource::Given { .. } | EphemerisSource::Vsop87 => None,
+        };
+        BodiesFromCenter { center: *center, ellipse, custom: None }.body(body, self.ephemeris, epoch_s)
     }
 
     /// Acceleration by all gravity of the flight, without other forces, in m/s2, EME2000, of a spacecraft there about the orbit's centre at
@@ -172,18 +165,14 @@ impl BodyEphemeris for SimulationEphemeris<'_> {
             _ if body == Body::Sun => CartesianState::default(),
             // About one body the Sun is where the centre's source says.
             _ if matches!(self.configuration.motion, Motion::Disturbed { .. }) => {
-                let mut from_center =
-                    |body| self::body(self.configuration, &mut *self.ephemeris, body, epoch_s);
-                let sun = from_center(Body::Sun);
-                if body == self.configuration.center {
-                    CartesianState::default() - sun
-                } else {
-                    from_center(body) - sun
-                }
+                let sun = self.body(Body::Sun, at_s);
+                let is_center = body == self.configuration.center;
+                let from_center = if is_center { CartesianState::default() } else { self.body(body, at_s) };
+                from_center - sun
             }
-            EphemerisSource::Simulated(carried) => carried
-                .state_carried_on(body.into(), Body::Sun, epoch_s)
-                .unwrap_or_else(|| fixed(Vector3::repeat(f64::NAN))),
+            EphemerisSource::Simulated(carried) => {
+                carried.state_carried_on(body.into(), Body::Sun, epoch_s).unwrap_or_else(nowhere)
+            }
             EphemerisSource::Kepler(planet) if body == Body::Custom => planet.state(epoch_s),
             _ => self.ephemeris.state(body, epoch_s),
         }

@@ -1,15 +1,16 @@
 //! Attitude that guidance commands: by the timeline, else by the orbit phase, and during slews into commands.
 
-use crate::environment::ephemeris::Ephemeris;
 use crate::guidance::constraints::command_slew::CommandSlew;
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::constraints::slew::{Slew, SlewedFrame};
 use crate::guidance::pointing::command::Scenario;
 use crate::guidance::timeline::{Slot, TimelineEntry, TimelineLaw, TimelineSettings, bodies_of};
-use crate::guidance::{Activity, AttitudeCommand, Guided, GuidedAttitude, Sight, TargetPlanet, Window};
+use crate::guidance::{
+    Activity, AttitudeCommand, Guided, GuidedAttitude, OrbitPhaseLaw, Sight, TargetPlanet, Window,
+};
 
 use super::command_slews::CommandSlews;
-use super::geometry::{self, Geometry, GeometrySight, SimulationEphemeris};
+use super::geometry::{Geometry, GeometrySight, SimulationEphemeris};
 use super::trajectory::Trajectory;
 use crate::plant::settings::attitude_source::AttitudeSource;
 use crate::plant::settings::configuration::Configuration;
@@ -17,14 +18,13 @@ use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 
 /// Returns the geometry at `time_s`; a law reads motions about `planet` from it as well, or directions alone.
 fn sight(
-    configuration: &Configuration,
-    ephemeris: &mut Ephemeris,
+    bodies: &mut SimulationEphemeris<'_>,
     time_s: f64,
     geometry: Geometry,
     planet: Option<TargetPlanet>,
 ) -> GeometrySight {
+    let configuration = bodies.configuration;
     let motion = planet.map(|planet| {
-        let bodies = &mut SimulationEphemeris { configuration, ephemeris };
         let gravity = bodies.gravity_m_s2(time_s, &geometry.spacecraft);
         (TargetPlanet { gm_m3_s2: configuration.orbit.mu_m3_s2(), ..planet }, gravity)
     });
@@ -32,10 +32,10 @@ fn sight(
 }
 
 /// Guidance of a configured flight.
-pub(super) struct GuidedLaw<'k> {
+pub(super) struct GuidedLaw<'k, 'a> {
     pub configuration: &'k Configuration,
     pub trajectory: &'k Trajectory,
-    pub ephemeris: &'k mut Ephemeris,
+    pub bodies: &'k mut SimulationEphemeris<'a>,
     /// The spacecraft.
     pub spacecraft: PreparedSpacecraft<'k>,
     /// Slews into the timeline's commands.
@@ -59,14 +59,14 @@ struct Target {
     attitude: GuidedAttitude,
 }
 
-impl GuidedLaw<'_> {
+impl GuidedLaw<'_, '_> {
     /// Attitude that the timeline commands at `time_s`, else the orbit phase's own guidance.
     pub(super) fn attitude(&mut self, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let guided = self.guided;
         let Some((law, settings)) = self.spacecraft.timeline.zip(self.configuration.timeline) else {
-            let (requested, cut) = guided.requested.at_distance(geometry.to_sun.position_m.norm());
+            let requested = guided.requested.at_distance(geometry.to_sun.position_m.norm());
             let own = self.by_orbit_phase(&Guided { requested, ..*guided }, time_s, geometry);
-            return GuidedAttitude { clamped: own.clamped || cut, ..own };
+            return GuidedAttitude { clamped: own.clamped || requested.is_moved, ..own };
         };
         let slot = law.timeline.slot(time_s, settings.clock_minus_time_s);
         let command = SlotCommand { law: &law, settings: &settings, slot };
@@ -114,7 +114,7 @@ impl GuidedLaw<'_> {
             true => *target,
             false => {
                 let spacecraft = self.trajectory.state_at(self.configuration, begin_s);
-                let geometry = Geometry::at(self.configuration, self.ephemeris, begin_s, spacecraft);
+                let geometry = self.bodies.geometry(begin_s, spacecraft);
                 Target { geometry, attitude: self.by_slot(command, begin_s, &geometry) }
             }
         };
@@ -169,14 +169,15 @@ impl GuidedLaw<'_> {
             return GuidedAttitude { row: slot.row, ..GuidedAttitude::held(command, window) };
         }
         let keep_in = self.keep_in_of_orbit_phase(slot.entry);
-        let (requested, cut) = requested.at_distance(geometry.to_sun.position_m.norm());
+        let requested = requested.at_distance(geometry.to_sun.position_m.norm());
         let own = self.by_orbit_phase(&Guided { requested, keep_in, ..*guided }, time_s, geometry);
         let window = Window {
             since_s: own.window.since_s.max(since_s),
             until_s: own.window.until_s.min(until_s),
             ..own.window
         };
-        GuidedAttitude { window, clamped: own.clamped || cut, until_s: own.until_s.min(until_s), ..own }
+        let clamped = own.clamped || requested.is_moved;
+        GuidedAttitude { window, clamped, until_s: own.until_s.min(until_s), ..own }
     }
 
     /// The attitude of a command of the timeline.
@@ -188,12 +189,10 @@ impl GuidedLaw<'_> {
         geometry: &Geometry,
     ) -> Option<AttitudeCommand> {
         let SlotCommand { law, settings, slot } = *command;
-        let epoch_s = time_s + self.configuration.epoch_minus_time_s;
-        let sight = sight(self.configuration, self.ephemeris, time_s, *geometry, Some(settings.planet));
+        let sight = sight(self.bodies, time_s, *geometry, Some(settings.planet));
         let mut ephemeris_at_time = sight.ephemeris()?;
         for body in bodies_of(&entry.command) {
-            let place = geometry::body(self.configuration, self.ephemeris, body, epoch_s);
-            ephemeris_at_time.place_body(body, &place);
+            ephemeris_at_time.place_body(body, &self.bodies.body(body, time_s));
         }
         let sun = (self.guided.sun_direction, slot.sun_request(self.guided.requested));
         law.attitude(settings, entry, time_s, &ephemeris_at_time, sun)
@@ -201,21 +200,22 @@ impl GuidedLaw<'_> {
 
     /// Attitude that the orbit phase's own guidance commands at `time_s`.
     fn by_orbit_phase(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
-        let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
-        let (trajectory, default_downlink) = (self.trajectory, self.spacecraft.default_downlink);
+        let (configuration, bodies) = (self.configuration, &mut *self.bodies);
+        let trajectory = self.trajectory;
+        let law = OrbitPhaseLaw { guided: *guided, default_downlink: self.spacecraft.default_downlink };
         let epoch_s = time_s + configuration.epoch_minus_time_s;
         let planet =
             guided.science.reads_motion().then(|| TargetPlanet::from_body(configuration.center.data()));
         let window =
             trajectory.window(configuration, time_s).unwrap_or_else(|| guided.schedule.window(epoch_s));
-        guided.within(window, epoch_s, default_downlink, |at_epoch_s| {
+        law.within(window, epoch_s, |at_epoch_s| {
             if at_epoch_s == epoch_s {
-                return sight(configuration, ephemeris, time_s, *geometry, planet);
+                return sight(bodies, time_s, *geometry, planet);
             }
             let at_s = at_epoch_s - configuration.epoch_minus_time_s;
             let spacecraft = trajectory.state_at_window_start(configuration, at_s);
-            let geometry = Geometry::at(configuration, ephemeris, at_s, spacecraft);
-            sight(configuration, ephemeris, at_s, geometry, planet)
+            let geometry = bodies.geometry(at_s, spacecraft);
+            sight(bodies, at_s, geometry, planet)
         })
     }
 }

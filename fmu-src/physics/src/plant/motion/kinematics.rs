@@ -6,12 +6,11 @@
 
 use crate::attitude::angle_between_rad;
 use crate::environment::CartesianState;
-use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::TwoBodyOrbit;
 use crate::guidance::pointing::boresight::Gimbal;
 use crate::guidance::{ArcPoint, DownlinkStatus, Guided, GuidedAttitude, ScienceArc};
 use crate::math;
-use crate::momentum::{EventValues, after_event_s};
+use crate::momentum::{EventValues, WorkKind, after_event_s};
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::events::first_event;
 use crate::numerics::intervals::{first_change_s, sampled_range};
@@ -21,11 +20,10 @@ use crate::spacecraft::MassProperties;
 use nalgebra::{Rotation3, Vector3};
 
 use super::command_slews::CommandSlews;
-use super::geometry::{self, Geometry};
+use super::geometry::{Geometry, SimulationEphemeris};
 use super::guided_law::GuidedLaw;
 use super::instant::{Instant, Regime, without_windows};
 use super::trajectory::Trajectory;
-use crate::momentum::WorkKind;
 use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
 use crate::plant::settings::configuration::{Configuration, Motion};
 use crate::plant::settings::error::PlantError;
@@ -46,7 +44,7 @@ pub(crate) struct Kinematics<'a> {
     /// Attitude and rate of a body that turns by torque.
     pub turning: Turning,
     pub trajectory: &'a mut Trajectory,
-    pub ephemeris: &'a mut Ephemeris,
+    pub bodies: SimulationEphemeris<'a>,
     /// The spacecraft.
     pub spacecraft: PreparedSpacecraft<'a>,
     /// Slews into the timeline's commands.
@@ -60,7 +58,7 @@ pub(crate) struct Kinematics<'a> {
 impl Kinematics<'_> {
     /// Counts work, the flight having come to `time_s`.
     pub(crate) fn spend_units(&mut self, cost: WorkKind, units: u32, time_s: f64) -> Result<(), PlantError> {
-        Ok(self.work.spend(cost, units, self.ephemeris.evaluations(), time_s)?)
+        Ok(self.work.spend(cost, units, self.bodies.ephemeris.evaluations(), time_s)?)
     }
 
     /// Mass, centre of mass and inertia as the panels stand with the Sun there.
@@ -123,14 +121,13 @@ impl Kinematics<'_> {
         let spacecraft = self.trajectory.state_at(self.configuration, time_s);
         let elsewhere = self.configuration.planet().filter(|planet| *planet != self.configuration.center);
         let Some(planet) = elsewhere else { return spacecraft };
-        let epoch_s = time_s + self.configuration.epoch_minus_time_s;
-        spacecraft - geometry::body(self.configuration, self.ephemeris, planet, epoch_s)
+        spacecraft - self.bodies.body(planet, time_s)
     }
 
     /// Geometry, attitude and regime at `time_s`.
     fn geometry(&mut self, time_s: f64) -> Geometry {
         let spacecraft = self.trajectory.state_at(self.configuration, time_s);
-        Geometry::at(self.configuration, self.ephemeris, time_s, spacecraft)
+        self.bodies.geometry(time_s, spacecraft)
     }
 
     /// Body frame and rate, window and margins of the attitude law.
@@ -147,7 +144,7 @@ impl Kinematics<'_> {
         let mut law = GuidedLaw {
             configuration: self.configuration,
             trajectory: self.trajectory,
-            ephemeris: self.ephemeris,
+            bodies: &mut self.bodies,
             spacecraft: self.spacecraft,
             command_slews: self.command_slews,
             guided,
@@ -207,11 +204,11 @@ impl Kinematics<'_> {
             }
             Motion::Held { .. } => None,
         };
-        let ephemeris = &mut *self.ephemeris;
+        let bodies = &mut self.bodies;
         move |at_s| {
             let at_epoch_s = at_s + configuration.epoch_minus_time_s;
             let spacecraft = ellipse.map_or(now, |ellipse| ellipse.state_at(at_epoch_s));
-            Geometry::at(configuration, ephemeris, at_s, spacecraft)
+            bodies.geometry(at_s, spacecraft)
         }
     }
 

@@ -25,26 +25,6 @@ pub struct OsculatingOrbit {
     pub sun_elevation_rad: f64,
 }
 
-/// Body in the focus.
-struct Focus {
-    gm_m3_s2: f64,
-    radius_m: f64,
-}
-
-impl Focus {
-    /// The body that a flight is integrated about.
-    fn new(configuration: &Configuration, body: Body) -> Self {
-        match configuration.motion {
-            Motion::NBody { gravity, .. } => {
-                Self { gm_m3_s2: gravity.model.gm_m3_s2(body), radius_m: gravity.model.radius_m(body) }
-            }
-            Motion::TwoBody | Motion::Disturbed { .. } | Motion::Held { .. } => {
-                Self { gm_m3_s2: configuration.orbit.mu_m3_s2(), radius_m: configuration.center_radius_m }
-            }
-        }
-    }
-}
-
 impl OsculatingOrbit {
     /// Orbit through `state` from `body`, EME2000, to the Sun of `geometry`; `None` on a line through the body, without gravity, and
     /// where a number would not be finite.
@@ -54,7 +34,12 @@ impl OsculatingOrbit {
         state: &CartesianState,
         geometry: &Geometry,
     ) -> Option<Self> {
-        let Focus { gm_m3_s2, radius_m } = Focus::new(configuration, body);
+        let [gm_m3_s2, radius_m] = match configuration.motion {
+            Motion::NBody { gravity, .. } => [gravity.model.gm_m3_s2(body), gravity.model.radius_m(body)],
+            Motion::TwoBody | Motion::Disturbed { .. } | Motion::Held { .. } => {
+                [configuration.orbit.mu_m3_s2(), configuration.center_radius_m]
+            }
+        };
         let to_frame: Matrix3<f64> = configuration.eme2000_from_orbit_frame.transpose();
         let (elements, gap) = Elements::osculating(&state.along(&to_frame), gm_m3_s2).ok()?;
         let axis_m = elements.semi_major_axis_m;

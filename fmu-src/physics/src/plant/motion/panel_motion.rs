@@ -18,8 +18,8 @@ use crate::numerics::quadrature::GAUSS_2;
 use crate::spacecraft::{MassProperties, Panel, hinged_masses, with_panels};
 
 use super::instant::Instant;
+use super::kinematics::Kinematics;
 use super::panel_turns::nearest_turns_rad;
-use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::panel_setting::SunAt;
 
 /// Largest step along the way of a panel, in rad.
@@ -53,26 +53,11 @@ pub struct PanelMotion {
     turns: Vec<PanelTurn>,
 }
 
-/// Spacecraft that carries the panels.
-#[derive(Clone, Copy)]
-pub(crate) struct Hinged<'a> {
-    pub panels: &'a [Panel],
-    pub configuration: &'a Configuration,
-    /// With every panel at angle 0.
-    pub current_mass_panels_stowed: MassProperties,
-}
-
-impl Hinged<'_> {
-    fn mass_at(&self, angle_rad: impl Fn(usize) -> f64) -> MassProperties {
-        with_panels(&self.current_mass_panels_stowed, self.panels, angle_rad)
-    }
-}
-
 impl PanelMotion {
     /// At the start of a flight, where everything is like that.
-    pub(crate) fn at_start(hinged: Hinged<'_>, instant: &Instant) -> Self {
+    pub(crate) fn at_start(kinematics: &Kinematics<'_>, instant: &Instant) -> Self {
         let sun = instant.moving_sun();
-        let settings = hinged.configuration.panels.iter().zip(hinged.panels);
+        let settings = kinematics.configuration.panels.iter().zip(kinematics.spacecraft.panels);
         let turns = settings.map(|(setting, panel)| {
             let [angle_rad, rate_rad_s] = setting.turn_rad(panel, &sun);
             let rate_rad_s = if panel.mass.is_some() { rate_rad_s } else { 0.0 };
@@ -125,7 +110,7 @@ impl PanelMotion {
     /// gives way: its attitude then, or `None` where all are there already. The body of `motion` has the mass properties there.
     pub(crate) fn track_law(
         &mut self,
-        hinged: Hinged<'_>,
+        kinematics: &Kinematics<'_>,
         gyrostat: &mut Gyrostat,
         motion: &GyrostatMotion,
         to_sun_m: &Vector3<f64>,
@@ -147,27 +132,27 @@ impl PanelMotion {
             distance_m,
         };
         for _ in 0..ROUNDS {
-            if !self.point_at(hinged, &sun(&attitude)) {
+            if !self.point_at(kinematics, &sun(&attitude)) {
                 break;
             }
             let before =
-                core::mem::replace(&mut attitude, self.body_reaction(hinged, gyrostat, motion, start));
+                core::mem::replace(&mut attitude, self.body_reaction(kinematics, gyrostat, motion, start));
             let change = before.0.iter().zip(&attitude.0).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            let by_sun = hinged.configuration.panels.iter().any(|setting| setting.is_by_sun());
+            let by_sun = kinematics.configuration.panels.iter().any(|setting| setting.is_by_sun());
             if !by_sun || change < SAME {
                 break;
             }
         }
         let moved = self.turns.iter().any(|it| it.travel_rad != 0.0);
-        self.snap_to_law(hinged, &sun(&attitude));
+        self.snap_to_law(kinematics, &sun(&attitude));
         moved.then_some(attitude)
     }
 
     /// From `now` to `end` the panels turn to where their laws have them then.
-    pub(crate) fn turn_until(&mut self, hinged: Hinged<'_>, now: &Instant, end: &Instant) {
+    pub(crate) fn turn_until(&mut self, kinematics: &Kinematics<'_>, now: &Instant, end: &Instant) {
         let span_s = end.time_s - self.since_s;
         let (sun, end_sun) = (now.moving_sun(), end.sun());
-        let settings = hinged.configuration.panels.iter().zip(hinged.panels);
+        let settings = kinematics.configuration.panels.iter().zip(kinematics.spacecraft.panels);
         for (turn, (setting, panel)) in self.turns.iter_mut().zip(settings) {
             (turn.rate_rad_s, turn.acceleration_rad_s2) = (0.0, 0.0);
             if panel.mass.is_none() || span_s <= 0.0 {
@@ -188,8 +173,8 @@ impl PanelMotion {
     }
 
     /// Looks how far each panel has to go; whether one has to at all.
-    fn point_at(&mut self, hinged: Hinged<'_>, sun: &SunAt) -> bool {
-        let settings = hinged.configuration.panels.iter().zip(hinged.panels);
+    fn point_at(&mut self, kinematics: &Kinematics<'_>, sun: &SunAt) -> bool {
+        let settings = kinematics.configuration.panels.iter().zip(kinematics.spacecraft.panels);
         for (turn, (setting, panel)) in self.turns.iter_mut().zip(settings) {
             let to_rad = setting.angle_rad(panel, sun).unwrap_or(0.0);
             turn.travel_rad =
@@ -199,8 +184,8 @@ impl PanelMotion {
     }
 
     /// All panels stand where their laws have them.
-    fn snap_to_law(&mut self, hinged: Hinged<'_>, sun: &SunAt) {
-        let settings = hinged.configuration.panels.iter().zip(hinged.panels);
+    fn snap_to_law(&mut self, kinematics: &Kinematics<'_>, sun: &SunAt) {
+        let settings = kinematics.configuration.panels.iter().zip(kinematics.spacecraft.panels);
         for (turn, (setting, panel)) in self.turns.iter_mut().zip(settings) {
             if turn.travel_rad != 0.0 {
                 turn.angle_rad = setting.angle_rad(panel, sun).unwrap_or(0.0);
@@ -211,7 +196,7 @@ impl PanelMotion {
     /// The attitude after all panels went their way at once.
     fn body_reaction(
         &self,
-        hinged: Hinged<'_>,
+        kinematics: &Kinematics<'_>,
         gyrostat: &mut Gyrostat,
         motion: &GyrostatMotion,
         start: Quaternion,
@@ -219,13 +204,13 @@ impl PanelMotion {
         let longest_rad = self.turns.iter().map(|it| it.travel_rad.abs()).fold(0.0, f64::max);
         let steps = (longest_rad / STEP_RAD).ceil().max(1.0);
         let count = steps as u32;
+        let panels = kinematics.spacecraft.panels;
         let mut turn_rate_rad = |share: f64| {
             let part = |index: usize| self.turns.get(index).copied().unwrap_or_default();
             let angle_rad = |index: usize| part(index).angle_rad + share * part(index).travel_rad;
-            let mass = hinged.mass_at(angle_rad);
+            let mass = with_panels(&kinematics.current_mass_panels_stowed, panels, angle_rad);
             gyrostat.set_mass_properties(mass.inertia_body_kg_m2, mass.center_of_mass_body_m);
-            let masses =
-                hinged_masses(hinged.panels, |index| [angle_rad(index), part(index).travel_rad, 0.0]);
+            let masses = hinged_masses(panels, |index| [angle_rad(index), part(index).travel_rad, 0.0]);
             let momentum: Vector3<f64> =
                 masses.map(|it: HingedMass| it.momentum_body_n_m_s(&mass.center_of_mass_body_m)).sum();
             -(motion.inverse_inertia_of(gyrostat) * momentum) / steps

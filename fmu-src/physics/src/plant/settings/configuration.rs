@@ -24,7 +24,6 @@ use crate::spacecraft::{MassProperties, Panel, Spacecraft, SunshadeModel, hinged
 
 use super::air_and_field_settings::{AirAndFieldSettings, PlanetFigure};
 use super::panel_setting::{PanelSetting, SunAt, panel_angle_rad};
-use super::radiation_settings::RadiationSettings;
 use super::thruster_events::ThrusterEventSettings;
 
 /// Source of the positions of Sun and Earth.
@@ -73,9 +72,6 @@ pub struct PredictionSettings {
 }
 
 impl PredictionSettings {
-    /// Settings without predictions.
-    pub(crate) const NEVER: Self = Self { refresh_s: 0.0, horizon_s: 0.0, last_epoch_s: 0.0, lead_s: 0.0 };
-
     /// Times of a step, before its end, at which a prediction is due, in s.
     pub(crate) fn times_s(self, step: Span) -> impl Iterator<Item = f64> {
         let is_on = self.refresh_s > 0.0;
@@ -337,4 +333,19 @@ pub struct Configuration {
     pub momentum: Settings,
     /// Settings of thruster events, and the scheduled ones.
     pub thruster_events: ThrusterEventSettings,
+}
+
+/// Parts of the light and heat that are computed, and their resolution in time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RadiationSettings {
+    /// Whether surfaces with a heat capacity store heat; otherwise all are in balance with their light.
+    pub storage: bool,
+    /// Whether surfaces given as polygons shadow one another from the Sun.
+    pub shadowing: bool,
+    /// Whether the Sun's disc softens those shadows.
+    pub sun_disc: bool,
+    /// Segments of light and heat end at multiples of this, in s.
+    pub grid_s: f64,
+    /// Largest last Chebyshev term of a segment relative to the largest force and torque in it.
+    pub tolerance: f64,
 }

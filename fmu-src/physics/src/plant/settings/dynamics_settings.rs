@@ -1,10 +1,10 @@
 //! Settings and inputs of attitude dynamics and control.
 
+use crate::attitude::control::{
+    AccelerometerSettings, Allocation, ControllerSettings, SensorHealth, SensorSettings, SunSensor,
+};
 use nalgebra::Vector3;
 
-use crate::attitude::control::{
-    AccelerometerSettings, ControllerSettings, SensorHealth, SensorSettings, SunSensor,
-};
 use crate::attitude::{Attitude, Gyrostat};
 use crate::guidance::Guided;
 use crate::propulsion::PulseCommand;
@@ -13,7 +13,6 @@ use crate::spacecraft::MassProperties;
 use super::attitude_source::Command;
 use super::reaction_control_settings::ThrustCommand;
 use super::thruster_events::Maneuver;
-use super::wheel_control_settings::WheelControlSettings;
 
 /// Settings of dynamics and control.
 #[derive(Clone, Debug)]
@@ -134,4 +133,15 @@ pub struct DynamicsInputs {
     pub dump_to_body_n_m_s: Option<Vector3<f64>>,
     /// A maneuver that is requested; a dump that goes with it leaves what dumps on request do.
     pub maneuver: Option<Maneuver>,
+}
+
+/// Settings of wheel control.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WheelControlSettings {
+    /// Rule that distributes a torque over the wheels.
+    pub allocation: Allocation,
+    /// Time constant with which the wheels' momenta are brought to the same distribution, in s; infinite = not at all.
+    pub balance_time_s: f64,
+    /// Whether the motors make up for the wheels' known friction.
+    pub compensates_friction: bool,
 }

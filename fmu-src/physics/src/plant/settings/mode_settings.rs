@@ -1,7 +1,9 @@
 //! Settings of a flight by its mode, and what of parameters and inputs changed.
 
 use super::dynamics_settings::DynamicsSettings;
-use super::ideal_settings::IdealSettings;
+use crate::attitude::control::SunSensor;
+use crate::momentum::WheelArray;
+use nalgebra::Vector3;
 
 /// Settings of a mode, next to the configuration.
 #[derive(Clone, Debug)]
@@ -25,4 +27,46 @@ pub struct Changes {
     pub force: bool,
     /// Mass, thresholds or target of dumps changed.
     pub tunables: bool,
+}
+
+/// Wheel that follows ideally.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IdealWheel {
+    /// Inertia of the rotor, in kg m2.
+    pub inertia_kg_m2: f64,
+    /// Greatest momentum, in N m s.
+    pub capacity_n_m_s: f64,
+    /// Momentum about which it works, in N m s.
+    pub bias_n_m_s: f64,
+}
+
+/// Wheels and sensors of a flight in an attitude that is followed ideally.
+#[derive(Clone, Debug)]
+pub struct IdealSettings {
+    /// Distribution of momentum over the wheels.
+    pub array: WheelArray,
+    /// The wheels.
+    pub wheels: Vec<IdealWheel>,
+    /// Sun sensors.
+    pub sun_sensors: Vec<SunSensor>,
+    /// Samples of the sensors a second.
+    pub rate_hz: f64,
+    /// Seed of the sensors' noise.
+    pub seed: u64,
+    /// The system's momentum where the flight begins, body frame, from the wheels' bias, in N m s.
+    pub start_momentum_body_n_m_s: Vector3<f64>,
+}
+
+impl IdealSettings {
+    /// Momentum of wheel `k` (0-based) where the wheels have to hold this together, body frame, in N m s: its bias, and its share of
+    /// what is beside the biases of all.
+    pub fn momentum_n_m_s(&self, k: usize, momentum_body_n_m_s: &Vector3<f64>) -> f64 {
+        let from_bias = momentum_body_n_m_s - self.bias_body_n_m_s();
+        self.wheels.get(k).map_or(0.0, |wheel| wheel.bias_n_m_s + self.array.momentum_n_m_s(k, &from_bias))
+    }
+
+    /// Sum of the wheels' biases, body frame, in N m s.
+    fn bias_body_n_m_s(&self) -> Vector3<f64> {
+        self.array.sum_body_n_m_s(self.wheels.iter().map(|wheel| wheel.bias_n_m_s))
+    }
 }

@@ -4,13 +4,13 @@
 //! two axes across v. After every thruster event, a dump or a maneuver, the centre of mass is its nominal place + s_c n, by axis.
 //! Draws are functions of the seed and the event's number.
 
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 use nalgebra::{Rotation3, Vector3};
 
 use super::error::PlantError;
-use super::last_event::LastEvent;
-use crate::guidance::timeline::{TimelineDump, TimelineEvent, TimelineManeuver, begun, simulation_time_s};
+use crate::guidance::timeline::{TimelineDump, TimelineEvent, begun, simulation_time_s};
 use crate::momentum::DumpEvent;
 use crate::numerics::noise::{Channel, normal, normal_vector};
 use crate::spacecraft::ThrusterSet;
@@ -107,11 +107,10 @@ impl ThrusterEventSettings {
 
     /// The momentum that the dump of an event leaves, if it has one, body frame, in N m s.
     pub fn dump_target_body_n_m_s(&self, event: &TimelineEvent) -> Option<Vector3<f64>> {
-        let dumps = |it: &TimelineManeuver| it.dumps.unwrap_or(self.dumps);
         match event.dump {
             Some(TimelineDump::To { momentum_body_n_m_s }) => Some(momentum_body_n_m_s),
             Some(TimelineDump::Requested) => Some(self.requested_body_n_m_s),
-            None => event.maneuver.as_ref().filter(|it| dumps(it)).map(|_| self.requested_body_n_m_s),
+            None => self.maneuver(event).filter(|it| it.dumps).map(|_| self.requested_body_n_m_s),
         }
     }
 
@@ -165,6 +164,41 @@ impl ThrusterEventSettings {
     /// When the next event from this place on comes, in s; infinite where none does.
     pub(crate) fn next_s(&self, place: LastEvent) -> f64 {
         self.next(place).map_or(f64::INFINITY, |event| self.time_s(event))
+    }
+}
+
+/// The last event of a kind. In a schedule it is a place by time, which counts in any other schedule too: events before `time_s` are
+/// over, and `count` of those at it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct LastEvent {
+    /// Time of the event, in s.
+    pub time_s: f64,
+    /// Number of events at that time.
+    pub count: u32,
+}
+
+impl LastEvent {
+    /// Returns the place before the events at `time_s`.
+    pub(crate) fn before(time_s: f64) -> Self {
+        Self { time_s, count: 0 }
+    }
+
+    /// Returns the place after all events up to `time_s`.
+    pub(crate) fn until(time_s: f64) -> Self {
+        Self { time_s, count: u32::MAX }
+    }
+
+    /// Goes on to `time_s`: what another schedule had before it is over.
+    pub(crate) fn skip_to(&mut self, time_s: f64) {
+        if self.time_s < time_s {
+            *self = Self::before(time_s);
+        }
+    }
+
+    /// Counts an event at `time_s`.
+    pub(crate) fn take(&mut self, time_s: f64) {
+        let count = if self.time_s == time_s { self.count } else { 0 };
+        *self = Self { time_s, count: count.saturating_add(1) };
     }
 }
 

@@ -1,10 +1,10 @@
 //! State of a flight by torque: body, panels, disturbances, sensors, control, dumps and their schedule.
 
+use crate::spacecraft::{MassProperties, Spacecraft};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::disturbance_interval::DisturbanceInterval;
-use super::mass::MassState;
 use super::momentum_dumps::MomentumDumps;
 use crate::attitude::{BodyLoad, DipoleInField, GyrostatMotion};
 use crate::loads::{ByEffect, ForceTorque, Linear};
@@ -16,7 +16,6 @@ use crate::plant::motion::panel_motion::PanelMotion;
 use crate::plant::sources::Dipoles;
 use crate::plant::sources::applied::APPLIED;
 use crate::plant::thrusters::reaction_control::Thrusters;
-use crate::spacecraft::Spacecraft;
 
 /// State of the attitude dynamics.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -60,7 +59,7 @@ impl DynamicState {
             self.motion.cut(time_s);
         }
         if loads_change {
-            self.disturbance.cut(time_s);
+            self.disturbance.span.cut(time_s);
         }
     }
 
@@ -122,4 +121,22 @@ impl DynamicState {
 /// Times this close count as one.
 pub(crate) fn tolerance_s(time_s: f64) -> f64 {
     4.0 * spacing(time_s)
+}
+
+/// Mass properties of a body that turns by its dynamics.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct MassState {
+    /// At the last edge of the grid, with the panels as they stood then: what the controller knows.
+    pub known: MassProperties,
+    /// At the start of the present segment of the motion: without the propellant that flowed since.
+    pub now: MassProperties,
+    /// At the last edge of the grid with every panel at angle 0; absent while no propellant is used.
+    pub stowed: Option<MassProperties>,
+}
+
+impl MassState {
+    /// Whether a simulation can produce it.
+    pub(crate) fn is_valid(&self) -> bool {
+        [Some(self.known), Some(self.now), self.stowed].iter().flatten().all(|mass| mass.mass_kg > 0.0)
+    }
 }

@@ -1,9 +1,9 @@
 //! State of a flight, saved whole; what parameters and inputs set, and caches, stand apart from it.
 
+use crate::environment::orbit::BPlane;
 use serde::{Deserialize, Serialize};
 
 use super::dynamic_state::DynamicState;
-use super::encounter_prediction::EncounterPrediction;
 use super::ideal_state::IdealState;
 use super::propagator_state::PropagatorState;
 use crate::plant::thrusters::reaction_control::Thrusters;
@@ -34,11 +34,6 @@ pub(crate) enum Mode {
 }
 
 impl FlightState {
-    /// State of a flight that waits for its inputs.
-    pub(crate) fn waiting(thrusters: Thrusters) -> Self {
-        Self { propagator: PropagatorState::default(), thrusters, mode: Mode::Waiting, prediction: None }
-    }
-
     /// Rejects decoded states that no flight of this spacecraft can produce.
     pub(crate) fn is_valid(&self, spacecraft: &Spacecraft) -> bool {
         self.propagator.is_valid(spacecraft)
@@ -64,5 +59,34 @@ impl FlightState {
             Mode::Dynamic(dynamics) => (dynamics.covers(time_s), "the attitude was computed"),
         };
         (!is_covered).then_some(what)
+    }
+}
+
+/// A prediction.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EncounterPrediction {
+    /// Time at which the prediction was made, in s.
+    pub since_s: f64,
+    /// Predicted arrival; `None`: no closest approach before the horizon, or no hyperbola.
+    pub arrival: Option<PredictedArrival>,
+}
+
+/// The next closest approach.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PredictedArrival {
+    /// When, in s; on a path into the planet where it ends.
+    pub at_s: f64,
+    /// Height above the planet's radius, in m; 0 on a path into it.
+    pub altitude_m: f64,
+    /// The hyperbola that osculates at `osculates_s`.
+    pub b_plane: BPlane,
+    /// So long before the closest approach as is set, or when the prediction was made if that is later, in s.
+    pub osculates_s: f64,
+}
+
+impl EncounterPrediction {
+    /// Whether a simulation can produce it.
+    pub(crate) fn is_valid(&self) -> bool {
+        self.arrival.is_none_or(|it| it.at_s >= self.since_s && it.osculates_s >= self.since_s)
     }
 }

@@ -3,10 +3,7 @@
 pub(super) mod center_of_mass;
 pub(super) mod disturbance_interval;
 pub(super) mod dynamic_state;
-pub(super) mod encounter_prediction;
 pub(super) mod flight_state;
 pub(super) mod ideal_state;
-pub(super) mod mass;
 pub(super) mod momentum_dumps;
 pub(super) mod propagator_state;
-pub(super) mod sun_choice;

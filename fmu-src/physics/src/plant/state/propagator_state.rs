@@ -1,10 +1,10 @@
 //! State of the propagator: trajectory and the present segment of light and heat.
 
+use crate::guidance::SelectedSunDirections;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::center_of_mass::CenterOfMass;
-use super::sun_choice::SunDirectionSelection;
 use crate::environment::orbit::OrbitError;
 use crate::plant::instant::air_and_field_segment::AirAndFieldSegment;
 use crate::plant::motion::command_slews::CommandSlews;
@@ -71,38 +71,33 @@ impl PropagatorState {
     /// A place below the surface.
     pub fn move_to(&mut self, configuration: &Configuration, time_s: f64) -> Result<(), PlantError> {
         self.trajectory = Trajectory::new(configuration, time_s)?;
-        self.command_slews.cut(time_s);
-        self.air_and_field.cut(time_s);
-        self.sources.cut(time_s);
+        self.cut_along(time_s);
         Ok(())
     }
 
     /// Forgets what was computed ahead of `time_s`: the flight changes there. `configuration` is the one simulated so far;
     /// `light_changes` tells whether attitude, panels, mass centre or the Sun do, on which light and heat depend.
     pub fn cut(&mut self, configuration: &Configuration, time_s: f64, light_changes: bool) {
-        self.cut_with_jump(configuration, time_s, light_changes, &Vector3::zeros());
+        self.cut_with_jump(configuration, time_s, &Vector3::zeros());
+        if light_changes {
+            self.sources.cut(time_s);
+        }
     }
 
     /// The same where forces have changed the velocity by `jump_m_s`, EME2000, since the last time: an orbit that forces act on
     /// takes it.
-    pub fn cut_with_jump(
-        &mut self,
-        configuration: &Configuration,
-        time_s: f64,
-        light_changes: bool,
-        jump_m_s: &Vector3<f64>,
-    ) {
+    pub fn cut_with_jump(&mut self, configuration: &Configuration, time_s: f64, jump_m_s: &Vector3<f64>) {
         self.command_slews.cut(time_s);
         // An orbit that light and forces act on goes elsewhere from here.
         let orbit_changes = configuration.motion.has_nongravitational_forces();
         let taken_m_s = if orbit_changes { *jump_m_s } else { Vector3::zeros() };
         self.trajectory.cut(configuration, time_s, &taken_m_s);
-        if light_changes || orbit_changes {
+        if orbit_changes {
             self.sources.cut(time_s);
         }
     }
 
-    /// The velocity jumps by `delta_v_m_s`, EME2000, at `time_s` in a maneuver, whatever else acts on the orbit.
+    /// The velocity jumps by `jump_m_s`, EME2000, at `time_s` in a maneuver, whatever else acts on the orbit.
     ///
     /// # Errors
     /// A velocity without an orbit.
@@ -110,12 +105,43 @@ impl PropagatorState {
         &mut self,
         configuration: &Configuration,
         time_s: f64,
-        delta_v_m_s: &Vector3<f64>,
+        jump_m_s: &Vector3<f64>,
     ) -> Result<(), OrbitError> {
-        self.trajectory.maneuver(configuration, time_s, delta_v_m_s)?;
-        self.command_slews.cut(time_s);
-        self.air_and_field.cut(time_s);
-        self.sources.cut(time_s);
+        self.trajectory.maneuver(configuration, time_s, jump_m_s)?;
+        self.cut_along(time_s);
         Ok(())
+    }
+
+    /// Forgets what was computed along the trajectory ahead of `time_s`.
+    fn cut_along(&mut self, time_s: f64) {
+        self.command_slews.cut(time_s);
+        self.air_and_field.span.cut(time_s);
+        self.sources.cut(time_s);
+    }
+}
+
+/// Last selections, and the window that they are of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SunDirectionSelection {
+    /// Last selections.
+    pub selected: SelectedSunDirections,
+    /// Time of the last of both, in s.
+    pub(crate) chosen_s: Option<f64>,
+    /// Whether its downlink lasts.
+    pub(crate) in_force: bool,
+    /// The timeline's command, from 1, that the last downlink was of; 0 where it was a window's.
+    pub(crate) row: usize,
+}
+
+impl SunDirectionSelection {
+    /// Whether the target of the present downlink is out of reach, or that of science that unloads.
+    pub fn is_clamped(&self) -> bool {
+        let present = if self.in_force { self.selected.downlink } else { self.selected.science };
+        present.is_some_and(|chosen| chosen.clamped)
+    }
+
+    /// Whether something is due in a window of downlink or of science; each command of a downlink is one of its own.
+    pub(crate) fn is_due(&self, downlink: bool, row: usize) -> bool {
+        downlink != self.in_force || (downlink && row != self.row)
     }
 }

@@ -38,7 +38,6 @@ impl<T: Scalar> FaceLoads<'_, T> {
                 let shadowed =
                     surface.outline.filter(|_| self.shadowing).and_then(|o| workspace.shadow.lit(o));
                 let (lit_area_m2, lit_center_m) = shadowed.unwrap_or((area_m2, center_m));
-                state.lit_area_m2 = lit_area_m2;
                 state.lit_center_body_m = lit_center_m;
                 state.absorbed_sun_w =
                     sunlight.pressure_pa * lit_area_m2 * (material.optics.absorptivity * SPEED_OF_LIGHT_M_S);

@@ -33,7 +33,11 @@ fn sunlight(
     };
     let mut workspace = Workspace::default();
     let found = model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap();
-    let faces = workspace.faces().iter().zip(model.face_names()).filter(|(face, _)| face.lit_area_m2 > 0.0);
+    let faces = workspace
+        .faces()
+        .iter()
+        .zip(model.face_names())
+        .filter(|(face, _)| face.forces_body_n[Effect::Solar as usize] != Vector3::zeros());
     let of = |face: &FaceResult<f64>| {
         let arm_m = face.lit_center_body_m - geometry.center_of_mass_body_m;
         ForceTorque::at_arm(&arm_m, face.forces_body_n[Effect::Solar as usize])

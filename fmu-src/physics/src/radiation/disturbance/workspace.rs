@@ -14,8 +14,6 @@ pub struct FaceResult<T: Scalar> {
     /// Force of each effect of light and heat, body frame, in N. They add up to the effects' forces, but for sunlight on the
     /// strips of a cylindrical shade: there the strips are flat and the effect has the closed form.
     pub forces_body_n: [Vector3<T>; Effect::LIGHT],
-    /// Lit area, in m2; 0 where the face looks away from the Sun.
-    pub lit_area_m2: T,
     /// Centre of the lit area, body frame, in m; the face's centre where it is dark.
     pub lit_center_body_m: Vector3<T>,
     /// Absorbed sunlight, in W.
@@ -31,7 +29,6 @@ impl<T: Scalar> FaceResult<T> {
         let zero = T::constant(0.0);
         Self {
             forces_body_n: [Vector3::zeros(); Effect::LIGHT],
-            lit_area_m2: zero,
             lit_center_body_m: Vector3::zeros(),
             absorbed_sun_w: zero,
             absorbed_planet_w: zero,

@@ -97,12 +97,9 @@ fn ears(outline: &[Vector2<f64>]) -> Vec<Vec<usize>> {
         let is_ear = |i: &usize| {
             let ear = corner(*i);
             let [a, b, c] = ear.map(|k| &outline[k]);
-            turn(a, b, c) > 0.0
-                && left
-                    .iter()
-                    .filter(|k| !ear.contains(k))
-                    .map(|k| &outline[*k])
-                    .all(|p| turn(a, b, p) < 0.0 || turn(b, c, p) < 0.0 || turn(c, a, p) < 0.0)
+            let mut others = left.iter().filter(|k| !ear.contains(k)).map(|k| &outline[*k]);
+            let is_outside = |p| turn(a, b, p) < 0.0 || turn(b, c, p) < 0.0 || turn(c, a, p) < 0.0;
+            turn(a, b, c) > 0.0 && others.all(is_outside)
         };
         // A simple outline always has an ear, but for vertices in line, which enclose nothing and may go.
         let flat = |i: &usize| {

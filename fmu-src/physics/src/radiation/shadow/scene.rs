@@ -251,11 +251,8 @@ impl ShadowScene {
                 let foot = point - sun * (*height * per_cos) - pose.origin;
                 Vector2::new(foot.dot(&pose.east), foot.dot(&pose.north))
             }));
-            let doubled_area: f64 = hole
-                .windows(2)
-                .skip(1)
-                .map(|pair| cross(&(pair[0] - hole[0]), &(pair[1] - hole[0])).value())
-                .sum();
+            let triangle = |pair: &[Vector2<T>]| cross(&(pair[0] - hole[0]), &(pair[1] - hole[0])).value();
+            let doubled_area: f64 = hole.windows(2).skip(1).map(triangle).sum();
             if doubled_area == 0.0 {
                 continue;
             }
@@ -279,10 +276,8 @@ impl ShadowSurface {
         let flat = &self.flat;
         let fixed = [flat.origin, flat.east, flat.north, flat.normal].map(|v| constant_vector::<T>(&v));
         let [origin, east, north, normal] = fixed;
-        let turned = self
-            .outline
-            .hinge
-            .and_then(|hinge| panel_angles_rad.get(hinge.panel).map(|angle| (hinge, angle)));
+        let with_angle = |hinge: Hinge| panel_angles_rad.get(hinge.panel).map(|angle| (hinge, angle));
+        let turned = self.outline.hinge.and_then(with_angle);
         let Some((hinge, angle_rad)) = turned else { return Pose { origin, east, north, normal } };
         let (sin, cos) = sin_cos(*angle_rad);
         let axis = constant_vector::<T>(&hinge.axis_body);

@@ -138,10 +138,8 @@ impl HeatStore {
     fn outflow(&self, temperatures_k: &Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
         let (front, front_slope) = self.faces[0].outflow_w_m2(temperatures_k.x);
         let (rear, rear_slope) = self.faces[1].outflow_w_m2(temperatures_k.y);
-        let (flow, [b1, b2]) = self
-            .conduction
-            .as_ref()
-            .map_or((0.0, [0.0; 2]), |link| exchange_w_m2(link, (*temperatures_k).into()));
+        let exchange = |link: &Conduction| exchange_w_m2(link, (*temperatures_k).into());
+        let (flow, [b1, b2]) = self.conduction.as_ref().map_or((0.0, [0.0; 2]), exchange);
         (Vector2::new(front + flow, rear - flow), Matrix2::new(front_slope + b1, -b2, -b1, rear_slope + b2))
     }
 }

@@ -44,13 +44,11 @@ impl Predictions {
     pub fn from_plant(plant: &Plant) -> Self {
         let spin = plant.initial.theory;
         let nutation_rad_s = spin.ratio * spin.rate_rad_s;
+        let sample_s = plant.sensors.sample_spacing_s(&spin);
         let mut seen = Self {
             nutation_ratio: spin.ratio,
             observation_time_eq20_s: finite(observation_time_eq20_s(spin.rate_rad_s, spin.ratio)),
-            observation_time_s: finite(observation_time_s(
-                plant.sensors.sample_spacing_s(&spin),
-                nutation_rad_s,
-            )),
+            observation_time_s: finite(observation_time_s(sample_s, nutation_rad_s)),
             ..Self::default()
         };
         if let Some(sequencer) = &plant.sequencer {

@@ -11,8 +11,7 @@ use crate::attitude::{Inertia, RigidBodyState, angle_between_rad};
 use crate::math;
 use crate::numerics::noise::{Channel, normal};
 use crate::spin::{
-    crossing::{Crossing, Pole},
-    crossing_detector::CrossingDetector,
+    crossing::{Crossing, CrossingDetector, Pole},
     motion::Motion,
     nutation::Spin,
     spinner::Spinner,
@@ -68,6 +67,14 @@ struct SensorAzimuths {
     star: Vector3<f64>,
 }
 
+/// Motion and directions, as the sensors see them.
+#[derive(Clone, Copy)]
+pub(super) struct SensorView<'a> {
+    pub motion: &'a Motion,
+    pub directions: &'a Directions,
+    pub theory: &'a Spin,
+}
+
 impl Sensors {
     /// Returns sensors before their first reading.
     pub(super) fn new(spinner: &Spinner, start: &Start, start_s: f64) -> Self {
@@ -118,11 +125,11 @@ impl Sensors {
     /// The first thing there is to see up to `until_s`, and when, in s.
     pub(super) fn next_reading(
         &mut self,
-        motion: &Motion,
-        directions: &Directions,
+        view: &SensorView<'_>,
         until_s: f64,
         work: &mut Work,
     ) -> Option<(Sensor, f64)> {
+        let SensorView { motion, directions, .. } = *view;
         let azimuths = self.azimuths;
         let crossing = |body, inertial| move || Crossing { body, inertial, pole: Pole::SpinAxis };
         let due_s = |detector: &mut CrossingDetector, body, inertial: Vector3<f64>, work: &mut Work| {
@@ -152,29 +159,18 @@ impl Sensors {
     }
 
     /// The Sun sensor's reading as the Sun crosses it.
-    pub(super) fn read_sun(
-        &mut self,
-        spinner: &Spinner,
-        motion: &Motion,
-        sun_inertial: &Vector3<f64>,
-        time_s: f64,
-    ) {
+    pub(super) fn read_sun(&mut self, spinner: &Spinner, view: &SensorView<'_>, time_s: f64) {
+        let SensorView { motion, directions, .. } = *view;
         let state = motion.at(time_s);
-        let angle = angle_between_rad(&state.attitude.spin_axis_inertial(), sun_inertial);
+        let angle = angle_between_rad(&state.attitude.spin_axis_inertial(), &directions.sun_inertial);
         let noise = normal(self.seed, Channel::SunSensor, self.sun.count);
         self.sun_sample_rad = angle + spinner.sun_sensor.noise_deg.to_radians() * noise;
         self.sun.pass(time_s, state.rate_rad_s(&motion.inertia).z);
     }
 
     /// The star tracker's reading, if it sees the star.
-    pub(super) fn read_star(
-        &mut self,
-        spinner: &Spinner,
-        motion: &Motion,
-        directions: &Directions,
-        theory: &Spin,
-        time_s: f64,
-    ) {
+    pub(super) fn read_star(&mut self, spinner: &Spinner, view: &SensorView<'_>, time_s: f64) {
+        let SensorView { motion, directions, theory } = *view;
         let state = motion.at(time_s);
         let tracker = &spinner.star_tracker;
         let declination =

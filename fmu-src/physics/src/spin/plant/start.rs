@@ -7,17 +7,16 @@ use super::directions::{has_directions, is_unit};
 use crate::attitude::{Inertia, InertiaError, Quaternion, angle_between_rad};
 use crate::enumeration::enumeration;
 use crate::math;
-use crate::spacecraft::MOST_THRUSTERS;
+use crate::spacecraft::{MOST_THRUSTERS, ValveTiming};
 use crate::spin::{
     burn_error::{BurnError, ParameterError},
     burn_request::BurnRequest,
     damper::SHORTEST_TIME_CONSTANT_S,
-    execution::PulseExecution,
     forecast::Timing,
     geometry::L1Ephemeris,
     nutation::Spin,
     sequencer::{FASTEST_RAD_S, SLOWEST_RAD_S},
-    spinner::Spinner,
+    spinner::{PulseExecution, Spinner},
     work::WorkExceeded,
 };
 
@@ -150,40 +149,28 @@ impl Start {
     pub(super) fn check(&self, spinner: &Spinner) -> Result<Quaternion, StartError> {
         let refuse =
             |name, found: String, allowed: &str| Err(ParameterError::new(name, found, allowed).into());
-        let rate = self.spin_rate_rad_s;
-        if !(SLOWEST_RAD_S..=FASTEST_RAD_S).contains(&rate) {
-            return refuse("spin.initialRate", format!("{rate} rad/s"), "allowed is 1e-4 to 1e4 rad/s");
-        }
+        let check_rate = |name, rate: f64| match (SLOWEST_RAD_S..=FASTEST_RAD_S).contains(&rate) {
+            true => Ok(()),
+            false => Err(ParameterError::new(name, format!("{rate} rad/s"), "allowed is 1e-4 to 1e4 rad/s")),
+        };
+        check_rate("spin.initialRate", self.spin_rate_rad_s)?;
         let nutation = self.nutation_rad;
         if !(0.0..1.5).contains(&nutation) || !self.nutation_phase_rad.is_finite() {
             return refuse("start.nutation", format!("{nutation} rad"), "allowed is 0 to below 1.5 rad");
         }
         if let Some(k) = self.execution.iter().position(|it| !it.is_valid()) {
-            let PulseExecution { valve, scatter } = self.execution[k];
-            return refuse(
-                "thruster[k].minOnTime, riseTime, tailOffTime, scatter",
-                format!(
-                    "{}, {}, {} s, {scatter} with k = {}",
-                    valve.min_on_s,
-                    valve.rise_s,
-                    valve.tail_off_s,
-                    k + 1
-                ),
-                "allowed are times of 0 s and more, and a scatter from 0 to 1",
-            );
+            let PulseExecution { valve: ValveTiming { min_on_s, rise_s, tail_off_s }, scatter } =
+                self.execution[k];
+            let found = format!("{min_on_s}, {rise_s}, {tail_off_s} s, {scatter} with k = {}", k + 1);
+            let allowed = "allowed are times of 0 s and more, and a scatter from 0 to 1";
+            return refuse("thruster[k].minOnTime, riseTime, tailOffTime, scatter", found, allowed);
         }
         let tau = self.damper_time_constant_s;
         if !(tau == 0.0 || (tau.is_finite() && tau >= SHORTEST_TIME_CONSTANT_S)) {
-            return refuse(
-                "damper.timeConstant",
-                format!("{tau} s"),
-                "allowed is 0 (no damper) or 1 s and more",
-            );
+            let allowed = "allowed is 0 (no damper) or 1 s and more";
+            return refuse("damper.timeConstant", format!("{tau} s"), allowed);
         }
-        let nominal = self.nominal_rate_rad_s;
-        if !(SLOWEST_RAD_S..=FASTEST_RAD_S).contains(&nominal) {
-            return refuse("limit.spinRate", format!("{nominal} rad/s"), "allowed is 1e-4 to 1e4 rad/s");
-        }
+        check_rate("limit.spinRate", self.nominal_rate_rad_s)?;
         if !(LEAST_WORK..=MOST_WORK).contains(&self.work_limit) {
             let allowed = format!("allowed is {LEAST_WORK} to {MOST_WORK}");
             return refuse("solver.workLimit", self.work_limit.to_string(), &allowed);

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::commands::Commands;
 use super::directions::{DirectionSource, Directions};
 use super::propulsion::Propulsion;
-use super::sensors::{Sensor, Sensors};
+use super::sensors::{Sensor, SensorView, Sensors};
 use super::start::{InitialConditions, LEAST_WORK, MOST_WORK, Start, StartError};
 use crate::attitude::RigidBodyState;
 use crate::propulsion::due_s;
@@ -282,24 +282,20 @@ impl Plant {
         until_s: f64,
         work: &mut Work,
     ) -> Result<Option<f64>, SpinPlantError> {
-        let directions = self.directions.present;
-        let Some((sensor, time_s)) = self.sensors.next_reading(&self.motion, &directions, until_s, work)
-        else {
-            return Ok(None);
-        };
+        let directions = &self.directions.present;
+        let view = SensorView { motion: &self.motion, directions, theory: &self.initial.theory };
+        let Some((sensor, time_s)) = self.sensors.next_reading(&view, until_s, work) else { return Ok(None) };
         self.reach(spinner, time_s, work)?;
-        let sun = &directions.sun_inertial;
+        let directions = &self.directions.present;
+        let view = SensorView { motion: &self.motion, directions, theory: &self.initial.theory };
         match sensor {
             Sensor::Sun => {
-                self.sensors.read_sun(spinner, &self.motion, sun, time_s);
+                self.sensors.read_sun(spinner, &view, time_s);
                 if let Some(sequencer) = self.sequencer.as_mut().filter(|_| !self.propulsion.is_dry()) {
-                    sequencer.sun_pulse(&self.motion, time_s, sun, work);
+                    sequencer.sun_pulse(&self.motion, time_s, &directions.sun_inertial, work);
                 }
             }
-            Sensor::StarTracker => {
-                let theory = &self.initial.theory;
-                self.sensors.read_star(spinner, &self.motion, &directions, theory, time_s);
-            }
+            Sensor::StarTracker => self.sensors.read_star(spinner, &view, time_s),
         }
         Ok(Some(time_s))
     }
@@ -339,14 +335,10 @@ impl Plant {
     pub fn fits(&self, spinner: &Spinner) -> bool {
         let burn = self.sequencer.as_ref().map(|it| &it.burn);
         let known = (1_u64 << spinner.thrusters.len()) - 1;
-        let masks = [
-            self.propulsion.valves.open_mask(),
-            self.commands.fire,
-            burn.map_or(0, |b| b.mask),
-            burn.map_or(0, |b| b.opposite_mask),
-        ];
+        let planned = burn.map_or(0, |burn| burn.mask | burn.opposite_mask);
+        let used = self.propulsion.valves.open_mask() | self.commands.fire | planned;
         let slack_s = OUT_OF_ORDER * self.initial.theory.period_s();
-        masks.iter().all(|&mask| u64::from(mask) & !known == 0)
+        u64::from(used) & !known == 0
             && (LEAST_WORK..=MOST_WORK).contains(&self.work_limit)
             && self.initial.is_valid()
             && self.motion_is_valid(slack_s)

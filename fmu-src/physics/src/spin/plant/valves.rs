@@ -7,7 +7,7 @@ use crate::attitude::JetDamping;
 use crate::numerics::Span;
 use crate::propulsion::{PulseSchedule, ThrustLaw, Valve, due_s};
 use crate::spacecraft::{MOST_THRUSTERS, Thruster, steiner};
-use crate::spin::{execution::PulseExecution, spinner::Spinner};
+use crate::spin::spinner::{PulseExecution, Spinner};
 
 /// Valves of all thrusters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use super::description::{GroupEntry, SpinnerDescription, ThrusterEntry};
-use super::hardware::{Group, Limits, MassTable, StarTracker, SunSensor};
+use super::hardware::{Group, Limits, MassTable, PulseExecution, StarTracker, SunSensor};
 use crate::constants::STANDARD_GRAVITY_M_S2;
 use crate::spacecraft::{MOST_THRUSTERS, StartEntry, Thrust, Thruster, ValveTiming, start_entries};
 use crate::spin::geometry::L1Orbit;
@@ -65,6 +65,12 @@ impl Spinner {
             }
         }
         sum
+    }
+
+    /// Returns the execution of pulses, thruster by thruster.
+    pub fn execution(&self) -> [PulseExecution; MOST_THRUSTERS] {
+        let execution = |it: &Thruster| PulseExecution { valve: it.valve, scatter: it.scatter };
+        core::array::from_fn(|k| self.thrusters.get(k).map(execution).unwrap_or_default())
     }
 
     /// Index of the first thruster that tilts the momentum and leaves the spin, pushing across the spin axis if any does, and

@@ -2,6 +2,7 @@
 
 use crate::attitude::{Inertia, InertiaError};
 use crate::constants::{DEG_RAD, RPM_RAD_S};
+use crate::spacecraft::ValveTiming;
 use crate::toml::{
     AtLeastOne, Deviation, FieldWidth, Finite, List, NotNegative, Pickets, Positive, Written, tables,
 };
@@ -140,5 +141,21 @@ impl Limits {
     /// Allowed either way, in rad/s.
     pub fn spin_rate_tolerance_rad_s(&self) -> f64 {
         self.spin_rate_tolerance_rpm.0 * RPM_RAD_S
+    }
+}
+
+/// How a thruster executes its pulses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PulseExecution {
+    /// How its valve opens and closes.
+    pub valve: ValveTiming,
+    /// Standard deviation of the thrust from pulse to pulse, as a fraction of it.
+    pub scatter: f64,
+}
+
+impl PulseExecution {
+    /// Rejects decoded numbers that no simulation can produce.
+    pub fn is_valid(&self) -> bool {
+        self.valve.is_valid() && (0.0..=1.0).contains(&self.scatter)
     }
 }

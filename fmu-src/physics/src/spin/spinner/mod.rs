@@ -7,4 +7,4 @@ mod hardware;
 #[cfg(feature = "schema")]
 pub use description::schema;
 pub use file::Spinner;
-pub use hardware::{Group, Limits, MassTable, StarTracker, SunSensor};
+pub use hardware::{Group, Limits, MassTable, PulseExecution, StarTracker, SunSensor};

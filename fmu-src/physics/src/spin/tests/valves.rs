@@ -307,7 +307,7 @@ fn the_file_says_how_thrusters_execute_pulses() {
     let keys =
         "name = \"IIIR\"\nmin_on_time_s = 0.02\nrise_time_s = 0.01\ntail_off_time_s = 0.03\nscatter = 0.05";
     let spinner = Spinner::parse("my.toml", &ACE.replacen("name = \"IIIR\"", keys, 1)).unwrap();
-    let execution = PulseExecution::from_spinner(&spinner);
+    let execution = spinner.execution();
     let valve = ValveTiming { min_on_s: 0.02, rise_s: 0.01, tail_off_s: 0.03 };
     assert_eq!(execution[7], PulseExecution { valve, scatter: 0.05 });
     assert_eq!(execution[6], PulseExecution::default());

@@ -120,18 +120,18 @@ impl MissionTimeline {
         let document: DocumentMut = text.parse()?;
         let clock_minus_time_s = mission.clock_minus_time_s(timeline);
         let time = |at_s: f64| simulation_time_s(at_s, clock_minus_time_s);
-        let commands = timeline.entries().iter().zip(tables(&document, "command"));
+        let commands = timeline.entries.iter().zip(tables(&document, "command"));
         let commands = commands.map(|(it, text)| Kept {
             at_s: time(it.at_s),
             until_s: it.until_s.map(time),
             text,
             status: it.status,
         });
-        let panels = timeline.panels().iter().map(|it| time(it.at_s));
-        let events = timeline.events().iter().map(|it| time(it.at_s));
+        let panels = timeline.panels.iter().map(|it| time(it.at_s));
+        let events = timeline.events.iter().map(|it| time(it.at_s));
         let sides: Vec<f64> =
             spacecraft_of(&mission.fmu)?.panels.iter().map(|panel| panel.windmill_side).collect();
-        let arrays = timeline.panels().iter().map(|step| {
+        let arrays = timeline.panels.iter().map(|step| {
             let angles = step.sun_offsets_rad.iter().zip(&sides);
             (
                 time(step.at_s),
@@ -139,10 +139,10 @@ impl MissionTimeline {
             )
         });
         let mut sun_places = Vec::new();
-        for (index, entry) in timeline.entries().iter().enumerate() {
+        for (index, entry) in timeline.entries.iter().enumerate() {
             let sun = entry.downlink.sun.map_or([0.0; 2], |sun| [sun.azimuth_rad, sun.elevation_rad]);
             sun_places.push((time(entry.at_s), sun, entry.downlink.alternate));
-            let next_s = timeline.entries().get(index + 1).map_or(f64::INFINITY, |next| next.at_s);
+            let next_s = timeline.entries.get(index + 1).map_or(f64::INFINITY, |next| next.at_s);
             if let Some(until_s) = entry.until_s.filter(|until_s| *until_s < next_s) {
                 sun_places.push((time(until_s), [0.0; 2], false));
             }
@@ -150,11 +150,11 @@ impl MissionTimeline {
         Ok(Self {
             arrays_rad: arrays.collect(),
             sun_places,
-            thruster_events: timeline.events().iter().map(|event| (time(event.at_s), *event)).collect(),
+            thruster_events: timeline.events.iter().map(|event| (time(event.at_s), *event)).collect(),
             commands: commands.collect(),
             panels: panels.zip(tables(&document, "panels")).collect(),
             events: events.zip(tables(&document, "event")).collect(),
-            is_dated: timeline.clock() == TimelineClock::Epoch,
+            is_dated: timeline.clock == TimelineClock::Epoch,
         })
     }
 

@@ -6,10 +6,23 @@ use std::f64::consts::PI;
 
 use super::{random, random_attitude, random_unit};
 use crate::attitude::Attitude;
-use crate::attitude::control::{ControlTarget, Reference, ReferenceSample, SlewLimits};
+use crate::attitude::control::{ControlTarget, ControllerSettings, Reference, ReferenceSample};
 
 const DT_S: f64 = 0.02;
-const LIMITS: SlewLimits = SlewLimits { rate_rad_s: 5e-3, acceleration_rad_s2: 1e-4 };
+const LIMITS: ControllerSettings = limits(5e-3, 1e-4);
+
+/// Settings that limit rate and acceleration of the reference, sampled every [`DT_S`].
+const fn limits(slew_rate_rad_s: f64, slew_acceleration_rad_s2: f64) -> ControllerSettings {
+    ControllerSettings {
+        rate_hz: 1.0 / DT_S,
+        bandwidth_rad_s: 1.0,
+        damping: 1.0,
+        integral: 0.0,
+        slew_rate_rad_s,
+        slew_acceleration_rad_s2,
+        keeps_reference: false,
+    }
+}
 
 fn hold(attitude: Attitude) -> ControlTarget {
     ControlTarget::Attitude { attitude, rate_body_rad_s: Vector3::zeros() }
@@ -18,7 +31,7 @@ fn hold(attitude: Attitude) -> ControlTarget {
 /// Samples until the reference has settled and ten more; fails after `longest_s`.
 fn simulate(
     reference: &mut Reference,
-    limits: &SlewLimits,
+    limits: &ControllerSettings,
     target: impl Fn(f64) -> ControlTarget,
     longest_s: f64,
 ) -> Vec<ReferenceSample> {
@@ -27,7 +40,7 @@ fn simulate(
     while left > 0 {
         let time_s = samples.len() as f64 * DT_S;
         assert!(time_s < longest_s, "not settled after {longest_s} s: {reference:?}");
-        samples.push(reference.step(&target(time_s), limits, DT_S));
+        samples.push(reference.step(&target(time_s), limits));
         left -= i32::from(reference.is_settled);
     }
     samples
@@ -46,7 +59,7 @@ fn a_rest_to_rest_slew_takes_the_time_of_the_trapezoid() {
         let mut reference = Reference::new(start, Vector3::zeros());
         let samples = simulate(&mut reference, &LIMITS, |_| hold(start.turned(axis * angle)), 3600.0);
         let settled_s = (samples.len() - 10) as f64 * DT_S;
-        let (v, a) = (LIMITS.rate_rad_s, LIMITS.acceleration_rad_s2);
+        let (v, a) = (LIMITS.slew_rate_rad_s, LIMITS.slew_acceleration_rad_s2);
         let expected_s = if angle > v * v / a { angle / v + v / a } else { 2.0 * (angle / a).sqrt() };
         // The approach has a time constant of 1 s.
         assert!(settled_s >= expected_s - DT_S, "{angle}: {settled_s} {expected_s}");
@@ -77,12 +90,12 @@ fn a_reference_that_has_caught_the_command_is_the_command() {
     let mut settled = simulate(&mut reference, &LIMITS, &target, 600.0).len();
     // Four powers of ten closer in 25 s, with a time constant of 1.4 s at the end.
     for _ in 0..1250 {
-        reference.step(&target(settled as f64 * DT_S), &LIMITS, DT_S);
+        reference.step(&target(settled as f64 * DT_S), &LIMITS);
         settled += 1;
     }
     for sample in settled..settled + 5000 {
         let expected = target(sample as f64 * DT_S);
-        let found = reference.step(&expected, &LIMITS, DT_S);
+        let found = reference.step(&expected, &LIMITS);
         let ControlTarget::Attitude { attitude, rate_body_rad_s } = expected else { unreachable!() };
         assert!(reference.is_settled);
         assert_eq!(found.attitude, attitude);
@@ -107,14 +120,14 @@ fn limits_hold_over_random_commands() {
             }
             let expected = target(sample as f64 * DT_S);
             let before = reference;
-            let found = reference.step(&expected, &LIMITS, DT_S);
+            let found = reference.step(&expected, &LIMITS);
             let acceleration = found.acceleration_body_rad_s2.norm();
-            assert!(acceleration <= LIMITS.acceleration_rad_s2 * (1.0 + 1e-12), "{acceleration}");
+            assert!(acceleration <= LIMITS.slew_acceleration_rad_s2 * (1.0 + 1e-12), "{acceleration}");
             let ControlTarget::Attitude { attitude, rate_body_rad_s } = expected else { unreachable!() };
             let command_rate = before.attitude.to_body(&attitude.to_inertial(&rate_body_rad_s));
             let relative = (before.rate_body_rad_s - command_rate).norm();
             if sample != 9_000 {
-                let allowed = LIMITS.rate_rad_s.max(last_relative) * (1.0 + 1e-6);
+                let allowed = LIMITS.slew_rate_rad_s.max(last_relative) * (1.0 + 1e-6);
                 assert!(relative <= allowed, "{run} {sample}: {relative} {allowed}");
             }
             last_relative = relative;
@@ -170,18 +183,18 @@ fn integrated(sample: &ReferenceSample) -> Attitude {
 #[test]
 fn no_limits_follow_at_once_and_one_limit_alone_holds() {
     let (start, end) = (random_attitude(20), random_attitude(21));
-    let none = SlewLimits { rate_rad_s: 0.0, acceleration_rad_s2: 0.0 };
+    let none = limits(0.0, 0.0);
     let mut reference = Reference::new(start, Vector3::zeros());
-    assert_eq!(reference.step(&hold(end), &none, DT_S).attitude, end);
+    assert_eq!(reference.step(&hold(end), &none).attitude, end);
     assert!(reference.is_settled);
     let angle = start.rotation_vector_to(&end).norm();
-    let rate_only = SlewLimits { rate_rad_s: 0.01, acceleration_rad_s2: 0.0 };
+    let rate_only = limits(0.01, 0.0);
     let mut reference = Reference::new(start, Vector3::zeros());
     let samples = simulate(&mut reference, &rate_only, |_| hold(end), 1000.0);
     let settled_s = (samples.len() - 10) as f64 * DT_S;
     assert!((settled_s - angle / 0.01).abs() <= 4.0 * DT_S, "{settled_s} {}", angle / 0.01);
     assert!(samples.iter().all(|sample| sample.rate_body_rad_s.norm() <= 0.01 * (1.0 + 1e-12)));
-    let acceleration_only = SlewLimits { rate_rad_s: 0.0, acceleration_rad_s2: 1e-3 };
+    let acceleration_only = limits(0.0, 1e-3);
     let mut reference = Reference::new(start, Vector3::zeros());
     let samples = simulate(&mut reference, &acceleration_only, |_| hold(end), 1000.0);
     let settled_s = (samples.len() - 10) as f64 * DT_S;
@@ -201,7 +214,7 @@ fn small_jumps_of_a_command_ask_for_little_acceleration() {
         let (sampled_s, rate) = (time_s.floor(), axis * (acceleration * time_s.floor()));
         let angle = axis * (0.5 * acceleration * sampled_s * sampled_s) + rate * (time_s - sampled_s);
         let target = ControlTarget::Attitude { attitude: start.turned(angle), rate_body_rad_s: rate };
-        let found = reference.step(&target, &LIMITS, DT_S);
+        let found = reference.step(&target, &LIMITS);
         assert!(reference.is_settled, "{sample}");
         if sample >= 2500 {
             most = most.max(found.acceleration_body_rad_s2.norm());
@@ -211,7 +224,7 @@ fn small_jumps_of_a_command_ask_for_little_acceleration() {
         assert!(found.attitude.rotation_vector_to(&exact).norm() < 2.0 * acceleration);
     }
     // A tenth of the limit; on average that of the command.
-    assert!(most < 0.1 * LIMITS.acceleration_rad_s2, "{most}");
+    assert!(most < 0.1 * LIMITS.slew_acceleration_rad_s2, "{most}");
     assert_relative_eq!(mean, acceleration, max_relative = 0.02);
 }
 
@@ -222,8 +235,8 @@ fn the_sign_of_a_quaternion_does_not_matter() {
     let mut references = [Reference::new(Attitude::default(), Vector3::zeros()); 2];
     for _ in 0..36_000 {
         let [a, b] = [plus, minus];
-        let first = references[0].step(&hold(a), &LIMITS, DT_S);
-        let second = references[1].step(&hold(b), &LIMITS, DT_S);
+        let first = references[0].step(&hold(a), &LIMITS);
+        let second = references[1].step(&hold(b), &LIMITS);
         assert!((first.rate_body_rad_s - second.rate_body_rad_s).norm() < 1e-15);
     }
     assert!(references.iter().all(|reference| reference.is_settled));
@@ -236,10 +249,10 @@ fn a_rate_alone_is_reached_within_the_acceleration() {
     let target = ControlTarget::RateOnly { rate_body_rad_s: rate };
     let samples = simulate(&mut reference, &LIMITS, |_| target, 1000.0);
     let reached_s = (samples.len() - 10) as f64 * DT_S;
-    assert_relative_eq!(reached_s, rate.norm() / LIMITS.acceleration_rad_s2, epsilon = 1.01 * DT_S);
+    assert_relative_eq!(reached_s, rate.norm() / LIMITS.slew_acceleration_rad_s2, epsilon = 1.01 * DT_S);
     // The angle of a constant acceleration and then a constant rate about one axis.
     let time_s = samples.len() as f64 * DT_S;
-    let exact_s = rate.norm() / LIMITS.acceleration_rad_s2;
+    let exact_s = rate.norm() / LIMITS.slew_acceleration_rad_s2;
     let expected = start.turned(rate * (time_s - 0.5 * exact_s));
     assert!(expected.rotation_vector_to(&reference.attitude).norm() < rate.norm() * DT_S * DT_S);
     assert_eq!(samples.last().unwrap().acceleration_body_rad_s2, Vector3::zeros());
@@ -249,12 +262,12 @@ fn a_rate_alone_is_reached_within_the_acceleration() {
 #[test]
 fn a_command_that_turns_faster_than_the_slew_rate_is_caught() {
     for acceleration_rad_s2 in [1e-4, 1e-3] {
-        let limits = SlewLimits { rate_rad_s: 5e-3, acceleration_rad_s2 };
+        let limits = limits(5e-3, acceleration_rad_s2);
         for number in 0..20 {
             let target = turning(random_attitude(60 + number), random_unit(number) * 0.05);
             let mut reference = Reference::new(random_attitude(90 + number), Vector3::zeros());
             // Half a turn at the rate that the acceleration allows, after the rate has been reached.
-            let fastest_rad_s = limits.rate_rad_s.min(0.5 * acceleration_rad_s2 / 0.05);
+            let fastest_rad_s = limits.slew_rate_rad_s.min(0.5 * acceleration_rad_s2 / 0.05);
             simulate(&mut reference, &limits, target, 0.05 / acceleration_rad_s2 + PI / fastest_rad_s + 60.0);
         }
     }

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, SMatrix, SVector, Vector2, vector};
 
 use super::*;
+use crate::attitude::slosh::across;
 use crate::attitude::{Appendages, SloshPendulum};
 use crate::numerics::collocation::Collocation;
 
@@ -110,10 +111,10 @@ fn body_and_bob_swing_as_the_rod_between_them_says() {
             simulate(&mut motion, &spacecraft, &[], &thrust(), time_s, 0.02);
             let at = motion.at(&spacecraft, time_s);
             // Coordinates across -Y.
-            let across = spacecraft.appendages().sloshes[0].across_body();
+            let across_body = across(&spacecraft.appendages().sloshes[0].axis_body);
             let found = (0..2).fold(Vector3::zeros(), |sum, k| {
                 let displacement = motion.oscillator(k, time_s, &at)[0];
-                sum + across[k] * spacecraft.appendages().sloshes[0].angle_rad(displacement)
+                sum + across_body[k] * spacecraft.appendages().sloshes[0].angle_rad(displacement)
             });
             // To the right of -Y is -X for a turn that is positive about Z.
             let expected = Vector3::x() * y[3].sin();
@@ -191,8 +192,8 @@ fn a_pendulum_on_a_heavy_body_is_a_plain_one() {
         let time_s = 0.3 * f64::from(step);
         simulate(&mut motion, &spacecraft, &[], &thrust(), time_s, 0.02);
         let at = motion.at(&spacecraft, time_s);
-        let across = spacecraft.appendages().sloshes[0].across_body();
-        let found: f64 = (0..2).map(|k| across[k].x * motion.oscillator(k, time_s, &at)[0]).sum();
+        let across_body = across(&spacecraft.appendages().sloshes[0].axis_body);
+        let found: f64 = (0..2).map(|k| across_body[k].x * motion.oscillator(k, time_s, &at)[0]).sum();
         let (sine, cosine) = (ringing * time_s).sin_cos();
         let decay = (-damping * free * time_s).exp();
         let expected = rest * (1.0 - decay * (cosine + damping * free / ringing * sine));

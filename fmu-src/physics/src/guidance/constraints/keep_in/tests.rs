@@ -19,7 +19,8 @@ fn random_zone(random: &mut Random) -> KeepIn {
     let (azimuth_rad, elevation_rad) = (limit_rad(), limit_rad());
     let axes: Vec<Vector3<f64>> = cube_directions().chain([random.direction() * 3.0]).collect();
     let method = random.one_of(&METHODS);
-    KeepIn { axis_body: random.one_of(&axes), azimuth_rad, elevation_rad, method }
+    let distance_m = f64::INFINITY;
+    KeepIn { axis_body: random.one_of(&axes), azimuth_rad, elevation_rad, method, distance_m }
 }
 
 fn random_vectors(random: &mut Random) -> PointingVectors {
@@ -134,7 +135,7 @@ fn the_zones_frame_is_a_rotation_of_the_body_to_the_axis() {
         .into_iter()
         .flat_map(|d| [Vector3::new(d, 1.0, -d), Vector3::new(d, -1.0, -d), Vector3::new(0.0, 1.0, d)]);
     for axis_body in cube_directions().chain(near) {
-        let zone = KeepIn { axis_body, azimuth_rad: 0.1, elevation_rad: 0.1, method: METHODS[0] };
+        let zone = KeepIn { axis_body, ..nearest_zone(0.1, 0.1) };
         let matrix = zone.body_from_zone().unwrap();
         assert_relative_eq!(matrix * matrix.transpose(), Matrix3::identity(), epsilon = 1e-15);
         assert_relative_eq!(matrix.determinant(), 1.0, epsilon = 1e-15);
@@ -142,9 +143,7 @@ fn the_zones_frame_is_a_rotation_of_the_body_to_the_axis() {
         let cosine = -axis_body.normalize().y;
         assert_relative_eq!(matrix.trace(), 1.0 + 2.0 * cosine, epsilon = 1e-15);
     }
-    let about = |axis_body| {
-        KeepIn { axis_body, azimuth_rad: 0.1, elevation_rad: 0.1, method: METHODS[0] }.body_from_zone()
-    };
+    let about = |axis_body| KeepIn { axis_body, ..nearest_zone(0.1, 0.1) }.body_from_zone();
     assert_eq!(about(-Vector3::y()), Some(Matrix3::identity()));
     assert_eq!(about(Vector3::y()), Some(Matrix3::from_diagonal(&Vector3::new(-1.0, -1.0, 1.0))));
     assert_eq!(about(Vector3::zeros()), None);
@@ -212,6 +211,7 @@ fn the_clamp_is_up_to_half_a_degree_farther_in_the_quarter_about_the_axis() {
         azimuth_rad: 15.0_f64.to_radians(),
         elevation_rad: 13.0_f64.to_radians(),
         method,
+        distance_m: f64::INFINITY,
     };
     let mut farthest_deg = 0.0_f64;
     for azimuth_deg in 0..90 {

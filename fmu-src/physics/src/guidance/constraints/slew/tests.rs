@@ -16,6 +16,7 @@ fn zone(random: &mut Random) -> KeepIn {
         azimuth_rad: random.within(0.05, 0.6),
         elevation_rad: random.within(0.05, 0.6),
         method: KeepInMethod::Nearest,
+        distance_m: f64::INFINITY,
     }
 }
 
@@ -95,7 +96,7 @@ fn a_turn_leaves_the_eigenaxis_only_where_that_leaves_the_zone_and_stays_inside(
         let mut greatest_rad_s = 0.0_f64;
         for k in 0..=40 {
             let left = f64::from(k) / 40.0;
-            let found = slew.frame(&case.to, &case.to_sun, left, -1.0 / duration_s);
+            let found = slew.frame(&case.to, &case.to_sun, Moving::new(left, -1.0 / duration_s));
             let sun_body = found.inertial_from_body.inverse() * case.to_sun.direction;
             let excess_rad = case.zone.excess_rad(&sun_body).unwrap();
             assert!(excess_rad < 1e-11, "{excess_rad:e}");
@@ -103,7 +104,8 @@ fn a_turn_leaves_the_eigenaxis_only_where_that_leaves_the_zone_and_stays_inside(
         }
         assert!(greatest_rad_s < RATE_RAD_S * (1.0 + 1e-9) && greatest_rad_s > RATE_RAD_S * (1.0 - 1e-9));
         for (left, end) in [(1.0, &case.from), (0.0, &case.to)] {
-            let found = slew.frame(&case.to, &case.to_sun, left, -1.0 / duration_s).inertial_from_body;
+            let found =
+                slew.frame(&case.to, &case.to_sun, Moving::new(left, -1.0 / duration_s)).inertial_from_body;
             let off_rad = rotation_vector(&end.inertial_from_body, &found).norm();
             assert!(off_rad < 1e-12, "{off_rad:e}");
         }
@@ -122,7 +124,7 @@ fn within_the_zone_both_angles_go_straight_and_the_roll_in_proportion() {
             continue;
         }
         checked += 1;
-        let at = |left: f64| slew.frame(&case.to, &case.to_sun, left, -1.0);
+        let at = |left: f64| slew.frame(&case.to, &case.to_sun, Moving::new(left, -1.0));
         let angles = |left: f64| {
             let sun =
                 case.zone.angles(&(at(left).inertial_from_body.inverse() * case.to_sun.direction)).unwrap();

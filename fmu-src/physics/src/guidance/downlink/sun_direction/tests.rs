@@ -236,14 +236,14 @@ fn the_link_needs_antenna_distance_from_the_sun_and_a_free_line() {
             azimuth_rad: azimuth_rad + degrees(off_deg),
             outside_rad: 0.0,
         };
-        let found = link(&around, &earth, (&all, Some(&beam(0.0))), &limits).unwrap();
+        let found = link(&around, &earth, &all, Some(&beam(0.0)), &limits).unwrap();
         // A fan of 15 deg, and none at all.
         for (beam_off_deg, reaches) in [(7.4, true), (-7.4, true), (7.6, false), (-7.6, false), (360.0, true)]
         {
-            let off = link(&around, &earth, (&all, Some(&beam(beam_off_deg))), &limits).unwrap();
+            let off = link(&around, &earth, &all, Some(&beam(beam_off_deg)), &limits).unwrap();
             assert_eq!(off.available, expected && reaches, "{beam_off_deg}");
         }
-        assert!(!link(&around, &earth, (&all, None), &limits).unwrap().available);
+        assert!(!link(&around, &earth, &all, None, &limits).unwrap().available);
         assert_eq!(found.available, expected, "{position} {theta_deg} {off_deg} {antenna:?}");
         assert!((found.sun_separation_rad - degrees(theta_deg)).abs() < 1e-12);
     }

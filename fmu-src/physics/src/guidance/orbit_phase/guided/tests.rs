@@ -37,7 +37,7 @@ fn guided(slew_rate_rad_s: f64) -> Guided {
 
 /// With MESSENGER's antennas.
 fn at(law: &Guided, time_s: f64) -> GuidedAttitude {
-    law.at(time_s, &DefaultDownlink::default(), lines)
+    OrbitPhaseLaw { guided: *law, default_downlink: &DefaultDownlink::default() }.at(time_s, lines)
 }
 
 #[test]

@@ -4,6 +4,7 @@ use crate::guidance::geometry::moving::matrix_value;
 use crate::guidance::scenario::scenario_tests::aimpoint as command;
 use crate::guidance::tests::orbit::TestOrbit;
 use approx::assert_relative_eq;
+use core::f64::consts::FRAC_PI_2;
 use nalgebra::Vector3;
 
 #[test]
@@ -68,4 +69,45 @@ fn an_aim_without_direction_is_none() {
     for option in [AimpointOption::Nadir, AimpointOption::LvlhSun, AimpointOption::OptimalLighting] {
         none(command(option), &without_position);
     }
+}
+
+#[test]
+fn body_roll_is_minus_y_unless_commanded() {
+    let roll = |option| {
+        value(&body_roll(&BodyRollCommand {
+            option,
+            vector: Vector3::new(3.0, 1.0, 0.0),
+            azimuth_rad: FRAC_PI_2,
+            elevation_rad: 0.0,
+        }))
+    };
+    assert_eq!(roll(None), -Vector3::y());
+    assert_eq!(roll(Some(BodyRollOption::Vector)), Vector3::new(3.0, 1.0, 0.0));
+    assert_relative_eq!(roll(Some(BodyRollOption::AzimuthElevation)), Vector3::x(), epsilon = 1e-15);
+}
+
+#[test]
+fn the_external_reference_is_the_sun_unless_commanded() {
+    let s = TestOrbit::new(12.0).ephemeris(60.0);
+    let roll = |option| {
+        let command = ExternalRollCommand {
+            option,
+            vector: Vector3::new(3.0, 1.0, 0.0),
+            right_ascension_rad: FRAC_PI_2,
+            declination_rad: 0.0,
+        };
+        value(&external_roll(&command, &s))
+    };
+    assert_eq!(roll(None), value(&s.sun) - value(&s.position));
+    assert_eq!(roll(Some(ExternalRollOption::Sun)), roll(None));
+    assert_eq!(roll(Some(ExternalRollOption::Earth)), value(&s.earth) - value(&s.position));
+    assert_eq!(roll(Some(ExternalRollOption::Planet)), -value(&s.position));
+    assert_eq!(roll(Some(ExternalRollOption::Velocity)), value(&s.velocity));
+    let momentum = value(&s.position).cross(&value(&s.velocity));
+    assert_eq!(roll(Some(ExternalRollOption::OrbitNormal)), momentum);
+    let north = Vector3::new(0.0, -0.397_777_155_931_914, 0.917_482_062_069_182);
+    assert_relative_eq!(roll(Some(ExternalRollOption::EclipticNorth)), north, epsilon = 1e-14);
+    assert_eq!(roll(Some(ExternalRollOption::Vector)), Vector3::new(3.0, 1.0, 0.0));
+    let star = roll(Some(ExternalRollOption::RightAscensionDeclination));
+    assert_relative_eq!(star, Vector3::y(), epsilon = 1e-15);
 }

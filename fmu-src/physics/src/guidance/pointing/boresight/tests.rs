@@ -1,7 +1,7 @@
 //! What the paper's figures 1 to 3 say in words.
 use super::*;
 use crate::constants::DEG_RAD;
-use crate::guidance::geometry::moving::value;
+use crate::guidance::geometry::moving::{Moving, value};
 use crate::guidance::pointing::antenna::tests::quadrants;
 use crate::guidance::scenario::scenario_tests::camera;
 use crate::spacecraft::GimbalMount;
@@ -107,7 +107,7 @@ fn a_gimbal_turns_right_handed_about_its_axis() {
         let angle_rad = 0.1 * f64::from(k);
         let expected = nalgebra::Rotation3::new(axis * angle_rad) * boresight_body;
         assert_relative_eq!(gimbal.boresight(angle_rad), expected, epsilon = 1e-15);
-        let moving = gimbal.moving_boresight(Moving::from_re(angle_rad));
+        let moving = gimbal.boresight(Moving::from_re(angle_rad));
         assert_relative_eq!(value(&moving), expected, epsilon = 1e-15);
         // What lies off the plane that it sweeps does not count.
         let found = gimbal.toward(&(expected + axis * 0.7));

@@ -126,8 +126,8 @@ fn moved(
     command.reference = Some(AzimuthReference::Sun);
     command.rate_rad_s[axis] = amount;
     command.speed_m_s[axis] = amount;
-    let compatibility = ScanCompatibility::default();
-    scanned(&fixed(Vector3::z()), aimpoint, &command, &compatibility, (ephemeris, exact(5.0)))
+    let basic = Scanned { boresight_body: fixed(Vector3::z()), toward: aimpoint.toward };
+    ScanCompatibility::default().scanned(&basic, aimpoint.kind, &command, ephemeris, exact(5.0))
 }
 
 #[test]
@@ -158,15 +158,15 @@ fn each_frame_moves_what_it_says() {
 #[test]
 fn rotations_follow_each_other_about_fixed_axes() {
     let s = TestOrbit::new(12.0).ephemeris(900.0);
-    let y = Aimpoint::new(fixed(Vector3::y()), AimpointKind::Direction).unwrap();
+    let y = Scanned { boresight_body: fixed(Vector3::z()), toward: fixed(Vector3::y()) };
     let command = ScanCommand {
         frame: Some(ScanFrame::InertialRotation),
         rate_rad_s: [FRAC_PI_2, FRAC_PI_2, 0.0],
         ..pattern(1.0, 0.0, 1, false)
     };
     // Y about X is Z; Z about the fixed Y is X. About turned axes it would be Z.
-    let turned =
-        scanned(&fixed(Vector3::z()), &y, &command, &ScanCompatibility::default(), (&s, exact(2.0))).unwrap();
+    let scans = ScanCompatibility::default();
+    let turned = scans.scanned(&y, AimpointKind::Direction, &command, &s, exact(2.0)).unwrap();
     assert_relative_eq!(value(&turned.toward), Vector3::x(), epsilon = 1e-15);
 }
 

@@ -102,13 +102,13 @@ type RowTimes = Vec<(f64, Option<f64>)>;
 fn dated(mission: &SimulatedMission, zero_s: f64) -> Result<Option<String>, Failure> {
     let spacecraft = spacecraft_of(&mission.fmu)?;
     let Some((text, timeline)) = mission.timeline(&spacecraft)? else { return Ok(None) };
-    if timeline.clock() == TimelineClock::Epoch {
+    if timeline.clock == TimelineClock::Epoch {
         return Ok(None);
     }
     let mut document: DocumentMut = text.parse()?;
-    let commands = timeline.entries().iter().map(|it| (it.at_s, it.until_s)).collect();
-    let panels = timeline.panels().iter().map(|it| (it.at_s, None)).collect();
-    let events = timeline.events().iter().map(|it| (it.at_s, None)).collect();
+    let commands = timeline.entries.iter().map(|it| (it.at_s, it.until_s)).collect();
+    let panels = timeline.panels.iter().map(|it| (it.at_s, None)).collect();
+    let events = timeline.events.iter().map(|it| (it.at_s, None)).collect();
     let lists: [(&str, RowTimes); 3] = [("command", commands), ("panels", panels), ("event", events)];
     for (name, times_s) in lists {
         let tables = document.get_mut(name).and_then(Item::as_array_of_tables_mut);
