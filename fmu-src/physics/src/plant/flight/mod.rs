@@ -5,7 +5,6 @@
 mod configured;
 mod dynamic;
 mod encounter_prediction;
-mod flight_setup;
 mod fork;
 mod grid_edge;
 mod ideal;
