@@ -102,7 +102,6 @@ impl AccessTable {
         &self.flags[base as usize]
     }
 
-    /// Whether the Integer or Enumeration at `index` may take `value`.
     /// The flags of the variable with a value reference.
     pub(crate) fn flags_at(&self, base: BaseType, reference: u32) -> Option<u16> {
         self.flags(base).get(references::index(base, reference)).copied()
@@ -114,6 +113,7 @@ impl AccessTable {
         limits.copied().unwrap_or((f64::MIN, f64::MAX))
     }
 
+    /// Whether the Integer or Enumeration at `index` may take `value`.
     #[inline]
     pub(crate) fn admits_integer(&self, index: usize, value: i32) -> bool {
         let Some(&(min, max)) = self.integer_limits.get(index) else { return false };

@@ -298,19 +298,18 @@ impl Declare {
                 false => Ok(()),
             });
         for (full, _) in variable.elements() {
-            let result = check::name(&full).and_then(|()| of_all.clone()).and_then(|()| {
-                match self.interface.enumerations.iter().any(|known| known.name == full) {
-                    true => Err("an enumeration type has this name".to_owned()),
-                    false => Ok(()),
+            let problem = match check::name(&full).and_then(|()| of_all.clone()) {
+                Err(problem) => problem,
+                Ok(()) if self.interface.enumerations.iter().any(|known| known.name == full) => {
+                    "an enumeration type has this name".to_owned()
                 }
-            });
-            if let Err(problem) = result {
-                return Err(DeclareError { name: full, problem });
-            }
-            if self.names.contains(&full) {
-                return Err(DeclareError { name: full, problem: "is declared twice".to_owned() });
-            }
-            self.names.insert(full);
+                Ok(()) if self.names.contains(&full) => "is declared twice".to_owned(),
+                Ok(()) => {
+                    self.names.insert(full);
+                    continue;
+                }
+            };
+            return Err(DeclareError { name: full, problem });
         }
         self.interface.variables.push(variable);
         Ok(())

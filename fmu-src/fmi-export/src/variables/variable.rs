@@ -141,49 +141,33 @@ impl Variable {
     }
 }
 
-/// Enumeration type of a Rust enum.
+/// Enumeration type, by default of a Rust enum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct EnumerationType {
+pub struct EnumerationType<T = &'static [Item]> {
     /// Name of the type.
     pub name: &'static str,
     /// Subject of the choice.
     pub description: &'static str,
     /// The items in the order of declaration.
-    pub items: &'static [Item],
+    pub items: T,
 }
 
 /// An item of an enumeration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Item {
+pub struct Item<T = &'static str> {
     /// Name.
-    pub name: &'static str,
+    pub name: T,
     /// Value.
     pub value: i32,
     /// Meaning of the item.
-    pub description: &'static str,
+    pub description: T,
 }
 
 /// An enumeration type as an interface has it: the items of its Rust type, behind them those of the setup.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct DeclaredEnumeration {
-    /// Name of the type.
-    pub name: &'static str,
-    /// Subject of the choice.
-    pub description: &'static str,
-    /// The items in the order of declaration.
-    pub items: Vec<DeclaredItem>,
-}
+pub type DeclaredEnumeration = EnumerationType<Vec<DeclaredItem>>;
 
 /// An item of a declared enumeration.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct DeclaredItem {
-    /// Name.
-    pub name: String,
-    /// Value.
-    pub value: i32,
-    /// Meaning of the item.
-    pub description: String,
-}
+pub type DeclaredItem = Item<String>;
 
 impl From<EnumerationType> for DeclaredEnumeration {
     fn from(own: EnumerationType) -> Self {

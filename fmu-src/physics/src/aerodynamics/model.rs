@@ -39,8 +39,7 @@ impl Default for AerodynamicOptions {
 #[derive(Clone, Debug)]
 pub struct AerodynamicModel {
     faces: Faces,
-    law: AerodynamicLaw,
-    reemission: Reemission,
+    options: AerodynamicOptions,
     /// Present only where some surface can shadow another.
     scene: Option<ShadowScene>,
 }
@@ -90,7 +89,7 @@ impl AerodynamicModel {
     pub fn new(spacecraft: &Spacecraft, options: &AerodynamicOptions) -> Result<Self, Refusal> {
         let mut faces = Faces::new(spacecraft, options.sunshade_model)?;
         let scene = if options.shadowing { faces.extract_scene() } else { None };
-        Ok(Self { faces, law: options.law, reemission: options.reemission, scene })
+        Ok(Self { faces, options: *options, scene })
     }
 
     /// Sets the material in this place of the spacecraft's.
@@ -124,7 +123,7 @@ impl AerodynamicModel {
         if flow.density_kg_m3.same(T::constant(0.0)) {
             return ForceTorque::zero();
         }
-        let law = LawAtFlow::new(self.law, self.reemission, flow);
+        let law = LawAtFlow::new(self.options.law, self.options.reemission, flow);
         workspace.normals.resize(self.faces.normals.len(), Vector3::zeros());
         self.faces.turn_normals(panel_angles_rad, &mut workspace.normals);
         workspace.incident.clear();

@@ -1,6 +1,6 @@
 //! Integrates torque over time, segment by segment, and lets thrusters dump when a threshold is exceeded.
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Rotation3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::{Attitude, Quaternion};
@@ -15,7 +15,8 @@ use super::totals::Totals;
 /// Totals of a flight with their dense output.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MomentumIntegrator {
-    segment: MomentumSegment,
+    /// The current segment.
+    pub(crate) segment: MomentumSegment,
     dumps: Dumps,
 }
 
@@ -66,16 +67,6 @@ impl MomentumIntegrator {
     /// flight; where the law jumps, the sign is the nearer one.
     pub fn attitude(&self, inertial_from_body: &Rotation3<f64>, time_s: f64) -> Attitude {
         Attitude::from_rotation(inertial_from_body).continuing(&self.segment.sign_reference(time_s))
-    }
-
-    /// Angular acceleration of the body at a time inside the current segment, body frame, in rad/s2.
-    pub fn acceleration_body_rad_s2(&self, time_s: f64) -> Vector3<f64> {
-        self.segment.acceleration_body_rad_s2(time_s)
-    }
-
-    /// Rate in the body frame of what the body and its panels have of momentum at a time inside the current segment, in N m.
-    pub fn structure_rate_body_n_m(&self, inertia_body_kg_m2: &Matrix3<f64>, time_s: f64) -> Vector3<f64> {
-        self.segment.structure_rate_body_n_m(inertia_body_kg_m2, time_s)
     }
 
     /// Whether the integration has reached `time_s`, and its totals are known there.

@@ -44,7 +44,7 @@ pub struct Settings {
 
 /// One interval without events.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct MomentumSegment {
+pub(crate) struct MomentumSegment {
     pub(super) span: SegmentSpan,
     at_start: Totals,
     /// Attitude at the start, the sign of its quaternion continuing from segment to segment.
@@ -219,13 +219,13 @@ impl MomentumSegment {
     }
 
     /// Angular acceleration at a time inside the segment, body frame, in rad/s2; none where it has no length.
-    pub(super) fn acceleration_body_rad_s2(&self, time_s: f64) -> Vector3<f64> {
+    pub(crate) fn acceleration_body_rad_s2(&self, time_s: f64) -> Vector3<f64> {
         self.rate_body_rad_s.as_ref().map_or(Vector3::zeros(), |it| it.value_and_derivative(time_s).1)
     }
 
     /// Rate in the body frame of what the body and its panels have of momentum, d/dt (J w + h_p), at a time inside the segment, in
     /// N m; J w' where no panel has a mass.
-    pub(super) fn structure_rate_body_n_m(
+    pub(crate) fn structure_rate_body_n_m(
         &self,
         inertia_body_kg_m2: &Matrix3<f64>,
         time_s: f64,

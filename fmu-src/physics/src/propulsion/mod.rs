@@ -3,7 +3,6 @@
 mod flow;
 mod plume;
 mod propellant;
-mod pulse_command;
 mod pulse_schedule;
 mod selection;
 mod thrust_direction;
@@ -12,8 +11,7 @@ mod valve;
 
 pub use plume::surface_in_plume;
 pub use propellant::PropellantState;
-pub use pulse_command::PulseCommand;
-pub use pulse_schedule::{PulseSchedule, due_s};
+pub use pulse_schedule::{PulseCommand, PulseSchedule, due_s};
 pub use selection::{Preference, SelectionError, ThrusterSelection};
 pub use thrust_direction::ThrustErrors;
 pub use thrust_law::ThrustLaw;

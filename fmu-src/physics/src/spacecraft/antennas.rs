@@ -61,7 +61,7 @@ pub enum AntennaRange {
 }
 
 /// Azimuths of a fan, from -Y toward +X.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct FanAzimuths {
     /// The middle, in rad.
     pub middle_rad: f64,
@@ -115,13 +115,10 @@ impl fmt::Display for AntennaRange {
 /// Reads an antenna.
 pub(super) fn antenna(part: &PartReader<'_>, description: &AntennaDescription) -> NamedAntenna {
     check_item_name(&part.key("name"), &description.name);
+    let fan = |azimuth_deg: [TurnEither; 2]| fan(part, azimuth_deg.map(|it| it.0));
     let range = match (description.azimuth_deg, description.axis_body()) {
         (None, Some(axis_body)) => AntennaRange::Axis(axis_body),
-        (azimuth_deg, _) => AntennaRange::Fan(
-            azimuth_deg.map_or(FanAzimuths { middle_rad: 0.0, half_rad: 0.0 }, |azimuth_deg| {
-                fan(part, azimuth_deg.map(|it| it.0))
-            }),
-        ),
+        (azimuth_deg, _) => AntennaRange::Fan(azimuth_deg.map(fan).unwrap_or_default()),
     };
     let [across_rad, along_rad] = description.beam_rad();
     let antenna = Antenna { range, across_rad, along_rad };

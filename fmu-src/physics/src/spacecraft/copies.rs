@@ -141,24 +141,16 @@ pub(super) fn plate_copies(plate: &Plate, motions: &[Motion]) -> Vec<Plate> {
 
 fn repeated(repeat: &RepeatDescription) -> Option<Vec<Motion>> {
     let Copies(count) = repeat.count;
-    let numbers = 0..count;
-    match (repeat.step_m, repeat.axis) {
-        (Some(step_m), None) => {
-            let step_m = step_m.value();
-            let shifted = |k: u32| Motion { matrix: Matrix3::identity(), shift_m: step_m * f64::from(k) };
-            Some(numbers.map(shifted).collect())
-        }
+    let angle_deg = repeat.angle_deg.map_or(360.0 / f64::from(count), |it| it.0);
+    let motion = |k: u32| match (repeat.step_m.value(), repeat.axis.value()) {
+        (Some(step_m), None) => Some(Motion { matrix: Matrix3::identity(), shift_m: step_m * f64::from(k) }),
         (None, Some(axis)) => {
-            let (axis, point_m) = (axis.value(), repeat.point_m());
-            let angle_deg = repeat.angle_deg.map_or(360.0 / f64::from(count), |it| it.0);
-            let turned = |k: u32| {
-                let matrix = turn(&axis, angle_deg * f64::from(k));
-                Motion { matrix, shift_m: point_m - matrix * point_m }
-            };
-            Some(numbers.map(turned).collect())
+            let (matrix, point_m) = (turn(&axis, angle_deg * f64::from(k)), repeat.point_m());
+            Some(Motion { matrix, shift_m: point_m - matrix * point_m })
         }
         _ => None,
-    }
+    };
+    (0..count).map(motion).collect()
 }
 
 /// Rodrigues' formula: right-handed about a unit vector.

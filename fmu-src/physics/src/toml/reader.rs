@@ -49,14 +49,8 @@ impl<'r> Reader<'r> {
         findings: &'r RefCell<Findings>,
         own_limits: &'static [(&'static str, usize)],
     ) -> Self {
-        Self {
-            value: Some(root),
-            is_expected: true,
-            range: None,
-            place: KeyPath::root(),
-            findings,
-            own_limits,
-        }
+        let (value, place) = (Some(root), KeyPath::root());
+        Self { value, is_expected: true, range: None, place, findings, own_limits }
     }
 
     /// The value if it is what is allowed; otherwise the problem is noted and something else will stand in.
@@ -122,11 +116,8 @@ impl<'r> Reader<'r> {
             // A table of thousands of unknown keys has no slips of the pen.
             let meant = if misspelt.len() < keys.len() { nearest(key, &absent) } else { None };
             self.note(|| {
-                let found = format!(
-                    "the unknown key `{key}`{}",
-                    meant.map(|_| hint(key, &absent)).unwrap_or_default()
-                );
-                (self.place.key(key), found, keys.join(", "))
+                let hint = meant.map(|_| hint(key, &absent)).unwrap_or_default();
+                (self.place.key(key), format!("the unknown key `{key}`{hint}"), keys.join(", "))
             });
             if let Some(meant) = meant {
                 self.stand_in(self.place.key(meant));
@@ -134,9 +125,9 @@ impl<'r> Reader<'r> {
             }
         }
         let is_expected = |key| table.is_some() && !misspelt.contains(&key);
-        keys.iter()
-            .map(|key| (*key, self.inside(self.place.key(key), value(key), is_expected(*key))))
-            .collect()
+        let field =
+            |key: &&'static str| (*key, self.inside(self.place.key(key), value(key), is_expected(*key)));
+        keys.iter().map(field).collect()
     }
 
     /// Notes a number outside of its range.
@@ -296,11 +287,9 @@ impl<'de> Deserializer<'de> for Reader<'_> {
 
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
         let list = self.given(DeValue::as_array, "a list").filter(|list| self.may_have(list.len()));
-        let mut items = Vec::new();
-        for (i, value) in list.into_iter().flat_map(|list| list.iter()).enumerate() {
-            items.push(self.inside(self.place.item(i), Some(value.get_ref()), true));
-        }
-        visitor.visit_seq(SeqDeserializer::new(items.into_iter()))
+        let items = list.into_iter().flat_map(|list| list.iter()).enumerate();
+        let items = items.map(|(i, value)| self.inside(self.place.item(i), Some(value.get_ref()), true));
+        visitor.visit_seq(SeqDeserializer::new(items))
     }
 
     fn deserialize_tuple<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, Error> {
@@ -310,22 +299,20 @@ impl<'de> Deserializer<'de> for Reader<'_> {
             self.note(|| (self.place.clone(), format!("a list of length {}", list.len()), allowed));
             self.stand_in(self.place.clone());
         }
-        let mut items = Vec::new();
-        for i in 0..length {
+        let items = (0..length).map(|i| {
             let value = list.and_then(|list| list.get(i)).map(toml::Spanned::get_ref);
-            items.push(self.inside(self.place.item(i), value, value.is_some()));
-        }
-        visitor.visit_seq(SeqDeserializer::new(items.into_iter()))
+            self.inside(self.place.item(i), value, value.is_some())
+        });
+        visitor.visit_seq(SeqDeserializer::new(items))
     }
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
         let table = self.given(DeValue::as_table, "a table").filter(|table| self.may_have(table.len()));
-        let mut entries = Vec::new();
-        for (key, value) in table.into_iter().flat_map(|table| table.iter()) {
+        let entries = table.into_iter().flat_map(|table| table.iter()).map(|(key, value)| {
             let key = key.get_ref().as_ref();
-            entries.push((key, self.inside(self.place.key(key), Some(value.get_ref()), true)));
-        }
-        visitor.visit_map(MapDeserializer::new(entries.into_iter()))
+            (key, self.inside(self.place.key(key), Some(value.get_ref()), true))
+        });
+        visitor.visit_map(MapDeserializer::new(entries))
     }
 
     fn deserialize_struct<V: Visitor<'de>>(

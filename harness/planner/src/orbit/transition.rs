@@ -69,7 +69,7 @@ pub fn partials_over<const R: usize>(
     for (row, segment) in rows.iter_mut().enumerate() {
         let at_end: SVector<f64, 6> = at_end.row(row).transpose();
         let (found, at_the_start) =
-            method.0.solve(0.0, end_s - start_s, &at_end, None, |before_end_s, row: &Vector6<f64>| {
+            method.solve(0.0, end_s - start_s, &at_end, None, |before_end_s, row: &Vector6<f64>| {
                 let [by_position, by_velocity] =
                     [0, 3].map(|at| Vector3::new(row[at], row[at + 1], row[at + 2]));
                 let by_position_rate = gradient(before_end_s).tr_mul(&by_velocity);

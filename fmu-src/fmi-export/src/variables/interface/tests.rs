@@ -73,7 +73,7 @@ fn every_fact_enters() {
         }),
         ("type", |it, _, _| it.variables[2].kind = DeclaredType::Enumeration("E")),
         ("enumeration", |it, _, _| {
-            it.enumerations.push(EnumerationType { name: "E", description: "D", items: &[] }.into());
+            it.enumerations.push(EnumerationType { name: "E", description: "D", items: &[][..] }.into());
         }),
         ("start of an element", |it, _, h| {
             it.start.set_real(h.input.element(1), 1.0_f64.next_up());
@@ -105,7 +105,9 @@ fn every_fact_of_an_item_enters() {
         .iter()
         .map(|items| {
             let (mut interface, table, _) = declared();
-            interface.enumerations.push(EnumerationType { name: "E", description: "D", items }.into());
+            interface
+                .enumerations
+                .push(EnumerationType { name: "E", description: "D", items: *items }.into());
             digested(&interface, &table)
         })
         .collect();

@@ -21,19 +21,18 @@ impl<T: Scalar> Discs<T> {
     /// Angle by which the discs are apart, rad; negative while they overlap. Its roots are the outer edges of the
     /// penumbra.
     pub fn outer_gap_rad(&self) -> T {
-        if !self.planet_in_front {
-            return T::constant(PI);
-        }
-        self.separation_rad - (self.planet_radius_rad + self.sun_radius_rad)
+        self.beyond_rad(self.planet_radius_rad + self.sun_radius_rad)
     }
 
     /// Angle by which the smaller disc sticks out of the larger, rad; negative in a total or annular eclipse. Its
     /// roots are the inner edges of the penumbra.
     pub fn inner_gap_rad(&self) -> T {
-        if !self.planet_in_front {
-            return T::constant(PI);
-        }
-        self.separation_rad - (self.planet_radius_rad - self.sun_radius_rad).abs()
+        self.beyond_rad((self.planet_radius_rad - self.sun_radius_rad).abs())
+    }
+
+    /// Separation beyond this angle, rad; half a turn where the planet is behind the Sun.
+    fn beyond_rad(&self, reach_rad: T) -> T {
+        if self.planet_in_front { self.separation_rad - reach_rad } else { T::constant(PI) }
     }
 
     /// The part of the Sun's disc outside the planet's, 0 to 1; absolute error below 1e-12.

@@ -198,7 +198,7 @@ impl DisturbedOrbit {
         if self.deviation.is_some() {
             next.cut(next.end_s, pack(&self.own_state_at(next.end_s)));
         }
-        next.advance_to(&method.0, limit_s, |at_s, y| {
+        next.advance_to(method, limit_s, |at_s, y| {
             let state = unpack(y);
             let total_m_s2 = gravity.total_m_s2(gravity.center, at_s, &state, ephemeris, extra_m_s2(at_s));
             pack(&CartesianState { position_m: state.velocity_m_s, velocity_m_s: total_m_s2 })
@@ -246,7 +246,7 @@ impl DisturbedOrbit {
         }
         let mut integrate = |to_s: f64, bodies: &mut BodiesAbout<'_, E>| {
             let mut next = chain;
-            next.advance_to(&method.0, to_s, |at_s, y| {
+            next.advance_to(method, to_s, |at_s, y| {
                 let state = unpack(y);
                 let (about, further_m_s2) = (bodies.about, extra_m_s2(at_s));
                 let total_m_s2 =

@@ -8,5 +8,4 @@ const NODES: usize = 8;
 pub const TERMS: usize = NODES + 1;
 
 /// Integration method of a [`DisturbedOrbit`](super::DisturbedOrbit): computed once, shared, no state.
-#[derive(Clone, Debug, Default)]
-pub struct OrbitMethod(pub Collocation<NODES, TERMS>);
+pub type OrbitMethod = Collocation<NODES, TERMS>;

@@ -62,15 +62,6 @@ pub(super) struct SphereCrossing {
     pub body: Body,
 }
 
-/// Sphere about a body that a path may cross in one sense.
-#[derive(Clone, Copy, Debug)]
-struct Sphere {
-    body: Body,
-    radius_m: f64,
-    /// Whether the path is looked at for leaving it, else for entering.
-    is_left: bool,
-}
-
 /// Attracting bodies relative to the centre of integration.
 pub(super) struct BodiesAbout<'a, E> {
     /// List of the bodies.
@@ -130,15 +121,16 @@ impl<E: BodyEphemeris> BodiesAbout<'_, E> {
         crossed.map_or(about, |body| if body == about { Body::Sun } else { body })
     }
 
-    /// First time at which a path from `about` crosses a sphere.
+    /// First time at which a path from `about` crosses the sphere of this radius about a body, entering it in the `sense` 1, leaving it in
+    /// the sense -1.
     fn first_crossing(
         &mut self,
-        sphere: Sphere,
+        body: Body,
+        radius_m: f64,
+        sense: f64,
         span: Span,
         path: &impl Fn(f64) -> CartesianState,
     ) -> Option<f64> {
-        let Sphere { body, radius_m, is_left } = sphere;
-        let sense = if is_left { -1.0 } else { 1.0 };
         let (from_s, closing_m) = (span.start_s, max_closing_distance_m(&path(span.start_s), span));
         if sense * (self.distance_m(body, &path(from_s).position_m, from_s) - radius_m) > closing_m {
             return None;
@@ -162,10 +154,9 @@ impl<E: BodyEphemeris> BodiesAbout<'_, E> {
             return None;
         }
         let crossings = self.spheres(about).filter_map(|body| {
-            let is_left = body == about;
-            let sphere = Sphere { body, radius_m: self.model.sphere_m(body), is_left };
-            let at_s = self.first_crossing(sphere, span, &path)?;
-            Some(SphereCrossing { at_s, body: if is_left { Body::Sun } else { body } })
+            let (sense, beyond) = if body == about { (-1.0, Body::Sun) } else { (1.0, body) };
+            let at_s = self.first_crossing(body, self.model.sphere_m(body), sense, span, &path)?;
+            Some(SphereCrossing { at_s, body: beyond })
         });
         crossings.min_by(|one, other| one.at_s.total_cmp(&other.at_s))
     }
@@ -182,7 +173,7 @@ impl<E: BodyEphemeris> BodiesAbout<'_, E> {
                 continue;
             }
             let radius_m = model.radius_m(body);
-            if let Some(at_s) = self.first_crossing(Sphere { body, radius_m, is_left: false }, span, &path) {
+            if let Some(at_s) = self.first_crossing(body, radius_m, 1.0, span, &path) {
                 let speed_m_s = (path(at_s) - self.state(body, at_s)).velocity_m_s.norm();
                 return Err(Collision::Impact { at_s, name: body.data().name, radius_m, speed_m_s });
             }

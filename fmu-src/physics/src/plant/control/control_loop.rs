@@ -40,7 +40,7 @@ pub(crate) struct ControlLoop {
     thrusters_limited: bool,
 }
 
-/// The body at a sample, and what is known of it.
+/// The body at a sample, what is known of it, and thrusters and wheels that act on it.
 pub(crate) struct Sampled<'a> {
     pub number: i64,
     pub gyrostat: &'a Gyrostat,
@@ -50,10 +50,6 @@ pub(crate) struct Sampled<'a> {
     pub mass: &'a MassProperties,
     /// Torque of a dump by a constant torque, in N m.
     pub dump_body_n_m: Vector3<f64>,
-}
-
-/// Thrusters and wheels as the controller acts through them.
-pub(crate) struct Actuators<'a> {
     pub thrusters: &'a mut Thrusters,
     pub allocator: &'a mut ThrusterAllocator,
     pub distribution: &'a mut WheelDistribution,
@@ -83,7 +79,7 @@ impl ControlLoop {
 
     /// Whether wheels or thrusters could not give the torque requested at the last sample.
     pub(crate) fn is_limited(&self) -> bool {
-        if self.by_thrusters { self.thrusters_limited } else { self.wheels.is_limited() }
+        if self.by_thrusters { self.thrusters_limited } else { self.wheels.is_limited }
     }
 
     /// The command of guidance in force at `time_s`; `None` where it is sampled anew there.
@@ -114,15 +110,9 @@ impl ControlLoop {
     }
 
     /// The torque the controller asks for, and what wheels or thrusters give of it.
-    pub(crate) fn control(
-        &mut self,
-        control: &Control,
-        actuators: Actuators<'_>,
-        target: &ControlTarget,
-        sampled: &Sampled<'_>,
-    ) {
-        let Sampled { number, gyrostat, motion, body, mass, .. } = *sampled;
-        let Actuators { thrusters, allocator, distribution } = actuators;
+    pub(crate) fn control(&mut self, control: &Control, target: &ControlTarget, sampled: Sampled<'_>) {
+        let Sampled { number, gyrostat, motion, body, mass, .. } = sampled;
+        let Sampled { thrusters, allocator, distribution, .. } = sampled;
         let time_s = motion.end_s();
         let burning = thrusters.valves.burning();
         let lacks_wheels = !self.wheels.span(distribution, gyrostat);

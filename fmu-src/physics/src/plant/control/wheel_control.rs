@@ -13,9 +13,9 @@ use crate::plant::settings::dynamics_settings::WheelControlSettings;
 /// Motors of the wheels.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct WheelControl {
-    motors: Vec<Motor>,
+    pub motors: Vec<Motor>,
     /// Whether the wheels could not give the torque that was requested.
-    is_limited: bool,
+    pub is_limited: bool,
 }
 
 /// The distribution of a torque over the wheels that turn and have a motor, made anew where those or the axes change; a cache that
@@ -63,16 +63,6 @@ impl WheelControl {
     /// Rejects decoded states that no simulation with this number of wheels can produce.
     pub(crate) fn is_valid(&self, wheels: usize) -> bool {
         self.motors.len() == wheels
-    }
-
-    /// The motors.
-    pub(crate) fn motors(&self) -> &[Motor] {
-        &self.motors
-    }
-
-    /// Whether the wheels could not give the torque requested last.
-    pub(crate) fn is_limited(&self) -> bool {
-        self.is_limited
     }
 
     /// Sets which wheels failed, one flag a wheel: their motors give no torque.

@@ -140,7 +140,7 @@ fn unforeseen(
 /// # Errors
 /// What ends a flight.
 pub(crate) fn deviate(interval: &DisturbanceInterval, plant: &mut Plant<'_>) -> Result<(), PlantError> {
-    let applied = plant.external(interval.span.start_s);
+    let applied = (plant.external)(interval.span.start_s);
     let Kinematics { configuration, turning, trajectory, current_mass_panels_stowed, .. } =
         &mut plant.path.kinematics;
     if !configuration.uses_encke() {

@@ -51,7 +51,7 @@ pub struct Plant<'a> {
     states: &'a mut SourceStates,
     sun_choice: SunDirectionSelection,
     panel_turns: &'a mut PanelTurns,
-    external: &'a External<'a>,
+    pub(crate) external: &'a External<'a>,
 }
 
 impl<'a> Plant<'a> {
@@ -99,7 +99,7 @@ impl<'a> Plant<'a> {
     /// Everything at `time_s`, which the propagator must have reached ([`TorqueModel::prepare`]).
     pub fn evaluate(&mut self, time_s: f64) -> Evaluation {
         let mut evaluation = self.evaluate_without_loads(time_s);
-        self.write_loads(&mut evaluation, self.external(time_s)[0]);
+        self.write_loads(&mut evaluation, (self.external)(time_s)[0]);
         evaluation
     }
 
@@ -124,11 +124,6 @@ impl<'a> Plant<'a> {
             applied,
         };
         self.sources.write_loads(self.states, &at, loads);
-    }
-
-    /// Force and torque from outside at `time_s` and their slopes per second.
-    pub(crate) fn external(&self, time_s: f64) -> [ForceTorque; 2] {
-        (self.external)(time_s)
     }
 
     /// Mass, centre of mass and inertia as the panels stand at `instant`.

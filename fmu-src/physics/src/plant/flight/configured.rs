@@ -96,11 +96,6 @@ pub(super) struct SunSelectionStart {
 }
 
 impl ConfiguredFlight<'_> {
-    /// Time of the next edge of a valve or of an empty tank, in s.
-    pub(super) fn next_thruster_edge_s(&self) -> f64 {
-        self.thrusters.next_edge_s(&self.context.allocator.settings)
-    }
-
     /// Dipoles of the sources at `time_s`.
     pub(super) fn dipoles(&self, time_s: f64) -> Dipoles {
         self.propagator.sources.dipoles(&self.context.configuration, time_s)

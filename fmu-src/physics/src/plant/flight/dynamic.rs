@@ -12,19 +12,21 @@ use crate::attitude::{Attitude, BodyMotion, MotionAt};
 use crate::loads::{Effect, ForceTorque, Writer};
 use crate::momentum::{DumpEvent, WorkKind};
 use crate::numerics::Span;
+use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::MassProperties;
 
 use super::configured::{ConfiguredFlight, SunSelectionStart};
 use super::downlink_forecast::StartMomentum;
 use super::grid_edge;
 use super::report::dynamic_totals;
-use crate::plant::control::control_loop::{Actuators, Sampled};
+use crate::plant::control::control_loop::Sampled;
 use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::events::{EventKind, Eventful, LastEvents};
 use crate::plant::settings::attitude_source::{AttitudeSource, Command};
 use crate::plant::settings::dynamics_settings::{DynamicsSettings, Tracked};
 use crate::plant::settings::error::{ManeuverError, PlantError};
+use crate::plant::settings::reaction_control_settings::Feed;
 use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::sources::applied::APPLIED;
 use crate::plant::sources::thrusters::THRUSTERS;
@@ -65,9 +67,9 @@ impl Eventful for Dynamic<'_> {
     fn next_event_s(&self, kind: EventKind) -> f64 {
         let Self { state, flight, .. } = self;
         match kind {
-            EventKind::Valves => flight.next_thruster_edge_s(),
+            EventKind::Valves => flight.thrusters.next_edge_s(&flight.context.allocator.settings),
             EventKind::DumpEnd => state.dumps.until_s(),
-            EventKind::Grid => state.disturbance.end_s(),
+            EventKind::Grid => state.disturbance.span.end_s,
             EventKind::Schedule => {
                 flight.context.configuration.thruster_events.next_s(state.last.scheduled())
             }
@@ -141,7 +143,7 @@ impl Eventful for Dynamic<'_> {
         load.dipole = state.in_field(&state.dumps.dipoles);
         load.internal = state.panels.internal(flight.given.prepared.panels, &state.mass.now, time_s);
         state.dumps.torques = state.torques_by_source(&external, time_s);
-        let motors = state.control.wheels.motors();
+        let motors = &state.control.wheels.motors;
         state.motion.advance_from(&body, &settings.gyrostat, motors, &load, limit_s);
         flight.integrate_thrust(&state.motion, &state.disturbance, state.mass.now.mass_kg)
     }
@@ -160,8 +162,11 @@ impl Dynamic<'_> {
         }
         let ConfiguredFlight { thrusters, context, .. } = &mut self.flight;
         let settings = &context.allocator.settings;
-        let pulses = thrusters.command_pulses(settings, &inputs.pulses, step);
-        if thrusters.command_thrust(settings, &inputs.thrust, start_s) || pulses {
+        let is_dumping = thrusters.is_dumping();
+        let Thrusters { valves, propellant, .. } = &mut **thrusters;
+        let pulses = valves.command_pulses(&settings.thrusters, &inputs.pulses, step, is_dumping);
+        let feed = Feed { settings, propellant, time_s: start_s };
+        if valves.command_thrust(&feed, &inputs.thrust) || pulses {
             self.state.cut(start_s, false);
         }
         Ok(())
@@ -226,7 +231,8 @@ impl Dynamic<'_> {
     /// Opens and closes the valves whose time has come.
     fn process_valves(&mut self, time_s: f64) {
         let ConfiguredFlight { thrusters, context, .. } = &mut self.flight;
-        thrusters.process_valve_events(&context.allocator.settings, time_s);
+        let Thrusters { valves, propellant, .. } = &mut **thrusters;
+        valves.process_events(&Feed { settings: &context.allocator.settings, propellant, time_s });
     }
 
     /// Sensors, watch of the momentum, controller.
@@ -263,10 +269,11 @@ impl Dynamic<'_> {
             estimate: &state.sensing.estimate,
             mass: &state.mass.known,
             dump_body_n_m: state.dumps.torque_body_n_m(),
+            thrusters: flight.thrusters,
+            allocator: &mut flight.context.allocator,
+            distribution,
         };
-        let thrusters = &mut *flight.thrusters;
-        let actuators = Actuators { thrusters, allocator: &mut flight.context.allocator, distribution };
-        state.control.control(control, actuators, &target, &sampled);
+        state.control.control(control, &target, sampled);
         Ok(())
     }
 

@@ -260,7 +260,7 @@ impl<'f> Fork<'f> {
 
     /// The closest approach to the encounter's body beyond `time_s`, as far as the orbit is known.
     pub(super) fn approach_after(&self, time_s: f64) -> Option<ClosestApproach> {
-        self.propagator.trajectory.approach_after(time_s)
+        self.propagator.trajectory.approaches.after(time_s)
     }
 
     /// Sun, planet and Earth at `time_s` as the spacecraft sees them, where the orbit is known.

@@ -54,7 +54,7 @@ pub(super) fn begin(
     let wheel_n_m_s = |k: usize| settings.start.wheels_n_m_s.get(k).copied().unwrap_or(0.0);
     let mut begun = DynamicState {
         motion: GyrostatMotion::new(gyrostat, time_s, unit, &rate_body_rad_s, wheel_n_m_s),
-        mass: MassState::new(mass),
+        mass: MassState { known: mass, now: mass, stowed: None },
         panels: PanelMotion::default(),
         disturbance: DisturbanceInterval::default(),
         sensing: Sensing::new(settings, time_s, attitude, rate_body_rad_s),
@@ -110,7 +110,7 @@ pub(super) fn begin_interval(
     if settings.panels_have_mass {
         let was_turning = state.panels.is_turning();
         let configuration = plant.path.kinematics.configuration;
-        let end_s = configuration.last_of_panels_s(time_s, state.disturbance.end_s());
+        let end_s = configuration.last_of_panels_s(time_s, state.disturbance.span.end_s);
         let [now, end] = [time_s, end_s].map(|at_s| plant.instant(at_s));
         state.panels.turn_until(&plant.path.kinematics, &now, &end);
         if was_turning || state.panels.is_turning() {
@@ -140,7 +140,8 @@ fn predicted_rate_terms(
     torque += now.torque_body_n_m;
     slope += per_s.torque_body_n_m;
     // A pulse that ends before the interval says little of it.
-    let steady_until_s = flight.next_thruster_edge_s().min(state.dumps.until_s());
+    let edge_s = flight.thrusters.next_edge_s(&flight.context.allocator.settings);
+    let steady_until_s = edge_s.min(state.dumps.until_s());
     if steady_until_s >= time_s + settings.grid_s {
         let [turn, turn_slope] = flight.thrusters.load.law.torque_body_n_m;
         torque += state.dumps.torque_body_n_m() + turn;
@@ -154,7 +155,7 @@ fn predicted_rate_terms(
     }
     let gyrostat = &settings.gyrostat;
     let motor_n_m = |k: usize| {
-        if gyrostat.wheels()[k].locked { 0.0 } else { state.control.wheels.motors()[k].torque_n_m }
+        if gyrostat.wheels()[k].locked { 0.0 } else { state.control.wheels.motors[k].torque_n_m }
     };
     let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
     gyrostat.rate_terms(rate, &momentum_body, [torque, slope], &gyrostat.along_axes(motor_n_m))

@@ -8,7 +8,7 @@ use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::events;
 use crate::plant::motion::instant::Instant;
-use crate::plant::settings::attitude_source::{AttitudeSource, Command};
+use crate::plant::settings::attitude_source::Command;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::mode_settings::IdealSettings;
 use crate::plant::state::flight_state::EncounterPrediction;
@@ -69,14 +69,6 @@ impl<'f> InFlight<'f> {
         }
     }
 
-    /// Attitude of a fork from `time_s` on, where it is not the flight's.
-    pub(super) fn fork_attitude(&self, time_s: f64) -> Option<AttitudeSource> {
-        match self {
-            Self::Dynamic(it) => Some(it.ideal_attitude(time_s)),
-            Self::Waiting { .. } | Self::Ideal(_) => None,
-        }
-    }
-
     /// Evaluates geometry and attitude at `time_s`, where the flight has come, and its loads, of an attitude that is followed ideally only
     /// `with_loads`; a flight that waits holds the attitude of `held`.
     pub(super) fn evaluate(
@@ -101,7 +93,7 @@ impl<'f> InFlight<'f> {
             Self::Ideal(Ideal { state, flight, .. }) => {
                 let mut plant = flight.plant();
                 let evaluation = evaluation.insert(plant.evaluate_without_loads(time_s));
-                let [outside, _] = plant.external(time_s);
+                let [outside, _] = (plant.external)(time_s);
                 match with_loads {
                     true => plant.write_loads(evaluation, outside),
                     false => *applied = Some(outside),
@@ -191,7 +183,7 @@ impl<'f> InFlight<'f> {
             evaluation,
             integration_center: trajectory.integration_center(configuration),
             from_integration_center: trajectory.state_from_integration_center(time_s),
-            approaches: trajectory.approaches_until(time_s),
+            approaches: trajectory.approaches.until(time_s),
             panel_turns: &propagator.panel_turns,
             prediction,
             summary,

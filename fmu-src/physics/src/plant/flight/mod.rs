@@ -24,6 +24,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use crate::attitude::control::Estimate;
 use crate::loads::ForceTorque;
 use crate::numerics::Span;
+use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::events::{self, EventKind};
@@ -78,7 +79,8 @@ impl Serialize for Flight {
 impl Flight {
     /// Flight that waits for its inputs.
     pub fn waiting(thrusters: Thrusters) -> Self {
-        FlightState::waiting(thrusters).into()
+        let propagator = PropagatorState::default();
+        FlightState { propagator, thrusters, mode: Mode::Waiting, prediction: None }.into()
     }
 
     /// Rejects decoded states that no flight of this spacecraft can produce.
@@ -288,22 +290,24 @@ impl Flight {
         let (mut in_flight, _) = self.in_flight(given)?;
         in_flight.flight().context.models.begin_work(given.work_limit);
         in_flight.apply_requests(step)?;
-        for time_s in predicted.times_s(step) {
+        for time_s in predicted.into_iter().flat_map(|it| it.times_s(step)) {
             self.in_flight(given)?.0.advance(time_s)?;
             self.predict(given, time_s)?;
         }
         self.in_flight(given)?.0.advance(step.end_s)
     }
 
-    fn prediction_settings(&self) -> PredictionSettings {
-        let encounter = self.configuration().and_then(|it| it.encounter);
-        encounter.filter(|_| !self.is_waiting()).map_or(PredictionSettings::NEVER, |it| it.prediction)
+    fn prediction_settings(&self) -> Option<PredictionSettings> {
+        self.configuration()?.encounter.filter(|_| !self.is_waiting()).map(|it| it.prediction)
     }
 
     /// Predicts the encounter at `time_s`, where the flight has come, in the attitude that timeline and inputs command.
     fn predict(&mut self, given: StepContext<'_>, time_s: f64) -> Result<(), PlantError> {
         let (mut in_flight, _) = self.in_flight(given)?;
-        let attitude = in_flight.fork_attitude(time_s);
+        let attitude = match &in_flight {
+            InFlight::Dynamic(it) => Some(it.ideal_attitude(time_s)),
+            InFlight::Waiting { .. } | InFlight::Ideal(_) => None,
+        };
         self.state.prediction = Some(predict_encounter(in_flight.flight(), attitude, time_s)?);
         Ok(())
     }
@@ -320,7 +324,7 @@ impl Flight {
             dynamic.flight.context.models.begin_work(given.work_limit);
             events::apply_due(&mut dynamic)?;
         }
-        if self.prediction_settings().is_due(time_s) {
+        if self.prediction_settings().is_some_and(|it| it.is_due(time_s)) {
             self.predict(given, time_s)?;
         }
         Ok(undo)

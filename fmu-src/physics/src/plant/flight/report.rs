@@ -214,7 +214,7 @@ impl FlightSummary<'_> {
                 let (gyrostat, motion) = (&settings.gyrostat, &dynamics.motion);
                 let wheel = gyrostat.wheels().get(k)?;
                 let momentum_n_m_s = motion.rotor_n_m_s(gyrostat, k, self.time_s, body);
-                let motor = dynamics.control.wheels.motors().get(k)?;
+                let motor = dynamics.control.wheels.motors.get(k)?;
                 let torque_n_m = motion.motor_n_m(gyrostat, motor, k, self.time_s);
                 let speed_rad_s = wheel.speed_rad_s(momentum_n_m_s);
                 (momentum_n_m_s, torque_n_m, speed_rad_s, wheel.is_saturated(momentum_n_m_s))
@@ -259,7 +259,7 @@ pub(super) fn ideal<'a>(
     let frame = &instant.frame;
     let attitude = simulated.integrator.attitude(&frame.inertial_from_body, time_s);
     let structure_rate_body_n_m =
-        simulated.integrator.structure_rate_body_n_m(&mass.inertia_body_kg_m2, time_s);
+        simulated.integrator.segment.structure_rate_body_n_m(&mass.inertia_body_kg_m2, time_s);
     FlightSummary {
         time_s,
         totals,
@@ -287,7 +287,7 @@ pub(super) fn ideal<'a>(
                 frame,
                 &loads.total().torque_body_n_m,
             ),
-            acceleration_body_rad_s2: simulated.integrator.acceleration_body_rad_s2(time_s),
+            acceleration_body_rad_s2: simulated.integrator.segment.acceleration_body_rad_s2(time_s),
         },
     }
 }

@@ -12,11 +12,9 @@ use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::motion::command_slews::CommandSlews;
 use crate::plant::motion::geometry::{Geometry, SimulationEphemeris};
 use crate::plant::motion::instant::Instant;
-use crate::plant::motion::kinematics::Kinematics;
-use crate::plant::motion::trajectory::Trajectory;
 use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
 use crate::plant::settings::configuration::{Configuration, EphemerisSource, Motion};
-use crate::plant::settings::work::Work;
+use crate::plant::state::propagator_state::PropagatorState;
 
 /// The Moon's rate against the Sun as seen from the Earth is at most that, in rad/s.
 const MOON_RATE_RAD_S: f64 = 3.3e-6;
@@ -55,22 +53,14 @@ pub fn survey(
         },
         ..context.configuration.clone()
     };
-    let ephemeris = &mut context.models.ephemeris.clone();
-    let mut kinematics = Kinematics {
-        configuration: &configuration,
-        law: Some(guided),
-        turning: Turning::still(),
-        trajectory: &mut Trajectory::default(),
-        // Commands are taken at once.
-        command_slews: &mut CommandSlews::beginning(f64::INFINITY),
-        bodies: SimulationEphemeris { configuration: &configuration, ephemeris },
-        spacecraft: given.prepared,
-        work: &mut Work::new(u32::MAX, 0),
-        current_mass_panels_stowed: context.current_mass_panels_stowed,
-    };
+    let mut context = SimulationContext { configuration, ..context.clone() };
+    // Commands are taken at once.
+    let command_slews = CommandSlews::beginning(f64::INFINITY);
+    let mut propagator = PropagatorState { command_slews, ..PropagatorState::default() };
+    let mut plant = context.plant(given.prepared, Turning::still(), &mut propagator, given.external);
     for time_s in times_s {
-        let instant = kinematics.instant(time_s);
-        see(&configuration, time_s, &instant);
+        let instant = plant.instant(time_s);
+        see(plant.path.kinematics.configuration, time_s, &instant);
     }
 }
 

@@ -92,11 +92,6 @@ impl AirAndFieldSegment {
         self.span.is_before() || self.span.covers(time_s)
     }
 
-    /// Ends the segment at `time_s`, where the orbit or the settings change.
-    pub(crate) fn cut(&mut self, time_s: f64) {
-        self.span.cut(time_s);
-    }
-
     /// Air and field at `time_s` by these settings; none without settings.
     pub(crate) fn at(&self, settings: Option<&AirAndFieldSettings>, time_s: f64) -> AirAndField {
         let Some(settings) = settings else { return AirAndField::default() };

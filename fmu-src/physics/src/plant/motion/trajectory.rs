@@ -12,7 +12,7 @@ use crate::guidance::Window;
 use crate::numerics::Span;
 use crate::numerics::spacing::spacing;
 
-use super::approaches::{ClosestApproach, ClosestApproaches};
+use super::approaches::ClosestApproaches;
 use super::geometry::SimulationEphemeris;
 use super::periapses::Periapses;
 use crate::plant::settings::configuration::{Configuration, Encounter, Motion};
@@ -31,7 +31,7 @@ pub struct Trajectory {
     coast: Option<Coast>,
     periapses: Periapses,
     /// Closest approaches to the encounter's body.
-    approaches: ClosestApproaches,
+    pub(crate) approaches: ClosestApproaches,
     /// Time and state at the start of the present science or downlink window, once that time lies before the
     /// current segment: a slew starts from the attitude there.
     window_start: Option<(f64, CartesianState)>,
@@ -154,16 +154,6 @@ impl Trajectory {
         orbit.map(|orbit| orbit.own_state_at(time_s))
     }
 
-    /// How many closest approaches there were until `time_s`, and the last of them.
-    pub(crate) fn approaches_until(&self, time_s: f64) -> (i32, Option<ClosestApproach>) {
-        self.approaches.until(time_s)
-    }
-
-    /// The first closest approach that was found beyond `time_s`.
-    pub(crate) fn approach_after(&self, time_s: f64) -> Option<ClosestApproach> {
-        self.approaches.after(time_s)
-    }
-
     /// Up to where the orbit is known; infinite in closed form.
     pub(crate) fn end_s(&self) -> f64 {
         self.orbit.as_ref().map_or(f64::INFINITY, DisturbedOrbit::end_s)
@@ -188,24 +178,20 @@ impl Trajectory {
 
     /// Position and velocity at the beginning of a window, which may be past.
     pub(crate) fn state_at_window_start(&self, configuration: &Configuration, time_s: f64) -> CartesianState {
-        if let Some(coast) = self.coasting(configuration).filter(|_| self.orbit.is_none()) {
-            return match &self.window_start {
-                _ if time_s >= coast.since_s => self.state_at(configuration, time_s),
-                Some((since_s, state)) if is_same_window(configuration, *since_s, time_s) => *state,
-                _ => closed_form(configuration, time_s),
-            };
+        let is_same = |(since_s, _): &(f64, _)| is_same_window(configuration, *since_s, time_s);
+        let stored = self.window_start.filter(is_same).map(|(_, state)| state);
+        let coast = self.coasting(configuration).filter(|_| self.orbit.is_none());
+        if coast.is_some_and(|coast| time_s >= coast.since_s) {
+            return self.state_at(configuration, time_s);
         }
-        match (&self.orbit, &self.window_start) {
+        match &self.orbit {
             // With a deviation the present segment holds the path of its last interval only.
-            (Some(orbit), Some((since_s, state)))
-                if orbit.is_deviated() && is_same_window(configuration, *since_s, time_s) =>
-            {
-                *state
+            Some(orbit) if time_s >= orbit.start_s() && !(orbit.is_deviated() && stored.is_some()) => {
+                orbit.state_at(time_s)
             }
-            (Some(orbit), _) if time_s >= orbit.start_s() => orbit.state_at(time_s),
-            (Some(_), Some((since_s, state))) if is_same_window(configuration, *since_s, time_s) => *state,
+            None if coast.is_none() => closed_form(configuration, time_s),
             // Before the flight began the spacecraft was on its two-body orbit.
-            _ => closed_form(configuration, time_s),
+            _ => stored.unwrap_or_else(|| closed_form(configuration, time_s)),
         }
     }
 

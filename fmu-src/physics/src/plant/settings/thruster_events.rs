@@ -10,7 +10,7 @@ use std::sync::Arc;
 use nalgebra::{Rotation3, Vector3};
 
 use super::error::PlantError;
-use crate::guidance::timeline::{TimelineDump, TimelineEvent, TimelineManeuver, begun, simulation_time_s};
+use crate::guidance::timeline::{TimelineDump, TimelineEvent, begun, simulation_time_s};
 use crate::momentum::DumpEvent;
 use crate::numerics::noise::{Channel, normal, normal_vector};
 use crate::spacecraft::ThrusterSet;
@@ -107,11 +107,10 @@ impl ThrusterEventSettings {
 
     /// The momentum that the dump of an event leaves, if it has one, body frame, in N m s.
     pub fn dump_target_body_n_m_s(&self, event: &TimelineEvent) -> Option<Vector3<f64>> {
-        let dumps = |it: &TimelineManeuver| it.dumps.unwrap_or(self.dumps);
         match event.dump {
             Some(TimelineDump::To { momentum_body_n_m_s }) => Some(momentum_body_n_m_s),
             Some(TimelineDump::Requested) => Some(self.requested_body_n_m_s),
-            None => event.maneuver.as_ref().filter(|it| dumps(it)).map(|_| self.requested_body_n_m_s),
+            None => self.maneuver(event).filter(|it| it.dumps).map(|_| self.requested_body_n_m_s),
         }
     }
 

@@ -187,7 +187,7 @@ impl<T: Scalar> BySource<T> {
         let planet = shadow.filter(|_| active.has(Effect::Albedo)).map(|_| &parameters.planet);
         let is_warm = needs_temperatures || active.has(Effect::Thermal);
         let recoil = if is_warm { Recoil::Balance } else { Recoil::Ignored };
-        let light = model.evaluate_on(planet, materials, &geometry, recoil, workspace)?;
+        let light = model.evaluate_on(planet, Some(materials), &geometry, recoil, workspace)?;
         let mut loads = light.of_active(active);
         let pole = Vector3::from(positions.pole);
         let [density_kg_m3, temperature_k, molar_mass_kg_mol] = positions.air;

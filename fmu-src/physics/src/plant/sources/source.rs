@@ -94,12 +94,14 @@ pub(super) const fn check_writers(sources: &[(&str, &[Effect])]) {
         let row = Effect::ALL[k];
         let (mut count, mut is_named, mut j) = (0, false, 0);
         while j < sources.len() {
-            let (name, rows) = sources[j];
-            let written = times(rows, row);
-            count += written;
-            if written > 0 {
-                is_named = matches!(row.row().writer, Writer::Source(writer) if equal(writer, name));
-                assert!(!row.is_in_field() || rows.len() == 1, "a source of a dipole writes one row");
+            let ((name, rows), mut i) = (sources[j], 0);
+            while i < rows.len() {
+                if rows[i] as usize == row as usize {
+                    count += 1;
+                    is_named = matches!(row.row().writer, Writer::Source(writer) if equal(writer, name));
+                    assert!(!row.is_in_field() || rows.len() == 1, "a source of a dipole writes one row");
+                }
+                i += 1;
             }
             j += 1;
         }
@@ -112,15 +114,6 @@ pub(super) const fn check_writers(sources: &[(&str, &[Effect])]) {
         }
         k += 1;
     }
-}
-
-const fn times(rows: &[Effect], row: Effect) -> usize {
-    let (mut count, mut k) = (0, 0);
-    while k < rows.len() {
-        count += (rows[k] as usize == row as usize) as usize;
-        k += 1;
-    }
-    count
 }
 
 const fn equal(a: &str, b: &str) -> bool {

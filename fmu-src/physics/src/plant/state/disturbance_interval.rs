@@ -40,16 +40,6 @@ impl DisturbanceInterval {
         self.span.is_valid() && (self.is_before() || self.span.start_s <= self.span.end_s)
     }
 
-    /// End of the interval, in s.
-    pub(crate) fn end_s(&self) -> f64 {
-        self.span.end_s
-    }
-
-    /// Forgets what is beyond `time_s`.
-    pub(crate) fn cut(&mut self, time_s: f64) {
-        self.span.cut(time_s);
-    }
-
     /// Force and torque by effect at `time_s`.
     pub(crate) fn loads_at(&self, time_s: f64) -> Loads {
         let elapsed_s = time_s - self.span.start_s;

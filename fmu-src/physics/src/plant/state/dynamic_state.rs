@@ -59,7 +59,7 @@ impl DynamicState {
             self.motion.cut(time_s);
         }
         if loads_change {
-            self.disturbance.cut(time_s);
+            self.disturbance.span.cut(time_s);
         }
     }
 
@@ -135,11 +135,6 @@ pub(crate) struct MassState {
 }
 
 impl MassState {
-    /// At the start of a flight.
-    pub(crate) fn new(mass: MassProperties) -> Self {
-        Self { known: mass, now: mass, stowed: None }
-    }
-
     /// Whether a simulation can produce it.
     pub(crate) fn is_valid(&self) -> bool {
         [Some(self.known), Some(self.now), self.stowed].iter().flatten().all(|mass| mass.mass_kg > 0.0)

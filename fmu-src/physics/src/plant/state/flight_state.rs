@@ -34,11 +34,6 @@ pub(crate) enum Mode {
 }
 
 impl FlightState {
-    /// State of a flight that waits for its inputs.
-    pub(crate) fn waiting(thrusters: Thrusters) -> Self {
-        Self { propagator: PropagatorState::default(), thrusters, mode: Mode::Waiting, prediction: None }
-    }
-
     /// Rejects decoded states that no flight of this spacecraft can produce.
     pub(crate) fn is_valid(&self, spacecraft: &Spacecraft) -> bool {
         self.propagator.is_valid(spacecraft)

@@ -115,7 +115,7 @@ impl PropagatorState {
     /// Forgets what was computed along the trajectory ahead of `time_s`.
     fn cut_along(&mut self, time_s: f64) {
         self.command_slews.cut(time_s);
-        self.air_and_field.cut(time_s);
+        self.air_and_field.span.cut(time_s);
         self.sources.cut(time_s);
     }
 }

@@ -20,7 +20,7 @@ const NEARER: f64 = 0.7;
 const MOST_CORRECTIONS: u8 = 4;
 
 /// The current dump by pulses, or the last one.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PulsedDump {
     /// Target of the total momentum, EME2000, in N m s.
     pub(crate) target_inertial_n_m_s: Vector3<f64>,
@@ -41,26 +41,6 @@ pub(crate) struct PulsedDump {
 }
 
 impl PulsedDump {
-    /// Toward a total momentum, EME2000, in N m s, from `time_s` on, the thrusters having done so much before.
-    pub(crate) fn new(
-        target_inertial_n_m_s: Vector3<f64>,
-        attitude_at_start: Quaternion,
-        before: ThrusterTotals,
-        time_s: f64,
-    ) -> Self {
-        Self {
-            target_inertial_n_m_s,
-            attitude_at_start,
-            before,
-            after: None,
-            next_s: time_s,
-            residual_s: [0.0; MOST_THRUSTERS],
-            corrections: 0,
-            is_last: false,
-            mean_torque_body_n_m: Vector3::zeros(),
-        }
-    }
-
     /// Whether a simulation can produce it.
     pub(crate) fn is_valid(&self) -> bool {
         let norm: f64 = self.attitude_at_start.0.iter().map(|x| x * x).sum();

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::attitude::GyrostatMotion;
 use crate::numerics::Span;
 use crate::numerics::quadrature::GAUSS_3;
-use crate::propulsion::{PropellantState, PulseCommand, due_s};
+use crate::propulsion::{PropellantState, due_s};
 use crate::spacecraft::{MassProperties, Spacecraft, Thrust, Thruster};
 
 use super::allocation::{Purpose, ThrusterAllocator, Unserved, UnservedDumps};
@@ -18,7 +18,7 @@ use super::at_once::AtOnce;
 use super::pulsed_dump::PulsedDump;
 use super::thruster_load::{ThrusterLoad, ThrusterTotals};
 use super::valves::Valves;
-use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSettings, ThrustCommand};
+use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSettings};
 
 /// State of thrusters and tanks: propellant, valves, the current dump, load and totals.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -53,28 +53,7 @@ impl Thrusters {
         self.valves.is_valid(&spacecraft.thrusters)
             && self.propellant.is_valid(spacecraft.tanks.len())
             && self.dump.as_ref().is_none_or(PulsedDump::is_valid)
-            && self.load.is_valid()
-    }
-
-    /// Commands these pulses for a step, by the law of [`crate::propulsion::PulseSchedule`]; true if there are any.
-    pub fn command_pulses(
-        &mut self,
-        settings: &ReactionControlSettings,
-        pulses: &[PulseCommand],
-        step: Span,
-    ) -> bool {
-        let is_dumping = self.is_dumping();
-        self.valves.command_pulses(&settings.thrusters, pulses, step, is_dumping)
-    }
-
-    /// Commands a delta-v from `time_s` on; true if that changes the present one.
-    pub fn command_thrust(
-        &mut self,
-        settings: &ReactionControlSettings,
-        command: &ThrustCommand,
-        time_s: f64,
-    ) -> bool {
-        self.valves.command_thrust(&Feed { settings, propellant: &self.propellant, time_s }, command)
+            && self.load.mass_kg > 0.0
     }
 
     /// Time of the next edge of a valve or of an empty tank, in s.
@@ -86,11 +65,6 @@ impl Thrusters {
             }
         }
         next_s
-    }
-
-    /// Opens and closes the valves whose time has come.
-    pub fn process_valve_events(&mut self, settings: &ReactionControlSettings, time_s: f64) {
-        self.valves.process_events(&Feed { settings, propellant: &self.propellant, time_s });
     }
 
     /// Adds impulse, velocity change and propellant up to `time_s`, the end of the motion's present segment.
@@ -187,8 +161,13 @@ impl Thrusters {
             }
             return Err(unserved);
         }
-        let before = self.totals_at(motion, time_s);
-        self.dump = Some(PulsedDump::new(target_inertial_n_m_s, motion.attitude_at(time_s), before, time_s));
+        self.dump = Some(PulsedDump {
+            target_inertial_n_m_s,
+            attitude_at_start: motion.attitude_at(time_s),
+            before: self.totals_at(motion, time_s),
+            next_s: time_s,
+            ..PulsedDump::default()
+        });
         Ok(())
     }
 

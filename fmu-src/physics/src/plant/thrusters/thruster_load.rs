@@ -53,11 +53,6 @@ impl ThrusterLoad {
         self.mass_flow.jet_damping.terms_kg_m2_s[1] -= toward;
     }
 
-    /// Whether a simulation can produce it.
-    pub(crate) fn is_valid(&self) -> bool {
-        self.mass_kg > 0.0
-    }
-
     /// Acceleration in m/s2 at `time_s`, body frame.
     pub(crate) fn acceleration_body_m_s2(&self, time_s: f64) -> Vector3<f64> {
         self.law.force_at_n(time_s) / (self.mass_kg - self.law.burnt_kg(time_s))

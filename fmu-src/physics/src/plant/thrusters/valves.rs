@@ -45,8 +45,8 @@ impl Valves {
             && self.burn.is_none_or(|it| it.stop_s > f64::NEG_INFINITY && has_members(it.set))
     }
 
-    /// Commands these pulses for a step; thrusters of the delta-v, and all during a dump, keep their own.
-    pub(super) fn command_pulses(
+    /// Commands these pulses for a step, by the law of [`PulseSchedule`]; true if there are any. Thrusters of the delta-v, and all during a dump, keep their own.
+    pub(crate) fn command_pulses(
         &mut self,
         thrusters: &[Thruster],
         pulses: &[PulseCommand],
@@ -62,7 +62,7 @@ impl Valves {
     }
 
     /// Commands a delta-v from the time of `feed` on; true if that changes the present one.
-    pub(super) fn command_thrust(&mut self, feed: &Feed<'_>, command: &ThrustCommand) -> bool {
+    pub(crate) fn command_thrust(&mut self, feed: &Feed<'_>, command: &ThrustCommand) -> bool {
         let time_s = feed.time_s;
         // A set without thrusters that are fed gives no delta-v.
         let requested = command.set.filter(|set| command.stop_s > due_s(time_s) && feed.feeds_any_of(*set));
@@ -103,7 +103,7 @@ impl Valves {
     }
 
     /// Opens and closes the valves whose time has come; those that no tank feeds shut.
-    pub(super) fn process_events(&mut self, feed: &Feed<'_>) {
+    pub(crate) fn process_events(&mut self, feed: &Feed<'_>) {
         let Feed { settings, time_s, .. } = *feed;
         let due_s = due_s(time_s);
         for (k, thruster) in settings.thrusters.iter().enumerate() {

@@ -153,41 +153,32 @@ impl DisturbanceModel {
         workspace: &mut Workspace<T>,
     ) -> Result<Loads<T>, Refusal> {
         let surface = self.planet.map(|surface| surface.constant());
-        workspace.materials.clear();
-        workspace.materials.extend(self.faces.materials.iter().map(|material| material.map(T::constant)));
-        self.evaluate_prepared(surface.as_ref(), geometry, recoil, workspace)
+        self.evaluate_on(surface.as_ref(), None, geometry, recoil, workspace)
     }
 
-    /// As [`DisturbanceModel::evaluate`] with these materials, in the order of [`DisturbanceModel::materials`], near a planet of
-    /// this surface; both may depend on the seed, and neither is checked.
+    /// As [`DisturbanceModel::evaluate`] with these materials in place of the model's, in the order of
+    /// [`DisturbanceModel::materials`], near a planet of this surface; both may depend on the seed, and neither is checked.
     ///
     /// # Errors
     /// Too few materials; see [`DisturbanceModel::evaluate`].
     pub fn evaluate_on<T: Scalar>(
         &self,
         surface: Option<&PlanetSurface<T>>,
-        materials: &[Material<T>],
+        materials: Option<&[Material<T>]>,
         geometry: &Geometry<'_, T>,
         recoil: Recoil<'_>,
         workspace: &mut Workspace<T>,
     ) -> Result<Loads<T>, Refusal> {
-        let (found, allowed) = (materials.len(), self.faces.materials.len());
+        workspace.materials.clear();
+        if let Some(materials) = materials {
+            workspace.materials.extend_from_slice(materials);
+        } else {
+            workspace.materials.extend(self.faces.materials.iter().map(|own| own.map(T::constant)));
+        }
+        let (found, allowed) = (workspace.materials.len(), self.faces.materials.len());
         if found != allowed {
             return Err(Refusal::new(format_args!("{found} materials"), allowed));
         }
-        workspace.materials.clear();
-        workspace.materials.extend_from_slice(materials);
-        self.evaluate_prepared(surface, geometry, recoil, workspace)
-    }
-
-    /// Evaluates with the workspace's materials.
-    fn evaluate_prepared<T: Scalar>(
-        &self,
-        surface: Option<&PlanetSurface<T>>,
-        geometry: &Geometry<'_, T>,
-        recoil: Recoil<'_>,
-        workspace: &mut Workspace<T>,
-    ) -> Result<Loads<T>, Refusal> {
         geometry.check(self.faces.panels.len())?;
         self.check_temperatures(recoil)?;
         workspace.prepare(self.faces.normals.len(), self.faces.faces.len());

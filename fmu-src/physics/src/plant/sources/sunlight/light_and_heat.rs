@@ -115,7 +115,7 @@ impl RadiationBuilder<'_, '_> {
             }));
         }
         if stores {
-            segment.end_k.copy_from_slice(self.solver.heat_rule.end_k());
+            segment.end_k.copy_from_slice(&self.solver.heat_rule.temperatures_k);
         }
         Ok(())
     }

@@ -18,7 +18,8 @@ pub(crate) struct HeatRule {
     points: Vec<Point>,
     from_w: Vec<f64>,
     to_w: Vec<f64>,
-    temperatures_k: Vec<f64>,
+    /// Temperatures at the end of the segment last integrated.
+    pub temperatures_k: Vec<f64>,
 }
 
 #[derive(Clone, Debug)]
@@ -74,10 +75,5 @@ impl HeatRule {
             }
             from = point.at;
         }
-    }
-
-    /// Temperatures at the end of the segment last integrated.
-    pub(crate) fn end_k(&self) -> &[f64] {
-        &self.temperatures_k
     }
 }
