@@ -8,10 +8,10 @@ use super::build::Timeline;
 use super::entry::{TimelineEntry, simulation_time_s};
 use crate::bodies::Body;
 use crate::guidance::constraints::keep_in::{KeepIn, within_zone};
-use crate::guidance::downlink::sun_direction::{DownlinkSunDirection, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
 use crate::guidance::geometry::moving::value;
 use crate::guidance::orbit_phase::attitudes::AttitudeCommand;
+use crate::guidance::orbit_phase::guided::Guided;
 use crate::guidance::pointing::command::{AimpointOption, PointingCommand};
 use crate::guidance::pointing::scan::{ScanTime, next_corner_s};
 use crate::guidance::scenario::{GuidanceHardware, PointingProgress, pointing_solution};
@@ -54,26 +54,26 @@ pub fn bodies_of(command: &PointingCommand) -> impl Iterator<Item = Body> + '_ {
 }
 
 impl TimelineLaw<'_> {
-    /// The attitude of a command at `time_s` of the simulation, the Sun of its downlinks standing at `chosen` or as requested; `None` where
-    /// it has no scenario of its own, or boresight, aimpoint or Sun no direction.
+    /// The attitude of a command at `time_s` of the simulation, the Sun of its downlinks in the direction that `guided` selects or requests;
+    /// `None` where it has no scenario of its own, or boresight, aimpoint or Sun no direction.
     pub fn attitude(
         &self,
         settings: &TimelineSettings,
         entry: &TimelineEntry,
         time_s: f64,
         ephemeris: &EphemerisAtTime,
-        (chosen, requested): (Option<DownlinkSunDirection>, SunRequest),
+        guided: &Guided,
     ) -> Option<AttitudeCommand> {
         let begin_s = simulation_time_s(entry.at_s, settings.clock_minus_time_s);
         let elapsed_s = time_s - begin_s;
         let scan = ScanTime { elapsed_s, tolerance_s: 4.0 * (spacing(entry.at_s) + spacing(time_s)) };
         let to_sun = ephemeris.to_sun();
         let keep_in = settings.keep_in(entry, value(&to_sun).norm());
-        let requested = requested.within(keep_in.as_ref());
+        let requested = guided.requested.within(keep_in.as_ref());
         let progress = PointingProgress {
             scan: entry.command.scan.frame.map(|_| scan),
             limb_elapsed_s: elapsed_s,
-            downlink_sun: chosen.filter(|_| entry.downlink.sun.is_none()),
+            downlink_sun: guided.sun_direction.filter(|_| entry.downlink.sun.is_none()),
             requested,
             burn: None,
         };

@@ -194,8 +194,8 @@ impl GuidedLaw<'_, '_> {
         for body in bodies_of(&entry.command) {
             ephemeris_at_time.place_body(body, &self.bodies.body(body, time_s));
         }
-        let sun = (self.guided.sun_direction, slot.sun_request(self.guided.requested));
-        law.attitude(settings, entry, time_s, &ephemeris_at_time, sun)
+        let guided = Guided { requested: slot.sun_request(self.guided.requested), ..*self.guided };
+        law.attitude(settings, entry, time_s, &ephemeris_at_time, &guided)
     }
 
     /// Attitude that the orbit phase's own guidance commands at `time_s`.
