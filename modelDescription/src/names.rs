@@ -182,6 +182,12 @@ pub fn similar<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a 
     ranked.into_iter().take(3).map(|(_, candidate)| candidate).collect()
 }
 
+/// Asks for the name closest to `name` that may have been meant; empty where none is near.
+pub fn hint<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> String {
+    let near = similar(name, names);
+    near.first().map(|near| format!(" (did you mean {near:?}?)")).unwrap_or_default()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::{
     BaseType, Description, DisplayUnit, EnumerationItem, RealAttributes, ScalarVariable, SimpleTypeKind,
-    VariableKind, names::similar,
+    VariableKind, names::hint,
 };
 
 /// A value of a variable; Enumerations are Integers at the interface.
@@ -182,9 +182,7 @@ pub fn read(description: &Description, variable: &ScalarVariable, text: &str) ->
             Some(item) => Ok(Value::Integer(item.value)),
             None => text.parse().map(Value::Integer).map_err(|_| {
                 let items = items(description, variable).iter().map(|item| item.name.as_str());
-                let near = similar(text, items);
-                let hint = near.first().map(|near| format!(" (did you mean {near:?}?)"));
-                Misfit { found: format!("{text:?}{}", hint.unwrap_or_default()), ..misfit() }
+                Misfit { found: format!("{text:?}{}", hint(text, items)), ..misfit() }
             }),
         },
     }

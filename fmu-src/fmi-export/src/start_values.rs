@@ -161,7 +161,7 @@ fn targets(
     {
         let models = readers.models();
         if !models.contains(&model.as_str()) {
-            let found = format!("the unknown model {model:?}{}", hint(model, models.iter().copied()));
+            let found = format!("the unknown model {model:?}{}", names::hint(model, models.iter().copied()));
             let allowed = format!(
                 "{}, which read this file; the name of a variable stands in quotes as a whole",
                 models.join(", ")
@@ -280,11 +280,6 @@ fn converted(
 }
 
 fn unknown<'n>(name: &str, models: &[&str], known: impl Iterator<Item = &'n str>) -> Misfit {
-    let found = format!("the unknown name {name:?}{}", hint(name, known));
+    let found = format!("the unknown name {name:?}{}", names::hint(name, known));
     Misfit::new(found, format!("a parameter or an input of {}", models.join(" or ")))
-}
-
-fn hint<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> String {
-    let near = names::similar(name, known);
-    near.first().map(|near| format!(" (did you mean {near:?}?)")).unwrap_or_default()
 }

@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::common::start_values::of_spacecraft;
 use inputs::Prepared;
-use outputs::Shown;
+use outputs::DisturbanceOutputs;
 use setup::Plan;
 pub use setup::{DisturbanceSetup, DisturbanceTorque};
 use state::Materials;
@@ -188,9 +188,9 @@ impl Differentiable for DisturbanceTorque {
         let materials = state.materials.seeded(context, values, along)?;
         let mut workspaces = Workspaces::<Dual64>::default();
         let found = prepared.evaluate(&parameters, &materials, &positions, &mut workspaces)?;
-        let shown = Shown { variables, found: &found, workspace: &workspaces.light };
+        let outputs = DisturbanceOutputs { variables, found: &found, workspace: &workspaces.light };
         for (unknown, product) in unknowns.iter().zip(products) {
-            *product = shown
+            *product = outputs
                 .value(*unknown)
                 .ok_or_else(|| Failure::new("directional derivatives are known of the outputs only"))?
                 .eps;
@@ -215,7 +215,8 @@ impl DeferredOutputs for DisturbanceTorque {
     ) -> Result<(), Failure> {
         let DisturbanceState { found, workspaces, .. } = state;
         let found = found.as_ref().ok_or_else(|| Failure::new("nothing was evaluated since the restore"))?;
-        Shown { variables: context.variables, found, workspace: &workspaces.light }.write(values, groups);
+        DisturbanceOutputs { variables: context.variables, found, workspace: &workspaces.light }
+            .write(values, groups);
         Ok(())
     }
 }

@@ -9,14 +9,14 @@ use physics::radiation::disturbance::Workspace;
 use super::variables::DisturbanceVariables;
 use crate::common::loads;
 
-/// What the outputs show.
-pub(super) struct Shown<'v, T: Scalar> {
+/// Source of the outputs: the loads found, and the model they come from.
+pub(super) struct DisturbanceOutputs<'v, T: Scalar> {
     pub variables: &'v DisturbanceVariables,
     pub found: &'v BySource<T>,
     pub workspace: &'v Workspace<T>,
 }
 
-impl Shown<'_, f64> {
+impl DisturbanceOutputs<'_, f64> {
     /// Writes the outputs of these groups.
     pub(super) fn write(&self, values: &mut Values, groups: OutputGroups) {
         let Self { variables, found, workspace } = self;
@@ -36,7 +36,7 @@ impl Shown<'_, f64> {
     }
 }
 
-impl<T: Scalar> Shown<'_, T> {
+impl<T: Scalar> DisturbanceOutputs<'_, T> {
     /// The value of an output.
     pub(super) fn value(&self, output: Real) -> Option<T> {
         let Self { variables, found, workspace } = self;

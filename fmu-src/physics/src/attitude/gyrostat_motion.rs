@@ -165,12 +165,8 @@ impl GyrostatMotion {
         let swinging = oscillators.iter().map(|it| it.carried_after(rotation.order, elapsed_s));
         let rest = swinging.fold(rest, |rest, carried| rest - carried);
         let rest = load.internal.iter().fold(rest, |rest, it| rest - it.momentum_after(elapsed_s));
-        let body = BodyMotion {
-            attitude,
-            rate_body_rad_s: load.inverse_inertia_after(&self.series.inverse_inertia, elapsed_s) * rest,
-            momentum_inertial_n_m_s,
-            delta_v_inertial_m_s,
-        };
+        let rate_body_rad_s = load.inverse_inertia_after(&self.series.inverse_inertia, elapsed_s) * rest;
+        let body = BodyMotion { attitude, rate_body_rad_s, momentum_inertial_n_m_s, delta_v_inertial_m_s };
         MotionAt { time_s, elapsed_s, body, attitudes }
     }
 

@@ -98,9 +98,8 @@ impl Inertia {
         let ([j1, j2, j3], [p12, p13, p23]) = (diagonal_kg_m2, products_kg_m2);
         let (principal, axes) = principal_axes(&Matrix3::new(j1, p12, p13, p12, j2, p23, p13, p23, j3));
         let (diagonal, products) = (diagonal_kg_m2, products_kg_m2);
-        let body =
-            Self::new(principal).map_err(|_| InertiaError::Tensor { diagonal, products, principal })?;
-        Ok(Self { axes: Some(axes), ..body })
+        let refused = |_| InertiaError::Tensor { diagonal, products, principal };
+        Ok(Self { axes: Some(axes), ..Self::new(principal).map_err(refused)? })
     }
 
     /// Whether decoded numbers can be some.

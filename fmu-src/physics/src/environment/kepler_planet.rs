@@ -48,10 +48,8 @@ impl KeplerPlanet {
     /// # Errors
     /// See [`Elements::check`].
     pub fn new(elements: Elements, epoch_s: f64) -> Result<Self, OrbitError> {
-        Ok(Self {
-            orbit_hci: TwoBodyOrbit::from_elements(elements, GM_SUN_M3_S2, epoch_s)?,
-            dcm_eme2000_from_hci: dcm_eme2000_from_ecliptic(),
-        })
+        let orbit_hci = TwoBodyOrbit::from_elements(elements, GM_SUN_M3_S2, epoch_s)?;
+        Ok(Self { orbit_hci, dcm_eme2000_from_hci: dcm_eme2000_from_ecliptic() })
     }
 
     /// The body that a spacecraft's file places by elements or by a state about the Sun.

@@ -88,10 +88,8 @@ impl AdaptiveInterval {
         loop {
             let (fit, next_longest_s) = match attempt(&self)? {
                 Attempt::Fitted { fit, unresolved, tolerance } => {
-                    match self.accept(unresolved, tolerance, terms) {
-                        Some(next_longest_s) => (fit, next_longest_s),
-                        None => continue,
-                    }
+                    let Some(next_longest_s) = self.accept(unresolved, tolerance, terms) else { continue };
+                    (fit, next_longest_s)
                 }
                 Attempt::Short(fit) => (fit, f64::INFINITY),
                 Attempt::Event(end_s) => {

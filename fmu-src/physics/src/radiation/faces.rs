@@ -57,14 +57,10 @@ impl Surface {
     ) -> [FaceEnvironment<T>; 2] {
         [0, 1].map(|side| {
             let face = faces.get(side);
-            FaceEnvironment {
-                emission: face.map_or_else(
-                    || Emission::constant(0.0).map(T::constant),
-                    |face| materials[face.material].thermal.emission,
-                ),
-                background_k: self.background_k,
-                bus: face.map_or(BusLink::NONE, |_| self.thermal.bus[side]),
-            }
+            let none = || Emission::constant(0.0).map(T::constant);
+            let emission = face.map_or_else(none, |face| materials[face.material].thermal.emission);
+            let bus = face.map_or(BusLink::NONE, |_| self.thermal.bus[side]);
+            FaceEnvironment { emission, background_k: self.background_k, bus }
         })
     }
 

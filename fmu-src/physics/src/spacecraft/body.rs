@@ -204,8 +204,8 @@ pub(super) fn body(part: &PartReader<'_>, description: &BodyDescription) -> Cust
 
 /// Its motion, if elements or a state say it; both at once, or a part of them, are reported.
 fn motion(part: &PartReader<'_>, description: &BodyDescription) -> Option<BodyMotion> {
-    let (position_m, velocity_m_s) = (description.position_m, description.velocity_m_s);
-    let orbit = match (&description.elements, position_m.value(), velocity_m_s.value()) {
+    let BodyDescription { elements, position_m, velocity_m_s, .. } = description;
+    let orbit = match (elements, position_m.value(), velocity_m_s.value()) {
         (Some(elements), None, None) => BodyOrbit::Elements(elements.value()),
         (None, Some(position_m), Some(velocity_m_s)) => {
             if position_m.cross(&velocity_m_s) == Vector3::zeros() {

@@ -42,6 +42,12 @@ pub struct Following<T = f64> {
     pub follows: bool,
 }
 
+impl<T> Following<T> {
+    fn map<U>(self, of: impl Fn(T) -> U) -> Following<U> {
+        Following { value: of(self.value), follows: self.follows }
+    }
+}
+
 impl<T: Scalar> Following<T> {
     /// The number where the absorptivity, or what stands for it, is this.
     fn at(self, absorptivity: T) -> T {
@@ -72,13 +78,11 @@ pub struct MaterialValues<T = f64> {
 impl<T> MaterialValues<T> {
     /// Applies `of` to every number.
     pub fn map<U>(self, of: impl Fn(T) -> U) -> MaterialValues<U> {
-        let following =
-            |it: Following<T>, of: &dyn Fn(T) -> U| Following { value: of(it.value), follows: it.follows };
         MaterialValues {
             specular: of(self.specular),
             diffuse: of(self.diffuse),
-            emissivity: following(self.emissivity, &of),
-            infrared_absorptivity: following(self.infrared_absorptivity, &of),
+            emissivity: self.emissivity.map(&of),
+            infrared_absorptivity: self.infrared_absorptivity.map(&of),
             gas_surface: self.gas_surface.map(of),
         }
     }

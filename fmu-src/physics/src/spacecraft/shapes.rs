@@ -13,6 +13,7 @@ use super::surface::Plate;
 use super::thermal::Thermal;
 use super::thermal_table::{ThermalDescription, thermal};
 use crate::enumeration::Enumerated;
+use crate::refusal::Refusal;
 use crate::toml::{
     Corners, Named, Place, Point, Positive, Rings, TurnEither, UnitVector, Written, hint, tables,
 };
@@ -260,17 +261,13 @@ impl Shape<'_> {
             let name = copy_name(&self.name, index, motions.len());
             for facet in &self.facets {
                 let in_body = facet.vertices_m.iter().map(|v| self.turn * v + self.shift_m).collect();
-                match Polygon::new(in_body) {
-                    Ok(outline) => {
-                        let material = material(&facet.name);
-                        plates.push(self.plate(&name, facet, motion.moved_outline(&outline), material));
-                    }
-                    Err(error) => {
-                        let found = format!("lengths that make no outline of `{}` ({error})", facet.name);
-                        part.report(found, "lengths within a factor of 1e8 of one another");
-                        return Vec::new();
-                    }
-                }
+                let report = |error: Refusal| {
+                    let found = format!("lengths that make no outline of `{}` ({error})", facet.name);
+                    part.report(found, "lengths within a factor of 1e8 of one another");
+                };
+                let Ok(outline) = Polygon::new(in_body).map_err(report) else { return Vec::new() };
+                let outline = motion.moved_outline(&outline);
+                plates.push(self.plate(&name, facet, outline, material(&facet.name)));
             }
             self.divide_heat(&mut plates[index * self.facets.len()..]);
         }

@@ -368,7 +368,7 @@ fn bad_outlines_and_heat_are_named() {
     let small = with("polygon_m = [[-0.5, -1, -0.5], [0.5, -1, -0.5], [0.5, -1, 0.5], [-0.5, -1, 0.5]]");
     assert_eq!((small.key.as_str(), small.found.as_str()), ("plates[1].area_m2", "2"));
     let one_sided = with("thermal.conduction.conductance_w_m2_k = 3.0");
-    assert_eq!(one_sided.key, "plates[1].faces.thermal.conduction");
+    assert_eq!(one_sided.key, "plates[1].thermal.conduction");
     let falling = problem("diffuse = 0.5", "diffuse = 0.5\nemissivity = 0.8\nemissivity_per_k = -1e-3");
     assert_eq!(falling.key, "optics.white.emissivity_per_k");
     let sum = problem("diffuse = 0.5", "diffuse = 0.5\nabsorptivity = 0.4");

@@ -216,10 +216,8 @@ impl<'de> Deserializer<'de> for Reader<'_> {
             Some(DeValue::Table(_)) => self.deserialize_map(visitor),
             Some(DeValue::Boolean(_)) => self.deserialize_bool(visitor),
             Some(DeValue::Datetime(_)) | None => {
-                self.given(
-                    |_| None::<()>,
-                    "a number, a string (dates stand in quotes), true or false, a list",
-                );
+                let allowed = "a number, a string (dates stand in quotes), true or false, a list";
+                self.given(|_| None::<()>, allowed);
                 visitor.visit_bool(false)
             }
         }

@@ -21,6 +21,24 @@ fn or_none(value: f64) -> f64 {
     if value == 0.0 { f64::INFINITY } else { value }
 }
 
+/// Refuses momentum that only ideal wheels hold.
+fn check_momentum(read: Read<'_>, configuration: &Configuration) -> Result<(), Failure> {
+    if configuration.momentum.convention == Convention::BodyIntegral {
+        return Err(Failure::new(
+            "momentum.convention: found bodyIntegral (2), allowed with attitude.source controlled (3) and free (4): inertial \
+             (1), as the wheels hold physical momentum",
+        ));
+    }
+    let start_momentum = read.values.vector(read.variables.start.momentum);
+    if start_momentum != [0.0; 3] {
+        return Err(Failure::new(format!(
+            "start.momentum: found {start_momentum:?} N.m.s, allowed with attitude.source controlled (3) and free (4): 0, as \
+             the momentum follows from start.rate and wheel[k].startMomentum"
+        )));
+    }
+    Ok(())
+}
+
 /// Settings of dynamics and control by parameters.
 pub(super) fn dynamic(
     read: Read<'_>,
@@ -29,19 +47,7 @@ pub(super) fn dynamic(
 ) -> Result<DynamicsSettings, Failure> {
     let v = read.variables;
     let real = |handle: Real| read.real(handle);
-    if configuration.momentum.convention == Convention::BodyIntegral {
-        return Err(Failure::new(
-            "momentum.convention: found bodyIntegral (2), allowed with attitude.source controlled (3) and free (4): inertial \
-             (1), as the wheels hold physical momentum",
-        ));
-    }
-    let start_momentum = read.values.vector(v.start.momentum);
-    if start_momentum != [0.0; 3] {
-        return Err(Failure::new(format!(
-            "start.momentum: found {start_momentum:?} N.m.s, allowed with attitude.source controlled (3) and free (4): 0, as \
-             the momentum follows from start.rate and wheel[k].startMomentum"
-        )));
-    }
+    check_momentum(read, configuration)?;
     wheels::check(read)?;
     let rotors = rotors(read)?;
     let shift = read.values.vector(v.spacecraft.center_of_mass_shift);

@@ -177,13 +177,10 @@ impl ControllerState {
                 let relative = reference.attitude.inverse().then(&estimate.attitude);
                 let [x, y, z, _] = relative.quaternion(None);
                 let requested = relative.to_body(&reference.rate_body_rad_s);
-                let error = rate - requested;
-                Tracking {
-                    angle_rad: Vector3::new(x, y, z) * 2.0,
-                    rate_rad_s: error,
-                    acceleration_rad_s2: relative.to_body(&reference.acceleration_body_rad_s2)
-                        - error.cross(&requested),
-                }
+                let rate_rad_s = rate - requested;
+                let acceleration_rad_s2 =
+                    relative.to_body(&reference.acceleration_body_rad_s2) - rate_rad_s.cross(&requested);
+                Tracking { angle_rad: Vector3::new(x, y, z) * 2.0, rate_rad_s, acceleration_rad_s2 }
             }
             ControlTarget::RateOnly { .. } => {
                 let error = rate - reference.rate_body_rad_s;

@@ -56,9 +56,6 @@ pub(super) fn air_of(input: &Input<Portable>) -> Air {
     ];
     let number_1_m3: f64 = parts.into_iter().map(f64::from).sum();
     let density_kg_m3 = f64::from(found.total_mass);
-    Air {
-        density_kg_m3,
-        temperature_k: f64::from(found.temperature),
-        molar_mass_kg_mol: density_kg_m3 / number_1_m3 * (ATOMIC_MASS_KG_MOL / ATOMIC_MASS_KG),
-    }
+    let molar_mass_kg_mol = density_kg_m3 / number_1_m3 * (ATOMIC_MASS_KG_MOL / ATOMIC_MASS_KG);
+    Air { density_kg_m3, temperature_k: f64::from(found.temperature), molar_mass_kg_mol }
 }

@@ -170,7 +170,7 @@ impl Shadow {
         })
     }
 
-    /// The share of sunlight that arrives, and the gaps of [`Shadow::fraction_and_gaps`].
+    /// The fraction of sunlight that arrives, and the gaps of [`Shadow::fraction_and_gaps`].
     fn evaluate<T: Scalar>(
         &self,
         radii_m: [T; 2],

@@ -81,11 +81,8 @@ impl Deviation {
             }
             last_m = Some(change_m);
         }
-        Err(IntegrationError::NotConverged {
-            from_s: start_s,
-            to_s: end_s,
-            change: last_m.unwrap_or(f64::INFINITY),
-        })
+        let change = last_m.unwrap_or(f64::INFINITY);
+        Err(IntegrationError::NotConverged { from_s: start_s, to_s: end_s, change })
     }
 
     /// Position and velocity off the reference orbit at `at_s`; before the interval its start value, after it linear motion.

@@ -115,11 +115,9 @@ impl TwoBodyOrbit {
         let speed_m_s = length_m * self.mean_motion_rad_s / (gap + e * anomaly.versed);
         let along_m = length_m * (gap - anomaly.versed);
         let across_m = length_m * minor * anomaly.sin;
-        CartesianState {
-            position_m: self.to_periapsis * along_m + self.to_latus * across_m,
-            velocity_m_s: (self.to_latus * (minor * anomaly.cos) - self.to_periapsis * anomaly.sin)
-                * speed_m_s,
-        }
+        let toward = self.to_latus * (minor * anomaly.cos) - self.to_periapsis * anomaly.sin;
+        let position_m = self.to_periapsis * along_m + self.to_latus * across_m;
+        CartesianState { position_m, velocity_m_s: toward * speed_m_s }
     }
 
     /// The elements the orbit was made from.

@@ -51,7 +51,7 @@ impl CommandTimers {
     }
 }
 
-/// What is commanded now with the time since when, in s: that of the last sample where it is the same.
+/// The present command with the time since when, in s: that of the last sample where it is the same.
 fn since<T: PartialEq>(last: Option<(T, f64)>, now: Option<T>, time_s: f64) -> Option<(T, f64)> {
     let since_s = last.filter(|(before, _)| now.as_ref() == Some(before)).map(|(_, since_s)| since_s);
     now.map(|now| (now, since_s.unwrap_or(time_s)))

@@ -116,10 +116,8 @@ impl<'a, T: Scalar> Geometry<'a, T> {
 
     /// Sunlight as far as the planet lets it through.
     pub(super) fn beam(&self) -> Beam<T> {
-        Beam {
-            source_body: self.sun_direction_body,
-            pressure_pa: self.sun_flux_w_m2 * self.lit_fraction * (1.0 / SPEED_OF_LIGHT_M_S),
-        }
+        let pressure_pa = self.sun_flux_w_m2 * self.lit_fraction * (1.0 / SPEED_OF_LIGHT_M_S);
+        Beam { source_body: self.sun_direction_body, pressure_pa }
     }
 
     pub(super) fn check(&self, panels: usize) -> Result<(), Refusal> {

@@ -156,7 +156,7 @@ impl DisturbanceModel {
         self.evaluate_on(surface.as_ref(), None, geometry, recoil, workspace)
     }
 
-    /// As [`DisturbanceModel::evaluate`] with these materials in place of the model's, in the order of
+    /// As [`DisturbanceModel::evaluate`] with these materials instead of the model's, in the order of
     /// [`DisturbanceModel::materials`], near a planet of this surface; both may depend on the seed, and neither is checked.
     ///
     /// # Errors

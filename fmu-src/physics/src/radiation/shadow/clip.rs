@@ -188,7 +188,7 @@ fn clip<T: Scalar>(piece: &[Vector2<T>], a: &Vector2<T>, b: &Vector2<T>, kept: &
     keep_positive(piece, side, |from, to, share| from + (to - from) * share, kept);
 }
 
-/// Appends to `kept` the part of a convex outline where `side` is not negative; `between` gives a point of an edge by its share of the
+/// Appends to `kept` the part of a convex outline where `side` is not negative; `between` gives a point of an edge by its fraction of the
 /// way from the first corner to the second.
 #[inline]
 pub(super) fn keep_positive<P: Copy, T: Scalar>(
