@@ -63,20 +63,16 @@ impl DumpPolicy {
     /// The same with the components that are set anew named.
     pub fn reinitialised(&self, momentum_body_n_m_s: &Vector3<f64>, components: &[bool; 3]) -> Vector3<f64> {
         Vector3::from_fn(|axis, _| {
-            let now_n_m_s = momentum_body_n_m_s[axis];
-            if components[axis] { self.reinitialised_component(axis, now_n_m_s) } else { now_n_m_s }
+            let (now_n_m_s, bias_n_m_s) = (momentum_body_n_m_s[axis], self.bias_body_n_m_s[axis]);
+            let from_bias_n_m_s = match self.reinitialise {
+                _ if !components[axis] => return now_n_m_s,
+                Reinitialise::Opposite { fraction } => {
+                    -(now_n_m_s - bias_n_m_s).signum() * fraction * self.threshold_body_n_m_s[axis]
+                }
+                Reinitialise::Target { momentum_body_n_m_s } => momentum_body_n_m_s[axis],
+            };
+            bias_n_m_s + from_bias_n_m_s
         })
-    }
-
-    fn reinitialised_component(&self, axis: usize, before_n_m_s: f64) -> f64 {
-        let bias_n_m_s = self.bias_body_n_m_s[axis];
-        let from_bias_n_m_s = match self.reinitialise {
-            Reinitialise::Opposite { fraction } => {
-                -(before_n_m_s - bias_n_m_s).signum() * fraction * self.threshold_body_n_m_s[axis]
-            }
-            Reinitialise::Target { momentum_body_n_m_s } => momentum_body_n_m_s[axis],
-        };
-        bias_n_m_s + from_bias_n_m_s
     }
 }
 

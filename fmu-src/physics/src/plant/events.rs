@@ -72,7 +72,7 @@ impl LastEvents {
         self.0[EventKind::Schedule as usize]
     }
 
-    /// Takes the next event of a schedule, if there is one.
+    /// Returns the next event of a schedule, if there is one, which is over then.
     pub(crate) fn pop_scheduled(&mut self, events: &ThrusterEventSettings) -> Option<TimelineEvent> {
         let last = &mut self.0[EventKind::Schedule as usize];
         let event = events.next(*last).copied()?;

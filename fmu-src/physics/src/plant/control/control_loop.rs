@@ -28,7 +28,7 @@ pub(crate) struct ControlLoop {
     /// Motors.
     pub wheels: WheelControl,
     /// Last command of guidance.
-    guidance: Option<Command>,
+    pub guidance: Option<Command>,
     /// Downlink as the last sample of guidance reported it.
     pub downlink: DownlinkStatus,
     /// Whether a substitute stood in for a target of its law.
@@ -85,11 +85,6 @@ impl ControlLoop {
     /// The command of guidance in force at `time_s`; `None` where it is sampled anew there.
     pub(crate) fn guidance_at(&self, time_s: f64) -> Option<Command> {
         self.guidance.filter(|_| time_s < self.next_guidance_s - 4.0 * spacing(time_s))
-    }
-
-    /// Whether guidance was never sampled.
-    pub(crate) fn is_unguided(&self) -> bool {
-        self.guidance.is_none()
     }
 
     /// Takes a sample of guidance at `time_s` as the command; without guidance the estimated attitude is held.

@@ -303,7 +303,8 @@ impl Dynamic<'_> {
     fn select_sun_direction(&mut self) -> Result<(), PlantError> {
         let end = self.end();
         let momentum = StartMomentum::Inertial(end.body.momentum_inertial_n_m_s);
-        let (time_s, totals, is_first) = (end.time_s, dynamic_totals(&end), self.state.control.is_unguided());
+        let (time_s, totals, is_first) =
+            (end.time_s, dynamic_totals(&end), self.state.control.guidance.is_none());
         self.flight.select_sun_direction(&SunSelectionStart { time_s, totals, momentum, is_first })
     }
 

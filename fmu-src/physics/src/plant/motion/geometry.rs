@@ -90,7 +90,7 @@ pub fn sun_and_earth(
         EphemerisSource::Given { sun, earth } => return (*sun, *earth),
         EphemerisSource::Simulated(carried) => {
             let state =
-                |body: Body| carried.state_carried_on(body.into(), center, epoch_s).unwrap_or_else(nowhere);
+                |body: Body| carried.state_carried_on(body.into(), center, epoch_s).unwrap_or_else(unplaced);
             return (state(Body::Sun), state(Body::Earth));
         }
         EphemerisSource::Vsop87 => None,
@@ -99,8 +99,8 @@ pub fn sun_and_earth(
     BodiesFromCenter { center, ellipse, custom: None }.sun_and_earth(ephemeris, epoch_s)
 }
 
-/// A body that no ephemeris places.
-fn nowhere() -> CartesianState {
+/// State of a body that no ephemeris places: no number.
+fn unplaced() -> CartesianState {
     fixed(Vector3::repeat(f64::NAN))
 }
 
@@ -171,7 +171,7 @@ impl BodyEphemeris for SimulationEphemeris<'_> {
                 from_center - sun
             }
             EphemerisSource::Simulated(carried) => {
-                carried.state_carried_on(body.into(), Body::Sun, epoch_s).unwrap_or_else(nowhere)
+                carried.state_carried_on(body.into(), Body::Sun, epoch_s).unwrap_or_else(unplaced)
             }
             EphemerisSource::Kepler(planet) if body == Body::Custom => planet.state(epoch_s),
             _ => self.ephemeris.state(body, epoch_s),

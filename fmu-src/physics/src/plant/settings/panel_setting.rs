@@ -50,11 +50,6 @@ impl Ramp {
         }
         (time_s - self.since_s) * self.rate_rad_s + self.angle_rad
     }
-
-    /// Cosine and sine of an angle that stays.
-    fn held_cos_sin(&self) -> Option<[f64; 2]> {
-        (self.rate_rad_s == 0.0).then_some(self.cos_sin)
-    }
 }
 
 /// Turn of a panel about its axis off the angle that the Sun gives.
@@ -194,7 +189,10 @@ impl PanelSetting {
         let (offset_rad, cos_sin, tilt) = match self {
             Self::Disabled => return None,
             Self::Angle(angle) => return Some(Commanded::Angle(angle.at_rad(sun.time_s))),
-            Self::SunOffset { offset, tilt } => (offset.at_rad(sun.time_s), offset.held_cos_sin(), tilt),
+            Self::SunOffset { offset, tilt } => {
+                let held = (offset.rate_rad_s == 0.0).then_some(offset.cos_sin);
+                (offset.at_rad(sun.time_s), held, tilt)
+            }
             Self::Timeline { steps, clock_minus_time_s, before_rad, tilt } => {
                 let begun = begun_steps(steps, *clock_minus_time_s, sun.time_s.value());
                 let step = begun.checked_sub(1).and_then(|last| steps.get(last));

@@ -180,8 +180,8 @@ impl<T: Scalar> BySource<T> {
         )?
         .with_sun_radius(parameters.sun_radius_m);
         geometry.solar_scale = parameters.solar_scale;
+        let pole = Vector3::from(positions.pole);
         if let Some(planet) = &mut geometry.planet {
-            let pole = Vector3::from(positions.pole);
             planet.pole_body = if is_zero(&pole) { -Vector3::z() } else { pole };
         }
         let planet = shadow.filter(|_| active.has(Effect::Albedo)).map(|_| &parameters.planet);
@@ -189,7 +189,6 @@ impl<T: Scalar> BySource<T> {
         let recoil = if is_warm { Recoil::Balance } else { Recoil::Ignored };
         let light = model.evaluate_on(planet, Some(materials), &geometry, recoil, workspace)?;
         let mut loads = light.of_active(active);
-        let pole = Vector3::from(positions.pole);
         let [density_kg_m3, temperature_k, molar_mass_kg_mol] = positions.air;
         let velocity_body_m_s = Vector3::from(positions.air_velocity_m_s);
         let flow = AirFlow { density_kg_m3, temperature_k, molar_mass_kg_mol, velocity_body_m_s };

@@ -47,7 +47,8 @@ impl Source for Option<RadiationSolver> {
         let Instant { time_s, sun_distance_m, .. } = *at.instant;
         workspace.face_temperatures_k.clear();
         if let Some(segment) = state.as_ref().filter(|_| at.flow.is_some()) {
-            segment.write_wall_temperatures(time_s, &mut workspace.face_temperatures_k);
+            let temperatures_k = segment.temperatures_k.iter().map(|series| series.value(time_s)[0]);
+            workspace.face_temperatures_k.extend(temperatures_k);
         }
         let mut is_shadowed = false;
         if let (Some(segment), Some(solver)) = (state, &*self)

@@ -96,11 +96,6 @@ impl RadiationSegment {
         }
     }
 
-    /// Appends the temperatures in K of the faces at `time_s`, where they are known.
-    pub(crate) fn write_wall_temperatures(&self, time_s: f64, temperatures_k: &mut Vec<f64>) {
-        temperatures_k.extend(self.temperatures_k.iter().map(|series| series.value(time_s)[0]));
-    }
-
     /// Ends at `time_s`: the flight changes there.
     pub(crate) fn cut(&mut self, time_s: f64) {
         if time_s > self.span.start_s && time_s < self.span.end_s {
