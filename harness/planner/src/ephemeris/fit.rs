@@ -6,13 +6,13 @@ use physics::{
     environment::{
         CartesianState,
         onboard::{
-            COARSE_SAMPLES, CoarseElements, FitError, FitPlan, FittedBody, GREATEST_DEGREE, OnboardTarget,
-            SegmentTable,
+            CoarseElements, FitError, FitPlan, FittedBody, GREATEST_DEGREE, OnboardTarget, SegmentTable,
         },
     },
     numerics::{Span, chebyshev::Segment},
 };
 
+use super::coarse::{COARSE_SAMPLES, coarse_elements};
 use super::source::Source;
 use crate::Failure;
 
@@ -125,7 +125,7 @@ pub fn coarse(
                 samples[*node] = *state;
             }
         }
-        let motion = CoarseElements::from_states(about, span, &samples).ok_or_else(|| {
+        let motion = coarse_elements(about, span, &samples).ok_or_else(|| {
             format!("--coarse: {target} is on no ellipse about {}", OnboardTarget::from(about))
         })?;
         let mut error = FitError::default();

@@ -1,5 +1,6 @@
 //! Ephemerides that spacecraft carry: Chebyshev fits and coarse elements of what a source places, SPICE kernels as one.
 
+mod coarse;
 mod fit;
 mod source;
 #[cfg(feature = "spk")]

@@ -19,9 +19,6 @@ use crate::numerics::chebyshev::Segment;
 /// Coefficients of an element: fourth degree.
 pub const COARSE_TERMS: usize = 5;
 
-/// States that a fit is made of.
-pub const COARSE_SAMPLES: usize = 256;
-
 /// Semi-major axis in m, eccentricity, inclination, ascending node, argument of periapsis and mean anomaly in rad.
 pub type KeplerianElements = SVector<f64, 6>;
 
@@ -49,29 +46,6 @@ impl CoarseElements {
         Self { center, span, elements: Segment::from_coefficients(start_s, end_s, lowest) }
     }
 
-    /// Fits states about the centre at the nodes of a span, from the last to the first; `None` where one is no ellipse.
-    pub fn from_states(center: Body, span: Span, states: &[CartesianState; COARSE_SAMPLES]) -> Option<Self> {
-        let nodes_s = Segment::<6, COARSE_SAMPLES>::nodes(span.start_s, span.end_s);
-        let mut elements = [KeplerianElements::zeros(); COARSE_SAMPLES];
-        let mut later: Option<(f64, KeplerianElements)> = None;
-        for ((state, at_s), slot) in states.iter().zip(nodes_s).zip(&mut elements) {
-            let mut found = classical(state, center)?;
-            if let Some((later_s, later)) = later {
-                // The mean anomaly continues by the mean motion, the other angles hardly at all.
-                let a_m = 0.5 * (found[0] + later[0]);
-                let motion_rad_s = (center.data().gm_m3_s2 / (a_m * a_m * a_m)).sqrt();
-                for (angle, expected) in
-                    [(3, later[3]), (4, later[4]), (5, later[5] - motion_rad_s * (later_s - at_s))]
-                {
-                    found[angle] -= ((found[angle] - expected) / TAU).round() * TAU;
-                }
-            }
-            later = Some((at_s, found));
-            *slot = found;
-        }
-        Some(Self::from_elements(center, span, &elements))
-    }
-
     /// Position and velocity about the centre; `None` outside the span and where the polynomials give no ellipse.
     pub fn state(&self, epoch_s: f64) -> Option<CartesianState> {
         if !self.span.contains(epoch_s) {
@@ -93,23 +67,4 @@ impl CoarseElements {
         };
         elements.state(self.center.data().gm_m3_s2).ok()
     }
-}
-
-/// The elements of an ellipse; `None` for another orbit.
-fn classical(state: &CartesianState, center: Body) -> Option<KeplerianElements> {
-    let elements = Elements::from_state(state, center.data().gm_m3_s2).ok()?;
-    let e = elements.eccentricity;
-    if e >= 1.0 {
-        return None;
-    }
-    let (sin, cos) = math::sin_cos(elements.true_anomaly_rad);
-    let eccentric_rad = math::atan2(((1.0 - e) * (1.0 + e)).sqrt() * sin, cos + e);
-    Some(KeplerianElements::from([
-        elements.semi_major_axis_m,
-        e,
-        elements.inclination_rad,
-        elements.ascending_node_rad,
-        elements.periapsis_argument_rad,
-        eccentric_rad - e * math::sin(eccentric_rad),
-    ]))
 }

@@ -16,7 +16,7 @@ mod text;
 #[cfg(test)]
 mod tests;
 
-pub use coarse::{COARSE_SAMPLES, COARSE_TERMS, CoarseElements, KeplerianElements};
+pub use coarse::{COARSE_TERMS, CoarseElements, KeplerianElements};
 #[cfg(feature = "schema")]
 pub use description::schema;
 pub use ephemeris::{FittedBody, OnboardEphemeris};
