@@ -290,15 +290,16 @@ impl Flight {
         let (mut in_flight, _) = self.in_flight(given)?;
         in_flight.flight().context.models.begin_work(given.work_limit);
         in_flight.apply_requests(step)?;
-        for time_s in predicted.into_iter().flat_map(|it| it.times_s(step)) {
+        for time_s in predicted.times_s(step) {
             self.in_flight(given)?.0.advance(time_s)?;
             self.predict(given, time_s)?;
         }
         self.in_flight(given)?.0.advance(step.end_s)
     }
 
-    fn prediction_settings(&self) -> Option<PredictionSettings> {
-        self.configuration()?.encounter.filter(|_| !self.is_waiting()).map(|it| it.prediction)
+    fn prediction_settings(&self) -> PredictionSettings {
+        let encounter = self.configuration().and_then(|it| it.encounter);
+        encounter.filter(|_| !self.is_waiting()).map_or(PredictionSettings::NEVER, |it| it.prediction)
     }
 
     /// Predicts the encounter at `time_s`, where the flight has come, in the attitude that timeline and inputs command.
@@ -324,7 +325,7 @@ impl Flight {
             dynamic.flight.context.models.begin_work(given.work_limit);
             events::apply_due(&mut dynamic)?;
         }
-        if self.prediction_settings().is_some_and(|it| it.is_due(time_s)) {
+        if self.prediction_settings().is_due(time_s) {
             self.predict(given, time_s)?;
         }
         Ok(undo)

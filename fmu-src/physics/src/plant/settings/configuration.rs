@@ -72,6 +72,9 @@ pub struct PredictionSettings {
 }
 
 impl PredictionSettings {
+    /// Settings without predictions: numbers, as the optimiser computes with those of an absent value.
+    pub(crate) const NEVER: Self = Self { refresh_s: 0.0, horizon_s: 0.0, last_epoch_s: 0.0, lead_s: 0.0 };
+
     /// Times of a step, before its end, at which a prediction is due, in s.
     pub(crate) fn times_s(self, step: Span) -> impl Iterator<Item = f64> {
         let is_on = self.refresh_s > 0.0;
