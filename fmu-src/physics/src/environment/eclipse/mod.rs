@@ -21,10 +21,12 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::constants::RADIUS_SUN_M;
 use crate::enumeration::enumeration;
-use crate::math;
-use crate::numerics::scalar::{Scalar, asin, vector_value};
+use crate::{
+    constants::RADIUS_SUN_M,
+    math,
+    numerics::scalar::{Scalar, asin, vector_value},
+};
 
 pub use discs::Discs;
 
@@ -170,27 +172,6 @@ impl Shadow {
         })
     }
 
-    /// The fraction of sunlight that arrives, and the gaps of [`Shadow::fraction_and_gaps`].
-    fn evaluate<T: Scalar>(
-        &self,
-        radii_m: [T; 2],
-        spacecraft_m: &Vector3<T>,
-        sun_m: &Vector3<T>,
-    ) -> Result<(T, [f64; 2]), EclipseError> {
-        let discs = self.discs(radii_m, spacecraft_m, sun_m)?;
-        let [outer_rad, inner_rad] = [discs.outer_gap_rad(), discs.inner_gap_rad()].map(T::value);
-        let all_or_nothing =
-            |gap_rad: f64| (T::constant(f64::from(gap_rad >= 0.0)), [gap_rad, f64::INFINITY]);
-        Ok(match self.model {
-            ShadowModel::DiscOverlap => (discs.lit_fraction(), [outer_rad, inner_rad]),
-            ShadowModel::AllOrNothingCone => all_or_nothing(outer_rad),
-            ShadowModel::AllOrNothingCylinder => {
-                all_or_nothing(self.cylinder_gap_rad(&vector_value(spacecraft_m), &vector_value(sun_m)))
-            }
-            ShadowModel::Off => (T::constant(1.0), [f64::INFINITY; 2]),
-        })
-    }
-
     /// The share of sunlight that arrives, 0 to 1; positions relative to the planet's centre, m, and the radii of planet and Sun,
     /// m, as numbers that may depend on the seed; the radii's values are the shadow's own.
     ///
@@ -205,20 +186,41 @@ impl Shadow {
         if self.model == ShadowModel::Off {
             return Ok(T::constant(1.0));
         }
-        self.evaluate(radii_m, spacecraft_m, sun_m).map(|(fraction, _)| fraction)
+        let discs = self.discs(radii_m, spacecraft_m, sun_m)?;
+        let all_or_nothing = |gap_rad: f64| T::constant(f64::from(gap_rad >= 0.0));
+        Ok(match self.model {
+            ShadowModel::DiscOverlap => discs.lit_fraction(),
+            ShadowModel::AllOrNothingCone => all_or_nothing(discs.outer_gap_rad().value()),
+            ShadowModel::AllOrNothingCylinder => {
+                all_or_nothing(self.cylinder_gap_rad(&vector_value(spacecraft_m), &vector_value(sun_m)))
+            }
+            ShadowModel::Off => T::constant(1.0),
+        })
     }
 
     /// The share of sunlight that arrives, and the functions of the geometry whose roots are this model's edges, in rad, positive
     /// in full light: outer edge of the shadow, and inner edge where there is a penumbra (infinity where there is none). NaN where
     /// there is no such geometry.
     pub fn fraction_and_gaps(&self, spacecraft_m: &Vector3<f64>, sun_m: &Vector3<f64>) -> (f64, [f64; 2]) {
+        let none = f64::INFINITY;
         let undefined = (f64::NAN, [f64::NAN; 2]);
         if self.model == ShadowModel::Off {
-            let is_outside = spacecraft_m.norm() >= self.planet_radius_m;
-            return if is_outside { (1.0, [f64::INFINITY; 2]) } else { undefined };
+            let outside = spacecraft_m.norm() >= self.planet_radius_m;
+            return if outside { (1.0, [none; 2]) } else { undefined };
         }
         let radii_m = [self.planet_radius_m, self.sun_radius_m];
-        self.evaluate(radii_m, spacecraft_m, sun_m).unwrap_or(undefined)
+        let Ok(discs) = self.discs(radii_m, spacecraft_m, sun_m) else { return undefined };
+        let all_or_nothing = |gap_rad: f64| (f64::from(gap_rad >= 0.0), [gap_rad, none]);
+        match self.model {
+            ShadowModel::DiscOverlap => {
+                let outer_rad = discs.outer_gap_rad();
+                let fraction = if outer_rad > 0.0 { 1.0 } else { discs.lit_fraction() };
+                (fraction, [outer_rad, discs.inner_gap_rad()])
+            }
+            ShadowModel::AllOrNothingCone => all_or_nothing(discs.outer_gap_rad()),
+            ShadowModel::AllOrNothingCylinder => all_or_nothing(self.cylinder_gap_rad(spacecraft_m, sun_m)),
+            ShadowModel::Off => (1.0, [none; 2]),
+        }
     }
 
     /// Upper bound of the gaps' rates, in rad/s, by least distance in m and greatest speed in m/s relative to planet and Sun; infinite at

@@ -93,37 +93,71 @@ impl<T: Scalar> Azimuth<T> {
     }
 }
 
-/// Integrals of 1, cos, cos^2, sin^2, cos^3 and cos sin^2 of the azimuth over an arc about azimuth 0, where odd powers of the sine
-/// vanish.
+/// Integrals of cos^p sin^q of the azimuth over an arc about azimuth 0, where odd powers of the sine vanish.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct EvenMoments<T>(pub [T; 6]);
+pub(super) struct EvenMoments<T> {
+    pub angle: T,
+    pub c1: T,
+    pub c2: T,
+    pub s2: T,
+    pub c3: T,
+    pub c1s2: T,
+}
 
 impl<T: Scalar> EvenMoments<T> {
     /// Over an arc about azimuth 0.
     #[inline]
     pub(super) fn over(arc: Arc<T>) -> Self {
         let zero = T::constant(0.0);
-        Self(match arc {
-            Arc::Empty => [zero; 6],
+        match arc {
+            Arc::Empty => Self { angle: zero, c1: zero, c2: zero, s2: zero, c3: zero, c1s2: zero },
             Arc::Full => {
                 let pi = T::constant(PI);
-                [pi * 2.0, zero, pi, pi, zero, zero]
+                Self { angle: pi * 2.0, c1: zero, c2: pi, s2: pi, c3: zero, c1s2: zero }
             }
             Arc::Part { half, cos_half, sin_half } => {
                 let product = sin_half * cos_half;
                 let c1 = sin_half * 2.0;
                 let c1s2 = c1 * (sin_half * sin_half) * (1.0 / 3.0);
-                [half * 2.0, c1, half + product, half - product, c1 - c1s2, c1s2]
+                Self { angle: half * 2.0, c1, c2: half + product, s2: half - product, c3: c1 - c1s2, c1s2 }
             }
-        })
+        }
     }
 }
 
-/// Integrals of 1, cos, sin, cos^2, cos sin, sin^2, cos^3, cos^2 sin, cos sin^2 and sin^3 of the azimuth.
+/// Integrals of cos^p sin^q of the azimuth; `c2s1` is that of cos^2 sin.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Moments<T>(pub [T; 10]);
+pub(super) struct Moments<T> {
+    pub angle: T,
+    pub c1: T,
+    pub s1: T,
+    pub c2: T,
+    pub c1s1: T,
+    pub s2: T,
+    pub c3: T,
+    pub c2s1: T,
+    pub c1s2: T,
+    pub s3: T,
+}
 
 impl<T: Scalar> Moments<T> {
+    /// Over nothing.
+    fn empty() -> Self {
+        let zero = T::constant(0.0);
+        Self {
+            angle: zero,
+            c1: zero,
+            s1: zero,
+            c2: zero,
+            c1s1: zero,
+            s2: zero,
+            c3: zero,
+            c2s1: zero,
+            c1s2: zero,
+            s3: zero,
+        }
+    }
+
     /// Adds an arc of `angle` between two azimuths.
     #[inline]
     fn add(&mut self, from: Azimuth<T>, to: Azimuth<T>, angle: T) {
@@ -132,13 +166,18 @@ impl<T: Scalar> Moments<T> {
         let c1 = to.sin - from.sin;
         let s1 = from.cos - to.cos;
         let c2 = (angle + to.sin * to.cos - from.sin * from.cos) * 0.5;
-        let c1s1 = (to_s2 - from_s2) * 0.5;
         let c1s2 = (to_s2 * to.sin - from_s2 * from.sin) * (1.0 / 3.0);
         let c2s1 = (from_c2 * from.cos - to_c2 * to.cos) * (1.0 / 3.0);
-        let arc = [angle, c1, s1, c2, c1s1, angle - c2, c1 - c1s2, c2s1, c1s2, s1 - c2s1];
-        for (sum, term) in self.0.iter_mut().zip(arc) {
-            *sum += term;
-        }
+        self.angle += angle;
+        self.c1 += c1;
+        self.s1 += s1;
+        self.c2 += c2;
+        self.c1s1 += (to_s2 - from_s2) * 0.5;
+        self.s2 += angle - c2;
+        self.c3 += c1 - c1s2;
+        self.c2s1 += c2s1;
+        self.c1s2 += c1s2;
+        self.s3 += s1 - c2s1;
     }
 
     /// Over what an arc about azimuth 0, or the whole ring, has in common with a part of the ring about azimuth
@@ -150,7 +189,7 @@ impl<T: Scalar> Moments<T> {
         ahead: T,
         middle: Azimuth<T>,
     ) -> Self {
-        let mut sum = Self([T::constant(0.0); 10]);
+        let mut sum = Self::empty();
         let start = middle.turned(cos_half, -sin_half);
         let end = middle.turned(cos_half, sin_half);
         let Arc::Part { half: seen_half, cos_half: seen_cos, sin_half: seen_sin } = seen else {

@@ -63,8 +63,10 @@ impl RingRule {
     /// Unless there are 1 to 64 nodes.
     pub fn new(nodes_per_segment: usize) -> Result<Self, Refusal> {
         if !(1..=MOST_NODES).contains(&nodes_per_segment) {
-            let found = format_args!("{nodes_per_segment} quadrature nodes a segment");
-            return Err(Refusal::new(found, "1 to 64 (6 for 1e-4, 16 for 1e-5)"));
+            return Err(Refusal::new(
+                format_args!("{nodes_per_segment} quadrature nodes a segment"),
+                "1 to 64 (6 for 1e-4, 16 for 1e-5)",
+            ));
         }
         let mut positions = vec![0.0; nodes_per_segment];
         let mut weights = vec![0.0; nodes_per_segment];
@@ -97,15 +99,15 @@ impl RingRule {
                 let width = high - low;
                 // In passes, so that the roots and divisions of one ring need not wait for those of the ring before.
                 for nodes in self.nodes.chunks(AT_ONCE) {
-                    let mut rings = [None; AT_ONCE];
+                    let mut rings = [Ring::none(); AT_ONCE];
                     for (ring, &(position, weight)) in rings.iter_mut().zip(nodes) {
                         let (x, jacobian) = segment.at(low + width * position);
-                        *ring = Ring::at(view, x, jacobian * width * weight);
+                        ring.place(view, x, jacobian * width * weight);
                     }
-                    for ring in rings.iter_mut().flatten() {
+                    for ring in rings.iter_mut().take(nodes.len()) {
                         ring.find_arcs(view, &plate);
                     }
-                    for ring in rings.iter().flatten() {
+                    for ring in rings.iter().take(nodes.len()) {
                         ring.add_to(&mut total, &plate, exitance);
                     }
                 }
@@ -243,23 +245,33 @@ struct Ring<T: Scalar> {
 }
 
 impl<T: Scalar> Ring<T> {
-    /// Ring at `x` with the weight `share`, its arcs still empty; `None` where it is no more than a point.
-    #[inline]
-    fn at(view: &PlanetView<T>, x: T, share: T) -> Option<Self> {
-        let distance = view.limb * exp(x);
-        let distance_squared = distance * distance;
-        let per_twice_distances = T::constant(0.5) / (view.relative_distance * distance);
-        let cos_eta = (distance_squared + view.limb_squared) * per_twice_distances;
-        let sin_eta_squared = (cos_eta * -1.0 + 1.0) * (cos_eta + 1.0);
-        (sin_eta_squared.value() > 0.0).then(|| Self {
-            distance,
-            cos_eta,
-            sin_eta: sin_eta_squared.sqrt(),
-            solid_angle: share * (view.limb_squared - distance_squared) * per_twice_distances,
-            sun_level: T::constant(0.0),
+    fn none() -> Self {
+        let zero = T::constant(0.0);
+        Self {
+            distance: zero,
+            cos_eta: zero,
+            sin_eta: zero,
+            solid_angle: zero,
+            sun_level: zero,
             seen: Arc::Empty,
             lit: Arc::Empty,
-        })
+        }
+    }
+
+    /// Puts the ring at `x` with the weight `share`.
+    #[inline]
+    fn place(&mut self, view: &PlanetView<T>, x: T, share: T) {
+        let t = view.limb * exp(x);
+        let t_squared = t * t;
+        let per_twice_distance_t = T::constant(0.5) / (view.relative_distance * t);
+        let cos_eta = (t_squared + view.limb_squared) * per_twice_distance_t;
+        let sin_eta_squared = (cos_eta * -1.0 + 1.0) * (cos_eta + 1.0);
+        if sin_eta_squared.value() > 0.0 {
+            self.distance = t;
+            self.cos_eta = cos_eta;
+            self.sin_eta = sin_eta_squared.sqrt();
+            self.solid_angle = share * (view.limb_squared - t_squared) * per_twice_distance_t;
+        }
     }
 
     #[inline]

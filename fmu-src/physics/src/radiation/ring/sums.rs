@@ -67,41 +67,39 @@ impl<T: Scalar> Weighted<T> {
     /// Weight 1.
     #[inline]
     pub(super) fn flat(m: &Moments<T>) -> Self {
-        Self(core::array::from_fn(|i| m.0[i]))
+        Self([m.angle, m.c1, m.s1, m.c2, m.c1s1, m.s2])
     }
 
     /// Weight 1 over an arc about azimuth 0.
     #[inline]
     pub(super) fn flat_even(m: &EvenMoments<T>) -> Self {
-        let (EvenMoments([angle, c1, c2, s2, ..]), zero) = (*m, T::constant(0.0));
-        Self([angle, c1, zero, c2, zero, s2])
+        let zero = T::constant(0.0);
+        Self([m.angle, m.c1, zero, m.c2, zero, m.s2])
     }
 
     /// Weight `level + x cos + y sin` over an arc about azimuth 0.
     #[inline]
     pub(super) fn slanted_even(m: &EvenMoments<T>, (level, x, y): (T, T, T)) -> Self {
-        let EvenMoments([angle, c1, c2, s2, c3, c1s2]) = *m;
         Self([
-            level * angle + x * c1,
-            level * c1 + x * c2,
-            y * s2,
-            level * c2 + x * c3,
-            y * c1s2,
-            level * s2 + x * c1s2,
+            level * m.angle + x * m.c1,
+            level * m.c1 + x * m.c2,
+            y * m.s2,
+            level * m.c2 + x * m.c3,
+            y * m.c1s2,
+            level * m.s2 + x * m.c1s2,
         ])
     }
 
     /// Weight `level + x cos + y sin`.
     #[inline]
     pub(super) fn slanted(m: &Moments<T>, (level, x, y): (T, T, T)) -> Self {
-        let Moments([angle, c1, s1, c2, c1s1, s2, c3, c2s1, c1s2, s3]) = *m;
         Self([
-            level * angle + x * c1 + y * s1,
-            level * c1 + x * c2 + y * c1s1,
-            level * s1 + x * c1s1 + y * s2,
-            level * c2 + x * c3 + y * c2s1,
-            level * c1s1 + x * c2s1 + y * c1s2,
-            level * s2 + x * c1s2 + y * s3,
+            level * m.angle + x * m.c1 + y * m.s1,
+            level * m.c1 + x * m.c2 + y * m.c1s1,
+            level * m.s1 + x * m.c1s1 + y * m.s2,
+            level * m.c2 + x * m.c3 + y * m.c2s1,
+            level * m.c1s1 + x * m.c2s1 + y * m.c1s2,
+            level * m.s2 + x * m.c1s2 + y * m.s3,
         ])
     }
 
