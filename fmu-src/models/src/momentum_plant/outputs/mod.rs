@@ -25,6 +25,8 @@ use crate::common::loads;
 /// Outputs that are written together, and what writes them.
 struct Group {
     outputs: fn(&PlantVariables) -> Knowns,
+    /// Whether they follow from forces and torques.
+    read_loads: bool,
     write: fn(&Plan<'_>, &mut Values, &Report<'_>),
 }
 
@@ -32,13 +34,16 @@ const fn group(
     write: fn(&Plan<'_>, &mut Values, &Report<'_>),
     outputs: fn(&PlantVariables) -> Knowns,
 ) -> Group {
-    Group { outputs, write }
+    Group { outputs, read_loads: false, write }
 }
 
 /// The outputs in groups, but for the faces; all of them are written when one is read.
 const GROUPS: [Group; 10] = [
     group(write_motion, |v| knowns![v.momentum.body, v.momentum.inertial, v.delta_v, &v.attitude, v.epoch]),
-    group(write_loads, |v| knowns![&v.torque, &v.force, v.acceleration, v.mass, v.center_of_mass]),
+    Group {
+        read_loads: true,
+        ..group(write_loads, |v| knowns![&v.torque, &v.force, v.acceleration, v.mass, v.center_of_mass])
+    },
     group(write_bodies, |v| {
         let sun = knowns![v.sun.position_body, v.sun.direction, v.sun.azimuth, v.sun.elevation];
         let light = knowns![v.sun.lit_fraction, v.sun.distance, v.sunshade.polynomial_valid];
@@ -56,7 +61,7 @@ const GROUPS: [Group; 10] = [
         let momentum = knowns![&v.momentum.by_source, v.momentum.bias, v.momentum.unheld];
         knowns![momentum, v.momentum.target_clamped, v.guided_degenerate, &v.downlink, &v.timeline]
     }),
-    group(write_wheels, |v| knowns![&v.wheel, &v.flexible_mode, &v.slosh]),
+    Group { read_loads: true, ..group(write_wheels, |v| knowns![&v.wheel, &v.flexible_mode, &v.slosh]) },
     group(write_dumps, |v| knowns![&v.dump, &v.maneuver]),
     group(write_sensors, |v| {
         knowns![&v.estimate, v.sun.sensed, v.sun.sensed_valid, &v.accelerometer, &v.control]
@@ -81,13 +86,16 @@ impl DeferredOutputs for MomentumPlant {
         let PlantState { saved: SavedState { flight, command, .. }, inputs } = state;
         let prepared =
             context.setup.prepared_spacecraft(values.choice(context.variables.sunshade.shape).0)?;
+        let asked = || GROUPS.iter().enumerate().filter(|(index, _)| groups.contains(*index));
+        if asked().any(|(_, group)| group.read_loads) {
+            flight.write_loads(prepared, &inputs.dynamics).map_err(failure)?;
+        }
         // Not `map_err`, which would copy the report.
         let report = match flight.report(prepared, &inputs.dynamics, command, time_s) {
             Ok(report) => report,
             Err(error) => return Err(failure(error)),
         };
-        let asked = GROUPS.iter().enumerate().filter(|(index, _)| groups.contains(*index));
-        asked.for_each(|(_, group)| (group.write)(context, values, &report));
+        asked().for_each(|(_, group)| (group.write)(context, values, &report));
         if groups.contains(GROUPS.len()) {
             write_faces(context, values, flight, prepared, time_s)
         } else {

@@ -117,10 +117,21 @@ impl<T> Positions<T> {
 
     /// Changes every number by the one in its place of `others`.
     pub fn update<U>(&mut self, others: &Positions<U>, change: impl Fn(&mut T, &U)) {
-        let positions = [&mut self.sun_m, &mut self.planet_m, &mut self.pole, &mut self.center_of_mass_m];
-        let air_and_field = [&mut self.air, &mut self.air_velocity_m_s, &mut self.field_t];
-        let own = positions.into_iter().chain(air_and_field).flatten().chain(&mut self.panel_angles_rad);
-        own.zip(others.iter()).for_each(|(own, other)| change(own, other));
+        // Not one chain of all, which takes three times as long.
+        let vectors = [
+            (&mut self.sun_m, &others.sun_m),
+            (&mut self.planet_m, &others.planet_m),
+            (&mut self.pole, &others.pole),
+            (&mut self.center_of_mass_m, &others.center_of_mass_m),
+            (&mut self.air, &others.air),
+            (&mut self.air_velocity_m_s, &others.air_velocity_m_s),
+            (&mut self.field_t, &others.field_t),
+        ];
+        for (own, others) in vectors {
+            own.iter_mut().zip(others).for_each(|(own, other)| change(own, other));
+        }
+        let angles = self.panel_angles_rad.iter_mut().zip(&others.panel_angles_rad);
+        angles.for_each(|(own, other)| change(own, other));
     }
 
     /// Applies `of` to every number.
