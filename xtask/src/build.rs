@@ -19,9 +19,15 @@ pub(crate) struct Built {
 }
 
 impl Built {
-    /// The products of a build for one platform below `folder`, by prefix and suffix of its libraries and the suffix of its programs.
-    pub(crate) fn below(folder: &Path, (prefix, suffix): (&str, &str), program_suffix: &str) -> Self {
-        let library = |name: &str| folder.join("fmu").join(format!("{prefix}{name}{suffix}"));
+    /// The products of a build for one platform below `folder`, its libraries of a profile: by prefix and suffix of its libraries and the
+    /// suffix of its programs.
+    pub(crate) fn below(
+        folder: &Path,
+        profile: &str,
+        (prefix, suffix): (&str, &str),
+        program_suffix: &str,
+    ) -> Self {
+        let library = |name: &str| folder.join(profile).join(format!("{prefix}{name}{suffix}"));
         Self {
             heliotorque: folder.join("release").join(format!("heliotorque{program_suffix}")),
             library: library("heliotorque"),
@@ -46,9 +52,25 @@ pub(crate) fn build() -> Result<Built, String> {
     Ok(built())
 }
 
+/// Profile of the shipped libraries, which are optimised as a whole.
+pub(crate) const SHIPPED: &str = "fmu";
+
 /// Returns the products of the host's build.
 pub(crate) fn built() -> Built {
-    Built::below(&target(), (DLL_PREFIX, DLL_SUFFIX), EXE_SUFFIX)
+    Built::below(&target(), SHIPPED, (DLL_PREFIX, DLL_SUFFIX), EXE_SUFFIX)
+}
+
+/// Builds the tests with all that they read; returns programs and libraries of profile `release`, which are hardly slower than the
+/// shipped ones and come with the tests.
+pub(crate) fn tested(quiet: &str) -> Result<Built, String> {
+    run(&mut cargo(&format!("test --tests --no-run {quiet} {TESTS}")))?;
+    run(&mut cargo(&format!("build {quiet} {TESTS}")))?;
+    Ok(built_with_tests())
+}
+
+/// Returns the same products where they were built.
+pub(crate) fn built_with_tests() -> Built {
+    Built::below(&target(), "release", (DLL_PREFIX, DLL_SUFFIX), EXE_SUFFIX)
 }
 
 /// Builds the shared library and the probe's, whole-program optimised.

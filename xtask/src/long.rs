@@ -40,7 +40,39 @@ const PARTS: &[Part] = &[
     ("models", models),
     ("suite", suite),
     ("python", python),
+    ("shipped", shipped),
 ];
+
+/// What the tests ran on the libraries of `release`, on the shipped ones: the suite, the tests in Python, the C client. Default experiments of
+/// the shipped FMUs have the same bits.
+fn shipped() -> Outcome {
+    test::current_environment()?;
+    let flown = |name: &str| {
+        let folder = build::scratch(&format!("shipped/{name}"))?;
+        for fmu in dist::names() {
+            run(command(&build::built().heliotorque)
+                .arg("run")
+                .arg(root().join("dist").join(format!("{fmu}.fmu")))
+                .args(["--quiet", "--output"])
+                .arg(folder.join(format!("{fmu}.csv"))))?;
+        }
+        Ok::<_, String>(folder)
+    };
+    let with_tests = flown("with-tests")?;
+    let built = dist::dist()?;
+    let shipped = flown("shipped")?;
+    for fmu in dist::names() {
+        let [one, other] = [&with_tests, &shipped].map(|folder| fs::read(folder.join(format!("{fmu}.csv"))));
+        if one.map_err(|error| error.to_string())? != other.map_err(|error| error.to_string())? {
+            return Err(format!("{fmu}: the shipped library has other bits than that of profile release"));
+        }
+    }
+    let environment = test::environment(&built)?;
+    let mut suite = cargo(&format!("test {TESTS} --test suite"));
+    run(suite.envs(environment.clone()).env_remove(VARIABLE).env("HELIOTORQUE_SHIPPED", "1"))?;
+    test::python(environment, "not long")?;
+    test::c_client(&built, false)
+}
 
 /// Everything `cargo xtask test` runs, then the longer searches for faults; stops at the first that fails.
 pub(crate) fn all() -> Outcome {

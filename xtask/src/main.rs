@@ -38,7 +38,7 @@ cargo xtask <task>
           longer searches for faults: each fuzz target of tests/fuzz for a minute
           (cargo-fuzz, nightly), the C client under the address and thread sanitizers, the exporter's unit tests in Miri, a failing n-th
           allocation, a full disk from the n-th write on; what this machine lacks is named and skipped.
-          HELIOTORQUE_LONG picks parts alone (lints,guide,fuzz,sanitizers,miri,allocations,writes,models,suite,python);
+          HELIOTORQUE_LONG picks parts alone (lints,guide,fuzz,sanitizers,miri,allocations,writes,models,suite,python,shipped);
           HELIOTORQUE_FUZZ_SECONDS is another time per target
   test NAME
           the tests in Rust and Python that have NAME in their name, with what they need built first

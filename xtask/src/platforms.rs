@@ -59,7 +59,7 @@ impl Platform {
     /// Files of a build.
     pub(crate) fn built(&self) -> Built {
         let folder = self.target_folder().join(self.target);
-        Built::below(&folder, self.library_affixes, self.program_suffix)
+        Built::below(&folder, build::SHIPPED, self.library_affixes, self.program_suffix)
     }
 
     /// Folder of its builds. Windows has one of its own: macros and build scripts depend on `RUSTC_BOOTSTRAP`, so that builds with and

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use crate::build::{self, Built, TESTS};
-use crate::shell::{Beside, Outcome, cargo, command, need, root, run};
+use crate::shell::{Outcome, cargo, command, need, root, run};
 use crate::{dist, guide, locale, python};
 
 /// Seed of the property tests: the same draws in every run, so that what turns red was changed; set it for others.
@@ -35,13 +35,10 @@ pub(crate) fn all() -> Outcome {
 
 /// Builds libraries, programs and tests.
 fn build() -> Result<Built, String> {
-    // Most of it is optimised on one core: the tests' own build runs beside it.
-    let library = Beside::start(&mut build::libraries())?;
     let interpreter = std::thread::spawn(python::interpreter);
-    run(&mut cargo(&format!("test --tests --no-run {TESTS}")))?;
-    library.finish()?;
+    let built = build::tested("")?;
     interpreter.join().unwrap_or_else(|_| Err("the thread of the Python environment panicked".to_owned()))?;
-    Ok(build::built())
+    Ok(built)
 }
 
 /// Variables by which the tests find the build's products, and the seed of their draws.
@@ -56,9 +53,7 @@ pub(crate) fn environment(built: &Built) -> Result<Vec<(&'static str, PathBuf)>,
 
 /// The same, after building and packing what is stale.
 pub(crate) fn current_environment() -> Result<Vec<(&'static str, PathBuf)>, String> {
-    run(&mut build::libraries())?;
-    run(&mut cargo(&format!("test --tests --no-run --quiet {TESTS}")))?;
-    let built = build::built();
+    let built = build::tested("--quiet")?;
     dist::pack_stale(&built)?;
     environment(&built)
 }
