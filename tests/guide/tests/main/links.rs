@@ -9,7 +9,8 @@ use heliotorque_guide::{build, project};
 use crate::{html, markdown};
 
 /// Texts outside of the guide.
-const TEXTS: &[&str] = &["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "examples/README.md", "dist/README.md"];
+const TEXTS: &[&str] =
+    &["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "examples/README.md", "dist/README.md"];
 
 fn is_elsewhere(link: &str) -> bool {
     link.contains("://") || link.starts_with("mailto:") || link.starts_with("data:")
