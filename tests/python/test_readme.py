@@ -510,4 +510,4 @@ def test_the_chapter_counts_what_is_off_in_table_7():
     cells = [(row.split(" | ")[0].strip("| "), cell) for row in rows if "| ours |" in row for cell in row.strip("| ").split(" | ")[1:]]
     assert len(cells) == 16 and sum(cell.startswith("**") for _, cell in cells) == 3
     text = " ".join(VALIDATION)
-    assert "of 16 greatest values in Table 7 thirteen agree" in text and "three of the recoil" in text
+    assert "Of 16 greatest values in Table 7 thirteen agree" in text and "three of the recoil" in text
