@@ -73,7 +73,7 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
         flight.advance(given, Span::new(now_s, to_s)).unwrap();
         now_s = to_s;
         flight.evaluate(given, &held, true, to_s).unwrap();
-        let report = flight.report(given.prepared, &inputs, &held, to_s).unwrap();
+        let report = flight.report(given.prepared, &inputs, &held, true, to_s).unwrap();
         report.summary.totals.momentum_inertial_n_m_s
     };
     advance(4.0 * HOUR_S);

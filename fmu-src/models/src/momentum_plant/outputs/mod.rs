@@ -87,11 +87,9 @@ impl DeferredOutputs for MomentumPlant {
         let prepared =
             context.setup.prepared_spacecraft(values.choice(context.variables.sunshade.shape).0)?;
         let asked = || GROUPS.iter().enumerate().filter(|(index, _)| groups.contains(*index));
-        if asked().any(|(_, group)| group.read_loads) {
-            flight.write_loads(prepared, &inputs.dynamics).map_err(failure)?;
-        }
+        let with_loads = asked().any(|(_, group)| group.read_loads);
         // Not `map_err`, which would copy the report.
-        let report = match flight.report(prepared, &inputs.dynamics, command, time_s) {
+        let report = match flight.report(prepared, &inputs.dynamics, command, with_loads, time_s) {
             Ok(report) => report,
             Err(error) => return Err(failure(error)),
         };

@@ -337,7 +337,7 @@ impl Flight {
     }
 
     /// Evaluates geometry and attitude at `time_s`, where the flight has come, and its loads; those of an attitude that is followed
-    /// ideally only `with_loads`, else [`Self::write_loads`] computes them. A flight that waits holds the attitude of `held`.
+    /// ideally only `with_loads`, else [`Self::report`] computes them. A flight that waits holds the attitude of `held`.
     ///
     /// # Errors
     /// A state that belongs to another mode than the settings.
@@ -352,22 +352,8 @@ impl Flight {
         Ok(in_flight.evaluate(held, evaluated, with_loads, time_s))
     }
 
-    /// Computes the loads where the flight was evaluated last, if that was without them.
-    ///
-    /// # Errors
-    /// A state that belongs to another mode than the settings.
-    pub fn write_loads(
-        &mut self,
-        prepared: PreparedSpacecraft<'_>,
-        inputs: &DynamicsInputs,
-    ) -> Result<(), PlantError> {
-        let (mut in_flight, evaluated) = self.in_flight(StepContext::at_rest(prepared, inputs))?;
-        in_flight.write_loads(evaluated);
-        Ok(())
-    }
-
-    /// Everything at `time_s`, where the flight was evaluated last, loads and the wheels' torques only where they were computed; one that
-    /// waits has the attitude of `held`.
+    /// Everything at `time_s`, where the flight was evaluated last, with loads and the wheels' torques where they are computed already or
+    /// `with_loads`; one that waits has the attitude of `held`.
     ///
     /// # Errors
     /// A state that belongs to another mode than the settings.
@@ -376,10 +362,14 @@ impl Flight {
         prepared: PreparedSpacecraft<'a>,
         inputs: &'a DynamicsInputs,
         held: &Command,
+        with_loads: bool,
         time_s: f64,
     ) -> Result<Report<'a>, PlantError> {
         let prediction = self.state.prediction;
-        let (in_flight, evaluated) = self.in_flight(StepContext::at_rest(prepared, inputs))?;
+        let (mut in_flight, evaluated) = self.in_flight(StepContext::at_rest(prepared, inputs))?;
+        if with_loads {
+            in_flight.write_loads(evaluated);
+        }
         let evaluation = evaluated.evaluation.as_ref().ok_or(PlantError::OtherMode)?;
         Ok(in_flight.report(held, evaluation, prediction, time_s))
     }
