@@ -151,8 +151,9 @@ fn planet_light(
     };
     let by_grid = |grid: &PlanetGrid, position_m: &Vector3<f64>| -> Result<[Vector3<f64>; 2], Failure> {
         let view = PlanetView::new(&-position_m, &sun, surface.radius_m)?;
+        let exitance = surface.exitance(*flux_w_m2);
         Ok(force(&cells, &normals, |normal| {
-            let light = grid.receive(&surface, *flux_w_m2, &view, &Matrix3::identity(), normal);
+            let light = grid.receive(&exitance, *flux_w_m2, &view, &Matrix3::identity(), normal);
             [light.albedo, light.infrared]
         }))
     };

@@ -51,7 +51,7 @@ pub(super) fn thermal(
 ) -> Thermal {
     let nothing = ThermalDescription::default();
     let has_rear = rear.is_some() || part.key("rear_optics").is_stand_in();
-    let mut part = part.table("thermal");
+    let part = part.table("thermal");
     part.rules(ThermalDescription::RULES);
     let description = description.unwrap_or(&nothing);
     if !has_rear {
@@ -60,7 +60,7 @@ pub(super) fn thermal(
             at.report("a surface without `rear_optics`", "a surface with both faces");
         }
     }
-    let bus = bus(&mut part, description);
+    let bus = bus(&part, description);
     Thermal {
         front: front.material.thermal,
         rear: rear.map(|rear| rear.material.thermal),

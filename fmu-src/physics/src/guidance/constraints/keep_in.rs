@@ -222,7 +222,5 @@ impl KeepIn {
     }
 }
 
-/// 1 for zero and more, else -1.
-
 #[cfg(test)]
 mod tests;
