@@ -69,8 +69,15 @@ pub(crate) fn tested(quiet: &str) -> Result<Built, String> {
 }
 
 /// Returns the same products where they were built.
-pub(crate) fn built_with_tests() -> Built {
+fn built_with_tests() -> Built {
     Built::below(&target(), "release", (DLL_PREFIX, DLL_SUFFIX), EXE_SUFFIX)
+}
+
+/// Returns the host's products with the libraries that were built last, shipped ones or those of the tests.
+pub(crate) fn latest() -> Built {
+    let age = |built: &Built| std::fs::metadata(&built.library).and_then(|file| file.modified()).ok();
+    let (shipped, tested) = (built(), built_with_tests());
+    if age(&tested) > age(&shipped) { tested } else { shipped }
 }
 
 /// Builds the shared library and the probe's, whole-program optimised.

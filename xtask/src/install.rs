@@ -29,7 +29,7 @@ pub(crate) fn install(options: &[String]) -> Outcome {
     let is_built = options.iter().any(|option| option == BUILT);
     let others: Vec<String> = options.iter().filter(|option| *option != BUILT).cloned().collect();
     let prefix = prefix(&others)?;
-    let built = if is_built { build::built_with_tests() } else { dist::dist()? };
+    let built = if is_built { build::latest() } else { dist::dist()? };
     for installed in below(&prefix, &built, Some(&*built.heliotorque))? {
         println!("{}", installed.display());
     }

@@ -10,7 +10,7 @@ use super::description::{
 use super::devices::{body, check_fan, check_gimbal, instrument};
 use super::entry::{DownlinkOverride, KeepInOverride};
 use super::quantity::{LATITUDE, LENGTH, QUARTER_TURN, Quantity, SPEED, TURN, or_zero, three};
-use super::reads::{Keys, NOTHING, TABLES, keys, limb_keys, option_keys, own_aimpoint, tables};
+use super::reads::{Keys, NOTHING, OptionKeys, TABLES, keys, limb_keys, own_aimpoint, tables};
 use crate::attitude::SunAngles;
 use crate::enumeration::Enumerated;
 use crate::guidance::modes::mode::Mode;
@@ -174,9 +174,9 @@ impl Commands<'_> {
     }
 
     /// The same where an option reads them, unless nobody wrote the option.
-    fn check_option_keys(at: &Place<'_>, known: &[&str], option: impl Enumerated) {
+    fn check_option_keys(at: &Place<'_>, known: &[&str], option: impl OptionKeys) {
         if !at.key("option").is_stand_in() {
-            option_keys(option.name()).check(at, known, &named("the option", option));
+            option.keys().check(at, known, &named("the option", option));
         }
     }
 

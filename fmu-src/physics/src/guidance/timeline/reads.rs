@@ -1,6 +1,9 @@
 //! Keys that scenarios and options read: tables of a command and keys of its tables.
 
-use crate::guidance::pointing::command::{AimpointOption, ScanFrame, Scenario};
+use crate::enumeration::Enumerated;
+use crate::guidance::pointing::command::{
+    AimpointOption, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame, Scenario,
+};
 use crate::toml::Place;
 
 /// Keys of a table.
@@ -41,6 +44,9 @@ pub(super) const fn keys(needed: &'static [&'static str], optional: &'static [&'
 
 /// No key.
 pub(super) const NOTHING: Keys = keys(&[], &[]);
+const VECTOR: Keys = keys(&["vector"], &[]);
+const AZIMUTH_ELEVATION: Keys = keys(&["azimuth", "elevation"], &[]);
+const CELESTIAL: Keys = keys(&["rightAscension", "declination"], &[]);
 
 /// Tables of a command that a scenario may read.
 pub(super) const TABLES: &[&str] = &[
@@ -89,18 +95,57 @@ pub(super) fn limb_keys(scenario: Scenario) -> Keys {
     }
 }
 
-/// Keys that an option of boresight, aimpoint or roll reads, by the option's name in files; one that is not here reads none.
-pub(super) fn option_keys(option: &str) -> Keys {
-    match option {
-        "vector" => keys(&["vector"], &[]),
-        "azEl" | "lvlhDowntrack" | "lvlhSun" => keys(&["azimuth", "elevation"], &[]),
-        "raDec" => keys(&["rightAscension", "declination"], &[]),
-        "latLon" => keys(&["latitude", "longitude"], &["height"]),
-        "earthCentered" | "sunCentered" | "planetCentered" | "planetFixed" => keys(&["position"], &[]),
-        "body" => keys(&["body"], &[]),
-        "gimbal" => keys(&["angle"], &[]),
-        "phasedArray" => keys(&["azimuth"], &[]),
-        _ => NOTHING,
+/// Options of boresight, aimpoint and rolls, and the keys that each reads.
+pub(super) trait OptionKeys: Enumerated {
+    /// Keys that the option reads.
+    fn keys(self) -> Keys;
+}
+
+impl OptionKeys for BoresightOption {
+    fn keys(self) -> Keys {
+        match self {
+            Self::Vector => VECTOR,
+            Self::AzimuthElevation => AZIMUTH_ELEVATION,
+            Self::Gimbal => keys(&["angle"], &[]),
+            Self::PhasedArray => keys(&["azimuth"], &[]),
+        }
+    }
+}
+
+impl OptionKeys for AimpointOption {
+    fn keys(self) -> Keys {
+        match self {
+            Self::Vector => VECTOR,
+            Self::RightAscensionDeclination => CELESTIAL,
+            Self::EarthCentered | Self::SunCentered | Self::PlanetCentered | Self::PlanetFixed => {
+                keys(&["position"], &[])
+            }
+            Self::LatitudeLongitude => keys(&["latitude", "longitude"], &["height"]),
+            Self::LvlhDowntrack | Self::LvlhSun => AZIMUTH_ELEVATION,
+            Self::Body => keys(&["body"], &[]),
+            Self::Sun | Self::Earth | Self::Nadir | Self::Subsolar | Self::OptimalLighting => NOTHING,
+            Self::Velocity | Self::OrbitNormal | Self::EclipticNorth => NOTHING,
+        }
+    }
+}
+
+impl OptionKeys for BodyRollOption {
+    fn keys(self) -> Keys {
+        match self {
+            Self::Vector => VECTOR,
+            Self::AzimuthElevation => AZIMUTH_ELEVATION,
+        }
+    }
+}
+
+impl OptionKeys for ExternalRollOption {
+    fn keys(self) -> Keys {
+        match self {
+            Self::Vector => VECTOR,
+            Self::RightAscensionDeclination => CELESTIAL,
+            Self::Sun | Self::Earth | Self::Planet => NOTHING,
+            Self::Velocity | Self::OrbitNormal | Self::EclipticNorth => NOTHING,
+        }
     }
 }
 

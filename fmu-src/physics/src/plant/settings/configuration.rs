@@ -72,7 +72,8 @@ pub struct PredictionSettings {
 }
 
 impl PredictionSettings {
-    /// Settings without predictions: numbers, as the optimiser computes with those of an absent value.
+    /// Settings without predictions. Not an absent value: compiled code computes with its numbers before it asks whether it is there,
+    /// which valgrind reports.
     pub(crate) const NEVER: Self = Self { refresh_s: 0.0, horizon_s: 0.0, last_epoch_s: 0.0, lead_s: 0.0 };
 
     /// Times of a step, before its end, at which a prediction is due, in s.
