@@ -134,7 +134,7 @@ pub(crate) fn advance(flight: &mut impl Eventful, limit_s: f64) -> Result<(), Pl
     while flight.ends_by(limit_s) {
         flight.spend(None)?;
         apply_due(flight)?;
-        let next_s = EventKind::ALL.into_iter().map(|(kind, _)| flight.next_event_s(kind));
+        let next_s = EventKind::ALL.iter().map(|(kind, _)| flight.next_event_s(*kind));
         let next_s = next_s.fold(f64::INFINITY, f64::min);
         flight.advance_segment(next_s)?;
     }
@@ -147,7 +147,7 @@ pub(crate) fn advance(flight: &mut impl Eventful, limit_s: f64) -> Result<(), Pl
 /// What ends a flight; an event of a kind twice at one time, where only one may come.
 pub(crate) fn apply_due(flight: &mut impl Eventful) -> Result<(), PlantError> {
     let time_s = flight.reached_s();
-    for (kind, name) in EventKind::ALL {
+    for &(kind, name) in &EventKind::ALL {
         while flight.is_due(kind)? {
             flight.spend(Some(kind))?;
             if !kind.may_repeat() {

@@ -19,8 +19,8 @@ const INERTIA: [f64; 3] = [199.6, 507.1, 484.9];
 impl GyrostatMotion {
     /// Continues from the end with the body as it is there.
     fn advance(&mut self, gyrostat: &Gyrostat, motors: &[Motor], load: &BodyLoad, limit_s: f64) {
-        let motion = self.at(gyrostat, self.end_s);
-        self.advance_from(&motion, gyrostat, motors, load, limit_s);
+        let end = self.evaluated_at(gyrostat, self.end_s);
+        self.advance_from(&end, gyrostat, motors, load, limit_s);
     }
 }
 

@@ -80,9 +80,11 @@ impl Eventful for Dynamic<'_> {
         }
     }
 
+    #[inline]
     fn is_due(&mut self, kind: EventKind) -> Result<bool, PlantError> {
         let time_s = self.reached_s();
-        let comes_by = |next_s: f64| next_s <= time_s + tolerance_s(time_s);
+        // Where no event comes, the tolerance is not needed.
+        let comes_by = |next_s: f64| next_s < f64::INFINITY && next_s <= time_s + tolerance_s(time_s);
         Ok(match kind {
             // Every segment ends with these.
             EventKind::Accounts => self.applied.is_none(),
@@ -97,6 +99,7 @@ impl Eventful for Dynamic<'_> {
         })
     }
 
+    #[inline]
     fn spend(&mut self, kind: Option<EventKind>) -> Result<(), PlantError> {
         if kind.is_some() {
             return Ok(());
@@ -134,17 +137,21 @@ impl Eventful for Dynamic<'_> {
     }
 
     fn advance_segment(&mut self, limit_s: f64) -> Result<(), PlantError> {
-        let MotionAt { time_s, body, .. } = self.end();
-        (self.end, self.applied) = (None, None);
-        let Self { state, settings, flight, .. } = self;
+        self.applied = None;
+        let Self { state, settings, flight, end, .. } = self;
+        let at = evaluated(end, state, settings);
+        let time_s = at.time_s;
         let external = (flight.given.external)(time_s);
         let mut load = state.load(&external, flight.thrusters, time_s);
-        state.dumps.dipoles = flight.dipoles(time_s);
-        load.dipole = state.in_field(&state.dumps.dipoles);
-        load.internal = state.panels.internal(flight.given.prepared.panels, &state.mass.now, time_s);
-        state.dumps.torques = state.torques_by_source(&external, time_s);
+        let dipoles = flight.dipoles(time_s);
+        load.dipole = state.in_field(&dipoles);
+        if state.panels.is_turning() {
+            load.internal = state.panels.internal(flight.given.prepared.panels, &state.mass.now, time_s);
+        }
+        state.dumps.begin_segment(&state.disturbance, &external, dipoles, time_s);
         let motors = &state.control.wheels.motors;
-        state.motion.advance_from(&body, &settings.gyrostat, motors, &load, limit_s);
+        state.motion.advance_from(at, &settings.gyrostat, motors, &load, limit_s);
+        *end = None;
         flight.integrate_thrust(&state.motion, &state.disturbance, state.mass.now.mass_kg)
     }
 }
@@ -194,18 +201,12 @@ impl Dynamic<'_> {
         context.current_mass_panels_stowed = state.mass.stowed.unwrap_or(context.configuration.wet_mass);
     }
 
-    /// The motion at its end.
-    fn end(&mut self) -> MotionAt {
-        let Self { state, settings, end, .. } = self;
-        *end.get_or_insert_with(|| state.motion.evaluated_at(&settings.gyrostat, state.motion.end_s()))
-    }
-
     /// Closes the accounts of the segment that ends: momentum by effect, mass, impulse and propellant; and takes the wheels' inputs.
     fn close_accounts(&mut self, time_s: f64) {
-        let end = self.end();
-        let Self { state, settings, flight, .. } = self;
+        let Self { state, settings, flight, end, .. } = self;
+        let end = evaluated(end, state, settings);
         let inputs = flight.given.inputs;
-        state.dumps.accumulate(&state.motion, &end, state.dumps.is_dumping(flight.thrusters, time_s));
+        state.dumps.accumulate(&state.motion, end, state.dumps.is_dumping(flight.thrusters, time_s));
         let thruster_settings = &flight.context.allocator.settings;
         if !flight.thrusters.load.law.is_none() {
             let tanks = &thruster_settings.tanks;
@@ -237,8 +238,9 @@ impl Dynamic<'_> {
 
     /// Sensors, watch of the momentum, controller.
     fn sample(&mut self) -> Result<(), PlantError> {
-        let MotionAt { time_s, body, .. } = self.end();
-        let Self { state, settings, flight, .. } = self;
+        let Self { state, settings, flight, end, .. } = self;
+        let at = *evaluated(end, state, settings);
+        let MotionAt { time_s, body, .. } = at;
         let sun = state.disturbance.sun_at(time_s);
         let number = state.sensing.sample(settings, flight.given.inputs, time_s, &body, sun);
         let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
@@ -265,7 +267,7 @@ impl Dynamic<'_> {
             number,
             gyrostat: &settings.gyrostat,
             motion: &state.motion,
-            body: &body,
+            at: &at,
             estimate: &state.sensing.estimate,
             mass: &state.mass.known,
             dump_body_n_m: state.dumps.torque_body_n_m(),
@@ -301,7 +303,8 @@ impl Dynamic<'_> {
 
     /// Selects the Sun's direction where guidance is sampled.
     fn select_sun_direction(&mut self) -> Result<(), PlantError> {
-        let end = self.end();
+        let Self { state, settings, end, .. } = self;
+        let end = *evaluated(end, state, settings);
         let momentum = StartMomentum::Inertial(end.body.momentum_inertial_n_m_s);
         let (time_s, totals, is_first) =
             (end.time_s, dynamic_totals(&end), self.state.control.guidance.is_none());
@@ -383,4 +386,13 @@ impl Dynamic<'_> {
         };
         Evaluation { instant, loads, mass, panels_body_n_m_s, air_and_field }
     }
+}
+
+/// The motion at its end, where `end` holds it or shall.
+fn evaluated<'e>(
+    end: &'e mut Option<MotionAt>,
+    state: &DynamicState,
+    settings: &DynamicsSettings,
+) -> &'e MotionAt {
+    end.get_or_insert_with(|| state.motion.evaluated_at(&settings.gyrostat, state.motion.end_s()))
 }
