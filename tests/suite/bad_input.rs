@@ -40,7 +40,7 @@ fn resources(folder: &Path, spacecraft: &str) -> PathBuf {
 }
 
 fn uri(folder: &Path) -> String {
-    loader::file_uri(folder)
+    fmi::file_uri(folder)
 }
 
 fn guid_of(spacecraft: &str) -> String {
