@@ -89,6 +89,8 @@ impl GyrostatSeries {
     fn rate_term(&self, gyrostat: &Gyrostat, j: usize) -> Vector3<f64> {
         let wheels = gyrostat.wheels().iter().zip(self.rotors.iter());
         let rest = wheels.fold(self.rotation.momentum[j], |rest, (wheel, it)| match it.rotor {
+            // Without viscous friction the third term and those after it are zero.
+            Rotor::Turning { .. } if it.axial[j] == 0.0 => rest,
             Rotor::Turning { .. } => rest - wheel.axis_body * it.axial[j],
             Rotor::Held { momentum_n_m_s } if j == 0 => rest - wheel.axis_body * momentum_n_m_s,
             Rotor::Held { .. } => rest,

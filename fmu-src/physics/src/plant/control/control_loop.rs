@@ -104,8 +104,13 @@ impl ControlLoop {
         *self.guidance.insert(Command { attitude, rate_body_rad_s, since_s: time_s })
     }
 
-    /// The torque the controller asks for, and what wheels or thrusters give of it.
-    pub(crate) fn control(&mut self, control: &Control, target: &ControlTarget, sampled: Sampled<'_>) {
+    /// The torque the controller asks for, and what wheels or thrusters give of it; whether the controller is sampled and has a rate.
+    pub(crate) fn control(
+        &mut self,
+        control: &Control,
+        target: &ControlTarget,
+        sampled: Sampled<'_>,
+    ) -> bool {
         let Sampled { number, gyrostat, motion, at, mass, .. } = sampled;
         let Sampled { thrusters, allocator, distribution, .. } = sampled;
         let time_s = motion.end_s();
@@ -122,7 +127,7 @@ impl ControlLoop {
         if by_thrusters {
             self.wheels.coast(&control.wheels, gyrostat, momentum);
             if !is_new && number.rem_euclid(control.thrusters.samples) != 0 {
-                return;
+                return false;
             }
         }
         let axial = |k: usize| {
@@ -155,5 +160,6 @@ impl ControlLoop {
         if given < 1.0 {
             self.controller.limited(&(torque_body_n_m * given));
         }
+        sampled.estimate.rate_body_rad_s.is_some()
     }
 }

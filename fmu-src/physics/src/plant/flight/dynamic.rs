@@ -35,6 +35,15 @@ use crate::plant::state::dynamic_state::{DynamicState, tolerance_s};
 /// Units of work of a segment of the motion with flexible modes, slosh or imbalance; one of a rigid body's is a unit.
 const FLEXIBLE_UNITS: u32 = 8;
 
+/// Parts of the last sample that nothing but a report needs, where they are not computed yet.
+#[derive(Default)]
+pub(super) struct IncompleteSample {
+    /// Number of the sample whose Sun sensors are not sampled.
+    number: Option<i64>,
+    /// Target and estimate whose error is not measured.
+    tracked: Option<(ControlTarget, Attitude)>,
+}
+
 /// A flight by torque, in one step.
 pub(super) struct Dynamic<'f> {
     /// State.
@@ -47,6 +56,8 @@ pub(super) struct Dynamic<'f> {
     pub distribution: &'f mut WheelDistribution,
     /// The motion at its end, where it was evaluated.
     pub end: Option<MotionAt>,
+    /// The last sample, where a report needs more of it.
+    pub sample: IncompleteSample,
     /// The last kind applied there of those that every segment ends with.
     pub applied: Option<EventKind>,
 }
@@ -120,6 +131,7 @@ impl Eventful for Dynamic<'_> {
             EventKind::DumpEnd => self.state.dumps.end(time_s + tolerance_s(time_s)),
             EventKind::Grid => {
                 self.end = None;
+                self.complete_sample();
                 grid_edge::begin_interval(self.state, self.settings, &mut self.flight)?;
             }
             EventKind::Schedule => self.dump_as_scheduled()?,
@@ -236,13 +248,27 @@ impl Dynamic<'_> {
         valves.process_events(&Feed { settings: &context.allocator.settings, propellant, time_s });
     }
 
+    /// Samples the Sun sensors and measures the controller's error where the flight was sampled last.
+    pub(super) fn complete_sample(&mut self) {
+        let Self {
+            state: DynamicState { sensing, control, disturbance, .. }, settings, flight, sample, ..
+        } = self;
+        if let Some(number) = sample.number.take() {
+            let sun = disturbance.sun_at(sensing.sampled_s);
+            sensing.sample_sun(settings, flight.given.inputs, sun, number);
+        }
+        if let Some((target, estimated)) = sample.tracked.take() {
+            control.controller.measure_error(&target, &estimated);
+        }
+    }
+
     /// Sensors, watch of the momentum, controller.
     fn sample(&mut self) -> Result<(), PlantError> {
         let Self { state, settings, flight, end, .. } = self;
         let at = *evaluated(end, state, settings);
         let MotionAt { time_s, body, .. } = at;
-        let sun = state.disturbance.sun_at(time_s);
-        let number = state.sensing.sample(settings, flight.given.inputs, time_s, &body, sun);
+        let number = state.sensing.sample(settings, flight.given.inputs, time_s, &body);
+        self.sample.number = Some(number);
         let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
         let is_free = state.dumps.are_over(flight.thrusters) && !state.control.by_thrusters;
         let policy = flight.context.configuration.momentum.policy;
@@ -261,7 +287,7 @@ impl Dynamic<'_> {
             return Ok(());
         }
         let target = self.target(time_s, &body);
-        let Self { state, settings, flight, distribution, .. } = self;
+        let Self { state, settings, flight, distribution, sample, .. } = self;
         let Some(control) = &settings.control else { return Ok(()) };
         let sampled = Sampled {
             number,
@@ -275,7 +301,9 @@ impl Dynamic<'_> {
             allocator: &mut flight.context.allocator,
             distribution,
         };
-        state.control.control(control, &target, sampled);
+        if state.control.control(control, &target, sampled) {
+            sample.tracked = Some((target, state.sensing.estimate.attitude));
+        }
         Ok(())
     }
 

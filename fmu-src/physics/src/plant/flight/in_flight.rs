@@ -64,7 +64,9 @@ impl<'f> InFlight<'f> {
             Self::Ideal(it) => events::advance(it, time_s),
             Self::Dynamic(it) => {
                 it.resume();
-                events::advance(it, time_s)
+                let advanced = events::advance(it, time_s);
+                it.complete_sample();
+                advanced
             }
         }
     }

@@ -41,7 +41,7 @@ use crate::plant::state::propagator_state::{PropagatorState, SunDirectionSelecti
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::Spacecraft;
 use configured::ConfiguredFlight;
-use dynamic::Dynamic;
+use dynamic::{Dynamic, IncompleteSample};
 use encounter_prediction::predict_encounter;
 use ideal::Ideal;
 use in_flight::{Evaluated, InFlight};
@@ -250,7 +250,16 @@ impl Flight {
                 InFlight::Ideal(Ideal { state, settings, flight, prepared: None })
             }
             (Mode::Dynamic(state), ModeSettings::Dynamic(settings)) => {
-                InFlight::Dynamic(Dynamic { state, settings, flight, distribution, end: None, applied: None })
+                let sample = IncompleteSample::default();
+                InFlight::Dynamic(Dynamic {
+                    state,
+                    settings,
+                    flight,
+                    distribution,
+                    end: None,
+                    sample,
+                    applied: None,
+                })
             }
             _ => return Err(PlantError::OtherMode),
         };
@@ -324,6 +333,7 @@ impl Flight {
         if let (InFlight::Dynamic(mut dynamic), _) = self.in_flight(given)? {
             dynamic.flight.context.models.begin_work(given.work_limit);
             events::apply_due(&mut dynamic)?;
+            dynamic.complete_sample();
         }
         if self.prediction_settings().is_due(time_s) {
             self.predict(given, time_s)?;
