@@ -9,7 +9,7 @@ use super::fork::{ForecastMomentum, Fork, ForkOrigin};
 use crate::guidance::{Guided, ScienceArc, SelectedSunDirection};
 use crate::momentum::{Convention, Totals};
 use crate::plant::disturbances::simulation_context::SimulationContext;
-use crate::plant::events;
+use crate::plant::events::Eventful;
 use crate::plant::settings::attitude_source::AttitudeSource;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
@@ -107,7 +107,7 @@ impl DownlinkForecast<'_> {
         fork.deselect_sun_directions();
         fork.coarsen(self.time_s, step_s);
         times_s.try_for_each(|at_s| {
-            events::advance(&mut fork, at_s)?;
+            fork.advance(at_s)?;
             visit(fork.momentum_at(at_s));
             Ok(())
         })

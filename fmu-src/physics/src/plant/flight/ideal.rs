@@ -9,11 +9,16 @@
 use nalgebra::Vector3;
 
 use crate::attitude::Attitude;
+use crate::loads::ForceTorque;
 use crate::momentum::{DumpEvent, PreparedSegment, TorqueModel, Totals, WorkKind};
 
 use super::configured::{ConfiguredFlight, SunSelectionStart};
 use super::downlink_forecast::StartMomentum;
-use crate::plant::events::{self, EventKind, Eventful, LastEvents};
+use super::in_flight::Simulated;
+use crate::numerics::Span;
+use crate::plant::disturbances::evaluation::Evaluation;
+use crate::plant::events::{EventKind, Eventful, LastEvents};
+use crate::plant::settings::attitude_source::AttitudeSource;
 use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::mode_settings::IdealSettings;
 use crate::plant::settings::thruster_events::{Maneuver, ThrusterEvent};
@@ -100,6 +105,46 @@ impl Eventful for Ideal<'_> {
     }
 }
 
+impl<'f> Simulated<'f> for Ideal<'f> {
+    fn flight(&mut self) -> &mut ConfiguredFlight<'f> {
+        &mut self.flight
+    }
+
+    fn apply_requests(&mut self, step: Span) -> Result<(), PlantError> {
+        let (inputs, start_s) = (self.flight.given.inputs, step.start_s);
+        let mut target = inputs.dump_to_body_n_m_s;
+        if let Some(maneuver) = inputs.maneuver {
+            self.maneuver(start_s, &maneuver)?;
+            let requested = self.flight.context.configuration.thruster_events.requested_body_n_m_s;
+            target = target.or(maneuver.dumps.then_some(requested));
+        }
+        if let Some(target_body_n_m_s) = target {
+            self.dump_to(start_s, target_body_n_m_s);
+        }
+        Ok(())
+    }
+
+    fn fork_attitude(&self, _: f64) -> Option<AttitudeSource> {
+        None
+    }
+
+    fn frame(&mut self, time_s: f64) -> Evaluation {
+        self.flight.plant().evaluate_without_loads(time_s)
+    }
+
+    fn totals(&mut self, time_s: f64) -> Totals {
+        self.state.integrator.totals(time_s)
+    }
+
+    fn rows(&mut self, evaluation: &mut Evaluation, applied: ForceTorque) {
+        self.flight.plant().write_loads(evaluation, applied);
+    }
+
+    fn is_degenerate(&self, evaluation: &Evaluation) -> bool {
+        evaluation.instant.is_degenerate
+    }
+}
+
 impl<'f> Ideal<'f> {
     /// State at the start of a flight in the attitude after `held`.
     pub(super) fn begin(
@@ -124,22 +169,8 @@ impl<'f> Ideal<'f> {
         flight.context.models.begin_work(flight.given.work_limit);
         flight.propagator.panel_turns.restart();
         let mut ideal = Ideal { state: &mut begun, settings, flight, prepared: None };
-        events::advance(&mut ideal, time_s)?;
+        ideal.advance(time_s)?;
         Ok(begun)
-    }
-
-    /// Applies the requests of a step from `start_s` on: a maneuver, a dump.
-    pub(super) fn apply_requests(&mut self, start_s: f64) -> Result<(), PlantError> {
-        let mut target = self.flight.given.inputs.dump_to_body_n_m_s;
-        if let Some(maneuver) = self.flight.given.inputs.maneuver {
-            self.maneuver(start_s, &maneuver)?;
-            let requested = self.flight.context.configuration.thruster_events.requested_body_n_m_s;
-            target = target.or(maneuver.dumps.then_some(requested));
-        }
-        if let Some(target_body_n_m_s) = target {
-            self.dump_to(start_s, target_body_n_m_s);
-        }
-        Ok(())
     }
 
     /// Dumps to this momentum, body frame, from the wheels' bias, in N m s, at `time_s` on request.
