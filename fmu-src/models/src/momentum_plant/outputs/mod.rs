@@ -311,7 +311,7 @@ fn write_sensors(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
 /// Thrusters and tanks.
 fn write_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let (v, time_s, thrusters) = (context.variables, report.time_s, report.thrusters);
-    let reaction_control = &report.context.allocator.settings;
+    let reaction_control = report.reaction_control;
     for (k, (thruster, variables)) in reaction_control.thrusters.iter().zip(&v.thruster).enumerate() {
         let thrust_n = thrusters.thrust_n(reaction_control, k, time_s);
         let hits = thrust_n > 0.0 && {

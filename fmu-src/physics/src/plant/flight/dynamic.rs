@@ -68,12 +68,10 @@ impl Eventful for Dynamic<'_> {
     fn next_event_s(&self, kind: EventKind) -> f64 {
         let Self { state, flight, .. } = self;
         match kind {
-            EventKind::Valves => flight.thrusters.next_edge_s(&flight.context.allocator.settings),
+            EventKind::Valves => flight.thrusters.next_edge_s(&flight.allocator.settings),
             EventKind::DumpEnd => state.dumps.until_s(),
             EventKind::Grid => state.disturbance.span.end_s,
-            EventKind::Schedule => {
-                flight.context.configuration.thruster_events.next_s(state.last.scheduled())
-            }
+            EventKind::Schedule => flight.configuration.thruster_events.next_s(state.last.scheduled()),
             EventKind::Sample => state.sensing.next_s(),
             _ => f64::INFINITY,
         }
@@ -100,7 +98,7 @@ impl Eventful for Dynamic<'_> {
         }
         let units = if self.settings.gyrostat.is_rigid() { 1 } else { FLEXIBLE_UNITS };
         let time_s = self.reached_s();
-        Ok(self.flight.context.models.spend(WorkKind::Segment, units, time_s)?)
+        Ok(self.flight.models.spend(WorkKind::Segment, units, time_s)?)
     }
 
     fn apply_event(&mut self, kind: EventKind) -> Result<(), PlantError> {
@@ -119,7 +117,7 @@ impl Eventful for Dynamic<'_> {
             EventKind::Schedule => self.dump_as_scheduled()?,
             EventKind::SunDirection => self.select_sun_direction()?,
             EventKind::Threshold => {
-                let policy = self.flight.context.configuration.momentum.policy;
+                let policy = self.flight.configuration.momentum.policy;
                 self.begin_dump(|before_body_n_m_s| policy.after(before_body_n_m_s));
                 self.state.dumps.dumps.check()?;
             }
@@ -159,8 +157,7 @@ impl<'f> Simulated<'f> for Dynamic<'f> {
     fn resume(&mut self) {
         let Self { state, settings, flight, .. } = self;
         settings.set_mass_properties(&state.mass.now);
-        let context = &mut *flight.context;
-        context.current_mass_panels_stowed = state.mass.stowed.unwrap_or(context.configuration.wet_mass);
+        *flight.current_mass_panels_stowed = state.mass.stowed.unwrap_or(flight.configuration.wet_mass);
     }
 
     fn apply_requests(&mut self, step: Span) -> Result<(), PlantError> {
@@ -172,8 +169,8 @@ impl<'f> Simulated<'f> for Dynamic<'f> {
             self.state.cut(start_s, false);
             self.dump_to(target_body_n_m_s);
         }
-        let ConfiguredFlight { thrusters, context, .. } = &mut self.flight;
-        let (settings, is_dumping) = (&context.allocator.settings, thrusters.is_dumping());
+        let ConfiguredFlight { thrusters, allocator, .. } = &mut self.flight;
+        let (settings, is_dumping) = (&allocator.settings, thrusters.is_dumping());
         let Thrusters { valves, propellant, .. } = &mut **thrusters;
         let pulses = valves.command_pulses(&settings.thrusters, &inputs.pulses, step, is_dumping);
         let feed = Feed { settings, propellant, time_s: start_s };
@@ -185,7 +182,7 @@ impl<'f> Simulated<'f> for Dynamic<'f> {
 
     /// The commanded attitude, followed ideally; without a command the present one, held.
     fn fork_attitude(&self, time_s: f64) -> Option<AttitudeSource> {
-        let guided = self.flight.context.configuration.attitude.guided();
+        let guided = self.flight.configuration.attitude.guided();
         Some(match (&self.settings.control, self.flight.given.inputs.tracked, guided) {
             (Some(_), Tracked::Guidance, Some(law)) => AttitudeSource::Guided(*law),
             (Some(_), Tracked::Attitude(command), _) => AttitudeSource::Commanded(command),
@@ -201,8 +198,8 @@ impl<'f> Simulated<'f> for Dynamic<'f> {
         self.resume();
         let body = self.at(time_s).body;
         let flight = &mut self.flight;
-        let loaded = flight.context.configuration.wet_mass;
-        flight.context.current_mass_panels_stowed = flight.used_mass(&loaded, time_s);
+        let loaded = flight.configuration.wet_mass;
+        *flight.current_mass_panels_stowed = flight.used_mass(&loaded, time_s);
         let mass_kg = loaded.mass_kg - flight.thrusters.propellant.total_used_kg(time_s);
         let mut evaluation = flight.plant_at(time_s, &body).evaluate_without_loads(time_s);
         evaluation.mass.mass_kg = mass_kg;
@@ -260,7 +257,7 @@ impl Dynamic<'_> {
         let end = self.end();
         let Self { state, settings, flight, .. } = self;
         state.dumps.accumulate(&state.motion, &end, state.dumps.is_dumping(flight.thrusters, time_s));
-        let thruster_settings = &flight.context.allocator.settings;
+        let thruster_settings = &flight.allocator.settings;
         if !flight.thrusters.load.law.is_none() {
             let tanks = &thruster_settings.tanks;
             let mass = flight.thrusters.propellant.mass_properties_since(&state.mass.now, tanks, time_s);
@@ -278,15 +275,15 @@ impl Dynamic<'_> {
         let Self { state, settings, flight, .. } = self;
         grid_edge::turn_mass(state, settings, flight);
         let used_kg = flight.thrusters.propellant.total_used_kg(time_s);
-        state.mass.now.mass_kg = flight.context.configuration.wet_mass.mass_kg - used_kg;
-        flight.thrusters.update_load(&flight.context.allocator.settings, &state.mass.now, time_s);
+        state.mass.now.mass_kg = flight.configuration.wet_mass.mass_kg - used_kg;
+        flight.thrusters.update_load(&flight.allocator.settings, &state.mass.now, time_s);
     }
 
     /// Opens and closes the valves whose time has come.
     fn process_valves(&mut self, time_s: f64) {
-        let ConfiguredFlight { thrusters: Thrusters { valves, propellant, .. }, context, .. } =
+        let ConfiguredFlight { thrusters: Thrusters { valves, propellant, .. }, allocator, .. } =
             &mut self.flight;
-        valves.process_events(&Feed { settings: &context.allocator.settings, propellant, time_s });
+        valves.process_events(&Feed { settings: &allocator.settings, propellant, time_s });
     }
 
     /// Sensors, controller.
@@ -296,7 +293,7 @@ impl Dynamic<'_> {
         let sun = state.disturbance.sun_at(time_s);
         let number = state.sensing.sample(settings, flight.given.inputs, time_s, &body, sun);
         flight.thrusters.sample_dump(
-            &mut flight.context.allocator,
+            flight.allocator,
             &state.motion,
             &body.momentum_inertial_n_m_s,
             &state.mass.known,
@@ -316,7 +313,7 @@ impl Dynamic<'_> {
             mass: &state.mass.known,
             dump_body_n_m: state.dumps.torque_body_n_m(),
             thrusters: flight.thrusters,
-            allocator: &mut flight.context.allocator,
+            allocator: flight.allocator,
             distribution,
         };
         state.control.control(control, &target, sampled);
@@ -356,7 +353,7 @@ impl Dynamic<'_> {
 
     /// Thrusters bring the momentum to `target_body_n_m_s` from the wheels' bias, from the present end of the motion on.
     fn dump_to(&mut self, target_body_n_m_s: Vector3<f64>) {
-        let bias_body_n_m_s = self.flight.context.configuration.momentum.policy.bias_body_n_m_s;
+        let bias_body_n_m_s = self.flight.configuration.momentum.policy.bias_body_n_m_s;
         self.begin_dump(|_| bias_body_n_m_s + target_body_n_m_s);
     }
 
@@ -367,7 +364,7 @@ impl Dynamic<'_> {
         state.dumps.are_over(flight.thrusters)
             && !state.control.by_thrusters
             && flight.thrusters.valves.burning().is_none()
-            && flight.context.configuration.momentum.policy.exceeded(&momentum_body_n_m_s)
+            && flight.configuration.momentum.policy.exceeded(&momentum_body_n_m_s)
     }
 
     /// Momentum at the end of the motion, body frame, in N m s.
@@ -378,7 +375,7 @@ impl Dynamic<'_> {
 
     /// Begins the dump of the schedule that is due.
     fn dump_as_scheduled(&mut self) -> Result<(), PlantError> {
-        let events = &self.flight.context.configuration.thruster_events;
+        let events = &self.flight.configuration.thruster_events;
         // The schedule may be another than at the start.
         events.check_for_dynamics(self.state.last.scheduled())?;
         let taken = self.state.last.pop_scheduled(events);
@@ -394,8 +391,7 @@ impl Dynamic<'_> {
         let after_body_n_m_s = after_body_n_m_s(&before_body_n_m_s);
         let Self { state, flight, .. } = self;
         let event = DumpEvent { time_s: state.motion.end_s(), before_body_n_m_s, after_body_n_m_s };
-        let allocator = &mut flight.context.allocator;
-        if state.dumps.begin(event, flight.thrusters, allocator, &state.motion, &state.mass.known) {
+        if state.dumps.begin(event, flight.thrusters, flight.allocator, &state.motion, &state.mass.known) {
             (flight.given.log)(&ThrusterEvent::Dump(event));
         }
     }

@@ -59,7 +59,7 @@ pub(super) enum InFlight<'f> {
     /// The attitude is held, and nothing acts.
     Waiting { settings: &'f IdealSettings, flight: ConfiguredFlight<'f> },
     /// The attitude is followed ideally.
-    Ideal(Ideal<'f>),
+    Ideal(Ideal<'f>, &'f IdealSettings),
     /// The body turns by torque.
     Dynamic(Dynamic<'f>),
 }
@@ -69,7 +69,7 @@ impl<'f> InFlight<'f> {
     pub(super) fn simulated(&mut self) -> Option<&mut dyn Simulated<'f>> {
         match self {
             Self::Waiting { .. } => None,
-            Self::Ideal(it) => Some(it),
+            Self::Ideal(it, _) => Some(it),
             Self::Dynamic(it) => Some(it),
         }
     }
@@ -85,7 +85,7 @@ impl<'f> InFlight<'f> {
     ) -> ReachedState {
         *applied = None;
         if let Self::Waiting { flight, .. } = self {
-            let mass = flight.context.current_mass_panels_stowed;
+            let mass = *flight.current_mass_panels_stowed;
             *evaluation = Some(Evaluation::without_position(held.frame_at(time_s), mass, time_s));
         }
         let Some(simulated) = self.simulated() else {
@@ -130,12 +130,12 @@ impl<'f> InFlight<'f> {
                 (downlink, is_degenerate) = (state.control.downlink, state.control.is_degenerate);
                 (FlightSummary::dynamic(state, settings, flight.thrusters, evaluation, at), flight)
             }
-            Self::Ideal(Ideal { state, settings, flight, .. }) => {
+            Self::Ideal(Ideal { state, flight, .. }, settings) => {
                 let integrator = Some(&state.integrator);
                 (FlightSummary::ideal(state, settings, integrator, evaluation, flight.given.inputs), flight)
             }
             Self::Waiting { settings, flight } => {
-                let bias_body_n_m_s = flight.context.configuration.momentum.policy.bias_body_n_m_s;
+                let bias_body_n_m_s = flight.configuration.momentum.policy.bias_body_n_m_s;
                 let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
                 let attitude = held.attitude_at(time_s);
                 let totals = Totals::at_start(momentum_body_n_m_s, &attitude.inertial_from_body());
@@ -143,15 +143,14 @@ impl<'f> InFlight<'f> {
                 (FlightSummary::ideal(&waiting, settings, None, evaluation, flight.given.inputs), flight)
             }
         };
-        let ConfiguredFlight { given, context, propagator, thrusters, .. } = flight;
-        let configuration = &context.configuration;
+        let ConfiguredFlight { given, configuration, allocator, propagator, thrusters, .. } = flight;
         let followed = configuration.timeline.filter(|_| configuration.attitude.guided().is_some());
         let timeline = given.prepared.timeline.zip(followed);
         let slot = timeline.map(|(law, settings)| law.timeline.slot(time_s, settings.clock_minus_time_s));
         Report {
             time_s,
             configuration,
-            context,
+            reaction_control: &allocator.settings,
             propagator,
             thrusters,
             since_periapsis_s: match is_waiting {

@@ -242,12 +242,11 @@ impl Flight {
             return Err(PlantError::OtherMode);
         };
         let FlightSetup { context, settings, distribution, evaluated } = &mut **setup;
-        let turning = Turning::still();
-        let flight = ConfiguredFlight { given, context, propagator, thrusters, turning };
+        let flight = ConfiguredFlight::new(given, context, propagator, thrusters, Turning::still());
         let in_flight = match (mode, settings) {
             (Mode::Waiting, ModeSettings::Ideal(settings)) => InFlight::Waiting { settings, flight },
             (Mode::Ideal(state), ModeSettings::Ideal(settings)) => {
-                InFlight::Ideal(Ideal { state, settings, flight, prepared: None })
+                InFlight::Ideal(Ideal { state, flight, is_fork: false, prepared: None }, settings)
             }
             (Mode::Dynamic(state), ModeSettings::Dynamic(settings)) => {
                 InFlight::Dynamic(Dynamic { state, settings, flight, distribution, at: None, applied: None })
@@ -268,7 +267,7 @@ impl Flight {
         let FlightSetup { context, settings, .. } = &mut **setup;
         *propagator = PropagatorState::new(&context.configuration, time_s)?;
         let turning = Turning::from(*held);
-        let mut flight = ConfiguredFlight { given, context, propagator, thrusters, turning };
+        let mut flight = ConfiguredFlight::new(given, context, propagator, thrusters, turning);
         let held = held.attitude_at(time_s);
         *mode = match settings {
             ModeSettings::Ideal(settings) => {
@@ -288,7 +287,7 @@ impl Flight {
     pub fn advance(&mut self, given: StepContext<'_>, step: Span) -> Result<(), PlantError> {
         let predicted = self.prediction_settings();
         if let Some(simulated) = self.in_flight(given)?.0.simulated() {
-            simulated.flight().context.models.begin_work(given.work_limit);
+            simulated.flight().models.begin_work(given.work_limit);
             simulated.apply_requests(step)?;
         }
         for time_s in predicted.times_s(step) {
@@ -328,7 +327,7 @@ impl Flight {
         let undo = Undo(self.state.mode.clone(), self.state.thrusters.clone(), self.state.prediction);
         let given = StepContext { log: &|_| {}, ..given };
         if let (InFlight::Dynamic(mut dynamic), _) = self.in_flight(given)? {
-            dynamic.flight.context.models.begin_work(given.work_limit);
+            dynamic.flight.models.begin_work(given.work_limit);
             dynamic.apply_due()?;
         }
         if self.prediction_settings().is_due(time_s) {

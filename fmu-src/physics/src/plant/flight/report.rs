@@ -9,11 +9,11 @@ use crate::environment::orbit::BPlane;
 use crate::guidance::DownlinkStatus;
 use crate::momentum::{DumpSpacing, Dumps, MomentumIntegrator, SourceMomenta, Totals};
 use crate::plant::disturbances::evaluation::Evaluation;
-use crate::plant::disturbances::simulation_context::SimulationContext;
 use crate::plant::motion::osculating_orbit::OsculatingOrbit;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
 use crate::plant::settings::mode_settings::{IdealSettings, IdealWheel};
+use crate::plant::settings::reaction_control_settings::ReactionControlSettings;
 use crate::plant::state::dynamic_state::DynamicState;
 use crate::plant::state::flight_state::EncounterPrediction;
 use crate::plant::state::ideal_state::{IdealState, Maneuvers};
@@ -35,8 +35,8 @@ pub struct Report<'a> {
     pub time_s: f64,
     /// The spacecraft, and where it is.
     pub configuration: &'a Configuration,
-    /// Configuration, models, settings of thrusters and tanks.
-    pub context: &'a SimulationContext,
+    /// Settings of thrusters and tanks.
+    pub reaction_control: &'a ReactionControlSettings,
     /// Orbit, directions of the Sun that were selected, turns of the panels.
     pub propagator: &'a PropagatorState,
     /// Thrusters and tanks.
