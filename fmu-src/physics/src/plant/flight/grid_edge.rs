@@ -43,7 +43,7 @@ pub(super) fn begin(
     let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = [Vector3::zeros(); 2];
     let body = BodyMotion { attitude: unit, rate_body_rad_s, momentum_inertial_n_m_s, delta_v_inertial_m_s };
     let mut mass = flight.configuration.wet_mass;
-    if settings.panels_have_mass {
+    if flight.given.prepared.has_panel_mass() {
         let still = BodyMotion { rate_body_rad_s: Vector3::zeros(), ..body };
         let mut plant = flight.plant_at(time_s, &still);
         let instant = plant.instant(time_s);
@@ -62,7 +62,7 @@ pub(super) fn begin(
         dumps: MomentumDumps::default(),
         last,
     };
-    if settings.panels_have_mass {
+    if flight.given.prepared.has_panel_mass() {
         let mut plant = flight.plant_at(time_s, &body);
         let instant = plant.instant(time_s);
         begun.panels = PanelMotion::at_start(&plant.path.kinematics, &instant);
@@ -79,6 +79,7 @@ pub(super) fn begin_interval(
     settings: &mut DynamicsSettings,
     flight: &mut ConfiguredFlight<'_>,
 ) -> Result<(), PlantError> {
+    let panels_have_mass = flight.given.prepared.has_panel_mass();
     let time_s = state.motion.end_s();
     let body = state.motion.at(&settings.gyrostat, time_s);
     let stowed = flight.used_mass(&flight.configuration.wet_mass, time_s);
@@ -93,20 +94,18 @@ pub(super) fn begin_interval(
     let rate_terms_body = predicted_rate_terms(state, settings, flight, &body);
     let has_thrusters = !flight.allocator.settings.thrusters.is_empty();
     let mut plant = flight.turning_plant(time_s, &body, rate_terms_body);
-    if settings.panels_have_mass
-        && let Some(body) = track_panel_laws(state, settings, &mut plant)
-    {
+    if panels_have_mass && let Some(body) = track_panel_laws(state, settings, &mut plant) {
         plant = flight.turning_plant(time_s, &body, rate_terms_body);
     }
     let inverse_inertia = settings.gyrostat.inverse_carrier().filter(|_| settings.control.is_none());
     state.disturbance =
         next_interval(&state.disturbance, &mut plant, time_s, settings.grid_s, inverse_inertia)?;
     deviate(&state.disturbance, &mut plant)?;
-    if settings.panels_have_mass || state.mass.stowed.is_some() || has_thrusters {
+    if panels_have_mass || state.mass.stowed.is_some() || has_thrusters {
         let instant = plant.instant(time_s);
         set_known_mass(state, settings, plant.mass_properties(&instant));
     }
-    if settings.panels_have_mass {
+    if panels_have_mass {
         let was_turning = state.panels.is_turning();
         let configuration = plant.path.kinematics.configuration;
         let end_s = configuration.last_of_panels_s(time_s, state.disturbance.span.end_s);

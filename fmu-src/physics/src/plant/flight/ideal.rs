@@ -24,7 +24,7 @@ use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::mode_settings::IdealSettings;
 use crate::plant::settings::thruster_events::{Maneuver, ThrusterEvent};
 use crate::plant::state::ideal_state::IdealState;
-use crate::plant::thrusters::at_once::DumpAtOnce;
+use crate::plant::thrusters::at_once::{AtOnce, DumpAtOnce};
 
 /// A flight in an attitude that is followed ideally, in one step.
 pub(super) struct Ideal<'f> {
@@ -194,18 +194,14 @@ impl<'f> Ideal<'f> {
         if !found_m_s.iter().all(|it| it.is_finite()) {
             return Err(refused(ManeuverError::NotFinite { found_m_s: found_m_s.into() }));
         }
-        let configuration = &self.flight.configuration;
         let number = u64::from(self.state.maneuvers.count.unsigned_abs());
-        let executed_m_s = configuration.thruster_events.executed_m_s(&found_m_s, number);
+        let events = &self.flight.configuration.thruster_events;
+        let executed_m_s = events.executed_m_s(&found_m_s, number);
         if let Some(set) = maneuver.thrusters {
             let mass_kg = self.flight.current_mass_panels_stowed.mass_kg;
-            let given = self.flight.thrusters.at_once(self.flight.allocator, time_s).delta_v(
-                set,
-                executed_m_s.norm(),
-                mass_kg,
-            );
-            given.map_err(refused)?;
+            self.at_once(time_s).delta_v(set, executed_m_s.norm(), mass_kg).map_err(refused)?;
         }
+        let configuration = &self.flight.configuration;
         let moved = self.flight.propagator.maneuver(configuration, time_s, &executed_m_s);
         moved.map_err(|error| refused(error.into()))?;
         self.state.integrator.cut(time_s);
@@ -281,9 +277,7 @@ impl<'f> Ideal<'f> {
             let mut plant = self.flight.plant();
             let instant = plant.instant(time_s);
             let mass = plant.mass_properties(&instant);
-            let mut at_once = self.flight.thrusters.at_once(self.flight.allocator, time_s);
-            let given = at_once.dump(due, &mass.center_of_mass_body_m);
-            let Some(given) = given else { return };
+            let Some(given) = self.at_once(time_s).dump(due, &mass.center_of_mass_body_m) else { return };
             dump = given;
             let inertial_from_body = instant.frame.inertial_from_body;
             pushed =
@@ -303,6 +297,12 @@ impl<'f> Ideal<'f> {
             self.set_mass(time_s);
         }
         (self.flight.given.log)(&ThrusterEvent::Dump(dump.event));
+    }
+
+    /// Impulsive dumps and velocity changes at `time_s`.
+    fn at_once(&mut self, time_s: f64) -> AtOnce<'_> {
+        let ConfiguredFlight { thrusters, allocator, .. } = &mut self.flight;
+        AtOnce { thrusters, allocator, time_s }
     }
 
     /// A thruster event is over: the centre of mass is elsewhere, where that is simulated.

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::attitude::control::{Estimate, sample_number, sensed_sun};
-use crate::attitude::{Appendages, Attitude, MotionAt, motor_power_w, wheel_speed_rad_s};
+use crate::attitude::{Appendages, Attitude, MotionAt, motor_power_w};
 use crate::environment::CartesianState;
 use crate::environment::orbit::BPlane;
 use crate::guidance::DownlinkStatus;
@@ -12,7 +12,7 @@ use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::motion::osculating_orbit::OsculatingOrbit;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
-use crate::plant::settings::mode_settings::{IdealSettings, IdealWheel};
+use crate::plant::settings::mode_settings::IdealSettings;
 use crate::plant::settings::reaction_control_settings::ReactionControlSettings;
 use crate::plant::state::dynamic_state::DynamicState;
 use crate::plant::state::flight_state::EncounterPrediction;
@@ -279,12 +279,12 @@ impl<'a> FlightSummary<'a> {
             Bodies::Ideal {
                 settings, momentum_body_n_m_s, rate_body_n_m, acceleration_body_rad_s2, ..
             } => {
-                let IdealWheel { inertia_kg_m2, capacity_n_m_s, .. } = *settings.wheels.get(k)?;
+                let wheel = settings.wheels.get(k)?;
                 let momentum_n_m_s = settings.momentum_n_m_s(k, momentum_body_n_m_s);
-                let speed_rad_s = wheel_speed_rad_s(momentum_n_m_s, inertia_kg_m2);
-                let array = &settings.array;
+                let (array, inertia_kg_m2) = (&settings.array, wheel.inertia_kg_m2);
                 let torque_n_m = array.motor_n_m(k, inertia_kg_m2, rate_body_n_m, acceleration_body_rad_s2);
-                (momentum_n_m_s, torque_n_m, speed_rad_s, momentum_n_m_s.abs() > capacity_n_m_s)
+                let is_saturated = momentum_n_m_s.abs() > wheel.capacity_n_m_s;
+                (momentum_n_m_s, torque_n_m, wheel.speed_rad_s(momentum_n_m_s), is_saturated)
             }
             Bodies::Dynamic { settings, dynamics, at: MotionAt { body, .. } } => {
                 let (gyrostat, motion) = (&settings.gyrostat, &dynamics.motion);
