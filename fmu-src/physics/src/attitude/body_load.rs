@@ -33,7 +33,7 @@ impl BodyLoad {
         Self { mass_kg, ..Self::default() }
     }
 
-    /// Becomes `other`; what is large is copied only where it is present.
+    /// Copies another load; its large parts only where they are present.
     pub(super) fn copy_from(&mut self, other: &Self) {
         let Self { torque_body_n_m, force_body_n, mass_kg, flow_kg_s, mass_flow, dipole, internal } = self;
         (*torque_body_n_m, *force_body_n) = (other.torque_body_n_m, other.force_body_n);

@@ -122,10 +122,14 @@ pub(super) fn change_one(
     motors: &[Motor],
     rate: &[Vector3<f64>],
 ) -> bool {
-    let changes = rotors.iter_mut().zip(wheels).zip(motors).filter_map(|((it, wheel), motor)| {
-        it.change_at_start(wheel, motor, rate).map(|(excess_n_m, rotor)| (excess_n_m, it, rotor))
-    });
-    let worst = changes.reduce(|worst, next| if next.0 > worst.0 { next } else { worst });
+    let mut worst: Option<(f64, &mut RotorMotion, Rotor)> = None;
+    for ((it, wheel), motor) in rotors.iter_mut().zip(wheels).zip(motors) {
+        if let Some((excess_n_m, rotor)) = it.change_at_start(wheel, motor, rate)
+            && worst.as_ref().is_none_or(|(most_n_m, ..)| excess_n_m > *most_n_m)
+        {
+            worst = Some((excess_n_m, it, rotor));
+        }
+    }
     worst.map(|(_, it, rotor)| it.rotor = rotor).is_some()
 }
 

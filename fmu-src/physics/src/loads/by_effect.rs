@@ -33,7 +33,7 @@ impl<V> ByEffect<V> {
 }
 
 impl<V> ByEffect<Option<V>> {
-    /// Leaves no effect a value.
+    /// Removes all values.
     pub fn clear(&mut self) {
         self.0.iter_mut().for_each(|value| *value = None);
     }

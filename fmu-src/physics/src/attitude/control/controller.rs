@@ -123,7 +123,7 @@ impl ControllerState {
         self.missing_body_n_m = self.requested_body_n_m - given_body_n_m;
     }
 
-    /// Measures the error of an estimate at the last sample, which nothing but a report needs.
+    /// Measures the error of the estimate at the last sample, which only a report needs.
     pub fn measure_error(&mut self, target: &ControlTarget, estimated: &Attitude) {
         self.attitude_error_rad = match target {
             ControlTarget::Attitude { attitude, .. } => attitude.rotation_vector_to(estimated).norm(),

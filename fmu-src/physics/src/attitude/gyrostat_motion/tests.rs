@@ -253,6 +253,26 @@ fn a_rotor_stops_at_its_capacity_and_leaves_it() {
 }
 
 #[test]
+fn momenta_kept_with_the_motion_are_those_of_the_series() {
+    // More rotors than are kept, one of them held and one under viscous friction.
+    let mut wheels = pyramid();
+    wheels.extend([wheel(Vector3::x()), wheel(Vector3::z())]);
+    wheels[1].locked = true;
+    wheels[2].viscous_friction_n_m_s = 1e-5;
+    let spacecraft = spacecraft(wheels);
+    let rate = Vector3::new(0.01, -0.02, 0.015);
+    let mut motion =
+        GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &rate, |k| 0.3 * k as f64);
+    let motors = [Motor { torque_n_m: 0.01, failed: false }; 6];
+    motion.advance(&spacecraft, &motors, &BodyLoad::none(1.0), 0.5);
+    let at = motion.evaluated_at(&spacecraft, 0.3);
+    for k in 0..6 {
+        let evaluated = motion.rotor_n_m_s(&spacecraft, k, 0.3, &at.body);
+        assert_eq!(motion.rotor_at_n_m_s(&spacecraft, k, &at), evaluated);
+    }
+}
+
+#[test]
 fn torque_and_force_add_up() {
     // About one axis the angle under constant torque is known; force turns with the body.
     let spacecraft = spacecraft(pyramid());

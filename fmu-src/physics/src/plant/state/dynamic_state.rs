@@ -1,6 +1,6 @@
 //! State of a flight by torque: body, panels, disturbances, sensors, control, dumps and their schedule.
 
-use crate::spacecraft::{MassProperties, Spacecraft};
+use crate::spacecraft::{MassProperties, Panel, Spacecraft};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -66,7 +66,9 @@ impl DynamicState {
     pub(crate) fn load(
         &self,
         [now, slope]: &[ForceTorque; 2],
+        dipoles: &Dipoles,
         thrusters: &Thrusters,
+        panels: &[Panel],
         time_s: f64,
     ) -> BodyLoad {
         let [[force, force_slope], [torque, torque_slope]] = self.disturbance.total_at(time_s);
@@ -86,8 +88,8 @@ impl DynamicState {
             mass_kg: thrusters.mass_kg,
             flow_kg_s: thrusters.law.flow_kg_s,
             mass_flow: (!thrusters.law.is_none()).then(|| thrusters.mass_flow),
-            dipole: None,
-            internal: None,
+            dipole: self.in_field(dipoles),
+            internal: self.panels.internal(panels, &self.mass.now, time_s),
         }
     }
 
