@@ -218,7 +218,7 @@ impl ConfiguredFlight<'_> {
         let (load, configuration) = (&self.thrusters.load, &self.context.configuration);
         let trajectory = &mut self.propagator.trajectory;
         let span = Span::new(motion.start_s(), motion.end_s());
-        let (thrusts, disturbed) = (!load.law.is_none(), configuration.motion.uses_encke());
+        let (thrusts, disturbed) = (!load.law.is_none(), configuration.uses_encke());
         if !thrusts && disturbed && trajectory.is_deviated_until(span.end_s) {
             return Ok(());
         }

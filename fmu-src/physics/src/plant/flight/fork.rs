@@ -164,7 +164,7 @@ impl<'f> Fork<'f> {
 
     /// Discards what the flight computed ahead of `time_s`, where other loads begin to act.
     pub(super) fn cut(&mut self, time_s: f64) {
-        self.propagator.cut(self.configuration, time_s, true);
+        self.propagator.cut(self.configuration, time_s);
     }
 
     /// Takes default attitudes: no direction of the Sun was selected.
@@ -248,7 +248,7 @@ impl<'f> Fork<'f> {
             let after = propagator.center_of_mass.mass_properties(configuration);
             current_mass_panels_stowed.center_of_mass_body_m +=
                 after.center_of_mass_body_m - before.center_of_mass_body_m;
-            propagator.cut(configuration, time_s, true);
+            propagator.cut(configuration, time_s);
         }
         let Some(TimelineManeuver { delta_v_inertial_m_s, .. }) = event.maneuver else {
             return Ok(Vector3::zeros());

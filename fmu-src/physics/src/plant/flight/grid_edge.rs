@@ -87,8 +87,8 @@ pub(super) fn begin_interval(
     let context = &mut *flight.context;
     context.current_mass_panels_stowed = stowed;
     let begins = state.disturbance.is_before();
-    if begins || !context.configuration.motion.uses_encke() {
-        flight.propagator.cut(&context.configuration, time_s, true);
+    if begins || !context.configuration.uses_encke() {
+        flight.propagator.cut(&context.configuration, time_s);
     } else {
         flight.propagator.sources.cut(time_s);
     }

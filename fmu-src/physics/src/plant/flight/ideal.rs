@@ -187,7 +187,7 @@ impl<'f> Ideal<'f> {
         if let Some(place_body_m) = event.center_of_mass_body_m {
             self.flight.propagator.center_of_mass.place(configuration, place_body_m);
             self.state.integrator.cut(time_s);
-            self.flight.propagator.cut(&self.flight.context.configuration, time_s, true);
+            self.flight.propagator.cut(&self.flight.context.configuration, time_s);
             self.set_mass(time_s);
         }
         let events = &self.flight.context.configuration.thruster_events;
@@ -255,7 +255,7 @@ impl<'f> Ideal<'f> {
         let shift = configuration.thruster_events.shift_body_m(number.saturating_sub(1));
         if shift.is_some() {
             self.flight.propagator.center_of_mass.shift_body_m = shift;
-            self.flight.propagator.cut(configuration, time_s, true);
+            self.flight.propagator.cut(configuration, time_s);
         }
         shift.is_some()
     }
