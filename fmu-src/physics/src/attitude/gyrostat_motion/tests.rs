@@ -261,8 +261,7 @@ fn momenta_kept_with_the_motion_are_those_of_the_series() {
     wheels[2].viscous_friction_n_m_s = 1e-5;
     let spacecraft = spacecraft(wheels);
     let rate = Vector3::new(0.01, -0.02, 0.015);
-    let mut motion =
-        GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &rate, |k| 0.3 * k as f64);
+    let mut motion = GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &rate, |k| 0.3 * k as f64);
     let motors = [Motor { torque_n_m: 0.01, failed: false }; 6];
     motion.advance(&spacecraft, &motors, &BodyLoad::none(1.0), 0.5);
     let at = motion.evaluated_at(&spacecraft, 0.3);

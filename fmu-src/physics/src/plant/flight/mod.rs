@@ -113,18 +113,14 @@ impl Flight {
 
     /// The estimate of the attitude at `time_s`, where sensors sample it.
     pub fn estimate_at(&self, time_s: f64) -> Option<Estimate> {
-        match &self.state.mode {
-            Mode::Dynamic(dynamics) => Some(dynamics.sensing.estimate_at(time_s)),
-            Mode::Waiting | Mode::Ideal(_) => None,
-        }
+        let Mode::Dynamic(dynamics) = &self.state.mode else { return None };
+        Some(dynamics.sensing.estimate_at(time_s))
     }
 
     /// The torque with `others_body_n_m` of everything else, in N m, where a dump is a constant torque.
     pub fn with_dump_body_n_m(&self, others_body_n_m: &Vector3<f64>) -> Vector3<f64> {
-        match &self.state.mode {
-            Mode::Dynamic(dynamics) => others_body_n_m + dynamics.dumps.torque_body_n_m(),
-            Mode::Waiting | Mode::Ideal(_) => *others_body_n_m,
-        }
+        let Mode::Dynamic(dynamics) = &self.state.mode else { return *others_body_n_m };
+        others_body_n_m + dynamics.dumps.torque_body_n_m()
     }
 
     /// Thrusters and tanks.
