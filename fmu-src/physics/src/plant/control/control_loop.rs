@@ -73,8 +73,8 @@ impl ControlLoop {
     /// Rejects decoded states that no simulation with this number of wheels can produce.
     pub(crate) fn is_valid(&self, wheels: usize) -> bool {
         self.controller.is_valid()
-            && self.wheels.is_valid(wheels)
-            && self.guidance.as_ref().is_none_or(Command::is_valid)
+            && self.wheels.motors.len() == wheels
+            && self.guidance.is_none_or(|command| command.attitude.is_rotation())
     }
 
     /// Whether wheels or thrusters could not give the torque requested at the last sample.
@@ -136,7 +136,8 @@ impl ControlLoop {
             momentum(k) + carried
         };
         let rotors_body_n_m_s = gyrostat.along_axes(axial);
-        let mut known_body_n_m = sampled.dump_body_n_m + thrusters.dump_torque_body_n_m();
+        let pulsed_body_n_m = thrusters.current_dump().map_or(Vector3::zeros(), |it| it.mean_torque_body_n_m);
+        let mut known_body_n_m = sampled.dump_body_n_m + pulsed_body_n_m;
         if let Some(set) = burning {
             let [_, torque] = allocator.settings.nominal_thrust(set, &mass.center_of_mass_body_m);
             known_body_n_m += torque;

@@ -60,11 +60,6 @@ impl WheelControl {
         Self { motors: vec![Motor::default(); wheels], is_limited: false }
     }
 
-    /// Rejects decoded states that no simulation with this number of wheels can produce.
-    pub(crate) fn is_valid(&self, wheels: usize) -> bool {
-        self.motors.len() == wheels
-    }
-
     /// Sets which wheels failed, one flag a wheel: their motors give no torque.
     pub(crate) fn fail(&mut self, failed: &[bool]) {
         for (motor, failed) in self.motors.iter_mut().zip(failed) {

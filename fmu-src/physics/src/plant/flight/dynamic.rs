@@ -165,7 +165,7 @@ impl<'f> Simulated<'f> for Dynamic<'f> {
             return Err(PlantError::Maneuver { time_s: start_s, why: ManeuverError::ByTorque });
         }
         if let Some(target_body_n_m_s) = inputs.dump_to_body_n_m_s {
-            self.state.cut(start_s, false);
+            self.state.cut(start_s);
             self.dump_to(target_body_n_m_s);
         }
         let ConfiguredFlight { thrusters, allocator, .. } = &mut self.flight;
@@ -174,7 +174,7 @@ impl<'f> Simulated<'f> for Dynamic<'f> {
         let pulses = valves.command_pulses(&settings.thrusters, &inputs.pulses, step, is_dumping);
         let feed = Feed { settings, propellant, time_s: start_s };
         if valves.command_thrust(&feed, &inputs.thrust) || pulses {
-            self.state.cut(start_s, false);
+            self.state.cut(start_s);
         }
         Ok(())
     }

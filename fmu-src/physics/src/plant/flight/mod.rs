@@ -191,9 +191,10 @@ impl Flight {
             Mode::Dynamic(dynamics) => {
                 let DisturbanceInterval { span, made_for, .. } = &dynamics.disturbance;
                 let loads_change = span.is_before() || *made_for != setup.context.models.digest;
-                dynamics.cut(time_s, loads_change);
+                dynamics.cut(time_s);
                 self.state.propagator.command_slews.cut(time_s);
                 if loads_change {
+                    dynamics.disturbance.span.cut(time_s);
                     self.state.propagator.cut(so_far, time_s);
                 }
             }

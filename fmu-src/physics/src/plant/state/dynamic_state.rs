@@ -52,13 +52,10 @@ impl DynamicState {
         self.motion.start_s() <= time_s + tolerance_s && time_s <= self.motion.end_s() + tolerance_s
     }
 
-    /// Something that acts changes at `time_s`; `loads_change` tells whether light and place do.
-    pub(crate) fn cut(&mut self, time_s: f64, loads_change: bool) {
+    /// Something that acts changes at `time_s`, but neither light nor place.
+    pub(crate) fn cut(&mut self, time_s: f64) {
         if time_s < self.motion.end_s() - tolerance_s(time_s) {
             self.motion.cut(time_s);
-        }
-        if loads_change {
-            self.disturbance.span.cut(time_s);
         }
     }
 
