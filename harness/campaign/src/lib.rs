@@ -5,5 +5,5 @@
 mod design;
 mod statistics;
 
-pub use design::{Correlation, Design, DesignError, Distribution, MOST_RUNS, Sampling, Varied};
+pub use design::{Correlation, Design, DesignError, Distribution, MAX_RUNS, Sampling, Varied};
 pub use statistics::{Extremes, PERCENTILES, percentiles};

@@ -1,4 +1,4 @@
-//! What is kept of time series.
+//! Statistics of time series.
 
 /// Shares in percent that are kept of many runs.
 pub const PERCENTILES: [u8; 7] = [1, 5, 25, 50, 75, 95, 99];

@@ -2,7 +2,7 @@
 
 use model_description::{Description, value};
 
-/// What reads inputs.
+/// Options by which inputs are read.
 struct Reading {
     /// The inputs: names, vectors by their bare names, beginnings that end in a point; `[k]` for any index.
     inputs: &'static [&'static str],
@@ -14,7 +14,7 @@ struct Reading {
     implied: Option<(&'static str, &'static str)>,
 }
 
-/// A reading of which no item is implied.
+/// A reading without an implied item.
 const fn reading(
     inputs: &'static [&'static str],
     option: &'static str,
@@ -56,7 +56,7 @@ pub struct Unread {
     pub item: String,
     /// The items at which they would be read.
     pub reading: &'static [&'static str],
-    /// What the wiring sets instead.
+    /// Item that the wiring sets instead.
     pub(crate) implied: Option<&'static str>,
 }
 
@@ -72,7 +72,7 @@ impl std::fmt::Display for Unread {
     }
 }
 
-/// What is connected in vain to a component of this description, by its options' numbers; those that a component does not have it
+/// Returns the inputs of a component of this description that are connected in vain, by its options' numbers; those that a component does not have it
 /// does not read by.
 pub(crate) fn unread(
     component: &str,

@@ -110,13 +110,13 @@ pub(crate) enum BodyKind {
 }
 
 /// Longest span, in years: what is fitted is in memory whole.
-const MOST_YEARS: f64 = 100.0;
+const MAX_YEARS: f64 = 100.0;
 
 fn check_span(option: &str, written: &str, span_s: f64) -> Result<(), String> {
     let years = span_s / (365.25 * DAY_S);
-    let is_allowed = years <= MOST_YEARS;
+    let is_allowed = years <= MAX_YEARS;
     is_allowed.then_some(()).ok_or_else(|| {
-        format!("{option}: found {written:?}, {years:.0} years after --start, allowed: up to {MOST_YEARS}")
+        format!("{option}: found {written:?}, {years:.0} years after --start, allowed: up to {MAX_YEARS}")
     })
 }
 

@@ -4,8 +4,8 @@ use drawing::scenes::panel_called;
 use fmi::Error;
 use nalgebra::Vector3;
 use planner::{
-    momentum::{Held, Mission, Region},
-    torque_map::{Angles, Grid, Mapped, Sunlight, Worth, least, worths},
+    momentum::{HoldableDays, Mission, Region},
+    torque_map::{Angles, Grid, Mapped, Sunlight, TorqueSensitivity, least, worths},
 };
 
 use super::{options::Steps, spacecraft::MappedSpacecraft};
@@ -23,7 +23,7 @@ pub(super) struct Attainable {
     pub added_n_m: Region,
     /// The same at the mission's mean light.
     pub mean_added_n_m: Region,
-    pub mission: Option<(Mission, Held)>,
+    pub mission: Option<(Mission, HoldableDays)>,
 }
 
 /// Everything found.
@@ -36,7 +36,7 @@ pub(super) struct Found {
     /// Torque with the Sun on -Y.
     pub ahead_n_m: Vector3<f64>,
     /// Torque with the Sun where a degree is weighed, and what that is worth.
-    pub weighed: (Vector3<f64>, Vec<Worth>),
+    pub weighed: (Vector3<f64>, Vec<TorqueSensitivity>),
     pub attainable: Attainable,
 }
 

@@ -16,7 +16,7 @@ const FAR_DEG: f64 = 8.0;
 const THROUGH_RAD: f64 = 1e-3;
 /// The close view is so many times the turn's angle wide, and at least so many deg.
 const CLOSE: f64 = 0.75;
-const LEAST_CLOSE_DEG: f64 = 0.05;
+const MIN_CLOSE_DEG: f64 = 0.05;
 
 /// The picture as SVG text.
 ///
@@ -157,7 +157,7 @@ fn sphere(burn: &PlannedBurn) -> PlaneChart {
         ),
         Series::rings("", bodies),
     ];
-    let close_deg = (CLOSE * angle_rad.to_degrees()).max(LEAST_CLOSE_DEG);
+    let close_deg = (CLOSE * angle_rad.to_degrees()).max(MIN_CLOSE_DEG);
     let panel = |title: &str, half_width: f64, named: Vec<(&str, Vector3<f64>)>| {
         let named = named.into_iter().map(|(name, direction)| (map.place(&direction), name.to_owned()));
         PlanePanel {

@@ -31,7 +31,7 @@ pub(crate) use simulated::{Assemble, Simulated, assemble_into};
 pub(crate) use subject::Subject;
 
 /// Warnings of an FMU that are shown without `--log`.
-const MOST_WARNINGS: usize = 20;
+const MAX_WARNINGS: usize = 20;
 
 /// Why a run ends before its stop.
 const LOST_READER: &str = "nobody reads the standard output any more";
@@ -161,8 +161,8 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
     checks.update(recording);
     let logged = fmi::warnings(&result.messages);
     if !arguments.quiet && !arguments.log {
-        logged.iter().take(MOST_WARNINGS).for_each(|text| terminal::note(&format!("warning: {text}")));
-        if let Some(more) = logged.len().checked_sub(MOST_WARNINGS).filter(|more| *more > 0) {
+        logged.iter().take(MAX_WARNINGS).for_each(|text| terminal::note(&format!("warning: {text}")));
+        if let Some(more) = logged.len().checked_sub(MAX_WARNINGS).filter(|more| *more > 0) {
             terminal::note(&format!("warning: {more} more: see --log"));
         }
     }

@@ -180,7 +180,7 @@ fn read_table(
     at: &Path,
 ) -> Result<InputTable, Box<dyn std::error::Error>> {
     let in_file = |error: &dyn std::error::Error| format!("{}: {}", path.display(), fmi::Error::chain(error));
-    let file = files::open_at_most(at, files::MOST_TABLE_BYTES)
+    let file = files::open_at_most(at, files::MAX_TABLE_BYTES)
         .map_err(|error| format!("{}: see --input", in_file(&error)))?;
     let mut rows = fmi::csv::read_rows(file).map_err(|error| in_file(&error))?;
     let header = if rows.is_empty() { Vec::new() } else { rows.remove(0) };

@@ -123,7 +123,7 @@ impl Subject {
             None => None,
         };
         Ok(match self {
-            Self::Fmu(fmu) => Times::of(fmu, start, stop_s, step)?,
+            Self::Fmu(fmu) => Times::from_fmu(fmu, start, stop_s, step)?,
             Self::System(system) => system.times(start, stop_s, step)?,
         })
     }

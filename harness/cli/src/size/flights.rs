@@ -22,7 +22,7 @@ const STEP_OF_DUMPS_S: f64 = 21_600.0;
 /// Rows that are kept of a flight at most.
 const ROWS: f64 = 300_000.0;
 /// Thresholds that are simulated whatever the time.
-const LEAST_THRESHOLDS: usize = 3;
+const MIN_THRESHOLDS: usize = 3;
 /// Thresholds that are simulated, as shares of the file's: its own first, then outward.
 const SCALES: [f64; 9] = [1.0, 2.0, 0.5, 1.41, 0.71, 4.0, 0.35, 2.83, 0.25];
 
@@ -80,7 +80,7 @@ pub(super) fn sweep(
     let bar = terminal::progress(cases.len() as u64, "flights", is_quiet);
     let mut sweep = Sweep { dumped: Vec::new(), left_out: 0 };
     for (index, (scale, strategy)) in cases.into_iter().enumerate() {
-        if index >= LEAST_THRESHOLDS * sized.strategies.len() && Instant::now() >= until {
+        if index >= MIN_THRESHOLDS * sized.strategies.len() && Instant::now() >= until {
             sweep.left_out += 1;
             continue;
         }

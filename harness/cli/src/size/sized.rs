@@ -33,7 +33,7 @@ const PHASE: &str = "guided.phase";
 pub(super) const YEAR_S: f64 = 365.25 * DAY_S;
 
 /// Longest flight, in years: its columns are in memory whole.
-const MOST_YEARS: f64 = 50.0;
+const MAX_YEARS: f64 = 50.0;
 
 /// A spacecraft ready for simulation.
 pub(super) struct SizedSpacecraft {
@@ -109,8 +109,8 @@ impl SizedSpacecraft {
         let is_body_integral = item(description, &sets, "momentum.convention") == Some("bodyIntegral");
         drop(started);
         let span_s = arguments.duration.unwrap_or(stop_s - start_s);
-        if span_s > MOST_YEARS * YEAR_S {
-            let [found, option] = [span_s / YEAR_S, MOST_YEARS].map(terminal::short);
+        if span_s > MAX_YEARS * YEAR_S {
+            let [found, option] = [span_s / YEAR_S, MAX_YEARS].map(terminal::short);
             return Err(format!(
                 "{file}: found a flight of {found} years, allowed: up to {option}: --duration"
             )

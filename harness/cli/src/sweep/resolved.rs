@@ -19,7 +19,7 @@ use model_description::{BaseType, Description, ScalarVariable, value};
 use crate::run::{Run, Settings, Simulated, Subject};
 
 /// Numbers that percentiles are made of at most.
-const MOST_NUMBERS: u64 = 100_000_000;
+const MAX_NUMBERS: u64 = 100_000_000;
 
 /// What is recorded of a run. Columns are positions in `positions`.
 #[derive(Default)]
@@ -161,9 +161,9 @@ impl Campaign {
         runs: &Range<u64>,
     ) -> Result<(), String> {
         let numbers = (runs.end - runs.start).saturating_mul(self.numbers_per_run() as u64);
-        if numbers > MOST_NUMBERS {
+        if numbers > MAX_NUMBERS {
             return Err(format!(
-                "{}: keep.percentiles: found {numbers} numbers, allowed: up to {MOST_NUMBERS}: a larger `every`, fewer names or runs",
+                "{}: keep.percentiles: found {numbers} numbers, allowed: up to {MAX_NUMBERS}: a larger `every`, fewer names or runs",
                 file.file.display()
             ));
         }
@@ -312,8 +312,8 @@ impl Reader<'_> {
     fn table(&self) -> Result<(Vec<Varied>, Sampling), String> {
         let path = self.file.table.as_deref().unwrap_or(Path::new(""));
         let shown = path.display();
-        let open = files::open_at_most(path, files::MOST_TABLE_BYTES)
-            .map_err(|error| format!("{shown}: {error}"))?;
+        let open =
+            files::open_at_most(path, files::MAX_TABLE_BYTES).map_err(|error| format!("{shown}: {error}"))?;
         let mut rows = fmi::csv::read_rows(open).map_err(|error| format!("{shown}: {error}"))?;
         if rows.len() < 2 {
             let allowed = "a header with names of variables and a row a run";

@@ -17,7 +17,7 @@ struct CoefficientRow {
 
 /// The tables for these settings: those of a spacecraft where it is one, then the other calculated parameters.
 pub(super) fn text(fmu: &Fmu, settings: &[String]) -> Result<String, Error> {
-    let start_s = Times::of(fmu, None, None, None)?.start_s;
+    let start_s = Times::from_fmu(fmu, None, None, None)?.start_s;
     let mut instance = started(fmu, "info", start_s, &assigned(fmu.description(), settings)?)?;
     let mut parts = spacecraft::tables(fmu, &mut instance)?;
     parts.extend(others(fmu, &mut instance)?);

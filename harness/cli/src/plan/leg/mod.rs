@@ -22,7 +22,7 @@ use isolation::interrupt;
 use packing::assembly::spacecraft_of;
 use physics::{constants::DAY_S, environment::dates};
 use planner::{
-    leg::{Leg, LegError, LegTask, MOST_LEG_S, report, shoot},
+    leg::{Leg, LegError, LegTask, MAX_LEG_S, report, shoot},
     orbit::LambertError,
 };
 use toml_edit::{DocumentMut, value};
@@ -175,11 +175,11 @@ fn check(file: &LegFile, mission: &SimulatedMission, arrival_s: f64) -> Result<(
             .problem(&file.arrive, "found a time that is not after the departure, allowed: a later one")
             .into());
     }
-    if arrival_s - mission.start_s > MOST_LEG_S {
+    if arrival_s - mission.start_s > MAX_LEG_S {
         let years = terminal::short((arrival_s - mission.start_s) / (365.25 * DAY_S));
         let what = format!(
             "found a time {years} years behind the departure, allowed: up to {} years behind it",
-            terminal::short(MOST_LEG_S / (365.25 * DAY_S))
+            terminal::short(MAX_LEG_S / (365.25 * DAY_S))
         );
         return Err(file.problem(&file.arrive, &what).into());
     }

@@ -25,7 +25,7 @@ pub(super) struct Aim {
 impl Aim {
     /// Refuses a planet that is not the mission's, and a date that it has not.
     pub(super) fn of(file: &PlanFile, flyby: &Flyby, mission: &SimulatedMission) -> Result<Self, Failure> {
-        let force_model = ForceModel::of(&mission.values(), mission.start_s)
+        let force_model = ForceModel::new(&mission.values(), mission.start_s)
             .map_err(|error| format!("{}: {error}", mission.mission.file.display()))?;
         let name = force_model.body.data().name;
         if !name.eq_ignore_ascii_case(&flyby.body.it) {

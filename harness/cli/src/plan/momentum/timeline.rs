@@ -13,11 +13,11 @@ use physics::{
     guidance::timeline::{PlanStatus, Timeline, TimelineClock, TimelineEvent, simulation_time_s},
 };
 use planner::momentum::{
-    in_force::InForce,
+    in_force::ActiveControls,
     plan::PlannedDump,
     report::PlanEvent,
     torque::{Control, Controls},
-    windows::{Layout, Occupied, Window, WindowKind},
+    windows::{Layout, BusySpan, Window, WindowKind},
 };
 use toml_edit::{DocumentMut, Item};
 
@@ -173,12 +173,12 @@ impl MissionTimeline {
     }
 
     /// Commands that a plan leaves as they are.
-    pub(super) fn occupied(&self, stop_s: f64) -> Vec<Occupied> {
+    pub(super) fn occupied(&self, stop_s: f64) -> Vec<BusySpan> {
         let next = |index: usize| self.commands.get(index + 1).map_or(stop_s, |next| next.at_s);
         let commands = self.commands.iter().enumerate();
         commands
             .filter(|(_, kept)| kept.status != PlanStatus::Free)
-            .map(|(index, kept)| Occupied {
+            .map(|(index, kept)| BusySpan {
                 start_s: kept.at_s,
                 stop_s: kept.until_s.unwrap_or(f64::INFINITY).min(next(index)),
                 planned: kept.status == PlanStatus::Planned,
@@ -189,7 +189,7 @@ impl MissionTimeline {
 
     /// Controls of the mission from its start on, where every panel stands at one offset plus a windmill angle by its side: `sides` is
     /// which way that turns each of them, `offsets_rad` where they stand before the timeline's first step; else none.
-    pub(super) fn own(&self, start_s: f64, sides: &[f64], offsets_rad: &[f64]) -> Vec<InForce> {
+    pub(super) fn own(&self, start_s: f64, sides: &[f64], offsets_rad: &[f64]) -> Vec<ActiveControls> {
         let turned = sides.iter().position(|side| *side != 0.0);
         // Panels on both sides are at offset + windmill and offset - windmill.
         let other = turned.and_then(|turned| sides.iter().position(|side| *side == -sides[turned]));
@@ -229,14 +229,14 @@ impl MissionTimeline {
             let ([azimuth, elevation], [own_azimuth, own_elevation]) = (of(false), of(true));
             let controls =
                 Controls([offset_rad, windmill_rad, azimuth, elevation, share, own_azimuth, own_elevation]);
-            Some(InForce { at_s, controls })
+            Some(ActiveControls { at_s, controls })
         };
-        let all: Option<Vec<InForce>> = times_s.into_iter().map(at).collect();
+        let all: Option<Vec<ActiveControls>> = times_s.into_iter().map(at).collect();
         all.unwrap_or_default()
     }
 
     /// Part of `own` that is a plan: from the time on at which both arrays and Sun directions are commanded.
-    pub(super) fn in_force(&self, own: &[InForce]) -> Vec<InForce> {
+    pub(super) fn in_force(&self, own: &[ActiveControls]) -> Vec<ActiveControls> {
         let (Some((arrays_s, _)), Some((places_s, ..))) = (self.arrays_rad.first(), self.sun_places.first())
         else {
             return Vec::new();
