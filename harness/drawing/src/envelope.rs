@@ -120,14 +120,14 @@ mod tests {
 
     #[test]
     fn a_decaying_oscillation_is_drawn_by_its_extremes() {
-        let envelope = envelope(&line(100_000, |x| (-x).exp() * (1e4 * x).sin())).unwrap();
-        for &(x, greatest) in &envelope.greatest {
+        let drawn = envelope(&line(100_000, |x| (-x).exp() * (1e4 * x).sin())).unwrap();
+        for &(x, greatest) in &drawn.greatest {
             assert!((greatest / (-x).exp() - 1.0).abs() < 0.01, "{x}: {greatest}");
         }
-        for &(x, lowest) in &envelope.lowest {
+        for &(x, lowest) in &drawn.lowest {
             assert!((lowest / (-x).exp() + 1.0).abs() < 0.01, "{x}: {lowest}");
         }
-        assert_eq!(envelope.outline().len(), 2 * envelope.lowest.len());
+        assert_eq!(drawn.outline().len(), 2 * drawn.lowest.len());
         // Two hundred orbits in as many hundredths of a panel.
         let slow = envelope(&line(2_000, |x| (std::f64::consts::TAU * 200.0 * x).sin())).unwrap();
         assert!(slow.greatest.iter().all(|(_, y)| (0.9..=1.0).contains(y)), "{slow:?}");
