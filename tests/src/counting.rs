@@ -7,7 +7,7 @@ use std::cell::Cell;
 /// The system's allocator, counting.
 pub struct Counting;
 
-/// What one thread requested from the allocator.
+/// Requests of one thread to the allocator.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Count {
     /// Blocks requested, moved blocks included.
@@ -28,7 +28,7 @@ pub fn count() -> Count {
     COUNT.get()
 }
 
-/// What `body` requested on this thread.
+/// Runs `body`; returns its result with its requests on this thread.
 pub fn counted<T>(body: impl FnOnce() -> T) -> (T, Count) {
     let before = count();
     let result = body();

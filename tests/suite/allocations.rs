@@ -34,7 +34,7 @@ impl Client {
             booleans: (booleans.clone(), vec![0; booleans.len()]),
             torque: names.vector("torque.applied"),
             moved: moved.iter().map(|name| names.real(name)).collect(),
-            switched: names.of(BaseType::Boolean, switched),
+            switched: names.typed(BaseType::Boolean, switched),
         }
     }
 
@@ -87,7 +87,7 @@ fn happened(simulation: &mut Simulation) -> i32 {
     let name =
         if simulation.scenario.model() == "MomentumPlant" { "dump.count" } else { "spin.sunCrossings" };
     let mut count = [0];
-    ok(simulation.instance.get_integer(&[simulation.names.of(BaseType::Integer, name)], &mut count));
+    ok(simulation.instance.get_integer(&[simulation.names.typed(BaseType::Integer, name)], &mut count));
     count[0]
 }
 
@@ -101,7 +101,7 @@ fn guidance_allocates_nothing() {
         let mut reals = vec![0.0; references[0].len()];
         let [mut integers, mut booleans] = [1, 2].map(|base| vec![0; references[base].len()]);
         let [position, velocity] = ["position", "velocity"].map(|name| names.vector::<3>(name));
-        let scenario_input = [names.of(BaseType::Integer, "pointing.scenario")];
+        let scenario_input = [names.typed(BaseType::Integer, "pointing.scenario")];
         let rate = names.vector::<3>("command.rate");
         (0..200).for_each(|_| simulation.step());
         let (instance, mut time_s) = (&mut simulation.instance, simulation.time_s);
@@ -138,7 +138,7 @@ fn predictive_targets_allocate_nothing() {
     for model in ["MomentumPlant", "Guidance"] {
         for convention in [1, 2] {
             let names = names(model);
-            let integer = |name: &str| names.of(BaseType::Integer, name);
+            let integer = |name: &str| names.typed(BaseType::Integer, name);
             let mut instance = silent(model);
             let choices = [
                 integer("momentum.strategy"),
@@ -234,7 +234,7 @@ fn predictions_allocate_nothing() {
     ok(instance.set_debug_logging(false, &[]));
     Scenario::Lit.prepare(&mut instance, &names);
     let integers = ["orbit.center", "orbit.source", "orbit.dynamics", "encounter.body", "ephemeris.source"]
-        .map(|name| names.of(BaseType::Integer, name));
+        .map(|name| names.typed(BaseType::Integer, name));
     ok(instance.set_integer(&integers, &[2, 2, 3, 1, 1]));
     ok(instance.set_real(&names.vector::<3>("orbit.position"), &[5e10, 0.0, 0.0]));
     ok(instance.set_real(&names.vector::<3>("orbit.velocity"), &[0.0, 5e4, 5e3]));
@@ -302,8 +302,8 @@ fn all_types_allocates_nothing() {
     ok(instance.start(0.0, None));
     let real = [names.real("input.real"), names.real("tunable.real")];
     let integer =
-        [names.of(BaseType::Integer, "input.integer"), names.of(BaseType::Integer, "tunable.choice")];
-    let boolean = [names.of(BaseType::Boolean, "input.boolean")];
+        [names.typed(BaseType::Integer, "input.integer"), names.typed(BaseType::Integer, "tunable.choice")];
+    let boolean = [names.typed(BaseType::Boolean, "input.boolean")];
     let output = [names.real("output.real"), names.real("output.integral")];
     let (mut reals, mut integers, mut booleans) = ([0.0; 2], [0; 2], [0; 1]);
     let mut step = |number: u32| {

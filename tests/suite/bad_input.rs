@@ -40,7 +40,7 @@ fn resources(folder: &Path, spacecraft: &str) -> PathBuf {
 }
 
 fn uri(folder: &Path) -> String {
-    loader::file_uri(folder)
+    fmi::file_uri(folder)
 }
 
 fn guid_of(spacecraft: &str) -> String {
@@ -135,7 +135,7 @@ fn running() -> (InProcess, Names) {
     let mut instance = fresh(PLANT);
     ok(instance.start(0.0, Some(6_000.0)));
     ok(instance.do_step(0.0, 600.0));
-    let _ = instance.take_messages();
+    let _ = instance.drain_messages();
     (instance, names(PLANT))
 }
 
@@ -147,14 +147,14 @@ fn nan_and_infinity_are_discarded_and_the_instance_stays_usable() {
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         // The good elements beside the bad one are not written either.
         assert_eq!(instance.set_real(&torque, &[1e-3, bad, 1e-3]), Status::Discard);
-        contains(&text(&instance.take_messages()), &["torque.applied[2]", "allowed is -1e100 to 1e100"]);
+        contains(&text(&instance.drain_messages()), &["torque.applied[2]", "allowed is -1e100 to 1e100"]);
         assert_eq!(everything(&mut instance, &names), before);
     }
     let threshold = names.real("dump.threshold[1]");
     assert_eq!(instance.set_real(&[threshold], &[-1.0]), Status::Discard);
-    contains(&text(&instance.take_messages()), &["dump.threshold[1]", "-1.0", "allowed is 1e-6 to 1e100"]);
+    contains(&text(&instance.drain_messages()), &["dump.threshold[1]", "-1.0", "allowed is 1e-6 to 1e100"]);
     assert_eq!(instance.set_input_derivatives(&torque[..1], &[1], &[f64::NAN]), Status::Discard);
-    let kind = names.of(BaseType::Integer, "command.kind");
+    let kind = names.typed(BaseType::Integer, "command.kind");
     assert_eq!(instance.set_integer(&[kind], &[17]), Status::Discard);
     // None of it leaves a trace.
     ok(instance.do_step(600.0, 600.0));
@@ -169,7 +169,7 @@ fn a_step_past_the_stop_time_is_an_error() {
     ok(instance.do_step(600.0, 5_400.0));
     let before = real_bits(&mut instance, &names.all(BaseType::Real));
     assert_eq!(instance.do_step(6_000.0, 600.0), Status::Error);
-    contains(&text(&instance.take_messages()), &["6600.0", "6000.0", "stop"]);
+    contains(&text(&instance.drain_messages()), &["6600.0", "6000.0", "stop"]);
     // Not carried out at all; Reset brings the instance back.
     assert_eq!(real_bits(&mut instance, &names.all(BaseType::Real)), before);
     ok(instance.reset());
@@ -183,11 +183,11 @@ fn an_unknown_reference_in_a_vector_writes_nothing() {
     let torque = names.vector::<3>("torque.applied");
     let before = real_bits(&mut instance, &names.all(BaseType::Real));
     assert_eq!(instance.set_real(&[torque[0], 4_000_000, torque[2]], &[1.0, 2.0, 3.0]), Status::Error);
-    contains(&text(&instance.take_messages()), &["4000000"]);
+    contains(&text(&instance.drain_messages()), &["4000000"]);
     assert_eq!(real_bits(&mut instance, &names.all(BaseType::Real)), before);
     let mut values = [0.0; 2];
     assert_eq!(instance.get_real(&[torque[0], u32::MAX], &mut values), Status::Error);
-    contains(&text(&instance.take_messages()), &["4294967295"]);
+    contains(&text(&instance.drain_messages()), &["4294967295"]);
 }
 
 #[test]
@@ -226,7 +226,7 @@ fn two_spacecraft_simulate_in_one_process_as_each_does_alone() {
     // A state of one is no state of the other.
     let (status, bytes) = together[0].state_bytes();
     ok(status);
-    let _ = together[1].take_messages();
+    let _ = together[1].drain_messages();
     assert_eq!(together[1].deserialize(&bytes).0, Status::Error);
-    contains(&text(&together[1].take_messages()), &["another setup"]);
+    contains(&text(&together[1].drain_messages()), &["another setup"]);
 }

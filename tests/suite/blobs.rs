@@ -53,9 +53,9 @@ fn genuine(model: &str) -> Vec<Vec<u8>> {
     if model == "MomentumPlant" {
         let mut instance = fresh(model);
         let names = support::names(model);
-        let on = |name: &str| names.of(BaseType::Boolean, name);
+        let on = |name: &str| names.typed(BaseType::Boolean, name);
         ok(instance.set_boolean(&[on("planetLight.enabled"), on("thermal.enabled")], &[1, 1]));
-        ok(instance.set_integer(&[names.of(BaseType::Integer, "orbit.dynamics")], &[2]));
+        ok(instance.set_integer(&[names.typed(BaseType::Integer, "orbit.dynamics")], &[2]));
         ok(instance.start(0.0, None));
         ok(instance.do_step(0.0, 1000.0));
         save(&mut instance);
@@ -185,7 +185,7 @@ impl Target {
     }
 
     fn check_log(&self) {
-        let messages = self.instance.take_messages();
+        let messages = self.instance.drain_messages();
         assert!(messages.iter().all(|it| !it.text.contains("panic")), "{}: {messages:?}", self.model);
     }
 }
@@ -285,9 +285,9 @@ fn states_of_other_models_and_other_setups_are_refused() {
     ok(target.instance.reset());
     let mut later = own;
     later[8] += 1;
-    let _ = target.instance.take_messages();
+    let _ = target.instance.drain_messages();
     assert_eq!(target.instance.deserialize(&later).0, Status::Error);
-    let messages = target.instance.take_messages();
+    let messages = target.instance.drain_messages();
     assert!(messages[0].text.contains("layout version 4, this library reads 3"), "{messages:?}");
 }
 
@@ -302,9 +302,9 @@ fn judged_alike(scenario: Scenario, cases: u32) {
     let (bare, busy) = (std::cell::RefCell::new(fresh(model)), std::cell::RefCell::new(busy.instance));
     let judged = |instance: &std::cell::RefCell<InProcess>, bytes: &[u8]| {
         let mut instance = instance.borrow_mut();
-        let _ = instance.take_messages();
+        let _ = instance.drain_messages();
         let (status, state) = instance.deserialize(bytes);
-        let texts: Vec<String> = instance.take_messages().into_iter().map(|it| it.text).collect();
+        let texts: Vec<String> = instance.drain_messages().into_iter().map(|it| it.text).collect();
         (status, state.is_null(), texts)
     };
     let (refused, taken) = (std::cell::Cell::new(0), std::cell::Cell::new(0));

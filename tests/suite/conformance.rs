@@ -1,7 +1,7 @@
 //! This project's FMUs pass every probe of `heliotorque check`, run here through their shared library.
 
-use conformance::{Finding, PROBES, Verdict, archive, description, run, trials};
-use loader::Fmu;
+use fmi::Fmu;
+use fmi::conformance::{Finding, PROBES, Verdict, archive, description, run, trials};
 
 use crate::support::{SHIPPED, built};
 

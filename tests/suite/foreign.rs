@@ -1,6 +1,6 @@
 //! The harness runs an FMU that others built: FMPy's container, whose C library loads our plant in turn.
 
-use loader::{Fmu, Options, simulate};
+use fmi::{Fmu, Options, simulate};
 
 use crate::support::{built, names, ok, silent};
 

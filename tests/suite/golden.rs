@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use loader::{Binary, Fmu};
+use fmi::{Binary, Fmu};
 
 use model_description::{Causality, Code, ScalarVariable};
 

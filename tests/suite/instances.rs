@@ -1,9 +1,9 @@
 //! Instances do not know of each other: not by their numbers, not by their memory.
 
 use client::short_or_long;
-use heliotorque_tests::counting::counted;
 #[cfg(target_os = "linux")]
-use loader::{Fmu, Instance, InstanceOptions};
+use fmi::{Fmu, Instance, InstanceOptions};
+use heliotorque_tests::counting::counted;
 
 use crate::scenarios::{Scenario, Simulation};
 #[cfg(target_os = "linux")]

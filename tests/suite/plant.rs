@@ -6,7 +6,7 @@ use model_description::BaseType;
 use crate::support::{fresh, library, names, ok, real_bits};
 
 fn plant() -> NamedInstance {
-    NamedInstance::of(library("MomentumPlant"), "MomentumPlant")
+    NamedInstance::from_library(library("MomentumPlant"), "MomentumPlant")
 }
 
 #[test]

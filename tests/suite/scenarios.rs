@@ -74,26 +74,27 @@ impl Scenario {
         match self {
             Self::Guided | Self::Commanded => {
                 ok(instance.set_real(&names.vector::<3>("dump.threshold"), &[1.0; 3]));
-                let source = names.of(BaseType::Integer, "attitude.source");
+                let source = names.typed(BaseType::Integer, "attitude.source");
                 ok(instance.set_integer(&[source], &[if self == Self::Guided { 1 } else { 2 }]));
             }
             Self::Lit => {
-                let on = |name: &str| names.of(BaseType::Boolean, name);
+                let on = |name: &str| names.typed(BaseType::Boolean, name);
                 ok(instance.set_boolean(&[on("planetLight.enabled"), on("thermal.enabled")], &[1, 1]));
                 let choices = ["orbit.dynamics", "ephemeris.source", "orbit.frame"];
-                ok(instance.set_integer(&choices.map(|name| names.of(BaseType::Integer, name)), &[2, 2, 1]));
+                ok(instance
+                    .set_integer(&choices.map(|name| names.typed(BaseType::Integer, name)), &[2, 2, 1]));
                 ok(instance.set_real(&names.vector::<3>("dump.threshold"), &[0.5; 3]));
                 ok(instance.set_real(&[names.real("ephemeris.trueAnomaly")], &[1.7]));
             }
             Self::Controlled | Self::Free => {
                 let source = if self == Self::Controlled { 3 } else { 4 };
-                ok(instance.set_integer(&[names.of(BaseType::Integer, "attitude.source")], &[source]));
+                ok(instance.set_integer(&[names.typed(BaseType::Integer, "attitude.source")], &[source]));
                 ok(instance.set_real(&names.vector::<4>("start.q"), &[0.0, 0.0, 0.0, 1.0]));
                 ok(instance.set_real(&[names.real("wheel[1].startMomentum")], &[0.7]));
                 if self == Self::Free {
-                    let on = |name: &str| names.of(BaseType::Boolean, name);
+                    let on = |name: &str| names.typed(BaseType::Boolean, name);
                     ok(instance.set_boolean(&[on("planetLight.enabled"), on("thermal.enabled")], &[1, 1]));
-                    ok(instance.set_integer(&[names.of(BaseType::Integer, "orbit.dynamics")], &[2]));
+                    ok(instance.set_integer(&[names.typed(BaseType::Integer, "orbit.dynamics")], &[2]));
                 }
             }
             Self::Burning | Self::Fired => {
@@ -101,7 +102,7 @@ impl Scenario {
                 ok(instance.set_real(&reals, &[0.01, 2_000.0]));
                 // 4 leaves the thrusters to the master.
                 let plan = if self == Self::Burning { 1 } else { 4 };
-                ok(instance.set_integer(&[names.of(BaseType::Integer, "burn.plan")], &[plan]));
+                ok(instance.set_integer(&[names.typed(BaseType::Integer, "burn.plan")], &[plan]));
             }
             Self::Placed => {}
             Self::Pointed | Self::Safed | Self::Orbiting => self.prepare_guidance(instance, names),
@@ -111,7 +112,7 @@ impl Scenario {
     fn prepare_guidance(self, instance: &mut InProcess, names: &Names) {
         let choose = |instance: &mut InProcess, chosen: &[(&str, i32)]| {
             for (name, item) in chosen {
-                ok(instance.set_integer(&[names.of(BaseType::Integer, name)], &[*item]));
+                ok(instance.set_integer(&[names.typed(BaseType::Integer, name)], &[*item]));
             }
         };
         let number = |instance: &mut InProcess, name: &str, value: f64| {
@@ -162,7 +163,7 @@ impl Scenario {
         let mut held = RandomNumbers(2_000_000 + step_number / 12);
         let mut choose = |name: &str, from: i32, to: i32| {
             let item = from + i32::try_from(held.below((to - from + 1) as usize)).unwrap();
-            ok(instance.set_integer(&[names.of(BaseType::Integer, name)], &[item]));
+            ok(instance.set_integer(&[names.typed(BaseType::Integer, name)], &[item]));
         };
         match self {
             Self::Pointed => {
@@ -187,7 +188,7 @@ impl Scenario {
                 choose("mode.request", 0, 3);
                 let valid = ["estimate.valid", "sun.sensedValid"];
                 let flags = [0, 1].map(|_| i32::from(held.below(5) > 0));
-                ok(instance.set_boolean(&valid.map(|name| names.of(BaseType::Boolean, name)), &flags));
+                ok(instance.set_boolean(&valid.map(|name| names.typed(BaseType::Boolean, name)), &flags));
                 let sine = held.unit().sin();
                 let q = [0.1 * sine, 0.2 * sine, 0.3, (0.91 - 0.05 * sine * sine).sqrt()];
                 ok(instance.set_real(&names.vector::<4>("estimate.q"), &q));
@@ -226,11 +227,11 @@ impl Scenario {
             Self::Free => {
                 let motors = [1, 2, 3, 4].map(|k| names.real(&format!("wheel[{k}].torqueCommand")));
                 ok(instance.set_real(&motors, &[0.01 * (random.unit() - 0.5), 2e-3, -1e-3, 0.0]));
-                ok(instance.set_boolean(&[names.of(BaseType::Boolean, "dump.request")], &[held]));
+                ok(instance.set_boolean(&[names.typed(BaseType::Boolean, "dump.request")], &[held]));
             }
             Self::Commanded | Self::Controlled => {
                 if self == Self::Controlled {
-                    let failed = names.of(BaseType::Boolean, "wheel[2].failed");
+                    let failed = names.typed(BaseType::Boolean, "wheel[2].failed");
                     ok(instance.set_boolean(&[failed], &[held]));
                 }
                 if random.below(3) == 0 {
@@ -240,7 +241,7 @@ impl Scenario {
                     ok(instance
                         .set_real(&names.vector::<3>("command.rate"), &[1e-4 * random.unit(), -1e-5, 2e-5]));
                 }
-                let request = names.of(BaseType::Boolean, "dump.request");
+                let request = names.typed(BaseType::Boolean, "dump.request");
                 ok(instance.set_boolean(&[request], &[held]));
                 if random.below(40) == 0 {
                     let center = names.vector::<3>("spacecraft.centerOfMass");
@@ -251,7 +252,7 @@ impl Scenario {
                 let pulse = [names.real("thruster[8].onDelay"), names.real("thruster[8].onTime")];
                 let on_s = if random.below(3) == 0 { 0.032 } else { 0.0 };
                 ok(instance.set_real(&pulse, &[0.02 * random.unit(), on_s]));
-                let fire = names.of(BaseType::Boolean, "thruster[1].fire");
+                let fire = names.typed(BaseType::Boolean, "thruster[1].fire");
                 ok(instance.set_boolean(&[fire], &[held]));
             }
             Self::Placed => {

@@ -4,8 +4,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use fmi::{Fmu, Instance, InstanceOptions, Requirements, Value, platform_folders};
 use fmi_export::Enumeration;
-use loader::{Fmu, Instance, InstanceOptions, Requirements, Value, platform_folders};
 use probe::panicking::Fault;
 
 use crate::support::{LIBRARY, built, description};
@@ -25,7 +25,7 @@ pub(crate) fn folder(base: &Path, model: &str, library: &Path) -> Fmu {
     Fmu::open(&folder).unwrap()
 }
 
-fn running(fmu: &Fmu, name: &str) -> loader::Instance {
+fn running(fmu: &Fmu, name: &str) -> fmi::Instance {
     let mut instance = Instance::new(fmu, name, &InstanceOptions::default()).unwrap();
     instance.setup_experiment(None, 0.0, None).unwrap();
     instance.enter_initialization_mode().unwrap();

@@ -335,12 +335,12 @@ fn reset_is_a_fresh_instance_from_every_mode() {
     let names = support::names("AllTypes");
     let mut instance = fresh("AllTypes");
     let expected = instance.state_bytes();
-    ok(instance.set_string(&[names.of(BaseType::String, "tunable.text")], &[b"other"]));
+    ok(instance.set_string(&[names.typed(BaseType::String, "tunable.text")], &[b"other"]));
     ok(instance.start(0.0, None));
     ok(instance.set_real(&[names.real("input.real")], &[2.0]));
     ok(instance.set_input_derivatives(&[names.real("input.real")], &[1], &[2.0]));
     ok(instance.do_step(0.0, 1.0));
-    ok(instance.set_boolean(&[names.of(BaseType::Boolean, "input.boolean")], &[1]));
+    ok(instance.set_boolean(&[names.typed(BaseType::Boolean, "input.boolean")], &[1]));
     ok(instance.reset());
     assert_eq!(instance.state_bytes(), expected);
 }

@@ -63,7 +63,7 @@ pub(crate) fn built() -> Built {
 /// Builds the tests with all that they read; returns programs and libraries of profile `release`, which are hardly slower than the
 /// shipped ones and come with the tests.
 pub(crate) fn tested(quiet: &str) -> Result<Built, String> {
-    run(&mut cargo(&format!("test --tests --no-run {quiet} {TESTS}")))?;
+    run(&mut cargo(&format!("test --no-run --tests {quiet} {TESTS}")))?;
     run(&mut cargo(&format!("build {quiet} {TESTS}")))?;
     Ok(built_with_tests())
 }

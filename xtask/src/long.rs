@@ -43,8 +43,8 @@ const PARTS: &[Part] = &[
     ("shipped", shipped),
 ];
 
-/// What the tests ran on the libraries of `release`, on the shipped ones: the suite, the tests in Python, the C client. Default experiments of
-/// the shipped FMUs have the same bits.
+/// The suite, the tests in Python and the C client on the shipped libraries; before that, default experiments of all FMUs, which have the bits
+/// of those by the libraries of `release`.
 fn shipped() -> Outcome {
     test::current_environment()?;
     let flown = |name: &str| {

@@ -18,6 +18,7 @@ mod selected;
 mod shell;
 mod systems;
 mod test;
+mod timing;
 mod tools;
 mod windows;
 
@@ -32,7 +33,7 @@ const HELP: &str = "\
 cargo xtask <task>
 
   demo    build the library, pack dist/MomentumPlant.fmu, simulate paper 000's 90 days, compare with its Table 2
-  test    everything that must hold: format, Rust tests, FMPy, C client
+  test    everything that must hold: format, Rust tests, FMPy, C client; prints processor time by step and the slowest tests
   test --long
           the same, then lints, the guide, long tests of the models, of the shared library and in Python, and the
           longer searches for faults: each fuzz target of tests/fuzz for a minute
@@ -70,10 +71,10 @@ fn main() -> ExitCode {
     let option = arguments.get(1).map(String::as_str);
     let outcome = match task.as_str() {
         "demo" => demo(),
-        "test" if option == Some("--long") => long::all(),
+        "test" if option == Some("--long") => timed(long::all),
         "test" if option == Some(ALL_PLATFORMS) => platform_tests::all(),
         "test" => match option {
-            None => test::all(),
+            None => timed(test::all),
             Some(option) if option.starts_with('-') => {
                 Err(format!("unknown option `{option}` of test; there are --long, {ALL_PLATFORMS}"))
             }
@@ -110,6 +111,13 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Prints after a task what time its steps took.
+fn timed(task: fn() -> Outcome) -> Outcome {
+    let outcome = task();
+    timing::print();
+    outcome
 }
 
 fn demo() -> Outcome {

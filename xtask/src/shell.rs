@@ -1,9 +1,12 @@
 //! Running programs: what is run is shown, a failure names it.
 
 use std::ffi::OsStr;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, ExitStatus};
+use std::process::{Child, Command, Stdio};
 use std::time::Instant;
+
+use crate::timing;
 
 /// Result of a task; the text of an error says what failed.
 pub(crate) type Outcome = Result<(), String>;
@@ -49,12 +52,38 @@ pub(crate) fn run(command: &mut Command) -> Outcome {
     let shown = show(command);
     eprintln!("+ {shown}");
     let start = Instant::now();
-    let status = command.status().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
-    ended(&shown, start, status)
+    let mut child = command.spawn().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
+    ended(&shown, start, &mut child)
 }
 
-/// Reports the duration of a command from 5 s on, and its failure.
-fn ended(shown: &str, start: Instant, status: ExitStatus) -> Outcome {
+/// Runs tests to the end and expects success; passes their output on and counts the times in it.
+pub(crate) fn run_tests(command: &mut Command) -> Outcome {
+    let shown = show(command);
+    eprintln!("+ {shown}");
+    let start = Instant::now();
+    let spawned = command.stdout(Stdio::piped()).spawn();
+    let mut child = spawned.map_err(|error| format!("cannot start `{shown}`: {error}"))?;
+    let mut printed = Vec::new();
+    if let Some(mut output) = child.stdout.take() {
+        let mut buffer = [0; 4096];
+        while let Ok(count @ 1..) = output.read(&mut buffer) {
+            printed.extend_from_slice(&buffer[..count]);
+            let mut stdout = std::io::stdout();
+            stdout
+                .write_all(&buffer[..count])
+                .and_then(|()| stdout.flush())
+                .map_err(|error| error.to_string())?;
+        }
+    }
+    timing::add_tests(&String::from_utf8_lossy(&printed));
+    ended(&shown, start, &mut child)
+}
+
+/// Waits for the end of a command; counts its times, prints a duration from 5 s on, reports its failure.
+fn ended(shown: &str, start: Instant, child: &mut Child) -> Outcome {
+    let processor = timing::processor_time(child);
+    let status = child.wait().map_err(|error| format!("`{shown}`: {error}"))?;
+    timing::add_command(shown, processor, start.elapsed());
     let seconds = start.elapsed().as_secs();
     if seconds >= 5 {
         eprintln!("  {} min {:02} s: {shown}", seconds / 60, seconds % 60);
@@ -80,8 +109,7 @@ impl Beside {
 
     /// Waits for its end and expects success.
     pub(crate) fn finish(mut self) -> Outcome {
-        let status = self.child.wait().map_err(|error| format!("`{}`: {error}", self.shown))?;
-        ended(&self.shown, self.start, status)
+        ended(&self.shown, self.start, &mut self.child)
     }
 }
 

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use crate::build::{self, Built, TESTS};
-use crate::shell::{Outcome, cargo, command, need, root, run};
+use crate::shell::{Outcome, cargo, command, need, root, run, run_tests};
 use crate::{dist, guide, locale, python};
 
 /// Seed of the property tests: the same draws in every run, so that what turns red was changed; set it for others.
@@ -23,14 +23,25 @@ pub(crate) fn all() -> Outcome {
     let in_rust = std::thread::scope(|scope| {
         // The client waits for one core, as some of the tests do.
         let client = scope.spawn(|| c_client(&built, false));
-        let tests = run(cargo(&format!("test --tests --no-fail-fast {TESTS}"))
-            .envs(environment.clone())
-            .envs(locale));
+        let tests = run_tests(
+            timed_tests(&format!("--no-fail-fast --tests {TESTS}")).envs(environment.clone()).envs(locale),
+        );
         [client.join().unwrap_or_else(|_| Err("the thread of the C client panicked".to_owned())), tests]
     });
     let outcomes = in_rust.into_iter().chain([python(environment, "not long")]);
     let failures: Vec<String> = outcomes.filter_map(Outcome::err).collect();
     if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
+}
+
+/// `cargo test` whose tests print their times where that is possible: libtest of the stable toolchain does so for programs that have
+/// this variable, whose value keeps compilers to stable features. Cargo itself would build anew for it.
+fn timed_tests(options: &str) -> std::process::Command {
+    let mut tests = cargo(&format!("test {options}"));
+    if cfg!(unix) {
+        tests.args(["--config", r#"target."cfg(unix)".runner=["env","RUSTC_BOOTSTRAP=-1"]"#]);
+        tests.args(["--", "-Zunstable-options", "--report-time"]);
+    }
+    tests
 }
 
 /// Builds libraries, programs and tests.
@@ -69,7 +80,10 @@ pub(crate) fn print_environment() -> Outcome {
 /// Runs the tests in Python of a mark on up to four processes.
 pub(crate) fn python(environment: Vec<(&'static str, PathBuf)>, mark: &str) -> Outcome {
     let processes = ["--numprocesses=auto", "--maxprocesses=4", "--dist=loadgroup"];
-    run(python::pytest()?.args(processes).args(["-m", mark, "tests/python"]).envs(environment))
+    let times = ["--durations=10", "--durations-min=1"];
+    run_tests(
+        python::pytest()?.args(processes).args(times).args(["-m", mark, "tests/python"]).envs(environment),
+    )
 }
 
 /// Runs the tests of one file in Python, with more in the environment.

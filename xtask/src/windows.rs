@@ -9,7 +9,7 @@ use crate::shell::{Outcome, run, target};
 use crate::test;
 
 /// Crates whose unit tests ask the operating system for something.
-const OF_THE_SYSTEM: &str = "-p files -p loader";
+const OF_THE_SYSTEM: &str = "-p files -p fmi";
 
 /// Runs the tests of program and libraries for Windows under Wine; everything is built and packed.
 pub(crate) fn test(built: &Built) -> Outcome {

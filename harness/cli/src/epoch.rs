@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 
-use loader::Error;
+use fmi::Error;
 use model_description::{Causality, Description, ScalarVariable, VariableKind, start_values, value};
 use physics::environment::dates;
 pub(crate) use planner::ephemeris::utc_date as date;

@@ -1,6 +1,6 @@
 //! An instance whose parameters and outputs can be read.
 
-use loader::{Error, Fmu, Instance, InstanceOptions, Value};
+use fmi::{Error, Fmu, Instance, InstanceOptions, Value};
 use nalgebra::Vector3;
 
 /// An instance just initialised with these values: from then on parameters can be read too.
@@ -14,7 +14,7 @@ pub(crate) fn started(
     instance.setup_experiment(None, start_s, None)?;
     let mut inputs = Vec::new();
     for (name, value) in sets {
-        if loader::set_early(fmu.variable(name)?)? {
+        if fmi::set_early(fmu.variable(name)?)? {
             instance.set(name, value)?;
         } else {
             inputs.push((name, value));

@@ -47,7 +47,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     app::run().unwrap_or_else(|error| {
-        terminal::note(&format!("heliotorque: {}", loader::Error::chain(error.as_ref())));
+        terminal::note(&format!("heliotorque: {}", fmi::Error::chain(error.as_ref())));
         if interrupt::raised() { ExitCode::from(interrupt::INTERRUPTED) } else { ExitCode::FAILURE }
     })
 }

@@ -1,6 +1,6 @@
 //! Variables by what people write of them: start values, settings, selections.
 
-use loader::{Error, Recording, Value};
+use fmi::{Error, Recording, Value};
 pub(crate) use model_description::start_values::{item, real, start};
 use model_description::{Description, ScalarVariable, VariableKind};
 use nalgebra::Vector3;
@@ -29,7 +29,7 @@ pub(crate) fn assigned_by(
 ) -> Result<Vec<(String, Value)>, Error> {
     let mut sets = Vec::new();
     for setting in settings {
-        sets.extend(loader::parse_assignment(description, &dates.in_seconds(setting)?)?);
+        sets.extend(fmi::parse_assignment(description, &dates.in_seconds(setting)?)?);
     }
     Ok(sets)
 }

@@ -1,6 +1,6 @@
 //! Connectors of components, with the units and enumerations that their types need, and the connections between them.
 
-use loader::Fmu;
+use fmi::Fmu;
 use model_description::{Description, EnumerationItem, ScalarVariable, Unit, VariableKind, value};
 
 use crate::{

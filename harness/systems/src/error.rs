@@ -31,18 +31,18 @@ pub enum Error {
         /// The component.
         component: String,
         /// What is wrong with its FMU.
-        source: Box<loader::Error>,
+        source: Box<fmi::Error>,
     },
     /// What is to be wired cannot be.
     #[error("{0}")]
     Wire(String),
     /// An FMI call, a value, the times of a run; the component's name is the instance's.
     #[error(transparent)]
-    Run(Box<loader::Error>),
+    Run(Box<fmi::Error>),
 }
 
-impl From<loader::Error> for Error {
-    fn from(error: loader::Error) -> Self {
+impl From<fmi::Error> for Error {
+    fn from(error: fmi::Error) -> Self {
         Self::Run(Box::new(error))
     }
 }

@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use loader::{Error, Instance};
+use fmi::{Error, Instance};
 use model_description::BaseType;
 
 use crate::{joint::Joint, structure::Linear, system::System};

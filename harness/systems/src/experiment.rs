@@ -1,6 +1,6 @@
 //! The default experiment of a system: its own, and what its FMUs have where it leaves something out.
 
-use loader::Fmu;
+use fmi::Fmu;
 use model_description::DefaultExperiment;
 
 /// What is left out is the earliest start and stop and the smallest step of the FMUs.

@@ -1,6 +1,6 @@
 //! Connections held against the FMUs they join: names, roles, types, items, units.
 
-use loader::Fmu;
+use fmi::Fmu;
 use model_description::{Causality, EnumerationItem, ScalarVariable, names::similar, value};
 
 use crate::{

@@ -1,7 +1,7 @@
 //! Systems of FMUs in SSP 1.0: read, checked, written, wired and simulated.
 //!
 //! [`System::open`] unpacks an SSP and holds it against its FMUs; [`simulate_into`] runs it with a fixed communication step;
-//! [`wire`] makes one of FMUs by the names of their variables. FMUs are loaded and called through `loader`.
+//! [`wire`] makes one of FMUs by the names of their variables. FMUs are loaded and called through `fmi`.
 
 mod annotations;
 mod connectors;

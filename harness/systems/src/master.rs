@@ -1,6 +1,6 @@
 //! Masters with a fixed communication step: Jacobi and Gauss-Seidel, and how their first exchange begins.
 
-use loader::{Error, Instance, InstanceOptions, LogMessage, Status, Times, Value, record_instance};
+use fmi::{Error, Instance, InstanceOptions, LogMessage, Status, Times, Value, record_instance};
 
 use crate::{
     exchange::{Ports, Signals, ports},
@@ -72,7 +72,7 @@ impl Running {
             let instance = &mut running.instances[number];
             let tolerance = part.fmu.description().default_experiment.and_then(|it| it.tolerance);
             instance.setup_experiment(tolerance, times.start_s, Some(times.stop_s))?;
-            loader::initialize(instance, given.chain(own))?;
+            fmi::initialize(instance, given.chain(own))?;
         }
         if first == FirstExchange::Initial {
             running.exchange_until_unchanged()?;

@@ -1,6 +1,6 @@
 //! All variables of a system in one description, named `component.variable`, as runs and tables read them.
 
-use loader::Fmu;
+use fmi::Fmu;
 use model_description::{
     DefaultExperiment, Description, NamingConvention, ScalarVariable, SimpleType, Unit, VariableKind,
 };

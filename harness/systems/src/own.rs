@@ -1,7 +1,7 @@
 //! The system's own connectors (SSP 1.0, section 5.3): variables of components that a user of the system sets and reads by the
 //! connectors' names, in the connectors' units.
 
-use loader::{Fmu, Value};
+use fmi::{Fmu, Value};
 use model_description::VariableKind;
 
 use crate::{

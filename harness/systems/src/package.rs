@@ -6,7 +6,7 @@ use std::{
 };
 
 use files::Scratch;
-use loader::ArchiveLimits;
+use fmi::ArchiveLimits;
 use percent_encoding::percent_decode_str;
 
 use crate::{error::Error, structure::SSD_FILE};
@@ -33,15 +33,15 @@ pub(crate) struct Package {
 impl Package {
     /// Unpacks an `.ssp` file, or takes the folder that one was unpacked into.
     pub(crate) fn open(path: &Path) -> Result<Self, Error> {
-        let at_path = |source| loader::Error::File { path: path.to_owned(), source };
+        let at_path = |source| fmi::Error::File { path: path.to_owned(), source };
         if std::fs::metadata(path).map_err(at_path)?.is_dir() {
             let folder = std::path::absolute(path).map_err(at_path)?;
             return Ok(Self { source: path.to_owned(), folder, _temporary: None });
         }
         let temporary =
-            Scratch::new().map_err(|source| loader::Error::File { path: std::env::temp_dir(), source })?;
-        loader::unpack(path, temporary.path(), ArchiveLimits::default()).map_err(|error| match error {
-            loader::Error::Archive { path, what } => Error::Archive { path, what },
+            Scratch::new().map_err(|source| fmi::Error::File { path: std::env::temp_dir(), source })?;
+        fmi::unpack(path, temporary.path(), ArchiveLimits::default()).map_err(|error| match error {
+            fmi::Error::Archive { path, what } => Error::Archive { path, what },
             other => other.into(),
         })?;
         let folder = temporary.path().to_owned();
@@ -58,14 +58,14 @@ impl Package {
                 what: format!("it holds no {SSD_FILE}, so it is no system"),
             },
             io::ErrorKind::NotFound => refuse(format!("there is no such file in the SSP{}", self.listed())),
-            _ => loader::Error::File { path, source: error }.into(),
+            _ => fmi::Error::File { path, source: error }.into(),
         })
     }
 
     /// Where a file of the SSP is; `source` is a relative URI.
     pub(crate) fn path(&self, source: &str) -> Result<PathBuf, String> {
         let decoded = percent_decode_str(source).decode_utf8_lossy();
-        let inside = loader::path_inside(&decoded).ok_or_else(|| {
+        let inside = fmi::path_inside(&decoded).ok_or_else(|| {
             format!("found {source:?}, allowed: a path in the SSP such as resources/plant.fmu")
         })?;
         Ok(self.folder.join(inside))
@@ -85,10 +85,10 @@ impl Package {
         let into = path.with_extension("unpacked");
         let failed = |path: &Path| {
             let path = path.to_owned();
-            move |source| loader::Error::File { path, source }
+            move |source| fmi::Error::File { path, source }
         };
         std::fs::create_dir(&into).map_err(failed(&into))?;
-        loader::unpack(&path, &into, ArchiveLimits::default())
+        fmi::unpack(&path, &into, ArchiveLimits::default())
             .map_err(|error| refuse(format!("{source:?}: {}", reason(&error))))?;
         std::fs::remove_file(&path).map_err(failed(&path))?;
         std::fs::rename(&into, &path).map_err(failed(&into))?;
@@ -111,9 +111,9 @@ impl Package {
 }
 
 /// What is wrong with an archive, without the path of the copy that was looked at.
-fn reason(error: &loader::Error) -> String {
+fn reason(error: &fmi::Error) -> String {
     match error {
-        loader::Error::Archive { what, .. } => format!("not a usable FMU archive: {what}"),
-        other => loader::Error::chain(other),
+        fmi::Error::Archive { what, .. } => format!("not a usable FMU archive: {what}"),
+        other => fmi::Error::chain(other),
     }
 }

@@ -1,6 +1,6 @@
 //! Parameter bindings of a system as values of its FMUs' variables.
 
-use loader::{Fmu, Value};
+use fmi::{Fmu, Value};
 use model_description::{ScalarVariable, Unit, value};
 
 use crate::{
@@ -95,7 +95,7 @@ fn read(
     (mapped, place): (&Mapped, ConnectedVariable),
     units: &[&[Unit]],
 ) -> Result<Value, String> {
-    loader::set_early(variable).map_err(|error| error.to_string())?;
+    fmi::set_early(variable).map_err(|error| error.to_string())?;
     let description = fmu.description();
     let parameter = in_variables_unit(&mapped.parameter, place);
     let (found, allowed) = (parameter.value.word(), variable.kind.name());

@@ -1,6 +1,6 @@
 //! Rows of a system's recording: every component read by one call a base type.
 
-use loader::{Error, Instance, Row, Rows};
+use fmi::{Error, Instance, Row, Rows};
 use model_description::Causality;
 
 use crate::{joint::ConnectedVariable, structure::Linear, system::System};

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
-use loader::{Ended, Error, InputTable, LogMessage, Options, Rows, Value};
+use fmi::{Ended, Error, InputTable, LogMessage, Options, Rows, Value};
 
 use crate::{
     joint::ConnectedVariable,
@@ -27,8 +27,8 @@ pub fn simulate_into(
     rows: &mut dyn Rows,
 ) -> Result<(Ended, Vec<LogMessage>), Error> {
     let times = system.times(options.start_s, options.stop_s, options.step_s)?;
-    let recorded = loader::RecordedPoints::new(&times, options.record_every_s)?;
-    let positions = options.record.take().unwrap_or_else(|| loader::outputs(system.description()));
+    let recorded = fmi::RecordedPoints::new(&times, options.record_every_s)?;
+    let positions = options.record.take().unwrap_or_else(|| fmi::outputs(system.description()));
     let mut recorder = Recorder::new(system, &positions);
     let mut inputs = options.inputs.map(|table| HeldInputs::new(system, table)).transpose()?;
     let mut sets = own_sets(system, &options.sets)?;

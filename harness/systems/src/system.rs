@@ -2,7 +2,7 @@
 
 use std::{collections::HashMap, path::Path};
 
-use loader::{Fmu, Times, Value};
+use fmi::{Fmu, Times, Value};
 use model_description::{Causality, Description, value};
 
 use crate::{
@@ -211,7 +211,7 @@ impl System {
         start_s: Option<f64>,
         stop_s: Option<f64>,
         step_s: Option<f64>,
-    ) -> Result<Times, loader::Error> {
+    ) -> Result<Times, fmi::Error> {
         let times = Times::of_default(&self.merged.description, start_s, stop_s, step_s)?;
         self.parts.iter().try_for_each(|part| times.fit(&part.fmu))?;
         Ok(times)

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use loader::Fmu;
+use fmi::Fmu;
 use model_description::{
     Causality, DefaultExperiment, Description, ScalarVariable, VariableKind, names, value,
 };
@@ -204,11 +204,10 @@ fn bind(structure: &mut Structure, components: &[(String, Fmu)], sets: &[String]
             refuse(format!("found no component, allowed: component.name=value of {}", all()))
         })?;
         let description = components[number].1.description();
-        let assigned =
-            loader::assignment(description, assignment).map_err(|error| refuse(error.to_string()))?;
+        let assigned = fmi::assignment(description, assignment).map_err(|error| refuse(error.to_string()))?;
         for assigned in assigned {
             let variable = assigned.variable;
-            loader::set_early(variable).map_err(|error| refuse(error.to_string()))?;
+            fmi::set_early(variable).map_err(|error| refuse(error.to_string()))?;
             value::check(description, variable, &assigned.value)
                 .map_err(|misfit| refuse(format!("{}: {misfit}", variable.name)))?;
             let value = written(description, variable, assigned.value);
@@ -379,7 +378,7 @@ fn list_outputs(
     Merged { description, origins }: &Merged,
 ) -> Result<(), Error> {
     for pattern in &wiring.outputs {
-        for position in loader::select_outputs(description, pattern)? {
+        for position in fmi::select_outputs(description, pattern)? {
             let (number, at) = origins[position];
             let variable = &components[number].1.description().variables[at];
             if variable.causality != Causality::Output {
@@ -408,7 +407,7 @@ fn export(
     wiring: &Wiring,
     Merged { description, origins }: &Merged,
 ) -> Result<(), Error> {
-    let selected = wiring.exports.iter().map(|pattern| loader::select_outputs(description, pattern));
+    let selected = wiring.exports.iter().map(|pattern| fmi::select_outputs(description, pattern));
     for position in selected.collect::<Result<Vec<_>, _>>()?.concat() {
         let (number, at) = origins[position];
         let variable = &components[number].1.description().variables[at];

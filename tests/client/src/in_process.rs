@@ -139,11 +139,11 @@ impl InProcess {
             )
         };
         let client = Self { component, messages };
-        if component.is_null() { Err(client.take_messages()) } else { Ok(client) }
+        if component.is_null() { Err(client.drain_messages()) } else { Ok(client) }
     }
 
     /// The model `name` with its compiled-in setup, instantiated; the error is what was logged.
-    pub fn of(library: &'static Library, name: &str) -> Result<Self, Vec<Message>> {
+    pub fn from_library(library: &'static Library, name: &str) -> Result<Self, Vec<Message>> {
         let described = library.find(name).map(|entry| library.describe(entry, None, None));
         let guid = match described {
             Some(Ok(description)) => description.guid,
@@ -153,8 +153,8 @@ impl InProcess {
         Self::instantiate(library, &guid, None)
     }
 
-    /// What was logged since the last call.
-    pub fn take_messages(&self) -> Vec<Message> {
+    /// Returns the messages logged since the last call.
+    pub fn drain_messages(&self) -> Vec<Message> {
         self.messages.lock().map(|mut messages| core::mem::take(&mut *messages)).unwrap_or_default()
     }
 

@@ -10,7 +10,7 @@ use crate::{in_process::InProcess, names::Names};
 pub struct NamedInstance {
     /// The instance.
     pub fmu: InProcess,
-    /// What it is described as.
+    /// Its model description.
     pub description: Description,
     /// The last communication point, in s.
     pub time_s: f64,
@@ -27,7 +27,7 @@ impl NamedInstance {
 
     /// A model of a library with its compiled-in setup.
     #[track_caller]
-    pub fn of(library: &'static Library, model: &str) -> Self {
+    pub fn from_library(library: &'static Library, model: &str) -> Self {
         let entry = library.find(model);
         let entry = entry.unwrap_or_else(|| panic!("no model {model}, but {}", library.names()));
         let description =
@@ -56,7 +56,7 @@ impl NamedInstance {
     /// Fails unless `status` is OK.
     #[track_caller]
     pub fn ok(&self, what: &str, status: Status) {
-        assert_eq!(status, Status::Ok, "{what}: {:?}", self.fmu.take_messages());
+        assert_eq!(status, Status::Ok, "{what}: {:?}", self.fmu.drain_messages());
     }
 
     /// Sets a Real.

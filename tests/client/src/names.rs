@@ -22,7 +22,7 @@ impl Names {
 
     /// The reference of a variable of this type.
     #[track_caller]
-    pub fn of(&self, base: BaseType, name: &str) -> u32 {
+    pub fn typed(&self, base: BaseType, name: &str) -> u32 {
         match self.0.get(name) {
             Some((found, reference)) if *found == base => *reference,
             found => panic!("{name}: found {found:?}, expected {base:?}"),
@@ -32,7 +32,7 @@ impl Names {
     /// The reference of a Real.
     #[track_caller]
     pub fn real(&self, name: &str) -> u32 {
-        self.of(BaseType::Real, name)
+        self.typed(BaseType::Real, name)
     }
 
     /// The references of the Reals `name[1]` to `name[N]`.

@@ -18,8 +18,14 @@ fn main() {
         fs::create_dir_all(&folder).unwrap();
         fs::write(folder.join(name), bytes).unwrap();
     };
-    for name in ["ace", "messenger", "messenger-full", "messenger-thermal", "examples/mercury-orbiter", "examples/solar-sailer"]
-    {
+    for name in [
+        "ace",
+        "messenger",
+        "messenger-full",
+        "messenger-thermal",
+        "examples/mercury-orbiter",
+        "examples/solar-sailer",
+    ] {
         let file = shipped(&format!("fmu-src/resources/{name}.toml"));
         seed("spacecraft", name.rsplit('/').next().unwrap(), &file);
     }

@@ -1,4 +1,4 @@
-//! What the fuzz targets share: the models in this process, their variables, and sealed states.
+//! Common code of the fuzz targets: the models in this process, their variables, and sealed states.
 
 use std::cell::RefCell;
 
@@ -54,7 +54,7 @@ impl Subject {
     fn new(model: &str) -> Self {
         let library = library(model);
         let description = library.find(model).unwrap().describe(None, None).unwrap();
-        let mut instance = InProcess::of(library, model).unwrap();
+        let mut instance = InProcess::from_library(library, model).unwrap();
         let names = Names::new(&description);
         let fresh = instance.state_bytes().1;
         Self {
@@ -77,7 +77,7 @@ impl Subject {
             let mut subject = subjects[number].borrow_mut();
             let subject = subject.get_or_insert_with(|| Self::new(MODELS[number]));
             assert_eq!(subject.instance.reset(), Status::Ok);
-            let _ = subject.instance.take_messages();
+            let _ = subject.instance.drain_messages();
             body(subject)
         })
     }
@@ -96,7 +96,7 @@ impl Subject {
 
     /// No message reports a panic, and an error has a message.
     pub fn check_messages(&self, status: Status) {
-        let messages = self.instance.take_messages();
+        let messages = self.instance.drain_messages();
         assert!(!messages.iter().any(|message| message.text.contains("panic")), "{messages:?}");
         assert_ne!(status, Status::Fatal, "{messages:?}");
         if status == Status::Error {
@@ -114,9 +114,9 @@ impl Subject {
     }
 }
 
-/// Mark, layout version, GUID digest; then payload length and checksum, then the payload.
+/// Offset of the payload length in a saved state: mark, layout version, GUID digest stand before it, the checksum and the payload after it.
 const BEFORE_LENGTH: usize = 8 + 4 + 16;
-/// What stands before the payload of a saved state.
+/// Length of the header of a saved state, in bytes.
 pub const HEADER: usize = BEFORE_LENGTH + 8 + 8;
 
 /// FNV-1a, 64 bits.

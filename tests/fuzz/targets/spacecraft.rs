@@ -8,8 +8,8 @@ use libfuzzer_sys::fuzz_target;
 use model_description::{Severity, validate};
 use physics::guidance::timeline::Timeline;
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft};
-use physics::toml::FileError;
 use physics::spin::spinner::Spinner;
+use physics::toml::FileError;
 
 /// Whether the file was read; the reason of a refusal is not empty.
 fn read<T>(outcome: Result<T, FileError>) -> bool {

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use loader::{ArchiveLimits, unpack};
+use fmi::{ArchiveLimits, unpack};
 
 const LIMITS: ArchiveLimits = ArchiveLimits { entries: 20, total_bytes: 1 << 20 };
 

@@ -1,5 +1,6 @@
-//! Builds the guide with mdBook; a warning of mdBook is an error here.
+//! Builds the guide with mdBook and sets its formulas; a warning of mdBook is an error here.
 
+pub mod formulas;
 mod warnings;
 
 use std::path::{Path, PathBuf};
@@ -17,11 +18,12 @@ pub fn project() -> PathBuf {
 pub fn build(docs: &Path, output: &Path) -> Result<PathBuf, String> {
     let warnings = Warnings::default();
     let built = tracing::subscriber::with_default(warnings.clone(), || {
-        let mut book = MDBook::load(docs)?;
+        let mut book = MDBook::load(docs).map_err(|error| format!("{error:#}"))?;
         book.config.build.build_dir = output.to_owned();
-        book.build()
+        formulas::set_formulas(&mut book.book)?;
+        book.build().map_err(|error| format!("{error:#}"))
     });
-    built.map_err(|error| format!("{error:#}"))?;
+    built?;
     let seen = warnings.seen();
     if seen.is_empty() { Ok(output.join("index.html")) } else { Err(seen.join("\n")) }
 }

@@ -1,4 +1,4 @@
-//! What mdBook warns of, collected.
+//! Collector of the warnings of mdBook.
 
 use std::fmt::{Debug, Write};
 use std::sync::{Arc, Mutex, PoisonError};

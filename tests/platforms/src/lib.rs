@@ -3,8 +3,8 @@
 //! The digest is FNV-1a (64 bits) over the bytes of every Real, Integer and Boolean output, little-endian.
 
 use client::NamedInstance;
-use fmi_export::fmi2::entry;
 use fmi_export::Library;
+use fmi_export::fmi2::entry;
 use model_description::{Causality, VariableKind};
 use models::{Guidance, MomentumPlant, SpinPlant};
 
@@ -13,13 +13,13 @@ static LIBRARY: Library =
 
 /// A simulation.
 pub struct DigestCase {
-    /// What is simulated.
+    /// Model and scenario.
     pub name: &'static str,
-    /// Simulates it.
+    /// Simulates the case and returns the digest of its outputs.
     pub digest: fn() -> u64,
 }
 
-/// What is compared.
+/// Simulations whose digests are compared across platforms.
 pub const FLIGHTS: &[DigestCase] = &[
     DigestCase {
         name: "MomentumPlant, 10 days with planet light, heat, dumps and a disturbed orbit",
@@ -84,7 +84,7 @@ fn guidance() -> u64 {
 }
 
 fn instance(model: &str) -> NamedInstance {
-    let mut instance = NamedInstance::of(&LIBRARY, model);
+    let mut instance = NamedInstance::from_library(&LIBRARY, model);
     // The logger has a variable number of arguments, which WebAssembly passes in its own way.
     instance.fmu.set_debug_logging(false, &[]);
     instance

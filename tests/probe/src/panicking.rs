@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de, ser};
 /// A model that has faults.
 pub struct Panicking;
 
-/// Where the setup makes [`Panicking`] panic.
+/// Callback in which the setup makes [`Panicking`] panic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "camelCase")]
 enum PanicCallback {

@@ -12,7 +12,7 @@ use probe::{AllTypes, LIBRARY};
 
 #[test]
 fn every_legal_role_but_the_independent_one_is_there() {
-    let variables = NamedInstance::of(&LIBRARY, "AllTypes").description.variables;
+    let variables = NamedInstance::from_library(&LIBRARY, "AllTypes").description.variables;
     let roles: BTreeSet<_> = variables.iter().map(|it| (it.causality, it.variability)).collect();
     let legal = INITIAL_TABLE.iter().map(|row| (row.causality, row.variability));
     assert_eq!(roles, legal.filter(|(causality, _)| *causality != Causality::Independent).collect());

@@ -293,7 +293,7 @@ impl StateMachineTest for Sequence {
 
     fn apply(mut sequence: Self, master: &Master, call: Call) -> Self {
         let answer = sequence.subject.call(&call, sequence.before);
-        let messages = sequence.subject.instance.take_messages();
+        let messages = sequence.subject.instance.drain_messages();
         compare(master, &call, &answer, &messages).unwrap_or_else(|message| panic!("{message}"));
         sequence.before = Before::new(master);
         sequence
@@ -356,7 +356,7 @@ fn calls_until_noticed(misprint: Misprint, runner: &mut TestRunner) -> Option<u6
             master.call(&call);
             let answer = subject.call(&call, before);
             calls += 1;
-            noticed = compare(&master, &call, &answer, &subject.instance.take_messages()).is_err();
+            noticed = compare(&master, &call, &answer, &subject.instance.drain_messages()).is_err();
             if noticed {
                 break;
             }

@@ -152,7 +152,7 @@ pub(super) fn references() -> &'static [u32] {
     static REFERENCES: OnceLock<Vec<u32>> = OnceLock::new();
     REFERENCES.get_or_init(|| {
         let names = support::names("AllTypes");
-        VARIABLES.iter().map(|variable| names.of(variable.base, variable.name)).collect()
+        VARIABLES.iter().map(|variable| names.typed(variable.base, variable.name)).collect()
     })
 }
 

@@ -96,12 +96,12 @@ fn leniencies_are_logged_once() {
     assert_eq!(instance.set_real(&[input], &[2.0]), Ok);
     assert_eq!(instance.setup_experiment(0.0, None), Ok);
     assert_eq!(instance.enter_initialization_mode(), Ok);
-    assert!(instance.take_messages().is_empty());
+    assert!(instance.drain_messages().is_empty());
     assert_eq!(real(&mut instance, input), 2.0);
     assert!(only_message(&instance).contains("read in Initialization Mode"));
     assert_eq!(real(&mut instance, input), 2.0);
     assert_eq!(real(&mut instance, reference(&description, "output.real")), 2.0);
-    assert!(instance.take_messages().is_empty());
+    assert!(instance.drain_messages().is_empty());
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn start_values_are_read_before_initialization_with_a_warning() {
         (reference(&description, "parameter.real"), reference(&description, "input.real"));
     let mut values = [f64::NAN; 2];
     assert_eq!(instance.set_real(&[input], &[4.0]), Ok);
-    instance.take_messages();
+    instance.drain_messages();
     assert_eq!(instance.get_real(&[parameter, input], &mut values), Warning);
     assert_eq!(values, [1.5, 4.0]);
     assert!(only_message(&instance).contains("before Initialization Mode"));
@@ -148,11 +148,11 @@ fn outputs_after_a_set_belong_to_the_last_step_and_inputs_read_back() {
     assert_eq!(instance.do_step(0.0, 1.0), Ok);
     assert_eq!(instance.set_real(&[input], &[2.0]), Ok);
     assert_eq!(real(&mut instance, input), 2.0);
-    assert!(instance.take_messages().is_empty());
+    assert!(instance.drain_messages().is_empty());
     assert_eq!(real(&mut instance, output), 1.0);
     assert!(only_message(&instance).contains("last communication point"));
     assert_eq!(real(&mut instance, output), 1.0);
-    assert!(instance.take_messages().is_empty());
+    assert!(instance.drain_messages().is_empty());
     assert_eq!(instance.do_step(1.0, 1.0), Ok);
     assert_eq!(real(&mut instance, output), 2.0);
 }

@@ -122,7 +122,7 @@ impl OutputRates for Deferring {
 
 fn started() -> (InProcess, Description) {
     let description = LIBRARY.find("Deferring").unwrap().describe(None, None).unwrap();
-    let mut instance = InProcess::of(&LIBRARY, "Deferring").unwrap();
+    let mut instance = InProcess::from_library(&LIBRARY, "Deferring").unwrap();
     assert_eq!(instance.start(0.0, None), Ok);
     (instance, description)
 }

@@ -60,7 +60,7 @@ fn derivatives_are_finite_too() {
     let mut along = |seed: f64| {
         let status =
             instance.get_directional_derivative(&[at(OUTPUT)], &[at(INPUT)], &[seed], &mut [f64::NAN]);
-        (status, instance.take_messages())
+        (status, instance.drain_messages())
     };
     assert_eq!(along(2.0).0, Ok);
     let (status, messages) = along(1e10);

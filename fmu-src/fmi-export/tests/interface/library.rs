@@ -51,7 +51,7 @@ fn a_guid_depends_on_content_and_not_on_form() {
 fn the_guid_and_the_setup_file_find_the_model() {
     let folder = Folder::new("found", &[("all-types.toml", TWO)]);
     let instance = InProcess::instantiate(PROBE, &guid("AllTypes", TWO), Some(&folder.uri()));
-    assert!(instance.unwrap().take_messages().is_empty());
+    assert!(instance.unwrap().drain_messages().is_empty());
     // Models without a setup file, or whose file is not there, do not stand in the way.
     InProcess::instantiate(PROBE, &described("Empty").guid, Some(&folder.uri())).unwrap();
     InProcess::instantiate(PROBE, &described("Empty").guid, Some("file:///no/such/folder")).unwrap();

@@ -83,7 +83,7 @@ fn reset_forgets_what_was_logged_and_returned() {
     assert_eq!(instance.set_real(&input, &[1.0]), Ok);
     assert!(only_message(&instance).contains("before Initialization Mode"));
     assert_eq!(instance.set_real(&input, &[2.0]), Ok);
-    assert!(instance.take_messages().is_empty());
+    assert!(instance.drain_messages().is_empty());
     assert_eq!(instance.set_debug_logging(false, &[]), Ok);
     assert_eq!(instance.start(0.0, None), Ok);
     for i in 0..3 {
@@ -97,5 +97,5 @@ fn reset_forgets_what_was_logged_and_returned() {
     assert_eq!(instance.get_state(&mut state), Ok);
     assert_eq!(instance.do_step(0.0, 1.0), Ok);
     assert_eq!(instance.set_state(&state), Ok);
-    assert!(instance.take_messages().is_empty());
+    assert!(instance.drain_messages().is_empty());
 }

@@ -13,7 +13,7 @@ fn events_and_warnings_of_a_model_reach_the_log_when_requested() {
     assert_eq!(instance.set_boolean(&[at("input.boolean")], &[1]), Ok);
     assert_eq!(instance.set_integer(&[at("input.integer")], &[-3]), Ok);
     assert_eq!(instance.do_step(0.0, 1.0), Ok);
-    let found = instance.take_messages();
+    let found = instance.drain_messages();
     assert_eq!(found.len(), 2, "{found:?}");
     assert_eq!((found[0].status, found[0].category.as_str()), (Ok, "logEvents"));
     assert_eq!(found[0].text, "t = 0 s: input.boolean rose: 100 %% of ##1## %%s %%n");
@@ -37,7 +37,7 @@ fn events_and_warnings_of_a_model_reach_the_log_when_requested() {
         assert_eq!(instance.set_boolean(&[at("input.boolean")], &[value]), Ok);
         assert_eq!(instance.do_step(f64::from(value) + 5.0, 1.0), Ok);
     }
-    assert!(instance.take_messages().is_empty());
+    assert!(instance.drain_messages().is_empty());
 }
 
 /// FMPy and others instantiate with debug logging off and show nothing but what reaches their logger.
@@ -48,13 +48,13 @@ fn the_reason_of_a_discard_a_warning_and_an_error_reach_the_log_with_debug_loggi
         let integer = [reference(&description, "input.integer")];
         assert_eq!(instance.set_debug_logging(false, off), Ok);
         assert_eq!(instance.set_integer(&integer, &[5000]), Discard);
-        let discarded = instance.take_messages();
+        let discarded = instance.drain_messages();
         assert_eq!(discarded.len(), 1, "{discarded:?}");
         assert_eq!((discarded[0].status, discarded[0].category.as_str()), (Discard, "logStatusDiscard"));
         assert!(discarded[0].text.contains("`input.integer`"), "{discarded:?}");
         assert_eq!(instance.set_integer(&integer, &[-3]), Ok);
         assert_eq!(instance.do_step(0.0, 1.0), Ok);
-        let warned = instance.take_messages();
+        let warned = instance.drain_messages();
         assert_eq!(warned.len(), 1, "{warned:?}");
         assert_eq!((warned[0].status, warned[0].category.as_str()), (Warning, "logStatusWarning"));
         assert_eq!(instance.do_step(99.0, 1.0), Error);
@@ -77,7 +77,7 @@ fn reads_in_initialization_and_after_a_set_are_events() {
         assert_eq!(instance.do_step(0.0, 1.0), Ok);
         assert_eq!(instance.set_real(&at("input.real"), &[2.0]), Ok);
         assert_eq!(instance.get_real(&at("output.real"), &mut [0.0]), Ok);
-        let found = instance.take_messages();
+        let found = instance.drain_messages();
         let parts = ["set before Initialization Mode", "read in Initialization Mode", "after a set"];
         assert_eq!(found.len(), if on { parts.len() } else { 0 }, "{found:?}");
         for (message, part) in found.iter().zip(parts) {
@@ -100,7 +100,7 @@ fn an_unknown_category_is_a_warning_and_the_known_ones_count() {
             assert_eq!(instance.set_boolean(&[reference(&description, "input.boolean")], &[value]), Ok);
             assert_eq!(instance.do_step(point_s + f64::from(value), 1.0), Ok);
         }
-        instance.take_messages().len()
+        instance.drain_messages().len()
     };
     assert_eq!(event_at(0.0, &[c"logNonsense", c"logEvents"]), 1);
     assert_eq!(event_at(2.0, &[c"logStatusDiscard", c"logNonsense"]), 0);
@@ -110,10 +110,10 @@ fn an_unknown_category_is_a_warning_and_the_known_ones_count() {
 fn nothing_but_unknown_categories_is_no_event() {
     let (mut instance, description) = started("AllTypes");
     assert_eq!(instance.set_debug_logging(true, &[c"logNonsense"]), Warning);
-    instance.take_messages();
+    instance.drain_messages();
     assert_eq!(instance.set_boolean(&[reference(&description, "input.boolean")], &[1]), Ok);
     assert_eq!(instance.do_step(0.0, 1.0), Ok);
-    assert!(instance.take_messages().is_empty());
+    assert!(instance.drain_messages().is_empty());
 }
 
 #[test]

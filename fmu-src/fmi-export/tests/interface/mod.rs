@@ -29,7 +29,7 @@ fn described(model: &str) -> Description {
 
 /// A fresh instance and its description.
 fn fresh(model: &str) -> (InProcess, Description) {
-    (InProcess::of(PROBE, model).unwrap(), described(model))
+    (InProcess::from_library(PROBE, model).unwrap(), described(model))
 }
 
 /// An instance at its first communication point, 0 s, without a stop time.
@@ -59,7 +59,7 @@ fn real(instance: &mut InProcess, reference: u32) -> f64 {
 
 /// The one message logged since the last call.
 fn only_message(instance: &InProcess) -> String {
-    let mut messages = instance.take_messages();
+    let mut messages = instance.drain_messages();
     assert_eq!(messages.len(), 1, "{messages:?}");
     messages.remove(0).text
 }

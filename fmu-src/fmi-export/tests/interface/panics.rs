@@ -61,7 +61,7 @@ fn every_fault_is_a_status_of_its_call_and_stays_in_its_instance() {
         };
         let mut instance = with_fault(fault);
         let found = use_everything(&mut instance, at("output"), at("input")).err();
-        let messages = instance.take_messages();
+        let messages = instance.drain_messages();
         assert_eq!(found, expected, "{fault:?} {messages:?}");
         assert_eq!(messages.is_empty(), expected.is_none(), "{fault:?}");
         let panicked = messages.iter().any(|message| message.text.contains("panic"));
@@ -71,7 +71,7 @@ fn every_fault_is_a_status_of_its_call_and_stays_in_its_instance() {
             assert_eq!(instance.get_real(&[at("clock")], &mut [0.0]), Error);
             assert_eq!(instance.reset(), Error);
             assert_eq!(instance.set_debug_logging(true, &[]), Error);
-            let poisoned = instance.take_messages();
+            let poisoned = instance.drain_messages();
             assert!(poisoned.len() == 3 && poisoned[0].text.contains("a panic ended this instance"));
         } else {
             assert_eq!(instance.reset(), Ok);
@@ -113,6 +113,6 @@ fn a_state_that_panics_when_dropped_is_freed_once() {
     assert_eq!(instance.free_state(&mut state), Error);
     assert!(state.is_null());
     assert_eq!(instance.free_state(&mut state), Ok);
-    let messages = instance.take_messages();
+    let messages = instance.drain_messages();
     assert!(messages[0].text.contains("fmi2FreeFMUstate: panic"), "{messages:?}");
 }

@@ -186,7 +186,7 @@ impl Walk {
         assert_eq!(status, expected, "{call} in {:?}", before.place);
         self.follow(call, status, before);
         self.visits[self.expected.place as usize] += 1;
-        self.instance.take_messages();
+        self.instance.drain_messages();
     }
 
     fn follow(&mut self, call: &str, status: Status, before: Expected) {

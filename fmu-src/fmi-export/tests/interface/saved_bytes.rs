@@ -53,7 +53,7 @@ fn saved() -> Vec<u8> {
 /// Decodes, and where that works uses the state; returns whether it worked.
 fn survives(instance: &mut InProcess, bytes: &[u8]) -> bool {
     let (status, state) = instance.deserialize(bytes);
-    let messages = instance.take_messages();
+    let messages = instance.drain_messages();
     assert_eq!(state.is_null(), status == Error);
     if status == Error {
         assert_eq!(messages.len(), 1);
@@ -64,7 +64,7 @@ fn survives(instance: &mut InProcess, bytes: &[u8]) -> bool {
     assert_eq!(instance.set_state(&state), Ok);
     let _ = instance.do_step(1.0, 0.5);
     let (status, _) = instance.state_bytes();
-    let messages = instance.take_messages();
+    let messages = instance.drain_messages();
     // A step from great numbers may end beyond what a saved state may hold.
     let beyond = messages.last().is_some_and(|last| last.text.contains("it could not be read: model state"));
     assert!(status == Ok || beyond, "{messages:?}");

@@ -89,7 +89,7 @@ fn going_back_behind_a_promise_is_warned_about_and_works() {
     for _ in 0..2 {
         assert_eq!(instance.set_state(&state), Ok);
     }
-    let messages = instance.take_messages();
+    let messages = instance.drain_messages();
     assert_eq!(messages.len(), 1);
     assert_eq!(messages[0].status, Warning);
     assert!(messages[0].text.contains("noSetFMUStatePriorToCurrentPoint"));
@@ -105,7 +105,7 @@ fn going_back_to_the_point_of_a_promise_keeps_it() {
     assert_eq!(instance.get_state(&mut state), Ok);
     assert_eq!(instance.do_step_without_return(1.0, 1.0), Ok);
     assert_eq!(instance.set_state(&state), Ok);
-    assert!(instance.take_messages().is_empty());
+    assert!(instance.drain_messages().is_empty());
     assert_eq!(instance.do_step_without_return(1.0, 0.5), Ok);
 }
 
@@ -137,7 +137,7 @@ fn a_step_that_the_model_leaves_early_goes_on_to_its_end() {
     assert_eq!(instance.do_step(0.0, 1.0), Ok);
     assert_eq!((real(&mut instance, clock), real(&mut instance, output)), (1.0, 5.0));
     assert_eq!(instance.set_integer(&[fault], &[Fault::StepStill.value()]), Ok);
-    instance.take_messages();
+    instance.drain_messages();
     assert_eq!(instance.do_step(1.0, 1.0), Error);
     let text = only_message(&instance);
     assert!(text.contains("from 1.0 to 2.0 s at 1.0 s"), "{text}");

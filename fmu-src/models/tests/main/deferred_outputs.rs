@@ -39,7 +39,7 @@ fn read(instance: &mut NamedInstance, (base, reference, name): &Output) -> u64 {
 /// something was set before.
 fn each_alone(model: &str, step_s: f64, mut set: impl FnMut(&mut NamedInstance, u32)) {
     let mut both = [(); 2].map(|()| {
-        let mut instance = NamedInstance::of(&LIBRARY, model);
+        let mut instance = NamedInstance::from_library(&LIBRARY, model);
         set(&mut instance, 0);
         instance.begin(0.0);
         instance

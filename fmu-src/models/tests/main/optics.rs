@@ -270,7 +270,7 @@ fn derivatives_by_reflectivities_are_differences_of_any_step() {
         let (parameter, own) = (fmu.at(name), fmu.real(name));
         let mut slopes = vec![0.0; outputs.len()];
         let status = fmu.fmu.get_directional_derivative(&outputs, &[parameter], &[1.0], &mut slopes);
-        assert_eq!(status, Status::Ok, "{:?}", fmu.fmu.take_messages());
+        assert_eq!(status, Status::Ok, "{:?}", fmu.fmu.drain_messages());
         let mut at = |value: f64| {
             fmu.put(name, value);
             fmu.read(&outputs)

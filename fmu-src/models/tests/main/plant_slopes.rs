@@ -9,7 +9,7 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 static LIBRARY: Library = Library { entries: &[entry::<MomentumPlant>(), entry::<Guidance>()] };
 
 fn momentum_plant() -> NamedInstance {
-    NamedInstance::of(&LIBRARY, "MomentumPlant")
+    NamedInstance::from_library(&LIBRARY, "MomentumPlant")
 }
 
 fn vector(plant: &mut NamedInstance, name: &str) -> Vector3<f64> {

@@ -45,13 +45,13 @@ fn momentum_bits(plant: &mut InProcess) -> [u64; 3] {
 
 fn simulated(plant: &mut InProcess, from: u32) -> [u64; 3] {
     for i in from..4 {
-        assert_eq!(plant.do_step(f64::from(i) * 21_600.0, 21_600.0), Ok, "{:?}", plant.take_messages());
+        assert_eq!(plant.do_step(f64::from(i) * 21_600.0, 21_600.0), Ok, "{:?}", plant.drain_messages());
     }
     momentum_bits(plant)
 }
 
 fn flight(experiment: Option<f64>, set: Option<f64>, set_late: bool) -> [u64; 3] {
-    let mut plant = InProcess::of(&LIBRARY, "MomentumPlant").unwrap();
+    let mut plant = InProcess::from_library(&LIBRARY, "MomentumPlant").unwrap();
     enter(&mut plant, experiment, set, set_late);
     simulated(&mut plant, 0)
 }
@@ -79,12 +79,12 @@ fn the_experiments_tolerance_counts_where_the_user_set_none() {
 #[test]
 fn the_experiments_tolerance_is_part_of_the_state_and_a_reset_forgets_it() {
     let loose = flight(None, Some(LOOSE), false);
-    let mut plant = InProcess::of(&LIBRARY, "MomentumPlant").unwrap();
+    let mut plant = InProcess::from_library(&LIBRARY, "MomentumPlant").unwrap();
     enter(&mut plant, Some(LOOSE), None, false);
     assert_eq!(plant.do_step(0.0, 21_600.0), Ok);
     let (status, bytes) = plant.state_bytes();
     assert_eq!(status, Ok);
-    let mut other = InProcess::of(&LIBRARY, "MomentumPlant").unwrap();
+    let mut other = InProcess::from_library(&LIBRARY, "MomentumPlant").unwrap();
     let (status, mut state) = other.deserialize(&bytes);
     assert_eq!((status, other.set_state(&state)), (Ok, Ok));
     assert_eq!(other.free_state(&mut state), Ok);

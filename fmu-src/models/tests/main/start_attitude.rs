@@ -12,11 +12,11 @@ const IDENTITY: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
 /// A free flight with these values set, and what was logged of its start.
 fn begun(set: impl FnOnce(&mut NamedInstance)) -> (NamedInstance, String) {
-    let mut plant = NamedInstance::of(&LIBRARY, "MomentumPlant");
+    let mut plant = NamedInstance::from_library(&LIBRARY, "MomentumPlant");
     set(&mut plant);
     plant.put_integer("attitude.source", 4);
     assert_eq!(plant.fmu.start(0.0, None), Status::Ok);
-    let messages = plant.fmu.take_messages();
+    let messages = plant.fmu.drain_messages();
     let about = messages.iter().filter(|it| it.text.contains("the flight starts"));
     let about: Vec<_> = about.map(|it| it.text.clone()).collect();
     let text = about.last().cloned().unwrap_or_default();
@@ -106,9 +106,9 @@ fn start_values_count_as_not_set_only_where_every_parameter_is_written() {
 
 #[test]
 fn the_log_names_what_follows_others() {
-    let mut plant = NamedInstance::of(&LIBRARY, "MomentumPlant");
+    let mut plant = NamedInstance::from_library(&LIBRARY, "MomentumPlant");
     plant.put_integer("orbit.center", 3);
     assert_eq!(plant.fmu.start(0.0, None), Status::Ok);
-    let text: String = plant.fmu.take_messages().iter().map(|it| format!("{}\n", it.text)).collect();
+    let text: String = plant.fmu.drain_messages().iter().map(|it| format!("{}\n", it.text)).collect();
     assert!(text.contains("planet.radius = 6051800.0"), "{text}");
 }

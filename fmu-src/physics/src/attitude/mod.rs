@@ -45,4 +45,4 @@ pub use rigid_body::RigidBodyState;
 pub(crate) use rotation::rotation_vector;
 pub use rotation::{Attitude, QuaternionError};
 pub use slosh::SloshPendulum;
-pub use wheel::{Motor, ReactionWheel, Rotor, motor_power_w, wheel_speed_rad_s};
+pub use wheel::{Motor, ReactionWheel, Rotor, motor_power_w};

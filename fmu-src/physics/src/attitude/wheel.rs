@@ -49,7 +49,7 @@ impl ReactionWheel {
 
     /// Speed of the rotor relative to the body, in rad/s, at a momentum in N m s.
     pub fn speed_rad_s(&self, momentum_n_m_s: f64) -> f64 {
-        wheel_speed_rad_s(momentum_n_m_s, self.inertia_kg_m2)
+        momentum_n_m_s / self.inertia_kg_m2
     }
 
     /// Viscous friction over momentum, in 1/s.
@@ -62,11 +62,6 @@ impl ReactionWheel {
 /// negative where it brakes.
 pub fn motor_power_w(torque_n_m: f64, speed_rad_s: f64) -> f64 {
     torque_n_m * speed_rad_s
-}
-
-/// Speed of a rotor of this inertia (kg m2) at a momentum in N m s, in rad/s.
-pub fn wheel_speed_rad_s(momentum_n_m_s: f64, inertia_kg_m2: f64) -> f64 {
-    momentum_n_m_s / inertia_kg_m2
 }
 
 /// Torque of a wheel's motor until its next command.

@@ -55,7 +55,7 @@ pub struct Manager<'a> {
     pub sunshade: Option<(&'a Sunshade, SunshadeModel)>,
 }
 
-impl Forecast for DownlinkForecast<'_> {
+impl Forecast for DownlinkForecast<'_, '_> {
     type Error = PlantError;
 
     fn terms(&self) -> ForecastTerms {
@@ -88,7 +88,7 @@ impl Manager<'_> {
     /// What ends a flight.
     pub fn choose(
         &self,
-        forecast: &mut DownlinkForecast<'_>,
+        forecast: &mut DownlinkForecast<'_, '_>,
     ) -> Result<Option<SelectedSunDirection>, PlantError> {
         let Some(to_earth) = forecast.to_earth.filter(|_| self.strategy != Strategy::DumpsOnly) else {
             return Ok(None);

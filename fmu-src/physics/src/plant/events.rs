@@ -124,40 +124,40 @@ pub(crate) trait Eventful {
     /// # Errors
     /// What ends a flight.
     fn advance_segment(&mut self, limit_s: f64) -> Result<(), PlantError>;
-}
 
-/// Advances until everything is known at `limit_s`.
-///
-/// # Errors
-/// What ends a flight.
-pub(crate) fn advance(flight: &mut impl Eventful, limit_s: f64) -> Result<(), PlantError> {
-    while flight.ends_by(limit_s) {
-        flight.spend(None)?;
-        apply_due(flight)?;
-        let next_s = EventKind::ALL.into_iter().map(|(kind, _)| flight.next_event_s(kind));
-        let next_s = next_s.fold(f64::INFINITY, f64::min);
-        flight.advance_segment(next_s)?;
-    }
-    Ok(())
-}
-
-/// Applies what is due at the end of the last segment.
-///
-/// # Errors
-/// What ends a flight; an event of a kind twice at one time, where only one may come.
-pub(crate) fn apply_due(flight: &mut impl Eventful) -> Result<(), PlantError> {
-    let time_s = flight.reached_s();
-    for (kind, name) in EventKind::ALL {
-        while flight.is_due(kind)? {
-            flight.spend(Some(kind))?;
-            if !kind.may_repeat() {
-                if flight.last().has_come(kind, time_s) {
-                    return Err(PlantError::RepeatedEvent { time_s, kind: name });
-                }
-                flight.last().of_kind(kind).take(time_s);
-            }
-            flight.apply_event(kind)?;
+    /// Advances until everything is known at `limit_s`.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    fn advance(&mut self, limit_s: f64) -> Result<(), PlantError> {
+        while self.ends_by(limit_s) {
+            self.spend(None)?;
+            self.apply_due()?;
+            let next_s = EventKind::ALL.into_iter().map(|(kind, _)| self.next_event_s(kind));
+            let next_s = next_s.fold(f64::INFINITY, f64::min);
+            self.advance_segment(next_s)?;
         }
+        Ok(())
     }
-    Ok(())
+
+    /// Applies what is due at the end of the last segment.
+    ///
+    /// # Errors
+    /// What ends a flight; an event of a kind twice at one time, where only one may come.
+    fn apply_due(&mut self) -> Result<(), PlantError> {
+        let time_s = self.reached_s();
+        for (kind, name) in EventKind::ALL {
+            while self.is_due(kind)? {
+                self.spend(Some(kind))?;
+                if !kind.may_repeat() {
+                    if self.last().has_come(kind, time_s) {
+                        return Err(PlantError::RepeatedEvent { time_s, kind: name });
+                    }
+                    self.last().of_kind(kind).take(time_s);
+                }
+                self.apply_event(kind)?;
+            }
+        }
+        Ok(())
+    }
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use files::Entries;
-use loader::{Binary, Described};
+use fmi::{Binary, Described};
 use model_description::Description;
 use physics::toml::nearest;
 

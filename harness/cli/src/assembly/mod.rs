@@ -11,7 +11,7 @@ mod without_effect;
 use std::error::Error;
 
 use files::{Entries, Scratch};
-use loader::{Fmu, Times};
+use fmi::{Fmu, Times};
 
 use crate::instance;
 
@@ -32,8 +32,8 @@ pub(crate) fn reference_flight(
     let folder = Scratch::new()?;
     entries.write_below(folder.path())?;
     let fmu = Fmu::open(folder.path())?;
-    let files = reference::record(&fmu, inputs).map_err(|error| loader::Error::chain(&error))?;
+    let files = fmi::reference::record(&fmu, inputs).map_err(|error| fmi::Error::chain(&error))?;
     let start_s = Times::of(&fmu, None, None, None)?.start_s;
     let messages = instance::started(&fmu, "warnings", start_s, &[])?.messages();
-    Ok((files, loader::warnings(&messages).into_iter().map(str::to_owned).collect()))
+    Ok((files, fmi::warnings(&messages).into_iter().map(str::to_owned).collect()))
 }

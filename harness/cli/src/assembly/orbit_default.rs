@@ -1,6 +1,6 @@
 //! The default of `orbit.dynamics` by the values of a mission, which the FMU that simulates it is set to later.
 
-use loader::{Binary, Described};
+use fmi::{Binary, Described};
 use model_description::Description;
 
 use super::{

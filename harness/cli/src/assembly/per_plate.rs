@@ -1,6 +1,6 @@
 //! `--per-plate`: the spacecraft's file with the key that requests the outputs of single plates.
 
-use loader::Binary;
+use fmi::Binary;
 use model_description::Description;
 use toml::de::DeTable;
 

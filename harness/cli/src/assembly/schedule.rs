@@ -1,6 +1,6 @@
 //! What is packed beside the spacecraft, commands over time and ephemerides, read by the library that simulates it.
 
-use loader::{Binary, Described};
+use fmi::{Binary, Described};
 
 use crate::carried::ephemeris::FILE;
 

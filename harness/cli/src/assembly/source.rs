@@ -3,7 +3,7 @@
 use std::{error::Error, fs, iter, path::Path, path::PathBuf, sync::Arc};
 
 use files::Entries;
-use loader::{Binary, Described, Fmu, Requirements};
+use fmi::{Binary, Described, Fmu, Requirements};
 use model_description::{Description, ReadError};
 use physics::spacecraft::Spacecraft;
 use toml::de::DeTable;
@@ -37,7 +37,7 @@ struct Platform {
 impl Platform {
     /// The host, whose library is loaded.
     fn host(path: PathBuf) -> Result<Self, String> {
-        let folder = loader::platform_folders().first().ok_or("FMI names no platform like this one")?;
+        let folder = fmi::platform_folders().first().ok_or("FMI names no platform like this one")?;
         Ok(Self { folder, suffix: std::env::consts::DLL_SUFFIX, path })
     }
 
@@ -97,7 +97,7 @@ impl Source {
     }
 
     /// The library of an FMU.
-    pub(crate) fn of_template(fmu: Fmu) -> Result<Self, loader::Error> {
+    pub(crate) fn of_template(fmu: Fmu) -> Result<Self, fmi::Error> {
         Ok(Self { binary: fmu.binary()?, from: From::Template(fmu) })
     }
 
@@ -222,7 +222,7 @@ pub(super) fn taker<'m>(
 /// Opens the FMU that libraries come from.
 pub(crate) fn open_template(path: &Path) -> Result<Fmu, String> {
     Fmu::open(path).map_err(|error| {
-        let reason = loader::Error::chain(&error);
+        let reason = fmi::Error::chain(&error);
         format!(
             "{reason}\nA heliotorque FMU is needed, whose library reads the spacecraft: see --template (an installed program has \
              its own: cargo xtask install)"

@@ -5,7 +5,7 @@ pub(crate) mod timeline;
 
 use std::path::Path;
 
-use loader::Fmu;
+use fmi::Fmu;
 
 use crate::home;
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use loader::{Fmu, Value};
+use fmi::{Fmu, Value};
 use model_description::Description;
 use physics::{
     environment::dates,

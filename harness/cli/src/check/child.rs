@@ -3,9 +3,9 @@
 use std::{ffi::OsString, path::PathBuf, process::ExitCode, time::Instant};
 
 use clap::Args;
-use conformance::{Finding, Verdict};
 use files::Scratch;
-use loader::Fmu;
+use fmi::Fmu;
+use fmi::conformance::{Finding, Verdict};
 
 use crate::{
     child::{Bounds, ChildProcess, Link, Payload, SMALL, push_text},
@@ -49,7 +49,7 @@ pub(super) fn run(fmu: &Fmu, probe: &str, deadline: (Instant, f64)) -> Vec<Findi
 pub(crate) fn run_probe(arguments: &Probe) -> Outcome {
     let mut link = Link::attach("heliotorque check")?;
     let fmu = Fmu::open(&arguments.fmu)?;
-    let findings = conformance::run(&fmu, &arguments.name)
+    let findings = fmi::conformance::run(&fmu, &arguments.name)
         .ok_or_else(|| format!("there is no probe {:?}", arguments.name))?;
     for finding in &findings {
         link.send(FINDING, |payload| {

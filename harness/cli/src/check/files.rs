@@ -27,7 +27,7 @@ pub(super) fn run(arguments: &Check) -> Outcome {
     }
     let kind = FileKind::of(&text).unwrap_or(FileKind::Spacecraft);
     let library = Library::new(arguments.template.as_deref());
-    let chain = |error: Box<dyn Error>| loader::Error::chain(error.as_ref());
+    let chain = |error: Box<dyn Error>| fmi::Error::chain(error.as_ref());
     let read = match kind {
         FileKind::Spacecraft => return spacecraft::run(arguments, &file, &text),
         FileKind::Mission => mission::checked(arguments),

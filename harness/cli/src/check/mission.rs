@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use loader::Collector;
+use fmi::Collector;
 
 use super::options::Check;
 use crate::{
@@ -13,7 +13,7 @@ use crate::{
 /// Reads the file, packs what it names, finds every name and value in it and opens what it writes, as `run` does; then simulates
 /// the first step in this process.
 pub(super) fn checked(arguments: &Check) -> Result<String, String> {
-    summary(arguments).map_err(|error| loader::Error::chain(error.as_ref()))
+    summary(arguments).map_err(|error| fmi::Error::chain(error.as_ref()))
 }
 
 fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
@@ -31,7 +31,7 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let panels = carried::timeline::warnings(subject.description(), sets, &subject.parts());
     let inputs: Vec<String> =
         inputs.iter().flat_map(|it| it.warnings(subject.description(), times)).collect();
-    let logged = loader::warnings(&messages).into_iter().map(str::to_owned).collect::<Vec<_>>();
+    let logged = fmi::warnings(&messages).into_iter().map(str::to_owned).collect::<Vec<_>>();
     let warnings = panels
         .iter()
         .chain(&long_step(times))

@@ -16,8 +16,8 @@ use std::{
     time::{Duration, Instant},
 };
 
-use conformance::{Finding, PROBES, Probe as Probed, Trial, Verdict};
-use loader::Fmu;
+use fmi::Fmu;
+use fmi::conformance::{Finding, PROBES, Probe as Probed, Trial, Verdict};
 
 use crate::{carried, outcome::Outcome, pointing};
 pub(crate) use child::{Probe, run_probe};
@@ -71,13 +71,13 @@ pub(crate) fn run(arguments: &Check) -> Outcome {
     let fmu = match Fmu::open(&arguments.subject) {
         Ok(fmu) => fmu,
         Err(error) => {
-            let finding = Finding::bad(loader::Error::chain(&error));
+            let finding = Finding::bad(fmi::Error::chain(&error));
             return report(arguments, &[Section::new("archive", vec![finding])]);
         }
     };
     let mut sections = vec![
-        Section::new("archive", conformance::archive(&fmu)),
-        Section::new("modelDescription.xml", conformance::description(&fmu)),
+        Section::new("archive", fmi::conformance::archive(&fmu)),
+        Section::new("modelDescription.xml", fmi::conformance::description(&fmu)),
     ];
     let folder = [(String::new(), fmu.folder().to_owned())];
     let windows = pointing::warnings(fmu.description(), &[], &pointing::windows_in(&folder));
@@ -112,7 +112,7 @@ fn probe(arguments: &Check, fmu: &Fmu, sections: &mut Vec<Section>) {
     sections.push(Section::new("library", loads));
     let rest = PROBES.iter().filter(|probe| usable && probe.name != "library");
     for probe in rest.filter(|probe| is_selected(arguments, probe)) {
-        let trials = conformance::trials().filter(|trial| trial.probe == probe.name);
+        let trials = fmi::conformance::trials().filter(|trial| trial.probe == probe.name);
         let mut findings = Vec::new();
         for trial in [None].into_iter().chain(trials.map(Some)) {
             if Instant::now() >= deadline.0 {

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeSet;
 
-use loader::{Described, Value};
+use fmi::{Described, Value};
 use model_description::Description;
 use physics::{
     environment::sun::SOLAR_FLUX_W_M2,

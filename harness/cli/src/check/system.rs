@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use conformance::Finding;
+use fmi::conformance::Finding;
 use systems::System;
 
 /// What is found of a system; its FMUs are checked one by one by themselves.
 pub(super) fn findings(path: &Path) -> Vec<Finding> {
     let system = match System::open(path) {
         Ok(system) => system,
-        Err(error) => return vec![Finding::bad(loader::Error::chain(&error))],
+        Err(error) => return vec![Finding::bad(fmi::Error::chain(&error))],
     };
     let (parts, open) = (system.parts(), system.open_inputs());
     let mut findings = vec![Finding::good(format!(

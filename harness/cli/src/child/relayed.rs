@@ -130,7 +130,7 @@ pub(crate) fn serve(screen: Screen, command: impl FnOnce() -> Outcome) -> Outcom
             link.send(ENDED, |payload| payload.push(u64::from(number)))?;
         }
         Err(error) => {
-            let text = loader::Error::chain(error.as_ref());
+            let text = fmi::Error::chain(error.as_ref());
             link.send(FAILED, |payload| push_text(payload, &text))?;
         }
     }

@@ -8,7 +8,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use loader::{CallRecord, RecordedCalls};
+use fmi::{CallRecord, RecordedCalls};
 
 use super::{
     channel::{Inbox, Payload, RING_WORDS},
@@ -178,7 +178,7 @@ impl ChildProcess {
         tick: &mut dyn FnMut(Option<&CallRecord>) -> Result<(), String>,
     ) -> Supervised {
         let end_reason = self.follow(bounds, take, line, tick);
-        let calls = self.inbox.calls().map(loader::recorded_calls).unwrap_or_default();
+        let calls = self.inbox.calls().map(fmi::recorded_calls).unwrap_or_default();
         let status = system::end(&mut self.child);
         self.printed.finish(line);
         let (end_reason, left) = match (end_reason, status) {
@@ -232,7 +232,7 @@ impl ChildProcess {
             }
             let now = Instant::now();
             // The call under way and its number.
-            let in_progress = self.inbox.calls().and_then(loader::call_in_progress);
+            let in_progress = self.inbox.calls().and_then(fmi::call_in_progress);
             if in_progress != call {
                 (call, call_began) = (in_progress, now);
             }

@@ -29,7 +29,7 @@ pub(crate) fn run(arguments: &Compare) -> Outcome {
     let (first, second) = (first?, second?);
     let sidecar = Sidecar::beside(&first.path)?;
     let pairing = Pairing::of(&first, &second)?;
-    let mut found = reference::differences(&pairing.columns);
+    let mut found = fmi::reference::differences(&pairing.columns);
     found.sort_by(|a, b| b.fraction.total_cmp(&a.fraction));
     let tables = [&first, &second];
     let text = report::text(tables, &pairing, &found, (&sidecar, arguments.tolerance));

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use reference::Compared;
+use fmi::reference::Compared;
 
 use crate::table::Table;
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use drawing::{COLOURS, Chart, DrawingError, Panel, Series};
-use reference::{Cell, Difference};
+use fmi::reference::{Cell, Difference};
 
 use super::pairing::Pairing;
 use crate::{

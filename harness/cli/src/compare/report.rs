@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use reference::Difference;
+use fmi::reference::Difference;
 
 use super::pairing::Pairing;
 use crate::table::{Sidecar, TIME, Table};

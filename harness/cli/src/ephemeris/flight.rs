@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use loader::{Error, Fmu, Instance, Value};
+use fmi::{Error, Fmu, Instance, Value};
 use nalgebra::Vector3;
 use physics::{
     bodies::Body,
@@ -58,7 +58,7 @@ impl RepeatableSimulation {
         if sets.iter().any(|(name, _)| name == START_EPOCH) {
             return Err(format!("--set {START_EPOCH}: --start says when the flight begins").into());
         }
-        sets.extend(loader::parse_assignment(description, &format!("{START_EPOCH}={start_s:e}"))?);
+        sets.extend(fmi::parse_assignment(description, &format!("{START_EPOCH}={start_s:e}"))?);
         let mut source = Self { fmu, shown, sets, start_s, center: Body::Mercury };
         let mut instance = source.started(&source.sets)?;
         let center = instance.get(CENTER)?.to_string();
@@ -81,7 +81,7 @@ impl RepeatableSimulation {
         if let Some(planet) = targets.iter().find(|target| is_encounter(**target)) {
             let planet = format!("{ENCOUNTER}={planet}");
             for set in ["orbit.dynamics=nBody", "orbit.source=held", "orbit.position[1]=1e10", &planet] {
-                sets.extend(loader::parse_assignment(self.fmu.description(), set)?);
+                sets.extend(fmi::parse_assignment(self.fmu.description(), set)?);
             }
         }
         Ok(sets)

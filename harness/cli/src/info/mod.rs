@@ -7,7 +7,7 @@ mod system;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use loader::{Fmu, Value};
+use fmi::{Fmu, Value};
 use model_description::{
     Causality, CoSimulation, Description, ScalarVariable, SimpleTypeKind, Variability, VariableKind, value,
 };
@@ -88,11 +88,11 @@ pub(crate) fn run(arguments: &Info) -> Outcome {
 }
 
 /// The tables of what `--only` names, if it is given.
-fn chosen(description: &Description, arguments: &Info) -> Result<Option<Vec<String>>, loader::Error> {
+fn chosen(description: &Description, arguments: &Info) -> Result<Option<Vec<String>>, fmi::Error> {
     if arguments.only.is_empty() {
         return Ok(None);
     }
-    let positions = selected(description, &values::all_names(&arguments.only), loader::select)?;
+    let positions = selected(description, &values::all_names(&arguments.only), fmi::select)?;
     Ok(Some(variables_and_options(description, &positions)))
 }
 
@@ -239,7 +239,7 @@ fn variables(description: &Description, positions: &[usize]) -> String {
     let chosen: Vec<&ScalarVariable> =
         positions.iter().map(|&position| &description.variables[position]).collect();
     let cells = |row: &VariableRow<'_>| {
-        let unit = loader::unit(description, row.first()).unwrap_or_default();
+        let unit = fmi::unit(description, row.first()).unwrap_or_default();
         [row.name(), causality(row.first()), row.joined(|it| start(description, it)), unit.to_owned()]
     };
     let says = |row: &VariableRow<'_>| row.first().description.clone().unwrap_or_default();
@@ -291,7 +291,7 @@ pub(crate) fn start(description: &Description, variable: &ScalarVariable) -> Str
     match value::start(variable) {
         Some(Value::Real(start)) => {
             let date = epoch::is_epoch(description, variable).then(|| epoch::date(start)).flatten();
-            match (date, loader::display_unit(description, variable)) {
+            match (date, fmi::display_unit(description, variable)) {
                 (Some(date), _) => format!("{start} ({date})"),
                 (None, Some((name, factor, offset))) if start != 0.0 => {
                     let shown = terminal::short(factor * start + offset);

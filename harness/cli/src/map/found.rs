@@ -1,6 +1,6 @@
 //! Everything that a map tells of a spacecraft, found once for picture, table and files.
 
-use loader::Error;
+use fmi::Error;
 use nalgebra::Vector3;
 use planner::{
     momentum::{Held, Mission, Region},

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use files::Destination;
-use loader::csv::Real;
+use fmi::csv::Real;
 use planner::torque_map::{Angles, direction};
 
 use super::{found::Found, options::Map, picture, spacecraft::MappedSpacecraft};

@@ -1,7 +1,7 @@
 //! What is mapped: the FMU of a file, how its panels follow the Sun, zone, downlinks and thresholds.
 
 use files::{Entries, Scratch};
-use loader::{Described, Fmu, Value};
+use fmi::{Described, Fmu, Value};
 use model_description::Description;
 use nalgebra::Vector3;
 use physics::{
@@ -65,7 +65,7 @@ impl WeighedSun {
 
     /// Returns its place in the attitude of MomentumPlant at the start; on -Y where that does not start by itself.
     fn of_attitude(fmu: &Fmu) -> Self {
-        let at_start = || -> Result<Option<Angles>, loader::Error> {
+        let at_start = || -> Result<Option<Angles>, fmi::Error> {
             let mut instance = started(fmu, "map", 0.0, &[])?;
             let (azimuth_rad, elevation_rad) =
                 (instance.get_real("sun.azimuth")?, instance.get_real("sun.elevation")?);
@@ -123,7 +123,7 @@ impl MappedSpacecraft {
             let (torque, simulated) = (describe(MODEL, Some(&text))?, describe(PLANT, Some(&text))?);
             // A name that neither has is reported as one of DisturbanceTorque.
             let name = set.split_once('=').map_or(set.as_str(), |(name, _)| name);
-            let is_known = |description| loader::select(description, name).is_ok();
+            let is_known = |description| fmi::select(description, name).is_ok();
             let (model, description) = if !is_known(&torque) && is_known(&simulated) {
                 (PLANT, &simulated)
             } else {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use loader::{InputTable, Value};
+use fmi::{InputTable, Value};
 use model_description::{Causality, Description, ScalarVariable, VariableKind, value};
 use physics::toml::MOST_PROBLEMS;
 
@@ -67,15 +67,15 @@ impl Mission {
 }
 
 /// Message of an error at a key of a file.
-pub(crate) fn in_file(key: &str, error: loader::Error) -> String {
+pub(crate) fn in_file(key: &str, error: fmi::Error) -> String {
     match error {
         // The key names the variable.
-        loader::Error::Value { what, variable } if key.contains(&variable) => what,
-        loader::Error::Inputs(what) => what,
-        loader::Error::UnknownVariable { name, hint, .. } => {
+        fmi::Error::Value { what, variable } if key.contains(&variable) => what,
+        fmi::Error::Inputs(what) => what,
+        fmi::Error::UnknownVariable { name, hint, .. } => {
             format!("found the unknown variable {name:?}, allowed: one that the FMU has{hint}")
         }
-        loader::Error::NoOutput { pattern, example, .. } => {
+        fmi::Error::NoOutput { pattern, example, .. } => {
             format!(
                 "found {pattern:?}, which no output fits, allowed: * for outputs, anything else by its name: {example}"
             )
@@ -96,7 +96,7 @@ impl<'m> Resolver<'m, '_> {
         self.problems.push((at.line, at.problem(&self.mission.file, what)));
     }
 
-    fn refuse<T>(&mut self, at: &At<T>, error: loader::Error) {
+    fn refuse<T>(&mut self, at: &At<T>, error: fmi::Error) {
         self.report(at, &in_file(&at.key, error));
     }
 
@@ -119,7 +119,7 @@ impl<'m> Resolver<'m, '_> {
             }
             let (name, written) = &at.it;
             for (variable, value) in self.assigned(at, name, written) {
-                if loader::set_early(variable).is_err() {
+                if fmi::set_early(variable).is_err() {
                     let found = format!("the {} {}", variable.causality, variable.name);
                     self.report(at, &format!("found {found}, allowed: a parameter or an input"));
                     continue;
@@ -138,7 +138,7 @@ impl<'m> Resolver<'m, '_> {
         let read = self
             .dates
             .in_seconds(&setting)
-            .and_then(|setting| loader::parse_assignment(self.described, &setting));
+            .and_then(|setting| fmi::parse_assignment(self.described, &setting));
         let values = read.map_err(|error| self.refuse(at, error)).unwrap_or_default().into_iter();
         let variable = |name: &str| self.described.variables.iter().find(|variable| variable.name == name);
         values.filter_map(|(name, value)| Some((variable(&name)?, value))).collect()
@@ -175,7 +175,7 @@ impl<'m> Resolver<'m, '_> {
     fn names(&mut self, names: &[At<String>]) -> Vec<usize> {
         let mut positions = Vec::new();
         for at in names {
-            match loader::select_outputs(self.described, &at.it) {
+            match fmi::select_outputs(self.described, &at.it) {
                 Ok(found) => positions.extend(found),
                 Err(error) => self.refuse(at, error),
             }
@@ -187,7 +187,7 @@ impl<'m> Resolver<'m, '_> {
 
     fn limit(&mut self, at: &At<Bounds>) -> Vec<Limit> {
         let Bounds { name, min, max } = &at.it;
-        let found = loader::select(self.described, name);
+        let found = fmi::select(self.described, name);
         let positions = found.map_err(|error| self.refuse(at, error)).unwrap_or_default();
         let mut limits = Vec::new();
         for variable in positions.into_iter().map(|position| &self.described.variables[position]) {
@@ -201,7 +201,7 @@ impl<'m> Resolver<'m, '_> {
                 continue;
             }
             let mut bound = |written: &Option<String>| {
-                let read = loader::parse_value(self.described, variable, written.as_ref()?);
+                let read = fmi::parse_value(self.described, variable, written.as_ref()?);
                 read.map_err(|error| self.refuse(at, error)).ok().map(|value| value.to_f64())
             };
             let (min, max) = (bound(min), bound(max));

@@ -7,7 +7,7 @@ use std::{
 };
 
 use files::{Destination, Growing};
-use loader::{Recording, csv};
+use fmi::{Recording, csv};
 use model_description::Description;
 
 use super::exporter::Exporter;

@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use loader::Recording;
+use fmi::Recording;
 use model_description::Description;
 
 /// An output of a run in one format.

@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use loader::Value;
+use fmi::Value;
 use model_description::{Description, labels};
 use physics::{
     spacecraft::{Spacecraft, Thruster},

@@ -1,6 +1,6 @@
 //! Whether a run keeps its mission's limits: when each was first broken, and what it came to.
 
-use loader::Recording;
+use fmi::Recording;
 use model_description::Description;
 
 use super::shown::Shown;
@@ -111,7 +111,7 @@ impl LimitCheck {
 mod tests {
     //! The first row outside is the one that is reported; NaN is outside.
 
-    use loader::Column;
+    use fmi::Column;
 
     use super::*;
 

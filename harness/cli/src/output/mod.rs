@@ -23,7 +23,7 @@ use std::{
 };
 
 use files::{Destination, sidecar_of};
-use loader::Recording;
+use fmi::Recording;
 use model_description::Description;
 
 use csv::Csv;
@@ -91,7 +91,7 @@ impl Outputs {
             Ok::<_, String>(destination)
         };
         let mut header = Vec::new();
-        loader::csv::write_header(empty, *columns, &mut header).map_err(|error| error.to_string())?;
+        fmi::csv::write_header(empty, *columns, &mut header).map_err(|error| error.to_string())?;
         let csv = table.as_ref().map(|file| open(file, OutputKind::Table(&header))).transpose()?;
         // Nothing stands beside the standard output.
         let beside = table.as_ref().zip(csv.as_ref().filter(|csv| !csv.is_stdout())).map(|(table, _)| {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use loader::{Times, Value};
+use fmi::{Times, Value};
 use model_description::{Description, value};
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table};
 
@@ -104,10 +104,10 @@ impl Origin<'_> {
     fn column(&self, name: &str) -> InlineTable {
         let mut column = InlineTable::new();
         let Some(variable) = find(self.described, name) else { return column };
-        if let Some(unit) = loader::unit(self.described, variable) {
+        if let Some(unit) = fmi::unit(self.described, variable) {
             column.insert("unit", unit.into());
         }
-        if let Some((name, factor, offset)) = loader::display_unit(self.described, variable) {
+        if let Some((name, factor, offset)) = fmi::display_unit(self.described, variable) {
             let mut display = InlineTable::from_iter([("unit", toml_edit::Value::from(name))]);
             display.insert("factor", factor.into());
             if offset != 0.0 {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use loader::{Column, Recording};
+use fmi::{Column, Recording};
 use model_description::{Description, VariableKind, value};
 
 use crate::variables::vector;

@@ -38,12 +38,12 @@ impl<'a> Shown<'a> {
         let Some(variable) = find(description, name) else {
             return Self { unit: "", factor: 1.0, ..Self::default() };
         };
-        let own = loader::unit(description, variable).unwrap_or_default();
+        let own = fmi::unit(description, variable).unwrap_or_default();
         let says_none = variable.description.as_deref().is_some_and(|text| text.contains(NONE));
         let is_time = matches!(variable.kind, VariableKind::Real { .. }) && own == "s";
         let is_epoch = epoch::is_epoch(description, variable);
         // Seconds stand beside a date.
-        let display = loader::display_unit(description, variable).filter(|_| !is_epoch);
+        let display = fmi::display_unit(description, variable).filter(|_| !is_epoch);
         let (unit, factor, offset) = display.unwrap_or((own, 1.0, 0.0));
         let is_angle = own == ANGLE_UNIT;
         let items = value::items(description, variable);

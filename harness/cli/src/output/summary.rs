@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use loader::{Column, Recording};
+use fmi::{Column, Recording};
 use model_description::Description;
 
 use super::{

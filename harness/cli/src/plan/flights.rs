@@ -7,7 +7,7 @@ use std::{
 };
 
 use files::Scratch;
-use loader::{Fmu, InputTable, Instance, InstanceOptions, Options, Recording, Value};
+use fmi::{Fmu, InputTable, Instance, InstanceOptions, Options, Recording, Value};
 use nalgebra::Vector3;
 use physics::{
     guidance::timeline::{Timeline, simulation_time_s},
@@ -263,7 +263,7 @@ impl SimulatedMission {
             step_s: Some(requested.step_s.unwrap_or(step_s).min((stop_s - self.start_s) / 8.0)),
             sets: [&self.sets, requested.sets].concat(),
             inputs: self.inputs.as_ref(),
-            record: Some(selected(description, requested.outputs, loader::select_outputs)?),
+            record: Some(selected(description, requested.outputs, fmi::select_outputs)?),
             record_at_s: requested.at_s,
             apart: description.variables.iter().position(|it| it.name == "dump.count"),
             progress: Some(&mut reported),
@@ -271,7 +271,7 @@ impl SimulatedMission {
             ..Options::default()
         };
         let mut instance = self.instance()?;
-        let simulated = loader::simulate_instance(&mut instance, options);
+        let simulated = fmi::simulate_instance(&mut instance, options);
         if simulated.is_ok() {
             self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(instance);
         }
@@ -281,14 +281,14 @@ impl SimulatedMission {
         Ok(match simulated {
             Ok((recording, _)) => (recording, None),
             Err(stopped) => {
-                let error = loader::Error::chain(&stopped);
+                let error = fmi::Error::chain(&stopped);
                 (stopped.partial, Some(error))
             }
         })
     }
 
     /// An idle instance after a reset, which keeps its ephemeris cache; otherwise a new one.
-    fn instance(&self) -> Result<Instance, loader::Error> {
+    fn instance(&self) -> Result<Instance, fmi::Error> {
         let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
         match idle {
             Some(mut instance) => instance.reset().map(|()| instance),

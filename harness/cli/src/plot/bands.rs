@@ -68,7 +68,7 @@ fn labelled(sidecar: &Sidecar, name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use reference::Cell;
+    use fmi::reference::Cell;
 
     #[test]
     fn bands_join_the_percentiles_of_a_variable() {

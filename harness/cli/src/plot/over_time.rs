@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use drawing::{Chart, Panel, Series};
-use loader::Column;
+use fmi::Column;
 
 use crate::{
     output::{Known, TimeAxis, chart, leave_out, panel, shade_eclipses},
@@ -146,7 +146,7 @@ mod tests {
             names: names.iter().map(|name| (*name).to_owned()).collect(),
             columns: names
                 .iter()
-                .map(|_| keys.iter().map(|key| reference::Cell::Real(*key)).collect())
+                .map(|_| keys.iter().map(|key| fmi::reference::Cell::Real(*key)).collect())
                 .collect(),
         }
     }

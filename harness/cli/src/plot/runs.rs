@@ -1,7 +1,7 @@
 //! Runs of a campaign, or rows of any table: histograms and scatter.
 
 use drawing::{Chart, Panel, Series};
-use reference::Cell;
+use fmi::reference::Cell;
 
 use super::cells::edges;
 use crate::{

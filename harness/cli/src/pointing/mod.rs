@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use loader::{Times, Value};
+use fmi::{Times, Value};
 use model_description::Description;
 use physics::{
     bodies::Body,

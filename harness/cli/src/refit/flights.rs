@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use files::Scratch;
-use loader::{Ended, Fmu, InputTable, Options, Value};
+use fmi::{Ended, Fmu, InputTable, Options, Value};
 use model_description::Description;
 use nalgebra::Vector3;
 use physics::constants::DAY_S;
@@ -64,7 +64,7 @@ impl RefitMission {
             Settings::of_fmu(&simulated, &format!("a {MODEL}"))?;
         check_plant(&file, fmu.description(), &sets)?;
         check_inputs(&file, fmu.description(), inputs.as_ref())?;
-        let is_drawn = |name: &str| fmu.variable(name).is_ok_and(|it| loader::set_early(it).is_ok());
+        let is_drawn = |name: &str| fmu.variable(name).is_ok_and(|it| fmi::set_early(it).is_ok());
         sets.extend(
             DRAWN.iter().filter(|name| is_drawn(name)).map(|name| ((*name).to_owned(), Value::Real(0.0))),
         );
@@ -132,12 +132,12 @@ impl Flights for RefitMission {
             step_s: Some(self.step_s.min(last_s - self.start_s)),
             sets,
             inputs: self.inputs.as_ref(),
-            record: Some(selected(description, &names, loader::select_outputs)?),
+            record: Some(selected(description, &names, fmi::select_outputs)?),
             record_at_s: Some(times_s),
             progress: Some(&mut reported),
             ..Options::default()
         };
-        let simulation = loader::simulate(&self.fmu, options)?;
+        let simulation = fmi::simulate(&self.fmu, options)?;
         self.simulated_s.set(before_s + last_s - self.start_s);
         let recording = simulation.recording;
         if simulation.ended != Ended::AtStop || recording.times_s.len() != times_s.len() {
@@ -165,7 +165,7 @@ fn check_plant(file: &str, description: &Description, sets: &[(String, Value)]) 
     if let Some(name) = names.into_iter().find(|name| variable(name).is_none()) {
         return Err(format!("{file}: {model} has no variable {name}, allowed: a {MODEL}"));
     }
-    let is_fixed = |name: &str| variable(name).is_some_and(|it| loader::set_early(it).is_err());
+    let is_fixed = |name: &str| variable(name).is_some_and(|it| fmi::set_early(it).is_err());
     if let Some(name) = FITTED.into_iter().find(|name| is_fixed(name)) {
         return Err(format!(
             "{file}: {name}: found a constant of {model} (`pack --fix`), allowed: a parameter"

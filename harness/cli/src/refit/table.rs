@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use loader::csv::Real;
+use fmi::csv::Real;
 use nalgebra::Vector4;
 use planner::refit::{Deviations, Direction, Fitted, Parameters};
 

@@ -10,7 +10,7 @@ use std::{
 };
 
 use clap::Args;
-use loader::{Collector, Ended, Error, LogMessage, Recording, Row, Rows, Status, Watcher};
+use fmi::{Collector, Ended, Error, LogMessage, Recording, Row, Rows, Status, Watcher};
 
 use super::{options::Run, settings::Settings, simulated::Simulated, subject::Subject, visits::Visits};
 use crate::{
@@ -86,7 +86,7 @@ pub(super) fn simulate(
         bounds,
         &mut |kind, payload| inbox.borrow_mut().take(kind, payload),
         &mut |line| shown.line(line),
-        &mut |calls| tick(inbox.borrow().collector.recording(), calls.and_then(loader::step_begin_s)),
+        &mut |calls| tick(inbox.borrow().collector.recording(), calls.and_then(fmi::step_begin_s)),
     );
     let Inbox { outcome, messages, visits, .. } = inbox.into_inner();
     let name = supervised.calls.instance.map_or_else(|| subject.name().to_owned(), |it| subject.named(it));
@@ -210,7 +210,7 @@ pub(crate) fn run(arguments: &RunInChild) -> Outcome {
             link.send(ENDED, |payload| payload.push(number as u64))?;
         }
         Err(error) => {
-            let text = loader::Error::chain(error.as_ref());
+            let text = fmi::Error::chain(error.as_ref());
             link.send(FAILED, |payload| push_text(payload, &text))?;
         }
     }

@@ -17,7 +17,7 @@ use std::{
 };
 
 use files::{Destination, Scratch};
-use loader::{Collector, Ended, RecordedPoints, Times};
+use fmi::{Collector, Ended, RecordedPoints, Times};
 
 use crate::{
     carried,
@@ -163,7 +163,7 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
 
     let recording = collector.recording();
     checks.update(recording);
-    let logged = loader::warnings(&result.messages);
+    let logged = fmi::warnings(&result.messages);
     if !arguments.quiet && !arguments.log {
         logged.iter().take(MOST_WARNINGS).for_each(|text| terminal::note(&format!("warning: {text}")));
         if let Some(more) = logged.len().checked_sub(MOST_WARNINGS).filter(|more| *more > 0) {

@@ -3,7 +3,7 @@
 use std::{path::Path, sync::atomic::AtomicBool};
 
 use files::Scratch;
-use loader::{Ended, Fmu, InputTable, InstanceOptions, LogMessage, Options, Rows, Times, Watcher};
+use fmi::{Ended, Fmu, InputTable, InstanceOptions, LogMessage, Options, Rows, Times, Watcher};
 use model_description::Description;
 
 use systems::{FirstExchange, Master};
@@ -26,7 +26,7 @@ pub(crate) struct Settings {
     /// Start, stop and step.
     pub times: Times,
     /// Values set before the run.
-    pub sets: Vec<(String, loader::Value)>,
+    pub sets: Vec<(String, fmi::Value)>,
     /// Inputs over time.
     pub inputs: Option<InputTable>,
     /// What is recorded.
@@ -83,8 +83,8 @@ impl Settings {
         };
         let mut positions = match (&arguments.record[..], resolved.record) {
             ([], Some(positions)) => positions,
-            ([], None) => loader::outputs(described),
-            (names, _) => selected(described, &all_names(names), loader::select_outputs)?,
+            ([], None) => fmi::outputs(described),
+            (names, _) => selected(described, &all_names(names), fmi::select_outputs)?,
         };
         // What is drawn or judged is recorded too.
         let requested = plots.iter().flat_map(|plot| plot.names.iter().flatten());
@@ -95,7 +95,7 @@ impl Settings {
         }
         let columns = positions.len();
         // Pictures shade eclipses, whatever they show.
-        let lit: Vec<usize> = loader::outputs(described)
+        let lit: Vec<usize> = fmi::outputs(described)
             .into_iter()
             .filter(|position| output::is_lit_fraction(&described.variables[*position].name))
             .filter(|position| !positions.contains(position))
@@ -141,7 +141,7 @@ impl Settings {
         arguments: &Run,
         (progress, cancel, watcher): (&'a mut dyn FnMut(f64), &'a AtomicBool, Option<&'a mut dyn Watcher>),
         rows: &mut dyn Rows,
-    ) -> Result<(Ended, Vec<LogMessage>), loader::Error> {
+    ) -> Result<(Ended, Vec<LogMessage>), fmi::Error> {
         let options = Options {
             start_s: arguments.start,
             stop_s: Some(self.times.stop_s),
@@ -158,7 +158,7 @@ impl Settings {
             ..Options::default()
         };
         match subject {
-            Subject::Fmu(fmu) => loader::simulate_into(fmu, options, rows),
+            Subject::Fmu(fmu) => fmi::simulate_into(fmu, options, rows),
             Subject::System(system) => {
                 let master = match arguments.master {
                     None | Some(MasterKind::Jacobi) => Master::Jacobi,
@@ -180,11 +180,10 @@ fn read_table(
     path: &Path,
     at: &Path,
 ) -> Result<InputTable, Box<dyn std::error::Error>> {
-    let in_file =
-        |error: &dyn std::error::Error| format!("{}: {}", path.display(), loader::Error::chain(error));
+    let in_file = |error: &dyn std::error::Error| format!("{}: {}", path.display(), fmi::Error::chain(error));
     let file = files::open_at_most(at, files::MOST_TABLE_BYTES)
         .map_err(|error| format!("{}: see --input", in_file(&error)))?;
-    let mut rows = loader::csv::read_rows(file).map_err(|error| in_file(&error))?;
+    let mut rows = fmi::csv::read_rows(file).map_err(|error| in_file(&error))?;
     let header = if rows.is_empty() { Vec::new() } else { rows.remove(0) };
     Ok(InputTable::parse(described, &header, &rows).map_err(|error| in_file(&error))?)
 }

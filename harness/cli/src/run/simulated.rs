@@ -9,7 +9,7 @@ use std::{
 
 use clap::Args;
 use files::Scratch;
-use loader::Fmu;
+use fmi::Fmu;
 
 use super::{options::Run, subject::Subject};
 use crate::{

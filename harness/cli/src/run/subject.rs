@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use loader::{Fmu, Times, Value};
+use fmi::{Fmu, Times, Value};
 use model_description::Description;
 use systems::System;
 

@@ -3,7 +3,7 @@
 //! Momentum gathered is the change of `momentum.inertial` without dumps: steps are halved until one that has a dump is short, and while
 //! one lasts the trapezoid of the torque stands for the change. The Sun is that of the middle of a visit, when a slew into it is over.
 
-use loader::{Error, Instance, Watcher};
+use fmi::{Error, Instance, Watcher};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::{settings::Settings, subject::Subject};

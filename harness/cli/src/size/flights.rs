@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use loader::{Options, Recording, Value};
+use fmi::{Options, Recording, Value};
 use nalgebra::Vector3;
 use physics::plant::LEAST_DUMP_THRESHOLD_N_M_S;
 
@@ -53,7 +53,7 @@ pub(super) fn undumped(
     is_quiet: bool,
 ) -> Result<Recording, Failure> {
     let patterns = ["momentum.*", "attitude.q", "attitude.rate", "torque.total"].map(str::to_owned);
-    let record = selected(sized.fmu.description(), &patterns, loader::select_outputs)?;
+    let record = selected(sized.fmu.description(), &patterns, fmi::select_outputs)?;
     let bar = terminal::progress(sized.span_s as u64, "s without dumps", is_quiet);
     let undumped = values(sized, Vector3::repeat(NEVER_N_M_S), "dumpsOnly")?;
     let sets = [undumped, others.to_vec()].concat();
@@ -96,7 +96,7 @@ pub(super) fn sweep(
 
 fn dumped(sized: &SizedSpacecraft, threshold_n_m_s: Vector3<f64>, strategy: &str) -> Result<Dumped, Failure> {
     let patterns = ["dump.count", "dump.impulse", "propellant.used"].map(str::to_owned);
-    let record = selected(sized.fmu.description(), &patterns, loader::select_outputs)?;
+    let record = selected(sized.fmu.description(), &patterns, fmi::select_outputs)?;
     let simulated = simulated(sized, values(sized, threshold_n_m_s, strategy)?, record, &mut |_| {})?;
     let count = numbers(&simulated, "dump.count")?;
     let impulses_n_m_s = vectors(&simulated, "dump.impulse")?;
@@ -130,7 +130,7 @@ fn values(
     let mut sets = sized.sets.clone();
     sets.extend(elements("dump.threshold", threshold_n_m_s));
     let strategy = format!("momentum.strategy={strategy}");
-    sets.extend(loader::parse_assignment(sized.fmu.description(), &strategy)?);
+    sets.extend(fmi::parse_assignment(sized.fmu.description(), &strategy)?);
     Ok(sets)
 }
 
@@ -168,5 +168,5 @@ fn simulated(
         cancel: Some(&cancel),
         ..Options::default()
     };
-    Ok(loader::simulate(&sized.fmu, options)?.recording)
+    Ok(fmi::simulate(&sized.fmu, options)?.recording)
 }

@@ -8,7 +8,7 @@
 
 use std::borrow::Cow;
 
-use loader::Recording;
+use fmi::Recording;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::variables::{numbers, vectors};

@@ -59,7 +59,7 @@ pub(super) struct Allocation {
 }
 
 /// The slew about each body axis; none without a demand.
-pub(super) fn slews(sized: &SizedSpacecraft) -> Result<Option<[Slew; 3]>, loader::Error> {
+pub(super) fn slews(sized: &SizedSpacecraft) -> Result<Option<[Slew; 3]>, fmi::Error> {
     let Some(demand) = sized.slew else { return Ok(None) };
     let mut started = sized.started()?;
     let mut inertia_kg_m2 = Vector3::zeros();
@@ -88,7 +88,7 @@ impl<'a> Demands<'a> {
         sized: &'a SizedSpacecraft,
         slews: &'a Option<[Slew; 3]>,
         margin: f64,
-    ) -> Result<Self, loader::Error> {
+    ) -> Result<Self, fmi::Error> {
         let is_opposite = item(sized.fmu.description(), &sized.sets, "dump.reinitTo") == Some("opposite");
         let room = if is_opposite { 1.0 + sized.started()?.get_real("dump.reinitFraction")? } else { 1.0 };
         Ok(Self { sized, slews, margin, room })

@@ -1,7 +1,7 @@
 //! What is sized: the FMU of a file, its spacecraft, and the values that it is simulated with.
 
 use files::Scratch;
-use loader::{Fmu, InputTable, Instance, Value};
+use fmi::{Fmu, InputTable, Instance, Value};
 use model_description::Description;
 use nalgebra::Vector3;
 use physics::{
@@ -143,7 +143,7 @@ impl SizedSpacecraft {
     }
 
     /// An instance that has just been initialised.
-    pub(super) fn started(&self) -> Result<Instance, loader::Error> {
+    pub(super) fn started(&self) -> Result<Instance, fmi::Error> {
         instance::started(&self.fmu, "size", self.start_s, &self.sets)
     }
 
@@ -183,7 +183,7 @@ fn check_plant(file: &str, description: &Description, sets: &[(String, Value)]) 
 }
 
 /// Of the orbit at the start.
-fn period_s(is_about_sun: bool, instance: &mut Instance) -> Result<f64, loader::Error> {
+fn period_s(is_about_sun: bool, instance: &mut Instance) -> Result<f64, fmi::Error> {
     let gm_m3_s2 = match is_about_sun {
         true => Body::Sun.data().gm_m3_s2,
         false => instance.get_real("planet.gravitationalParameter")?,

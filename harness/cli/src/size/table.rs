@@ -1,6 +1,6 @@
 //! The tables on the screen, and the CSV of dumps by threshold.
 
-use loader::csv::Real;
+use fmi::csv::Real;
 use physics::constants::DAY_S;
 use terminal::rounded;
 

@@ -29,7 +29,7 @@ use std::{
 };
 
 use files::{Destination, Growing, Part, Scratch, sidecar_of};
-use loader::{Fmu, csv};
+use fmi::{Fmu, csv};
 
 use file::CampaignFile;
 pub(crate) use options::Sweep;

@@ -152,7 +152,7 @@ pub(super) fn to_toml(
     }
     set("vary", Item::Table(vary));
     let mut units = Table::new();
-    let unit = |position: usize| loader::unit(described, &described.variables[position]).unwrap_or("");
+    let unit = |position: usize| fmi::unit(described, &described.variables[position]).unwrap_or("");
     for position in &campaign.varied {
         units.insert(&described.variables[*position].name, toml_edit::value(unit(*position)));
     }

@@ -12,7 +12,7 @@ use std::{
 };
 
 use files::Destination;
-use loader::{Collector, Recording, csv};
+use fmi::{Collector, Recording, csv};
 use model_description::Description;
 
 use super::{

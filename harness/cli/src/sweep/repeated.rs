@@ -6,7 +6,7 @@ use std::{
     thread,
 };
 
-use loader::csv::Real;
+use fmi::csv::Real;
 
 use super::{
     pool::{Attempt, Pool, RunResult},

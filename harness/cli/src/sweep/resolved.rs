@@ -3,7 +3,7 @@
 use std::{error::Error, ops::Range, path::Path};
 
 use campaign::{Correlation, Design, DesignError, Distribution, Sampling, Varied};
-use loader::{RecordedPoints, Value, csv};
+use fmi::{RecordedPoints, Value, csv};
 use model_description::{BaseType, Description, ScalarVariable, value};
 
 use super::{
@@ -220,7 +220,7 @@ impl Reader<'_> {
 
     /// The variable of a name; vectors are named by element.
     fn variable(&self, name: &str) -> Result<&ScalarVariable, String> {
-        let found = loader::select(self.described, name).map_err(|error| in_file(name, error))?;
+        let found = fmi::select(self.described, name).map_err(|error| in_file(name, error))?;
         let [position] = found[..] else {
             let first = &self.described.variables[found[0]].name;
             return Err(format!(
@@ -229,7 +229,7 @@ impl Reader<'_> {
             ));
         };
         let variable = &self.described.variables[position];
-        loader::set_early(variable).map_err(|error| in_file(name, error))?;
+        fmi::set_early(variable).map_err(|error| in_file(name, error))?;
         if variable.kind.base_type() == BaseType::String {
             return Err(format!("found the text {name:?}, allowed: a number, an option or a Boolean"));
         }
@@ -242,7 +242,7 @@ impl Reader<'_> {
         let read = self
             .dates
             .in_seconds(&setting)
-            .and_then(|setting| loader::parse_assignment(self.described, &setting))
+            .and_then(|setting| fmi::parse_assignment(self.described, &setting))
             .map_err(|error| in_file(&variable.name, error))?;
         read.first()
             .map(|(_, value)| value.to_f64())
@@ -315,7 +315,7 @@ impl Reader<'_> {
         let shown = path.display();
         let open = files::open_at_most(path, files::MOST_TABLE_BYTES)
             .map_err(|error| format!("{shown}: {error}"))?;
-        let mut rows = loader::csv::read_rows(open).map_err(|error| format!("{shown}: {error}"))?;
+        let mut rows = fmi::csv::read_rows(open).map_err(|error| format!("{shown}: {error}"))?;
         if rows.len() < 2 {
             let allowed = "a header with names of variables and a row a run";
             return Err(format!("{shown}: found {} rows, allowed: {allowed}", rows.len()));
@@ -388,7 +388,7 @@ impl Reader<'_> {
     fn positions(&self, names: &[At<String>]) -> Result<Vec<usize>, String> {
         let mut positions: Vec<usize> = Vec::new();
         for at in names {
-            let found = loader::select_outputs(self.described, &at.it)
+            let found = fmi::select_outputs(self.described, &at.it)
                 .map_err(|error| self.file.problem(at, &in_file(&at.key, error)))?;
             for position in found.into_iter().filter(|it| !positions.contains(it)).collect::<Vec<_>>() {
                 let variable = &self.described.variables[position];
@@ -409,14 +409,14 @@ impl Reader<'_> {
             (None, _) => Vec::new(),
             // What the mission records, its pictures and limits among it.
             (Some(_), Some(_)) => settings.positions.clone(),
-            (Some(_), None) => loader::outputs(self.described),
+            (Some(_), None) => fmi::outputs(self.described),
         };
         let mut kept = Kept { histories: histories.len(), positions: histories, ..Kept::default() };
         let is_number =
             |position: &usize| self.described.variables[*position].kind.base_type() != BaseType::String;
         let finals = match &keep.finals {
             Some(names) => self.positions(names)?,
-            None => loader::outputs(self.described).into_iter().filter(is_number).collect(),
+            None => fmi::outputs(self.described).into_iter().filter(is_number).collect(),
         };
         kept.finals = finals.into_iter().map(|position| kept.column(position)).collect();
         kept.extremes =

@@ -9,7 +9,7 @@ use std::{
 
 use campaign::{PERCENTILES, percentiles};
 use files::{Destination, Part};
-use loader::csv;
+use fmi::csv;
 
 /// Numbers that are in memory at once.
 const AT_ONCE: usize = 4_000_000;

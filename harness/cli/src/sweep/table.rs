@@ -3,7 +3,7 @@
 use std::{collections::BTreeMap, fmt::Write as _, path::Path};
 
 use files::Growing;
-use loader::csv::{self, Real};
+use fmi::csv::{self, Real};
 use model_description::Description;
 
 use super::{

@@ -8,7 +8,7 @@ use std::{
 
 use campaign::Extremes;
 use clap::Args;
-use loader::{Ended, Error, Fmu, Instance, InstanceOptions, Options, Row, Rows, Status, Value};
+use fmi::{Ended, Error, Fmu, Instance, InstanceOptions, Options, Row, Rows, Status, Value};
 use model_description::{BaseType, Description};
 
 use super::{
@@ -89,7 +89,7 @@ fn simulate_all(arguments: &SweepInChild, link: &mut Link) -> Result<(), Box<dyn
     let Subject::Fmu(fmu) = &subject else { return Err("found a system, allowed: an FMU".into()) };
     let file = CampaignFile::read(&arguments.campaign)?;
     let campaign = Campaign::resolve(&file, simulated(&file, None)?, &subject)?;
-    let is_reset = !arguments.fresh && conformance::resets(fmu).unwrap_or(false);
+    let is_reset = !arguments.fresh && fmi::conformance::resets(fmu).unwrap_or(false);
     let mut rows = KeptRows::new(&campaign, fmu.description(), link);
     let mut held: Option<Instance> = None;
     let runs = (arguments.first..arguments.end).step_by(usize::try_from(arguments.stride)?);
@@ -156,7 +156,7 @@ fn simulate(
         cancel: Some(&cancel),
         ..Options::default()
     };
-    loader::simulate_with(instance, options, rows)
+    fmi::simulate_with(instance, options, rows)
 }
 
 /// Takes the rows of a run and sends what is kept of them.

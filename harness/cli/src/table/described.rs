@@ -1,11 +1,11 @@
 //! A table over time as a recording with a description, which pictures of `run` are drawn by.
 
-use loader::{Column, Recording};
+use fmi::reference::Cell;
+use fmi::{Column, Recording};
 use model_description::{
     Description, DisplayUnit, EnumerationItem, RealAttributes, ScalarVariable, SimpleType, SimpleTypeKind,
     Unit, VariableKind,
 };
-use reference::Cell;
 
 use super::{
     reading::Table,
@@ -134,7 +134,7 @@ mod tests {
         let columns = known.map(|(name, quantity)| (name.to_owned(), quantity)).into();
         let described = Described::new(&table, &Sidecar { columns, ..Sidecar::default() });
         let variables = &described.description.variables;
-        assert_eq!(loader::display_unit(&described.description, &variables[0]), Some(("deg", 57.0, 0.0)));
+        assert_eq!(fmi::display_unit(&described.description, &variables[0]), Some(("deg", 57.0, 0.0)));
         let items = model_description::value::items(&described.description, &variables[1]);
         assert_eq!((items[0].name.as_str(), items[0].value), ("safe", 4));
         let [

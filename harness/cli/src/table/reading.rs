@@ -7,8 +7,8 @@ use std::{
 };
 
 use csv::{Position, ReaderBuilder, StringRecord, Trim};
+use fmi::reference::Cell;
 use model_description::{Description, ScalarVariable, names::similar};
-use reference::Cell;
 
 /// Name of a first column of times in s.
 pub(crate) const TIME: &str = "time";
@@ -116,7 +116,7 @@ impl Table {
             Description { variables: self.names.iter().map(variable).collect(), ..Description::default() };
         let (mut found, mut known) = (Vec::new(), BTreeSet::new());
         for pattern in patterns {
-            let positions = loader::select(&description, pattern).map_err(|_| self.unknown(pattern))?;
+            let positions = fmi::select(&description, pattern).map_err(|_| self.unknown(pattern))?;
             found.extend(
                 positions.into_iter().filter(|at| known.insert(*at)).map(|at| self.names[at].clone()),
             );

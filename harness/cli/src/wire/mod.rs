@@ -9,7 +9,7 @@ use std::{
 
 use clap::Args;
 use files::{Destination, Entries};
-use loader::Fmu;
+use fmi::Fmu;
 use model_description::DefaultExperiment;
 use systems::{SSD_FILE, Wired, Wiring};
 

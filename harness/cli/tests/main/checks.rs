@@ -9,7 +9,7 @@ const RESOURCES: &str = "../../fmu-src/resources";
 /// Unpacks the FMU and changes its XML.
 fn changed(fmu: &Path, from: &str, to: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    loader::unpack(fmu, folder.path(), loader::ArchiveLimits::default()).unwrap();
+    fmi::unpack(fmu, folder.path(), fmi::ArchiveLimits::default()).unwrap();
     let path = folder.path().join("modelDescription.xml");
     let xml = fs::read_to_string(&path).unwrap();
     assert!(xml.contains(from), "the XML has no {from}");
@@ -183,7 +183,7 @@ const C: &str = "../../tests/c";
 /// An FMU in C that does not check its arguments; see its source.
 fn unguarded() -> Option<tempfile::TempDir> {
     let folder = tempfile::tempdir().unwrap();
-    let platform = folder.path().join("binaries").join(loader::platform_folders()[0]);
+    let platform = folder.path().join("binaries").join(fmi::platform_folders()[0]);
     let sources = folder.path().join("sources");
     fs::create_dir_all(&platform).unwrap();
     fs::create_dir_all(&sources).unwrap();
@@ -231,7 +231,7 @@ fn an_fmu_that_hangs_at_invalid_times_and_crashes_at_null_is_checked_to_the_end(
 fn an_fmu_that_dies_is_a_finding() {
     let Some((_room, fmu)) = packed("AllTypes") else { return };
     let folder = changed(&fmu, "modelName", "modelName");
-    let platform = folder.path().join("binaries").join(loader::platform_folders()[0]);
+    let platform = folder.path().join("binaries").join(fmi::platform_folders()[0]);
     let library = platform.join(format!("AllTypes{}", std::env::consts::DLL_SUFFIX));
     let bytes = fs::read(&library).unwrap();
     fs::write(&library, &bytes[..bytes.len() / 3]).unwrap();
@@ -243,7 +243,7 @@ fn an_fmu_that_dies_is_a_finding() {
 fn shipped(model: &str, spacecraft: &str) -> Option<tempfile::TempDir> {
     let toml = format!("{RESOURCES}/{spacecraft}");
     let (scratch, fmu) = packed_from(&library()?, model, "x.fmu", &["--spacecraft", &toml])?;
-    loader::unpack(&fmu, &scratch.path().join("x"), loader::ArchiveLimits::default()).unwrap();
+    fmi::unpack(&fmu, &scratch.path().join("x"), fmi::ArchiveLimits::default()).unwrap();
     Some(scratch)
 }
 

@@ -105,7 +105,7 @@ impl Leg {
         let found = self.recorded(&names.join(","), &[]);
         let column = |name: &str| found.get(name).cloned();
         let flight = plant::flight(&found["time"], &column, (2, Convention::Inertial)).unwrap();
-        let fmu = loader::Fmu::open(&self.template).unwrap();
+        let fmu = fmi::Fmu::open(&self.template).unwrap();
         // As the mission has them: nBody about the Sun to Mercury, panels by the distance.
         let epoch_s = physics::environment::dates::epoch_s(self.mission["start"].as_str().unwrap()).unwrap();
         let sets = [

@@ -19,7 +19,7 @@ fn rows() -> BTreeMap<&'static str, u64> {
 
 #[test]
 fn the_guide_has_every_limit() {
-    let archive = loader::ArchiveLimits::default();
+    let archive = fmi::ArchiveLimits::default();
     let mut expected = BTreeMap::from([
         ("bytes of a TOML file", MOST_TEXT_BYTES as u64),
         ("bytes of a table of numbers (`--input`, `map --mission`)", files::MOST_TABLE_BYTES),

@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use loader::{Fmu, Instance, InstanceOptions, Value};
+use fmi::{Fmu, Instance, InstanceOptions, Value};
 use resvg::usvg::roxmltree::Document;
 use tempfile::TempDir;
 

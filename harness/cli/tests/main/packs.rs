@@ -52,7 +52,7 @@ fn the_same_input_gives_the_same_archive() {
     }
     // One library, under FMI 2.0's name of the platform.
     let libraries: Vec<_> = names.iter().filter(|name| name.starts_with("binaries/")).collect();
-    let platform = loader::platform_folders()[0];
+    let platform = fmi::platform_folders()[0];
     assert_eq!(libraries, [&format!("binaries/{platform}/AllTypes{}", std::env::consts::DLL_SUFFIX)]);
 }
 
@@ -81,12 +81,12 @@ fn libraries_of_other_platforms_stand_in_their_folders() {
     let binaries = |path: &Path| -> Vec<String> {
         entries(path).into_iter().map(|(name, _)| name).filter(|name| name.starts_with("binaries/")).collect()
     };
-    let own = format!("binaries/{}/AllTypes{}", loader::platform_folders()[0], std::env::consts::DLL_SUFFIX);
+    let own = format!("binaries/{}/AllTypes{}", fmi::platform_folders()[0], std::env::consts::DLL_SUFFIX);
     assert_eq!(binaries(&fmu), [own.clone(), "binaries/win64/AllTypes.dll".to_owned()]);
     let text = run(&["info", shown(&fmu)], 0);
     says(
         &text,
-        &["platforms", &format!("{}, win64", loader::platform_folders()[0]), "PE x86-64; needs no library"],
+        &["platforms", &format!("{}, win64", fmi::platform_folders()[0]), "PE x86-64; needs no library"],
     );
     says(&run(&["check", shown(&fmu), "--static"], 0), &["0 wrong"]);
 

@@ -164,7 +164,7 @@ fn a_full_disk_leaves_what_was_written() {
         [keep]\nextremes = [\"ishigami\", \"ramp\", \"sum\"]\n";
     let Some((scratch, file)) = campaign(text) else { return };
     // Unpacked: nothing else is written.
-    let fmu = loader::Fmu::open(scratch.path().join("Functions.fmu")).unwrap();
+    let fmu = fmi::Fmu::open(scratch.path().join("Functions.fmu")).unwrap();
     let text = fs::read_to_string(&file).unwrap().replace("Functions.fmu", shown(fmu.folder()));
     fs::write(&file, text).unwrap();
     let whole = table(&file, "whole.csv", &[]);

@@ -9,7 +9,7 @@ use crate::{library, packed, probe_library, run, says, shown, template, words};
 const SCHEDULE: &str = "all-types-schedule.toml";
 
 fn guid(fmu: &std::path::Path) -> String {
-    let fmu = loader::Fmu::open(fmu).unwrap();
+    let fmu = fmi::Fmu::open(fmu).unwrap();
     let Description { guid, .. } = fmu.description().clone();
     guid
 }

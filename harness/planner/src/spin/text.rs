@@ -2,7 +2,7 @@
 
 use std::{fmt::Write, path::Path};
 
-use loader::Fmu;
+use fmi::Fmu;
 use physics::{constants::RPM_RAD_S, spin::spinner::Spinner};
 
 use super::{

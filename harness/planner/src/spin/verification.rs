@@ -2,7 +2,7 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use loader::{Column, Fmu, Value};
+use fmi::{Column, Fmu, Value};
 use model_description::labels;
 use physics::spin::{
     forecast::{ForecastCase, Timing},
@@ -122,14 +122,14 @@ fn simulate(fmu: &Fmu, task: &Task, row: &TrainForecast, spin: &Spin) -> Result<
         .iter()
         .map(|name| fmu.position(name).ok_or_else(|| failed(format_args!("no variable {name}"))))
         .collect::<Result<Vec<_>, _>>()?;
-    let options = loader::Options {
+    let options = fmi::Options {
         stop_s: Some(stop_s),
         step_s: Some(spin.period_s() / 4.0),
         sets: sets(fmu, task, row, spin)?,
         record: Some(record),
-        ..loader::Options::default()
+        ..fmi::Options::default()
     };
-    let simulation = loader::simulate(fmu, options).map_err(failed)?;
+    let simulation = fmi::simulate(fmu, options).map_err(failed)?;
     let numbers = |name: &str| {
         let column = simulation.recording.column(name).map(Column::numbers);
         column.ok_or_else(|| failed(format_args!("{name} was not recorded")))

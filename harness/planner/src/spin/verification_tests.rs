@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use loader::Fmu;
+use fmi::Fmu;
 use physics::spin::train::Shape;
 
 use super::tests::{ace, assert_has, options, task};

@@ -1,6 +1,6 @@
 //! Where the spacecraft balances: X and Z of the torque vanish together, by Newton's method on the sphere; where all of it is least.
 
-use loader::Error;
+use fmi::Error;
 use nalgebra::{Matrix2, Vector2, Vector3};
 
 use super::{

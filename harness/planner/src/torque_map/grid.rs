@@ -1,6 +1,6 @@
 //! Loads on a regular grid of the Sun's azimuth and elevation.
 
-use loader::Error;
+use fmi::Error;
 use nalgebra::Vector3;
 use physics::attitude::{SunAngles, direction_from_angles};
 use rayon::prelude::*;

@@ -1,6 +1,6 @@
 //! A rectangle of the Sun's directions and what is found in it.
 
-use loader::Error;
+use fmi::Error;
 use rayon::join;
 
 use super::{

@@ -1,6 +1,6 @@
 //! Force and torque of sunlight from any direction, and their exact derivatives, as the FMU gives them.
 
-use loader::{Error, Fmu, Instance, InstanceOptions, Value};
+use fmi::{Error, Fmu, Instance, InstanceOptions, Value};
 use nalgebra::Vector3;
 
 use super::panels::TurnedPanels;

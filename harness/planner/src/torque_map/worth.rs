@@ -1,6 +1,6 @@
 //! What a degree of the Sun's direction or of the panels is worth, by the FMU's own derivatives.
 
-use loader::Error;
+use fmi::Error;
 use nalgebra::Vector3;
 
 use super::{

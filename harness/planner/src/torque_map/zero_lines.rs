@@ -5,7 +5,7 @@
 
 use std::collections::HashMap;
 
-use loader::Error;
+use fmi::Error;
 
 use super::{
     contour::{self, Edge},

@@ -1,6 +1,6 @@
 //! A loop that is wired means what it says: options that read the connected inputs, the same thruster sets on both sides.
 
-use loader::{Fmu, Value};
+use fmi::{Fmu, Value};
 use model_description::DefaultExperiment;
 use systems::{System, Wired, Wiring, to_parameter_set, to_xml, wire};
 

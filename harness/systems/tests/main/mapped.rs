@@ -1,6 +1,6 @@
 //! Parameter mappings: names, units, transformations as SSP 1.0 has them, what does not fit; steps in annotations.
 
-use loader::Value;
+use fmi::Value;
 use systems::System;
 
 use crate::support::{Ssd, ssp};

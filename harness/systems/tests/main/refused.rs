@@ -1,6 +1,6 @@
 //! Systems that cannot be simulated are refused by the name of what is wrong.
 
-use loader::Value;
+use fmi::Value;
 use systems::System;
 
 use crate::support::{Ssd, description, fmu, ssp, taker};
@@ -9,7 +9,7 @@ use crate::support::{Ssd, description, fmu, ssp, taker};
 fn refusal(ssd: &str, files: &[(&str, &str)]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = ssp(folder.path(), ssd, files);
-    loader::Error::chain(&System::open(&path).expect_err(ssd))
+    fmi::Error::chain(&System::open(&path).expect_err(ssd))
 }
 
 const fn written(connections: &'static str) -> Ssd {

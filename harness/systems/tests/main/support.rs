@@ -156,7 +156,7 @@ pub(crate) fn ssp(folder: &Path, ssd: &str, files: &[(&str, &str)]) -> PathBuf {
 }
 
 /// Writes an SSP of these components.
-pub(crate) fn write(folder: &Path, ssd: &str, components: &[(String, loader::Fmu)]) -> PathBuf {
+pub(crate) fn write(folder: &Path, ssd: &str, components: &[(String, fmi::Fmu)]) -> PathBuf {
     let mut entries = Entries::default();
     entries.add("SystemStructure.ssd", ssd.as_bytes().to_vec()).unwrap();
     for (name, fmu) in components {

@@ -1,6 +1,6 @@
 //! What is wired, written and read again; units on the way.
 
-use loader::Fmu;
+use fmi::Fmu;
 use model_description::DefaultExperiment;
 use systems::{
     ConnectorKind, Linear, System, Wired, Wiring, component_name, read_structure, to_parameter_set, to_xml,
@@ -258,7 +258,7 @@ fn the_systems_own_connectors_stand_for_variables_in_their_own_units() {
     assert!(!open.contains(&places[0].at) && !open.contains(&places[1].at));
     // Its bindings: in the connector's unit, or in their own.
     let parameters = |number: usize| system.parts()[number].parameters.clone();
-    let real = |name: &str, value: f64| (name.to_owned(), loader::Value::Real(value));
+    let real = |name: &str, value: f64| (name.to_owned(), fmi::Value::Real(value));
     assert_eq!(parameters(0), [real("push", 3000.0), real("size", 4000.0)]);
     assert_eq!(parameters(1), [real("position[1]", 3000.0)]);
 }

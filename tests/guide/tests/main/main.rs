@@ -2,6 +2,7 @@
 
 mod chapters;
 mod commands;
+mod formulas;
 mod html;
 mod links;
 mod markdown;

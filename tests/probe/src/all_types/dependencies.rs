@@ -1,4 +1,4 @@
-//! What the outputs of `AllTypes` depend on: each on the one it repeats.
+//! Dependencies of the outputs of `AllTypes`: each on the variable that it repeats.
 
 use fmi_export::{Dependencies, Knowns, knowns};
 

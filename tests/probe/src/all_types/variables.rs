@@ -122,7 +122,7 @@ pub struct InputVariables {
     pub matrix: RealMatrix<2, 3>,
 }
 
-/// What comes out of the inputs.
+/// Outputs that repeat the inputs.
 #[derive(Variables)]
 pub struct OutputVariables {
     /// `input.real` at the communication point.
@@ -154,7 +154,7 @@ pub struct OutputVariables {
     pub integral: Real,
 }
 
-/// What comes out of the tunable parameters.
+/// Outputs that repeat the tunable parameters.
 #[derive(Variables)]
 pub struct EchoVariables {
     /// `tunable.real`.

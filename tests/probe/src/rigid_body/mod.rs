@@ -32,7 +32,7 @@ pub struct RigidBodyVariables {
     pub attitude: AttitudeVariables,
 }
 
-/// Where the motion begins.
+/// Initial conditions of the motion.
 #[derive(Variables)]
 pub struct StartVariables {
     /// Attitude at the start: quaternion from EME2000 to body, scalar last.
@@ -65,7 +65,7 @@ pub struct PlanetVariables {
     pub position_body: RealVector<3>,
 }
 
-/// What turns the body.
+/// Torque on the body.
 #[derive(Variables)]
 pub struct TorqueVariables {
     /// Torque in body axes, held over a step.
@@ -130,7 +130,7 @@ impl Model for RigidBody {
     ) -> Result<StepEnd, Failure> {
         let v = context.variables;
         let inertia_kg_m2 = values.vector(v.inertia);
-        state.take_torque(inertia_kg_m2, step.start_s, values.vector(v.torque.total));
+        state.set_torque(inertia_kg_m2, step.start_s, values.vector(v.torque.total));
         let attitude = state.advance(inertia_kg_m2, step.end_s);
         write(v, values, attitude);
         Ok(StepEnd::at(step.end_s))

@@ -32,8 +32,8 @@ impl Motion {
         Self { since_s: time_s, cells: 0, attitude, torque_body_n_m }
     }
 
-    /// The torque from a time on, which the motion was advanced to.
-    pub fn take_torque(&mut self, inertia_kg_m2: [f64; 3], time_s: f64, torque_body_n_m: [f64; 3]) {
+    /// Sets the torque from a time on, to which the motion is advanced.
+    pub fn set_torque(&mut self, inertia_kg_m2: [f64; 3], time_s: f64, torque_body_n_m: [f64; 3]) {
         if torque_body_n_m != self.torque_body_n_m {
             *self = Self::new(time_s, self.advance(inertia_kg_m2, time_s), torque_body_n_m);
         }

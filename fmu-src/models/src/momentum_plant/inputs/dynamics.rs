@@ -49,7 +49,8 @@ pub(super) fn dynamic(
     let real = |handle: Real| read.real(handle);
     check_momentum(read, configuration)?;
     wheels::check(read)?;
-    let rotors = rotors(read)?;
+    let rotors = wheels::rotors(read);
+    check_start(read, &rotors)?;
     let shift = read.values.vector(v.spacecraft.center_of_mass_shift);
     if shift != [0.0; 3] {
         return Err(Failure::new(format!(
@@ -105,33 +106,13 @@ pub(super) fn dynamic(
             seed,
         },
         grid_s: real(v.solver.dynamics_step),
-        panels_have_mass: read.setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some()),
         start,
     })
 }
 
-/// The reaction wheels by parameters.
-///
-/// # Errors
-/// Momentum at the start beyond a wheel's capacity.
-fn rotors(read: Read<'_>) -> Result<Vec<ReactionWheel>, Failure> {
-    let v = read.variables;
-    let real = |handle: Real| read.real(handle);
-    let rotors: Vec<ReactionWheel> = v
-        .wheel
-        .iter()
-        .map(|wheel| ReactionWheel {
-            axis_body: read.vector(wheel.axis),
-            inertia_kg_m2: real(wheel.inertia),
-            max_torque_n_m: real(wheel.max_torque),
-            capacity_n_m_s: real(wheel.capacity),
-            bias_n_m_s: real(wheel.bias_momentum),
-            coulomb_friction_n_m: real(wheel.coulomb_friction),
-            viscous_friction_n_m_s: real(wheel.viscous_friction),
-            locked: read.boolean(wheel.locked),
-        })
-        .collect();
-    for (index, (wheel, body)) in v.wheel.iter().zip(&rotors).enumerate() {
+/// Refuses momentum at the start beyond a wheel's capacity.
+fn check_start(read: Read<'_>, rotors: &[ReactionWheel]) -> Result<(), Failure> {
+    for (index, (wheel, body)) in read.variables.wheel.iter().zip(rotors).enumerate() {
         let (number, found) = (index + 1, wheels::start_n_m_s(read, wheel));
         let allowed_n_m_s = if body.locked { 0.0 } else { body.capacity_n_m_s };
         if found.abs() > allowed_n_m_s {
@@ -141,7 +122,7 @@ fn rotors(read: Read<'_>) -> Result<Vec<ReactionWheel>, Failure> {
             )));
         }
     }
-    Ok(rotors)
+    Ok(())
 }
 
 /// Refuses a controller whose wheels do not turn the body in every direction.
@@ -232,9 +213,10 @@ fn direction(
 /// Wheels and sensors of a flight that is followed ideally.
 pub(super) fn ideal(read: Read<'_>) -> Result<IdealSettings, Failure> {
     let v = read.variables;
+    wheels::check(read)?;
     Ok(IdealSettings {
         array: wheels::array(read),
-        wheels: wheels::ideal(read)?,
+        wheels: wheels::rotors(read),
         sun_sensors: sun_sensors(read)?,
         rate_hz: read.real(v.control.rate),
         seed: read.count(v.noise_seed).into(),

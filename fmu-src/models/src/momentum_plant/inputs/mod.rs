@@ -69,7 +69,7 @@ impl Reading<'_> {
     ) -> T {
         let Self { prepared, work_limit, .. } = *self;
         let external = |time_s| self.applied.at(time_s);
-        let planner = |forecast: &mut DownlinkForecast<'_>| self.manager.choose(forecast);
+        let planner = |forecast: &mut DownlinkForecast<'_, '_>| self.manager.choose(forecast);
         act(StepContext { prepared, external: &external, inputs, planner: &planner, work_limit, log })
     }
 }

@@ -2,7 +2,9 @@
 
 use fmi_export::{Failure, Step};
 use nalgebra::Vector3;
-use physics::plant::{DynamicsInputs, Flight, ReactionControlSettings, SimulationContext, UnservedDumps};
+use physics::plant::{
+    DynamicsInputs, Flight, Purpose, ReactionControlSettings, SimulationContext, UnservedDumps,
+};
 use physics::propulsion::{PulseCommand, ThrustErrors};
 use physics::spacecraft::{Tank, Thruster};
 
@@ -87,7 +89,7 @@ pub(crate) fn warn_unserved(context: &Plan<'_>, flight: &Flight, warned: &mut Th
         return;
     }
     let center_of_mass_body_m = evaluation.mass.center_of_mass_body_m;
-    if let Err(error) = settings.dump_selection(|_| true, &center_of_mass_body_m) {
+    if let Err(error) = settings.selection(Purpose::Dump, &|_| true, &center_of_mass_body_m) {
         warned.unserved = true;
         context.log.warning(&format!(
             "dump.count: {error} (centerOfMass = {:?} m); dumps are as those of a file without [[thrusters]]: at once in guided \

@@ -2,8 +2,8 @@
 
 use fmi_export::{Failure, Values};
 use nalgebra::Vector3;
+use physics::attitude::ReactionWheel;
 use physics::momentum::{WheelArray, wheels_body_n_m_s};
-use physics::plant::IdealWheel;
 use physics::spacecraft::free_capacity_n_m_s;
 
 use crate::momentum_plant::setup::{Plan, Read};
@@ -45,15 +45,19 @@ pub(super) fn write_start(context: &Plan<'_>, values: &mut Values) {
     }
 }
 
-/// Wheels that follow ideally.
-pub(super) fn ideal(read: Read<'_>) -> Result<Vec<IdealWheel>, Failure> {
-    check(read)?;
-    let wheels = read.variables.wheel.iter().map(|wheel| IdealWheel {
+/// The reaction wheels by parameters.
+pub(super) fn rotors(read: Read<'_>) -> Vec<ReactionWheel> {
+    let wheels = read.variables.wheel.iter().map(|wheel| ReactionWheel {
+        axis_body: read.vector(wheel.axis),
         inertia_kg_m2: read.real(wheel.inertia),
+        max_torque_n_m: read.real(wheel.max_torque),
         capacity_n_m_s: read.real(wheel.capacity),
         bias_n_m_s: read.real(wheel.bias_momentum),
+        coulomb_friction_n_m: read.real(wheel.coulomb_friction),
+        viscous_friction_n_m_s: read.real(wheel.viscous_friction),
+        locked: read.boolean(wheel.locked),
     });
-    Ok(wheels.collect())
+    wheels.collect()
 }
 
 /// Refuses a bias beyond the capacity.

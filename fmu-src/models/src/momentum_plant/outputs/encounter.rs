@@ -15,7 +15,8 @@ pub(super) fn write(v: &EncounterVariables, values: &mut Values, report: &Report
     values.set_vector(v.position, encounter.body.position_m.into());
     values.set_vector(v.velocity, encounter.body.velocity_m_s.into());
     values.set_real(v.distance, encounter.distance_m);
-    let (b_plane, (count, last)) = (encounter.b_plane, report.approaches);
+    let (b_plane, (count, last)) =
+        (encounter.b_plane, report.propagator.trajectory.approaches.until(report.time_s));
     values.set_boolean(v.hyperbolic, b_plane.is_some());
     values.set_real(v.b_t, b_plane.map_or(0.0, |it| it.b_t_m));
     values.set_real(v.b_r, b_plane.map_or(0.0, |it| it.b_r_m));

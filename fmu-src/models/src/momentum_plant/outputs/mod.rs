@@ -178,7 +178,8 @@ fn write_bodies(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
 fn write_orbit(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let variables = context.variables;
     values.set_real(variables.orbit.time_since_periapsis, report.since_periapsis_s);
-    values.set_choice(variables.orbit.current_center, OrbitCenter(report.integration_center));
+    let center = report.propagator.trajectory.integration_center(report.configuration);
+    values.set_choice(variables.orbit.current_center, OrbitCenter(center));
     let osculating = report.osculating_orbit();
     variables.osculating.write(values, osculating.as_ref());
     values.set_real(variables.sun.beta, osculating.map_or(0.0, |orbit| orbit.sun_elevation_rad));
@@ -199,7 +200,7 @@ fn write_panels_and_thrusters(context: &Plan<'_>, values: &mut Values, report: &
         let normal_body = angle_rad.filter(|_| sun.distance_m > 0.0).map(|it| body.normal_body(it));
         let suns =
             normal_body.map(|normal_body| light_suns(&normal_body, &sun.direction_body, sun.distance_m));
-        let continued_rad = |angle_rad| report.panel_turns.continued_rad(index, angle_rad, time_s);
+        let continued_rad = |angle_rad| report.propagator.panel_turns.continued_rad(index, angle_rad, time_s);
         let offsets_rad = normal_body.map(|normal_body| setting.sun_offsets_rad(&normal_body, &sun));
         values.set_real(panel.sun_offset_actual, offsets_rad.map_or(0.0, |[_, actual_rad]| actual_rad));
         values.set_boolean(panel.sun_offset_reached, offsets_rad.is_some_and(is_sun_offset_reached));
@@ -247,7 +248,7 @@ fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) 
     for (effect, output) in v.momentum.by_source.iter() {
         values.set_vector(output, by_source.body_n_m_s(effect, convention, rotation).into());
     }
-    values.set_boolean(v.momentum.target_clamped, report.target_is_clamped);
+    values.set_boolean(v.momentum.target_clamped, report.propagator.sun_choice.is_clamped());
     values.set_boolean(v.guided_degenerate, report.is_degenerate);
     values.set_boolean(v.downlink.active, report.downlink.active);
     values.set_boolean(v.downlink.clamped, report.downlink.clamped);
@@ -310,8 +311,9 @@ fn write_sensors(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
 /// Thrusters and tanks.
 fn write_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let (v, time_s, thrusters) = (context.variables, report.time_s, report.thrusters);
-    for (k, (thruster, variables)) in report.reaction_control.thrusters.iter().zip(&v.thruster).enumerate() {
-        let thrust_n = thrusters.thrust_n(report.reaction_control, k, time_s);
+    let reaction_control = report.reaction_control;
+    for (k, (thruster, variables)) in reaction_control.thrusters.iter().zip(&v.thruster).enumerate() {
+        let thrust_n = thrusters.thrust_n(reaction_control, k, time_s);
         let hits = thrust_n > 0.0 && {
             let angle = |panel: usize| {
                 let enabled = v.panel.get(panel).filter(|it| values.boolean(it.enabled));
@@ -320,13 +322,16 @@ fn write_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>)
             surface_in_plume(&context.setup.spacecraft, thruster, angle).is_some()
         };
         values.set_real(variables.thrust, thrust_n);
-        values.set_integer(variables.pulses, i32::try_from(thrusters.valves.pulses(k)).unwrap_or(i32::MAX));
-        values.set_boolean(variables.too_short, thrusters.valves.was_too_short(k));
+        values.set_integer(
+            variables.pulses,
+            i32::try_from(thrusters.valves.valves[k].pulses()).unwrap_or(i32::MAX),
+        );
+        values.set_boolean(variables.too_short, thrusters.valves.schedule[k].was_too_short());
         values.set_boolean(variables.plume, hits);
     }
     values.set_boolean(v.thrust.active, thrusters.valves.burning().is_some());
     let propellant = &thrusters.propellant;
-    for (k, (tank, variables)) in report.reaction_control.tanks.iter().zip(&v.tank).enumerate() {
+    for (k, (tank, variables)) in reaction_control.tanks.iter().zip(&v.tank).enumerate() {
         let used_kg = propellant.used_kg(k, time_s);
         values.set_real(variables.propellant_left, tank.left_kg(used_kg));
         values.set_real(variables.pressure_actual, tank.pressure_pa(used_kg));

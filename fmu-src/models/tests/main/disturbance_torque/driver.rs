@@ -72,7 +72,7 @@ impl DerefMut for Disturbance {
 impl Disturbance {
     /// MESSENGER as shipped.
     pub(crate) fn messenger() -> Self {
-        Self(NamedInstance::of(&LIBRARY, "DisturbanceTorque"))
+        Self(NamedInstance::from_library(&LIBRARY, "DisturbanceTorque"))
     }
 
     /// The spacecraft with shadows.
@@ -141,14 +141,14 @@ impl Disturbance {
     /// Every output after a step with these inputs.
     pub(crate) fn outputs_at(&mut self, inputs: &[u32], values: &[f64], outputs: &[u32]) -> Vec<f64> {
         assert_eq!(self.fmu.set_real(inputs, values), Status::Ok);
-        assert_eq!(self.step(), Status::Ok, "{:?}", self.fmu.take_messages());
+        assert_eq!(self.step(), Status::Ok, "{:?}", self.fmu.drain_messages());
         self.read(outputs)
     }
 
     pub(crate) fn slopes(&mut self, unknowns: &[u32], knowns: &[u32], seed: &[f64]) -> Vec<f64> {
         let mut result = vec![f64::NAN; unknowns.len()];
         let status = self.fmu.get_directional_derivative(unknowns, knowns, seed, &mut result);
-        assert_eq!(status, Status::Ok, "{:?}", self.fmu.take_messages());
+        assert_eq!(status, Status::Ok, "{:?}", self.fmu.drain_messages());
         result
     }
 }

@@ -97,7 +97,7 @@ fn refusal(change: impl FnOnce(&mut Disturbance)) -> String {
     let mut fmu = Disturbance::messenger();
     change(&mut fmu);
     assert_ne!(fmu.fmu.start(0.0, None), Status::Ok);
-    fmu.fmu.take_messages().into_iter().map(|Message { text, .. }| text).collect()
+    fmu.fmu.drain_messages().into_iter().map(|Message { text, .. }| text).collect()
 }
 
 #[test]
@@ -133,7 +133,7 @@ fn an_impossible_place_fails_the_step_by_name_and_reset_forgets_it() {
     ] {
         fmu.put_vector(name, place);
         assert_eq!(fmu.step(), Status::Error);
-        let text: String = fmu.fmu.take_messages().into_iter().map(|Message { text, .. }| text).collect();
+        let text: String = fmu.fmu.drain_messages().into_iter().map(|Message { text, .. }| text).collect();
         assert!(text.contains(name) && text.contains(why), "{text}");
         assert_eq!(fmu.fmu.reset(), Status::Ok);
         assert_eq!(whole(&mut fmu), before);

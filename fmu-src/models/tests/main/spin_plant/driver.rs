@@ -31,7 +31,7 @@ impl DerefMut for Spinner {
 
 impl Spinner {
     pub(super) fn new() -> Self {
-        let named = NamedInstance::of(&LIBRARY, "SpinPlant");
+        let named = NamedInstance::from_library(&LIBRARY, "SpinPlant");
         let real_outputs = named
             .description
             .variables
@@ -68,7 +68,7 @@ impl Spinner {
 
     pub(super) fn refusal(mut self) -> String {
         assert_ne!(self.fmu.start(0.0, None), Status::Ok);
-        self.fmu.take_messages().into_iter().map(|Message { text, .. }| text).collect()
+        self.fmu.drain_messages().into_iter().map(|Message { text, .. }| text).collect()
     }
 
     pub(super) fn to(&mut self, end_s: f64) {

@@ -122,9 +122,9 @@ fn held_thrusters_and_pulses_within_steps_have_the_same_edges() {
 fn a_pulse_beyond_its_step_is_cut_with_a_warning() {
     let mut spinner = Spinner::new().set_integer("burn.plan", 4).start();
     spinner.put("thruster[1].onTime", 3.2);
-    spinner.fmu.take_messages();
+    spinner.fmu.drain_messages();
     spinner.to(1.0);
-    let messages = spinner.fmu.take_messages();
+    let messages = spinner.fmu.drain_messages();
     assert!(messages.iter().any(|m| m.text.contains("IA") && m.text.contains("cut")), "{messages:?}");
     spinner.put("thruster[1].onTime", 0.0);
     spinner.to(2.0);

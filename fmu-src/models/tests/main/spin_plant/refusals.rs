@@ -43,9 +43,9 @@ fn what_cannot_be_simulated_is_refused_by_name() {
         ("limit.spinRate", 1e9),
     ] {
         let at = spinner.at(name);
-        let _ = spinner.fmu.take_messages();
+        let _ = spinner.fmu.drain_messages();
         assert_eq!(spinner.fmu.set_real(&[at], &[value]), Status::Discard, "{name} = {value}");
-        let text: String = spinner.fmu.take_messages().into_iter().map(|message| message.text).collect();
+        let text: String = spinner.fmu.drain_messages().into_iter().map(|message| message.text).collect();
         assert_names(&text, &[name]);
     }
     spinner.start().to(1.0);
@@ -53,9 +53,9 @@ fn what_cannot_be_simulated_is_refused_by_name() {
 
 /// A step of 1 s that must fail: what the instance says. After Reset it is simulated as ever.
 fn failed_step(mut spinner: Spinner) -> String {
-    let _ = spinner.fmu.take_messages();
+    let _ = spinner.fmu.drain_messages();
     assert_eq!(spinner.try_step(1.0), Status::Error);
-    let text = spinner.fmu.take_messages().into_iter().map(|message| message.text).collect();
+    let text = spinner.fmu.drain_messages().into_iter().map(|message| message.text).collect();
     assert_eq!(spinner.fmu.reset(), Status::Ok);
     spinner.time_s = 0.0;
     let mut spinner = spinner.start();

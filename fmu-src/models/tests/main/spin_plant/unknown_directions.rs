@@ -11,7 +11,7 @@ fn put(spinner: &mut Spinner, name: &str, value: [f64; 3]) {
 }
 
 fn warnings(spinner: &mut Spinner) -> String {
-    let lines = spinner.fmu.take_messages().into_iter().map(|message| message.text + "\n");
+    let lines = spinner.fmu.drain_messages().into_iter().map(|message| message.text + "\n");
     lines.filter(|line| line.contains("nothing is seen")).collect()
 }
 

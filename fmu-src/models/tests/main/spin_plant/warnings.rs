@@ -5,7 +5,7 @@ use model_description::Status;
 use super::driver::Spinner;
 
 fn warnings(spinner: &mut Spinner) -> String {
-    spinner.fmu.take_messages().into_iter().map(|message| message.text + "\n").collect()
+    spinner.fmu.drain_messages().into_iter().map(|message| message.text + "\n").collect()
 }
 
 #[test]

@@ -18,7 +18,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::environment::CartesianState;
-use crate::loads::{Active, ByEffect, Linear};
+use crate::loads::{Active, ByEffect, Effect, Linear, Loads};
 use crate::math;
 use crate::momentum::{TorqueModel, WorkKind};
 use crate::numerics::adaptive::{AdaptiveInterval, Attempt};
@@ -27,8 +27,10 @@ use crate::numerics::quadrature::GAUSS_2;
 
 use super::evaluation::Evaluation;
 use super::plant::Plant;
+use crate::plant::motion::instant::Instant;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::settings::error::PlantError;
+use crate::plant::sources::Dipoles;
 use crate::plant::sources::sunlight::light_and_heat::LEAST_ARM_M;
 use crate::plant::state::disturbance_interval::DisturbanceInterval;
 
@@ -115,6 +117,18 @@ pub(crate) fn next_interval(
         to_sun,
         lit_fraction,
     })
+}
+
+/// Force and torque by effect within an interval, with those of these dipoles in its field.
+pub(crate) fn loads_at(interval: &DisturbanceInterval, dipoles: &Dipoles, instant: &Instant) -> Loads {
+    let mut loads = interval.loads_at(instant.time_s);
+    for (row, dipole) in Effect::FIELD.into_iter().zip(dipoles) {
+        if let Some([dipole_body_a_m2, _]) = dipole.filter(|[now, _]| *now != Vector3::zeros()) {
+            let [field_inertial_t, _] = interval.field_at(instant.time_s);
+            loads[row].torque_body_n_m = dipole_body_a_m2.cross(&(instant.to_body * field_inertial_t));
+        }
+    }
+    loads
 }
 
 /// Angular acceleration by which the disturbances at the nodes of an interval after this one, `span_s` long, are off from what

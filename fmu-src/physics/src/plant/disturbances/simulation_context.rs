@@ -6,6 +6,7 @@ use super::simulation_models::SimulationModels;
 use crate::plant::settings::attitude_source::Turning;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
+use crate::plant::state::ideal_state::IdealState;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::plant::thrusters::allocation::ThrusterAllocator;
 use crate::spacecraft::MassProperties;
@@ -29,6 +30,10 @@ pub struct SimulationContext {
 pub(crate) struct ForkScratch {
     /// Settings of a fork.
     pub configuration: Configuration,
+    /// Mass properties with every panel at angle 0.
+    pub current_mass_panels_stowed: MassProperties,
+    /// Momentum and events of a fork.
+    pub ideal: Option<IdealState>,
     /// State of a fork, and the states of its last two waypoints.
     pub states: [PropagatorState; 3],
 }
@@ -40,7 +45,12 @@ impl SimulationContext {
             current_mass_panels_stowed: configuration.wet_mass,
             models: SimulationModels::default(),
             allocator: ThrusterAllocator::default(),
-            fork: Box::new(ForkScratch { configuration: configuration.clone(), states: Default::default() }),
+            fork: Box::new(ForkScratch {
+                configuration: configuration.clone(),
+                current_mass_panels_stowed: configuration.wet_mass,
+                ideal: None,
+                states: Default::default(),
+            }),
             configuration,
         }
     }

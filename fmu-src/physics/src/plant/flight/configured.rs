@@ -9,12 +9,13 @@ use crate::loads::ForceTorque;
 use crate::momentum::{TorqueModel, Totals, WorkKind};
 
 use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
-use super::fork::ForkOrigin;
 use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::External;
-use crate::plant::disturbances::plant::Plant;
-use crate::plant::disturbances::simulation_context::SimulationContext;
+use crate::plant::disturbances::plant::{Plant, PlantSettings};
+use crate::plant::disturbances::simulation_context::{ForkScratch, SimulationContext};
+use crate::plant::disturbances::simulation_models::SimulationModels;
 use crate::plant::settings::attitude_source::{Command, Turning};
+use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
@@ -22,6 +23,7 @@ use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::sources::Dipoles;
 use crate::plant::state::disturbance_interval::DisturbanceInterval;
 use crate::plant::state::propagator_state::PropagatorState;
+use crate::plant::thrusters::allocation::ThrusterAllocator;
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::MassProperties;
 
@@ -78,7 +80,13 @@ impl<'a> StepContext<'a> {
 /// A flight in one step: everything that its loads follow from.
 pub(crate) struct ConfiguredFlight<'a> {
     pub given: StepContext<'a>,
-    pub context: &'a mut SimulationContext,
+    pub configuration: &'a mut Configuration,
+    /// With every panel at angle 0.
+    pub current_mass_panels_stowed: &'a mut MassProperties,
+    pub models: &'a mut SimulationModels,
+    pub allocator: &'a mut ThrusterAllocator,
+    /// Memory of a fork; none for forks of a fork.
+    pub scratch: Option<&'a mut ForkScratch>,
     pub propagator: &'a mut PropagatorState,
     pub thrusters: &'a mut Thrusters,
     /// Attitude and rate of a body that turns by torque.
@@ -95,20 +103,43 @@ pub(super) struct SunSelectionStart {
     pub is_first: bool,
 }
 
-impl ConfiguredFlight<'_> {
+impl<'a> ConfiguredFlight<'a> {
+    pub(super) fn new(
+        given: StepContext<'a>,
+        context: &'a mut SimulationContext,
+        propagator: &'a mut PropagatorState,
+        thrusters: &'a mut Thrusters,
+        turning: Turning,
+    ) -> Self {
+        let SimulationContext { configuration, current_mass_panels_stowed, models, allocator, fork } =
+            context;
+        let scratch = Some(&mut **fork);
+        Self {
+            given,
+            configuration,
+            current_mass_panels_stowed,
+            models,
+            allocator,
+            scratch,
+            propagator,
+            thrusters,
+            turning,
+        }
+    }
+
     /// Dipoles of the sources at `time_s`.
     pub(super) fn dipoles(&self, time_s: f64) -> Dipoles {
-        self.propagator.sources.dipoles(&self.context.configuration, time_s)
+        self.propagator.sources.dipoles(self.configuration, time_s)
     }
 
     /// Mass properties at `time_s` without the propellant used, panels at angle 0.
     pub(super) fn used_mass(&self, wet: &MassProperties, time_s: f64) -> MassProperties {
-        self.thrusters.propellant.mass_properties(wet, &self.context.allocator.settings.tanks, time_s)
+        self.thrusters.propellant.mass_properties(wet, &self.allocator.settings.tanks, time_s)
     }
 
     /// Frame and rate that this guidance commands where the flight begins.
     pub(super) fn frame_by(&mut self, law: &Guided, time_s: f64) -> Result<MovingFrame, PlantError> {
-        self.context.models.begin_work(self.given.work_limit);
+        self.models.begin_work(self.given.work_limit);
         let mut plant = self.plant();
         plant.prepare(time_s, time_s)?;
         Ok(plant.path.kinematics.attitude_by(law, time_s).frame)
@@ -120,8 +151,7 @@ impl ConfiguredFlight<'_> {
     /// default attitude; science that has is planned for its remaining time.
     pub(super) fn select_sun_direction(&mut self, start: &SunSelectionStart) -> Result<(), PlantError> {
         let SunSelectionStart { time_s, is_first, .. } = *start;
-        let Some(law) = self.context.configuration.attitude.guided().copied().filter(|law| law.managed)
-        else {
+        let Some(law) = self.configuration.attitude.guided().copied().filter(|law| law.managed) else {
             return Ok(());
         };
         let Some(guided) = self.plant().path.kinematics.guided_attitude(time_s) else { return Ok(()) };
@@ -146,7 +176,7 @@ impl ConfiguredFlight<'_> {
         }
         // A dump at the very start changes nothing of it.
         choice.chosen_s = (!is_first).then_some(time_s);
-        let epoch_minus_time_s = self.context.configuration.epoch_minus_time_s;
+        let epoch_minus_time_s = self.configuration.epoch_minus_time_s;
         let now_epoch_s = time_s + epoch_minus_time_s;
         let (law, until_s) = match downlink && guided.row != 0 {
             true => {
@@ -185,12 +215,11 @@ impl ConfiguredFlight<'_> {
         let separations_rad = plant.path.kinematics.separations_rad(time_s, until_s);
         let science = gimbal.map(|gimbal| plant.path.kinematics.science_arc(gimbal, time_s, until_s));
         if science.is_some() {
-            self.context.models.spend(WorkKind::Search, SCIENCE_UNITS, time_s)?;
+            self.models.spend(WorkKind::Search, SCIENCE_UNITS, time_s)?;
         }
-        let Self { given: StepContext { prepared, external, planner, .. }, context, propagator, .. } = self;
-        let [applied, _] = external(time_s);
+        let planner = self.given.planner;
         let mut downlink_forecast = DownlinkForecast {
-            flight: ForkOrigin { prepared: *prepared, context, propagator, applied },
+            flight: self,
             law,
             totals,
             forecasts: !is_first,
@@ -215,7 +244,7 @@ impl ConfiguredFlight<'_> {
         interval: &DisturbanceInterval,
         mass_kg: f64,
     ) -> Result<(), PlantError> {
-        let (load, configuration) = (&self.thrusters.load, &self.context.configuration);
+        let (load, configuration) = (&self.thrusters.load, &*self.configuration);
         let trajectory = &mut self.propagator.trajectory;
         let span = Span::new(motion.start_s(), motion.end_s());
         let (thrusts, disturbed) = (!load.law.is_none(), configuration.motion.uses_encke());
@@ -238,7 +267,10 @@ impl ConfiguredFlight<'_> {
 
     /// The plant in the attitude of its configuration.
     pub(super) fn plant(&mut self) -> Plant<'_> {
-        self.context.plant(self.given.prepared, self.turning, self.propagator, self.given.external)
+        let Self { given, configuration, current_mass_panels_stowed, models, propagator, turning, .. } = self;
+        let (current_mass_panels_stowed, turning) = (**current_mass_panels_stowed, *turning);
+        let settings = PlantSettings { configuration, current_mass_panels_stowed, turning };
+        Plant::new(given.prepared, settings, models, propagator, given.external)
     }
 
     /// The plant with the body as it turns at `time_s`.

@@ -5,11 +5,12 @@
 
 use nalgebra::Vector3;
 
-use super::fork::{ForecastMomentum, Fork, ForkOrigin};
-use crate::guidance::{Guided, ScienceArc, SelectedSunDirection};
+use super::configured::ConfiguredFlight;
+use super::fork::{ForecastMomentum, Fork};
+use crate::guidance::{Guided, ScienceArc, SelectedSunDirection, SelectedSunDirections};
+use crate::loads::ForceTorque;
 use crate::momentum::{Convention, Totals};
-use crate::plant::disturbances::simulation_context::SimulationContext;
-use crate::plant::events;
+use crate::plant::events::Eventful;
 use crate::plant::settings::attitude_source::AttitudeSource;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
@@ -44,11 +45,11 @@ impl StartMomentum {
 /// Chooses the Sun's place, and tells whether limits keep the momentum from its target; no place where the default attitude is to be
 /// simulated. Called once a downlink or science that unloads, and again after a dump at its very beginning.
 pub type SunPlanner<'a> =
-    dyn Fn(&mut DownlinkForecast<'_>) -> Result<Option<SelectedSunDirection>, PlantError> + 'a;
+    dyn Fn(&mut DownlinkForecast<'_, '_>) -> Result<Option<SelectedSunDirection>, PlantError> + 'a;
 
 /// Start of a downlink, or of science that unloads, from which it is forecast.
-pub struct DownlinkForecast<'o> {
-    pub(super) flight: ForkOrigin<'o>,
+pub struct DownlinkForecast<'o, 'f> {
+    pub(super) flight: &'o mut ConfiguredFlight<'f>,
     pub(crate) law: Guided,
     pub(crate) totals: Totals,
     pub(crate) forecasts: bool,
@@ -72,16 +73,15 @@ pub struct DownlinkForecast<'o> {
     pub science: Option<ScienceArc>,
 }
 
-impl DownlinkForecast<'_> {
+impl DownlinkForecast<'_, '_> {
     /// The spacecraft in direct sunlight without shadows.
     pub(crate) fn sunlit(&self) -> SunlitConfiguration<'_> {
-        let ForkOrigin { prepared, context, .. } = &self.flight;
-        let SimulationContext { configuration, current_mass_panels_stowed, models, .. } = &**context;
+        let prepared = &self.flight.given.prepared;
         SunlitConfiguration {
-            solar: models.solar.as_ref().unwrap_or(prepared.solar),
+            solar: self.flight.models.solar.as_ref().unwrap_or(prepared.solar),
             panels: prepared.panels,
-            settings: &configuration.panels,
-            current_mass_panels_stowed: *current_mass_panels_stowed,
+            settings: &self.flight.configuration.panels,
+            current_mass_panels_stowed: *self.flight.current_mass_panels_stowed,
             time_s: self.time_s,
             sun_distance_m: self.sun_distance_m,
         }
@@ -89,7 +89,7 @@ impl DownlinkForecast<'_> {
 
     /// Settings of the flight.
     pub(crate) fn configuration(&self) -> &Configuration {
-        &self.flight.context.configuration
+        self.flight.configuration
     }
 
     /// Momentum from here on at `times_s`, which do not descend; about `step_s` apart.
@@ -103,11 +103,14 @@ impl DownlinkForecast<'_> {
         mut visit: impl FnMut(ForecastMomentum),
     ) -> Result<(), PlantError> {
         let attitude = AttitudeSource::Guided(Guided { managed: false, ..self.law });
-        let mut fork = Fork::new(&mut self.flight, attitude, self.totals, self.time_s);
-        fork.deselect_sun_directions();
+        let [applied, _] = (self.flight.given.external)(self.time_s);
+        let held = |_: f64| [applied, ForceTorque::zero()];
+        let mut fork = Fork::new(self.flight, &held, attitude, self.totals, self.time_s)?;
+        // No direction of the Sun was selected.
+        fork.ideal.flight.propagator.sun_choice.selected = SelectedSunDirections::default();
         fork.coarsen(self.time_s, step_s);
         times_s.try_for_each(|at_s| {
-            events::advance(&mut fork, at_s)?;
+            fork.ideal.advance(at_s)?;
             visit(fork.momentum_at(at_s));
             Ok(())
         })

@@ -10,17 +10,18 @@ use nalgebra::Vector3;
 use crate::attitude::control::ControlTarget;
 use crate::attitude::{Attitude, BodyMotion, MotionAt};
 use crate::loads::{Effect, ForceTorque, Writer};
-use crate::momentum::{DumpEvent, WorkKind};
+use crate::momentum::{DumpEvent, Totals, WorkKind};
 use crate::numerics::Span;
 use crate::plant::thrusters::reaction_control::Thrusters;
-use crate::spacecraft::MassProperties;
 
 use super::configured::{ConfiguredFlight, SunSelectionStart};
 use super::downlink_forecast::StartMomentum;
 use super::grid_edge;
+use super::in_flight::Simulated;
 use super::report::dynamic_totals;
 use crate::plant::control::control_loop::Sampled;
 use crate::plant::control::wheel_control::WheelDistribution;
+use crate::plant::disturbances::disturbance_interval::loads_at;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::events::{EventKind, Eventful, LastEvents};
 use crate::plant::settings::attitude_source::{AttitudeSource, Command};
@@ -45,8 +46,8 @@ pub(super) struct Dynamic<'f> {
     pub flight: ConfiguredFlight<'f>,
     /// The distribution of torque over the wheels.
     pub distribution: &'f mut WheelDistribution,
-    /// The motion at its end, where it was evaluated.
-    pub end: Option<MotionAt>,
+    /// The motion where it was evaluated last.
+    pub at: Option<MotionAt>,
     /// The last kind applied there of those that every segment ends with.
     pub applied: Option<EventKind>,
 }
@@ -67,32 +68,26 @@ impl Eventful for Dynamic<'_> {
     fn next_event_s(&self, kind: EventKind) -> f64 {
         let Self { state, flight, .. } = self;
         match kind {
-            EventKind::Valves => flight.thrusters.next_edge_s(&flight.context.allocator.settings),
+            EventKind::Valves => flight.thrusters.next_edge_s(&flight.allocator.settings),
             EventKind::DumpEnd => state.dumps.until_s(),
             EventKind::Grid => state.disturbance.span.end_s,
-            EventKind::Schedule => {
-                flight.context.configuration.thruster_events.next_s(state.last.scheduled())
-            }
+            EventKind::Schedule => flight.configuration.thruster_events.next_s(state.last.scheduled()),
             EventKind::Sample => state.sensing.next_s(),
-            EventKind::Accounts | EventKind::SunDirection | EventKind::Threshold | EventKind::Load => {
-                f64::INFINITY
-            }
+            _ => f64::INFINITY,
         }
     }
 
     fn is_due(&mut self, kind: EventKind) -> Result<bool, PlantError> {
         let time_s = self.reached_s();
         let comes_by = |next_s: f64| next_s <= time_s + tolerance_s(time_s);
+        let is_sampled = comes_by(self.state.sensing.next_s()) && !self.state.last.has_come(kind, time_s);
         Ok(match kind {
             // Every segment ends with these.
             EventKind::Accounts => self.applied.is_none(),
             EventKind::Valves => self.applied == Some(EventKind::Accounts),
             EventKind::Load => self.applied == Some(EventKind::Valves),
-            EventKind::SunDirection => {
-                comes_by(self.state.sensing.next_s())
-                    && self.samples_guidance(time_s)
-                    && !self.state.last.has_come(kind, time_s)
-            }
+            EventKind::SunDirection => is_sampled && self.samples_guidance(time_s),
+            EventKind::Threshold => is_sampled && self.exceeds_threshold(),
             kind => comes_by(self.next_event_s(kind)),
         })
     }
@@ -103,7 +98,7 @@ impl Eventful for Dynamic<'_> {
         }
         let units = if self.settings.gyrostat.is_rigid() { 1 } else { FLEXIBLE_UNITS };
         let time_s = self.reached_s();
-        Ok(self.flight.context.models.spend(WorkKind::Segment, units, time_s)?)
+        Ok(self.flight.models.spend(WorkKind::Segment, units, time_s)?)
     }
 
     fn apply_event(&mut self, kind: EventKind) -> Result<(), PlantError> {
@@ -116,12 +111,16 @@ impl Eventful for Dynamic<'_> {
             EventKind::Valves => self.process_valves(time_s),
             EventKind::DumpEnd => self.state.dumps.end(time_s + tolerance_s(time_s)),
             EventKind::Grid => {
-                self.end = None;
+                self.at = None;
                 grid_edge::begin_interval(self.state, self.settings, &mut self.flight)?;
             }
             EventKind::Schedule => self.dump_as_scheduled()?,
             EventKind::SunDirection => self.select_sun_direction()?,
-            EventKind::Threshold => {}
+            EventKind::Threshold => {
+                let policy = self.flight.configuration.momentum.policy;
+                self.begin_dump(|before_body_n_m_s| policy.after(before_body_n_m_s));
+                self.state.dumps.dumps.check()?;
+            }
             EventKind::Sample => self.sample()?,
             EventKind::Load => {
                 if self.state.last.has_come(EventKind::Sample, time_s) {
@@ -135,7 +134,7 @@ impl Eventful for Dynamic<'_> {
 
     fn advance_segment(&mut self, limit_s: f64) -> Result<(), PlantError> {
         let MotionAt { time_s, body, .. } = self.end();
-        (self.end, self.applied) = (None, None);
+        (self.at, self.applied) = (None, None);
         let Self { state, settings, flight, .. } = self;
         let external = (flight.given.external)(time_s);
         let mut load = state.load(&external, flight.thrusters, time_s);
@@ -149,9 +148,19 @@ impl Eventful for Dynamic<'_> {
     }
 }
 
-impl Dynamic<'_> {
-    /// Applies the requests of a step from its start on: dumps, pulses, thrust.
-    pub(super) fn apply_requests(&mut self, step: Span) -> Result<(), PlantError> {
+impl<'f> Simulated<'f> for Dynamic<'f> {
+    fn flight(&mut self) -> &mut ConfiguredFlight<'f> {
+        &mut self.flight
+    }
+
+    /// The body has the mass properties of the present segment, and the whole spacecraft those of the last edge of the grid.
+    fn resume(&mut self) {
+        let Self { state, settings, flight, .. } = self;
+        settings.set_mass_properties(&state.mass.now);
+        *flight.current_mass_panels_stowed = state.mass.stowed.unwrap_or(flight.configuration.wet_mass);
+    }
+
+    fn apply_requests(&mut self, step: Span) -> Result<(), PlantError> {
         let (inputs, start_s) = (self.flight.given.inputs, step.start_s);
         if inputs.maneuver.is_some() {
             return Err(PlantError::Maneuver { time_s: start_s, why: ManeuverError::ByTorque });
@@ -160,9 +169,8 @@ impl Dynamic<'_> {
             self.state.cut(start_s, false);
             self.dump_to(target_body_n_m_s);
         }
-        let ConfiguredFlight { thrusters, context, .. } = &mut self.flight;
-        let settings = &context.allocator.settings;
-        let is_dumping = thrusters.is_dumping();
+        let ConfiguredFlight { thrusters, allocator, .. } = &mut self.flight;
+        let (settings, is_dumping) = (&allocator.settings, thrusters.is_dumping());
         let Thrusters { valves, propellant, .. } = &mut **thrusters;
         let pulses = valves.command_pulses(&settings.thrusters, &inputs.pulses, step, is_dumping);
         let feed = Feed { settings, propellant, time_s: start_s };
@@ -172,10 +180,10 @@ impl Dynamic<'_> {
         Ok(())
     }
 
-    /// Attitude of a fork from `time_s` on: the commanded one, followed ideally; without a command the present one, held.
-    pub(super) fn ideal_attitude(&self, time_s: f64) -> AttitudeSource {
-        let guided = self.flight.context.configuration.attitude.guided();
-        match (&self.settings.control, self.flight.given.inputs.tracked, guided) {
+    /// The commanded attitude, followed ideally; without a command the present one, held.
+    fn fork_attitude(&self, time_s: f64) -> Option<AttitudeSource> {
+        let guided = self.flight.configuration.attitude.guided();
+        Some(match (&self.settings.control, self.flight.given.inputs.tracked, guided) {
             (Some(_), Tracked::Guidance, Some(law)) => AttitudeSource::Guided(*law),
             (Some(_), Tracked::Attitude(command), _) => AttitudeSource::Commanded(command),
             _ => AttitudeSource::Commanded(Command {
@@ -183,39 +191,82 @@ impl Dynamic<'_> {
                 rate_body_rad_s: Vector3::zeros(),
                 since_s: time_s,
             }),
-        }
+        })
     }
 
-    /// The body has the mass properties of the present segment, and the whole spacecraft those of the last edge of the grid.
-    pub(super) fn resume(&mut self) {
+    fn frame(&mut self, time_s: f64) -> Evaluation {
+        self.resume();
+        let body = self.at(time_s).body;
+        let flight = &mut self.flight;
+        let loaded = flight.configuration.wet_mass;
+        *flight.current_mass_panels_stowed = flight.used_mass(&loaded, time_s);
+        let mass_kg = loaded.mass_kg - flight.thrusters.propellant.total_used_kg(time_s);
+        let mut evaluation = flight.plant_at(time_s, &body).evaluate_without_loads(time_s);
+        evaluation.mass.mass_kg = mass_kg;
+        evaluation
+    }
+
+    fn totals(&mut self, time_s: f64) -> Totals {
+        dynamic_totals(&self.at(time_s))
+    }
+
+    /// As the motion integrates them.
+    fn rows(&mut self, Evaluation { instant, loads, .. }: &mut Evaluation, applied: ForceTorque) {
+        let MotionAt { time_s, body, .. } = self.at(instant.time_s);
         let Self { state, settings, flight, .. } = self;
-        settings.set_mass_properties(&state.mass.now);
-        let context = &mut *flight.context;
-        context.current_mass_panels_stowed = state.mass.stowed.unwrap_or(context.configuration.wet_mass);
+        *loads = loads_at(&state.disturbance, &flight.dipoles(time_s), instant);
+        for row in Effect::ALL {
+            match row.row().writer {
+                Writer::Source(_) => {}
+                Writer::Rotors => {
+                    let [torque_body_n_m, force_body_n] =
+                        state.motion.imbalance_load(&settings.gyrostat, time_s, &body);
+                    loads[row] = ForceTorque { force_body_n, torque_body_n_m };
+                }
+                Writer::Propellant => loads[row].torque_body_n_m = state.motion.swing_torque_n_m(time_s),
+            }
+        }
+        loads[APPLIED] = applied;
+        let thrusters = &flight.thrusters.load;
+        loads[THRUSTERS] = ForceTorque {
+            force_body_n: thrusters.law.force_at_n(time_s),
+            torque_body_n_m: thrusters.torque_at_n_m(time_s, &body.rate_body_rad_s),
+        };
+    }
+
+    fn is_degenerate(&self, _: &Evaluation) -> bool {
+        self.state.control.is_degenerate
+    }
+}
+
+impl Dynamic<'_> {
+    /// The motion at `time_s`, where it has come.
+    pub(super) fn at(&mut self, time_s: f64) -> MotionAt {
+        let Self { state, settings, at, .. } = self;
+        *at = at.filter(|at| at.time_s == time_s);
+        *at.get_or_insert_with(|| state.motion.evaluated_at(&settings.gyrostat, time_s))
     }
 
     /// The motion at its end.
     fn end(&mut self) -> MotionAt {
-        let Self { state, settings, end, .. } = self;
-        *end.get_or_insert_with(|| state.motion.evaluated_at(&settings.gyrostat, state.motion.end_s()))
+        self.at(self.state.motion.end_s())
     }
 
     /// Closes the accounts of the segment that ends: momentum by effect, mass, impulse and propellant; and takes the wheels' inputs.
     fn close_accounts(&mut self, time_s: f64) {
         let end = self.end();
         let Self { state, settings, flight, .. } = self;
-        let inputs = flight.given.inputs;
         state.dumps.accumulate(&state.motion, &end, state.dumps.is_dumping(flight.thrusters, time_s));
-        let thruster_settings = &flight.context.allocator.settings;
+        let thruster_settings = &flight.allocator.settings;
         if !flight.thrusters.load.law.is_none() {
             let tanks = &thruster_settings.tanks;
             let mass = flight.thrusters.propellant.mass_properties_since(&state.mass.now, tanks, time_s);
             grid_edge::set_mass(state, settings, mass);
         }
         flight.thrusters.accumulate(thruster_settings, &state.motion, time_s);
-        state.control.wheels.fail(&inputs.wheel_failed);
+        state.control.wheels.fail(&flight.given.inputs.wheel_failed);
         if settings.control.is_none() {
-            state.control.wheels.drive(&settings.gyrostat, &inputs.wheel_torques_n_m);
+            state.control.wheels.drive(&settings.gyrostat, &flight.given.inputs.wheel_torques_n_m);
         }
     }
 
@@ -224,33 +275,25 @@ impl Dynamic<'_> {
         let Self { state, settings, flight, .. } = self;
         grid_edge::turn_mass(state, settings, flight);
         let used_kg = flight.thrusters.propellant.total_used_kg(time_s);
-        state.mass.now.mass_kg = flight.context.configuration.wet_mass.mass_kg - used_kg;
-        flight.thrusters.update_load(&flight.context.allocator.settings, &state.mass.now, time_s);
+        state.mass.now.mass_kg = flight.configuration.wet_mass.mass_kg - used_kg;
+        flight.thrusters.update_load(&flight.allocator.settings, &state.mass.now, time_s);
     }
 
     /// Opens and closes the valves whose time has come.
     fn process_valves(&mut self, time_s: f64) {
-        let ConfiguredFlight { thrusters, context, .. } = &mut self.flight;
-        let Thrusters { valves, propellant, .. } = &mut **thrusters;
-        valves.process_events(&Feed { settings: &context.allocator.settings, propellant, time_s });
+        let ConfiguredFlight { thrusters: Thrusters { valves, propellant, .. }, allocator, .. } =
+            &mut self.flight;
+        valves.process_events(&Feed { settings: &allocator.settings, propellant, time_s });
     }
 
-    /// Sensors, watch of the momentum, controller.
+    /// Sensors, controller.
     fn sample(&mut self) -> Result<(), PlantError> {
         let MotionAt { time_s, body, .. } = self.end();
         let Self { state, settings, flight, .. } = self;
         let sun = state.disturbance.sun_at(time_s);
         let number = state.sensing.sample(settings, flight.given.inputs, time_s, &body, sun);
-        let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
-        let is_free = state.dumps.are_over(flight.thrusters) && !state.control.by_thrusters;
-        let policy = flight.context.configuration.momentum.policy;
-        if is_free && flight.thrusters.valves.burning().is_none() && policy.exceeded(&momentum_body) {
-            self.begin_dump(&momentum_body, policy.after(&momentum_body));
-            self.state.dumps.dumps.check()?;
-        }
-        let Self { state, flight, .. } = self;
         flight.thrusters.sample_dump(
-            &mut flight.context.allocator,
+            flight.allocator,
             &state.motion,
             &body.momentum_inertial_n_m_s,
             &state.mass.known,
@@ -270,41 +313,34 @@ impl Dynamic<'_> {
             mass: &state.mass.known,
             dump_body_n_m: state.dumps.torque_body_n_m(),
             thrusters: flight.thrusters,
-            allocator: &mut flight.context.allocator,
+            allocator: flight.allocator,
             distribution,
         };
         state.control.control(control, &target, sampled);
         Ok(())
     }
 
-    /// Returns the attitude and rate that the controller tracks at the end of the motion.
+    /// Returns the attitude and rate that the controller tracks at the end of the motion; internal guidance is sampled anew where that is
+    /// due.
     fn target(&mut self, time_s: f64, body: &BodyMotion) -> ControlTarget {
-        let command = match self.flight.given.inputs.tracked {
+        let Self { state: DynamicState { control, sensing, .. }, flight, .. } = self;
+        let command = match flight.given.inputs.tracked {
             Tracked::Rate(rate_body_rad_s) => return ControlTarget::RateOnly { rate_body_rad_s },
             Tracked::Attitude(command) => command,
-            Tracked::Guidance => self.guided(time_s, body),
+            Tracked::Guidance => control.guidance_at(time_s).unwrap_or_else(|| {
+                let guided = flight.plant_at(time_s, body).path.kinematics.guided_attitude(time_s);
+                control.guide(time_s, guided.as_ref(), &sensing.estimate)
+            }),
         };
-        ControlTarget::Attitude {
-            attitude: command.attitude_at(time_s),
-            rate_body_rad_s: command.rate_body_rad_s,
-        }
-    }
-
-    /// The command of internal guidance, sampled anew where that is due.
-    fn guided(&mut self, time_s: f64, body: &BodyMotion) -> Command {
-        let Self { state: DynamicState { control, sensing, .. }, flight, .. } = self;
-        control.guidance_at(time_s).unwrap_or_else(|| {
-            let guided = flight.plant_at(time_s, body).path.kinematics.guided_attitude(time_s);
-            control.guide(time_s, guided.as_ref(), &sensing.estimate)
-        })
+        let rate_body_rad_s = command.rate_body_rad_s;
+        ControlTarget::Attitude { attitude: command.attitude_at(time_s), rate_body_rad_s }
     }
 
     /// Selects the Sun's direction where guidance is sampled.
     fn select_sun_direction(&mut self) -> Result<(), PlantError> {
-        let end = self.end();
+        let (end, is_first) = (self.end(), self.state.control.guidance.is_none());
         let momentum = StartMomentum::Inertial(end.body.momentum_inertial_n_m_s);
-        let (time_s, totals, is_first) =
-            (end.time_s, dynamic_totals(&end), self.state.control.guidance.is_none());
+        let (time_s, totals) = (end.time_s, dynamic_totals(&end));
         self.flight.select_sun_direction(&SunSelectionStart { time_s, totals, momentum, is_first })
     }
 
@@ -317,15 +353,29 @@ impl Dynamic<'_> {
 
     /// Thrusters bring the momentum to `target_body_n_m_s` from the wheels' bias, from the present end of the motion on.
     fn dump_to(&mut self, target_body_n_m_s: Vector3<f64>) {
-        let body = self.state.motion.at(&self.settings.gyrostat, self.state.motion.end_s());
-        let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
-        let bias_body_n_m_s = self.flight.context.configuration.momentum.policy.bias_body_n_m_s;
-        self.begin_dump(&momentum_body, bias_body_n_m_s + target_body_n_m_s);
+        let bias_body_n_m_s = self.flight.configuration.momentum.policy.bias_body_n_m_s;
+        self.begin_dump(|_| bias_body_n_m_s + target_body_n_m_s);
+    }
+
+    /// Whether no dump and no thrust lasts at the end of the motion, and the momentum there is beyond a threshold.
+    fn exceeds_threshold(&mut self) -> bool {
+        let momentum_body_n_m_s = self.momentum_body_n_m_s();
+        let Self { state, flight, .. } = self;
+        state.dumps.are_over(flight.thrusters)
+            && !state.control.by_thrusters
+            && flight.thrusters.valves.burning().is_none()
+            && flight.configuration.momentum.policy.exceeded(&momentum_body_n_m_s)
+    }
+
+    /// Momentum at the end of the motion, body frame, in N m s.
+    fn momentum_body_n_m_s(&mut self) -> Vector3<f64> {
+        let body = self.end().body;
+        body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s)
     }
 
     /// Begins the dump of the schedule that is due.
     fn dump_as_scheduled(&mut self) -> Result<(), PlantError> {
-        let events = &self.flight.context.configuration.thruster_events;
+        let events = &self.flight.configuration.thruster_events;
         // The schedule may be another than at the start.
         events.check_for_dynamics(self.state.last.scheduled())?;
         let taken = self.state.last.pop_scheduled(events);
@@ -335,52 +385,14 @@ impl Dynamic<'_> {
         Ok(())
     }
 
-    fn begin_dump(&mut self, before: &Vector3<f64>, after: Vector3<f64>) {
+    /// Begins a dump at the end of the motion, to the momentum that follows from the one there.
+    fn begin_dump(&mut self, after_body_n_m_s: impl FnOnce(&Vector3<f64>) -> Vector3<f64>) {
+        let before_body_n_m_s = self.momentum_body_n_m_s();
+        let after_body_n_m_s = after_body_n_m_s(&before_body_n_m_s);
         let Self { state, flight, .. } = self;
-        let time_s = state.motion.end_s();
-        let event = DumpEvent { time_s, before_body_n_m_s: *before, after_body_n_m_s: after };
-        let allocator = &mut flight.context.allocator;
-        if state.dumps.begin(event, flight.thrusters, allocator, &state.motion, &state.mass.known) {
+        let event = DumpEvent { time_s: state.motion.end_s(), before_body_n_m_s, after_body_n_m_s };
+        if state.dumps.begin(event, flight.thrusters, flight.allocator, &state.motion, &state.mass.known) {
             (flight.given.log)(&ThrusterEvent::Dump(event));
         }
-    }
-
-    /// Geometry, attitude and loads where the body is like that, as the motion integrates them.
-    pub(super) fn evaluation(&mut self, at: &MotionAt) -> Evaluation {
-        let MotionAt { time_s, body, .. } = *at;
-        let Self { state, settings, flight, .. } = self;
-        let loaded = flight.context.configuration.wet_mass;
-        flight.context.current_mass_panels_stowed = flight.used_mass(&loaded, time_s);
-        let mass_kg = loaded.mass_kg - flight.thrusters.propellant.total_used_kg(time_s);
-        let mut plant = flight.plant_at(time_s, &body);
-        let instant = plant.instant(time_s);
-        let mass = MassProperties { mass_kg, ..plant.mass_properties(&instant) };
-        let panels_body_n_m_s = plant.panel_momentum_body_n_m_s(&instant, &mass);
-        let air_and_field = plant.path.air_and_field(time_s);
-        let mut loads = state.disturbance.loads_at(time_s);
-        for (row, dipole) in Effect::FIELD.into_iter().zip(flight.dipoles(time_s)) {
-            if let Some([dipole_body_a_m2, _]) = dipole.filter(|[now, _]| *now != Vector3::zeros()) {
-                let [field_inertial_t, _] = state.disturbance.field_at(time_s);
-                loads[row].torque_body_n_m = dipole_body_a_m2.cross(&(instant.to_body * field_inertial_t));
-            }
-        }
-        for row in Effect::ALL {
-            match row.row().writer {
-                Writer::Source(_) => {}
-                Writer::Rotors => {
-                    let [torque_body_n_m, force_body_n] =
-                        state.motion.imbalance_load(&settings.gyrostat, time_s, &body);
-                    loads[row] = ForceTorque { force_body_n, torque_body_n_m };
-                }
-                Writer::Propellant => loads[row].torque_body_n_m = state.motion.swing_torque_n_m(time_s),
-            }
-        }
-        [loads[APPLIED], _] = (flight.given.external)(time_s);
-        let thrusters = &flight.thrusters.load;
-        loads[THRUSTERS] = ForceTorque {
-            force_body_n: thrusters.law.force_at_n(time_s),
-            torque_body_n_m: thrusters.torque_at_n_m(time_s, &body.rate_body_rad_s),
-        };
-        Evaluation { instant, loads, mass, panels_body_n_m_s, air_and_field }
     }
 }

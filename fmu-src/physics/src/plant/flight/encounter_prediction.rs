@@ -5,7 +5,7 @@
 //! flight's own attitude it has the flight's own segments, to the bit.
 
 use super::configured::ConfiguredFlight;
-use super::fork::{Fork, ForkOrigin};
+use super::fork::Fork;
 use crate::environment::orbit::{BPlane, Collision, OrbitIntegrationError};
 use crate::loads::ForceTorque;
 use crate::momentum::{Totals, WorkKind};
@@ -27,19 +27,18 @@ pub(super) fn predict_encounter(
     attitude: Option<AttitudeSource>,
     time_s: f64,
 ) -> Result<EncounterPrediction, PlantError> {
-    let ConfiguredFlight { given, context, propagator, .. } = flight;
-    context.models.spend(WorkKind::Search, UNITS, time_s)?;
-    let Some(encounter) = context.configuration.encounter else {
+    flight.models.spend(WorkKind::Search, UNITS, time_s)?;
+    let Some(encounter) = flight.configuration.encounter else {
         return Ok(EncounterPrediction { since_s: time_s, arrival: None });
     };
-    let [applied, slope] = (given.external)(time_s);
+    let [applied, slope] = (flight.given.external)(time_s);
+    let held = |_: f64| [applied, ForceTorque::zero()];
     let is_another = attitude.is_some();
-    let mut attitude = attitude.unwrap_or(context.configuration.attitude);
+    let mut attitude = attitude.unwrap_or(flight.configuration.attitude);
     if let AttitudeSource::Guided(law) = &mut attitude {
         law.managed = false;
     }
-    let mut origin = ForkOrigin { prepared: given.prepared, context, propagator, applied };
-    let mut fork = Fork::new(&mut origin, attitude, Totals::default(), time_s);
+    let mut fork = Fork::new(flight, &held, attitude, Totals::default(), time_s)?;
     if is_another || slope != ForceTorque::zero() {
         fork.cut(time_s);
     }
@@ -59,7 +58,8 @@ fn arrival(
     let lead_s = encounter.prediction.lead_s;
     let mut now_s = time_s;
     let limit_s = time_s + encounter.prediction.horizon_s;
-    let limit_s = limit_s.min(fork.time_at_epoch_s(encounter.prediction.last_epoch_s));
+    let epoch_minus_time_s = fork.ideal.flight.configuration.epoch_minus_time_s;
+    let limit_s = limit_s.min(encounter.prediction.last_epoch_s - epoch_minus_time_s);
     let (at_s, altitude_m) = loop {
         if now_s >= limit_s {
             return Ok(None);
@@ -75,7 +75,8 @@ fn arrival(
             break (*at_s, 0.0);
         }
         now_s = advanced?;
-        if let Some(approach) = fork.approach_after(time_s).filter(|it| it.at_s <= now_s) {
+        let approaches = &fork.ideal.flight.propagator.trajectory.approaches;
+        if let Some(approach) = approaches.after(time_s).filter(|it| it.at_s <= now_s) {
             break (approach.at_s, approach.altitude_m);
         }
     };
@@ -84,7 +85,7 @@ fn arrival(
     while now_s < osculates_s {
         now_s = fork.advance_orbit(now_s, osculates_s)?;
     }
-    let from_planet = fork.geometry_at(osculates_s).from_planet();
+    let from_planet = fork.ideal.flight.plant().path.kinematics.geometry(osculates_s).from_planet();
     let b_plane = from_planet.and_then(|state| BPlane::from_state(&state, encounter.gm_m3_s2));
     Ok(b_plane.map(|b_plane| PredictedArrival { at_s, altitude_m, b_plane, osculates_s }))
 }

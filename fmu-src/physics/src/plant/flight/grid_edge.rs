@@ -26,7 +26,7 @@ pub(super) fn begin(
     held: &Attitude,
 ) -> Result<DynamicState, PlantError> {
     let last = LastEvents::before(time_s);
-    flight.context.configuration.thruster_events.check_for_dynamics(last.scheduled())?;
+    flight.configuration.thruster_events.check_for_dynamics(last.scheduled())?;
     let StartMotion { mut attitude, mut rate_body_rad_s, rate_is_pointed, .. } = settings.start;
     if let Some(pointing) = &settings.start.pointing {
         let frame = match pointing {
@@ -42,8 +42,8 @@ pub(super) fn begin(
     let unit = attitude.unit_quaternion();
     let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = [Vector3::zeros(); 2];
     let body = BodyMotion { attitude: unit, rate_body_rad_s, momentum_inertial_n_m_s, delta_v_inertial_m_s };
-    let mut mass = flight.context.configuration.wet_mass;
-    if settings.panels_have_mass {
+    let mut mass = flight.configuration.wet_mass;
+    if flight.given.prepared.has_panel_mass() {
         let still = BodyMotion { rate_body_rad_s: Vector3::zeros(), ..body };
         let mut plant = flight.plant_at(time_s, &still);
         let instant = plant.instant(time_s);
@@ -62,7 +62,7 @@ pub(super) fn begin(
         dumps: MomentumDumps::default(),
         last,
     };
-    if settings.panels_have_mass {
+    if flight.given.prepared.has_panel_mass() {
         let mut plant = flight.plant_at(time_s, &body);
         let instant = plant.instant(time_s);
         begun.panels = PanelMotion::at_start(&plant.path.kinematics, &instant);
@@ -79,35 +79,33 @@ pub(super) fn begin_interval(
     settings: &mut DynamicsSettings,
     flight: &mut ConfiguredFlight<'_>,
 ) -> Result<(), PlantError> {
+    let panels_have_mass = flight.given.prepared.has_panel_mass();
     let time_s = state.motion.end_s();
     let body = state.motion.at(&settings.gyrostat, time_s);
-    let stowed = flight.used_mass(&flight.context.configuration.wet_mass, time_s);
+    let stowed = flight.used_mass(&flight.configuration.wet_mass, time_s);
     state.mass.stowed = (flight.thrusters.propellant.total_used_kg(time_s) > 0.0).then_some(stowed);
-    let context = &mut *flight.context;
-    context.current_mass_panels_stowed = stowed;
+    *flight.current_mass_panels_stowed = stowed;
     let begins = state.disturbance.is_before();
-    if begins || !context.configuration.motion.uses_encke() {
-        flight.propagator.cut(&context.configuration, time_s, true);
+    if begins || !flight.configuration.motion.uses_encke() {
+        flight.propagator.cut(flight.configuration, time_s, true);
     } else {
         flight.propagator.sources.cut(time_s);
     }
     let rate_terms_body = predicted_rate_terms(state, settings, flight, &body);
-    let has_thrusters = !flight.context.allocator.settings.thrusters.is_empty();
+    let has_thrusters = !flight.allocator.settings.thrusters.is_empty();
     let mut plant = flight.turning_plant(time_s, &body, rate_terms_body);
-    if settings.panels_have_mass
-        && let Some(body) = track_panel_laws(state, settings, &mut plant)
-    {
+    if panels_have_mass && let Some(body) = track_panel_laws(state, settings, &mut plant) {
         plant = flight.turning_plant(time_s, &body, rate_terms_body);
     }
     let inverse_inertia = settings.gyrostat.inverse_carrier().filter(|_| settings.control.is_none());
     state.disturbance =
         next_interval(&state.disturbance, &mut plant, time_s, settings.grid_s, inverse_inertia)?;
     deviate(&state.disturbance, &mut plant)?;
-    if settings.panels_have_mass || state.mass.stowed.is_some() || has_thrusters {
+    if panels_have_mass || state.mass.stowed.is_some() || has_thrusters {
         let instant = plant.instant(time_s);
         set_known_mass(state, settings, plant.mass_properties(&instant));
     }
-    if settings.panels_have_mass {
+    if panels_have_mass {
         let was_turning = state.panels.is_turning();
         let configuration = plant.path.kinematics.configuration;
         let end_s = configuration.last_of_panels_s(time_s, state.disturbance.span.end_s);
@@ -140,7 +138,7 @@ fn predicted_rate_terms(
     torque += now.torque_body_n_m;
     slope += per_s.torque_body_n_m;
     // A pulse that ends before the interval says little of it.
-    let edge_s = flight.thrusters.next_edge_s(&flight.context.allocator.settings);
+    let edge_s = flight.thrusters.next_edge_s(&flight.allocator.settings);
     let steady_until_s = edge_s.min(state.dumps.until_s());
     if steady_until_s >= time_s + settings.grid_s {
         let [turn, turn_slope] = flight.thrusters.load.law.torque_body_n_m;
@@ -189,7 +187,7 @@ pub(super) fn turn_mass(
         return;
     }
     let time_s = state.motion.end_s();
-    let loaded = flight.context.configuration.wet_mass;
+    let loaded = flight.configuration.wet_mass;
     let left = state.mass.stowed.map_or(loaded, |_| flight.used_mass(&loaded, time_s));
     set_mass(state, settings, state.panels.mass_properties(&left, flight.given.prepared.panels, time_s));
 }

@@ -9,25 +9,31 @@
 use nalgebra::Vector3;
 
 use crate::attitude::Attitude;
+use crate::guidance::timeline::TimelineManeuver;
+use crate::loads::ForceTorque;
 use crate::momentum::{DumpEvent, PreparedSegment, TorqueModel, Totals, WorkKind};
 
 use super::configured::{ConfiguredFlight, SunSelectionStart};
 use super::downlink_forecast::StartMomentum;
-use crate::plant::events::{self, EventKind, Eventful, LastEvents};
+use super::in_flight::Simulated;
+use crate::numerics::Span;
+use crate::plant::disturbances::evaluation::Evaluation;
+use crate::plant::events::{EventKind, Eventful, LastEvents};
+use crate::plant::settings::attitude_source::AttitudeSource;
 use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::mode_settings::IdealSettings;
 use crate::plant::settings::thruster_events::{Maneuver, ThrusterEvent};
 use crate::plant::state::ideal_state::IdealState;
-use crate::plant::thrusters::at_once::DumpAtOnce;
+use crate::plant::thrusters::at_once::{AtOnce, DumpAtOnce};
 
 /// A flight in an attitude that is followed ideally, in one step.
 pub(super) struct Ideal<'f> {
     /// State.
     pub state: &'f mut IdealState,
-    /// Settings of wheels and sensors.
-    pub settings: &'f IdealSettings,
     /// The flight that advances.
     pub flight: ConfiguredFlight<'f>,
+    /// Whether it is a fork, whose maneuvers have no errors and take no propellant; it has no dumps.
+    pub is_fork: bool,
     /// The segment that begins next.
     pub prepared: Option<PreparedSegment>,
 }
@@ -48,7 +54,7 @@ impl Eventful for Ideal<'_> {
     fn next_event_s(&self, kind: EventKind) -> f64 {
         match kind {
             EventKind::Schedule => {
-                self.flight.context.configuration.thruster_events.next_s(self.state.last.scheduled())
+                self.flight.configuration.thruster_events.next_s(self.state.last.scheduled())
             }
             _ => f64::INFINITY,
         }
@@ -59,7 +65,7 @@ impl Eventful for Ideal<'_> {
         Ok(match kind {
             EventKind::SunDirection => self.flight.plant().must_choose(time_s),
             EventKind::Threshold => {
-                let settings = self.flight.context.configuration.momentum;
+                let settings = self.flight.configuration.momentum;
                 let limit_s = self.next_event_s(EventKind::Schedule);
                 let prepared = self.state.integrator.prepare(&mut self.flight.plant(), &settings, limit_s)?;
                 let has_come = self.state.last.has_come(kind, time_s);
@@ -82,7 +88,11 @@ impl Eventful for Ideal<'_> {
 
     fn apply_event(&mut self, kind: EventKind) -> Result<(), PlantError> {
         let time_s = self.reached_s();
-        if kind == EventKind::Schedule {
+        if kind == EventKind::Schedule && self.is_fork {
+            self.state.integrator.cut(time_s);
+            let delta_v_inertial_m_s = self.event_of_fork(time_s)?;
+            self.state.integrator.push(&delta_v_inertial_m_s);
+        } else if kind == EventKind::Schedule {
             self.scheduled_event(time_s)?;
         }
         if let Some(due) = self.prepared.take().and_then(|it| it.due).filter(|_| kind == EventKind::Threshold)
@@ -94,46 +104,23 @@ impl Eventful for Ideal<'_> {
     }
 
     fn advance_segment(&mut self, _limit_s: f64) -> Result<(), PlantError> {
-        let settings = self.flight.context.configuration.momentum;
+        let settings = self.flight.configuration.momentum;
         let Some(prepared) = self.prepared.take() else { return Ok(()) };
         self.state.integrator.advance_segment(&mut self.flight.plant(), &settings, &prepared)
     }
 }
 
-impl<'f> Ideal<'f> {
-    /// State at the start of a flight in the attitude after `held`.
-    pub(super) fn begin(
-        settings: &'f IdealSettings,
-        mut flight: ConfiguredFlight<'f>,
-        time_s: f64,
-        held: &Attitude,
-    ) -> Result<IdealState, PlantError> {
-        let bias_body_n_m_s = flight.context.configuration.momentum.policy.bias_body_n_m_s;
-        let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
-        flight.context.models.begin_work(flight.given.work_limit);
-        let frame = flight.plant().instant(time_s).frame;
-        let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-        let momentum = StartMomentum::Body(momentum_body_n_m_s);
-        flight.select_sun_direction(&SunSelectionStart { time_s, totals, momentum, is_first: true })?;
-        flight.context.models.begin_work(flight.given.work_limit);
-        let mut plant = flight.plant();
-        plant.prepare(time_s, time_s)?;
-        let frame = plant.instant(time_s).frame;
-        let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-        let mut begun = IdealState::new(time_s, held, totals);
-        flight.context.models.begin_work(flight.given.work_limit);
-        flight.propagator.panel_turns.restart();
-        let mut ideal = Ideal { state: &mut begun, settings, flight, prepared: None };
-        events::advance(&mut ideal, time_s)?;
-        Ok(begun)
+impl<'f> Simulated<'f> for Ideal<'f> {
+    fn flight(&mut self) -> &mut ConfiguredFlight<'f> {
+        &mut self.flight
     }
 
-    /// Applies the requests of a step from `start_s` on: a maneuver, a dump.
-    pub(super) fn apply_requests(&mut self, start_s: f64) -> Result<(), PlantError> {
-        let mut target = self.flight.given.inputs.dump_to_body_n_m_s;
-        if let Some(maneuver) = self.flight.given.inputs.maneuver {
+    fn apply_requests(&mut self, step: Span) -> Result<(), PlantError> {
+        let (inputs, start_s) = (self.flight.given.inputs, step.start_s);
+        let mut target = inputs.dump_to_body_n_m_s;
+        if let Some(maneuver) = inputs.maneuver {
             self.maneuver(start_s, &maneuver)?;
-            let requested = self.flight.context.configuration.thruster_events.requested_body_n_m_s;
+            let requested = self.flight.configuration.thruster_events.requested_body_n_m_s;
             target = target.or(maneuver.dumps.then_some(requested));
         }
         if let Some(target_body_n_m_s) = target {
@@ -142,9 +129,58 @@ impl<'f> Ideal<'f> {
         Ok(())
     }
 
+    fn fork_attitude(&self, _: f64) -> Option<AttitudeSource> {
+        None
+    }
+
+    fn frame(&mut self, time_s: f64) -> Evaluation {
+        self.flight.plant().evaluate_without_loads(time_s)
+    }
+
+    fn totals(&mut self, time_s: f64) -> Totals {
+        self.state.integrator.totals(time_s)
+    }
+
+    fn rows(&mut self, evaluation: &mut Evaluation, applied: ForceTorque) {
+        self.flight.plant().write_loads(evaluation, applied);
+    }
+
+    fn is_degenerate(&self, evaluation: &Evaluation) -> bool {
+        evaluation.instant.is_degenerate
+    }
+}
+
+impl<'f> Ideal<'f> {
+    /// State at the start of a flight in the attitude after `held`.
+    pub(super) fn begin(
+        settings: &IdealSettings,
+        mut flight: ConfiguredFlight<'f>,
+        time_s: f64,
+        held: &Attitude,
+    ) -> Result<IdealState, PlantError> {
+        let bias_body_n_m_s = flight.configuration.momentum.policy.bias_body_n_m_s;
+        let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
+        flight.models.begin_work(flight.given.work_limit);
+        let frame = flight.plant().instant(time_s).frame;
+        let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
+        let momentum = StartMomentum::Body(momentum_body_n_m_s);
+        flight.select_sun_direction(&SunSelectionStart { time_s, totals, momentum, is_first: true })?;
+        flight.models.begin_work(flight.given.work_limit);
+        let mut plant = flight.plant();
+        plant.prepare(time_s, time_s)?;
+        let frame = plant.instant(time_s).frame;
+        let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
+        let mut begun = IdealState::new(time_s, held, totals);
+        flight.models.begin_work(flight.given.work_limit);
+        flight.propagator.panel_turns.restart();
+        let mut ideal = Ideal { state: &mut begun, flight, is_fork: false, prepared: None };
+        ideal.advance(time_s)?;
+        Ok(begun)
+    }
+
     /// Dumps to this momentum, body frame, from the wheels' bias, in N m s, at `time_s` on request.
     fn dump_to(&mut self, time_s: f64, target_body_n_m_s: Vector3<f64>) {
-        let settings = self.flight.context.configuration.momentum;
+        let settings = self.flight.configuration.momentum;
         let target_body_n_m_s = settings.policy.bias_body_n_m_s + target_body_n_m_s;
         let event =
             self.state.integrator.request(&mut self.flight.plant(), &settings, time_s, target_body_n_m_s);
@@ -158,18 +194,14 @@ impl<'f> Ideal<'f> {
         if !found_m_s.iter().all(|it| it.is_finite()) {
             return Err(refused(ManeuverError::NotFinite { found_m_s: found_m_s.into() }));
         }
-        let configuration = &self.flight.context.configuration;
         let number = u64::from(self.state.maneuvers.count.unsigned_abs());
-        let executed_m_s = configuration.thruster_events.executed_m_s(&found_m_s, number);
+        let events = &self.flight.configuration.thruster_events;
+        let executed_m_s = events.executed_m_s(&found_m_s, number);
         if let Some(set) = maneuver.thrusters {
-            let mass_kg = self.flight.context.current_mass_panels_stowed.mass_kg;
-            let given = self.flight.thrusters.at_once(&mut self.flight.context.allocator, time_s).delta_v(
-                set,
-                executed_m_s.norm(),
-                mass_kg,
-            );
-            given.map_err(refused)?;
+            let mass_kg = self.flight.current_mass_panels_stowed.mass_kg;
+            self.at_once(time_s).delta_v(set, executed_m_s.norm(), mass_kg).map_err(refused)?;
         }
+        let configuration = &self.flight.configuration;
         let moved = self.flight.propagator.maneuver(configuration, time_s, &executed_m_s);
         moved.map_err(|error| refused(error.into()))?;
         self.state.integrator.cut(time_s);
@@ -185,16 +217,16 @@ impl<'f> Ideal<'f> {
 
     /// Executes the event of the timeline that is due.
     fn scheduled_event(&mut self, time_s: f64) -> Result<(), PlantError> {
-        let configuration = &self.flight.context.configuration;
+        let configuration = &self.flight.configuration;
         let taken = self.state.last.pop_scheduled(&configuration.thruster_events);
         let Some(event) = taken else { return Ok(()) };
         if let Some(place_body_m) = event.center_of_mass_body_m {
             self.flight.propagator.center_of_mass.place(configuration, place_body_m);
             self.state.integrator.cut(time_s);
-            self.flight.propagator.cut(&self.flight.context.configuration, time_s, true);
+            self.flight.propagator.cut(self.flight.configuration, time_s, true);
             self.set_mass(time_s);
         }
-        let events = &self.flight.context.configuration.thruster_events;
+        let events = &self.flight.configuration.thruster_events;
         let (maneuver, target) = (events.maneuver(&event), events.dump_target_body_n_m_s(&event));
         if let Some(maneuver) = maneuver {
             self.maneuver(time_s, &maneuver)?;
@@ -205,10 +237,32 @@ impl<'f> Ideal<'f> {
         Ok(())
     }
 
+    /// Executes the scheduled event at `time_s`, the end of a fork, without error, propellant and dump; returns its velocity change,
+    /// EME2000, in m/s.
+    pub(super) fn event_of_fork(&mut self, time_s: f64) -> Result<Vector3<f64>, PlantError> {
+        let ConfiguredFlight { configuration, current_mass_panels_stowed, propagator, .. } = &mut self.flight;
+        let taken = self.state.last.pop_scheduled(&configuration.thruster_events);
+        let Some(event) = taken else { return Ok(Vector3::zeros()) };
+        if let Some(place_body_m) = event.center_of_mass_body_m {
+            let before = propagator.center_of_mass.mass_properties(configuration);
+            propagator.center_of_mass.place(configuration, place_body_m);
+            let after = propagator.center_of_mass.mass_properties(configuration);
+            current_mass_panels_stowed.center_of_mass_body_m +=
+                after.center_of_mass_body_m - before.center_of_mass_body_m;
+            propagator.cut(configuration, time_s, true);
+        }
+        let Some(TimelineManeuver { delta_v_inertial_m_s, .. }) = event.maneuver else {
+            return Ok(Vector3::zeros());
+        };
+        let moved = propagator.maneuver(configuration, time_s, &delta_v_inertial_m_s);
+        moved.map_err(|error| PlantError::Maneuver { time_s, why: error.into() })?;
+        Ok(delta_v_inertial_m_s)
+    }
+
     /// Selects the Sun's direction where that is due, or anew where the momentum has changed since at that time.
     fn select_sun_direction(&mut self, time_s: f64) -> Result<(), PlantError> {
         let totals = self.state.integrator.totals(time_s);
-        let convention = self.flight.context.configuration.momentum.convention;
+        let convention = self.flight.configuration.momentum.convention;
         let momentum = StartMomentum::from_totals(&totals, convention);
         self.flight.select_sun_direction(&SunSelectionStart { time_s, totals, momentum, is_first: false })
     }
@@ -219,13 +273,11 @@ impl<'f> Ideal<'f> {
         let time_s = due.time_s;
         let mut dump = DumpAtOnce { event: *due, push_body_n_s: None };
         let mut pushed = None;
-        if !self.flight.context.allocator.settings.thrusters.is_empty() {
+        if !self.flight.allocator.settings.thrusters.is_empty() {
             let mut plant = self.flight.plant();
             let instant = plant.instant(time_s);
             let mass = plant.mass_properties(&instant);
-            let mut at_once = self.flight.thrusters.at_once(&mut self.flight.context.allocator, time_s);
-            let given = at_once.dump(due, &mass.center_of_mass_body_m);
-            let Some(given) = given else { return };
+            let Some(given) = self.at_once(time_s).dump(due, &mass.center_of_mass_body_m) else { return };
             dump = given;
             let inertial_from_body = instant.frame.inertial_from_body;
             pushed =
@@ -237,7 +289,7 @@ impl<'f> Ideal<'f> {
         if let Some(delta_v_inertial_m_s) = &pushed {
             self.state.integrator.push(delta_v_inertial_m_s);
             self.set_mass(time_s);
-            let configuration = &self.flight.context.configuration;
+            let configuration = &*self.flight.configuration;
             self.flight.propagator.cut_with_jump(configuration, time_s, delta_v_inertial_m_s);
             self.flight.propagator.sources.cut(time_s);
         }
@@ -247,9 +299,15 @@ impl<'f> Ideal<'f> {
         (self.flight.given.log)(&ThrusterEvent::Dump(dump.event));
     }
 
+    /// Impulsive dumps and velocity changes at `time_s`.
+    fn at_once(&mut self, time_s: f64) -> AtOnce<'_> {
+        let ConfiguredFlight { thrusters, allocator, .. } = &mut self.flight;
+        AtOnce { thrusters, allocator, time_s }
+    }
+
     /// A thruster event is over: the centre of mass is elsewhere, where that is simulated.
     fn move_center_of_mass(&mut self, time_s: f64) -> bool {
-        let configuration = &self.flight.context.configuration;
+        let configuration = &self.flight.configuration;
         let events = [self.state.integrator.dumps().count, self.state.maneuvers.count].map(i32::unsigned_abs);
         let number: u64 = events.map(u64::from).iter().sum();
         let shift = configuration.thruster_events.shift_body_m(number.saturating_sub(1));
@@ -263,7 +321,7 @@ impl<'f> Ideal<'f> {
     /// Mass properties of what is left at `time_s`.
     fn set_mass(&mut self, time_s: f64) {
         let flight = &mut self.flight;
-        let loaded = flight.propagator.center_of_mass.mass_properties(&flight.context.configuration);
-        flight.context.current_mass_panels_stowed = flight.used_mass(&loaded, time_s);
+        let loaded = flight.propagator.center_of_mass.mass_properties(flight.configuration);
+        *flight.current_mass_panels_stowed = flight.used_mass(&loaded, time_s);
     }
 }

@@ -1,24 +1,20 @@
-//! A flight in one step by its mode, with the settings of that: what both ways of flight and one that waits do alike.
+//! A flight in one step by its mode: what an attitude that is followed ideally and one by torque answer alike.
 
-use crate::attitude::MotionAt;
-use crate::attitude::control::{sample_number, sensed_sun};
 use crate::loads::ForceTorque;
 use crate::momentum::Totals;
 use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::Evaluation;
-use crate::plant::events;
-use crate::plant::motion::instant::Instant;
-use crate::plant::settings::attitude_source::Command;
+use crate::plant::events::Eventful;
+use crate::plant::settings::attitude_source::{AttitudeSource, Command};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::mode_settings::IdealSettings;
 use crate::plant::state::flight_state::EncounterPrediction;
 use crate::plant::state::ideal_state::IdealState;
-use crate::radiation::SolarModel;
 
 use super::configured::ConfiguredFlight;
 use super::dynamic::Dynamic;
 use super::ideal::Ideal;
-use super::report::{ReachedState, Report, dynamic, dynamic_totals, ideal};
+use super::report::{FlightSummary, ReachedState, Report};
 
 /// The last evaluation, kept in memory because it is large.
 #[derive(Clone, Debug, Default)]
@@ -28,94 +24,91 @@ pub(super) struct Evaluated {
     pub applied: Option<ForceTorque>,
 }
 
+/// A flight in one step, whatever gives its attitude.
+pub(super) trait Simulated<'f>: Eventful {
+    /// The flight that advances.
+    fn flight(&mut self) -> &mut ConfiguredFlight<'f>;
+
+    /// Sets what follows from the state and is not saved.
+    fn resume(&mut self) {}
+
+    /// Applies the requests of a step.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    fn apply_requests(&mut self, step: Span) -> Result<(), PlantError>;
+
+    /// Attitude of a fork from `time_s` on; `None`: the flight's own.
+    fn fork_attitude(&self, time_s: f64) -> Option<AttitudeSource>;
+
+    /// Geometry, attitude and mass at `time_s`, where the flight has come; its loads are zero.
+    fn frame(&mut self, time_s: f64) -> Evaluation;
+
+    /// Momentum and velocity change at `time_s`, where the flight has come.
+    fn totals(&mut self, time_s: f64) -> Totals;
+
+    /// Writes force and torque of every row, under this load from outside.
+    fn rows(&mut self, evaluation: &mut Evaluation, applied: ForceTorque);
+
+    /// Whether a substitute stood in for a target of the attitude law on one line with the other, at the last sample where it is sampled.
+    fn is_degenerate(&self, evaluation: &Evaluation) -> bool;
+}
+
 /// A flight in one step.
 pub(super) enum InFlight<'f> {
     /// The attitude is held, and nothing acts.
     Waiting { settings: &'f IdealSettings, flight: ConfiguredFlight<'f> },
     /// The attitude is followed ideally.
-    Ideal(Ideal<'f>),
+    Ideal(Ideal<'f>, &'f IdealSettings),
     /// The body turns by torque.
     Dynamic(Dynamic<'f>),
 }
 
 impl<'f> InFlight<'f> {
-    /// The flight that advances.
-    pub(super) fn flight(&mut self) -> &mut ConfiguredFlight<'f> {
+    /// The flight that is simulated; `None` where it waits.
+    pub(super) fn simulated(&mut self) -> Option<&mut dyn Simulated<'f>> {
         match self {
-            Self::Waiting { flight, .. } => flight,
-            Self::Ideal(it) => &mut it.flight,
-            Self::Dynamic(it) => &mut it.flight,
+            Self::Waiting { .. } => None,
+            Self::Ideal(it, _) => Some(it),
+            Self::Dynamic(it) => Some(it),
         }
     }
 
-    /// Applies the requests of a step.
-    pub(super) fn apply_requests(&mut self, step: Span) -> Result<(), PlantError> {
-        match self {
-            Self::Waiting { .. } => Ok(()),
-            Self::Ideal(it) => it.apply_requests(step.start_s),
-            Self::Dynamic(it) => it.apply_requests(step),
-        }
-    }
-
-    /// Advances until everything is known at `time_s`.
-    pub(super) fn advance(&mut self, time_s: f64) -> Result<(), PlantError> {
-        match self {
-            Self::Waiting { .. } => Ok(()),
-            Self::Ideal(it) => events::advance(it, time_s),
-            Self::Dynamic(it) => {
-                it.resume();
-                events::advance(it, time_s)
-            }
-        }
-    }
-
-    /// Evaluates geometry and attitude at `time_s`, where the flight has come, and its loads, of an attitude that is followed ideally only
-    /// `with_loads`; a flight that waits holds the attitude of `held`.
+    /// Evaluates geometry and attitude at `time_s`, where the flight has come, and `with_loads` its loads; a flight that waits holds the
+    /// attitude of `held`.
     pub(super) fn evaluate(
         &mut self,
         held: &Command,
-        evaluated: &mut Evaluated,
+        Evaluated { evaluation, applied }: &mut Evaluated,
         with_loads: bool,
         time_s: f64,
     ) -> ReachedState {
-        let Evaluated { evaluation, applied } = evaluated;
         *applied = None;
-        match self {
-            Self::Dynamic(it) => {
-                it.resume();
-                let at: MotionAt = it.state.motion.evaluated_at(&it.settings.gyrostat, time_s);
-                *evaluation = Some(it.evaluation(&at));
-                ReachedState {
-                    totals_are_finite: dynamic_totals(&at).is_finite(),
-                    is_degenerate: it.state.control.is_degenerate,
-                }
-            }
-            Self::Ideal(Ideal { state, flight, .. }) => {
-                let mut plant = flight.plant();
-                let evaluation = evaluation.insert(plant.evaluate_without_loads(time_s));
-                let [outside, _] = (plant.external)(time_s);
-                match with_loads {
-                    true => plant.write_loads(evaluation, outside),
-                    false => *applied = Some(outside),
-                }
-                ReachedState {
-                    totals_are_finite: state.integrator.totals(time_s).is_finite(),
-                    is_degenerate: evaluation.instant.is_degenerate,
-                }
-            }
-            Self::Waiting { flight, .. } => {
-                let mass = flight.context.current_mass_panels_stowed;
-                let evaluated = Evaluation::without_position(held.frame_at(time_s), mass, time_s);
-                let evaluation = evaluation.insert(evaluated);
-                ReachedState { totals_are_finite: true, is_degenerate: evaluation.instant.is_degenerate }
-            }
+        if let Self::Waiting { flight, .. } = self {
+            let mass = *flight.current_mass_panels_stowed;
+            *evaluation = Some(Evaluation::without_position(held.frame_at(time_s), mass, time_s));
+        }
+        let Some(simulated) = self.simulated() else {
+            return ReachedState { totals_are_finite: true, is_degenerate: false };
+        };
+        let evaluation = evaluation.insert(simulated.frame(time_s));
+        let [outside, _] = (simulated.flight().given.external)(time_s);
+        match with_loads {
+            true => simulated.rows(evaluation, outside),
+            false => *applied = Some(outside),
+        }
+        ReachedState {
+            totals_are_finite: simulated.totals(time_s).is_finite(),
+            is_degenerate: simulated.is_degenerate(evaluation),
         }
     }
 
     /// Computes the loads where the flight was evaluated, if that was without them.
     pub(super) fn write_loads(&mut self, Evaluated { evaluation, applied }: &mut Evaluated) {
-        if let Some((evaluation, outside)) = evaluation.as_mut().zip(applied.take()) {
-            self.flight().plant().write_loads(evaluation, outside);
+        if let (Some(it), Some(evaluation), Some(applied)) =
+            (self.simulated(), evaluation.as_mut(), applied.take())
+        {
+            it.rows(evaluation, applied);
         }
     }
 
@@ -127,64 +120,48 @@ impl<'f> InFlight<'f> {
         prediction: Option<EncounterPrediction>,
         time_s: f64,
     ) -> Report<'f> {
+        let instant = &evaluation.instant;
+        let (mut downlink, mut is_degenerate) = (instant.downlink, instant.is_degenerate);
         let is_waiting = matches!(self, Self::Waiting { .. });
-        let mut sampled = None;
         let (summary, flight) = match self {
-            Self::Dynamic(Dynamic { state, settings, flight, .. }) => {
-                sampled = Some((state.control.downlink, state.control.is_degenerate));
-                let at: MotionAt = state.motion.evaluated_at(&settings.gyrostat, time_s);
-                (dynamic(state, settings, flight.thrusters, evaluation, at), flight)
+            Self::Dynamic(mut it) => {
+                let at = it.at(time_s);
+                let Dynamic { state, settings, flight, .. } = it;
+                (downlink, is_degenerate) = (state.control.downlink, state.control.is_degenerate);
+                (FlightSummary::dynamic(state, settings, flight.thrusters, evaluation, at), flight)
             }
-            Self::Ideal(Ideal { state, settings, flight, .. }) => {
-                let inputs = flight.given.inputs;
+            Self::Ideal(Ideal { state, flight, .. }, settings) => {
                 let integrator = Some(&state.integrator);
-                let mut summary = ideal(state, settings, integrator, evaluation, inputs);
-                let Instant { sun_body, lit_fraction, .. } = &evaluation.instant;
-                summary.sun_sensed_body = sensed_sun(
-                    &settings.sun_sensors,
-                    |k| inputs.sun_sensor_failed.get(k).is_some_and(|failed| *failed),
-                    sun_body,
-                    *lit_fraction,
-                    (settings.seed, sample_number(time_s, settings.rate_hz)),
-                );
-                (summary, flight)
+                (FlightSummary::ideal(state, settings, integrator, evaluation, flight.given.inputs), flight)
             }
             Self::Waiting { settings, flight } => {
-                let (frame, attitude) = (held.frame_at(time_s), held.attitude_at(time_s));
-                let bias_body_n_m_s = flight.context.configuration.momentum.policy.bias_body_n_m_s;
+                let bias_body_n_m_s = flight.configuration.momentum.policy.bias_body_n_m_s;
                 let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
-                let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
+                let attitude = held.attitude_at(time_s);
+                let totals = Totals::at_start(momentum_body_n_m_s, &attitude.inertial_from_body());
                 let waiting = IdealState::new(time_s, &attitude, totals);
-                (ideal(&waiting, settings, None, evaluation, flight.given.inputs), flight)
+                (FlightSummary::ideal(&waiting, settings, None, evaluation, flight.given.inputs), flight)
             }
         };
-        let ConfiguredFlight { given, context, propagator, thrusters, .. } = flight;
-        let (configuration, trajectory) = (&context.configuration, &propagator.trajectory);
-        let Instant { downlink, is_degenerate, .. } = evaluation.instant;
-        let (downlink, is_degenerate) = sampled.unwrap_or((downlink, is_degenerate));
+        let ConfiguredFlight { given, configuration, allocator, propagator, thrusters, .. } = flight;
         let followed = configuration.timeline.filter(|_| configuration.attitude.guided().is_some());
         let timeline = given.prepared.timeline.zip(followed);
         let slot = timeline.map(|(law, settings)| law.timeline.slot(time_s, settings.clock_minus_time_s));
         Report {
             time_s,
             configuration,
-            materials: context.models.solar.as_ref().map_or(&[], SolarModel::materials),
+            reaction_control: &allocator.settings,
+            propagator,
             thrusters,
-            reaction_control: &context.allocator.settings,
             since_periapsis_s: match is_waiting {
                 true => 0.0,
-                false => trajectory.time_since_periapsis_s(configuration, time_s),
+                false => propagator.trajectory.time_since_periapsis_s(configuration, time_s),
             },
             downlink,
             is_degenerate,
             timeline_row: slot.map_or(0, |slot| slot.row),
             timeline_until_s: slot.map(|slot| slot.until_s).filter(|until_s| until_s.is_finite()),
-            target_is_clamped: propagator.sun_choice.is_clamped(),
             evaluation,
-            integration_center: trajectory.integration_center(configuration),
-            from_integration_center: trajectory.state_from_integration_center(time_s),
-            approaches: trajectory.approaches.until(time_s),
-            panel_turns: &propagator.panel_turns,
             prediction,
             summary,
         }

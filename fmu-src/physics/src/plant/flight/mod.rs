@@ -27,7 +27,7 @@ use crate::numerics::Span;
 use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::disturbances::simulation_context::SimulationContext;
-use crate::plant::events::{self, EventKind};
+use crate::plant::events::{EventKind, Eventful};
 use crate::plant::motion::command_slews::CommandSlews;
 use crate::plant::settings::attitude_source::{Command, Turning};
 use crate::plant::settings::configuration::{Configuration, PredictionSettings};
@@ -242,15 +242,14 @@ impl Flight {
             return Err(PlantError::OtherMode);
         };
         let FlightSetup { context, settings, distribution, evaluated } = &mut **setup;
-        let turning = Turning::still();
-        let flight = ConfiguredFlight { given, context, propagator, thrusters, turning };
+        let flight = ConfiguredFlight::new(given, context, propagator, thrusters, Turning::still());
         let in_flight = match (mode, settings) {
             (Mode::Waiting, ModeSettings::Ideal(settings)) => InFlight::Waiting { settings, flight },
             (Mode::Ideal(state), ModeSettings::Ideal(settings)) => {
-                InFlight::Ideal(Ideal { state, settings, flight, prepared: None })
+                InFlight::Ideal(Ideal { state, flight, is_fork: false, prepared: None }, settings)
             }
             (Mode::Dynamic(state), ModeSettings::Dynamic(settings)) => {
-                InFlight::Dynamic(Dynamic { state, settings, flight, distribution, end: None, applied: None })
+                InFlight::Dynamic(Dynamic { state, settings, flight, distribution, at: None, applied: None })
             }
             _ => return Err(PlantError::OtherMode),
         };
@@ -268,7 +267,7 @@ impl Flight {
         let FlightSetup { context, settings, .. } = &mut **setup;
         *propagator = PropagatorState::new(&context.configuration, time_s)?;
         let turning = Turning::from(*held);
-        let mut flight = ConfiguredFlight { given, context, propagator, thrusters, turning };
+        let mut flight = ConfiguredFlight::new(given, context, propagator, thrusters, turning);
         let held = held.attitude_at(time_s);
         *mode = match settings {
             ModeSettings::Ideal(settings) => {
@@ -287,14 +286,22 @@ impl Flight {
     /// What ends a flight.
     pub fn advance(&mut self, given: StepContext<'_>, step: Span) -> Result<(), PlantError> {
         let predicted = self.prediction_settings();
-        let (mut in_flight, _) = self.in_flight(given)?;
-        in_flight.flight().context.models.begin_work(given.work_limit);
-        in_flight.apply_requests(step)?;
+        if let Some(simulated) = self.in_flight(given)?.0.simulated() {
+            simulated.flight().models.begin_work(given.work_limit);
+            simulated.apply_requests(step)?;
+        }
         for time_s in predicted.times_s(step) {
-            self.in_flight(given)?.0.advance(time_s)?;
+            self.advance_to(given, time_s)?;
             self.predict(given, time_s)?;
         }
-        self.in_flight(given)?.0.advance(step.end_s)
+        self.advance_to(given, step.end_s)
+    }
+
+    fn advance_to(&mut self, given: StepContext<'_>, time_s: f64) -> Result<(), PlantError> {
+        let (mut in_flight, _) = self.in_flight(given)?;
+        let Some(simulated) = in_flight.simulated() else { return Ok(()) };
+        simulated.resume();
+        simulated.advance(time_s)
     }
 
     fn prediction_settings(&self) -> PredictionSettings {
@@ -305,11 +312,9 @@ impl Flight {
     /// Predicts the encounter at `time_s`, where the flight has come, in the attitude that timeline and inputs command.
     fn predict(&mut self, given: StepContext<'_>, time_s: f64) -> Result<(), PlantError> {
         let (mut in_flight, _) = self.in_flight(given)?;
-        let attitude = match &in_flight {
-            InFlight::Dynamic(it) => Some(it.ideal_attitude(time_s)),
-            InFlight::Waiting { .. } | InFlight::Ideal(_) => None,
-        };
-        self.state.prediction = Some(predict_encounter(in_flight.flight(), attitude, time_s)?);
+        let Some(simulated) = in_flight.simulated() else { return Ok(()) };
+        let attitude = simulated.fork_attitude(time_s);
+        self.state.prediction = Some(predict_encounter(simulated.flight(), attitude, time_s)?);
         Ok(())
     }
 
@@ -322,8 +327,8 @@ impl Flight {
         let undo = Undo(self.state.mode.clone(), self.state.thrusters.clone(), self.state.prediction);
         let given = StepContext { log: &|_| {}, ..given };
         if let (InFlight::Dynamic(mut dynamic), _) = self.in_flight(given)? {
-            dynamic.flight.context.models.begin_work(given.work_limit);
-            events::apply_due(&mut dynamic)?;
+            dynamic.flight.models.begin_work(given.work_limit);
+            dynamic.apply_due()?;
         }
         if self.prediction_settings().is_due(time_s) {
             self.predict(given, time_s)?;
@@ -336,8 +341,8 @@ impl Flight {
         (self.state.mode, self.state.thrusters, self.state.prediction) = (mode, thrusters, prediction);
     }
 
-    /// Evaluates geometry and attitude at `time_s`, where the flight has come, and its loads; those of an attitude that is followed
-    /// ideally only `with_loads`, else [`Self::report`] computes them. A flight that waits holds the attitude of `held`.
+    /// Evaluates geometry and attitude at `time_s`, where the flight has come, and `with_loads` its loads, else [`Self::report`] computes
+    /// them. A flight that waits holds the attitude of `held`.
     ///
     /// # Errors
     /// A state that belongs to another mode than the settings.

@@ -2,26 +2,23 @@
 
 use nalgebra::Vector3;
 
-use crate::attitude::control::Estimate;
-use crate::attitude::{Appendages, Attitude, MotionAt, motor_power_w, wheel_speed_rad_s};
-use crate::bodies::Body;
+use crate::attitude::control::{Estimate, sample_number, sensed_sun};
+use crate::attitude::{Appendages, Attitude, MotionAt, motor_power_w};
 use crate::environment::CartesianState;
 use crate::environment::orbit::BPlane;
 use crate::guidance::DownlinkStatus;
 use crate::momentum::{DumpSpacing, Dumps, MomentumIntegrator, SourceMomenta, Totals};
 use crate::plant::disturbances::evaluation::Evaluation;
-use crate::plant::motion::approaches::ClosestApproach;
 use crate::plant::motion::osculating_orbit::OsculatingOrbit;
-use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
-use crate::plant::settings::mode_settings::{IdealSettings, IdealWheel};
+use crate::plant::settings::mode_settings::IdealSettings;
 use crate::plant::settings::reaction_control_settings::ReactionControlSettings;
 use crate::plant::state::dynamic_state::DynamicState;
 use crate::plant::state::flight_state::EncounterPrediction;
 use crate::plant::state::ideal_state::{IdealState, Maneuvers};
+use crate::plant::state::propagator_state::PropagatorState;
 use crate::plant::thrusters::reaction_control::Thrusters;
-use crate::spacecraft::Material;
 
 /// State that a flight has come to, as far as a step judges it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,12 +35,12 @@ pub struct Report<'a> {
     pub time_s: f64,
     /// The spacecraft, and where it is.
     pub configuration: &'a Configuration,
-    /// Materials of its faces, where they can be set.
-    pub materials: &'a [Material],
-    /// Thrusters and tanks.
-    pub thrusters: &'a Thrusters,
     /// Settings of thrusters and tanks.
     pub reaction_control: &'a ReactionControlSettings,
+    /// Orbit, directions of the Sun that were selected, turns of the panels.
+    pub propagator: &'a PropagatorState,
+    /// Thrusters and tanks.
+    pub thrusters: &'a Thrusters,
     /// Time since the last periapsis, in s; 0 where the flight waits.
     pub since_periapsis_s: f64,
     /// Downlink of guidance at this time.
@@ -54,18 +51,8 @@ pub struct Report<'a> {
     pub timeline_row: usize,
     /// When the timeline's command ends, or where none is the next one begins, in s; `None`: never.
     pub timeline_until_s: Option<f64>,
-    /// Whether a downlink lasts whose target of momentum is out of reach.
-    pub target_is_clamped: bool,
     /// Geometry, attitude and loads.
     pub evaluation: &'a Evaluation,
-    /// The body that the path is integrated about.
-    pub integration_center: Body,
-    /// Position and velocity from it, EME2000, where it may change.
-    pub from_integration_center: Option<CartesianState>,
-    /// Closest approaches to the encounter's body so far, and the last of them.
-    pub approaches: (i32, Option<ClosestApproach>),
-    /// Whole turns of the panels.
-    pub panel_turns: &'a PanelTurns,
     /// The last prediction of the next one; `None` before any.
     pub prediction: Option<EncounterPrediction>,
     /// Momentum, dumps, sensors and control.
@@ -88,8 +75,10 @@ impl Report<'_> {
     /// waits.
     pub fn osculating_orbit(&self) -> Option<OsculatingOrbit> {
         let geometry = &self.evaluation.instant.geometry;
-        let state = self.from_integration_center.as_ref().unwrap_or(&geometry.spacecraft);
-        OsculatingOrbit::new(self.configuration, self.integration_center, state, geometry)
+        let trajectory = &self.propagator.trajectory;
+        let state = trajectory.state_from_integration_center(self.time_s).unwrap_or(geometry.spacecraft);
+        let center = trajectory.integration_center(self.configuration);
+        OsculatingOrbit::new(self.configuration, center, &state, &geometry.to_sun.position_m)
     }
 
     /// The encounter's body; `None` without one, or while the flight waits.
@@ -176,7 +165,94 @@ enum Bodies<'a> {
     Dynamic { settings: &'a DynamicsSettings, dynamics: &'a DynamicState, at: MotionAt },
 }
 
-impl FlightSummary<'_> {
+impl<'a> FlightSummary<'a> {
+    /// Summary of an attitude that is followed ideally: ideal wheels hold the system's momentum less what the body's own rotation and
+    /// panels that turn take; sensors see the true attitude.
+    pub(super) fn ideal(
+        simulated: &IdealState,
+        settings: &'a IdealSettings,
+        integrator: Option<&'a MomentumIntegrator>,
+        evaluation: &Evaluation,
+        inputs: &DynamicsInputs,
+    ) -> Self {
+        let Evaluation { instant, loads, mass, .. } = evaluation;
+        let (time_s, frame) = (instant.time_s, &instant.frame);
+        let (totals, dumps) = (simulated.integrator.totals(time_s), *simulated.integrator.dumps());
+        let attitude = simulated.integrator.attitude(&frame.inertial_from_body, time_s);
+        let segment = &simulated.integrator.segment;
+        let structure_rate_body_n_m = segment.structure_rate_body_n_m(&mass.inertia_body_kg_m2, time_s);
+        let torque_body_n_m = &loads.total().torque_body_n_m;
+        Self {
+            time_s,
+            totals,
+            dumps,
+            spacing: simulated.spacing,
+            is_dumping: false,
+            dump_impulse_body_n_m_s: impulse_body_n_m_s(&dumps),
+            dump_delta_v_inertial_m_s: simulated.dump_delta_v_inertial_m_s,
+            maneuvers: simulated.maneuvers,
+            attitude,
+            estimate: Estimate {
+                attitude,
+                is_valid: inputs.health.star_tracker,
+                rate_body_rad_s: Some(frame.rate_body_rad_s),
+            },
+            sun_sensed_body: sensed_sun(
+                &settings.sun_sensors,
+                |k| inputs.sun_sensor_failed.get(k).is_some_and(|failed| *failed),
+                &instant.sun_body,
+                instant.lit_fraction,
+                (settings.seed, sample_number(time_s, settings.rate_hz)),
+            ),
+            accelerometer_body_m_s: Vector3::zeros(),
+            control: ControlReport::default(),
+            body: Bodies::Ideal {
+                settings,
+                integrator,
+                momentum_body_n_m_s: totals.wheels_body_n_m_s(&evaluation.structure_body_n_m_s(), frame),
+                rate_body_n_m: totals.wheels_rate_body_n_m(&structure_rate_body_n_m, frame, torque_body_n_m),
+                acceleration_body_rad_s2: segment.acceleration_body_rad_s2(time_s),
+            },
+        }
+    }
+
+    /// Summary of a body that turns by torque.
+    pub(super) fn dynamic(
+        dynamics: &'a DynamicState,
+        settings: &'a DynamicsSettings,
+        thrusters: &Thrusters,
+        evaluation: &Evaluation,
+        at: MotionAt,
+    ) -> Self {
+        let MotionAt { time_s, body, .. } = at;
+        let DynamicState { motion, sensing, control, dumps, .. } = dynamics;
+        let dumped = thrusters.dumped_at(motion, time_s);
+        let [dump_impulse_body_n_m_s, dump_delta_v_inertial_m_s] =
+            dumped.unwrap_or([impulse_body_n_m_s(&dumps.dumps), Vector3::zeros()]);
+        let is_controlled = settings.control.is_some();
+        Self {
+            time_s,
+            totals: dynamic_totals(&at),
+            dumps: dumps.dumps,
+            spacing: dumps.spacing,
+            is_dumping: dumps.is_dumping(thrusters, time_s),
+            dump_impulse_body_n_m_s,
+            dump_delta_v_inertial_m_s,
+            maneuvers: Maneuvers::default(),
+            attitude: Attitude::from_rotation(&evaluation.instant.frame.inertial_from_body)
+                .continuing(&body.attitude),
+            estimate: sensing.estimate_at(time_s),
+            sun_sensed_body: sensing.sun_sensed_body,
+            accelerometer_body_m_s: *sensing.accelerometer.delta_v_body_m_s(),
+            control: ControlReport {
+                error_rad: if is_controlled { control.controller.attitude_error_rad() } else { 0.0 },
+                is_settled: is_controlled && control.controller.is_settled(),
+                is_limited: control.is_limited(),
+            },
+            body: Bodies::Dynamic { settings, dynamics, at },
+        }
+    }
+
     /// Change of momentum by each effect since the last dump.
     pub fn by_source(&self) -> SourceMomenta {
         match &self.body {
@@ -203,12 +279,12 @@ impl FlightSummary<'_> {
             Bodies::Ideal {
                 settings, momentum_body_n_m_s, rate_body_n_m, acceleration_body_rad_s2, ..
             } => {
-                let IdealWheel { inertia_kg_m2, capacity_n_m_s, .. } = *settings.wheels.get(k)?;
+                let wheel = settings.wheels.get(k)?;
                 let momentum_n_m_s = settings.momentum_n_m_s(k, momentum_body_n_m_s);
-                let speed_rad_s = wheel_speed_rad_s(momentum_n_m_s, inertia_kg_m2);
-                let array = &settings.array;
+                let (array, inertia_kg_m2) = (&settings.array, wheel.inertia_kg_m2);
                 let torque_n_m = array.motor_n_m(k, inertia_kg_m2, rate_body_n_m, acceleration_body_rad_s2);
-                (momentum_n_m_s, torque_n_m, speed_rad_s, momentum_n_m_s.abs() > capacity_n_m_s)
+                let is_saturated = momentum_n_m_s.abs() > wheel.capacity_n_m_s;
+                (momentum_n_m_s, torque_n_m, wheel.speed_rad_s(momentum_n_m_s), is_saturated)
             }
             Bodies::Dynamic { settings, dynamics, at: MotionAt { body, .. } } => {
                 let (gyrostat, motion) = (&settings.gyrostat, &dynamics.motion);
@@ -244,96 +320,12 @@ impl FlightSummary<'_> {
     }
 }
 
-/// Ideal wheels hold the system's momentum less what the body's own rotation and panels that turn take; sensors see the true
-/// attitude.
-pub(super) fn ideal<'a>(
-    simulated: &IdealState,
-    settings: &'a IdealSettings,
-    integrator: Option<&'a MomentumIntegrator>,
-    evaluation: &Evaluation,
-    inputs: &DynamicsInputs,
-) -> FlightSummary<'a> {
-    let time_s = evaluation.instant.time_s;
-    let (totals, dumps) = (simulated.integrator.totals(time_s), *simulated.integrator.dumps());
-    let Evaluation { instant, loads, mass, .. } = evaluation;
-    let frame = &instant.frame;
-    let attitude = simulated.integrator.attitude(&frame.inertial_from_body, time_s);
-    let structure_rate_body_n_m =
-        simulated.integrator.segment.structure_rate_body_n_m(&mass.inertia_body_kg_m2, time_s);
-    FlightSummary {
-        time_s,
-        totals,
-        dumps,
-        spacing: simulated.spacing,
-        is_dumping: false,
-        dump_impulse_body_n_m_s: impulse_body_n_m_s(&dumps),
-        dump_delta_v_inertial_m_s: simulated.dump_delta_v_inertial_m_s,
-        maneuvers: simulated.maneuvers,
-        attitude,
-        estimate: Estimate {
-            attitude,
-            is_valid: inputs.health.star_tracker,
-            rate_body_rad_s: Some(frame.rate_body_rad_s),
-        },
-        sun_sensed_body: None,
-        accelerometer_body_m_s: Vector3::zeros(),
-        control: ControlReport::default(),
-        body: Bodies::Ideal {
-            settings,
-            integrator,
-            momentum_body_n_m_s: totals.wheels_body_n_m_s(&evaluation.structure_body_n_m_s(), frame),
-            rate_body_n_m: totals.wheels_rate_body_n_m(
-                &structure_rate_body_n_m,
-                frame,
-                &loads.total().torque_body_n_m,
-            ),
-            acceleration_body_rad_s2: simulated.integrator.segment.acceleration_body_rad_s2(time_s),
-        },
-    }
-}
-
 /// Momentum and velocity change of a body that turns by torque.
 pub(super) fn dynamic_totals(MotionAt { body, .. }: &MotionAt) -> Totals {
     Totals {
         momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,
         delta_v_inertial_m_s: body.delta_v_inertial_m_s,
         ..Totals::default()
-    }
-}
-
-/// The body by its dynamics.
-pub(super) fn dynamic<'a>(
-    dynamics: &'a DynamicState,
-    settings: &'a DynamicsSettings,
-    thrusters: &Thrusters,
-    evaluation: &Evaluation,
-    at: MotionAt,
-) -> FlightSummary<'a> {
-    let MotionAt { time_s, body, .. } = at;
-    let DynamicState { motion, sensing, control, dumps, .. } = dynamics;
-    let dumped = thrusters.dumped_at(motion, time_s);
-    let is_controlled = settings.control.is_some();
-    FlightSummary {
-        time_s,
-        totals: dynamic_totals(&at),
-        dumps: dumps.dumps,
-        spacing: dumps.spacing,
-        is_dumping: dumps.is_dumping(thrusters, time_s),
-        dump_impulse_body_n_m_s: dumped
-            .map_or_else(|| impulse_body_n_m_s(&dumps.dumps), |[impulse, _]| impulse),
-        dump_delta_v_inertial_m_s: dumped.map_or(Vector3::zeros(), |[_, delta_v]| delta_v),
-        maneuvers: Maneuvers::default(),
-        attitude: Attitude::from_rotation(&evaluation.instant.frame.inertial_from_body)
-            .continuing(&body.attitude),
-        estimate: sensing.estimate_at(time_s),
-        sun_sensed_body: sensing.sun_sensed_body,
-        accelerometer_body_m_s: *sensing.accelerometer.delta_v_body_m_s(),
-        control: ControlReport {
-            error_rad: if is_controlled { control.controller.attitude_error_rad() } else { 0.0 },
-            is_settled: is_controlled && control.controller.is_settled(),
-            is_limited: control.is_limited(),
-        },
-        body: Bodies::Dynamic { settings, dynamics, at },
     }
 }
 

@@ -24,7 +24,7 @@ impl Timed for ClosestApproach {
 
 /// Closest approaches that were found; some may lie after the present time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct ClosestApproaches {
+pub struct ClosestApproaches {
     count: i32,
     log: EventLog<ClosestApproach>,
     search: PassageSearch,
@@ -37,7 +37,7 @@ impl ClosestApproaches {
     }
 
     /// How many there were until `time_s`, and the last of them.
-    pub(crate) fn until(&self, time_s: f64) -> (i32, Option<ClosestApproach>) {
+    pub fn until(&self, time_s: f64) -> (i32, Option<ClosestApproach>) {
         let ahead = self.log.count_after(time_s);
         (self.count.saturating_sub_unsigned(ahead), self.log.until(time_s))
     }

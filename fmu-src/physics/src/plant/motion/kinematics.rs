@@ -125,7 +125,7 @@ impl Kinematics<'_> {
     }
 
     /// Geometry, attitude and regime at `time_s`.
-    fn geometry(&mut self, time_s: f64) -> Geometry {
+    pub(crate) fn geometry(&mut self, time_s: f64) -> Geometry {
         let spacecraft = self.trajectory.state_at(self.configuration, time_s);
         self.bodies.geometry(time_s, spacecraft)
     }

@@ -1,14 +1,12 @@
 //! Osculating orbit: the Keplerian orbit that has the present position and velocity, and the Sun's elevation over its plane.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::orbit::{Elements, period_s};
 use crate::math;
 use crate::plant::settings::configuration::{Configuration, Motion};
-
-use super::geometry::Geometry;
 
 /// Orbit that osculates at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,13 +24,13 @@ pub struct OsculatingOrbit {
 }
 
 impl OsculatingOrbit {
-    /// Orbit through `state` from `body`, EME2000, to the Sun of `geometry`; `None` on a line through the body, without gravity, and
-    /// where a number would not be finite.
+    /// Orbit through `state` from `body`, EME2000, the Sun being `to_sun_m` from the spacecraft; `None` on a line through the body, without
+    /// gravity, and where a number would not be finite.
     pub(crate) fn new(
         configuration: &Configuration,
         body: Body,
         state: &CartesianState,
-        geometry: &Geometry,
+        to_sun_m: &Vector3<f64>,
     ) -> Option<Self> {
         let [gm_m3_s2, radius_m] = match configuration.motion {
             Motion::NBody { gravity, .. } => [gravity.model.gm_m3_s2(body), gravity.model.radius_m(body)],
@@ -45,7 +43,6 @@ impl OsculatingOrbit {
         let axis_m = elements.semi_major_axis_m;
         let is_closed = axis_m > 0.0;
         let momentum = state.position_m.cross(&state.velocity_m_s);
-        let sun = &geometry.to_sun.position_m;
         let orbit = Self {
             elements,
             period_s: if is_closed { period_s(gm_m3_s2, axis_m) } else { 0.0 },
@@ -55,7 +52,7 @@ impl OsculatingOrbit {
             } else {
                 0.0
             },
-            sun_elevation_rad: math::atan2(momentum.dot(sun), momentum.cross(sun).norm()),
+            sun_elevation_rad: math::atan2(momentum.dot(to_sun_m), momentum.cross(to_sun_m).norm()),
         };
         orbit.is_finite().then_some(orbit)
     }

@@ -31,7 +31,7 @@ pub struct Trajectory {
     coast: Option<Coast>,
     periapses: Periapses,
     /// Closest approaches to the encounter's body.
-    pub(crate) approaches: ClosestApproaches,
+    pub approaches: ClosestApproaches,
     /// Time and state at the start of the present science or downlink window, once that time lies before the
     /// current segment: a slew starts from the attitude there.
     window_start: Option<(f64, CartesianState)>,
@@ -144,7 +144,7 @@ impl Trajectory {
     }
 
     /// The body that the path is integrated about at present; the centre where that never changes.
-    pub(crate) fn integration_center(&self, configuration: &Configuration) -> Body {
+    pub fn integration_center(&self, configuration: &Configuration) -> Body {
         self.orbit.as_ref().and_then(DisturbedOrbit::integration_center).unwrap_or(configuration.center)
     }
 

@@ -6,7 +6,7 @@ use crate::constants::DEG_RAD;
 use crate::momentum::WheelArray;
 use crate::spacecraft::{Spacecraft, Wheel};
 
-use super::reaction_control_settings::ReactionControlSettings;
+use super::reaction_control_settings::{Purpose, ReactionControlSettings};
 use crate::guidance::modes::monitor::MARGIN_RAD;
 
 /// Greatest rate of a turn by wheels, assumed.
@@ -64,8 +64,8 @@ impl ControlDefaults {
             ..ReactionControlSettings::default()
         };
         let center = &spacecraft.mass_properties.center_of_mass_body_m;
-        let by_thrusters =
-            thrusters.attitude_selection(None, |_| true, center).map_or(0.0, |it| it.least_torque_n_m());
+        let selected = thrusters.selection(Purpose::Attitude(None), &|_| true, center);
+        let by_thrusters = selected.map_or(0.0, |it| it.least_torque_n_m());
         let acceleration_rad_s2 = 0.5 * torque_n_m / largest_kg_m2;
         let jump_rad_s = 2.0 * SCAN_RATE_RAD_S;
         let reversal_rad = if acceleration_rad_s2 > 0.0 {

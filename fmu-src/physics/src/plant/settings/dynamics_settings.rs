@@ -31,8 +31,6 @@ pub struct DynamicsSettings {
     pub control: Option<Control>,
     /// Edges of the disturbance grid are multiples of this, in s.
     pub grid_s: f64,
-    /// Whether panels that turn have a mass: the inertia then follows them from one edge of the grid to the next.
-    pub panels_have_mass: bool,
     /// Attitude, rate and wheel momenta at the start of the flight.
     pub start: StartMotion,
 }

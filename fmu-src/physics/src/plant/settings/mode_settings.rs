@@ -1,6 +1,7 @@
 //! Settings of a flight by its mode, and what of parameters and inputs changed.
 
 use super::dynamics_settings::DynamicsSettings;
+use crate::attitude::ReactionWheel;
 use crate::attitude::control::SunSensor;
 use crate::momentum::WheelArray;
 use nalgebra::Vector3;
@@ -29,24 +30,13 @@ pub struct Changes {
     pub tunables: bool,
 }
 
-/// Wheel that follows ideally.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct IdealWheel {
-    /// Inertia of the rotor, in kg m2.
-    pub inertia_kg_m2: f64,
-    /// Greatest momentum, in N m s.
-    pub capacity_n_m_s: f64,
-    /// Momentum about which it works, in N m s.
-    pub bias_n_m_s: f64,
-}
-
 /// Wheels and sensors of a flight in an attitude that is followed ideally.
 #[derive(Clone, Debug)]
 pub struct IdealSettings {
     /// Distribution of momentum over the wheels.
     pub array: WheelArray,
-    /// The wheels.
-    pub wheels: Vec<IdealWheel>,
+    /// The wheels, which follow ideally: inertia, capacity and bias count.
+    pub wheels: Vec<ReactionWheel>,
     /// Sun sensors.
     pub sun_sensors: Vec<SunSensor>,
     /// Samples of the sensors a second.

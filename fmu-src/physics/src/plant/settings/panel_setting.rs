@@ -210,21 +210,14 @@ impl PanelSetting {
 
     /// The first time after `time_s` at which it jumps, in s; infinite where it does not.
     pub fn until_s(&self, time_s: f64) -> f64 {
-        match self {
-            Self::Timeline { steps, clock_minus_time_s, .. } => {
-                let next = steps.get(begun_steps(steps, *clock_minus_time_s, time_s));
-                next.map_or(f64::INFINITY, |next| simulation_time_s(next.at_s, *clock_minus_time_s))
-            }
-            Self::Disabled | Self::SunOffset { .. } | Self::Angle(_) | Self::Distance { .. } => f64::INFINITY,
-        }
+        let Self::Timeline { steps, clock_minus_time_s, .. } = self else { return f64::INFINITY };
+        let next = steps.get(begun_steps(steps, *clock_minus_time_s, time_s));
+        next.map_or(f64::INFINITY, |next| simulation_time_s(next.at_s, *clock_minus_time_s))
     }
 
     /// Whether the Sun gives the angle.
     pub fn is_by_sun(&self) -> bool {
-        match self {
-            Self::SunOffset { .. } | Self::Timeline { .. } | Self::Distance { .. } => true,
-            Self::Disabled | Self::Angle(_) => false,
-        }
+        !matches!(self, Self::Disabled | Self::Angle(_))
     }
 }
 

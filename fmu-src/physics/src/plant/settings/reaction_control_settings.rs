@@ -20,35 +20,38 @@ pub struct ReactionControlSettings {
     pub dump_period_s: f64,
 }
 
+/// Purpose of a selection of thrusters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// A dump: the weakest thrusters that give torque in both senses about every axis.
+    Dump,
+    /// The attitude, while those of a set give a delta-v.
+    Attitude(Option<ThrusterSet>),
+}
+
 impl ReactionControlSettings {
-    /// The thrusters that dump: the weakest that are fed and give torque in both senses about every axis.
+    /// The thrusters that are fed and serve this purpose about a centre of mass, in m.
     ///
     /// # Errors
     /// A way about an axis that no thruster gives.
-    pub fn dump_selection(
+    pub fn selection(
         &self,
-        is_fed: impl Fn(usize) -> bool,
+        purpose: Purpose,
+        is_fed: &dyn Fn(usize) -> bool,
         center_of_mass_body_m: &Vector3<f64>,
     ) -> Result<ThrusterSelection, SelectionError> {
         let may_fire = |k: usize| self.thrusters[k].attitude_control && is_fed(k);
-        ThrusterSelection::of_the_finest(&self.thrusters, may_fire, center_of_mass_body_m)
-    }
-
-    /// The thrusters that are fed and control the attitude while those of a set give a delta-v.
-    ///
-    /// # Errors
-    /// A way about an axis that no thruster gives.
-    pub fn attitude_selection(
-        &self,
-        burning: Option<ThrusterSet>,
-        is_fed: impl Fn(usize) -> bool,
-        center_of_mass_body_m: &Vector3<f64>,
-    ) -> Result<ThrusterSelection, SelectionError> {
-        let may_fire = |k: usize| {
-            let Thruster { set, attitude_control, .. } = self.thrusters[k];
-            attitude_control && (burning.is_none() || set != burning) && is_fed(k)
-        };
-        ThrusterSelection::new(&self.thrusters, may_fire, center_of_mass_body_m, Preference::LeastOnTime)
+        match purpose {
+            Purpose::Dump => {
+                ThrusterSelection::of_the_finest(&self.thrusters, may_fire, center_of_mass_body_m)
+            }
+            Purpose::Attitude(burning) => {
+                let may_fire =
+                    |k: usize| may_fire(k) && (burning.is_none() || self.thrusters[k].set != burning);
+                let preference = Preference::LeastOnTime;
+                ThrusterSelection::new(&self.thrusters, may_fire, center_of_mass_body_m, preference)
+            }
+        }
     }
 
     /// Sum of the nominal forces of a set, body frame, in N, and their torque about a centre of mass, in N m.
@@ -73,6 +76,11 @@ pub(crate) struct Feed<'a> {
 }
 
 impl Feed<'_> {
+    /// Propellant that tank `index` can still feed, in kg.
+    pub(crate) fn feedable_kg(&self, index: usize) -> f64 {
+        self.settings.tanks[index].feedable_kg(self.propellant.used_kg(index, self.time_s))
+    }
+
     /// Whether the tank of thruster `k` feeds it.
     pub(crate) fn feeds(&self, k: usize) -> bool {
         let index = self.settings.thrusters[k].tank;

@@ -1,8 +1,8 @@
 //! Air on the spacecraft's surfaces.
 
-use super::source::{Source, Workspace};
+use super::source::{Results, Source};
 use crate::aerodynamics::{AerodynamicModel, AerodynamicOptions, AerodynamicWorkspace, Walls};
-use crate::loads::{Effect, Loads};
+use crate::loads::Effect;
 use crate::plant::instant::conditions::Conditions;
 use crate::plant::settings::configuration::Configuration;
 use crate::refusal::Refusal;
@@ -45,28 +45,23 @@ impl Source for Option<AerodynamicSolver> {
     type Settings = Configuration;
     type State = ();
 
-    fn settings(configuration: &Configuration) -> &Configuration {
-        configuration
-    }
-
     fn load(
         &mut self,
         configuration: &Configuration,
         (): &(),
         at: &Conditions<'_>,
-        known: &mut Workspace,
-        loads: &mut Loads,
+        results: &mut Results<'_>,
     ) {
         let Some((solver, flow)) = self.as_mut().zip(at.flow) else { return };
         let AerodynamicSolver { model, panels, panel_angles_rad, workspace } = solver;
         let sun = &at.instant.sun();
         configuration.panel_angles_rad(at.kinematics.spacecraft.panels, panels, sun, panel_angles_rad);
         // Temperatures of the faces where they are known, else the materials'.
-        let temperatures_k = Some(known.face_temperatures_k.as_slice());
+        let temperatures_k = Some(results.face_temperatures_k.as_slice());
         let temperatures_k = temperatures_k.filter(|it| !it.is_empty() && it.len() == model.face_count());
         let walls = Walls { temperatures_k, ..Walls::OWN };
         let center_of_mass_body_m = &at.mass.center_of_mass_body_m;
-        loads[Effect::Aerodynamic] =
+        results.loads[Effect::Aerodynamic] =
             model.load(&flow, panel_angles_rad, center_of_mass_body_m, walls, workspace);
     }
 

@@ -1,9 +1,8 @@
 //! Force and torque from outside, which act exactly.
 
-use super::source::{Source, Workspace};
-use crate::loads::{Effect, Loads};
+use super::source::{Results, Source};
+use crate::loads::Effect;
 use crate::plant::instant::conditions::Conditions;
-use crate::plant::settings::configuration::Configuration;
 
 /// The row of what is applied.
 pub(crate) const APPLIED: Effect = Effect::Applied;
@@ -17,11 +16,7 @@ impl Source for Applied {
     type Settings = ();
     type State = ();
 
-    fn settings(_: &Configuration) -> &() {
-        &()
-    }
-
-    fn load(&mut self, (): &(), (): &(), at: &Conditions<'_>, _: &mut Workspace, loads: &mut Loads) {
-        loads[APPLIED] = at.applied;
+    fn load(&mut self, (): &(), (): &(), at: &Conditions<'_>, results: &mut Results<'_>) {
+        results.loads[APPLIED] = at.applied;
     }
 }

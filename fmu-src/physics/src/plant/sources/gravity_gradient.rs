@@ -2,9 +2,9 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::source::{Source, Workspace};
+use super::source::{Results, Source};
 use crate::attitude::{OblatePlanet, gravity_gradient_n_m, oblate_gravity_gradient_n_m};
-use crate::loads::{Effect, Loads};
+use crate::loads::Effect;
 use crate::numerics::scalar::Scalar;
 use crate::plant::instant::conditions::Conditions;
 use crate::plant::settings::configuration::Configuration;
@@ -43,17 +43,13 @@ impl Source for GravityGradient {
     type Settings = Laws;
     type State = ();
 
-    fn settings(configuration: &Configuration) -> &Laws {
-        &configuration.laws
-    }
-
-    fn load(&mut self, laws: &Laws, (): &(), at: &Conditions<'_>, _: &mut Workspace, loads: &mut Loads) {
+    fn load(&mut self, laws: &Laws, (): &(), at: &Conditions<'_>, results: &mut Results<'_>) {
         let Some(planet_body_m) = &at.instant.planet_body_m else { return };
         let pole = || {
             let pole_inertial = pole_inertial(at.kinematics.configuration, at.instant.time_s);
             at.instant.to_body * pole_inertial.unwrap_or_else(Vector3::z)
         };
-        loads[Effect::GravityGradient].torque_body_n_m =
+        results.loads[Effect::GravityGradient].torque_body_n_m =
             torque_n_m(laws, &at.mass.inertia_body_kg_m2, planet_body_m, pole);
     }
 }

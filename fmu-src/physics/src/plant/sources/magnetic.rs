@@ -5,7 +5,6 @@ use nalgebra::Vector3;
 use super::source::Source;
 use crate::loads::{Effect, Linear};
 use crate::numerics::scalar::Scalar;
-use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::laws::Laws;
 
 /// Residual dipole.
@@ -21,10 +20,6 @@ impl Source for ResidualDipole {
     const ROWS: &'static [Effect] = &[Effect::Magnetic];
     type Settings = Laws;
     type State = ();
-
-    fn settings(configuration: &Configuration) -> &Laws {
-        &configuration.laws
-    }
 
     fn dipole(laws: &Laws, (): &(), _: f64) -> Linear {
         [laws.dipole_body_a_m2, Vector3::zeros()]

@@ -15,7 +15,7 @@ mod magnetic;
 use serde::{Deserialize, Serialize};
 
 use self::air::AerodynamicSolver;
-use self::source::{Source, Workspace, check_writers};
+use self::source::{Results, Source, check_writers};
 use self::sunlight::radiation_solver::RadiationSolver;
 use crate::loads::{Effect, Linear, Loads};
 use crate::numerics::Span;
@@ -29,12 +29,12 @@ use crate::spacecraft::{Material, Spacecraft};
 pub(crate) type Dipoles = [Option<Linear>; Effect::IN_FIELD];
 
 macro_rules! sources {
-    ($($name:ident: $source:ty,)+) => {
+    ($configuration:ident, $($name:ident: $source:ty = $settings:expr,)+) => {
         /// Sources of loads with their models and caches, which are not saved.
         #[derive(Clone, Debug, Default)]
         pub struct Sources {
             $(pub(crate) $name: $source,)+
-            workspace: Workspace,
+            face_temperatures_k: Vec<f64>,
         }
 
         /// Saved states of the sources.
@@ -48,15 +48,16 @@ macro_rules! sources {
         impl Sources {
             /// Writes the loads of the sources that act.
             pub(crate) fn write_loads(&mut self, states: &SourceStates, at: &Conditions<'_>, loads: &mut Loads) {
-                let Self { workspace, .. } = self;
-                $(if at.kinematics.configuration.effects.has_any(<$source as Source>::ROWS) {
-                    let settings = <$source as Source>::settings(at.kinematics.configuration);
-                    self.$name.load(settings, &states.$name, at, workspace, loads);
+                let $configuration = at.kinematics.configuration;
+                let mut results = Results { loads, face_temperatures_k: &mut self.face_temperatures_k };
+                $(if $configuration.effects.has_any(<$source as Source>::ROWS) {
+                    let settings = $settings;
+                    self.$name.load(settings, &states.$name, at, &mut results);
                     let [row, ..] = <$source as Source>::ROWS else { unreachable!() };
                     if row.is_in_field() && at.instant.planet_body_m.is_some() {
                         let [dipole_body_a_m2, _] = <$source as Source>::dipole(settings, &states.$name, at.instant.time_s);
                         let field_body_t = at.instant.to_body * at.air_and_field.field_inertial_t;
-                        loads[*row].torque_body_n_m = magnetic::torque_n_m(&dipole_body_a_m2, &field_body_t);
+                        results.loads[*row].torque_body_n_m = magnetic::torque_n_m(&dipole_body_a_m2, &field_body_t);
                     }
                 })+
             }
@@ -118,14 +119,13 @@ macro_rules! sources {
             }
 
             /// Dipoles of the sources that act, at `time_s`.
-            pub(crate) fn dipoles(&self, configuration: &Configuration, time_s: f64) -> Dipoles {
+            pub(crate) fn dipoles(&self, $configuration: &Configuration, time_s: f64) -> Dipoles {
                 let mut dipoles = Dipoles::default();
                 $(if let [row, ..] = <$source as Source>::ROWS
                     && let Some(place) = Effect::FIELD.iter().position(|it| it == row)
-                    && configuration.effects.has(*row)
+                    && $configuration.effects.has(*row)
                 {
-                    let settings = <$source as Source>::settings(configuration);
-                    dipoles[place] = Some(<$source as Source>::dipole(settings, &self.$name, time_s));
+                    dipoles[place] = Some(<$source as Source>::dipole($settings, &self.$name, time_s));
                 })+
                 dipoles
             }
@@ -137,20 +137,17 @@ impl Sources {
     /// Sources with these solvers of light and air, where they act.
     pub fn new(light: Option<RadiationSolver>, air: Option<AerodynamicSolver>) -> Self {
         let faces = light.as_ref().map_or(0, |solver| solver.model.face_count());
-        Self {
-            sunlight: light,
-            air,
-            workspace: Workspace { face_temperatures_k: Vec::with_capacity(faces) },
-            ..Self::default()
-        }
+        Self { sunlight: light, air, face_temperatures_k: Vec::with_capacity(faces), ..Self::default() }
     }
 }
 
+// Each with its settings in a configuration.
 sources! {
-    sunlight: Option<RadiationSolver>,
-    gravity_gradient: gravity_gradient::GravityGradient,
-    air: Option<AerodynamicSolver>,
-    magnetic: magnetic::ResidualDipole,
-    applied: applied::Applied,
-    thrusters: thrusters::OwnThrusters,
+    configuration,
+    sunlight: Option<RadiationSolver> = configuration,
+    gravity_gradient: gravity_gradient::GravityGradient = &configuration.laws,
+    air: Option<AerodynamicSolver> = configuration,
+    magnetic: magnetic::ResidualDipole = &configuration.laws,
+    applied: applied::Applied = &(),
+    thrusters: thrusters::OwnThrusters = &(),
 }

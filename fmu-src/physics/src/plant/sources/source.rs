@@ -4,7 +4,6 @@ use crate::loads::{Effect, Linear, Loads, Writer};
 use crate::numerics::Span;
 use crate::plant::instant::conditions::Conditions;
 use crate::plant::instant::path_ahead::PathAhead;
-use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
 use crate::spacecraft::{Material, Spacecraft};
 
@@ -17,9 +16,6 @@ pub(crate) trait Source {
     /// Saved state; `()` of a closed form.
     type State;
 
-    /// Settings of the source in the configuration.
-    fn settings(configuration: &Configuration) -> &Self::Settings;
-
     /// Writes force and torque of its rows at one time, up to which the state is known; a row in the magnetic field needs nothing
     /// but [`Source::dipole`].
     fn load(
@@ -27,8 +23,7 @@ pub(crate) trait Source {
         _settings: &Self::Settings,
         _state: &Self::State,
         _at: &Conditions<'_>,
-        _workspace: &mut Workspace,
-        _loads: &mut Loads,
+        _results: &mut Results<'_>,
     ) {
     }
 
@@ -80,11 +75,12 @@ pub(crate) trait Source {
     fn set_material(&mut self, _index: usize, _material: &Material) {}
 }
 
-/// Results of one source that another one reads, at one time.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Workspace {
-    /// Temperatures of the faces in K; empty where they are not known.
-    pub face_temperatures_k: Vec<f64>,
+/// Results of the sources at one time.
+pub(crate) struct Results<'a> {
+    /// Force and torque by effect.
+    pub loads: &'a mut Loads,
+    /// Temperatures of the faces in K, which the air reads; empty where they are not known.
+    pub face_temperatures_k: &'a mut Vec<f64>,
 }
 
 /// Compares the rows' writers with the rows of all sources, by name.

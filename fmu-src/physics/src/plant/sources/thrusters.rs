@@ -2,7 +2,6 @@
 
 use super::source::Source;
 use crate::loads::Effect;
-use crate::plant::settings::configuration::Configuration;
 
 /// The row of thrusters.
 pub const THRUSTERS: Effect = Effect::Thrusters;
@@ -15,8 +14,4 @@ impl Source for OwnThrusters {
     const ROWS: &'static [Effect] = &[THRUSTERS];
     type Settings = ();
     type State = ();
-
-    fn settings(_: &Configuration) -> &() {
-        &()
-    }
 }

@@ -3,18 +3,9 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSettings};
+use crate::plant::settings::reaction_control_settings::{Feed, Purpose, ReactionControlSettings};
 use crate::propulsion::{PropellantState, ThrusterSelection};
-use crate::spacecraft::{MOST_THRUSTERS, ThrusterSet};
-
-/// Purpose of a selection of thrusters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Purpose {
-    /// A dump.
-    Dump,
-    /// The attitude, while those of a set give a delta-v.
-    Attitude { burning: Option<ThrusterSet> },
-}
+use crate::spacecraft::MOST_THRUSTERS;
 
 /// Reason why no thrusters give torque in both senses about every axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,12 +83,8 @@ impl ThrusterAllocator {
             *selected = None;
         }
         let (_, selection) = selected.get_or_insert_with(|| {
-            let select = |is_fed: &dyn Fn(usize) -> bool| match purpose {
-                Purpose::Dump => settings.dump_selection(is_fed, center_of_mass_body_m),
-                Purpose::Attitude { burning } => {
-                    settings.attitude_selection(burning, is_fed, center_of_mass_body_m)
-                }
-            };
+            let select =
+                |is_fed: &dyn Fn(usize) -> bool| settings.selection(purpose, is_fed, center_of_mass_body_m);
             let selection = select(&|k| fed[k]).map_err(|_| match select(&|_| true) {
                 Ok(_) => Unserved::Unfed,
                 Err(_) => Unserved::OneSided,

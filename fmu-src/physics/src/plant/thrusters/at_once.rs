@@ -2,22 +2,22 @@
 
 use nalgebra::Vector3;
 
-use super::allocation::{Purpose, ThrusterAllocator, Unserved, UnservedDumps};
+use super::allocation::{ThrusterAllocator, Unserved};
+use super::reaction_control::Thrusters;
 use crate::math;
 use crate::momentum::DumpEvent;
 use crate::plant::settings::error::ManeuverError;
-use crate::propulsion::PropellantState;
-use crate::spacecraft::{Tank, ThrusterSet};
+use crate::plant::settings::reaction_control_settings::{Feed, Purpose};
+use crate::spacecraft::ThrusterSet;
 
 /// Forces of a set whose sum is below this share of them cancel.
 const LEAST_FORCE: f64 = 1e-6;
 
 /// Thrusters and tanks at a time, in s.
 pub(crate) struct AtOnce<'a> {
-    pub(super) allocator: &'a mut ThrusterAllocator,
-    pub(super) propellant: &'a mut PropellantState,
-    pub(super) unserved: &'a mut UnservedDumps,
-    pub(super) time_s: f64,
+    pub thrusters: &'a mut Thrusters,
+    pub allocator: &'a mut ThrusterAllocator,
+    pub time_s: f64,
 }
 
 /// A dump as far as it is carried out.
@@ -37,33 +37,36 @@ impl AtOnce<'_> {
         event: &DumpEvent,
         center_of_mass_body_m: &Vector3<f64>,
     ) -> Option<DumpAtOnce> {
+        let Self { thrusters: Thrusters { propellant, unserved, .. }, allocator, time_s } = self;
         let whole_body_n_m_s = event.impulse_body_n_m_s();
         let (mut left, mut push_body_n_s) = (1.0, Vector3::zeros());
         // Each pass but the last leaves a tank that feeds no longer.
-        for _ in 0..=self.allocator.settings.tanks.len() {
-            let selected =
-                self.allocator.select(self.propellant, self.time_s, Purpose::Dump, center_of_mass_body_m);
+        for _ in 0..=allocator.settings.tanks.len() {
+            let selected = allocator.select(propellant, *time_s, Purpose::Dump, center_of_mass_body_m);
             let selection = match selected {
                 Ok((_, selection)) => *selection,
-                Err(unserved) => {
-                    self.unserved.count(unserved);
-                    if unserved == Unserved::OneSided && left == 1.0 {
+                Err(reason) => {
+                    unserved.count(reason);
+                    if reason == Unserved::OneSided && left == 1.0 {
                         return Some(DumpAtOnce { event: *event, push_body_n_s: None });
                     }
                     break;
                 }
             };
             let on_times = selection.on_times_s(&(whole_body_n_m_s * left));
-            let thrusters = self.allocator.settings.thrusters.iter().zip(on_times);
+            let settings = &allocator.settings;
+            let thrusters = settings.thrusters.iter().zip(on_times);
             let needed_kg = |index: usize| -> f64 {
                 let fed = thrusters.clone().filter(|(thruster, _)| thruster.tank == index);
                 fed.map(|(thruster, full_s)| thruster.flow_kg_s * full_s).sum()
             };
-            let part = self.tanks().map(|(k, _, feedable_kg)| feedable_kg / needed_kg(k)).fold(1.0, f64::min);
+            let feed = Feed { settings, propellant, time_s: *time_s };
+            let part =
+                (0..settings.tanks.len()).map(|k| feed.feedable_kg(k) / needed_kg(k)).fold(1.0, f64::min);
             push_body_n_s +=
                 thrusters.clone().map(|(it, full_s)| it.force_body_n * full_s).sum::<Vector3<f64>>() * part;
-            for (k, tank) in self.allocator.settings.tanks.iter().enumerate() {
-                self.propellant.take(k, tank, needed_kg(k) * part);
+            for (k, tank) in settings.tanks.iter().enumerate() {
+                propellant.take(k, tank, needed_kg(k) * part);
             }
             left *= 1.0 - part;
             if left == 0.0 {
@@ -86,7 +89,8 @@ impl AtOnce<'_> {
         delta_v_m_s: f64,
         mass_kg: f64,
     ) -> Result<(), ManeuverError> {
-        let settings = &self.allocator.settings;
+        let Self { thrusters: Thrusters { propellant, .. }, allocator, time_s } = self;
+        let settings = &allocator.settings;
         let members = || settings.thrusters.iter().filter(|it| it.set == Some(set));
         if members().next().is_none() {
             return Ok(());
@@ -103,21 +107,16 @@ impl AtOnce<'_> {
             let flow_kg_s: f64 = members().filter(|it| it.tank == tank).map(|it| it.flow_kg_s).sum();
             used_kg * (flow_kg_s / total_kg_s)
         };
-        for (index, tank, left_kg) in self.tanks() {
-            let needed_kg = needed(index);
+        let feed = Feed { settings, propellant, time_s: *time_s };
+        for (index, tank) in settings.tanks.iter().enumerate() {
+            let (needed_kg, left_kg) = (needed(index), feed.feedable_kg(index));
             if needed_kg > left_kg {
                 return Err(ManeuverError::Propellant { tank: tank.name.clone(), needed_kg, left_kg });
             }
         }
         for (index, tank) in settings.tanks.iter().enumerate() {
-            self.propellant.take(index, tank, needed(index));
+            propellant.take(index, tank, needed(index));
         }
         Ok(())
-    }
-
-    /// The tanks with what each can still feed, in kg.
-    fn tanks(&self) -> impl Iterator<Item = (usize, &Tank, f64)> {
-        let tanks = self.allocator.settings.tanks.iter().enumerate();
-        tanks.map(|(k, tank)| (k, tank, tank.feedable_kg(self.propellant.used_kg(k, self.time_s))))
     }
 }

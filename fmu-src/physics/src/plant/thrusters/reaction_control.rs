@@ -8,17 +8,15 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::GyrostatMotion;
-use crate::numerics::Span;
 use crate::numerics::quadrature::GAUSS_3;
 use crate::propulsion::{PropellantState, due_s};
 use crate::spacecraft::{MassProperties, Spacecraft, Thrust, Thruster};
 
-use super::allocation::{Purpose, ThrusterAllocator, Unserved, UnservedDumps};
-use super::at_once::AtOnce;
+use super::allocation::{ThrusterAllocator, Unserved, UnservedDumps};
 use super::pulsed_dump::PulsedDump;
 use super::thruster_load::{ThrusterLoad, ThrusterTotals};
 use super::valves::Valves;
-use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSettings};
+use crate::plant::settings::reaction_control_settings::{Feed, Purpose, ReactionControlSettings};
 
 /// State of thrusters and tanks: propellant, valves, the current dump, load and totals.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -79,10 +77,10 @@ impl Thrusters {
     pub fn update_load(&mut self, settings: &ReactionControlSettings, mass: &MassProperties, time_s: f64) {
         self.load = ThrusterLoad::none(time_s, mass.mass_kg);
         let (thrusters, valves) = (&settings.thrusters, &self.valves);
-        let thrust = |k: usize| valves.thrust(k, &thrusters[k], time_s);
-        if (0..thrusters.len()).all(|k| thrust(k) == [0.0; 2]) {
+        if !valves.fire(thrusters, time_s) {
             return;
         }
+        let thrust = |k: usize| valves.valves[k].thrust(&thrusters[k].valve, time_s);
         self.propellant.accumulate(&settings.tanks, time_s);
         let mut nozzles_kg_m_s = Vector3::zeros();
         for (index, tank) in settings.tanks.iter().enumerate() {
@@ -132,12 +130,6 @@ impl Thrusters {
             totals.delta_v_inertial_m_s += attitude.inertial_from_body(&acceleration) * (weight * span_s);
         }
         totals
-    }
-
-    /// Impulsive dumps and velocity changes at `time_s`.
-    pub(crate) fn at_once<'a>(&'a mut self, allocator: &'a mut ThrusterAllocator, time_s: f64) -> AtOnce<'a> {
-        let Self { propellant, unserved, .. } = self;
-        AtOnce { allocator, propellant, unserved, time_s }
     }
 
     /// Begins a dump by pulses toward a total momentum, EME2000, in N m s, at the end of the motion.
@@ -222,8 +214,8 @@ impl Thrusters {
                 let remaining_body_n_m_s =
                     attitude.body_from_inertial(&(dump.target_inertial_n_m_s - momentum_inertial_n_m_s));
                 let opened_s = dump.decide(&feed, selection, &remaining_body_n_m_s, center_of_mass_body_m);
-                for (k, on_s) in opened_s.iter().enumerate().filter(|(_, on_s)| **on_s > 0.0) {
-                    valves.open(k, &feed.settings.thrusters[k], Span::new(time_s, time_s + on_s));
+                for (k, on_s) in opened_s.into_iter().enumerate() {
+                    valves.open(k, &feed, on_s);
                 }
             }
             // Open valves deliver the rest of their pulses.
@@ -242,8 +234,8 @@ impl Thrusters {
         mass: &MassProperties,
         [time_s, period_s]: [f64; 2],
     ) -> Option<f64> {
-        let purpose = Purpose::Attitude { burning: self.valves.burning() };
         let Self { propellant, valves, .. } = self;
+        let purpose = Purpose::Attitude(valves.burning());
         let selected = allocator.select(propellant, time_s, purpose, &mass.center_of_mass_body_m);
         let (feed, selection) = selected.ok()?;
         let impulse_body_n_m_s = torque_body_n_m * period_s;
@@ -253,15 +245,8 @@ impl Thrusters {
         for (k, full_s) in times {
             let shortest_s = feed.settings.thrusters[k].valve.min_on_s;
             let commanded_s = feed.opens_for_s(k, full_s * given).min(period_s);
-            let opens_s = if commanded_s >= shortest_s {
-                commanded_s
-            } else if commanded_s >= 0.5 * shortest_s {
-                shortest_s
-            } else {
-                0.0
-            };
-            if opens_s > 0.0 {
-                valves.open(k, &feed.settings.thrusters[k], Span::new(time_s, time_s + opens_s));
+            if commanded_s >= 0.5 * shortest_s {
+                valves.open(k, &feed, commanded_s.max(shortest_s));
             }
         }
         Some(given)
@@ -269,7 +254,7 @@ impl Thrusters {
 
     /// Whether thrusters that are fed at `time_s`, other than a delta-v's, give torque in both senses about every axis.
     pub fn spans(&self, allocator: &mut ThrusterAllocator, mass: &MassProperties, time_s: f64) -> bool {
-        let purpose = Purpose::Attitude { burning: self.valves.burning() };
+        let purpose = Purpose::Attitude(self.valves.burning());
         !allocator.settings.thrusters.is_empty()
             && allocator.select(&self.propellant, time_s, purpose, &mass.center_of_mass_body_m).is_ok()
     }
@@ -277,7 +262,7 @@ impl Thrusters {
     /// Thrust of thruster `k` at `time_s`, in N.
     pub fn thrust_n(&self, settings: &ReactionControlSettings, k: usize, time_s: f64) -> f64 {
         let (thruster, since_s) = (&settings.thrusters[k], self.load.law.since_s);
-        let [fraction, slope] = self.valves.thrust(k, thruster, since_s);
+        let [fraction, slope] = self.valves.valves[k].thrust(&thruster.valve, since_s);
         let opening = fraction + slope * (time_s - since_s).max(0.0);
         if opening == 0.0 {
             return 0.0;

@@ -20,8 +20,10 @@ struct Burn {
 /// Valves, their pulses and the current delta-v.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Valves {
-    valves: Vec<Valve>,
-    schedule: Vec<PulseSchedule>,
+    /// Valve of each thruster.
+    pub valves: Vec<Valve>,
+    /// Pulses of each thruster.
+    pub schedule: Vec<PulseSchedule>,
     burn: Option<Burn>,
 }
 
@@ -87,9 +89,12 @@ impl Valves {
         true
     }
 
-    /// Plans a pulse of thruster `k`.
-    pub(super) fn open(&mut self, k: usize, thruster: &Thruster, pulse: Span) {
-        self.schedule[k].plan(&thruster.valve, pulse);
+    /// Plans a pulse of thruster `k` for `on_s` seconds from the time of `feed` on; none without length.
+    pub(super) fn open(&mut self, k: usize, feed: &Feed<'_>, on_s: f64) {
+        if on_s > 0.0 {
+            let pulse = Span::new(feed.time_s, feed.time_s + on_s);
+            self.schedule[k].plan(&feed.settings.thrusters[k].valve, pulse);
+        }
     }
 
     /// Time of the next edge of a pulse or end of a ramp, in s.
@@ -129,14 +134,10 @@ impl Valves {
         self.burn = self.burn.filter(|burn| burn.stop_s > due_s && feed.feeds_any_of(burn.set));
     }
 
-    /// Fraction of full thrust by the valve of thruster `k` at `time_s`, and its slope in 1/s.
-    pub(super) fn thrust(&self, k: usize, thruster: &Thruster, time_s: f64) -> [f64; 2] {
-        self.valves[k].thrust(&thruster.valve, time_s)
-    }
-
     /// Whether a valve lets propellant through at `time_s`.
     pub(super) fn fire(&self, thrusters: &[Thruster], time_s: f64) -> bool {
-        (0..thrusters.len().min(self.valves.len())).any(|k| self.thrust(k, &thrusters[k], time_s) != [0.0; 2])
+        let mut valves = self.valves.iter().zip(thrusters);
+        valves.any(|(valve, thruster)| valve.thrust(&thruster.valve, time_s) != [0.0; 2])
     }
 
     /// Full thrust of thruster `k` at `time_s`, body frame, in N, turned by the errors of a delta-v that it belongs to.
@@ -159,15 +160,5 @@ impl Valves {
     /// The set that gives the current delta-v.
     pub fn burning(&self) -> Option<ThrusterSet> {
         self.burn.map(|burn| burn.set)
-    }
-
-    /// Number of pulses that thruster `k` has begun.
-    pub fn pulses(&self, k: usize) -> u32 {
-        self.valves[k].pulses()
-    }
-
-    /// Whether the last step commanded a pulse of thruster `k` that does not open its valve.
-    pub fn was_too_short(&self, k: usize) -> bool {
-        self.schedule[k].was_too_short()
     }
 }

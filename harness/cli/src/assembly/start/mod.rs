@@ -1,7 +1,7 @@
 //! `--set`, `--fix` and missions: values written into the tables `[start]` and `[fixed]` of the packed file, over those that stand
 //! there.
 
-use loader::{Assigned, assignment};
+use fmi::{Assigned, assignment};
 use model_description::{Causality, Description, VariableKind, value};
 use physics::environment::dates;
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
@@ -36,7 +36,7 @@ pub(crate) fn with_values(
     }
     let counted = Dates::new(description, settings.iter().map(|(_, set)| set.as_str()), None);
     for (at, set) in settings {
-        let in_set = |error: loader::Error| format!("{at}: {error}");
+        let in_set = |error: fmi::Error| format!("{at}: {error}");
         let setting = counted.in_seconds(set).map_err(in_set)?;
         for assigned in assignment(description, &setting).map_err(in_set)? {
             let value = checked(description, &assigned)

@@ -10,7 +10,7 @@ use std::{
     time::Duration,
 };
 
-use loader::{CALL_RECORD_WORDS, CallRecord, SharedWords};
+use fmi::{CALL_RECORD_WORDS, CallRecord, SharedWords};
 
 use super::system;
 
@@ -64,7 +64,7 @@ impl Link {
         system::end_with_parent(value(PARENT))?;
         system::restrict(value(MEMORY), value(FILES))?;
         if let Ok(calls) = <&CallRecord>::try_from(&words[CALLS..CALLS + CALL_RECORD_WORDS]) {
-            loader::record_calls(calls);
+            fmi::record_calls(calls);
         }
         // Where no instruction of the FMU runs yet, nobody else reads the token.
         let token = words[TOKEN].swap(0, Ordering::Relaxed);

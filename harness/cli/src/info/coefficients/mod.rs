@@ -3,7 +3,7 @@
 mod spacecraft;
 mod wheels;
 
-use loader::{Error, Fmu, Instance, Times, Value};
+use fmi::{Error, Fmu, Instance, Times, Value};
 use model_description::{Causality, ScalarVariable};
 
 use crate::{instance::started, variables::assigned};
@@ -45,7 +45,7 @@ fn others(fmu: &Fmu, instance: &mut Instance) -> Result<Option<String>, Error> {
             other => other.to_string(),
         };
         let name = row_name(&variable.name);
-        let unit = loader::unit(fmu.description(), variable).unwrap_or_default();
+        let unit = fmi::unit(fmu.description(), variable).unwrap_or_default();
         match rows.last_mut() {
             Some(row) if row.name == name => row.values.push(value),
             _ => rows.push(CoefficientRow { name, unit: unit.to_owned(), values: vec![value] }),

@@ -1,6 +1,6 @@
 //! What sunshade, torques and wheels of a spacecraft come to, as the FMU itself computes it.
 
-use loader::{Error, Fmu, Instance};
+use fmi::{Error, Fmu, Instance};
 use model_description::Causality;
 
 use super::wheels;
@@ -66,9 +66,9 @@ fn loads(fmu: &Fmu, instance: &mut Instance) -> Result<String, Error> {
         if !load || variable.causality != Causality::Output {
             continue;
         }
-        let (unit, factor) = match loader::display_unit(fmu.description(), variable) {
+        let (unit, factor) = match fmi::display_unit(fmu.description(), variable) {
             Some((unit, factor, _)) => (unit.to_owned(), factor),
-            None => (loader::unit(fmu.description(), variable).unwrap_or_default().to_owned(), 1.0),
+            None => (fmi::unit(fmu.description(), variable).unwrap_or_default().to_owned(), 1.0),
         };
         let mut row = vec![name.to_owned(), unit];
         for axis in 1..=3 {

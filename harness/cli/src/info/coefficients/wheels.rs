@@ -1,6 +1,6 @@
 //! What wheels hold: inscribed sphere, guaranteed box, and the box of least-norm sharing, as the FMU shares momentum.
 
-use loader::{Error, Fmu, Instance};
+use fmi::{Error, Fmu, Instance};
 use physics::{momentum::WheelCapacity, spacecraft::free_capacity_n_m_s};
 
 use crate::instance::vector;

@@ -8,7 +8,7 @@ use std::{
 
 use drawing::{COLOURS, Chart, Mark, Panel, Series};
 use files::Destination;
-use loader::{Column, Recording};
+use fmi::{Column, Recording};
 use model_description::{Causality, Description, ScalarVariable, value};
 
 use super::{
@@ -150,8 +150,8 @@ fn groups(described: &Description, recording: &Recording, known: &Known, seconds
     for (name, column) in drawn(&variables, recording) {
         let vector = group(name);
         let variable = variables.get(name).copied();
-        let display = variable.and_then(|variable| loader::display_unit(described, variable));
-        let own = variable.and_then(|variable| loader::unit(described, variable)).unwrap_or_default();
+        let display = variable.and_then(|variable| fmi::display_unit(described, variable));
+        let own = variable.and_then(|variable| fmi::unit(described, variable)).unwrap_or_default();
         let (unit, factor, offset) = display.unwrap_or((own, 1.0, 0.0));
         let points = recording.times_s.iter().zip(column.numbers());
         let points = points.map(|(time_s, value)| (time_s / seconds, factor * value + offset)).collect();

@@ -7,7 +7,7 @@ mod spacecraft;
 mod standard;
 mod variables;
 
-use loader::Described;
+use fmi::Described;
 use model_description::{Description, escape};
 
 const STYLE: &str = include_str!("manual.css");

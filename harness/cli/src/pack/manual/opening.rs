@@ -1,6 +1,6 @@
 //! What the model is, examples, frames.
 
-use loader::Described;
+use fmi::Described;
 use model_description::{Description, escape};
 
 use super::section::Section;

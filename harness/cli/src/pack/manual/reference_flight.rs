@@ -22,12 +22,12 @@ pub(super) fn section(description: &Description) -> Option<Section> {
          size[vector(name)] = max(size.get(vector(name), 0.0), abs(expected[name]).max())\n\
          off = [abs(found[name] - expected[name]).max() / (size[vector(name)] or 1.0) for name in names]\n\
          print(\"largest deviation:\", max(off))\n",
-        reference::FOLDER
+        fmi::reference::FOLDER
     );
     let content = format!(
         "<p>The FMU carries a short flight in <code>{}</code>, in the layout of FMI-LS-REF: inputs and outputs as CSV, with the tolerance \
          in the manifest. <code>heliotorque check</code> simulates it again, and so does FMPy:</p>\n<pre><code>{}</code></pre>\n",
-        reference::FOLDER,
+        fmi::reference::FOLDER,
         escape(&code)
     );
     Some(("reference", "Reference flight", content))

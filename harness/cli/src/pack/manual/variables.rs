@@ -49,8 +49,8 @@ fn row(description: &Description, row: &VariableRow<'_>) -> String {
 }
 
 fn unit(description: &Description, variable: &ScalarVariable) -> String {
-    let unit = loader::unit(description, variable).unwrap_or_default();
-    match loader::display_unit(description, variable) {
+    let unit = fmi::unit(description, variable).unwrap_or_default();
+    match fmi::display_unit(description, variable) {
         Some((display, _, _)) if display != unit => format!("{unit} ({display})"),
         _ => unit.to_owned(),
     }
@@ -63,7 +63,7 @@ fn kind(description: &Description, variable: &ScalarVariable) -> String {
         VariableKind::Real { attributes, .. } => {
             let (min, max) = (attributes.min, attributes.max);
             let own = limits(min.map(terminal::short), max.map(terminal::short));
-            let display = loader::display_unit(description, variable);
+            let display = fmi::display_unit(description, variable);
             let shown = display.map_or(String::new(), |(name, factor, offset)| {
                 let number = |limit: f64| terminal::short(factor * limit + offset);
                 let shown = limits(min.map(number), max.map(number));

@@ -1,6 +1,6 @@
 //! Flights of a leg's mission through its FMU, with any velocity at the start.
 
-use loader::{Recording, Value};
+use fmi::{Recording, Value};
 use nalgebra::Vector3;
 use physics::{
     constants::{DAY_S, GM_SUN_M3_S2},
@@ -156,7 +156,7 @@ impl SimulatesLeg for LegFlights<'_> {
 
     fn unattracted_m(&mut self, velocity_m_s: &Vector3<f64>) -> Result<Vector3<f64>, Failure> {
         let description = self.mission.fmu.description();
-        let mut more = loader::parse_assignment(description, "encounter.body=none")?;
+        let mut more = fmi::parse_assignment(description, "encounter.body=none")?;
         let attracts = format!("orbit.attraction.{}", self.body);
         if description.variables.iter().any(|it| it.name == attracts) {
             more.push((attracts, Value::Boolean(false)));

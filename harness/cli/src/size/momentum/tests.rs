@@ -1,7 +1,7 @@
 //! Windows against closed forms of a turning body and against all pairs of rows.
 use core::f64::consts::TAU;
 
-use loader::Column;
+use fmi::Column;
 use nalgebra::Rotation3;
 
 use super::*;

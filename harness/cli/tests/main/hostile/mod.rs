@@ -31,7 +31,7 @@ fn hostile(behaviour: &str, place: &str) -> Option<TempDir> {
         return None;
     }
     let scratch = tempfile::tempdir().unwrap();
-    let binaries = scratch.path().join("fmu/binaries").join(loader::platform_folders()[0]);
+    let binaries = scratch.path().join("fmu/binaries").join(fmi::platform_folders()[0]);
     fs::create_dir_all(&binaries).unwrap();
     fs::create_dir_all(scratch.path().join("tmp")).unwrap();
     fs::write(scratch.path().join("fmu/modelDescription.xml"), DESCRIPTION).unwrap();
@@ -110,14 +110,14 @@ fn start_to_file(scratch: &TempDir, mut command: Command) -> Output {
 fn commands_that_load(scratch: &TempDir) -> Option<Vec<Vec<String>>> {
     let dist = built("HELIOTORQUE_DIST")?;
     let at = |name: &str| scratch.path().join(name);
-    let platform = loader::platform_folders()[0];
+    let platform = fmi::platform_folders()[0];
     let library = |fmu: &str, name: &str| {
         at(fmu).join("binaries").join(platform).join(format!("{name}{}", std::env::consts::DLL_SUFFIX))
     };
     for name in ["MomentumPlant", "SpinPlant"] {
         let folder = at(&format!("{name}.fmu"));
         fs::create_dir(&folder).unwrap();
-        loader::unpack(&dist.join(format!("{name}.fmu")), &folder, loader::ArchiveLimits::default()).unwrap();
+        fmi::unpack(&dist.join(format!("{name}.fmu")), &folder, fmi::ArchiveLimits::default()).unwrap();
         fs::copy(library("fmu", "Hostile"), library(&format!("{name}.fmu"), name)).unwrap();
     }
     run(&["new", "spacecraft", shown(&at("my.toml"))], 0);

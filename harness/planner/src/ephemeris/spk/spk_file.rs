@@ -19,7 +19,7 @@ use anise::{
         spk::summary::SPKSummaryRecord,
     },
 };
-use loader::Error;
+use fmi::Error;
 use physics::environment::CartesianState;
 
 use super::naif;

@@ -12,8 +12,8 @@ use self::light_and_heat::RadiationBuilder;
 use self::radiation_segment::RadiationSegment;
 use self::radiation_solver::RadiationSolver;
 use self::sunlit::SunlitConfiguration;
-use super::source::{Source, Workspace};
-use crate::loads::{Effect, Loads};
+use super::source::{Results, Source};
+use crate::loads::Effect;
 use crate::numerics::Span;
 use crate::plant::instant::conditions::Conditions;
 use crate::plant::instant::path_ahead::PathAhead;
@@ -32,23 +32,18 @@ impl Source for Option<RadiationSolver> {
     type Settings = Configuration;
     type State = Option<RadiationSegment>;
 
-    fn settings(configuration: &Configuration) -> &Configuration {
-        configuration
-    }
-
     fn load(
         &mut self,
         configuration: &Configuration,
         state: &Option<RadiationSegment>,
         at: &Conditions<'_>,
-        workspace: &mut Workspace,
-        loads: &mut Loads,
+        Results { loads, face_temperatures_k }: &mut Results<'_>,
     ) {
         let Instant { time_s, sun_distance_m, .. } = *at.instant;
-        workspace.face_temperatures_k.clear();
+        face_temperatures_k.clear();
         if let Some(segment) = state.as_ref().filter(|_| at.flow.is_some()) {
             let temperatures_k = segment.temperatures_k.iter().map(|series| series.value(time_s)[0]);
-            workspace.face_temperatures_k.extend(temperatures_k);
+            face_temperatures_k.extend(temperatures_k);
         }
         let mut is_shadowed = false;
         if let (Some(segment), Some(solver)) = (state, &*self)

@@ -10,7 +10,7 @@ use planner::{
 };
 use rayon::prelude::*;
 
-use loader::{Recording, Value};
+use fmi::{Recording, Value};
 
 use crate::{
     interrupt,
