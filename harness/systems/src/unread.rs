@@ -52,7 +52,8 @@ pub(crate) fn unread(
             if names.is_empty() || reading.is_read_at(item) {
                 continue;
             }
-            let vector = input.strip_suffix(']').and_then(|name| name.rsplit_once('[')).map_or(*input, |(of, _)| of);
+            let vector =
+                input.strip_suffix(']').and_then(|name| name.rsplit_once('[')).map_or(*input, |(of, _)| of);
             let input = vector.to_owned();
             let known = found.iter_mut().find(|it| it.option == reading.option && it.reading == names);
             match known {

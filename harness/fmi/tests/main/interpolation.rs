@@ -178,11 +178,9 @@ fn angles_take_the_nearest_turn_within_their_range() {
 
 #[test]
 fn names_alone_say_nothing_and_an_annotated_angle_needs_no_unit() {
-    let columns = [("d.q[1]", "1"), ("d.q[2]", "1"), ("d.q[3]", "1"), ("d.q[4]", "1"), ("turn", ""), ("bare", "")];
-    let rows = [
-        (0.0, vec![0.0, 0.0, 0.0, 1.0, 3.0, 3.0]),
-        (10.0, vec![1.0, 0.0, 0.0, 0.0, -3.0, -3.0]),
-    ];
+    let columns =
+        [("d.q[1]", "1"), ("d.q[2]", "1"), ("d.q[3]", "1"), ("d.q[4]", "1"), ("turn", ""), ("bare", "")];
+    let rows = [(0.0, vec![0.0, 0.0, 0.0, 1.0, 3.0, 3.0]), (10.0, vec![1.0, 0.0, 0.0, 0.0, -3.0, -3.0])];
     let found = values::<6>(&table(&columns, &rows), 0, 5.0);
     assert_eq!(found, [0.5, 0.0, 0.0, 0.5, TAU / 2.0, 0.0]);
 }

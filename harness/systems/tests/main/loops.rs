@@ -65,9 +65,7 @@ fn connected_commands_are_followed_unless_another_source_is_given() {
         let message: Vec<String> = free.unread.iter().map(ToString::to_string).collect();
         assert_eq!(
             message,
-            [
-                "plant: connected and not read: wish: found mode at free, allowed: commanded, controlled"
-            ]
+            ["plant: connected and not read: wish: found mode at free, allowed: commanded, controlled"]
         );
     }
     // Without connections nothing is implied.
@@ -105,11 +103,7 @@ fn enumerations_join_where_their_items_agree() {
         names.iter().enumerate().map(item).collect::<String>()
     };
     let takes = |names| {
-        description(
-            "Plant",
-            &sets(names),
-            &["input engine Enumeration declaredType=\"Colour\" start=\"0\""],
-        )
+        description("Plant", &sets(names), &["input engine Enumeration declaredType=\"Colour\" start=\"0\""])
     };
     let same = components(folder.path(), &guidance(&sets(["none", "main"])), &takes(["none", "main"]));
     assert_eq!(wired(&same, &[]).structure.connections.len(), 1);

@@ -185,16 +185,9 @@ fn inputs_take_outputs_by_the_other_names_that_their_fmu_annotates() {
         wire("Three", &[one.clone(), two, three], DefaultExperiment::default(), &Wiring::default()).unwrap();
     assert_eq!(
         joined(&wired),
-        [
-            "three.current.speed[1] one.stream[1]",
-            "one.current.speed[1] three.stream[1]"
-        ]
+        ["three.current.speed[1] one.stream[1]", "one.current.speed[1] three.stream[1]"]
     );
-    assert!(
-        wired.left[0].why.starts_with("two candidates: one.buoy.place[2], three."),
-        "{:?}",
-        wired.left
-    );
+    assert!(wired.left[0].why.starts_with("two candidates: one.buoy.place[2], three."), "{:?}", wired.left);
     // Names.
     assert_eq!(component_name(std::path::Path::new("dist/MomentumPlant.fmu")), "momentumPlant");
     let twice = wire("Twice", &[one.clone(), one.clone()], DefaultExperiment::default(), &Wiring::default());
