@@ -8,9 +8,8 @@ use syn::visit::{self, Visit};
 use crate::sources::{is_for_tests, rust_files, workspace};
 use crate::support::{SHIPPED, description};
 
-/// Those before `packing` in the harness, and the two behind it that read tables and descriptions alone.
-const NEUTRAL: &[&str] =
-    &["files", "terminal", "fmi", "systems", "drawing", "isolation", "tables", "campaign"];
+/// Those of the harness that take any FMU.
+const NEUTRAL: &[&str] = &["files", "terminal", "fmi", "systems", "drawing", "campaign"];
 
 /// Names of several segments, as `wheel.speed` for `wheel[k].speed`: one segment alone is a word of the language.
 fn shipped_names() -> BTreeSet<String> {

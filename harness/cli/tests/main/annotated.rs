@@ -61,5 +61,5 @@ fn two_fmus_are_wired_by_annotations_added_by_hand() {
         &unread,
         &["connected and not read: input.real: found parameter.choice at blue, allowed: red, green"],
     );
-    says(&run(&["check", shown(&source), "--only", "xml"], 0), &["annotation of `output.real`"]);
+    says(&run(&["check", shown(&source), "--static"], 0), &["annotation of `output.real`"]);
 }
