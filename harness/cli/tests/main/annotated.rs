@@ -14,7 +14,7 @@ fn annotate(from: &Path, to: &Path, annotations: &[(&str, &str)]) {
         let mut entry = archive.by_index(index).unwrap();
         let mut content = Vec::new();
         entry.read_to_end(&mut content).unwrap();
-        contents.insert(entry.name().to_owned(), content);
+        contents.insert(entry.name().unwrap().into_owned(), content);
     }
     let mut xml = String::from_utf8(contents.remove("modelDescription.xml").unwrap()).unwrap();
     for (name, annotation) in annotations {
