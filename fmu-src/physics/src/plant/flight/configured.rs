@@ -142,7 +142,7 @@ impl<'a> ConfiguredFlight<'a> {
         self.models.begin_work(self.given.work_limit);
         let mut plant = self.plant();
         plant.prepare(time_s, time_s)?;
-        Ok(plant.path.kinematics.attitude_by(law, time_s).frame)
+        Ok(plant.path.attitude_by(law, time_s).frame)
     }
 
     /// Selects the Sun's direction where a downlink has begun at `start`, or began right there and its momentum changed since;
@@ -154,7 +154,7 @@ impl<'a> ConfiguredFlight<'a> {
         let Some(law) = self.configuration.attitude.guided().copied().filter(|law| law.managed) else {
             return Ok(());
         };
-        let Some(guided) = self.plant().path.kinematics.guided_attitude(time_s) else { return Ok(()) };
+        let Some(guided) = self.plant().path.guided_attitude(time_s) else { return Ok(()) };
         let downlink = guided.window.activity == Activity::Downlink;
         let gimbal = match law.science {
             ScienceRule::Unloading { gimbal, .. } if !downlink => Some(gimbal),
@@ -211,9 +211,9 @@ impl<'a> ConfiguredFlight<'a> {
         let SunSelectionStart { time_s, totals, momentum, is_first } = *start;
         let mut plant = self.plant();
         let instant = plant.instant(time_s);
-        let pressure_pa = plant.path.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
-        let separations_rad = plant.path.kinematics.separations_rad(time_s, until_s);
-        let science = gimbal.map(|gimbal| plant.path.kinematics.science_arc(gimbal, time_s, until_s));
+        let pressure_pa = plant.path.configuration.light.pressure_pa(instant.sun_distance_m);
+        let separations_rad = plant.path.separations_rad(time_s, until_s);
+        let science = gimbal.map(|gimbal| plant.path.science_arc(gimbal, time_s, until_s));
         if science.is_some() {
             self.models.spend(WorkKind::Search, SCIENCE_UNITS, time_s)?;
         }

@@ -328,7 +328,7 @@ impl Dynamic<'_> {
             Tracked::Rate(rate_body_rad_s) => return ControlTarget::RateOnly { rate_body_rad_s },
             Tracked::Attitude(command) => command,
             Tracked::Guidance => control.guidance_at(time_s).unwrap_or_else(|| {
-                let guided = flight.plant_at(time_s, body).path.kinematics.guided_attitude(time_s);
+                let guided = flight.plant_at(time_s, body).path.guided_attitude(time_s);
                 control.guide(time_s, guided.as_ref(), &sensing.estimate)
             }),
         };

@@ -156,10 +156,10 @@ impl<'f> Fork<'f> {
         let instant = self.ideal.flight.plant().instant(time_s);
         let Configuration { light, momentum, .. } = &*self.ideal.flight.configuration;
         let totals = self.ideal.state.integrator.totals(time_s);
-        let inertial_from_body = instant.frame.inertial_from_body;
+        let inertial_from_body = instant.law.frame.inertial_from_body;
         ForecastMomentum {
             time_s,
-            downlink: instant.regime.downlink,
+            downlink: instant.is_in_downlink(),
             to_sun: instant.geometry.to_sun.position_m.normalize(),
             to_earth: instant.geometry.to_earth.position_m.try_normalize(0.0),
             pressure_pa: light.pressure_pa(instant.sun_distance_m),

@@ -146,7 +146,7 @@ impl<'f> Simulated<'f> for Ideal<'f> {
     }
 
     fn is_degenerate(&self, evaluation: &Evaluation) -> bool {
-        evaluation.instant.is_degenerate
+        evaluation.instant.law.degenerate
     }
 }
 
@@ -161,14 +161,14 @@ impl<'f> Ideal<'f> {
         let bias_body_n_m_s = flight.configuration.momentum.policy.bias_body_n_m_s;
         let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
         flight.models.begin_work(flight.given.work_limit);
-        let frame = flight.plant().instant(time_s).frame;
+        let frame = flight.plant().instant(time_s).law.frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
         let momentum = StartMomentum::Body(momentum_body_n_m_s);
         flight.select_sun_direction(&SunSelectionStart { time_s, totals, momentum, is_first: true })?;
         flight.models.begin_work(flight.given.work_limit);
         let mut plant = flight.plant();
         plant.prepare(time_s, time_s)?;
-        let frame = plant.instant(time_s).frame;
+        let frame = plant.instant(time_s).law.frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
         let mut begun = IdealState::new(time_s, held, totals);
         flight.models.begin_work(flight.given.work_limit);
@@ -279,7 +279,7 @@ impl<'f> Ideal<'f> {
             let mass = plant.mass_properties(&instant);
             let Some(given) = self.at_once(time_s).dump(due, &mass.center_of_mass_body_m) else { return };
             dump = given;
-            let inertial_from_body = instant.frame.inertial_from_body;
+            let inertial_from_body = instant.law.frame.inertial_from_body;
             pushed =
                 dump.push_body_n_s.map(|push_body_n_s| inertial_from_body * push_body_n_s / mass.mass_kg);
             self.state.dump_delta_v_inertial_m_s = pushed.unwrap_or_default();

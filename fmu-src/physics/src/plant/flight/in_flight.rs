@@ -1,5 +1,6 @@
 //! A flight in one step by its mode: what an attitude that is followed ideally and one by torque answer alike.
 
+use crate::guidance::DownlinkStatus;
 use crate::loads::ForceTorque;
 use crate::momentum::Totals;
 use crate::numerics::Span;
@@ -120,8 +121,8 @@ impl<'f> InFlight<'f> {
         prediction: Option<EncounterPrediction>,
         time_s: f64,
     ) -> Report<'f> {
-        let instant = &evaluation.instant;
-        let (mut downlink, mut is_degenerate) = (instant.downlink, instant.is_degenerate);
+        let law = &evaluation.instant.law;
+        let (mut downlink, mut is_degenerate) = (DownlinkStatus::from_attitude(law), law.degenerate);
         let is_waiting = matches!(self, Self::Waiting { .. });
         let (summary, flight) = match self {
             Self::Dynamic(mut it) => {

@@ -176,7 +176,7 @@ impl<'a> FlightSummary<'a> {
         inputs: &DynamicsInputs,
     ) -> Self {
         let Evaluation { instant, loads, mass, .. } = evaluation;
-        let (time_s, frame) = (instant.time_s, &instant.frame);
+        let (time_s, frame) = (instant.time_s, &instant.law.frame);
         let (totals, dumps) = (simulated.integrator.totals(time_s), *simulated.integrator.dumps());
         let attitude = simulated.integrator.attitude(&frame.inertial_from_body, time_s);
         let segment = &simulated.integrator.segment;
@@ -239,7 +239,7 @@ impl<'a> FlightSummary<'a> {
             dump_impulse_body_n_m_s,
             dump_delta_v_inertial_m_s,
             maneuvers: Maneuvers::default(),
-            attitude: Attitude::from_rotation(&evaluation.instant.frame.inertial_from_body)
+            attitude: Attitude::from_rotation(&evaluation.instant.law.frame.inertial_from_body)
                 .continuing(&body.attitude),
             estimate: sensing.estimate_at(time_s),
             sun_sensed_body: sensing.sun_sensed_body,

@@ -9,9 +9,9 @@ use crate::constants::{RADIUS_MOON_M, RADIUS_SUN_M};
 use crate::environment::eclipse::{Shadow, ShadowModel};
 use crate::environment::orbit::BodyEphemeris;
 use crate::plant::disturbances::simulation_context::SimulationContext;
+use crate::plant::instant::geometry::{Geometry, SimulationEphemeris};
+use crate::plant::instant::instant::Instant;
 use crate::plant::motion::command_slews::CommandSlews;
-use crate::plant::motion::geometry::{Geometry, SimulationEphemeris};
-use crate::plant::motion::instant::Instant;
 use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
 use crate::plant::settings::configuration::{Configuration, EphemerisSource, Motion};
 use crate::plant::state::propagator_state::PropagatorState;
@@ -60,7 +60,7 @@ pub fn survey(
     let mut plant = context.plant(given.prepared, Turning::still(), &mut propagator, given.external);
     for time_s in times_s {
         let instant = plant.instant(time_s);
-        see(plant.path.kinematics.configuration, time_s, &instant);
+        see(plant.path.configuration, time_s, &instant);
     }
 }
 

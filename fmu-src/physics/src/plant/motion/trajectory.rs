@@ -13,7 +13,6 @@ use crate::numerics::Span;
 use crate::numerics::spacing::spacing;
 
 use super::approaches::ClosestApproaches;
-use super::geometry::SimulationEphemeris;
 use super::periapses::Periapses;
 use crate::plant::settings::configuration::{Configuration, Encounter, Motion};
 
@@ -307,12 +306,12 @@ impl Trajectory {
     /// See [`OrbitIntegrationError`].
     pub(crate) fn advance(
         &mut self,
-        bodies: &mut SimulationEphemeris<'_>,
+        configuration: &Configuration,
+        bodies: &mut impl BodyEphemeris,
         method: &OrbitMethod,
         limit_s: f64,
         extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
     ) -> Result<u32, OrbitIntegrationError> {
-        let configuration = bodies.configuration;
         let Some(mut orbit) = self.orbit else { return Ok(0) };
         let shortened = match &configuration.motion {
             Motion::Disturbed { gravity, .. } => {

@@ -9,9 +9,9 @@ use crate::guidance::{
     Activity, AttitudeCommand, Guided, GuidedAttitude, OrbitPhaseLaw, Sight, TargetPlanet, Window,
 };
 
-use super::command_slews::CommandSlews;
 use super::geometry::{Geometry, GeometrySight, SimulationEphemeris};
-use super::trajectory::Trajectory;
+use crate::plant::motion::command_slews::CommandSlews;
+use crate::plant::motion::trajectory::Trajectory;
 use crate::plant::settings::attitude_source::AttitudeSource;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;

@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, Vector3};
 
 use super::geometry::Geometry;
 use crate::attitude::MovingFrame;
-use crate::guidance::{Activity, DownlinkStatus, GuidedAttitude, Window};
+use crate::guidance::{Activity, AttitudeCommand, GuidedAttitude, Window};
 use crate::momentum::EventValues;
 use crate::numerics::scalar::Dual64;
 use crate::plant::settings::panel_setting::SunAt;
@@ -16,8 +16,8 @@ pub struct Instant {
     pub time_s: f64,
     /// Sun, planet and Earth as the spacecraft sees them.
     pub geometry: Geometry,
-    /// Body frame and rate.
-    pub frame: MovingFrame,
+    /// Body frame and rate, window and margins of the attitude law.
+    pub law: GuidedAttitude,
     /// From EME2000 to the body frame.
     pub to_body: Rotation3<f64>,
     /// Unit vector to the Sun, body frame.
@@ -28,16 +28,8 @@ pub struct Instant {
     pub planet_body_m: Option<Vector3<f64>>,
     /// Visible part of the Sun's disc, 0 to 1.
     pub lit_fraction: f64,
-    /// Forms of the attitude law and of the shadow.
-    pub regime: Regime,
     /// Outer and inner gap of the shadow, in rad, and the margins of the attitude law; see [`EventValues`].
     pub events: EventValues,
-    /// Whether a downlink lasts, the turn to it done, and whether the Sun's place in it is not the one requested.
-    pub downlink: DownlinkStatus,
-    /// Whether a substitute stands in for a target of the attitude law on one line with the other.
-    pub is_degenerate: bool,
-    /// Up to when window and slew last, in s of the flight.
-    pub attitude_until_s: f64,
 }
 
 impl Instant {
@@ -46,17 +38,13 @@ impl Instant {
         Self {
             time_s,
             geometry: Geometry::default(),
-            frame,
+            law: without_windows(frame),
             to_body: frame.inertial_from_body.inverse(),
             sun_body: Vector3::zeros(),
             sun_distance_m: 0.0,
             planet_body_m: None,
             lit_fraction: 0.0,
-            regime: Regime::by_law(&without_windows(frame)),
             events: EventValues::repeat(f64::INFINITY),
-            downlink: DownlinkStatus::default(),
-            is_degenerate: false,
-            attitude_until_s: f64::INFINITY,
         }
     }
 
@@ -83,7 +71,12 @@ impl Instant {
         let moving = to_sun.position_m.try_normalize(0.0).map_or(Vector3::zeros(), |unit| {
             (to_sun.velocity_m_s - unit * unit.dot(&to_sun.velocity_m_s)) / self.sun_distance_m
         });
-        self.to_body * moving - self.frame.rate_body_rad_s.cross(&self.sun_body)
+        self.to_body * moving - self.law.frame.rate_body_rad_s.cross(&self.sun_body)
+    }
+
+    /// Whether the window is a downlink.
+    pub fn is_in_downlink(&self) -> bool {
+        self.law.window.activity == Activity::Downlink
     }
 
     /// From the spacecraft to the Sun, body frame, in m.
@@ -98,43 +91,8 @@ impl Instant {
     }
 }
 
-/// Forms of the attitude law and of the shadow.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Regime {
-    /// Since when the window of science or downlink lasts, in s past J2000 TDB; minus infinity where there is none.
-    pub window_since_s: f64,
-    /// Whether the window is a downlink.
-    pub downlink: bool,
-    /// The timeline's command, from 1, whose window it is; 0 of none.
-    pub row: usize,
-    /// Whether the body turns from one attitude to the other.
-    pub slewing: bool,
-    /// When the next motion of a scan begins or ends, in s past J2000 TDB; infinite without one.
-    pub corner_s: f64,
-    /// Whether the planet hides a part of the Sun.
-    pub in_shadow: bool,
-}
-
-impl Regime {
-    /// Form of the law that gives this attitude, in sunlight.
-    pub(super) fn by_law(law: &GuidedAttitude) -> Self {
-        let GuidedAttitude { window, row, slewing, corner_s, .. } = *law;
-        let downlink = window.activity == Activity::Downlink;
-        Self { window_since_s: window.since_s, downlink, row, slewing, corner_s, in_shadow: false }
-    }
-}
-
 /// Attitude by a law without windows, slews and scans.
 pub(super) fn without_windows(frame: MovingFrame) -> GuidedAttitude {
-    GuidedAttitude {
-        frame,
-        window: Window { activity: Activity::Science, since_s: f64::NEG_INFINITY, until_s: f64::INFINITY },
-        row: 0,
-        slewing: false,
-        margins: [f64::INFINITY; 2],
-        clamped: false,
-        degenerate: false,
-        corner_s: f64::INFINITY,
-        until_s: f64::INFINITY,
-    }
+    let window = Window { activity: Activity::Science, since_s: f64::NEG_INFINITY, until_s: f64::INFINITY };
+    GuidedAttitude::held(AttitudeCommand::new(frame, [f64::INFINITY; 2]), window)
 }
