@@ -220,7 +220,7 @@ fn evaluations(
                 position_body_m: constant_vector(&-position_m),
                 sun_from_planet_body_m: sun,
                 sun_flux_w_m2: T::constant(flux_w_m2),
-                pole_body: constant_vector(&-Vector3::z()),
+                pole_body: None,
             }),
             panel_angles_rad: &angles,
             ..Geometry::sunlit(sun, T::constant(flux_w_m2))

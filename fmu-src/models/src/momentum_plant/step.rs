@@ -65,8 +65,11 @@ impl<'a> Call<'_, 'a> {
             }
         }
         state.pass_digest();
-        if let Some(changes) = reading.changes.filter(|_| !state.saved.waiting && !reading.begins) {
-            state.saved.flight.apply(changes, configuration, settings, step.start_s).map_err(failure)?;
+        if reading.is_set && !state.saved.waiting && !reading.begins {
+            state.saved.flight.apply(configuration, settings, step.start_s).map_err(failure)?;
+            if state.inputs.orbit_moves {
+                state.saved.flight.move_to(step.start_s).map_err(failure)?;
+            }
         }
         // After what was computed ahead with those before is void.
         if reading.is_reconfigured { inputs::update_materials(read, state) } else { Ok(()) }

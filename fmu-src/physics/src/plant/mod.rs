@@ -58,7 +58,7 @@ pub use settings::dynamics_settings::{
 };
 pub use settings::error::{ManeuverError, PlantError};
 pub use settings::laws::{Laws, TUNABLE_COUNT};
-pub use settings::mode_settings::{Changes, IdealSettings, ModeSettings};
+pub use settings::mode_settings::{IdealSettings, ModeSettings};
 pub use settings::panel_setting::{PanelSetting, PanelStep, Ramp, SunAt, Tilt};
 pub use settings::prepared_spacecraft::PreparedSpacecraft;
 pub use settings::reaction_control_settings::{Purpose, ReactionControlSettings, ThrustCommand};

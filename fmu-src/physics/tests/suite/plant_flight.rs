@@ -344,7 +344,7 @@ fn light_follows_an_attitude_that_is_known_only_up_to_now() {
         for k in 0..=60 {
             let time_s = 5.0 * f64::from(k);
             if sample_s.is_some_and(|sample_s| time_s % sample_s == 0.0) {
-                rig.propagator.cut(&with(command), time_s, true);
+                rig.propagator.cut(&with(command), time_s);
                 command = Command { attitude: truth.attitude_at(time_s), since_s: time_s, ..truth };
             }
             let configuration = with(command);
@@ -379,7 +379,7 @@ fn a_fit_for_other_settings_ends_where_they_change() {
         let mut loads = Loads::zero();
         for (digest, (time_s, x_m)) in digests.into_iter().zip([(0.0, 0.0), (0.5, 0.1)]) {
             if is_cut && time_s > 0.0 {
-                rig.propagator.cut(&with(0.0), time_s, true);
+                rig.propagator.cut(&with(0.0), time_s);
             }
             let context = rig.context_of(&with(x_m));
             context.models.sources = Sources::new(Some(light.clone()), None);

@@ -19,8 +19,8 @@ use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
 use physics::management::Manager;
 use physics::plant::{
-    Changes, Configuration, DownlinkForecast, DynamicsInputs, ModeSettings, PreparedSpacecraft,
-    SimulationContext, Sources, StepContext, ThrusterAllocator, ThrusterEvent, Thrusters,
+    Configuration, DownlinkForecast, DynamicsInputs, ModeSettings, PreparedSpacecraft, SimulationContext,
+    Sources, StepContext, ThrusterAllocator, ThrusterEvent, Thrusters,
 };
 
 use self::center::Center;
@@ -36,8 +36,8 @@ use crate::common::spacecraft::start_attitude;
 
 /// Parameters and inputs of one step that [`PlantState::inputs`] do not hold.
 pub(super) struct Reading<'a> {
-    /// Changes since the last step; `None` where nothing was set.
-    pub changes: Option<Changes>,
+    /// Whether something was set since the last step.
+    pub is_set: bool,
     /// Whether the flight begins, with all inputs that it needs set.
     pub begins: bool,
     /// Whether the configuration changed since the last step, or was never read.
@@ -82,13 +82,11 @@ pub(super) fn read<'a>(
     step: &Step<'a>,
 ) -> Result<Reading<'a>, Failure> {
     let (read, variables) = (Read::new(context, values), context.variables);
-    let mut changes = None;
+    let (mut is_set, mut is_changed) = (step.changed, false);
     if step.changed || !state.inputs.are_read {
         state.inputs.update(context, values, step.inputs);
-        changes = Some(state.update_inputs(step.start_s)?).filter(|_| step.changed);
-        if state.update_schedules(read.setup.schedules, step.start_s) {
-            changes = Some(Changes { light: true, ..changes.unwrap_or_default() });
-        }
+        is_changed = state.update_inputs(step.start_s)?;
+        is_set |= state.update_schedules(read.setup.schedules, step.start_s);
     }
     let begins = state.saved.waiting && state.inputs.unset_places.is_empty();
     state.saved.waiting &= !begins;
@@ -98,13 +96,12 @@ pub(super) fn read<'a>(
     let strategy = read.choice(momentum.strategy).0;
     let is_dynamic = state.inputs.source.is_dynamic && !state.saved.waiting;
     let is_complete =
-        begins || state.saved.flight.configuration().is_none() || (state.saved.waiting && changes.is_some());
-    let is_changed = changes.is_some_and(|it| !is_dynamic || it.orbit || it.light || it.tunables);
-    let is_reconfigured = is_complete || is_changed;
+        begins || state.saved.flight.configuration().is_none() || (state.saved.waiting && is_set);
+    let is_reconfigured = is_complete || (is_set && (!is_dynamic || is_changed));
     let current = state.saved.flight.configuration().filter(|_| !is_reconfigured);
     let bias_body_n_m_s = current.map(|it| it.momentum.policy.bias_body_n_m_s);
     Ok(Reading {
-        changes,
+        is_set,
         begins,
         is_reconfigured,
         is_complete,
@@ -160,7 +157,6 @@ pub(super) fn configured(
     let mut simulation = SimulationContext::new(configuration);
     simulation.models.ephemeris = Ephemeris::with_cache(&read.setup.ephemeris_cache);
     simulation.models.solar = Some(reading.prepared.solar.clone());
-    simulation.models.digest = state.digest();
     simulation.models.sources = Sources::new(light, air);
     simulation.allocator = ThrusterAllocator::new(propulsion::reaction_control(read)?);
     Ok(Reconfigured::Simulation(Box::new(simulation), settings))

@@ -6,7 +6,7 @@ use fmi_export::Failure;
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::guidance::modes::guidance_command::CommandKind as GuidanceCommandKind;
-use physics::plant::{Changes, Command, Digest, Flight, Thrusters, Tracked};
+use physics::plant::{Command, Digest, Flight, SimulationContext, Thrusters, Tracked};
 use physics::plausibility::FlightWatch;
 use physics::spacecraft::Spacecraft;
 use serde::{Deserialize, Serialize};
@@ -162,8 +162,8 @@ impl PlantState {
         self.saved.last.orbit_since_s
     }
 
-    /// Compares inputs and tunables with the last ones, stores them, and returns what changed.
-    pub fn update_inputs(&mut self, time_s: f64) -> Result<Changes, Failure> {
+    /// Compares inputs and tunables with the last ones and stores them; returns whether the configuration changed.
+    pub fn update_inputs(&mut self, time_s: f64) -> Result<bool, Failure> {
         let (command, is_commanded) = (self.inputs.command, self.inputs.source.is_commanded);
         let before = core::mem::replace(&mut self.saved.last.command, command);
         let is_applied = self.saved.last.error_is_applied;
@@ -191,27 +191,21 @@ impl PlantState {
         if moved {
             last.orbit_since_s = time_s;
         }
-        let before = core::mem::replace(&mut last.tunables, inputs.tunables);
-        let [force, _] = inputs.applied;
-        Ok(Changes {
-            orbit: moved && inputs.orbit_is_given,
-            light: core::mem::replace(&mut last.loads, loads) != loads,
-            mass: before[0] != inputs.tunables[0],
-            force: core::mem::replace(&mut last.force, force) != force,
-            tunables: before != inputs.tunables,
-        })
+        inputs.orbit_moves = moved && inputs.orbit_is_given;
+        let is_changed = inputs.orbit_moves || last.loads != loads || last.tunables != inputs.tunables;
+        (last.loads, last.tunables, [last.force, _]) = (loads, inputs.tunables, inputs.applied);
+        Ok(is_changed)
     }
 
-    /// Digest of what loads depend on.
-    pub fn digest(&self) -> Digest {
-        self.saved.last.loads.with_word(self.saved.schedules)
-    }
-
-    /// Gives the flight the digest of what loads depend on.
+    /// Gives the flight the digest of what loads depend on; in dynamics mass and forces that move the orbit are among it.
     pub fn pass_digest(&mut self) {
-        let digest = self.digest();
-        if let Some(flown) = self.saved.flight.context_mut() {
-            flown.models.digest = digest;
+        let Self { saved: SavedState { last, flight, schedules, .. }, inputs } = self;
+        let Some(SimulationContext { configuration, models, .. }) = flight.context_mut() else { return };
+        models.digest = last.loads.with_word(*schedules);
+        if inputs.source.is_dynamic {
+            models.digest = models.digest.with([last.tunables[0]]);
+            let is_pushed = configuration.motion.has_nongravitational_forces();
+            models.digest = models.digest.with(last.force.into_iter().filter(|_| is_pushed));
         }
     }
 

@@ -28,6 +28,8 @@ pub struct StepInputs {
     pub command: CommandInputs,
     /// Whether position and velocity are inputs.
     pub orbit_is_given: bool,
+    /// Whether they are inputs and changed since the last step.
+    pub orbit_moves: bool,
     /// Position and velocity.
     pub orbit: [[f64; 3]; 2],
     /// Digest of the numbers on which loads depend, next to command and orbit.

@@ -247,7 +247,7 @@ impl<'a> ConfiguredFlight<'a> {
         let (load, configuration) = (&self.thrusters.load, &*self.configuration);
         let trajectory = &mut self.propagator.trajectory;
         let span = Span::new(motion.start_s(), motion.end_s());
-        let (thrusts, disturbed) = (!load.law.is_none(), configuration.motion.uses_encke());
+        let (thrusts, disturbed) = (!load.law.is_none(), configuration.uses_encke());
         if !thrusts && disturbed && trajectory.is_deviated_until(span.end_s) {
             return Ok(());
         }

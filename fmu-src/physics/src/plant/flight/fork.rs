@@ -100,7 +100,7 @@ impl<'f> Fork<'f> {
     /// Discards what the flight computed ahead of `time_s`, where other loads begin to act.
     pub(super) fn cut(&mut self, time_s: f64) {
         let ConfiguredFlight { propagator, configuration, .. } = &mut self.ideal.flight;
-        propagator.cut(configuration, time_s, true);
+        propagator.cut(configuration, time_s);
     }
 
     /// Is evaluated about every `step_s` from a time in s on, without dumps; tolerances shorten what is too coarse.

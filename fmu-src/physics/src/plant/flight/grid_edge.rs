@@ -86,8 +86,8 @@ pub(super) fn begin_interval(
     state.mass.stowed = (flight.thrusters.propellant.total_used_kg(time_s) > 0.0).then_some(stowed);
     *flight.current_mass_panels_stowed = stowed;
     let begins = state.disturbance.is_before();
-    if begins || !flight.configuration.motion.uses_encke() {
-        flight.propagator.cut(flight.configuration, time_s, true);
+    if begins || !flight.configuration.uses_encke() {
+        flight.propagator.cut(flight.configuration, time_s);
     } else {
         flight.propagator.sources.cut(time_s);
     }

@@ -223,7 +223,7 @@ impl<'f> Ideal<'f> {
         if let Some(place_body_m) = event.center_of_mass_body_m {
             self.flight.propagator.center_of_mass.place(configuration, place_body_m);
             self.state.integrator.cut(time_s);
-            self.flight.propagator.cut(self.flight.configuration, time_s, true);
+            self.flight.propagator.cut(self.flight.configuration, time_s);
             self.set_mass(time_s);
         }
         let events = &self.flight.configuration.thruster_events;
@@ -249,7 +249,7 @@ impl<'f> Ideal<'f> {
             let after = propagator.center_of_mass.mass_properties(configuration);
             current_mass_panels_stowed.center_of_mass_body_m +=
                 after.center_of_mass_body_m - before.center_of_mass_body_m;
-            propagator.cut(configuration, time_s, true);
+            propagator.cut(configuration, time_s);
         }
         let Some(TimelineManeuver { delta_v_inertial_m_s, .. }) = event.maneuver else {
             return Ok(Vector3::zeros());
@@ -313,7 +313,7 @@ impl<'f> Ideal<'f> {
         let shift = configuration.thruster_events.shift_body_m(number.saturating_sub(1));
         if shift.is_some() {
             self.flight.propagator.center_of_mass.shift_body_m = shift;
-            self.flight.propagator.cut(configuration, time_s, true);
+            self.flight.propagator.cut(configuration, time_s);
         }
         shift.is_some()
     }

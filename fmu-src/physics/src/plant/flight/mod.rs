@@ -33,9 +33,10 @@ use crate::plant::settings::attitude_source::{Command, Turning};
 use crate::plant::settings::configuration::{Configuration, PredictionSettings};
 use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::mode_settings::{Changes, ModeSettings};
+use crate::plant::settings::mode_settings::ModeSettings;
 use crate::plant::settings::panel_setting::PanelSetting;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
+use crate::plant::state::disturbance_interval::DisturbanceInterval;
 use crate::plant::state::flight_state::{EncounterPrediction, FlightState, Mode};
 use crate::plant::state::propagator_state::{PropagatorState, SunDirectionSelection};
 use crate::plant::thrusters::reaction_control::Thrusters;
@@ -171,34 +172,31 @@ impl Flight {
     }
 
     /// Something changes at `time_s`: what was computed beyond it is void, and from there on these configuration and settings count.
+    /// Loads are cut where the digest of the models is not the one that they were computed for.
     ///
     /// # Errors
-    /// A place that is given below the surface.
+    /// A flight that was never configured.
     pub fn apply(
         &mut self,
-        changes: Changes,
         configuration: Option<Configuration>,
         settings: Option<ModeSettings>,
         time_s: f64,
     ) -> Result<(), PlantError> {
         let Some(setup) = self.setup.as_deref_mut() else { return Err(PlantError::OtherMode) };
         let so_far = &setup.context.configuration;
-        // On a disturbed orbit the mass decides where the spacecraft goes.
-        let pushed = changes.force && so_far.motion.has_nongravitational_forces();
         match &mut self.state.mode {
             Mode::Waiting => {}
             Mode::Ideal(ideal) => {
                 ideal.integrator.cut(time_s);
-                self.state.propagator.cut(so_far, time_s, changes.light);
+                self.state.propagator.cut_with_jump(so_far, time_s, &Vector3::zeros());
             }
             Mode::Dynamic(dynamics) => {
-                let is_refitted =
-                    changes.light || !dynamics.disturbance.is_made_for(setup.context.models.digest);
-                let loads_change = is_refitted || changes.mass || pushed;
+                let DisturbanceInterval { span, made_for, .. } = &dynamics.disturbance;
+                let loads_change = span.is_before() || *made_for != setup.context.models.digest;
                 dynamics.cut(time_s, loads_change);
                 self.state.propagator.command_slews.cut(time_s);
                 if loads_change {
-                    self.state.propagator.cut(so_far, time_s, true);
+                    self.state.propagator.cut(so_far, time_s);
                 }
             }
         }
@@ -209,11 +207,17 @@ impl Flight {
         if let Some(settings) = settings {
             setup.settings = settings;
         }
-        if changes.orbit {
-            self.state.propagator.move_to(&setup.context.configuration, time_s)?;
-        }
         self.update_current_mass();
         Ok(())
+    }
+
+    /// Position and velocity are given at `time_s`, as the configuration has them.
+    ///
+    /// # Errors
+    /// A place below the surface.
+    pub fn move_to(&mut self, time_s: f64) -> Result<(), PlantError> {
+        let setup = self.setup.as_deref().ok_or(PlantError::OtherMode)?;
+        self.state.propagator.move_to(&setup.context.configuration, time_s)
     }
 
     /// Returns the body before the Sun's disc where the flight was evaluated; `quiet_until_s` becomes the time of the next look.

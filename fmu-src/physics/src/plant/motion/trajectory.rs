@@ -241,7 +241,7 @@ impl Trajectory {
         }
         let Some(orbit) = &mut self.orbit else { return Ok(()) };
         orbit.accelerate(gravity, span, extra_m_s2)?;
-        if configuration.motion.uses_encke() {
+        if configuration.uses_encke() {
             self.periapses.truncate(span.start_s);
             self.periapses.detect(configuration, orbit, span);
         }

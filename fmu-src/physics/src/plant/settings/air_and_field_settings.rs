@@ -42,10 +42,8 @@ pub struct AirAndFieldSettings {
 impl AirAndFieldSettings {
     /// Model of the atmosphere, where the air acts and is not given.
     pub(crate) fn atmosphere(&self) -> Option<AtmosphereModel> {
-        match self.air?.source {
-            AirSource::Model(model) => Some(model),
-            AirSource::Given(_) => None,
-        }
+        let AirSource::Model(model) = self.air?.source else { return None };
+        Some(model)
     }
 }
 

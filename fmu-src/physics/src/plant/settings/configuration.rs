@@ -91,11 +91,8 @@ impl PredictionSettings {
 
     /// Whether one is due at `time_s`.
     pub(crate) fn is_due(self, time_s: f64) -> bool {
-        if self.refresh_s <= 0.0 {
-            return false;
-        }
         let next_s = self.first_number(time_s) as f64 * self.refresh_s;
-        next_s - time_s <= 4.0 * spacing(time_s)
+        self.refresh_s > 0.0 && next_s - time_s <= 4.0 * spacing(time_s)
     }
 }
 
@@ -144,12 +141,6 @@ impl Motion {
     /// Whether light, heat and external forces accelerate the spacecraft.
     pub fn has_nongravitational_forces(&self) -> bool {
         matches!(self, Self::Disturbed { feedback: true, .. } | Self::NBody { feedback: true, .. })
-    }
-
-    /// Whether forces in simulated attitude perturb the orbit by Encke's method, interval by interval; the long segments of n-body motion
-    /// are integrated again with the forces instead.
-    pub(crate) fn uses_encke(&self) -> bool {
-        matches!(self, Self::Disturbed { feedback: true, .. })
     }
 
     /// Whether the acceleration by light and heat over a segment is as good as the orbit is to be, in m/s2; one about a single body has
@@ -223,9 +214,11 @@ impl Configuration {
         self.encounter.map_or(self.orbit.mu_m3_s2(), |encounter| encounter.gm_m3_s2)
     }
 
-    /// Whether the attitude is simulated by dynamics and forces perturb the orbit by Encke's method.
+    /// Whether forces in simulated attitude perturb the orbit by Encke's method, interval by interval; the long segments of n-body motion
+    /// are integrated again with the forces instead.
     pub(crate) fn uses_encke(&self) -> bool {
-        matches!(self.attitude, AttitudeSource::Dynamic(_)) && self.motion.uses_encke()
+        matches!(self.attitude, AttitudeSource::Dynamic(_))
+            && matches!(self.motion, Motion::Disturbed { feedback: true, .. })
     }
 
     /// Whether there is more of light and heat than sunlight that nothing shadows.
@@ -280,9 +273,8 @@ impl Configuration {
         sun: &SunAt<Dual64>,
     ) -> Vector3<f64> {
         let turn = |index: usize| {
-            let set = self.panels.get(index).zip(panels.get(index));
-            let [angle_rad, rate_rad_s] =
-                set.map_or([0.0; 2], |(setting, panel)| setting.turn_rad(panel, sun));
+            let setting = self.panels.get(index);
+            let [angle_rad, rate_rad_s] = setting.map_or([0.0; 2], |it| it.turn_rad(&panels[index], sun));
             [angle_rad, rate_rad_s, 0.0]
         };
         let center = &mass.center_of_mass_body_m;

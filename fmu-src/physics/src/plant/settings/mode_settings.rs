@@ -1,4 +1,4 @@
-//! Settings of a flight by its mode, and what of parameters and inputs changed.
+//! Settings of a flight by its mode.
 
 use super::dynamics_settings::DynamicsSettings;
 use crate::attitude::ReactionWheel;
@@ -13,21 +13,6 @@ pub enum ModeSettings {
     Ideal(IdealSettings),
     /// Settings of a flight by torque.
     Dynamic(Box<DynamicsSettings>),
-}
-
-/// Groups of parameters and inputs that changed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Changes {
-    /// Position and velocity were given.
-    pub orbit: bool,
-    /// Attitude, panels or Sun changed, on which light and heat depend.
-    pub light: bool,
-    /// Mass, centre of mass or inertia changed.
-    pub mass: bool,
-    /// The force from outside changed.
-    pub force: bool,
-    /// Mass, thresholds or target of dumps changed.
-    pub tunables: bool,
 }
 
 /// Wheels and sensors of a flight in an attitude that is followed ideally.

@@ -174,11 +174,10 @@ impl PanelSetting {
                 panel.normal_body(self.angle_rad(panel, sun)?)
             }
             Commanded::SunOffset { offset_rad, cos_sin, tilt } => {
-                let of_angle = || {
+                let sun_offset = cos_sin.map(|it| it.map(T::constant)).unwrap_or_else(|| {
                     let (sin, cos) = sin_cos(offset_rad);
                     [cos, sin]
-                };
-                let sun_offset = cos_sin.map_or_else(of_angle, |it| it.map(T::constant));
+                });
                 panel.normal_for_sun_offset(&sun.direction_body, sun_offset, tilt.sign)
             }
         })
@@ -194,7 +193,7 @@ impl PanelSetting {
                 (offset.at_rad(sun.time_s), held, tilt)
             }
             Self::Timeline { steps, clock_minus_time_s, before_rad, tilt } => {
-                let begun = begun_steps(steps, *clock_minus_time_s, sun.time_s.value());
+                let begun = begun(steps, *clock_minus_time_s, sun.time_s.value(), |step| step.at_s);
                 let step = begun.checked_sub(1).and_then(|last| steps.get(last));
                 (T::constant(step.map_or(*before_rad, |step| step.offset_rad)), None, tilt)
             }
@@ -211,7 +210,7 @@ impl PanelSetting {
     /// The first time after `time_s` at which it jumps, in s; infinite where it does not.
     pub fn until_s(&self, time_s: f64) -> f64 {
         let Self::Timeline { steps, clock_minus_time_s, .. } = self else { return f64::INFINITY };
-        let next = steps.get(begun_steps(steps, *clock_minus_time_s, time_s));
+        let next = steps.get(begun(steps, *clock_minus_time_s, time_s, |step| step.at_s));
         next.map_or(f64::INFINITY, |next| simulation_time_s(next.at_s, *clock_minus_time_s))
     }
 
@@ -240,11 +239,6 @@ enum Commanded<T> {
 pub(crate) fn panel_angle_rad(settings: &[PanelSetting], panels: &[Panel], index: usize, sun: &SunAt) -> f64 {
     let set = settings.get(index).zip(panels.get(index));
     set.and_then(|(setting, panel)| setting.angle_rad(panel, sun)).unwrap_or(0.0)
-}
-
-/// How many of the steps have begun at `time_s`.
-fn begun_steps(steps: &[PanelStep], clock_minus_time_s: f64, time_s: f64) -> usize {
-    begun(steps, clock_minus_time_s, time_s, |step| step.at_s)
 }
 
 #[cfg(test)]

@@ -108,26 +108,23 @@ pub enum PositionError {
 }
 
 impl<T> Positions<T> {
+    /// Every vector.
+    fn vectors(&self) -> [&[T; 3]; 7] {
+        let Self { sun_m, planet_m, pole, center_of_mass_m, air, air_velocity_m_s, field_t, .. } = self;
+        [sun_m, planet_m, pole, center_of_mass_m, air, air_velocity_m_s, field_t]
+    }
+
     /// Every number.
     pub fn iter(&self) -> impl Iterator<Item = &T> {
-        let positions = [&self.sun_m, &self.planet_m, &self.pole, &self.center_of_mass_m];
-        let air_and_field = [&self.air, &self.air_velocity_m_s, &self.field_t];
-        positions.into_iter().chain(air_and_field).flatten().chain(&self.panel_angles_rad)
+        self.vectors().into_iter().flatten().chain(&self.panel_angles_rad)
     }
 
     /// Changes every number by the one in its place of `others`.
     pub fn update<U>(&mut self, others: &Positions<U>, change: impl Fn(&mut T, &U)) {
+        let Self { sun_m, planet_m, pole, center_of_mass_m, air, air_velocity_m_s, field_t, .. } = self;
+        let vectors = [sun_m, planet_m, pole, center_of_mass_m, air, air_velocity_m_s, field_t];
         // Vector by vector: one chain of all of them is slower.
-        let vectors = [
-            (&mut self.sun_m, &others.sun_m),
-            (&mut self.planet_m, &others.planet_m),
-            (&mut self.pole, &others.pole),
-            (&mut self.center_of_mass_m, &others.center_of_mass_m),
-            (&mut self.air, &others.air),
-            (&mut self.air_velocity_m_s, &others.air_velocity_m_s),
-            (&mut self.field_t, &others.field_t),
-        ];
-        for (own, others) in vectors {
+        for (own, others) in vectors.into_iter().zip(others.vectors()) {
             own.iter_mut().zip(others).for_each(|(own, other)| change(own, other));
         }
         let angles = self.panel_angles_rad.iter_mut().zip(&others.panel_angles_rad);
@@ -191,9 +188,9 @@ impl<T: Scalar> BySource<T> {
         )?
         .with_sun_radius(parameters.sun_radius_m);
         geometry.solar_scale = parameters.solar_scale;
-        let pole = Vector3::from(positions.pole);
+        let pole_body = Some(Vector3::from(positions.pole)).filter(|it| !is_zero(it));
         if let Some(planet) = &mut geometry.planet {
-            planet.pole_body = if is_zero(&pole) { -Vector3::z() } else { pole };
+            planet.pole_body = pole_body;
         }
         let planet = shadow.filter(|_| active.has(Effect::Albedo)).map(|_| &parameters.planet);
         let is_warm = needs_temperatures || active.has(Effect::Thermal);
@@ -216,7 +213,7 @@ impl<T: Scalar> BySource<T> {
         }
         let Parameters { laws, inertia_body_kg_m2, .. } = parameters;
         if let Some(planet_body_m) = planet_m.filter(|_| active.has(Effect::GravityGradient)) {
-            let pole_body = || if is_zero(&pole) { -Vector3::z() } else { pole.normalize() };
+            let pole_body = || pole_body.map_or_else(|| -Vector3::z(), |pole| pole.normalize());
             loads[Effect::GravityGradient].torque_body_n_m =
                 gravity_gradient::torque_n_m(laws, inertia_body_kg_m2, &planet_body_m, pole_body);
         }

@@ -30,11 +30,6 @@ impl DisturbanceInterval {
         self.span.is_before()
     }
 
-    /// Whether it was made for settings with this digest; so is the one before the first.
-    pub(crate) fn is_made_for(&self, digest: Digest) -> bool {
-        self.is_before() || self.made_for == digest
-    }
-
     /// Whether a simulation can produce it.
     pub(crate) fn is_valid(&self) -> bool {
         self.span.is_valid() && (self.is_before() || self.span.start_s <= self.span.end_s)

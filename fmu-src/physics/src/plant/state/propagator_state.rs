@@ -75,17 +75,15 @@ impl PropagatorState {
         Ok(())
     }
 
-    /// Forgets what was computed ahead of `time_s`: the flight changes there. `configuration` is the one simulated so far;
-    /// `light_changes` tells whether attitude, panels, mass centre or the Sun do, on which light and heat depend.
-    pub fn cut(&mut self, configuration: &Configuration, time_s: f64, light_changes: bool) {
+    /// Forgets what was computed ahead of `time_s`: attitude, panels, mass centre or the Sun change there, on which light and heat
+    /// depend. `configuration` is the one simulated so far.
+    pub fn cut(&mut self, configuration: &Configuration, time_s: f64) {
         self.cut_with_jump(configuration, time_s, &Vector3::zeros());
-        if light_changes {
-            self.sources.cut(time_s);
-        }
+        self.sources.cut(time_s);
     }
 
-    /// The same where forces have changed the velocity by `jump_m_s`, EME2000, since the last time: an orbit that forces act on
-    /// takes it.
+    /// The same but for sources in the same light, where forces have changed the velocity by `jump_m_s`, EME2000, since the last
+    /// time: an orbit that forces act on takes it.
     pub fn cut_with_jump(&mut self, configuration: &Configuration, time_s: f64, jump_m_s: &Vector3<f64>) {
         self.command_slews.cut(time_s);
         // An orbit that light and forces act on goes elsewhere from here.

@@ -38,8 +38,9 @@ pub struct PlanetGeometry<T: Scalar> {
     pub sun_from_planet_body_m: Vector3<T>,
     /// The Sun's flux at the planet, in W/m2.
     pub sun_flux_w_m2: T,
-    /// North of the planet's cells, body frame, of any length; without effect on rings.
-    pub pole_body: Vector3<T>,
+    /// North of the planet's cells, body frame, of any length; body -Z, as in paper 004, where there is none. Without effect on
+    /// rings.
+    pub pole_body: Option<Vector3<T>>,
 }
 
 /// Temperatures at which faces radiate heat.
@@ -70,8 +71,7 @@ impl<'a, T: Scalar> Geometry<'a, T> {
 
     /// Geometry from positions: fluxes follow the inverse square of the distance (paper 004 eq 22).
     ///
-    /// Six arguments, which belong to flux, Sun, planet, shadow, panels and mass. `sun_position_body_m` and `planet_position_body_m` point from the spacecraft to the centres. The planet's pole is
-    /// body -Z, as in paper 004.
+    /// Six arguments, which belong to flux, Sun, planet, shadow, panels and mass. `sun_position_body_m` and `planet_position_body_m` point from the spacecraft to the centres.
     ///
     /// # Errors
     /// The Sun at no distance from spacecraft or planet, or not finite.
@@ -96,7 +96,7 @@ impl<'a, T: Scalar> Geometry<'a, T> {
         let planet = planet_position_body_m.map(|position_body_m| {
             let sun_from_planet_body_m = sun_position_body_m - position_body_m;
             let (sun_flux_w_m2, _) = flux(&sun_from_planet_body_m)?;
-            let (position_body_m, pole_body) = (*position_body_m, -Vector3::z());
+            let (position_body_m, pole_body) = (*position_body_m, None);
             Ok(PlanetGeometry { position_body_m, sun_from_planet_body_m, sun_flux_w_m2, pole_body })
         });
         Ok(Self {

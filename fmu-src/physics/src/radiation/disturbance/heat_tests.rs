@@ -52,7 +52,7 @@ fn planet_heat_is_absorbed_by_infrared_optics() {
             position_body_m: Vector3::z() * 2.0 * RADIUS_M,
             sun_from_planet_body_m: Vector3::z(),
             sun_flux_w_m2: 0.0,
-            pole_body: Vector3::x(),
+            pole_body: Some(Vector3::x()),
         }),
         sun_flux_w_m2: 0.0,
         ..sunlit(-Vector3::z())

@@ -48,7 +48,7 @@ fn around_orbit_by(
                 position_body_m: -position_body_m,
                 sun_from_planet_body_m: sun_body,
                 sun_flux_w_m2,
-                pole_body: -Vector3::z(),
+                pole_body: None,
             }),
             panel_angles_rad: &[0.0, 0.0],
             ..Geometry::sunlit(sun_body, sun_flux_w_m2)

@@ -76,7 +76,7 @@ impl PlanetRule {
             PlanetView::new(&planet.position_body_m, &planet.sun_from_planet_body_m, surface.radius_m)?;
         let cell_axes = match self {
             Self::Rings(_) => Matrix3::identity(),
-            Self::Cells(_) => sun_fixed_axes(&view.sun, &planet.pole_body)?,
+            Self::Cells(_) => sun_fixed_axes(&view.sun, &planet.pole_body.unwrap_or_else(|| -Vector3::z()))?,
         };
         let sun_flux_w_m2 = planet.sun_flux_w_m2;
         let exitance = surface.exitance(sun_flux_w_m2);

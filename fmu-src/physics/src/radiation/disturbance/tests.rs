@@ -66,7 +66,7 @@ fn in_isotropic_light(spacecraft: &Spacecraft) -> [ForceTorque<f64>; 2] {
                 position_body_m: nadir * RADIUS_M * (1.0 + 1e-13),
                 sun_from_planet_body_m: nadir,
                 sun_flux_w_m2: 0.0,
-                pole_body: Vector3::z(),
+                pole_body: Some(Vector3::z()),
             }),
             ..Geometry::sunlit(nadir, 0.0)
         };

@@ -51,8 +51,7 @@ fn view(kinematics: &mut Kinematics<'_>, time_s: f64, light_panels: &[usize], no
     viewing.planet = instant.planet_body_m.map(|position_body_m| {
         let sun_from_planet_body_m = instant.sun_position_body_m() - position_body_m;
         let sun_flux_w_m2 = flux_w_m2(sun_from_planet_body_m.norm());
-        let pole_body = -Vector3::z();
-        PlanetGeometry { position_body_m, sun_from_planet_body_m, sun_flux_w_m2, pole_body }
+        PlanetGeometry { position_body_m, sun_from_planet_body_m, sun_flux_w_m2, pole_body: None }
     });
     let panels = kinematics.spacecraft.panels;
     configuration.panel_angles_rad(panels, light_panels, &sun, &mut node.panel_angles_rad);
