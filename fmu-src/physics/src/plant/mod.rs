@@ -33,8 +33,8 @@ pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner}
 pub use flight::report::{ControlReport, EncounterReport, FlightSummary, ReachedState, Report, WheelReport};
 pub use flight::{Flight, ForecastMomentum, Occultation, StepContext, Undo, survey};
 pub use instant::air_and_field_segment::AirAndField;
+pub use instant::at_time::Instant;
 pub use instant::geometry::{Geometry, sun_and_earth};
-pub use instant::instant::Instant;
 pub use motion::approaches::ClosestApproach;
 pub use motion::osculating_orbit::OsculatingOrbit;
 pub use motion::panel_motion::PanelMotion;

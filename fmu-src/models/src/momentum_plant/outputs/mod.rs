@@ -249,7 +249,7 @@ fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) 
         values.set_vector(output, by_source.body_n_m_s(effect, convention, rotation).into());
     }
     values.set_boolean(v.momentum.target_clamped, report.propagator.sun_choice.is_clamped());
-    values.set_boolean(v.guided_degenerate, report.is_degenerate);
+    values.set_boolean(v.guided_degenerate, report.evaluation.instant.law.degenerate);
     values.set_boolean(v.downlink.active, report.downlink.active);
     values.set_boolean(v.downlink.clamped, report.downlink.clamped);
     values.set_integer(v.timeline.command, i32::try_from(report.timeline_row).unwrap_or(i32::MAX));

@@ -27,7 +27,7 @@ use crate::numerics::quadrature::GAUSS_2;
 
 use super::evaluation::Evaluation;
 use super::plant::Plant;
-use crate::plant::instant::instant::Instant;
+use crate::plant::instant::at_time::Instant;
 use crate::plant::instant::kinematics::Kinematics;
 use crate::plant::settings::error::PlantError;
 use crate::plant::sources::Dipoles;

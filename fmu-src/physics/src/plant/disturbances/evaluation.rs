@@ -6,7 +6,7 @@ use crate::attitude::MovingFrame;
 use crate::constants::RADIUS_SUN_M;
 use crate::loads::{ForceTorque, Loads};
 use crate::plant::instant::air_and_field_segment::AirAndField;
-use crate::plant::instant::instant::Instant;
+use crate::plant::instant::at_time::Instant;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
 use crate::plant::sources::gravity_gradient::pole_inertial;

@@ -16,9 +16,9 @@ use crate::momentum::{EventValues, TorqueModel, TorqueSample, WorkKind, torques_
 use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
 use crate::plant::instant::air_and_field_builder;
+use crate::plant::instant::at_time::Instant;
 use crate::plant::instant::conditions::Conditions;
 use crate::plant::instant::geometry::SimulationEphemeris;
-use crate::plant::instant::instant::Instant;
 use crate::plant::instant::kinematics::Kinematics;
 use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::attitude_source::{AttitudeSource, Turning};

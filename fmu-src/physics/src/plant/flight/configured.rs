@@ -189,12 +189,8 @@ impl<'a> ConfiguredFlight<'a> {
         let is_under_way = is_first && downlink && since_s < time_s - EPOCH_ROUNDING_S;
         let is_ahead = until_s.is_finite() && until_s > time_s && !is_under_way;
         let chosen = if is_ahead { self.plan_sun_direction(start, law, gimbal, until_s)? } else { None };
-        let choice = &mut self.propagator.sun_choice;
-        if downlink {
-            choice.selected.downlink = chosen;
-        } else {
-            choice.selected.science = chosen;
-        }
+        let selected = &mut self.propagator.sun_choice.selected;
+        *(if downlink { &mut selected.downlink } else { &mut selected.science }) = chosen;
         self.propagator.command_slews.cut(time_s);
         Ok(())
     }

@@ -203,6 +203,7 @@ impl<'f> Simulated<'f> for Dynamic<'f> {
         let mass_kg = loaded.mass_kg - flight.thrusters.propellant.total_used_kg(time_s);
         let mut evaluation = flight.plant_at(time_s, &body).evaluate_without_loads(time_s);
         evaluation.mass.mass_kg = mass_kg;
+        evaluation.instant.law.degenerate = self.state.control.is_degenerate;
         evaluation
     }
 
@@ -232,10 +233,6 @@ impl<'f> Simulated<'f> for Dynamic<'f> {
             force_body_n: thrusters.law.force_at_n(time_s),
             torque_body_n_m: thrusters.torque_at_n_m(time_s, &body.rate_body_rad_s),
         };
-    }
-
-    fn is_degenerate(&self, _: &Evaluation) -> bool {
-        self.state.control.is_degenerate
     }
 }
 

@@ -19,7 +19,6 @@ use super::in_flight::Simulated;
 use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::events::{EventKind, Eventful, LastEvents};
-use crate::plant::settings::attitude_source::AttitudeSource;
 use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::mode_settings::IdealSettings;
 use crate::plant::settings::thruster_events::{Maneuver, ThrusterEvent};
@@ -129,10 +128,6 @@ impl<'f> Simulated<'f> for Ideal<'f> {
         Ok(())
     }
 
-    fn fork_attitude(&self, _: f64) -> Option<AttitudeSource> {
-        None
-    }
-
     fn frame(&mut self, time_s: f64) -> Evaluation {
         self.flight.plant().evaluate_without_loads(time_s)
     }
@@ -143,10 +138,6 @@ impl<'f> Simulated<'f> for Ideal<'f> {
 
     fn rows(&mut self, evaluation: &mut Evaluation, applied: ForceTorque) {
         self.flight.plant().write_loads(evaluation, applied);
-    }
-
-    fn is_degenerate(&self, evaluation: &Evaluation) -> bool {
-        evaluation.instant.law.degenerate
     }
 }
 
@@ -210,7 +201,6 @@ impl<'f> Ideal<'f> {
         self.state.maneuvers.last = Some((time_s, executed_m_s));
         let event = ThrusterEvent::Maneuver { time_s, requested_m_s: found_m_s, executed_m_s };
         self.move_center_of_mass(time_s);
-        self.set_mass(time_s);
         (self.flight.given.log)(&event);
         Ok(())
     }
@@ -288,14 +278,11 @@ impl<'f> Ideal<'f> {
         self.state.spacing.dumped(&dump.event);
         if let Some(delta_v_inertial_m_s) = &pushed {
             self.state.integrator.push(delta_v_inertial_m_s);
-            self.set_mass(time_s);
             let configuration = &*self.flight.configuration;
             self.flight.propagator.cut_with_jump(configuration, time_s, delta_v_inertial_m_s);
             self.flight.propagator.sources.cut(time_s);
         }
-        if self.move_center_of_mass(time_s) {
-            self.set_mass(time_s);
-        }
+        self.move_center_of_mass(time_s);
         (self.flight.given.log)(&ThrusterEvent::Dump(dump.event));
     }
 
@@ -305,8 +292,8 @@ impl<'f> Ideal<'f> {
         AtOnce { thrusters, allocator, time_s }
     }
 
-    /// A thruster event is over: the centre of mass is elsewhere, where that is simulated.
-    fn move_center_of_mass(&mut self, time_s: f64) -> bool {
+    /// A thruster event is over: propellant is used, and the centre of mass is elsewhere, where that is simulated.
+    fn move_center_of_mass(&mut self, time_s: f64) {
         let configuration = &self.flight.configuration;
         let events = [self.state.integrator.dumps().count, self.state.maneuvers.count].map(i32::unsigned_abs);
         let number: u64 = events.map(u64::from).iter().sum();
@@ -315,7 +302,7 @@ impl<'f> Ideal<'f> {
             self.flight.propagator.center_of_mass.shift_body_m = shift;
             self.flight.propagator.cut(configuration, time_s);
         }
-        shift.is_some()
+        self.set_mass(time_s);
     }
 
     /// Mass properties of what is left at `time_s`.

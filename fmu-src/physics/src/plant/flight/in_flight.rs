@@ -40,9 +40,12 @@ pub(super) trait Simulated<'f>: Eventful {
     fn apply_requests(&mut self, step: Span) -> Result<(), PlantError>;
 
     /// Attitude of a fork from `time_s` on; `None`: the flight's own.
-    fn fork_attitude(&self, time_s: f64) -> Option<AttitudeSource>;
+    fn fork_attitude(&self, _time_s: f64) -> Option<AttitudeSource> {
+        None
+    }
 
-    /// Geometry, attitude and mass at `time_s`, where the flight has come; its loads are zero.
+    /// Geometry, attitude and mass at `time_s`, where the flight has come; its loads are zero. Whether a target of the attitude law has a
+    /// substitute is that of the last sample, where it is sampled.
     fn frame(&mut self, time_s: f64) -> Evaluation;
 
     /// Momentum and velocity change at `time_s`, where the flight has come.
@@ -50,9 +53,6 @@ pub(super) trait Simulated<'f>: Eventful {
 
     /// Writes force and torque of every row, under this load from outside.
     fn rows(&mut self, evaluation: &mut Evaluation, applied: ForceTorque);
-
-    /// Whether a substitute stood in for a target of the attitude law on one line with the other, at the last sample where it is sampled.
-    fn is_degenerate(&self, evaluation: &Evaluation) -> bool;
 }
 
 /// A flight in one step.
@@ -100,7 +100,7 @@ impl<'f> InFlight<'f> {
         }
         ReachedState {
             totals_are_finite: simulated.totals(time_s).is_finite(),
-            is_degenerate: simulated.is_degenerate(evaluation),
+            is_degenerate: evaluation.instant.law.degenerate,
         }
     }
 
@@ -121,14 +121,13 @@ impl<'f> InFlight<'f> {
         prediction: Option<EncounterPrediction>,
         time_s: f64,
     ) -> Report<'f> {
-        let law = &evaluation.instant.law;
-        let (mut downlink, mut is_degenerate) = (DownlinkStatus::from_attitude(law), law.degenerate);
+        let mut downlink = DownlinkStatus::from_attitude(&evaluation.instant.law);
         let is_waiting = matches!(self, Self::Waiting { .. });
         let (summary, flight) = match self {
             Self::Dynamic(mut it) => {
                 let at = it.at(time_s);
                 let Dynamic { state, settings, flight, .. } = it;
-                (downlink, is_degenerate) = (state.control.downlink, state.control.is_degenerate);
+                downlink = state.control.downlink;
                 (FlightSummary::dynamic(state, settings, flight.thrusters, evaluation, at), flight)
             }
             Self::Ideal(Ideal { state, flight, .. }, settings) => {
@@ -159,7 +158,6 @@ impl<'f> InFlight<'f> {
                 false => propagator.trajectory.time_since_periapsis_s(configuration, time_s),
             },
             downlink,
-            is_degenerate,
             timeline_row: slot.map_or(0, |slot| slot.row),
             timeline_until_s: slot.map(|slot| slot.until_s).filter(|until_s| until_s.is_finite()),
             evaluation,

@@ -45,8 +45,6 @@ pub struct Report<'a> {
     pub since_periapsis_s: f64,
     /// Downlink of guidance at this time.
     pub downlink: DownlinkStatus,
-    /// Whether a substitute stands in for a target of the attitude law on one line with the other.
-    pub is_degenerate: bool,
     /// Row of the timeline's command in force, from 1; 0 where none is.
     pub timeline_row: usize,
     /// When the timeline's command ends, or where none is the next one begins, in s; `None`: never.

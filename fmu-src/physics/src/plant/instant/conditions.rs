@@ -3,7 +3,7 @@
 use super::air_and_field_segment::AirAndField;
 use crate::aerodynamics::AirFlow;
 use crate::loads::ForceTorque;
-use crate::plant::instant::instant::Instant;
+use crate::plant::instant::at_time::Instant;
 use crate::plant::instant::kinematics::Kinematics;
 use crate::spacecraft::MassProperties;
 

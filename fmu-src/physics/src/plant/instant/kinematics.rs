@@ -20,9 +20,9 @@ use crate::spacecraft::MassProperties;
 use nalgebra::{Rotation3, Vector3};
 
 use super::air_and_field_segment::{AirAndField, AirAndFieldSegment};
+use super::at_time::{Instant, without_windows};
 use super::geometry::{Geometry, SimulationEphemeris};
 use super::guided_law::GuidedLaw;
-use super::instant::{Instant, without_windows};
 use crate::plant::motion::command_slews::CommandSlews;
 use crate::plant::motion::panel_motion::PanelLaws;
 use crate::plant::motion::trajectory::Trajectory;
@@ -156,7 +156,6 @@ impl Kinematics<'_> {
     /// Attitude that this guidance commands at `time_s`.
     fn guided(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let mut law = GuidedLaw {
-            configuration: self.configuration,
             trajectory: self.trajectory,
             bodies: &mut self.bodies,
             spacecraft: self.spacecraft,

@@ -43,13 +43,6 @@ struct Coast {
     orbit: TwoBodyOrbit,
 }
 
-impl Coast {
-    /// Whether a simulation can produce it.
-    fn is_valid(&self) -> bool {
-        self.orbit.is_valid() && self.orbit.period_s() > SHORTEST_PERIOD_S && self.since_s.abs() < LATEST_S
-    }
-}
-
 /// Position and velocity where no orbit is integrated.
 fn closed_form(configuration: &Configuration, time_s: f64) -> CartesianState {
     match configuration.motion {
@@ -89,7 +82,9 @@ impl Trajectory {
     /// Whether a simulation can produce it.
     pub fn is_valid(&self) -> bool {
         self.orbit.as_ref().is_none_or(DisturbedOrbit::is_valid)
-            && self.coast.as_ref().is_none_or(|coast| coast.is_valid())
+            && self.coast.as_ref().is_none_or(|Coast { orbit, since_s }| {
+                orbit.is_valid() && orbit.period_s() > SHORTEST_PERIOD_S && since_s.abs() < LATEST_S
+            })
             && self.periapses.is_valid()
             && self.approaches.is_valid()
     }
@@ -228,11 +223,9 @@ impl Trajectory {
         span: Span,
         extra_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
     ) -> Result<(), OrbitIntegrationError> {
-        let Some(orbit) = self.orbit.as_ref().filter(|_| configuration.motion.has_nongravitational_forces())
-        else {
-            return Ok(());
-        };
-        let Some(gravity) = configuration.motion.gravity() else { return Ok(()) };
+        let gravity =
+            configuration.motion.gravity().filter(|_| configuration.motion.has_nongravitational_forces());
+        let Some((orbit, gravity)) = self.orbit.as_ref().zip(gravity) else { return Ok(()) };
         if !orbit.is_deviated() {
             if extra_m_s2.is_none() {
                 return Ok(());
