@@ -14,11 +14,10 @@ use crate::momentum::{DumpEvent, Totals, WorkKind};
 use crate::numerics::Span;
 use crate::plant::thrusters::reaction_control::Thrusters;
 
-use super::configured::{ConfiguredFlight, SunSelectionStart};
-use super::downlink_forecast::StartMomentum;
+use super::configured::{ConfiguredFlight, StartMomentum, SunSelectionStart};
 use super::grid_edge;
-use super::in_flight::Simulated;
 use super::report::dynamic_totals;
+use super::simulated::Simulated;
 use crate::plant::control::control_loop::Sampled;
 use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::disturbance_interval::loads_at;

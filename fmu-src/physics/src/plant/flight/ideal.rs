@@ -13,9 +13,8 @@ use crate::guidance::timeline::TimelineManeuver;
 use crate::loads::ForceTorque;
 use crate::momentum::{DumpEvent, PreparedSegment, TorqueModel, Totals, WorkKind};
 
-use super::configured::{ConfiguredFlight, SunSelectionStart};
-use super::downlink_forecast::StartMomentum;
-use super::in_flight::Simulated;
+use super::configured::{ConfiguredFlight, StartMomentum, SunSelectionStart};
+use super::simulated::Simulated;
 use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::events::{EventKind, Eventful, LastEvents};

@@ -1,13 +1,10 @@
-//! A flight in one step by its mode: what an attitude that is followed ideally and one by torque answer alike.
+//! A flight in one step by its mode: its evaluation and report, and those of one that waits.
 
 use crate::guidance::DownlinkStatus;
 use crate::loads::ForceTorque;
 use crate::momentum::Totals;
-use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::Evaluation;
-use crate::plant::events::Eventful;
-use crate::plant::settings::attitude_source::{AttitudeSource, Command};
-use crate::plant::settings::error::PlantError;
+use crate::plant::settings::attitude_source::Command;
 use crate::plant::settings::mode_settings::IdealSettings;
 use crate::plant::state::flight_state::EncounterPrediction;
 use crate::plant::state::ideal_state::IdealState;
@@ -16,6 +13,7 @@ use super::configured::ConfiguredFlight;
 use super::dynamic::Dynamic;
 use super::ideal::Ideal;
 use super::report::{FlightSummary, ReachedState, Report};
+use super::simulated::Simulated;
 
 /// The last evaluation, kept in memory because it is large.
 #[derive(Clone, Debug, Default)]
@@ -23,36 +21,6 @@ pub(super) struct Evaluated {
     pub evaluation: Option<Evaluation>,
     /// Load from outside, where the loads are not computed yet.
     pub applied: Option<ForceTorque>,
-}
-
-/// A flight in one step, whatever gives its attitude.
-pub(super) trait Simulated<'f>: Eventful {
-    /// The flight that advances.
-    fn flight(&mut self) -> &mut ConfiguredFlight<'f>;
-
-    /// Sets what follows from the state and is not saved.
-    fn resume(&mut self) {}
-
-    /// Applies the requests of a step.
-    ///
-    /// # Errors
-    /// What ends a flight.
-    fn apply_requests(&mut self, step: Span) -> Result<(), PlantError>;
-
-    /// Attitude of a fork from `time_s` on; `None`: the flight's own.
-    fn fork_attitude(&self, _time_s: f64) -> Option<AttitudeSource> {
-        None
-    }
-
-    /// Geometry, attitude and mass at `time_s`, where the flight has come; its loads are zero. Whether a target of the attitude law has a
-    /// substitute is that of the last sample, where it is sampled.
-    fn frame(&mut self, time_s: f64) -> Evaluation;
-
-    /// Momentum and velocity change at `time_s`, where the flight has come.
-    fn totals(&mut self, time_s: f64) -> Totals;
-
-    /// Writes force and torque of every row, under this load from outside.
-    fn rows(&mut self, evaluation: &mut Evaluation, applied: ForceTorque);
 }
 
 /// A flight in one step.

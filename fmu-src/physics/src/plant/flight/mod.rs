@@ -2,20 +2,17 @@
 //!
 //! Parameters and inputs are no state: a restored flight is configured anew before it advances.
 
-mod configured;
 mod dynamic;
 mod encounter_prediction;
-mod fork;
 mod grid_edge;
 mod ideal;
 mod in_flight;
+mod simulated;
 mod survey;
-
-pub(super) mod downlink_forecast;
+pub(super) mod configured;
+pub(super) mod fork;
 pub(super) mod report;
 
-pub use configured::StepContext;
-pub use fork::ForecastMomentum;
 pub use survey::{Occultation, survey};
 
 use nalgebra::Vector3;
@@ -41,7 +38,7 @@ use crate::plant::state::flight_state::{EncounterPrediction, FlightState, Mode};
 use crate::plant::state::propagator_state::{PropagatorState, SunDirectionSelection};
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::Spacecraft;
-use configured::ConfiguredFlight;
+use configured::{ConfiguredFlight, StepContext};
 use dynamic::Dynamic;
 use encounter_prediction::predict_encounter;
 use ideal::Ideal;
