@@ -2,21 +2,21 @@
 //!
 //! Parameters and inputs are no state: a restored flight is configured anew before it advances.
 
+pub(super) mod configured;
 mod dynamic;
 mod encounter_prediction;
+pub(super) mod fork;
 mod grid_edge;
 mod ideal;
 mod in_flight;
+pub(super) mod report;
 mod simulated;
 mod survey;
-pub(super) mod configured;
-pub(super) mod fork;
-pub(super) mod report;
 
 pub use survey::{Occultation, survey};
 
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 use crate::attitude::control::Estimate;
 use crate::loads::ForceTorque;
@@ -46,10 +46,11 @@ use in_flight::{Evaluated, InFlight};
 use report::{ReachedState, Report};
 
 /// A flight: its state, and apart from it settings and caches, which are not saved.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(from = "FlightState")]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(transparent)]
 pub struct Flight {
     state: FlightState,
+    #[serde(skip)]
     setup: Option<Box<FlightSetup>>,
 }
 
@@ -62,23 +63,12 @@ struct FlightSetup {
     evaluated: Evaluated,
 }
 
-impl From<FlightState> for Flight {
-    fn from(state: FlightState) -> Self {
-        Self { state, setup: None }
-    }
-}
-
-impl Serialize for Flight {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.state.serialize(serializer)
-    }
-}
-
 impl Flight {
     /// Flight that waits for its inputs.
     pub fn waiting(thrusters: Thrusters) -> Self {
         let propagator = PropagatorState::default();
-        FlightState { propagator, thrusters, mode: Mode::Waiting, prediction: None }.into()
+        let state = FlightState { propagator, thrusters, mode: Mode::Waiting, prediction: None };
+        Self { state, setup: None }
     }
 
     /// Rejects decoded states that no flight of this spacecraft can produce.

@@ -56,22 +56,17 @@ impl Instant {
     /// The same with the rate of everything, time's being 1.
     pub fn moving_sun(&self) -> SunAt<Dual64> {
         let to_sun = &self.geometry.to_sun;
-        let approach_m_s =
-            to_sun.position_m.try_normalize(0.0).map_or(0.0, |unit| unit.dot(&to_sun.velocity_m_s));
+        let unit = to_sun.position_m.try_normalize(0.0);
+        let approach_m_s = unit.map_or(0.0, |unit| unit.dot(&to_sun.velocity_m_s));
+        let moving = unit.map_or(Vector3::zeros(), |unit| {
+            (to_sun.velocity_m_s - unit * approach_m_s) / self.sun_distance_m
+        });
+        let rate_body_1_s = self.to_body * moving - self.law.frame.rate_body_rad_s.cross(&self.sun_body);
         SunAt {
             time_s: Dual64::new(self.time_s, 1.0),
-            direction_body: self.sun_body.zip_map(&self.sun_rate_body_1_s(), Dual64::new),
+            direction_body: self.sun_body.zip_map(&rate_body_1_s, Dual64::new),
             distance_m: Dual64::new(self.sun_distance_m, approach_m_s),
         }
-    }
-
-    /// How the unit vector to the Sun moves in the body frame, in 1/s.
-    fn sun_rate_body_1_s(&self) -> Vector3<f64> {
-        let to_sun = &self.geometry.to_sun;
-        let moving = to_sun.position_m.try_normalize(0.0).map_or(Vector3::zeros(), |unit| {
-            (to_sun.velocity_m_s - unit * unit.dot(&to_sun.velocity_m_s)) / self.sun_distance_m
-        });
-        self.to_body * moving - self.law.frame.rate_body_rad_s.cross(&self.sun_body)
     }
 
     /// Whether the window is a downlink.

@@ -106,7 +106,14 @@ impl Kinematics<'_> {
     pub(crate) fn instant(&mut self, time_s: f64) -> Instant {
         let geometry = self.geometry(time_s);
         let law = self.attitude(time_s, &geometry);
-        let (lit_fraction, gaps_rad) = self.light_fraction(&geometry);
+        let (lit_fraction, gaps_rad) = match geometry.to_planet {
+            None => (1.0, [f64::INFINITY; 2]),
+            Some(to_planet) => {
+                let spacecraft_m = -to_planet.position_m;
+                let sun_m = spacecraft_m + geometry.to_sun.position_m;
+                self.configuration.shadow.fraction_and_gaps(&spacecraft_m, &sun_m)
+            }
+        };
         let to_body = law.frame.inertial_from_body.inverse();
         let sun_distance_m = geometry.to_sun.position_m.norm();
         Instant {
@@ -120,14 +127,6 @@ impl Kinematics<'_> {
             lit_fraction,
             events: EventValues::new(gaps_rad[0], gaps_rad[1], law.margins[0], law.margins[1]),
         }
-    }
-
-    /// Visible part of the Sun's disc and the gaps of the shadow.
-    fn light_fraction(&self, geometry: &Geometry) -> (f64, [f64; 2]) {
-        let Some(to_planet) = geometry.to_planet else { return (1.0, [f64::INFINITY; 2]) };
-        let spacecraft_m = -to_planet.position_m;
-        let sun_m = spacecraft_m + geometry.to_sun.position_m;
-        self.configuration.shadow.fraction_and_gaps(&spacecraft_m, &sun_m)
     }
 
     /// The spacecraft about the planet, or about the centre where no planet is, at `time_s`.
