@@ -8,7 +8,7 @@ use crate::attitude::angle_between_rad;
 use crate::environment::CartesianState;
 use crate::environment::orbit::TwoBodyOrbit;
 use crate::guidance::pointing::boresight::Gimbal;
-use crate::guidance::{ArcPoint, DownlinkStatus, Guided, GuidedAttitude, ScienceArc};
+use crate::guidance::{Activity, ArcPoint, Guided, GuidedAttitude, ScienceArc};
 use crate::math;
 use crate::momentum::{EventValues, WorkKind, after_event_s};
 use crate::numerics::chebyshev::Segment;
@@ -19,13 +19,16 @@ use crate::spacecraft::MassProperties;
 
 use nalgebra::{Rotation3, Vector3};
 
-use super::command_slews::CommandSlews;
+use super::air_and_field_segment::{AirAndField, AirAndFieldSegment};
+use super::at_time::{Instant, without_windows};
 use super::geometry::{Geometry, SimulationEphemeris};
 use super::guided_law::GuidedLaw;
-use super::instant::{Instant, Regime, without_windows};
-use super::trajectory::Trajectory;
+use crate::plant::motion::command_slews::CommandSlews;
+use crate::plant::motion::panel_motion::PanelLaws;
+use crate::plant::motion::trajectory::Trajectory;
 use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
 use crate::plant::settings::configuration::{Configuration, Motion};
+use crate::plant::settings::digest::Digest;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::panel_setting::SunAt;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
@@ -36,8 +39,10 @@ const NODES: usize = 8;
 /// The end of a window or slew, computed in epochs, is this near its number in flight time, in s.
 const EPOCH_ROUNDING_S: f64 = 1e-6;
 
-/// Motion and light of a configured flight, and the work that is done for it.
+/// Motion and light of a configured flight, air and field along it as far as they are known, and the work that is done for it.
 pub(crate) struct Kinematics<'a> {
+    /// Digest of the settings on which loads depend: a fit made for another one is cut.
+    pub digest: Digest,
     pub configuration: &'a Configuration,
     /// The configuration's guidance, with the selected directions of the Sun.
     pub law: Option<Guided>,
@@ -53,6 +58,8 @@ pub(crate) struct Kinematics<'a> {
     pub work: &'a mut Work,
     /// With every panel at angle 0, of what is left of the propellant.
     pub current_mass_panels_stowed: MassProperties,
+    /// Air and field along the orbit.
+    pub air_and_field: &'a mut AirAndFieldSegment,
 }
 
 impl Kinematics<'_> {
@@ -64,6 +71,17 @@ impl Kinematics<'_> {
     /// Mass, centre of mass and inertia as the panels stand with the Sun there.
     pub(crate) fn mass_properties(&self, sun: &SunAt) -> MassProperties {
         self.configuration.mass_properties(&self.current_mass_panels_stowed, self.spacecraft.panels, sun)
+    }
+
+    /// Air and magnetic field at `time_s`, up to which they are known.
+    pub(crate) fn air_and_field(&self, time_s: f64) -> AirAndField {
+        self.air_and_field.at(self.configuration.air_and_field.as_ref(), time_s)
+    }
+
+    /// The panels, by their laws.
+    pub(crate) fn panel_laws(&self) -> PanelLaws<'_> {
+        let (settings, panels) = (&self.configuration.panels, self.spacecraft.panels);
+        PanelLaws { settings, panels, stowed: &self.current_mass_panels_stowed }
     }
 
     /// The event functions alone, counted as a search.
@@ -88,7 +106,14 @@ impl Kinematics<'_> {
     pub(crate) fn instant(&mut self, time_s: f64) -> Instant {
         let geometry = self.geometry(time_s);
         let law = self.attitude(time_s, &geometry);
-        let (lit_fraction, gaps_rad) = self.light_fraction(&geometry);
+        let (lit_fraction, gaps_rad) = match geometry.to_planet {
+            None => (1.0, [f64::INFINITY; 2]),
+            Some(to_planet) => {
+                let spacecraft_m = -to_planet.position_m;
+                let sun_m = spacecraft_m + geometry.to_sun.position_m;
+                self.configuration.shadow.fraction_and_gaps(&spacecraft_m, &sun_m)
+            }
+        };
         let to_body = law.frame.inertial_from_body.inverse();
         let sun_distance_m = geometry.to_sun.position_m.norm();
         Instant {
@@ -98,22 +123,10 @@ impl Kinematics<'_> {
             sun_distance_m,
             planet_body_m: geometry.to_planet.map(|planet| to_body * planet.position_m),
             geometry,
-            frame: law.frame,
+            law,
             lit_fraction,
-            regime: Regime { in_shadow: gaps_rad[0] <= 0.0, ..Regime::by_law(&law) },
             events: EventValues::new(gaps_rad[0], gaps_rad[1], law.margins[0], law.margins[1]),
-            downlink: DownlinkStatus::from_attitude(&law),
-            is_degenerate: law.degenerate,
-            attitude_until_s: law.until_s - self.configuration.epoch_minus_time_s,
         }
-    }
-
-    /// Visible part of the Sun's disc and the gaps of the shadow.
-    fn light_fraction(&self, geometry: &Geometry) -> (f64, [f64; 2]) {
-        let Some(to_planet) = geometry.to_planet else { return (1.0, [f64::INFINITY; 2]) };
-        let spacecraft_m = -to_planet.position_m;
-        let sun_m = spacecraft_m + geometry.to_sun.position_m;
-        self.configuration.shadow.fraction_and_gaps(&spacecraft_m, &sun_m)
     }
 
     /// The spacecraft about the planet, or about the centre where no planet is, at `time_s`.
@@ -142,7 +155,6 @@ impl Kinematics<'_> {
     /// Attitude that this guidance commands at `time_s`.
     fn guided(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let mut law = GuidedLaw {
-            configuration: self.configuration,
             trajectory: self.trajectory,
             bodies: &mut self.bodies,
             spacecraft: self.spacecraft,
@@ -217,17 +229,19 @@ impl Kinematics<'_> {
     pub(crate) fn laws_until_s(&mut self, instant: &Instant, limit_s: f64) -> f64 {
         let time_s = instant.time_s;
         let limit_s = limit_s.min(self.configuration.panels_until_s(time_s));
-        let epoch_s = instant.attitude_until_s + self.configuration.epoch_minus_time_s;
-        let rounding_s = EPOCH_ROUNDING_S + 4.0 * (spacing(epoch_s) + spacing(instant.attitude_until_s));
-        let (before_s, behind_s) =
-            ((instant.attitude_until_s - rounding_s).max(time_s), instant.attitude_until_s + rounding_s);
+        let until_s = instant.law.until_s - self.configuration.epoch_minus_time_s;
+        let epoch_s = until_s + self.configuration.epoch_minus_time_s;
+        let rounding_s = EPOCH_ROUNDING_S + 4.0 * (spacing(epoch_s) + spacing(until_s));
+        let (before_s, behind_s) = ((until_s - rounding_s).max(time_s), until_s + rounding_s);
         if before_s >= limit_s || behind_s.is_nan() {
             return limit_s;
         }
-        let form = |it: &Regime| (it.window_since_s, it.downlink, it.slewing, it.corner_s);
+        let form = |it: &GuidedAttitude| {
+            (it.window.since_s, it.window.activity == Activity::Downlink, it.slewing, it.corner_s)
+        };
         let same = |it: &mut Self, at_s: f64| {
             let geometry = it.geometry(at_s);
-            form(&Regime::by_law(&it.attitude(at_s, &geometry))) == form(&instant.regime)
+            form(&it.attitude(at_s, &geometry)) == form(&instant.law)
         };
         if same(self, behind_s) {
             return limit_s;

@@ -9,11 +9,10 @@ use crate::guidance::{
     Activity, AttitudeCommand, Guided, GuidedAttitude, OrbitPhaseLaw, Sight, TargetPlanet, Window,
 };
 
-use super::command_slews::CommandSlews;
 use super::geometry::{Geometry, GeometrySight, SimulationEphemeris};
-use super::trajectory::Trajectory;
+use crate::plant::motion::command_slews::CommandSlews;
+use crate::plant::motion::trajectory::Trajectory;
 use crate::plant::settings::attitude_source::AttitudeSource;
-use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 
 /// Returns the geometry at `time_s`; a law reads motions about `planet` from it as well, or directions alone.
@@ -33,7 +32,6 @@ fn sight(
 
 /// Guidance of a configured flight.
 pub(super) struct GuidedLaw<'k, 'a> {
-    pub configuration: &'k Configuration,
     pub trajectory: &'k Trajectory,
     pub bodies: &'k mut SimulationEphemeris<'a>,
     /// The spacecraft.
@@ -63,7 +61,7 @@ impl GuidedLaw<'_, '_> {
     /// Attitude that the timeline commands at `time_s`, else the orbit phase's own guidance.
     pub(super) fn attitude(&mut self, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let guided = self.guided;
-        let Some((law, settings)) = self.spacecraft.timeline.zip(self.configuration.timeline) else {
+        let Some((law, settings)) = self.spacecraft.timeline.zip(self.bodies.configuration.timeline) else {
             let requested = guided.requested.at_distance(geometry.to_sun.position_m.norm());
             let own = self.by_orbit_phase(&Guided { requested, ..*guided }, time_s, geometry);
             return GuidedAttitude { clamped: own.clamped || requested.is_moved, ..own };
@@ -84,7 +82,7 @@ impl GuidedLaw<'_, '_> {
         let (sun, target) = (target.geometry.lines_of_sight().sun, target.attitude);
         let slewed = slew.and_then(|slew| slew.at(time_s, &target.frame, &sun, self.guided.slew_rate_rad_s));
         slewed.map_or(target, |SlewedFrame { frame, end_s }| {
-            let end_epoch_s = end_s + self.configuration.epoch_minus_time_s;
+            let end_epoch_s = end_s + self.bodies.configuration.epoch_minus_time_s;
             GuidedAttitude { frame, slewing: true, until_s: target.until_s.min(end_epoch_s), ..target }
         })
     }
@@ -108,12 +106,12 @@ impl GuidedLaw<'_, '_> {
         if found.is_none() && time_s - slot.since_s > longest_s {
             return None;
         }
-        let is_sampled = matches!(self.configuration.attitude, AttitudeSource::Dynamic(_));
+        let is_sampled = matches!(self.bodies.configuration.attitude, AttitudeSource::Dynamic(_));
         let begin_s = found.map_or(if is_sampled { time_s } else { slot.since_s }, |slew| slew.begin_s);
         let Target { geometry, attitude } = match begin_s == time_s {
             true => *target,
             false => {
-                let spacecraft = self.trajectory.state_at(self.configuration, begin_s);
+                let spacecraft = self.trajectory.state_at(self.bodies.configuration, begin_s);
                 let geometry = self.bodies.geometry(begin_s, spacecraft);
                 Target { geometry, attitude: self.by_slot(command, begin_s, &geometry) }
             }
@@ -153,7 +151,7 @@ impl GuidedLaw<'_, '_> {
     /// Attitude that a slot of the timeline commands at `time_s`, without the slew into it.
     fn by_slot(&mut self, command: &SlotCommand<'_>, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let (guided, slot) = (self.guided, &command.slot);
-        let epoch_minus_time_s = self.configuration.epoch_minus_time_s;
+        let epoch_minus_time_s = self.bodies.configuration.epoch_minus_time_s;
         let [since_s, until_s] = [slot.since_s, slot.until_s].map(|it| it + epoch_minus_time_s);
         let requested = slot.sun_request(guided.requested);
         let commanded = slot.entry.filter(|_| slot.scenario().is_some());
@@ -200,7 +198,7 @@ impl GuidedLaw<'_, '_> {
 
     /// Attitude that the orbit phase's own guidance commands at `time_s`.
     fn by_orbit_phase(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
-        let (configuration, bodies) = (self.configuration, &mut *self.bodies);
+        let (configuration, bodies) = (self.bodies.configuration, &mut *self.bodies);
         let trajectory = self.trajectory;
         let law = OrbitPhaseLaw { guided: *guided, default_downlink: self.spacecraft.default_downlink };
         let epoch_s = time_s + configuration.epoch_minus_time_s;
