@@ -1,7 +1,7 @@
 //! The content of a `modelDescription.xml` as plain values (FMI 2.0.5, section 2.2).
 
 use crate::element::{element, elements};
-use crate::{Causality, DependencyKind, Initial, NamingConvention, Variability};
+use crate::{Annotation, Causality, DependencyKind, Initial, NamingConvention, Variability, VariableRole};
 
 element! {
     /// A whole model description of a co-simulation FMU.
@@ -42,6 +42,15 @@ element! {
         variables: Vec<ScalarVariable>,
         /// `ModelStructure`.
         structure: ModelStructure,
+        /// Tool that the annotations of variables are for; without one they are not written.
+        annotation_tool: Option<String>,
+    }
+}
+
+impl Description {
+    /// The variables with a role.
+    pub fn with_role(&self, role: VariableRole) -> impl Iterator<Item = &ScalarVariable> {
+        self.variables.iter().filter(move |it| it.role() == Some(role))
     }
 }
 
@@ -206,6 +215,13 @@ element! {
     }
 }
 
+impl EnumerationItem {
+    /// Whether a word is its name or its value.
+    pub fn is_called(&self, word: &str) -> bool {
+        word == self.name || word.parse() == Ok(self.value)
+    }
+}
+
 element! {
     /// `Category` of `LogCategories`.
     #[derive(Eq)]
@@ -244,6 +260,15 @@ element! {
         ;
         /// Base type and its attributes.
         kind: VariableKind,
+        /// `Annotations` of [`Description::annotation_tool`].
+        annotation: Option<Box<Annotation>>,
+    }
+}
+
+impl ScalarVariable {
+    /// The annotated role.
+    pub fn role(&self) -> Option<VariableRole> {
+        self.annotation.as_ref().and_then(|it| it.role)
     }
 }
 

@@ -107,6 +107,7 @@ codes! {
     DerivativeKind "derivative-kind" Error "What is differentiated is a continuous Real (2.2.7)."
     Reinit "reinit" Error "reinit stands only on continuous states of a model-exchange FMU (2.2.7)."
     MultipleSet "multiple-set" Error "canHandleMultipleSetPerTimeInstant stands only on inputs of a model-exchange FMU (2.2.7)."
+    Annotation "annotation" Warning "Annotations of io.github.heliotorque have its attributes and name variables and items of the FMU."
     AliasStart "alias-start" Error "At most one variable of an alias set has a start (2.2.7)."
     AliasSettable "alias-settable" Error "At most one variable of an alias set can be set (2.2.7)."
     AliasConstant "alias-constant" Error "An alias set is constant as a whole or not at all, with one value (2.2.7)."

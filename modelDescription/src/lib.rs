@@ -3,6 +3,7 @@
 //!
 //! Section numbers refer to the FMI 2.0.5 standard. Nothing here knows of a particular model.
 
+pub mod annotation;
 mod base_type;
 pub mod call_table;
 pub mod describe;
@@ -25,6 +26,7 @@ mod words;
 mod write;
 mod writer;
 
+pub use annotation::{Annotation, ReadWhere};
 pub use base_type::BaseType;
 pub use description::{
     BaseUnit, CoSimulation, DefaultExperiment, Description, DisplayUnit, EnumerationItem, LogCategory,
@@ -38,6 +40,8 @@ pub use finding::{Code, Finding, Lines, Severity};
 pub use reader::{MAX_BYTES, Parsed, Start, Xml, parse};
 pub use status::Status;
 pub use validate::validate;
-pub use words::{Causality, DependencyKind, Initial, NamingConvention, Variability};
+pub use words::{
+    Causality, DependencyKind, Initial, InterpolationKind, NamingConvention, Variability, VariableRole,
+};
 pub use write::to_xml;
 pub use writer::escape;

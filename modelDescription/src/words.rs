@@ -114,6 +114,26 @@ attribute_words! {
 }
 
 attribute_words! {
+    /// `role` of an annotated variable: `Epoch` is in s past J2000 TDB, as a parameter that of the start; `LitFraction` the visible
+    /// part of the Sun's disc; `NextEvent` the time of the next event.
+    pub enum VariableRole {
+        Epoch => "epoch",
+        LitFraction => "litFraction",
+        NextEvent => "nextEvent",
+    }
+}
+
+attribute_words! {
+    /// `interpolation` of an annotated variable: `Attitude` is an element of a quaternion, scalar last; `Angle` comes back after a
+    /// turn; `Position` is a cubic by its rate.
+    pub enum InterpolationKind {
+        Attitude => "attitude",
+        Angle => "angle",
+        Position => "position",
+    }
+}
+
+attribute_words! {
     /// One entry of `dependenciesKind`.
     pub enum DependencyKind {
         Dependent => "dependent",

@@ -2,7 +2,7 @@
 
 use crate::element::Element;
 use crate::writer::Writer;
-use crate::{Description, ScalarVariable, SimpleType, SimpleTypeKind, Unit, Unknown};
+use crate::{Annotation, Description, ScalarVariable, SimpleType, SimpleTypeKind, Unit, Unknown};
 
 /// The `modelDescription.xml` of a description, in the order of the FMI 2.0.5 schema.
 ///
@@ -35,7 +35,10 @@ fn written(description: &Description) -> Writer {
         if let Some(experiment) = &description.default_experiment {
             out.leaf("DefaultExperiment", experiment);
         }
-        out.element("ModelVariables", |out| description.variables.iter().for_each(|it| out.variable(it)));
+        let tool = description.annotation_tool.as_ref();
+        out.element("ModelVariables", |out| {
+            description.variables.iter().for_each(|it| out.variable(it, tool));
+        });
         out.element("ModelStructure", |out| {
             let unknown = |out: &mut Writer, it: &Unknown| out.leaf("Unknown", it);
             out.list("Outputs", &description.structure.outputs, unknown);
@@ -80,10 +83,23 @@ impl Writer {
         });
     }
 
-    fn variable(&mut self, variable: &ScalarVariable) {
+    fn variable(&mut self, variable: &ScalarVariable, tool: Option<&String>) {
         self.element("ScalarVariable", |out| {
             variable.write(out);
             out.element(variable.kind.name(), |out| variable.kind.write(out));
+            if let Some((annotation, tool)) = variable.annotation.as_deref().zip(tool) {
+                out.element("Annotations", |out| out.annotation(annotation, tool));
+            }
+        });
+    }
+
+    fn annotation(&mut self, annotation: &Annotation, tool: &String) {
+        self.element("Tool", |out| {
+            out.attribute("name", tool);
+            out.element("Variable", |out| {
+                annotation.write(out);
+                annotation.read_where.iter().for_each(|it| out.leaf("ReadWhere", it));
+            });
         });
     }
 }

@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 
 use fmi::{Binary, Fmu};
 
-use crate::support::{SHIPPED, built, description};
+use model_description::{Causality, Code, ScalarVariable};
+
+use crate::support::{LIBRARY, SHIPPED, built, description};
 
 fn golden_folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("modelDescription").join("golden")
@@ -32,6 +34,41 @@ fn every_shipped_model_is_described_as_in_its_golden_file() {
             differs.and_then(|line| found.lines().nth(line)).unwrap_or("(one file is longer)"),
         );
     }
+}
+
+#[test]
+fn annotations_name_what_is_there() {
+    let all: Vec<_> = SHIPPED.iter().map(|model| description(model)).collect();
+    for description in &all {
+        let annotated = description.variables.iter().filter_map(|it| Some((it, it.annotation.as_deref()?)));
+        let is_output = |name: &String| {
+            let mut variables = all.iter().flat_map(|it| &it.variables);
+            variables.any(|it| it.name == *name && it.causality == Causality::Output)
+        };
+        for (variable, annotation) in annotated {
+            assert!(annotation.also_called.iter().all(is_output), "{}: {annotation:?}", variable.name);
+        }
+        let found = model_description::validate(description);
+        let found: Vec<_> = found.iter().filter(|it| it.code == Code::Annotation).collect();
+        assert!(found.is_empty(), "{}: {found:?}", description.model_name);
+        let is_annotated = |it: &ScalarVariable| it.annotation.is_some();
+        assert!(description.variables.iter().any(is_annotated), "{}", description.model_name);
+    }
+}
+
+/// The item that `wire` would set is left to whoever chose another.
+#[test]
+fn an_option_of_the_file_is_nobody_elses_choice() {
+    let set = |text: &str| {
+        let plant = LIBRARY.find("MomentumPlant").unwrap();
+        let text = plant.default_setup.replacen("[start]\n", &format!("[start]\n{text}\n"), 1);
+        let described = LIBRARY.describe(plant, None, Some(&text)).unwrap();
+        let input = described.variables.iter().find(|it| it.name == "command.q[1]").unwrap();
+        let options = input.annotation.as_ref().unwrap().read_where.iter();
+        options.map(|it| it.set.clone().unwrap_or_default()).collect::<Vec<_>>()
+    };
+    assert_eq!(set(""), ["commanded", "inputs"]);
+    assert_eq!(set("\"attitude.source\" = \"free\""), ["", "inputs"]);
 }
 
 /// PyFMI stores results by reference alone; elements of a vector are read as one block.

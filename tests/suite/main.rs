@@ -14,6 +14,7 @@ mod imports;
 mod instances;
 mod layout;
 mod limits;
+mod neutral;
 mod plant;
 mod prose;
 mod public_names;

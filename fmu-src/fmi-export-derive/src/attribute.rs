@@ -1,6 +1,9 @@
-//! The attributes: `#[parameter(...)]` and its siblings, `#[group(...)]`, `#[variables(...)]`.
+//! The attributes: `#[parameter(...)]` and its siblings, `#[annotation(...)]`, `#[read_where(...)]`, `#[group(...)]`,
+//! `#[variables(...)]`.
 
-use model_description::{Causality, Initial, Variability};
+use model_description::{
+    Annotation, Causality, Initial, InterpolationKind, ReadWhere, Variability, VariableRole,
+};
 use proc_macro2::Span;
 use syn::{
     Attribute, Expr, Field, Ident, LitStr, Meta, Type, meta::ParseNestedMeta, parenthesized,
@@ -25,6 +28,8 @@ pub(crate) struct Declaration {
     pub start: Option<Expr>,
     /// Items of a choice that the setup adds.
     pub items: Option<Expr>,
+    /// `#[annotation(...)]` and every `#[read_where(...)]`.
+    pub annotation: Option<Annotation>,
 }
 
 /// `#[group(...)]`.
@@ -60,7 +65,14 @@ pub(crate) fn of_field(name: &Ident, field: &Field) -> syn::Result<FieldAttribut
             _ => continue,
         };
         let parsed = match causality {
-            Some(causality) => FieldAttribute::Declaration(Box::new(declaration(attribute, causality)?)),
+            Some(causality) => {
+                let annotation = annotation(field)?;
+                let declared = declaration(attribute, causality)?;
+                FieldAttribute::Declaration(Box::new(Declaration { annotation, ..declared }))
+            }
+            None if annotation(field)?.is_some() => {
+                return Err(syn::Error::new_spanned(word, "a group has no annotation; its variables have"));
+            }
             None => FieldAttribute::Group(Box::new(group(attribute)?)),
         };
         if found.replace(parsed).is_some() {
@@ -96,6 +108,60 @@ fn declaration(attribute: &Attribute, causality: Causality) -> syn::Result<Decla
         }
     })?;
     Ok(all)
+}
+
+/// The annotation of a variable's field, if it has any.
+fn annotation(field: &Field) -> syn::Result<Option<Annotation>> {
+    let mut all: Option<Annotation> = None;
+    let named = |name: &'static str| field.attrs.iter().filter(move |it| it.path().is_ident(name));
+    for attribute in named("annotation") {
+        let Annotation { also_called, limited_by, role, interpolation, rate, .. } =
+            all.get_or_insert_default();
+        each_item(attribute, |item, word| match word {
+            "also_called" => once(also_called, item, text),
+            "limited_by" => once(limited_by, item, text),
+            "role" => once(role, item, |item| word_of(item, &VariableRole::ALL, VariableRole::as_str)),
+            "interpolation" => once(interpolation, item, |item| {
+                word_of(item, &InterpolationKind::ALL, InterpolationKind::as_str)
+            }),
+            "rate" => once(rate, item, text),
+            _ => Err(item.error(format!(
+                "unknown item `{word}`; allowed: also_called, limited_by, role, interpolation, rate"
+            ))),
+        })?;
+    }
+    for attribute in named("read_where") {
+        let (mut option, mut items, mut set) = (None, None, None);
+        each_item(attribute, |item, word| match word {
+            "option" => once(&mut option, item, text),
+            "items" => once(&mut items, item, text),
+            "set" => once(&mut set, item, text),
+            _ => Err(item.error(format!("unknown item `{word}`; allowed: option, items, set"))),
+        })?;
+        let (Some(option), Some(items)) = (option, items) else {
+            return Err(syn::Error::new_spanned(attribute, "needs option = \"...\" and items = \"...\""));
+        };
+        let items = items.split_whitespace().map(str::to_owned).collect();
+        all.get_or_insert_default().read_where.push(ReadWhere { option, items, set });
+    }
+    Ok(all)
+}
+
+fn text(item: &ParseNestedMeta<'_>) -> syn::Result<String> {
+    value::<LitStr>(item).map(|text| text.value())
+}
+
+/// The variant of a word in quotes.
+fn word_of<T: Copy>(
+    item: &ParseNestedMeta<'_>,
+    all: &[T],
+    word: impl Fn(T) -> &'static str,
+) -> syn::Result<T> {
+    let given: LitStr = value(item)?;
+    all.iter().copied().find(|known| word(*known) == given.value()).ok_or_else(|| {
+        let allowed: Vec<&str> = all.iter().map(|known| word(*known)).collect();
+        syn::Error::new(given.span(), format!("unknown `{}`; allowed: {}", given.value(), allowed.join(", ")))
+    })
 }
 
 fn group(attribute: &Attribute) -> syn::Result<Group> {

@@ -34,13 +34,27 @@ use syn::{DeriveInput, parse_macro_input};
 /// | `nominal` | nominal value of a Real |
 /// | `name = "a.b"` | name within the group; the default is the field's in lowerCamelCase |
 ///
+/// Relations to other variables follow in `#[annotation(also_called = "...", limited_by = "...", role = "epoch", interpolation =
+/// "attitude", rate = "...")]` and `#[read_where(option = "...", items = "one two", set = "one")]`, with full names as in
+/// `fmi_export::variables::Annotation`: `wheel[k].capacity` is of the same wheel, `dump.threshold[i]` the element of equal index.
+///
 /// A struct that derives `Variables` is nested under the field's name; `#[group(name = "a.b")]` gives another, and `name = ""`
 /// adds no prefix.
 /// `#[group(count = expression)]` on a `Vec` declares as many groups `name[1].`, `name[2].`, and
 /// `setup = expression` hands the group another setup, in which `index` counts the elements.
 #[proc_macro_derive(
     Variables,
-    attributes(variables, parameter, calculated_parameter, input, output, local, group)
+    attributes(
+        variables,
+        parameter,
+        calculated_parameter,
+        input,
+        output,
+        local,
+        annotation,
+        read_where,
+        group
+    )
 )]
 pub fn variables(item: TokenStream) -> TokenStream {
     let input = parse_macro_input!(item as DeriveInput);

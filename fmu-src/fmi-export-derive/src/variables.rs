@@ -1,6 +1,6 @@
 //! The code of `#[derive(Variables)]`: one call of the builder a field.
 
-use model_description::Variability;
+use model_description::{Annotation, ReadWhere, Variability};
 use proc_macro2::{Span, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::{Data, DeriveInput, Expr, Field, Fields, Ident, spanned::Spanned};
@@ -114,6 +114,11 @@ impl Expansion<'_> {
         let spec = quote! {
             &::fmi_export::variables::ScalarSpec { name: #name, description: #description, role: #role }
         };
+        let annotation = declared.annotation.as_ref().map(annotation_tokens);
+        let scope = match annotation {
+            Some(annotation) => quote! { #scope.annotate(#annotation) },
+            None => quote! { #scope },
+        };
         Some(match kind {
             FieldType::Real | FieldType::RealVector | FieldType::RealMatrix => {
                 let unit = declared.unit.as_ref().map(syn::LitStr::value);
@@ -204,6 +209,41 @@ fn option(expression: Option<&(impl Spanned + ToTokens)>) -> TokenStream {
     match expression {
         Some(expression) => quote_spanned! { expression.span()=> ::core::option::Option::Some(#expression) },
         None => quote! { ::core::option::Option::None },
+    }
+}
+
+fn annotation_tokens(annotation: &Annotation) -> TokenStream {
+    let Annotation { also_called, limited_by, role, interpolation, rate, read_where } = annotation;
+    let text = |text: &String| quote! { ::std::string::String::from(#text) };
+    let optional = |given: &Option<String>| match given.as_ref().map(text) {
+        Some(given) => quote! { ::core::option::Option::Some(#given) },
+        None => quote! { ::core::option::Option::None },
+    };
+    let word = |given: Option<(&str, String)>| match given {
+        Some((of, variant)) => {
+            let (of, variant) = (format_ident!("{of}"), format_ident!("{variant}"));
+            quote! { ::core::option::Option::Some(::fmi_export::variables::#of::#variant) }
+        }
+        None => quote! { ::core::option::Option::None },
+    };
+    let (also_called, limited_by, rate) = (optional(also_called), optional(limited_by), optional(rate));
+    let role = word(role.map(|it| ("VariableRole", format!("{it:?}"))));
+    let interpolation = word(interpolation.map(|it| ("InterpolationKind", format!("{it:?}"))));
+    let read_where = read_where.iter().map(|ReadWhere { option, items, set }| {
+        let (option, items, set) = (text(option), items.iter().map(text), optional(set));
+        quote! {
+            ::fmi_export::variables::ReadWhere { option: #option, items: ::std::vec![#(#items),*], set: #set }
+        }
+    });
+    quote! {
+        ::fmi_export::variables::Annotation {
+            also_called: #also_called,
+            limited_by: #limited_by,
+            role: #role,
+            interpolation: #interpolation,
+            rate: #rate,
+            read_where: ::std::vec![#(#read_where),*],
+        }
     }
 }
 

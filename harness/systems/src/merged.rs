@@ -44,9 +44,13 @@ pub(crate) fn merge<'a>(
                 }
                 VariableKind::Enumeration { declared_type, .. } => *declared_type = prefixed(declared_type),
             }
+            let mut annotation = variable.annotation.clone();
+            let names = annotation.iter_mut().flat_map(|it| it.own_names_mut());
+            names.for_each(|name| *name = prefixed(name));
             description.variables.push(ScalarVariable {
                 name: prefixed(&variable.name),
                 kind,
+                annotation,
                 ..variable.clone()
             });
             origins.push((number, position));

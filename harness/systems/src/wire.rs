@@ -20,20 +20,9 @@ use crate::{
     unread::{Unread, unread},
 };
 
-/// Inputs that take outputs of another name: input, output; vectors by their bare names, `[k]` for any index.
-const RENAMED: &[(&str, &str)] = &[
-    ("sun.position", "sun.positionInertial"),
-    ("sun.velocity", "sun.velocityInertial"),
-    ("earth.position", "earth.positionInertial"),
-    ("earth.velocity", "earth.velocityInertial"),
-    ("panel[k].sunOffsetCommand", "panel[k].sunOffset"),
-    ("panel[k].angle", "panel[k].angleActual"),
-    ("planet.pole", "planet.poleBody"),
-];
-
 /// An input that was left open.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct OpenInput {
+pub struct Left {
     /// Its component.
     pub component: String,
     /// Its name.
@@ -48,14 +37,14 @@ pub struct Wired {
     /// Its description; the connectors are what is connected, and the outputs that were requested.
     pub structure: Structure,
     /// The inputs that were left open.
-    pub left: Vec<OpenInput>,
+    pub left: Vec<Left>,
     /// Options that were set because their inputs are connected, `component.name=item`.
     pub implied: Vec<String>,
-    /// Inputs that are connected and not read.
+    /// What is connected and not read.
     pub unread: Vec<Unread>,
 }
 
-/// Requests beside the connections of equal names.
+/// What is requested beside the connections of equal names.
 #[derive(Clone, Debug, Default)]
 pub struct Wiring {
     /// Patterns of further outputs to list, `component.variable`.
@@ -76,8 +65,8 @@ pub fn component_name(path: &Path) -> String {
     letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
 }
 
-/// Connects every input of a component to the output of another one with its name, type and unit (`RENAMED` names the
-/// exceptions), where there is one such output.
+/// Connects every input of a component to the output of another one with its name, or with the name that its FMU annotates, where
+/// there is one such output and type, unit and items agree.
 ///
 /// # Errors
 /// Names of components that stand twice or are none, patterns that fit nothing, values that no variable takes, FMUs without
@@ -123,9 +112,6 @@ pub fn wire(
     for (number, (component, fmu)) in components.iter().enumerate() {
         let inputs = fmu.description().variables.iter().filter(|it| it.causality == Causality::Input);
         for input in inputs {
-            if !wiring.without_enumerations {
-                check_items(components, number, input)?;
-            }
             let found = source(components, number, input);
             let found = found.and_then(|found| match &input.kind {
                 VariableKind::Enumeration { .. } if wiring.without_enumerations => {
@@ -141,11 +127,9 @@ pub fn wire(
                 Ok((from, output)) => {
                     connect(&mut wired.structure, components, (from, output), (number, input))
                 }
-                Err(why) => wired.left.push(OpenInput {
-                    component: component.clone(),
-                    input: input.name.clone(),
-                    why,
-                }),
+                Err(why) => {
+                    wired.left.push(Left { component: component.clone(), input: input.name.clone(), why })
+                }
             }
         }
     }
@@ -177,7 +161,7 @@ fn imply(wired: &mut Wired, components: &[(String, Fmu)], number: usize) -> Resu
         let is_given = |parameter: &Parameter| parameter.name == option;
         let sets = wired.structure.components[number].bindings.iter().flat_map(|binding| &binding.sets);
         let is_given = sets.flat_map(|set| &set.parameters).any(is_given);
-        if let Some(item) = implied.filter(|_| is_open && !is_given) {
+        if let Some(item) = implied.as_ref().filter(|_| is_open && !is_given) {
             let set = format!("{component}.{option}={item}");
             bind(&mut wired.structure, components, std::slice::from_ref(&set))?;
             wired.implied.push(set);
@@ -239,40 +223,7 @@ fn written(description: &Description, variable: &ScalarVariable, given: value::V
     }
 }
 
-/// Inputs whose items are the names in a file, and mean something else in another file.
-const OF_FILE: [&str; 1] = ["thrust.request"];
-
-/// Refuses an input that would be joined to an output with other items, where both are the names in a file.
-fn check_items(components: &[(String, Fmu)], to: usize, input: &ScalarVariable) -> Result<(), Error> {
-    if !OF_FILE.contains(&input.name.as_str()) {
-        return Ok(());
-    }
-    let others = components.iter().enumerate().filter(|(other, _)| *other != to);
-    let mut outputs = others.filter_map(|(from, (_, fmu))| {
-        let output = fmu.find(&input.name).filter(|it| it.causality == Causality::Output)?;
-        Some((from, output))
-    });
-    let (Some((from, output)), None) = (outputs.next(), outputs.next()) else { return Ok(()) };
-    let items = |number: usize, variable: &ScalarVariable| -> Vec<String> {
-        let items = value::items(components[number].1.description(), variable).iter();
-        items.map(|item| format!("{} ({})", item.name, item.value)).collect()
-    };
-    let (given, taken) = (items(from, output), items(to, input));
-    if given == taken {
-        return Ok(());
-    }
-    Err(Error::Wire(format!(
-        "{}: found other thruster sets: {} has {}, {} has {}; allowed: the same on both sides: pack both with one spacecraft, or see \
-         --without-enumerations",
-        input.name,
-        components[from].0,
-        given.join(", "),
-        components[to].0,
-        taken.join(", ")
-    )))
-}
-
-/// Returns the item of an enumeration that is not connected: its parameter set's value, else its start value.
+/// What an enumeration that is not connected stands at: its parameter set's value, else its start value.
 fn stands_at(component: &Component, fmu: &Fmu, input: &ScalarVariable) -> String {
     let sets = component.bindings.iter().flat_map(|binding| &binding.sets);
     let set = sets.flat_map(|set| &set.parameters).find(|parameter| parameter.name == input.name);
@@ -301,7 +252,8 @@ fn source<'a>(
     };
     let mut found = named(&input.name);
     if found.is_empty() {
-        found = renamed(&input.name).map(|name| named(&name)).unwrap_or_default();
+        let other_name = input.annotation.as_ref().and_then(|it| it.also_called.as_ref());
+        found = other_name.map(|name| named(name)).unwrap_or_default();
     }
     match *found.as_slice() {
         [] => Err("no output of that name".to_owned()),
@@ -319,24 +271,6 @@ fn source<'a>(
     }
 }
 
-/// The other name under which an input's value may be given.
-fn renamed(input: &str) -> Option<String> {
-    RENAMED.iter().find_map(|(to, from)| {
-        match to.split_once("[k]") {
-            // The index of a group stands within.
-            Some((before, after)) => {
-                let (index, rest) = input.strip_prefix(before)?.strip_prefix('[')?.split_once(']')?;
-                (rest == after).then(|| from.replace("[k]", &format!("[{index}]")))
-            }
-            // The index of a vector stands at the end.
-            None => {
-                let index = input.strip_prefix(to)?;
-                (index.is_empty() || index.starts_with('[')).then(|| format!("{from}{index}"))
-            }
-        }
-    })
-}
-
 /// Whether type, unit and items agree.
 fn fits(
     (from, output): (&Description, &ScalarVariable),
@@ -352,7 +286,12 @@ fn fits(
         return Err(format!("other unit: {} to {}", shown(given), shown(taken)));
     }
     match foreign_item(value::items(from, output), value::items(to, input)) {
-        Some(item) => Err(format!("other items: {} {} is none of its own", item.value, item.name)),
+        Some(item) => Err(format!(
+            "other items: {} ({}) of the output is none of {}",
+            item.name,
+            item.value,
+            value::allowed(to, input)
+        )),
         None => Ok(()),
     }
 }

@@ -1,9 +1,10 @@
-//! Source files, units, types, annotations.
+//! Source files, units, types, lists of annotations.
 
 use std::collections::BTreeSet;
 
 use super::xml::Start;
 use super::{Read, lacks, twice};
+use crate::annotation::TOOL;
 use crate::element::ReadError;
 use crate::finding::Code;
 use crate::{SimpleType, SimpleTypeKind, Unit};
@@ -65,8 +66,12 @@ impl Read<'_> {
         Ok(kind)
     }
 
-    /// `VendorAnnotations` and `Annotations`: only the tools' names are read.
-    pub(super) fn annotations(&mut self, start: &mut Start) -> Result<(), ReadError> {
+    /// `VendorAnnotations` and `Annotations`: the tools' names, and with `own` the content of the tool that is read.
+    pub(super) fn annotations(
+        &mut self,
+        start: &mut Start,
+        mut own: impl FnMut(&mut Self, &Start) -> Result<(), ReadError>,
+    ) -> Result<(), ReadError> {
         let mut names = BTreeSet::new();
         self.list(start, "Tool", |read, tool| {
             let name: String = tool.fields().required("name")?;
@@ -74,7 +79,7 @@ impl Read<'_> {
                 let message = format!("tool `{name}` stands twice in one list; allowed is once");
                 read.xml.warn(Code::DuplicateTool, tool.line, &tool.name, message);
             }
-            read.xml.skip(tool)
+            if name == TOOL { own(read, tool) } else { read.xml.skip(tool) }
         })
     }
 }

@@ -5,6 +5,7 @@
 //! The input may be hostile: size, depth and attribute count are bounded, entities are never expanded, and
 //! time grows linearly with size.
 
+mod annotations;
 mod definitions;
 mod variables;
 mod xml;
@@ -152,7 +153,7 @@ impl Read<'_> {
                 self.lines.default_experiment = start.line;
                 self.description.default_experiment = Some(self.leaf(start)?);
             }
-            "VendorAnnotations" => self.annotations(start)?,
+            "VendorAnnotations" => self.annotations(start, |read, tool| read.xml.skip(tool))?,
             "ModelVariables" => {
                 self.lines.model_variables = start.line;
                 self.list(start, "ScalarVariable", Self::variable)?;

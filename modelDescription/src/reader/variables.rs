@@ -14,6 +14,7 @@ impl Read<'_> {
         let read: ScalarVariable = self.attributes(start)?;
         let mut kind = None;
         let mut annotated = false;
+        let mut annotation = None;
         while let Some(mut child) = self.xml.child(start)? {
             if child.name == "Annotations" {
                 if core::mem::replace(&mut annotated, true) {
@@ -23,7 +24,10 @@ impl Read<'_> {
                     let message = "stands before the base type; the schema requires it after".to_owned();
                     self.xml.warn(Code::ElementOrder, child.line, &child.name, message);
                 }
-                self.annotations(&mut child)?;
+                self.annotations(&mut child, |own, tool| {
+                    annotation = own.annotation(tool, &read.name)?;
+                    Ok(())
+                })?;
             } else if let Some(read) = self.variable_kind(&mut child)?
                 && kind.replace(read).is_some()
             {
@@ -32,7 +36,7 @@ impl Read<'_> {
         }
         let kind = kind.ok_or_else(|| lacks(start, "Real, Integer, Boolean, String or Enumeration"))?;
         self.lines.variables.push(start.line);
-        self.description.variables.push(ScalarVariable { kind, ..read });
+        self.description.variables.push(ScalarVariable { kind, annotation, ..read });
         Ok(())
     }
 

@@ -5,6 +5,7 @@
 //! `fmi2GetInteger`.
 
 mod aliases;
+mod annotations;
 mod definitions;
 mod names;
 mod root;
@@ -33,6 +34,7 @@ pub fn with_lines(description: &Description, lines: &Lines) -> Vec<Finding> {
     check.variables();
     check.names();
     check.aliases();
+    check.annotations();
     check.structure();
     check.findings
 }

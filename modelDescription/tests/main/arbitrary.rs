@@ -53,6 +53,7 @@ pub(crate) fn description() -> impl Strategy<Value = Description> {
                     default_experiment: experiment,
                     variables: Vec::new(),
                     structure: ModelStructure::default(),
+                    annotation_tool: None,
                 };
                 for (i, kind) in kinds.into_iter().enumerate() {
                     let (kind, description_of_type) = kind;
@@ -64,6 +65,8 @@ pub(crate) fn description() -> impl Strategy<Value = Description> {
                     let variable = variable(i, role, &description);
                     description.variables.push(variable);
                 }
+                let is_annotated = description.variables.iter().any(|it| it.annotation.is_some());
+                description.annotation_tool = is_annotated.then(|| annotation::TOOL.to_owned());
                 description.structure = structure(&description.variables, seed);
                 description
             },
@@ -284,7 +287,27 @@ fn variable(i: usize, role: Role, so_far: &Description) -> ScalarVariable {
         }
     };
     let model_exchange = so_far.model_exchange.is_some();
+    let annotation = bit(10).then(|| {
+        let is_real = |kind: &VariableKind| matches!(kind, VariableKind::Real { .. });
+        let earlier = so_far.variables.iter().rev().find(|it| is_real(&it.kind)).map(|it| it.name.clone());
+        let is_input = row.causality == Causality::Input;
+        let options = so_far.variables.iter().filter(|it| is_input && !value::items(so_far, it).is_empty());
+        let read_where = options.map(|option| ReadWhere {
+            option: option.name.clone(),
+            items: value::items(so_far, option).iter().map(|item| item.value.to_string()).collect(),
+            set: bit(11).then(|| value::items(so_far, option)[0].name.clone()),
+        });
+        Box::new(Annotation {
+            also_called: (is_input && bit(12)).then(|| format!("<other> \"{i}\"")),
+            limited_by: earlier.clone(),
+            role: (is_real(&kind) && bit(13)).then_some(VariableRole::ALL[i % 3]),
+            interpolation: (is_real(&kind) && bit(14)).then_some(InterpolationKind::ALL[i % 3]),
+            rate: earlier.filter(|_| bit(15)),
+            read_where: read_where.collect(),
+        })
+    });
     ScalarVariable {
+        annotation,
         name: format!("group[{i}].'x {i}'"),
         value_reference: i as u32,
         description,

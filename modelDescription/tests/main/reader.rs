@@ -126,6 +126,58 @@ fn annotations_and_both_interfaces_are_read() {
     assert!(parsed.description.co_simulation.is_some() && parsed.description.model_exchange.is_some());
 }
 
+#[test]
+fn annotations_of_other_tools_are_passed_over_and_unreadable_ones_named() {
+    let annotated = |tools: &str| {
+        let xml = SMALL
+            .replace("causality=\"output\"", "causality=\"input\"")
+            .replace("<Real/>", &format!("<Real start=\"1\"/><Annotations>{tools}</Annotations>"));
+        parse(xml.as_bytes()).unwrap()
+    };
+    let own = |inner: &str| annotated(&format!("<Tool name=\"{}\">{inner}</Tool>", annotation::TOOL));
+    let other = "<Tool name=\"t\"><Variable role=\"?\"><ReadWhere/></Variable></Tool>";
+    let both =
+        annotated(&format!("{other}<Tool name=\"{}\"><Variable alsoCalled=\"y\"/></Tool>", annotation::TOOL));
+    assert_eq!(both.warnings, Vec::new());
+    let expected = Annotation { also_called: Some("y".to_owned()), ..Annotation::default() };
+    assert_eq!(both.description.variables[0].annotation.as_deref(), Some(&expected));
+    assert_eq!(annotated(other).description.annotation_tool, None);
+
+    for (inner, subject, expected) in [
+        (
+            "<Variable role=\"era\"/>",
+            "<Variable>",
+            "attribute `role` is `era`; allowed is one of epoch, litFraction, nextEvent",
+        ),
+        ("<Variable limit=\"a\"/>", "<Variable>", "attribute `limit` is not known"),
+        (
+            "<Variable><ReadWhere items=\"a\"/></Variable>",
+            "<ReadWhere>",
+            "attribute `option` is missing; it is required",
+        ),
+        ("<Variable><Read/></Variable>", "<Read>", "allowed is <ReadWhere>"),
+        ("<Input/>", "<Input>", "allowed is <Variable>"),
+    ] {
+        let warnings = own(inner).warnings;
+        let [warning] = warnings.as_slice() else { panic!("{warnings:?}") };
+        let found = (warning.code, warning.line, warning.subject.as_str(), warning.message.as_str());
+        let message = format!("annotation of `x`: {expected}; it is ignored");
+        assert_eq!(found, (Code::Annotation, Some(6), subject, message.as_str()));
+    }
+    for (inner, expected) in [
+        ("<Variable limitedBy=\"y\"/>", "limitedBy `y`; allowed is a Real of this FMU"),
+        ("<Variable rate=\"y\"/>", "rate `y`; allowed is a Real of this FMU, or a vector of them"),
+        (
+            "<Variable><ReadWhere option=\"y\" items=\"a\"/></Variable>",
+            "ReadWhere option `y`; allowed is an Enumeration of this FMU",
+        ),
+    ] {
+        let findings = own(inner).findings();
+        let found = findings.iter().find(|it| it.code == Code::Annotation).unwrap();
+        assert_eq!(found.message, format!("its annotation has {expected}"));
+    }
+}
+
 /// A model-exchange FMU of the common kind: attributes on lines of their own, states that are outputs, events.
 const OSCILLATOR: &str = r#"<?xml version='1.0' encoding='utf-8' standalone="yes"?>
 <!-- attributes may be quoted either way -->

@@ -80,6 +80,7 @@ pub(crate) fn prepare<M: Model>(
             step_size: (about.step_size_s > 0.0).then_some(about.step_size_s),
         }),
         variables: scalars,
+        annotation_tool: text(&about.annotation_tool),
         ..Description::default()
     };
     description.units = units_of(&description);
@@ -93,6 +94,7 @@ pub(crate) fn prepare<M: Model>(
     start_values::apply(&following, &readers, &mut description, &mut interface.start)
         .map_err(DescribeError::Start)?;
     interface.start.set = given;
+    leave_choices(&mut description.variables, &interface.start.set);
     description.co_simulation = Some(co_simulation::<M>(&description.variables));
     description.structure = structure(&dependencies, &description.variables).map_err(DescribeError::Table)?;
     // Which of them the setup gave stands in the setup.
@@ -106,6 +108,19 @@ pub(crate) fn prepare<M: Model>(
     let runtime =
         Box::new(Typed::<M> { setup, variables, start: Arc::clone(&start), parameters, state: None });
     Ok(Prepared { description, start, runtime, digest, tolerance })
+}
+
+/// Takes away the items that tools would set where the setup chose one.
+fn leave_choices(variables: &mut [ScalarVariable], given: &[SetBits; Element::TABLES]) {
+    let is_given = |it: &&ScalarVariable| {
+        let base = it.kind.base_type();
+        given[base as usize].is_set(references::index(base, it.value_reference))
+    };
+    let chosen: BTreeSet<String> = variables.iter().filter(is_given).map(|it| it.name.clone()).collect();
+    let annotations = variables.iter_mut().filter_map(|it| it.annotation.as_mut());
+    for option in annotations.flat_map(|it| &mut it.read_where).filter(|it| chosen.contains(&it.option)) {
+        option.set = None;
+    }
 }
 
 /// Places of the parameters that an importer may set; in `blank` no value is marked as set.
@@ -124,6 +139,7 @@ pub fn scalar_variables(interface: &Interface) -> Vec<ScalarVariable> {
     let scalar = |(variable, name, element): (&Variable, String, Element)| {
         let role = variable.role;
         ScalarVariable {
+            annotation: variable.annotation_of(&name),
             name,
             value_reference: references::for_variable(element),
             description: Some(variable.description.clone()),

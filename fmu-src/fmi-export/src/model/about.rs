@@ -23,6 +23,8 @@ pub struct About {
     pub license: String,
     /// The tool that generates the FMU, with its version; empty: this exporter.
     pub tool: String,
+    /// The tool that the annotations of variables are for; empty: they are not written.
+    pub annotation_tool: String,
 }
 
 /// A start value that a setup gives to a variable.

@@ -3,12 +3,14 @@
 use core::marker::PhantomData;
 use std::collections::BTreeSet;
 
-use model_description::{Causality, labels::LABEL_END, units};
+use model_description::{Annotation, Causality, labels::LABEL_END, units};
 
 use super::check;
 use super::handle::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
 use super::interface::Interface;
-use super::variable::{DeclaredEnumeration, DeclaredItem, DeclaredType, Element, Role, Variable};
+use super::variable::{
+    DeclaredEnumeration, DeclaredItem, DeclaredType, Element, Role, Variable, replace_in_names,
+};
 
 /// Magnitude up to which every Real may be set that declares no limit itself, in its unit. Beyond, products of what was set are
 /// soon no finite numbers, and saved states would hold what no simulation can go on with.
@@ -62,6 +64,8 @@ pub struct Declare {
     prefix: String,
     /// Label of the group that is being declared, with the text between label and descriptions.
     label: String,
+    /// Annotation of the next variable.
+    annotation: Option<Annotation>,
     names: BTreeSet<String>,
     interface: Interface,
 }
@@ -99,6 +103,18 @@ impl Declare {
     /// Begins every description of the group being declared with what the user calls it: `label: description`.
     pub fn label(&mut self, label: &str) {
         self.label = format!("{label}{LABEL_END}");
+    }
+
+    /// Annotates the variable that is declared next. In its names `[k]` stands for the index of the innermost counted group, `[i]`
+    /// for the indices of the array's element.
+    pub fn annotate(&mut self, mut annotation: Annotation) -> &mut Self {
+        if let Some((before, _)) = self.prefix.rsplit_once(']')
+            && let Some(at) = before.rfind('[')
+        {
+            replace_in_names(&mut annotation, "[k]", &format!("{}]", &before[at..]));
+        }
+        self.annotation = Some(annotation);
+        self
     }
 
     /// Declares `count` groups `prefix.name[1].` to `prefix.name[count].`
@@ -277,7 +293,7 @@ impl Declare {
     }
 
     /// A variable whose elements follow those declared so far.
-    fn variable(&self, spec: &ScalarSpec<'_>, dimensions: &[usize], kind: DeclaredType) -> Variable {
+    fn variable(&mut self, spec: &ScalarSpec<'_>, dimensions: &[usize], kind: DeclaredType) -> Variable {
         let base = kind.base_type();
         Variable {
             name: format!("{}{}", self.prefix, spec.name),
@@ -286,6 +302,7 @@ impl Declare {
             dimensions: dimensions.to_vec(),
             first: Element { base, place: self.interface.start.lengths()[base as usize] as u32 },
             kind,
+            annotation: self.annotation.take(),
         }
     }
 

@@ -12,6 +12,9 @@ mod variable;
 /// The standard's words for roles, which are the same in FMI 2.0 and 3.0.
 pub use model_description::{Causality, Initial, Variability};
 
+/// Annotations of variables for tools, without a version of FMI too.
+pub use model_description::{Annotation, InterpolationKind, ReadWhere, VariableRole};
+
 pub use declare::{Declare, DeclareError, GREATEST_SET, RealSpec, ScalarSpec};
 pub use handle::{Boolean, Choice, Elements, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
 pub use interface::Interface;

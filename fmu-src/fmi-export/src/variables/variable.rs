@@ -2,7 +2,7 @@
 
 use core::fmt::Write;
 
-use model_description::{BaseType, Causality, Initial, Variability};
+use model_description::{Annotation, BaseType, Causality, Initial, Variability};
 use serde::{Serialize, Serializer};
 
 /// Causality, variability and initial of a declaration (FMI 2.0.5, 2.2.7; FMI 3.0, 2.4.7.4).
@@ -39,6 +39,11 @@ pub struct Variable {
     pub first: Element,
     /// Type with its attributes.
     pub kind: DeclaredType,
+    /// Relations to other variables and role, for tools; an element's own indices stand for `[i]` in its names.
+    ///
+    /// Not serialised: it does not enter the GUID, for a simulation does not depend on it.
+    #[serde(skip)]
+    pub annotation: Option<Annotation>,
 }
 
 /// Type of a variable.
@@ -124,6 +129,16 @@ impl Variable {
         })
     }
 
+    /// Returns the annotation of the element of this name.
+    pub(crate) fn annotation_of(&self, element: &str) -> Option<Box<Annotation>> {
+        let mut annotation = Box::new(self.annotation.clone()?);
+        if !self.dimensions.is_empty() {
+            let indices = element.strip_prefix(self.name.as_str()).unwrap_or_default();
+            replace_in_names(&mut annotation, "[i]", indices);
+        }
+        Some(annotation)
+    }
+
     /// Returns the name of an element, counted row by row.
     pub(super) fn element_name(&self, at: usize) -> String {
         let mut name = String::with_capacity(self.name.len() + 4 * self.dimensions.len());
@@ -139,6 +154,14 @@ impl Variable {
         }
         name
     }
+}
+
+/// Replaces a part of all names that an annotation holds.
+pub(super) fn replace_in_names(annotation: &mut Annotation, from: &str, to: &str) {
+    if let Some(output) = &mut annotation.also_called {
+        *output = output.replace(from, to);
+    }
+    annotation.own_names_mut().for_each(|name| *name = name.replace(from, to));
 }
 
 /// Enumeration type, by default of a Rust enum.

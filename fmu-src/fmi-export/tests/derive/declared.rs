@@ -1,6 +1,8 @@
 //! What `#[derive(Variables)]` declares is what the builder's table holds: names, references, roles, starts.
 
-use fmi_export::variables::{Causality, Initial, Variability};
+use fmi_export::variables::{
+    Annotation, Causality, Initial, InterpolationKind, ReadWhere, Variability, VariableRole,
+};
 use std::collections::BTreeSet;
 
 use fmi_export::{
@@ -50,6 +52,13 @@ struct VehicleVariables {
     label: Text,
     /// Torque from outside, body frame.
     #[input(unit = "N.m", start = [0.0; 3])]
+    #[annotation(
+        also_called = "torque[i]",
+        limited_by = "centerOfMass[i]",
+        rate = "centerOfMass",
+        interpolation = "position"
+    )]
+    #[read_where(option = "source", items = "guided byCommand", set = "guided")]
     external: RealVector<3>,
     /// Whether to dump.
     #[input(start = true)]
@@ -88,6 +97,7 @@ struct OrbitVariables {
 struct PanelVariables {
     /// Panel angle.
     #[input(unit = "rad", start = setup.panel_angles_rad[index])]
+    #[annotation(limited_by = "panel[k].optics.number", role = "epoch")]
     angle: Real,
     optics: OpticsVariables,
 }
@@ -229,6 +239,30 @@ fn roles_and_attributes_reach_the_table() {
     assert_eq!((attributes.min, attributes.max), (Some(0.0), Some(1e100)));
     let VariableKind::Integer { min, max, .. } = find(&table, "count").kind else { panic!() };
     assert_eq!((min, max), (Some(-1), Some(100)));
+}
+
+#[test]
+fn annotations_name_the_same_element_and_the_same_group() {
+    let (_, table) = vehicle();
+    let annotation = |name: &str| find(&table, name).annotation.as_deref().cloned().unwrap();
+    let text = |text: &str| Some(text.to_owned());
+    let option = ReadWhere {
+        option: "source".to_owned(),
+        items: vec!["guided".into(), "byCommand".into()],
+        set: text("guided"),
+    };
+    let expected = Annotation {
+        also_called: text("torque[3]"),
+        limited_by: text("centerOfMass[3]"),
+        interpolation: Some(InterpolationKind::Position),
+        rate: text("centerOfMass"),
+        read_where: vec![option],
+        ..Annotation::default()
+    };
+    assert_eq!(annotation("external[3]"), expected);
+    assert_eq!(annotation("panel[2].angle").limited_by, text("panel[2].optics.number"));
+    assert_eq!(annotation("panel[2].angle").role, Some(VariableRole::Epoch));
+    assert_eq!(find(&table, "dumpRequest").annotation, None);
 }
 
 #[test]

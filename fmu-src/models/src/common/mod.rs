@@ -18,7 +18,7 @@ pub(crate) mod start_values;
 pub(crate) mod value_reader;
 pub(crate) mod variables;
 
-use fmi_export::About;
+use fmi_export::{About, model_description::annotation::TOOL};
 
 /// Facts that every model states alike.
 pub(crate) fn about() -> About {
@@ -27,6 +27,7 @@ pub(crate) fn about() -> About {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         copyright: "Copyright (c) 2026 the heliotorque authors".to_owned(),
         license: "MIT OR Apache-2.0".to_owned(),
+        annotation_tool: TOOL.to_owned(),
         tool: concat!("heliotorque ", env!("CARGO_PKG_VERSION")).to_owned(),
         ..About::default()
     }

@@ -90,6 +90,7 @@ pub struct SunVariables {
     pub position_body: RealVector<3>,
     /// Visible part of the Sun's disc: 1 in full light, 0 in the planet's shadow.
     #[output(unit = "1", min = 0.0, max = 1.0, nominal = 1.0)]
+    #[annotation(role = "litFraction")]
     pub lit_fraction: Real,
 }
 
@@ -118,6 +119,7 @@ pub struct PlanetVariables {
     /// North of the planet in the body frame, of any length; -Z in the attitude of paper 004. For its cells, and for the flattening of
     /// its gravity. Without effect on rings.
     #[input(unit = "1", start = [0.0, 0.0, -1.0])]
+    #[annotation(also_called = "planet.poleBody[i]")]
     pub pole: RealVector<3>,
     #[group(name = "", setup = &setup.center)]
     pub surface: SurfaceVariables,
@@ -145,6 +147,7 @@ pub struct AtmosphereVariables {
 pub struct PanelVariables {
     /// Rotation angle about the panel's axis from its zero position.
     #[input(unit = "rad", display = "deg", start = setup.spacecraft.panels[index].angle_rad)]
+    #[annotation(also_called = "panel[k].angleActual")]
     pub angle: Real,
 }
 

@@ -8,17 +8,15 @@ use std::{
 };
 
 use clap::Args;
-use files::{Destination, Entries};
+use files::{Destination, Entries, outcome::Outcome};
 use fmi::Fmu;
 use inputs::{
     home, kind,
     values::{all_names, duration, span},
     variables,
 };
-use model_description::DefaultExperiment;
+use model_description::{Code, DefaultExperiment, Finding};
 use systems::{SSD_FILE, Wired, Wiring};
-
-use crate::outcome::Outcome;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -113,6 +111,7 @@ pub(crate) fn run(arguments: &Wire) -> Outcome {
     Destination::open(&path, "--output", &inputs)?.fill(|file| file.write_all(&bytes))?;
     if !arguments.quiet {
         terminal::note(&report(&wired));
+        components.iter().flat_map(|(_, fmu)| misfits(fmu)).for_each(|line| terminal::note(&line));
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -124,6 +123,15 @@ fn named(text: &str) -> (String, PathBuf) {
         _ => (systems::component_name(Path::new(text)), text),
     };
     (name, home::found(PathBuf::from(path)))
+}
+
+/// Annotations that an FMU cannot be connected by.
+fn misfits(fmu: &Fmu) -> impl Iterator<Item = String> {
+    let findings = fmu.parsed().findings().into_iter().filter(|it| it.code == Code::Annotation);
+    findings.map(|Finding { subject, line, message, .. }| {
+        let (file, line) = (fmu.source().display(), line.unwrap_or_default());
+        format!("warning: {file}: modelDescription.xml, line {line}: {subject}: {message}")
+    })
 }
 
 /// What was connected between which components, and what was left open and why.

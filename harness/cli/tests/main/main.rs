@@ -7,6 +7,7 @@
     reason = "tests"
 )]
 
+mod annotated;
 mod campaigns;
 mod checked_files;
 mod checks;

@@ -58,6 +58,7 @@ enum Interpolation {
 #[derive(Clone, Debug, PartialEq)]
 struct AttitudeColumns {
     vector: String,
+    rate_name: Option<String>,
     q: [usize; 4],
     rate: Option<[usize; 3]>,
 }
@@ -195,7 +196,7 @@ impl InputTable {
             let (turn_deg, row) = widest.filter(|(turn_deg, _)| *turn_deg > MAX_TURN_DEG)?;
             let [from_s, to_s] = [times_s[row - 1], times_s[row]];
             let vector = &attitude.vector;
-            let rate = vector.strip_suffix('q').map_or("its body rate".to_owned(), |it| format!("{it}rate"));
+            let rate = attitude.rate_name.as_deref().unwrap_or("its body rate");
             Some(format!(
                 "{vector} turns by {turn_deg:.1} deg from {from_s} s to {to_s} s, found no {rate} beside it: the turn between the rows is \
                  taken at a constant rate; rows at most {MAX_TURN_DEG} deg apart, or {rate}, say it better"
@@ -276,19 +277,20 @@ impl InputTable {
         let mut attitudes = Vec::new();
         let mut cubics = Vec::new();
         for (number, column) in self.columns.iter().enumerate() {
-            if let Some((vector, rate)) = meaning::quaternion(description, variable(column))
+            if let Some((vector, rate_name)) = meaning::quaternion(variable(column))
                 && let Some(Ok(q)) = elements(number, vector, 4).map(TryInto::try_into)
             {
-                let rate = rate.and_then(|rate| elements(number, &rate, 3)?.try_into().ok()).filter(
+                let rate = rate_name.and_then(|rate| elements(number, rate, 3)?.try_into().ok()).filter(
                     |rate: &[usize; 3]| {
                         let is_rate =
                             |it: &usize| meaning::is_angular_rate(description, variable(&self.columns[*it]));
                         rate.iter().all(is_rate)
                     },
                 );
-                attitudes.push(AttitudeColumns { vector: vector.to_owned(), q, rate });
+                let rate_name = rate_name.map(str::to_owned);
+                attitudes.push(AttitudeColumns { vector: vector.to_owned(), rate_name, q, rate });
             }
-            let rate = meaning::velocity_name(variable(column)).and_then(|name| beside(number, &name));
+            let rate = meaning::velocity_name(variable(column)).and_then(|name| beside(number, name));
             let rate = rate.filter(|rate| {
                 let rate = variable(&self.columns[*rate]);
                 meaning::is_rate_of(description, rate, variable(column))

@@ -3,27 +3,44 @@
 use std::f64::consts::TAU;
 
 use fmi::InputTable;
-use model_description::{Causality, Variability, VariableKind};
+use model_description::{
+    Annotation, Causality, InterpolationKind, Variability, VariableKind, annotation::TOOL,
+};
 
 use crate::{description, folder, real};
 
 const Q: [(&str, &str); 4] = [("c.q[1]", "1"), ("c.q[2]", "1"), ("c.q[3]", "1"), ("c.q[4]", "1")];
 const RATE: [(&str, &str); 3] = [("c.rate[1]", "rad/s"), ("c.rate[2]", "rad/s"), ("c.rate[3]", "rad/s")];
 
-/// A table of continuous inputs with these names and units; angles named `narrow` range over half a turn either way.
+/// Annotations of these inputs: attitudes, positions and their rates.
+fn annotation(name: &str) -> Option<Annotation> {
+    let (interpolation, rate) = match name {
+        "c.q[1]" | "c.q[2]" | "c.q[3]" | "c.q[4]" => (InterpolationKind::Attitude, "c.rate"),
+        "o.position[1]" => (InterpolationKind::Position, "o.velocity[1]"),
+        "p.position" => (InterpolationKind::Position, "p.velocity"),
+        "turn" => (InterpolationKind::Angle, ""),
+        _ => return None,
+    };
+    let rate = Some(rate).filter(|rate| !rate.is_empty()).map(str::to_owned);
+    Some(Annotation { interpolation: Some(interpolation), rate, ..Annotation::default() })
+}
+
+/// A table of continuous inputs with these names and units, if any; angles named `narrow` range over half a turn either way.
 fn table(columns: &[(&str, &str)], rows: &[(f64, Vec<f64>)]) -> InputTable {
     let mut description = description();
     for (number, (name, unit)) in columns.iter().enumerate() {
         let mut input = real(name, 100 + number as u32, Causality::Input, Variability::Continuous);
         if let VariableKind::Real { attributes, .. } = &mut input.kind {
-            attributes.unit = Some((*unit).to_owned());
+            attributes.unit = Some((*unit).to_owned()).filter(|unit| !unit.is_empty());
             attributes.display_unit = None;
             if *name == "narrow" {
                 (attributes.min, attributes.max) = (Some(-TAU / 2.0), Some(TAU / 2.0));
             }
         }
+        input.annotation = annotation(name).map(Box::new);
         description.variables.push(input);
     }
+    description.annotation_tool = Some(TOOL.to_owned());
     let (_folder, fmu) = folder(&description);
     let header: Vec<&str> = ["time"].into_iter().chain(columns.iter().map(|(name, _)| *name)).collect();
     let cells =
@@ -157,6 +174,15 @@ fn angles_take_the_nearest_turn_within_their_range() {
     // 20 deg in 10 s, across the edge of the range too.
     let slope = table.slope(0, [2.0, 8.0]).unwrap().to_degrees();
     assert!((slope - 2.0).abs() < 1e-9, "{slope}");
+}
+
+#[test]
+fn names_alone_say_nothing_and_an_annotated_angle_needs_no_unit() {
+    let columns =
+        [("d.q[1]", "1"), ("d.q[2]", "1"), ("d.q[3]", "1"), ("d.q[4]", "1"), ("turn", ""), ("bare", "")];
+    let rows = [(0.0, vec![0.0, 0.0, 0.0, 1.0, 3.0, 3.0]), (10.0, vec![1.0, 0.0, 0.0, 0.0, -3.0, -3.0])];
+    let found = values::<6>(&table(&columns, &rows), 0, 5.0);
+    assert_eq!(found, [0.5, 0.0, 0.0, 0.5, TAU / 2.0, 0.0]);
 }
 
 #[test]

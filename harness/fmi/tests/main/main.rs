@@ -44,6 +44,7 @@ pub fn real(name: &str, reference: u32, causality: Causality, variability: Varia
             derivative: None,
             reinit: None,
         },
+        annotation: None,
     }
 }
 

@@ -1,5 +1,6 @@
-//! Results of a plan, as `plan.json` and `windows.csv`.
+//! What a plan came to, as `plan.json` and `windows.csv`.
 
+use physics::constants::DAY_S;
 use serde_json::{Map, Value, json};
 
 use super::{
@@ -9,8 +10,6 @@ use super::{
     torque::Control,
     windows::Window,
 };
-
-const DAY_S: f64 = 86_400.0;
 
 /// An event of the mission or of the plan.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,10 +22,10 @@ pub struct PlanEvent {
     pub planned: bool,
 }
 
-/// Change by removing a planned command or adding an activity.
+/// What removing a planned command, or adding an activity, changes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Price {
-    /// Name of the command or activity.
+    /// What it is.
     pub name: String,
     /// Removed from the plan, or added to it.
     pub removed: bool,
@@ -59,7 +58,7 @@ fn scopes() -> Value {
     })
 }
 
-/// Binding limits of a plan, as JSON: which, when, by how much it is exceeded.
+/// What limits a plan, as JSON: what binds, when, by how much it is exceeded.
 fn binding(plan: &MomentumPlan) -> Value {
     let start_s = plan.rows.first().map_or(0.0, |row| row.time_s);
     if let Some(exceeded) = &plan.exceeded {
@@ -77,13 +76,9 @@ fn binding(plan: &MomentumPlan) -> Value {
     })
 }
 
-/// The 50th, 90th and 99th percentile, each the smallest value that this share of them does not exceed.
+/// The 50th, 90th and 99th percentile.
 pub fn percentiles(mut values: Vec<f64>) -> [f64; 3] {
-    values.sort_by(f64::total_cmp);
-    [0.5, 0.9, 0.99].map(|share| {
-        let rank = (share * values.len() as f64).ceil() as usize;
-        values.get(rank.saturating_sub(1)).copied().unwrap_or(f64::NAN)
-    })
+    tables::percentiles(&mut values, [50.0, 90.0, 99.0])
 }
 
 /// Percentiles by their names.
@@ -91,7 +86,7 @@ pub(crate) fn by_percent([half, most, nearly_all]: [f64; 3]) -> Value {
     json!({ "50": half, "90": most, "99": nearly_all })
 }
 
-/// Percentiles of the greatest |H| (N m s) and of the dumps of flights.
+/// Those of the greatest |H| (N m s) and of the dumps of flights.
 pub fn of_seeds(flights: &[(f64, u32)]) -> [[f64; 3]; 2] {
     let momentum = flights.iter().map(|(momentum, _)| *momentum).collect();
     [percentiles(momentum), percentiles(flights.iter().map(|(_, dumps)| f64::from(*dumps)).collect())]
@@ -242,9 +237,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn percentiles_are_values_that_so_many_do_not_exceed() {
+    fn percentiles_of_seeds_lie_between_neighbours() {
         let flights: Vec<(f64, u32)> = (1..=200).rev().map(|k| (f64::from(k), k / 100)).collect();
-        assert_eq!(of_seeds(&flights), [[100.0, 180.0, 198.0], [1.0, 1.0, 1.0]]);
+        let [momentum, dumps] = of_seeds(&flights);
+        // NumPy's percentile of 1 to 200.
+        for (found, expected) in momentum.into_iter().zip([100.5, 180.1, 198.01]) {
+            approx::assert_relative_eq!(found, expected, max_relative = 1e-14);
+        }
+        assert_eq!(dumps, [1.0; 3]);
         assert_eq!(percentiles(vec![2.0]), [2.0; 3]);
     }
 }

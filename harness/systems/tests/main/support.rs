@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use files::Entries;
+use model_description::annotation::TOOL;
 
 const UNITS: &str = r#"<UnitDefinitions>
 <Unit name="m"><BaseUnit m="1"/><DisplayUnit name="km" factor="0.001"/></Unit>
@@ -11,7 +12,7 @@ const UNITS: &str = r#"<UnitDefinitions>
 <Unit name="rad"><BaseUnit rad="1"/></Unit>
 </UnitDefinitions>"#;
 
-/// A description of variables, each `causality name type attributes`.
+/// A description of variables, each `causality name type attributes`, where ` | ` stands before an annotation of ours.
 pub(crate) fn description(model: &str, items: &str, variables: &[&str]) -> String {
     let mut text = format!(
         "<fmiModelDescription fmiVersion=\"2.0\" modelName=\"{model}\" guid=\"{{{model}}}\">\
@@ -28,9 +29,14 @@ pub(crate) fn description(model: &str, items: &str, variables: &[&str]) -> Strin
             (_, "Real") => "",
             _ => " variability=\"discrete\"",
         };
+        let (attributes, annotation) = attributes.split_once(" | ").unwrap_or((attributes, ""));
+        let annotations = match annotation {
+            "" => String::new(),
+            given => format!("<Annotations><Tool name=\"{TOOL}\">{given}</Tool></Annotations>"),
+        };
         text.push_str(&format!(
             "<ScalarVariable name=\"{name}\" valueReference=\"{reference}\" causality=\"{causality}\"{variability}>\
-             <{kind} {attributes}/></ScalarVariable>"
+             <{kind} {attributes}/>{annotations}</ScalarVariable>"
         ));
     }
     text.push_str("</ModelVariables><ModelStructure/></fmiModelDescription>");

@@ -142,36 +142,35 @@ fn equal_names_types_and_units_are_connected_and_the_rest_is_left_with_its_reaso
 }
 
 #[test]
-fn positions_of_sun_and_earth_and_panels_have_their_other_names() {
+fn inputs_take_outputs_by_the_other_names_that_their_fmu_annotates() {
     let folder = tempfile::tempdir().unwrap();
     let one = description(
         "One",
         ITEMS,
         &[
-            "output sun.positionInertial[2] Real unit=\"m\"",
-            "output earth.velocityInertial[1] Real unit=\"m\"",
-            "output panel[7].sunOffset Real unit=\"rad\"",
-            "output panel[7].angleActual Real unit=\"rad\"",
+            "output buoy.place[2] Real unit=\"m\"",
+            "output current.speed[1] Real unit=\"m\"",
+            "output rudder[7].angle Real unit=\"rad\"",
             // Its own output is no candidate.
-            "input earth.velocity[1] Real unit=\"m\" start=\"0\"",
+            "input stream[1] Real unit=\"m\" start=\"0\" | <Variable alsoCalled=\"current.speed[1]\"/>",
         ],
     );
     let two = description(
         "Two",
         ITEMS,
         &[
-            "input sun.position[2] Real unit=\"m\" start=\"0\"",
-            "input earth.velocity[1] Real unit=\"m\" start=\"0\"",
-            "input panel[7].sunOffsetCommand Real unit=\"rad\" start=\"0\"",
-            "input panel[7].angle Real unit=\"rad\" start=\"0\"",
-            "input sun.positionBody[2] Real unit=\"m\" start=\"0\"",
+            "input mark[2] Real unit=\"m\" start=\"0\" | <Variable alsoCalled=\"buoy.place[2]\"/>",
+            "input stream[1] Real unit=\"m\" start=\"0\" | <Variable alsoCalled=\"current.speed[1]\"/>",
+            // The name of its own goes first.
+            "input rudder[7].angle Real unit=\"rad\" start=\"0\" | <Variable alsoCalled=\"buoy.place[2]\"/>",
+            "input mark[3] Real unit=\"m\" start=\"0\"",
         ],
     );
     let components = [opened(folder.path(), "one", &one), opened(folder.path(), "two", &two)];
     let wired = wire("Pair", &components, DefaultExperiment::default(), &Wiring::default()).unwrap();
-    assert_eq!(wired.structure.connections.len(), 4);
+    assert_eq!(wired.structure.connections.len(), 3);
     let left: Vec<&str> = wired.left.iter().map(|it| it.input.as_str()).collect();
-    assert_eq!(left, ["earth.velocity[1]", "sun.positionBody[2]"]);
+    assert_eq!(left, ["stream[1]", "mark[3]"]);
     // What is written of transformations is read, too.
     let mut structure = wired.structure;
     structure.connections[0].suppress_unit_conversion = true;
@@ -186,16 +185,9 @@ fn positions_of_sun_and_earth_and_panels_have_their_other_names() {
         wire("Three", &[one.clone(), two, three], DefaultExperiment::default(), &Wiring::default()).unwrap();
     assert_eq!(
         joined(&wired),
-        [
-            "three.earth.velocityInertial[1] one.earth.velocity[1]",
-            "one.earth.velocityInertial[1] three.earth.velocity[1]"
-        ]
+        ["three.current.speed[1] one.stream[1]", "one.current.speed[1] three.stream[1]"]
     );
-    assert!(
-        wired.left[0].why.starts_with("two candidates: one.sun.positionInertial[2], three."),
-        "{:?}",
-        wired.left
-    );
+    assert!(wired.left[0].why.starts_with("two candidates: one.buoy.place[2], three."), "{:?}", wired.left);
     // Names.
     assert_eq!(component_name(std::path::Path::new("dist/MomentumPlant.fmu")), "momentumPlant");
     let twice = wire("Twice", &[one.clone(), one.clone()], DefaultExperiment::default(), &Wiring::default());

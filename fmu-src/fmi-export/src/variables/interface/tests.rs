@@ -7,7 +7,8 @@ use super::*;
 use crate::dependencies::Dependencies;
 use crate::knowns;
 use crate::variables::{
-    Declare, DeclaredType, EnumerationType, Integer, Item, Real, RealSpec, RealVector, Role, ScalarSpec,
+    Annotation, Declare, DeclaredType, EnumerationType, Integer, Item, Real, RealSpec, RealVector, Role,
+    ScalarSpec,
 };
 
 struct Handles {
@@ -89,6 +90,15 @@ fn every_fact_enters() {
         change(&mut interface, &mut table, &handles);
         assert_ne!(digested(&interface, &table), base, "{what}");
     }
+}
+
+#[test]
+fn annotations_do_not_enter() {
+    let (base, table, _) = declared();
+    let (mut interface, _, _) = declared();
+    let limited = Annotation { limited_by: Some("output".to_owned()), ..Annotation::default() };
+    interface.variables[0].annotation = Some(limited);
+    assert_eq!(digested(&interface, &table), digested(&base, &table));
 }
 
 #[test]

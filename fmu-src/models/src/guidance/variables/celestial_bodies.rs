@@ -16,6 +16,7 @@ use crate::common::orientation::RotationVariables;
 pub struct StartVariables {
     /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.
     #[parameter(unit = "s", display = "d", min = ephemeris::EARLIEST_EPOCH_S, max = ephemeris::VALID_EPOCH_S, start = time::MOMENTUM_STUDY_START_S)]
+    #[annotation(role = "epoch")]
     pub epoch: Real,
     /// Attitude quaternion at the start, scalar last, from EME2000 to body; held until there is a command.
     #[parameter(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
@@ -53,9 +54,17 @@ pub struct PlanetVariables {
 pub struct SunVariables {
     /// Sun's position from the orbit's centre in EME2000 when ephemeris.source is inputs; zero: not connected yet.
     #[input(unit = "m", display = "AU", start = [0.0; 3])]
+    #[annotation(
+        also_called = "sun.positionInertial[i]",
+        interpolation = "position",
+        rate = "sun.velocity[i]"
+    )]
+    #[read_where(option = "ephemeris.source", items = "inputs")]
     pub position: RealVector<3>,
     /// Its velocity.
     #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
+    #[annotation(also_called = "sun.velocityInertial[i]")]
+    #[read_where(option = "ephemeris.source", items = "inputs")]
     pub velocity: RealVector<3>,
     /// Direction of the Sun as its sensors see it, body frame, of any length.
     #[input(unit = "1", start = [0.0; 3])]
@@ -65,9 +74,11 @@ pub struct SunVariables {
     pub sensed_valid: Boolean,
     /// Azimuth of the Sun in the commanded body frame, from -Y toward +X.
     #[output(unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1])]
+    #[annotation(limited_by = "keepIn.azimuth")]
     pub azimuth: Real,
     /// Elevation of the Sun in the commanded body frame, positive toward -Z.
     #[output(unit = "rad", display = "deg", min = QUARTER_TURNS_RAD[0], max = QUARTER_TURNS_RAD[1])]
+    #[annotation(limited_by = "keepIn.elevation")]
     pub elevation: Real,
 }
 
@@ -79,9 +90,17 @@ pub struct EarthVariables {
     pub ut1_offset: Real,
     /// Earth's position from the orbit's centre in EME2000 when ephemeris.source is inputs; zero: not connected yet.
     #[input(unit = "m", display = "AU", start = [0.0; 3])]
+    #[annotation(
+        also_called = "earth.positionInertial[i]",
+        interpolation = "position",
+        rate = "earth.velocity[i]"
+    )]
+    #[read_where(option = "ephemeris.source", items = "inputs")]
     pub position: RealVector<3>,
     /// Its velocity.
     #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
+    #[annotation(also_called = "earth.velocityInertial[i]")]
+    #[read_where(option = "ephemeris.source", items = "inputs")]
     pub velocity: RealVector<3>,
     /// Angle between Sun and Earth as seen from the spacecraft.
     #[output(discrete, unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI)]
@@ -95,6 +114,7 @@ pub struct EstimateVariables {
     /// increments. 0, or never set: not connected yet, the monitor watches nothing and the commanded attitude stands in. The
     /// start value counts as set unless estimate.valid is set to its start value too.
     #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
+    #[annotation(interpolation = "attitude", rate = "estimate.rate")]
     pub q: RealVector<4>,
     /// Body rate. No law reads it yet; it is here so that an estimator connects whole.
     #[input(unit = "rad/s", display = "deg/s", min = command::BACK_HALF_TURN_RAD, max = PI, start = [0.0; 3])]

@@ -109,11 +109,13 @@ pub struct GuidanceVariables {
     pub solver: WorkLimit,
     /// Position of the spacecraft about the target planet in EME2000; zero: not connected yet.
     #[input(unit = "m", display = "km", start = [0.0; 3])]
+    #[annotation(interpolation = "position", rate = "velocity[i]")]
     pub position: RealVector<3>,
     /// Its velocity.
     #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
     pub velocity: RealVector<3>,
     /// Present epoch, seconds past J2000 TDB.
     #[output(unit = "s", display = "d", nominal = 1e8)]
+    #[annotation(role = "epoch")]
     pub epoch: Real,
 }

@@ -48,6 +48,7 @@ pub struct MomentumVariables {
     pub convention: Choice<MomentumConvention>,
     /// System momentum in the body frame.
     #[input(unit = "N.m.s", min = -1e12, max = 1e12, start = [0.0; 3])]
+    #[annotation(limited_by = "dump.threshold[i]")]
     pub body: RealVector<3>,
     /// Whether the Sun's place that brings the momentum to the target of the present downlink, or of science with
     /// guided.scienceUnload, is not admissible, so that it comes as near as one that is can bring it.

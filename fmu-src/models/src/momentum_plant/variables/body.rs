@@ -65,9 +65,13 @@ pub struct PanelVariables {
     /// Rotation angle about the panel's axis from its zero position; it counts when panel control is by angle. Where it jumps, the
     /// panel goes the shorter way: +180 and -180 deg are one place.
     #[input(unit = "rad", display = "deg", start = setup.spacecraft.panels[index].angle_rad)]
+    #[annotation(also_called = "panel[k].angleActual")]
+    #[read_where(option = "panel[k].control", items = "angle")]
     pub angle: Real,
     /// Angle between the panel's normal and the Sun direction when panel control is by command; its sign is a sense of tilt.
     #[input(unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1], start = setup.spacecraft.panels[index].sun_offset_rad)]
+    #[annotation(also_called = "panel[k].sunOffset")]
+    #[read_where(option = "panel[k].control", items = "command")]
     pub sun_offset_command: Real,
     /// Rotation angle in effect, about the panel's axis from its zero position; whole turns are counted along the flight, so that it
     /// does not wrap.
@@ -159,6 +163,7 @@ pub struct WheelVariables {
     pub start_momentum: Real,
     /// Torque of the motor on the rotor along the axis in free flight, held over the step; limited to maxTorque.
     #[input(unit = "N.m", start = 0.0)]
+    #[read_where(option = "attitude.source", items = "free")]
     pub torque_command: Real,
     /// Whether the motor gives no torque, in controlled and free flight; friction stays.
     #[input(start = false)]
@@ -166,6 +171,7 @@ pub struct WheelVariables {
     /// Spin momentum about the wheel's axis relative to the body; in guided and commanded flight its
     /// bias and its share by least norm of what lies along the wheels' axes beside all biases.
     #[output(unit = "N.m.s", nominal = 1.0)]
+    #[annotation(limited_by = "wheel[k].capacity")]
     pub momentum: Real,
     /// Speed of the rotor relative to the body.
     #[output(unit = "rad/s", display = "rpm", nominal = 100.0)]

@@ -45,9 +45,17 @@ pub struct SunVariables {
     /// Sun's position from the orbit's centre in EME2000 when ephemeris.source is inputs. While it is zero the flight waits
     /// for it: the attitude is held and nothing acts.
     #[input(unit = "m", display = "AU", start = [0.0; 3])]
+    #[annotation(
+        also_called = "sun.positionInertial[i]",
+        interpolation = "position",
+        rate = "sun.velocity[i]"
+    )]
+    #[read_where(option = "ephemeris.source", items = "inputs")]
     pub position: RealVector<3>,
     /// Its velocity, by which the rate of an attitude that follows it is known; the position holds until it is set anew.
     #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
+    #[annotation(also_called = "sun.velocityInertial[i]")]
+    #[read_where(option = "ephemeris.source", items = "inputs")]
     pub velocity: RealVector<3>,
     /// From the spacecraft to the Sun, body frame.
     #[output(unit = "m", display = "AU", nominal = 1e11)]
@@ -63,9 +71,11 @@ pub struct SunVariables {
     pub direction: RealVector<3>,
     /// Azimuth of the Sun in the body frame, from -Y toward +X.
     #[output(unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1])]
+    #[annotation(limited_by = "keepIn.azimuth")]
     pub azimuth: Real,
     /// Elevation of the Sun in the body frame, positive toward -Z.
     #[output(unit = "rad", display = "deg", min = QUARTER_TURNS_RAD[0], max = QUARTER_TURNS_RAD[1])]
+    #[annotation(limited_by = "keepIn.elevation")]
     pub elevation: Real,
     /// Elevation of the Sun over the plane of the orbit about orbit.currentCenter, positive on the side of the angular momentum; 0
     /// without such a plane.
@@ -73,6 +83,7 @@ pub struct SunVariables {
     pub beta: Real,
     /// Visible part of the Sun's disc: 1 in full light, 0 in the planet's shadow.
     #[output(unit = "1", min = 0.0, max = 1.0, nominal = 1.0)]
+    #[annotation(role = "litFraction")]
     pub lit_fraction: Real,
     /// Unit vector to the Sun, body frame, as the Sun sensors give it; 0 where none sees it.
     #[output(unit = "1", nominal = 1.0)]
@@ -93,9 +104,17 @@ pub struct EarthVariables {
     pub ut1_offset: Real,
     /// Earth's position from the orbit's centre in EME2000 when ephemeris.source is inputs.
     #[input(unit = "m", display = "AU", start = [0.0; 3])]
+    #[annotation(
+        also_called = "earth.positionInertial[i]",
+        interpolation = "position",
+        rate = "earth.velocity[i]"
+    )]
+    #[read_where(option = "ephemeris.source", items = "inputs")]
     pub position: RealVector<3>,
     /// Its velocity, by which the rate of an attitude that follows it is known; the position holds until it is set anew.
     #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
+    #[annotation(also_called = "earth.velocityInertial[i]")]
+    #[read_where(option = "ephemeris.source", items = "inputs")]
     pub velocity: RealVector<3>,
     /// Earth's position from the orbit's centre in EME2000, for models that have it as an input.
     #[output(unit = "m", display = "AU", nominal = 1e11)]

@@ -66,6 +66,7 @@ pub struct ControlVariables {
 pub struct EstimateVariables {
     /// Estimated attitude quaternion, scalar last, from EME2000 to the body frame, its sign as attitude.q's.
     #[output(unit = "1", nominal = 1.0)]
+    #[annotation(interpolation = "attitude", rate = "estimate.rate")]
     pub q: RealVector<4>,
     /// Estimated angular rate of the body in EME2000, in body components: the gyros', without their estimated bias; without gyros
     /// a filter's of the star tracker's attitudes, which expects control.slewAcceleration between two; 0 without both.

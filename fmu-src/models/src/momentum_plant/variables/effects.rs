@@ -88,6 +88,7 @@ pub struct MomentumVariables {
     pub convention: Choice<MomentumConvention>,
     /// System momentum in the body frame, by momentum.convention.
     #[output(unit = "N.m.s", nominal = 1.0)]
+    #[annotation(limited_by = "dump.threshold[i]")]
     pub body: RealVector<3>,
     /// System momentum in EME2000: always the physical total.
     #[output(unit = "N.m.s", nominal = 1.0)]

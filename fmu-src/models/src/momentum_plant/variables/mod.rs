@@ -125,6 +125,7 @@ pub struct PlantVariables {
     pub solver: SolverVariables,
     /// Present epoch, seconds past J2000 TDB.
     #[output(unit = "s", display = "d", nominal = 1e8)]
+    #[annotation(role = "epoch")]
     pub epoch: Real,
     /// Acceleration by the forces listed here, without gravity, in EME2000.
     #[output(unit = "m/s2", display = "nm/s2", nominal = 1e-7)]
@@ -134,6 +135,7 @@ pub struct PlantVariables {
     pub delta_v: RealVector<3>,
     /// Position about the orbit's centre, in EME2000.
     #[output(unit = "m", display = "km", nominal = 1e7)]
+    #[annotation(interpolation = "position", rate = "velocity[i]")]
     pub position: RealVector<3>,
     /// Velocity about the orbit's centre, in EME2000.
     #[output(unit = "m/s", display = "km/s", nominal = 1e3)]

@@ -21,6 +21,7 @@ pub struct AttitudeVariables {
     /// Attitude quaternion, scalar last, from EME2000 to the body frame. Of its two signs it begins with the one nearer to start.q and
     /// then keeps it: it is continuous wherever the attitude is, and where that jumps the nearer one is taken.
     #[output(unit = "1", nominal = 1.0)]
+    #[annotation(interpolation = "attitude", rate = "attitude.rate")]
     pub q: RealVector<4>,
     /// Angular rate of the body in EME2000, in body components.
     #[output(unit = "rad/s", display = "deg/s", nominal = 1e-3)]
@@ -36,18 +37,28 @@ pub struct CommandVariables {
     /// What the command gives. A command takes effect when any of the inputs it gives changes, and is propagated from then
     /// on. The attitude is held without rate while this is none, or while the quaternion it gives is all zero.
     #[input(start = CommandKind(guidance_command::CommandKind::Attitude))]
+    #[read_where(option = "attitude.source", items = "commanded controlled", set = "commanded")]
+    #[read_where(option = "command.source", items = "inputs", set = "inputs")]
     pub kind: Choice<CommandKind>,
     /// Commanded attitude quaternion, scalar last, from EME2000 to the body frame; a norm of 0.1 to 10 is restored to 1, with
     /// a warning where it is off by more than 5 %. Its sign does not count.
     #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
+    #[annotation(interpolation = "attitude", rate = "command.rate")]
+    #[read_where(option = "attitude.source", items = "commanded controlled", set = "commanded")]
+    #[read_where(option = "command.source", items = "inputs", set = "inputs")]
     pub q: RealVector<4>,
     /// Commanded angular rate in body components; the attitude is propagated with it.
     #[input(unit = "rad/s", display = "deg/s", start = [0.0; 3])]
+    #[read_where(option = "attitude.source", items = "commanded controlled", set = "commanded")]
+    #[read_where(option = "command.source", items = "inputs", set = "inputs")]
     pub rate: RealVector<3>,
     /// Error quaternion, scalar last: from the commanded to the actual body frame, so that A(error) takes the boresight to
     /// the sensed Sun (paper 001, eq 25). In commanded flight it is turned out once, when command.kind becomes
     /// errorQuaternion; in controlled flight whenever it changes.
     #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
+    #[annotation(interpolation = "attitude")]
+    #[read_where(option = "attitude.source", items = "commanded controlled", set = "commanded")]
+    #[read_where(option = "command.source", items = "inputs", set = "inputs")]
     pub error: RealVector<4>,
 }
 
@@ -56,6 +67,7 @@ pub struct CommandVariables {
 pub struct StartVariables {
     /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.
     #[parameter(unit = "s", display = "d", min = ephemeris::EARLIEST_EPOCH_S, max = ephemeris::VALID_EPOCH_S, start = time::MOMENTUM_STUDY_START_S)]
+    #[annotation(role = "epoch")]
     pub epoch: Real,
     /// Whether a controlled or free flight starts in start.q at start.rate (given), or in the first attitude and at the rate that
     /// the command or, in free flight too, the internal guidance gives (guided). automatic is given where start.q or start.rate
@@ -143,9 +155,12 @@ pub struct OrbitVariables {
     pub true_anomaly: Real,
     /// Position about the centre in EME2000 when orbit.source is inputs, where the orbit starts anew when it changes, or held.
     #[input(unit = "m", display = "km", start = [0.0; 3])]
+    #[annotation(interpolation = "position", rate = "orbit.velocity[i]")]
+    #[read_where(option = "orbit.source", items = "inputs held")]
     pub position: RealVector<3>,
     /// Velocity about the centre in EME2000 when orbit.source is inputs or held.
     #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
+    #[read_where(option = "orbit.source", items = "inputs held")]
     pub velocity: RealVector<3>,
     /// Time since the last periapsis.
     #[output(unit = "s", display = "h", nominal = 1e4)]
@@ -284,6 +299,7 @@ pub struct PredictionVariables {
     /// When that hyperbola osculates, seconds past J2000 TDB: encounter.leadTime before the closest approach, or at the prediction
     /// if that is later.
     #[output(unit = "s", display = "d", nominal = 1e8)]
+    #[annotation(role = "epoch")]
     pub epoch: Real,
 }
 

@@ -84,6 +84,7 @@ pub struct StartVariables {
 pub struct AttitudeVariables {
     /// Attitude quaternion, scalar last, from EME2000 to the body frame; continuous, so its sign follows the turns.
     #[output(unit = "1", nominal = 1.0)]
+    #[annotation(interpolation = "attitude", rate = "attitude.rate")]
     pub q: RealVector<4>,
     /// Angular rate of the body in EME2000, in body components: J^-1 h.
     #[output(unit = "rad/s", display = "deg/s", nominal = 1e-2)]

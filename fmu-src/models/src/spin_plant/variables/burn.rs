@@ -77,6 +77,7 @@ pub struct BurnVariables {
     /// Next edge of the burn as predicted from the present motion; -1 while none is timed. Before the first pulse, and always
     /// with burn.timing 2 and 3, it moves as torques and Sun crossings change what is predicted.
     #[output(discrete, unit = "s")]
+    #[annotation(role = "nextEvent")]
     pub next_edge: Real,
     /// Pulses of the plan.
     #[calculated_parameter]

@@ -2,25 +2,22 @@
 //!
 //! Parameters and inputs are no state: a restored flight is configured anew before it advances.
 
-mod configured;
+pub(super) mod configured;
 mod dynamic;
 mod encounter_prediction;
-mod fork;
+pub(super) mod fork;
 mod grid_edge;
 mod ideal;
 mod in_flight;
 mod reached;
+pub(super) mod report;
+mod simulated;
 mod survey;
 
-pub(super) mod downlink_forecast;
-pub(super) mod report;
-
-pub use configured::StepContext;
-pub use fork::ForecastMomentum;
 pub use survey::{Occultation, survey};
 
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 use crate::attitude::control::Estimate;
 use crate::loads::ForceTorque;
@@ -42,19 +39,21 @@ use crate::plant::state::flight_state::{EncounterPrediction, FlightState, Mode};
 use crate::plant::state::propagator_state::{PropagatorState, SunDirectionSelection};
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::Spacecraft;
-use configured::ConfiguredFlight;
+use configured::{ConfiguredFlight, StepContext};
 use dynamic::Dynamic;
 use encounter_prediction::predict_encounter;
 use ideal::Ideal;
-use in_flight::{Evaluated, InFlight, Simulated as _};
+use in_flight::{Evaluated, InFlight};
 use reached::Reached;
 use report::{ReachedState, Report};
+use simulated::Simulated as _;
 
 /// A flight: its state, and apart from it settings and caches, which are not saved.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(from = "FlightState")]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(transparent)]
 pub struct Flight {
     state: FlightState,
+    #[serde(skip)]
     setup: Option<Box<FlightSetup>>,
 }
 
@@ -67,23 +66,12 @@ struct FlightSetup {
     evaluated: Evaluated,
 }
 
-impl From<FlightState> for Flight {
-    fn from(state: FlightState) -> Self {
-        Self { state, setup: None }
-    }
-}
-
-impl Serialize for Flight {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.state.serialize(serializer)
-    }
-}
-
 impl Flight {
     /// Flight that waits for its inputs.
     pub fn waiting(thrusters: Thrusters) -> Self {
         let propagator = PropagatorState::default();
-        FlightState { propagator, thrusters, mode: Mode::Waiting, prediction: None }.into()
+        let state = FlightState { propagator, thrusters, mode: Mode::Waiting, prediction: None };
+        Self { state, setup: None }
     }
 
     /// Rejects decoded states that no flight of this spacecraft can produce.
