@@ -56,7 +56,7 @@ fn annotations_name_what_is_there() {
     }
 }
 
-/// The item that `wire` would set is left to whoever chose another.
+/// The item that `wire` would set stays where a user chose one.
 #[test]
 fn an_option_of_the_file_is_nobody_elses_choice() {
     let set = |text: &str| {

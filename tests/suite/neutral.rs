@@ -8,7 +8,7 @@ use syn::visit::{self, Visit};
 use crate::sources::{is_for_tests, rust_files, workspace};
 use crate::support::{SHIPPED, description};
 
-/// Those of the harness that take any FMU.
+/// Crates of the harness that take any FMU.
 const NEUTRAL: &[&str] = &["files", "terminal", "fmi", "systems", "drawing", "campaign"];
 
 /// Names of several segments, as `wheel.speed` for `wheel[k].speed`: one segment alone is a word of the language.

@@ -25,7 +25,7 @@ pub fn date_option(option: &str, written: &str) -> Result<f64, String> {
 
 /// The variable that says which epoch the start is.
 pub const START: &str = "start.epoch";
-/// What the description of an epoch says.
+/// Words in the description of an epoch.
 const SAYS_EPOCH: &str = "past J2000 TDB";
 
 /// From when a parameter counts.
@@ -46,7 +46,7 @@ const TIMES: [(&str, Since); 3] = [
 /// From where downlinks are counted, and its item for the start.
 const REFERENCE: (&str, &str) = ("guided.downlinkReference", "start");
 
-/// What dates are counted by: the values that hold together, and the time of the start.
+/// References of dates: the values that hold together, and the time of the start.
 pub struct Dates<'a> {
     description: &'a Description,
     /// As for `--set`; the last one of a name counts.
@@ -114,7 +114,7 @@ impl<'a> Dates<'a> {
         }
     }
 
-    /// What a parameter of this component counts at an epoch.
+    /// Value of a parameter of this component at an epoch.
     fn time_s(&self, component: &str, since: Since, epoch_s: f64) -> Result<f64, String> {
         let start_epoch_s = self.epoch_s(&format!("{component}{START}"))?;
         let since_start_s = dates::span_s(start_epoch_s, epoch_s);
@@ -138,7 +138,7 @@ impl<'a> Dates<'a> {
         self.description.variables.iter().find(|it| it.name.eq_ignore_ascii_case(name))
     }
 
-    /// What is set of this name.
+    /// Value set for this name.
     fn set(&self, name: &str) -> Option<&'a str> {
         let values = self.settings.iter().filter_map(|setting| setting.split_once('='));
         values.rev().find(|(set, _)| set.trim().eq_ignore_ascii_case(name)).map(|(_, value)| value.trim())
@@ -174,7 +174,7 @@ fn no_epoch() -> String {
     format!("which nothing counts: there is no {START}, allowed: a time in s or with a unit")
 }
 
-/// What stands before a name in a system, with its dot; empty in an FMU.
+/// Prefix of a name in a system, with its dot; empty in an FMU.
 fn component<'a>(variable: &'a str, name: &str) -> Option<&'a str> {
     variable.strip_suffix(name).filter(|before| before.is_empty() || before.ends_with('.'))
 }

@@ -184,7 +184,7 @@ impl Ephemeris {
         Ok(until_s)
     }
 
-    /// What is fitted, each once.
+    /// Bodies that are fitted, each once.
     fn targets(&self) -> Vec<OnboardTarget> {
         let mut targets = Vec::new();
         for kind in &self.bodies {

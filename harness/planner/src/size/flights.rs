@@ -18,7 +18,7 @@ use crate::Failure;
 /// Communication points of an orbit at least, and the longest step, in s.
 const POINTS_OF_ORBIT: f64 = 48.0;
 const LONGEST_STEP_S: f64 = 120.0;
-/// Step of a flight of which only dumps count, in s; one in which several fall is cut between them.
+/// Step of a flight whose dumps alone count, in s; one in which several fall is cut between them.
 const STEP_OF_DUMPS_S: f64 = 21_600.0;
 /// Rows that are kept of a flight at most.
 const ROWS: f64 = 300_000.0;
@@ -39,7 +39,7 @@ pub(super) struct Dumped {
     pub propellant_kg: f64,
 }
 
-/// What was simulated, and what the time did not suffice for.
+/// Flights that were simulated, and the number that the time did not suffice for.
 pub(super) struct Sweep {
     pub dumped: Vec<Dumped>,
     pub left_out: usize,

@@ -5,7 +5,7 @@ const MAX_VALUES: usize = 40;
 /// Cells at least and at most.
 const CELLS: [usize; 2] = [4, 80];
 
-/// Edges of cells, so many where values do not repeat, that hold these sorted values; two edges at least.
+/// Edges of cells, `cells` of them where values do not repeat, that hold these sorted values; two edges at least.
 pub fn edges(sorted: &[f64], cells: usize) -> Vec<f64> {
     let mut different = sorted.to_vec();
     different.dedup();
