@@ -127,9 +127,11 @@ pub fn wire(
                 Ok((from, output)) => {
                     connect(&mut wired.structure, components, (from, output), (number, input))
                 }
-                Err(why) => {
-                    wired.left.push(OpenInput { component: component.clone(), input: input.name.clone(), why })
-                }
+                Err(why) => wired.left.push(OpenInput {
+                    component: component.clone(),
+                    input: input.name.clone(),
+                    why,
+                }),
             }
         }
     }

@@ -22,7 +22,7 @@ use crate::{
         plan::PlannedDump,
         report::PlanEvent,
         torque::{Control, Controls},
-        windows::{Layout, BusySpan, Window, WindowKind},
+        windows::{BusySpan, Layout, Window, WindowKind},
     },
 };
 
