@@ -63,6 +63,8 @@ impl Eventful for Dynamic<'_> {
         self.state.motion.end_s() < limit_s - tolerance_s(limit_s)
     }
 
+    // Always inlined, as are the next two: asked for each kind of event at every sample, with a kind that is then known.
+    #[inline(always)]
     fn next_event_s(&self, kind: EventKind) -> f64 {
         let Self { state, flight, .. } = self;
         match kind {
@@ -75,7 +77,7 @@ impl Eventful for Dynamic<'_> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn is_due(&mut self, kind: EventKind) -> Result<bool, PlantError> {
         let time_s = self.reached_s();
         let comes_by = |next_s: f64| next_s < f64::INFINITY && next_s <= time_s + tolerance_s(time_s);
@@ -89,6 +91,7 @@ impl Eventful for Dynamic<'_> {
         })
     }
 
+    #[inline(always)]
     fn spend(&mut self, kind: Option<EventKind>) -> Result<(), PlantError> {
         if kind.is_some() {
             return Ok(());
