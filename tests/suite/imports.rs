@@ -19,9 +19,13 @@ const CRATES: &[&str] = &[
     "harness/fmi",
     "harness/drawing",
     "harness/studies",
-    "harness/planner",
-    "harness/campaign",
     "harness/systems",
+    "harness/isolation",
+    "harness/inputs",
+    "harness/packing",
+    "harness/tables",
+    "harness/campaign",
+    "harness/planner",
     "harness/cli",
 ];
 

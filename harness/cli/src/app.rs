@@ -6,14 +6,13 @@ use std::{
 };
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
+use inputs::home;
+use isolation::{Bounds, Relayed, SMALL, interrupt, large};
 use terminal::Screen;
 
 use crate::{
-    check,
-    child::{self, Bounds, Relayed, SMALL, large},
-    compare, completions, draw, ephemeris, home, info, interrupt, manual, map, new,
-    outcome::Outcome,
-    pack, plan, plot, refit, run as simulation, schema, size, study, sweep, wire,
+    check, compare, completions, draw, ephemeris, info, manual, map, new, outcome::Outcome, pack, plan, plot,
+    refit, run as simulation, schema, size, study, sweep, wire,
 };
 
 /// Spacecraft disturbance torque and momentum as FMUs: show, check and simulate them, pack your own.
@@ -108,10 +107,12 @@ pub(crate) fn run() -> Outcome {
         Command::InChild(InChild { output_columns, note_columns, arguments }) => {
             let screen = Screen { output_columns: *output_columns, note_columns: *note_columns };
             let given = [OsString::from(env!("CARGO_BIN_NAME"))].into_iter().chain(arguments.iter().cloned());
-            return child::serve(screen, || carry_out(Arguments::parse_from(given).command));
+            return isolation::serve(screen, || carry_out(Arguments::parse_from(given).command));
         }
         // What was recorded until then is written.
-        command => interrupt::listen(matches!(command, Command::Run(_) | Command::Sweep(_)), child::end_all)?,
+        command => {
+            interrupt::listen(matches!(command, Command::Run(_) | Command::Sweep(_)), isolation::end_all)?
+        }
     }
     match loading(&command) {
         Some(relayed) => relayed.run(std::env::args_os().skip(1)),

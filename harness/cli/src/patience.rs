@@ -1,8 +1,7 @@
 //! The option that bounds the calls of an FMU's library.
 
 use clap::Args;
-
-use crate::values::span;
+use inputs::values::span;
 
 /// How long an FMU is waited for.
 #[derive(Clone, Copy, Debug, Args)]

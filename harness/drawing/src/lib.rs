@@ -12,6 +12,7 @@ mod legend;
 mod pen;
 mod picture;
 mod plane;
+pub mod scenes;
 mod series;
 mod shading;
 mod surface;

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::flow::{AirFlow, IncidentFlow};
 use super::law::{AerodynamicLaw, LawAtFlow, Reemission};
 use crate::loads::ForceTorque;
-use crate::numerics::scalar::{Scalar, constant_vector};
+use crate::numerics::scalar::{Scalar, constant_vector, scratch};
 use crate::radiation::faces::Faces;
 use crate::radiation::shadow::{ShadowScene, ShadowWorkspace};
 use crate::refusal::Refusal;
@@ -44,19 +44,14 @@ pub struct AerodynamicModel {
     scene: Option<ShadowScene>,
 }
 
+scratch! {
 /// Scratch space of [`AerodynamicModel::load`]. Starts empty; the first evaluation sizes it, later ones do not allocate unless
 /// surfaces shadow one another.
-#[derive(Clone, Debug)]
 pub struct AerodynamicWorkspace<T: Scalar> {
     normals: Vec<Vector3<T>>,
     incident: Vec<IncidentFlow<T>>,
     shadow: ShadowWorkspace<T>,
 }
-
-impl<T: Scalar> Default for AerodynamicWorkspace<T> {
-    fn default() -> Self {
-        Self { normals: Vec::new(), incident: Vec::new(), shadow: ShadowWorkspace::default() }
-    }
 }
 
 impl<T: Scalar> AerodynamicWorkspace<T> {

@@ -33,6 +33,19 @@ impl BodyLoad {
         Self { mass_kg, ..Self::default() }
     }
 
+    /// Copies another load; its large parts only where they are present.
+    pub(super) fn copy_from(&mut self, other: &Self) {
+        let Self { torque_body_n_m, force_body_n, mass_kg, flow_kg_s, mass_flow, dipole, internal } = self;
+        (*torque_body_n_m, *force_body_n) = (other.torque_body_n_m, other.force_body_n);
+        (*mass_kg, *flow_kg_s, *dipole) = (other.mass_kg, other.flow_kg_s, other.dipole);
+        if mass_flow.is_some() || other.mass_flow.is_some() {
+            *mass_flow = other.mass_flow;
+        }
+        if internal.is_some() || other.internal.is_some() {
+            *internal = other.internal;
+        }
+    }
+
     /// Whether nothing acts.
     pub(super) fn is_zero(&self) -> bool {
         self.torque_body_n_m.iter().chain(&self.force_body_n).all(|it| *it == Vector3::zeros())

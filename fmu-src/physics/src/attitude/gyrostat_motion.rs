@@ -23,7 +23,7 @@ use super::gyrostat::Gyrostat;
 use super::gyrostat_series::GyrostatSeries;
 use super::imbalance::ImbalanceMotion;
 use super::internal_motion::InternalMotion;
-use super::motion_at::{MotionAt, node_attitudes};
+use super::motion_at::{KEPT_ROTORS, MotionAt, node_attitudes};
 use super::oscillator::OscillatorMotion;
 use super::quaternion::Quaternion;
 use super::rotor_motion::{self, RotorMotion};
@@ -157,17 +157,25 @@ impl GyrostatMotion {
         let attitudes = node_attitudes(rotation, elapsed_s);
         let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = self.totals_after(elapsed_s, &attitudes);
         let momentum_body = attitude.body_from_inertial(&momentum_inertial_n_m_s);
-        let rest = momentum_body
-            - gyrostat.along_axes(|k| match rotors[k].rotor {
-                Rotor::Turning { .. } => rotors[k].axial_after(rotation.order, elapsed_s),
-                Rotor::Held { momentum_n_m_s } => momentum_n_m_s,
-            });
+        let axial = |it: &RotorMotion| match it.rotor {
+            Rotor::Turning { .. } => it.axial_after(rotation.order, elapsed_s),
+            Rotor::Held { momentum_n_m_s } => momentum_n_m_s,
+        };
+        let mut rotors_n_m_s = [0.0; KEPT_ROTORS];
+        rotors_n_m_s.iter_mut().zip(rotors).for_each(|(kept, it)| *kept = axial(it));
+        let along = |k: usize| rotors_n_m_s.get(k).copied().unwrap_or_else(|| axial(&rotors[k]));
+        let rest = momentum_body - gyrostat.along_axes(along);
         let swinging = oscillators.iter().map(|it| it.carried_after(rotation.order, elapsed_s));
         let rest = swinging.fold(rest, |rest, carried| rest - carried);
         let rest = load.internal.iter().fold(rest, |rest, it| rest - it.momentum_after(elapsed_s));
         let rate_body_rad_s = load.inverse_inertia_after(&self.series.inverse_inertia, elapsed_s) * rest;
+        for ((kept, it), wheel) in rotors_n_m_s.iter_mut().zip(rotors).zip(gyrostat.wheels()) {
+            if let Rotor::Turning { .. } = it.rotor {
+                *kept -= wheel.carried_n_m_s(&rate_body_rad_s);
+            }
+        }
         let body = BodyMotion { attitude, rate_body_rad_s, momentum_inertial_n_m_s, delta_v_inertial_m_s };
-        MotionAt { time_s, elapsed_s, body, attitudes }
+        MotionAt { time_s, elapsed_s, body, attitudes, rotors_n_m_s }
     }
 
     /// Change of the total momentum since the start of the segment by a part of the load's dipole in the field, at the start in A m2 with
@@ -191,6 +199,12 @@ impl GyrostatMotion {
     pub fn swing_impulse_inertial_n_m_s(&self, until: &MotionAt) -> Option<Vector3<f64>> {
         let swings = !self.series.oscillators.is_empty() && !self.series.load.is_zero();
         swings.then(|| until.impulse_inertial_n_m_s(|_, at_s| self.series.swing_torque_after(at_s)))
+    }
+
+    /// Momentum of rotor `k` (0-based) relative to the body at the time of `at`, in N m s.
+    pub fn rotor_at_n_m_s(&self, gyrostat: &Gyrostat, k: usize, at: &MotionAt) -> f64 {
+        let kept = at.rotors_n_m_s.get(k).copied();
+        kept.unwrap_or_else(|| self.rotor_n_m_s(gyrostat, k, at.time_s, &at.body))
     }
 
     /// Momentum of rotor `k` (0-based) relative to the body at `time_s`, where the body moves like this, in N m s.
@@ -247,15 +261,15 @@ impl GyrostatMotion {
     /// loads (linear in time from the present end on).
     pub fn advance_from(
         &mut self,
-        motion: &BodyMotion,
+        end: &MotionAt,
         gyrostat: &Gyrostat,
         motors: &[Motor],
         load: &BodyLoad,
         limit_s: f64,
     ) {
-        let start_s = self.end_s;
+        let (start_s, motion) = (self.end_s, &end.body);
         for k in 0..self.series.rotors.len() {
-            let relative_n_m_s = self.rotor_n_m_s(gyrostat, k, start_s, motion);
+            let relative_n_m_s = self.rotor_at_n_m_s(gyrostat, k, end);
             let (wheel, it) = (&gyrostat.wheels()[k], &mut self.series.rotors[k]);
             let carried = wheel.carried_n_m_s(&motion.rate_body_rad_s);
             let (rotor, relative_n_m_s) = match it.next.take() {
@@ -281,7 +295,7 @@ impl GyrostatMotion {
                 it.begin(oscillator, state, &motion.rate_body_rad_s);
             }
         }
-        series.load = *load;
+        series.load.copy_from(load);
         series.rotation.attitude[0] = motion.attitude.0.into();
         series.rotation.momentum[0] = motion.attitude.body_from_inertial(&motion.momentum_inertial_n_m_s);
         let longest_s = limit_s - start_s;

@@ -68,13 +68,20 @@ impl GyrostatSeries {
             }
             for ((it, wheel), motor) in self.rotors.iter_mut().zip(gyrostat.wheels()).zip(motors) {
                 let Rotor::Turning { direction } = it.rotor else { continue };
+                if j > 0 && wheel.viscous_friction_n_m_s == 0.0 {
+                    it.axial[j + 1] = 0.0;
+                    continue;
+                }
                 let relative = it.axial[j] - wheel.carried_n_m_s(&rates[j]);
                 let constant =
                     if j == 0 { motor.torque_n_m - wheel.coulomb_friction_n_m * direction } else { 0.0 };
                 it.axial[j + 1] = (constant - wheel.viscous_rate_1_s() * relative) / (j + 1) as f64;
             }
             self.rotation.extend(torque);
-            small = if self.size(gyrostat, scale, j + 1) * power < ROUNDING { small + 1 } else { 0 };
+            // The attitude's terms are seldom smaller than the others.
+            let is_small = largest_magnitude(&self.rotation.attitude[j + 1]) * power < ROUNDING
+                && self.size(gyrostat, scale, j + 1) * power < ROUNDING;
+            small = if is_small { small + 1 } else { 0 };
         }
     }
 
@@ -82,6 +89,8 @@ impl GyrostatSeries {
     fn rate_term(&self, gyrostat: &Gyrostat, j: usize) -> Vector3<f64> {
         let wheels = gyrostat.wheels().iter().zip(self.rotors.iter());
         let rest = wheels.fold(self.rotation.momentum[j], |rest, (wheel, it)| match it.rotor {
+            // Without viscous friction the third term and those after it are zero.
+            Rotor::Turning { .. } if it.axial[j] == 0.0 => rest,
             Rotor::Turning { .. } => rest - wheel.axis_body * it.axial[j],
             Rotor::Held { momentum_n_m_s } if j == 0 => rest - wheel.axis_body * momentum_n_m_s,
             Rotor::Held { .. } => rest,

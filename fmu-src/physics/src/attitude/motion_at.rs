@@ -12,6 +12,9 @@ pub(super) fn node_attitudes(series: &RotationSeries<TERMS>, elapsed_s: f64) -> 
     GAUSS_3.map(|(node, _)| series.attitude_after(node * elapsed_s))
 }
 
+/// Number of rotors whose momenta are kept with the body; those of others are evaluated where they are needed.
+pub(super) const KEPT_ROTORS: usize = 4;
+
 /// Body at one time of a segment, and its attitudes at the nodes of the quadrature up to there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotionAt {
@@ -22,18 +25,18 @@ pub struct MotionAt {
     /// The body.
     pub body: BodyMotion,
     pub(super) attitudes: [Quaternion; 3],
+    /// Momenta of the first rotors relative to the body, in N m s.
+    pub(super) rotors_n_m_s: [f64; KEPT_ROTORS],
 }
 
 impl MotionAt {
-    /// Change of the total momentum since the start of the segment by each of these torques, body frame in N m with slopes in
-    /// N m/s, that act from there on: EME2000, in N m s. Those of the whole load add up to the change of all.
-    pub fn impulses_inertial_n_m_s<const N: usize>(
-        &self,
-        torques: &[Option<[Vector3<f64>; 2]>; N],
-    ) -> [Vector3<f64>; N] {
-        let impulse =
-            |[start, slope]: [Vector3<f64>; 2]| self.impulse_inertial_n_m_s(|_, at_s| start + slope * at_s);
-        torques.map(|torque| torque.map_or_else(Vector3::zeros, impulse))
+    /// Change of the total momentum since the start of the segment by a torque, body frame in N m with its slope in N m/s, that acts
+    /// from there on: EME2000, in N m s. Those of all parts of the load add up.
+    pub fn linear_impulse_inertial_n_m_s(&self, [start, slope]: &[Vector3<f64>; 2]) -> Vector3<f64> {
+        if [start, slope].into_iter().all(|it| *it == Vector3::zeros()) {
+            return Vector3::zeros();
+        }
+        self.impulse_inertial_n_m_s(|_, at_s| start + slope * at_s)
     }
 
     /// The same by a torque in N m, body frame, by attitude and s since the start.

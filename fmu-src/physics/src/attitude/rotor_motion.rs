@@ -7,6 +7,9 @@ use super::series::{TERMS, polynomial, slope};
 use super::wheel::{Motor, ReactionWheel, Rotor};
 use crate::numerics::chebyshev::Segment;
 
+/// Factor of a bound by which it exceeds what rounding adds.
+const ABOVE_ROUNDING: f64 = 1.0 + 1e-9;
+
 /// One rotor over a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct RotorMotion {
@@ -43,18 +46,20 @@ impl RotorMotion {
                 driven_off(wheel, motor, momentum_n_m_s, drive)
             }
             Rotor::Turning { direction } => {
-                let [relative, speeding_up] = [0, 1].map(|j| self.axial[j] - wheel.carried_n_m_s(&rate[j]));
-                held_back(wheel, motor, direction, relative, speeding_up)
+                let term = |j: usize| self.axial[j] - wheel.carried_n_m_s(&rate[j]);
+                held_back(wheel, motor, direction, term(0), || term(1))
             }
         }
     }
 
-    /// When it changes how it moves within `longest_s`, and to what.
+    /// When it changes how it moves within `longest_s`, and to what; no component of the rate changes by more than `rate_swing_rad_s`
+    /// by then.
     pub(super) fn event(
         &self,
         wheel: &ReactionWheel,
         motor: &Motor,
         rate: &[Vector3<f64>],
+        rate_swing_rad_s: f64,
         longest_s: f64,
     ) -> Option<(f64, Rotor)> {
         let falls_s = |terms: &[f64; TERMS]| falls_below_zero_s(&terms[..rate.len()], longest_s);
@@ -74,19 +79,28 @@ impl RotorMotion {
                 exits.min_by(|(a_s, _), (b_s, _)| a_s.total_cmp(b_s))
             }
             Rotor::Turning { direction } => {
+                let limit = wheel.capacity_n_m_s;
+                let sign = 1.0_f64.copysign(motor.torque_n_m);
+                let at_start = self.axial[0] - wheel.carried_n_m_s(&rate[0]);
+                let may_come = |swing_n_m_s: f64| {
+                    let is_far = |first_n_m_s: f64| first_n_m_s > swing_n_m_s;
+                    let may_rest = wheel.coulomb_friction_n_m > 0.0 && !is_far(direction * at_start);
+                    let is_driven =
+                        !motor.failed && motor.torque_n_m != 0.0 && !is_far(limit - sign * at_start);
+                    [may_rest, is_driven]
+                };
+                // Most rotors are far from rest and capacity.
+                let most =
+                    swing(&self.axial[..rate.len()], longest_s) + wheel.inertia_kg_m2 * rate_swing_rad_s;
+                if may_come(ABOVE_ROUNDING * most) == [false; 2] {
+                    return None;
+                }
                 let mut relative = self.axial;
                 for (term, rate) in relative.iter_mut().zip(rate) {
                     *term -= wheel.carried_n_m_s(rate);
                 }
-                // Most rotors are far from rest and capacity.
-                let swing_n_m_s = swing(&relative[..rate.len()], longest_s);
-                let is_far = |first_n_m_s: f64| first_n_m_s > swing_n_m_s;
-                let may_rest = wheel.coulomb_friction_n_m > 0.0 && !is_far(direction * relative[0]);
+                let [may_rest, is_driven] = may_come(swing(&relative[..rate.len()], longest_s));
                 let rests_s = may_rest.then(|| falls_s(&plus(&relative, 0.0, direction))).flatten();
-                let limit = wheel.capacity_n_m_s;
-                let sign = 1.0_f64.copysign(motor.torque_n_m);
-                let is_driven =
-                    !motor.failed && motor.torque_n_m != 0.0 && !is_far(limit - sign * relative[0]);
                 let full_s = is_driven.then(|| falls_s(&plus(&relative, limit, -sign))).flatten();
                 match (rests_s, full_s) {
                     (Some(at_s), full_s) if full_s.is_none_or(|full_s| at_s <= full_s) => {
@@ -108,10 +122,14 @@ pub(super) fn change_one(
     motors: &[Motor],
     rate: &[Vector3<f64>],
 ) -> bool {
-    let changes = rotors.iter_mut().zip(wheels).zip(motors).filter_map(|((it, wheel), motor)| {
-        it.change_at_start(wheel, motor, rate).map(|(excess_n_m, rotor)| (excess_n_m, it, rotor))
-    });
-    let worst = changes.reduce(|worst, next| if next.0 > worst.0 { next } else { worst });
+    let mut worst: Option<(f64, &mut RotorMotion, Rotor)> = None;
+    for ((it, wheel), motor) in rotors.iter_mut().zip(wheels).zip(motors) {
+        if let Some((excess_n_m, rotor)) = it.change_at_start(wheel, motor, rate)
+            && worst.as_ref().is_none_or(|(most_n_m, ..)| excess_n_m > *most_n_m)
+        {
+            worst = Some((excess_n_m, it, rotor));
+        }
+    }
     worst.map(|(_, it, rotor)| it.rotor = rotor).is_some()
 }
 
@@ -123,10 +141,15 @@ pub(super) fn first_event_s(
     rate: &[Vector3<f64>],
     longest_s: f64,
 ) -> f64 {
+    let rate_swing_rad_s = rate
+        .iter()
+        .skip(1)
+        .rev()
+        .fold(0.0, |sum, term| (sum + term.x.abs() + term.y.abs() + term.z.abs()) * longest_s);
     let mut first: Option<(&mut RotorMotion, f64, Rotor)> = None;
     for ((it, wheel), motor) in rotors.iter_mut().zip(wheels).zip(motors) {
         let until_s = first.as_ref().map_or(longest_s, |(_, at_s, _)| *at_s);
-        if let Some((at_s, rotor)) = it.event(wheel, motor, rate, until_s) {
+        if let Some((at_s, rotor)) = it.event(wheel, motor, rate, rate_swing_rad_s, until_s) {
             first = Some((it, at_s, rotor));
         }
     }
@@ -182,20 +205,20 @@ fn held_back(
     motor: &Motor,
     direction: f64,
     relative_n_m_s: f64,
-    speeding_up_n_m: f64,
+    speeding_up_n_m: impl Fn() -> f64,
 ) -> Option<(f64, Rotor)> {
     let rounding = 4.0 * f64::EPSILON;
     let at_capacity = relative_n_m_s.abs() >= wheel.capacity_n_m_s * (1.0 - rounding);
-    let outward_n_m = speeding_up_n_m * relative_n_m_s.signum();
-    if at_capacity && !motor.failed && motor.torque_n_m * relative_n_m_s > 0.0 && outward_n_m > 0.0 {
-        return Some((outward_n_m, Rotor::Held { momentum_n_m_s: relative_n_m_s }));
+    if at_capacity && !motor.failed && motor.torque_n_m * relative_n_m_s > 0.0 {
+        let outward_n_m = speeding_up_n_m() * relative_n_m_s.signum();
+        if outward_n_m > 0.0 {
+            return Some((outward_n_m, Rotor::Held { momentum_n_m_s: relative_n_m_s }));
+        }
     }
-    let backward_n_m = -speeding_up_n_m * direction;
     let at_rest = relative_n_m_s.abs() <= rounding * wheel.capacity_n_m_s;
-    if at_rest && wheel.coulomb_friction_n_m > 0.0 && backward_n_m > 0.0 {
-        return Some((backward_n_m, Rotor::Held { momentum_n_m_s: 0.0 }));
-    }
-    None
+    let backward_n_m = if at_rest { -speeding_up_n_m() * direction } else { 0.0 };
+    (wheel.coulomb_friction_n_m > 0.0 && backward_n_m > 0.0)
+        .then_some((backward_n_m, Rotor::Held { momentum_n_m_s: 0.0 }))
 }
 
 /// `sign * terms + constant`.

@@ -113,10 +113,10 @@ impl<const N: usize> RotationSeries<N> {
     pub(crate) fn extend(&mut self, torque: Vector3<f64>) {
         let j = self.order;
         let (mut momentum_rate, mut attitude_rate) = (torque, Vector4::zeros());
-        for i in 0..=j {
-            let rate = &self.rate[j - i];
-            momentum_rate += self.momentum[i].cross(rate);
-            let [[x, y, z, w]] = self.attitude[i].data.0;
+        let rates = self.rate[..=j].iter().rev();
+        for ((momentum, attitude), rate) in self.momentum.iter().zip(&self.attitude).zip(rates) {
+            momentum_rate += momentum.cross(rate);
+            let [[x, y, z, w]] = attitude.data.0;
             attitude_rate += Vector4::new(
                 w * rate.x + y * rate.z - z * rate.y,
                 w * rate.y + z * rate.x - x * rate.z,

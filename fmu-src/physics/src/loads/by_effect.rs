@@ -33,6 +33,11 @@ impl<V> ByEffect<V> {
 }
 
 impl<V> ByEffect<Option<V>> {
+    /// Removes all values.
+    pub fn clear(&mut self) {
+        self.0.iter_mut().for_each(|value| *value = None);
+    }
+
     /// The effects that have a value, with it.
     pub fn present(&self) -> impl Iterator<Item = (Effect, &V)> {
         self.iter().filter_map(|(effect, value)| Some((effect, value.as_ref()?)))

@@ -40,6 +40,26 @@ pub trait Scalar:
     fn polar_angle(y: Self, x: Self) -> Self;
 }
 
+/// Defines scratch space over scalars, which need no default of their own: all of it starts empty.
+macro_rules! scratch {
+    ($(#[$attribute:meta])* $visibility:vis struct $name:ident<T: Scalar> {
+        $($(#[$of_field:meta])* $field_visibility:vis $field:ident: $type:ty,)+
+    }) => {
+        $(#[$attribute])*
+        #[derive(Clone, Debug)]
+        $visibility struct $name<T: Scalar> {
+            $($(#[$of_field])* $field_visibility $field: $type,)+
+        }
+
+        impl<T: Scalar> Default for $name<T> {
+            fn default() -> Self {
+                Self { $($field: Default::default(),)+ }
+            }
+        }
+    };
+}
+pub(crate) use scratch;
+
 impl Scalar for f64 {
     #[inline]
     fn constant(value: f64) -> Self {

@@ -133,7 +133,7 @@ pub(crate) trait Eventful {
         while self.ends_by(limit_s) {
             self.spend(None)?;
             self.apply_due()?;
-            let next_s = EventKind::ALL.into_iter().map(|(kind, _)| self.next_event_s(kind));
+            let next_s = EventKind::ALL.iter().map(|(kind, _)| self.next_event_s(*kind));
             let next_s = next_s.fold(f64::INFINITY, f64::min);
             self.advance_segment(next_s)?;
         }
@@ -146,7 +146,7 @@ pub(crate) trait Eventful {
     /// What ends a flight; an event of a kind twice at one time, where only one may come.
     fn apply_due(&mut self) -> Result<(), PlantError> {
         let time_s = self.reached_s();
-        for (kind, name) in EventKind::ALL {
+        for &(kind, name) in &EventKind::ALL {
             while self.is_due(kind)? {
                 self.spend(Some(kind))?;
                 if !kind.may_repeat() {

@@ -43,18 +43,18 @@ pub use settings::air_and_field_settings::{
     AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure,
 };
 pub use settings::attitude_source::{AttitudeSource, Command, Turning};
-pub use settings::configuration::RadiationSettings;
 pub use settings::configuration::{
-    Configuration, Encounter, EphemerisSource, LightSource, Motion, PredictionSettings, SunLight,
+    Configuration, Encounter, EphemerisSource, LightSource, Motion, PredictionSettings, RadiationSettings,
+    SunLight,
 };
 pub use settings::control_defaults::{
     ControlDefaults, DUMP_TORQUE_N_M, LEAST_DUMP_THRESHOLD_N_M_S, NEVER_DUMPED_N_M_S,
     SLEW_ACCELERATION_RAD_S2, SLEW_RATE_RAD_S,
 };
 pub use settings::digest::Digest;
-pub use settings::dynamics_settings::WheelControlSettings;
 pub use settings::dynamics_settings::{
     Control, DynamicsInputs, DynamicsSettings, StartMotion, StartPointing, ThrusterControl, Tracked,
+    WheelControlSettings,
 };
 pub use settings::error::{ManeuverError, PlantError};
 pub use settings::laws::{Laws, TUNABLE_COUNT};
@@ -74,8 +74,7 @@ pub use sources::thrusters::THRUSTERS;
 pub use sources::{SourceStates, Sources};
 pub use state::flight_state::{EncounterPrediction, PredictedArrival};
 pub use state::ideal_state::Maneuvers;
-pub use state::propagator_state::PropagatorState;
-pub use state::propagator_state::SunDirectionSelection;
+pub use state::propagator_state::{PropagatorState, SunDirectionSelection};
 pub use thrusters::allocation::{ThrusterAllocator, UnservedDumps};
 pub use thrusters::reaction_control::Thrusters;
 pub use thrusters::thruster_load::{ThrusterLoad, ThrusterTotals};

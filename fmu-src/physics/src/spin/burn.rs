@@ -23,14 +23,10 @@ const NO_TORQUE: f64 = 1e-9;
 /// Burn ready for simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Burn {
-    /// Thrusters of even half turns.
-    pub mask: u32,
-    /// Thrusters of odd half turns.
-    pub opposite_mask: u32,
-    /// Torque of `mask`, body components, in N m.
-    pub torque_body_n_m: Vector3<f64>,
-    /// Torque of `opposite_mask`.
-    pub opposite_torque_body_n_m: Vector3<f64>,
+    /// Thrusters of even and of odd half turns.
+    pub masks: [u32; 2],
+    /// Torque of both, body components, in N m.
+    pub torques_body_n_m: [Vector3<f64>; 2],
     /// Opening and closing of the valves of both.
     pub valves: [ValveTiming; 2],
     /// The pulses.
@@ -107,17 +103,12 @@ impl Burn {
             request.check_opposite(&train, &torque_body_n_m, &opposite_body_n_m, across_n_m)?;
         }
         request.check_limits(&flight, &train)?;
-        let opposite_mask = opposite_mask.unwrap_or(mask);
-        let valves = [mask, if train.alternates() { opposite_mask } else { mask }];
+        let masks = [mask, opposite_mask.unwrap_or(mask)];
+        let timing = |half: usize| one_timing(spinner, initial.execution, masks[half]);
         let burn = Self {
-            mask,
-            opposite_mask,
-            valves: [
-                one_timing(spinner, initial.execution, valves[0])?,
-                one_timing(spinner, initial.execution, valves[1])?,
-            ],
-            torque_body_n_m,
-            opposite_torque_body_n_m: opposite_torque_body_n_m.unwrap_or(torque_body_n_m),
+            masks,
+            valves: [timing(0)?, timing(usize::from(train.alternates()))?],
+            torques_body_n_m: [torque_body_n_m, opposite_torque_body_n_m.unwrap_or(torque_body_n_m)],
             train,
             timing: request.timing,
             start_s: request.start_s,
@@ -145,10 +136,8 @@ impl Burn {
 
     /// Propellant of all its pulses, in kg.
     pub fn propellant_kg(&self, spinner: &Spinner) -> f64 {
-        let flows = [self.mask, self.opposite_mask].map(|mask| spinner.thrust(mask).flow_kg_s);
-        (0..self.train.count)
-            .map(|k| flows[self.train.half_turns(k) as usize % 2] * self.train.width_s(k))
-            .sum()
+        let flows = self.masks.map(|mask| spinner.thrust(mask).flow_kg_s);
+        (0..self.train.count).map(|k| flows[self.half(k)] * self.train.width_s(k)).sum()
     }
 
     /// Tells whether the burn moves the direction of the momentum; a spin manoeuvre does not.
@@ -158,17 +147,18 @@ impl Burn {
 
     /// Thrusters and torque of pulse `k`.
     pub fn actuator(&self, k: u32) -> (u32, Vector3<f64>) {
-        if self.train.half_turns(k) % 2 == 1 {
-            (self.opposite_mask, self.opposite_torque_body_n_m)
-        } else {
-            (self.mask, self.torque_body_n_m)
-        }
+        (self.masks[self.half(k)], self.torques_body_n_m[self.half(k)])
+    }
+
+    /// Whether pulse `k` comes in an even (0) or an odd (1) half turn.
+    fn half(&self, k: u32) -> usize {
+        self.train.half_turns(k) as usize % 2
     }
 
     /// Span of pulse `k` from the opening of its valve to the closing, relative to the centre of its thrust. The valve is open
     /// for as long as the pulse's width at full thrust requires.
     pub fn about_centre(&self, k: u32) -> Span {
-        let timing = &self.valves[self.train.half_turns(k) as usize % 2];
+        let timing = &self.valves[self.half(k)];
         let on_s = timing.on_s(self.train.width_s(k));
         let before_s = timing.centre_s(on_s);
         Span::new(-before_s, on_s - before_s)

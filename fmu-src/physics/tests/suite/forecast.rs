@@ -28,7 +28,7 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
     let mut configured =
         configuration(orbit, AttitudeSource::Guided(physics::guidance::Guided { managed: true, ..law }));
     configured.thruster_events =
-        ThrusterEventSettings { schedule: events.into(), ..ThrusterEventSettings::default() };
+        ThrusterEventSettings { schedule: events.into(), dumps: true, ..ThrusterEventSettings::default() };
     let (rig, found) = (Rig::new(), RefCell::new(History::new()));
     let planner =
         |forecast: &mut DownlinkForecast<'_, '_>| -> Result<Option<SelectedSunDirection>, PlantError> {

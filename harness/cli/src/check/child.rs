@@ -4,13 +4,13 @@ use std::{ffi::OsString, path::PathBuf, process::ExitCode, time::Instant};
 
 use clap::Args;
 use files::Scratch;
-use fmi::Fmu;
-use fmi::conformance::{Finding, Verdict};
-
-use crate::{
-    child::{Bounds, ChildProcess, Link, Payload, SMALL, push_text},
-    outcome::Outcome,
+use fmi::{
+    Fmu,
+    conformance::{Finding, Verdict},
 };
+use isolation::{Bounds, ChildProcess, Link, Payload, SMALL, push_text};
+
+use crate::outcome::Outcome;
 
 /// `heliotorque probe-in-child`.
 #[derive(Debug, Args)]

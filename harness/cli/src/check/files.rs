@@ -2,6 +2,11 @@
 
 use std::error::Error;
 
+use inputs::{
+    kind::{FileKind, is_blank},
+    library::Library,
+};
+use packing::carried::{ephemeris, timeline};
 use physics::{
     environment::onboard::OnboardEphemeris,
     guidance::timeline::Timeline,
@@ -10,9 +15,6 @@ use physics::{
 
 use super::{mission, options::Check, spacecraft};
 use crate::{
-    carried::{ephemeris, timeline},
-    kind::{FileKind, is_blank},
-    library::Library,
     outcome::{self, Outcome},
     plan::{leg, momentum},
     sweep,

@@ -16,10 +16,13 @@ use std::{
     time::{Duration, Instant},
 };
 
-use fmi::Fmu;
-use fmi::conformance::{Finding, PROBES, Probe as Probed, Trial, Verdict};
+use fmi::{
+    Fmu,
+    conformance::{Finding, PROBES, Probe as Probed, Trial, Verdict},
+};
+use packing::{carried, pointing};
 
-use crate::{carried, outcome::Outcome, pointing};
+use crate::outcome::Outcome;
 pub(crate) use child::{Probe, run_probe};
 pub(crate) use options::Check;
 

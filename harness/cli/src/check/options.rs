@@ -6,8 +6,7 @@ use std::{
 };
 
 use clap::Args;
-
-use crate::values::span;
+use inputs::values::span;
 
 /// `heliotorque check`.
 #[derive(Debug, Args)]

@@ -4,8 +4,16 @@
 
 use std::collections::BTreeSet;
 
+use drawing::scenes::dish_of;
 use fmi::{Described, Value};
+use inputs::variables;
 use model_description::Description;
+use packing::{
+    assembly::{
+        Parts, Source, assemble, can_read_map, common_keys, description, reference_flight, unused_map,
+    },
+    pointing,
+};
 use physics::{
     environment::sun::SOLAR_FLUX_W_M2,
     spacecraft::{Spacecraft, Thruster},
@@ -17,14 +25,7 @@ use super::{
     figures::{self, Sunlight},
     options::Check,
 };
-use crate::{
-    assembly::{
-        Parts, Source, assemble, can_read_map, common_keys, description, reference_flight, unused_map,
-    },
-    draw::scene::dish_of,
-    outcome::{self, Outcome},
-    pointing, variables,
-};
+use crate::outcome::{self, Outcome};
 
 /// Has the models of the template's library read the file, the template's own first.
 pub(super) fn run(arguments: &Check, file: &str, text: &str) -> Outcome {

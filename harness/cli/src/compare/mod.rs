@@ -1,21 +1,18 @@
 //! `heliotorque compare`: how far two tables are from each other, variable by variable.
 
 mod options;
-mod pairing;
-mod picture;
-mod report;
 
 use std::process::ExitCode;
 
 use files::Destination;
-
-use crate::{
-    outcome::Outcome,
-    output::check_svg_path,
+use inputs::svg_path::check_svg_path;
+use tables::{
+    compare::pairing::Pairing,
     table::{Sidecar, Table},
 };
+
+use crate::outcome::Outcome;
 pub(crate) use options::Compare;
-use pairing::Pairing;
 
 /// Compares.
 pub(crate) fn run(arguments: &Compare) -> Outcome {
@@ -32,10 +29,10 @@ pub(crate) fn run(arguments: &Compare) -> Outcome {
     let mut found = fmi::reference::differences(&pairing.columns);
     found.sort_by(|a, b| b.fraction.total_cmp(&a.fraction));
     let tables = [&first, &second];
-    let text = report::text(tables, &pairing, &found, (&sidecar, arguments.tolerance));
+    let text = tables::compare::report::text(tables, &pairing, &found, (&sidecar, arguments.tolerance));
     let takes_stdout = plot.as_ref().is_some_and(Destination::is_stdout);
     if let Some(destination) = plot {
-        let svg = picture::svg(tables, &pairing, &found, &sidecar)?;
+        let svg = tables::compare::picture::svg(tables, &pairing, &found, &sidecar)?;
         destination.fill(|file| file.write_all(svg.as_bytes()))?;
     }
     if takes_stdout {

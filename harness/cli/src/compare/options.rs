@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-
-use crate::values;
+use inputs::values;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-
-use crate::values::angle;
+use drawing::scenes::PanelAngle;
+use inputs::values::angle;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -51,15 +51,6 @@ pub(crate) enum ViewKind {
     Perspective,
     /// All of them
     All,
-}
-
-/// An angle of one panel, or of all.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct PanelAngle {
-    /// The panel's name.
-    pub panel: Option<String>,
-    /// Right-handed about its axis, in rad.
-    pub angle_rad: f64,
 }
 
 /// `panel=angle`, or an angle for every panel.

@@ -3,15 +3,15 @@
 use std::path::Path;
 
 use fmi::{Error, Fmu, Instance, Value};
+use inputs::variables::assigned;
 use nalgebra::Vector3;
+use packing::instance;
 use physics::{
     bodies::Body,
     enumeration::Enumerated,
     environment::{CartesianState, onboard::OnboardTarget},
 };
 use planner::ephemeris::{Failure, Source};
-
-use crate::{instance, variables::assigned};
 
 /// Parameter with the epoch at the start of a flight.
 const START_EPOCH: &str = "start.epoch";

@@ -2,7 +2,6 @@
 //! file that others carry.
 
 mod flight;
-#[cfg(feature = "spk")]
 mod kernel_options;
 mod options;
 mod shown;
@@ -13,19 +12,15 @@ use std::{
 };
 
 use files::Destination;
-#[cfg(feature = "spk")]
-use physics::environment::onboard::OnboardTarget;
-use physics::environment::onboard::{OnboardEphemeris, to_toml};
-use physics::numerics::Span;
-#[cfg(feature = "spk")]
-use planner::ephemeris::spk::Kernels;
-use planner::ephemeris::{Failure, Requested, Source, coarse, precise};
-
-use crate::{
-    carried::ephemeris::{FILE, table},
-    interrupt,
-    outcome::{self, Outcome},
+use isolation::interrupt;
+use packing::carried::ephemeris::{FILE, table};
+use physics::{
+    environment::onboard::{OnboardEphemeris, OnboardTarget, to_toml},
+    numerics::Span,
 };
+use planner::ephemeris::{Failure, Requested, Source, coarse, precise, spk::Kernels};
+
+use crate::outcome::{self, Outcome};
 use flight::RepeatableSimulation;
 pub(crate) use options::Ephemeris;
 use shown::Shown;
@@ -70,7 +65,6 @@ pub(crate) fn run(arguments: &Ephemeris) -> Outcome {
 
 /// Where the states come from: kernels if there are any, otherwise a flight.
 fn source(arguments: &Ephemeris, span_s: [f64; 2]) -> Result<Box<dyn Source>, Failure> {
-    #[cfg(feature = "spk")]
     if arguments.kernels.is_given() {
         let (mut targets, mut span_s) = (arguments.targets(), span_s);
         if arguments.coarse {

@@ -3,18 +3,17 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use inputs::{
+    home,
+    values::{number, span},
+};
 use physics::{
     constants::DAY_S,
     environment::{dates, onboard::OnboardTarget},
 };
 
-#[cfg(feature = "spk")]
 use super::kernel_options::KernelOptions;
-use crate::{
-    home,
-    patience::Patience,
-    values::{number, span},
-};
+use crate::patience::Patience;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -34,7 +33,6 @@ pub(crate) struct Ephemeris {
     /// spacecraft about orbit.center; otherwise the installed program's, or dist/MomentumPlant.fmu
     #[arg(value_name = "FMU")]
     pub source: Option<PathBuf>,
-    #[cfg(feature = "spk")]
     #[command(flatten)]
     pub kernels: KernelOptions,
     /// First epoch, a date: '2011-04-06T00:00:00 UTC'
@@ -87,25 +85,25 @@ pub(crate) struct Ephemeris {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum BodyKind {
     /// The Sun
-    #[cfg_attr(feature = "spk", value(alias = "10"))]
+    #[value(alias = "10")]
     Sun,
     /// Mercury
-    #[cfg_attr(feature = "spk", value(alias = "199"))]
+    #[value(alias = "199")]
     Mercury,
     /// Venus
-    #[cfg_attr(feature = "spk", value(alias = "299"))]
+    #[value(alias = "299")]
     Venus,
     /// The Earth
-    #[cfg_attr(feature = "spk", value(alias = "399"))]
+    #[value(alias = "399")]
     Earth,
     /// The Moon
-    #[cfg_attr(feature = "spk", value(alias = "301"))]
+    #[value(alias = "301")]
     Moon,
     /// Mars
-    #[cfg_attr(feature = "spk", value(alias = "499"))]
+    #[value(alias = "499")]
     Mars,
     /// Jupiter
-    #[cfg_attr(feature = "spk", value(alias = "599"))]
+    #[value(alias = "599")]
     Jupiter,
     /// The spacecraft
     Spacecraft,
@@ -130,7 +128,6 @@ impl Ephemeris {
 
     /// The files it reads.
     pub(crate) fn inputs(&self) -> Vec<PathBuf> {
-        #[cfg(feature = "spk")]
         if self.kernels.is_given() {
             return self.kernels.kernel.clone();
         }

@@ -1,12 +1,11 @@
 //! A source whose work is shown by a bar and ended by Ctrl-C.
 
+use isolation::interrupt;
 use physics::{
     bodies::Body,
     environment::{CartesianState, onboard::OnboardTarget},
 };
 use planner::ephemeris::{Failure, Source};
-
-use crate::interrupt;
 
 /// A source with its bar, unless that is hidden.
 pub(super) struct Shown {

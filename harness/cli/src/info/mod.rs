@@ -7,18 +7,18 @@ mod system;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use fmi::{Fmu, Value};
-use model_description::{
-    Causality, CoSimulation, Description, ScalarVariable, SimpleTypeKind, Variability, VariableKind, value,
+use fmi::Fmu;
+use inputs::{
+    kind, values,
+    variables::{VariableRow, rows, selected, start_text, warn_of_repeated},
 };
+use model_description::{Causality, Description, ScalarVariable, SimpleTypeKind, Variability, VariableKind};
+use packing::{carried, manual::standard};
 use systems::System;
 
 use crate::{
-    carried, epoch, kind,
     outcome::{self, Outcome},
     patience::Patience,
-    values,
-    variables::{VariableRow, rows, selected, warn_of_repeated},
 };
 use experiment::times;
 
@@ -176,26 +176,8 @@ fn capabilities(fmu: &Fmu) -> String {
         return "No co-simulation: this FMU cannot be stepped here.".to_owned();
     };
     let mut table = terminal::table(&["co-simulation", ""]);
-    capability_rows(flags).for_each(|(name, value)| table.add_row([name, value.as_str()]));
+    standard::capability_rows(flags).for_each(|(name, value)| table.add_row([name, value.as_str()]));
     table.to_string()
-}
-
-/// The capabilities by the standard's names.
-pub(crate) fn capability_rows(flags: &CoSimulation) -> impl Iterator<Item = (&'static str, String)> {
-    let switches = [
-        ("canHandleVariableCommunicationStepSize", flags.can_handle_variable_communication_step_size),
-        ("canInterpolateInputs", flags.can_interpolate_inputs),
-        ("canGetAndSetFMUstate", flags.can_get_and_set_fmu_state),
-        ("canSerializeFMUstate", flags.can_serialize_fmu_state),
-        ("providesDirectionalDerivative", flags.provides_directional_derivative),
-        ("canRunAsynchronuously", flags.can_run_asynchronuously),
-        ("canBeInstantiatedOnlyOncePerProcess", flags.can_be_instantiated_only_once_per_process),
-        ("canNotUseMemoryManagementFunctions", flags.can_not_use_memory_management_functions),
-        ("needsExecutionTool", flags.needs_execution_tool),
-    ];
-    let switches = switches.map(|(name, is_on)| (name, if is_on { "yes" } else { "no" }.to_owned()));
-    let order = ("maxOutputDerivativeOrder", flags.max_output_derivative_order.to_string());
-    [("modelIdentifier", flags.model_identifier.clone())].into_iter().chain(switches).chain([order])
 }
 
 fn units(description: &Description) -> String {
@@ -240,7 +222,7 @@ fn variables(description: &Description, positions: &[usize]) -> String {
         positions.iter().map(|&position| &description.variables[position]).collect();
     let cells = |row: &VariableRow<'_>| {
         let unit = fmi::unit(description, row.first()).unwrap_or_default();
-        [row.name(), causality(row.first()), row.joined(|it| start(description, it)), unit.to_owned()]
+        [row.name(), causality(row.first()), row.joined(|it| start_text(description, it)), unit.to_owned()]
     };
     let says = |row: &VariableRow<'_>| row.first().description.clone().unwrap_or_default();
     if let Some(columns) = terminal::screen().output_columns.filter(|columns| *columns < WIDE) {
@@ -283,30 +265,6 @@ fn causality(variable: &ScalarVariable) -> String {
         (_, Variability::Constant) => format!("constant {name}"),
         (Causality::Input | Causality::Output, Variability::Discrete) => format!("{name}, discrete"),
         _ => name.to_owned(),
-    }
-}
-
-/// The start value, in the variable's unit, with the display unit or date behind it and the item's name.
-pub(crate) fn start(description: &Description, variable: &ScalarVariable) -> String {
-    match value::start(variable) {
-        Some(Value::Real(start)) => {
-            let date = epoch::is_epoch(description, variable).then(|| epoch::date(start)).flatten();
-            match (date, fmi::display_unit(description, variable)) {
-                (Some(date), _) => format!("{start} ({date})"),
-                (None, Some((name, factor, offset))) if start != 0.0 => {
-                    let shown = terminal::short(factor * start + offset);
-                    format!("{} ({shown} {name})", terminal::short(start))
-                }
-                _ => terminal::short(start),
-            }
-        }
-        Some(Value::Integer(start)) => {
-            let item = value::items(description, variable).iter().find(|item| item.value == start);
-            item.map_or_else(|| start.to_string(), |item| format!("{start} ({})", item.name))
-        }
-        Some(Value::Text(start)) => format!("{start:?}"),
-        Some(truth) => truth.to_string(),
-        None => String::new(),
     }
 }
 

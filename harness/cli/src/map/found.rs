@@ -1,5 +1,6 @@
 //! Everything that a map tells of a spacecraft, found once for picture, table and files.
 
+use drawing::scenes::panel_called;
 use fmi::Error;
 use nalgebra::Vector3;
 use planner::{
@@ -8,7 +9,6 @@ use planner::{
 };
 
 use super::{options::Steps, spacecraft::MappedSpacecraft};
-use crate::draw::scene::panel_called;
 
 /// All directions.
 const SPHERE_DEG: Angles = [180.0, 90.0];

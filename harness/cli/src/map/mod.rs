@@ -12,9 +12,10 @@ mod verdict;
 
 use std::process::ExitCode;
 
+use inputs::variables;
 use planner::momentum::Mission;
 
-use crate::{outcome::Outcome, variables};
+use crate::outcome::Outcome;
 use found::Found;
 pub(crate) use options::Map;
 use outputs::Outputs;

@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-
-use crate::{
+use inputs::{
     home,
-    patience::Patience,
     values::{angle, number},
 };
+
+use crate::patience::Patience;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use files::Destination;
 use fmi::csv::Real;
+use inputs::svg_path::check_svg_path;
 use planner::torque_map::{Angles, direction};
 
 use super::{found::Found, options::Map, picture, spacecraft::MappedSpacecraft};
-use crate::output::check_svg_path;
 
 /// What names the files.
 const OPTIONS: [&str; 3] = ["--output", "--csv", "--lines"];

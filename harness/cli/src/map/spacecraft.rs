@@ -2,8 +2,13 @@
 
 use files::{Entries, Scratch};
 use fmi::{Described, Fmu, Value};
+use inputs::{kind::FileKind, variables};
 use model_description::Description;
 use nalgebra::Vector3;
+use packing::{
+    assembly::{START, Source, description, model_of, open_template, with_values},
+    instance::started,
+};
 use physics::{
     bodies::Body,
     constants::ASTRONOMICAL_UNIT_M as AU_M,
@@ -15,12 +20,6 @@ use physics::{
 use planner::torque_map::{Angles, LitSpacecraft, Rule, TurnedPanels};
 
 use super::options::Map;
-use crate::{
-    assembly::{START, Source, description, model_of, open_template, with_values},
-    instance::started,
-    kind::FileKind,
-    variables,
-};
 
 /// Why something could not be done.
 type Failure = Box<dyn std::error::Error>;

@@ -3,22 +3,22 @@
 //! The description comes from the library itself, so it cannot disagree with it. The same input gives the same
 //! archive, byte for byte.
 
-mod manual;
-
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use drawing::scenes;
 use files::Destination;
+use inputs::{mission::Mission, variables};
+use packing::{
+    assembly::{Assembled, Parts, Source, assemble, reference_flight, unused_map},
+    carried::timeline::panels_without_effect,
+    pointing,
+};
 use physics::{plausibility::defaults_at_their_bounds, spacecraft::Spacecraft};
 
 use crate::{
-    assembly::{Assembled, Parts, Source, assemble, reference_flight, unused_map},
-    carried::timeline::panels_without_effect,
-    draw,
-    mission::Mission,
     outcome::{self, Outcome},
     patience::Patience,
-    pointing, variables,
 };
 
 /// Shown with the help.
@@ -103,10 +103,10 @@ pub(crate) fn run(arguments: &Pack) -> Outcome {
     let source = Source::open(arguments.template.as_deref(), &arguments.library)?;
     let Assembled { mut entries, identifier, described, description, setup } = assemble(&source, &parts)?;
     source.add_licenses(&mut entries)?;
-    let drawing = draw::svg(&setup);
-    let page = manual::html(&description, &described, &setup, drawing.as_deref());
+    let drawing = scenes::svg(&setup);
+    let page = packing::manual::html(&description, &described, &setup, drawing.as_deref());
     entries.add("documentation/index.html", page.into_bytes())?;
-    if let Some(png) = draw::png(&setup) {
+    if let Some(png) = scenes::png(&setup) {
         entries.add("model.png", png)?;
     }
     let (flight, _) = reference_flight(&entries, &described.reference_inputs)

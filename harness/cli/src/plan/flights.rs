@@ -8,7 +8,16 @@ use std::{
 
 use files::Scratch;
 use fmi::{Fmu, InputTable, Instance, InstanceOptions, Options, Recording, Value};
+use inputs::{
+    mission::{Inputs, Mission, SpacecraftSource},
+    plan::file::PlanFile,
+    reading::At,
+    values,
+    variables::{NEVER_N_M_S, elements, item, selected},
+};
+use isolation::interrupt;
 use nalgebra::Vector3;
+use packing::assembly::spacecraft_of;
 use physics::{
     guidance::timeline::{Timeline, simulation_time_s},
     momentum::Convention,
@@ -20,14 +29,10 @@ use planner::momentum::{
     torque::SunlitSpacecraft,
 };
 
-use crate::{
-    assembly::spacecraft_of,
-    interrupt,
-    mission::{Inputs, Mission, SpacecraftSource},
-    run::{Run, Settings, Simulated},
-    values,
-    variables::{NEVER_N_M_S, elements, item, selected},
-};
+use crate::run::{Run, Settings, Simulated};
+
+/// Error text for a time outside the mission.
+pub(super) const OUTSIDE: &str = "found a time outside of the mission, allowed: from its start to its stop";
 
 /// Why something could not be done.
 pub(super) type Failure = Box<dyn Error>;
@@ -151,6 +156,28 @@ impl SimulatedMission {
         let shown = path.display().to_string();
         let timeline = Timeline::of_plant(&shown, &text, spacecraft).map_err(|error| error.to_string())?;
         Ok(Some((text, timeline)))
+    }
+
+    /// A time of a plan's file, in s.
+    pub(super) fn time_in_file_s<T>(
+        &self,
+        file: &PlanFile,
+        at: &At<T>,
+        instant: values::Instant,
+    ) -> Result<f64, String> {
+        self.time_s(instant).ok_or_else(|| {
+            let what = "found a date, allowed: simulation time: the mission does not start at a date";
+            file.problem(at, what)
+        })
+    }
+
+    /// The same, refused outside of the mission.
+    pub(super) fn time_in_mission_s(&self, file: &PlanFile, at: &At<values::Instant>) -> Result<f64, String> {
+        let time_s = self.time_in_file_s(file, at, at.it)?;
+        if !(time_s >= self.start_s && time_s < self.stop_s) {
+            return Err(file.problem(at, OUTSIDE));
+        }
+        Ok(time_s)
     }
 
     /// What turns the clock of a timeline into times of the flight, in s to be subtracted.

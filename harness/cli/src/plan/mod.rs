@@ -10,9 +10,10 @@ mod picture;
 use std::{path::Path, process::ExitCode};
 
 use clap::{Args, Subcommand};
+use inputs::{home, kind::FileKind};
 use physics::spacecraft::Spacecraft;
 
-use crate::{home, kind::FileKind, outcome::Outcome, patience::Patience};
+use crate::{outcome::Outcome, patience::Patience};
 
 /// `heliotorque plan`.
 #[derive(Debug, Subcommand)]

@@ -1,24 +1,15 @@
 //! `heliotorque plot`: pictures of tables, as `run` and campaigns write them.
 
-mod bands;
-mod cells;
-mod heat;
 mod options;
-mod over_time;
-mod runs;
-mod tornado;
 
 use std::path::{Path, PathBuf};
 
 use drawing::Picture;
 use files::Destination;
+use inputs::{svg_path::check_svg_path, values};
+use tables::table::{Sidecar, TIME, Table};
 
-use crate::{
-    outcome::{self, Outcome},
-    output::check_svg_path,
-    table::{Sidecar, TIME, Table},
-    values,
-};
+use crate::outcome::{self, Outcome};
 pub(crate) use options::Plot;
 
 /// Where a table without a name is drawn.
@@ -54,20 +45,20 @@ fn pictures(arguments: &Plot, tables: &[(Table, Sidecar)]) -> Result<Vec<Box<dyn
     };
     if !arguments.histogram.is_empty() {
         let (table, sidecar) = one("--histogram")?;
-        let charts = runs::histograms(table, sidecar, &arguments.histogram)?;
+        let charts = tables::plot::runs::histograms(table, sidecar, &arguments.histogram)?;
         return Ok(charts.into_iter().map(|chart| Box::new(chart) as Box<dyn Picture>).collect());
     }
     if let Some(names) = &arguments.scatter {
         let (table, sidecar) = one("--scatter")?;
-        return Ok(vec![Box::new(runs::scatter(table, sidecar, names)?)]);
+        return Ok(vec![Box::new(tables::plot::runs::scatter(table, sidecar, names)?)]);
     }
     if let Some(names) = &arguments.heat {
         let (table, sidecar) = one("--heat")?;
-        return Ok(vec![Box::new(heat::chart(table, sidecar, names)?)]);
+        return Ok(vec![Box::new(tables::plot::heat::chart(table, sidecar, names)?)]);
     }
     if let Some(name) = &arguments.tornado {
         let (table, sidecar) = one("--tornado")?;
-        return Ok(vec![Box::new(tornado::chart(table, sidecar, name)?)]);
+        return Ok(vec![Box::new(tables::plot::tornado::chart(table, sidecar, name)?)]);
     }
     if let Some((table, _)) = tables.iter().find(|(table, _)| table.key != TIME) {
         return Err(format!(
@@ -78,13 +69,14 @@ fn pictures(arguments: &Plot, tables: &[(Table, Sidecar)]) -> Result<Vec<Box<dyn
     }
     let names = &values::all_names(&arguments.names);
     match tables {
-        [(table, sidecar)] if bands::is_of_percentiles(table) => {
-            let of_runs = bands::runs_of(&table.path).map(|runs| Sidecar::beside(&runs)).transpose()?;
+        [(table, sidecar)] if tables::plot::bands::is_of_percentiles(table) => {
+            let of_runs =
+                tables::plot::bands::runs_of(&table.path).map(|runs| Sidecar::beside(&runs)).transpose()?;
             let sidecar =
                 of_runs.filter(|_| *sidecar == Sidecar::default()).unwrap_or_else(|| sidecar.clone());
-            Ok(vec![Box::new(bands::chart(table, &sidecar, names)?)])
+            Ok(vec![Box::new(tables::plot::bands::chart(table, &sidecar, names)?)])
         }
-        [(table, sidecar)] => Ok(vec![Box::new(over_time::single(table, sidecar, names)?)]),
-        _ => Ok(vec![Box::new(over_time::overlaid(tables, names)?)]),
+        [(table, sidecar)] => Ok(vec![Box::new(tables::plot::over_time::single(table, sidecar, names)?)]),
+        _ => Ok(vec![Box::new(tables::plot::over_time::overlaid(tables, names)?)]),
     }
 }

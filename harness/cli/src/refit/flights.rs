@@ -4,18 +4,16 @@ use std::cell::Cell;
 
 use files::Scratch;
 use fmi::{Ended, Fmu, InputTable, Options, Value};
+use inputs::variables::{NEVER_N_M_S, elements, item, numbers, real, selected};
 use model_description::Description;
 use nalgebra::Vector3;
+use packing::assembly::spacecraft_of;
 use physics::constants::DAY_S;
 use planner::refit::{FITTED, Failure, Flights, History, MOMENTUM, Parameters, Telemetry};
 use terminal::ProgressBar;
 
 use super::options::Refit;
-use crate::{
-    assembly::spacecraft_of,
-    run::{Run, Settings, Simulated},
-    variables::{NEVER_N_M_S, elements, item, numbers, real, selected},
-};
+use crate::run::{Run, Settings, Simulated};
 
 /// The model that is simulated.
 const MODEL: &str = "MomentumPlant";

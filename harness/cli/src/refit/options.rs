@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use inputs::values;
 
-use crate::{patience::Patience, values};
+use crate::patience::Patience;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\

@@ -11,15 +11,13 @@ use std::{
 
 use clap::Args;
 use fmi::{Collector, Ended, Error, LogMessage, Recording, Row, Rows, Status, Watcher};
+use isolation::{
+    Bounds, ChildProcess, EndReason, Link, NOT_REQUESTED, Payload, Shown, large, path_option, push_text,
+};
+use tables::output::Visit;
 
 use super::{options::Run, settings::Settings, simulated::Simulated, subject::Subject, visits::Visits};
-use crate::{
-    child::{
-        Bounds, ChildProcess, EndReason, Link, NOT_REQUESTED, Payload, Shown, large, path_option, push_text,
-    },
-    outcome::Outcome,
-    output::Visit,
-};
+use crate::outcome::Outcome;
 
 /// `heliotorque run-in-child`.
 #[derive(Debug, Args)]

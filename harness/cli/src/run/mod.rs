@@ -18,16 +18,12 @@ use std::{
 
 use files::{Destination, Scratch};
 use fmi::{Collector, Ended, RecordedPoints, Times};
+use inputs::{epoch, variables};
+use isolation::{Bounds, interrupt::INTERRUPTED};
+use packing::{carried, pointing};
+use tables::output::{self, Known, LimitChecks, Origin, Outputs, VisitTable};
 
-use crate::{
-    carried,
-    child::Bounds,
-    epoch,
-    interrupt::INTERRUPTED,
-    outcome::Outcome,
-    output::{self, Known, LimitChecks, Origin, Outputs, VisitTable},
-    pointing, variables,
-};
+use crate::outcome::Outcome;
 pub(crate) use child::{RunInChild, push_row, run as run_in_child, take_row};
 pub(crate) use options::Run;
 pub(crate) use settings::Settings;
@@ -66,7 +62,7 @@ impl Prepared {
     /// Whatever is refused, by the flag or the mission's line.
     pub(crate) fn of(arguments: &Run) -> Result<Self, Box<dyn Error>> {
         if let Some(path) = &arguments.plot {
-            output::check_svg_path(path, "--plot")?;
+            inputs::svg_path::check_svg_path(path, "--plot")?;
         }
         let simulated = Simulated::of(arguments)?;
         let (subject, packed) = simulated.open()?;

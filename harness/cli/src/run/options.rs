@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-
-use crate::values::{Instant, duration, instant, span};
+use inputs::values::{Instant, duration, instant, span};
 
 /// Shown with the help.
 const EXAMPLE: &str = "\

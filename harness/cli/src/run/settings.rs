@@ -4,21 +4,20 @@ use std::{path::Path, sync::atomic::AtomicBool};
 
 use files::Scratch;
 use fmi::{Ended, Fmu, InputTable, InstanceOptions, LogMessage, Options, Rows, Times, Watcher};
+use inputs::{
+    epoch::Dates,
+    mission::{self, Limit, Resolved},
+    values::all_names,
+    variables::{assigned_by, selected},
+};
 use model_description::Description;
-
 use systems::{FirstExchange, Master};
+use tables::output::{self, OutputFile, Plot, Requested};
 
 use super::{
     options::{FirstExchangeKind, MasterKind, Run},
     simulated::Simulated,
     subject::Subject,
-};
-use crate::{
-    epoch::Dates,
-    mission::{self, Resolved},
-    output::{self, Limit, OutputFile, Plot, Requested},
-    values::all_names,
-    variables::{assigned_by, selected},
 };
 
 /// What the arguments mean for an FMU or a system.

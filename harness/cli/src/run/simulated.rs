@@ -10,16 +10,16 @@ use std::{
 use clap::Args;
 use files::Scratch;
 use fmi::Fmu;
-
-use super::{options::Run, subject::Subject};
-use crate::{
-    assembly::{Parts, Source, assemble},
-    child::{self, Bounds, Relayed, SMALL, path_option},
+use inputs::{
     kind,
     mission::{Inputs, Mission, SpacecraftSource},
-    outcome::Outcome,
     values::Instant,
 };
+use isolation::{Bounds, Relayed, SMALL, path_option};
+use packing::assembly::{Parts, Source, assemble};
+
+use super::{options::Run, subject::Subject};
+use crate::outcome::Outcome;
 
 /// `heliotorque assemble`.
 #[derive(Debug, Args)]
@@ -93,7 +93,7 @@ impl Simulated {
         let failed = |error: std::io::Error| format!("{}: {error}", std::env::temp_dir().display());
         let folder = Scratch::new().map_err(failed)?;
         let template = self.run.template.as_deref();
-        if child::is_child() {
+        if isolation::is_child() {
             assemble_files(mission, template, folder.path())?;
             return Ok(folder);
         }

@@ -6,11 +6,11 @@ use std::{
 };
 
 use fmi::{Fmu, Times, Value};
+use inputs::{epoch::Dates, values::Instant};
 use model_description::Description;
 use systems::System;
 
 use super::options::Run;
-use crate::{epoch::Dates, values::Instant};
 
 /// What is run.
 pub(crate) enum Subject {

@@ -5,9 +5,10 @@
 
 use fmi::{Error, Instance, Watcher};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use packing::carried;
+use tables::output::Visit;
 
 use super::{settings::Settings, subject::Subject};
-use crate::{carried, output::Visit};
 
 /// Reals that are read, in this order.
 const REALS: [&str; 13] = [

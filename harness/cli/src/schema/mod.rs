@@ -1,7 +1,5 @@
 //! `heliotorque schema`: the JSON Schemas of files, kept in step with their readers by tests of `physics` and of the mission.
 
-pub(crate) mod written;
-
 use clap::{Args, ValueEnum};
 
 use crate::outcome::{self, Outcome};

@@ -1,5 +1,6 @@
 //! The answer first: wheels, time without unloading, propellant; and what was assumed for it.
 
+use inputs::{epoch::date, variables::item};
 use physics::constants::DAY_S;
 use terminal::rounded;
 
@@ -8,7 +9,6 @@ use super::{
     sized::{SizedSpacecraft, YEAR_S},
     table::{Found, time, triple},
 };
-use crate::{epoch::date, variables::item};
 
 /// What counts unless someone says otherwise: the variable, the key that sets it, and another that stands for it.
 const UNSAID: [(&str, &str, &str); 4] = [

@@ -6,15 +6,13 @@ use std::{
 };
 
 use fmi::{Options, Recording, Value};
+use inputs::variables::{NEVER_N_M_S, elements, numbers, selected, vectors};
+use isolation::interrupt;
 use nalgebra::Vector3;
+use packing::instance::vector;
 use physics::plant::LEAST_DUMP_THRESHOLD_N_M_S;
 
 use super::sized::{Failure, SizedSpacecraft};
-use crate::{
-    instance::vector,
-    interrupt,
-    variables::{NEVER_N_M_S, elements, numbers, selected, vectors},
-};
 
 /// Communication points of an orbit at least, and the longest step, in s.
 const POINTS_OF_ORBIT: f64 = 48.0;

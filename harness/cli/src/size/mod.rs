@@ -14,13 +14,11 @@ mod unloading;
 use std::{path::Path, process::ExitCode};
 
 use files::{Destination, OutputFolder};
+use isolation::interrupt;
+use packing::instance::vector;
 use physics::constants::DAY_S;
 
-use crate::{
-    instance::vector,
-    interrupt,
-    outcome::{self, Outcome},
-};
+use crate::outcome::{self, Outcome};
 use momentum::Histories;
 use needs::Demands;
 pub(crate) use options::Size;

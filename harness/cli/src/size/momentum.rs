@@ -9,9 +9,8 @@
 use std::borrow::Cow;
 
 use fmi::Recording;
+use inputs::variables::{numbers, vectors};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-
-use crate::variables::{numbers, vectors};
 
 /// Rows whose bounds are looked at together before the rows themselves, the most first.
 const BLOCKS: [usize; 3] = [4096, 256, 16];

@@ -1,6 +1,8 @@
 //! What slews, wheels and thrusters the mission needs or has, by axis.
 
+use inputs::variables::{NEVER_N_M_S, item};
 use nalgebra::Vector3;
+use packing::instance::vector;
 use physics::{
     momentum::WheelArray,
     propulsion::ThrusterSelection,
@@ -8,10 +10,6 @@ use physics::{
 };
 
 use super::{momentum::Histories, sized::SizedSpacecraft};
-use crate::{
-    instance::vector,
-    variables::{NEVER_N_M_S, item},
-};
 
 pub(super) const NAMES: [&str; 3] = ["X", "Y", "Z"];
 

@@ -3,12 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use inputs::values::{duration, number, span};
 use physics::spacecraft::SlewDemand;
 
-use crate::{
-    patience::Patience,
-    values::{duration, number, span},
-};
+use crate::patience::Patience;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\

@@ -2,8 +2,17 @@
 
 use files::Scratch;
 use fmi::{Fmu, InputTable, Instance, Value};
+use inputs::{
+    kind::FileKind,
+    mission::{Inputs, SpacecraftSource as Given},
+    variables::{assigned, item, start},
+};
 use model_description::Description;
 use nalgebra::Vector3;
+use packing::{
+    assembly::{Parts, Source, assemble, spacecraft_of},
+    instance::{self, vector},
+};
 use physics::{
     bodies::Body,
     constants::DAY_S,
@@ -11,14 +20,7 @@ use physics::{
 };
 
 use super::options::Size;
-use crate::{
-    assembly::{Parts, Source, assemble, spacecraft_of},
-    instance::{self, vector},
-    kind::FileKind,
-    mission::{Inputs, SpacecraftSource as Given},
-    run::{Run, Settings, Simulated},
-    variables::{assigned, item, start},
-};
+use crate::run::{Run, Settings, Simulated};
 
 /// Why something could not be done.
 pub(super) type Failure = Box<dyn std::error::Error>;

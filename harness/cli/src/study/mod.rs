@@ -3,15 +3,17 @@
 use std::{io::IsTerminal, path::PathBuf, process::ExitCode};
 
 use clap::Args;
+use inputs::{
+    home,
+    kind::FileKind,
+    values::{angle, span},
+    variables::warn_of_repeated,
+};
 use studies::{Options, STUDIES};
 
 use crate::{
-    home,
-    kind::FileKind,
     outcome::{self, Outcome},
     patience::Patience,
-    values::{angle, span},
-    variables::warn_of_repeated,
 };
 
 /// `heliotorque study`.

@@ -1,7 +1,5 @@
 //! `heliotorque sweep`: many runs of a mission or an FMU whose values vary, and what is kept of each.
 
-mod description;
-mod file;
 mod histories;
 mod options;
 mod origin;
@@ -9,7 +7,6 @@ mod outputs;
 mod pool;
 mod repeated;
 mod resolved;
-mod schema;
 mod series;
 mod started;
 mod table;
@@ -30,8 +27,16 @@ use std::{
 
 use files::{Destination, Growing, Part, Scratch, sidecar_of};
 use fmi::{Fmu, csv};
+use inputs::{campaign::file::CampaignFile, library::Library};
+use isolation::{
+    interrupt::{self, INTERRUPTED},
+    large,
+};
 
-use file::CampaignFile;
+use crate::{
+    outcome::{self, Outcome},
+    run::{Settings, Subject},
+};
 pub(crate) use options::Sweep;
 use origin::Digests;
 use outputs::{Beside, CampaignFiles, Opened};
@@ -42,14 +47,6 @@ use series::Series;
 use started::{Counts, OPTION, Started};
 use table::RunTable;
 pub(crate) use worker::{SweepInChild, run as run_in_child};
-
-use crate::{
-    child::large,
-    interrupt::{self, INTERRUPTED},
-    library::Library,
-    outcome::{self, Outcome},
-    run::{Settings, Subject},
-};
 
 /// A campaign file in a line, after all that the command does before its first run.
 ///

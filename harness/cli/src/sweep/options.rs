@@ -3,8 +3,7 @@
 use std::{ops::Range, path::PathBuf};
 
 use clap::Args;
-
-use crate::values::span;
+use inputs::values::span;
 
 /// The table where --output names none.
 pub(super) const OUTPUT: &str = "runs.csv";

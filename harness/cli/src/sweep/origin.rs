@@ -2,15 +2,16 @@
 
 use std::{fs, io, ops::Range, path::Path};
 
+use inputs::{
+    campaign::file::CampaignFile,
+    epoch::{self, is_epoch},
+};
 use model_description::Description;
+use tables::output::EPOCH_KEY;
 use toml_edit::{DocumentMut, Item, Table};
 use uuid::Uuid;
 
-use super::{file::CampaignFile, resolved::Campaign};
-use crate::{
-    epoch::{self, is_epoch},
-    output::EPOCH_KEY,
-};
+use super::resolved::Campaign;
 
 /// Names of digests are in a name space of their own.
 const NAME_SPACE: Uuid = Uuid::from_u128(0x8e5d_3f0a_71c4_4b52_9d26_c0f1_6a4e_92b7);

@@ -6,16 +6,16 @@ use std::{
 };
 
 use files::{Destination, Growing, OutputFolder, leads_below, sidecar_of};
+use inputs::campaign::file::CampaignFile;
+use tables::output::{OutputFile, OutputKind, check_standing};
 
 use super::{
-    file::CampaignFile,
     histories::{HISTORIES, HistoryPlace},
     origin::Digests,
     series::{Series, percentiles_path},
     started::{Counts, OPTION, Started},
     table::{self, LeftRows},
 };
-use crate::output::{OutputFile, OutputKind, check_standing};
 
 /// Outputs of a campaign, opened.
 pub(super) enum Opened {

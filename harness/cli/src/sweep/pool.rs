@@ -13,6 +13,10 @@ use std::{
 
 use files::Destination;
 use fmi::{Collector, Recording, csv};
+use isolation::{
+    Bounds, ChildProcess, EndReason, NOT_REQUESTED, Payload, ResourceLimits, Shown, Supervised, interrupt,
+    path_option,
+};
 use model_description::Description;
 
 use super::{
@@ -21,14 +25,7 @@ use super::{
     series::Series,
     worker::{ALL_ENDED, BEGUN, ENDED, POINT, REFUSED, ROW, RunStatus},
 };
-use crate::{
-    child::{
-        Bounds, ChildProcess, EndReason, NOT_REQUESTED, Payload, ResourceLimits, Shown, Supervised,
-        path_option,
-    },
-    interrupt,
-    run::take_row,
-};
+use crate::run::take_row;
 
 /// Begins the reason of a run whose process was killed from outside, which says nothing of the run.
 pub(super) const KILLED: &str = "killed from outside";

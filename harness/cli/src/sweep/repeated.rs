@@ -7,12 +7,12 @@ use std::{
 };
 
 use fmi::csv::Real;
+use isolation::interrupt;
 
 use super::{
     pool::{Attempt, Pool, RunResult},
     worker::RunStatus,
 };
-use crate::interrupt;
 
 /// Runs that are repeated at most, one a process.
 const MOST: u64 = 4;

@@ -4,20 +4,19 @@ use std::{error::Error, ops::Range, path::Path};
 
 use campaign::{Correlation, Design, DesignError, Distribution, Sampling, Varied};
 use fmi::{RecordedPoints, Value, csv};
-use model_description::{BaseType, Description, ScalarVariable, value};
-
-use super::{
-    description::SamplingWord,
-    file::{CampaignFile, WrittenDistribution},
-};
-use crate::{
+use inputs::{
+    campaign::{
+        description::SamplingWord,
+        file::{CampaignFile, WrittenDistribution},
+    },
     epoch::Dates,
-    mission::in_file,
-    output::Limit,
+    mission::{Limit, in_file},
     reading::At,
-    run::{Run, Settings, Simulated, Subject},
     values::Instant,
 };
+use model_description::{BaseType, Description, ScalarVariable, value};
+
+use crate::run::{Run, Settings, Simulated, Subject};
 
 /// Numbers that percentiles are made of at most.
 const MOST_NUMBERS: u64 = 100_000_000;

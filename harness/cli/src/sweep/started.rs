@@ -3,10 +3,10 @@
 use std::{ops::Range, path::Path, process::ExitCode};
 
 use files::Destination;
+use inputs::campaign::file::CampaignFile;
 use model_description::Description;
 
 use super::{
-    file::CampaignFile,
     options::Sweep,
     origin::{self, Digests},
     resolved::Campaign,

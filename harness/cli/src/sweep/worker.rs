@@ -9,14 +9,12 @@ use std::{
 use campaign::Extremes;
 use clap::Args;
 use fmi::{Ended, Error, Fmu, Instance, InstanceOptions, Options, Row, Rows, Status, Value};
+use inputs::campaign::file::CampaignFile;
+use isolation::{Link, push_text};
 use model_description::{BaseType, Description};
 
-use super::{
-    file::CampaignFile,
-    resolved::{Campaign, Kept, simulated},
-};
+use super::resolved::{Campaign, Kept, simulated};
 use crate::{
-    child::{Link, push_text},
     outcome::Outcome,
     run::{Subject, push_row},
 };

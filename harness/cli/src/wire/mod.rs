@@ -10,15 +10,15 @@ use std::{
 use clap::Args;
 use files::{Destination, Entries};
 use fmi::Fmu;
-use model_description::{Code, DefaultExperiment, Finding};
-use systems::{SSD_FILE, Wired, Wiring};
-
-use crate::{
+use inputs::{
     home, kind,
-    outcome::Outcome,
     values::{all_names, duration, span},
     variables,
 };
+use model_description::{Code, DefaultExperiment, Finding};
+use systems::{SSD_FILE, Wired, Wiring};
+
+use crate::outcome::Outcome;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\

@@ -20,7 +20,6 @@ mod flyby_mistakes;
 mod flybys;
 mod hostile;
 mod installed;
-#[cfg(feature = "spk")]
 mod kernels;
 mod legs;
 mod limits;

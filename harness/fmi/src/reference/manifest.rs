@@ -5,6 +5,11 @@ use std::fmt::Write;
 use files::ANNOTATION;
 use model_description::{Start, Xml, escape};
 
+/// The folder of the layered standard inside an FMU.
+pub const FOLDER: &str = "extra/org.fmi-standard.fmi-ls-ref";
+/// Its list of files.
+pub const MANIFEST: &str = "fmi-ls-manifest.xml";
+
 /// The files that an FMU lists.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Manifest {

@@ -9,11 +9,6 @@ mod record;
 mod replay;
 
 pub use compare::{Cell, Compared, Difference, differences};
-pub use manifest::{Manifest, ReferenceSimulation, Related};
+pub use manifest::{FOLDER, MANIFEST, Manifest, ReferenceSimulation, Related};
 pub use record::{RecordError, record};
 pub use replay::{Replay, replays};
-
-/// The folder of the layered standard inside an FMU.
-pub const FOLDER: &str = "extra/org.fmi-standard.fmi-ls-ref";
-/// Its list of files.
-pub const MANIFEST: &str = "fmi-ls-manifest.xml";

@@ -3,9 +3,8 @@
 mod coarse;
 mod fit;
 mod source;
-#[cfg(feature = "spk")]
 pub mod spk;
 
 pub use crate::Failure;
 pub use fit::{Requested, coarse, precise};
-pub use source::{Source, utc_date};
+pub use source::Source;

@@ -2,16 +2,10 @@
 
 use physics::{
     bodies::Body,
-    environment::{CartesianState, dates, onboard::OnboardTarget},
+    environment::{CartesianState, onboard::OnboardTarget},
 };
 
 use crate::Failure;
-
-/// The UTC date of an epoch in s past J2000 TDB; `None` where UTC has no leap seconds yet.
-pub fn utc_date(epoch_s: f64) -> Option<String> {
-    let date = dates::utc(epoch_s);
-    dates::epoch_s(&date).is_ok_and(|read_s| (read_s - epoch_s).abs() <= 1e-3).then_some(date)
-}
 
 /// States over time in EME2000.
 pub trait Source {

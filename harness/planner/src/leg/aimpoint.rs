@@ -3,26 +3,8 @@
 //! Equation: with v the speed far from the body, r the distance of its closest approach: B^2 = r^2 + 2 r mu / v^2; e = 1 + r v^2 / mu,
 //! turn = 2 asin(1 / e), delta-v = 2 v / e.
 
+use inputs::leg::FlybyAimpoint;
 use nalgebra::Vector2;
-
-/// Aimpoint of a flyby: where a path passes a body.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum FlybyAimpoint {
-    /// By the altitude of its closest approach, and the angle of B from T toward R.
-    Altitude {
-        /// Above the body's radius, m.
-        altitude_m: f64,
-        /// From T toward R, rad.
-        angle_rad: f64,
-    },
-    /// By components of B of the hyperbola that osculates the lead time before the closest approach.
-    Plane {
-        /// Along T, m.
-        b_t_m: f64,
-        /// Along R, m.
-        b_r_m: f64,
-    },
-}
 
 /// Length of B, in m, of a hyperbola whose closest approach is `distance_m` from a body's centre.
 pub fn impact_parameter_m(distance_m: f64, excess_speed_m_s: f64, mu_m3_s2: f64) -> f64 {
@@ -35,16 +17,14 @@ pub fn closest_distance_m(b_m: f64, excess_speed_m_s: f64, mu_m3_s2: f64) -> f64
     b_m * b_m / (axis_m + axis_m.hypot(b_m))
 }
 
-impl FlybyAimpoint {
-    /// B along T and R, in m, on a hyperbola without tides about a body of this gravitational parameter and radius.
-    pub fn b_m(&self, excess_speed_m_s: f64, mu_m3_s2: f64, radius_m: f64) -> Vector2<f64> {
-        match *self {
-            Self::Plane { b_t_m, b_r_m } => Vector2::new(b_t_m, b_r_m),
-            Self::Altitude { altitude_m, angle_rad } => {
-                let (sine, cosine) = angle_rad.sin_cos();
-                let size_m = impact_parameter_m(radius_m + altitude_m, excess_speed_m_s, mu_m3_s2);
-                Vector2::new(cosine, sine) * size_m
-            }
+/// B along T and R, in m, of an aimpoint, on a hyperbola without tides about a body of this gravitational parameter and radius.
+pub fn b_m(aimpoint: &FlybyAimpoint, excess_speed_m_s: f64, mu_m3_s2: f64, radius_m: f64) -> Vector2<f64> {
+    match *aimpoint {
+        FlybyAimpoint::Plane { b_t_m, b_r_m } => Vector2::new(b_t_m, b_r_m),
+        FlybyAimpoint::Altitude { altitude_m, angle_rad } => {
+            let (sine, cosine) = angle_rad.sin_cos();
+            let size_m = impact_parameter_m(radius_m + altitude_m, excess_speed_m_s, mu_m3_s2);
+            Vector2::new(cosine, sine) * size_m
         }
     }
 }

@@ -8,6 +8,6 @@ mod shooting;
 mod tests;
 
 pub use crate::Failure;
-pub use aimpoint::{Flyby, FlybyAimpoint, closest_distance_m, impact_parameter_m};
+pub use aimpoint::{Flyby, b_m, closest_distance_m, impact_parameter_m};
 pub use approach::{Approach, ApproachRow, Encounter};
 pub use shooting::{Leg, LegError, LegTask, MOST_LEG_S, SimulatesLeg, shoot};

@@ -1,11 +1,12 @@
 //! What a leg came to, as `plan.json`.
 
+use inputs::leg::FlybyAimpoint;
 use nalgebra::Vector3;
 use physics::environment::dates;
 use serde_json::{Value, json};
 
 use super::{
-    aimpoint::{Flyby, FlybyAimpoint, closest_distance_m},
+    aimpoint::{Flyby, closest_distance_m},
     shooting::{Leg, LegTask},
 };
 

@@ -9,6 +9,7 @@
 //! Reference: Battin, Introduction to the Mathematics and Methods of Astrodynamics, 1999, ch. 9; Broyden, Mathematics of Computation 19,
 //! 1965.
 
+use inputs::leg::{ArcBranch, FlybyAimpoint};
 use nalgebra::{Matrix3, Vector3};
 use physics::{
     constants::GM_SUN_M3_S2,
@@ -19,13 +20,14 @@ use physics::{
     },
 };
 
-use crate::orbit::{LambertArc, LambertBranch, LambertError};
-
 use super::{
-    aimpoint::{FlybyAimpoint, impact_parameter_m},
+    aimpoint::{b_m, impact_parameter_m},
     approach::{Approach, Encounter},
 };
-use crate::Failure;
+use crate::{
+    Failure,
+    orbit::{LambertArc, LambertError},
+};
 
 /// Most flights without the body's gravity; they end where they are this near to their place, as a share of B.
 const UNATTRACTED_ROUNDS: u32 = 12;
@@ -55,7 +57,7 @@ pub struct LegTask {
     /// How long before the closest approach the hyperbola of B osculates, s.
     pub lead_s: f64,
     /// Whole revolutions about the Sun, and which of both arcs where there are any.
-    pub revolutions: Option<(u32, LambertBranch)>,
+    pub revolutions: Option<(u32, ArcBranch)>,
     /// Velocity before the departure, which says in which sense the leg goes around; otherwise as planets do. EME2000, m/s.
     pub velocity_before_m_s: Option<Vector3<f64>>,
     /// Gravitational parameter of the body, m3/s2.
@@ -183,7 +185,7 @@ impl LegTask {
 
     /// Refuses an aimpoint whose path ends in the body.
     fn check_aimpoint(&self, excess_speed_m_s: f64) -> Result<(), LegError> {
-        let found_m = self.aimpoint.b_m(excess_speed_m_s, self.mu_m3_s2, self.radius_m).norm();
+        let found_m = b_m(&self.aimpoint, excess_speed_m_s, self.mu_m3_s2, self.radius_m).norm();
         let least_m = impact_parameter_m(self.radius_m, excess_speed_m_s, self.mu_m3_s2);
         let [found_km, least_km] = [found_m, least_m].map(|size_m| 1e-3 * size_m);
         // Not a number is no aim either.
@@ -198,7 +200,7 @@ impl LegTask {
     fn lacks_m(&self, found: &Encounter) -> Vector3<f64> {
         let lacks = match self.aimpoint {
             FlybyAimpoint::Plane { .. } => {
-                self.aimpoint.b_m(found.excess_speed_m_s, self.mu_m3_s2, self.radius_m) - found.b_m
+                b_m(&self.aimpoint, found.excess_speed_m_s, self.mu_m3_s2, self.radius_m) - found.b_m
             }
             FlybyAimpoint::Altitude { altitude_m, angle_rad } => {
                 // The altitude is that of the flight, which is not the hyperbola's of the lead time.
@@ -252,7 +254,7 @@ pub fn shoot(task: &LegTask, flights: &mut dyn SimulatesLeg) -> Result<Leg, LegE
     let mut offset_m = Vector3::zeros();
     let mut unattracted = 0;
     while unattracted < UNATTRACTED_ROUNDS {
-        let b_m = task.aimpoint.b_m(excess_m_s.norm(), task.mu_m3_s2, task.radius_m);
+        let b_m = b_m(&task.aimpoint, excess_m_s.norm(), task.mu_m3_s2, task.radius_m);
         let place_m = body.position_m + axes(&excess_m_s).transpose() * b_m.push(0.0);
         let [from_m_s, to_m_s] = task.lambert_m_s(place_m + offset_m)?;
         (velocity_m_s, excess_m_s) = (from_m_s, to_m_s - body.velocity_m_s);

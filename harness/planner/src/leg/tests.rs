@@ -1,5 +1,6 @@
 //! Legs simulated between Sun and planets under a push of light: the flight with the velocity that was found is simulated anew.
 
+use inputs::leg::{ArcBranch, FlybyAimpoint};
 use nalgebra::Vector3;
 use physics::{
     bodies::Body,
@@ -15,7 +16,7 @@ use physics::{
 };
 
 use super::*;
-use crate::orbit::{LambertArc, LambertBranch, LambertError};
+use crate::orbit::{LambertArc, LambertError};
 
 /// 2008-01-14 19:05 TDB, the first flyby of Mercury.
 const FLYBY_S: f64 = 253_609_500.0;
@@ -141,7 +142,7 @@ fn closest(task: &LegTask, velocity_m_s: &Vector3<f64>) -> (f64, f64) {
 fn a_flight_with_the_velocity_found_passes_at_the_altitude_and_time_of_the_aim() {
     let aimpoint = FlybyAimpoint::Altitude { altitude_m: 2e5, angle_rad: 0.6 };
     let direct = task(26.0, aimpoint);
-    let revolving = LegTask { revolutions: Some((1, LambertBranch::Left)), ..task(160.0, aimpoint) };
+    let revolving = LegTask { revolutions: Some((1, ArcBranch::Left)), ..task(160.0, aimpoint) };
     for task in [direct, revolving] {
         let mut flights = Flights { task: &task, sky: Sky(Ephemeris::default()) };
         let leg = shoot(&task, &mut flights).unwrap();
@@ -179,7 +180,7 @@ fn what_cannot_be_is_refused_before_a_flight_to_the_body() {
     let inside = refused(task(40.0, FlybyAimpoint::Plane { b_t_m: 1e6, b_r_m: 1e6 }));
     assert!(inside.to_string().contains("the path ends in it"), "{inside}");
     let aimpoint = FlybyAimpoint::Altitude { altitude_m: 2e5, angle_rad: 0.0 };
-    let short = refused(LegTask { revolutions: Some((1, LambertBranch::Left)), ..task(40.0, aimpoint) });
+    let short = refused(LegTask { revolutions: Some((1, ArcBranch::Left)), ..task(40.0, aimpoint) });
     assert!(matches!(short, LegError::Lambert(LambertError::TooShort { revolutions: 1, .. })), "{short}");
     // Half an astronomical unit in half a day: 1700 km/s.
     let fast = refused(task(0.5, aimpoint));
@@ -241,7 +242,7 @@ fn places_of_the_shipped_legs_are_where_their_files_say() {
         north: venus.position_m.cross(&venus.velocity_m_s),
         mu_m3_s2: GM_SUN_M3_S2,
     };
-    let velocity_m_s = arc.revolving(1, LambertBranch::Left).unwrap().from_m_s;
+    let velocity_m_s = arc.revolving(1, ArcBranch::Left).unwrap().from_m_s;
     let start = CartesianState { velocity_m_s, ..venus };
     let orbit = TwoBodyOrbit::from_state(&start, GM_SUN_M3_S2, epoch_s("2007-06-05T23:08:00 UTC")).unwrap();
     let place = orbit.state_at(epoch_s("2007-12-19T00:00:00 UTC"));

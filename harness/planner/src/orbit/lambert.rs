@@ -10,13 +10,15 @@
 
 use core::f64::consts::PI;
 
+use inputs::leg::ArcBranch;
 use nalgebra::Vector3;
+use physics::{
+    constants::DAY_S,
+    environment::orbit::{OrbitError, check, check_mu},
+    math,
+    numerics::roots::bracketed,
+};
 use thiserror::Error;
-
-use physics::constants::DAY_S;
-use physics::environment::orbit::{OrbitError, check, check_mu};
-use physics::math;
-use physics::numerics::roots::bracketed;
 
 /// Places nearer than this to one line with the centre have no plane, sine of the angle between them.
 const IN_LINE: f64 = 1e-6;
@@ -38,15 +40,6 @@ pub struct LambertArc {
     pub north: Vector3<f64>,
     /// Gravitational parameter of the centre, m3/s2.
     pub mu_m3_s2: f64,
-}
-
-/// One of the two arcs with the same whole revolutions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LambertBranch {
-    /// With the smaller x, whose time would be longer with less x.
-    Left,
-    /// With the larger x.
-    Right,
 }
 
 /// Velocities of an arc, in the frame of its places.
@@ -109,11 +102,7 @@ impl LambertArc {
     ///
     /// # Errors
     /// As [`LambertArc::direct`]; too little time.
-    pub fn revolving(
-        &self,
-        revolutions: u32,
-        branch: LambertBranch,
-    ) -> Result<LambertVelocities, LambertError> {
+    pub fn revolving(&self, revolutions: u32, branch: ArcBranch) -> Result<LambertVelocities, LambertError> {
         let shape = Shape::new(self)?;
         let lost = || LambertError::Time { time_s: self.time_s };
         let least_x = shape.least(revolutions).ok_or_else(lost)?;
@@ -218,10 +207,10 @@ impl Shape {
     }
 
     /// The x of the arc's time.
-    fn root(&self, revolutions: u32, branch: Option<(LambertBranch, f64)>) -> Option<f64> {
+    fn root(&self, revolutions: u32, branch: Option<(ArcBranch, f64)>) -> Option<f64> {
         let [from, to] = match branch {
-            Some((LambertBranch::Left, least_x)) => [-1.0 + NEAREST, least_x],
-            Some((LambertBranch::Right, least_x)) => [least_x, 1.0 - NEAREST],
+            Some((ArcBranch::Left, least_x)) => [-1.0 + NEAREST, least_x],
+            Some((ArcBranch::Right, least_x)) => [least_x, 1.0 - NEAREST],
             None => {
                 // T falls as 1 / x^2 far out on hyperbolas.
                 let mut most = 1.0;

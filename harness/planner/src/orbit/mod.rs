@@ -3,5 +3,5 @@
 mod lambert;
 mod transition;
 
-pub use lambert::{LambertArc, LambertBranch, LambertError, LambertVelocities};
+pub use lambert::{LambertArc, LambertError, LambertVelocities};
 pub use transition::{Partials, partials_over, transition};

@@ -322,11 +322,9 @@ fn write_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>)
             surface_in_plume(&context.setup.spacecraft, thruster, angle).is_some()
         };
         values.set_real(variables.thrust, thrust_n);
-        values.set_integer(
-            variables.pulses,
-            i32::try_from(thrusters.valves.valves[k].pulses()).unwrap_or(i32::MAX),
-        );
-        values.set_boolean(variables.too_short, thrusters.valves.schedule[k].was_too_short());
+        let valves = &thrusters.valves;
+        values.set_integer(variables.pulses, i32::try_from(valves.valves[k].pulses()).unwrap_or(i32::MAX));
+        values.set_boolean(variables.too_short, valves.schedule[k].was_too_short());
         values.set_boolean(variables.plume, hits);
     }
     values.set_boolean(v.thrust.active, thrusters.valves.burning().is_some());

@@ -119,10 +119,12 @@ impl AppliedLoad<'_> {
     pub(crate) fn at(&self, time_s: f64) -> [ForceTorque; 2] {
         let Self { inputs: [force, torque], held: [force_now, torque_now], over_time } = self;
         let value = |handle: &RealVector<3>, held: &[f64; 3]| {
-            Vector3::from([0, 1, 2].map(|i| over_time.from_held(held[i], handle.element(i), time_s)))
+            let value = |i: usize| over_time.from_held(held[i], handle.element(i), time_s);
+            Vector3::new(value(0), value(1), value(2))
         };
         let rate = |handle: &RealVector<3>| {
-            Vector3::from([0, 1, 2].map(|i| over_time.rate(handle.element(i), time_s)))
+            let rate = |i: usize| over_time.rate(handle.element(i), time_s);
+            Vector3::new(rate(0), rate(1), rate(2))
         };
         [
             ForceTorque { force_body_n: value(force, force_now), torque_body_n_m: value(torque, torque_now) },

@@ -93,12 +93,6 @@ impl ControllerState {
             self.begin_reference(&estimate.attitude, &rate);
             tracking = self.track(settings, target, estimate, &rate, is_limited);
         }
-        self.attitude_error_rad = match target {
-            ControlTarget::Attitude { attitude, .. } => {
-                attitude.rotation_vector_to(&estimate.attitude).norm()
-            }
-            ControlTarget::RateOnly { .. } => 0.0,
-        };
         // More of the integral would ask for more of what is missing.
         if !is_limited || (inertia_body_kg_m2 * tracking.angle_rad).dot(&missing_body_n_m) > 0.0 {
             self.integrate(settings, &tracking.angle_rad);
@@ -129,7 +123,15 @@ impl ControllerState {
         self.missing_body_n_m = self.requested_body_n_m - given_body_n_m;
     }
 
-    /// Angle between the estimated and the commanded attitude at the last sample, in rad; 0 where only a rate is commanded.
+    /// Measures the error of the estimate at the last sample, which only a report needs.
+    pub fn measure_error(&mut self, target: &ControlTarget, estimated: &Attitude) {
+        self.attitude_error_rad = match target {
+            ControlTarget::Attitude { attitude, .. } => attitude.rotation_vector_to(estimated).norm(),
+            ControlTarget::RateOnly { .. } => 0.0,
+        };
+    }
+
+    /// Angle between the estimated and the commanded attitude where it was measured last, in rad; 0 where only a rate is commanded.
     pub fn attitude_error_rad(&self) -> f64 {
         self.attitude_error_rad
     }

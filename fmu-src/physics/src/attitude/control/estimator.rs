@@ -134,14 +134,15 @@ impl EstimatorState {
         let (angle, rate) = self.gyro(settings, truth_attitude, truth_rate_body_rad_s, sample);
         self.update_health(settings, health);
         self.propagate(settings, health, angle);
-        let is_fix = health.star_tracker && sample.is_multiple_of(settings.samples_per_fix());
+        let samples_per_fix = settings.samples_per_fix();
+        let is_fix = health.star_tracker && sample.is_multiple_of(samples_per_fix);
         if is_fix {
             self.correct(settings, truth_attitude, sample);
         }
         let of_gyros = health.gyro.then(|| rate - self.bias_rad_s);
         self.rate_body_rad_s = self.without_gyros.as_ref().map_or(of_gyros, RateFilter::rate);
         let without_fix_s = self.samples_since_fix as f64 * settings.interval_s;
-        let is_between_fixes = health.star_tracker && self.samples_since_fix < settings.samples_per_fix();
+        let is_between_fixes = health.star_tracker && self.samples_since_fix < samples_per_fix;
         let is_recent = is_between_fixes || without_fix_s <= settings.longest_without_tracker_s;
         Estimate {
             attitude: self.attitude,

@@ -19,8 +19,8 @@ const INERTIA: [f64; 3] = [199.6, 507.1, 484.9];
 impl GyrostatMotion {
     /// Continues from the end with the body as it is there.
     fn advance(&mut self, gyrostat: &Gyrostat, motors: &[Motor], load: &BodyLoad, limit_s: f64) {
-        let motion = self.at(gyrostat, self.end_s);
-        self.advance_from(&motion, gyrostat, motors, load, limit_s);
+        let end = self.evaluated_at(gyrostat, self.end_s);
+        self.advance_from(&end, gyrostat, motors, load, limit_s);
     }
 }
 
@@ -250,6 +250,25 @@ fn a_rotor_stops_at_its_capacity_and_leaves_it() {
     let at = motion.at(&spacecraft, 61.0);
     let left = motion.rotor_n_m_s(&spacecraft, 0, 61.0, &at);
     assert!((left - (8.0 - 0.075)).abs() < 1e-4 && !spacecraft.wheels()[0].is_saturated(left), "{left}");
+}
+
+#[test]
+fn momenta_kept_with_the_motion_are_those_of_the_series() {
+    // More rotors than are kept, one of them held and one under viscous friction.
+    let mut wheels = pyramid();
+    wheels.extend([wheel(Vector3::x()), wheel(Vector3::z())]);
+    wheels[1].locked = true;
+    wheels[2].viscous_friction_n_m_s = 1e-5;
+    let spacecraft = spacecraft(wheels);
+    let rate = Vector3::new(0.01, -0.02, 0.015);
+    let mut motion = GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &rate, |k| 0.3 * k as f64);
+    let motors = [Motor { torque_n_m: 0.01, failed: false }; 6];
+    motion.advance(&spacecraft, &motors, &BodyLoad::none(1.0), 0.5);
+    let at = motion.evaluated_at(&spacecraft, 0.3);
+    for k in 0..6 {
+        let evaluated = motion.rotor_n_m_s(&spacecraft, k, 0.3, &at.body);
+        assert_eq!(motion.rotor_at_n_m_s(&spacecraft, k, &at), evaluated);
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::control::{ControlTarget, ControllerState, Estimate};
-use crate::attitude::{Attitude, BodyMotion, Gyrostat, GyrostatMotion};
+use crate::attitude::{Attitude, Gyrostat, GyrostatMotion, MotionAt};
 use crate::guidance::{DownlinkStatus, GuidedAttitude};
 use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::spacing::spacing;
@@ -45,7 +45,7 @@ pub(crate) struct Sampled<'a> {
     pub number: i64,
     pub gyrostat: &'a Gyrostat,
     pub motion: &'a GyrostatMotion,
-    pub body: &'a BodyMotion,
+    pub at: &'a MotionAt,
     pub estimate: &'a Estimate,
     pub mass: &'a MassProperties,
     /// Torque of a dump by a constant torque, in N m.
@@ -73,8 +73,8 @@ impl ControlLoop {
     /// Rejects decoded states that no simulation with this number of wheels can produce.
     pub(crate) fn is_valid(&self, wheels: usize) -> bool {
         self.controller.is_valid()
-            && self.wheels.is_valid(wheels)
-            && self.guidance.as_ref().is_none_or(Command::is_valid)
+            && self.wheels.motors.len() == wheels
+            && self.guidance.is_none_or(|command| command.attitude.is_rotation())
     }
 
     /// Whether wheels or thrusters could not give the torque requested at the last sample.
@@ -104,9 +104,14 @@ impl ControlLoop {
         *self.guidance.insert(Command { attitude, rate_body_rad_s, since_s: time_s })
     }
 
-    /// The torque the controller asks for, and what wheels or thrusters give of it.
-    pub(crate) fn control(&mut self, control: &Control, target: &ControlTarget, sampled: Sampled<'_>) {
-        let Sampled { number, gyrostat, motion, body, mass, .. } = sampled;
+    /// The torque the controller asks for, and what wheels or thrusters give of it; whether the controller is sampled and has a rate.
+    pub(crate) fn control(
+        &mut self,
+        control: &Control,
+        target: &ControlTarget,
+        sampled: Sampled<'_>,
+    ) -> bool {
+        let Sampled { number, gyrostat, motion, at, mass, .. } = sampled;
         let Sampled { thrusters, allocator, distribution, .. } = sampled;
         let time_s = motion.end_s();
         let burning = thrusters.valves.burning();
@@ -118,20 +123,21 @@ impl ControlLoop {
             self.thrusters_limited = false;
             self.controller.change_actuators();
         }
-        let momentum = |k: usize| motion.rotor_n_m_s(gyrostat, k, time_s, body);
+        let momentum = |k: usize| motion.rotor_at_n_m_s(gyrostat, k, at);
         if by_thrusters {
             self.wheels.coast(&control.wheels, gyrostat, momentum);
             if !is_new && number.rem_euclid(control.thrusters.samples) != 0 {
-                return;
+                return false;
             }
         }
         let axial = |k: usize| {
             let wheel = &gyrostat.wheels()[k];
-            let carried = if wheel.locked { 0.0 } else { wheel.carried_n_m_s(&body.rate_body_rad_s) };
+            let carried = if wheel.locked { 0.0 } else { wheel.carried_n_m_s(&at.body.rate_body_rad_s) };
             momentum(k) + carried
         };
         let rotors_body_n_m_s = gyrostat.along_axes(axial);
-        let mut known_body_n_m = sampled.dump_body_n_m + thrusters.dump_torque_body_n_m();
+        let pulsed_body_n_m = thrusters.current_dump().map_or(Vector3::zeros(), |it| it.mean_torque_body_n_m);
+        let mut known_body_n_m = sampled.dump_body_n_m + pulsed_body_n_m;
         if let Some(set) = burning {
             let [_, torque] = allocator.settings.nominal_thrust(set, &mass.center_of_mass_body_m);
             known_body_n_m += torque;
@@ -155,5 +161,6 @@ impl ControlLoop {
         if given < 1.0 {
             self.controller.limited(&(torque_body_n_m * given));
         }
+        sampled.estimate.rate_body_rad_s.is_some()
     }
 }

@@ -15,7 +15,8 @@ const SAME_SIGN_RAD: f64 = 1.0;
 pub(crate) struct Sensing {
     /// Number of the next sample and its time, in s.
     next: (i64, f64),
-    sampled_s: f64,
+    /// Time of the last sample, in s.
+    pub sampled_s: f64,
     /// Attitude and velocity change at the last sample.
     sampled: (Quaternion, Vector3<f64>),
     estimator: EstimatorState,
@@ -60,15 +61,13 @@ impl Sensing {
         self.next.1
     }
 
-    /// Samples all sensors at `time_s`, the Sun being in this direction (EME2000), so much of its disc visible; the number of the
-    /// sample.
+    /// Samples the sensors of attitude and acceleration at `time_s`; the number of the sample.
     pub(crate) fn sample(
         &mut self,
         settings: &DynamicsSettings,
         inputs: &DynamicsInputs,
         time_s: f64,
         body: &BodyMotion,
-        (to_sun, lit_fraction): (Vector3<f64>, f64),
     ) -> i64 {
         let sample = self.next.0;
         let next = (time_s * settings.rate_hz + 1e-6).floor() as i64 + 1;
@@ -88,14 +87,26 @@ impl Sensing {
         let rate = &body.rate_body_rad_s;
         self.estimate = self.estimator.sample(&settings.sensors, inputs.health, &attitude, rate, number);
         self.estimate.attitude = self.estimate.attitude.continuing(&before);
+        sample
+    }
+
+    /// Samples the Sun sensors where the other sensors were sampled last, the Sun being in this direction (EME2000), so much of its disc
+    /// visible.
+    pub(crate) fn sample_sun(
+        &mut self,
+        settings: &DynamicsSettings,
+        inputs: &DynamicsInputs,
+        (to_sun, lit_fraction): (Vector3<f64>, f64),
+        number: i64,
+    ) {
+        let (attitude, _) = self.sampled;
         self.sun_sensed_body = sensed_sun(
             &settings.sun_sensors,
             |k| inputs.sun_sensor_failed.get(k).is_some_and(|failed| *failed),
-            &body.attitude.body_from_inertial(&to_sun),
+            &attitude.body_from_inertial(&to_sun),
             lit_fraction,
-            (settings.sensors.seed, number),
+            (settings.sensors.seed, number as u64),
         );
-        sample
     }
 
     /// Quaternion whose sign an estimate at `time_s` takes, `interval_s` after the last one: that one's own, unless the body may

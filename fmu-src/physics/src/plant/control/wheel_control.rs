@@ -60,11 +60,6 @@ impl WheelControl {
         Self { motors: vec![Motor::default(); wheels], is_limited: false }
     }
 
-    /// Rejects decoded states that no simulation with this number of wheels can produce.
-    pub(crate) fn is_valid(&self, wheels: usize) -> bool {
-        self.motors.len() == wheels
-    }
-
     /// Sets which wheels failed, one flag a wheel: their motors give no torque.
     pub(crate) fn fail(&mut self, failed: &[bool]) {
         for (motor, failed) in self.motors.iter_mut().zip(failed) {
@@ -107,7 +102,8 @@ impl WheelControl {
         self.is_limited = false;
     }
 
-    /// The motors give this torque on the body, in N m, while the rotors hold these momenta; the part of it that they do.
+    /// The motors give this torque on the body, in N m, while the rotors hold these momenta; the part of it that they do. The
+    /// distribution is that of the wheels as they are.
     pub(crate) fn give(
         &mut self,
         settings: &WheelControlSettings,
@@ -117,7 +113,6 @@ impl WheelControl {
         momentum_n_m_s: impl Fn(usize) -> f64,
     ) -> f64 {
         let Self { motors, is_limited } = self;
-        distribution.update(gyrostat, motors);
         let WheelDistribution { wheels, allocator, torques_n_m: shares, balance_n_m: balance, rotors_n_m_s } =
             distribution;
         let Some(allocator) = allocator else {

@@ -251,14 +251,14 @@ impl<'a> ConfiguredFlight<'a> {
         if !thrusts && disturbed && trajectory.is_deviated_until(span.end_s) {
             return Ok(());
         }
-        let applied = (self.given.external)(span.start_s);
+        let applied = disturbed.then(|| (self.given.external)(span.start_s));
         let acceleration_m_s2 = (thrusts || disturbed).then_some(|time_s: f64| {
             let mut acceleration_body_m_s2 = Vector3::zeros();
             if thrusts {
                 acceleration_body_m_s2 += load.acceleration_body_m_s2(time_s);
             }
-            if disturbed {
-                acceleration_body_m_s2 += interval.force_body_n(&applied, span.start_s, time_s) / mass_kg;
+            if let Some(applied) = &applied {
+                acceleration_body_m_s2 += interval.force_body_n(applied, span.start_s, time_s) / mass_kg;
             }
             motion.attitude_at(time_s).inertial_from_body(&acceleration_body_m_s2)
         });

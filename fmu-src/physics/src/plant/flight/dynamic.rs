@@ -18,6 +18,7 @@ use super::configured::{ConfiguredFlight, SunSelectionStart};
 use super::downlink_forecast::StartMomentum;
 use super::grid_edge;
 use super::in_flight::Simulated;
+use super::reached::Reached;
 use super::report::dynamic_totals;
 use crate::plant::control::control_loop::Sampled;
 use crate::plant::control::wheel_control::WheelDistribution;
@@ -46,10 +47,8 @@ pub(super) struct Dynamic<'f> {
     pub flight: ConfiguredFlight<'f>,
     /// The distribution of torque over the wheels.
     pub distribution: &'f mut WheelDistribution,
-    /// The motion where it was evaluated last.
-    pub at: Option<MotionAt>,
-    /// The last kind applied there of those that every segment ends with.
-    pub applied: Option<EventKind>,
+    /// How far it has come.
+    pub reached: Reached,
 }
 
 impl Eventful for Dynamic<'_> {
@@ -77,17 +76,16 @@ impl Eventful for Dynamic<'_> {
         }
     }
 
+    #[inline]
     fn is_due(&mut self, kind: EventKind) -> Result<bool, PlantError> {
         let time_s = self.reached_s();
-        let comes_by = |next_s: f64| next_s <= time_s + tolerance_s(time_s);
-        let is_sampled = comes_by(self.state.sensing.next_s()) && !self.state.last.has_come(kind, time_s);
+        let comes_by = |next_s: f64| next_s < f64::INFINITY && next_s <= time_s + tolerance_s(time_s);
+        let sampled = |it: &DynamicState| comes_by(it.sensing.next_s()) && !it.last.has_come(kind, time_s);
         Ok(match kind {
             // Every segment ends with these.
-            EventKind::Accounts => self.applied.is_none(),
-            EventKind::Valves => self.applied == Some(EventKind::Accounts),
-            EventKind::Load => self.applied == Some(EventKind::Valves),
-            EventKind::SunDirection => is_sampled && self.samples_guidance(time_s),
-            EventKind::Threshold => is_sampled && self.exceeds_threshold(),
+            EventKind::Accounts | EventKind::Valves | EventKind::Load => self.reached.is_next(kind),
+            EventKind::SunDirection => sampled(self.state) && self.samples_guidance(time_s),
+            EventKind::Threshold => sampled(self.state) && self.exceeds_threshold(),
             kind => comes_by(self.next_event_s(kind)),
         })
     }
@@ -104,14 +102,15 @@ impl Eventful for Dynamic<'_> {
     fn apply_event(&mut self, kind: EventKind) -> Result<(), PlantError> {
         let time_s = self.reached_s();
         if matches!(kind, EventKind::Accounts | EventKind::Valves | EventKind::Load) {
-            self.applied = Some(kind);
+            self.reached.applied = Some(kind);
         }
         match kind {
             EventKind::Accounts => self.close_accounts(time_s),
             EventKind::Valves => self.process_valves(time_s),
             EventKind::DumpEnd => self.state.dumps.end(time_s + tolerance_s(time_s)),
             EventKind::Grid => {
-                self.at = None;
+                self.reached.at = None;
+                self.complete();
                 grid_edge::begin_interval(self.state, self.settings, &mut self.flight)?;
             }
             EventKind::Schedule => self.dump_as_scheduled()?,
@@ -121,7 +120,7 @@ impl Eventful for Dynamic<'_> {
                 self.begin_dump(|before_body_n_m_s| policy.after(before_body_n_m_s));
                 self.state.dumps.dumps.check()?;
             }
-            EventKind::Sample => self.sample()?,
+            EventKind::Sample => self.sample(),
             EventKind::Load => {
                 if self.state.last.has_come(EventKind::Sample, time_s) {
                     self.process_valves(time_s);
@@ -133,17 +132,17 @@ impl Eventful for Dynamic<'_> {
     }
 
     fn advance_segment(&mut self, limit_s: f64) -> Result<(), PlantError> {
-        let MotionAt { time_s, body, .. } = self.end();
-        (self.at, self.applied) = (None, None);
-        let Self { state, settings, flight, .. } = self;
+        let Self { state, settings, flight, reached, .. } = self;
+        let time_s = state.motion.end_s();
+        reached.applied = None;
+        let end = reached.at(state, settings, time_s);
         let external = (flight.given.external)(time_s);
-        let mut load = state.load(&external, flight.thrusters, time_s);
-        state.dumps.dipoles = flight.dipoles(time_s);
-        load.dipole = state.in_field(&state.dumps.dipoles);
-        load.internal = state.panels.internal(flight.given.prepared.panels, &state.mass.now, time_s);
-        state.dumps.torques = state.torques_by_source(&external, time_s);
+        let dipoles = flight.dipoles(time_s);
+        let load = state.load(&external, &dipoles, flight.thrusters, flight.given.prepared.panels, time_s);
+        state.dumps.begin_segment(&state.disturbance, &external, dipoles, time_s);
         let motors = &state.control.wheels.motors;
-        state.motion.advance_from(&body, &settings.gyrostat, motors, &load, limit_s);
+        state.motion.advance_from(end, &settings.gyrostat, motors, &load, limit_s);
+        reached.at = None;
         flight.integrate_thrust(&state.motion, &state.disturbance, state.mass.now.mass_kg)
     }
 }
@@ -166,7 +165,7 @@ impl<'f> Simulated<'f> for Dynamic<'f> {
             return Err(PlantError::Maneuver { time_s: start_s, why: ManeuverError::ByTorque });
         }
         if let Some(target_body_n_m_s) = inputs.dump_to_body_n_m_s {
-            self.state.cut(start_s, false);
+            self.state.cut(start_s);
             self.dump_to(target_body_n_m_s);
         }
         let ConfiguredFlight { thrusters, allocator, .. } = &mut self.flight;
@@ -175,7 +174,7 @@ impl<'f> Simulated<'f> for Dynamic<'f> {
         let pulses = valves.command_pulses(&settings.thrusters, &inputs.pulses, step, is_dumping);
         let feed = Feed { settings, propellant, time_s: start_s };
         if valves.command_thrust(&feed, &inputs.thrust) || pulses {
-            self.state.cut(start_s, false);
+            self.state.cut(start_s);
         }
         Ok(())
     }
@@ -234,6 +233,10 @@ impl<'f> Simulated<'f> for Dynamic<'f> {
         };
     }
 
+    fn complete(&mut self) {
+        self.reached.complete(self.state, self.settings, self.flight.given.inputs);
+    }
+
     fn is_degenerate(&self, _: &Evaluation) -> bool {
         self.state.control.is_degenerate
     }
@@ -242,9 +245,7 @@ impl<'f> Simulated<'f> for Dynamic<'f> {
 impl Dynamic<'_> {
     /// The motion at `time_s`, where it has come.
     pub(super) fn at(&mut self, time_s: f64) -> MotionAt {
-        let Self { state, settings, at, .. } = self;
-        *at = at.filter(|at| at.time_s == time_s);
-        *at.get_or_insert_with(|| state.motion.evaluated_at(&settings.gyrostat, time_s))
+        *self.reached.at(self.state, self.settings, time_s)
     }
 
     /// The motion at its end.
@@ -254,9 +255,9 @@ impl Dynamic<'_> {
 
     /// Closes the accounts of the segment that ends: momentum by effect, mass, impulse and propellant; and takes the wheels' inputs.
     fn close_accounts(&mut self, time_s: f64) {
-        let end = self.end();
-        let Self { state, settings, flight, .. } = self;
-        state.dumps.accumulate(&state.motion, &end, state.dumps.is_dumping(flight.thrusters, time_s));
+        let Self { state, settings, flight, reached, .. } = self;
+        let end = reached.at(state, settings, time_s);
+        state.dumps.accumulate(&state.motion, end, state.dumps.is_dumping(flight.thrusters, time_s));
         let thruster_settings = &flight.allocator.settings;
         if !flight.thrusters.load.law.is_none() {
             let tanks = &thruster_settings.tanks;
@@ -287,11 +288,11 @@ impl Dynamic<'_> {
     }
 
     /// Sensors, controller.
-    fn sample(&mut self) -> Result<(), PlantError> {
-        let MotionAt { time_s, body, .. } = self.end();
-        let Self { state, settings, flight, .. } = self;
-        let sun = state.disturbance.sun_at(time_s);
-        let number = state.sensing.sample(settings, flight.given.inputs, time_s, &body, sun);
+    fn sample(&mut self) {
+        let at @ MotionAt { time_s, body, .. } = self.end();
+        let Self { state, settings, flight, reached, .. } = self;
+        let number = state.sensing.sample(settings, flight.given.inputs, time_s, &body);
+        reached.number = Some(number);
         flight.thrusters.sample_dump(
             flight.allocator,
             &state.motion,
@@ -299,16 +300,16 @@ impl Dynamic<'_> {
             &state.mass.known,
         );
         if self.settings.control.is_none() {
-            return Ok(());
+            return;
         }
         let target = self.target(time_s, &body);
-        let Self { state, settings, flight, distribution, .. } = self;
-        let Some(control) = &settings.control else { return Ok(()) };
+        let Self { state, settings, flight, distribution, reached } = self;
+        let Some(control) = &settings.control else { return };
         let sampled = Sampled {
             number,
             gyrostat: &settings.gyrostat,
             motion: &state.motion,
-            body: &body,
+            at: &at,
             estimate: &state.sensing.estimate,
             mass: &state.mass.known,
             dump_body_n_m: state.dumps.torque_body_n_m(),
@@ -316,8 +317,9 @@ impl Dynamic<'_> {
             allocator: flight.allocator,
             distribution,
         };
-        state.control.control(control, &target, sampled);
-        Ok(())
+        if state.control.control(control, &target, sampled) {
+            reached.tracked = Some((target, state.sensing.estimate.attitude));
+        }
     }
 
     /// Returns the attitude and rate that the controller tracks at the end of the motion; internal guidance is sampled anew where that is

@@ -32,6 +32,20 @@ pub(super) trait Simulated<'f>: Eventful {
     /// Sets what follows from the state and is not saved.
     fn resume(&mut self) {}
 
+    /// Computes the parts of the last sample that only a report needs.
+    fn complete(&mut self) {}
+
+    /// Advances until everything is known at `time_s`.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    fn advance_to(&mut self, time_s: f64) -> Result<(), PlantError> {
+        self.resume();
+        let advanced = self.advance(time_s);
+        self.complete();
+        advanced
+    }
+
     /// Applies the requests of a step.
     ///
     /// # Errors

@@ -9,6 +9,7 @@ mod fork;
 mod grid_edge;
 mod ideal;
 mod in_flight;
+mod reached;
 mod survey;
 
 pub(super) mod downlink_forecast;
@@ -45,7 +46,8 @@ use configured::ConfiguredFlight;
 use dynamic::Dynamic;
 use encounter_prediction::predict_encounter;
 use ideal::Ideal;
-use in_flight::{Evaluated, InFlight};
+use in_flight::{Evaluated, InFlight, Simulated as _};
+use reached::Reached;
 use report::{ReachedState, Report};
 
 /// A flight: its state, and apart from it settings and caches, which are not saved.
@@ -111,18 +113,14 @@ impl Flight {
 
     /// The estimate of the attitude at `time_s`, where sensors sample it.
     pub fn estimate_at(&self, time_s: f64) -> Option<Estimate> {
-        match &self.state.mode {
-            Mode::Dynamic(dynamics) => Some(dynamics.sensing.estimate_at(time_s)),
-            Mode::Waiting | Mode::Ideal(_) => None,
-        }
+        let Mode::Dynamic(dynamics) = &self.state.mode else { return None };
+        Some(dynamics.sensing.estimate_at(time_s))
     }
 
     /// The torque with `others_body_n_m` of everything else, in N m, where a dump is a constant torque.
     pub fn with_dump_body_n_m(&self, others_body_n_m: &Vector3<f64>) -> Vector3<f64> {
-        match &self.state.mode {
-            Mode::Dynamic(dynamics) => others_body_n_m + dynamics.dumps.torque_body_n_m(),
-            Mode::Waiting | Mode::Ideal(_) => *others_body_n_m,
-        }
+        let Mode::Dynamic(dynamics) = &self.state.mode else { return *others_body_n_m };
+        others_body_n_m + dynamics.dumps.torque_body_n_m()
     }
 
     /// Thrusters and tanks.
@@ -193,9 +191,10 @@ impl Flight {
             Mode::Dynamic(dynamics) => {
                 let DisturbanceInterval { span, made_for, .. } = &dynamics.disturbance;
                 let loads_change = span.is_before() || *made_for != setup.context.models.digest;
-                dynamics.cut(time_s, loads_change);
+                dynamics.cut(time_s);
                 self.state.propagator.command_slews.cut(time_s);
                 if loads_change {
+                    dynamics.disturbance.span.cut(time_s);
                     self.state.propagator.cut(so_far, time_s);
                 }
             }
@@ -247,13 +246,14 @@ impl Flight {
         };
         let FlightSetup { context, settings, distribution, evaluated } = &mut **setup;
         let flight = ConfiguredFlight::new(given, context, propagator, thrusters, Turning::still());
+        let reached = Reached::default();
         let in_flight = match (mode, settings) {
             (Mode::Waiting, ModeSettings::Ideal(settings)) => InFlight::Waiting { settings, flight },
             (Mode::Ideal(state), ModeSettings::Ideal(settings)) => {
                 InFlight::Ideal(Ideal { state, flight, is_fork: false, prepared: None }, settings)
             }
             (Mode::Dynamic(state), ModeSettings::Dynamic(settings)) => {
-                InFlight::Dynamic(Dynamic { state, settings, flight, distribution, at: None, applied: None })
+                InFlight::Dynamic(Dynamic { state, settings, flight, distribution, reached })
             }
             _ => return Err(PlantError::OtherMode),
         };
@@ -302,10 +302,7 @@ impl Flight {
     }
 
     fn advance_to(&mut self, given: StepContext<'_>, time_s: f64) -> Result<(), PlantError> {
-        let (mut in_flight, _) = self.in_flight(given)?;
-        let Some(simulated) = in_flight.simulated() else { return Ok(()) };
-        simulated.resume();
-        simulated.advance(time_s)
+        self.in_flight(given)?.0.simulated().map_or(Ok(()), |simulated| simulated.advance_to(time_s))
     }
 
     fn prediction_settings(&self) -> PredictionSettings {
@@ -333,6 +330,7 @@ impl Flight {
         if let (InFlight::Dynamic(mut dynamic), _) = self.in_flight(given)? {
             dynamic.flight.models.begin_work(given.work_limit);
             dynamic.apply_due()?;
+            dynamic.complete();
         }
         if self.prediction_settings().is_due(time_s) {
             self.predict(given, time_s)?;

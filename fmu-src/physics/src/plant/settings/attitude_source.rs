@@ -80,11 +80,6 @@ pub struct Command {
 }
 
 impl Command {
-    /// Whether a simulation can produce it.
-    pub fn is_valid(&self) -> bool {
-        self.attitude.is_rotation()
-    }
-
     /// Body frame and rate at `time_s`.
     pub fn frame_at(&self, time_s: f64) -> MovingFrame {
         MovingFrame {

@@ -43,7 +43,7 @@ pub enum ThrusterEvent {
 }
 
 /// Settings of thruster events.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ThrusterEventSettings {
     /// Events of a timeline, in the order of their times.
     pub schedule: Arc<[TimelineEvent]>,
@@ -63,22 +63,6 @@ pub struct ThrusterEventSettings {
     pub seed: u64,
     /// Momentum that dumps on request leave, body frame, in N m s.
     pub requested_body_n_m_s: Vector3<f64>,
-}
-
-impl Default for ThrusterEventSettings {
-    fn default() -> Self {
-        Self {
-            schedule: Arc::default(),
-            clock_minus_time_s: 0.0,
-            thrusters: None,
-            dumps: true,
-            magnitude_error: 0.0,
-            direction_error_rad: 0.0,
-            center_of_mass_shift_m: Vector3::zeros(),
-            seed: 0,
-            requested_body_n_m_s: Vector3::zeros(),
-        }
-    }
 }
 
 impl ThrusterEventSettings {

@@ -9,7 +9,7 @@ use crate::aerodynamics::{AerodynamicModel, AerodynamicWorkspace, AirFlow, Walls
 use crate::bodies::surface::PlanetSurface;
 use crate::environment::eclipse::{EclipseError, Shadow};
 use crate::loads::{Active, Effect, Loads};
-use crate::numerics::scalar::Scalar;
+use crate::numerics::scalar::{Scalar, scratch};
 use crate::plant::settings::laws::Laws;
 use crate::radiation::disturbance::{self, DisturbanceModel, Geometry, Recoil};
 use crate::refusal::Refusal;
@@ -68,8 +68,8 @@ pub struct Surfaces<'a, T: Scalar> {
     pub needs_temperatures: bool,
 }
 
+scratch! {
 /// Scratch space of the models of light and air.
-#[derive(Clone, Debug)]
 pub struct Workspaces<T: Scalar> {
     /// In light.
     pub light: disturbance::Workspace<T>,
@@ -78,11 +78,6 @@ pub struct Workspaces<T: Scalar> {
     /// Temperatures of the faces, in K.
     face_temperatures_k: Vec<T>,
 }
-
-impl<T: Scalar> Default for Workspaces<T> {
-    fn default() -> Self {
-        Self { light: Default::default(), air: Default::default(), face_temperatures_k: Vec::new() }
-    }
 }
 
 /// Everything computed from one set of positions, but for the faces, which are in the workspace.

@@ -1,20 +1,19 @@
 //! State of a flight by torque: body, panels, disturbances, sensors, control, dumps and their schedule.
 
-use crate::spacecraft::{MassProperties, Spacecraft};
+use crate::spacecraft::{MassProperties, Panel, Spacecraft};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::disturbance_interval::DisturbanceInterval;
 use super::momentum_dumps::MomentumDumps;
 use crate::attitude::{BodyLoad, DipoleInField, GyrostatMotion};
-use crate::loads::{ByEffect, ForceTorque, Linear};
+use crate::loads::ForceTorque;
 use crate::numerics::spacing::spacing;
 use crate::plant::control::control_loop::ControlLoop;
 use crate::plant::control::sensing::Sensing;
 use crate::plant::events::LastEvents;
 use crate::plant::motion::panel_motion::PanelMotion;
 use crate::plant::sources::Dipoles;
-use crate::plant::sources::applied::APPLIED;
 use crate::plant::thrusters::reaction_control::Thrusters;
 
 /// State of the attitude dynamics.
@@ -53,13 +52,10 @@ impl DynamicState {
         self.motion.start_s() <= time_s + tolerance_s && time_s <= self.motion.end_s() + tolerance_s
     }
 
-    /// Something that acts changes at `time_s`; `loads_change` tells whether light and place do.
-    pub(crate) fn cut(&mut self, time_s: f64, loads_change: bool) {
+    /// Something that acts changes at `time_s`, but neither light nor place.
+    pub(crate) fn cut(&mut self, time_s: f64) {
         if time_s < self.motion.end_s() - tolerance_s(time_s) {
             self.motion.cut(time_s);
-        }
-        if loads_change {
-            self.disturbance.span.cut(time_s);
         }
     }
 
@@ -67,7 +63,9 @@ impl DynamicState {
     pub(crate) fn load(
         &self,
         [now, slope]: &[ForceTorque; 2],
+        dipoles: &Dipoles,
         thrusters: &Thrusters,
+        panels: &[Panel],
         time_s: f64,
     ) -> BodyLoad {
         let [[force, force_slope], [torque, torque_slope]] = self.disturbance.total_at(time_s);
@@ -86,9 +84,9 @@ impl DynamicState {
             ],
             mass_kg: thrusters.mass_kg,
             flow_kg_s: thrusters.law.flow_kg_s,
-            mass_flow: (!thrusters.law.is_none()).then_some(thrusters.mass_flow),
-            dipole: None,
-            internal: None,
+            mass_flow: (!thrusters.law.is_none()).then(|| thrusters.mass_flow),
+            dipole: self.in_field(dipoles),
+            internal: self.panels.internal(panels, &self.mass.now, time_s),
         }
     }
 
@@ -102,19 +100,6 @@ impl DynamicState {
         let field_inertial_t = self.disturbance.field_at(self.motion.end_s());
         (dipole_body_a_m2 != [Vector3::zeros(); 2])
             .then_some(DipoleInField { dipole_body_a_m2, field_inertial_t })
-    }
-
-    /// Torque by effect from `time_s` on.
-    pub(crate) fn torques_by_source(
-        &self,
-        external: &[ForceTorque; 2],
-        time_s: f64,
-    ) -> ByEffect<Option<Linear>> {
-        ByEffect::from_fn(|effect| match effect {
-            APPLIED => Some(external.map(|load| load.torque_body_n_m)),
-            effect if effect.row().momentum_apart => self.disturbance.torque_at(effect, time_s),
-            _ => None,
-        })
     }
 }
 

@@ -4,10 +4,12 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::disturbance_interval::DisturbanceInterval;
 use crate::attitude::{GyrostatMotion, MotionAt};
-use crate::loads::{ByEffect, Effect, Linear, Writer};
+use crate::loads::{ByEffect, Effect, ForceTorque, Linear, Writer};
 use crate::momentum::{DumpEvent, DumpSpacing, Dumps, SourceMomenta};
 use crate::plant::sources::Dipoles;
+use crate::plant::sources::applied::APPLIED;
 use crate::plant::thrusters::allocation::{ThrusterAllocator, Unserved};
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::MassProperties;
@@ -30,7 +32,7 @@ pub(crate) struct MomentumDumps {
     /// Momentum by effect from the last dump up to the present segment of the motion.
     by_source: SourceMomenta,
     /// Torque by effect from the start of that segment on.
-    pub torques: ByEffect<Option<Linear>>,
+    torques: ByEffect<Option<Linear>>,
     /// Dipoles by row in the magnetic field from there on.
     pub dipoles: Dipoles,
 }
@@ -61,34 +63,33 @@ impl MomentumDumps {
         if is_dumping {
             self.by_source = SourceMomenta::default();
         } else {
-            self.by_source.add(&self.impulses(motion, end));
+            add_impulses(&mut self.by_source, &self.torques, &self.dipoles, motion, end);
         }
-        (self.torques, self.dipoles) = Default::default();
+        self.torques.clear();
+        self.dipoles = Dipoles::default();
     }
 
     /// Returns the momentum by effect since the end of the last dump.
     pub(crate) fn by_source(&self, motion: &GyrostatMotion, until: &MotionAt) -> SourceMomenta {
         let mut sum = self.by_source;
-        sum.add(&self.impulses(motion, until));
+        add_impulses(&mut sum, &self.torques, &self.dipoles, motion, until);
         sum
     }
 
-    /// Change of momentum by effect since the start of the motion's segment, EME2000, in N m s.
-    fn impulses(&self, motion: &GyrostatMotion, until: &MotionAt) -> [Vector3<f64>; Effect::COUNT] {
-        let mut impulses = until.impulses_inertial_n_m_s(self.torques.values());
-        for (row, dipole) in Effect::FIELD.into_iter().zip(&self.dipoles) {
-            let impulse = dipole.and_then(|dipole| motion.dipole_impulse_inertial_n_m_s(&dipole, until));
-            impulses[row as usize] += impulse.unwrap_or_default();
+    /// Sets torque and dipoles by row from `time_s`, where a segment begins, on.
+    pub(crate) fn begin_segment(
+        &mut self,
+        disturbance: &DisturbanceInterval,
+        external: &[ForceTorque; 2],
+        dipoles: Dipoles,
+        time_s: f64,
+    ) {
+        self.torques.clear();
+        for (effect, _) in disturbance.loads.present().filter(|(effect, _)| effect.row().momentum_apart) {
+            self.torques[effect] = disturbance.torque_at(effect, time_s);
         }
-        for row in Effect::ALL {
-            impulses[row as usize] += match row.row().writer {
-                Writer::Source(_) => continue,
-                Writer::Rotors => motion.imbalance_impulse_inertial_n_m_s(until),
-                Writer::Propellant => motion.swing_impulse_inertial_n_m_s(until),
-            }
-            .unwrap_or_default();
-        }
-        impulses
+        self.torques[APPLIED] = Some(external.map(|load| load.torque_body_n_m));
+        self.dipoles = dipoles;
     }
 
     /// Begins a dump at the end of the motion: by thrusters that give torque both ways about each axis, or by a constant
@@ -134,4 +135,31 @@ impl MomentumDumps {
     pub(crate) fn are_over(&self, thrusters: &Thrusters) -> bool {
         self.constant.is_none() && !thrusters.is_dumping()
     }
+}
+
+/// Adds the change of momentum by effect since the start of the motion's segment, EME2000, in N m s.
+fn add_impulses(
+    sum: &mut SourceMomenta,
+    torques: &ByEffect<Option<Linear>>,
+    dipoles: &Dipoles,
+    motion: &GyrostatMotion,
+    until: &MotionAt,
+) {
+    let mut impulses = [Vector3::zeros(); Effect::COUNT];
+    for (row, torque) in torques.present() {
+        impulses[row as usize] = until.linear_impulse_inertial_n_m_s(torque);
+    }
+    for (row, dipole) in Effect::FIELD.into_iter().zip(dipoles) {
+        let impulse = dipole.and_then(|dipole| motion.dipole_impulse_inertial_n_m_s(&dipole, until));
+        impulses[row as usize] += impulse.unwrap_or_default();
+    }
+    let by_parts = [
+        (Writer::Rotors, motion.imbalance_impulse_inertial_n_m_s(until)),
+        (Writer::Propellant, motion.swing_impulse_inertial_n_m_s(until)),
+    ];
+    for (writer, impulse) in by_parts.into_iter().filter_map(|(writer, impulse)| Some((writer, impulse?))) {
+        let written = Effect::ALL.into_iter().filter(|row| row.row().writer == writer);
+        written.for_each(|row| impulses[row as usize] += impulse);
+    }
+    sum.add(&impulses);
 }

@@ -52,14 +52,14 @@ type Selected = Option<(Basis, Result<ThrusterSelection, Unserved>)>;
 pub struct ThrusterAllocator {
     /// Settings of thrusters and tanks.
     pub settings: ReactionControlSettings,
-    for_dumps: Selected,
-    for_attitude: Selected,
+    /// For the attitude and for dumps.
+    selected: [Selected; 2],
 }
 
 impl ThrusterAllocator {
     /// Allocator without selections yet.
     pub fn new(settings: ReactionControlSettings) -> Self {
-        Self { settings, for_dumps: None, for_attitude: None }
+        Self { settings, ..Self::default() }
     }
 
     /// Returns the feed of the tanks at `time_s` and the fed thrusters selected for this purpose about this centre of mass.
@@ -73,10 +73,10 @@ impl ThrusterAllocator {
         purpose: Purpose,
         center_of_mass_body_m: &Vector3<f64>,
     ) -> Result<(Feed<'a>, &'a ThrusterSelection), Unserved> {
-        let Self { settings, for_dumps, for_attitude } = self;
+        let Self { settings, selected } = self;
         let settings = &*settings;
         let feed = Feed { settings, propellant, time_s };
-        let selected = if purpose == Purpose::Dump { for_dumps } else { for_attitude };
+        let selected = &mut selected[usize::from(purpose == Purpose::Dump)];
         let fed = core::array::from_fn(|k| k < settings.thrusters.len() && feed.feeds(k));
         let basis = Basis { center_of_mass_body_m: *center_of_mass_body_m, purpose, fed };
         if selected.as_ref().is_none_or(|(last, _)| *last != basis) {

@@ -163,16 +163,14 @@ impl Thrusters {
         Ok(())
     }
 
-    /// Whether a dump lasts.
-    pub fn is_dumping(&self) -> bool {
-        self.dump.is_some_and(|dump| dump.after.is_none())
+    /// The dump that lasts.
+    pub(crate) fn current_dump(&self) -> Option<PulsedDump> {
+        self.dump.filter(|dump| dump.after.is_none())
     }
 
-    /// Mean torque of the current dump's pulses, body frame, in N m.
-    pub fn dump_torque_body_n_m(&self) -> Vector3<f64> {
-        self.dump
-            .filter(|dump| dump.after.is_none())
-            .map_or(Vector3::zeros(), |dump| dump.mean_torque_body_n_m)
+    /// Whether a dump lasts.
+    pub fn is_dumping(&self) -> bool {
+        self.current_dump().is_some()
     }
 
     /// Angular impulse of the current dump or the last one, in the body frame at its start, in N m s, and its velocity change,
@@ -196,10 +194,7 @@ impl Thrusters {
         mass: &MassProperties,
     ) {
         let time_s = motion.end_s();
-        let Some(mut dump) = self.dump.filter(|dump| dump.after.is_none() && dump.next_s <= due_s(time_s))
-        else {
-            return;
-        };
+        let Some(mut dump) = self.current_dump().filter(|dump| dump.next_s <= due_s(time_s)) else { return };
         let totals = self.totals_at(motion, time_s);
         let Self { propellant, valves, .. } = self;
         let center_of_mass_body_m = &mass.center_of_mass_body_m;

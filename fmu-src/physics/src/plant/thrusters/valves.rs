@@ -110,6 +110,9 @@ impl Valves {
     /// Opens and closes the valves whose time has come; those that no tank feeds shut.
     pub(crate) fn process_events(&mut self, feed: &Feed<'_>) {
         let Feed { settings, time_s, .. } = *feed;
+        if settings.thrusters.is_empty() {
+            return;
+        }
         let due_s = due_s(time_s);
         for (k, thruster) in settings.thrusters.iter().enumerate() {
             let (valve, pulse) = (&mut self.valves[k], &mut self.schedule[k]);

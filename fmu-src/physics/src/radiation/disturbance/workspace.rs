@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::loads::{Active, Effect};
-use crate::numerics::scalar::Scalar;
+use crate::numerics::scalar::{Scalar, scratch};
 use crate::radiation::planet_light::PlanetLight;
 use crate::radiation::shadow::ShadowWorkspace;
 use crate::spacecraft::Material;
@@ -42,9 +42,9 @@ impl<T: Scalar> FaceResult<T> {
     }
 }
 
+scratch! {
 /// Scratch space of [`super::DisturbanceModel::evaluate`] and its results by face. Starts empty; the first evaluation
 /// sizes it, later ones do not allocate unless surfaces shadow one another.
-#[derive(Clone, Debug)]
 pub struct Workspace<T: Scalar> {
     pub(super) normals: Vec<Vector3<T>>,
     pub(super) lights: Vec<PlanetLight<T>>,
@@ -52,17 +52,6 @@ pub struct Workspace<T: Scalar> {
     pub(super) shadow: ShadowWorkspace<T>,
     pub(super) materials: Vec<Material<T>>,
 }
-
-impl<T: Scalar> Default for Workspace<T> {
-    fn default() -> Self {
-        Self {
-            normals: Vec::new(),
-            lights: Vec::new(),
-            faces: Vec::new(),
-            shadow: ShadowWorkspace::default(),
-            materials: Vec::new(),
-        }
-    }
 }
 
 impl<T: Scalar> Workspace<T> {

@@ -5,10 +5,10 @@
 
 use nalgebra::Vector2;
 
-use crate::numerics::scalar::Scalar;
+use crate::numerics::scalar::{Scalar, scratch};
 
+scratch! {
 /// Convex pieces, counter-clockwise, one after the other in one list of points.
-#[derive(Clone, Debug)]
 pub(super) struct Pieces<T: Scalar> {
     points: Vec<Vector2<T>>,
     /// End of each piece in `points`.
@@ -16,11 +16,6 @@ pub(super) struct Pieces<T: Scalar> {
     /// Corners whose triangle has no more than twice this area are dropped, in m2.
     flat_m2: f64,
 }
-
-impl<T: Scalar> Default for Pieces<T> {
-    fn default() -> Self {
-        Self { points: Vec::new(), ends: Vec::new(), flat_m2: 0.0 }
-    }
 }
 
 impl<T: Scalar> Pieces<T> {

@@ -5,7 +5,7 @@ use nalgebra::{Vector2, Vector3};
 use super::clip::{Pieces, cross, drop_flat_corners, flat_m2, keep_positive};
 use super::convex::FlatParts;
 use super::disc::{DIRECTIONS, LitMean, SunDisc};
-use crate::numerics::scalar::{Scalar, constant_vector, sin_cos};
+use crate::numerics::scalar::{Scalar, constant_vector, scratch, sin_cos};
 use crate::spacecraft::Polygon;
 
 /// Distance from a plane, relative to the scene's size, below which an outline lies in the plane and casts no shadow on it.
@@ -61,8 +61,8 @@ struct Pose<T: Scalar> {
     normal: Vector3<T>,
 }
 
+scratch! {
 /// Scratch space of [`ShadowScene::evaluate`] and its results; grows when needed and is kept.
-#[derive(Clone, Debug)]
 pub struct ShadowWorkspace<T: Scalar> {
     poses: Vec<Pose<T>>,
     lit: Vec<Option<(T, Vector3<T>)>>,
@@ -73,20 +73,6 @@ pub struct ShadowWorkspace<T: Scalar> {
     means: Vec<LitMean<T>>,
     pairs: usize,
 }
-
-impl<T: Scalar> Default for ShadowWorkspace<T> {
-    fn default() -> Self {
-        Self {
-            poses: Vec::new(),
-            lit: Vec::new(),
-            pieces: Default::default(),
-            scratch: Default::default(),
-            space: Default::default(),
-            hole: Vec::new(),
-            means: Vec::new(),
-            pairs: 0,
-        }
-    }
 }
 
 impl<T: Scalar> ShadowWorkspace<T> {

@@ -53,7 +53,7 @@ impl Predictions {
         };
         if let Some(sequencer) = &plant.sequencer {
             let burn = &sequencer.burn;
-            let across = plant.motion.inertia.spin_frame_from_body(&burn.torque_body_n_m).xy();
+            let across = plant.motion.inertia.spin_frame_from_body(&burn.torques_body_n_m[0]).xy();
             let (train, torque) = (&burn.train, across.norm());
             let widest_s = train.widest_s();
             let phase = spin.phase_advance_rad(train.turns_per_pulse());

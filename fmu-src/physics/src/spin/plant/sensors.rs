@@ -56,15 +56,9 @@ pub struct Sensors {
     /// Estimator over the samples since the last pulse.
     pub estimator: NutationEstimator,
     estimator_since_s: f64,
-    azimuths: SensorAzimuths,
+    /// Directions of the slits of Sun sensor and star tracker, body frame.
+    azimuths: [Vector3<f64>; 2],
     seed: u64,
-}
-
-/// Directions of the slits, body frame.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct SensorAzimuths {
-    sun: Vector3<f64>,
-    star: Vector3<f64>,
 }
 
 /// Motion and directions, as the sensors see them.
@@ -94,10 +88,7 @@ impl Sensors {
             sample: StarSample { time_s: -1.0, ..StarSample::default() },
             estimator: NutationEstimator::default(),
             estimator_since_s: start_s,
-            azimuths: SensorAzimuths {
-                sun: slit(spinner.sun_sensor.azimuth_deg),
-                star: slit(spinner.star_tracker.azimuth_deg),
-            },
+            azimuths: [spinner.sun_sensor.azimuth_deg, spinner.star_tracker.azimuth_deg].map(slit),
             seed: start.seed,
         }
     }
@@ -130,7 +121,7 @@ impl Sensors {
         work: &mut Work,
     ) -> Option<(Sensor, f64)> {
         let SensorView { motion, directions, .. } = *view;
-        let azimuths = self.azimuths;
+        let [sun_azimuth, star_azimuth] = self.azimuths;
         let crossing = |body, inertial| move || Crossing { body, inertial, pole: Pole::SpinAxis };
         let due_s = |detector: &mut CrossingDetector, body, inertial: Vector3<f64>, work: &mut Work| {
             // A direction of 0 is none.
@@ -139,12 +130,12 @@ impl Sensors {
                 known.then(|| detector.due_s(motion, crossing(body, inertial), until_s, work)).flatten();
             due_s.unwrap_or(f64::INFINITY)
         };
-        let sun_s = due_s(&mut self.sun, azimuths.sun, directions.sun_inertial, work);
+        let sun_s = due_s(&mut self.sun, sun_azimuth, directions.sun_inertial, work);
         let star_s = if self.sampling == Sampling::Clock {
             let tick_s = self.clock_start_s + self.clock_count as f64 * self.clock_period_s;
             if tick_s <= until_s { tick_s } else { f64::INFINITY }
         } else {
-            due_s(&mut self.star, azimuths.star, directions.star_inertial, work)
+            due_s(&mut self.star, star_azimuth, directions.star_inertial, work)
         };
         if sun_s.is_infinite() && star_s.is_infinite() {
             return None;
@@ -212,8 +203,7 @@ impl Sensors {
             && (self.sampling == Sampling::Spins || tick_s > time_s - self.clock_period_s)
             && self.every > 0
             && self.estimator.is_valid()
-            && is_unit(&self.azimuths.sun)
-            && is_unit(&self.azimuths.star)
+            && self.azimuths.iter().all(is_unit)
     }
 }
 

@@ -335,7 +335,7 @@ impl Plant {
     pub fn fits(&self, spinner: &Spinner) -> bool {
         let burn = self.sequencer.as_ref().map(|it| &it.burn);
         let known = (1_u64 << spinner.thrusters.len()) - 1;
-        let planned = burn.map_or(0, |burn| burn.mask | burn.opposite_mask);
+        let planned = burn.map_or(0, |burn| burn.masks[0] | burn.masks[1]);
         let used = self.propulsion.valves.open_mask() | self.commands.fire | planned;
         let slack_s = OUT_OF_ORDER * self.initial.theory.period_s();
         u64::from(used) & !known == 0

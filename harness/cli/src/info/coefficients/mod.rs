@@ -4,9 +4,9 @@ mod spacecraft;
 mod wheels;
 
 use fmi::{Error, Fmu, Instance, Times, Value};
+use inputs::variables::assigned;
 use model_description::{Causality, ScalarVariable};
-
-use crate::{instance::started, variables::assigned};
+use packing::instance::started;
 
 /// One row of a table: the elements of a vector, or of one row of a matrix.
 struct CoefficientRow {

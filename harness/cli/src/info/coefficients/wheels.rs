@@ -1,9 +1,8 @@
 //! What wheels hold: inscribed sphere, guaranteed box, and the box of least-norm sharing, as the FMU shares momentum.
 
 use fmi::{Error, Fmu, Instance};
+use packing::instance::vector;
 use physics::{momentum::WheelCapacity, spacecraft::free_capacity_n_m_s};
-
-use crate::instance::vector;
 
 /// What the wheels guarantee.
 pub(super) fn table(fmu: &Fmu, instance: &mut Instance) -> Result<String, Error> {

@@ -1,6 +1,8 @@
 //! Flights of a leg's mission through its FMU, with any velocity at the start.
 
 use fmi::{Recording, Value};
+use inputs::variables::elements;
+use isolation::interrupt;
 use nalgebra::Vector3;
 use physics::{
     constants::{DAY_S, GM_SUN_M3_S2},
@@ -9,7 +11,6 @@ use physics::{
 use planner::leg::{Approach, ApproachRow, Failure, SimulatesLeg};
 
 use super::super::flights::{Requested, SimulatedMission};
-use crate::{interrupt, variables::elements};
 
 /// Distance of rows about the arrival, in s.
 const ROW_S: f64 = 600.0;

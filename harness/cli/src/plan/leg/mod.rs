@@ -1,11 +1,8 @@
 //! `heliotorque plan leg`: the velocity at a place and date that leads to an encounter with a planet.
 
-mod description;
-mod file;
 mod flights;
 mod options;
 mod picture;
-mod schema;
 
 use std::{
     cell::RefCell,
@@ -15,28 +12,29 @@ use std::{
 };
 
 use ::files::{OutputFolder, Scratch};
+use inputs::{
+    leg::{FlybyAimpoint, file::LegFile},
+    library::Library,
+    mission::{Inputs, Mission},
+    values,
+};
+use isolation::interrupt;
+use packing::assembly::spacecraft_of;
 use physics::{constants::DAY_S, environment::dates};
 use planner::{
-    leg::{FlybyAimpoint, Leg, LegError, LegTask, MOST_LEG_S, report, shoot},
+    leg::{Leg, LegError, LegTask, MOST_LEG_S, report, shoot},
     orbit::LambertError,
 };
 use toml_edit::{DocumentMut, value};
 
+use self::flights::LegFlights;
 pub(crate) use self::options::LegOptions;
-use self::{file::LegFile, flights::LegFlights};
 use super::{
     files::{check_standing, write_all},
     flights::{Failure, SimulatedMission},
     mission_text,
 };
-use crate::{
-    assembly::spacecraft_of,
-    interrupt,
-    library::Library,
-    mission::{Inputs, Mission},
-    outcome::Outcome,
-    values,
-};
+use crate::outcome::Outcome;
 
 /// Names of the files.
 const NAMES: [&str; 3] = ["mission.toml", "plan.svg", "plan.json"];
@@ -214,7 +212,7 @@ impl<'a> Prepared<'a> {
         let scratch = Scratch::new()?;
         // At rest it would fall into the Sun; every flight has a velocity of its own.
         let begun = scratch.write(NAMES[0], of_leg.text(scratch.path(), &[0.0; 3])?)?;
-        let in_mission = |error: Failure| file.in_mission(error, &begun);
+        let in_mission = |error: Failure| file.in_mission(&error.to_string(), &begun);
         let mission = SimulatedMission::open(&begun, template, &[]).map_err(in_mission)?;
         let arrival_s = of_leg.arrival_s(mission.zero_epoch_s);
         check(file, &mission, arrival_s)?;
@@ -229,7 +227,7 @@ pub(crate) fn run(options: &LegOptions) -> Outcome {
     check_standing(&options.output, NAMES)?;
     let _folder = OutputFolder::create(&options.output, "--output")?;
     let Prepared { of_leg, mission, arrival_s, begun } = Prepared::of(&file, options.template.as_deref())?;
-    let in_mission = |error: Failure| file.in_mission(error, &begun);
+    let in_mission = |error: Failure| file.in_mission(&error.to_string(), &begun);
     let last = RefCell::new(String::new());
     let say = |doing: &str| {
         if !options.quiet && *last.borrow() != doing {

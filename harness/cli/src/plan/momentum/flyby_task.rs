@@ -1,16 +1,18 @@
 //! Where a plan's flights are to meet a planet, and how each of them misses that.
 
+use inputs::{
+    leg::FlybyAimpoint,
+    plan::file::{PlanFile, encounter::Flyby},
+};
 use nalgebra::Vector3;
 use planner::{
     flyby::{
         BPlaneAimpoint, ForceModel, Sensitivity,
         aimpoint::{b_of_periapsis_m, periapsis_of_b_m},
     },
-    leg::FlybyAimpoint,
     momentum::{simulated::SimulatedFlight, target::Target, torque::SunlitSpacecraft},
 };
 
-use super::file::{PlanFile, encounter::Flyby};
 use crate::plan::flights::{Failure, SimulatedMission};
 
 /// Encounter as the files give it before the first flight.
@@ -31,7 +33,7 @@ impl Aim {
             let what = format!("found {found:?}, allowed: {allowed:?}, the mission's encounter.body");
             return Err(file.problem(&flyby.body, &what).into());
         }
-        let arrival_s = flyby.time.as_ref().map(|at| file.time_s(at, at.it, mission)).transpose()?;
+        let arrival_s = flyby.time.as_ref().map(|at| mission.time_in_file_s(file, at, at.it)).transpose()?;
         Ok(Self { force_model, arrival_s })
     }
 }

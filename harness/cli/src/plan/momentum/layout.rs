@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use inputs::{plan::file::PlanFile, reading::At};
 use planner::momentum::{
     refit_file::{self, RefitValues},
     simulated::SimulatedFlight,
@@ -9,11 +10,8 @@ use planner::momentum::{
     windows::{ControlBounds, Layout},
 };
 
-use super::{file::PlanFile, timeline::MissionTimeline};
-use crate::{
-    plan::flights::{Failure, SimulatedMission},
-    reading::At,
-};
+use super::timeline::MissionTimeline;
+use crate::plan::flights::{Failure, SimulatedMission};
 
 /// Most windows of a plan.
 const MOST_WINDOWS: f64 = 1000.0;
@@ -116,7 +114,7 @@ pub(super) fn layout(
     let arrays_are_frozen = controls.into_iter().all(|it| matches!(it, Some("sunOffset" | "timeline")));
     let mut contacts_s: Vec<[f64; 2]> = Vec::new();
     for at in &file.contacts {
-        let [from_s, to_s] = at.it.map(|instant| file.time_s(at, instant, mission));
+        let [from_s, to_s] = at.it.map(|instant| mission.time_in_file_s(file, at, instant));
         let (from_s, to_s) = (from_s?, to_s?);
         // Dates and simulation times compare here alone.
         if contacts_s.last().is_some_and(|[_, before_s]| from_s < *before_s) {

@@ -1,7 +1,5 @@
 //! `heliotorque plan momentum`: arrays, places of the Sun and alternation that hold the momentum of a mission.
 
-mod description;
-mod file;
 mod flyby;
 mod flyby_task;
 mod layout;
@@ -10,7 +8,6 @@ mod picture;
 mod planned;
 mod prepared;
 mod prices;
-mod schema;
 mod timeline;
 mod written;
 
@@ -18,19 +15,22 @@ use std::{cell::RefCell, path::Path, process::ExitCode, time::Instant};
 
 use ::files::OutputFolder;
 use drawing::{Chart, DrawingError, Picture};
+use inputs::{library::Library, plan::file::PlanFile};
+use isolation::interrupt;
 use nalgebra::{Matrix4, Vector3};
-use planner::flyby::report::FlybyReport;
-use planner::momentum::{
-    Limit,
-    plan::{Least, MomentumPlan, PlanError, PlanTask, PlannedDump, plan},
-    report::{self, PlanEvent},
-    simulated::MomentumSize,
-    windows::{Window, WindowKind},
+use planner::{
+    flyby::report::FlybyReport,
+    momentum::{
+        Limit,
+        plan::{Least, MomentumPlan, PlanError, PlanTask, PlannedDump, plan},
+        report::{self, PlanEvent},
+        simulated::MomentumSize,
+        windows::{Window, WindowKind},
+    },
 };
 
 pub(crate) use self::options::MomentumOptions;
 use self::{
-    file::PlanFile,
     flyby_task::FlybyTask,
     layout::orbit_layout,
     planned::{NAMES, Planned},
@@ -40,7 +40,7 @@ use super::{
     files::{check_standing, write_all},
     flights::Failure,
 };
-use crate::{interrupt, library::Library, outcome::Outcome};
+use crate::outcome::Outcome;
 
 /// What is planned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

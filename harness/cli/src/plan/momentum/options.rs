@@ -32,7 +32,7 @@ pub(crate) struct MomentumOptions {
     #[arg(long, value_name = "FMU")]
     pub template: Option<PathBuf>,
     /// Longest time that is spent on counting changes of the arrays, in s or with a unit
-    #[arg(long, value_name = "TIME", value_parser = crate::values::span, default_value_t = BUDGET_S)]
+    #[arg(long, value_name = "TIME", value_parser = inputs::values::span, default_value_t = BUDGET_S)]
     pub budget: f64,
     /// Simulate the plan again with so many values of noise.seed, by the mission's own thresholds: dumps, and percentiles of the greatest |H|
     #[arg(long, value_name = "COUNT", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=10_000))]

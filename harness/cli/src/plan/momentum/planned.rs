@@ -3,6 +3,7 @@
 use std::{cell::RefCell, path::Path, time::Instant};
 
 use ::files::Scratch;
+use inputs::plan::file::{Activity, PlanFile};
 use nalgebra::Vector3;
 use planner::momentum::{
     Convention,
@@ -12,9 +13,8 @@ use planner::momentum::{
     windows::{Window, WindowKind},
 };
 
-use super::super::flights::{Failure, SimulatedMission};
 use super::{
-    file::{Activity, PlanFile},
+    super::flights::{Failure, SimulatedMission},
     flyby_task::FlybyTask,
     options::MomentumOptions,
     timeline::MissionTimeline,

@@ -2,22 +2,19 @@
 
 use std::path::Path;
 
+use inputs::{plan::file::PlanFile, reading::At};
+use packing::assembly::spacecraft_of;
 use physics::guidance::timeline::Timeline;
 use planner::momentum::{refit_file::RefitValues, torque::SunlitSpacecraft, windows::Layout};
 
 use super::{
-    file::PlanFile,
     flyby,
     flyby_task::Aim,
     layout::{check_arrays, check_spans, layout, refit, sets_of},
     prices,
     timeline::MissionTimeline,
 };
-use crate::{
-    assembly::spacecraft_of,
-    plan::flights::{Failure, SimulatedMission},
-    reading::At,
-};
+use crate::plan::flights::{Failure, SimulatedMission};
 
 /// A plan whose mission is open.
 pub(super) struct Prepared {
@@ -93,7 +90,7 @@ impl Prepared {
 fn frozen_until_from(file: &PlanFile, mission: &SimulatedMission) -> Result<PlanFile, Failure> {
     let mut file = file.clone();
     let Some(from) = file.flyby.as_ref().and_then(|flyby| flyby.it.from.clone()) else { return Ok(file) };
-    let frozen_s = file.time_in_mission_s(&from, mission)? - mission.start_s;
+    let frozen_s = mission.time_in_mission_s(&file, &from)? - mission.start_s;
     file.freeze_s = At { it: frozen_s, key: from.key, line: from.line };
     Ok(file)
 }

@@ -1,5 +1,9 @@
 //! Prices: what removing each planned command, or adding an activity, changes in momentum and dumps.
 
+use inputs::{
+    plan::file::{Activity, PlanFile},
+    reading::At,
+};
 use nalgebra::Vector3;
 use planner::momentum::{
     attainable::{downlink_momentum_n_m_s, fewest_dumps, least_excess_n_m_s},
@@ -9,12 +13,10 @@ use planner::momentum::{
     windows::{Occupied, Window, WindowKind},
 };
 
-use super::super::flights::{Failure, SimulatedMission};
 use super::{
-    file::{Activity, OUTSIDE, PlanFile},
+    super::flights::{Failure, OUTSIDE, SimulatedMission},
     planned::Planned,
 };
-use crate::reading::At;
 
 /// When an activity begins and ends, in s of the mission.
 pub(super) fn span_s(
@@ -22,7 +24,7 @@ pub(super) fn span_s(
     at: &At<Activity>,
     mission: &SimulatedMission,
 ) -> Result<[f64; 2], String> {
-    let [from_s, to_s] = at.it.span.map(|instant| file.time_s(at, instant, mission));
+    let [from_s, to_s] = at.it.span.map(|instant| mission.time_in_file_s(file, at, instant));
     let (from_s, to_s) = (from_s?, to_s?);
     if from_s < mission.start_s || to_s > mission.stop_s {
         return Err(file.problem(at, OUTSIDE));

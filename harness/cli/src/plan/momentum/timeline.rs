@@ -5,7 +5,9 @@
 
 use core::fmt::Write;
 
+use inputs::plan::file::Activity;
 use nalgebra::Vector3;
+use packing::assembly::spacecraft_of;
 use physics::{
     environment::dates,
     guidance::timeline::{PlanStatus, Timeline, TimelineClock, TimelineEvent, simulation_time_s},
@@ -20,8 +22,6 @@ use planner::momentum::{
 use toml_edit::{DocumentMut, Item};
 
 use super::super::flights::{Failure, SimulatedMission};
-use super::file::Activity;
-use crate::assembly::spacecraft_of;
 
 /// Angles are written so fine, as parts of a deg.
 const PARTS_OF_DEG: f64 = 1e4;

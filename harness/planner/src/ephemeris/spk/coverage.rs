@@ -7,7 +7,6 @@ use super::{
     naif::{Center, named},
     spk_file::SpkFile,
 };
-use crate::ephemeris::utc_date;
 
 /// Looks whether a body can be placed at every epoch of a span.
 ///
@@ -87,7 +86,7 @@ fn shown([start_s, stop_s]: [f64; 2]) -> String {
 
 /// The UTC date of an epoch; of one before UTC had leap seconds the TDB date.
 fn date(epoch_s: f64) -> String {
-    utc_date(epoch_s).unwrap_or_else(|| {
+    inputs::epoch::date(epoch_s).unwrap_or_else(|| {
         let (year, month, day, hour, minute, second, _) =
             Epoch::from_tdb_seconds(epoch_s).to_gregorian(TimeScale::TDB);
         format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02} TDB")

@@ -7,7 +7,7 @@ use physics::constants::GM_SUN_M3_S2;
 use physics::environment::CartesianState;
 use physics::environment::orbit::{Elements, TwoBodyOrbit};
 
-const BRANCHES: [LambertBranch; 2] = [LambertBranch::Left, LambertBranch::Right];
+const BRANCHES: [ArcBranch; 2] = [ArcBranch::Left, ArcBranch::Right];
 
 fn arc_of(orbit: &TwoBodyOrbit, [from_s, to_s]: [f64; 2]) -> (LambertArc, [CartesianState; 2]) {
     let states = [from_s, to_s].map(|at_s| orbit.state_at(at_s));
@@ -169,8 +169,8 @@ fn both_branches_agree_with_universal_variables_by_bisection() {
             let direct = by_bisection(&arc, [-400.0, turn(1) * (1.0 - 1e-9)]);
             assert_relative_eq!(arc.direct().unwrap().from_m_s, direct.from_m_s, max_relative = 1e-9);
             let least = |share: f64| LambertArc { time_s: share * least_s, ..arc };
-            assert!(least(1.0 + 1e-6).revolving(revolutions, LambertBranch::Left).is_ok());
-            let refused = least(1.0 - 1e-6).revolving(revolutions, LambertBranch::Right);
+            assert!(least(1.0 + 1e-6).revolving(revolutions, ArcBranch::Left).is_ok());
+            let refused = least(1.0 - 1e-6).revolving(revolutions, ArcBranch::Right);
             let Err(LambertError::TooShort { least_s: named_s, .. }) = refused else { panic!("{refused:?}") };
             assert_relative_eq!(named_s, least_s, max_relative = 1e-9);
         }
@@ -203,7 +203,7 @@ fn places_in_line_have_no_plane() {
     };
     let refused = arc.direct().unwrap_err();
     assert!(refused.to_string().starts_with("found places 180.000 deg apart"), "{refused}");
-    assert_eq!(arc.revolving(1, LambertBranch::Left), Err(refused));
+    assert_eq!(arc.revolving(1, ArcBranch::Left), Err(refused));
     let near = LambertArc { to_m: arc.to_m + Vector3::new(0.0, 0.0, 1e5), ..arc };
     assert!(near.direct().is_ok());
     for bad in [0.0, -1.0, f64::NAN] {

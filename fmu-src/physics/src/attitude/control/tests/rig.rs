@@ -100,6 +100,7 @@ impl Loop {
         let (body, settings) = (&self.body, &self.settings);
         let torque =
             self.state.sample(settings, &body.inertia, &self.target, estimate, &body.wheels, external);
+        self.state.measure_error(&self.target, &estimate.attitude);
         assert!(self.state.is_valid());
         torque
     }

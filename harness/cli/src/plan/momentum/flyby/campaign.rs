@@ -1,5 +1,11 @@
 //! Flights of a plan with dispersed state, centre of mass, sunlight and manoeuvres, on all cores.
 
+use fmi::{Recording, Value};
+use inputs::{
+    plan::file::encounter::MonteCarlo,
+    variables::{elements, numbers, vectors},
+};
+use isolation::interrupt;
 use nalgebra::{Matrix6, Vector3};
 use planner::{
     flyby::{
@@ -10,15 +16,9 @@ use planner::{
 };
 use rayon::prelude::*;
 
-use fmi::{Recording, Value};
-
-use crate::{
-    interrupt,
-    plan::{
-        flights::{Failure, Requested, SimulatedMission},
-        momentum::{file::encounter::MonteCarlo, flyby_task::FlybyTask, planned::Planned},
-    },
-    variables::{elements, numbers, vectors},
+use crate::plan::{
+    flights::{Failure, Requested, SimulatedMission},
+    momentum::{flyby_task::FlybyTask, planned::Planned},
 };
 
 /// Recorded: B of the hyperbola that osculates now, closest approach, momentum.

@@ -1,5 +1,6 @@
 //! Manoeuvres that would do what the plan does: approach manoeuvres with their errors, and a departure manoeuvre for what is left.
 
+use inputs::plan::file::{PlanFile, encounter::Compare};
 use nalgebra::{Matrix2, Vector2};
 use planner::flyby::{
     Sensitivity,
@@ -10,11 +11,7 @@ use planner::flyby::{
 
 use crate::plan::{
     flights::Failure,
-    momentum::{
-        file::{PlanFile, encounter::Compare},
-        flyby_task::FlybyTask,
-        planned::Planned,
-    },
+    momentum::{flyby_task::FlybyTask, planned::Planned},
 };
 
 /// Refuses times of manoeuvres that the flight does not have, before anything is planned.
@@ -22,7 +19,7 @@ pub(super) fn check(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<(),
     let file = &planned.file;
     let Some(compare) = file.compare.as_ref().map(|at| &at.it) else { return Ok(()) };
     let encounter = &flyby_task.first.encounter;
-    let next_s = file.time_s(&compare.next, compare.next.it, &planned.mission)?;
+    let next_s = planned.mission.time_in_file_s(file, &compare.next, compare.next.it)?;
     if next_s <= encounter.time_s + compare.departure_s {
         let what = "found a date before the departure manoeuvre, allowed: a later one";
         return Err(file.problem(&compare.next, what).into());
@@ -45,7 +42,7 @@ pub(super) fn compared(
     after: &Sensitivity,
 ) -> Result<Compared, Failure> {
     let arrival_s = flyby_task.first.encounter.time_s;
-    let next_s = file.time_s(&compare.next, compare.next.it, &planned.mission)?;
+    let next_s = planned.mission.time_in_file_s(file, &compare.next, compare.next.it)?;
     let departure_s = arrival_s + compare.departure_s;
     let cost = MissCost::new(after, &flyby_task.force_model, [departure_s, next_s])?;
     let errors =

@@ -5,6 +5,7 @@ mod compared;
 mod picture;
 mod update;
 
+use inputs::plan::file::PlanFile;
 use nalgebra::Vector2;
 use planner::{
     flyby::{
@@ -21,7 +22,7 @@ pub(super) use self::{
     picture::{desired, plane},
     update::{update_time_s, updated},
 };
-use super::{file::PlanFile, flyby_task::FlybyTask, planned::Planned};
+use super::{flyby_task::FlybyTask, planned::Planned};
 use crate::plan::flights::Failure;
 
 /// Between the times of desired velocity changes, in s.

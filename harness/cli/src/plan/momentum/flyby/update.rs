@@ -3,20 +3,20 @@
 //! Momentum there is that of the mission's flight; so are position or velocity, where the plan gives one alone.
 
 use ::files::Scratch;
-use nalgebra::Vector3;
-use physics::{environment::dates, guidance::timeline::TimelineClock};
-use toml_edit::{DocumentMut, Item, value};
-
-use crate::{
-    assembly::spacecraft_of,
-    plan::{
-        flights::{Failure, Requested, SimulatedMission},
-        mission_text,
-        momentum::file::{PlanFile, encounter::Update},
-    },
+use inputs::{
+    plan::file::{PlanFile, encounter::Update},
     reading::At,
     values::Instant,
     variables::{NEVER_N_M_S, elements, vectors},
+};
+use nalgebra::Vector3;
+use packing::assembly::spacecraft_of;
+use physics::{environment::dates, guidance::timeline::TimelineClock};
+use toml_edit::{DocumentMut, Item, value};
+
+use crate::plan::{
+    flights::{Failure, Requested, SimulatedMission},
+    mission_text,
 };
 
 /// The timeline of an updated mission.
@@ -30,7 +30,7 @@ pub(in crate::plan::momentum) fn update_time_s(
     update: &Update,
     mission: &SimulatedMission,
 ) -> Result<f64, Failure> {
-    let at_s = file.time_in_mission_s(&update.at, mission)?;
+    let at_s = mission.time_in_mission_s(file, &update.at)?;
     if let (Some(_), Some(_)) = (&mission.mission.inputs, mission.zero_epoch_s)
         && at_s > mission.start_s
     {

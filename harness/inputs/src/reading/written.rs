@@ -1,0 +1,133 @@
+//! Values in a file, kept as they are written; each becomes the text that `--set` would take.
+
+use core::{fmt, marker::PhantomData, ops::Deref};
+use std::collections::BTreeMap;
+
+use physics::environment::dates;
+use serde::Deserialize;
+
+use crate::values;
+
+/// Value of a key.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum Written {
+    /// A whole number, which may be an option's.
+    Integer(i64),
+    /// A number.
+    Number(f64),
+    /// True or false.
+    Boolean(bool),
+    /// A string: a number with a unit, an option's name, a date.
+    Text(String),
+    /// A list.
+    List(Vec<Self>),
+    /// A table.
+    Table(BTreeMap<String, Self>),
+}
+
+impl Written {
+    /// What `--set name=` would take: a vector with commas; `None` for a table.
+    pub fn setting(&self) -> Option<String> {
+        Some(match self {
+            Self::Number(number) => number.to_string(),
+            Self::Integer(number) => number.to_string(),
+            Self::Boolean(truth) => truth.to_string(),
+            Self::Text(text) => text.clone(),
+            Self::List(items) => items.iter().map(Self::setting).collect::<Option<Vec<_>>>()?.join(","),
+            Self::Table(_) => return None,
+        })
+    }
+
+    /// The same of a number or a text alone.
+    pub fn scalar(&self) -> Option<String> {
+        self.setting().filter(|_| matches!(self, Self::Number(_) | Self::Integer(_) | Self::Text(_)))
+    }
+
+    /// A text that looks like a date.
+    pub fn date(&self) -> Option<&str> {
+        if let Self::Text(text) = self {
+            Some(text.as_str()).filter(|it| dates::looks_like_date(it))
+        } else {
+            None
+        }
+    }
+
+    /// A number without a unit.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Integer(number) => Some(*number as f64),
+            Self::Number(number) => Some(*number),
+            _ => None,
+        }
+    }
+
+    /// A finite number in the SI unit of this name, or a text with a unit.
+    pub fn quantity(&self, unit: &str) -> Option<f64> {
+        let number = if let Self::Text(text) = self { values::quantity(text, unit) } else { self.number() };
+        number.filter(|number| number.is_finite())
+    }
+
+    /// A time in s.
+    pub fn duration_s(&self) -> Option<f64> {
+        values::duration(&self.setting()?).ok()
+    }
+
+    /// A time above 0, in s.
+    pub fn span_s(&self) -> Option<f64> {
+        values::span(&self.setting()?).ok()
+    }
+}
+
+/// A value, or another one, whose schema is that of `S`.
+#[derive(Debug, Deserialize)]
+#[serde(transparent, bound(deserialize = "W: Deserialize<'de>"))]
+pub struct WrittenAs<S, W = Written>(pub W, PhantomData<S>);
+
+impl<S, W> Deref for WrittenAs<S, W> {
+    type Target = W;
+
+    fn deref(&self) -> &W {
+        &self.0
+    }
+}
+
+impl fmt::Display for Written {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Text(text) => write!(f, "{text:?}"),
+            Self::List(items) => {
+                let items: Vec<String> = items.iter().map(Self::to_string).collect();
+                write!(f, "[{}]", items.join(", "))
+            }
+            other => f.write_str(&other.setting().unwrap_or_else(|| "a table".to_owned())),
+        }
+    }
+}
+
+impl schemars::JsonSchema for Written {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Value".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({
+            "description": "An SI number, a string with a unit (\"10 deg\"), an option's name, true or false; a list for a vector.",
+            "type": ["number", "string", "boolean", "array"]
+        })
+    }
+}
+
+impl<S: schemars::JsonSchema, W> schemars::JsonSchema for WrittenAs<S, W> {
+    fn inline_schema() -> bool {
+        S::inline_schema()
+    }
+
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        S::schema_name()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        S::json_schema(generator)
+    }
+}

@@ -1,0 +1,21 @@
+//! A file that a run writes, and what named it.
+
+use std::path::{Path, PathBuf};
+
+/// A file that a run writes.
+#[derive(Clone, Debug)]
+pub struct OutputFile {
+    /// Where it is.
+    pub path: PathBuf,
+    /// What gave it.
+    pub option: &'static str,
+    /// The folder that it may not leave: that of the mission whose file names it.
+    pub home: Option<PathBuf>,
+}
+
+impl OutputFile {
+    /// Given on the command line.
+    pub fn of_option(path: &Path, option: &'static str) -> Self {
+        Self { path: path.to_owned(), option, home: None }
+    }
+}
