@@ -1,5 +1,5 @@
-//! Imports run one way between files: no file of a crate uses a second one that uses the first, however far around. In what ends inside the
-//! FMU the same holds for the children of every folder, be they files or folders.
+//! Imports run one way in every crate of the workspace: no file uses a second one that uses the first, however far around, and the same
+//! holds for the children of every folder, be they files or folders.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -9,28 +9,13 @@ use syn::visit::{self, Visit};
 
 use crate::sources::{is_for_tests, workspace};
 
-/// The crates whose files are held to it; `physics` has a test of its own.
-const CRATES: &[&str] = &[
-    "fmu-src/fmi-export",
-    "fmu-src/models",
-    "modelDescription",
-    "harness/files",
-    "harness/terminal",
-    "harness/fmi",
-    "harness/drawing",
-    "harness/studies",
-    "harness/systems",
-    "harness/isolation",
-    "harness/inputs",
-    "harness/packing",
-    "harness/tables",
-    "harness/campaign",
-    "harness/planner",
-    "harness/cli",
-];
-
-/// The crates in which children of one folder, files and folders, use one another one way too.
-const BY_FOLDER: &[&str] = &["fmu-src/physics", "fmu-src/fmi-export", "fmu-src/models", "modelDescription"];
+/// Folders of the workspace's crates.
+fn members() -> Vec<String> {
+    let manifest = fs::read_to_string(workspace().join("Cargo.toml")).unwrap();
+    let manifest: toml::Table = manifest.parse().unwrap();
+    let members = manifest["workspace"]["members"].as_array().unwrap();
+    members.iter().map(|member| member.as_str().unwrap().to_owned()).collect()
+}
 
 /// Names from the root of a crate to a module.
 type Module = Vec<String>;
@@ -244,17 +229,17 @@ fn circles_of_children(root: &Path) -> BTreeMap<String, BTreeSet<Vec<String>>> {
 #[test]
 fn no_file_uses_one_that_uses_it() {
     let circles_in =
-        |folder: &&str| (folder.to_string(), circles_of_files(&workspace().join(folder).join("src")));
+        |folder: &String| (folder.clone(), circles_of_files(&workspace().join(folder).join("src")));
     let found: BTreeMap<String, BTreeSet<Vec<String>>> =
-        CRATES.iter().map(circles_in).filter(|(_, circles)| !circles.is_empty()).collect();
+        members().iter().map(circles_in).filter(|(_, circles)| !circles.is_empty()).collect();
     assert_eq!(found, BTreeMap::new());
 }
 
 #[test]
 fn no_child_of_a_folder_uses_one_that_uses_it() {
     let mut found = BTreeMap::new();
-    for name in BY_FOLDER {
-        for (folder, circles) in circles_of_children(&workspace().join(name).join("src")) {
+    for name in members() {
+        for (folder, circles) in circles_of_children(&workspace().join(&name).join("src")) {
             found.insert(format!("{name}/src/{folder}"), circles);
         }
     }

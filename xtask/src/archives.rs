@@ -1,12 +1,16 @@
 //! Installation of each platform, as archives and as wheels in `dist/`.
 
-use std::fs;
+use std::fs::{self, File};
+use std::io;
 use std::path::{Path, PathBuf};
+
+use flate2::{Compression, write::GzEncoder};
+use zip::{DateTime, ZipWriter, write::SimpleFileOptions};
 
 use crate::build::{Built, scratch};
 use crate::platforms::{ALL, Platform, WINDOWS};
 use crate::shell::{Outcome, command, output, root, run};
-use crate::{dist, install, notices, python};
+use crate::{notices, prefix, python};
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -18,24 +22,50 @@ pub(crate) fn write(built: &Built) -> Outcome {
     let folder = emptied("archives")?;
     for (platform, it) in ALL.iter().zip(built.each()) {
         let name = format!("heliotorque-{VERSION}-{}", platform.folder);
-        let prefix = folder.join(&name);
-        install::below(&prefix, it, Some(&built.heliotorque))?;
-        add_licenses(&prefix, platform)?;
-        let format = if platform.folder == WINDOWS.folder { "zip" } else { "gztar" };
-        let code = "import shutil, sys; base, format, folder, name = sys.argv[1:]; \
-                    print(shutil.make_archive(base, format, folder, name))";
-        let archive = root().join("dist").join(&name);
-        let mut make = command("python3");
-        run(make.args(["-c", code]).arg(archive).arg(format).arg(&folder).arg(&name))?;
+        let base = folder.join(&name);
+        prefix::below(&base, it, Some(&built.heliotorque))?;
+        add_licenses(&base, platform)?;
+        let is_zip = platform.folder == WINDOWS.folder;
+        let path = root().join("dist").join(format!("{name}.{}", if is_zip { "zip" } else { "tar.gz" }));
+        let written = if is_zip { zip(&folder, &name, &path) } else { tar(&folder, &name, &path) };
+        written.map_err(|error| format!("{}: {error}", path.display()))?;
+        println!("{}", path.display());
     }
     Ok(())
 }
 
-/// Builds for every platform, writes the wheels, then tests the host's.
-pub(crate) fn wheels() -> Outcome {
-    let built = dist::all_platforms()?;
-    write_wheels(&built)?;
-    try_wheel()
+/// Archives the folder `name` in `folder`, by name, without owners and times.
+fn tar(folder: &Path, name: &str, to: &Path) -> io::Result<()> {
+    let mut tar = tar::Builder::new(GzEncoder::new(File::create(to)?, Compression::best()));
+    tar.mode(tar::HeaderMode::Deterministic);
+    for path in files_below(&folder.join(name))? {
+        tar.append_path_with_name(&path, path.strip_prefix(folder).map_err(io::Error::other)?)?;
+    }
+    tar.into_inner()?.finish().map(drop)
+}
+
+/// The same for Windows.
+fn zip(folder: &Path, name: &str, to: &Path) -> io::Result<()> {
+    let mut zip = ZipWriter::new(File::create(to)?);
+    let options = SimpleFileOptions::default().last_modified_time(DateTime::default());
+    for path in files_below(&folder.join(name))? {
+        let relative = path.strip_prefix(folder).map_err(io::Error::other)?;
+        let relative = relative.to_string_lossy().replace('\\', "/");
+        zip.start_file(relative, options).map_err(io::Error::other)?;
+        io::copy(&mut File::open(&path)?, &mut zip)?;
+    }
+    zip.finish().map_err(io::Error::other).map(drop)
+}
+
+/// Files below a folder, by name.
+fn files_below(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() { found.extend(files_below(&path)?) } else { found.push(path) }
+    }
+    found.sort();
+    Ok(found)
 }
 
 /// Writes `dist/heliotorque-<version>-py3-none-<tag>.whl`.
@@ -45,9 +75,9 @@ pub(crate) fn write_wheels(built: &Built) -> Outcome {
     for (platform, it) in ALL.iter().zip(built.each()) {
         let whole = folder.join(platform.wheel_tag);
         let package = whole.join("heliotorque");
-        install::below(&package, it, None)?;
+        prefix::below(&package, it, None)?;
         add_licenses(&package.join("licenses"), platform)?;
-        install::copy(&source.join("heliotorque").join("__init__.py"), &package)?;
+        prefix::copy(&source.join("heliotorque").join("__init__.py"), &package)?;
         run(command("python3")
             .arg(source.join("build.py"))
             .arg(&whole)
@@ -97,7 +127,7 @@ fn wheel(platform: &Platform) -> PathBuf {
 }
 
 fn add_licenses(folder: &Path, platform: &Platform) -> Outcome {
-    LICENSES.iter().try_for_each(|name| install::copy(&root().join(name), folder).map(|_| ()))?;
+    LICENSES.iter().try_for_each(|name| prefix::copy(&root().join(name), folder).map(|_| ()))?;
     let file = folder.join("THIRD-PARTY-PROGRAM.txt");
     let text = notices::of_program(platform.target)?;
     fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))
@@ -110,4 +140,39 @@ fn emptied(name: &str) -> Result<PathBuf, String> {
     fs::remove_dir_all(&folder).map_err(failed)?;
     fs::create_dir_all(&folder).map_err(failed)?;
     Ok(folder)
+}
+
+#[cfg(test)]
+mod tests {
+    //! Archives hold what the folder holds, whoever wrote it and when.
+
+    use std::{fs::FileTimes, time::SystemTime};
+
+    use super::*;
+
+    #[test]
+    fn archives_do_not_depend_on_the_time_of_their_files() {
+        let scratch = tempfile::tempdir().unwrap();
+        let base = scratch.path().join("base");
+        fs::create_dir_all(base.join("bin")).unwrap();
+        for (file, text) in [("bin/b", "b"), ("bin/a", "a"), ("license.txt", "text")] {
+            fs::write(base.join(file), text).unwrap();
+        }
+        for (write, ending) in [(tar as fn(&Path, &str, &Path) -> _, "tar.gz"), (zip, "zip")] {
+            let [first, second] =
+                ["first", "second"].map(|name| scratch.path().join(format!("{name}.{ending}")));
+            write(scratch.path(), "base", &first).unwrap();
+            let later = FileTimes::new().set_modified(SystemTime::UNIX_EPOCH);
+            File::options().write(true).open(base.join("bin/a")).unwrap().set_times(later).unwrap();
+            write(scratch.path(), "base", &second).unwrap();
+            assert!(fs::read(&first).unwrap() == fs::read(&second).unwrap(), "{ending}");
+        }
+        let file = File::open(scratch.path().join("first.tar.gz")).unwrap();
+        let mut archive = tar::Archive::new(flate2::read::GzDecoder::new(file));
+        let names = archive.entries().unwrap().map(|it| it.unwrap().path().unwrap().display().to_string());
+        assert_eq!(names.collect::<Vec<_>>(), ["base/bin/a", "base/bin/b", "base/license.txt"]);
+        let archive = zip::ZipArchive::new(File::open(scratch.path().join("first.zip")).unwrap()).unwrap();
+        let names = archive.file_names().map(|it| it.unwrap().into_owned());
+        assert_eq!(names.collect::<Vec<_>>(), ["base/bin/a", "base/bin/b", "base/license.txt"]);
+    }
 }

@@ -1,6 +1,7 @@
 //! Building the library and the command line.
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX, EXE_SUFFIX};
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -39,6 +40,11 @@ impl Built {
     /// The build for the host, then those for other platforms.
     pub(crate) fn each(&self) -> impl Iterator<Item = &Built> {
         std::iter::once(self).chain(&self.others)
+    }
+
+    /// The options of `pack` that name a library of each platform.
+    pub(crate) fn library_options(&self, of: fn(&Built) -> &PathBuf) -> impl Iterator<Item = OsString> {
+        self.each().flat_map(move |it| ["--library".into(), of(it).into()])
     }
 }
 

@@ -1,6 +1,5 @@
 //! Packing the shipped FMUs and systems into `dist/`.
 
-use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -84,16 +83,11 @@ fn stamp() -> PathBuf {
     target().join("dist.stamp")
 }
 
-/// The options of `pack` that name a library of each platform.
-pub(crate) fn libraries(built: &Built, of: fn(&Built) -> &PathBuf) -> impl Iterator<Item = OsString> {
-    built.each().flat_map(move |it| ["--library".into(), of(it).into()])
-}
-
 fn pack(built: &Built) -> Outcome {
     SHIPPED.iter().try_for_each(|(name, model, spacecraft, options)| {
         run(command(&built.heliotorque)
             .args(["pack", "--name", name, "--model", model])
-            .args(libraries(built, |it| &it.library))
+            .args(built.library_options(|it| &it.library))
             .arg("--spacecraft")
             .arg(root().join("fmu-src").join("resources").join(spacecraft))
             .args(systems::options(options))

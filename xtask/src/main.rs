@@ -13,6 +13,7 @@ mod notices;
 mod paired;
 mod platform_tests;
 mod platforms;
+mod prefix;
 mod python;
 mod selected;
 mod shell;
@@ -87,7 +88,9 @@ fn main() -> ExitCode {
             Some(ALL_PLATFORMS) => dist::all_platforms().map(|_| ()),
             Some(option) => Err(format!("unknown option `{option}` of dist; there is {ALL_PLATFORMS}")),
         },
-        "wheel" => archives::wheels(),
+        "wheel" => dist::all_platforms()
+            .and_then(|built| archives::write_wheels(&built))
+            .and_then(|()| archives::try_wheel()),
         "install" => install::install(arguments.get(1..).unwrap_or_default()),
         "bench" => match arguments.get(1..).unwrap_or_default() {
             [option, folder, parts @ ..] if option == "--against" => paired::against(folder, parts),

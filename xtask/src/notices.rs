@@ -13,6 +13,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use serde_json::Value;
+
 use crate::shell::{self, Outcome, cargo};
 
 /// The same crates wherever the notices of the library are made.
@@ -96,6 +98,8 @@ fn text(package: &str, target: &str, head: &str, more: &str) -> Result<String, S
     let crates = linked(package, target)?;
     let metadata = "metadata --locked --all-features --format-version 1 --filter-platform";
     let metadata = shell::output(cargo(metadata).arg(target))?;
+    let metadata: Value =
+        serde_json::from_str(&metadata).map_err(|error| format!("cargo metadata: {error}"))?;
     let mut text = head.to_owned();
     let (mut texts, mut without_text) = (BTreeMap::<String, Vec<&Crate>>::new(), Vec::new());
     for it in &crates {
@@ -149,12 +153,10 @@ fn crate_of(line: &str) -> Option<Crate> {
 }
 
 /// The crate's folder, from cargo's description of the workspace.
-fn folder(metadata: &str, it: &Crate) -> Option<PathBuf> {
-    let head = format!("{{\"name\":\"{}\",\"version\":\"{}\",\"id\":", it.name, it.version);
-    let (_, package) = metadata.split_once(&head)?;
-    let (_, path) = package.split_once("\"manifest_path\":\"")?;
-    let (path, _) = path.split_once('"')?;
-    Path::new(&path.replace("\\\\", "\\")).parent().map(Path::to_owned)
+fn folder(metadata: &Value, it: &Crate) -> Option<PathBuf> {
+    let is_meant = |package: &&Value| package["name"] == it.name && package["version"] == it.version;
+    let package = metadata["packages"].as_array()?.iter().find(is_meant)?;
+    Path::new(package["manifest_path"].as_str()?).parent().map(Path::to_owned)
 }
 
 /// The texts that a crate's licence requires to be passed on, as far as they are files of the crate.

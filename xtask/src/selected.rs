@@ -1,7 +1,9 @@
 //! `cargo xtask test NAME`: the tests whose name contains a text; `cargo xtask bless`: what they compare with, written anew.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Stdio;
+
+use serde_json::Value;
 
 use crate::build::TESTS;
 use crate::shell::{Outcome, cargo, command, output, run};
@@ -95,17 +97,11 @@ fn with_tests(name: &str) -> Result<Vec<TestProgram>, String> {
 
 /// The test program that a line of cargo's messages names.
 fn test_program(line: &str) -> Option<TestProgram> {
-    let text = |key: &str| {
-        let (_, rest) = line.split_once(&format!("\"{key}\":\""))?;
-        let (text, _) = rest.split_once('"')?;
-        Some(PathBuf::from(text.replace("\\\\", "\\")))
-    };
-    let (profile, _) = line.split_once("\"profile\":{")?.1.split_once('}')?;
-    let path = text("executable").filter(|_| profile.contains("\"test\":true"))?;
-    Some(TestProgram {
-        path,
-        crate_folder: text("manifest_path").as_deref().and_then(Path::parent)?.to_owned(),
-    })
+    let message: Value = serde_json::from_str(line).ok()?;
+    let path = |value: &Value| value.as_str().map(PathBuf::from);
+    let executable = path(&message["executable"]).filter(|_| message["profile"]["test"] == true)?;
+    let crate_folder = path(&message["manifest_path"])?.parent()?.to_owned();
+    Some(TestProgram { path: executable, crate_folder })
 }
 
 /// Whether a test in Python has `name` in its name.

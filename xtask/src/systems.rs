@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::build::Built;
-use crate::dist::libraries;
 use crate::shell::{Beside, Outcome, command, root, run};
 
 /// The attitude that the orbit phase's guidance commands at the start of `MessengerLoop.ssp`: from any other the first slew would
@@ -129,7 +128,7 @@ fn pack_component(built: &Built, component: &Component, scratch: &Path) -> Resul
     let library: fn(&Built) -> &PathBuf =
         if spacecraft.is_some() { |it| &it.library } else { |it| &it.probe };
     let mut pack = command(&built.heliotorque);
-    pack.args(["pack", "--model", model]).args(libraries(built, library));
+    pack.args(["pack", "--model", model]).args(built.library_options(library));
     if let Some(spacecraft) = spacecraft {
         pack.arg("--spacecraft").arg(root().join("fmu-src").join("resources").join(spacecraft));
     }

@@ -1,7 +1,7 @@
 //! What is kept of time series.
 
 /// Shares in percent that are kept of many runs.
-pub const PERCENTILES: [u8; 7] = [1, 5, 25, 50, 75, 95, 99];
+pub const PERCENTILES: [f64; 7] = [1.0, 5.0, 25.0, 50.0, 75.0, 95.0, 99.0];
 
 /// The extremes of a series.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,20 +34,6 @@ impl Extremes {
     }
 }
 
-/// The values below which the shares of [`PERCENTILES`] lie, linearly between two values; NaN without values. Sorts them.
-pub fn percentiles(values: &mut [f64]) -> [f64; PERCENTILES.len()] {
-    values.sort_by(f64::total_cmp);
-    let last = values.len().saturating_sub(1);
-    PERCENTILES.map(|percent| {
-        let Some(largest) = values.last() else { return f64::NAN };
-        let place = f64::from(percent) / 100.0 * last as f64;
-        let below = place.floor();
-        let low = values[below as usize];
-        let high = values.get(below as usize + 1).unwrap_or(largest);
-        low + (high - low) * (place - below)
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -59,18 +45,5 @@ mod tests {
             extremes.update(time_s, value);
         }
         assert_eq!(extremes, Extremes { min: -3.0, max: 3.0, largest: 3.0, time_of_largest_s: 10.0 });
-    }
-
-    #[test]
-    fn percentiles_lie_linearly_between_values() {
-        let mut values: Vec<f64> = (0..=100).rev().map(f64::from).collect();
-        assert_eq!(percentiles(&mut values), [1.0, 5.0, 25.0, 50.0, 75.0, 95.0, 99.0]);
-        // NumPy's percentile of [1, 2, 4, 8].
-        let [first, .., median, _, _, last] = percentiles(&mut [8.0, 1.0, 4.0, 2.0]);
-        approx::assert_relative_eq!(first, 1.03, max_relative = 1e-15);
-        assert_eq!(median, 3.0);
-        approx::assert_relative_eq!(last, 7.88, max_relative = 1e-15);
-        assert_eq!(percentiles(&mut [7.0]), [7.0; 7]);
-        assert!(percentiles(&mut []).iter().all(|it| it.is_nan()));
     }
 }

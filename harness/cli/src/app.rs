@@ -6,13 +6,14 @@ use std::{
 };
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
+use files::outcome::Outcome;
 use inputs::home;
 use isolation::{Bounds, Relayed, SMALL, interrupt, large};
 use terminal::Screen;
 
 use crate::{
-    check, compare, completions, draw, ephemeris, info, manual, map, new, outcome::Outcome, pack, plan, plot,
-    refit, run as simulation, schema, size, study, sweep, wire,
+    check, compare, completions, draw, ephemeris, info, manual, map, new, pack, plan, plot, refit,
+    run as simulation, schema, size, study, sweep, wire,
 };
 
 /// Spacecraft disturbance torque and momentum as FMUs: show, check and simulate them, pack your own.
@@ -162,9 +163,9 @@ fn carry_out(mut command: Command) -> Outcome {
         Command::Probe(arguments) => check::run_probe(&arguments),
         Command::Run(arguments) => simulation::run(&arguments),
         Command::Wire(arguments) => wire::run(&arguments),
-        Command::RunInChild(arguments) => simulation::run_in_child(&arguments),
+        Command::RunInChild(arguments) => simulation::run_in_child(arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
-        Command::SweepInChild(arguments) => sweep::run_in_child(&arguments),
+        Command::SweepInChild(arguments) => sweep::run_in_child(arguments),
         Command::New(arguments) => new::run(&arguments),
         Command::Man(arguments) => manual::run(&arguments, Arguments::command()),
         Command::Draw(arguments) => draw::run(&arguments),

@@ -14,7 +14,6 @@ mod info;
 mod manual;
 mod map;
 mod new;
-mod outcome;
 mod pack;
 mod patience;
 mod plan;

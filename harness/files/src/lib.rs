@@ -13,6 +13,7 @@ mod entries;
 mod folder;
 mod identity;
 mod input;
+pub mod outcome;
 mod part;
 mod paths;
 mod place;

@@ -5,12 +5,22 @@ use std::borrow::Cow;
 
 use fmi::Error;
 use model_description::{Causality, Description, ScalarVariable, VariableRole, start_values, value};
+pub use physics::constants::DAY_S;
 use physics::environment::dates;
 
 /// The UTC date of an epoch in s past J2000 TDB; `None` where UTC has no leap seconds yet.
 pub fn date(epoch_s: f64) -> Option<String> {
     let date = dates::utc(epoch_s);
     dates::epoch_s(&date).is_ok_and(|read_s| (read_s - epoch_s).abs() <= 1e-3).then_some(date)
+}
+
+/// Epoch of an option's date, in s past J2000 TDB.
+///
+/// # Errors
+/// What is no date, with what is allowed.
+pub fn date_option(option: &str, written: &str) -> Result<f64, String> {
+    dates::epoch_s(written)
+        .map_err(|error| format!("{option}: found {written:?}, {error}, allowed: {}", dates::ALLOWED_DATE))
 }
 
 /// From when a parameter counts.

@@ -10,7 +10,7 @@ use std::{
     },
 };
 
-use files::Scratch;
+use files::{Scratch, outcome::Outcome};
 use terminal::{Relay, Screen};
 
 use super::{
@@ -20,9 +20,6 @@ use super::{
     supervisor::{Bounds, ChildProcess},
 };
 use crate::interrupt::INTERRUPTED;
-
-/// Exit status of a command, or the reason of its failure.
-type Outcome = Result<ExitCode, Box<dyn std::error::Error>>;
 
 /// Kinds of frames: bytes of the standard output, a note, a progress bar, the end of the command, its failure.
 const OUTPUT: u8 = 1;

@@ -5,6 +5,8 @@
 
 pub mod assembly;
 pub mod carried;
+pub mod check;
+pub mod coefficients;
 pub mod instance;
 pub mod manual;
 pub mod pointing;

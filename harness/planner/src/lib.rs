@@ -8,9 +8,12 @@ pub mod ephemeris;
 mod failure;
 pub mod flyby;
 pub mod leg;
+pub mod map;
 pub mod momentum;
 pub mod orbit;
+pub mod plans;
 pub mod refit;
+pub mod size;
 pub mod spin;
 pub mod torque_map;
 

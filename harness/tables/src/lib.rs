@@ -4,5 +4,8 @@
 
 pub mod compare;
 pub mod output;
+mod percentiles;
 pub mod plot;
 pub mod table;
+
+pub use percentiles::percentiles;

@@ -19,7 +19,7 @@ use crate::attitude::{SunAngles, direction_from_angles};
 use crate::enumeration::enumeration;
 use crate::guidance::{ScienceArc, SelectedSunDirection};
 use crate::momentum::Settings;
-use crate::plant::{DownlinkForecast, ForecastMomentum, PlantError, StartMomentum};
+use crate::plant::{DownlinkForecast, ForecastMomentum, PlantError, StartMomentum, forecast};
 use crate::radiation::TorquePolynomial;
 use crate::spacecraft::{Material, Sunshade, SunshadeModel};
 
@@ -61,8 +61,8 @@ impl Forecast for DownlinkForecast<'_, '_> {
     fn terms(&self) -> ForecastTerms {
         let Settings { convention, policy, .. } = self.configuration().momentum;
         ForecastTerms {
-            begin_s: self.time_s,
-            cycle_s: if self.forecasts { self.law.schedule.cycle_s() } else { f64::INFINITY },
+            begin_s: self.begin.time_s,
+            cycle_s: if self.begin.is_first { f64::INFINITY } else { self.law.schedule.cycle_s() },
             span_s: self.span_s,
             begins_in_science: self.science.is_some(),
             downlink_s: self.law.schedule.downlink_s(),
@@ -77,7 +77,7 @@ impl Forecast for DownlinkForecast<'_, '_> {
         step_s: f64,
         visit: impl FnMut(ForecastMomentum),
     ) -> Result<(), PlantError> {
-        self.forecast(times_s, step_s, visit)
+        forecast(self, times_s, step_s, visit)
     }
 }
 
@@ -102,7 +102,7 @@ impl Manager<'_> {
             to_sun: forecast.to_sun,
             to_earth,
             separations_rad: forecast.separations_rad,
-            momentum: forecast.momentum,
+            momentum: forecast.begin.momentum,
             span_s: forecast.science.as_ref().map_or(forecast.span_s, ScienceArc::light_s),
             torque_body_n_m: &torque,
             pressure_pa: forecast.pressure_pa,

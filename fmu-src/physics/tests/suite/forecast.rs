@@ -11,7 +11,7 @@ use physics::momentum::WheelArray;
 use physics::numerics::Span;
 use physics::plant::{
     AttitudeSource, Command, DownlinkForecast, DynamicsInputs, Flight, IdealSettings, ModeSettings,
-    PlantError, SimulationContext, StepContext, ThrusterEventSettings, Thrusters,
+    PlantError, SimulationContext, StepContext, ThrusterEventSettings, Thrusters, forecast,
 };
 
 use super::plant_flight::{Rig, configuration, guided, orbit};
@@ -30,19 +30,18 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
     configured.thruster_events =
         ThrusterEventSettings { schedule: events.into(), dumps: true, ..ThrusterEventSettings::default() };
     let (rig, found) = (Rig::new(), RefCell::new(History::new()));
-    let planner =
-        |forecast: &mut DownlinkForecast<'_, '_>| -> Result<Option<SelectedSunDirection>, PlantError> {
-            let mut found = found.borrow_mut();
-            if found.is_empty() {
-                let times_s = behind_s.iter().map(|behind_s| forecast.time_s + behind_s);
-                let times_s: Vec<f64> = times_s.collect();
-                forecast.forecast(times_s.into_iter(), 600.0, |at| {
-                    found.push((at.time_s, at.momentum_inertial_n_m_s))
-                })?;
-            }
-            // The default attitude, which forecasts assume.
-            Ok(None)
-        };
+    let planner = |start: &mut DownlinkForecast<'_, '_>| -> Result<Option<SelectedSunDirection>, PlantError> {
+        let mut found = found.borrow_mut();
+        if found.is_empty() {
+            let times_s = behind_s.iter().map(|behind_s| start.begin.time_s + behind_s);
+            let times_s: Vec<f64> = times_s.collect();
+            forecast(start, times_s.into_iter(), 600.0, |at| {
+                found.push((at.time_s, at.momentum_inertial_n_m_s))
+            })?;
+        }
+        // The default attitude, which forecasts assume.
+        Ok(None)
+    };
     let external = |_: f64| [ForceTorque::zero(); 2];
     let inputs = DynamicsInputs::default();
     let given = StepContext {

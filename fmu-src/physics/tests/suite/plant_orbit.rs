@@ -10,7 +10,7 @@ use physics::environment::CartesianState;
 use physics::environment::orbit::{Attractor, Flattening, Gravity, GravityModel};
 use physics::loads::ForceTorque;
 use physics::momentum::{MomentumIntegrator, Totals};
-use physics::plant::{AttitudeSource, Command, Configuration, Motion, Plant, PropagatorState, Regime};
+use physics::plant::{AttitudeSource, Command, Configuration, Instant, Motion, Plant, PropagatorState};
 
 use super::plant_flight::{EPOCH_S, Rig, configuration, guided, integrate, orbit};
 
@@ -74,11 +74,11 @@ fn without_disturbances_it_is_the_closed_form() {
         let off_m = (found.geometry.spacecraft.position_m - expected.geometry.spacecraft.position_m).norm();
         assert!(off_m < 0.02, "{off_m}");
         // Downlink windows, slews and science fall together.
-        let (one, other) = (found.frame.inertial_from_body, expected.frame.inertial_from_body);
+        let (one, other) = (found.law.frame.inertial_from_body, expected.law.frame.inertial_from_body);
         let turn = (one.matrix() - other.matrix()).norm();
         assert!(turn < 1e-5, "{turn}");
-        let form = |regime: Regime| (regime.downlink, regime.slewing, regime.in_shadow);
-        assert_eq!(form(found.regime), form(expected.regime));
+        let form = |it: Instant| (it.is_in_downlink(), it.law.slewing, it.events[0] <= 0.0);
+        assert_eq!(form(found), form(expected));
     }
 }
 
@@ -137,7 +137,7 @@ fn periapses_are_counted_where_they_are_passed() {
             time_s,
             state.position_m.norm(),
             plant.time_since_periapsis_s(time_s),
-            plant.evaluate(time_s).instant.regime.downlink,
+            plant.evaluate(time_s).instant.is_in_downlink(),
         )
     });
     // By the distance alone: local minima on the minute.
@@ -191,7 +191,7 @@ fn a_flight_cut_before_its_periapses_counts_them_once() {
             // Downlink from 2 h to 10 h after every second one.
             let even = orbit.orbit_number(epoch_s) % 2 == 0;
             let down = even && (7200.0..36_000.0).contains(&expected_s);
-            assert_eq!(plant.evaluate(time_s).instant.regime.downlink, down, "{time_s} {expected_s}");
+            assert_eq!(plant.evaluate(time_s).instant.is_in_downlink(), down, "{time_s} {expected_s}");
         }
         rig.propagator.cut_with_jump(&configuration, time_s, &Vector3::zeros());
         integrator.cut(time_s);
@@ -207,7 +207,7 @@ fn downlinks_begin_and_end_to_the_second_after_a_periapsis_that_was_met() {
     });
     let times = edges_s.into_iter().flatten().flat_map(|at_s| [at_s - 0.2, at_s + 0.2]);
     let down = simulate(&configuration, Vector3::zeros(), times, |plant, time_s| {
-        plant.evaluate(time_s).instant.regime.downlink
+        plant.evaluate(time_s).instant.is_in_downlink()
     });
     assert_eq!(down, [false, true, true, false].repeat(3));
 }
@@ -224,13 +224,14 @@ fn a_long_slew_turns_as_its_rate_says() {
     let step_s = 10.0;
     let times = (1..26_000).map(|i| f64::from(i) * step_s);
     let seen = simulate(&configuration, Vector3::zeros(), times, |plant, time_s| {
-        let evaluation = plant.evaluate(time_s);
-        (evaluation.instant.frame, evaluation.instant.regime)
+        let Instant { law, events, .. } = plant.evaluate(time_s).instant;
+        (law.frame, (law.window, law.row, law.slewing, law.corner_s, events[0] <= 0.0))
     });
     let mut compared = 0;
     for pair in seen.windows(2) {
         let [(before, one), (after, other)] = pair else { continue };
-        if !one.slewing || one != other {
+        let (_, _, is_slewing, ..) = one;
+        if !is_slewing || one != other {
             continue;
         }
         let turn = (before.inertial_from_body.inverse() * after.inertial_from_body).scaled_axis();

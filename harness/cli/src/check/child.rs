@@ -3,14 +3,12 @@
 use std::{ffi::OsString, path::PathBuf, process::ExitCode, time::Instant};
 
 use clap::Args;
-use files::Scratch;
+use files::{Scratch, outcome::Outcome};
 use fmi::{
     Fmu,
     conformance::{Finding, Verdict},
 };
 use isolation::{Bounds, ChildProcess, Link, Payload, SMALL, push_text};
-
-use crate::outcome::Outcome;
 
 /// `heliotorque probe-in-child`.
 #[derive(Debug, Args)]

@@ -2,12 +2,12 @@
 
 use std::sync::atomic::AtomicBool;
 
+use campaign::run::{Prepared, Run, Settings, long_step};
 use fmi::Collector;
 use inputs::epoch;
 use packing::carried;
 
 use super::options::Check;
-use crate::run::{Prepared, Run, Settings, long_step};
 
 /// Reads the file, packs what it names, finds every name and value in it and opens what it writes, as `run` does; then simulates
 /// the first step in this process.

@@ -4,11 +4,9 @@
 //! each in a process of its own, so that an FMU that crashes or hangs is a finding and not the end.
 
 mod child;
-mod figures;
 mod files;
 mod mission;
 mod options;
-mod spacecraft;
 mod system;
 
 use std::{
@@ -22,7 +20,7 @@ use fmi::{
 };
 use packing::{carried, pointing};
 
-use crate::outcome::Outcome;
+use ::files::outcome::Outcome;
 pub(crate) use child::{Probe, run_probe};
 pub(crate) use options::Check;
 

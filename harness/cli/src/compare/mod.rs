@@ -4,15 +4,13 @@ mod options;
 
 use std::process::ExitCode;
 
-use files::Destination;
+use files::{Destination, outcome::Outcome};
 use inputs::svg_path::check_svg_path;
+pub(crate) use options::Compare;
 use tables::{
     compare::pairing::Pairing,
     table::{Sidecar, Table},
 };
-
-use crate::outcome::Outcome;
-pub(crate) use options::Compare;
 
 /// Compares.
 pub(crate) fn run(arguments: &Compare) -> Outcome {

@@ -2,8 +2,7 @@
 
 use clap::{Args, Command};
 use clap_complete::Shell;
-
-use crate::outcome::{self, Outcome};
+use files::outcome::{self, Outcome};
 
 /// The program's name.
 const NAME: &str = env!("CARGO_PKG_NAME");

@@ -5,11 +5,13 @@ mod options;
 use std::path::{Path, PathBuf};
 
 use drawing::scenes::{self, View};
-use files::Destination;
+use files::{
+    Destination,
+    outcome::{self, Outcome},
+};
 use inputs::{kind::FileKind, svg_path::check_svg_path};
-use physics::spacecraft::MESSENGER_TOML;
+use packing::check::DEFAULT_SPACECRAFT;
 
-use crate::outcome::{self, Outcome};
 pub(crate) use options::Draw;
 use options::ViewKind;
 
@@ -24,7 +26,8 @@ pub(crate) fn run(arguments: &Draw) -> Outcome {
     let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}.svg")));
     check_svg_path(&path, "--output")?;
     let file = named.map_or_else(|| format!("{DEFAULT_NAME}.toml"), |path| path.display().to_string());
-    let text = named.map_or_else(|| Ok(MESSENGER_TOML.to_owned()), |path| FileKind::Spacecraft.read(path))?;
+    let text =
+        named.map_or_else(|| Ok(DEFAULT_SPACECRAFT.to_owned()), |path| FileKind::Spacecraft.read(path))?;
     let scene = scenes::read(&file, &text, &arguments.angle)?;
     let views: Vec<View> =
         View::ALL.into_iter().filter(|view| is_requested(*view, &arguments.view)).collect();

@@ -4,13 +4,11 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use inputs::{
+    epoch::{DAY_S, date_option},
     home,
     values::{number, span},
 };
-use physics::{
-    constants::DAY_S,
-    environment::{dates, onboard::OnboardTarget},
-};
+use planner::ephemeris::{EphemerisRequest, OnboardTarget};
 
 use super::kernel_options::KernelOptions;
 use crate::patience::Patience;
@@ -134,10 +132,34 @@ impl Ephemeris {
         vec![self.simulated()]
     }
 
+    /// The request without the command line.
+    ///
+    /// # Errors
+    /// Dates that are none or out of order.
+    pub(crate) fn request(&self) -> Result<EphemerisRequest, String> {
+        let span_s = self.span_s()?;
+        let coarse_until_s = self.coarse.then(|| self.coarse_until_s(span_s[1])).transpose()?;
+        let kernels = &self.kernels;
+        Ok(EphemerisRequest {
+            fmu: self.simulated(),
+            set: self.set.clone(),
+            kernels: kernels.kernel.clone(),
+            center: kernels.center,
+            spacecraft: kernels.spacecraft,
+            targets: self.targets(),
+            span_s,
+            coarse_until_s,
+            segment_s: self.segment,
+            degree: self.degree.map(usize::from),
+            tolerance_m: self.tolerance,
+            is_quiet: self.quiet,
+        })
+    }
+
     /// First and last epoch, in s past J2000 TDB.
-    pub(crate) fn span_s(&self) -> Result<[f64; 2], String> {
-        let start_s = epoch_s("--start", &self.start)?;
-        let stop_s = epoch_s("--stop", &self.stop)?;
+    fn span_s(&self) -> Result<[f64; 2], String> {
+        let start_s = date_option("--start", &self.start)?;
+        let stop_s = date_option("--stop", &self.stop)?;
         if stop_s <= start_s {
             return Err(format!(
                 "--stop: found {:?}, allowed: a date after --start, {:?}",
@@ -149,21 +171,21 @@ impl Ephemeris {
     }
 
     /// Last epoch of the coarse models.
-    pub(crate) fn coarse_until_s(&self, stop_s: f64) -> Result<f64, String> {
+    fn coarse_until_s(&self, stop_s: f64) -> Result<f64, String> {
         let Some(written) = &self.coarse_until else { return Ok(stop_s) };
-        let until_s = epoch_s("--coarse-until", written)?;
+        let until_s = date_option("--coarse-until", written)?;
         if until_s < stop_s {
             return Err(format!(
                 "--coarse-until: found {written:?}, allowed: a date not before --stop, {:?}",
                 self.stop
             ));
         }
-        check_span("--coarse-until", written, until_s - epoch_s("--start", &self.start)?)?;
+        check_span("--coarse-until", written, until_s - date_option("--start", &self.start)?)?;
         Ok(until_s)
     }
 
     /// What is fitted, each once.
-    pub(crate) fn targets(&self) -> Vec<OnboardTarget> {
+    fn targets(&self) -> Vec<OnboardTarget> {
         let mut targets = Vec::new();
         for kind in &self.bodies {
             let target = match kind {
@@ -182,11 +204,6 @@ impl Ephemeris {
         }
         targets
     }
-}
-
-fn epoch_s(option: &str, written: &str) -> Result<f64, String> {
-    dates::epoch_s(written)
-        .map_err(|error| format!("{option}: found {written:?}, {error}, allowed: {}", dates::ALLOWED_DATE))
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {

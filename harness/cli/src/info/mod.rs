@@ -1,12 +1,12 @@
 //! `heliotorque info`: what an FMU is, takes and gives; what a system joins.
 
-mod coefficients;
 mod experiment;
 mod system;
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use files::outcome::{self, Outcome};
 use fmi::Fmu;
 use inputs::{
     kind, values,
@@ -16,10 +16,7 @@ use model_description::{Causality, Description, ScalarVariable, SimpleTypeKind, 
 use packing::{carried, manual::standard};
 use systems::System;
 
-use crate::{
-    outcome::{self, Outcome},
-    patience::Patience,
-};
+use crate::patience::Patience;
 use experiment::times;
 
 /// `heliotorque info`.
@@ -68,7 +65,7 @@ pub(crate) fn run(arguments: &Info) -> Outcome {
         let description = fmu.description();
         if arguments.coefficients {
             warn_of_repeated("--set", &arguments.set);
-            return outcome::printed(&coefficients::text(&fmu, &arguments.set)?);
+            return outcome::printed(&packing::coefficients::text(&fmu, &arguments.set)?);
         }
         match chosen(description, arguments)? {
             Some(tables) => tables,

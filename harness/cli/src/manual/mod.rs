@@ -4,9 +4,10 @@ use std::{path::PathBuf, process::ExitCode};
 
 use clap::{Args, Command};
 use clap_mangen::Man;
-use files::Destination;
-
-use crate::outcome::{self, Outcome};
+use files::{
+    Destination,
+    outcome::{self, Outcome},
+};
 
 /// `heliotorque man`.
 #[derive(Debug, Args)]

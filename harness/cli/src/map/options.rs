@@ -3,10 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use inputs::{
-    home,
-    values::{angle, number},
-};
+use inputs::values::{angle, number};
+use planner::map::options::{self, Steps};
 
 use crate::patience::Patience;
 
@@ -27,7 +25,7 @@ Example:
   heliotorque map fmu-src/resources/messenger.toml --mission simulated.csv";
 
 /// `heliotorque map`.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Map {
     /// The spacecraft, a TOML file as for `pack`, or an FMU that was packed with one
@@ -87,9 +85,43 @@ pub(crate) struct Map {
 }
 
 impl Map {
-    /// The FMU whose library reads a TOML file.
-    pub(crate) fn template(&self) -> PathBuf {
-        self.template.clone().unwrap_or_else(|| home::fmu(home::DEFAULT_MODEL))
+    /// The request without the command line.
+    pub(crate) fn request(&self) -> planner::map::Map {
+        let Self {
+            spacecraft,
+            template,
+            distance,
+            panel_offset,
+            zone,
+            sun,
+            step,
+            source,
+            set,
+            mission,
+            output,
+            csv,
+            lines,
+            no_picture,
+            quiet,
+            ..
+        } = self.clone();
+        planner::map::Map {
+            spacecraft,
+            template,
+            distance,
+            panel_offset,
+            zone,
+            sun,
+            step,
+            source: source.kind(),
+            set,
+            mission,
+            output,
+            csv,
+            lines,
+            no_picture,
+            quiet,
+        }
     }
 }
 
@@ -103,18 +135,13 @@ pub(crate) enum SourceKind {
 }
 
 impl SourceKind {
-    /// The last part of the variables' names.
-    pub(crate) fn name(self) -> &'static str {
+    fn kind(self) -> options::SourceKind {
         match self {
-            Self::Solar => "solar",
-            Self::Total => "total",
+            Self::Solar => options::SourceKind::Solar,
+            Self::Total => options::SourceKind::Total,
         }
     }
 }
-
-/// How many steps make 90 deg.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Steps(pub u32);
 
 fn distance(text: &str) -> Result<f64, String> {
     let text = text.trim();

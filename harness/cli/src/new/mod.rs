@@ -6,9 +6,7 @@ use std::{
 };
 
 use clap::{Args, ValueEnum};
-use files::Destination;
-
-use crate::outcome::Outcome;
+use files::{Destination, outcome::Outcome};
 
 /// `heliotorque new`.
 #[derive(Debug, Args)]

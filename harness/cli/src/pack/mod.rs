@@ -7,19 +7,18 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use drawing::scenes;
-use files::Destination;
+use files::{
+    Destination,
+    outcome::{self, Outcome},
+};
 use inputs::{mission::Mission, variables};
 use packing::{
-    assembly::{Assembled, Parts, Source, assemble, reference_flight, unused_map},
+    assembly::{Assembled, Parts, Source, assemble, defaults_at_bounds, reference_flight, unused_map},
     carried::timeline::panels_without_effect,
     pointing,
 };
-use physics::{plausibility::defaults_at_their_bounds, spacecraft::Spacecraft};
 
-use crate::{
-    outcome::{self, Outcome},
-    patience::Patience,
-};
+use crate::patience::Patience;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -126,8 +125,7 @@ pub(crate) fn run(arguments: &Pack) -> Outcome {
     let windows = pointing::warnings(&description, &[], pointing::windows_of(&setup).as_slice());
     let timeline = parts.timeline.map(files::read_text).transpose()?;
     let panels = timeline.and_then(|text| panels_without_effect(&text, &description, &[], ""));
-    let bounds =
-        Spacecraft::from_toml("", &setup).map_or_else(|_| Vec::new(), |it| defaults_at_their_bounds(&it));
+    let bounds = defaults_at_bounds(&setup);
     let map = unused_map(&setup, &described.model, &description);
     for warning in map.iter().chain(&windows).chain(&panels).chain(&bounds) {
         terminal::note(&format!("warning: {warning}"));

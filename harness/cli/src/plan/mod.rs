@@ -1,19 +1,21 @@
 //! `heliotorque plan`: optimal plans.
 
-mod files;
-mod flights;
-pub(crate) mod leg;
-mod mission_text;
-pub(crate) mod momentum;
-mod picture;
+mod leg_options;
+mod momentum_options;
 
-use std::{path::Path, process::ExitCode};
+use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
-use inputs::{home, kind::FileKind};
-use physics::spacecraft::Spacecraft;
+use files::outcome::Outcome;
+use inputs::home;
+use planner::plans::{
+    self, leg,
+    momentum::{self, PlanKind},
+};
 
-use crate::{outcome::Outcome, patience::Patience};
+use crate::patience::Patience;
+pub(crate) use leg_options::LegOptions;
+pub(crate) use momentum_options::MomentumOptions;
 
 /// `heliotorque plan`.
 #[derive(Debug, Subcommand)]
@@ -22,12 +24,12 @@ pub(crate) enum Plan {
     #[command(mut_args = |argument| if argument.is_positional() { argument } else { argument.allow_hyphen_values(true) })]
     Spin(Box<SpinPlan>),
     /// Arrays, places of the Sun and alternation that hold the momentum of a mission below its limit
-    Momentum(momentum::MomentumOptions),
+    Momentum(MomentumOptions),
     /// The same with an aim in the B-plane of an encounter, reached by sunlight
     #[command(after_help = FLYBY)]
-    Flyby(momentum::MomentumOptions),
+    Flyby(MomentumOptions),
     /// The velocity at a place and date with which a mission comes to an encounter with a planet
-    Leg(leg::LegOptions),
+    Leg(LegOptions),
 }
 
 /// Shown with the help of `plan flyby`.
@@ -51,26 +53,17 @@ pub(crate) struct SpinPlan {
     pub patience: Patience,
 }
 
-/// Refuses a file that is no spacecraft, and a spacecraft that does not spin.
-fn check_spinner(path: &Path) -> Result<(), String> {
-    let (file, text) = (path.display().to_string(), FileKind::Spacecraft.read(path)?);
-    if Spacecraft::from_toml(&file, &text).is_err() {
-        return Ok(());
-    }
-    Err(format!("{file}: found a three-axis spacecraft, allowed: a spinner: see `heliotorque new spinner`"))
-}
-
 /// Prints the plan, and writes its files where a folder is given; a plan that breaks a limit ends with status 1.
 pub(crate) fn run(arguments: &Plan) -> Outcome {
     let arguments = match arguments {
         Plan::Spin(arguments) => arguments,
-        Plan::Momentum(options) => return momentum::run(options, momentum::PlanKind::Momentum),
-        Plan::Flyby(options) => return momentum::run(options, momentum::PlanKind::Flyby),
-        Plan::Leg(options) => return leg::run(options),
+        Plan::Momentum(options) => return momentum::run(&options.request(), PlanKind::Momentum),
+        Plan::Flyby(options) => return momentum::run(&options.request(), PlanKind::Flyby),
+        Plan::Leg(options) => return leg::run(&options.request()),
     };
     let mut options = arguments.options.clone();
     if let Some(path) = &options.spacecraft {
-        check_spinner(path)?;
+        planner::plans::check_spinner(path)?;
     }
     if options.spacecraft.is_none() && options.fmu.is_none() && options.campaign.is_none() {
         options.fmu = home::installed().map(|_| home::fmu("SpinPlant")).filter(|fmu| fmu.is_file());
@@ -78,7 +71,7 @@ pub(crate) fn run(arguments: &Plan) -> Outcome {
     let answer = planner::spin::plan(&options)?;
     terminal::print(answer.text.trim_end())?;
     if let (Some(folder), Some(burn)) = (&options.output, &answer.burn) {
-        for path in files::write(folder, options.spacecraft.as_deref(), burn)? {
+        for path in plans::files::write(folder, options.spacecraft.as_deref(), burn)? {
             terminal::note(&path.display().to_string());
         }
     }

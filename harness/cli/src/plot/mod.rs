@@ -5,12 +5,13 @@ mod options;
 use std::path::{Path, PathBuf};
 
 use drawing::Picture;
-use files::Destination;
+use files::{
+    Destination,
+    outcome::{self, Outcome},
+};
 use inputs::{svg_path::check_svg_path, values};
-use tables::table::{Sidecar, TIME, Table};
-
-use crate::outcome::{self, Outcome};
 pub(crate) use options::Plot;
+use tables::table::{Sidecar, TIME, Table};
 
 /// Where a table without a name is drawn.
 const DEFAULT_NAME: &str = "plot";

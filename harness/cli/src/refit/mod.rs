@@ -1,67 +1,11 @@
-//! `heliotorque refit`: centre of mass and `solar.scale` from a history of momentum, by flights of the mission's FMU.
+//! `heliotorque refit`: centre of mass and `solar.scale` from a history of momentum.
 
-mod flights;
 mod options;
-mod picture;
-mod table;
 
-use std::{path::Path, process::ExitCode};
-
-use files::Destination;
-use planner::refit::{Deviations, Requested, Telemetry, fit};
-
-use crate::outcome::{self, Outcome};
-use flights::RefitMission;
+use files::outcome::Outcome;
 pub(crate) use options::Refit;
-use table::Found;
 
 /// Fits.
 pub(crate) fn run(arguments: &Refit) -> Outcome {
-    let telemetry = Telemetry::read(&arguments.telemetry)?;
-    let (mut mission, simulated) = RefitMission::open(arguments)?;
-    let destinations = destinations(arguments, &simulated.reads())?;
-    let telemetry_file = arguments.telemetry.display().to_string();
-    mission.check_times(&telemetry_file, &telemetry)?;
-    let deviations = Deviations {
-        noise_n_m_s: arguments.noise,
-        center_of_mass_m: arguments.prior_center,
-        solar_scale: arguments.prior_scale,
-    };
-    let prior = mission.prior()?;
-    let spacecraft = mission.spacecraft_name()?;
-    let span_s = mission.span_s(&telemetry);
-    mission.bar = terminal::progress(span_s as u64, "s of flights", arguments.quiet);
-    let requested = Requested { telemetry: &telemetry, prior, deviations };
-    let bar = mission.bar.clone();
-    let fitted =
-        fit(&mission, &requested, &mut |_, expected| bar.set_length((expected as f64 * span_s) as u64));
-    bar.finish_and_clear();
-    let fitted = fitted.map_err(|error| format!("{}: {error}", arguments.mission.display()))?;
-    let found = Found {
-        mission: arguments.mission.display().to_string(),
-        telemetry: telemetry_file,
-        prior,
-        deviations,
-        fitted: &fitted,
-    };
-    let contents = [found.toml(), fitted.to_json(&spacecraft)?, picture::svg(&found, &telemetry)?];
-    if !arguments.quiet {
-        terminal::print(&found.text())?;
-    }
-    if let Some(warning) = found.warning(&telemetry.lines) {
-        terminal::note(&warning);
-    }
-    outcome::write_all(destinations.into_iter().zip(contents), arguments.quiet)?;
-    Ok(ExitCode::SUCCESS)
-}
-
-/// TOML, JSON and picture, looked at before anything is simulated.
-fn destinations(arguments: &Refit, reads: &[&Path]) -> Result<[Destination; 3], String> {
-    let output = &arguments.output;
-    if output.extension().is_none_or(|it| !it.eq_ignore_ascii_case("toml")) {
-        return Err(format!("{}: found another ending, allowed: .toml: see --output", output.display()));
-    }
-    let inputs = [reads, &[arguments.telemetry.as_path()]].concat();
-    let open = |path: &Path| Destination::open(path, "--output", &inputs);
-    Ok([open(output)?, open(&output.with_extension("json"))?, open(&output.with_extension("svg"))?])
+    planner::plans::refit::run(&arguments.request())
 }

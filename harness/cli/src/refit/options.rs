@@ -21,7 +21,7 @@ Example:
   heliotorque refit mission.toml --telemetry momentum.csv --noise 0.02 --prior-center 0.1 --prior-scale 0.1 --output refit.toml";
 
 /// `heliotorque refit`.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Refit {
     /// The mission that the telemetry is of, as for `run`: MomentumPlant in guided or commanded attitude
@@ -51,6 +51,24 @@ pub(crate) struct Refit {
     /// How long it waits
     #[command(flatten)]
     pub patience: Patience,
+}
+
+impl Refit {
+    /// The request without the command line.
+    pub(crate) fn request(&self) -> planner::plans::refit::Refit {
+        let Self { mission, telemetry, noise, prior_center, prior_scale, output, template, quiet, .. } =
+            self.clone();
+        planner::plans::refit::Refit {
+            mission,
+            telemetry,
+            noise,
+            prior_center,
+            prior_scale,
+            output,
+            template,
+            quiet,
+        }
+    }
 }
 
 /// A standard deviation: nothing is known for certain.

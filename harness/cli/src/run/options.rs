@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use inputs::values::{Instant, duration, instant, span};
+use systems::{FirstExchange, Master};
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -79,6 +80,50 @@ pub(crate) struct Run {
     pub quiet: bool,
 }
 
+impl Run {
+    /// The request without the command line.
+    pub(crate) fn request(&self) -> campaign::run::Run {
+        let Self {
+            fmu,
+            start,
+            stop,
+            step,
+            set,
+            master,
+            first_exchange,
+            input,
+            slopes,
+            record,
+            every,
+            output,
+            plot,
+            template,
+            timeout,
+            log,
+            quiet,
+        } = self.clone();
+        campaign::run::Run {
+            fmu,
+            start,
+            stop,
+            step,
+            set,
+            master: master.map(MasterKind::master),
+            first_exchange: first_exchange.map(FirstExchangeKind::exchange),
+            input,
+            slopes,
+            record,
+            every,
+            output,
+            plot,
+            template,
+            timeout,
+            log,
+            quiet,
+        }
+    }
+}
+
 /// `--master`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum MasterKind {
@@ -90,6 +135,15 @@ pub(crate) enum MasterKind {
     GaussSeidel,
 }
 
+impl MasterKind {
+    fn master(self) -> Master {
+        match self {
+            Self::Jacobi => Master::Jacobi,
+            Self::GaussSeidel => Master::GaussSeidel,
+        }
+    }
+}
+
 /// `--first-exchange`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum FirstExchangeKind {
@@ -97,4 +151,13 @@ pub(crate) enum FirstExchangeKind {
     Initial,
     /// Zero, as for FMPy
     Zeros,
+}
+
+impl FirstExchangeKind {
+    fn exchange(self) -> FirstExchange {
+        match self {
+            Self::Initial => FirstExchange::Initial,
+            Self::Zeros => FirstExchange::Zeros,
+        }
+    }
 }

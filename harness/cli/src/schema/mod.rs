@@ -1,8 +1,7 @@
 //! `heliotorque schema`: the JSON Schemas of files, kept in step with their readers by tests of `physics` and of the mission.
 
 use clap::{Args, ValueEnum};
-
-use crate::outcome::{self, Outcome};
+use files::outcome::{self, Outcome};
 
 /// `heliotorque schema`.
 #[derive(Debug, Args)]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use inputs::values::{duration, number, span};
-use physics::spacecraft::SlewDemand;
+use planner::size::SlewDemand;
 
 use crate::patience::Patience;
 
@@ -21,7 +21,7 @@ Example:
   heliotorque size my.toml --years 15 --end solar.scale=1.2  the last year under another value";
 
 /// `heliotorque size`.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Size {
     /// A spacecraft, as for `pack`, or a mission, as for `run`, whose start, values and inputs count
@@ -63,6 +63,41 @@ pub(crate) struct Size {
     /// How long it waits
     #[command(flatten)]
     pub patience: Patience,
+}
+
+impl Size {
+    /// The request without the command line.
+    pub(crate) fn request(&self) -> planner::size::Size {
+        let Self {
+            file,
+            output,
+            margin,
+            every,
+            slew,
+            years,
+            end,
+            duration,
+            budget,
+            template,
+            set,
+            quiet,
+            ..
+        } = self.clone();
+        planner::size::Size {
+            file,
+            output,
+            margin,
+            every,
+            slew,
+            years,
+            end,
+            duration,
+            budget,
+            template,
+            set,
+            quiet,
+        }
+    }
 }
 
 fn slew(text: &str) -> Result<SlewDemand, String> {

@@ -3,6 +3,7 @@
 use std::{io::IsTerminal, path::PathBuf, process::ExitCode};
 
 use clap::Args;
+use files::outcome::{self, Outcome};
 use inputs::{
     home,
     kind::FileKind,
@@ -11,10 +12,7 @@ use inputs::{
 };
 use studies::{Options, STUDIES};
 
-use crate::{
-    outcome::{self, Outcome},
-    patience::Patience,
-};
+use crate::patience::Patience;
 
 /// `heliotorque study`.
 #[derive(Debug, Args)]

@@ -2,11 +2,9 @@
 
 use std::{ops::Range, path::PathBuf};
 
+use campaign::sweep::options::OUTPUT;
 use clap::Args;
 use inputs::values::span;
-
-/// The table where --output names none.
-pub(super) const OUTPUT: &str = "runs.csv";
 
 const EXAMPLE: &str = "\
 Example:
@@ -50,6 +48,26 @@ pub(crate) struct Sweep {
     /// Show no progress bar and no summary
     #[arg(long, short)]
     pub quiet: bool,
+}
+
+impl Sweep {
+    /// The request without the command line.
+    pub(crate) fn request(&self) -> campaign::sweep::Sweep {
+        let Self { campaign, runs, workers, output, resume, fresh, dry_run, template, timeout, quiet } =
+            self.clone();
+        campaign::sweep::Sweep {
+            campaign,
+            runs,
+            workers,
+            output,
+            resume,
+            fresh,
+            dry_run,
+            template,
+            timeout,
+            quiet,
+        }
+    }
 }
 
 /// A range of runs.

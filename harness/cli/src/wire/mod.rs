@@ -8,7 +8,7 @@ use std::{
 };
 
 use clap::Args;
-use files::{Destination, Entries};
+use files::{Destination, Entries, outcome::Outcome};
 use fmi::Fmu;
 use inputs::{
     home, kind,
@@ -17,8 +17,6 @@ use inputs::{
 };
 use model_description::{Code, DefaultExperiment, Finding};
 use systems::{SSD_FILE, Wired, Wiring};
-
-use crate::outcome::Outcome;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\

@@ -17,7 +17,7 @@ use crate::instance;
 pub use assemble::{Assembled, Parts, assemble};
 pub use source::{Source, common_keys, description, model_of, open_template, spacecraft_of};
 pub use start::{START, with_values};
-pub use without_effect::{can_read_map, unused_map};
+pub use without_effect::{can_read_map, defaults_at_bounds, unused_map};
 
 /// Paths within an archive with what stands there.
 type Contents = Vec<(String, Vec<u8>)>;

@@ -1,7 +1,7 @@
 //! What stands in a spacecraft's file and has no effect in an FMU made of it.
 
 use model_description::{Description, VariableKind};
-use physics::spacecraft::Spacecraft;
+use physics::{plausibility::defaults_at_their_bounds, spacecraft::Spacecraft};
 
 /// The parameter that chooses how planet light is summed, and its item for a map.
 const METHOD: (&str, i32) = ("planetLight.method", 3);
@@ -35,4 +35,9 @@ pub fn unused_map(setup: &str, model: &str, description: &Description) -> Option
             METHOD.0
         )),
     }
+}
+
+/// A warning for each default of the spacecraft that lies at its bound.
+pub fn defaults_at_bounds(setup: &str) -> Vec<String> {
+    Spacecraft::from_toml("", setup).map_or_else(|_| Vec::new(), |it| defaults_at_their_bounds(&it))
 }

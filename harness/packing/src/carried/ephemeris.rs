@@ -20,6 +20,15 @@ pub fn read(resources: &Path) -> Result<String, String> {
     read.map(|ephemeris| summary(&ephemeris)).map_err(|error| error.to_string())
 }
 
+/// Table of an ephemeris file that can be read.
+///
+/// # Errors
+/// Everything wrong in the file.
+pub fn checked(file: &str, text: &str) -> Result<String, String> {
+    let read = OnboardEphemeris::from_toml(file, text).map_err(|problems| problems.to_string())?;
+    Ok(table(&read, text.len()))
+}
+
 /// Which bodies, in a line.
 fn summary(ephemeris: &OnboardEphemeris) -> String {
     let precise = ephemeris.precise.iter().map(|body| {

@@ -8,7 +8,7 @@ use model_description::Description;
 use physics::{
     environment::dates,
     guidance::timeline::{Timeline, TimelineClock},
-    spacecraft::Spacecraft,
+    spacecraft::{MESSENGER_TOML, Spacecraft},
     toml::Problem,
 };
 
@@ -64,6 +64,28 @@ pub fn summary(timeline: &Timeline) -> String {
         })
     });
     parts.collect::<Vec<_>>().join(", ")
+}
+
+/// Report of a timeline that Guidance and MomentumPlant can carry out, read with instruments, sets of thrusters and panels of their own
+/// spacecraft.
+///
+/// # Errors
+/// Everything wrong in the file.
+pub fn checked(file: &str, text: &str) -> Result<String, String> {
+    let spacecraft =
+        Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).map_err(|error| error.to_string())?;
+    let instruments: Vec<&str> = spacecraft.instruments.iter().map(|it| it.name.as_str()).collect();
+    let read = Timeline::from_toml(file, text, &spacecraft).map_err(|problems| problems.to_string())?;
+    let of_one = of_one_model(file, text, &spacecraft, &read);
+    Ok(format!(
+        "{}; with the models' own spacecraft, its instruments {}, its sets of thrusters {} and its {} panels; \
+         `pack --timeline` judges it for yours{}",
+        summary(&read),
+        instruments.join(", "),
+        spacecraft.thruster_sets.join(", "),
+        spacecraft.panels.len(),
+        of_one.iter().map(|line| format!("\n{line}")).collect::<String>()
+    ))
 }
 
 /// What one of both models alone does of a timeline that Guidance takes, a line each.
@@ -130,8 +152,6 @@ pub fn panels_without_effect(
 
 #[cfg(test)]
 mod tests {
-    use physics::spacecraft::MESSENGER_TOML;
-
     use super::*;
 
     #[test]

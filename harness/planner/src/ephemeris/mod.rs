@@ -2,9 +2,14 @@
 
 mod coarse;
 mod fit;
+mod flight;
+mod onboard;
+mod shown;
 mod source;
 pub mod spk;
 
 pub use crate::Failure;
 pub use fit::{Requested, coarse, precise};
+pub use onboard::{EphemerisRequest, fit};
+pub use physics::environment::onboard::OnboardTarget;
 pub use source::Source;

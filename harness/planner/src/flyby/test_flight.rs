@@ -10,8 +10,8 @@ use physics::{
 
 use super::flight::ForceModel;
 use crate::momentum::simulated::{FlightRow, Motion, SimulatedFlight};
+pub(super) use physics::constants::DAY_S;
 
-pub(super) const DAY_S: f64 = 86_400.0;
 /// A day behind the second flyby, in s past J2000, and how long before it the leg begins.
 const FLYBY_S: f64 = 276_640_800.0;
 pub(super) const LONG_S: f64 = 200.0 * DAY_S;

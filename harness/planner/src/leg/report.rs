@@ -2,15 +2,13 @@
 
 use inputs::leg::FlybyAimpoint;
 use nalgebra::Vector3;
-use physics::environment::dates;
+use physics::{constants::DAY_S, environment::dates};
 use serde_json::{Value, json};
 
 use super::{
     aimpoint::{Flyby, closest_distance_m},
     shooting::{Leg, LegTask},
 };
-
-const DAY_S: f64 = 86_400.0;
 
 /// The UTC date of a time of the flight, to the second; `zero_epoch_s` is the epoch of time 0 in s past J2000 TDB.
 pub fn date(time_s: f64, zero_epoch_s: f64) -> String {

@@ -12,7 +12,7 @@
 use inputs::leg::{ArcBranch, FlybyAimpoint};
 use nalgebra::{Matrix3, Vector3};
 use physics::{
-    constants::GM_SUN_M3_S2,
+    constants::{DAY_S, GM_SUN_M3_S2},
     environment::{
         CartesianState,
         frames::dcm_eme2000_from_ecliptic,
@@ -244,7 +244,7 @@ pub fn shoot(task: &LegTask, flights: &mut dyn SimulatesLeg) -> Result<Leg, LegE
     let [lambert_m_s, end_m_s] = task.lambert_m_s(body.position_m)?;
     let speed_m_s = lambert_m_s.norm().max(end_m_s.norm());
     if speed_m_s > MOST_SPEED_M_S {
-        let days = (task.arrival_s - task.start_s) / 86_400.0;
+        let days = (task.arrival_s - task.start_s) / DAY_S;
         return Err(LegError::Fast { days, speed_km_s: 1e-3 * speed_m_s });
     }
     let mut excess_m_s = end_m_s - body.velocity_m_s;

@@ -3,6 +3,7 @@
 //! Both are the mean of the rows' values times the time between (trapezoid).
 
 use nalgebra::{Matrix3, Matrix3x4, Vector3};
+use physics::constants::DAY_S;
 
 use super::{
     simulated::{FlightRow, SAME_S},
@@ -78,7 +79,6 @@ impl At {
 
 /// Instants of a programme in a window, at least.
 const INSTANTS: usize = 8;
-const DAY_S: f64 = 86_400.0;
 /// Windows count as no longer than this where instants are chosen, in s.
 const LONGEST_WINDOW_S: f64 = 3.0 * DAY_S;
 /// Instants within a window of less than a day are no closer, in s: what goes on between them is looked at all the same.

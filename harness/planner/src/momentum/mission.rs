@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use physics::constants::DAY_S;
+
 use super::region::{Point, Region};
 
-const DAY_S: f64 = 86_400.0;
 /// X and Z among the axes.
 const HELD: [usize; 2] = [0, 2];
 /// Columns that are read.

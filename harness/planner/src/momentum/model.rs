@@ -5,6 +5,7 @@
 //! that had, and its derivatives are those of sunlight.
 
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, SymmetricEigen, Vector3};
+use physics::constants::DAY_S;
 
 use super::{
     cell::{At, Cell, cell, guard_shares, instants},
@@ -490,7 +491,6 @@ impl Model {
 
 /// Limits by which nothing is judged, of the limit.
 const UNJUDGED: f64 = 1e3;
-const DAY_S: f64 = 86_400.0;
 /// Cost of a day in the alternate attitude or of a radian of windmilling, against a day with a radian of tilt.
 const SLIGHT: f64 = 1e-3;
 

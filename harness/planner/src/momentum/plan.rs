@@ -9,7 +9,7 @@
 use std::time::{Duration, Instant};
 
 use nalgebra::Vector3;
-use physics::momentum::Convention;
+use physics::{constants::DAY_S, momentum::Convention};
 
 pub(super) use super::planned::greatest_n_m_s;
 pub use super::planned::{
@@ -165,7 +165,7 @@ fn structure(
                 let Some(found) = found else {
                     let (_, row) = alone.excess_n_m_s();
                     let rows = &alone.simulated.rows;
-                    let day = (rows[row.min(rows.len() - 1)].time_s - rows[0].time_s) / 86_400.0;
+                    let day = (rows[row.min(rows.len() - 1)].time_s - rows[0].time_s) / DAY_S;
                     return Err(PlanError::Limit {
                         excess_n_m_s,
                         limit_n_m_s: alone.limit.momentum_n_m_s,

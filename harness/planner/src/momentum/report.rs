@@ -1,5 +1,6 @@
 //! What a plan came to, as `plan.json` and `windows.csv`.
 
+use physics::constants::DAY_S;
 use serde_json::{Map, Value, json};
 
 use super::{
@@ -9,8 +10,6 @@ use super::{
     torque::Control,
     windows::Window,
 };
-
-const DAY_S: f64 = 86_400.0;
 
 /// An event of the mission or of the plan.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,13 +76,9 @@ fn binding(plan: &MomentumPlan) -> Value {
     })
 }
 
-/// The 50th, 90th and 99th percentile, each the least value that so many do not exceed.
+/// The 50th, 90th and 99th percentile.
 pub fn percentiles(mut values: Vec<f64>) -> [f64; 3] {
-    values.sort_by(f64::total_cmp);
-    [0.5, 0.9, 0.99].map(|share| {
-        let rank = (share * values.len() as f64).ceil() as usize;
-        values.get(rank.saturating_sub(1)).copied().unwrap_or(f64::NAN)
-    })
+    tables::percentiles(&mut values, [50.0, 90.0, 99.0])
 }
 
 /// Percentiles by their names.
@@ -242,9 +237,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn percentiles_are_values_that_so_many_do_not_exceed() {
+    fn percentiles_of_seeds_lie_between_neighbours() {
         let flights: Vec<(f64, u32)> = (1..=200).rev().map(|k| (f64::from(k), k / 100)).collect();
-        assert_eq!(of_seeds(&flights), [[100.0, 180.0, 198.0], [1.0, 1.0, 1.0]]);
+        let [momentum, dumps] = of_seeds(&flights);
+        // NumPy's percentile of 1 to 200.
+        for (found, expected) in momentum.into_iter().zip([100.5, 180.1, 198.01]) {
+            approx::assert_relative_eq!(found, expected, max_relative = 1e-14);
+        }
+        assert_eq!(dumps, [1.0; 3]);
         assert_eq!(percentiles(vec![2.0]), [2.0; 3]);
     }
 }

@@ -14,8 +14,7 @@ use super::{
     torque::SunlitSpacecraft,
     windows::{ControlBounds, Layout},
 };
-
-pub(super) const DAY_S: f64 = 86_400.0;
+pub(super) use physics::constants::DAY_S;
 
 /// With the centre of mass there, in m.
 pub(crate) fn sunlit(center_of_mass_m: [f64; 3]) -> SunlitSpacecraft {

@@ -5,12 +5,12 @@ mod cruise;
 mod rows;
 
 use nalgebra::{Vector3, Vector4};
+use physics::constants::DAY_S;
 use physics::numerics::noise::{Channel, normal, normal_vector};
 
 use super::{Deviations, Direction, Fitted, Flights, History, Parameters, Requested, Telemetry, fit};
 use cruise::Cruise;
 
-const DAY_S: f64 = 86_400.0;
 /// A row each 10 min for 10 days.
 const ROWS: u32 = 1441;
 const SEEDS: u64 = 200;

@@ -1,12 +1,14 @@
 //! Months of antenna pointing: how often to turn, how far, and what it costs.
 
 use nalgebra::Vector3;
-use physics::attitude::angle_between_rad;
-use physics::spin::{geometry::L1Phases, nutation::allowed_nutation_rad, spinner::Spinner, train::Shape};
+use physics::{
+    attitude::angle_between_rad,
+    constants::DAY_S,
+    spin::{geometry::L1Phases, nutation::allowed_nutation_rad, spinner::Spinner, train::Shape},
+};
 
 use super::{PlanError, Task, TrainForecast, best, evaluate, uniform_plan};
 
-const DAY_S: f64 = 86_400.0;
 /// Samples of Sun and Earth between two manoeuvres.
 const SAMPLES: u32 = 25;
 

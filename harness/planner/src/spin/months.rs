@@ -2,11 +2,13 @@
 
 use std::fmt::Write;
 
-use physics::spin::{geometry::L1Phases, spinner::Spinner};
+use physics::{
+    constants::DAY_S,
+    spin::{geometry::L1Phases, spinner::Spinner},
+};
 
 use super::{PlanError, Task, campaign, longest_interval_s, tables::narrow, windows};
 
-const DAY_S: f64 = 86_400.0;
 /// Longest campaign: ten years.
 const MOST_DAYS: f64 = 3653.0;
 

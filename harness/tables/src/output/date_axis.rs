@@ -1,11 +1,10 @@
 //! Dates on the horizontal axis of a picture: round times of UTC, and what stands at them.
 
 use inputs::epoch;
-use physics::environment::dates;
+use physics::{constants::DAY_S, environment::dates};
 
 /// Ticks at most, but for the ends.
 const MOST: f64 = 10.0;
-const DAY_S: f64 = 86_400.0;
 const MONTH_S: f64 = 30.437 * DAY_S;
 /// Steps within a day, in s.
 const STEPS_S: [u32; 17] =

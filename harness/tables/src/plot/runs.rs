@@ -6,6 +6,7 @@ use fmi::reference::Cell;
 use super::cells::edges;
 use crate::{
     output::leave_out,
+    percentiles,
     table::{Sidecar, Table},
 };
 
@@ -44,7 +45,7 @@ fn histogram(table: &Table, sidecar: &Sidecar, name: &str) -> Result<Chart, Stri
     let mut points: Vec<(f64, f64)> = edges.iter().copied().zip(counts).collect();
     points.extend(edges.last().map(|edge| (*edge, 0.0)));
     let top = 1.08 * most;
-    let marks = MARKED.map(|percent| percentile(&values, percent));
+    let marks = percentiles(&mut values, MARKED);
     let marks = marks.into_iter().flat_map(|value| [(value, 0.0), (value, top), (f64::NAN, f64::NAN)]);
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
@@ -134,14 +135,6 @@ pub fn together<const N: usize>(table: &Table, names: [&str; N]) -> Result<[Vec<
 fn numbered(table: &Table, names: &[&str]) -> Vec<bool> {
     let columns: Vec<Vec<f64>> = names.iter().filter_map(|name| table.numbers(name)).collect();
     (0..table.keys.len()).map(|row| columns.iter().all(|column| drawing::is_drawable(column[row]))).collect()
-}
-
-/// Of sorted values, between neighbours linearly.
-fn percentile(sorted: &[f64], percent: f64) -> f64 {
-    let at = percent / 100.0 * (sorted.len() as f64 - 1.0);
-    let below = (at.floor() as usize).min(sorted.len() - 1);
-    let above = (below + 1).min(sorted.len() - 1);
-    sorted[below] + (at - below as f64) * (sorted[above] - sorted[below])
 }
 
 #[cfg(test)]

@@ -105,7 +105,7 @@ impl DeferredOutputs for MomentumPlant {
 /// Time, attitude, momentum, velocity change.
 fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let Report { time_s, configuration, evaluation, summary, .. } = report;
-    let (v, frame) = (context.variables, &evaluation.instant.frame);
+    let (v, frame) = (context.variables, &evaluation.instant.law.frame);
     let convention = configuration.momentum.convention;
     let rotation = &frame.inertial_from_body;
     values.set_real(v.epoch, time::epoch_at_s(*time_s, configuration.epoch_minus_time_s));
@@ -241,7 +241,7 @@ fn write_air_and_field(context: &Plan<'_>, values: &mut Values, report: &Report<
 fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let (v, summary) = (context.variables, &report.summary);
     let convention = report.configuration.momentum.convention;
-    let rotation = &report.evaluation.instant.frame.inertial_from_body;
+    let rotation = &report.evaluation.instant.law.frame.inertial_from_body;
     values.set_vector(v.momentum.bias, report.configuration.momentum.policy.bias_body_n_m_s.into());
     values.set_vector(v.momentum.unheld, summary.unheld_body_n_m_s().into());
     let by_source = summary.by_source();
@@ -249,7 +249,7 @@ fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) 
         values.set_vector(output, by_source.body_n_m_s(effect, convention, rotation).into());
     }
     values.set_boolean(v.momentum.target_clamped, report.propagator.sun_choice.is_clamped());
-    values.set_boolean(v.guided_degenerate, report.is_degenerate);
+    values.set_boolean(v.guided_degenerate, report.evaluation.instant.law.degenerate);
     values.set_boolean(v.downlink.active, report.downlink.active);
     values.set_boolean(v.downlink.clamped, report.downlink.clamped);
     values.set_integer(v.timeline.command, i32::try_from(report.timeline_row).unwrap_or(i32::MAX));

@@ -27,8 +27,8 @@ use crate::numerics::quadrature::GAUSS_2;
 
 use super::evaluation::Evaluation;
 use super::plant::Plant;
-use crate::plant::motion::instant::Instant;
-use crate::plant::motion::kinematics::Kinematics;
+use crate::plant::instant::at_time::Instant;
+use crate::plant::instant::kinematics::Kinematics;
 use crate::plant::settings::error::PlantError;
 use crate::plant::sources::Dipoles;
 use crate::plant::sources::sunlight::light_and_heat::LEAST_ARM_M;
@@ -60,15 +60,15 @@ pub(crate) fn next_interval(
 ) -> Result<DisturbanceInterval, PlantError> {
     plant.spend(WorkKind::Segment, start_s)?;
     let (known_s, begin) = plant.begin(start_s, next_multiple_s(start_s, grid_s))?;
-    let limit_s = match plant.path.kinematics.excludes_events(&begin, known_s - start_s) {
+    let limit_s = match plant.path.excludes_events(&begin, known_s - start_s) {
         true => known_s,
-        false => plant.path.kinematics.smooth_until(start_s, known_s),
+        false => plant.path.smooth_until(start_s, known_s),
     };
-    let rate_rad_s = begin.frame.rate_body_rad_s.norm();
+    let rate_rad_s = begin.law.frame.rate_body_rad_s.norm();
     let turning_rad_s = rate_rad_s + orbital_rate_rad_s(&begin.geometry.spacecraft);
     let longest_s = last.span.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s);
     let shortest_s = (SHORTEST_TURN_RAD / turning_rad_s).min(SHORTEST_SHARE * grid_s);
-    let configuration = plant.path.kinematics.configuration;
+    let configuration = plant.path.configuration;
     let (active, tolerance) = (configuration.effects, configuration.light_and_heat.tolerance);
     let interval = AdaptiveInterval::new(start_s, grid_s, longest_s, limit_s, shortest_s);
     let ([first, second], span) = interval.fit::<_, PlantError>(ORDER, |interval| {
@@ -82,7 +82,7 @@ pub(crate) fn next_interval(
             free_inverse_inertia.map_or(0.0, |it| unforeseen(last, active, it, &nodes, span_s));
         let mut unresolved = 0.5 * unforeseen_rad_s2 * span_s * span_s;
         if turning_rad_s * span_s >= SHORTEST_TURN_RAD {
-            let last_s = plant.path.kinematics.configuration.last_of_panels_s(start_s, interval.end_s());
+            let last_s = plant.path.configuration.last_of_panels_s(start_s, interval.end_s());
             let ends = [start_s, last_s].map(|at_s| plant.evaluate(at_s));
             let fit_error = fit_error(active, &nodes, &ends);
             unresolved = unresolved.max(fit_error * fit_error.max(math::powi(rate_rad_s * span_s, 2) / 12.0));
@@ -155,8 +155,7 @@ fn unforeseen(
 /// What ends a flight.
 pub(crate) fn deviate(interval: &DisturbanceInterval, plant: &mut Plant<'_>) -> Result<(), PlantError> {
     let applied = (plant.external)(interval.span.start_s);
-    let Kinematics { configuration, turning, trajectory, current_mass_panels_stowed, .. } =
-        &mut plant.path.kinematics;
+    let Kinematics { configuration, turning, trajectory, current_mass_panels_stowed, .. } = &mut plant.path;
     if !configuration.uses_encke() {
         return Ok(());
     }

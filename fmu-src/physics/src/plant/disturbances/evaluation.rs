@@ -6,7 +6,7 @@ use crate::attitude::MovingFrame;
 use crate::constants::RADIUS_SUN_M;
 use crate::loads::{ForceTorque, Loads};
 use crate::plant::instant::air_and_field_segment::AirAndField;
-use crate::plant::motion::instant::Instant;
+use crate::plant::instant::at_time::Instant;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
 use crate::plant::sources::gravity_gradient::pole_inertial;
@@ -62,12 +62,12 @@ impl Evaluation {
 
     /// Momentum of the body and its panels without the wheels, J w + h_p, body frame, in N m s.
     pub fn structure_body_n_m_s(&self) -> Vector3<f64> {
-        self.mass.inertia_body_kg_m2 * self.instant.frame.rate_body_rad_s + self.panels_body_n_m_s
+        self.mass.inertia_body_kg_m2 * self.instant.law.frame.rate_body_rad_s + self.panels_body_n_m_s
     }
 
     /// Force of all effects in N and the acceleration of the spacecraft by it in m/s2, EME2000.
     pub fn force_and_acceleration_inertial(&self) -> [Vector3<f64>; 2] {
-        let force_inertial_n = self.instant.frame.inertial_from_body * self.loads.total().force_body_n;
+        let force_inertial_n = self.instant.law.frame.inertial_from_body * self.loads.total().force_body_n;
         [force_inertial_n, force_inertial_n / self.mass.mass_kg]
     }
 

@@ -15,11 +15,11 @@ use crate::loads::{ForceTorque, Loads};
 use crate::momentum::{EventValues, TorqueModel, TorqueSample, WorkKind, torques_body_n_m};
 use crate::numerics::Span;
 use crate::numerics::chebyshev::Segment;
+use crate::plant::instant::air_and_field_builder;
+use crate::plant::instant::at_time::Instant;
 use crate::plant::instant::conditions::Conditions;
-use crate::plant::instant::path_ahead::PathAhead;
-use crate::plant::motion::geometry::SimulationEphemeris;
-use crate::plant::motion::instant::Instant;
-use crate::plant::motion::kinematics::Kinematics;
+use crate::plant::instant::geometry::SimulationEphemeris;
+use crate::plant::instant::kinematics::Kinematics;
 use crate::plant::motion::panel_turns::PanelTurns;
 use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
 use crate::plant::settings::configuration::Configuration;
@@ -46,7 +46,7 @@ pub struct PlantSettings<'a> {
 
 /// A configured flight, ready to be evaluated.
 pub struct Plant<'a> {
-    pub(crate) path: PathAhead<'a>,
+    pub(crate) path: Kinematics<'a>,
     sources: &'a mut Sources,
     states: &'a mut SourceStates,
     sun_choice: SunDirectionSelection,
@@ -81,7 +81,8 @@ impl<'a> Plant<'a> {
         let guided = configuration.attitude.guided();
         let law = guided.map(|law| law.with_sun_directions(&sun_choice.selected));
         let bodies = SimulationEphemeris { configuration, ephemeris };
-        let kinematics = Kinematics {
+        let path = Kinematics {
+            digest: *digest,
             configuration,
             law,
             turning,
@@ -91,8 +92,8 @@ impl<'a> Plant<'a> {
             command_slews,
             work,
             current_mass_panels_stowed,
+            air_and_field,
         };
-        let path = PathAhead { digest: *digest, kinematics, air_and_field };
         Self { path, sources, states, sun_choice: *sun_choice, panel_turns, external }
     }
 
@@ -105,7 +106,7 @@ impl<'a> Plant<'a> {
 
     /// The same but for the loads, which are zero.
     pub(crate) fn evaluate_without_loads(&mut self, time_s: f64) -> Evaluation {
-        let instant = self.path.kinematics.instant(time_s);
+        let instant = self.path.instant(time_s);
         let air_and_field = self.path.air_and_field(time_s);
         let mass = self.mass_properties(&instant);
         let panels_body_n_m_s = self.panel_momentum_body_n_m_s(&instant, &mass);
@@ -116,7 +117,7 @@ impl<'a> Plant<'a> {
     pub(crate) fn write_loads(&mut self, evaluation: &mut Evaluation, applied: ForceTorque) {
         let Evaluation { instant, loads, mass, air_and_field, .. } = evaluation;
         let at = Conditions {
-            kinematics: &self.path.kinematics,
+            kinematics: &self.path,
             instant,
             mass,
             air_and_field,
@@ -128,12 +129,12 @@ impl<'a> Plant<'a> {
 
     /// Mass, centre of mass and inertia as the panels stand at `instant`.
     pub fn mass_properties(&self, instant: &Instant) -> MassProperties {
-        self.path.kinematics.mass_properties(&instant.sun())
+        self.path.mass_properties(&instant.sun())
     }
 
     /// Momentum in N m s of the panels relative to the body, body frame, as their laws turn them at `instant`.
     pub(crate) fn panel_momentum_body_n_m_s(&self, instant: &Instant, mass: &MassProperties) -> Vector3<f64> {
-        let Kinematics { configuration, spacecraft, .. } = &self.path.kinematics;
+        let Kinematics { configuration, spacecraft, .. } = &self.path;
         if !spacecraft.has_panel_mass() {
             return Vector3::zeros();
         }
@@ -142,12 +143,12 @@ impl<'a> Plant<'a> {
 
     /// Geometry and attitude at `time_s`.
     pub fn instant(&mut self, time_s: f64) -> Instant {
-        self.path.kinematics.instant(time_s)
+        self.path.instant(time_s)
     }
 
     /// Time since the last periapsis, in s.
     pub fn time_since_periapsis_s(&self, time_s: f64) -> f64 {
-        self.path.kinematics.trajectory.time_since_periapsis_s(self.path.kinematics.configuration, time_s)
+        self.path.trajectory.time_since_periapsis_s(self.path.configuration, time_s)
     }
 
     /// Reports temperature in K and force in N, body frame, of every face of the light model at `time_s`, in its order; the
@@ -163,17 +164,17 @@ impl<'a> Plant<'a> {
 
     /// Extends air, magnetic field and the states of the sources over a span; returns up to where they are valid, at most to its end.
     fn extend_disturbances(&mut self, span: Span, orbit_has_moved: bool) -> Result<f64, PlantError> {
-        let known_s = self.path.extend(span, orbit_has_moved)?;
+        let known_s = air_and_field_builder::extend(&mut self.path, span, orbit_has_moved)?;
         Ok(self.sources.extend(self.states, &mut self.path, span)?.min(known_s))
     }
 
     /// [`TorqueModel::prepare`] with the whole instant at `start_s`.
     pub(crate) fn begin(&mut self, start_s: f64, limit_s: f64) -> Result<(f64, Instant), PlantError> {
         let known_s = self.orbit_and_light(start_s)?.min(limit_s);
-        let instant = self.path.kinematics.instant(start_s);
-        let Kinematics { configuration, spacecraft, .. } = &self.path.kinematics;
-        self.panel_turns.begin(&configuration.panels, spacecraft.panels, &instant);
-        Ok((self.path.kinematics.laws_until_s(&instant, known_s), instant))
+        let instant = self.path.instant(start_s);
+        let Kinematics { configuration, spacecraft, .. } = &self.path;
+        self.panel_turns.begin(&configuration.panels, spacecraft.panels, &instant.moving_sun());
+        Ok((self.path.laws_until_s(&instant, known_s), instant))
     }
 
     /// Makes sure that the orbit is known from `start_s` on, with the light that pushes it; returns up to where.
@@ -181,36 +182,36 @@ impl<'a> Plant<'a> {
     /// # Errors
     /// What ends a flight.
     pub(crate) fn orbit_and_light(&mut self, start_s: f64) -> Result<f64, PlantError> {
-        let configuration = self.path.kinematics.configuration;
+        let configuration = self.path.configuration;
         let by_interval = configuration.uses_encke();
-        let known = Span::new(start_s, self.path.kinematics.trajectory.end_s());
+        let known = Span::new(start_s, self.path.trajectory.end_s());
         if known.end_s > start_s {
             return self.extend_disturbances(known, by_interval);
         }
         // Two integrations of some 40 evaluations, and the search for changes in between.
-        self.path.kinematics.spend_units(WorkKind::Orbit, 60, start_s)?;
-        self.path.kinematics.trajectory.close_segment(configuration, start_s);
-        let before = *self.path.kinematics.trajectory;
+        self.path.spend_units(WorkKind::Orbit, 60, start_s)?;
+        self.path.trajectory.close_segment(configuration, start_s);
+        let before = *self.path.trajectory;
         self.integrate(f64::INFINITY, |_| Vector3::zeros())?;
         if configuration.motion.has_nongravitational_forces() && !by_interval {
-            let predicted = Span::new(start_s, self.path.kinematics.trajectory.end_s());
+            let predicted = Span::new(start_s, self.path.trajectory.end_s());
             let lit_s = self.extend_disturbances(predicted, false)?;
-            let mut end_s = self.path.kinematics.smooth_until(start_s, lit_s);
+            let mut end_s = self.path.smooth_until(start_s, lit_s);
             let acceleration_m_s2 = loop {
                 let acceleration_m_s2 = |at_s: f64| self.sample(at_s).acceleration_inertial_m_s2;
                 let fitted = Segment::<3, NODES>::fit(start_s, end_s, acceleration_m_s2);
                 if configuration.motion.resolves(&fitted) {
                     break fitted;
                 }
-                self.path.kinematics.spend_units(WorkKind::Orbit, NODES as u32, start_s)?;
+                self.path.spend_units(WorkKind::Orbit, NODES as u32, start_s)?;
                 end_s = 0.5 * (start_s + end_s);
             };
-            *self.path.kinematics.trajectory = before;
+            *self.path.trajectory = before;
             self.integrate(end_s, |at_s| acceleration_m_s2.value(at_s))?;
             // Those ahead began on the predicted orbit.
-            self.path.kinematics.command_slews.forget_after(start_s);
+            self.path.command_slews.forget_after(start_s);
         }
-        let end_s = self.path.kinematics.trajectory.end_s();
+        let end_s = self.path.trajectory.end_s();
         // Written so that a NaN is stuck too.
         if end_s > start_s {
             self.extend_disturbances(Span { start_s, end_s }, true)
@@ -221,10 +222,10 @@ impl<'a> Plant<'a> {
 
     /// Whether the Sun's direction has to be chosen at `start_s`, where a segment begins, before it can be made ready.
     pub(crate) fn must_choose(&mut self, start_s: f64) -> bool {
-        let attitude = &self.path.kinematics.configuration.attitude;
+        let attitude = &self.path.configuration.attitude;
         matches!(attitude, AttitudeSource::Guided(guided) if guided.managed) && {
-            let regime = self.path.kinematics.instant(start_s).regime;
-            self.sun_choice.is_due(regime.downlink, regime.row)
+            let instant = self.path.instant(start_s);
+            self.sun_choice.is_due(instant.is_in_downlink(), instant.law.row)
         }
     }
 
@@ -233,12 +234,13 @@ impl<'a> Plant<'a> {
         limit_s: f64,
         extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
     ) -> Result<(), PlantError> {
-        let Kinematics { spacecraft, trajectory, bodies, .. } = &mut self.path.kinematics;
-        let shortened = trajectory.advance(bodies, spacecraft.orbit_method, limit_s, extra_m_s2)?;
+        let Kinematics { configuration, spacecraft, trajectory, bodies, .. } = &mut self.path;
+        let shortened =
+            trajectory.advance(configuration, bodies, spacecraft.orbit_method, limit_s, extra_m_s2)?;
         if shortened > 0 {
             // Between bodies a segment is tried until it is short enough: some 40 times the gravity of all of them a trial.
-            let end_s = self.path.kinematics.trajectory.end_s();
-            self.path.kinematics.spend_units(WorkKind::Orbit, 60 * shortened, end_s)?;
+            let end_s = self.path.trajectory.end_s();
+            self.path.spend_units(WorkKind::Orbit, 60 * shortened, end_s)?;
         }
         Ok(())
     }
@@ -249,16 +251,16 @@ impl TorqueModel for Plant<'_> {
 
     fn prepare(&mut self, start_s: f64, limit_s: f64) -> Result<(f64, Rotation3<f64>), PlantError> {
         let (until_s, instant) = self.begin(start_s, limit_s)?;
-        Ok((until_s, instant.frame.inertial_from_body))
+        Ok((until_s, instant.law.frame.inertial_from_body))
     }
 
     fn sample(&mut self, time_s: f64) -> TorqueSample {
         let evaluation = self.evaluate(time_s);
-        let Kinematics { configuration, spacecraft, .. } = &self.path.kinematics;
+        let Kinematics { configuration, spacecraft, .. } = &self.path;
         let [_, acceleration_inertial_m_s2] = evaluation.force_and_acceleration_inertial();
         TorqueSample {
-            inertial_from_body: evaluation.instant.frame.inertial_from_body,
-            rate_body_rad_s: evaluation.instant.frame.rate_body_rad_s,
+            inertial_from_body: evaluation.instant.law.frame.inertial_from_body,
+            rate_body_rad_s: evaluation.instant.law.frame.rate_body_rad_s,
             structure_body_n_m_s: spacecraft.has_panel_mass().then(|| evaluation.structure_body_n_m_s()),
             torque_body_n_m: evaluation.loads.total().torque_body_n_m,
             by_source_body_n_m: torques_body_n_m(&evaluation.loads, configuration.effects),
@@ -268,15 +270,15 @@ impl TorqueModel for Plant<'_> {
     }
 
     fn inertial_from_body(&mut self, time_s: f64) -> Rotation3<f64> {
-        self.path.kinematics.inertial_from_body(time_s)
+        self.path.inertial_from_body(time_s)
     }
 
     fn events(&mut self, time_s: f64) -> EventValues {
-        self.path.kinematics.events(time_s)
+        self.path.events(time_s)
     }
 
     fn time_rounding_s(&self, time_s: f64) -> f64 {
-        self.path.kinematics.time_rounding_s(time_s)
+        self.path.time_rounding_s(time_s)
     }
 
     fn spend(&mut self, kind: WorkKind, time_s: f64) -> Result<(), PlantError> {
@@ -287,9 +289,9 @@ impl TorqueModel for Plant<'_> {
             WorkKind::Dump => 16,
             WorkKind::Light | WorkKind::Orbit | WorkKind::Ephemeris | WorkKind::Air => 1,
         };
-        let Kinematics { configuration, spacecraft, .. } = &self.path.kinematics;
+        let Kinematics { configuration, spacecraft, .. } = &self.path;
         let faces = spacecraft.solar.face_count() as u32;
         let units = Self::SAMPLE_UNITS + faces / 50 + self.sources.load_units(configuration);
-        self.path.kinematics.spend_units(kind, samples * units, time_s)
+        self.path.spend_units(kind, samples * units, time_s)
     }
 }

@@ -4,11 +4,10 @@ use nalgebra::Vector3;
 
 use crate::attitude::{Attitude, BodyMotion, GyrostatMotion, MovingFrame};
 use crate::guidance::pointing::boresight::Gimbal;
-use crate::guidance::{Activity, Guided, Schedule, ScienceRule, SelectedSunDirection, Window};
+use crate::guidance::{Activity, Guided, Schedule, ScienceArc, ScienceRule, SelectedSunDirection, Window};
 use crate::loads::ForceTorque;
-use crate::momentum::{TorqueModel, Totals, WorkKind};
+use crate::momentum::{Convention, TorqueModel, Totals, WorkKind};
 
-use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::External;
 use crate::plant::disturbances::plant::{Plant, PlantSettings};
@@ -21,6 +20,7 @@ use crate::plant::settings::error::PlantError;
 use crate::plant::settings::prepared_spacecraft::PreparedSpacecraft;
 use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::sources::Dipoles;
+use crate::plant::sources::sunlight::sunlit::SunlitConfiguration;
 use crate::plant::state::disturbance_interval::DisturbanceInterval;
 use crate::plant::state::propagator_state::PropagatorState;
 use crate::plant::thrusters::allocation::ThrusterAllocator;
@@ -44,6 +44,79 @@ fn end_epoch_s(schedule: &Schedule, window: &Window, now_epoch_s: f64) -> f64 {
     }
     let counted = schedule.window(now_epoch_s);
     if counted.activity == Activity::Science { counted.until_s } else { f64::INFINITY }
+}
+
+/// Momentum where a downlink begins, in N m s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StartMomentum {
+    /// EME2000; it stays there while the body turns.
+    Inertial(Vector3<f64>),
+    /// Body components, whatever the attitude: the integral of each component of torque, or a start that is given in them.
+    Body(Vector3<f64>),
+}
+
+impl StartMomentum {
+    /// Momentum from which a choice of attitude counts, from totals under a convention.
+    pub fn from_totals(totals: &Totals, convention: Convention) -> Self {
+        match convention {
+            Convention::Inertial => Self::Inertial(totals.momentum_inertial_n_m_s),
+            Convention::BodyIntegral => Self::Body(totals.torque_integral_body_n_m_s),
+        }
+    }
+
+    /// Magnitude, in N m s.
+    pub fn magnitude_n_m_s(&self) -> f64 {
+        match self {
+            Self::Inertial(momentum) | Self::Body(momentum) => momentum.norm(),
+        }
+    }
+}
+
+/// Chooses the Sun's place, and tells whether limits keep the momentum from its target; no place where the default attitude is to be
+/// simulated. Called once a downlink or science that unloads, and again after a dump at its very beginning.
+pub type SunPlanner<'a> =
+    dyn Fn(&mut DownlinkForecast<'_, '_>) -> Result<Option<SelectedSunDirection>, PlantError> + 'a;
+
+/// Start of a downlink, or of science that unloads, from which it is forecast.
+pub struct DownlinkForecast<'o, 'f> {
+    pub(crate) flight: &'o mut ConfiguredFlight<'f>,
+    pub(crate) law: Guided,
+    /// Time, totals and momentum here.
+    pub begin: SunSelectionStart,
+    /// How long it lasts, in s.
+    pub span_s: f64,
+    /// Unit vector to the Sun, EME2000.
+    pub to_sun: Vector3<f64>,
+    /// Unit vector to the Earth, EME2000; `None` where its place is not known.
+    pub to_earth: Option<Vector3<f64>>,
+    /// Distance from the Sun's centre, in m.
+    pub sun_distance_m: f64,
+    /// Pressure of sunlight, in Pa, without a shadow.
+    pub pressure_pa: f64,
+    /// Least and greatest angle between Sun and Earth while the downlink lasts, in rad.
+    pub separations_rad: [f64; 2],
+    /// The science that begins; `None`: a downlink does.
+    pub science: Option<ScienceArc>,
+}
+
+impl DownlinkForecast<'_, '_> {
+    /// The spacecraft in direct sunlight without shadows.
+    pub(crate) fn sunlit(&self) -> SunlitConfiguration<'_> {
+        let prepared = &self.flight.given.prepared;
+        SunlitConfiguration {
+            solar: self.flight.models.solar.as_ref().unwrap_or(prepared.solar),
+            panels: prepared.panels,
+            settings: &self.flight.configuration.panels,
+            current_mass_panels_stowed: *self.flight.current_mass_panels_stowed,
+            time_s: self.begin.time_s,
+            sun_distance_m: self.sun_distance_m,
+        }
+    }
+
+    /// Settings of the flight.
+    pub(crate) fn configuration(&self) -> &Configuration {
+        self.flight.configuration
+    }
 }
 
 /// Spacecraft, loads from outside, planner and work limit of a step.
@@ -94,8 +167,11 @@ pub(crate) struct ConfiguredFlight<'a> {
 }
 
 /// Flight where the Sun's direction may be selected.
-pub(super) struct SunSelectionStart {
+#[derive(Clone, Copy, Debug)]
+pub struct SunSelectionStart {
+    /// When, in s.
     pub time_s: f64,
+    /// Momentum and velocity change so far.
     pub totals: Totals,
     /// Momentum from which a choice of attitude counts.
     pub momentum: StartMomentum,
@@ -142,7 +218,7 @@ impl<'a> ConfiguredFlight<'a> {
         self.models.begin_work(self.given.work_limit);
         let mut plant = self.plant();
         plant.prepare(time_s, time_s)?;
-        Ok(plant.path.kinematics.attitude_by(law, time_s).frame)
+        Ok(plant.path.attitude_by(law, time_s).frame)
     }
 
     /// Selects the Sun's direction where a downlink has begun at `start`, or began right there and its momentum changed since;
@@ -154,7 +230,7 @@ impl<'a> ConfiguredFlight<'a> {
         let Some(law) = self.configuration.attitude.guided().copied().filter(|law| law.managed) else {
             return Ok(());
         };
-        let Some(guided) = self.plant().path.kinematics.guided_attitude(time_s) else { return Ok(()) };
+        let Some(guided) = self.plant().path.guided_attitude(time_s) else { return Ok(()) };
         let downlink = guided.window.activity == Activity::Downlink;
         let gimbal = match law.science {
             ScienceRule::Unloading { gimbal, .. } if !downlink => Some(gimbal),
@@ -189,12 +265,8 @@ impl<'a> ConfiguredFlight<'a> {
         let is_under_way = is_first && downlink && since_s < time_s - EPOCH_ROUNDING_S;
         let is_ahead = until_s.is_finite() && until_s > time_s && !is_under_way;
         let chosen = if is_ahead { self.plan_sun_direction(start, law, gimbal, until_s)? } else { None };
-        let choice = &mut self.propagator.sun_choice;
-        if downlink {
-            choice.selected.downlink = chosen;
-        } else {
-            choice.selected.science = chosen;
-        }
+        let selected = &mut self.propagator.sun_choice.selected;
+        *(if downlink { &mut selected.downlink } else { &mut selected.science }) = chosen;
         self.propagator.command_slews.cut(time_s);
         Ok(())
     }
@@ -208,12 +280,12 @@ impl<'a> ConfiguredFlight<'a> {
         gimbal: Option<Gimbal>,
         until_s: f64,
     ) -> Result<Option<SelectedSunDirection>, PlantError> {
-        let SunSelectionStart { time_s, totals, momentum, is_first } = *start;
+        let time_s = start.time_s;
         let mut plant = self.plant();
         let instant = plant.instant(time_s);
-        let pressure_pa = plant.path.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
-        let separations_rad = plant.path.kinematics.separations_rad(time_s, until_s);
-        let science = gimbal.map(|gimbal| plant.path.kinematics.science_arc(gimbal, time_s, until_s));
+        let pressure_pa = plant.path.configuration.light.pressure_pa(instant.sun_distance_m);
+        let separations_rad = plant.path.separations_rad(time_s, until_s);
+        let science = gimbal.map(|gimbal| plant.path.science_arc(gimbal, time_s, until_s));
         if science.is_some() {
             self.models.spend(WorkKind::Search, SCIENCE_UNITS, time_s)?;
         }
@@ -221,11 +293,8 @@ impl<'a> ConfiguredFlight<'a> {
         let mut downlink_forecast = DownlinkForecast {
             flight: self,
             law,
-            totals,
-            forecasts: !is_first,
-            time_s,
+            begin: *start,
             span_s: until_s - time_s,
-            momentum,
             to_sun: instant.geometry.to_sun.position_m.normalize(),
             to_earth: instant.geometry.to_earth.position_m.try_normalize(0.0),
             sun_distance_m: instant.sun_distance_m,

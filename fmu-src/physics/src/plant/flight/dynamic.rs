@@ -14,12 +14,11 @@ use crate::momentum::{DumpEvent, Totals, WorkKind};
 use crate::numerics::Span;
 use crate::plant::thrusters::reaction_control::Thrusters;
 
-use super::configured::{ConfiguredFlight, SunSelectionStart};
-use super::downlink_forecast::StartMomentum;
+use super::configured::{ConfiguredFlight, StartMomentum, SunSelectionStart};
 use super::grid_edge;
-use super::in_flight::Simulated;
 use super::reached::Reached;
 use super::report::dynamic_totals;
+use super::simulated::Simulated;
 use crate::plant::control::control_loop::Sampled;
 use crate::plant::control::wheel_control::WheelDistribution;
 use crate::plant::disturbances::disturbance_interval::loads_at;
@@ -202,6 +201,7 @@ impl<'f> Simulated<'f> for Dynamic<'f> {
         let mass_kg = loaded.mass_kg - flight.thrusters.propellant.total_used_kg(time_s);
         let mut evaluation = flight.plant_at(time_s, &body).evaluate_without_loads(time_s);
         evaluation.mass.mass_kg = mass_kg;
+        evaluation.instant.law.degenerate = self.state.control.is_degenerate;
         evaluation
     }
 
@@ -235,10 +235,6 @@ impl<'f> Simulated<'f> for Dynamic<'f> {
 
     fn complete(&mut self) {
         self.reached.complete(self.state, self.settings, self.flight.given.inputs);
-    }
-
-    fn is_degenerate(&self, _: &Evaluation) -> bool {
-        self.state.control.is_degenerate
     }
 }
 
@@ -330,7 +326,7 @@ impl Dynamic<'_> {
             Tracked::Rate(rate_body_rad_s) => return ControlTarget::RateOnly { rate_body_rad_s },
             Tracked::Attitude(command) => command,
             Tracked::Guidance => control.guidance_at(time_s).unwrap_or_else(|| {
-                let guided = flight.plant_at(time_s, body).path.kinematics.guided_attitude(time_s);
+                let guided = flight.plant_at(time_s, body).path.guided_attitude(time_s);
                 control.guide(time_s, guided.as_ref(), &sensing.estimate)
             }),
         };

@@ -85,7 +85,7 @@ fn arrival(
     while now_s < osculates_s {
         now_s = fork.advance_orbit(now_s, osculates_s)?;
     }
-    let from_planet = fork.ideal.flight.plant().path.kinematics.geometry(osculates_s).from_planet();
+    let from_planet = fork.ideal.flight.plant().path.geometry(osculates_s).from_planet();
     let b_plane = from_planet.and_then(|state| BPlane::from_state(&state, encounter.gm_m3_s2));
     Ok(b_plane.map(|b_plane| PredictedArrival { at_s, altitude_m, b_plane, osculates_s }))
 }

@@ -6,9 +6,11 @@
 
 use nalgebra::{Rotation3, Vector3};
 
-use super::configured::{ConfiguredFlight, StepContext};
+use super::configured::{ConfiguredFlight, DownlinkForecast, StepContext, SunSelectionStart};
 use super::ideal::Ideal;
 use crate::attitude::{Attitude, Quaternion};
+use crate::guidance::{Guided, SelectedSunDirections};
+use crate::loads::ForceTorque;
 use crate::momentum::Totals;
 use crate::plant::disturbances::evaluation::External;
 use crate::plant::disturbances::simulation_context::ForkScratch;
@@ -43,6 +45,32 @@ pub struct ForecastMomentum {
     pub momentum_inertial_n_m_s: Vector3<f64>,
     /// Components in the body frame of a vector in EME2000.
     pub body_from_inertial: Rotation3<f64>,
+}
+
+/// Forecasts from `start` on the momentum at `times_s`, which do not descend; about `step_s` apart. The flight continues in default
+/// attitudes (the Sun on -Y in downlinks and in science that unloads), without dumps, under the load that acts from outside there.
+///
+/// # Errors
+/// What ends a flight.
+pub fn forecast(
+    start: &mut DownlinkForecast<'_, '_>,
+    mut times_s: impl Iterator<Item = f64>,
+    step_s: f64,
+    mut visit: impl FnMut(ForecastMomentum),
+) -> Result<(), PlantError> {
+    let DownlinkForecast { flight, law, begin: SunSelectionStart { totals, time_s, .. }, .. } = start;
+    let attitude = AttitudeSource::Guided(Guided { managed: false, ..*law });
+    let [applied, _] = (flight.given.external)(*time_s);
+    let held = |_: f64| [applied, ForceTorque::zero()];
+    let mut fork = Fork::new(flight, &held, attitude, *totals, *time_s)?;
+    // No direction of the Sun was selected.
+    fork.ideal.flight.propagator.sun_choice.selected = SelectedSunDirections::default();
+    fork.coarsen(*time_s, step_s);
+    times_s.try_for_each(|at_s| {
+        fork.ideal.advance(at_s)?;
+        visit(fork.momentum_at(at_s));
+        Ok(())
+    })
 }
 
 /// A fork: copies of settings and state, which it changes for itself, and the flight's models.
@@ -156,10 +184,10 @@ impl<'f> Fork<'f> {
         let instant = self.ideal.flight.plant().instant(time_s);
         let Configuration { light, momentum, .. } = &*self.ideal.flight.configuration;
         let totals = self.ideal.state.integrator.totals(time_s);
-        let inertial_from_body = instant.frame.inertial_from_body;
+        let inertial_from_body = instant.law.frame.inertial_from_body;
         ForecastMomentum {
             time_s,
-            downlink: instant.regime.downlink,
+            downlink: instant.is_in_downlink(),
             to_sun: instant.geometry.to_sun.position_m.normalize(),
             to_earth: instant.geometry.to_earth.position_m.try_normalize(0.0),
             pressure_pa: light.pressure_pa(instant.sun_distance_m),

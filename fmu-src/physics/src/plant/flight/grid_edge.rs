@@ -65,7 +65,7 @@ pub(super) fn begin(
     if flight.given.prepared.has_panel_mass() {
         let mut plant = flight.plant_at(time_s, &body);
         let instant = plant.instant(time_s);
-        begun.panels = PanelMotion::at_start(&plant.path.kinematics, &instant);
+        begun.panels = PanelMotion::at_start(plant.path.panel_laws(), &instant.moving_sun());
         let internal = begun.panels.internal(flight.given.prepared.panels, &mass, begun.motion.end_s());
         begun.motion.add_hinges(internal);
     }
@@ -107,10 +107,10 @@ pub(super) fn begin_interval(
     }
     if panels_have_mass {
         let was_turning = state.panels.is_turning();
-        let configuration = plant.path.kinematics.configuration;
+        let configuration = plant.path.configuration;
         let end_s = configuration.last_of_panels_s(time_s, state.disturbance.span.end_s);
         let [now, end] = [time_s, end_s].map(|at_s| plant.instant(at_s));
-        state.panels.turn_until(&plant.path.kinematics, &now, &end);
+        state.panels.turn_until(plant.path.panel_laws(), &now.moving_sun(), &end.sun());
         if was_turning || state.panels.is_turning() {
             turn_mass(state, settings, flight);
             let internal = state.panels.internal(flight.given.prepared.panels, &state.mass.now, time_s);
@@ -167,8 +167,9 @@ fn track_panel_laws(
 ) -> Option<BodyMotion> {
     let time_s = state.motion.end_s();
     let to_sun_m = plant.instant(time_s).geometry.to_sun.position_m;
-    let kinematics = &plant.path.kinematics;
-    let attitude = state.panels.track_law(kinematics, &mut settings.gyrostat, &state.motion, &to_sun_m)?;
+    let kinematics = &plant.path;
+    let attitude =
+        state.panels.track_law(kinematics.panel_laws(), &mut settings.gyrostat, &state.motion, &to_sun_m)?;
     let panels = kinematics.spacecraft.panels;
     let mass = state.panels.mass_properties(&kinematics.current_mass_panels_stowed, panels, time_s);
     set_known_mass(state, settings, mass);

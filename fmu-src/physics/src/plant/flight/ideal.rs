@@ -13,13 +13,11 @@ use crate::guidance::timeline::TimelineManeuver;
 use crate::loads::ForceTorque;
 use crate::momentum::{DumpEvent, PreparedSegment, TorqueModel, Totals, WorkKind};
 
-use super::configured::{ConfiguredFlight, SunSelectionStart};
-use super::downlink_forecast::StartMomentum;
-use super::in_flight::Simulated;
+use super::configured::{ConfiguredFlight, StartMomentum, SunSelectionStart};
+use super::simulated::Simulated;
 use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::events::{EventKind, Eventful, LastEvents};
-use crate::plant::settings::attitude_source::AttitudeSource;
 use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::mode_settings::IdealSettings;
 use crate::plant::settings::thruster_events::{Maneuver, ThrusterEvent};
@@ -129,10 +127,6 @@ impl<'f> Simulated<'f> for Ideal<'f> {
         Ok(())
     }
 
-    fn fork_attitude(&self, _: f64) -> Option<AttitudeSource> {
-        None
-    }
-
     fn frame(&mut self, time_s: f64) -> Evaluation {
         self.flight.plant().evaluate_without_loads(time_s)
     }
@@ -143,10 +137,6 @@ impl<'f> Simulated<'f> for Ideal<'f> {
 
     fn rows(&mut self, evaluation: &mut Evaluation, applied: ForceTorque) {
         self.flight.plant().write_loads(evaluation, applied);
-    }
-
-    fn is_degenerate(&self, evaluation: &Evaluation) -> bool {
-        evaluation.instant.is_degenerate
     }
 }
 
@@ -161,14 +151,14 @@ impl<'f> Ideal<'f> {
         let bias_body_n_m_s = flight.configuration.momentum.policy.bias_body_n_m_s;
         let momentum_body_n_m_s = bias_body_n_m_s + settings.start_momentum_body_n_m_s;
         flight.models.begin_work(flight.given.work_limit);
-        let frame = flight.plant().instant(time_s).frame;
+        let frame = flight.plant().instant(time_s).law.frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
         let momentum = StartMomentum::Body(momentum_body_n_m_s);
         flight.select_sun_direction(&SunSelectionStart { time_s, totals, momentum, is_first: true })?;
         flight.models.begin_work(flight.given.work_limit);
         let mut plant = flight.plant();
         plant.prepare(time_s, time_s)?;
-        let frame = plant.instant(time_s).frame;
+        let frame = plant.instant(time_s).law.frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
         let mut begun = IdealState::new(time_s, held, totals);
         flight.models.begin_work(flight.given.work_limit);
@@ -210,7 +200,6 @@ impl<'f> Ideal<'f> {
         self.state.maneuvers.last = Some((time_s, executed_m_s));
         let event = ThrusterEvent::Maneuver { time_s, requested_m_s: found_m_s, executed_m_s };
         self.move_center_of_mass(time_s);
-        self.set_mass(time_s);
         (self.flight.given.log)(&event);
         Ok(())
     }
@@ -279,7 +268,7 @@ impl<'f> Ideal<'f> {
             let mass = plant.mass_properties(&instant);
             let Some(given) = self.at_once(time_s).dump(due, &mass.center_of_mass_body_m) else { return };
             dump = given;
-            let inertial_from_body = instant.frame.inertial_from_body;
+            let inertial_from_body = instant.law.frame.inertial_from_body;
             pushed =
                 dump.push_body_n_s.map(|push_body_n_s| inertial_from_body * push_body_n_s / mass.mass_kg);
             self.state.dump_delta_v_inertial_m_s = pushed.unwrap_or_default();
@@ -288,14 +277,11 @@ impl<'f> Ideal<'f> {
         self.state.spacing.dumped(&dump.event);
         if let Some(delta_v_inertial_m_s) = &pushed {
             self.state.integrator.push(delta_v_inertial_m_s);
-            self.set_mass(time_s);
             let configuration = &*self.flight.configuration;
             self.flight.propagator.cut_with_jump(configuration, time_s, delta_v_inertial_m_s);
             self.flight.propagator.sources.cut(time_s);
         }
-        if self.move_center_of_mass(time_s) {
-            self.set_mass(time_s);
-        }
+        self.move_center_of_mass(time_s);
         (self.flight.given.log)(&ThrusterEvent::Dump(dump.event));
     }
 
@@ -305,8 +291,8 @@ impl<'f> Ideal<'f> {
         AtOnce { thrusters, allocator, time_s }
     }
 
-    /// A thruster event is over: the centre of mass is elsewhere, where that is simulated.
-    fn move_center_of_mass(&mut self, time_s: f64) -> bool {
+    /// A thruster event is over: propellant is used, and the centre of mass is elsewhere, where that is simulated.
+    fn move_center_of_mass(&mut self, time_s: f64) {
         let configuration = &self.flight.configuration;
         let events = [self.state.integrator.dumps().count, self.state.maneuvers.count].map(i32::unsigned_abs);
         let number: u64 = events.map(u64::from).iter().sum();
@@ -315,7 +301,7 @@ impl<'f> Ideal<'f> {
             self.flight.propagator.center_of_mass.shift_body_m = shift;
             self.flight.propagator.cut(configuration, time_s);
         }
-        shift.is_some()
+        self.set_mass(time_s);
     }
 
     /// Mass properties of what is left at `time_s`.

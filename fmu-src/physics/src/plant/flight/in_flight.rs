@@ -1,12 +1,10 @@
-//! A flight in one step by its mode: what an attitude that is followed ideally and one by torque answer alike.
+//! A flight in one step by its mode: its evaluation and report, and those of one that waits.
 
+use crate::guidance::DownlinkStatus;
 use crate::loads::ForceTorque;
 use crate::momentum::Totals;
-use crate::numerics::Span;
 use crate::plant::disturbances::evaluation::Evaluation;
-use crate::plant::events::Eventful;
-use crate::plant::settings::attitude_source::{AttitudeSource, Command};
-use crate::plant::settings::error::PlantError;
+use crate::plant::settings::attitude_source::Command;
 use crate::plant::settings::mode_settings::IdealSettings;
 use crate::plant::state::flight_state::EncounterPrediction;
 use crate::plant::state::ideal_state::IdealState;
@@ -15,6 +13,7 @@ use super::configured::ConfiguredFlight;
 use super::dynamic::Dynamic;
 use super::ideal::Ideal;
 use super::report::{FlightSummary, ReachedState, Report};
+use super::simulated::Simulated;
 
 /// The last evaluation, kept in memory because it is large.
 #[derive(Clone, Debug, Default)]
@@ -22,50 +21,6 @@ pub(super) struct Evaluated {
     pub evaluation: Option<Evaluation>,
     /// Load from outside, where the loads are not computed yet.
     pub applied: Option<ForceTorque>,
-}
-
-/// A flight in one step, whatever gives its attitude.
-pub(super) trait Simulated<'f>: Eventful {
-    /// The flight that advances.
-    fn flight(&mut self) -> &mut ConfiguredFlight<'f>;
-
-    /// Sets what follows from the state and is not saved.
-    fn resume(&mut self) {}
-
-    /// Computes the parts of the last sample that only a report needs.
-    fn complete(&mut self) {}
-
-    /// Advances until everything is known at `time_s`.
-    ///
-    /// # Errors
-    /// What ends a flight.
-    fn advance_to(&mut self, time_s: f64) -> Result<(), PlantError> {
-        self.resume();
-        let advanced = self.advance(time_s);
-        self.complete();
-        advanced
-    }
-
-    /// Applies the requests of a step.
-    ///
-    /// # Errors
-    /// What ends a flight.
-    fn apply_requests(&mut self, step: Span) -> Result<(), PlantError>;
-
-    /// Attitude of a fork from `time_s` on; `None`: the flight's own.
-    fn fork_attitude(&self, time_s: f64) -> Option<AttitudeSource>;
-
-    /// Geometry, attitude and mass at `time_s`, where the flight has come; its loads are zero.
-    fn frame(&mut self, time_s: f64) -> Evaluation;
-
-    /// Momentum and velocity change at `time_s`, where the flight has come.
-    fn totals(&mut self, time_s: f64) -> Totals;
-
-    /// Writes force and torque of every row, under this load from outside.
-    fn rows(&mut self, evaluation: &mut Evaluation, applied: ForceTorque);
-
-    /// Whether a substitute stood in for a target of the attitude law on one line with the other, at the last sample where it is sampled.
-    fn is_degenerate(&self, evaluation: &Evaluation) -> bool;
 }
 
 /// A flight in one step.
@@ -113,7 +68,7 @@ impl<'f> InFlight<'f> {
         }
         ReachedState {
             totals_are_finite: simulated.totals(time_s).is_finite(),
-            is_degenerate: simulated.is_degenerate(evaluation),
+            is_degenerate: evaluation.instant.law.degenerate,
         }
     }
 
@@ -134,14 +89,13 @@ impl<'f> InFlight<'f> {
         prediction: Option<EncounterPrediction>,
         time_s: f64,
     ) -> Report<'f> {
-        let instant = &evaluation.instant;
-        let (mut downlink, mut is_degenerate) = (instant.downlink, instant.is_degenerate);
+        let mut downlink = DownlinkStatus::from_attitude(&evaluation.instant.law);
         let is_waiting = matches!(self, Self::Waiting { .. });
         let (summary, flight) = match self {
             Self::Dynamic(mut it) => {
                 let at = it.at(time_s);
                 let Dynamic { state, settings, flight, .. } = it;
-                (downlink, is_degenerate) = (state.control.downlink, state.control.is_degenerate);
+                downlink = state.control.downlink;
                 (FlightSummary::dynamic(state, settings, flight.thrusters, evaluation, at), flight)
             }
             Self::Ideal(Ideal { state, flight, .. }, settings) => {
@@ -172,7 +126,6 @@ impl<'f> InFlight<'f> {
                 false => propagator.trajectory.time_since_periapsis_s(configuration, time_s),
             },
             downlink,
-            is_degenerate,
             timeline_row: slot.map_or(0, |slot| slot.row),
             timeline_until_s: slot.map(|slot| slot.until_s).filter(|until_s| until_s.is_finite()),
             evaluation,

@@ -2,21 +2,18 @@
 //!
 //! Parameters and inputs are no state: a restored flight is configured anew before it advances.
 
-mod configured;
+pub(super) mod configured;
 mod dynamic;
 mod encounter_prediction;
-mod fork;
+pub(super) mod fork;
 mod grid_edge;
 mod ideal;
 mod in_flight;
 mod reached;
+pub(super) mod report;
+mod simulated;
 mod survey;
 
-pub(super) mod downlink_forecast;
-pub(super) mod report;
-
-pub use configured::StepContext;
-pub use fork::ForecastMomentum;
 pub use survey::{Occultation, survey};
 
 use nalgebra::Vector3;
@@ -42,13 +39,14 @@ use crate::plant::state::flight_state::{EncounterPrediction, FlightState, Mode};
 use crate::plant::state::propagator_state::{PropagatorState, SunDirectionSelection};
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::Spacecraft;
-use configured::ConfiguredFlight;
+use configured::{ConfiguredFlight, StepContext};
 use dynamic::Dynamic;
 use encounter_prediction::predict_encounter;
 use ideal::Ideal;
-use in_flight::{Evaluated, InFlight, Simulated as _};
+use in_flight::{Evaluated, InFlight};
 use reached::Reached;
 use report::{ReachedState, Report};
+use simulated::Simulated as _;
 
 /// A flight: its state, and apart from it settings and caches, which are not saved.
 #[derive(Clone, Debug, Deserialize)]

@@ -45,8 +45,6 @@ pub struct Report<'a> {
     pub since_periapsis_s: f64,
     /// Downlink of guidance at this time.
     pub downlink: DownlinkStatus,
-    /// Whether a substitute stands in for a target of the attitude law on one line with the other.
-    pub is_degenerate: bool,
     /// Row of the timeline's command in force, from 1; 0 where none is.
     pub timeline_row: usize,
     /// When the timeline's command ends, or where none is the next one begins, in s; `None`: never.
@@ -176,7 +174,7 @@ impl<'a> FlightSummary<'a> {
         inputs: &DynamicsInputs,
     ) -> Self {
         let Evaluation { instant, loads, mass, .. } = evaluation;
-        let (time_s, frame) = (instant.time_s, &instant.frame);
+        let (time_s, frame) = (instant.time_s, &instant.law.frame);
         let (totals, dumps) = (simulated.integrator.totals(time_s), *simulated.integrator.dumps());
         let attitude = simulated.integrator.attitude(&frame.inertial_from_body, time_s);
         let segment = &simulated.integrator.segment;
@@ -239,7 +237,7 @@ impl<'a> FlightSummary<'a> {
             dump_impulse_body_n_m_s,
             dump_delta_v_inertial_m_s,
             maneuvers: Maneuvers::default(),
-            attitude: Attitude::from_rotation(&evaluation.instant.frame.inertial_from_body)
+            attitude: Attitude::from_rotation(&evaluation.instant.law.frame.inertial_from_body)
                 .continuing(&body.attitude),
             estimate: sensing.estimate_at(time_s),
             sun_sensed_body: sensing.sun_sensed_body,

@@ -9,9 +9,9 @@ use crate::constants::{RADIUS_MOON_M, RADIUS_SUN_M};
 use crate::environment::eclipse::{Shadow, ShadowModel};
 use crate::environment::orbit::BodyEphemeris;
 use crate::plant::disturbances::simulation_context::SimulationContext;
+use crate::plant::instant::at_time::Instant;
+use crate::plant::instant::geometry::{Geometry, SimulationEphemeris};
 use crate::plant::motion::command_slews::CommandSlews;
-use crate::plant::motion::geometry::{Geometry, SimulationEphemeris};
-use crate::plant::motion::instant::Instant;
 use crate::plant::settings::attitude_source::{AttitudeSource, Turning};
 use crate::plant::settings::configuration::{Configuration, EphemerisSource, Motion};
 use crate::plant::state::propagator_state::PropagatorState;
@@ -60,7 +60,7 @@ pub fn survey(
     let mut plant = context.plant(given.prepared, Turning::still(), &mut propagator, given.external);
     for time_s in times_s {
         let instant = plant.instant(time_s);
-        see(plant.path.kinematics.configuration, time_s, &instant);
+        see(plant.path.configuration, time_s, &instant);
     }
 }
 
@@ -78,10 +78,11 @@ pub(super) fn occultation(
     let known = |body: Body| Some(body) != planet && body != configuration.center;
     // An Earth that no input placed stands in the centre.
     let is_placed = geometry.earth_from_center().position_m != Vector3::zeros();
-    let earth = (is_placed && known(Body::Earth)).then(|| {
-        let data = Body::Earth.data();
-        hidden(geometry, &geometry.to_earth.position_m, (data.name, data.radius_m))
-    });
+    let by_body = |body: Body, to_body_m: &Vector3<f64>| {
+        hidden(geometry, to_body_m, (body.data().name, body.data().radius_m))
+    };
+    let earth = Some(Body::Earth).filter(|earth| is_placed && known(*earth));
+    let earth = earth.and_then(|earth| by_body(earth, &geometry.to_earth.position_m));
     let is_given = matches!(configuration.ephemeris, EphemerisSource::Given { .. });
     if configuration.center == Body::Earth && !is_given {
         let moon_m = bodies.moon_from_earth_m(time_s);
@@ -92,16 +93,15 @@ pub(super) fn occultation(
         let apart_rad = angle_between_rad(&moon_m, &sun_m);
         *quiet_until_s = Some(time_s + (apart_rad - margin_rad).max(0.0) / MOON_RATE_RAD_S);
         let found = hidden(geometry, &(moon_m - geometry.spacecraft.position_m), ("the Moon", RADIUS_MOON_M));
-        return found.or(earth.flatten());
+        return found.or(earth);
     }
     *quiet_until_s = Some(time_s + TRANSIT_S);
     let others = Body::ALL.into_iter().filter(|body| *body != Body::Earth && body.is_planet());
     let others = others.filter(|_| matches!(configuration.motion, Motion::NBody { .. }) && !is_given);
     let found = others.filter(|it| known(*it)).find_map(|other| {
-        let to_body_m = bodies.body(other, time_s).position_m - geometry.spacecraft.position_m;
-        hidden(geometry, &to_body_m, (other.data().name, other.data().radius_m))
+        by_body(other, &(bodies.body(other, time_s).position_m - geometry.spacecraft.position_m))
     });
-    found.or(earth.flatten())
+    found.or(earth)
 }
 
 /// Returns what a body there, seen from the spacecraft, with a name and a radius in m hides of the Sun's disc.

@@ -12,10 +12,11 @@ use crate::momentum::{WorkKind, after_event_s};
 use crate::numerics::Span;
 use crate::numerics::adaptive::{AdaptiveInterval, Attempt};
 use crate::numerics::events::first_event;
-use crate::plant::motion::kinematics::Kinematics;
+use crate::plant::instant::kinematics::Kinematics;
 use crate::plant::settings::air_and_field_settings::{
     AirAndFieldSettings, AirSource, FieldSource, PlanetFigure,
 };
+use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
 
 /// Longest segment, in s.
@@ -40,44 +41,49 @@ struct Node {
     field_t: Vector3<f64>,
 }
 
+/// Extends air and field over a span, on an orbit that may have moved since it was fitted; returns up to where they are valid, at most to
+/// its end.
+///
+/// # Errors
+/// Where a model does not reach; work.
+pub(crate) fn extend(
+    kinematics: &mut Kinematics<'_>,
+    span: Span,
+    orbit_has_moved: bool,
+) -> Result<f64, PlantError> {
+    let Configuration { air_and_field, figure, .. } = kinematics.configuration;
+    let Some((settings, figure)) = air_and_field.zip(*figure) else { return Ok(span.end_s) };
+    let AirAndFieldSegment { span: fitted, made_for, .. } = &*kinematics.air_and_field;
+    let is_made = fitted.contains(span.start_s) && *made_for == Some((settings, figure));
+    let mut builder = AirAndFieldBuilder { settings, figure, kinematics };
+    if !is_made || (orbit_has_moved && builder.orbit_differs(span.end_s)) {
+        builder.build(span)?;
+    }
+    Ok(builder.kinematics.air_and_field.span.end_s.min(span.end_s))
+}
+
 /// Builds the segments of a flight about a planet of this figure.
-pub(crate) struct AirAndFieldBuilder<'r, 'a> {
-    pub settings: AirAndFieldSettings,
-    pub figure: PlanetFigure,
-    pub kinematics: &'r mut Kinematics<'a>,
-    /// Whether the orbit may differ from the one on which the segment was fitted.
-    pub orbit_has_moved: bool,
+struct AirAndFieldBuilder<'r, 'a> {
+    settings: AirAndFieldSettings,
+    figure: PlanetFigure,
+    kinematics: &'r mut Kinematics<'a>,
 }
 
 impl AirAndFieldBuilder<'_, '_> {
-    /// Extends air and field over a span; returns up to where they are valid, at most to its end.
-    ///
-    /// # Errors
-    /// Where a model does not reach; work.
-    pub(crate) fn extend(&mut self, segment: &mut AirAndFieldSegment, span: Span) -> Result<f64, PlantError> {
-        let is_made = segment.span.contains(span.start_s);
-        let is_made = is_made && segment.made_for == Some((self.settings, self.figure));
-        if !is_made || (self.orbit_has_moved && self.orbit_differs(segment, span.end_s)) {
-            self.build(segment, span)?;
-        }
-        Ok(segment.span.end_s.min(span.end_s))
-    }
-
     /// Whether the orbit, valid up to `limit_s`, differs from the one on which the segment was fitted.
-    fn orbit_differs(&mut self, segment: &AirAndFieldSegment, limit_s: f64) -> bool {
-        let last_s = segment.span.end_s.min(limit_s);
+    fn orbit_differs(&mut self, limit_s: f64) -> bool {
+        let AirAndFieldSegment { span, position, .. } = &*self.kinematics.air_and_field;
+        let last_s = span.end_s.min(limit_s);
+        let Some(fitted_m) = position.as_ref().map(|it| it.value(last_s)) else { return true };
+        let position_m = self.kinematics.about_planet(last_s).position_m;
+        let off_m = position_m - fitted_m;
+        let radial_m = off_m.dot(&position_m) / position_m.norm();
         let tolerance = self.settings.tolerance;
-        segment.position.as_ref().is_none_or(|fitted| {
-            let position_m = self.kinematics.about_planet(last_s).position_m;
-            let off_m = position_m - fitted.value(last_s);
-            let radial_m = off_m.dot(&position_m) / position_m.norm();
-            radial_m.abs() > tolerance * SCALE_HEIGHT_M || off_m.norm() > tolerance * SCALE_M
-        })
+        radial_m.abs() > tolerance * SCALE_HEIGHT_M || off_m.norm() > tolerance * SCALE_M
     }
 
-    fn build(&mut self, segment: &mut AirAndFieldSegment, span: Span) -> Result<(), PlantError> {
-        let Span { start_s, end_s: limit_s } = span;
-        let longest_s = segment.span.next_longest_s.min(LONGEST_S);
+    fn build(&mut self, Span { start_s, end_s: limit_s }: Span) -> Result<(), PlantError> {
+        let longest_s = self.kinematics.air_and_field.span.next_longest_s.min(LONGEST_S);
         let mut interval = AdaptiveInterval::new(start_s, f64::INFINITY, longest_s, limit_s, SHORTEST_S);
         // Within a segment the equator moves by 1e-3 arcsec.
         let equator =
@@ -94,7 +100,7 @@ impl AirAndFieldBuilder<'_, '_> {
             })
         })?;
         let made_for = Some((self.settings, self.figure));
-        *segment = AirAndFieldSegment { span, made_for, ..series };
+        *self.kinematics.air_and_field = AirAndFieldSegment { span, made_for, ..series };
         Ok(())
     }
 

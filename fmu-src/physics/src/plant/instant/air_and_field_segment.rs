@@ -18,7 +18,7 @@ use crate::math;
 use crate::numerics::Span;
 use crate::numerics::adaptive::SegmentSpan;
 use crate::numerics::chebyshev::Segment;
-use crate::plant::motion::instant::Instant;
+use crate::plant::instant::at_time::Instant;
 use crate::plant::settings::air_and_field_settings::{
     AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure,
 };

@@ -3,8 +3,8 @@
 use super::air_and_field_segment::AirAndField;
 use crate::aerodynamics::AirFlow;
 use crate::loads::ForceTorque;
-use crate::plant::motion::instant::Instant;
-use crate::plant::motion::kinematics::Kinematics;
+use crate::plant::instant::at_time::Instant;
+use crate::plant::instant::kinematics::Kinematics;
 use crate::spacecraft::MassProperties;
 
 /// Everything at one time that sources read.

@@ -54,14 +54,11 @@ impl OsculatingOrbit {
             },
             sun_elevation_rad: math::atan2(momentum.dot(to_sun_m), momentum.cross(to_sun_m).norm()),
         };
-        orbit.is_finite().then_some(orbit)
-    }
-
-    fn is_finite(&self) -> bool {
-        let Self { elements, period_s, periapsis_height_m, apoapsis_height_m, sun_elevation_rad } = self;
+        let Self { period_s, periapsis_height_m, apoapsis_height_m, sun_elevation_rad, .. } = orbit;
         let shape = [elements.semi_major_axis_m, elements.eccentricity, elements.true_anomaly_rad];
         let angles = [elements.inclination_rad, elements.ascending_node_rad, elements.periapsis_argument_rad];
-        let others = [*period_s, *periapsis_height_m, *apoapsis_height_m, *sun_elevation_rad];
-        shape.into_iter().chain(angles).chain(others).all(f64::is_finite)
+        let others = [period_s, periapsis_height_m, apoapsis_height_m, sun_elevation_rad];
+        let is_finite = shape.into_iter().chain(angles).chain(others).all(f64::is_finite);
+        is_finite.then_some(orbit)
     }
 }

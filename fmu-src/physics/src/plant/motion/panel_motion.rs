@@ -17,10 +17,9 @@ use crate::attitude::{Attitude, Gyrostat, GyrostatMotion, HingedMass, InternalMo
 use crate::numerics::quadrature::GAUSS_2;
 use crate::spacecraft::{MassProperties, Panel, hinged_masses, with_panels};
 
-use super::instant::Instant;
-use super::kinematics::Kinematics;
 use super::panel_turns::nearest_turns_rad;
-use crate::plant::settings::panel_setting::SunAt;
+use crate::numerics::scalar::Dual64;
+use crate::plant::settings::panel_setting::{PanelSetting, SunAt};
 
 /// Largest step along the way of a panel, in rad.
 const STEP_RAD: f64 = 0.02;
@@ -32,6 +31,15 @@ const GREATEST_BEND_RAD: f64 = 0.5;
 const ROUNDS: usize = 40;
 /// An attitude that changes by less counts as the same.
 const SAME: f64 = 1e-15;
+
+/// Panels by their laws.
+#[derive(Clone, Copy)]
+pub(crate) struct PanelLaws<'a> {
+    pub settings: &'a [PanelSetting],
+    pub panels: &'a [Panel],
+    /// Mass properties of the whole with every panel at angle 0.
+    pub stowed: &'a MassProperties,
+}
 
 /// One panel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -54,16 +62,14 @@ pub struct PanelMotion {
 }
 
 impl PanelMotion {
-    /// At the start of a flight, where everything is like that.
-    pub(crate) fn at_start(kinematics: &Kinematics<'_>, instant: &Instant) -> Self {
-        let sun = instant.moving_sun();
-        let settings = kinematics.configuration.panels.iter().zip(kinematics.spacecraft.panels);
-        let turns = settings.map(|(setting, panel)| {
-            let [angle_rad, rate_rad_s] = setting.turn_rad(panel, &sun);
+    /// At the start of a flight, where the Sun moves like this.
+    pub(crate) fn at_start(laws: PanelLaws<'_>, sun: &SunAt<Dual64>) -> Self {
+        let turns = laws.settings.iter().zip(laws.panels).map(|(setting, panel)| {
+            let [angle_rad, rate_rad_s] = setting.turn_rad(panel, sun);
             let rate_rad_s = if panel.mass.is_some() { rate_rad_s } else { 0.0 };
             PanelTurn { angle_rad, rate_rad_s, ..PanelTurn::default() }
         });
-        Self { since_s: instant.time_s, turns: turns.collect() }
+        Self { since_s: sun.time_s.re, turns: turns.collect() }
     }
 
     /// Whether a simulation can produce it.
@@ -110,7 +116,7 @@ impl PanelMotion {
     /// gives way: its attitude then, or `None` where all are there already. The body of `motion` has the mass properties there.
     pub(crate) fn track_law(
         &mut self,
-        kinematics: &Kinematics<'_>,
+        laws: PanelLaws<'_>,
         gyrostat: &mut Gyrostat,
         motion: &GyrostatMotion,
         to_sun_m: &Vector3<f64>,
@@ -132,35 +138,32 @@ impl PanelMotion {
             distance_m,
         };
         for _ in 0..ROUNDS {
-            if !self.point_at(kinematics, &sun(&attitude)) {
+            if !self.point_at(laws, &sun(&attitude)) {
                 break;
             }
-            let before =
-                core::mem::replace(&mut attitude, self.body_reaction(kinematics, gyrostat, motion, start));
+            let before = core::mem::replace(&mut attitude, self.body_reaction(laws, gyrostat, motion, start));
             let change = before.0.iter().zip(&attitude.0).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            let by_sun = kinematics.configuration.panels.iter().any(|setting| setting.is_by_sun());
+            let by_sun = laws.settings.iter().any(|setting| setting.is_by_sun());
             if !by_sun || change < SAME {
                 break;
             }
         }
         let moved = self.turns.iter().any(|it| it.travel_rad != 0.0);
-        self.snap_to_law(kinematics, &sun(&attitude));
+        self.snap_to_law(laws, &sun(&attitude));
         moved.then_some(attitude)
     }
 
-    /// From `now` to `end` the panels turn to where their laws have them then.
-    pub(crate) fn turn_until(&mut self, kinematics: &Kinematics<'_>, now: &Instant, end: &Instant) {
+    /// From the `sun` of now to that of the `end` the panels turn to where their laws have them then.
+    pub(crate) fn turn_until(&mut self, laws: PanelLaws<'_>, sun: &SunAt<Dual64>, end: &SunAt) {
         let span_s = end.time_s - self.since_s;
-        let (sun, end_sun) = (now.moving_sun(), end.sun());
-        let settings = kinematics.configuration.panels.iter().zip(kinematics.spacecraft.panels);
-        for (turn, (setting, panel)) in self.turns.iter_mut().zip(settings) {
+        for (turn, (setting, panel)) in self.turns.iter_mut().zip(laws.settings.iter().zip(laws.panels)) {
             (turn.rate_rad_s, turn.acceleration_rad_s2) = (0.0, 0.0);
             if panel.mass.is_none() || span_s <= 0.0 {
                 continue;
             }
-            [_, turn.rate_rad_s] = setting.turn_rad(panel, &sun);
+            [_, turn.rate_rad_s] = setting.turn_rad(panel, sun);
             if setting.is_by_sun() {
-                let to_rad = setting.angle_rad(panel, &end_sun).unwrap_or(0.0);
+                let to_rad = setting.angle_rad(panel, end).unwrap_or(0.0);
                 let travel_rad = shorter_travel_rad(turn.angle_rad, to_rad);
                 let bend_rad = travel_rad - turn.rate_rad_s * span_s;
                 if bend_rad.abs() < GREATEST_BEND_RAD {
@@ -173,9 +176,8 @@ impl PanelMotion {
     }
 
     /// Looks how far each panel has to go; whether one has to at all.
-    fn point_at(&mut self, kinematics: &Kinematics<'_>, sun: &SunAt) -> bool {
-        let settings = kinematics.configuration.panels.iter().zip(kinematics.spacecraft.panels);
-        for (turn, (setting, panel)) in self.turns.iter_mut().zip(settings) {
+    fn point_at(&mut self, laws: PanelLaws<'_>, sun: &SunAt) -> bool {
+        for (turn, (setting, panel)) in self.turns.iter_mut().zip(laws.settings.iter().zip(laws.panels)) {
             let to_rad = setting.angle_rad(panel, sun).unwrap_or(0.0);
             turn.travel_rad =
                 if panel.mass.is_some() { shorter_travel_rad(turn.angle_rad, to_rad) } else { 0.0 };
@@ -184,9 +186,8 @@ impl PanelMotion {
     }
 
     /// All panels stand where their laws have them.
-    fn snap_to_law(&mut self, kinematics: &Kinematics<'_>, sun: &SunAt) {
-        let settings = kinematics.configuration.panels.iter().zip(kinematics.spacecraft.panels);
-        for (turn, (setting, panel)) in self.turns.iter_mut().zip(settings) {
+    fn snap_to_law(&mut self, laws: PanelLaws<'_>, sun: &SunAt) {
+        for (turn, (setting, panel)) in self.turns.iter_mut().zip(laws.settings.iter().zip(laws.panels)) {
             if turn.travel_rad != 0.0 {
                 turn.angle_rad = setting.angle_rad(panel, sun).unwrap_or(0.0);
             }
@@ -196,7 +197,7 @@ impl PanelMotion {
     /// The attitude after all panels went their way at once.
     fn body_reaction(
         &self,
-        kinematics: &Kinematics<'_>,
+        laws: PanelLaws<'_>,
         gyrostat: &mut Gyrostat,
         motion: &GyrostatMotion,
         start: Quaternion,
@@ -204,11 +205,11 @@ impl PanelMotion {
         let longest_rad = self.turns.iter().map(|it| it.travel_rad.abs()).fold(0.0, f64::max);
         let steps = (longest_rad / STEP_RAD).ceil().max(1.0);
         let count = steps as u32;
-        let panels = kinematics.spacecraft.panels;
+        let PanelLaws { panels, stowed, .. } = laws;
         let mut turn_rate_rad = |share: f64| {
             let part = |index: usize| self.turns.get(index).copied().unwrap_or_default();
             let angle_rad = |index: usize| part(index).angle_rad + share * part(index).travel_rad;
-            let mass = with_panels(&kinematics.current_mass_panels_stowed, panels, angle_rad);
+            let mass = with_panels(stowed, panels, angle_rad);
             gyrostat.set_mass_properties(mass.inertia_body_kg_m2, mass.center_of_mass_body_m);
             let masses = hinged_masses(panels, |index| [angle_rad(index), part(index).travel_rad, 0.0]);
             let momentum: Vector3<f64> =

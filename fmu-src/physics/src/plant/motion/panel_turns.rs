@@ -7,8 +7,8 @@ use core::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
-use super::instant::Instant;
-use crate::plant::settings::panel_setting::PanelSetting;
+use crate::numerics::scalar::Dual64;
+use crate::plant::settings::panel_setting::{PanelSetting, SunAt};
 use crate::spacecraft::Panel;
 
 /// Angles of all panels where the present segment began; empty before the first one.
@@ -25,21 +25,20 @@ impl PanelTurns {
         self.turns.clear();
     }
 
-    /// A segment begins at `instant`.
-    pub(crate) fn begin(&mut self, settings: &[PanelSetting], panels: &[Panel], instant: &Instant) {
-        let sun = instant.moving_sun();
+    /// A segment begins where the Sun moves like this.
+    pub(crate) fn begin(&mut self, settings: &[PanelSetting], panels: &[Panel], sun: &SunAt<Dual64>) {
         if self.turns.len() != panels.len() {
             self.turns.clear();
         }
         for (index, (setting, panel)) in settings.iter().zip(panels).enumerate() {
-            let [angle_rad, rate_rad_s] = setting.turn_rad(panel, &sun);
-            let begun = [self.continued_rad(index, angle_rad, instant.time_s), rate_rad_s];
+            let [angle_rad, rate_rad_s] = setting.turn_rad(panel, sun);
+            let begun = [self.continued_rad(index, angle_rad, sun.time_s.re), rate_rad_s];
             match self.turns.get_mut(index) {
                 Some(turn) => *turn = begun,
                 None => self.turns.push(begun),
             }
         }
-        self.since_s = instant.time_s;
+        self.since_s = sun.time_s.re;
     }
 
     /// The angle of panel `index` that is `angle_rad` but for whole turns, at `time_s` within the present segment, in rad.

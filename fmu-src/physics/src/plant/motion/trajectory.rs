@@ -13,7 +13,6 @@ use crate::numerics::Span;
 use crate::numerics::spacing::spacing;
 
 use super::approaches::ClosestApproaches;
-use super::geometry::SimulationEphemeris;
 use super::periapses::Periapses;
 use crate::plant::settings::configuration::{Configuration, Encounter, Motion};
 
@@ -42,13 +41,6 @@ pub struct Trajectory {
 struct Coast {
     since_s: f64,
     orbit: TwoBodyOrbit,
-}
-
-impl Coast {
-    /// Whether a simulation can produce it.
-    fn is_valid(&self) -> bool {
-        self.orbit.is_valid() && self.orbit.period_s() > SHORTEST_PERIOD_S && self.since_s.abs() < LATEST_S
-    }
 }
 
 /// Position and velocity where no orbit is integrated.
@@ -90,7 +82,9 @@ impl Trajectory {
     /// Whether a simulation can produce it.
     pub fn is_valid(&self) -> bool {
         self.orbit.as_ref().is_none_or(DisturbedOrbit::is_valid)
-            && self.coast.as_ref().is_none_or(|coast| coast.is_valid())
+            && self.coast.as_ref().is_none_or(|Coast { orbit, since_s }| {
+                orbit.is_valid() && orbit.period_s() > SHORTEST_PERIOD_S && since_s.abs() < LATEST_S
+            })
             && self.periapses.is_valid()
             && self.approaches.is_valid()
     }
@@ -229,11 +223,9 @@ impl Trajectory {
         span: Span,
         extra_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
     ) -> Result<(), OrbitIntegrationError> {
-        let Some(orbit) = self.orbit.as_ref().filter(|_| configuration.motion.has_nongravitational_forces())
-        else {
-            return Ok(());
-        };
-        let Some(gravity) = configuration.motion.gravity() else { return Ok(()) };
+        let gravity =
+            configuration.motion.gravity().filter(|_| configuration.motion.has_nongravitational_forces());
+        let Some((orbit, gravity)) = self.orbit.as_ref().zip(gravity) else { return Ok(()) };
         if !orbit.is_deviated() {
             if extra_m_s2.is_none() {
                 return Ok(());
@@ -307,12 +299,12 @@ impl Trajectory {
     /// See [`OrbitIntegrationError`].
     pub(crate) fn advance(
         &mut self,
-        bodies: &mut SimulationEphemeris<'_>,
+        configuration: &Configuration,
+        bodies: &mut impl BodyEphemeris,
         method: &OrbitMethod,
         limit_s: f64,
         extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
     ) -> Result<u32, OrbitIntegrationError> {
-        let configuration = bodies.configuration;
         let Some(mut orbit) = self.orbit else { return Ok(0) };
         let shortened = match &configuration.motion {
             Motion::Disturbed { gravity, .. } => {

@@ -20,7 +20,7 @@ use self::sunlight::radiation_solver::RadiationSolver;
 use crate::loads::{Effect, Linear, Loads};
 use crate::numerics::Span;
 use crate::plant::instant::conditions::Conditions;
-use crate::plant::instant::path_ahead::PathAhead;
+use crate::plant::instant::kinematics::Kinematics;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
 use crate::spacecraft::{Material, Spacecraft};
@@ -70,11 +70,11 @@ macro_rules! sources {
             pub(crate) fn extend(
                 &mut self,
                 states: &mut SourceStates,
-                path: &mut PathAhead<'_>,
+                path: &mut Kinematics<'_>,
                 span: Span,
             ) -> Result<f64, PlantError> {
                 let mut until_s = span.end_s;
-                $(if path.kinematics.configuration.effects.has_any(<$source as Source>::ROWS) {
+                $(if path.configuration.effects.has_any(<$source as Source>::ROWS) {
                     <$source as Source>::apply_events(&mut states.$name, span.start_s);
                     until_s = until_s.min(self.$name.extend(&mut states.$name, path, span)?);
                     until_s = until_s.min(<$source as Source>::next_event_s(&states.$name, span.start_s));

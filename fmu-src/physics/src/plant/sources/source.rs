@@ -3,7 +3,7 @@
 use crate::loads::{Effect, Linear, Loads, Writer};
 use crate::numerics::Span;
 use crate::plant::instant::conditions::Conditions;
-use crate::plant::instant::path_ahead::PathAhead;
+use crate::plant::instant::kinematics::Kinematics;
 use crate::plant::settings::error::PlantError;
 use crate::spacecraft::{Material, Spacecraft};
 
@@ -34,7 +34,7 @@ pub(crate) trait Source {
     fn extend(
         &mut self,
         _state: &mut Self::State,
-        _path: &mut PathAhead<'_>,
+        _path: &mut Kinematics<'_>,
         span: Span,
     ) -> Result<f64, PlantError> {
         Ok(span.end_s)

@@ -14,8 +14,7 @@ use super::radiation_node::RadiationNode;
 use super::radiation_segment::{HOTTEST_K, LoadSeries, NODES, RadiationSegment};
 use super::radiation_solver::RadiationSolver;
 use crate::momentum::WorkKind;
-use crate::plant::instant::path_ahead::PathAhead;
-use crate::plant::motion::kinematics::Kinematics;
+use crate::plant::instant::kinematics::Kinematics;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
 
@@ -31,7 +30,7 @@ const SHORTEST_TURN_RAD: f64 = 0.1;
 /// Builds the radiation segments of a flight with its solver along a path.
 pub(crate) struct RadiationBuilder<'r, 'a> {
     pub solver: &'r mut RadiationSolver,
-    pub path: &'r mut PathAhead<'a>,
+    pub path: &'r mut Kinematics<'a>,
 }
 
 /// Turns everything at `time_s` into the body frame for `node`, whose light falls on these panels.
@@ -75,7 +74,7 @@ impl RadiationBuilder<'_, '_> {
     /// the branch changes, or where the last Chebyshev terms would exceed the tolerance.
     fn build(&mut self, segment: &mut RadiationSegment, span: Span) -> Result<(), PlantError> {
         let Span { start_s, end_s: limit_s } = span;
-        let effects = self.path.kinematics.configuration.light_and_heat;
+        let effects = self.path.configuration.light_and_heat;
         let stores = self.stores_heat();
         if stores {
             self.store_heat(segment, start_s)?;
@@ -83,25 +82,25 @@ impl RadiationBuilder<'_, '_> {
             segment.end_k.clear();
         }
         // Written so that a NaN from restored bytes is the shortest.
-        let rate_rad_s = self.path.kinematics.instant(start_s).frame.rate_body_rad_s.norm();
+        let rate_rad_s = self.path.instant(start_s).law.frame.rate_body_rad_s.norm();
         let shortest_s = SHORTEST_S.min(SHORTEST_TURN_RAD / rate_rad_s);
         let longest_s = segment.span.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s).max(shortest_s);
         let mut interval = AdaptiveInterval::new(start_s, effects.grid_s, longest_s, limit_s, shortest_s);
-        interval.end_at(self.path.kinematics.smooth_until(start_s, interval.end_s()));
+        interval.end_at(self.path.smooth_until(start_s, interval.end_s()));
         let (series, span) = interval.fit(NODES, |interval| {
             let units = self.solver.segment_units(stores);
-            self.path.kinematics.spend_units(WorkKind::Light, units, start_s)?;
+            self.path.spend_units(WorkKind::Light, units, start_s)?;
             let lit = self.light_between(stores, &segment.end_k, Span::new(start_s, interval.end_s()));
             let shadows: usize = self.solver.nodes.iter().map(|node| node.workspace.shadows_cut()).sum();
             let shadow_units = u32::try_from(shadows).unwrap_or(u32::MAX);
-            self.path.kinematics.spend_units(WorkKind::Light, shadow_units, start_s)?;
+            self.path.spend_units(WorkKind::Light, shadow_units, start_s)?;
             Ok(match lit {
                 Ok(fit) => {
                     let unresolved = unresolved(&fit, effects.shadowing);
                     Attempt::Fitted { fit, unresolved, tolerance: effects.tolerance }
                 }
                 // The flight may be over before it comes to where light has no meaning.
-                Err(error) => Attempt::Undefined(no_light(&self.path.kinematics, start_s, error)),
+                Err(error) => Attempt::Undefined(no_light(&self.path, start_s, error)),
             })
         })?;
         (segment.span, segment.made_for, segment.loads) = (span, self.path.digest, series);
@@ -147,7 +146,7 @@ impl RadiationBuilder<'_, '_> {
         let RadiationSolver { model, panels, nodes, heat_rule } = &mut *self.solver;
         let Span { start_s, end_s } = span;
         for (node, time_s) in nodes.iter_mut().zip(LoadSeries::nodes(start_s, end_s)) {
-            view(&mut self.path.kinematics, time_s, panels, node);
+            view(&mut self.path, time_s, panels, node);
             node.balance(model)?;
         }
         if stores {
@@ -159,7 +158,7 @@ impl RadiationBuilder<'_, '_> {
             nodes.iter_mut().for_each(RadiationNode::store_balance);
         }
         let mut series = ByEffect::default();
-        for effect in self.path.kinematics.configuration.effects.light() {
+        for effect in self.path.configuration.effects.light() {
             let sample = |j: usize| {
                 let ForceTorque { force_body_n, torque_body_n_m } = &nodes[j].found[effect];
                 SVector::from_iterator(force_body_n.iter().chain(torque_body_n_m).copied())
@@ -180,13 +179,13 @@ impl RadiationBuilder<'_, '_> {
         time_s: f64,
         mut report: impl FnMut(f64, Vector3<f64>),
     ) -> Result<(), PlantError> {
-        let Configuration { light, effects, .. } = self.path.kinematics.configuration;
+        let Configuration { light, effects, .. } = self.path.configuration;
         self.balance(time_s, light.scale)?;
         let stores = self.stores_heat();
         let RadiationSolver { model, nodes, .. } = &mut *self.solver;
         if let Some(segment) = segment.filter(|_| stores) {
             segment.temperatures_at(time_s, &mut nodes[0].temperatures_k);
-            nodes[0].radiate_stored(model).map_err(|error| no_light(&self.path.kinematics, time_s, error))?;
+            nodes[0].radiate_stored(model).map_err(|error| no_light(&self.path, time_s, error))?;
         }
         for face in nodes[0].workspace.faces() {
             report(face.temperature_k, face.force_body_n(*effects));
@@ -197,20 +196,20 @@ impl RadiationBuilder<'_, '_> {
     /// Light and heat at one time in the first of the nodes, every surface in balance; `solar_scale` is the factor of sunlight's force.
     fn balance(&mut self, time_s: f64, solar_scale: f64) -> Result<(), PlantError> {
         let RadiationSolver { model, panels, nodes, .. } = &mut *self.solver;
-        view(&mut self.path.kinematics, time_s, panels, &mut nodes[0]);
+        view(&mut self.path, time_s, panels, &mut nodes[0]);
         nodes[0].viewing.solar_scale = solar_scale;
-        nodes[0].balance(model).map_err(|error| no_light(&self.path.kinematics, time_s, error))
+        nodes[0].balance(model).map_err(|error| no_light(&self.path, time_s, error))
     }
 
     /// Whether surfaces store heat.
     fn stores_heat(&self) -> bool {
-        let Configuration { light_and_heat, effects, .. } = self.path.kinematics.configuration;
+        let Configuration { light_and_heat, effects, .. } = self.path.configuration;
         light_and_heat.storage && effects.has(Effect::Thermal) && self.solver.model.stores_heat()
     }
 
     /// Whether air meets the surfaces at the temperatures that light gives them.
     fn needs_wall_temperatures(&self) -> bool {
-        let effects = self.path.kinematics.configuration.effects;
+        let effects = self.path.configuration.effects;
         effects.has(Effect::Aerodynamic) && effects.has(Effect::Thermal)
     }
 }

@@ -15,9 +15,9 @@ use self::sunlit::SunlitConfiguration;
 use super::source::{Results, Source};
 use crate::loads::Effect;
 use crate::numerics::Span;
+use crate::plant::instant::at_time::Instant;
 use crate::plant::instant::conditions::Conditions;
-use crate::plant::instant::path_ahead::PathAhead;
-use crate::plant::motion::instant::Instant;
+use crate::plant::instant::kinematics::Kinematics;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
 use crate::radiation::Beam;
@@ -71,11 +71,11 @@ impl Source for Option<RadiationSolver> {
     fn extend(
         &mut self,
         state: &mut Option<RadiationSegment>,
-        path: &mut PathAhead<'_>,
+        path: &mut Kinematics<'_>,
         span: Span,
     ) -> Result<f64, PlantError> {
         match self {
-            Some(solver) if path.kinematics.configuration.has_light_and_heat() => {
+            Some(solver) if path.configuration.has_light_and_heat() => {
                 RadiationBuilder { solver, path }.extend(state.get_or_insert_default(), span)
             }
             _ => Ok(span.end_s),

@@ -1,0 +1,236 @@
+//! `heliotorque run`: runs an FMU or a system in a process of its own, records, writes, draws.
+
+mod child;
+pub mod options;
+mod settings;
+mod simulated;
+mod subject;
+mod visits;
+
+use std::{
+    error::Error,
+    fs::File,
+    io,
+    path::{Path, PathBuf},
+    process::ExitCode,
+    time::Instant,
+};
+
+pub use child::{RunInChild, run as run_in_child};
+pub(crate) use child::{push_row, take_row};
+use files::{Destination, Scratch, outcome::Outcome};
+use fmi::{Collector, Ended, RecordedPoints, Times};
+use inputs::{epoch, variables};
+use isolation::{Bounds, interrupt::INTERRUPTED};
+pub use options::Run;
+use packing::{carried, pointing};
+pub use settings::Settings;
+pub use simulated::{Simulated, assemble_into};
+pub use subject::Subject;
+use tables::output::{self, Known, LimitChecks, Origin, Outputs, VisitTable};
+
+/// Warnings of an FMU that are shown without `--log`.
+const MOST_WARNINGS: usize = 20;
+
+/// Why a run ends before its stop.
+const LOST_READER: &str = "nobody reads the standard output any more";
+
+/// A run of which everything was accepted that can be refused without the FMU's library.
+pub struct Prepared {
+    /// The arguments and the mission.
+    pub simulated: Simulated,
+    /// What is run.
+    pub subject: Subject,
+    /// What they mean.
+    pub settings: Settings,
+    /// Points that will be recorded.
+    pub points: u64,
+    outputs: Outputs,
+    /// File of the visits.
+    visits: Option<Destination>,
+    /// What the standard input held, for parent and child.
+    input_copy: Option<PathBuf>,
+    // The packed FMU of a mission and the copy, as long as they are in use.
+    _scratch: [Option<Scratch>; 2],
+}
+
+impl Prepared {
+    /// Opens the FMU and every output.
+    ///
+    /// # Errors
+    /// Whatever is refused, by the flag or the mission's line.
+    pub fn of(arguments: &Run) -> Result<Self, Box<dyn Error>> {
+        if let Some(path) = &arguments.plot {
+            inputs::svg_path::check_svg_path(path, "--plot")?;
+        }
+        let simulated = Simulated::of(arguments)?;
+        let (subject, packed) = simulated.open()?;
+        subject.check_options(&simulated.run)?;
+        let copied =
+            copied_input(&simulated.run).map_err(|error| format!("standard input: {error}: see --input"))?;
+        let (copy, input_copy) = copied.unzip();
+        let settings = Settings::of(&subject, &simulated, input_copy.as_deref())?;
+        subject.check_libraries()?;
+        let described = subject.description();
+        let known = Known::of(&subject.parts(), described, &settings.sets, &settings.limits)
+            .dated(epoch::zero_epoch_s(described, &settings.sets, settings.times.start_s));
+        let collector = Collector::new(described, &settings.positions);
+        let origin = Origin {
+            file: arguments.fmu.clone(),
+            fmus: subject.fmus().into_iter().map(|(prefix, fmu)| (prefix, fmu.description())).collect(),
+            described,
+            times: settings.times,
+            sets: &settings.sets,
+            input: simulated.run.input.clone(),
+        };
+        let reads = simulated.reads();
+        let has_visits = carried::timeline::names(&subject.folder()).is_some_and(|names| !names.is_empty());
+        let table = settings.requested.table.as_ref().filter(|_| has_visits);
+        let visits = table.map(|table| output::open_visits(table, &reads)).transpose()?.flatten();
+        let outputs = Outputs::open(&settings.requested, collector.recording(), &known, (&origin, &reads))?;
+        let points = RecordedPoints::new(&settings.times, simulated.run.every)?.count();
+        collector.fits(points)?;
+        let _scratch = [packed, copy];
+        Ok(Self { simulated, subject, settings, points, outputs, visits, input_copy, _scratch })
+    }
+}
+
+/// A file with what the standard input holds, in a folder that goes with it, where `--input -` says so.
+fn copied_input(arguments: &Run) -> io::Result<Option<(Scratch, PathBuf)>> {
+    if arguments.input.as_deref() != Some(Path::new("-")) {
+        return Ok(None);
+    }
+    let scratch = Scratch::new()?;
+    let path = scratch.path().join("input.csv");
+    io::copy(&mut io::stdin().lock(), &mut File::create_new(&path)?)?;
+    Ok(Some((scratch, path)))
+}
+
+/// A warning where the step is longer than the run.
+pub fn long_step(times: &Times) -> Option<String> {
+    let Times { start_s, stop_s, step_s } = *times;
+    let [run, step] = [stop_s - start_s, step_s].map(terminal::short);
+    (step_s > stop_s - start_s).then(|| {
+        format!(
+            "the step of {step} s is longer than the run of {run} s, which is one step: see --step and --stop"
+        )
+    })
+}
+
+/// Runs in a child process.
+pub fn run(arguments: &Run) -> Outcome {
+    let prepared = Prepared::of(arguments)?;
+    let Prepared { simulated, subject, settings, points, mut outputs, visits, input_copy, _scratch } =
+        prepared;
+    let arguments = &simulated.run;
+    let described = subject.description();
+    let mut warnings = carried::timeline::warnings(described, &settings.sets, &subject.parts());
+    warnings.extend(variables::repeated("--set", &arguments.set));
+    warnings.extend(long_step(&settings.times));
+    warnings.extend(subject.unread(&settings.sets));
+    warnings.extend(settings.inputs.iter().flat_map(|it| it.warnings(described, &settings.times)));
+    let zero_epoch_s = simulated.zero_epoch_s(settings.times.start_s);
+    let every_s = arguments.every.unwrap_or(settings.times.step_s);
+    warnings.extend(pointing::sparse_rows(described, &settings.sets, &settings.times, every_s));
+    let Settings { times, positions, limits, requested, .. } = settings;
+    if !arguments.quiet {
+        warnings.iter().for_each(|warning| terminal::note(&format!("warning: {warning}")));
+    }
+    let has_limits = !limits.is_empty();
+    let mut checks = LimitChecks::new(limits);
+    let mut collector = Collector::new(described, &positions);
+    let child = child::start(&subject, input_copy.as_deref())
+        .map_err(|error| format!("the process of the FMU cannot be started: {error}"))?;
+    let bounds = Bounds { call_s: arguments.timeout, ..Bounds::default() };
+
+    let progress = terminal::progress((times.stop_s - times.start_s) as u64, "s", arguments.quiet);
+    let began = Instant::now();
+    let result = child::simulate(child, &subject, (bounds, points), &mut collector, |recording, time_s| {
+        if let Some(time_s) = time_s {
+            progress.set_position((time_s - times.start_s).max(0.0) as u64);
+        }
+        checks.update(recording);
+        outputs.update(recording)?;
+        if outputs.has_lost_reader() { Err(LOST_READER.to_owned()) } else { Ok(()) }
+    });
+    let elapsed = began.elapsed();
+    progress.finish_and_clear();
+
+    let recording = collector.recording();
+    checks.update(recording);
+    let logged = fmi::warnings(&result.messages);
+    if !arguments.quiet && !arguments.log {
+        logged.iter().take(MOST_WARNINGS).for_each(|text| terminal::note(&format!("warning: {text}")));
+        if let Some(more) = logged.len().checked_sub(MOST_WARNINGS).filter(|more| *more > 0) {
+            terminal::note(&format!("warning: {more} more: see --log"));
+        }
+    }
+    if arguments.log {
+        result.messages.iter().for_each(|it| terminal::note(&format!("{} {it}", it.status)));
+    }
+    let last_s = recording.times_s.last().copied().unwrap_or(times.start_s);
+    let last = terminal::short(last_s);
+    if outputs.has_lost_reader() {
+        // Nobody is there for the rest; what is drawn and checked at the end is not, and that is no success.
+        return if requested.plots.is_empty() && !has_limits {
+            Ok(ExitCode::SUCCESS)
+        } else {
+            Err(format!("{LOST_READER}: the run ends at {last} s, without pictures and limits").into())
+        };
+    }
+    let rows = recording.times_s.len();
+    let so_far = |kept: Vec<PathBuf>| -> String {
+        kept.iter().map(|path| format!("\n{rows} rows so far: {}", path.display())).collect()
+    };
+    let ended = match result.outcome {
+        Ok(ended) => ended,
+        Err(error) => {
+            // What was simulated until then is worth keeping.
+            return Err(format!("{error}{}", so_far(outputs.leave(described, recording))).into());
+        }
+    };
+    // Part of a recording does not replace a complete one.
+    let kept = match ended {
+        Ended::Cancelled => outputs.stop(described, recording)?,
+        _ => outputs.finish(described, recording).map(|()| Vec::new())?,
+    };
+    if !result.visits.is_empty() {
+        let names = carried::timeline::names(&subject.folder()).unwrap_or_default();
+        let table = VisitTable { visits: &result.visits, names: &names, zero_epoch_s };
+        if !arguments.quiet {
+            terminal::note(&table.shown());
+        }
+        if let Some(file) = visits {
+            let path = file.path().display().to_string();
+            file.fill(|out| table.write(out))?;
+            if !arguments.quiet {
+                terminal::note(&format!("wrote {path}"));
+            }
+        }
+    }
+    if !arguments.quiet {
+        let steps = ((last_s - times.start_s) / times.step_s).ceil();
+        terminal::note(&format!("{steps} steps to {last} s in {:.3} s", elapsed.as_secs_f64()));
+    }
+    if !arguments.quiet || !checks.is_kept() {
+        let lines = checks.report(described, zero_epoch_s);
+        lines.iter().for_each(|line| terminal::note(line));
+    }
+    match ended {
+        Ended::AtStop => {}
+        Ended::ByItself => terminal::note(&format!("{} ended by itself at {last} s", subject.name())),
+        Ended::Cancelled => {
+            let kept = so_far(kept);
+            terminal::note(&format!(
+                "interrupted at {last} s; what was recorded until then is written{kept}"
+            ));
+            return Ok(ExitCode::from(INTERRUPTED));
+        }
+    }
+    match result.fault {
+        // The recording is complete, the FMU is not what it should be.
+        Some(fault) => Err(fault.into()),
+        None if !checks.is_kept() => Ok(ExitCode::FAILURE),
+        None => Ok(ExitCode::SUCCESS),
+    }
+}

@@ -1,0 +1,94 @@
+//! Ephemeris of bodies over a span, from a flight or from kernels, as the text of its file.
+
+use std::path::PathBuf;
+
+use isolation::interrupt;
+use packing::carried::ephemeris::{FILE, table};
+use physics::{
+    environment::onboard::{OnboardEphemeris, OnboardTarget, to_toml},
+    numerics::Span,
+};
+
+use super::{
+    Failure, Requested, Source, coarse,
+    flight::RepeatableSimulation,
+    precise,
+    shown::Shown,
+    spk::{Center, Kernels},
+};
+
+/// Request of `heliotorque ephemeris`.
+#[derive(Clone, Debug)]
+pub struct EphemerisRequest {
+    /// FMU that is simulated where there are no kernels.
+    pub fmu: PathBuf,
+    /// Start values of that FMU.
+    pub set: Vec<String>,
+    /// SPK kernels.
+    pub kernels: Vec<PathBuf>,
+    /// Centre of positions in kernels.
+    pub center: Option<Center>,
+    /// NAIF id of the spacecraft in kernels.
+    pub spacecraft: Option<i32>,
+    /// Bodies that are fitted.
+    pub targets: Vec<OnboardTarget>,
+    /// First and last epoch, in s past J2000 TDB.
+    pub span_s: [f64; 2],
+    /// Last epoch of coarse models, where they are requested.
+    pub coarse_until_s: Option<f64>,
+    /// Length of a segment, in s.
+    pub segment_s: Option<f64>,
+    /// Degree of the polynomials.
+    pub degree: Option<usize>,
+    /// Error of position that is allowed, in m.
+    pub tolerance_m: f64,
+    /// Whether no progress is shown.
+    pub is_quiet: bool,
+}
+
+/// Text of the file and a table of its contents; `None` after Ctrl-C.
+///
+/// # Errors
+/// States that the source does not have, and fits beyond the tolerance.
+pub fn fit(request: &EphemerisRequest) -> Result<Option<(String, String)>, Failure> {
+    let [start_s, stop_s] = request.span_s;
+    let source = Shown { source: source(request)?, is_quiet: request.is_quiet };
+    let mut made = OnboardEphemeris { source: Some(source.title()), ..OnboardEphemeris::default() };
+    let requested = Requested {
+        span: Span::new(start_s, stop_s),
+        segment_s: request.segment_s,
+        degree: request.degree,
+        tolerance_m: request.tolerance_m,
+    };
+    for target in &request.targets {
+        made.precise.push(precise(&source, *target, &requested)?);
+        if interrupt::raised() {
+            return Ok(None);
+        }
+    }
+    if let Some(until_s) = request.coarse_until_s {
+        made.coarse = coarse(&source, &request.targets, Span::new(start_s, until_s))?;
+    }
+    let text = terminal::unsigned_zeros(&to_toml(&made)).into_owned();
+    // What a spacecraft will read is what was made.
+    if OnboardEphemeris::from_toml(FILE, &text).map_err(|error| error.to_string())? != made {
+        return Err("the file does not read back as it was made".into());
+    }
+    let table = table(&made, text.len());
+    Ok(Some((text, table)))
+}
+
+/// Source of the states: kernels if there are any, otherwise a flight.
+fn source(request: &EphemerisRequest) -> Result<Box<dyn Source>, Failure> {
+    let [start_s, stop_s] = request.span_s;
+    if request.kernels.is_empty() {
+        return Ok(Box::new(RepeatableSimulation::open(&request.fmu, &request.set, start_s)?));
+    }
+    let mut targets = request.targets.clone();
+    if request.coarse_until_s.is_some() {
+        targets.extend([OnboardTarget::Sun, OnboardTarget::Earth]);
+    }
+    let span_s = [start_s, request.coarse_until_s.unwrap_or(stop_s)];
+    let kernels = Kernels::open(&request.kernels, request.center, request.spacecraft, &targets, span_s)?;
+    Ok(Box::new(kernels))
+}

@@ -1,0 +1,117 @@
+//! The files of a map: picture, torque by direction, lines of zero torque.
+
+use std::path::{Path, PathBuf};
+
+use files::Destination;
+use fmi::csv::Real;
+use inputs::svg_path::check_svg_path;
+
+use super::{found::Found, options::Map, picture, spacecraft::MappedSpacecraft};
+use crate::torque_map::{Angles, direction};
+
+/// What names the files.
+const OPTIONS: [&str; 3] = ["--output", "--csv", "--lines"];
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Where everything goes: picture, torque, lines.
+pub(super) struct Outputs([Option<(Destination, PathBuf)>; 3]);
+
+/// What was written.
+pub(super) struct Written {
+    pub takes_stdout: bool,
+    pub files: Vec<String>,
+}
+
+impl Outputs {
+    /// Looks at every file before anything is computed.
+    pub(super) fn open(arguments: &Map) -> Result<Self, String> {
+        let inputs: Vec<&Path> =
+            [arguments.spacecraft.as_path()].into_iter().chain(arguments.mission.as_deref()).collect();
+        let picture = (!arguments.no_picture).then(|| picture_path(arguments));
+        if let Some(path) = &picture {
+            check_svg_path(path, OPTIONS[0])?;
+        }
+        let mut opened = [None, None, None];
+        let paths = [picture, arguments.csv.clone(), arguments.lines.clone()];
+        for (k, path) in paths.into_iter().enumerate() {
+            let Some(path) = path else { continue };
+            opened[k] = Some((Destination::open(&path, OPTIONS[k], &inputs)?, path));
+        }
+        let named: Vec<_> =
+            opened.iter().zip(OPTIONS).filter_map(|(it, option)| Some((&it.as_ref()?.0, option))).collect();
+        for (k, (one, option)) in named.iter().enumerate() {
+            if let Some((_, other)) = named[k + 1..].iter().find(|(other, _)| one.is_same(other)) {
+                return Err(format!("one file cannot take both: see {option} and {other}"));
+            }
+        }
+        Ok(Self(opened))
+    }
+
+    /// Writes all of them.
+    pub(super) fn write(self, spacecraft: &MappedSpacecraft, found: &Found) -> Result<Written, String> {
+        let mut written = Written { takes_stdout: false, files: Vec::new() };
+        let contents: [&dyn Fn() -> String; 3] =
+            [&|| picture::svg(spacecraft, found), &|| torque(spacecraft, found), &|| lines(found)];
+        for (opened, content) in self.0.into_iter().zip(contents) {
+            let Some((destination, path)) = opened else { continue };
+            match destination.is_stdout() {
+                true => written.takes_stdout = true,
+                false => written.files.push(path.display().to_string()),
+            }
+            destination.fill(|file| file.write_all(content().as_bytes()))?;
+        }
+        Ok(written)
+    }
+}
+
+fn picture_path(arguments: &Map) -> PathBuf {
+    arguments.output.clone().unwrap_or_else(|| {
+        let stem = arguments.spacecraft.file_stem().unwrap_or_default().to_string_lossy();
+        PathBuf::from(format!("{stem}-map.svg"))
+    })
+}
+
+/// A row for each direction; 180 deg of azimuth is -180 deg.
+fn torque(spacecraft: &MappedSpacecraft, found: &Found) -> String {
+    let mut text = "sun_azimuth_deg,sun_elevation_deg".to_owned();
+    for (what, unit) in [("torque", "n_m"), ("force", "n")] {
+        text.extend(AXES.map(|axis| format!(",{what}_{axis}_{unit}")));
+    }
+    text.extend((1..=spacecraft.lit.panels.len()).map(|number| format!(",panel_{number}_angle_deg")));
+    text.push('\n');
+    for (place_deg, load) in found.sphere.grid.nodes().filter(|(place_deg, _)| place_deg[0] < 180.0) {
+        let sun = direction(place_deg);
+        let loads = load.torque_n_m.iter().chain(load.force_n.iter()).copied();
+        let angles_deg = spacecraft.lit.panels.iter().map(|turned| turned.angle_rad(&sun).to_degrees());
+        let cells: Vec<String> = place_deg
+            .into_iter()
+            .chain(loads)
+            .chain(angles_deg)
+            .map(|value| Real(value).to_string())
+            .collect();
+        text.push_str(&cells.join(","));
+        text.push('\n');
+    }
+    text
+}
+
+/// A row for each place of each line and for each balance, of all directions and of the zone.
+fn lines(found: &Found) -> String {
+    let mut text = "region,axis,line,sun_azimuth_deg,sun_elevation_deg\n".to_owned();
+    let mut row = |region: &str, axis: &str, line: usize, [azimuth_deg, elevation_deg]: Angles| {
+        let (azimuth, elevation) = (Real(azimuth_deg), Real(elevation_deg));
+        text.push_str(&format!("{region},{axis},{line},{azimuth},{elevation}\n"));
+    };
+    let zone = found.zone.iter().map(|zone| ("zone", zone));
+    for (region, mapped) in core::iter::once(("all", &found.sphere)).chain(zone) {
+        for (lines, axis) in mapped.lines.iter().zip(AXES) {
+            for (index, line) in lines.iter().enumerate() {
+                line.places_deg.iter().for_each(|place_deg| row(region, axis, index + 1, *place_deg));
+            }
+        }
+        for (index, balance) in mapped.balances.iter().enumerate() {
+            row(region, "xz", index + 1, balance.place_deg);
+        }
+    }
+    text
+}

@@ -1,0 +1,90 @@
+//! The files of a plan, and those of a planned burn.
+
+use std::{
+    error::Error,
+    path::{Path, PathBuf},
+};
+
+use ::files::{Destination, OutputFolder};
+
+use super::picture;
+use crate::spin::{PlannedBurn, start_table};
+
+const OPTION: &str = "--output";
+
+/// Writes `burn.csv`, `burn.json`, `start.toml` and `burn.svg` into the folder, which is created if missing; gives their
+/// paths.
+///
+/// # Errors
+/// A file that cannot be written, or that is the spacecraft's.
+pub fn write(
+    folder: &Path,
+    spacecraft: Option<&Path>,
+    burn: &PlannedBurn,
+) -> Result<Vec<PathBuf>, Box<dyn Error>> {
+    let contents = [
+        ("burn.csv", String::from_utf8(burn.to_csv()?)?),
+        ("burn.json", String::from_utf8(burn.to_json()?)?),
+        ("start.toml", start_table(&burn.start_values())),
+        ("burn.svg", picture::svg(burn)?),
+    ];
+    let _folder = OutputFolder::create(folder, OPTION)?;
+    let inputs: Vec<&Path> = spacecraft.into_iter().collect();
+    let contents = contents.map(|(name, text)| (name, terminal::unsigned_zeros(&text).into_owned()));
+    write_all(folder, &contents, &inputs)
+}
+
+/// Begins the TOML files of a plan.
+const HEAD: &str = "# Written by `heliotorque plan`, which replaces it when it plans again.\n";
+
+fn is_edited_by_people(name: &str) -> bool {
+    name.ends_with(".toml")
+}
+
+/// Refuses a folder in which files that no plan wrote have the names of a plan's files.
+///
+/// # Errors
+/// The first such file.
+pub(super) fn check_standing<'n>(
+    folder: &Path,
+    names: impl IntoIterator<Item = &'n str>,
+) -> Result<(), String> {
+    for path in names.into_iter().filter(|name| is_edited_by_people(name)).map(|name| folder.join(name)) {
+        let found = if path.exists() { ::files::read_text(&path)? } else { String::new() };
+        if !found.is_empty() && !found.starts_with(HEAD) {
+            let allowed = "allowed: none, or what a plan wrote; another folder takes a new one";
+            return Err(format!(
+                "{}: found a file that no plan wrote, {allowed}: see {OPTION}",
+                path.display()
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Writes texts under their names into a folder and gives their paths; none is written unless all can be.
+///
+/// # Errors
+/// A file that cannot be written, or that is one of `inputs`.
+pub(super) fn write_all(
+    folder: &Path,
+    contents: &[(&str, String)],
+    inputs: &[&Path],
+) -> Result<Vec<PathBuf>, Box<dyn Error>> {
+    let opened = contents.iter().map(|(name, text)| {
+        let path = folder.join(name);
+        let text = match is_edited_by_people(name) {
+            true => format!("{HEAD}{}", text.strip_prefix(HEAD).unwrap_or(text)),
+            false => text.clone(),
+        };
+        Destination::open(&path, OPTION, inputs).map(|destination| (path, destination, text))
+    });
+    let opened = opened.collect::<Result<Vec<_>, _>>()?;
+    check_standing(folder, contents.iter().map(|(name, _)| *name))?;
+    let mut written = Vec::with_capacity(opened.len());
+    for (path, destination, text) in opened {
+        destination.fill(|file| file.write_all(text.as_bytes()))?;
+        written.push(path);
+    }
+    Ok(written)
+}

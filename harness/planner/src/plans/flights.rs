@@ -1,0 +1,324 @@
+//! Flights of a planned mission through its FMU: as it is, by the timeline of a plan, with other values at the start.
+
+use std::{
+    path::Path,
+    sync::{Mutex, PoisonError, atomic::AtomicBool},
+};
+
+use campaign::run::{Run, Settings, Simulated};
+use files::Scratch;
+use fmi::{Fmu, InputTable, Instance, InstanceOptions, Options, Recording, Value};
+use inputs::{
+    mission::{Inputs, Mission, SpacecraftSource},
+    plan::file::PlanFile,
+    reading::At,
+    values,
+    variables::{NEVER_N_M_S, elements, item, selected},
+};
+use isolation::interrupt;
+use nalgebra::Vector3;
+use packing::assembly::spacecraft_of;
+use physics::{
+    guidance::timeline::{Timeline, simulation_time_s},
+    momentum::Convention,
+    spacecraft::{Articulation, Spacecraft},
+};
+
+use crate::{
+    Failure,
+    momentum::{
+        plant::{self, StartValues},
+        simulated::SimulatedFlight,
+        torque::SunlitSpacecraft,
+    },
+};
+
+/// Error text for a time outside the mission.
+pub(super) const OUTSIDE: &str = "found a time outside of the mission, allowed: from its start to its stop";
+
+/// The model that is planned.
+const MODEL: &str = "MomentumPlant";
+/// Communication step, in s; steps change nothing in what is simulated.
+const STEP_S: f64 = 3600.0;
+/// The same in an orbit phase, whose downlinks begin and end at such points.
+const ORBIT_STEP_S: f64 = 600.0;
+/// A flight whose last row is nearer to its planet came to it: farther than any goes in such a step.
+const NEAR_M: f64 = 1e8;
+/// A mission's momentum is the physical one.
+const CONVENTION: Convention = Convention::Inertial;
+/// What of a mission is simulated and recorded.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Requested<'a> {
+    /// Values that win over the mission's.
+    pub sets: &'a [(String, Value)],
+    /// Outputs, as `record` of a mission names them.
+    pub outputs: &'a [String],
+    /// Distance of communication points, in s; otherwise an hour, in an orbit phase ten minutes.
+    pub step_s: Option<f64>,
+    /// Rows at these times alone, in s, which grow from the start on; otherwise at communication points.
+    pub at_s: Option<&'a [f64]>,
+    /// Where it ends, in s, instead of the mission's stop.
+    pub stop_s: Option<f64>,
+}
+
+/// A mission that can be simulated.
+pub(super) struct SimulatedMission {
+    pub mission: Mission,
+    pub fmu: Fmu,
+    pub sets: Vec<(String, Value)>,
+    pub inputs: Option<InputTable>,
+    /// Its own communication step, in s.
+    pub step_s: f64,
+    pub start_s: f64,
+    pub stop_s: f64,
+    /// Epoch of time 0 in s past J2000 TDB, where the mission begins at a date.
+    pub zero_epoch_s: Option<f64>,
+    // Idle instances, at most one for each thread.
+    idle: Mutex<Vec<Instance>>,
+    // The FMU's folder, as long as it is in use.
+    _folder: Option<Scratch>,
+}
+
+impl SimulatedMission {
+    /// Opens a mission; values that win over its own as for `--set`.
+    pub(super) fn open(file: &Path, template: Option<&Path>, set: &[String]) -> Result<Self, Failure> {
+        let run = Run {
+            fmu: file.to_owned(),
+            template: template.map(Path::to_owned),
+            set: set.to_vec(),
+            ..Run::default()
+        };
+        let simulated = Simulated::of(&run)?;
+        let Some(mission) = simulated.mission.clone() else {
+            return Err(format!("{}: found no mission, allowed: one (.toml)", file.display()).into());
+        };
+        let (fmu, settings, folder) = Settings::of_fmu(&simulated, MODEL)?;
+        if item(fmu.description(), &settings.sets, "attitude.source").is_none() {
+            let (shown, found) = (file.display(), &fmu.description().model_name);
+            return Err(format!(
+                "{shown}: model: found {found}, allowed: {MODEL}: a plan is for its missions"
+            )
+            .into());
+        }
+        Ok(Self {
+            mission,
+            fmu,
+            start_s: settings.times.start_s,
+            step_s: settings.times.step_s,
+            stop_s: settings.times.stop_s,
+            zero_epoch_s: simulated.zero_epoch_s(settings.times.start_s),
+            sets: settings.sets,
+            inputs: settings.inputs,
+            idle: Mutex::default(),
+            _folder: folder,
+        })
+    }
+
+    /// Refuses a mission whose downlinks cannot be planned: a plant must follow them ideally, and choose no places of the Sun itself.
+    ///
+    /// # Errors
+    /// What is not as a plan needs it.
+    pub(super) fn check_downlinks(&self) -> Result<(), Failure> {
+        let shown = self.mission.file.display();
+        if let SpacecraftSource::Fmu(fmu) = &self.mission.spacecraft_source {
+            let found =
+                format!("found `fmu = {:?}`, which takes no other timeline", fmu.display().to_string());
+            let allowed = "allowed: spacecraft or model, of which the plan's FMU is packed";
+            return Err(format!("{shown}: {found}, {allowed}").into());
+        }
+        if let Some(Inputs::Rows(rows)) = &self.mission.inputs
+            && let Some(at) = rows.iter().find(|at| at.it.0.starts_with("downlink."))
+        {
+            let what = "found an input that the plan commands, allowed: none of downlink.*: inputs rule over timelines";
+            return Err(at.problem(&self.mission.file, what).into());
+        }
+        for (name, allowed) in [("attitude.source", "guided"), ("momentum.strategy", "dumpsOnly")] {
+            let found = item(self.fmu.description(), &self.sets, name).unwrap_or("none");
+            if found != allowed {
+                return Err(format!("{shown}: {name}: found {found}, allowed: {allowed}, for a plan").into());
+            }
+        }
+        Ok(())
+    }
+
+    /// Its time of an instant, in s; `None` for a date where the mission has none.
+    pub(super) fn time_s(&self, instant: values::Instant) -> Option<f64> {
+        instant.time_s(self.zero_epoch_s)
+    }
+
+    /// The text of its timeline and what it says; `None` without one.
+    pub(super) fn timeline(&self, spacecraft: &Spacecraft) -> Result<Option<(String, Timeline)>, Failure> {
+        let SpacecraftSource::Files { timeline: Some(path), .. } = &self.mission.spacecraft_source else {
+            return Ok(None);
+        };
+        let text = files::read_text(path)?;
+        let shown = path.display().to_string();
+        let timeline = Timeline::of_plant(&shown, &text, spacecraft).map_err(|error| error.to_string())?;
+        Ok(Some((text, timeline)))
+    }
+
+    /// A time of a plan's file, in s.
+    pub(super) fn time_in_file_s<T>(
+        &self,
+        file: &PlanFile,
+        at: &At<T>,
+        instant: values::Instant,
+    ) -> Result<f64, String> {
+        self.time_s(instant).ok_or_else(|| {
+            let what = "found a date, allowed: simulation time: the mission does not start at a date";
+            file.problem(at, what)
+        })
+    }
+
+    /// The same, refused outside of the mission.
+    pub(super) fn time_in_mission_s(&self, file: &PlanFile, at: &At<values::Instant>) -> Result<f64, String> {
+        let time_s = self.time_in_file_s(file, at, at.it)?;
+        if !(time_s >= self.start_s && time_s < self.stop_s) {
+            return Err(file.problem(at, OUTSIDE));
+        }
+        Ok(time_s)
+    }
+
+    /// What turns the clock of a timeline into times of the flight, in s to be subtracted.
+    pub(super) fn clock_minus_time_s(&self, timeline: &Timeline) -> f64 {
+        timeline.clock_minus_time_s(self.zero_s())
+    }
+
+    /// Epoch of time 0 in s past J2000 TDB, by the mission's start or its own.
+    pub(super) fn zero_s(&self) -> f64 {
+        self.zero_epoch_s.unwrap_or_else(|| self.values().real("start.epoch") - self.start_s)
+    }
+
+    /// Its values at the start.
+    pub(super) fn values(&self) -> StartValues<'_> {
+        StartValues { description: self.fmu.description(), sets: &self.sets }
+    }
+
+    /// The least `dump.threshold`, in N m s.
+    pub(super) fn least_threshold_n_m_s(&self) -> f64 {
+        self.values().vector("dump.threshold").min()
+    }
+
+    /// Whether downlinks alternate with science; else it is in cruise, downlink throughout.
+    pub(super) fn is_in_orbit(&self) -> bool {
+        self.values().item("guided.phase") == Some("orbit")
+    }
+
+    /// Whether it has an encounter with a planet.
+    fn has_encounter(&self) -> bool {
+        let body = self.values().item("encounter.body");
+        self.values().item("orbit.dynamics") == Some("nBody") && body.is_some_and(|body| body != "none")
+    }
+
+    /// The corridor of the light on the cells.
+    pub(super) fn corridor(&self) -> Articulation {
+        Articulation {
+            min_suns: self.values().real("articulation.minimumSuns"),
+            max_suns: self.values().real("articulation.maximumSuns"),
+            target_suns: self.values().real("articulation.targetSuns"),
+        }
+    }
+
+    /// The spacecraft in sunlight with the mission's values, the centre of mass as it is at each time.
+    pub(super) fn sunlit(&self, timeline: Option<&Timeline>) -> Result<SunlitSpacecraft, Failure> {
+        let mut sunlit = plant::sunlit(spacecraft_of(&self.fmu)?, &self.values(), CONVENTION)?;
+        if let Some(timeline) = timeline {
+            let clock_minus_time_s = self.clock_minus_time_s(timeline);
+            let moved = timeline.events.iter().filter_map(|event| {
+                Some((simulation_time_s(event.at_s, clock_minus_time_s), event.center_of_mass_body_m?))
+            });
+            sunlit.centers_of_mass = moved.collect();
+        }
+        Ok(sunlit)
+    }
+
+    /// Simulates it without dumps by thresholds; with a seed, by its own.
+    pub(super) fn simulate(&self, seed: Option<u32>) -> Result<SimulatedFlight, Failure> {
+        let description = self.fmu.description();
+        let panels = (0..).map(plant::panel);
+        let panels = panels.take_while(|name| description.variables.iter().any(|it| it.name == *name));
+        let panels: Vec<String> = panels.collect();
+        let mut patterns = panels.clone();
+        patterns.extend(plant::recorded(CONVENTION).map(str::to_owned));
+        if self.has_encounter() {
+            patterns.extend(plant::RECORDED_MOTION.map(str::to_owned));
+        }
+        let mut sets = Vec::new();
+        if seed.is_none() {
+            sets.extend(elements("dump.threshold", Vector3::repeat(NEVER_N_M_S)));
+        }
+        if let Some(seed) = seed.and_then(|seed| i32::try_from(seed).ok()) {
+            sets.push(("noise.seed".to_owned(), Value::Integer(seed)));
+        }
+        let requested = Requested { sets: &sets, outputs: &patterns, ..Requested::default() };
+        let (recording, ended) = self.record_until(&requested)?;
+        let column = |name: &str| recording.column(name).map(|column| column.numbers());
+        let flight = plant::flight(&recording.times_s, &column, (panels.len(), CONVENTION));
+        let Some(why) = ended else { return Ok(flight?) };
+        // A path into the planet of the encounter: a plan, or another departure, may lead past it.
+        let last = flight.ok().filter(|flight| {
+            let motion = flight.rows.last().and_then(|row| row.motion);
+            motion.is_some_and(|motion| motion.from_body().position_m.norm() < NEAR_M)
+        });
+        last.map(|flight| SimulatedFlight { ended: Some(why.clone()), ..flight }).ok_or_else(|| why.into())
+    }
+
+    /// Simulates it and gives what was requested.
+    pub(super) fn record(&self, requested: &Requested<'_>) -> Result<Recording, Failure> {
+        match self.record_until(requested)? {
+            (recording, None) => Ok(recording),
+            (_, Some(error)) => Err(error.into()),
+        }
+    }
+
+    /// The same of a flight that an error may end: what was recorded until then, and the error.
+    pub(super) fn record_until(
+        &self,
+        requested: &Requested<'_>,
+    ) -> Result<(Recording, Option<String>), Failure> {
+        let description = self.fmu.description();
+        let step_s = if self.is_in_orbit() { ORBIT_STEP_S } else { STEP_S };
+        let stop_s = requested.stop_s.unwrap_or(self.stop_s);
+        let cancel = AtomicBool::new(false);
+        let mut reported = |_: f64| {
+            cancel.store(interrupt::raised(), std::sync::atomic::Ordering::Relaxed);
+        };
+        let options = Options {
+            start_s: Some(self.start_s),
+            stop_s: Some(stop_s),
+            step_s: Some(requested.step_s.unwrap_or(step_s).min((stop_s - self.start_s) / 8.0)),
+            sets: [&self.sets, requested.sets].concat(),
+            inputs: self.inputs.as_ref(),
+            record: Some(selected(description, requested.outputs, fmi::select_outputs)?),
+            record_at_s: requested.at_s,
+            apart: description.variables.iter().position(|it| it.name == "dump.count"),
+            progress: Some(&mut reported),
+            cancel: Some(&cancel),
+            ..Options::default()
+        };
+        let mut instance = self.instance()?;
+        let simulated = fmi::simulate_instance(&mut instance, options);
+        if simulated.is_ok() {
+            self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(instance);
+        }
+        if interrupt::raised() {
+            return Err("interrupted".into());
+        }
+        Ok(match simulated {
+            Ok((recording, _)) => (recording, None),
+            Err(stopped) => {
+                let error = fmi::Error::chain(&stopped);
+                (stopped.partial, Some(error))
+            }
+        })
+    }
+
+    /// An idle instance after a reset, which keeps its ephemeris cache; otherwise a new one.
+    fn instance(&self) -> Result<Instance, fmi::Error> {
+        let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        match idle {
+            Some(mut instance) => instance.reset().map(|()| instance),
+            None => Instance::new(&self.fmu, "run", &InstanceOptions::default()),
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! What a plan with a flyby comes to: reach, velocity changes that would do the same, manoeuvres compared, dispersed flights.
+
+mod campaign;
+mod compared;
+mod picture;
+mod update;
+
+use inputs::plan::file::PlanFile;
+use nalgebra::Vector2;
+use physics::constants::DAY_S;
+
+pub(super) use self::{
+    picture::{desired, plane},
+    update::{update_time_s, updated},
+};
+use super::{flyby_task::FlybyTask, planned::Planned};
+use crate::{
+    Failure,
+    flyby::{
+        controls::lead_by_windows,
+        report::{FlybyReport, encounter_of, sensitivity_csv},
+    },
+    momentum::{
+        attainable::{meets_target, reachable},
+        plan::MomentumPlan,
+    },
+};
+
+/// Between the times of desired velocity changes, in s.
+const DESIRED_S: f64 = 86_400.0;
+
+/// Names of files that only plans with a flyby have.
+pub(super) const NAMES: [&str; 2] = ["desired.csv", "sensitivity.csv"];
+
+/// Whether a correction is within the reach that was found.
+fn holds(polygon_m: &[[f64; 2]], correction_m: Vector2<f64>) -> bool {
+    let mut pairs = polygon_m.iter().zip(polygon_m.iter().cycle().skip(1));
+    let is_left = |(from, to): (&[f64; 2], &[f64; 2])| {
+        let (from, to) = (Vector2::from(*from), Vector2::from(*to));
+        (to - from).perp(&(correction_m - from)) >= 0.0
+    };
+    polygon_m.len() > 2 && pairs.all(is_left)
+}
+
+/// Refuses times that the flight does not have, before anything is planned.
+pub(super) fn check(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<(), Failure> {
+    let file = &planned.file;
+    let from_s = planned.task.layout.frozen_until_s;
+    if from_s >= flyby_task.first.encounter.epoch_s {
+        let what = "found a time behind which no change moves the encounter, allowed: one before its hyperbola osculates";
+        return Err(file.problem(&file.freeze_s, what).into());
+    }
+    compared::check(planned, flyby_task)
+}
+
+/// What can be known before the plan.
+pub(super) fn before(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<FlybyReport, Failure> {
+    let mut simulates = planned;
+    let reach = reachable(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates);
+    let reach = reach.map_err(|error| error.to_string())?;
+    let miss = flyby_task.first_miss();
+    // The reach is a lower bound: the programme of the plan decides beyond it.
+    let is_found = holds(&reach.polygon_m, -miss.xy()) || {
+        let met = meets_target(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates);
+        met.map_err(|error| error.to_string())?
+    };
+    let from_s = planned.task.layout.frozen_until_s.max(planned.mission.start_s);
+    let epoch_s = flyby_task.first.encounter.epoch_s;
+    let days = (0..).map(|day| from_s + f64::from(day) * DESIRED_S).take_while(|at_s| *at_s < epoch_s);
+    let desired = days.filter_map(|at_s| {
+        let found = match flyby_task.aimpoint.arrival_s {
+            None => flyby_task.first.desired(at_s, [miss.x, miss.y]),
+            Some(_) => flyby_task.first.desired_in_time(at_s, [miss.x, miss.y], miss.z),
+        };
+        Some((at_s, found?))
+    });
+    Ok(FlybyReport {
+        aimpoint_m: flyby_task.aimpoint.b_m,
+        epoch_minus_time_s: flyby_task.force_model.epoch_minus_time_s,
+        radius_m: flyby_task.radius_m,
+        miss: [Some(miss), None],
+        encounter: encounter_of(&flyby_task.first, flyby_task.radius_m),
+        is_out_of_reach: !is_found,
+        reach,
+        desired: desired.collect(),
+        compared: None,
+        campaign: None,
+    })
+}
+
+/// What the plan's flight came to, beside manoeuvres and dispersed flights; gives what windows change, as CSV.
+pub(super) fn complete(
+    report: &mut FlybyReport,
+    file: &PlanFile,
+    (planned, flyby_task): (&Planned<'_>, &FlybyTask),
+    found: &MomentumPlan,
+) -> Result<String, Failure> {
+    let mut flight = found.flight.clone();
+    let after = flyby_task.judge(&mut flight, &planned.sunlit)?;
+    report.miss[1] = Some(flyby_task.aimpoint.miss(&after.encounter));
+    report.encounter = encounter_of(&after, flyby_task.radius_m);
+    if let Some(at) = &file.compare {
+        report.compared = Some(compared::compared(file, &at.it, (planned, flyby_task), &after)?);
+    }
+    if let Some(at) = &file.monte_carlo {
+        let (mission, _folder) = planned.open_plan((&found.windows, &found.dumps), None)?;
+        let covariance = file.update.as_ref().and_then(|it| it.it.covariance);
+        let arrival_s = after.encounter.time_s;
+        report.campaign =
+            Some(campaign::simulated(&mission, (at.it, covariance), (flyby_task, arrival_s), planned)?);
+    }
+    let by_window = lead_by_windows(&after, &planned.sunlit, &flight, &found.windows);
+    Ok(String::from_utf8(sensitivity_csv(&found.windows, &by_window)?)?)
+}
+
+/// What a person reads of it.
+pub(super) fn summary(report: &FlybyReport, flyby_task: &FlybyTask) -> Vec<String> {
+    let km = |length_m: f64| terminal::short(length_m / 1e3);
+    let [arrival_s, osculation_s, altitude_m, excess_m_s] = report.encounter;
+    let lead_h = terminal::short((arrival_s - osculation_s) / 3600.0);
+    let missed = |label: &str, miss: &nalgebra::Vector3<f64>| {
+        let late = match flyby_task.aimpoint.arrival_s {
+            Some(_) => format!(", {} s late", terminal::short(miss.z)),
+            None => String::new(),
+        };
+        format!("{label} misses by {} km along T, {} km along R{late}", km(miss.x), km(miss.y))
+    };
+    let name = flyby_task.force_model.body.data().name;
+    let mut lines = vec![format!(
+        "{name}, {lead_h} h before closest approach: aim B.T {} km, B.R {} km; closest approach {} km above it, excess speed {} km/s",
+        km(report.aimpoint_m[0]),
+        km(report.aimpoint_m[1]),
+        km(altitude_m),
+        terminal::short(excess_m_s / 1e3),
+    )];
+    let [before, after] = &report.miss;
+    lines.extend(before.iter().map(|miss| missed("the mission as it is", miss)));
+    lines.extend(after.iter().map(|miss| missed("the plan", miss)));
+    let along = report.reach.along_m.map(|along_m| along_m.map_or("none".to_owned(), km));
+    lines.push(format!("reach +T {}, -T {}, +R {}, -R {} km", along[0], along[1], along[2], along[3]));
+    if report.is_out_of_reach {
+        lines.push(
+            "not found: arrays and attitudes that lead to the aim within the limits; what was reached is a lower bound"
+                .to_owned(),
+        );
+    }
+    let least = report.desired.iter().min_by(|a, b| a.1.size_m_s().total_cmp(&b.1.size_m_s()));
+    if let Some((at_s, it)) = least {
+        lines.push(format!(
+            "least velocity change that would do the same: {} mm/s, {} d before",
+            terminal::short(1e3 * it.size_m_s()),
+            terminal::short((arrival_s - at_s) / DAY_S)
+        ));
+    }
+    if let Some(compared) = &report.compared {
+        for (at_s, it) in &compared.approach {
+            lines.push(format!(
+                "approach manoeuvre {} d before: {} m/s, leaves {} km (root mean square)",
+                terminal::short((arrival_s - at_s) / DAY_S),
+                terminal::short(it.rms_m_s),
+                km(it.left.rms_m())
+            ));
+        }
+        let [without, behind, planned] = compared.departure_m_s.map(terminal::short);
+        lines.push(format!(
+            "departure manoeuvre: {without} m/s without a correction, {behind} behind the approach manoeuvres, {planned} behind the plan"
+        ));
+    }
+    if let Some(campaign) = &report.campaign {
+        let ([large_m, small_m], angle_rad) = crate::flyby::maneuvers::ellipse(&campaign.covariance_m2);
+        lines.push(format!(
+            "{} dispersed flights, {} failed: mean miss {}, {} km, ellipse of one deviation {} by {} km, {} deg from T toward R",
+            campaign.outcomes.len() + campaign.failed.len(),
+            campaign.failed.len(),
+            km(campaign.mean_m.x),
+            km(campaign.mean_m.y),
+            km(large_m),
+            km(small_m),
+            terminal::short(angle_rad.to_degrees())
+        ));
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_correction_counts_within_the_polygon() {
+        let square = [[-1e5, -1e4], [1e5, -1e4], [1e5, 2e4], [-1e5, 2e4]];
+        let cases = [([9e4, 0.0], true), ([1.1e5, 0.0], false), ([0.0, -2e4], false)];
+        for (correction, is) in cases {
+            assert_eq!(holds(&square, Vector2::from(correction)), is, "{correction:?}");
+        }
+        assert!(!holds(&[], Vector2::zeros()) && !holds(&square[..2], Vector2::zeros()));
+    }
+}

@@ -1,0 +1,106 @@
+//! Pictures of a flyby plan: its B-plane with what can be reached, and the velocity changes that would do the same.
+
+use drawing::{Chart, Panel, PlaneChart, PlanePanel, Series, ellipse};
+use physics::constants::DAY_S;
+
+use super::super::flyby_task::FlybyTask;
+use crate::flyby::{
+    aimpoint::b_of_periapsis_m,
+    maneuvers,
+    report::{Campaign, FlybyReport},
+};
+
+/// Deviations of the ellipse that is drawn.
+const SIGMAS: f64 = 3.0;
+
+/// The B-plane, in km from the planet's centre; the picture has T to the right and R down, as seen along the asymptote.
+pub(crate) fn plane(report: &FlybyReport, flyby_task: &FlybyTask) -> PlaneChart {
+    let km = |[t_m, r_m]: [f64; 2]| (t_m / 1e3, -r_m / 1e3);
+    let aimpoint = report.aimpoint_m;
+    let place = |miss: &Option<nalgebra::Vector3<f64>>| {
+        miss.map(|miss| km([aimpoint[0] + miss.x, aimpoint[1] + miss.y])).into_iter().collect::<Vec<_>>()
+    };
+    let impact_m = b_of_periapsis_m(report.radius_m, flyby_task.force_model.gm_m3_s2, report.encounter[3]);
+    let before = report.miss[0].unwrap_or_default();
+    let mut reach: Vec<(f64, f64)> = report
+        .reach
+        .polygon_m
+        .iter()
+        .map(|[t_m, r_m]| km([aimpoint[0] + before.x + t_m, aimpoint[1] + before.y + r_m]))
+        .collect();
+    reach.extend(reach.first().copied());
+    let circle = |radius_m: f64| ellipse((0.0, 0.0), [radius_m / 1e3; 2], 0.0);
+    // Both panels have the same series, because colours are assigned by index.
+    let series = || {
+        let mut series = vec![
+            Series::rings("aim", vec![km(aimpoint)]),
+            Series::dots("mission as it is", place(&report.miss[0])),
+            Series::dots("plan", place(&report.miss[1])),
+            Series::line("reach", reach.clone()),
+            Series::line("planet", circle(report.radius_m)),
+            Series::dashed("impact", circle(impact_m)),
+        ];
+        if let Some(campaign) = &report.campaign {
+            series.push(Series::dashed("three deviations", ring(campaign, aimpoint)));
+        }
+        series
+    };
+    let farthest = reach
+        .iter()
+        .chain(&place(&report.miss[0]))
+        .fold(0.0_f64, |far, (x, y)| far.max(x.abs()).max(y.abs()));
+    let near = |(x, y): (f64, f64)| (x - km(aimpoint).0).abs().max((y - km(aimpoint).1).abs());
+    let close = reach.iter().copied().chain(place(&report.miss[0])).map(near).fold(1.0, f64::max);
+    let name = flyby_task.force_model.body.data().name;
+    let hours = terminal::short(flyby_task.force_model.lead_s / 3600.0);
+    PlaneChart {
+        title: format!("B-plane at {name}, hyperbola osculating {hours} h before closest approach"),
+        x_label: "B.T [km]".to_owned(),
+        y_label: "-B.R [km]".to_owned(),
+        panels: vec![
+            PlanePanel {
+                title: name.to_owned(),
+                series: series(),
+                half_width: 1.15 * farthest.max(impact_m / 1e3),
+                ..PlanePanel::default()
+            },
+            PlanePanel {
+                title: "about the aim".to_owned(),
+                series: series(),
+                centre: km(aimpoint),
+                half_width: 1.15 * close,
+                ..PlanePanel::default()
+            },
+        ],
+        shading: None,
+    }
+}
+
+fn ring(campaign: &Campaign, aimpoint_m: [f64; 2]) -> Vec<(f64, f64)> {
+    let (axes_m, angle_rad) = maneuvers::ellipse(&campaign.covariance_m2);
+    let middle = ((aimpoint_m[0] + campaign.mean_m.x) / 1e3, -(aimpoint_m[1] + campaign.mean_m.y) / 1e3);
+    ellipse(middle, axes_m.map(|axis_m| SIGMAS * axis_m / 1e3), -angle_rad)
+}
+
+/// Desired velocity changes, where there are any.
+pub(crate) fn desired(report: &FlybyReport) -> Option<Chart> {
+    let arrival_s = report.encounter[0];
+    let day = |at_s: f64| (at_s - arrival_s) / DAY_S;
+    let first = report.desired.first()?;
+    let of = |value: &dyn Fn(&crate::flyby::sensitivity::DesiredDeltaV) -> f64| {
+        report.desired.iter().map(|(at_s, it)| (day(*at_s), value(it))).collect::<Vec<_>>()
+    };
+    if first.1.size_m_s() == 0.0 {
+        return None;
+    }
+    let size = Panel::new("log10 of m/s")
+        .with([Series::curve("desired velocity change", of(&|it| it.size_m_s().log10()))]);
+    let angles = Panel::new("direction [deg]").with([
+        Series::line("right ascension", of(&|it| it.right_ascension_rad().to_degrees())),
+        Series::line("declination", of(&|it| it.declination_rad().to_degrees())),
+    ]);
+    Some(
+        Chart::new("velocity change that would do the same", "day from closest approach")
+            .with([size, angles]),
+    )
+}

@@ -1,0 +1,150 @@
+//! A mission with what a plan needs of it, and its flights.
+
+use std::{cell::RefCell, path::Path, time::Instant};
+
+use ::files::Scratch;
+use inputs::plan::file::{Activity, PlanFile};
+use nalgebra::Vector3;
+
+use super::{
+    super::flights::SimulatedMission, flyby_task::FlybyTask, options::MomentumOptions,
+    timeline::MissionTimeline, written,
+};
+use crate::{
+    Failure,
+    momentum::{
+        Convention,
+        plan::{PlanTask, PlannedDump, Simulates},
+        simulated::SimulatedFlight,
+        torque::SunlitSpacecraft,
+        windows::{Window, WindowKind},
+    },
+};
+
+/// Names of the files.
+pub(super) const NAMES: [&str; 6] =
+    ["timeline.toml", "mission.toml", "plan.csv", "windows.csv", "plan.svg", "plan.json"];
+
+/// A mission with what a plan needs of it.
+pub(super) struct Planned<'a> {
+    pub options: &'a MomentumOptions,
+    /// The plan file, its times by the clock of `mission`.
+    pub file: PlanFile,
+    pub mission: SimulatedMission,
+    pub timeline: MissionTimeline,
+    pub sunlit: SunlitSpacecraft,
+    pub simulated: SimulatedFlight,
+    /// Of a plan with a flyby.
+    pub flyby_task: Option<FlybyTask>,
+    pub task: PlanTask,
+    /// Values that a refit gives.
+    pub sets: Vec<(String, Vec<f64>)>,
+    pub began: Instant,
+    pub last: RefCell<String>,
+    /// The folder of an updated mission, as long as it is in use.
+    pub keeps: Option<Scratch>,
+}
+
+impl Planned<'_> {
+    /// Momentum after a dump, body frame, in N m s.
+    pub(super) fn body(&self, windows: &[Window], dump: &PlannedDump) -> Vector3<f64> {
+        crate::momentum::plan::body_momentum_n_m_s(&self.sunlit, &self.simulated, windows, dump)
+    }
+
+    /// Writes timeline and mission of a plan into a folder.
+    pub(super) fn write_into(
+        &self,
+        folder: &Path,
+        (windows, dumps): (&[Window], &[PlannedDump]),
+        activity: Option<(&Activity, [f64; 2])>,
+    ) -> Result<[(&'static str, String); 2], Failure> {
+        let bodies = |dump: &PlannedDump| self.body(windows, dump);
+        let text = self.timeline.text(&self.mission, (windows, dumps, &self.task.layout), &bodies, activity);
+        // In an orbit phase the arrays stay as they are.
+        let panels = if self.mission.is_in_orbit() { 0 } else { self.sunlit.panels.len() };
+        let start = self.start_momentum_body_n_m_s(windows);
+        let start = start.map(|it| ("start.momentum".to_owned(), it.as_slice().to_vec()));
+        let sets: Vec<_> = self.sets.iter().cloned().chain(start).collect();
+        let mission = written::mission(&self.mission, folder, panels, &sets)?;
+        Ok([(NAMES[0], text), (NAMES[1], mission)])
+    }
+
+    /// Momentum of the mission's start in the body frame of a first window that is free, which the plan turns; in N m s.
+    fn start_momentum_body_n_m_s(&self, windows: &[Window]) -> Option<Vector3<f64>> {
+        let (row, window) = (self.simulated.rows.first()?, windows.first()?);
+        let is_turned = window.kind == WindowKind::Free
+            && self.sunlit.convention == Convention::Inertial
+            && row.momentum_n_m_s != Vector3::zeros();
+        let inertial_from_body =
+            is_turned.then(|| window.inertial_from_body(&self.sunlit, row, row.time_s))?;
+        Some(inertial_from_body.inverse() * row.momentum_n_m_s)
+    }
+
+    /// The mission of a plan, in a folder that lasts as long as it is in use.
+    pub(super) fn open_plan(
+        &self,
+        plan: (&[Window], &[PlannedDump]),
+        activity: Option<(&Activity, [f64; 2])>,
+    ) -> Result<(SimulatedMission, Scratch), Failure> {
+        let folder = Scratch::new()?;
+        for (name, text) in self.write_into(folder.path(), plan, activity)? {
+            folder.write(name, text)?;
+        }
+        let template = self.options.template.as_deref();
+        Ok((SimulatedMission::open(&folder.path().join(NAMES[1]), template, &[])?, folder))
+    }
+
+    /// Simulates a plan.
+    pub(super) fn simulate_plan(
+        &self,
+        windows: &[Window],
+        dumps: &[PlannedDump],
+        activity: Option<(&Activity, [f64; 2])>,
+    ) -> Result<SimulatedFlight, Failure> {
+        let (mission, _folder) = self.open_plan((windows, dumps), activity)?;
+        let mut flight = mission.simulate(None)?;
+        if let Some(flyby_task) = &self.flyby_task {
+            flyby_task.judge(&mut flight, &self.sunlit)?;
+        }
+        Ok(flight)
+    }
+
+    /// Simulates a plan with other seeds: greatest |H| and dumps of each flight.
+    pub(super) fn simulate_seeds(
+        &self,
+        windows: &[Window],
+        dumps: &[PlannedDump],
+    ) -> Result<Vec<(f64, u32)>, Failure> {
+        if self.options.seeds == 0 {
+            return Ok(Vec::new());
+        }
+        let (mission, _folder) = self.open_plan((windows, dumps), None)?;
+        let bar = terminal::progress(self.options.seeds.into(), "seeds", self.options.quiet);
+        let flights = (1..=self.options.seeds).map(|seed| {
+            let flight = mission.simulate(Some(seed))?;
+            bar.inc(1);
+            Ok((flight.greatest_momentum().0, flight.rows.last().map_or(0, |row| row.dumps)))
+        });
+        let flights = flights.collect();
+        bar.finish_and_clear();
+        flights
+    }
+
+    pub(super) fn say(&self, doing: &str) {
+        if self.options.quiet || *self.last.borrow() == doing {
+            return;
+        }
+        doing.clone_into(&mut self.last.borrow_mut());
+        terminal::note(&format!("{:.1} s: {doing}", self.began.elapsed().as_secs_f64()));
+    }
+}
+
+impl Simulates for &Planned<'_> {
+    fn simulate(&mut self, windows: &[Window], dumps: &[PlannedDump]) -> Result<SimulatedFlight, Failure> {
+        self.simulate_plan(windows, dumps, None)
+    }
+
+    fn progress(&mut self, doing: &str) {
+        self.say(doing);
+    }
+}

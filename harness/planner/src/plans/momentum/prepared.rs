@@ -1,0 +1,99 @@
+//! A plan before its first flight: the mission that it names, and everything that can be refused without simulating it.
+
+use std::path::Path;
+
+use inputs::{plan::file::PlanFile, reading::At};
+use packing::assembly::spacecraft_of;
+use physics::guidance::timeline::Timeline;
+
+use super::{
+    flyby,
+    flyby_task::Aim,
+    layout::{check_arrays, check_spans, layout, refit, sets_of},
+    prices,
+    timeline::MissionTimeline,
+};
+use crate::{
+    Failure,
+    momentum::{refit_file::RefitValues, torque::SunlitSpacecraft, windows::Layout},
+    plans::flights::SimulatedMission,
+};
+
+/// A plan whose mission is open.
+pub(super) struct Prepared {
+    /// The plan file, frozen until the date of its flyby.
+    pub file: PlanFile,
+    pub mission: SimulatedMission,
+    pub timeline: MissionTimeline,
+    pub sunlit: SunlitSpacecraft,
+    pub refit: Option<RefitValues>,
+    /// Values that the refit gives.
+    pub sets: Vec<(String, Vec<f64>)>,
+    /// Encounter of a plan with a flyby.
+    pub aim: Option<Aim>,
+    /// Windows in cruise. In an orbit phase a flight shows its downlinks; with `[update]` the mission is another one.
+    pub cruise: Option<Layout>,
+}
+
+impl Prepared {
+    /// Reads what the plan file names, and opens its mission.
+    ///
+    /// # Errors
+    /// Whatever is refused, by the plan's line.
+    pub(super) fn of(file: &PlanFile, template: Option<&Path>) -> Result<Self, Failure> {
+        let refit = file.refit.as_ref().map(|at| refit(file, at)).transpose()?;
+        let sets: Vec<(String, Vec<f64>)> = refit.iter().flat_map(sets_of).collect();
+        let settings = sets.iter().map(|(name, values)| {
+            let values: Vec<String> = values.iter().map(f64::to_string).collect();
+            format!("{name}={}", values.join(","))
+        });
+        let settings: Vec<String> = settings.collect();
+        let in_mission = |error: Failure| file.problem(&file.mission, &error.to_string());
+        let mission = SimulatedMission::open(&file.mission.it, template, &settings).map_err(in_mission)?;
+        mission.check_downlinks().map_err(in_mission)?;
+        if let Some(at) = &file.update {
+            flyby::update_time_s(file, &at.it, &mission)?;
+        }
+        let file = frozen_until_from(file, &mission)?;
+        let is_updated = file.update.is_some();
+        if !is_updated {
+            check_spans(&file, &mission)?;
+            check_arrays(&file, &mission)?;
+        }
+        let is_in_orbit = mission.is_in_orbit();
+        if let Some(at) = file.of_cruise.first().filter(|_| is_in_orbit) {
+            let what = "found it, allowed: none in an orbit phase, whose downlinks' places of the Sun alone are planned";
+            return Err(file.problem(at, what).into());
+        }
+        let spacecraft = spacecraft_of(&mission.fmu)?;
+        if let (Some(at), Some(refit)) = (&file.refit, &refit)
+            && let Some(other) = refit.spacecraft.as_ref().filter(|other| **other != spacecraft.name)
+        {
+            let what = format!(
+                "found values of {other:?}, allowed: of {:?}, the mission's spacecraft",
+                spacecraft.name
+            );
+            return Err(file.problem(at, &what).into());
+        }
+        let found = mission.timeline(&spacecraft)?;
+        let timeline = MissionTimeline::of(&mission, found.as_ref())?;
+        let own: Option<&Timeline> = found.as_ref().map(|(_, timeline)| timeline);
+        let sunlit = mission.sunlit(own)?;
+        let aim = file.flyby.as_ref().map(|at| Aim::of(&file, &at.it, &mission)).transpose()?;
+        for at in &file.activities {
+            prices::span_s(&file, at, &mission)?;
+        }
+        let cruise = (!is_in_orbit && !is_updated).then(|| layout(&file, &mission, &timeline, &sunlit));
+        let cruise = cruise.transpose()?;
+        Ok(Self { file, mission, timeline, sunlit, refit, sets, aim, cruise })
+    }
+}
+
+/// A plan whose `[flyby] from` says until when the mission stays as it is.
+fn frozen_until_from(file: &PlanFile, mission: &SimulatedMission) -> Result<PlanFile, Failure> {
+    let mut file = file.clone();
+    let Some(from) = file.flyby.as_ref().and_then(|flyby| flyby.it.from.clone()) else { return Ok(file) };
+    let frozen_s = mission.time_in_mission_s(&file, &from)? - mission.start_s;
+    file.freeze_s = At { it: frozen_s, key: from.key, line: from.line };
+    Ok(file)
+}

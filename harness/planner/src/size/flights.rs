@@ -1,0 +1,171 @@
+//! Flights through the FMU: one without dumps for momentum by source, others by threshold and strategy for dumps.
+
+use std::{
+    sync::atomic::AtomicBool,
+    time::{Duration, Instant},
+};
+
+use fmi::{Options, Recording, Value};
+use inputs::variables::{NEVER_N_M_S, elements, numbers, selected, vectors};
+use isolation::interrupt;
+use nalgebra::Vector3;
+use packing::instance::vector;
+use physics::plant::LEAST_DUMP_THRESHOLD_N_M_S;
+
+use super::sized::SizedSpacecraft;
+use crate::Failure;
+
+/// Communication points of an orbit at least, and the longest step, in s.
+const POINTS_OF_ORBIT: f64 = 48.0;
+const LONGEST_STEP_S: f64 = 120.0;
+/// Step of a flight of which only dumps count, in s; one in which several fall is cut between them.
+const STEP_OF_DUMPS_S: f64 = 21_600.0;
+/// Rows that are kept of a flight at most.
+const ROWS: f64 = 300_000.0;
+/// Thresholds that are simulated whatever the time.
+const LEAST_THRESHOLDS: usize = 3;
+/// Thresholds that are simulated, as shares of the file's: its own first, then outward.
+const SCALES: [f64; 9] = [1.0, 2.0, 0.5, 1.41, 0.71, 4.0, 0.35, 2.83, 0.25];
+
+/// Dumps of one flight, scaled to a year.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Dumped {
+    pub strategy: String,
+    /// By body axis.
+    pub threshold_n_m_s: Vector3<f64>,
+    pub dumps: f64,
+    /// Sum of the magnitudes, in N m s.
+    pub impulse_n_m_s: f64,
+    pub propellant_kg: f64,
+}
+
+/// What was simulated, and what the time did not suffice for.
+pub(super) struct Sweep {
+    pub dumped: Vec<Dumped>,
+    pub left_out: usize,
+}
+
+/// Momentum by source and in the body frame, without dumps, with these values beside the spacecraft's.
+pub(super) fn undumped(
+    sized: &SizedSpacecraft,
+    others: &[(String, Value)],
+    is_quiet: bool,
+) -> Result<Recording, Failure> {
+    let patterns = ["momentum.*", "attitude.q", "attitude.rate", "torque.total"].map(str::to_owned);
+    let record = selected(sized.fmu.description(), &patterns, fmi::select_outputs)?;
+    let bar = terminal::progress(sized.span_s as u64, "s without dumps", is_quiet);
+    let undumped = values(sized, Vector3::repeat(NEVER_N_M_S), "dumpsOnly")?;
+    let sets = [undumped, others.to_vec()].concat();
+    let recording = simulated(sized, sets, record, &mut |time_s| {
+        bar.set_position((time_s - sized.start_s) as u64);
+    });
+    bar.finish_and_clear();
+    recording
+}
+
+/// Dumps by threshold and strategy, as far as the time suffices; those of the first three thresholds in any case. Where no wheels
+/// give a threshold, it is what they would need.
+pub(super) fn sweep(
+    sized: &SizedSpacecraft,
+    (needed_n_m_s, budget_s): (f64, f64),
+    is_quiet: bool,
+) -> Result<Sweep, Failure> {
+    let own_n_m_s = vector(&mut sized.started()?, "dump.threshold")?;
+    let is_never = own_n_m_s.iter().all(|it| *it >= NEVER_N_M_S);
+    let own_n_m_s = if is_never { Vector3::repeat(needed_n_m_s) } else { own_n_m_s };
+    let scaled = |scale: f64| own_n_m_s.map(|it| scaled_n_m_s(it, scale));
+    let until = Instant::now() + Duration::from_secs_f64(budget_s.clamp(0.0, 1e6));
+    let cases =
+        SCALES.iter().flat_map(|scale| sized.strategies.iter().map(move |strategy| (*scale, strategy)));
+    let cases: Vec<_> = cases.collect();
+    let bar = terminal::progress(cases.len() as u64, "flights", is_quiet);
+    let mut sweep = Sweep { dumped: Vec::new(), left_out: 0 };
+    for (index, (scale, strategy)) in cases.into_iter().enumerate() {
+        if index >= LEAST_THRESHOLDS * sized.strategies.len() && Instant::now() >= until {
+            sweep.left_out += 1;
+            continue;
+        }
+        sweep.dumped.push(dumped(sized, scaled(scale), strategy)?);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    sweep.dumped.sort_by(|a, b| a.threshold_n_m_s.sum().total_cmp(&b.threshold_n_m_s.sum()));
+    Ok(sweep)
+}
+
+fn dumped(sized: &SizedSpacecraft, threshold_n_m_s: Vector3<f64>, strategy: &str) -> Result<Dumped, Failure> {
+    let patterns = ["dump.count", "dump.impulse", "propellant.used"].map(str::to_owned);
+    let record = selected(sized.fmu.description(), &patterns, fmi::select_outputs)?;
+    let simulated = simulated(sized, values(sized, threshold_n_m_s, strategy)?, record, &mut |_| {})?;
+    let count = numbers(&simulated, "dump.count")?;
+    let impulses_n_m_s = vectors(&simulated, "dump.impulse")?;
+    let dumps = count.windows(2).enumerate().filter(|(_, pair)| pair[1] > pair[0]);
+    let impulses_n_m_s = dumps.map(|(k, _)| impulses_n_m_s[k + 1].norm());
+    let last = |values: &[f64]| values.last().copied().unwrap_or(0.0);
+    Ok(Dumped {
+        strategy: strategy.to_owned(),
+        threshold_n_m_s,
+        dumps: sized.per_year(last(&count)),
+        impulse_n_m_s: sized.per_year(impulses_n_m_s.sum()),
+        propellant_kg: sized.per_year(last(&numbers(&simulated, "propellant.used")?)),
+    })
+}
+
+/// A share of a threshold within what may be set; none of one that is never reached.
+fn scaled_n_m_s(threshold_n_m_s: f64, scale: f64) -> f64 {
+    if threshold_n_m_s >= NEVER_N_M_S {
+        threshold_n_m_s
+    } else {
+        (threshold_n_m_s * scale).max(LEAST_DUMP_THRESHOLD_N_M_S)
+    }
+}
+
+/// The spacecraft's values, with a threshold and a strategy.
+fn values(
+    sized: &SizedSpacecraft,
+    threshold_n_m_s: Vector3<f64>,
+    strategy: &str,
+) -> Result<Vec<(String, Value)>, Failure> {
+    let mut sets = sized.sets.clone();
+    sets.extend(elements("dump.threshold", threshold_n_m_s));
+    let strategy = format!("momentum.strategy={strategy}");
+    sets.extend(fmi::parse_assignment(sized.fmu.description(), &strategy)?);
+    Ok(sets)
+}
+
+/// One flight; every dump has a row of its own.
+fn simulated(
+    sized: &SizedSpacecraft,
+    sets: Vec<(String, Value)>,
+    record: Vec<usize>,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Recording, Failure> {
+    let description = sized.fmu.description();
+    let position = |name: &str| description.variables.iter().position(|variable| variable.name == name);
+    let counts_dumps = record.iter().any(|at| Some(*at) == position("dump.count"));
+    let step_s = if counts_dumps {
+        STEP_OF_DUMPS_S
+    } else {
+        let longest_s = LONGEST_STEP_S.min(sized.period_s / POINTS_OF_ORBIT).max(sized.span_s / ROWS);
+        // A whole number of steps between unloadings, so that rows end the windows.
+        sized.every_s / (sized.every_s / longest_s).ceil()
+    };
+    let cancel = AtomicBool::new(false);
+    let mut reported = |time_s: f64| {
+        cancel.store(interrupt::raised(), std::sync::atomic::Ordering::Relaxed);
+        progress(time_s);
+    };
+    let options = Options {
+        start_s: Some(sized.start_s),
+        stop_s: Some(sized.start_s + sized.span_s),
+        step_s: Some(step_s),
+        sets,
+        inputs: sized.inputs.as_ref(),
+        record: Some(record),
+        apart: position("dump.count").filter(|_| counts_dumps),
+        progress: Some(&mut reported),
+        cancel: Some(&cancel),
+        ..Options::default()
+    };
+    Ok(fmi::simulate(&sized.fmu, options)?.recording)
+}

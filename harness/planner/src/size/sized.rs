@@ -1,0 +1,212 @@
+//! What is sized: the FMU of a file, its spacecraft, and the values that it is simulated with.
+
+use campaign::run::{Run, Settings, Simulated};
+use files::Scratch;
+use fmi::{Fmu, InputTable, Instance, Value};
+use inputs::{
+    kind::FileKind,
+    mission::{Inputs, SpacecraftSource as Given},
+    variables::{assigned, item, start},
+};
+use model_description::Description;
+use nalgebra::Vector3;
+use packing::{
+    assembly::{Parts, Source, assemble, spacecraft_of},
+    instance::{self, vector},
+};
+use physics::{
+    bodies::Body,
+    constants::DAY_S,
+    spacecraft::{SlewDemand, Spacecraft},
+};
+
+use super::options::Size;
+use crate::Failure;
+
+/// The model that is simulated.
+const MODEL: &str = "MomentumPlant";
+/// What guided flight does.
+const PHASE: &str = "guided.phase";
+/// A year, in s.
+pub(super) const YEAR_S: f64 = 365.25 * DAY_S;
+
+/// Longest flight, in years: its columns are in memory whole.
+const MOST_YEARS: f64 = 50.0;
+
+/// A spacecraft ready for simulation.
+pub(super) struct SizedSpacecraft {
+    pub fmu: Fmu,
+    pub spacecraft: Spacecraft,
+    pub sets: Vec<(String, Value)>,
+    pub inputs: Option<InputTable>,
+    pub start_s: f64,
+    pub span_s: f64,
+    /// Period of the orbit at the start, in s.
+    pub period_s: f64,
+    /// Time between unloadings, in s.
+    pub every_s: f64,
+    /// Slew about every axis; `None`: none.
+    pub slew: Option<SlewDemand>,
+    /// Momentum of the wheels' bias, body frame, in N m s.
+    pub bias_n_m_s: Vector3<f64>,
+    /// Whether `momentum.*` are integrals of body components.
+    pub is_body_integral: bool,
+    /// What sunlight is used for where there are downlinks, by item; the first is dumps alone.
+    pub strategies: Vec<String>,
+    // The FMU's folder and a mission's packed FMU, as long as they are in use.
+    _folders: [Option<Scratch>; 2],
+}
+
+impl SizedSpacecraft {
+    /// Reads the file, packs it and starts it once.
+    pub(super) fn open(arguments: &Size) -> Result<Self, Failure> {
+        let text = files::read_text(&arguments.file)?;
+        let file = arguments.file.display().to_string();
+        let is_mission = FileKind::of(&text) == Some(FileKind::Mission);
+        let (fmu, mut sets, inputs, ([start_s, stop_s], is_of_its_time), folders) = match is_mission {
+            false => {
+                FileKind::Spacecraft.check(&file, &text)?;
+                let source = Source::open(arguments.template.as_deref(), &[])?;
+                let parts =
+                    Parts { spacecraft: Some(&arguments.file), model: Some(MODEL), ..Parts::default() };
+                let folder = Scratch::new()?;
+                assemble(&source, &parts)?.entries.write_below(folder.path())?;
+                let fmu = Fmu::open(folder.path())?;
+                (fmu, Vec::new(), None, ([0.0, YEAR_S], false), [Some(folder), None])
+            }
+            true => {
+                let template = arguments.template.clone();
+                let run = Run { fmu: arguments.file.clone(), template, ..Run::default() };
+                let simulated = Simulated::of(&run)?;
+                let (fmu, settings, folder) = Settings::of_fmu(&simulated, "a spacecraft or an FMU")?;
+                let is_of_its_time = simulated.mission.as_ref().is_some_and(|mission| {
+                    let Given::Files { timeline, ephemeris, .. } = &mission.spacecraft_source else {
+                        return false;
+                    };
+                    let has_table = matches!(mission.inputs, Some(Inputs::File(_)));
+                    timeline.is_some() || ephemeris.is_some() || has_table || settings.inputs.is_some()
+                });
+                let start_s = settings.times.start_s;
+                let stop_s = if is_of_its_time { settings.times.stop_s } else { start_s + YEAR_S };
+                let times_s = ([start_s, stop_s], is_of_its_time);
+                (fmu, settings.sets, settings.inputs, times_s, [folder, None])
+            }
+        };
+        let description = fmu.description();
+        sets.extend(assigned(description, &arguments.set)?);
+        check_plant(&file, description, &sets)?;
+        let mut started = instance::started(&fmu, "size", start_s, &sets)?;
+        let is_about_sun = item(description, &sets, "orbit.center") == Some("sun");
+        let period_s = period_s(is_about_sun, &mut started)?;
+        // As it acts: by default it follows the centre.
+        let phase = description.variables.iter().find(|it| it.name == PHASE);
+        let phase = phase.map(|it| started.get_variable(it)).transpose()?;
+        let phase: Vec<_> = phase.into_iter().map(|value| (PHASE.to_owned(), value)).collect();
+        let is_in_cruise = item(description, &phase, PHASE) == Some("cruise");
+        let bias_n_m_s = vector(&mut started, "momentum.bias")?;
+        let is_body_integral = item(description, &sets, "momentum.convention") == Some("bodyIntegral");
+        drop(started);
+        let span_s = arguments.duration.unwrap_or(stop_s - start_s);
+        if span_s > MOST_YEARS * YEAR_S {
+            let [found, option] = [span_s / YEAR_S, MOST_YEARS].map(terminal::short);
+            return Err(format!(
+                "{file}: found a flight of {found} years, allowed: up to {option}: --duration"
+            )
+            .into());
+        }
+        let spacecraft = spacecraft_of(&fmu)?;
+        let by_file_s = spacecraft.unload_every.map(|every| every.in_orbit_s(period_s));
+        let every_s = arguments.every.or(by_file_s).unwrap_or(DAY_S);
+        let has_fan = spacecraft.antennas.iter().any(|named| named.antenna.fan().is_some());
+        let strategies = strategies(description, &sets, period_s, has_fan && !is_in_cruise);
+        if arguments.years.is_some() && is_of_its_time {
+            let allowed = "a mission without inputs, timeline and ephemeris, which are those of its own time";
+            return Err(
+                format!("{file}: --years: found a mission of its own time, allowed: {allowed}").into()
+            );
+        }
+        Ok(Self {
+            sets,
+            inputs,
+            start_s,
+            span_s,
+            period_s,
+            every_s,
+            slew: arguments.slew.or(spacecraft.slew),
+            bias_n_m_s,
+            is_body_integral,
+            strategies,
+            fmu,
+            spacecraft,
+            _folders: folders,
+        })
+    }
+
+    /// An instance that has just been initialised.
+    pub(super) fn started(&self) -> Result<Instance, fmi::Error> {
+        instance::started(&self.fmu, "size", self.start_s, &self.sets)
+    }
+
+    /// Whether the file or the call gives a variable, or an element of it, a value.
+    pub(super) fn says(&self, name: &str) -> bool {
+        let is_it =
+            |given: &str| given == name || given.strip_prefix(name).is_some_and(|it| it.starts_with('['));
+        self.sets.iter().any(|(given, _)| is_it(given))
+            || self.spacecraft.start.iter().any(|entry| is_it(&entry.name))
+    }
+
+    /// What is set in the last year of a mission of so many.
+    pub(super) fn last_year(&self, years: f64, end: &[String]) -> Result<Vec<(String, Value)>, Failure> {
+        let first_s = self.started()?.get_real("start.epoch")?;
+        let mut sets = vec![("start.epoch".to_owned(), Value::Real(first_s + (years - 1.0) * YEAR_S))];
+        sets.extend(assigned(self.fmu.description(), end)?);
+        Ok(sets)
+    }
+
+    /// What a flight comes to, scaled to a year.
+    pub(super) fn per_year(&self, of_flight: f64) -> f64 {
+        of_flight * YEAR_S / self.span_s
+    }
+}
+
+/// A plant whose momentum is guided; in controlled and free flight a year takes too long.
+fn check_plant(file: &str, description: &Description, sets: &[(String, Value)]) -> Result<(), Failure> {
+    match item(description, sets, "attitude.source") {
+        None => Err(format!("{file}: found the model {}, allowed: {MODEL}", description.model_name).into()),
+        Some(source @ ("controlled" | "free")) => Err(format!(
+            "{file}: attitude.source: found {source}, allowed: guided, commanded (a year of wheels at 50 Hz takes hours): \
+             --set attitude.source=guided"
+        )
+        .into()),
+        Some(_) => Ok(()),
+    }
+}
+
+/// Of the orbit at the start.
+fn period_s(is_about_sun: bool, instance: &mut Instance) -> Result<f64, fmi::Error> {
+    let gm_m3_s2 = match is_about_sun {
+        true => Body::Sun.data().gm_m3_s2,
+        false => instance.get_real("planet.gravitationalParameter")?,
+    };
+    Ok(core::f64::consts::TAU * (instance.get_real("orbit.semiMajorAxis")?.powi(3) / gm_m3_s2).sqrt())
+}
+
+/// Dumps alone, and what sunlight can do where guided flight has downlinks with science between them, of an antenna that is steered
+/// (`can_choose`).
+fn strategies(
+    description: &Description,
+    sets: &[(String, Value)],
+    period_s: f64,
+    can_choose: bool,
+) -> Vec<String> {
+    let number = |name: &str| start(description, sets, name).map_or(0.0, |value| value.to_f64());
+    let window_s = number("guided.downlinkEnd") - number("guided.downlinkStart");
+    let has_science = (0.0..number("guided.downlinkEvery") * period_s).contains(&window_s);
+    let is_guided = item(description, sets, "attitude.source") == Some("guided");
+    let names: &[&str] = if has_science && is_guided && can_choose {
+        &["dumpsOnly", "reactive", "predictive"]
+    } else {
+        &["dumpsOnly"]
+    };
+    names.iter().map(|name| (*name).to_owned()).collect()
+}
